@@ -1,0 +1,69 @@
+# Compiler settings, and the one function by which every module is declared.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+# -ffp-contract=off: the same numbers whichever instructions the compiler picks.
+# What g++ 12 reports falsely inside std::string, Eigen and CGAL at -O3 is off.
+add_compile_options(-Wall -Wextra -ffp-contract=off -ffunction-sections -fdata-sections)
+add_link_options(-Wl,--gc-sections -Wl,--as-needed)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options(-Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow
+                      -Wno-restrict)
+endif()
+if(SIMWRIGHT_WERROR)
+  add_compile_options(-Werror)
+endif()
+if(SIMWRIGHT_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined
+                      -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+# simwright_module(NAME [PUBLIC lib...] [PRIVATE lib...])
+# One static library simwright::NAME from the sources of the folder. PUBLIC: what its headers
+# include; PRIVATE: what stays behind its door.
+function(simwright_module name)
+  cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS *.h)
+  add_library(simwright_${name} STATIC ${sources} ${headers})
+  add_library(simwright::${name} ALIAS simwright_${name})
+  set_target_properties(simwright_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(simwright_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                             $<INSTALL_INTERFACE:include/simwright>)
+  target_compile_features(simwright_${name} PUBLIC cxx_std_20)
+  target_link_libraries(simwright_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  install(TARGETS simwright_${name} EXPORT simwright_targets ARCHIVE DESTINATION lib)
+  install(FILES ${headers} DESTINATION include/simwright/${name})
+endfunction()
+
+# simwright_embed(TARGET NAMESPACE FILE...)
+# Compiles data files into TARGET: `data::<file_name_with_underscores>()` in simwright::NAMESPACE,
+# declared by the target's own header; so that a moved program still finds what it knows.
+function(simwright_embed target namespace)
+  foreach(file ${ARGN})
+    get_filename_component(name ${file} NAME)
+    string(MAKE_C_IDENTIFIER ${name} identifier)
+    set(output ${CMAKE_CURRENT_BINARY_DIR}/embedded_${identifier}.cpp)
+    add_custom_command(
+      OUTPUT ${output}
+      COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/${file} -DOUTPUT=${output}
+              -DNAMESPACE=${namespace} -DIDENTIFIER=${identifier}
+              -P ${PROJECT_SOURCE_DIR}/cmake/embed_file.cmake
+      DEPENDS ${file} ${PROJECT_SOURCE_DIR}/cmake/embed_file.cmake)
+    target_sources(${target} PRIVATE ${output})
+  endforeach()
+endfunction()

@@ -1,0 +1,12 @@
+# `cmake --install` and find_package(simwright): docs/architecture.md shows an outside project.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+install(EXPORT simwright_targets NAMESPACE simwright:: DESTINATION lib/cmake/simwright)
+configure_package_config_file(cmake/simwrightConfig.cmake.in
+  ${CMAKE_BINARY_DIR}/simwrightConfig.cmake INSTALL_DESTINATION lib/cmake/simwright)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/simwrightConfigVersion.cmake
+  COMPATIBILITY SameMajorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/simwrightConfig.cmake
+              ${CMAKE_BINARY_DIR}/simwrightConfigVersion.cmake
+              cmake/simwright_dependencies.cmake
+        DESTINATION lib/cmake/simwright)

@@ -1,0 +1,172 @@
+#include "core/files.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "core/error.h"
+
+namespace simwright::core {
+namespace fs = std::filesystem;
+namespace {
+
+// A name beside `path` that no other process or thread uses.
+fs::path SiblingName(const fs::path& path, const char* purpose) {
+  static std::atomic<int> counter{0};
+  return path.parent_path() / ("." + path.filename().string() + "." + purpose + "-" +
+                               std::to_string(getpid()) + "-" + std::to_string(counter++));
+}
+
+fs::path Normalised(const fs::path& path) {
+  fs::path absolute = fs::absolute(path).lexically_normal();
+  // "dir/" has an empty file name: the folder itself is meant.
+  return absolute.has_filename() ? absolute : absolute.parent_path();
+}
+
+[[noreturn]] void ThrowErrno(const std::string& what, const fs::path& path) {
+  const int code = errno;
+  throw Error(what + ": " + std::strerror(code), path.string(),
+              code == ENOSPC ? "free some space and run it again"
+                             : "check that the place exists and may be written");
+}
+
+}  // namespace
+
+std::string ReadFile(const fs::path& path, std::uint64_t limit) {
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (!fs::exists(status)) throw Error("no such file", path.string());
+  if (!fs::is_regular_file(status)) throw Error("this is not a file", path.string());
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) ThrowErrno("cannot open", path);
+  std::string bytes;
+  const std::uintmax_t expected = fs::file_size(path, code);
+  if (!code && expected > limit) {
+    close(file);
+    throw Error("the file is larger than " + std::to_string(limit >> 20) + " MiB", path.string());
+  }
+  if (!code) bytes.reserve(expected);
+  char buffer[1 << 16];
+  for (;;) {
+    const ssize_t count = read(file, buffer, sizeof(buffer));
+    if (count == 0) break;
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      close(file);
+      ThrowErrno("cannot read", path);
+    }
+    bytes.append(buffer, static_cast<size_t>(count));
+    if (bytes.size() > limit) {
+      close(file);
+      throw Error("the file is larger than " + std::to_string(limit >> 20) + " MiB",
+                  path.string());
+    }
+  }
+  close(file);
+  return bytes;
+}
+
+void WriteFile(const fs::path& path, std::string_view bytes) {
+  const fs::path beside = SiblingName(Normalised(path), "part");
+  const int file = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (file < 0) ThrowErrno("cannot write", path);
+  const auto fail = [&] {
+    const int code = errno;
+    close(file);
+    unlink(beside.c_str());
+    errno = code;
+    ThrowErrno("cannot write", path);
+  };
+  while (!bytes.empty()) {
+    const ssize_t count = write(file, bytes.data(), bytes.size());
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      fail();
+    }
+    bytes.remove_prefix(static_cast<size_t>(count));
+  }
+  if (close(file) != 0 || rename(beside.c_str(), path.c_str()) != 0) {
+    const int code = errno;
+    unlink(beside.c_str());
+    errno = code;
+    ThrowErrno("cannot write", path);
+  }
+}
+
+fs::path ResolveInside(const fs::path& root, const fs::path& relative) {
+  const fs::path real_root = fs::weakly_canonical(root);
+  const fs::path resolved = fs::weakly_canonical(real_root / relative);
+  const auto mismatch =
+      std::mismatch(real_root.begin(), real_root.end(), resolved.begin(), resolved.end());
+  if (mismatch.first != real_root.end()) {
+    throw Error("the path leads outside " + root.string(), relative.string(),
+                "only files inside that folder are read");
+  }
+  return resolved;
+}
+
+StagedFolder::StagedFolder(const fs::path& target, bool force)
+    : target_(Normalised(target)), force_(force) {
+  std::error_code code;
+  if (fs::exists(target_, code)) {
+    if (!force) {
+      throw Error("the output exists already", target.string(),
+                  "choose another place or replace it with --force");
+    }
+    if (!fs::is_directory(target_)) throw Error("this is not a folder", target.string());
+  }
+  for (fs::path parent = target_.parent_path(); !fs::exists(parent, code);
+       parent = parent.parent_path()) {
+    created_parent_ = parent;
+  }
+  fs::create_directories(target_.parent_path(), code);
+  staging_ = SiblingName(target_, "part");
+  if (code || !fs::create_directory(staging_, code)) {
+    const std::string reason = code.message();
+    if (!created_parent_.empty()) fs::remove_all(created_parent_, code);
+    throw Error("cannot create the output folder: " + reason, target.string(),
+                "check that the place exists and may be written");
+  }
+}
+
+StagedFolder::~StagedFolder() {
+  if (committed_) return;
+  std::error_code code;
+  fs::remove_all(staging_, code);
+  // Only folders that this object made, and only where nothing else has moved in since.
+  if (!created_parent_.empty()) {
+    for (fs::path parent = target_.parent_path(); fs::is_empty(parent, code) && !code;
+         parent = parent.parent_path()) {
+      fs::remove(parent, code);
+      if (parent == created_parent_) break;
+    }
+  }
+}
+
+void StagedFolder::Commit() {
+  std::error_code code;
+  fs::path old;
+  if (fs::exists(target_)) {
+    if (!force_) {
+      throw Error("the output exists already", target_.string(),
+                  "choose another place or replace it with --force");
+    }
+    old = SiblingName(target_, "old");
+    fs::rename(target_, old, code);
+    if (code) throw Error("cannot replace: " + code.message(), target_.string());
+  }
+  fs::rename(staging_, target_, code);
+  if (code) {
+    const std::string reason = code.message();
+    if (!old.empty()) fs::rename(old, target_, code);
+    throw Error("cannot move the result into place: " + reason, target_.string());
+  }
+  committed_ = true;
+  if (!old.empty()) fs::remove_all(old, code);
+}
+
+}  // namespace simwright::core

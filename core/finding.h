@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace simwright::core {
+
+enum class Severity { kInfo, kWarning, kError };
+
+// One thing that a check, a linter or a reader has to report.
+struct Finding {
+  std::string code;      // stable short name, e.g. "urdf-missing-mesh"
+  Severity severity = Severity::kInfo;
+  std::string place;     // file, element, row; may be empty
+  std::string sentence;  // for a person
+  double figure = 0.0;   // the number behind it, where there is one
+};
+
+using Findings = std::vector<Finding>;
+
+}  // namespace simwright::core
