@@ -118,9 +118,10 @@ Image ReadImage(const std::filesystem::path& path, const ImageReadOptions& optio
 }
 
 std::string EncodePng(const Image& image) {
+  // A Mat of its own: AsMat shares the caller's pixels.
   cv::Mat mat = AsMat(image);
-  if (image.channels == 3) cv::cvtColor(mat, mat, cv::COLOR_RGB2BGR);
-  if (image.channels == 4) cv::cvtColor(mat, mat, cv::COLOR_RGBA2BGRA);
+  if (image.channels == 3) cv::cvtColor(AsMat(image), mat = cv::Mat(), cv::COLOR_RGB2BGR);
+  if (image.channels == 4) cv::cvtColor(AsMat(image), mat = cv::Mat(), cv::COLOR_RGBA2BGRA);
   std::vector<std::uint8_t> bytes;
   cv::imencode(".png", mat, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6});
   return {bytes.begin(), bytes.end()};
@@ -132,8 +133,8 @@ void WritePng(const std::filesystem::path& path, const Image& image) {
 
 std::string EncodeJpeg(const Image& image, int quality) {
   cv::Mat mat = AsMat(image);
-  if (image.channels == 3) cv::cvtColor(mat, mat, cv::COLOR_RGB2BGR);
-  if (image.channels == 4) cv::cvtColor(mat, mat, cv::COLOR_RGBA2BGR);
+  if (image.channels == 3) cv::cvtColor(AsMat(image), mat = cv::Mat(), cv::COLOR_RGB2BGR);
+  if (image.channels == 4) cv::cvtColor(AsMat(image), mat = cv::Mat(), cv::COLOR_RGBA2BGR);
   std::vector<std::uint8_t> bytes;
   cv::imencode(".jpg", mat, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
   return {bytes.begin(), bytes.end()};
