@@ -1,0 +1,26 @@
+#pragma once
+
+#include "core/mesh.h"
+
+namespace simwright::geometry {
+
+struct SimplifyOptions {
+  int face_budget = 20000;
+  // No collapse moves the surface farther than this from the planes it replaces, metres; 0: the
+  // budget alone decides.
+  double max_error = 0.0;
+};
+
+// Edge collapses by quadric error (Garland and Heckbert 1997) that keep the topology: a closed,
+// manifold mesh stays closed and manifold, and collapses that would turn a face over are refused.
+// A mesh that was free of self-intersections stays so: collapses that made one are taken back in
+// its neighbourhood, which may leave more faces than the budget.
+// Returns the simplified mesh. Throws core::Error for a mesh that is not closed and manifold.
+core::TriangleMesh Simplify(const core::TriangleMesh& mesh, const SimplifyOptions& options);
+
+// Fast thinning of any triangles, also millions: vertices of one grid cell of edge `cell` (metres)
+// fall together in the one nearest their mean; faces that vanish or repeat are dropped.
+// No vertex moves farther than cell * sqrt(3). Throws core::Error for cell <= 0.
+core::TriangleMesh ClusterVertices(const core::TriangleMesh& mesh, double cell);
+
+}  // namespace simwright::geometry

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/mesh.h"
+
+namespace simwright::geometry {
+
+struct SurfaceDistanceOptions {
+  int rays = 50000;            // chords through the visual's bounding sphere, two ends each
+  int solid_samples = 50000;   // points on the solid, uniform by area
+  std::uint64_t seed = 1;
+};
+
+// Distances both ways, in metres and as a share of the visual mesh's bounding-box diagonal.
+struct SurfaceDistance {
+  double visual_to_solid_max = 0.0;  // from points of the visual's outer surface to the solid
+  double visual_to_solid_p99 = 0.0;
+  double solid_to_visual_max = 0.0;  // from points of the solid to the visual (all of it)
+  double solid_to_visual_p99 = 0.0;
+  double diagonal = 0.0;  // m
+  int outer_points = 0;   // hits that sampled the outer surface
+
+  double MaxRatio() const;  // the larger of both maxima over the diagonal
+};
+
+// The outer surface is what a ray from outside can meet: the first hits of `rays` random chords of
+// the bounding sphere, from both ends (isotropic: each piece of the surface is drawn in proportion
+// to area times visibility). Deterministic for a seed, whatever the threads.
+// Throws core::Error where one of the meshes has no faces or is not valid.
+SurfaceDistance OuterSurfaceDistance(const core::TriangleMesh& visual,
+                                     const core::TriangleMesh& solid,
+                                     const SurfaceDistanceOptions& options = {});
+
+// First hits of chords from outside, as in OuterSurfaceDistance. (K x 3), K <= 2 rays
+std::vector<Eigen::Vector3d> SampleOuterSurface(const core::TriangleMesh& mesh, int rays,
+                                                std::uint64_t seed);
+
+// Points drawn uniformly by area. (count x 3). Throws core::Error for a mesh without area.
+std::vector<Eigen::Vector3d> SampleSurface(const core::TriangleMesh& mesh, int count,
+                                           std::uint64_t seed);
+
+// Unsigned distance from each point to the mesh, metres.
+std::vector<double> DistancesToSurface(const std::vector<Eigen::Vector3d>& points,
+                                       const core::TriangleMesh& mesh);
+
+}  // namespace simwright::geometry
