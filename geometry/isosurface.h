@@ -27,10 +27,11 @@ struct ScalarGrid {
 // distance, negative inside); pass the negated field for a density. Nodes on the grid's border
 // count as outside whatever their value, so the surface always closes.
 // Returns a closed, 2-manifold mesh without self-intersections, triangles counter-clockwise seen
-// from outside, each vertex shared; empty where nothing lies inside. Each cube is split into the
-// six tetrahedra round its main diagonal (Freudenthal), which fit face to face, so there are no
-// ambiguous cases; crossings keep off the edge's ends by 1% of its length, so no triangle is
-// degenerate. About twice the triangles of marching cubes: simplify afterwards.
+// from outside, each vertex shared; empty where nothing lies inside. Marching cubes (Lorensen and
+// Cline 1987) on a field without ambiguous faces: where the four corners of a face alternate, the
+// node nearest to the level changes side first. Then each cube's face holds one segment at most, so
+// fans over the polygons cannot cross. Crossings keep off an edge's ends by 1% of its length, so
+// no triangle is degenerate.
 // NaN counts as outside. Throws core::Error where the sizes and the values do not fit together.
 core::TriangleMesh ExtractIsosurface(const ScalarGrid& field, float level);
 

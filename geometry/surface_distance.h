@@ -10,8 +10,8 @@
 namespace simwright::geometry {
 
 struct SurfaceDistanceOptions {
-  int rays = 50000;            // chords through the visual's bounding sphere, two ends each
-  int solid_samples = 50000;   // points on the solid, uniform by area
+  int rays = 50000;           // chords through the visual's bounding sphere, two ends each
+  int solid_samples = 50000;  // points on the solid, uniform by area
   std::uint64_t seed = 1;
 };
 
