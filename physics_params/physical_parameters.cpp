@@ -1,0 +1,121 @@
+#include "physics_params/physical_parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/error.h"
+#include "core/random.h"
+
+namespace simwright::physics_params {
+namespace {
+
+double Lerp(const Interval& range, double t) {
+  return std::clamp(range.min + t * (range.max - range.min), range.min, range.max);
+}
+
+Estimate Drawn(const Interval& range, double t, const std::string& source) {
+  return {range.min, range.max, Lerp(range, t), source};
+}
+
+const Material& DrawMaterial(const Category& category, const KnowledgeBase& base,
+                             core::Rng& rng) {
+  double total = 0.0;
+  for (size_t i = 0; i < category.materials.size(); ++i) total += 1.0 / static_cast<double>(i + 1);
+  double left = core::Uniform(rng) * total;
+  size_t chosen = 0;
+  for (; chosen + 1 < category.materials.size(); ++chosen) {
+    left -= 1.0 / static_cast<double>(chosen + 1);
+    if (left < 0.0) break;
+  }
+  return *base.FindMaterial(category.materials[chosen]);
+}
+
+std::string Rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", value);
+  return text;
+}
+
+}  // namespace
+
+PhysicalParameters SampleParameters(const Category& category, const KnowledgeBase& base,
+                                    std::uint64_t seed) {
+  core::Rng rng(seed);
+  PhysicalParameters p;
+  p.category = category.name;
+  p.fill = category.fill;
+  p.shape = category.shape;
+  const Material& material = DrawMaterial(category, base, rng);
+  p.material = material.name;
+  // Sizes cluster about the middle: the mean of two uniforms.
+  const double size = 0.5 * (core::Uniform(rng) + core::Uniform(rng));
+  const auto near_size = [&](double freedom) {
+    return std::clamp(size + core::Uniform(rng, -freedom, freedom), 0.0, 1.0);
+  };
+  p.length = Drawn(category.length, near_size(0.15), category.source);
+  p.width = Drawn(category.width, near_size(0.15), category.source);
+  // The category's ranges overlap: keep length the longer side, inside its own range.
+  if (p.width.sample > p.length.sample) {
+    p.width.sample = std::max(p.width.min, p.length.sample);
+    p.length.sample = std::max(p.length.sample, p.width.sample);
+  }
+  p.height = Drawn(category.height, near_size(0.15), category.source);
+  // Mass spans decades: interpolate its logarithm, led by the size.
+  p.mass = {category.mass.min, category.mass.max,
+            std::clamp(category.mass.min *
+                           std::pow(category.mass.max / category.mass.min, near_size(0.2)),
+                       category.mass.min, category.mass.max),
+            category.source};
+  p.density = Drawn(material.density, core::Uniform(rng), material.source);
+  p.friction = Drawn(material.friction, core::Uniform(rng), material.source);
+  p.restitution = Drawn(material.restitution, core::Uniform(rng), material.source);
+  return p;
+}
+
+MassModel ReconcileMass(const PhysicalParameters& parameters, const Category& category,
+                        const KnowledgeBase& base, double volume, double area) {
+  if (!(volume > 0.0) || !(area > 0.0)) {
+    throw core::Error("the mass of a thing needs a solid with a volume", parameters.category);
+  }
+  const Material& material = *base.FindMaterial(parameters.material);
+  MassModel model;
+  model.material = material.name;
+  model.mass = parameters.mass.sample;
+  const double full_density = model.mass / volume;
+  const std::string against = " in " + material.name + " of " + Rounded(material.density.min) +
+                              "-" + Rounded(material.density.max) + " kg/m3";
+  if (material.density.Contains(full_density)) {
+    model.density = full_density;
+    model.sentence = "full: " + Rounded(full_density) + " kg/m3 over its volume lies" + against;
+    return model;
+  }
+  if (full_density < material.density.min) {
+    // Thin walls displace wall x area; the drawn density decides how thick that is.
+    model.density = parameters.density.sample;
+    model.wall_thickness = model.mass / (model.density * area);
+    model.sentence = "shell: " + Rounded(full_density) + " kg/m3 over its volume is too light" +
+                     against + ", so a wall of " + Rounded(model.wall_thickness * 1e3) +
+                     " mm carries the mass";
+    return model;
+  }
+  // Too heavy for the drawn material: another of the row's materials may fit, else clamp.
+  for (const std::string& name : category.materials) {
+    const Material& other = *base.FindMaterial(name);
+    if (other.density.Contains(full_density)) {
+      model.material = other.name;
+      model.density = full_density;
+      model.sentence = "full: " + Rounded(full_density) + " kg/m3 is too heavy" + against +
+                       ", and fits " + other.name;
+      return model;
+    }
+  }
+  model.density = material.density.max;
+  model.mass = model.density * volume;
+  model.within_range = category.mass.Contains(model.mass);
+  model.sentence = "full: " + Rounded(full_density) + " kg/m3 would be too heavy" + against +
+                   ", so the mass was lowered to " + Rounded(model.mass) + " kg";
+  return model;
+}
+
+}  // namespace simwright::physics_params
