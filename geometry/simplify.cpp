@@ -1,0 +1,363 @@
+#include "geometry/simplify.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <queue>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "core/error.h"
+#include "core/progress.h"
+#include "geometry/self_intersection.h"
+#include "geometry/soundness.h"
+#include "geometry/weld.h"
+
+namespace simwright::geometry {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// Sum over planes of weight * (n . x - d)^2: x A x - 2 b x + c.
+struct Quadric {
+  Matrix3d a = Matrix3d::Zero();
+  Vector3d b = Vector3d::Zero();
+  double c = 0.0;
+  double weight = 0.0;
+
+  void AddPlane(const Vector3d& normal, double offset, double w) {
+    a += w * normal * normal.transpose();
+    b += w * offset * normal;
+    c += w * offset * offset;
+    weight += w;
+  }
+  Quadric& operator+=(const Quadric& other) {
+    a += other.a;
+    b += other.b;
+    c += other.c;
+    weight += other.weight;
+    return *this;
+  }
+  double At(const Vector3d& x) const { return std::max(0.0, x.dot(a * x) - 2.0 * b.dot(x) + c); }
+};
+
+class Collapser {
+ public:
+  Collapser(const core::TriangleMesh& mesh, const std::vector<char>& locked)
+      : vertices_(mesh.vertices), triangles_(mesh.triangles), locked_(locked) {
+    // Sums of squares lose digits far from the origin.
+    center_ = core::Bounds(mesh).center();
+    for (Vector3d& v : vertices_) v -= center_;
+    around_.resize(vertices_.size());
+    quadrics_.resize(vertices_.size());
+    version_.assign(vertices_.size(), 0);
+    mark_.assign(vertices_.size(), 0);
+    alive_.assign(triangles_.size(), 1);
+    live_faces_ = static_cast<int>(triangles_.size());
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const Vector3d area = AreaVector(triangles_[t]);
+      const double length = area.norm();
+      for (int c = 0; c < 3; ++c) {
+        const int v = triangles_[t][c];
+        around_[v].push_back(static_cast<int>(t));
+        if (length > 0.0) {
+          const Vector3d normal = area / length;
+          quadrics_[v].AddPlane(normal, normal.dot(vertices_[v]), length);
+        }
+      }
+    }
+  }
+
+  void Run(int budget, double max_error) {
+    limit_ = max_error > 0.0 ? max_error * max_error : INFINITY;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      for (int c = 0; c < 3; ++c) {
+        const int a = triangles_[t][c];
+        const int b = triangles_[t][(c + 1) % 3];
+        if (a < b) Push(a, b);
+      }
+    }
+    int collapses = 0;
+    while (live_faces_ > budget && !queue_.empty()) {
+      if (++collapses % 4096 == 0) core::CheckCancelled();
+      const Candidate top = queue_.top();
+      queue_.pop();
+      if (version_[top.a] != top.version_a || version_[top.b] != top.version_b) continue;
+      Collapse(top.a, top.b);
+    }
+  }
+
+  core::TriangleMesh Result() const {
+    core::TriangleMesh mesh;
+    std::vector<int> index(vertices_.size(), -1);
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      if (!alive_[t]) continue;
+      Eigen::Vector3i corner;
+      for (int c = 0; c < 3; ++c) {
+        int& at = index[triangles_[t][c]];
+        if (at < 0) {
+          at = static_cast<int>(mesh.vertices.size());
+          mesh.vertices.push_back(vertices_[triangles_[t][c]] + center_);
+        }
+        corner[c] = at;
+      }
+      mesh.triangles.push_back(corner);
+    }
+    return mesh;
+  }
+
+ private:
+  struct Candidate {
+    double cost;
+    int a, b;
+    int version_a, version_b;
+    bool operator<(const Candidate& other) const {  // the queue's top is the cheapest
+      if (cost != other.cost) return cost > other.cost;
+      return a != other.a ? a > other.a : b > other.b;
+    }
+  };
+
+  Vector3d AreaVector(const Eigen::Vector3i& t) const {
+    return (vertices_[t[1]] - vertices_[t[0]]).cross(vertices_[t[2]] - vertices_[t[0]]);
+  }
+
+  // Where the two planes' sums are least; held near the middle where they leave it free.
+  Vector3d Best(int a, int b, const Quadric& sum) const {
+    const Vector3d middle = 0.5 * (vertices_[a] + vertices_[b]);
+    const double hold = 1e-4 * sum.weight;
+    const Vector3d gradient = sum.b - sum.a * middle;
+    const Vector3d step = (sum.a + hold * Matrix3d::Identity()).ldlt().solve(gradient);
+    const double edge = (vertices_[a] - vertices_[b]).norm();
+    if (!step.allFinite() || step.norm() > 2.0 * edge) return middle;
+    return middle + step;
+  }
+
+  void Push(int a, int b) {
+    if (locked_[a] || locked_[b]) return;
+    Quadric sum = quadrics_[a];
+    sum += quadrics_[b];
+    const Vector3d at = Best(a, b, sum);
+    const double error = sum.At(at);
+    if (error > limit_ * sum.weight) return;
+    // The little added length sorts what is flat: short edges first.
+    const double length = (vertices_[a] - vertices_[b]).squaredNorm();
+    queue_.push({error + 1e-9 * length * sum.weight, a, b, version_[a], version_[b]});
+  }
+
+  // Exactly two common neighbours, neither left with two faces: the topology stays.
+  bool KeepsTopology(int a, int b) {
+    ++stamp_;
+    for (const int t : around_[a]) {
+      for (int c = 0; c < 3; ++c) mark_[triangles_[t][c]] = stamp_;
+    }
+    int common = 0;
+    common_.fill(-1);
+    for (const int t : around_[b]) {
+      for (int c = 0; c < 3; ++c) {
+        const int v = triangles_[t][c];
+        if (v == a || v == b || mark_[v] != stamp_) continue;
+        if (v == common_[0] || v == common_[1]) continue;
+        if (common == 2) return false;
+        common_[common++] = v;
+      }
+    }
+    return common == 2 && around_[common_[0]].size() > 3 && around_[common_[1]].size() > 3;
+  }
+
+  // Whether the faces at `v` but not at `other` keep their side and some shape with v at `at`.
+  bool KeepsFaces(int v, int other, const Vector3d& at) const {
+    for (const int t : around_[v]) {
+      const Eigen::Vector3i& corner = triangles_[t];
+      if (corner[0] == other || corner[1] == other || corner[2] == other) continue;
+      std::array<Vector3d, 3> p;
+      for (int c = 0; c < 3; ++c) p[c] = corner[c] == v ? at : vertices_[corner[c]];
+      const Vector3d before = AreaVector(corner);
+      const Vector3d after = (p[1] - p[0]).cross(p[2] - p[0]);
+      const double longest = std::max(
+          {(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()});
+      const double size = after.norm();
+      if (!(size > 0.02 * longest)) return false;
+      if (!(before.dot(after) > 0.3 * before.norm() * size)) return false;
+    }
+    return true;
+  }
+
+  void Collapse(int a, int b) {
+    if (!KeepsTopology(a, b)) return;
+    Quadric sum = quadrics_[a];
+    sum += quadrics_[b];
+    Vector3d at = Best(a, b, sum);
+    if (!KeepsFaces(a, b, at) || !KeepsFaces(b, a, at)) {
+      at = 0.5 * (vertices_[a] + vertices_[b]);
+      if (sum.At(at) > limit_ * sum.weight) return;
+      if (!KeepsFaces(a, b, at) || !KeepsFaces(b, a, at)) return;
+    }
+    vertices_[a] = at;
+    quadrics_[a] = sum;
+    std::vector<int> kept;
+    kept.reserve(around_[a].size() + around_[b].size());
+    for (const int t : around_[a]) {
+      const Eigen::Vector3i& corner = triangles_[t];
+      if (corner[0] != b && corner[1] != b && corner[2] != b) kept.push_back(t);
+    }
+    for (const int t : around_[b]) {
+      Eigen::Vector3i& corner = triangles_[t];
+      if (corner[0] == a || corner[1] == a || corner[2] == a) {
+        alive_[t] = 0;
+        --live_faces_;
+        for (const int c : common_) std::erase(around_[c], t);
+        continue;
+      }
+      for (int c = 0; c < 3; ++c) {
+        if (corner[c] == b) corner[c] = a;
+      }
+      kept.push_back(t);
+    }
+    around_[a].swap(kept);
+    std::vector<int>().swap(around_[b]);
+    ++version_[a];
+    ++version_[b];
+    ++stamp_;
+    for (const int t : around_[a]) {
+      for (int c = 0; c < 3; ++c) {
+        const int v = triangles_[t][c];
+        if (v == a || mark_[v] == stamp_) continue;
+        mark_[v] = stamp_;
+        Push(std::min(a, v), std::max(a, v));
+      }
+    }
+  }
+
+  Vector3d center_;
+  std::vector<Vector3d> vertices_;
+  std::vector<Eigen::Vector3i> triangles_;
+  const std::vector<char>& locked_;
+  std::vector<std::vector<int>> around_;
+  std::vector<Quadric> quadrics_;
+  std::vector<int> version_;
+  std::vector<int> mark_;
+  std::vector<char> alive_;
+  std::array<int, 2> common_{};
+  std::priority_queue<Candidate> queue_;
+  double limit_ = INFINITY;
+  int live_faces_ = 0;
+  int stamp_ = 0;
+};
+
+// Vertices of `source` near where faces of `result` cross stay put in the next try.
+void LockAround(const core::TriangleMesh& source, const core::TriangleMesh& result,
+                const std::vector<std::pair<int, int>>& pairs, double reach,
+                std::vector<char>* locked) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const auto& [s, t] : pairs) {
+    Eigen::AlignedBox3d first, second;
+    for (int c = 0; c < 3; ++c) {
+      first.extend(result.vertices[result.triangles[s][c]]);
+      second.extend(result.vertices[result.triangles[t][c]]);
+    }
+    Eigen::AlignedBox3d box = first.intersection(second);
+    if (box.isEmpty()) box = first;
+    boxes.emplace_back(box.min() - Vector3d::Constant(reach),
+                       box.max() + Vector3d::Constant(reach));
+  }
+  std::sort(boxes.begin(), boxes.end(),
+            [](const auto& a, const auto& b) { return a.min().x() < b.min().x(); });
+  for (std::size_t v = 0; v < source.vertices.size(); ++v) {
+    if ((*locked)[v]) continue;
+    for (const auto& box : boxes) {
+      if (box.min().x() > source.vertices[v].x()) break;
+      if (box.contains(source.vertices[v])) {
+        (*locked)[v] = 1;
+        break;
+      }
+    }
+  }
+}
+
+constexpr int kTries = 8;
+constexpr int kPairLimit = 5000;
+
+// One descent to `budget`, tried again with more vertices held until nothing crosses.
+core::TriangleMesh Descend(const core::TriangleMesh& source, int budget, double max_error) {
+  std::vector<char> locked(source.vertices.size(), 0);
+  double edge = 0.0;
+  for (const Eigen::Vector3i& t : source.triangles) {
+    edge += (source.vertices[t[0]] - source.vertices[t[1]]).norm();
+  }
+  double reach = 2.0 * edge / static_cast<double>(source.triangles.size());
+  for (int tries = 0; tries < kTries; ++tries, reach *= 1.6) {
+    Collapser collapser(source, locked);
+    collapser.Run(budget, max_error);
+    core::TriangleMesh result = collapser.Result();
+    const auto pairs = SelfIntersections(result, kPairLimit);
+    bool degenerate = false;
+    for (int t = 0; t < static_cast<int>(result.triangles.size()) && !degenerate; ++t) {
+      degenerate = IsDegenerate(result, t);
+    }
+    if (pairs.empty() && !degenerate) return result;
+    if (degenerate) return source;
+    LockAround(source, result, pairs, reach, &locked);
+  }
+  return source;
+}
+
+}  // namespace
+
+core::TriangleMesh Simplify(const core::TriangleMesh& mesh, const SimplifyOptions& options) {
+  const Soundness state = Examine(mesh, 0);
+  if (mesh.empty() || !state.closed || !state.manifold) {
+    throw core::Error("only a closed, manifold mesh can be simplified", "simplify",
+                      "make a solid of it first");
+  }
+  core::TriangleMesh result = mesh;
+  // In two steps: a step that has to be tried again is then a cheap one.
+  const int halfway = std::max(4 * options.face_budget, 4);
+  for (const int budget : {halfway, std::max(options.face_budget, 4)}) {
+    if (static_cast<int>(result.triangles.size()) > budget) {
+      result = Descend(result, budget, options.max_error);
+    }
+  }
+  return result;
+}
+
+core::TriangleMesh ClusterVertices(const core::TriangleMesh& mesh, double cell) {
+  core::RequireValid(mesh, "vertex clustering");
+  if (!(cell > 0.0)) throw core::Error("the cell must be positive", "vertex clustering");
+  const Vector3d low = core::Bounds(mesh).min();
+  const auto key_of = [&](const Vector3d& p) {
+    const Vector3d at = ((p - low) / cell).array().floor().min(2097151.0);
+    return (static_cast<std::uint64_t>(at.x()) << 42) | (static_cast<std::uint64_t>(at.y()) << 21) |
+           static_cast<std::uint64_t>(at.z());
+  };
+  std::vector<std::pair<std::uint64_t, int>> order(mesh.vertices.size());
+  for (std::size_t v = 0; v < order.size(); ++v) {
+    order[v] = {key_of(mesh.vertices[v]), static_cast<int>(v)};
+  }
+  std::sort(order.begin(), order.end());
+  core::TriangleMesh clustered = mesh;
+  for (std::size_t first = 0; first < order.size();) {
+    std::size_t end = first;
+    Vector3d mean = Vector3d::Zero();
+    for (; end < order.size() && order[end].first == order[first].first; ++end) {
+      mean += mesh.vertices[order[end].second];
+    }
+    mean /= static_cast<double>(end - first);
+    int nearest = order[first].second;
+    for (std::size_t i = first; i < end; ++i) {
+      if ((mesh.vertices[order[i].second] - mean).squaredNorm() <
+          (mesh.vertices[nearest] - mean).squaredNorm()) {
+        nearest = order[i].second;
+      }
+    }
+    for (std::size_t i = first; i < end; ++i) {
+      clustered.vertices[order[i].second] = mesh.vertices[nearest];
+    }
+    first = end;
+  }
+  return Weld(clustered, 0.0);
+}
+
+}  // namespace simwright::geometry

@@ -1,0 +1,181 @@
+#include "geometry/solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+#include "core/progress.h"
+#include "geometry/alpha_wrap.h"
+#include "geometry/simplify.h"
+#include "geometry/soundness.h"
+#include "geometry/surface_wrap.h"
+#include "geometry/weld.h"
+#include "geometry/winding_number.h"
+
+namespace simwright::geometry {
+namespace {
+
+using core::Severity;
+using core::TriangleMesh;
+using Eigen::Vector3d;
+
+void Add(Solid* solid, const char* code, Severity severity, const std::string& sentence,
+         double figure) {
+  solid->findings.push_back({code, severity, "solid", sentence, figure});
+}
+
+// Faces of the outermost shells alone; false where some shell is not closed or they cross.
+bool KeepOuterShells(TriangleMesh* mesh, int* dropped) {
+  *dropped = 0;
+  TriangleMesh turned = *mesh;
+  if (!OrientConsistently(&turned)) return false;
+  const Soundness state = Examine(turned, 1);
+  if (!state.closed || !state.manifold || state.self_intersections > 0 ||
+      state.degenerate_triangles > 0) {
+    return false;
+  }
+  int count = 0;
+  const std::vector<int> component = EdgeComponents(turned, &count);
+  const std::vector<int> winding = EnclosingWinding(turned, component, count);
+  TriangleMesh kept;
+  kept.vertices = turned.vertices;
+  for (std::size_t t = 0; t < component.size(); ++t) {
+    if (winding[component[t]] == 0) kept.triangles.push_back(turned.triangles[t]);
+  }
+  for (const int w : winding) *dropped += w != 0;
+  *mesh = *dropped > 0 ? Weld(kept, 0.0) : kept;
+  return Examine(*mesh, 1).Sound();
+}
+
+// Flat closed shells have no inside worth the name: their volume is rounding.
+bool HasBody(const TriangleMesh& mesh, double diagonal) {
+  return SignedVolume(mesh) > 1e-9 * diagonal * diagonal * diagonal;
+}
+
+bool TryAsItIs(const TriangleMesh& visual, const TriangleMesh& welded, double diagonal,
+               const SolidOptions& options, Solid* solid) {
+  for (const double tolerance : {0.0, 1e-6, 1e-4}) {
+    TriangleMesh mesh = tolerance > 0.0 ? Weld(welded, tolerance * diagonal) : welded;
+    if (mesh.empty() || static_cast<double>(mesh.triangles.size()) > 10.0 * options.face_budget) {
+      return false;
+    }
+    int shells = 0;
+    if (!KeepOuterShells(&mesh, &shells) || !HasBody(mesh, diagonal)) continue;
+    const int repeated =
+        static_cast<int>(visual.triangles.size()) - static_cast<int>(welded.triangles.size());
+    if (repeated > 0) {
+      Add(solid, "solid-faces-dropped", Severity::kInfo,
+          std::to_string(repeated) + " repeated or collapsed faces were dropped", repeated);
+    }
+    if (shells > 0) {
+      Add(solid, "solid-inner-shells", Severity::kInfo,
+          std::to_string(shells) + " inner shells were dropped", shells);
+    }
+    if (tolerance > 0.0) {
+      Add(solid, "solid-stitched", Severity::kInfo,
+          "vertices closer than " + std::to_string(tolerance * 100.0) +
+              "% of the diagonal were joined to close cracks",
+          tolerance * diagonal);
+    }
+    solid->mesh = std::move(mesh);
+    solid->method = repeated > 0 || shells > 0 || tolerance > 0.0 ? SolidMethod::kRepaired
+                                                                  : SolidMethod::kAsItIs;
+    return true;
+  }
+  return false;
+}
+
+TriangleMesh Normalized(const TriangleMesh& mesh, const Vector3d& center, double scale) {
+  TriangleMesh unit = mesh;
+  for (Vector3d& v : unit.vertices) v = (v - center) / scale;
+  return unit;
+}
+
+// Thinner than this many faces leaves the grid's own steps alone.
+constexpr int kThinFirst = 300000;
+
+void WrapSolid(const TriangleMesh& welded, const Vector3d& center, double diagonal,
+               const SolidOptions& options, Solid* solid) {
+  TriangleMesh unit = Normalized(welded, center, diagonal);
+  SurfaceWrapOptions wrap_options;
+  wrap_options.wall = options.sheet_thickness_ratio;
+  wrap_options.cell = options.cell_ratio;
+  while (WrapGridNodes(unit, wrap_options) > options.max_nodes) wrap_options.cell *= 1.1;
+  wrap_options.closing = wrap_options.cell;
+  if (static_cast<int>(unit.triangles.size()) > kThinFirst) {
+    unit = ClusterVertices(unit, wrap_options.cell / 3.0);
+  }
+  const SurfaceWrap wrap = WrapSurface(unit, wrap_options);
+  if (wrap.mesh.empty()) {
+    throw core::Error("no surface could be wrapped round the mesh", "solid");
+  }
+  const SimplifyOptions simplify{options.face_budget, 0.15 * options.tolerance_ratio};
+  TriangleMesh mesh = Simplify(wrap.mesh, simplify);
+  if (wrap.sheet_share > 0.001) {
+    solid->sheet_thickness = options.sheet_thickness_ratio * diagonal;
+    Add(solid, "solid-sheets", Severity::kInfo,
+        "thin sheets and open surfaces were given a wall of " +
+            std::to_string(solid->sheet_thickness * 1000.0) + " mm",
+        solid->sheet_thickness);
+  }
+  if (static_cast<int>(mesh.triangles.size()) > options.face_budget) {
+    Add(solid, "solid-over-budget", Severity::kInfo,
+        "the shape needs " + std::to_string(mesh.triangles.size()) +
+            " faces to stay within the tolerance",
+        static_cast<double>(mesh.triangles.size()));
+  }
+  for (Vector3d& v : mesh.vertices) v = center + diagonal * v;
+  if (!Examine(mesh, 1).Sound()) {
+    Add(solid, "solid-alpha-wrap", Severity::kWarning,
+        "the wrapped surface was not sound, so a coarser wrap was made", 0.0);
+    mesh = AlphaWrap(welded);
+    if (!Examine(mesh, 1).Sound()) {
+      throw core::Error("no closed surface free of self-intersections could be made", "solid",
+                        "simplify or repair the mesh in a modeller");
+    }
+  }
+  solid->mesh = std::move(mesh);
+  solid->method = SolidMethod::kWrapped;
+}
+
+}  // namespace
+
+const char* Name(SolidMethod method) {
+  switch (method) {
+    case SolidMethod::kAsItIs:
+      return "as it is";
+    case SolidMethod::kRepaired:
+      return "repaired";
+    case SolidMethod::kUnited:
+      return "united";
+    case SolidMethod::kWrapped:
+      return "wrapped";
+  }
+  return "unknown";
+}
+
+Solid MakeSolid(const TriangleMesh& visual, const SolidOptions& options) {
+  core::RequireValid(visual, "solid");
+  if (visual.empty()) {
+    throw core::Error("the mesh has no faces", "solid", "give a mesh with triangles");
+  }
+  const TriangleMesh welded = Weld(visual, 0.0);
+  if (welded.empty()) {
+    throw core::Error("every face of the mesh is a line or a point", "solid",
+                      "give a mesh with an extent");
+  }
+  const Eigen::AlignedBox3d bounds = core::Bounds(welded);
+  const double diagonal = bounds.diagonal().norm();
+  if (!(diagonal > 1e-100) || !(diagonal < 1e100)) {
+    throw core::Error("the mesh has no extent that can be worked with", "solid",
+                      "check its unit and its vertices");
+  }
+  Solid solid;
+  if (!TryAsItIs(visual, welded, diagonal, options, &solid)) {
+    WrapSolid(welded, bounds.center(), diagonal, options, &solid);
+  }
+  return solid;
+}
+
+}  // namespace simwright::geometry

@@ -1,0 +1,211 @@
+#include "geometry/surface_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "geometry/triangle_tree.h"
+
+namespace simwright::geometry {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kPieceCells = 6.0;  // pieces this long keep a slanted one's box mostly band
+constexpr int kSlab = 8;             // layers a task
+// Rounding of a coordinate in cells is below 1e-12; a line this close to a triangle's edge counts
+// as met, so none slips between two neighbours.
+constexpr double kSlack = 1e-7;
+
+}  // namespace
+
+std::array<int, 3> SurfaceGrid::Size(const core::TriangleMesh& mesh, double cell, double band,
+                                     int margin) {
+  const Vector3d extent = core::Bounds(mesh).sizes();
+  std::array<int, 3> size;
+  for (int axis = 0; axis < 3; ++axis) {
+    size[axis] = static_cast<int>(std::min(
+        1e6, std::ceil(extent[axis] / cell) + 2.0 * (std::ceil(band / cell) + margin) + 2));
+  }
+  return size;
+}
+
+SurfaceGrid::SurfaceGrid(const core::TriangleMesh& mesh, double cell, double band, int margin)
+    : cell_(cell), band_(band / cell), size_(Size(mesh, cell, band, margin)) {
+  const Eigen::AlignedBox3d bounds = core::Bounds(mesh);
+  // An odd share of a cell keeps axis-aligned faces off the nodes.
+  for (int axis = 0; axis < 3; ++axis) {
+    const double slack = (size_[axis] - 1) * cell - bounds.sizes()[axis];
+    origin_[axis] = bounds.min()[axis] - 0.5 * slack + cell * (0.0371 + 0.0113 * axis);
+  }
+  stride_ = {1, static_cast<std::size_t>(size_[0]),
+             static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1])};
+  const std::size_t nodes = stride_[2] * size_[2];
+  distance_.assign(nodes, kFar);
+  nearest_.assign(nodes, -1);
+  crossed_.assign(nodes, 0);
+  Subdivide(mesh);
+  const int slabs = (size_[2] + kSlab - 1) / kSlab;
+  std::vector<std::vector<int>> in_slab(slabs);
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    const Piece& piece = pieces_[p];
+    const double low = std::min({piece.a.z(), piece.b.z(), piece.c.z()}) - band_ - 1.0;
+    const double high = std::max({piece.a.z(), piece.b.z(), piece.c.z()}) + band_ + 1.0;
+    const int first = std::clamp(static_cast<int>(std::floor(low / kSlab)), 0, slabs - 1);
+    const int last = std::clamp(static_cast<int>(std::floor(high / kSlab)), 0, slabs - 1);
+    for (int s = first; s <= last; ++s) in_slab[s].push_back(static_cast<int>(p));
+  }
+  core::ParallelFor(slabs, [&](int slab) {
+    core::CheckCancelled();
+    const int low_k = slab * kSlab;
+    const int high_k = std::min(size_[2] - 1, low_k + kSlab - 1);
+    for (const int p : in_slab[slab]) {
+      EnterDistances(pieces_[p], p, low_k, high_k);
+      EnterCrossings(pieces_[p], low_k, high_k);
+    }
+    // Distances were squared, in cells.
+    for (std::size_t node = low_k * stride_[2]; node < (high_k + 1) * stride_[2]; ++node) {
+      if (distance_[node] < kFar) {
+        distance_[node] = static_cast<float>(std::sqrt(distance_[node]) * cell_);
+      }
+    }
+  });
+}
+
+void SurfaceGrid::Subdivide(const core::TriangleMesh& mesh) {
+  std::vector<Piece> stack;
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    const auto to_cells = [&](int v) -> Vector3d { return (mesh.vertices[v] - origin_) / cell_; };
+    stack.push_back({to_cells(t[0]), to_cells(t[1]), to_cells(t[2])});
+    while (!stack.empty()) {
+      Piece piece = stack.back();
+      stack.pop_back();
+      const double ab = (piece.a - piece.b).lpNorm<Eigen::Infinity>();
+      const double bc = (piece.b - piece.c).lpNorm<Eigen::Infinity>();
+      const double ca = (piece.c - piece.a).lpNorm<Eigen::Infinity>();
+      const double longest = std::max({ab, bc, ca});
+      if (longest <= kPieceCells) {
+        pieces_.push_back(piece);
+        continue;
+      }
+      if (bc == longest)
+        piece = {piece.b, piece.c, piece.a};
+      else if (ca == longest)
+        piece = {piece.c, piece.a, piece.b};
+      const Vector3d middle = 0.5 * (piece.a + piece.b);
+      stack.push_back({middle, piece.b, piece.c});
+      stack.push_back({piece.a, middle, piece.c});
+    }
+  }
+}
+
+void SurfaceGrid::EnterDistances(const Piece& piece, int index, int low_k, int high_k) {
+  const Vector3d low = piece.a.cwiseMin(piece.b).cwiseMin(piece.c);
+  const Vector3d high = piece.a.cwiseMax(piece.b).cwiseMax(piece.c);
+  std::array<int, 3> from, to;
+  for (int axis = 0; axis < 3; ++axis) {
+    from[axis] = std::max(0, static_cast<int>(std::ceil(low[axis] - band_)));
+    to[axis] = std::min(size_[axis] - 1, static_cast<int>(std::floor(high[axis] + band_)));
+  }
+  from[2] = std::max(from[2], low_k);
+  to[2] = std::min(to[2], high_k);
+  Vector3d normal = (piece.b - piece.a).cross(piece.c - piece.a);
+  const double length = normal.norm();
+  normal = length > 0.0 ? Vector3d(normal / length) : Vector3d::Zero();
+  const double offset = normal.dot(piece.a);
+  const double band_squared = band_ * band_;
+  for (int k = from[2]; k <= to[2]; ++k) {
+    for (int j = from[1]; j <= to[1]; ++j) {
+      const std::size_t row = stride_[1] * j + stride_[2] * k;
+      const double in_row = normal.y() * j + normal.z() * k - offset;
+      for (int i = from[0]; i <= to[0]; ++i) {
+        const double to_plane = normal.x() * i + in_row;
+        const double best = std::min<double>(band_squared, distance_[row + i]);
+        if (to_plane * to_plane >= best) continue;
+        const Vector3d p(i, j, k);
+        const double squared =
+            (ClosestPointOnTriangle(p, piece.a, piece.b, piece.c) - p).squaredNorm();
+        if (static_cast<float>(squared) < distance_[row + i] && squared <= band_squared) {
+          distance_[row + i] = static_cast<float>(squared);
+          nearest_[row + i] = index;
+        }
+      }
+    }
+  }
+}
+
+void SurfaceGrid::EnterCrossings(const Piece& piece, int low_k, int high_k) {
+  const Vector3d normal = (piece.b - piece.a).cross(piece.c - piece.a);
+  for (int axis = 0; axis < 3; ++axis) {
+    // A triangle seen edge-on: its neighbours and its own edges mark what matters.
+    if (std::abs(normal[axis]) <= 1e-9 * normal.norm()) continue;
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    const std::array<const Vector3d*, 3> corners = {&piece.a, &piece.b, &piece.c};
+    double lu = INFINITY, lv = INFINITY, hu = -INFINITY, hv = -INFINITY;
+    for (const Vector3d* p : corners) {
+      lu = std::min(lu, (*p)[u]);
+      hu = std::max(hu, (*p)[u]);
+      lv = std::min(lv, (*p)[v]);
+      hv = std::max(hv, (*p)[v]);
+    }
+    int from_u = std::max(0, static_cast<int>(std::ceil(lu - kSlack)));
+    int to_u = std::min(size_[u] - 1, static_cast<int>(std::floor(hu + kSlack)));
+    int from_v = std::max(0, static_cast<int>(std::ceil(lv - kSlack)));
+    int to_v = std::min(size_[v] - 1, static_cast<int>(std::floor(hv + kSlack)));
+    if (u == 2) {
+      from_u = std::max(from_u, low_k);
+      to_u = std::min(to_u, high_k);
+    }
+    if (v == 2) {
+      from_v = std::max(from_v, low_k);
+      to_v = std::min(to_v, high_k);
+    }
+    const double sign = normal[axis] > 0.0 ? 1.0 : -1.0;
+    for (int at_v = from_v; at_v <= to_v; ++at_v) {
+      for (int at_u = from_u; at_u <= to_u; ++at_u) {
+        bool within = true;
+        for (int e = 0; e < 3 && within; ++e) {
+          const Vector3d& p = *corners[e];
+          const Vector3d& q = *corners[(e + 1) % 3];
+          const double du = q[u] - p[u];
+          const double dv = q[v] - p[v];
+          const double area = sign * (du * (at_v - p[v]) - dv * (at_u - p[u]));
+          within = area >= -kSlack * (std::abs(du) + std::abs(dv));
+        }
+        if (!within) continue;
+        const double along =
+            piece.a[axis] -
+            (normal[u] * (at_u - piece.a[u]) + normal[v] * (at_v - piece.a[v])) / normal[axis];
+        const int first = static_cast<int>(std::floor(along - kSlack));
+        const int last = static_cast<int>(std::floor(along + kSlack));
+        for (int at = std::max(first, 0); at <= std::min(last, size_[axis] - 1); ++at) {
+          if (axis == 2 && (at < low_k || at > high_k)) continue;
+          std::array<int, 3> node;
+          node[axis] = at;
+          node[u] = at_u;
+          node[v] = at_v;
+          crossed_[node[0] + stride_[1] * node[1] + stride_[2] * node[2]] |=
+              static_cast<std::uint8_t>(1 << axis);
+        }
+      }
+    }
+  }
+}
+
+Vector3d SurfaceGrid::Position(std::size_t node) const {
+  return origin_ + cell_ * Vector3d(static_cast<double>(node % stride_[1]),
+                                    static_cast<double>(node / stride_[1] % size_[1]),
+                                    static_cast<double>(node / stride_[2]));
+}
+
+Vector3d SurfaceGrid::Nearest(std::size_t node) const {
+  const Piece& piece = pieces_[nearest_[node]];
+  const Vector3d p(static_cast<double>(node % stride_[1]),
+                   static_cast<double>(node / stride_[1] % size_[1]),
+                   static_cast<double>(node / stride_[2]));
+  return origin_ + cell_ * ClosestPointOnTriangle(p, piece.a, piece.b, piece.c);
+}
+
+}  // namespace simwright::geometry

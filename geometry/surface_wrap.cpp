@@ -1,0 +1,215 @@
+#include "geometry/surface_wrap.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "geometry/isosurface.h"
+#include "geometry/surface_grid.h"
+#include "geometry/weld.h"
+
+namespace simwright::geometry {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kMargin = 3;
+
+double Band(const SurfaceWrapOptions& options) {
+  return std::max(options.closing, 0.5 * options.wall + options.cell) + 0.05 * options.cell;
+}
+
+class Wrapper {
+ public:
+  Wrapper(const core::TriangleMesh& mesh, const SurfaceWrapOptions& options)
+      : options_(options), grid_(mesh, options.cell, Band(options), kMargin) {
+    outside_.assign(grid_.count(), 0);
+  }
+
+  SurfaceWrap Run() {
+    FloodFromBorder();
+    Creep();
+    SurfaceWrap wrap;
+    const ScalarGrid field = Field(&wrap.sheet_share);
+    wrap.mesh = ExtractIsosurface(field, 0.0f);
+    DropBubbles(&wrap.mesh);
+    return wrap;
+  }
+
+ private:
+  // Calls visit(neighbour, edge's lower node, axis) for the neighbours within the grid.
+  template <typename Visit>
+  void ForNeighbours(std::size_t node, const Visit& visit) const {
+    const auto& size = grid_.size();
+    const auto& stride = grid_.stride();
+    const std::array<std::size_t, 3> at = {node % stride[1], node / stride[1] % size[1],
+                                           node / stride[2]};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (at[axis] > 0) visit(node - stride[axis], node - stride[axis], axis);
+      if (at[axis] + 1 < static_cast<std::size_t>(size[axis])) {
+        visit(node + stride[axis], node, axis);
+      }
+    }
+  }
+
+  // An edge between two nodes that are both farther than half a cell crosses nothing.
+  void FloodFromBorder() {
+    const float clear =
+        static_cast<float>(std::max(options_.closing, 0.5 * std::sqrt(1.0) * options_.cell));
+    std::vector<std::size_t> queue{0};
+    outside_[0] = 1;
+    while (!queue.empty()) {
+      core::CheckCancelled();
+      std::vector<std::size_t> next;
+      for (const std::size_t node : queue) {
+        ForNeighbours(node, [&](std::size_t other, std::size_t, int) {
+          if (!outside_[other] && grid_.Distance(other) > clear) {
+            outside_[other] = 1;
+            next.push_back(other);
+          }
+        });
+      }
+      queue.swap(next);
+    }
+  }
+
+  void Creep() {
+    std::vector<std::size_t> front;
+    for (std::size_t node = 0; node < grid_.count(); ++node) {
+      if (!outside_[node] || grid_.Distance(node) == SurfaceGrid::kFar) continue;
+      bool at_edge = false;
+      ForNeighbours(node, [&](std::size_t other, std::size_t, int) {
+        at_edge = at_edge || !outside_[other];
+      });
+      if (at_edge) front.push_back(node);
+    }
+    for (int step = 0; step < options_.creep_steps && !front.empty(); ++step) {
+      core::CheckCancelled();
+      std::vector<std::size_t> next;
+      for (const std::size_t node : front) {
+        ForNeighbours(node, [&](std::size_t other, std::size_t low, int axis) {
+          if (!outside_[other] && !grid_.Crossed(low, axis)) {
+            outside_[other] = 1;
+            next.push_back(other);
+          }
+        });
+      }
+      front.swap(next);
+    }
+  }
+
+  // Whether there is something behind the surface, seen from an outside node: an inside node deep
+  // enough that the part is no thinner than a cell there.
+  bool SolidBehind(std::size_t node) const {
+    const Vector3d position = grid_.Position(node);
+    const Vector3d surface = grid_.Nearest(node);
+    Vector3d into = surface - position;
+    const double length = into.norm();
+    if (!(length > 0.0)) return true;
+    into /= length;
+    const auto& stride = grid_.stride();
+    const auto& size = grid_.size();
+    for (const double depth : {0.75, 1.6}) {
+      const Vector3d probe = (surface - grid_.origin()) / grid_.cell() + depth * into;
+      std::array<std::size_t, 3> low;
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = static_cast<std::size_t>(std::clamp(probe[axis], 0.0, size[axis] - 2.0));
+      }
+      const std::size_t base = low[0] + stride[1] * low[1] + stride[2] * low[2];
+      for (int c = 0; c < 8; ++c) {
+        const std::size_t other =
+            base + (c & 1) + (c & 2 ? stride[1] : 0) + (c & 4 ? stride[2] : 0);
+        if (!outside_[other] && grid_.Distance(other) >= 0.5 * grid_.cell()) return true;
+      }
+    }
+    return false;
+  }
+
+  ScalarGrid Field(double* sheet_share) const {
+    ScalarGrid field;
+    field.origin = grid_.origin();
+    field.cell = grid_.cell();
+    field.nx = grid_.size()[0];
+    field.ny = grid_.size()[1];
+    field.nz = grid_.size()[2];
+    field.values.resize(grid_.count());
+    const float far = static_cast<float>(Band(options_));
+    const double half_wall = 0.5 * options_.wall;
+    std::atomic<long> near{0};
+    std::atomic<long> sheets{0};
+    core::ParallelFor(field.nz, [&](int k) {
+      core::CheckCancelled();
+      const std::size_t first = grid_.stride()[2] * k;
+      long near_here = 0;
+      long sheets_here = 0;
+      for (std::size_t node = first; node < first + grid_.stride()[2]; ++node) {
+        const float distance = std::min(grid_.Distance(node), far);
+        if (!outside_[node]) {
+          field.values[node] = -distance;
+          continue;
+        }
+        field.values[node] = distance;
+        if (distance >= half_wall + grid_.cell()) continue;
+        ++near_here;
+        if (SolidBehind(node)) continue;
+        ++sheets_here;
+        field.values[node] = static_cast<float>(distance - half_wall);
+      }
+      near += near_here;
+      sheets += sheets_here;
+    });
+    *sheet_share = near > 0 ? static_cast<double>(sheets) / static_cast<double>(near) : 0.0;
+    return field;
+  }
+
+  // Hollows that the outside reached only through gaps that the surface closed again.
+  static void DropBubbles(core::TriangleMesh* mesh) {
+    if (mesh->empty()) return;
+    int count = 0;
+    const std::vector<int> component = EdgeComponents(*mesh, &count);
+    std::vector<double> six(count, 0.0);
+    for (std::size_t t = 0; t < component.size(); ++t) {
+      const Eigen::Vector3i& c = mesh->triangles[t];
+      six[component[t]] +=
+          mesh->vertices[c[0]].dot(mesh->vertices[c[1]].cross(mesh->vertices[c[2]]));
+    }
+    std::vector<Eigen::Vector3i> kept;
+    for (std::size_t t = 0; t < component.size(); ++t) {
+      if (six[component[t]] > 0.0) kept.push_back(mesh->triangles[t]);
+    }
+    if (kept.size() == mesh->triangles.size()) return;
+    mesh->triangles.swap(kept);
+    *mesh = Weld(*mesh, 0.0);
+  }
+
+  const SurfaceWrapOptions options_;
+  const SurfaceGrid grid_;
+  std::vector<std::uint8_t> outside_;
+};
+
+}  // namespace
+
+double WrapGridNodes(const core::TriangleMesh& mesh, const SurfaceWrapOptions& options) {
+  const std::array<int, 3> size = SurfaceGrid::Size(mesh, options.cell, Band(options), kMargin);
+  return static_cast<double>(size[0]) * size[1] * size[2];
+}
+
+SurfaceWrap WrapSurface(const core::TriangleMesh& mesh, const SurfaceWrapOptions& options) {
+  core::RequireValid(mesh, "surface wrap");
+  if (mesh.empty()) throw core::Error("the mesh has no faces", "surface wrap");
+  if (!(options.cell > 0.0) || !(options.wall >= 0.0) || !(options.closing >= 0.0)) {
+    throw core::Error("the cell must be positive, closing and wall not negative", "surface wrap");
+  }
+  if (!(WrapGridNodes(mesh, options) < 2e9)) {
+    throw core::Error("the cell is too small for the mesh", "surface wrap", "use a larger cell");
+  }
+  return Wrapper(mesh, options).Run();
+}
+
+}  // namespace simwright::geometry

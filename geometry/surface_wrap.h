@@ -1,0 +1,33 @@
+#pragma once
+
+#include "core/mesh.h"
+
+namespace simwright::geometry {
+
+// All lengths in the mesh's own unit.
+struct SurfaceWrapOptions {
+  double cell = 0.0;     // edge of a grid cell, > 0
+  double closing = 0.0;  // holes and gaps narrower than twice this are not entered from afar
+  int creep_steps = 4;   // cells that the outside then creeps through gaps
+  double wall = 0.0;     // thickness given to sheets, and to parts too thin for the grid
+};
+
+struct SurfaceWrap {
+  core::TriangleMesh mesh;   // as ExtractIsosurface gives it, without inner bubbles
+  double sheet_share = 0.0;  // share of the nodes at the surface that saw a sheet
+};
+
+// The surface between what is reached from outside and the rest, on a grid round the triangles:
+//  1. distance to the triangles in a narrow band; grid edges that cross a triangle;
+//  2. outside: what is connected to the border through nodes farther than `closing` from the
+//     surface, then `creep_steps` cells on through edges that cross no triangle, so that the
+//     surface is met, narrow crevices stay open and leaks stay shallow;
+//  3. the field is the distance, negative where not outside; round triangles with the outside on
+//     both sides, and round parts thinner than a cell, it is the distance less half the wall.
+// Deterministic, whatever the threads. The mesh must fit the grid's index range.
+SurfaceWrap WrapSurface(const core::TriangleMesh& mesh, const SurfaceWrapOptions& options);
+
+// Nodes of the grid that WrapSurface would use.
+double WrapGridNodes(const core::TriangleMesh& mesh, const SurfaceWrapOptions& options);
+
+}  // namespace simwright::geometry
