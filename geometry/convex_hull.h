@@ -23,7 +23,4 @@ core::TriangleMesh ConvexHull(const std::vector<Eigen::Vector3d>& points, int ma
 core::TriangleMesh ThickenedConvexHull(const std::vector<Eigen::Vector3d>& points,
                                        double min_thickness, int max_vertices = 0);
 
-// Volume of a closed mesh (m^3), positive for an outward one. No checks: for inner loops.
-double SignedVolume(const core::TriangleMesh& mesh);
-
 }  // namespace simwright::geometry
