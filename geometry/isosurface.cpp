@@ -41,6 +41,7 @@ std::array<int, 4> FaceCorners(int axis, int side) {
 CubePolygons BuildPolygons(int pattern) {
   std::array<int, 12> next;
   next.fill(-1);
+  int cut_edges = 0;
   for (int face = 0; face < 6; ++face) {
     const std::array<int, 4> corners = FaceCorners(face / 2, face % 2);
     int enters = -1;
@@ -52,7 +53,10 @@ CubePolygons BuildPolygons(int pattern) {
       const bool to_inside = (pattern >> to) & 1;
       if (!from_inside && to_inside) enters = EdgeOf(from, to);
       if (from_inside && !to_inside) leaves = EdgeOf(from, to);
+      cut_edges += from_inside != to_inside;
     }
+    if (cut_edges > 2) return {};  // alternating corners: Sides leaves none of these
+    cut_edges = 0;
     if (enters >= 0) next[enters] = leaves;
   }
   CubePolygons polygons;
