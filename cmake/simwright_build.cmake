@@ -45,6 +45,7 @@ function(simwright_module name)
   target_include_directories(simwright_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                              $<INSTALL_INTERFACE:include/simwright>)
   target_compile_features(simwright_${name} PUBLIC cxx_std_20)
+  target_compile_definitions(simwright_${name} PRIVATE SIMWRIGHT_VERSION="${PROJECT_VERSION}")
   target_link_libraries(simwright_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   install(TARGETS simwright_${name} EXPORT simwright_targets ARCHIVE DESTINATION lib)
   install(FILES ${headers} DESTINATION include/simwright/${name})

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "assets/asset.h"
+
+namespace simwright::assets {
+
+// What is wrong with a URDF before or beside urdfdom's own parsing; each throws core::Error naming
+// `where`.
+
+// Text without a DOCTYPE or entities (they can grow without bound or name other files), that is
+// XML with a <robot> root, whose joints name links that exist, with no link its own ancestor.
+void RequireHarmlessUrdfText(const std::string& text, const std::string& where);
+
+// A mass above zero and an inertia that a rigid body can have: finite, positive definite,
+// principal moments that satisfy the triangle inequality to 1e-3 (files round their digits).
+void RequirePhysical(const Inertial& inertial, const std::string& where);
+
+}  // namespace simwright::assets

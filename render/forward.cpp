@@ -1,0 +1,147 @@
+#include "render/forward.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace simwright::render {
+namespace {
+
+// A well-mixed hash (Wellons, "lowbias32"): sub-pixel directions that differ between neighbours.
+std::uint32_t Mixed(std::uint32_t x) {
+  x = (x ^ (x >> 16)) * 0x7feb352du;
+  x = (x ^ (x >> 15)) * 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
+class Shader {
+ public:
+  Shader(const Scene& scene, const ForwardOptions& options) : scene_(scene), options_(options) {
+    const Eigen::AlignedBox3f box = scene.bounds();
+    reach_ = box.isEmpty() ? 0.0f : options.occlusion_reach * box.diagonal().norm();
+  }
+
+  // Linear RGB of a hit at `point`, whose shading normal faces the eye.
+  Eigen::Vector3f Color(const Hit& hit, const Eigen::Vector3f& point,
+                        const Eigen::Vector3f& normal, std::uint32_t seed) const {
+    const Eigen::Vector4f albedo = scene_.Albedo(hit);
+    Eigen::Vector3f color;
+    for (int c = 0; c < 3; ++c) color[c] = LinearFromSrgb(albedo[c]);
+    if (!options_.lit) return color;
+    color = color.cwiseProduct(options_.light.Shade(normal));
+    if (options_.occlusion_rays > 0) color *= Openness(point, normal, seed);
+    return color;
+  }
+
+ private:
+  // Share of cosine-weighted directions that leave the neighbourhood.
+  float Openness(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
+                 std::uint32_t seed) const {
+    const Eigen::Vector3f tangent = normal.unitOrthogonal();
+    const Eigen::Vector3f bitangent = normal.cross(tangent);
+    const float turn = static_cast<float>(Mixed(seed)) * 0x1.0p-32f;
+    const Eigen::Vector3f start = point + 1e-3f * reach_ * normal;
+    int open = 0;
+    for (int i = 0; i < options_.occlusion_rays; ++i) {
+      // Fibonacci disc, turned by a hash of the pixel, lifted to the hemisphere (Malley).
+      const float radius =
+          std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(options_.occlusion_rays));
+      const float angle = 6.2831853f * (turn + 0.618034f * static_cast<float>(i));
+      const Eigen::Vector3f direction =
+          radius * (std::cos(angle) * tangent + std::sin(angle) * bitangent) +
+          std::sqrt(std::max(0.0f, 1.0f - radius * radius)) * normal;
+      open += scene_.Occluded(start, direction, 0.0f, reach_) ? 0 : 1;
+    }
+    return static_cast<float>(open) / static_cast<float>(options_.occlusion_rays);
+  }
+
+  const Scene& scene_;
+  const ForwardOptions& options_;
+  float reach_ = 0.0f;
+};
+
+class RowRenderer {
+ public:
+  RowRenderer(const Scene& scene, const core::Camera& camera, const ForwardOptions& options,
+              ForwardBuffers* buffers)
+      : scene_(scene), camera_(camera), options_(options), shader_(scene, options),
+        buffers_(*buffers), origin_(camera.position().cast<float>()) {}
+
+  void Draw(int y) const {
+    for (int x = 0; x < buffers_.width; ++x) DrawPixel(x, y);
+  }
+
+ private:
+  void DrawPixel(int x, int y) const {
+    const int n = options_.samples_per_side;
+    const size_t at = buffers_.Index(x, y);
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    int covered = 0;
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        const Eigen::Vector3f ray =
+            camera_.Ray({x + (i + 0.5) / n, y + (j + 0.5) / n}).cast<float>();
+        const Hit hit = scene_.Intersect(origin_, ray);
+        if (hit.instance < 0) continue;
+        ++covered;
+        const bool representative = i == n / 2 && j == n / 2;
+        if (!representative && !options_.shaded) continue;
+        Eigen::Vector3f normal = scene_.ShadingNormal(hit);
+        if (normal.dot(ray) > 0.0f) normal = -normal;
+        if (representative) {
+          buffers_.depth[at] = hit.depth;
+          buffers_.normal[at] = normal;
+          buffers_.label[at] = hit.instance;
+          buffers_.triangle[at] = hit.triangle;
+        }
+        if (options_.shaded) {
+          const auto seed = static_cast<std::uint32_t>(at * 64 + static_cast<size_t>(j * n + i));
+          sum += shader_.Color(hit, origin_ + hit.depth * ray, normal, seed);
+        }
+      }
+    }
+    buffers_.mask[at] = static_cast<float>(covered) / static_cast<float>(n * n);
+    if (options_.shaded && covered > 0) Store(sum / static_cast<float>(covered), at, x, y);
+  }
+
+  void Store(const Eigen::Vector3f& linear, size_t at, int x, int y) const {
+    std::uint8_t* pixel = buffers_.color.At(x, y);
+    for (int c = 0; c < 3; ++c) {
+      const float srgb = SrgbFromLinear(std::min(1.0f, linear[c]));
+      pixel[c] = static_cast<std::uint8_t>(std::lround(255.0f * srgb));
+    }
+    pixel[3] = static_cast<std::uint8_t>(std::lround(255.0f * buffers_.mask[at]));
+  }
+
+  const Scene& scene_;
+  const core::Camera& camera_;
+  const ForwardOptions& options_;
+  Shader shader_;
+  ForwardBuffers& buffers_;
+  Eigen::Vector3f origin_;
+};
+
+}  // namespace
+
+ForwardBuffers RenderForward(const Scene& scene, const core::Camera& camera,
+                             const ForwardOptions& options) {
+  if (camera.width < 1 || camera.height < 1 || options.samples_per_side < 1) {
+    throw core::Error("a picture needs at least one pixel and one sample a pixel");
+  }
+  ForwardBuffers buffers;
+  buffers.width = camera.width;
+  buffers.height = camera.height;
+  const size_t count = static_cast<size_t>(camera.width) * camera.height;
+  buffers.depth.assign(count, 0.0f);
+  buffers.normal.assign(count, Eigen::Vector3f::Zero());
+  buffers.mask.assign(count, 0.0f);
+  buffers.label.assign(count, -1);
+  buffers.triangle.assign(count, -1);
+  if (options.shaded) buffers.color = core::Image(camera.width, camera.height, 4);
+  const RowRenderer renderer(scene, camera, options, &buffers);
+  core::ParallelFor(camera.height, [&](int y) { renderer.Draw(y); });
+  return buffers;
+}
+
+}  // namespace simwright::render

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "core/mesh.h"
+
+namespace simwright::render {
+
+// What a ray met.
+struct Hit {
+  float depth = 0.0f;     // ray parameter: a multiple of the direction's length
+  int instance = -1;      // index as returned by Scene::Add; -1: nothing was met
+  int triangle = -1;      // of that instance's mesh
+  float u = 0.0f, v = 0.0f;  // barycentric weights of the triangle's corners 1 and 2
+};
+
+// Meshes placed in the world, ready to be met by rays (Embree, ROBUST). Vertices may move
+// afterwards (`MoveVertices`): the tree is refitted, not rebuilt.
+// Queries are const and safe from several threads.
+class Scene {
+ public:
+  Scene();
+  ~Scene();
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  // Adds a copy of the mesh's geometry at `world_from_mesh`; `mesh` itself must outlive the scene,
+  // since its colours are read when shading. Returns the instance's index. Throws core::Error for
+  // an invalid mesh or one without faces.
+  int Add(const core::TexturedMesh* mesh,
+          const Eigen::Isometry3d& world_from_mesh = Eigen::Isometry3d::Identity());
+
+  // Replaces the vertices of an instance (N x 3, as many as before, mesh frame). Call Commit after.
+  void MoveVertices(int instance, const std::vector<Eigen::Vector3d>& vertices);
+
+  // Builds or refits the trees; needed after Add and MoveVertices, before any query.
+  void Commit();
+
+  // The nearest hit of origin + t * direction with t in (near, far).
+  Hit Intersect(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+                float near = 0.0f, float far = 1e30f) const;
+  // Whether anything is met with t in (near, far).
+  bool Occluded(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near,
+                float far) const;
+
+  int size() const;
+  const core::TexturedMesh& mesh(int instance) const;
+  // Corner positions of a triangle, in the world. (3 x 3), a corner a column.
+  Eigen::Matrix3f Corners(int instance, int triangle) const;
+  // Smooth shading normal (area-weighted vertex normals where the surface is smooth within 40
+  // degrees, else the face's own), unit, in the world.
+  Eigen::Vector3f ShadingNormal(const Hit& hit) const;
+  // RGBA albedo, sRGB, at the hit.
+  Eigen::Vector4f Albedo(const Hit& hit) const;
+
+  Eigen::AlignedBox3f bounds() const;
+
+ private:
+  struct Embree;
+  std::unique_ptr<Embree> embree_;
+};
+
+}  // namespace simwright::render

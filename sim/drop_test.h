@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "sim/rigid_body.h"
+
+namespace simwright::sim {
+
+struct DropOptions {
+  double height = 0.01;          // m, of the lowest point above the floor at the start
+  double settle_time = 2.0;      // s, within which it has to come to rest
+  double watch_time = 2.0;       // s, over which the drift is measured afterwards
+  double rest_speed = 2e-3;      // m/s at which a body counts as resting; Bullet's noise lies below
+  Eigen::Isometry3d start = Eigen::Isometry3d::Identity();  // orientation; shifted to `height`
+};
+
+// What became of a dropped body. Angles leave the turn about the vertical out: a body may end up
+// facing elsewhere.
+struct DropResult {
+  bool rests = false;         // slower than rest_speed at the end of settle_time
+  double rest_time = 0.0;     // s, when it last exceeded rest_speed; settle_time where it never did
+  double tilt = 0.0;          // rad, between the start's and the resting vertical
+  double drift = 0.0;         // m, of the centre of mass over watch_time
+  double turn = 0.0;          // rad, over watch_time, about any axis
+  double lowest_point = 0.0;  // m, at the end: below 0 is penetration
+  Eigen::Isometry3d rest_pose = Eigen::Isometry3d::Identity();  // world_from_body after settling
+  Eigen::Isometry3d final_pose = Eigen::Isometry3d::Identity();  // after watching
+};
+
+// Drops the body onto the plane z = 0 in Bullet (double precision, 240 Hz).
+DropResult DropInBullet(const RigidBody& body, const DropOptions& options = {});
+
+// Angle between the body's vertical axes in two poses, rad: the yaw is free.
+double TiltBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);
+
+// Gathers a DropResult from the trajectory of any engine.
+class DropWatch {
+ public:
+  DropWatch(const RigidBody& body, const DropOptions& options, const Eigen::Isometry3d& start);
+  // Called once a step, with the time since the start.
+  void Observe(double time, const Eigen::Isometry3d& world_from_body, double speed);
+  DropResult Finish() const;
+
+ private:
+  const RigidBody& body_;
+  DropOptions options_;
+  Eigen::Isometry3d start_;
+  DropResult result_;
+};
+
+// The start pose, moved so that the lowest point is at options.height and the centre of mass over
+// the origin.
+Eigen::Isometry3d StartPose(const RigidBody& body, const DropOptions& options);
+
+}  // namespace simwright::sim

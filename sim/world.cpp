@@ -1,0 +1,158 @@
+#include "sim/world.h"
+
+#include <algorithm>
+
+#include <btBulletDynamicsCommon.h>
+
+#include "core/error.h"
+#include "geometry/mass_properties.h"
+
+namespace simwright::sim {
+namespace {
+
+btVector3 ToBullet(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Eigen::Vector3d FromBullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
+btTransform ToBullet(const Eigen::Isometry3d& pose) {
+  const Eigen::Quaterniond q(pose.linear());
+  return {btQuaternion(q.x(), q.y(), q.z(), q.w()), ToBullet(pose.translation())};
+}
+
+Eigen::Isometry3d FromBullet(const btTransform& transform) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  const btQuaternion q = transform.getRotation();
+  pose.linear() = Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized().toRotationMatrix();
+  pose.translation() = FromBullet(transform.getOrigin());
+  return pose;
+}
+
+// One body with its shapes. Bullet wants the centre of mass at the origin and the inertia
+// diagonal, so the body's frame is turned to the principal axes.
+struct LoadedBody {
+  std::vector<std::unique_ptr<btConvexHullShape>> hulls;
+  std::unique_ptr<btCompoundShape> compound;
+  std::unique_ptr<btRigidBody> rigid;
+  Eigen::Isometry3d body_from_principal;
+};
+
+}  // namespace
+
+struct World::Bullet {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broadphase;
+  btSequentialImpulseConstraintSolver solver;
+  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+  btStaticPlaneShape floor_shape{btVector3(0, 0, 1), 0};
+  std::unique_ptr<btRigidBody> floor;
+  std::vector<std::unique_ptr<LoadedBody>> bodies;
+
+  ~Bullet() {
+    for (const auto& body : bodies) world.removeRigidBody(body->rigid.get());
+    if (floor) world.removeRigidBody(floor.get());
+  }
+};
+
+World::World(const WorldOptions& options)
+    : bullet_(std::make_unique<Bullet>()), options_(options) {
+  if (!(options.time_step > 0.0) || options.solver_iterations < 1 || !(options.margin >= 0.0)) {
+    throw core::Error("a world needs a positive time step and at least one solver iteration");
+  }
+  bullet_->world.setGravity(btVector3(0, 0, -options.gravity));
+  btContactSolverInfo& solver = bullet_->world.getSolverInfo();
+  solver.m_numIterations = options.solver_iterations;
+  solver.m_splitImpulse = 1;  // penetration is mended without adding velocity
+  // The default of 4 cm would let small things sink in before they are pushed out.
+  solver.m_splitImpulsePenetrationThreshold = 0.0;
+  bullet_->dispatcher.setDispatcherFlags(btCollisionDispatcher::CD_STATIC_STATIC_REPORTED);
+  bullet_->floor_shape.setMargin(0.0);
+  btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, &bullet_->floor_shape);
+  info.m_friction = options.floor_friction;
+  info.m_restitution = 1.0;  // multiplied with the body's own
+  bullet_->floor = std::make_unique<btRigidBody>(info);
+  bullet_->world.addRigidBody(bullet_->floor.get());
+}
+
+World::~World() = default;
+
+int World::Add(const RigidBody& body, const Eigen::Isometry3d& world_from_body) {
+  if (body.parts.empty() || !(body.inertial.mass > 0.0)) {
+    throw core::Error("a body needs collision parts and a mass", body.name);
+  }
+  auto loaded = std::make_unique<LoadedBody>();
+  const geometry::PrincipalInertia principal = geometry::PrincipalInertiaOf(body.inertial.inertia);
+  loaded->body_from_principal = Eigen::Translation3d(body.inertial.center_of_mass) *
+                                Eigen::Isometry3d(principal.axes);
+  const Eigen::Isometry3d principal_from_body = loaded->body_from_principal.inverse();
+  loaded->compound = std::make_unique<btCompoundShape>(true, static_cast<int>(body.parts.size()));
+  for (const core::TriangleMesh& part : body.parts) {
+    if (part.vertices.size() < 4) {
+      throw core::Error("a collision part has fewer than four vertices", body.name);
+    }
+    auto hull = std::make_unique<btConvexHullShape>();
+    for (const Eigen::Vector3d& vertex : part.vertices) {
+      hull->addPoint(ToBullet(principal_from_body * vertex), false);
+    }
+    hull->setMargin(options_.margin);
+    hull->recalcLocalAabb();
+    loaded->compound->addChildShape(btTransform::getIdentity(), hull.get());
+    loaded->hulls.push_back(std::move(hull));
+  }
+  loaded->compound->setMargin(options_.margin);
+  btRigidBody::btRigidBodyConstructionInfo info(body.inertial.mass, nullptr,
+                                                loaded->compound.get(),
+                                                ToBullet(principal.moments));
+  info.m_startWorldTransform = ToBullet(world_from_body * loaded->body_from_principal);
+  info.m_friction = body.friction;
+  info.m_restitution = body.restitution;
+  loaded->rigid = std::make_unique<btRigidBody>(info);
+  loaded->rigid->setActivationState(DISABLE_DEACTIVATION);
+  // Sized for the body: Bullet's fixed 2 cm would join contacts of small things.
+  loaded->rigid->setContactProcessingThreshold(1e30);
+  bullet_->world.addRigidBody(loaded->rigid.get());
+  bullet_->bodies.push_back(std::move(loaded));
+  return static_cast<int>(bullet_->bodies.size()) - 1;
+}
+
+void World::Step() {
+  bullet_->world.stepSimulation(options_.time_step, 0, options_.time_step);
+  time_ += options_.time_step;
+}
+
+Eigen::Isometry3d World::Pose(int body) const {
+  const LoadedBody& loaded = *bullet_->bodies.at(static_cast<size_t>(body));
+  return FromBullet(loaded.rigid->getWorldTransform()) * loaded.body_from_principal.inverse();
+}
+
+Eigen::Vector3d World::LinearVelocity(int body) const {
+  return FromBullet(bullet_->bodies.at(static_cast<size_t>(body))->rigid->getLinearVelocity());
+}
+
+Eigen::Vector3d World::AngularVelocity(int body) const {
+  return FromBullet(bullet_->bodies.at(static_cast<size_t>(body))->rigid->getAngularVelocity());
+}
+
+double World::DeepestPenetration() const {
+  double deepest = 0.0;
+  for (int i = 0; i < bullet_->dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold* manifold = bullet_->dispatcher.getManifoldByIndexInternal(i);
+    for (int k = 0; k < manifold->getNumContacts(); ++k) {
+      deepest = std::max(deepest, -manifold->getContactPoint(k).getDistance());
+    }
+  }
+  return deepest;
+}
+
+assets::Inertial World::LoadedInertial(int body) const {
+  const LoadedBody& loaded = *bullet_->bodies.at(static_cast<size_t>(body));
+  assets::Inertial inertial;
+  inertial.mass = 1.0 / loaded.rigid->getInvMass();
+  inertial.center_of_mass = loaded.body_from_principal.translation();
+  const Eigen::Vector3d moments =
+      FromBullet(loaded.rigid->getInvInertiaDiagLocal()).cwiseInverse();
+  const Eigen::Matrix3d R = loaded.body_from_principal.linear();
+  inertial.inertia = R * moments.asDiagonal() * R.transpose();
+  return inertial;
+}
+
+}  // namespace simwright::sim

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "sim/rigid_body.h"
+
+namespace simwright::sim {
+
+struct WorldOptions {
+  double time_step = 1.0 / 240.0;  // s; Bullet's own rate
+  int solver_iterations = 50;      // stacks and grasps slip below about 20
+  double gravity = 9.81;           // m/s^2, along -z
+  double margin = 5e-5;            // m, of each hull: 0.05 mm is stable and leaves no visible gap
+  double floor_friction = 1.0;     // Bullet multiplies both sides': the body's own then counts
+};
+
+// A Bullet world in double precision with the floor z = 0. One thread a world; nothing is shared,
+// so that any number run side by side and each is repeatable bit for bit.
+class World {
+ public:
+  explicit World(const WorldOptions& options = {});
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  // Adds a free body; `body` must outlive the world. Returns its index. Throws core::Error for a
+  // body without parts or mass. Parts of fewer than four vertices are refused.
+  int Add(const RigidBody& body, const Eigen::Isometry3d& world_from_body);
+
+  // One time step.
+  void Step();
+
+  Eigen::Isometry3d Pose(int body) const;              // world_from_body
+  Eigen::Vector3d LinearVelocity(int body) const;      // of the centre of mass, m/s
+  Eigen::Vector3d AngularVelocity(int body) const;     // rad/s
+  double DeepestPenetration() const;                   // m, over all contacts; 0 without any
+  double time() const { return time_; }
+
+  // The inertial as the engine holds it, back in the body's frame: what `check` compares.
+  assets::Inertial LoadedInertial(int body) const;
+
+ private:
+  struct Bullet;
+  std::unique_ptr<Bullet> bullet_;
+  WorldOptions options_;
+  double time_ = 0.0;
+};
+
+}  // namespace simwright::sim
