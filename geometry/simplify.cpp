@@ -4,9 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <queue>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "core/error.h"
@@ -42,6 +40,47 @@ struct Quadric {
     return *this;
   }
   double At(const Vector3d& x) const { return std::max(0.0, x.dot(a * x) - 2.0 * b.dot(x) + c); }
+};
+
+struct Candidate {
+  int a, b;
+  int version_a, version_b;
+};
+
+// Candidates by cost, an eighth of an octave a bucket, first in first out within one: near enough
+// to the order of costs, and several times as fast as a heap.
+class CostQueue {
+ public:
+  void Push(double cost, const Candidate& candidate) {
+    int exponent = 0;
+    const double mantissa = std::frexp(std::max(cost, 1e-60), &exponent);  // in [0.5, 1)
+    const int octave = std::clamp(exponent + 200, 0, kOctaves - 1);
+    const int bucket = octave * kSteps + static_cast<int>((mantissa - 0.5) * 2.0 * kSteps);
+    buckets_[bucket].push_back(candidate);
+    lowest_ = std::min(lowest_, bucket);
+  }
+
+  bool Pop(Candidate* candidate) {
+    for (; lowest_ < kOctaves * kSteps; ++lowest_) {
+      std::vector<Candidate>& bucket = buckets_[lowest_];
+      std::size_t& head = heads_[lowest_];
+      if (head < bucket.size()) {
+        *candidate = bucket[head++];
+        return true;
+      }
+      bucket.clear();
+      head = 0;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr int kOctaves = 400;
+  static constexpr int kSteps = 8;
+  std::vector<std::vector<Candidate>> buckets_ =
+      std::vector<std::vector<Candidate>>(kOctaves * kSteps);
+  std::vector<std::size_t> heads_ = std::vector<std::size_t>(kOctaves * kSteps, 0);
+  int lowest_ = kOctaves * kSteps;
 };
 
 class Collapser {
@@ -81,10 +120,9 @@ class Collapser {
       }
     }
     int collapses = 0;
-    while (live_faces_ > budget && !queue_.empty()) {
+    Candidate top;
+    while (live_faces_ > budget && queue_.Pop(&top)) {
       if (++collapses % 4096 == 0) core::CheckCancelled();
-      const Candidate top = queue_.top();
-      queue_.pop();
       if (version_[top.a] != top.version_a || version_[top.b] != top.version_b) continue;
       Collapse(top.a, top.b);
     }
@@ -110,16 +148,6 @@ class Collapser {
   }
 
  private:
-  struct Candidate {
-    double cost;
-    int a, b;
-    int version_a, version_b;
-    bool operator<(const Candidate& other) const {  // the queue's top is the cheapest
-      if (cost != other.cost) return cost > other.cost;
-      return a != other.a ? a > other.a : b > other.b;
-    }
-  };
-
   Vector3d AreaVector(const Eigen::Vector3i& t) const {
     return (vertices_[t[1]] - vertices_[t[0]]).cross(vertices_[t[2]] - vertices_[t[0]]);
   }
@@ -127,9 +155,15 @@ class Collapser {
   // Where the two planes' sums are least; held near the middle where they leave it free.
   Vector3d Best(int a, int b, const Quadric& sum) const {
     const Vector3d middle = 0.5 * (vertices_[a] + vertices_[b]);
-    const double hold = 1e-4 * sum.weight;
+    Matrix3d matrix = sum.a;
+    matrix.diagonal().array() += 1e-4 * sum.weight;
     const Vector3d gradient = sum.b - sum.a * middle;
-    const Vector3d step = (sum.a + hold * Matrix3d::Identity()).ldlt().solve(gradient);
+    // Cramer's rule; the held matrix is positive definite.
+    const Vector3d yz = matrix.col(1).cross(matrix.col(2));
+    const Vector3d step =
+        Vector3d(gradient.dot(yz), gradient.dot(matrix.col(2).cross(matrix.col(0))),
+                 gradient.dot(matrix.col(0).cross(matrix.col(1)))) /
+        matrix.col(0).dot(yz);
     const double edge = (vertices_[a] - vertices_[b]).norm();
     if (!step.allFinite() || step.norm() > 2.0 * edge) return middle;
     return middle + step;
@@ -144,7 +178,7 @@ class Collapser {
     if (error > limit_ * sum.weight) return;
     // The little added length sorts what is flat: short edges first.
     const double length = (vertices_[a] - vertices_[b]).squaredNorm();
-    queue_.push({error + 1e-9 * length * sum.weight, a, b, version_[a], version_[b]});
+    queue_.Push(error + 1e-9 * length * sum.weight, {a, b, version_[a], version_[b]});
   }
 
   // Exactly two common neighbours, neither left with two faces: the topology stays.
@@ -241,7 +275,7 @@ class Collapser {
   std::vector<int> mark_;
   std::vector<char> alive_;
   std::array<int, 2> common_{};
-  std::priority_queue<Candidate> queue_;
+  CostQueue queue_;
   double limit_ = INFINITY;
   int live_faces_ = 0;
   int stamp_ = 0;

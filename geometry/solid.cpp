@@ -9,6 +9,7 @@
 #include "geometry/alpha_wrap.h"
 #include "geometry/simplify.h"
 #include "geometry/soundness.h"
+#include "geometry/surface_distance.h"
 #include "geometry/surface_wrap.h"
 #include "geometry/weld.h"
 #include "geometry/winding_number.h"
@@ -92,27 +93,62 @@ TriangleMesh Normalized(const TriangleMesh& mesh, const Vector3d& center, double
   return unit;
 }
 
-// Thinner than this many faces leaves the grid's own steps alone.
-constexpr int kThinFirst = 300000;
+constexpr int kThinFirst = 300000;  // more faces than this are thinned before the grid
+// What simplification may move, root mean square: half of it is left for the grid's own steps.
+constexpr double kSimplifyShare = 0.15;
 
-void WrapSolid(const TriangleMesh& welded, const Vector3d& center, double diagonal,
-               const SolidOptions& options, Solid* solid) {
-  TriangleMesh unit = Normalized(welded, center, diagonal);
+struct Wrapped {
+  TriangleMesh mesh;  // in the unit box
+  double sheet_share = 0.0;
+  double distance = 0.0;  // largest of both directions, a share of the diagonal
+};
+
+// One wrap of `unit`, a mesh of diagonal 1. `fineness` divides the cell and what simplification
+// may move.
+Wrapped WrapOnce(const TriangleMesh& unit, double fineness, const SolidOptions& options) {
   SurfaceWrapOptions wrap_options;
   wrap_options.wall = options.sheet_thickness_ratio;
-  wrap_options.cell = options.cell_ratio;
+  wrap_options.cell = options.cell_ratio / fineness;
   while (WrapGridNodes(unit, wrap_options) > options.max_nodes) wrap_options.cell *= 1.1;
   wrap_options.closing = wrap_options.cell;
-  if (static_cast<int>(unit.triangles.size()) > kThinFirst) {
-    unit = ClusterVertices(unit, wrap_options.cell / 3.0);
-  }
+  constexpr int kSeenRays = 30000;
+  wrap_options.seen = SampleOuterSurface(unit, kSeenRays, 7);
   const SurfaceWrap wrap = WrapSurface(unit, wrap_options);
   if (wrap.mesh.empty()) {
     throw core::Error("no surface could be wrapped round the mesh", "solid");
   }
-  const SimplifyOptions simplify{options.face_budget, 0.15 * options.tolerance_ratio};
-  TriangleMesh mesh = Simplify(wrap.mesh, simplify);
-  if (wrap.sheet_share > 0.001) {
+  Wrapped wrapped;
+  wrapped.mesh = Simplify(
+      wrap.mesh, {options.face_budget, kSimplifyShare * options.tolerance_ratio / fineness});
+  wrapped.sheet_share = wrap.sheet_share;
+  wrapped.distance = OuterSurfaceDistance(unit, wrapped.mesh).MaxRatio();
+  return wrapped;
+}
+
+void WrapSolid(const TriangleMesh& welded, const Vector3d& center, double diagonal,
+               const SolidOptions& options, Solid* solid) {
+  TriangleMesh unit = Normalized(welded, center, diagonal);
+  if (static_cast<int>(unit.triangles.size()) > kThinFirst) {
+    unit = ClusterVertices(unit, options.cell_ratio / 3.0);
+  }
+  Wrapped wrapped = WrapOnce(unit, 1.0, options);
+  if (wrapped.distance > 0.96 * options.tolerance_ratio) {
+    Wrapped finer = WrapOnce(unit, 1.6, options);
+    if (finer.distance < wrapped.distance) wrapped = std::move(finer);
+  }
+  TriangleMesh mesh = std::move(wrapped.mesh);
+  for (Vector3d& v : mesh.vertices) v = center + diagonal * v;
+  solid->method = SolidMethod::kWrapped;
+  if (!Examine(mesh, 1).Sound()) {
+    Add(solid, "solid-alpha-wrap", Severity::kWarning,
+        "the wrapped surface was not sound, so a coarser wrap was made", 0.0);
+    mesh = AlphaWrap(welded);
+    if (!Examine(mesh, 1).Sound()) {
+      throw core::Error("no closed surface free of self-intersections could be made", "solid",
+                        "simplify or repair the mesh in a modeller");
+    }
+  }
+  if (wrapped.sheet_share > 0.001) {
     solid->sheet_thickness = options.sheet_thickness_ratio * diagonal;
     Add(solid, "solid-sheets", Severity::kInfo,
         "thin sheets and open surfaces were given a wall of " +
@@ -125,18 +161,13 @@ void WrapSolid(const TriangleMesh& welded, const Vector3d& center, double diagon
             " faces to stay within the tolerance",
         static_cast<double>(mesh.triangles.size()));
   }
-  for (Vector3d& v : mesh.vertices) v = center + diagonal * v;
-  if (!Examine(mesh, 1).Sound()) {
-    Add(solid, "solid-alpha-wrap", Severity::kWarning,
-        "the wrapped surface was not sound, so a coarser wrap was made", 0.0);
-    mesh = AlphaWrap(welded);
-    if (!Examine(mesh, 1).Sound()) {
-      throw core::Error("no closed surface free of self-intersections could be made", "solid",
-                        "simplify or repair the mesh in a modeller");
-    }
+  if (wrapped.distance > options.tolerance_ratio) {
+    Add(solid, "solid-off-tolerance", Severity::kWarning,
+        "somewhere the solid lies " + std::to_string(100.0 * wrapped.distance) +
+            "% of the diagonal from what is seen",
+        wrapped.distance);
   }
   solid->mesh = std::move(mesh);
-  solid->method = SolidMethod::kWrapped;
 }
 
 }  // namespace
@@ -147,7 +178,6 @@ const char* Name(SolidMethod method) {
       return "as it is";
     case SolidMethod::kRepaired:
       return "repaired";
-    case SolidMethod::kUnited:
       return "united";
     case SolidMethod::kWrapped:
       return "wrapped";

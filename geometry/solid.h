@@ -9,11 +9,10 @@ namespace simwright::geometry {
 enum class SolidMethod {
   kAsItIs,    // the visual mesh was one already, after welding and turning faces round
   kRepaired,  // duplicates or inner shells dropped, cracks stitched or small holes filled
-  kUnited,    // exact union of closed components
   kWrapped,   // a surface extracted round it on a grid
 };
 
-const char* Name(SolidMethod method);  // "as it is", "repaired", "united", "wrapped"
+const char* Name(SolidMethod method);  // "as it is", "repaired", "wrapped"
 
 struct SolidOptions {
   // Faces of a wrapped solid; what is as it is keeps its faces up to ten times this many. 20k keep
@@ -23,10 +22,10 @@ struct SolidOptions {
   // the bounding box's diagonal: the design's acceptance.
   double tolerance_ratio = 0.005;
   // Wall given to a sheet, as a share of the diagonal. Each side moves by half of it, so it has to
-  // stay under twice the tolerance; the grid resolves about half of this.
-  double sheet_thickness_ratio = 0.006;
-  // Edge of a grid cell, as a share of the diagonal: three cells reach across the tolerance.
-  double cell_ratio = 0.0018;
+  // stay well under twice the tolerance; and it has to exceed sqrt(3) cells to have no holes.
+  double sheet_thickness_ratio = 0.005;
+  // Edge of a grid cell, as a share of the diagonal: two cells reach across the tolerance.
+  double cell_ratio = 0.0025;
   // Nodes of the grid at most; the cell grows until it fits. 60M nodes are about 0.6 GiB.
   double max_nodes = 60e6;
 };

@@ -18,6 +18,71 @@ constexpr int kSlab = 8;             // layers a task
 // as met, so none slips between two neighbours.
 constexpr double kSlack = 1e-7;
 
+constexpr int kLanes = 4;
+using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+
+Lanes Lesser(Lanes a, Lanes b) {
+  return a < b ? a : b;
+}
+
+// Squared distances from a row of nodes to one triangle, several at a time. All in cells, relative
+// to the triangle's corner, so that single precision is good for 1e-6 of a cell.
+struct LaneTriangle {
+  LaneTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) : corner(a) {
+    normal = (b - a).cross(c - a);
+    const double length = normal.norm();
+    normal = length > 0.0 ? Vector3d(normal / length) : Vector3d::Zero();
+    offset = normal.dot(a);
+    flat = length > 0.0;
+    const std::array<Vector3d, 3> corners = {a, b, c};
+    for (int e = 0; e < 3; ++e) {
+      start[e] = (corners[e] - a).cast<float>();
+      const Vector3d along = corners[(e + 1) % 3] - corners[e];
+      edge[e] = along.cast<float>();
+      const double squared = along.squaredNorm();
+      inverse[e] = squared > 0.0 ? static_cast<float>(1.0 / squared) : 0.0f;
+      inward[e] = normal.cross(along).cast<float>();
+    }
+  }
+
+  void SquaredDistances(int i, int j, int k, std::array<float, kLanes>* squared) const {
+    const Lanes step = {0.0f, 1.0f, 2.0f, 3.0f};
+    const Lanes x = step + static_cast<float>(i - corner.x());
+    const float y = static_cast<float>(j - corner.y());
+    const float z = static_cast<float>(k - corner.z());
+    const Lanes zero = {};
+    const Lanes one = zero + 1.0f;
+    Lanes nearest = zero + 1e30f;
+    Lanes inside = one;
+    for (int e = 0; e < 3; ++e) {
+      const Lanes px = x - start[e].x();
+      const float py = y - start[e].y();
+      const float pz = z - start[e].z();
+      const Lanes side = px * inward[e].x() + (py * inward[e].y() + pz * inward[e].z());
+      inside = side < zero ? zero : inside;
+      Lanes t = (px * edge[e].x() + (py * edge[e].y() + pz * edge[e].z())) * inverse[e];
+      t = t < zero ? zero : Lesser(t, one);
+      const Lanes dx = px - t * edge[e].x();
+      const Lanes dy = py - t * edge[e].y();
+      const Lanes dz = pz - t * edge[e].z();
+      nearest = Lesser(nearest, dx * dx + dy * dy + dz * dz);
+    }
+    if (flat) {
+      const Lanes above = x * static_cast<float>(normal.x()) +
+                          (y * static_cast<float>(normal.y()) + z * static_cast<float>(normal.z()));
+      nearest = inside > zero ? above * above : nearest;
+    }
+    for (int lane = 0; lane < kLanes; ++lane) (*squared)[lane] = nearest[lane];
+  }
+
+  Vector3d corner;
+  Vector3d normal;
+  double offset = 0.0;
+  bool flat = true;
+  std::array<Eigen::Vector3f, 3> start, edge, inward;
+  std::array<float, 3> inverse{};
+};
+
 }  // namespace
 
 std::array<int, 3> SurfaceGrid::Size(const core::TriangleMesh& mesh, double cell, double band,
@@ -110,25 +175,33 @@ void SurfaceGrid::EnterDistances(const Piece& piece, int index, int low_k, int h
   }
   from[2] = std::max(from[2], low_k);
   to[2] = std::min(to[2], high_k);
-  Vector3d normal = (piece.b - piece.a).cross(piece.c - piece.a);
-  const double length = normal.norm();
-  normal = length > 0.0 ? Vector3d(normal / length) : Vector3d::Zero();
-  const double offset = normal.dot(piece.a);
-  const double band_squared = band_ * band_;
+  const LaneTriangle triangle(piece.a, piece.b, piece.c);
   for (int k = from[2]; k <= to[2]; ++k) {
     for (int j = from[1]; j <= to[1]; ++j) {
+      // Where the row runs within the band round the triangle's plane.
+      const double in_row = triangle.normal.y() * j + triangle.normal.z() * k - triangle.offset;
+      int first = from[0];
+      int last = to[0];
+      const double slope = triangle.normal.x();
+      if (std::abs(slope) > 1e-3) {
+        const double middle = -in_row / slope;
+        const double reach = band_ / std::abs(slope);
+        first = std::max(first, static_cast<int>(std::ceil(middle - reach)));
+        last = std::min(last, static_cast<int>(std::floor(middle + reach)));
+      } else if (std::abs(in_row) > band_ + 1e-3 * size_[0]) {
+        continue;
+      }
       const std::size_t row = stride_[1] * j + stride_[2] * k;
-      const double in_row = normal.y() * j + normal.z() * k - offset;
-      for (int i = from[0]; i <= to[0]; ++i) {
-        const double to_plane = normal.x() * i + in_row;
-        const double best = std::min<double>(band_squared, distance_[row + i]);
-        if (to_plane * to_plane >= best) continue;
-        const Vector3d p(i, j, k);
-        const double squared =
-            (ClosestPointOnTriangle(p, piece.a, piece.b, piece.c) - p).squaredNorm();
-        if (static_cast<float>(squared) < distance_[row + i] && squared <= band_squared) {
-          distance_[row + i] = static_cast<float>(squared);
-          nearest_[row + i] = index;
+      for (int i = first; i <= last; i += kLanes) {
+        std::array<float, kLanes> squared;
+        triangle.SquaredDistances(i, j, k, &squared);
+        const int lanes = std::min(kLanes, last - i + 1);
+        for (int lane = 0; lane < lanes; ++lane) {
+          float& best = distance_[row + i + lane];
+          if (squared[lane] < best && squared[lane] <= band_ * band_) {
+            best = squared[lane];
+            nearest_[row + i + lane] = index;
+          }
         }
       }
     }

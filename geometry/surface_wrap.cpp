@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/error.h"
@@ -22,7 +23,8 @@ using Eigen::Vector3d;
 constexpr int kMargin = 3;
 
 double Band(const SurfaceWrapOptions& options) {
-  return std::max(options.closing, 0.5 * options.wall + options.cell) + 0.05 * options.cell;
+  // Half a cell beyond the wall places its surface; what lies farther is merely "far".
+  return std::max(options.closing, 0.5 * (options.wall + options.cell)) + 0.05 * options.cell;
 }
 
 class Wrapper {
@@ -34,7 +36,8 @@ class Wrapper {
 
   SurfaceWrap Run() {
     FloodFromBorder();
-    Creep();
+    Creep(options_.creep_steps);
+    if (!MeetsAll(options_.seen)) Creep(std::numeric_limits<int>::max());
     SurfaceWrap wrap;
     const ScalarGrid field = Field(&wrap.sheet_share);
     wrap.mesh = ExtractIsosurface(field, 0.0f);
@@ -60,8 +63,7 @@ class Wrapper {
 
   // An edge between two nodes that are both farther than half a cell crosses nothing.
   void FloodFromBorder() {
-    const float clear =
-        static_cast<float>(std::max(options_.closing, 0.5 * std::sqrt(1.0) * options_.cell));
+    const float clear = static_cast<float>(std::max(options_.closing, 0.5 * options_.cell));
     std::vector<std::size_t> queue{0};
     outside_[0] = 1;
     while (!queue.empty()) {
@@ -79,7 +81,7 @@ class Wrapper {
     }
   }
 
-  void Creep() {
+  void Creep(int steps) {
     std::vector<std::size_t> front;
     for (std::size_t node = 0; node < grid_.count(); ++node) {
       if (!outside_[node] || grid_.Distance(node) == SurfaceGrid::kFar) continue;
@@ -89,7 +91,7 @@ class Wrapper {
       });
       if (at_edge) front.push_back(node);
     }
-    for (int step = 0; step < options_.creep_steps && !front.empty(); ++step) {
+    for (int step = 0; step < steps && !front.empty(); ++step) {
       core::CheckCancelled();
       std::vector<std::size_t> next;
       for (const std::size_t node : front) {
@@ -102,6 +104,25 @@ class Wrapper {
       }
       front.swap(next);
     }
+  }
+
+  // Whether each point has an outside node within about a cell.
+  bool MeetsAll(const std::vector<Vector3d>& points) const {
+    const auto& stride = grid_.stride();
+    const auto& size = grid_.size();
+    return std::all_of(points.begin(), points.end(), [&](const Vector3d& point) {
+      const Vector3d at = (point - grid_.origin()) / grid_.cell();
+      std::array<int, 3> low;
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::clamp(static_cast<int>(at[axis]), 1, size[axis] - 3);
+      }
+      for (int n = 0; n < 64; ++n) {
+        const std::size_t node = (low[0] - 1 + n % 4) + stride[1] * (low[1] - 1 + n / 4 % 4) +
+                                 stride[2] * (low[2] - 1 + n / 16);
+        if (outside_[node]) return true;
+      }
+      return false;
+    });
   }
 
   // Whether there is something behind the surface, seen from an outside node: an inside node deep
@@ -155,7 +176,7 @@ class Wrapper {
           continue;
         }
         field.values[node] = distance;
-        if (distance >= half_wall + grid_.cell()) continue;
+        if (grid_.Distance(node) == SurfaceGrid::kFar) continue;
         ++near_here;
         if (SolidBehind(node)) continue;
         ++sheets_here;

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <vector>
+
+#include <Eigen/Core>
+
 #include "core/mesh.h"
 
 namespace simwright::geometry {
@@ -8,8 +12,11 @@ namespace simwright::geometry {
 struct SurfaceWrapOptions {
   double cell = 0.0;     // edge of a grid cell, > 0
   double closing = 0.0;  // holes and gaps narrower than twice this are not entered from afar
-  int creep_steps = 4;   // cells that the outside then creeps through gaps
-  double wall = 0.0;     // thickness given to sheets, and to parts too thin for the grid
+  int creep_steps = 2;   // cells that the outside then creeps through gaps
+  // Points of the surface that are seen from outside. Where one of them is not met, the outside
+  // creeps on without limit. Empty: it stops after `creep_steps`.
+  std::vector<Eigen::Vector3d> seen;
+  double wall = 0.0;  // thickness given to sheets, and to parts too thin for the grid
 };
 
 struct SurfaceWrap {
@@ -20,8 +27,8 @@ struct SurfaceWrap {
 // The surface between what is reached from outside and the rest, on a grid round the triangles:
 //  1. distance to the triangles in a narrow band; grid edges that cross a triangle;
 //  2. outside: what is connected to the border through nodes farther than `closing` from the
-//     surface, then `creep_steps` cells on through edges that cross no triangle, so that the
-//     surface is met, narrow crevices stay open and leaks stay shallow;
+//     surface, then `creep_steps` cells on through edges that cross no triangle; cracks that nobody
+//     sees into stay closed so, while crevices with visible walls are followed to their end;
 //  3. the field is the distance, negative where not outside; round triangles with the outside on
 //     both sides, and round parts thinner than a cell, it is the distance less half the wall.
 // Deterministic, whatever the threads. The mesh must fit the grid's index range.
