@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "core/parallel.h"
+#include "geometry/convex_hull.h"
+#include "geometry/convex_pieces.h"
+#include "geometry/mass_properties.h"
+#include "geometry/weld.h"
+
+namespace simwright::geometry {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kOnPlane = 1e-9;  // of the solid's diagonal
+constexpr double kCrumb = 1e-9;    // of the solid's volume
+constexpr double kSlab = 5e-3;     // of the solid's diagonal: thinnest slab cut off
+constexpr int kFeatures = 8;       // feature heights tried along a direction
+
+// The excess that is left, in the unit of the search: the volume that hulls add.
+double Excess(const std::vector<Piece>& pieces) {
+  double sum = 0.0;
+  for (const Piece& piece : pieces) sum += piece.Excess();
+  return sum;
+}
+
+// Heights along `axis` where the surface has flat faces across it or creases inward, weightiest
+// first: a cut there leaves no remainder.
+std::vector<double> FeatureHeights(const core::TriangleMesh& mesh, const Vector3d& axis,
+                                   double width) {
+  std::map<long, double> weight, moment;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    const Vector3d area = core::TriangleAreaVector(mesh, t);
+    const double along = std::abs(axis.dot(area));
+    if (!(along > 0.999 * area.norm()) || along == 0.0) continue;
+    const auto& v = mesh.triangles[t];
+    const double height =
+        axis.dot(mesh.vertices[v[0]] + mesh.vertices[v[1]] + mesh.vertices[v[2]]) / 3.0;
+    const long cell = std::lround(height / width);
+    weight[cell] += along;
+    moment[cell] += along * height;
+  }
+  std::vector<std::pair<double, double>> by_weight;
+  for (const auto& [cell, w] : weight) by_weight.emplace_back(-w, moment[cell] / w);
+  std::sort(by_weight.begin(), by_weight.end());
+  std::vector<double> heights;
+  for (const auto& [w, height] : by_weight) {
+    if (heights.size() == kFeatures) break;
+    heights.push_back(height);
+  }
+  return heights;
+}
+
+void AddPlanes(const Piece& piece, const Vector3d& axis, int count, const CutContext& context,
+               std::vector<CutPlane>* planes) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vector3d& p : piece.hull.vertices) {
+    low = std::min(low, axis.dot(p));
+    high = std::max(high, axis.dot(p));
+  }
+  const double slab = kSlab * context.diagonal;
+  if (high - low < 2.0 * slab) return;
+  std::vector<double> heights = FeatureHeights(piece.mesh, axis, 0.1 * slab);
+  for (int i = 0; i < count; ++i) heights.push_back(low + (high - low) * (i + 1) / (count + 1));
+  std::vector<double> taken;
+  for (const double height : heights) {
+    const double margin = 0.2 * slab;
+    if (height < low + margin || height > high - margin) continue;
+    const bool near = std::any_of(taken.begin(), taken.end(),
+                                  [&](double t) { return std::abs(t - height) < margin; });
+    if (near) continue;
+    taken.push_back(height);
+    planes->push_back({axis, height});
+  }
+}
+
+// Directions to cut across: the axes, and the piece's own where they are others.
+std::vector<Vector3d> Directions(const Piece& piece, const CutContext& context) {
+  std::vector<Vector3d> directions{Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
+  if (!context.options->principal_axes) return directions;
+  const MassProperties properties = ShellMassProperties(piece.mesh, 1.0, 1.0);
+  const Eigen::Matrix3d axes = PrincipalInertiaOf(properties.inertia).axes.toRotationMatrix();
+  for (int k = 0; k < 3; ++k) {
+    const bool other = std::all_of(directions.begin(), directions.end(), [&](const Vector3d& d) {
+      return std::abs(d.dot(axes.col(k))) < std::cos(0.12);
+    });
+    if (other) directions.push_back(axes.col(k));
+  }
+  return directions;
+}
+
+std::vector<CutPlane> Candidates(const Piece& piece, int count, const CutContext& context) {
+  std::vector<CutPlane> planes;
+  for (const Vector3d& axis : Directions(piece, context)) {
+    AddPlanes(piece, axis, count, context, &planes);
+  }
+  return planes;
+}
+
+struct Trial {
+  CutPlane plane;
+  double excess = std::numeric_limits<double>::infinity();  // after the cut
+  std::vector<Piece> pieces;
+};
+
+// The `beam` best trials, no two of them nearly the same plane.
+std::vector<int> BestTrials(const std::vector<Trial>& trials, double apart, int beam) {
+  std::vector<int> order(trials.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return trials[a].excess < trials[b].excess; });
+  std::vector<int> best;
+  for (const int i : order) {
+    if (static_cast<int>(best.size()) == beam || !std::isfinite(trials[i].excess)) break;
+    const bool near = std::any_of(best.begin(), best.end(), [&](int j) {
+      return trials[j].plane.normal.dot(trials[i].plane.normal) > 0.99 &&
+             std::abs(trials[j].plane.offset - trials[i].plane.offset) < apart;
+    });
+    if (!near) best.push_back(i);
+  }
+  return best;
+}
+
+// The least excess to which `depth` further cuts bring a piece.
+double ExcessAhead(const Piece& piece, int depth, double negligible, const CutContext& context) {
+  const double now = piece.Excess();
+  if (depth == 0 || now <= negligible) return now;
+  double best = now;
+  const int count = std::max(3, context.options->candidates / 2);
+  for (const CutPlane& plane : Candidates(piece, count, context)) {
+    const std::vector<Piece> pieces = CutPiece(piece, plane, context);
+    if (pieces.empty()) continue;
+    double sum = 0.0;
+    for (const Piece& p : pieces) sum += ExcessAhead(p, depth - 1, negligible, context);
+    best = std::min(best, sum);
+  }
+  return best;
+}
+
+}  // namespace
+
+Piece MakePiece(core::TriangleMesh mesh, const CutContext& context) {
+  Piece piece;
+  piece.mesh = std::move(mesh);
+  piece.volume = SignedVolume(piece.mesh);
+  piece.hull =
+      ThickenedConvexHull(piece.mesh.vertices, context.options->min_thickness * context.diagonal);
+  piece.hull_volume = SignedVolume(piece.hull);
+  piece.concavity = -1.0;
+  return piece;
+}
+
+std::vector<Piece> CutPiece(const Piece& piece, const CutPlane& plane, const CutContext& context) {
+  std::vector<Piece> pieces;
+  for (core::TriangleMesh& mesh : CutApart(piece.mesh, plane, kOnPlane * context.diagonal)) {
+    const double size = core::Bounds(mesh).diagonal().norm();
+    if (SignedVolume(mesh) < kCrumb * context.solid_volume &&
+        size < 10 * context.options->min_thickness * context.diagonal) {
+      continue;
+    }
+    pieces.push_back(MakePiece(std::move(mesh), context));
+  }
+  if (pieces.size() < 2) pieces.clear();
+  return pieces;
+}
+
+std::vector<Piece> BestCut(const Piece& piece, const CutContext& context) {
+  const DecompositionOptions& options = *context.options;
+  const std::vector<CutPlane> planes = Candidates(piece, options.candidates, context);
+  std::vector<Trial> trials(planes.size());
+  core::ParallelFor(static_cast<int>(planes.size()), [&](int i) {
+    trials[i].plane = planes[i];
+    trials[i].pieces = CutPiece(piece, planes[i], context);
+    if (!trials[i].pieces.empty()) trials[i].excess = Excess(trials[i].pieces);
+  });
+  const double apart = 0.02 * core::Bounds(piece.hull).diagonal().norm();
+  const std::vector<int> best = BestTrials(trials, apart, options.depth > 1 ? options.beam : 1);
+  if (best.empty()) return {};
+  if (best.size() == 1) return std::move(trials[best[0]].pieces);
+
+  struct Item {
+    int trial;
+    const Piece* piece;
+    double ahead = 0.0;
+  };
+  std::vector<Item> items;
+  for (const int t : best) {
+    for (const Piece& p : trials[t].pieces) items.push_back({t, &p});
+  }
+  const double negligible = 0.01 * piece.Excess();
+  core::ParallelFor(static_cast<int>(items.size()), [&](int i) {
+    items[i].ahead = ExcessAhead(*items[i].piece, options.depth - 1, negligible, context);
+  });
+  int chosen = best[0];
+  double least = std::numeric_limits<double>::infinity();
+  for (const int t : best) {
+    // Equal futures: the cut that helps more at once.
+    double sum = 0.05 * trials[t].excess;
+    for (const Item& item : items) sum += item.trial == t ? item.ahead : 0.0;
+    if (sum < least) {
+      least = sum;
+      chosen = t;
+    }
+  }
+  return std::move(trials[chosen].pieces);
+}
+
+}  // namespace simwright::geometry

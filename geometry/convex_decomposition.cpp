@@ -1,0 +1,171 @@
+#include "geometry/convex_decomposition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/progress.h"
+#include "geometry/concavity.h"
+#include "geometry/convex_hull.h"
+#include "geometry/convex_pieces.h"
+#include "geometry/hull_fit.h"
+#include "geometry/simplify.h"
+#include "geometry/weld.h"
+
+namespace simwright::geometry {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kMostParts = 256;
+constexpr int kSearchFaces = 3000;     // the cuts are sought on a thinned solid of so many
+constexpr double kSearchError = 2e-3;  // of the diagonal, by which that may differ
+constexpr int kSolidSamples = 4000;
+constexpr double kUncovered = 1e-4;  // of the diagonal: a vertex that far out is taken in
+
+void RequireOptions(const DecompositionOptions& options) {
+  const bool good = options.threshold > 0.0 && options.threshold <= 2.0 && options.max_parts >= 0 &&
+                    options.max_hull_vertices >= 8 && options.candidates >= 1 &&
+                    options.beam >= 1 && options.depth >= 1 && options.depth <= 4 &&
+                    options.min_thickness > 0.0 && options.min_thickness < 0.1;
+  if (!good) throw core::Error("a decomposition option is out of range", "convex decomposition");
+}
+
+// What the cuts are sought on: the solid itself, or a thinned one close to it.
+core::TriangleMesh Thinned(const core::TriangleMesh& solid, double diagonal) {
+  if (static_cast<int>(solid.triangles.size()) <= kSearchFaces) return solid;
+  SimplifyOptions options;
+  options.face_budget = kSearchFaces;
+  options.max_error = kSearchError * diagonal;
+  try {
+    core::TriangleMesh thin = Simplify(solid, options);
+    if (SignedVolume(thin) > 0.0) return thin;
+  } catch (const core::Error&) {
+    // Not a manifold: the search takes longer, but works on the solid as it is.
+  }
+  return solid;
+}
+
+void MeasureConcavity(const CutContext& context, Piece* piece) {
+  if (piece->concavity >= 0.0) return;
+  piece->concavity =
+      context.fit->Concavity(piece->hull, piece->volume, std::numeric_limits<double>::infinity());
+}
+
+// Cuts the most concave piece again and again until all meet the threshold or there are `limit`.
+std::vector<Piece> CutDown(const core::TriangleMesh& solid, double threshold, int limit,
+                           const CutContext& context) {
+  std::vector<Piece> pieces, done;
+  for (core::TriangleMesh& body : ConnectedBodies(solid)) {
+    pieces.push_back(MakePiece(std::move(body), context));
+    MeasureConcavity(context, &pieces.back());
+  }
+  while (!pieces.empty()) {
+    core::CheckCancelled();
+    const auto worst =
+        std::max_element(pieces.begin(), pieces.end(),
+                         [](const Piece& a, const Piece& b) { return a.concavity < b.concavity; });
+    Piece piece = std::move(*worst);
+    pieces.erase(worst);
+    std::vector<Piece> cut;
+    if (piece.concavity > threshold && static_cast<int>(pieces.size() + done.size()) + 1 < limit) {
+      cut = BestCut(piece, context);
+    }
+    if (cut.empty()) {
+      done.push_back(std::move(piece));
+      continue;
+    }
+    for (Piece& p : cut) {
+      MeasureConcavity(context, &p);
+      pieces.push_back(std::move(p));
+    }
+  }
+  return done;
+}
+
+// Grows the hulls by the solid's own vertices that the thinned solid left outside.
+void TakeInVertices(const core::TriangleMesh& solid, double reach, std::vector<Piece>* pieces) {
+  std::vector<std::vector<Eigen::Vector4d>> planes;
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Piece& piece : *pieces) {
+    planes.push_back(FacePlanes(piece.hull));
+    boxes.push_back(core::Bounds(piece.hull));
+  }
+  std::vector<std::vector<Vector3d>> taken(pieces->size());
+  for (const Vector3d& v : solid.vertices) {
+    double nearest = std::numeric_limits<double>::infinity();
+    std::size_t home = 0;
+    for (std::size_t i = 0; i < pieces->size() && nearest > reach; ++i) {
+      if (boxes[i].exteriorDistance(v) >= nearest) continue;
+      const double height = HeightOver(planes[i], v);
+      if (height >= nearest) continue;
+      nearest = height;
+      home = i;
+    }
+    if (nearest > reach) taken[home].push_back(v);
+  }
+  for (std::size_t i = 0; i < pieces->size(); ++i) {
+    if (taken[i].empty()) continue;
+    Piece& piece = (*pieces)[i];
+    taken[i].insert(taken[i].end(), piece.hull.vertices.begin(), piece.hull.vertices.end());
+    piece.hull = ConvexHull(taken[i]);
+    piece.hull_volume = SignedVolume(piece.hull);
+    piece.concavity = -1.0;
+  }
+}
+
+}  // namespace
+
+ConvexDecomposition Decompose(const core::TriangleMesh& solid,
+                              const DecompositionOptions& options) {
+  core::RequireValid(solid, "convex decomposition");
+  RequireOptions(options);
+  if (solid.empty()) throw core::Error("the mesh has no triangles", "convex decomposition");
+  const core::TriangleMesh welded = Weld(solid, 0.0);
+  const double diagonal = core::Bounds(welded).diagonal().norm();
+  const double volume = SignedVolume(welded);
+  if (!(volume > 1e-12 * std::pow(diagonal, 3)) || !std::isfinite(volume)) {
+    throw core::Error("the mesh encloses no positive volume", "convex decomposition",
+                      "close it and turn its faces outward");
+  }
+  const HullFit fit(welded, kSolidSamples, options.seed);
+  const CutContext context{&options, &fit, diagonal, volume};
+
+  // More pieces than are wanted are cut, then joined: joining looks at all neighbours, cutting
+  // only at one piece at a time.
+  const int limit =
+      options.max_parts > 0 ? std::min(kMostParts, 2 * options.max_parts + 6) : kMostParts;
+  const core::TriangleMesh searched = Thinned(welded, diagonal);
+  std::vector<Piece> pieces = CutDown(searched, options.threshold, limit, context);
+  if (options.merge || static_cast<int>(pieces.size()) > kMostParts ||
+      (options.max_parts > 0 && static_cast<int>(pieces.size()) > options.max_parts)) {
+    MergePieces(context, options.merge ? options.threshold : 0.0, options.max_parts, &pieces);
+  }
+  TakeInVertices(welded, kUncovered * diagonal, &pieces);
+
+  ConvexDecomposition result;
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Piece& a, const Piece& b) { return a.hull_volume > b.hull_volume; });
+  for (Piece& piece : pieces) {
+    MeasureConcavity(context, &piece);
+    ConvexPart part;
+    part.concavity = piece.concavity;
+    part.hull = static_cast<int>(piece.hull.vertices.size()) <= options.max_hull_vertices
+                    ? std::move(piece.hull)
+                    : ThickenedConvexHull(piece.hull.vertices, options.min_thickness * diagonal,
+                                          options.max_hull_vertices);
+    result.concavity = std::max(result.concavity, part.concavity);
+    result.parts.push_back(std::move(part));
+  }
+  result.coverage = Coverage(welded, Hulls(result));
+  return result;
+}
+
+std::vector<core::TriangleMesh> Hulls(const ConvexDecomposition& decomposition) {
+  std::vector<core::TriangleMesh> hulls;
+  for (const ConvexPart& part : decomposition.parts) hulls.push_back(part.hull);
+  return hulls;
+}
+
+}  // namespace simwright::geometry

@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <limits>
+
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "geometry/convex_hull.h"
+#include "geometry/convex_pieces.h"
+#include "geometry/distance.h"
+#include "geometry/weld.h"
+
+namespace simwright::geometry {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kTouching = 2e-3;  // of the diagonal: parts that near to each other are neighbours
+
+struct Join {
+  int a = 0, b = 0;
+  double cost = 0.0;
+};
+
+bool Neighbours(const Piece& a, const Piece& b, double reach) {
+  if (core::Bounds(a.hull).exteriorDistance(core::Bounds(b.hull)) > reach) return false;
+  return SignedDistance({a.hull.vertices, 0.0}, {b.hull.vertices, 0.0}).distance <= reach;
+}
+
+Piece Joined(const Piece& a, const Piece& b, const CutContext& context) {
+  Piece joined;
+  std::vector<Vector3d> points = a.hull.vertices;
+  points.insert(points.end(), b.hull.vertices.begin(), b.hull.vertices.end());
+  joined.hull = ThickenedConvexHull(points, context.options->min_thickness * context.diagonal);
+  joined.hull_volume = SignedVolume(joined.hull);
+  joined.volume = a.volume + b.volume;
+  joined.concavity = -1.0;
+  return joined;
+}
+
+// Above `enough` the cost is a lower bound only.
+double JoinCost(const Piece& a, const Piece& b, double enough, const CutContext& context) {
+  const Piece joined = Joined(a, b, context);
+  return context.fit->Concavity(joined.hull, joined.volume, enough);
+}
+
+}  // namespace
+
+void MergePieces(const CutContext& context, double threshold, int max_parts,
+                 std::vector<Piece>* pieces) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<Join> joins;
+  // Costs of the pairs of joins[first..], measured in parallel.
+  const auto measure = [&](std::size_t first) {
+    const bool all = max_parts > 0 && static_cast<int>(pieces->size()) > max_parts;
+    core::ParallelFor(static_cast<int>(joins.size() - first), [&](int i) {
+      Join& join = joins[first + i];
+      join.cost =
+          JoinCost((*pieces)[join.a], (*pieces)[join.b], all ? infinity : threshold, context);
+    });
+  };
+  const double reach = kTouching * context.diagonal;
+  for (int i = 0; i < static_cast<int>(pieces->size()); ++i) {
+    for (int j = i + 1; j < static_cast<int>(pieces->size()); ++j) {
+      if (Neighbours((*pieces)[i], (*pieces)[j], reach)) joins.push_back({i, j});
+    }
+  }
+  measure(0);
+  int alive = static_cast<int>(pieces->size());
+  std::vector<bool> gone(pieces->size(), false);
+  while (true) {
+    core::CheckCancelled();
+    if (joins.empty()) {
+      if (max_parts == 0 || alive <= max_parts) break;
+      // Bodies that do not touch: the limit joins what lies apart, too.
+      for (int i = 0; i < static_cast<int>(pieces->size()); ++i) {
+        for (int j = i + 1; j < static_cast<int>(pieces->size()); ++j) {
+          if (!gone[i] && !gone[j]) joins.push_back({i, j});
+        }
+      }
+      measure(0);
+    }
+    const auto best = std::min_element(
+        joins.begin(), joins.end(), [](const Join& a, const Join& b) { return a.cost < b.cost; });
+    if (best->cost > threshold && (max_parts == 0 || alive <= max_parts)) break;
+    const Join join = *best;
+    Piece joined = Joined((*pieces)[join.a], (*pieces)[join.b], context);
+    joined.concavity = join.cost;
+    gone[join.a] = gone[join.b] = true;
+    --alive;
+    std::vector<int> neighbours;
+    for (const Join& other : joins) {
+      for (const auto& [mine, far] : {std::pair{other.a, other.b}, std::pair{other.b, other.a}}) {
+        if ((mine == join.a || mine == join.b) && !gone[far]) neighbours.push_back(far);
+      }
+    }
+    std::sort(neighbours.begin(), neighbours.end());
+    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+    std::erase_if(joins, [&](const Join& other) { return gone[other.a] || gone[other.b]; });
+    pieces->push_back(std::move(joined));
+    gone.push_back(false);
+    const std::size_t first = joins.size();
+    for (const int n : neighbours) joins.push_back({n, static_cast<int>(pieces->size()) - 1});
+    measure(first);
+  }
+  std::vector<Piece> left;
+  for (std::size_t i = 0; i < pieces->size(); ++i) {
+    if (!gone[i]) left.push_back(std::move((*pieces)[i]));
+  }
+  *pieces = std::move(left);
+}
+
+}  // namespace simwright::geometry

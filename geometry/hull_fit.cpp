@@ -1,0 +1,122 @@
+#include "geometry/hull_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "geometry/surface_distance.h"
+#include "geometry/weld.h"
+
+namespace simwright::geometry {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector4d;
+
+constexpr double kVolumeWeight = 0.3;  // k of CoACD
+constexpr int kHullPoints = 500;       // on a hull: a spacing of about 5% of its size
+
+// A direction that no flat or turned face is parallel to.
+const Vector3d& SkewDirection() {
+  static const Vector3d direction = Vector3d(0.5377, 0.2893, 0.7920).normalized();
+  return direction;
+}
+
+// Calls visit(p) for points spread evenly over each triangle, by area, the middle at least;
+// stops when it returns false.
+template <typename Visit>
+void VisitSurface(const core::TriangleMesh& mesh, int count, Visit visit) {
+  const double spacing = std::sqrt(core::SurfaceArea(mesh) / count);
+  for (const auto& t : mesh.triangles) {
+    const Vector3d a = mesh.vertices[t[0]];
+    const Vector3d ab = mesh.vertices[t[1]] - a, ac = mesh.vertices[t[2]] - a;
+    const double area = 0.5 * ab.cross(ac).norm();
+    // Centroids of the n^2 similar triangles; as many along a needle as its length asks for.
+    const double length = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
+    const int by_area = static_cast<int>(std::ceil(std::sqrt(area) / spacing));
+    const int by_length = static_cast<int>(std::ceil(0.25 * length / spacing));
+    const int n = std::clamp(std::max(by_area, by_length), 1, 32);
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; i + j < n; ++j) {
+        if (!visit(a + (i + 1.0 / 3.0) / n * ab + (j + 1.0 / 3.0) / n * ac)) return;
+        if (i + j + 1 >= n) continue;
+        if (!visit(a + (i + 2.0 / 3.0) / n * ab + (j + 2.0 / 3.0) / n * ac)) return;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Vector4d> FacePlanes(const core::TriangleMesh& hull) {
+  std::vector<Vector4d> planes;
+  planes.reserve(hull.triangles.size());
+  for (int t = 0; t < static_cast<int>(hull.triangles.size()); ++t) {
+    const Vector3d normal = core::TriangleAreaVector(hull, t).normalized();
+    Vector4d plane;
+    plane << normal, normal.dot(hull.vertices[hull.triangles[t][0]]);
+    planes.push_back(plane);
+  }
+  return planes;
+}
+
+double HeightOver(const std::vector<Vector4d>& planes, const Vector3d& p) {
+  double height = -std::numeric_limits<double>::infinity();
+  for (const Vector4d& plane : planes) {
+    height = std::max(height, plane.head<3>().dot(p) - plane[3]);
+  }
+  return height;
+}
+
+bool InsideSurface(const core::TriangleMesh& mesh, const TriangleTree& tree, const Vector3d& p) {
+  const auto hit = tree.FirstHit(p, SkewDirection());
+  return hit && core::TriangleAreaVector(mesh, hit->triangle).dot(SkewDirection()) > 0.0;
+}
+
+HullFit::HullFit(const core::TriangleMesh& solid, int samples, std::uint64_t seed)
+    : solid_(solid),
+      tree_(solid),
+      samples_(SampleSurface(solid, samples, seed)),
+      unit_(0.5 * core::Bounds(solid).sizes().maxCoeff()) {}
+
+double HullFit::VolumeConcavity(double excess_volume) const {
+  const double radius = std::cbrt(3.0 * std::max(0.0, excess_volume) / (4.0 * std::numbers::pi));
+  return kVolumeWeight * radius / unit_;
+}
+
+bool HullFit::Outside(const Vector3d& p) const {
+  return !InsideSurface(solid_, tree_, p);
+}
+
+double HullFit::Overhang(const core::TriangleMesh& hull, double enough) const {
+  double farthest = 0.0;
+  VisitSurface(hull, kHullPoints, [&](const Vector3d& p) {
+    const double distance = tree_.Closest(p).distance;
+    if (distance > farthest && Outside(p)) farthest = distance;
+    return farthest <= enough;
+  });
+  return farthest;
+}
+
+double HullFit::Buried(const core::TriangleMesh& hull, double enough) const {
+  const Eigen::AlignedBox3d box = core::Bounds(hull);
+  const std::vector<Vector4d> planes = FacePlanes(hull);
+  double deepest = 0.0;
+  for (const Vector3d& p : samples_) {
+    if (!box.contains(p)) continue;
+    deepest = std::max(deepest, -HeightOver(planes, p));
+    if (deepest > enough) break;
+  }
+  return deepest;
+}
+
+double HullFit::Concavity(const core::TriangleMesh& hull, double volume, double enough) const {
+  double concavity = VolumeConcavity(SignedVolume(hull) - volume);
+  if (concavity > enough) return concavity;
+  concavity = std::max(concavity, Buried(hull, enough * unit_) / unit_);
+  if (concavity > enough) return concavity;
+  return std::max(concavity, Overhang(hull, enough * unit_) / unit_);
+}
+
+}  // namespace simwright::geometry
