@@ -347,12 +347,15 @@ core::TriangleMesh Simplify(const core::TriangleMesh& mesh, const SimplifyOption
                       "make a solid of it first");
   }
   core::TriangleMesh result = mesh;
-  // In two steps: a step that has to be tried again is then a cheap one.
+  // In steps: one that has to be tried again is then a cheap one. The first takes what is nearly
+  // flat, which hardly ever makes faces cross.
   const int halfway = std::max(4 * options.face_budget, 4);
-  for (const int budget : {halfway, std::max(options.face_budget, 4)}) {
-    if (static_cast<int>(result.triangles.size()) > budget) {
-      result = Descend(result, budget, options.max_error);
-    }
+  const int budget = std::max(options.face_budget, 4);
+  const double error = options.max_error;
+  const std::array<std::pair<int, double>, 3> steps = {
+      std::pair{halfway, 0.15 * error}, std::pair{halfway, error}, std::pair{budget, error}};
+  for (const auto& [faces, limit] : steps) {
+    if (static_cast<int>(result.triangles.size()) > faces) result = Descend(result, faces, limit);
   }
   return result;
 }

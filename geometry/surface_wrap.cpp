@@ -83,13 +83,13 @@ class Wrapper {
 
   void Creep(int steps) {
     std::vector<std::size_t> front;
+    // Every node that is near the surface and not yet outside has its distance, so this finds all
+    // of the front; an outside node may stand there twice.
     for (std::size_t node = 0; node < grid_.count(); ++node) {
-      if (!outside_[node] || grid_.Distance(node) == SurfaceGrid::kFar) continue;
-      bool at_edge = false;
+      if (outside_[node] || grid_.Distance(node) == SurfaceGrid::kFar) continue;
       ForNeighbours(node, [&](std::size_t other, std::size_t, int) {
-        at_edge = at_edge || !outside_[other];
+        if (outside_[other]) front.push_back(other);
       });
-      if (at_edge) front.push_back(node);
     }
     for (int step = 0; step < steps && !front.empty(); ++step) {
       core::CheckCancelled();
