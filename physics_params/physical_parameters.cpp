@@ -73,6 +73,34 @@ PhysicalParameters SampleParameters(const Category& category, const KnowledgeBas
   return p;
 }
 
+std::string FollowSize(const Category& category, const Eigen::Vector3d& size, double solid_volume,
+                       PhysicalParameters* p) {
+  const double sampled_box = p->length.sample * p->width.sample * p->height.sample;
+  p->length.sample = std::max(size.x(), size.y());
+  p->width.sample = std::min(size.x(), size.y());
+  p->height.sample = size.z();
+  if (category.name == "object") {
+    constexpr double kHollowGoods = 250.0;  // kg/m^3
+    p->mass.sample = kHollowGoods * solid_volume;
+    p->mass.min = std::min(p->mass.min, p->mass.sample);
+    p->mass.max = std::max(p->mass.max, p->mass.sample);
+    return "";
+  }
+  p->mass.sample *= size.prod() / sampled_box;
+  // A tenth beyond the range is still the same kind of thing.
+  const auto fits = [](const Interval& range, double value) {
+    return value >= 0.9 * range.min && value <= 1.1 * range.max;
+  };
+  if (fits(category.length, p->length.sample) && fits(category.width, p->width.sample) &&
+      fits(category.height, p->height.sample)) {
+    p->mass.sample = std::clamp(p->mass.sample, p->mass.min, p->mass.max);
+    return "";
+  }
+  return "its size of " + Rounded(p->length.sample) + " x " + Rounded(p->width.sample) + " x " +
+         Rounded(size.z()) + " m is unusual for '" + category.name +
+         "'; the mass was scaled with it";
+}
+
 MassModel ReconcileMass(const PhysicalParameters& parameters, const Category& category,
                         const KnowledgeBase& base, double volume, double area) {
   if (!(volume > 0.0) || !(area > 0.0)) {

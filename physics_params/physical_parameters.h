@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "physics_params/knowledge_base.h"
 
 namespace simwright::physics_params {
@@ -36,6 +38,14 @@ struct PhysicalParameters {
 // in proportion 1, 1/2, 1/3 ... of the row's order. The same seed gives the same thing.
 PhysicalParameters SampleParameters(const Category& category, const KnowledgeBase& base,
                                     std::uint64_t seed);
+
+// Lets the mass follow the true size of the thing: the sample is scaled by the volume of its
+// bounding box (`size`, m, length, width, height) over that of the sampled box, and kept in the
+// category's range where the size is in its ranges too. The catch-all category "object" knows no
+// mass: it takes 250 kg/m^3, hollow household goods, over `solid_volume` (m^3).
+// Returns a sentence where the size lies outside the category's ranges, else an empty string.
+std::string FollowSize(const Category& category, const Eigen::Vector3d& size, double solid_volume,
+                       PhysicalParameters* parameters);
 
 // Mass as it fits a given shape.
 struct MassModel {

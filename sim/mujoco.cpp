@@ -101,7 +101,8 @@ const std::vector<std::string>& MujocoWorld::warnings() const { return model_->w
 void MujocoWorld::SetPose(int body, const Eigen::Isometry3d& pose) {
   double* q = model_->data->qpos + model_->Position(body);
   const Eigen::Quaterniond rotation(pose.linear());
-  Eigen::Map<Eigen::Vector3d>(q) = pose.translation();
+  Eigen::Map<Eigen::Vector3d> position(q);
+  position = pose.translation();
   q[3] = rotation.w();
   q[4] = rotation.x();
   q[5] = rotation.y();

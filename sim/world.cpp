@@ -15,7 +15,7 @@ Eigen::Vector3d FromBullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 btTransform ToBullet(const Eigen::Isometry3d& pose) {
   const Eigen::Quaterniond q(pose.linear());
-  return {btQuaternion(q.x(), q.y(), q.z(), q.w()), ToBullet(pose.translation())};
+  return btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()), ToBullet(pose.translation()));
 }
 
 Eigen::Isometry3d FromBullet(const btTransform& transform) {

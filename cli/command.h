@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "core/progress.h"
+
+namespace simwright::cli {
+
+// Flags that mean the same everywhere.
+struct CommonOptions {
+  std::uint64_t seed = 1;
+  int threads = 0;
+  bool quiet = false;
+  bool json = false;
+  bool force = false;
+
+  core::Progress::Style ProgressStyle() const {
+    return quiet || json ? core::Progress::Style::kSilent : core::Progress::StyleForStderr();
+  }
+};
+
+// Each subcommand adds itself to `app` and, when chosen, sets `run`: called after parsing, it
+// returns the exit code (0; 1 where a check failed). Errors are thrown.
+using Run = std::function<int()>;
+
+void AddCommon(CLI::App* command, CommonOptions* common);
+void AddForce(CLI::App* command, CommonOptions* common);
+void AddLift(CLI::App* app, CommonOptions* common, Run* run);
+void AddImport(CLI::App* app, CommonOptions* common, Run* run);
+void AddPhysics(CLI::App* app, CommonOptions* common, Run* run);
+void AddCheck(CLI::App* app, CommonOptions* common, Run* run);
+void AddDoctor(CLI::App* app, CommonOptions* common, Run* run);
+void AddVersion(CLI::App* app, Run* run);
+
+}  // namespace simwright::cli

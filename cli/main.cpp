@@ -1,0 +1,56 @@
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "cli/command.h"
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace {
+
+constexpr int kWrongUsage = 2;
+constexpr int kInterrupted = 130;  // as a shell reports Ctrl-C
+
+int Main(int argc, char** argv) {
+  using namespace simwright;
+  CLI::App app{"Photos and meshes become assets that hold in simulation."};
+  app.name("simwright");
+  app.footer("Example:\n  simwright lift examples/apple.jpg --category apple -o apple\n"
+             "Each subcommand has its own --help with an example.");
+  app.require_subcommand(1);
+  app.set_config("--config", "", "Read flags from a TOML file, a section a subcommand; "
+                                 "flags given here win");
+  cli::CommonOptions common;
+  cli::Run run;
+  // cli::AddLift(&app, &common, &run);
+  cli::AddImport(&app, &common, &run);
+  cli::AddPhysics(&app, &common, &run);
+  cli::AddCheck(&app, &common, &run);
+  cli::AddDoctor(&app, &common, &run);
+  cli::AddVersion(&app, &run);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? 0 : kWrongUsage;
+  }
+  core::InstallCancelHandler();
+  core::SetThreadCount(common.threads);
+  return run();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return Main(argc, argv);
+  } catch (const simwright::core::Cancelled&) {
+    std::fprintf(stderr, "error: stopped; nothing was written\n");
+    return kInterrupted;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "error: out of memory (close other programs, or use a smaller input)\n");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+  }
+  return 1;
+}

@@ -1,0 +1,139 @@
+#include "pipeline/asset_builder.h"
+
+#include <chrono>
+
+#include "core/error.h"
+#include "geometry/concavity.h"
+#include "geometry/mass_properties.h"
+#include "pipeline/rest_pose.h"
+
+namespace simwright::pipeline {
+namespace {
+
+class StageClock {
+ public:
+  StageClock(core::Progress* progress, StageSeconds* seconds)
+      : progress_(progress), seconds_(seconds) {}
+  ~StageClock() { End(); }
+  void Begin(const std::string& stage) {
+    End();
+    stage_ = stage;
+    start_ = std::chrono::steady_clock::now();
+    progress_->Stage(stage);
+  }
+  void End() {
+    if (stage_.empty()) return;
+    (*seconds_)[stage_] +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    progress_->Finish();
+    stage_.clear();
+  }
+
+ private:
+  core::Progress* progress_;
+  StageSeconds* seconds_;
+  std::string stage_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+void MakeSolidPart(const BuildRequest& request, assets::Asset* asset) {
+  geometry::Solid solid = geometry::MakeSolid(asset->visual.mesh, request.solid);
+  asset->solid = std::move(solid.mesh);
+  asset->solid_method = geometry::Name(solid.method);
+  asset->sheet_thickness = solid.sheet_thickness;
+  asset->findings.insert(asset->findings.end(), solid.findings.begin(), solid.findings.end());
+}
+
+void GiveMass(const BuildRequest& request, assets::Asset* asset) {
+  const auto& base = physics_params::KnowledgeBase::Shipped();
+  const physics_params::Category& category = *request.category.category;
+  asset->parameters = physics_params::SampleParameters(category, base, request.seed);
+  asset->parameters.resolution = request.category.sentence;
+  const geometry::MassProperties unit = geometry::SolidMassProperties(asset->solid, 1.0);
+  asset->volume = unit.volume;
+  const std::string unusual =
+      physics_params::FollowSize(category, core::Bounds(asset->visual.mesh).sizes(),
+                                 unit.volume, &asset->parameters);
+  if (!unusual.empty()) {
+    asset->findings.push_back(
+        {"unusual-size", core::Severity::kWarning, asset->name, unusual, 0.0});
+  }
+  const physics_params::MassModel model = physics_params::ReconcileMass(
+      asset->parameters, category, base, unit.volume, core::SurfaceArea(asset->solid));
+  const geometry::MassProperties mass =
+      model.wall_thickness > 0.0
+          ? geometry::ShellMassProperties(asset->solid, model.wall_thickness, model.density)
+          : geometry::SolidMassProperties(asset->solid, model.density);
+  asset->inertial = {mass.mass, mass.center_of_mass, mass.inertia};
+  asset->density = model.density;
+  asset->wall_thickness = model.wall_thickness;
+  asset->mass_sentence = model.sentence;
+  asset->parameters.material = model.material;
+  asset->parameters.mass.sample = mass.mass;
+  asset->friction = asset->parameters.friction.sample;
+  asset->restitution = asset->parameters.restitution.sample;
+}
+
+void Decompose(const BuildRequest& request, assets::Asset* asset) {
+  const geometry::ConvexDecomposition decomposition =
+      geometry::Decompose(asset->solid, request.decomposition);
+  asset->parts = geometry::Hulls(decomposition);
+  asset->concavity = decomposition.concavity;
+  asset->coverage = decomposition.coverage;
+}
+
+// Turns the asset about its rest pose and moves it so that it stands on z = 0, centred.
+void PlaceInLinkFrame(const RestPose& rest, assets::Asset* asset) {
+  Eigen::Isometry3d link_from_body = rest.turn;
+  core::TriangleMesh turned = asset->solid;
+  core::Transform(Eigen::Affine3d(link_from_body), &turned);
+  const Eigen::AlignedBox3d box = core::Bounds(turned);
+  link_from_body.pretranslate(
+      Eigen::Vector3d(-box.center().x(), -box.center().y(), -box.min().z()));
+  const Eigen::Affine3d map(link_from_body);
+  core::Transform(map, &asset->visual.mesh);
+  core::Transform(map, &asset->solid);
+  for (core::TriangleMesh& part : asset->parts) core::Transform(map, &part);
+  asset->link_from_input = link_from_body * asset->link_from_input;
+  asset->rolls = rest.rolls;
+  const Eigen::Matrix3d R = link_from_body.linear();
+  asset->inertial.center_of_mass = link_from_body * asset->inertial.center_of_mass;
+  asset->inertial.inertia = R * asset->inertial.inertia * R.transpose();
+  // Rounding may leave the two halves a last bit apart; readers want one number.
+  asset->inertial.inertia =
+      (0.5 * (asset->inertial.inertia + asset->inertial.inertia.transpose())).eval();
+  const Eigen::Vector3d size = core::Bounds(asset->visual.mesh).sizes();
+  asset->parameters.length.sample = std::max(size.x(), size.y());
+  asset->parameters.width.sample = std::min(size.x(), size.y());
+  asset->parameters.height.sample = size.z();
+  asset->findings.push_back({"rest-pose", rest.as_given ? core::Severity::kInfo
+                                                        : core::Severity::kWarning,
+                             asset->name, rest.sentence, 0.0});
+}
+
+}  // namespace
+
+BuiltAsset BuildAsset(const core::TexturedMesh& visual, const BuildRequest& request,
+                      core::Progress* progress) {
+  if (request.category.category == nullptr) throw core::Error("an asset needs a category");
+  core::RequireValid(visual, request.source);
+  BuiltAsset built;
+  assets::Asset& asset = built.asset;
+  asset.name = assets::FileSafeName(request.name);
+  asset.source = request.source;
+  asset.seed = request.seed;
+  asset.visual = visual;
+  StageClock clock(progress, &built.seconds);
+  clock.Begin("solid");
+  MakeSolidPart(request, &asset);
+  clock.Begin("mass");
+  GiveMass(request, &asset);
+  clock.Begin("collision parts");
+  Decompose(request, &asset);
+  clock.Begin("rest pose");
+  PlaceInLinkFrame(FindRestPose(sim::BodyFromAsset(asset), asset.solid), &asset);
+  clock.End();
+  return built;
+}
+
+}  // namespace simwright::pipeline

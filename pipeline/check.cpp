@@ -1,0 +1,194 @@
+#include "pipeline/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "assets/asset_folder.h"
+#include "assets/urdf_reader.h"
+#include "core/error.h"
+#include "geometry/mass_properties.h"
+#include "geometry/soundness.h"
+#include "geometry/surface_distance.h"
+#include "pipeline/check_rows.h"
+#include "sim/drop_test.h"
+#include "sim/mujoco.h"
+#include "sim/world.h"
+
+namespace simwright::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+// Largest relative difference of mass, centre (against the body's size) and inertia.
+double InertialDifference(const assets::Inertial& a, const assets::Inertial& b, double size) {
+  const double mass = std::abs(a.mass - b.mass) / b.mass;
+  const double center = (a.center_of_mass - b.center_of_mass).norm() / size;
+  const double inertia = (a.inertia - b.inertia).norm() / b.inertia.norm();
+  return std::max({mass, center, inertia});
+}
+
+void CheckSolid(const assets::Asset& asset, const CheckLimits& limits, CheckRows* rows) {
+  const geometry::Soundness s = geometry::Examine(asset.solid);
+  rows->Require("closed", s.closed, s.open_edges + s.non_manifold_edges, "edges without two faces");
+  rows->Require("oriented", s.oriented && s.signed_volume > 0.0, s.signed_volume,
+                "volume in m3, faces all outward");
+  rows->Require("self-intersections", s.self_intersections == 0, s.self_intersections,
+                "crossing pairs of faces");
+  const geometry::SurfaceDistance distance =
+      geometry::OuterSurfaceDistance(asset.visual.mesh, asset.solid);
+  rows->AtMost("surface-distance", distance.MaxRatio(), limits.surface_distance_ratio,
+               "of the diagonal between solid and what is seen, farthest point");
+}
+
+void CheckParts(const assets::Asset& asset, const CheckLimits& limits, CheckRows* rows) {
+  rows->Report("parts", static_cast<double>(asset.parts.size()), "convex collision parts");
+  rows->Report("concavity", asset.concavity, "of the parts, in CoACD's units (longest side 2)");
+  rows->AtLeast("coverage", asset.coverage, limits.coverage, "of the solid's surface in the parts");
+  int bad = 0;
+  for (const core::TriangleMesh& part : asset.parts) {
+    const geometry::Soundness s = geometry::Examine(part);
+    bad += !s.closed || s.signed_volume <= 0.0 || part.vertices.size() > 64;
+  }
+  rows->Require("parts-closed", bad == 0, bad, "parts open or above 64 vertices");
+}
+
+void CheckInertia(const assets::Asset& asset, const CheckLimits& limits, CheckRows* rows) {
+  const geometry::MassProperties exact =
+      asset.wall_thickness > 0.0
+          ? geometry::ShellMassProperties(asset.solid, asset.wall_thickness, asset.density)
+          : geometry::SolidMassProperties(asset.solid, asset.density);
+  const double size = core::Bounds(asset.solid).diagonal().norm();
+  rows->AtMost("inertia-exact",
+               InertialDifference(asset.inertial,
+                                  {exact.mass, exact.center_of_mass, exact.inertia}, size),
+               limits.reader_tolerance, "from the integrals over solid.obj, relative");
+  const Eigen::Vector3d moments =
+      geometry::PrincipalInertiaOf(asset.inertial.inertia).moments;
+  rows->Require("inertia-possible", geometry::SatisfiesTriangleInequality(moments),
+                moments[2] / (moments[0] + moments[1]),
+                "largest principal moment over the sum of the others");
+}
+
+// Runs one reader; whatever it throws is the row's failure.
+template <typename Load>
+void CheckReader(const std::string& code, CheckRows* rows, const Load& load) {
+  try {
+    load();
+  } catch (const core::Error& error) {
+    rows->Fail(code, error.what());
+  }
+}
+
+void CheckReaders(const assets::Asset& asset, const fs::path& folder, const CheckLimits& limits,
+                  CheckRows* rows) {
+  const double size = core::Bounds(asset.solid).diagonal().norm();
+  const auto compare = [&](const std::string& code, const assets::Inertial& inertial,
+                           const std::string& warning) {
+    if (!warning.empty()) {
+      rows->Fail(code, warning);
+      return;
+    }
+    rows->AtMost(code, InertialDifference(inertial, asset.inertial, size),
+                 limits.reader_tolerance, "mass, centre and inertia against asset.json, relative");
+  };
+  CheckReader("loads-urdfdom", rows, [&] {
+    const assets::UrdfModel model = assets::ReadUrdf(folder / (asset.name + ".urdf"));
+    const std::string warning = model.findings.empty() ? "" : model.findings[0].sentence;
+    if (!model.links[0].inertial) throw core::Error("the URDF has no inertial");
+    compare("loads-urdfdom", *model.links[0].inertial, warning);
+  });
+  CheckReader("loads-bullet", rows, [&] {
+    sim::World world;
+    const sim::RigidBody body = sim::BodyFromUrdf(
+        assets::ReadUrdf(folder / (asset.name + ".urdf")));
+    world.Add(body, Eigen::Isometry3d::Identity());
+    compare("loads-bullet", world.LoadedInertial(0), "");
+  });
+  CheckReader("loads-mujoco", rows, [&] {
+    const sim::MujocoWorld world(folder / (asset.name + ".xml"));
+    compare("loads-mujoco", world.LoadedInertial(0),
+            world.warnings().empty() ? "" : world.warnings()[0]);
+  });
+}
+
+void CheckRest(const sim::DropResult& drop, const std::string& engine, bool rolls,
+               const CheckLimits& limits, CheckRows* rows) {
+  if (rolls) {
+    rows->Report("settles-" + engine, drop.rest_time, "s; it rolls and is judged by its drift");
+  } else {
+    rows->Require("settles-" + engine, drop.rests && drop.rest_time <= limits.rest_time,
+                  drop.rest_time, "s until it rests, limit 2");
+    rows->AtMost("rest-pose-" + engine, drop.tilt * kDegrees, limits.tilt,
+                 "degrees from its rest pose");
+  }
+  rows->AtMost("drift-" + engine, drop.drift * 1e3, limits.drift * 1e3, "mm in 2 s at rest");
+}
+
+void CheckDynamics(const assets::Asset& asset, const fs::path& folder, const CheckLimits& limits,
+                   CheckRows* rows) {
+  const sim::RigidBody body = sim::BodyFromAsset(asset);
+  sim::DropOptions options;
+  const sim::DropResult bullet = sim::DropInBullet(body, options);
+  CheckRest(bullet, "bullet", asset.rolls, limits, rows);
+  CheckReader("settles-mujoco", rows, [&] {
+    std::vector<std::string> warnings;
+    const sim::DropResult mujoco =
+        sim::DropInMujoco(body, folder / (asset.name + ".xml"), options, &warnings);
+    CheckRest(mujoco, "mujoco", asset.rolls, limits, rows);
+    if (!warnings.empty()) rows->Fail("mujoco-warnings", warnings[0]);
+    if (asset.rolls) return;
+    const Eigen::Vector3d com = asset.inertial.center_of_mass;
+    rows->AtMost("engines-agree", std::abs((bullet.rest_pose * com - mujoco.rest_pose * com).z()) * 1e3,
+                 limits.engines_distance * 1e3, "mm in height between Bullet and MuJoCo at rest");
+    rows->AtMost("engines-agree-tilt",
+                 sim::TiltBetween(bullet.rest_pose, mujoco.rest_pose) * kDegrees,
+                 limits.engines_tilt, "degrees between Bullet and MuJoCo at rest, yaw free");
+  });
+}
+
+}  // namespace
+
+bool CheckReport::passed() const {
+  return std::none_of(rows.begin(), rows.end(), [](const core::Finding& row) {
+    return row.severity == core::Severity::kError;
+  });
+}
+
+CheckReport CheckAsset(const fs::path& folder, const CheckLimits& limits) {
+  const assets::Asset asset = assets::ReadAsset(folder);
+  CheckRows rows(folder.filename().string());
+  CheckSolid(asset, limits, &rows);
+  CheckParts(asset, limits, &rows);
+  CheckInertia(asset, limits, &rows);
+  CheckReaders(asset, folder, limits, &rows);
+  CheckDynamics(asset, folder, limits, &rows);
+  return {folder.string(), rows.Take()};
+}
+
+CheckReport CheckUrdf(const fs::path& urdf, const fs::path& root, const CheckLimits& limits) {
+  const assets::UrdfModel model = assets::ReadUrdf(urdf, {root});
+  CheckRows rows(urdf.filename().string());
+  rows.Report("links", static_cast<double>(model.links.size()), "links");
+  for (const core::Finding& finding : model.findings) rows.Warn(finding);
+  int shapes = 0, open = 0, bodies = 0;
+  for (const assets::UrdfLink& link : model.links) {
+    bodies += link.inertial.has_value();
+    for (const assets::UrdfShape& shape : link.collisions) {
+      ++shapes;
+      open += !geometry::Examine(shape.mesh).closed;
+    }
+  }
+  rows.Require("collision-shapes", shapes > 0, shapes, "collision shapes");
+  rows.Require("collision-closed", open == 0, open, "collision shapes that are open");
+  rows.Require("inertials", bodies > 0, bodies, "links with mass and a possible inertia");
+  if (shapes > 0 && bodies > 0) {
+    const sim::RigidBody body = sim::BodyFromUrdf(model);
+    sim::DropOptions options;
+    CheckRest(sim::DropInBullet(body, options), "bullet", false, limits, &rows);
+  }
+  return {urdf.string(), rows.Take()};
+}
+
+}  // namespace simwright::pipeline

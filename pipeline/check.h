@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/finding.h"
+
+namespace simwright::pipeline {
+
+// The rows of `simwright check`, one finding a property: code, figure, a sentence with the limit;
+// severity kError where it fails, kInfo where it passes or is only reported.
+struct CheckReport {
+  std::string subject;
+  core::Findings rows;
+  bool passed() const;
+};
+
+// Limits of a check (DESIGN.md, "An asset is right when").
+struct CheckLimits {
+  double surface_distance_ratio = 0.005;  // solid to visual's outer surface, both ways
+  double coverage = 0.99;                 // share of the solid's surface that the parts cover
+  double reader_tolerance = 1e-6;         // mass, centre, inertia against asset.json, relative
+  double rest_time = 2.0;                 // s
+  double tilt = 2.0;                      // degrees from the rest pose
+  double drift = 1e-3;                    // m in 2 s
+  double engines_distance = 1e-3;         // m, Bullet against MuJoCo at rest
+  double engines_tilt = 2.0;              // degrees
+};
+
+// Checks an asset folder, with its files as they are on disk. Throws core::Error when the folder
+// cannot be read at all; whatever else is wrong is a failed row.
+CheckReport CheckAsset(const std::filesystem::path& folder, const CheckLimits& limits = {});
+
+// Checks a URDF of any origin: collision shapes, inertials, drop in Bullet, all joints held at
+// zero. `root`: no mesh is read from outside it; empty for the default of ReadUrdf.
+CheckReport CheckUrdf(const std::filesystem::path& urdf, const std::filesystem::path& root,
+                      const CheckLimits& limits = {});
+
+// A table for a terminal, a row a property.
+std::string CheckTable(const CheckReport& report);
+std::string CheckJson(const CheckReport& report);
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,77 @@
+#include "pipeline/check_rows.h"
+
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "pipeline/check.h"
+
+namespace simwright::pipeline {
+namespace {
+
+std::string Rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.4g", value);
+  return text;
+}
+
+const char* Verdict(const core::Finding& row) {
+  switch (row.severity) {
+    case core::Severity::kError: return "FAIL";
+    case core::Severity::kWarning: return "warn";
+    default: return "pass";
+  }
+}
+
+}  // namespace
+
+void CheckRows::Report(const std::string& code, double figure, const std::string& what) {
+  rows_.push_back({code, core::Severity::kInfo, place_, what, figure});
+}
+
+void CheckRows::Require(const std::string& code, bool passes, double figure,
+                        const std::string& what) {
+  rows_.push_back(
+      {code, passes ? core::Severity::kInfo : core::Severity::kError, place_, what, figure});
+}
+
+void CheckRows::AtMost(const std::string& code, double figure, double limit,
+                       const std::string& what) {
+  Require(code, figure <= limit, figure, what + ", at most " + Rounded(limit));
+}
+
+void CheckRows::AtLeast(const std::string& code, double figure, double limit,
+                        const std::string& what) {
+  Require(code, figure >= limit, figure, what + ", at least " + Rounded(limit));
+}
+
+void CheckRows::Fail(const std::string& code, const std::string& why) {
+  rows_.push_back({code, core::Severity::kError, place_, why, 0.0});
+}
+
+void CheckRows::Warn(const core::Finding& finding) { rows_.push_back(finding); }
+
+std::string CheckTable(const CheckReport& report) {
+  std::string table = report.subject + "\n";
+  for (const core::Finding& row : report.rows) {
+    char line[96];
+    std::snprintf(line, sizeof(line), "  %-4s  %-20s %12s  ", Verdict(row), row.code.c_str(),
+                  Rounded(row.figure).c_str());
+    table += line + row.sentence + "\n";
+  }
+  return table + (report.passed() ? "  passes\n" : "  does not pass\n");
+}
+
+std::string CheckJson(const CheckReport& report) {
+  nlohmann::ordered_json json;
+  json["subject"] = report.subject;
+  json["passed"] = report.passed();
+  json["rows"] = nlohmann::ordered_json::array();
+  for (const core::Finding& row : report.rows) {
+    json["rows"].push_back({{"property", row.code}, {"verdict", Verdict(row)},
+                            {"figure", row.figure}, {"sentence", row.sentence}});
+  }
+  return json.dump(2) + "\n";
+}
+
+}  // namespace simwright::pipeline

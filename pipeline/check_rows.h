@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "core/finding.h"
+
+namespace simwright::pipeline {
+
+// Gathers the rows of a check: a figure, its limit, and whether it passes.
+class CheckRows {
+ public:
+  explicit CheckRows(std::string place) : place_(std::move(place)) {}
+
+  void Report(const std::string& code, double figure, const std::string& what);
+  void Require(const std::string& code, bool passes, double figure, const std::string& what);
+  void AtMost(const std::string& code, double figure, double limit, const std::string& what);
+  void AtLeast(const std::string& code, double figure, double limit, const std::string& what);
+  void Fail(const std::string& code, const std::string& why);
+  void Warn(const core::Finding& finding);
+
+  core::Findings Take() { return std::move(rows_); }
+
+ private:
+  std::string place_;
+  core::Findings rows_;
+};
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "pipeline/asset_builder.h"
+#include "pipeline/check.h"
+
+namespace simwright::pipeline {
+
+struct ImportOptions {
+  std::string category;       // empty: from the file's name, else the catch-all "object"
+  char up = 0;                // 'x', 'y', 'z', or 0: y for OBJ, glTF and DAE, z for STL and PLY
+  double unit = 1.0;          // metres a file unit; 1: the file is in metres (as glTF and DAE are)
+  double height = 0.0;        // m, > 0: scale to this height instead
+  std::uint64_t seed = 1;
+  bool force = false;         // replace outputs that exist
+  bool check = true;          // check each asset after it is written
+  std::string only;           // catalogues: take pieces whose id or name contains this
+  int limit = 0;              // catalogues: at most so many pieces; 0: all
+};
+
+// One thing to import: a mesh file, or a piece of a catalogue.
+struct ImportItem {
+  std::filesystem::path mesh;          // file; for a catalogue piece the .sh3f
+  int piece = -1;                      // index into the catalogue's pieces, or -1
+  std::string name;                    // of the asset's folder
+};
+
+struct ImportOutcome {
+  std::string name;
+  std::filesystem::path folder;        // where the asset is; empty when refused
+  std::string refusal;                 // the reason, when refused
+  StageSeconds seconds;
+  std::optional<CheckReport> check;
+};
+
+// Meshes, folders of meshes (searched through) and catalogues, as a list with distinct names.
+// Throws core::Error for an input that does not exist or holds nothing to import.
+std::vector<ImportItem> ListImports(const std::vector<std::filesystem::path>& inputs,
+                                    const ImportOptions& options);
+
+// Imports all items in parallel, each into output/NAME. A mesh that cannot become an asset is
+// refused with its reason and does not stop the others. Catalogue pieces take the catalogue's
+// true sizes. Throws core::Cancelled; and core::Error when an output exists and `force` is not set.
+std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items,
+                                     const std::filesystem::path& output,
+                                     const ImportOptions& options, core::Progress* progress);
+
+// The mesh of an item in the world: metres, z up, as large as it is said to be.
+core::TexturedMesh ReadInWorld(const std::filesystem::path& mesh, const ImportOptions& options,
+                               core::Findings* findings);
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "assets/asset.h"
+#include "core/image.h"
+
+namespace simwright::pipeline {
+
+// preview.png: four views of what is seen, and below them of the collision parts, each part in a
+// colour of its own.
+core::Image AssetPreview(const assets::Asset& asset);
+
+// The collision parts as one mesh, a material a part.
+core::TexturedMesh PartsInColor(const assets::Asset& asset);
+
+}  // namespace simwright::pipeline
