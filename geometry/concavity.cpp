@@ -47,6 +47,21 @@ class PartSet {
     return false;
   }
 
+  // Distance from `p` inside the union to its surface, where that is less than `best`: along the
+  // normal of a face of a part that holds it, to where no other part holds the way's end.
+  double WayOut(const Vector3d& p, double step, double best) const {
+    for (int i = 0; i < static_cast<int>(planes_.size()); ++i) {
+      if (!boxes_[i].contains(p) || HeightOver(planes_[i], p) > 0.0) continue;
+      for (const Vector4d& plane : planes_[i]) {
+        const double depth = plane[3] - plane.head<3>().dot(p);
+        if (depth >= best) continue;
+        const Vector3d end = p + (depth + step) * plane.head<3>();
+        if (HeightOver(planes_[i], end) <= 2.0 * step && !Holds(end, 0.0, i)) best = depth;
+      }
+    }
+    return best;
+  }
+
  private:
   std::vector<std::vector<Vector4d>> planes_;
   std::vector<Eigen::AlignedBox3d> boxes_;
@@ -212,13 +227,18 @@ DecompositionQuality MeasureDecomposition(const core::TriangleMesh& solid,
       SampleSurface(solid, options.surface_samples, options.seed);
   const std::vector<Vector3d> on_parts = SampleUnion(parts, set, diagonal, options);
   const PointGrid grid(on_parts);
+  core::TriangleMesh all_parts;
+  for (const core::TriangleMesh& part : parts) core::Append(part, &all_parts);
+  const TriangleTree parts_tree(all_parts);
 
   DecompositionQuality quality;
   std::vector<double> to_parts(on_solid.size()), to_solid(on_parts.size());
   core::ParallelFor(static_cast<int>(on_solid.size() + kBlock - 1) / kBlock, [&](int b) {
     const std::size_t end = std::min(on_solid.size(), static_cast<std::size_t>(b + 1) * kBlock);
     for (std::size_t i = static_cast<std::size_t>(b) * kBlock; i < end; ++i) {
-      to_parts[i] = grid.Distance(on_solid[i]);
+      const Vector3d& p = on_solid[i];
+      to_parts[i] = set.Holds(p, 0.0, -1) ? set.WayOut(p, 1e-6 * diagonal, grid.Distance(p))
+                                          : parts_tree.Closest(p).distance;
     }
   });
   core::ParallelFor(static_cast<int>(on_parts.size() + kBlock - 1) / kBlock, [&](int b) {

@@ -85,7 +85,9 @@ std::vector<Piece> CutDown(const core::TriangleMesh& solid, double threshold, in
 }
 
 // Grows the hulls by the solid's own vertices that the thinned solid left outside.
-void TakeInVertices(const core::TriangleMesh& solid, double reach, std::vector<Piece>* pieces) {
+void TakeInVertices(const core::TriangleMesh& solid, const CutContext& context,
+                    std::vector<Piece>* pieces) {
+  const double reach = kUncovered * context.diagonal;
   std::vector<std::vector<Eigen::Vector4d>> planes;
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Piece& piece : *pieces) {
@@ -109,10 +111,25 @@ void TakeInVertices(const core::TriangleMesh& solid, double reach, std::vector<P
     if (taken[i].empty()) continue;
     Piece& piece = (*pieces)[i];
     taken[i].insert(taken[i].end(), piece.hull.vertices.begin(), piece.hull.vertices.end());
-    piece.hull = ConvexHull(taken[i]);
+    piece.hull = ThickenedConvexHull(taken[i], context.options->min_thickness * context.diagonal);
     piece.hull_volume = SignedVolume(piece.hull);
     piece.concavity = -1.0;
   }
+}
+
+// The hull within the vertex limit. What fewer vertices cut off a round hull is given back by
+// growing it about its middle to the volume that it had, so that it errs to both sides alike.
+core::TriangleMesh Limited(Piece piece, const CutContext& context) {
+  const DecompositionOptions& options = *context.options;
+  if (static_cast<int>(piece.hull.vertices.size()) <= options.max_hull_vertices) {
+    return std::move(piece.hull);
+  }
+  core::TriangleMesh hull = ThickenedConvexHull(
+      piece.hull.vertices, options.min_thickness * context.diagonal, options.max_hull_vertices);
+  const double grow = std::cbrt(piece.hull_volume / SignedVolume(hull));
+  const Vector3d middle = core::Bounds(hull).center();
+  for (Vector3d& v : hull.vertices) v = middle + std::clamp(grow, 1.0, 1.05) * (v - middle);
+  return hull;
 }
 
 }  // namespace
@@ -142,7 +159,7 @@ ConvexDecomposition Decompose(const core::TriangleMesh& solid,
       (options.max_parts > 0 && static_cast<int>(pieces.size()) > options.max_parts)) {
     MergePieces(context, options.merge ? options.threshold : 0.0, options.max_parts, &pieces);
   }
-  TakeInVertices(welded, kUncovered * diagonal, &pieces);
+  TakeInVertices(welded, context, &pieces);
 
   ConvexDecomposition result;
   std::stable_sort(pieces.begin(), pieces.end(),
@@ -151,10 +168,7 @@ ConvexDecomposition Decompose(const core::TriangleMesh& solid,
     MeasureConcavity(context, &piece);
     ConvexPart part;
     part.concavity = piece.concavity;
-    part.hull = static_cast<int>(piece.hull.vertices.size()) <= options.max_hull_vertices
-                    ? std::move(piece.hull)
-                    : ThickenedConvexHull(piece.hull.vertices, options.min_thickness * diagonal,
-                                          options.max_hull_vertices);
+    part.hull = Limited(std::move(piece), context);
     result.concavity = std::max(result.concavity, part.concavity);
     result.parts.push_back(std::move(part));
   }

@@ -20,6 +20,7 @@ using Eigen::Vector3i;
 constexpr double kOnFace = 1e-7;    // of the diagonal; stated in the header
 constexpr double kFlat = 1e-6;      // of the diagonal; stated in the header
 constexpr double kTie = 1e-10;      // of the diagonal: points that lie equally far out
+constexpr double kThin = 1e-3;      // of the diagonal: a face whose plane may be off
 constexpr double kThinnest = 1e-8;  // of the diagonal: least height of a triangle handed out
 
 // Incremental hull with a list of outside points to each face (Barber, Dobkin and Huhdanpaa,
@@ -51,6 +52,7 @@ class Quickhull {
       for (int k = 0; k < 3; ++k) faces_[face].neighbour[k] = kNeighbours[f][k];
     }
     used_ = 4;
+    for (const int c : corner) inside_ += 0.25 * points_[c];
     std::vector<int> all;
     for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
       if (std::find(corner.begin(), corner.end(), i) == corner.end()) all.push_back(i);
@@ -87,21 +89,35 @@ class Quickhull {
     return hull;
   }
 
-  // Whether no triangle is a needle or upside down, and no two neighbours fold inward.
-  bool Sound() const {
+  // Whether no triangle is a needle or upside down and, where `convex`, no two neighbours fold
+  // inward by more than the tolerance.
+  bool Sound(bool convex) const {
     if (skipped_ > 4 * tolerance_) return false;
+    // The first tetrahedron's middle stays inside; a face that has turned over does not see it so.
+    for (const Face& face : faces_) {
+      if (face.alive && !(face.Height(inside_) < -tolerance_)) return false;
+    }
+    std::vector<int> corners;
+    for (const Face& face : faces_) {
+      if (face.alive) corners.insert(corners.end(), face.vertex.begin(), face.vertex.end());
+    }
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     for (const Face& face : faces_) {
       if (!face.alive) continue;
-      double longest = 0.0;
-      for (int k = 0; k < 3; ++k) {
-        longest =
-            std::max(longest, (points_[face.vertex[k]] - points_[face.vertex[(k + 1) % 3]]).norm());
+      const double height = face.twice_area / LongestEdge(face);
+      if (!(height > kThinnest * diagonal_)) return false;
+      if (!convex) continue;
+      // A thin face's plane says little of its neighbourhood: it is held against all corners.
+      if (height < kThin * diagonal_) {
+        for (const int v : corners) {
+          if (face.Height(points_[v]) > 8 * tolerance_) return false;
+        }
+        continue;
       }
-      if (face.twice_area < kThinnest * diagonal_ * longest) return false;
-      for (int k = 0; k < 3; ++k) {
-        const Face& other = faces_[face.neighbour[k]];
-        for (int j = 0; j < 3; ++j) {
-          if (face.Height(points_[other.vertex[j]]) > 8 * tolerance_) return false;
+      for (const int n : face.neighbour) {
+        for (const int v : faces_[n].vertex) {
+          if (face.Height(points_[v]) > 8 * tolerance_) return false;
         }
       }
     }
@@ -127,6 +143,15 @@ class Quickhull {
   struct HorizonEdge {
     int from, to, face, edge;  // `face` stays, `edge` is its side towards what is seen
   };
+
+  double LongestEdge(const Face& face) const {
+    double longest = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d edge = points_[face.vertex[k]] - points_[face.vertex[(k + 1) % 3]];
+      longest = std::max(longest, edge.norm());
+    }
+    return longest;
+  }
 
   bool FirstTetrahedron(std::array<int, 4>* corner) const {
     const int n = static_cast<int>(points_.size());
@@ -322,6 +347,7 @@ class Quickhull {
   double diagonal_;
   double tolerance_;
   Vector3d middle_;
+  Vector3d inside_ = Vector3d::Zero();
   std::vector<Face> faces_;
   std::vector<int> free_, pending_, seen_, added_, orphans_;
   std::vector<HorizonEdge> horizon_;
@@ -345,11 +371,14 @@ double DiagonalOf(const std::vector<Vector3d>& points) {
 std::optional<core::TriangleMesh> TryHull(const std::vector<Vector3d>& points, double diagonal,
                                           int max_vertices) {
   // A nearly degenerate set may need a coarser notion of "on the face" to give clean triangles.
-  for (const double tolerance : {kOnFace, 1e-6, 1e-5, 1e-4, 1e-3}) {
-    Quickhull hull(points, diagonal, tolerance * diagonal);
-    if (!hull.Start()) return std::nullopt;
-    hull.Grow(max_vertices);
-    if (hull.Sound()) return hull.Take();
+  // Of a noisy thin sheet, whose narrow faces fold whatever the notion, the vertices still count.
+  for (const bool convex : {true, false}) {
+    for (const double tolerance : {kOnFace, 1e-6, 1e-5, 1e-4, 1e-3}) {
+      Quickhull hull(points, diagonal, tolerance * diagonal);
+      if (!hull.Start()) return std::nullopt;
+      hull.Grow(max_vertices);
+      if (hull.Sound(convex)) return hull.Take();
+    }
   }
   return std::nullopt;
 }
