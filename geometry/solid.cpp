@@ -100,19 +100,20 @@ constexpr double kSimplifyShare = 0.15;
 struct Wrapped {
   TriangleMesh mesh;  // in the unit box
   double sheet_share = 0.0;
+  double wall = 0.0;      // given to sheets, a share of the diagonal
   double distance = 0.0;  // largest of both directions, a share of the diagonal
 };
 
-// One wrap of `unit`, a mesh of diagonal 1. `fineness` divides the cell and what simplification
-// may move.
+// One wrap of `unit`, a mesh of diagonal 1. `fineness` divides the cell, the wall (which would
+// close gaps between sheets) and what simplification may move.
 Wrapped WrapOnce(const TriangleMesh& unit, double fineness, const SolidOptions& options) {
   SurfaceWrapOptions wrap_options;
-  wrap_options.wall = options.sheet_thickness_ratio;
+  wrap_options.wall = options.sheet_thickness_ratio / fineness;
   wrap_options.cell = options.cell_ratio / fineness;
   while (WrapGridNodes(unit, wrap_options) > options.max_nodes) wrap_options.cell *= 1.1;
   wrap_options.closing = wrap_options.cell;
-  constexpr int kSeenRays = 30000;
-  wrap_options.seen = SampleOuterSurface(unit, kSeenRays, 7);
+  constexpr int kSeenRays = 100000;
+  wrap_options.seen = SampleOuterHits(unit, kSeenRays, 7);
   const SurfaceWrap wrap = WrapSurface(unit, wrap_options);
   if (wrap.mesh.empty()) {
     throw core::Error("no surface could be wrapped round the mesh", "solid");
@@ -121,6 +122,7 @@ Wrapped WrapOnce(const TriangleMesh& unit, double fineness, const SolidOptions& 
   wrapped.mesh = Simplify(
       wrap.mesh, {options.face_budget, kSimplifyShare * options.tolerance_ratio / fineness});
   wrapped.sheet_share = wrap.sheet_share;
+  wrapped.wall = wrap_options.wall;
   wrapped.distance = OuterSurfaceDistance(unit, wrapped.mesh).MaxRatio();
   return wrapped;
 }
@@ -149,7 +151,7 @@ void WrapSolid(const TriangleMesh& welded, const Vector3d& center, double diagon
     }
   }
   if (wrapped.sheet_share > 0.001) {
-    solid->sheet_thickness = options.sheet_thickness_ratio * diagonal;
+    solid->sheet_thickness = wrapped.wall * diagonal;
     Add(solid, "solid-sheets", Severity::kInfo,
         "thin sheets and open surfaces were given a wall of " +
             std::to_string(solid->sheet_thickness * 1000.0) + " mm",

@@ -38,13 +38,13 @@ std::vector<double> Distances(const std::vector<Vector3d>& points, const Triangl
   return distances;
 }
 
-std::vector<Vector3d> OuterHits(const core::TriangleMesh& mesh, const TriangleTree& tree, int rays,
+std::vector<OuterHit> OuterHits(const core::TriangleMesh& mesh, const TriangleTree& tree, int rays,
                                 std::uint64_t seed) {
   const Eigen::AlignedBox3d bounds = core::Bounds(mesh);
   const Vector3d center = bounds.center();
   const double radius = 0.5 * bounds.diagonal().norm() * 1.001;
   const int blocks = Blocks(std::max(rays, 0));
-  std::vector<std::vector<Vector3d>> hits(blocks);
+  std::vector<std::vector<OuterHit>> hits(blocks);
   core::ParallelFor(blocks, [&](int block) {
     core::CheckCancelled();
     core::Rng rng = core::StreamRng(seed, block);
@@ -54,14 +54,14 @@ std::vector<Vector3d> OuterHits(const core::TriangleMesh& mesh, const TriangleTr
       const Vector3d from = center + radius * core::UniformDirection(rng);
       const Vector3d to = center + radius * core::UniformDirection(rng);
       if (const auto hit = tree.FirstHit(from, to - from, 1.0)) {
-        hits[block].push_back(hit->point);
+        hits[block].push_back({hit->point, (from - to).normalized()});
         if (const auto back = tree.FirstHit(to, from - to, 1.0)) {
-          hits[block].push_back(back->point);
+          hits[block].push_back({back->point, (to - from).normalized()});
         }
       }
     }
   });
-  std::vector<Vector3d> all;
+  std::vector<OuterHit> all;
   for (const auto& some : hits) all.insert(all.end(), some.begin(), some.end());
   return all;
 }
@@ -80,10 +80,17 @@ double SurfaceDistance::MaxRatio() const {
   return std::max(visual_to_solid_max, solid_to_visual_max) / diagonal;
 }
 
-std::vector<Vector3d> SampleOuterSurface(const core::TriangleMesh& mesh, int rays,
-                                         std::uint64_t seed) {
+std::vector<OuterHit> SampleOuterHits(const core::TriangleMesh& mesh, int rays,
+                                      std::uint64_t seed) {
   RequireFaces(mesh, "outer surface");
   return OuterHits(mesh, TriangleTree(mesh), rays, seed);
+}
+
+std::vector<Vector3d> SampleOuterSurface(const core::TriangleMesh& mesh, int rays,
+                                         std::uint64_t seed) {
+  std::vector<Vector3d> points;
+  for (const OuterHit& hit : SampleOuterHits(mesh, rays, seed)) points.push_back(hit.point);
+  return points;
 }
 
 std::vector<Vector3d> SampleSurface(const core::TriangleMesh& mesh, int count, std::uint64_t seed) {
@@ -131,7 +138,10 @@ SurfaceDistance OuterSurfaceDistance(const core::TriangleMesh& visual,
   }
   const TriangleTree visual_tree(visual);
   const TriangleTree solid_tree(solid);
-  const std::vector<Vector3d> outer = OuterHits(visual, visual_tree, options.rays, options.seed);
+  std::vector<Vector3d> outer;
+  for (const OuterHit& hit : OuterHits(visual, visual_tree, options.rays, options.seed)) {
+    outer.push_back(hit.point);
+  }
   result.outer_points = static_cast<int>(outer.size());
   MaxAndPercentile(Distances(outer, solid_tree), &result.visual_to_solid_max,
                    &result.visual_to_solid_p99);

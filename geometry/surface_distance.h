@@ -35,7 +35,16 @@ SurfaceDistance OuterSurfaceDistance(const core::TriangleMesh& visual,
                                      const core::TriangleMesh& solid,
                                      const SurfaceDistanceOptions& options = {});
 
-// First hits of chords from outside, as in OuterSurfaceDistance. (K x 3), K <= 2 rays
+// A point of the outer surface, and the unit direction back to where it was seen from.
+struct OuterHit {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d to_eye = Eigen::Vector3d::UnitX();
+};
+
+// First hits of chords from outside, as in OuterSurfaceDistance; at most 2 `rays` of them.
+std::vector<OuterHit> SampleOuterHits(const core::TriangleMesh& mesh, int rays, std::uint64_t seed);
+
+// The same, points alone. (K x 3)
 std::vector<Eigen::Vector3d> SampleOuterSurface(const core::TriangleMesh& mesh, int rays,
                                                 std::uint64_t seed);
 

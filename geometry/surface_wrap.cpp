@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <unordered_map>
 #include <vector>
 
 #include "core/error.h"
@@ -21,6 +22,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMargin = 3;
+// Cells from a seen point to the outside node that counts as meeting it: in a corner of three walls
+// the nearest can be sqrt(3) off.
+constexpr double kMet = 1.75;
 
 double Band(const SurfaceWrapOptions& options) {
   // Half a cell beyond the wall places its surface; what lies farther is merely "far".
@@ -36,8 +40,11 @@ class Wrapper {
 
   SurfaceWrap Run() {
     FloodFromBorder();
-    Creep(options_.creep_steps);
-    if (!MeetsAll(options_.seen)) Creep(std::numeric_limits<int>::max());
+    Creep(Front(), options_.creep_steps);
+    if (!MeetsAll()) {
+      Creep(Front(), std::numeric_limits<int>::max());
+      CarveSight();
+    }
     SurfaceWrap wrap;
     const ScalarGrid field = Field(&wrap.sheet_share);
     wrap.mesh = ExtractIsosurface(field, 0.0f);
@@ -81,16 +88,20 @@ class Wrapper {
     }
   }
 
-  void Creep(int steps) {
+  // Outside nodes with a neighbour that is not. Every such neighbour is near the surface and so
+  // has its distance; a node may stand there twice.
+  std::vector<std::size_t> Front() const {
     std::vector<std::size_t> front;
-    // Every node that is near the surface and not yet outside has its distance, so this finds all
-    // of the front; an outside node may stand there twice.
     for (std::size_t node = 0; node < grid_.count(); ++node) {
       if (outside_[node] || grid_.Distance(node) == SurfaceGrid::kFar) continue;
       ForNeighbours(node, [&](std::size_t other, std::size_t, int) {
         if (outside_[other]) front.push_back(other);
       });
     }
+    return front;
+  }
+
+  void Creep(std::vector<std::size_t> front, int steps) {
     for (int step = 0; step < steps && !front.empty(); ++step) {
       core::CheckCancelled();
       std::vector<std::size_t> next;
@@ -106,23 +117,56 @@ class Wrapper {
     }
   }
 
-  // Whether each point has an outside node within about a cell.
-  bool MeetsAll(const std::vector<Vector3d>& points) const {
-    const auto& stride = grid_.stride();
-    const auto& size = grid_.size();
-    return std::all_of(points.begin(), points.end(), [&](const Vector3d& point) {
-      const Vector3d at = (point - grid_.origin()) / grid_.cell();
-      std::array<int, 3> low;
-      for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = std::clamp(static_cast<int>(at[axis]), 1, size[axis] - 3);
+  // Whether an outside node stands within `reach` cells (at most 2) of a point given in cells.
+  bool NearOutside(const Vector3d& at, double reach) const {
+    std::array<int, 3> low;
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::clamp(static_cast<int>(at[axis]), 1, grid_.size()[axis] - 3);
+    }
+    for (int n = 0; n < 64; ++n) {
+      const std::array<int, 3> node = {low[0] - 1 + n % 4, low[1] - 1 + n / 4 % 4,
+                                       low[2] - 1 + n / 16};
+      if (outside_[Index(node)] &&
+          (Vector3d(node[0], node[1], node[2]) - at).squaredNorm() <= reach * reach) {
+        return true;
       }
-      for (int n = 0; n < 64; ++n) {
-        const std::size_t node = (low[0] - 1 + n % 4) + stride[1] * (low[1] - 1 + n / 4 % 4) +
-                                 stride[2] * (low[2] - 1 + n / 16);
-        if (outside_[node]) return true;
+    }
+    return false;
+  }
+
+  std::size_t Index(const std::array<int, 3>& node) const {
+    return node[0] + grid_.stride()[1] * node[1] + grid_.stride()[2] * node[2];
+  }
+
+  Vector3d InCells(const Vector3d& point) const { return (point - grid_.origin()) / grid_.cell(); }
+
+  bool MeetsAll() const {
+    return std::all_of(options_.seen.begin(), options_.seen.end(),
+                       [&](const OuterHit& hit) { return NearOutside(InCells(hit.point), kMet); });
+  }
+
+  // Opens the lines of sight to points that no outside node is near: the nodes nearest to the line
+  // become outside, back to where the outside is. What such a line crosses in the open is a hollow
+  // that is seen into, and is entered.
+  void CarveSight() {
+    for (const OuterHit& hit : options_.seen) {
+      Vector3d at = InCells(hit.point);
+      if (NearOutside(at, kMet)) continue;
+      std::vector<std::size_t> hollow;
+      const int steps = 2 * (grid_.size()[0] + grid_.size()[1] + grid_.size()[2]);
+      for (int step = 0; step < steps && !NearOutside(at, 0.9); ++step, at += 0.5 * hit.to_eye) {
+        std::array<int, 3> node;
+        for (int axis = 0; axis < 3; ++axis) {
+          node[axis] =
+              std::clamp(static_cast<int>(std::lround(at[axis])), 1, grid_.size()[axis] - 2);
+        }
+        const std::size_t index = Index(node);
+        outside_[index] = 1;
+        // Within 0.87 cells of the line: farther than that from the surface, on the same side.
+        if (grid_.Distance(index) > 0.9 * grid_.cell()) hollow.push_back(index);
       }
-      return false;
-    });
+      if (!hollow.empty()) Creep(std::move(hollow), std::numeric_limits<int>::max());
+    }
   }
 
   // Whether there is something behind the surface, seen from an outside node: an inside node deep
@@ -189,8 +233,9 @@ class Wrapper {
     return field;
   }
 
-  // Hollows that the outside reached only through gaps that the surface closed again.
-  static void DropBubbles(core::TriangleMesh* mesh) {
+  // Hollows that the outside reached through gaps that the wall closed again: those that are seen
+  // into stay, as hollows; the others go.
+  void DropBubbles(core::TriangleMesh* mesh) const {
     if (mesh->empty()) return;
     int count = 0;
     const std::vector<int> component = EdgeComponents(*mesh, &count);
@@ -200,13 +245,54 @@ class Wrapper {
       six[component[t]] +=
           mesh->vertices[c[0]].dot(mesh->vertices[c[1]].cross(mesh->vertices[c[2]]));
     }
+    std::vector<char> keep(count);
+    for (int c = 0; c < count; ++c) keep[c] = six[c] > 0.0;
+    if (std::all_of(keep.begin(), keep.end(), [](char kept) { return kept; })) return;
+    KeepSeenBubbles(*mesh, component, &keep);
     std::vector<Eigen::Vector3i> kept;
     for (std::size_t t = 0; t < component.size(); ++t) {
-      if (six[component[t]] > 0.0) kept.push_back(mesh->triangles[t]);
+      if (keep[component[t]]) kept.push_back(mesh->triangles[t]);
     }
-    if (kept.size() == mesh->triangles.size()) return;
     mesh->triangles.swap(kept);
     *mesh = Weld(*mesh, 0.0);
+  }
+
+  // A bubble is seen where a seen point has a vertex of it, and none of the outer surface, within
+  // about a cell.
+  void KeepSeenBubbles(const core::TriangleMesh& mesh, const std::vector<int>& component,
+                       std::vector<char>* keep) const {
+    constexpr int kNone = -1;
+    constexpr int kOuter = -2;
+    std::unordered_map<std::size_t, int> owner;  // by the node below
+    for (std::size_t t = 0; t < component.size(); ++t) {
+      const bool outer = (*keep)[component[t]];
+      for (int c = 0; c < 3; ++c) {
+        const Vector3d at = InCells(mesh.vertices[mesh.triangles[t][c]]);
+        int& cell = owner.try_emplace(CellOf(at), kNone).first->second;
+        if (outer) cell = kOuter;
+        if (!outer && cell == kNone) cell = component[t];
+      }
+    }
+    for (const OuterHit& hit : options_.seen) {
+      const std::size_t base = CellOf(InCells(hit.point));
+      int bubble = kNone;
+      for (int n = 0; n < 27 && bubble != kOuter; ++n) {
+        const std::size_t cell = base + n % 3 + grid_.stride()[1] * (n / 3 % 3) +
+                                 grid_.stride()[2] * (n / 9) - 1 - grid_.stride()[1] -
+                                 grid_.stride()[2];
+        const auto found = owner.find(cell);
+        if (found != owner.end()) bubble = found->second;
+      }
+      if (bubble >= 0) (*keep)[bubble] = 1;
+    }
+  }
+
+  std::size_t CellOf(const Vector3d& at) const {
+    std::array<int, 3> node;
+    for (int axis = 0; axis < 3; ++axis) {
+      node[axis] = std::clamp(static_cast<int>(at[axis]), 1, grid_.size()[axis] - 2);
+    }
+    return Index(node);
   }
 
   const SurfaceWrapOptions options_;

@@ -2,9 +2,8 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "core/mesh.h"
+#include "geometry/surface_distance.h"
 
 namespace simwright::geometry {
 
@@ -14,8 +13,9 @@ struct SurfaceWrapOptions {
   double closing = 0.0;  // holes and gaps narrower than twice this are not entered from afar
   int creep_steps = 2;   // cells that the outside then creeps through gaps
   // Points of the surface that are seen from outside. Where one of them is not met, the outside
-  // creeps on without limit. Empty: it stops after `creep_steps`.
-  std::vector<Eigen::Vector3d> seen;
+  // creeps on without limit, and slits that are still too narrow for the grid are carved open along
+  // the lines of sight. Empty: it stops after `creep_steps`.
+  std::vector<OuterHit> seen;
   double wall = 0.0;  // thickness given to sheets, and to parts too thin for the grid
 };
 
