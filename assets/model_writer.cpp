@@ -223,7 +223,9 @@ std::string MjcfText(const Asset& asset) {
     Element(&printer, "compiler").Set("angle", "radian");
     {
       Element option(&printer, "option");
-      option.Set("timestep", "0.002").Set("cone", "elliptic").Set("impratio", "10");
+      // Light things with many contacts keep trembling under the default Newton solver; PGS lets
+      // a 6 g cup rest to 2e-5 mm.
+      option.Set("timestep", "0.002").Set("solver", "PGS");
       Element(&printer, "flag").Set("multiccd", "enable");
     }
     const bool textured = asset.visual.textures.size() == 1 && VisualSuitsMujoco(asset.visual.mesh);

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "asset_lift/segmentation.h"
+#include "core/image.h"
+
+namespace simwright::asset_lift {
+
+// Soft foreground (CV_8U, the photo's size) of a photo without mask or alpha: pixels unlike the
+// border's colours, weighed with saliency, grown by GrabCut, edges refined by a guided filter.
+// Throws core::Error where foreground and background cannot be told apart.
+cv::Mat FindForeground(const core::Image& photo, const SegmentationOptions& options);
+
+}  // namespace simwright::asset_lift
