@@ -27,8 +27,8 @@ constexpr int kMargin = 3;
 constexpr double kMet = 1.75;
 
 double Band(const SurfaceWrapOptions& options) {
-  // Half a cell beyond the wall places its surface; what lies farther is merely "far".
-  return std::max(options.closing, 0.5 * (options.wall + options.cell)) + 0.05 * options.cell;
+  // A cell beyond the wall: both ends of the edges that its surface crosses have their distance.
+  return std::max(options.closing, 0.5 * options.wall + options.cell) + 0.05 * options.cell;
 }
 
 class Wrapper {
