@@ -21,6 +21,7 @@ constexpr double kOnFace = 1e-7;    // of the diagonal; stated in the header
 constexpr double kFlat = 1e-6;      // of the diagonal; stated in the header
 constexpr double kTie = 1e-10;      // of the diagonal: points that lie equally far out
 constexpr double kThin = 1e-3;      // of the diagonal: a face whose plane may be off
+constexpr int kMostLeftOut = 40;    // at each tolerance
 constexpr double kThinnest = 1e-8;  // of the diagonal: least height of a triangle handed out
 
 // Incremental hull with a list of outside points to each face (Barber, Dobkin and Huhdanpaa,
@@ -89,39 +90,41 @@ class Quickhull {
     return hull;
   }
 
-  // Whether no triangle is a needle or upside down and, where `convex`, no two neighbours fold
-  // inward by more than the tolerance.
-  bool Sound(bool convex) const {
-    if (skipped_ > 4 * tolerance_) return false;
-    // The first tetrahedron's middle stays inside; a face that has turned over does not see it so.
-    for (const Face& face : faces_) {
-      if (face.alive && !(face.Height(inside_) < -tolerance_)) return false;
-    }
+  enum class Verdict { kSound, kNeedle, kFolded };
+
+  // Whether no triangle is a needle or upside down and no two neighbours fold inward by more than
+  // the tolerance. `needle` receives the point in the middle of a thin triangle that is at fault.
+  Verdict Judge(int* needle) const {
+    if (skipped_ > 4 * tolerance_) return Verdict::kFolded;
     std::vector<int> corners;
     for (const Face& face : faces_) {
       if (face.alive) corners.insert(corners.end(), face.vertex.begin(), face.vertex.end());
     }
     std::sort(corners.begin(), corners.end());
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    bool folded = false;
     for (const Face& face : faces_) {
       if (!face.alive) continue;
-      const double height = face.twice_area / LongestEdge(face);
-      if (!(height > kThinnest * diagonal_)) return false;
-      if (!convex) continue;
+      int apex = 0;
+      const double height = face.twice_area / LongestEdge(face, &apex);
+      bool good = height > kThinnest * diagonal_ && face.Height(inside_) < -tolerance_;
       // A thin face's plane says little of its neighbourhood: it is held against all corners.
       if (height < kThin * diagonal_) {
-        for (const int v : corners) {
-          if (face.Height(points_[v]) > 8 * tolerance_) return false;
+        for (const int v : corners) good = good && face.Height(points_[v]) <= 8 * tolerance_;
+        if (!good) {
+          *needle = face.vertex[apex];
+          return Verdict::kNeedle;
         }
         continue;
       }
       for (const int n : face.neighbour) {
         for (const int v : faces_[n].vertex) {
-          if (face.Height(points_[v]) > 8 * tolerance_) return false;
+          good = good && face.Height(points_[v]) <= 8 * tolerance_;
         }
       }
+      folded = folded || !good;
     }
-    return true;
+    return folded ? Verdict::kFolded : Verdict::kSound;
   }
 
  private:
@@ -144,11 +147,14 @@ class Quickhull {
     int from, to, face, edge;  // `face` stays, `edge` is its side towards what is seen
   };
 
-  double LongestEdge(const Face& face) const {
+  // `apex` receives the corner across from it.
+  double LongestEdge(const Face& face, int* apex) const {
     double longest = 0.0;
     for (int k = 0; k < 3; ++k) {
-      const Vector3d edge = points_[face.vertex[k]] - points_[face.vertex[(k + 1) % 3]];
-      longest = std::max(longest, edge.norm());
+      const Vector3d edge = points_[face.vertex[(k + 1) % 3]] - points_[face.vertex[(k + 2) % 3]];
+      if (edge.norm() <= longest) continue;
+      longest = edge.norm();
+      *apex = k;
     }
     return longest;
   }
@@ -367,29 +373,6 @@ double DiagonalOf(const std::vector<Vector3d>& points) {
   return points.empty() ? 0.0 : box.diagonal().norm();
 }
 
-// Empty where the points are flat.
-std::optional<core::TriangleMesh> TryHull(const std::vector<Vector3d>& points, double diagonal,
-                                          int max_vertices) {
-  // A nearly degenerate set may need a coarser notion of "on the face" to give clean triangles.
-  // Of a noisy thin sheet, whose narrow faces fold whatever the notion, the vertices still count.
-  for (const bool convex : {true, false}) {
-    for (const double tolerance : {kOnFace, 1e-6, 1e-5, 1e-4, 1e-3}) {
-      Quickhull hull(points, diagonal, tolerance * diagonal);
-      if (!hull.Start()) return std::nullopt;
-      hull.Grow(max_vertices);
-      if (hull.Sound(convex)) return hull.Take();
-    }
-  }
-  return std::nullopt;
-}
-
-void RequireLimit(int max_vertices) {
-  if (max_vertices < 0 || (max_vertices > 0 && max_vertices < 4)) {
-    throw core::Error("a hull has at least 4 vertices", "convex hull",
-                      "ask for 0 (all), 4 or more");
-  }
-}
-
 // Principal directions of the points, thinnest first (columns).
 Eigen::Matrix3d Directions(const std::vector<Vector3d>& points) {
   Vector3d middle = Vector3d::Zero();
@@ -400,6 +383,54 @@ Eigen::Matrix3d Directions(const std::vector<Vector3d>& points) {
   const double scale = spread.cwiseAbs().maxCoeff();
   if (!(scale > 0.0)) return Eigen::Matrix3d::Identity();
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread / scale).eigenvectors();
+}
+
+std::optional<core::TriangleMesh> TryHullAsIs(std::vector<Vector3d> points, double diagonal,
+                                              int max_vertices) {
+  // A nearly degenerate set is mended by leaving out points that lie all but on the line between
+  // two others; where that does not do, by a coarser notion of "on the face".
+  for (const double tolerance : {kOnFace, 1e-6, 1e-5, 1e-4, 1e-3}) {
+    for (int left_out = 0; left_out < kMostLeftOut && points.size() >= 4; ++left_out) {
+      Quickhull hull(points, diagonal, tolerance * diagonal);
+      if (!hull.Start()) return std::nullopt;
+      hull.Grow(max_vertices);
+      int needle = -1;
+      const Quickhull::Verdict verdict = hull.Judge(&needle);
+      if (verdict == Quickhull::Verdict::kSound) return hull.Take();
+      if (verdict == Quickhull::Verdict::kFolded) break;
+      points.erase(points.begin() + needle);
+    }
+  }
+  return std::nullopt;
+}
+
+// Empty where the points are flat.
+std::optional<core::TriangleMesh> TryHull(const std::vector<Vector3d>& points, double diagonal,
+                                          int max_vertices) {
+  if (auto hull = TryHullAsIs(points, diagonal, max_vertices)) return hull;
+  // An affine map keeps a hull a hull: noise on a thin sheet is no matter once it is stretched.
+  const Eigen::Matrix3d frame = Directions(points);
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& p : points) box.extend(Vector3d(frame.transpose() * p));
+  if (!(box.sizes().minCoeff() > kFlat * diagonal)) return std::nullopt;
+  std::vector<Vector3d> stretched;
+  for (const Vector3d& p : points) {
+    stretched.push_back((frame.transpose() * p - box.center()).cwiseQuotient(box.sizes()));
+  }
+  auto hull = TryHullAsIs(std::move(stretched), std::sqrt(3.0), max_vertices);
+  if (hull) {
+    for (Vector3d& v : hull->vertices) {
+      v = frame * (v.cwiseProduct(box.sizes()) + box.center());
+    }
+  }
+  return hull;
+}
+
+void RequireLimit(int max_vertices) {
+  if (max_vertices < 0 || (max_vertices > 0 && max_vertices < 4)) {
+    throw core::Error("a hull has at least 4 vertices", "convex hull",
+                      "ask for 0 (all), 4 or more");
+  }
 }
 
 }  // namespace

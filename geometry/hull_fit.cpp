@@ -55,7 +55,10 @@ std::vector<Vector4d> FacePlanes(const core::TriangleMesh& hull) {
   for (int t = 0; t < static_cast<int>(hull.triangles.size()); ++t) {
     const Vector3d normal = core::TriangleAreaVector(hull, t).normalized();
     Vector4d plane;
-    plane << normal, normal.dot(hull.vertices[hull.triangles[t][0]]);
+    // A thin triangle's normal may be off; a plane that supports all vertices is right anyway.
+    double offset = -std::numeric_limits<double>::infinity();
+    for (const Vector3d& v : hull.vertices) offset = std::max(offset, normal.dot(v));
+    plane << normal, offset;
     planes.push_back(plane);
   }
   return planes;

@@ -41,7 +41,7 @@ class HullFit {
   double unit_ = 1.0;
 };
 
-// Outward face planes of a convex mesh: normal . x <= offset inside. (F x 4)
+// Planes along the faces of a convex mesh that support it: normal . x <= offset inside. (F x 4)
 std::vector<Eigen::Vector4d> FacePlanes(const core::TriangleMesh& hull);
 
 // Largest signed height of `p` over any of the planes: negative inside, minus the depth then.
