@@ -24,6 +24,9 @@ struct SegmentationOptions {
   double max_area = 0.96;   // more leaves no background to tell it from
   // A second region of this share of the largest one counts as a second object.
   double second_object = 0.35;
+  // The thing is known to be round: an ellipse with support in the photo's edges completes what
+  // shade hides of it.
+  bool round_object = false;
   std::uint64_t seed = 1;
 };
 

@@ -1,0 +1,185 @@
+#include "asset_lift/inflation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "asset_lift/depth_map.h"
+#include "asset_lift/outline_field.h"
+#include "asset_lift/upright_body.h"
+#include "core/error.h"
+#include "core/progress.h"
+#include "geometry/simplify.h"
+#include "render/forward.h"
+
+namespace simwright::asset_lift {
+namespace {
+
+cv::Mat MaskOf(const Matte& matte) {
+  cv::Mat mask(matte.alpha.height, matte.alpha.width, CV_8U);
+  for (int y = 0; y < mask.rows; ++y) {
+    for (int x = 0; x < mask.cols; ++x) {
+      mask.at<uchar>(y, x) = matte.alpha.At(x, y)[0] > 127 ? 255 : 0;
+    }
+  }
+  return mask;
+}
+
+// What the turned body leaves of the mask: pieces large enough to be a handle or a spout, grown
+// into the body so that they join it.
+cv::Mat Residual(const cv::Mat& mask, const cv::Mat& body, double width) {
+  cv::Mat rest = mask & ~body;
+  const int speck = std::max(1, static_cast<int>(0.012 * width));
+  const cv::Mat disc =
+      cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * speck + 1, 2 * speck + 1));
+  cv::Mat opened;
+  cv::morphologyEx(rest, opened, cv::MORPH_OPEN, disc);
+  cv::Mat labels, stats, centroids;
+  const int count = cv::connectedComponentsWithStats(opened, labels, stats, centroids, 8);
+  cv::Mat kept = cv::Mat::zeros(mask.size(), CV_8U);
+  const double smallest = 0.006 * cv::countNonZero(mask);
+  for (int label = 1; label < count; ++label) {
+    if (stats.at<int>(label, cv::CC_STAT_AREA) > smallest) kept.setTo(255, labels == label);
+  }
+  if (cv::countNonZero(kept) == 0) return kept;
+  const int reach = std::max(3, static_cast<int>(0.07 * width));
+  cv::Mat grown;
+  cv::dilate(kept, grown, cv::getStructuringElement(cv::MORPH_ELLIPSE,
+                                                    cv::Size(2 * reach + 1, 2 * reach + 1)));
+  return grown & mask;
+}
+
+class Inflater {
+ public:
+  Inflater(const Matte& matte, const core::Camera& camera, const CategoryPrior& prior,
+           const InflationOptions& options)
+      : matte_(matte), camera_(camera), prior_(prior), options_(options), mask_(MaskOf(matte)) {}
+
+  InflatedShape Inflate() const {
+    std::vector<InflatedShape> shapes;
+    const UprightBody body = FitUprightBody(mask_, camera_, prior_.round);
+    const bool turned = prior_.revolved || prior_.round;
+    if (body.coverage >= (turned ? options_.revolved_coverage : options_.plain_coverage)) {
+      shapes.push_back(Upright(body));
+    }
+    if (shapes.empty() || shapes[0].silhouette_iou < 0.97) {
+      const MirrorAxis axis = FindMirrorAxis(mask_);
+      if (axis.agreement > (turned ? 0.88 : 0.93)) {
+        shapes.push_back(Flat(ShapeForm::kLying,
+                              LyingDepth(mask_, axis.center, axis.direction)));
+      }
+    }
+    if (shapes.empty() || shapes.back().silhouette_iou < 0.97) {
+      shapes.push_back(Flat(ShapeForm::kInflated, PoissonDepth(mask_)));
+    }
+    // The first form that fits well is the most specific one; else the best fit.
+    for (InflatedShape& shape : shapes) {
+      if (shape.silhouette_iou >= 0.97) return std::move(shape);
+    }
+    return *std::max_element(shapes.begin(), shapes.end(), [](const auto& a, const auto& b) {
+      return a.silhouette_iou < b.silhouette_iou;
+    });
+  }
+
+ private:
+  InflatedShape Upright(const UprightBody& body) const {
+    OutlineField field(camera_, mask_);
+    field.AddUprightBody(body);
+    if (prior_.open && !prior_.round) {
+      field.HollowUprightBody(body, 2.0 * body.MaxRadius() * options_.wall_ratio);
+    }
+    const cv::Mat rest = Residual(mask_, Silhouette(body, camera_), matte_.right - matte_.left);
+    if (cv::countNonZero(rest) > 0) {
+      field.AddDepthMap(PoissonDepth(rest), {body.axis_x, body.axis_y, 0.0});
+    }
+    return Finish(ShapeForm::kUpright, field,
+                  Eigen::Hyperplane<double, 3>(Eigen::Vector3d::UnitY(),
+                                               Eigen::Vector3d(0, body.axis_y, 0)));
+  }
+
+  InflatedShape Flat(ShapeForm form, const cv::Mat& depth) const {
+    OutlineField field(camera_, mask_);
+    field.AddDepthMap(depth, Eigen::Vector3d::Zero());
+    return Finish(form, field,
+                  Eigen::Hyperplane<double, 3>(camera_.world_from_camera.linear().col(2),
+                                               Eigen::Vector3d::Zero()));
+  }
+
+  InflatedShape Finish(ShapeForm form, const OutlineField& field,
+                       const Eigen::Hyperplane<double, 3>& mirror) const {
+    core::CheckCancelled();
+    InflatedShape shape;
+    shape.form = form;
+    shape.mirror = mirror;
+    shape.mesh = field.Extract(options_.resolution);
+    geometry::SimplifyOptions simplify;
+    simplify.face_budget = options_.face_budget;
+    if (static_cast<int>(shape.mesh.triangles.size()) > simplify.face_budget) {
+      shape.mesh = geometry::Simplify(shape.mesh, simplify);
+    }
+    shape.silhouette_iou = SilhouetteIou(shape.mesh, camera_, matte_);
+    return shape;
+  }
+
+  const Matte& matte_;
+  const core::Camera& camera_;
+  const CategoryPrior& prior_;
+  const InflationOptions& options_;
+  cv::Mat mask_;
+};
+
+}  // namespace
+
+const char* Name(ShapeForm form) {
+  constexpr const char* kNames[] = {"turned upright", "turned lying", "inflated"};
+  return kNames[static_cast<int>(form)];
+}
+
+core::Camera PhotoCamera(const Matte& matte, double focal, double elevation) {
+  core::Camera camera;
+  camera.width = matte.alpha.width;
+  camera.height = matte.alpha.height;
+  camera.fx = camera.fy = focal;
+  camera.cx = 0.5 * camera.width;
+  camera.cy = 0.5 * camera.height;
+  const Eigen::Vector3d sight((0.5 * (matte.left + matte.right) - camera.cx) / focal,
+                              (0.5 * (matte.top + matte.bottom) - camera.cy) / focal, 1.0);
+  // The optical axis points lower than the sight line where the object is above the middle.
+  const double axis = elevation - std::atan(sight.y());
+  const double c = std::cos(axis), s = std::sin(axis);
+  Eigen::Matrix3d rotation;
+  rotation.col(0) = Eigen::Vector3d(1, 0, 0);
+  rotation.col(1) = Eigen::Vector3d(0, -s, -c);
+  rotation.col(2) = Eigen::Vector3d(0, c, -s);
+  camera.world_from_camera.linear() = rotation;
+  camera.world_from_camera.translation() = -(rotation * sight.normalized());
+  return camera;
+}
+
+double SilhouetteIou(const core::TriangleMesh& mesh, const core::Camera& camera,
+                     const Matte& matte) {
+  core::TexturedMesh drawn;
+  drawn.mesh = mesh;
+  render::Scene scene;
+  scene.Add(&drawn);
+  scene.Commit();
+  const render::ForwardBuffers buffers = render::RenderForward(scene, camera);
+  double both = 0.0, either = 0.0;
+  for (size_t i = 0; i < buffers.mask.size(); ++i) {
+    const bool a = buffers.mask[i] > 0.5f, b = matte.alpha.pixels[i] > 127;
+    both += a && b;
+    either += a || b;
+  }
+  return either > 0.0 ? both / either : 0.0;
+}
+
+InflatedShape InflateOutline(const Matte& matte, const core::Camera& camera,
+                             const CategoryPrior& prior, const InflationOptions& options) {
+  if (matte.right <= matte.left || matte.bottom <= matte.top) {
+    throw core::Error("the matte is empty");
+  }
+  return Inflater(matte, camera, prior, options).Inflate();
+}
+
+}  // namespace simwright::asset_lift

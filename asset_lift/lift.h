@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "asset_lift/elevation.h"
+#include "asset_lift/inflation.h"
+#include "asset_lift/segmentation.h"
+#include "core/camera.h"
+#include "core/finding.h"
+#include "core/mesh.h"
+#include "core/progress.h"
+
+namespace simwright::asset_lift {
+
+struct LiftOptions {
+  std::optional<core::Image> mask;  // the object's mask, of the photo's proportions
+  double elevation = -1.0;          // rad; negative: estimated
+  // Field of view over the photo's longer side, rad; 0: from `focal_35mm`, else the default.
+  double field_of_view = 0.0;
+  double focal_35mm = 0.0;          // 35 mm-equivalent focal length, mm; 0: unknown
+  // A picture of one thing is mostly a crop or taken from a few steps away: narrower than a lens.
+  double default_field_of_view = 0.61;  // rad, 35 degrees
+  int texture_size = 1024;          // pixels a side
+  int max_side = 1024;              // a larger photo is scaled down first
+  std::uint64_t seed = 1;
+  SegmentationOptions segmentation;
+  InflationOptions inflation;
+};
+
+// A photo's object as a textured, closed mesh. In the world: z up, the camera on the side of -y,
+// arbitrary scale (the camera one unit away).
+struct LiftedMesh {
+  core::TexturedMesh mesh;
+  core::Camera camera;        // of the photo as it was used (scaled down)
+  core::Image photo;          // as it was used
+  Matte matte;
+  ElevationEstimate elevation;
+  ShapeForm form = ShapeForm::kInflated;
+  double silhouette_iou = 0.0;
+  core::Findings findings;
+};
+
+// Segments, estimates the camera, inflates and textures. Throws core::Error with the reason where
+// no single object stands out, and core::Cancelled.
+LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior,
+                     const LiftOptions& options, core::Progress* progress);
+
+}  // namespace simwright::asset_lift
