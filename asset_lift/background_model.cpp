@@ -7,6 +7,7 @@
 #include <opencv2/saliency.hpp>
 #include <opencv2/ximgproc/edge_filter.hpp>
 
+#include "asset_lift/round_outline.h"
 #include "core/error.h"
 
 namespace simwright::asset_lift {
@@ -141,6 +142,28 @@ cv::Mat Trimap(const cv::Mat& distance, const cv::Mat& saliency) {
   return trimap;
 }
 
+cv::Mat ForegroundOf(const cv::Mat& trimap) {
+  return (trimap == cv::GC_FGD) | (trimap == cv::GC_PR_FGD);
+}
+
+// GrabCut again between a smaller and a larger copy of the round outline.
+void CompleteRound(const cv::Mat& bgr, const SegmentationOptions& options, cv::Mat* trimap) {
+  const std::optional<cv::RotatedRect> outline =
+      FindRoundOutline(bgr, ForegroundOf(*trimap), options.seed);
+  if (!outline) return;
+  const auto scaled = [&](float factor) {
+    return cv::RotatedRect(outline->center, outline->size * factor, outline->angle);
+  };
+  cv::Mat next(trimap->size(), CV_8U, cv::Scalar(cv::GC_BGD));
+  cv::ellipse(next, scaled(1.12f), cv::Scalar(cv::GC_PR_BGD), -1);
+  cv::ellipse(next, scaled(1.0f), cv::Scalar(cv::GC_PR_FGD), -1);
+  cv::ellipse(next, scaled(0.94f), cv::Scalar(cv::GC_FGD), -1);
+  cv::Mat background_model, foreground_model;
+  cv::grabCut(bgr, next, cv::Rect(), background_model, foreground_model, 2,
+              cv::GC_INIT_WITH_MASK);
+  *trimap = next;
+}
+
 cv::Mat FilledHoles(const cv::Mat& mask, double smallest_hole) {
   cv::Mat labels, stats, centroids, filled = mask.clone();
   const int count = cv::connectedComponentsWithStats(mask == 0, labels, stats, centroids, 4);
@@ -165,7 +188,8 @@ cv::Mat FindForeground(const core::Image& photo, const SegmentationOptions& opti
   cv::setRNGSeed(static_cast<int>(options.seed));
   cv::grabCut(bgr, trimap, cv::Rect(), background_model, foreground_model,
               options.grabcut_iterations, cv::GC_INIT_WITH_MASK);
-  cv::Mat mask = (trimap == cv::GC_FGD) | (trimap == cv::GC_PR_FGD);
+  if (options.round_object) CompleteRound(bgr, options, &trimap);
+  cv::Mat mask = ForegroundOf(trimap);
   const double size = 0.01 * std::max(mask.rows, mask.cols);
   const int radius = std::max(1, static_cast<int>(std::lround(size)));
   const cv::Mat disc =

@@ -22,7 +22,7 @@ int Main(int argc, char** argv) {
                                  "flags given here win");
   cli::CommonOptions common;
   cli::Run run;
-  // cli::AddLift(&app, &common, &run);
+  cli::AddLift(&app, &common, &run);
   cli::AddImport(&app, &common, &run);
   cli::AddPhysics(&app, &common, &run);
   cli::AddCheck(&app, &common, &run);

@@ -1,0 +1,80 @@
+#include <cstdio>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "core/error.h"
+#include "pipeline/lift.h"
+
+namespace simwright::cli {
+namespace {
+
+struct Flags {
+  std::vector<std::filesystem::path> photos;
+  std::filesystem::path mask;
+  pipeline::LiftRequest request;
+};
+
+void Print(const pipeline::LiftOutcome& outcome, const CommonOptions& common) {
+  if (common.json) {
+    nlohmann::ordered_json json;
+    json["folder"] = outcome.folder.string();
+    json["silhouette_iou"] = outcome.silhouette_iou;
+    json["seconds"] = outcome.seconds;
+    json["findings"] = nlohmann::ordered_json::array();
+    for (const core::Finding& f : outcome.findings) json["findings"].push_back(f.sentence);
+    std::printf("%s\n", json.dump(2).c_str());
+    return;
+  }
+  if (!common.quiet) {
+    for (const core::Finding& f : outcome.findings) std::printf("  %s\n", f.sentence.c_str());
+  }
+  std::printf("asset:   %s\npicture: %s\n", outcome.folder.c_str(),
+              (outcome.folder / "preview.png").c_str());
+}
+
+int Lift(Flags flags, const CommonOptions& common) {
+  core::Progress progress(common.ProgressStyle());
+  flags.request.seed = common.seed;
+  flags.request.force = common.force;
+  if (!flags.mask.empty()) flags.request.mask = flags.mask;
+  if (flags.photos.size() > 1 && flags.request.mask) {
+    throw core::Error("--mask goes with one photo");
+  }
+  const std::filesystem::path output = flags.request.output;
+  for (const std::filesystem::path& photo : flags.photos) {
+    flags.request.photo = photo;
+    // Several photos are several things: a folder each.
+    flags.request.output = flags.photos.size() > 1 ? output / photo.stem() : output;
+    Print(pipeline::LiftToFolder(flags.request, &progress), common);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command = app->add_subcommand("lift", "A photo becomes a simulation-ready asset");
+  command->footer("Example:\n  simwright lift examples/apple.jpg --category apple -o apple\n"
+                  "  simwright lift coffee.png --mask coffee_mask.png --category 'coffee cup' -o cup");
+  command->add_option("photos", flags->photos, "PNG, JPEG, WebP, TIFF, GIF ... of one thing each")
+      ->required();
+  command->add_option("--category", flags->request.category, "What it is, e.g. mug")->required();
+  command->add_option("-o,--output", flags->request.output, "The asset's folder")->required();
+  command->add_option("--mask", flags->mask, "Picture that is bright where the object is");
+  command->add_option("--height", flags->request.height, "Its true height, m; default: drawn")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--elevation", flags->request.elevation_degrees,
+                      "Degrees the camera looked down; default: estimated")
+      ->check(CLI::Range(0.0, 85.0));
+  command->add_option("--fov", flags->request.fov_degrees,
+                      "Field of view over the longer side, degrees; default: EXIF or 35")
+      ->check(CLI::Range(1.0, 160.0));
+  AddCommon(command, common);
+  AddForce(command, common);
+  command->callback([flags, common, run] { *run = [=] { return Lift(*flags, *common); }; });
+}
+
+}  // namespace simwright::cli

@@ -1,0 +1,124 @@
+#include "pipeline/lift.h"
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "assets/asset_folder.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "pipeline/preview.h"
+#include "render/forward.h"
+
+namespace simwright::pipeline {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+core::Image CutOut(const asset_lift::LiftedMesh& lifted) {
+  core::Image cut(lifted.photo.width, lifted.photo.height, 4);
+  for (int y = 0; y < cut.height; ++y) {
+    for (int x = 0; x < cut.width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        cut.At(x, y)[c] = lifted.photo.At(x, y)[lifted.photo.channels < 3 ? 0 : c];
+      }
+      cut.At(x, y)[3] = lifted.matte.alpha.At(x, y)[0];
+    }
+  }
+  return cut;
+}
+
+// Photo, cut-out and mesh from the photo's camera, side by side.
+core::Image LiftSheet(const asset_lift::LiftedMesh& lifted, const core::Image& cut) {
+  render::Scene scene;
+  scene.Add(&lifted.mesh);
+  scene.Commit();
+  render::ForwardOptions options;
+  options.samples_per_side = 2;
+  options.shaded = true;
+  options.lit = false;
+  return core::ContactSheet(
+      {lifted.photo, cut, render::RenderForward(scene, lifted.camera, options).color}, 3);
+}
+
+// From the lift's arbitrary scale to metres: by the height that was asked for, else so that the
+// volume of the bounding box is that of the sampled one, which spreads the error of a wrong
+// proportion over all sides.
+double ScaleOf(const LiftRequest& request, const physics_params::PhysicalParameters& parameters,
+               const core::TriangleMesh& mesh) {
+  const Eigen::Vector3d size = core::Bounds(mesh).sizes();
+  if (request.height > 0.0) return request.height / size.z();
+  const double wanted =
+      parameters.length.sample * parameters.width.sample * parameters.height.sample;
+  return std::cbrt(wanted / size.prod());
+}
+
+}  // namespace
+
+asset_lift::CategoryPrior PriorOf(const physics_params::Category& category) {
+  asset_lift::CategoryPrior prior;
+  prior.length_min = category.length.min;
+  prior.length_max = category.length.max;
+  prior.width_min = category.width.min;
+  prior.width_max = category.width.max;
+  prior.height_min = category.height.min;
+  prior.height_max = category.height.max;
+  prior.round = category.shape == physics_params::Shape::kRound;
+  prior.revolved = category.shape == physics_params::Shape::kRevolved;
+  prior.open = category.fill == physics_params::Fill::kOpen;
+  prior.flat = category.shape == physics_params::Shape::kFlat;
+  return prior;
+}
+
+LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
+  core::StagedFolder staged(request.output, request.force);
+  const physics_params::Resolution resolution =
+      physics_params::RequireCategory(request.category);
+  const std::string bytes = core::ReadFile(request.photo, 1ull << 30);
+  asset_lift::LiftOptions options;
+  core::ImageReadOptions read;
+  read.max_side = options.max_side;
+  const core::Image photo = core::DecodeImage(bytes, request.photo.string(), read);
+  if (request.mask) options.mask = core::ReadImage(*request.mask);
+  if (request.elevation_degrees >= 0.0) options.elevation = request.elevation_degrees * kDegree;
+  options.field_of_view = request.fov_degrees * kDegree;
+  options.focal_35mm = core::ExifFocalLength35mm(bytes);
+  options.seed = request.seed;
+  asset_lift::LiftedMesh lifted;
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    lifted = asset_lift::LiftPhoto(photo, PriorOf(*resolution.category), options, progress);
+  } catch (const core::Error& error) {
+    throw core::Error(error.what(), request.photo.string());
+  }
+  const double lift_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const physics_params::PhysicalParameters parameters = physics_params::SampleParameters(
+      *resolution.category, physics_params::KnowledgeBase::Shipped(), request.seed);
+  const core::Image cut = CutOut(lifted);
+  const core::Image sheet = LiftSheet(lifted, cut);
+  const double scale = ScaleOf(request, parameters, lifted.mesh.mesh);
+  core::Transform(Eigen::Affine3d(Eigen::Scaling(scale)), &lifted.mesh.mesh);
+
+  BuildRequest build;
+  build.name = request.output.filename().empty()
+                   ? request.output.parent_path().filename().string()
+                   : request.output.filename().string();
+  build.source = request.photo.filename().string();
+  build.category = resolution;
+  build.seed = request.seed;
+  BuiltAsset built = BuildAsset(lifted.mesh, build, progress);
+  built.asset.scale = scale;
+  built.asset.findings.insert(built.asset.findings.begin(), lifted.findings.begin(),
+                              lifted.findings.end());
+  assets::WriteAsset(built.asset, staged.staging());
+  core::WritePng(staged.staging() / "preview.png", AssetPreview(built.asset));
+  core::WritePng(staged.staging() / "matte.png", cut);
+  core::WritePng(staged.staging() / "lift.png", sheet);
+  staged.Commit();
+  LiftOutcome outcome{request.output, built.seconds, built.asset.findings, lifted.silhouette_iou};
+  outcome.seconds["lift"] = lift_seconds;
+  return outcome;
+}
+
+}  // namespace simwright::pipeline
