@@ -112,8 +112,9 @@ Wrapped WrapOnce(const TriangleMesh& unit, double fineness, const SolidOptions& 
   wrap_options.cell = options.cell_ratio / fineness;
   while (WrapGridNodes(unit, wrap_options) > options.max_nodes) wrap_options.cell *= 1.1;
   wrap_options.closing = wrap_options.cell;
-  constexpr int kSeenRays = 100000;
-  wrap_options.seen = SampleOuterHits(unit, kSeenRays, 7);
+  // The finer try looks harder, for hollows that few lines of sight enter.
+  const int rays = fineness > 1.0 ? 500000 : 100000;
+  wrap_options.seen = SampleOuterHits(unit, rays, 7);
   const SurfaceWrap wrap = WrapSurface(unit, wrap_options);
   if (wrap.mesh.empty()) {
     throw core::Error("no surface could be wrapped round the mesh", "solid");
@@ -123,7 +124,10 @@ Wrapped WrapOnce(const TriangleMesh& unit, double fineness, const SolidOptions& 
       wrap.mesh, {options.face_budget, kSimplifyShare * options.tolerance_ratio / fineness});
   wrapped.sheet_share = wrap.sheet_share;
   wrapped.wall = wrap_options.wall;
-  wrapped.distance = OuterSurfaceDistance(unit, wrapped.mesh).MaxRatio();
+  SurfaceDistanceOptions check;
+  check.seed = 11;  // other rays than those the wrap was led by
+  check.rays = 150000;
+  wrapped.distance = OuterSurfaceDistance(unit, wrapped.mesh, check).MaxRatio();
   return wrapped;
 }
 

@@ -38,6 +38,12 @@ std::vector<double> Distances(const std::vector<Vector3d>& points, const Triangl
   return distances;
 }
 
+OuterHit Seen(const core::TriangleMesh& mesh, const SurfacePoint& hit, const Vector3d& to_eye) {
+  Vector3d normal = core::TriangleAreaVector(mesh, hit.triangle).normalized();
+  if (normal.dot(to_eye) < 0.0) normal = -normal;
+  return {hit.point, to_eye, normal};
+}
+
 std::vector<OuterHit> OuterHits(const core::TriangleMesh& mesh, const TriangleTree& tree, int rays,
                                 std::uint64_t seed) {
   const Eigen::AlignedBox3d bounds = core::Bounds(mesh);
@@ -54,9 +60,9 @@ std::vector<OuterHit> OuterHits(const core::TriangleMesh& mesh, const TriangleTr
       const Vector3d from = center + radius * core::UniformDirection(rng);
       const Vector3d to = center + radius * core::UniformDirection(rng);
       if (const auto hit = tree.FirstHit(from, to - from, 1.0)) {
-        hits[block].push_back({hit->point, (from - to).normalized()});
+        hits[block].push_back(Seen(mesh, *hit, (from - to).normalized()));
         if (const auto back = tree.FirstHit(to, from - to, 1.0)) {
-          hits[block].push_back({back->point, (to - from).normalized()});
+          hits[block].push_back(Seen(mesh, *back, (to - from).normalized()));
         }
       }
     }

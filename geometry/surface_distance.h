@@ -35,10 +35,11 @@ SurfaceDistance OuterSurfaceDistance(const core::TriangleMesh& visual,
                                      const core::TriangleMesh& solid,
                                      const SurfaceDistanceOptions& options = {});
 
-// A point of the outer surface, and the unit direction back to where it was seen from.
+// A point of the outer surface, and from where it was seen.
 struct OuterHit {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  Eigen::Vector3d to_eye = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d to_eye = Eigen::Vector3d::UnitX();  // unit
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  // unit, of the face, towards the eye
 };
 
 // First hits of chords from outside, as in OuterSurfaceDistance; at most 2 `rays` of them.

@@ -117,8 +117,9 @@ class Wrapper {
     }
   }
 
-  // Whether an outside node stands within `reach` cells (at most 2) of a point given in cells.
-  bool NearOutside(const Vector3d& at, double reach) const {
+  // Whether an outside node stands within `reach` cells (at most 2) of a point given in cells, on
+  // the side of the point that `front` points to.
+  bool NearOutside(const Vector3d& at, const Vector3d& front, double reach) const {
     std::array<int, 3> low;
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] = std::clamp(static_cast<int>(at[axis]), 1, grid_.size()[axis] - 3);
@@ -126,8 +127,9 @@ class Wrapper {
     for (int n = 0; n < 64; ++n) {
       const std::array<int, 3> node = {low[0] - 1 + n % 4, low[1] - 1 + n / 4 % 4,
                                        low[2] - 1 + n / 16};
-      if (outside_[Index(node)] &&
-          (Vector3d(node[0], node[1], node[2]) - at).squaredNorm() <= reach * reach) {
+      if (!outside_[Index(node)]) continue;
+      const Vector3d offset = Vector3d(node[0], node[1], node[2]) - at;
+      if (offset.squaredNorm() <= reach * reach && offset.dot(front) > 0.0) {
         return true;
       }
     }
@@ -141,8 +143,9 @@ class Wrapper {
   Vector3d InCells(const Vector3d& point) const { return (point - grid_.origin()) / grid_.cell(); }
 
   bool MeetsAll() const {
-    return std::all_of(options_.seen.begin(), options_.seen.end(),
-                       [&](const OuterHit& hit) { return NearOutside(InCells(hit.point), kMet); });
+    return std::all_of(options_.seen.begin(), options_.seen.end(), [&](const OuterHit& hit) {
+      return NearOutside(InCells(hit.point), hit.normal, kMet);
+    });
   }
 
   // Opens the lines of sight to points that no outside node is near: the nodes nearest to the line
@@ -151,10 +154,11 @@ class Wrapper {
   void CarveSight() {
     for (const OuterHit& hit : options_.seen) {
       Vector3d at = InCells(hit.point);
-      if (NearOutside(at, kMet)) continue;
+      if (NearOutside(at, hit.normal, kMet)) continue;
       std::vector<std::size_t> hollow;
       const int steps = 2 * (grid_.size()[0] + grid_.size()[1] + grid_.size()[2]);
-      for (int step = 0; step < steps && !NearOutside(at, 0.9); ++step, at += 0.5 * hit.to_eye) {
+      for (int step = 0; step < steps && !NearOutside(at, hit.to_eye, 1.25);
+           ++step, at += 0.5 * hit.to_eye) {
         std::array<int, 3> node;
         for (int axis = 0; axis < 3; ++axis) {
           node[axis] =
