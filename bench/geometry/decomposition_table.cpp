@@ -1,0 +1,235 @@
+// Our convex decomposition against Bullet's HACD and, where a Python with coacd is named, CoACD, at
+// the same number of parts, all judged by geometry/concavity.h on the same solids.
+//   bench_decomposition_table [--coacd PYTHON] [--iterations N] [--folder DIR] [--only NAME]
+// CoACD runs with its threshold of 0.05; its number of parts is the limit for the other two.
+// Without it the limit is the number of parts that ours needs at 0.05. Solids and CoACD's parts
+// stay in DIR, and parts found there are read instead of made again.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include <hacdHACD.h>
+
+#include "bench/geometry/decomposition_shapes.h"
+#include "core/error.h"
+#include "geometry/concavity.h"
+#include "geometry/convex_decomposition.h"
+#include "geometry/convex_hull.h"
+#include "geometry/soundness.h"
+
+namespace simwright::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using Parts = std::vector<core::TriangleMesh>;
+
+struct Row {
+  Parts parts;
+  double seconds = 0.0;
+  geometry::DecompositionQuality quality;
+};
+
+double Seconds() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(now).count();
+}
+
+Row Ours(const core::TriangleMesh& mesh, int parts) {
+  geometry::DecompositionOptions options;
+  options.max_parts = parts;
+  if (parts > 0) options.threshold = 0.005;
+  Row row;
+  const double start = Seconds();
+  row.parts = geometry::Hulls(geometry::Decompose(mesh, options));
+  row.seconds = Seconds() - start;
+  return row;
+}
+
+Row Hacd(const core::TriangleMesh& mesh, int parts) {
+  std::vector<HACD::Vec3<HACD::Real>> points;
+  std::vector<HACD::Vec3<long>> triangles;
+  for (const auto& v : mesh.vertices) points.emplace_back(v.x(), v.y(), v.z());
+  for (const auto& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+  HACD::HACD hacd;
+  hacd.SetPoints(points.data());
+  hacd.SetNPoints(points.size());
+  hacd.SetTriangles(triangles.data());
+  hacd.SetNTriangles(triangles.size());
+  // As in Bullet's own example, but for a concavity without bound: it joins clusters until there
+  // are no more than asked for.
+  hacd.SetCompacityWeight(0.1);
+  hacd.SetVolumeWeight(0.0);
+  hacd.SetNClusters(parts);
+  hacd.SetNVerticesPerCH(100);
+  hacd.SetConcavity(1e9);
+  hacd.SetAddExtraDistPoints(false);
+  hacd.SetAddNeighboursDistPoints(false);
+  hacd.SetAddFacesPoints(false);
+  Row row;
+  const double start = Seconds();
+  hacd.Compute();
+  row.seconds = Seconds() - start;
+  const double size = core::Bounds(mesh).diagonal().norm();
+  for (std::size_t c = 0; c < hacd.GetNClusters(); ++c) {
+    std::vector<HACD::Vec3<HACD::Real>> corner(hacd.GetNPointsCH(c));
+    std::vector<HACD::Vec3<long>> face(hacd.GetNTrianglesCH(c));
+    if (corner.empty()) continue;
+    hacd.GetCH(c, corner.data(), face.data());
+    std::vector<Eigen::Vector3d> vertices;
+    for (const auto& p : corner) vertices.emplace_back(p.X(), p.Y(), p.Z());
+    row.parts.push_back(geometry::ThickenedConvexHull(vertices, 1e-5 * size));
+  }
+  return row;
+}
+
+void WriteObj(const core::TriangleMesh& mesh, const fs::path& path) {
+  std::ofstream out(path);
+  out.precision(12);
+  for (const auto& v : mesh.vertices) out << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+  for (const auto& t : mesh.triangles) {
+    out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+  }
+}
+
+Row ReadParts(const fs::path& path, double size) {
+  Row row;
+  std::ifstream in(path);
+  std::vector<std::vector<Eigen::Vector3d>> parts;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string kind;
+    words >> kind;
+    if (kind == "#") words >> kind >> row.seconds;
+    if (kind == "o") parts.emplace_back();
+    Eigen::Vector3d p;
+    if (kind == "v" && words >> p.x() >> p.y() >> p.z()) parts.back().push_back(p);
+  }
+  for (const auto& points : parts) {
+    row.parts.push_back(geometry::ThickenedConvexHull(points, 1e-5 * size));
+  }
+  return row;
+}
+
+Row Coacd(const NamedSolid& solid, const fs::path& folder, const std::string& python,
+          int iterations) {
+  std::string stem = solid.name;
+  std::replace(stem.begin(), stem.end(), ' ', '_');
+  const fs::path in = folder / (stem + ".obj");
+  const fs::path out = folder / (stem + "_coacd_" + std::to_string(iterations) + ".obj");
+  if (!fs::exists(out)) {
+    WriteObj(solid.mesh, in);
+    const std::string command =
+        python + " " SIMWRIGHT_SOURCE_DIR "/bench/geometry/coacd_parts.py " + in.string() + " " +
+        out.string() + " " + std::to_string(iterations) + " > /dev/null";
+    if (std::system(command.c_str()) != 0) throw core::Error("CoACD failed", solid.name);
+  }
+  return ReadParts(out, core::Bounds(solid.mesh).diagonal().norm());
+}
+
+void Print(const std::string& solid, const char* method, const Row& row) {
+  const auto& q = row.quality;
+  std::printf("%-11s %-6s %4zu  %8.4f %8.4f %8.4f  %8.3f %8.3f  %6.4f  %8.2f\n", solid.c_str(),
+              method, row.parts.size(), q.concavity, q.parts_to_solid, q.solid_to_parts,
+              q.volume_error, q.missing_volume, q.coverage, row.seconds);
+  std::fflush(stdout);
+}
+
+double Median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return n == 0 ? 0.0 : 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+// Ours against a rival's, over all solids.
+struct Duel {
+  std::vector<double> ours, theirs, ratio;
+  int better = 0, worse = 0;
+
+  void Add(double mine, double other) {
+    ours.push_back(mine);
+    theirs.push_back(other);
+    // Below a ten-thousandth of the diagonal both are exact.
+    constexpr double kExact = 1e-4;
+    ratio.push_back((mine + kExact) / (other + kExact));
+    better += mine < other - kExact;
+    worse += mine > other + kExact;
+  }
+
+  void Print(const char* name, const char* figure) const {
+    std::printf(
+        "%-6s %-13s ours better on %d, worse on %d of %zu; medians %.4f and %.4f; median "
+        "ratio %.3f\n",
+        name, figure, better, worse, ours.size(), Median(ours), Median(theirs), Median(ratio));
+  }
+};
+
+int Main(int argc, char** argv) {
+  std::string python, only;
+  fs::path folder = fs::temp_directory_path() / "simwright_decomposition";
+  int iterations = 150;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    const std::string flag = argv[i];
+    if (flag == "--coacd") python = argv[i + 1];
+    if (flag == "--iterations") iterations = std::atoi(argv[i + 1]);
+    if (flag == "--folder") folder = argv[i + 1];
+    if (flag == "--only") only = argv[i + 1];
+  }
+  fs::create_directories(folder);
+  std::printf("CoACD: %s, %d MCTS iterations (its default is 150)\n",
+              python.empty() ? "not run" : "run", iterations);
+  std::printf("%-11s %-6s %4s  %8s %8s %8s  %8s %8s  %6s  %8s\n", "solid", "method", "part",
+              "concav.", "to solid", "to part", "vol.err", "missing", "cover", "seconds");
+  Duel hacd_concavity, hacd_volume, coacd_concavity, coacd_volume;
+  double our_seconds = 0.0, slowest = 0.0;
+  for (const NamedSolid& solid : AllSolids()) {
+    if (!only.empty() && solid.name != only) continue;
+    const auto judge = [&](Row* row) {
+      row->quality = geometry::MeasureDecomposition(solid.mesh, row->parts);
+    };
+    Row coacd;
+    if (!python.empty()) {
+      coacd = Coacd(solid, folder, python, iterations);
+      judge(&coacd);
+    }
+    Row ours = Ours(solid.mesh, static_cast<int>(coacd.parts.size()));
+    judge(&ours);
+    Row hacd = Hacd(solid.mesh, static_cast<int>(std::max(ours.parts.size(), coacd.parts.size())));
+    judge(&hacd);
+    Print(solid.name, "ours", ours);
+    Print(solid.name, "HACD", hacd);
+    our_seconds += ours.seconds;
+    slowest = std::max(slowest, ours.seconds);
+    hacd_concavity.Add(ours.quality.concavity, hacd.quality.concavity);
+    hacd_volume.Add(ours.quality.volume_error, hacd.quality.volume_error);
+    if (python.empty()) continue;
+    Print(solid.name, "CoACD", coacd);
+    coacd_concavity.Add(ours.quality.concavity, coacd.quality.concavity);
+    coacd_volume.Add(ours.quality.volume_error, coacd.quality.volume_error);
+  }
+  hacd_concavity.Print("HACD", "concavity");
+  hacd_volume.Print("HACD", "volume error");
+  if (!python.empty()) {
+    coacd_concavity.Print("CoACD", "concavity");
+    coacd_volume.Print("CoACD", "volume error");
+  }
+  std::printf("ours: %.1f s in all, %.1f s the slowest\n", our_seconds, slowest);
+  return 0;
+}
+
+}  // namespace
+}  // namespace simwright::bench
+
+int main(int argc, char** argv) {
+  try {
+    return simwright::bench::Main(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return 1;
+  }
+}
