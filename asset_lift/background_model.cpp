@@ -155,7 +155,7 @@ void CompleteRound(const cv::Mat& bgr, const SegmentationOptions& options, cv::M
     return cv::RotatedRect(outline->center, outline->size * factor, outline->angle);
   };
   cv::Mat next(trimap->size(), CV_8U, cv::Scalar(cv::GC_BGD));
-  cv::ellipse(next, scaled(1.12f), cv::Scalar(cv::GC_PR_BGD), -1);
+  cv::ellipse(next, scaled(1.06f), cv::Scalar(cv::GC_PR_BGD), -1);
   cv::ellipse(next, scaled(1.0f), cv::Scalar(cv::GC_PR_FGD), -1);
   cv::ellipse(next, scaled(0.94f), cv::Scalar(cv::GC_FGD), -1);
   cv::Mat background_model, foreground_model;

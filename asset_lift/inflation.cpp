@@ -26,19 +26,16 @@ cv::Mat MaskOf(const Matte& matte) {
   return mask;
 }
 
-// What the turned body leaves of the mask: pieces large enough to be a handle or a spout, grown
-// into the body so that they join it.
+// What the turned body leaves of the mask, but specks: a handle, a spout, a rim that is not quite
+// round; grown into the body so that it joins.
 cv::Mat Residual(const cv::Mat& mask, const cv::Mat& body, double width) {
   cv::Mat rest = mask & ~body;
-  const int speck = std::max(1, static_cast<int>(0.012 * width));
-  const cv::Mat disc =
-      cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * speck + 1, 2 * speck + 1));
   cv::Mat opened;
-  cv::morphologyEx(rest, opened, cv::MORPH_OPEN, disc);
+  cv::morphologyEx(rest, opened, cv::MORPH_OPEN, cv::Mat::ones(3, 3, CV_8U));
   cv::Mat labels, stats, centroids;
   const int count = cv::connectedComponentsWithStats(opened, labels, stats, centroids, 8);
   cv::Mat kept = cv::Mat::zeros(mask.size(), CV_8U);
-  const double smallest = 0.006 * cv::countNonZero(mask);
+  const double smallest = 0.001 * cv::countNonZero(mask);
   for (int label = 1; label < count; ++label) {
     if (stats.at<int>(label, cv::CC_STAT_AREA) > smallest) kept.setTo(255, labels == label);
   }
@@ -58,14 +55,17 @@ class Inflater {
 
   InflatedShape Inflate() const {
     std::vector<InflatedShape> shapes;
-    const UprightBody body = FitUprightBody(mask_, camera_, prior_.round);
-    const bool turned = prior_.revolved || prior_.round;
-    if (body.coverage >= (turned ? options_.revolved_coverage : options_.plain_coverage)) {
-      shapes.push_back(Upright(body));
+    // Fruit and balls are round at both ends, whichever way they lie: no discs, no rim.
+    if (!prior_.round) {
+      const UprightBody body = FitUprightBody(mask_, camera_);
+      if (body.coverage >=
+          (prior_.revolved ? options_.revolved_coverage : options_.plain_coverage)) {
+        shapes.push_back(Upright(body));
+      }
     }
     if (shapes.empty() || shapes[0].silhouette_iou < 0.97) {
       const MirrorAxis axis = FindMirrorAxis(mask_);
-      if (axis.agreement > (turned ? 0.88 : 0.93)) {
+      if (axis.agreement > (prior_.round ? 0.85 : 0.93)) {
         shapes.push_back(Flat(ShapeForm::kLying,
                               LyingDepth(mask_, axis.center, axis.direction)));
       }
@@ -106,12 +106,16 @@ class Inflater {
                                                Eigen::Vector3d::Zero()));
   }
 
-  InflatedShape Finish(ShapeForm form, const OutlineField& field,
+  // What stood in the photo has a foot to stand on: the lowest few percent are cut level.
+  InflatedShape Finish(ShapeForm form, OutlineField& field,
                        const Eigen::Hyperplane<double, 3>& mirror) const {
     core::CheckCancelled();
     InflatedShape shape;
     shape.form = form;
     shape.mirror = mirror;
+    shape.mesh = field.Extract(options_.resolution);
+    const Eigen::AlignedBox3d box = core::Bounds(shape.mesh);
+    field.CutBelow(box.min().z() + options_.foot_ratio * box.sizes().z());
     shape.mesh = field.Extract(options_.resolution);
     geometry::SimplifyOptions simplify;
     simplify.face_budget = options_.face_budget;
@@ -172,6 +176,35 @@ double SilhouetteIou(const core::TriangleMesh& mesh, const core::Camera& camera,
     either += a || b;
   }
   return either > 0.0 ? both / either : 0.0;
+}
+
+ElevationEstimate RefineElevation(const Matte& matte, double focal,
+                                  const ElevationEstimate& estimate) {
+  const cv::Mat mask = MaskOf(matte);
+  constexpr double kStep = 0.06;  // rad
+  ElevationEstimate best = estimate;
+  double best_score = -1e300;
+  for (int i = -6; i <= 6; ++i) {
+    const double elevation = estimate.elevation + kStep * i;
+    if (elevation < 0.03 || elevation > 1.45) continue;
+    const UprightBody body = FitUprightBody(mask, PhotoCamera(matte, focal, elevation));
+    if (body.coverage <= 0.0) continue;
+    const size_t third = std::max<size_t>(1, body.radius.size() / 3);
+    const double widest =
+        *std::max_element(body.radius.begin(), body.radius.begin() + static_cast<long>(third));
+    const double foot = widest > 0.0 ? body.radius.front() / widest : 0.0;
+    const double z = (elevation - estimate.elevation) / std::max(0.05, estimate.deviation);
+    // A percent of the outline left out weighs as much as a foot narrower by a quarter.
+    const double score = -0.5 * z * z + 60.0 * body.coverage + 2.5 * foot;
+    if (score > best_score) {
+      best_score = score;
+      best.elevation = elevation;
+    }
+  }
+  best.deviation = std::min(estimate.deviation, 0.1);
+  best.sentence = estimate.sentence + ", narrowed by its foot to " +
+                  std::to_string(std::lround(best.elevation * 180.0 / M_PI));
+  return best;
 }
 
 InflatedShape InflateOutline(const Matte& matte, const core::Camera& camera,

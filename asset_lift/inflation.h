@@ -25,6 +25,7 @@ struct InflationOptions {
   double revolved_coverage = 0.78;  // of the outline that a turned body must explain, with a prior
   double plain_coverage = 0.955;    // ... and without one
   double wall_ratio = 0.05;    // of the width: a vessel's wall
+  double foot_ratio = 0.025;   // of the height: cut level so that it stands; half a fruit's dent
   int face_budget = 12000;     // of the mesh handed on
 };
 
@@ -46,6 +47,12 @@ core::Camera PhotoCamera(const Matte& matte, double focal, double elevation);
 // Returns the better form by its silhouette. Throws core::Error where nothing can be inflated.
 InflatedShape InflateOutline(const Matte& matte, const core::Camera& camera,
                              const CategoryPrior& prior, const InflationOptions& options = {});
+
+// The estimate narrowed by the outline of a thing turned on a wheel: from too high an elevation the
+// discs of its body no longer fit into the outline's lower corners, from too low a one the body
+// ends in a point instead of a foot. Both count beside the estimate's own deviation.
+ElevationEstimate RefineElevation(const Matte& matte, double focal,
+                                  const ElevationEstimate& estimate);
 
 // Intersection over union of a mesh's silhouette with the matte, from the camera.
 double SilhouetteIou(const core::TriangleMesh& mesh, const core::Camera& camera,

@@ -75,6 +75,8 @@ LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior,
   lifted.elevation = EstimateElevation(lifted.matte, prior);
   if (options.elevation >= 0.0) {
     lifted.elevation = {options.elevation, 0.0, "elevation given"};
+  } else if (prior.revolved && !prior.round) {
+    lifted.elevation = RefineElevation(lifted.matte, focal, lifted.elevation);
   }
   // Level sight lines never cross the planes in which a turned body's discs lie.
   const double elevation = std::clamp(lifted.elevation.elevation, 0.03, 1.5);

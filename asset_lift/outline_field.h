@@ -25,6 +25,9 @@ class OutlineField {
   // the camera.
   void AddDepthMap(const cv::Mat& squared_depth, const Eigen::Vector3d& anchor);
 
+  // Nothing remains below the level `z` (world).
+  void CutBelow(double z) { floor_ = z; }
+
   // The closed surface; `resolution` cells along the longest side of the bodies' box. Throws
   // core::Error where nothing lies inside.
   core::TriangleMesh Extract(int resolution) const;
@@ -37,6 +40,7 @@ class OutlineField {
   std::vector<std::function<double(const Eigen::Vector3d&)>> bodies_;
   std::vector<std::function<double(const Eigen::Vector3d&)>> hollows_;
   Eigen::AlignedBox3d box_;
+  double floor_ = -1e30;
 };
 
 }  // namespace simwright::asset_lift

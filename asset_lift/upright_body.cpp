@@ -122,7 +122,7 @@ double UprightBody::RadiusAt(double z) const {
 
 double UprightBody::MaxRadius() const { return *std::max_element(radius.begin(), radius.end()); }
 
-UprightBody FitUprightBody(const cv::Mat& mask, const core::Camera& camera, bool round) {
+UprightBody FitUprightBody(const cv::Mat& mask, const core::Camera& camera) {
   const Sights sights = CollectSights(mask, camera);
   const cv::Rect box = cv::boundingRect(mask);
   // The outline's box at the object's distance bounds the body; discs reach before and behind.
@@ -150,7 +150,7 @@ UprightBody FitUprightBody(const cv::Mat& mask, const core::Camera& camera, bool
     from = best.axis_x - stride;
     to = best.axis_x + stride;
   }
-  if (best.coverage > 0.0 && !round) TrimEnds(sights, camera, &best);
+  if (best.coverage > 0.0) TrimEnds(sights, camera, &best);
   return best;
 }
 

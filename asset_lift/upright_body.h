@@ -25,10 +25,10 @@ struct UprightBody {
 // distance, in that plane, from the axis to the sight lines through the outline's background
 // pixels. The picture of a body of revolution is the union of its discs' pictures, so this is the
 // largest such body inside the outline, exact in perspective. Levels at either end that add
-// nothing to the silhouette are cut (unless `round`): a cylinder keeps its flat base and rim.
+// nothing to the silhouette are cut: a cylinder keeps its flat base and rim.
 // The axis stands in the plane y = 0, where the coverage is best. `mask` is CV_8U, of the
 // camera's size.
-UprightBody FitUprightBody(const cv::Mat& mask, const core::Camera& camera, bool round);
+UprightBody FitUprightBody(const cv::Mat& mask, const core::Camera& camera);
 
 // CV_8U mask of the body's silhouette.
 cv::Mat Silhouette(const UprightBody& body, const core::Camera& camera);

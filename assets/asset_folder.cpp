@@ -68,6 +68,7 @@ Json AssetJson(const Asset& a) {
                       {"density_kg_m3", ToJson(p.density)}};
   json["friction"] = ToJson(p.friction);
   json["restitution"] = ToJson(p.restitution);
+  json["rolling_friction_m"] = a.rolling_friction;
   json["mass"] = a.inertial.mass;
   json["center_of_mass"] = ToJson(a.inertial.center_of_mass);
   json["inertia"] = ToJson(a.inertial.inertia);
@@ -104,6 +105,7 @@ Asset AssetFrom(const Json& json) {
   p.restitution = EstimateFrom(json.at("restitution"));
   a.friction = p.friction.sample;
   a.restitution = p.restitution.sample;
+  a.rolling_friction = json.at("rolling_friction_m");
   a.source = json.at("source");
   a.seed = json.at("seed");
   a.inertial.mass = json.at("mass");

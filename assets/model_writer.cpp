@@ -125,7 +125,8 @@ void MjcfBody(tinyxml2::XMLPrinter* printer, const Asset& asset, bool textured) 
     const std::string file = CollisionFileName(static_cast<int>(i));
     Element(printer, "geom").Set("type", "mesh")
         .Set("mesh", asset.name + "_" + file.substr(0, file.find('.'))).Set("group", "3")
-        .Set("condim", "4").Set("friction", Numbers({asset.friction, 0.005, 0.0001}))
+        .Set("condim", "6")
+        .Set("friction", Numbers({asset.friction, asset.rolling_friction, asset.rolling_friction}))
         .Set("solref", Numbers({0.005, DampingRatio(asset.restitution)}));
   }
 }
@@ -177,6 +178,7 @@ std::string UrdfText(const Asset& asset) {
     // Bullet's and Gazebo's extension: friction and bounce travel with the link.
     Element contact(&printer, "contact");
     Element(&printer, "lateral_friction").Set("value", Number(asset.friction));
+    Element(&printer, "rolling_friction").Set("value", Number(asset.rolling_friction));
     Element(&printer, "restitution").Set("value", Number(asset.restitution));
   }
   return printer.CStr();

@@ -178,6 +178,9 @@ void Reader::ReadContacts(const std::string& text) {
       if (const auto* e = contact->FirstChildElement("lateral_friction")) {
         known.friction = std::clamp(e->DoubleAttribute("value", known.friction), 0.0, 10.0);
       }
+      if (const auto* e = contact->FirstChildElement("rolling_friction")) {
+        known.rolling_friction = std::clamp(e->DoubleAttribute("value", 0.0), 0.0, 1.0);
+      }
       if (const auto* e = contact->FirstChildElement("restitution")) {
         known.restitution = std::clamp(e->DoubleAttribute("value", 0.0), 0.0, 1.0);
       }

@@ -27,6 +27,7 @@ struct UrdfLink {
   std::vector<UrdfShape> collisions;
   double friction = 0.5;             // <contact><lateral_friction>, where given
   double restitution = 0.0;
+  double rolling_friction = 0.0;     // <contact><rolling_friction>, m
 };
 
 enum class UrdfJointType { kFixed, kRevolute, kContinuous, kPrismatic, kFloating, kPlanar };

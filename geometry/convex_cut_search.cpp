@@ -15,10 +15,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kOnPlane = 1e-9;  // of the solid's diagonal
-constexpr double kCrumb = 1e-9;    // of the solid's volume
-constexpr double kSlab = 5e-3;     // of the solid's diagonal: thinnest slab cut off
-constexpr int kFeatures = 8;       // feature heights tried along a direction
+constexpr double kOnPlane = 1e-9;     // of the solid's diagonal
+constexpr double kCrumb = 1e-9;       // of the solid's volume
+constexpr double kSlab = 5e-3;        // of the solid's diagonal: thinnest slab cut off
+constexpr double kWorthAhead = 2e-3;  // of the solid's excess: what less of it is cut greedily
+constexpr int kFeatures = 8;          // feature heights tried along a direction
 
 // The excess that is left, in the unit of the search: the volume that hulls add.
 double Excess(const std::vector<Piece>& pieces) {
@@ -176,8 +177,9 @@ std::vector<Piece> BestCut(const Piece& piece, const CutContext& context) {
     trials[i].pieces = CutPiece(piece, planes[i], context);
     if (!trials[i].pieces.empty()) trials[i].excess = Excess(trials[i].pieces);
   });
+  const bool ahead = options.depth > 1 && piece.Excess() > kWorthAhead * context.excess;
   const double apart = 0.02 * core::Bounds(piece.hull).diagonal().norm();
-  const std::vector<int> best = BestTrials(trials, apart, options.depth > 1 ? options.beam : 1);
+  const std::vector<int> best = BestTrials(trials, apart, ahead ? options.beam : 1);
   if (best.empty()) return {};
   if (best.size() == 1) return std::move(trials[best[0]].pieces);
 
@@ -190,7 +192,7 @@ std::vector<Piece> BestCut(const Piece& piece, const CutContext& context) {
   for (const int t : best) {
     for (const Piece& p : trials[t].pieces) items.push_back({t, &p});
   }
-  const double negligible = 0.01 * piece.Excess();
+  const double negligible = 0.02 * piece.Excess();
   core::ParallelFor(static_cast<int>(items.size()), [&](int i) {
     items[i].ahead = ExcessAhead(*items[i].piece, options.depth - 1, negligible, context);
   });

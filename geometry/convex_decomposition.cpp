@@ -132,34 +132,25 @@ core::TriangleMesh Limited(Piece piece, const CutContext& context) {
   return hull;
 }
 
-}  // namespace
-
-ConvexDecomposition Decompose(const core::TriangleMesh& solid,
-                              const DecompositionOptions& options) {
-  core::RequireValid(solid, "convex decomposition");
-  RequireOptions(options);
-  if (solid.empty()) throw core::Error("the mesh has no triangles", "convex decomposition");
-  const core::TriangleMesh welded = Weld(solid, 0.0);
-  const double diagonal = core::Bounds(welded).diagonal().norm();
-  const double volume = SignedVolume(welded);
-  if (!(volume > 1e-12 * std::pow(diagonal, 3)) || !std::isfinite(volume)) {
-    throw core::Error("the mesh encloses no positive volume", "convex decomposition",
-                      "close it and turn its faces outward");
-  }
-  const HullFit fit(welded, kSolidSamples, options.seed);
-  const CutContext context{&options, &fit, diagonal, volume};
+ConvexDecomposition DecomposeUnit(const core::TriangleMesh& solid,
+                                  const DecompositionOptions& options) {
+  const double diagonal = core::Bounds(solid).diagonal().norm();
+  const double volume = SignedVolume(solid);
+  const HullFit fit(solid, kSolidSamples, options.seed);
+  CutContext context{&options, &fit, diagonal, volume, 0.0};
+  context.excess = MakePiece(solid, context).Excess();
 
   // More pieces than are wanted are cut, then joined: joining looks at all neighbours, cutting
   // only at one piece at a time.
   const int limit =
       options.max_parts > 0 ? std::min(kMostParts, 2 * options.max_parts + 6) : kMostParts;
-  const core::TriangleMesh searched = Thinned(welded, diagonal);
+  const core::TriangleMesh searched = Thinned(solid, diagonal);
   std::vector<Piece> pieces = CutDown(searched, options.threshold, limit, context);
   if (options.merge || static_cast<int>(pieces.size()) > kMostParts ||
       (options.max_parts > 0 && static_cast<int>(pieces.size()) > options.max_parts)) {
     MergePieces(context, options.merge ? options.threshold : 0.0, options.max_parts, &pieces);
   }
-  TakeInVertices(welded, context, &pieces);
+  TakeInVertices(solid, context, &pieces);
 
   ConvexDecomposition result;
   std::stable_sort(pieces.begin(), pieces.end(),
@@ -172,7 +163,33 @@ ConvexDecomposition Decompose(const core::TriangleMesh& solid,
     result.concavity = std::max(result.concavity, part.concavity);
     result.parts.push_back(std::move(part));
   }
-  result.coverage = Coverage(welded, Hulls(result));
+  result.coverage = Coverage(solid, Hulls(result));
+  return result;
+}
+
+}  // namespace
+
+ConvexDecomposition Decompose(const core::TriangleMesh& solid,
+                              const DecompositionOptions& options) {
+  core::RequireValid(solid, "convex decomposition");
+  RequireOptions(options);
+  if (solid.empty()) throw core::Error("the mesh has no triangles", "convex decomposition");
+  core::TriangleMesh welded = Weld(solid, 0.0);
+  const double diagonal = core::Bounds(welded).diagonal().norm();
+  const double volume = SignedVolume(welded);
+  if (!(volume > 1e-12 * std::pow(diagonal, 3)) || !std::isfinite(volume)) {
+    throw core::Error("the mesh encloses no positive volume", "convex decomposition",
+                      "close it and turn its faces outward");
+  }
+  // In a frame of its own, of unit size by a power of two: nothing is rounded differently for a
+  // solid that is tiny, huge or far away.
+  const Vector3d middle = core::Bounds(welded).center();
+  const double scale = std::exp2(-std::ceil(std::log2(diagonal)));
+  for (Vector3d& v : welded.vertices) v = (v - middle) * scale;
+  ConvexDecomposition result = DecomposeUnit(welded, options);
+  for (ConvexPart& part : result.parts) {
+    for (Vector3d& v : part.hull.vertices) v = v / scale + middle;
+  }
   return result;
 }
 

@@ -26,6 +26,7 @@ struct CutContext {
   const HullFit* fit;
   double diagonal = 0.0;      // m, of the solid
   double solid_volume = 0.0;  // m^3
+  double excess = 0.0;        // m^3, of the whole solid's hull over it
 };
 
 // The piece with its hull and volumes; a flat one gets a hull of the options' least thickness.

@@ -312,9 +312,35 @@ class Quickhull {
     Distribute(rest, {face});
   }
 
-  void Add(int face) {
-    const int apex = faces_[face].farthest;
+  // Looks from the point farthest out of `face`, and from the one farther still, or as far but
+  // nearer a corner, that another face in sight has in its list.
+  int Outermost(int face) {
+    int apex = faces_[face].farthest;
     Look(face, points_[apex]);
+    for (int step = 0; step < 4; ++step) {
+      int best = apex;
+      double highest = faces_[face].Height(points_[apex]);
+      for (const int f : seen_) {
+        for (const int p : faces_[f].outside) {
+          const double height = faces_[face].Height(points_[p]);
+          if (height < highest - kTie * diagonal_) continue;
+          const bool farther =
+              (points_[p] - middle_).squaredNorm() > (points_[best] - middle_).squaredNorm();
+          if (height > highest + kTie * diagonal_ || farther) {
+            highest = std::max(highest, height);
+            best = p;
+          }
+        }
+      }
+      if (best == apex) break;
+      apex = best;
+      Look(face, points_[apex]);
+    }
+    return apex;
+  }
+
+  void Add(int face) {
+    const int apex = Outermost(face);
     if (!OrderHorizon()) {
       Skip(face);
       return;

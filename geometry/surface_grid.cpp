@@ -212,56 +212,52 @@ void SurfaceGrid::EnterCrossings(const Piece& piece, int low_k, int high_k) {
   const Vector3d normal = (piece.b - piece.a).cross(piece.c - piece.a);
   for (int axis = 0; axis < 3; ++axis) {
     // A triangle seen edge-on: its neighbours and its own edges mark what matters.
-    if (std::abs(normal[axis]) <= 1e-9 * normal.norm()) continue;
-    const int u = (axis + 1) % 3;
-    const int v = (axis + 2) % 3;
-    const std::array<const Vector3d*, 3> corners = {&piece.a, &piece.b, &piece.c};
-    double lu = INFINITY, lv = INFINITY, hu = -INFINITY, hv = -INFINITY;
-    for (const Vector3d* p : corners) {
-      lu = std::min(lu, (*p)[u]);
-      hu = std::max(hu, (*p)[u]);
-      lv = std::min(lv, (*p)[v]);
-      hv = std::max(hv, (*p)[v]);
+    if (std::abs(normal[axis]) > 1e-9 * normal.norm()) {
+      EnterCrossingsAlong(axis, piece, normal, low_k, high_k);
     }
-    int from_u = std::max(0, static_cast<int>(std::ceil(lu - kSlack)));
-    int to_u = std::min(size_[u] - 1, static_cast<int>(std::floor(hu + kSlack)));
-    int from_v = std::max(0, static_cast<int>(std::ceil(lv - kSlack)));
-    int to_v = std::min(size_[v] - 1, static_cast<int>(std::floor(hv + kSlack)));
-    if (u == 2) {
-      from_u = std::max(from_u, low_k);
-      to_u = std::min(to_u, high_k);
-    }
-    if (v == 2) {
-      from_v = std::max(from_v, low_k);
-      to_v = std::min(to_v, high_k);
-    }
-    const double sign = normal[axis] > 0.0 ? 1.0 : -1.0;
-    for (int at_v = from_v; at_v <= to_v; ++at_v) {
-      for (int at_u = from_u; at_u <= to_u; ++at_u) {
-        bool within = true;
-        for (int e = 0; e < 3 && within; ++e) {
-          const Vector3d& p = *corners[e];
-          const Vector3d& q = *corners[(e + 1) % 3];
-          const double du = q[u] - p[u];
-          const double dv = q[v] - p[v];
-          const double area = sign * (du * (at_v - p[v]) - dv * (at_u - p[u]));
-          within = area >= -kSlack * (std::abs(du) + std::abs(dv));
-        }
-        if (!within) continue;
-        const double along =
-            piece.a[axis] -
-            (normal[u] * (at_u - piece.a[u]) + normal[v] * (at_v - piece.a[v])) / normal[axis];
-        const int first = static_cast<int>(std::floor(along - kSlack));
-        const int last = static_cast<int>(std::floor(along + kSlack));
-        for (int at = std::max(first, 0); at <= std::min(last, size_[axis] - 1); ++at) {
-          if (axis == 2 && (at < low_k || at > high_k)) continue;
-          std::array<int, 3> node;
-          node[axis] = at;
-          node[u] = at_u;
-          node[v] = at_v;
-          crossed_[node[0] + stride_[1] * node[1] + stride_[2] * node[2]] |=
-              static_cast<std::uint8_t>(1 << axis);
-        }
+  }
+}
+
+void SurfaceGrid::EnterCrossingsAlong(int axis, const Piece& piece, const Vector3d& normal,
+                                      int low_k, int high_k) {
+  const Vector3d low = piece.a.cwiseMin(piece.b).cwiseMin(piece.c);
+  const Vector3d high = piece.a.cwiseMax(piece.b).cwiseMax(piece.c);
+  std::array<int, 3> from, to;
+  for (int other = 0; other < 3; ++other) {
+    from[other] = std::max(0, static_cast<int>(std::ceil(low[other] - kSlack)));
+    to[other] = std::min(size_[other] - 1, static_cast<int>(std::floor(high[other] + kSlack)));
+  }
+  from[2] = std::max(from[2], low_k);
+  to[2] = std::min(to[2], high_k);
+  const int u = (axis + 1) % 3;
+  const int v = (axis + 2) % 3;
+  const std::array<const Vector3d*, 3> corners = {&piece.a, &piece.b, &piece.c};
+  const double sign = normal[axis] > 0.0 ? 1.0 : -1.0;
+  for (int at_v = from[v]; at_v <= to[v]; ++at_v) {
+    for (int at_u = from[u]; at_u <= to[u]; ++at_u) {
+      bool within = true;
+      for (int e = 0; e < 3 && within; ++e) {
+        const Vector3d& p = *corners[e];
+        const Vector3d& q = *corners[(e + 1) % 3];
+        const double du = q[u] - p[u];
+        const double dv = q[v] - p[v];
+        const double area = sign * (du * (at_v - p[v]) - dv * (at_u - p[u]));
+        within = area >= -kSlack * (std::abs(du) + std::abs(dv));
+      }
+      if (!within) continue;
+      const double along =
+          piece.a[axis] -
+          (normal[u] * (at_u - piece.a[u]) + normal[v] * (at_v - piece.a[v])) / normal[axis];
+      const int first = static_cast<int>(std::floor(along - kSlack));
+      const int last = static_cast<int>(std::floor(along + kSlack));
+      for (int at = std::max(first, 0); at <= std::min(last, size_[axis] - 1); ++at) {
+        if (axis == 2 && (at < low_k || at > high_k)) continue;
+        std::array<int, 3> node;
+        node[axis] = at;
+        node[u] = at_u;
+        node[v] = at_v;
+        crossed_[node[0] + stride_[1] * node[1] + stride_[2] * node[2]] |=
+            static_cast<std::uint8_t>(1 << axis);
       }
     }
   }

@@ -45,6 +45,9 @@ class SurfaceGrid {
   void Subdivide(const core::TriangleMesh& mesh);
   void EnterDistances(const Piece& piece, int index, int low_k, int high_k);
   void EnterCrossings(const Piece& piece, int low_k, int high_k);
+  // The grid lines along `axis` that meet the piece.
+  void EnterCrossingsAlong(int axis, const Piece& piece, const Eigen::Vector3d& normal, int low_k,
+                           int high_k);
 
   double cell_;
   double band_;

@@ -98,6 +98,25 @@ TriangleTree::TriangleTree(const core::TriangleMesh& mesh) {
   if (count > 0) Build();
 }
 
+Vector3d TriangleTree::Enclose(const std::vector<Vector3d>& source,
+                               const std::vector<Vector3d>& centers, int first, int count,
+                               Node* node) const {
+  node->low.setConstant(std::numeric_limits<double>::infinity());
+  node->high = -node->low;
+  Vector3d center_low = node->low;
+  Vector3d center_high = node->high;
+  for (int i = first; i < first + count; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const Vector3d& p = source[3 * static_cast<std::size_t>(order_[i]) + c];
+      node->low = node->low.cwiseMin(p);
+      node->high = node->high.cwiseMax(p);
+    }
+    center_low = center_low.cwiseMin(centers[order_[i]]);
+    center_high = center_high.cwiseMax(centers[order_[i]]);
+  }
+  return center_high - center_low;
+}
+
 void TriangleTree::Build() {
   const std::vector<Vector3d> source = corners_;
   const int count = static_cast<int>(order_.size());
@@ -117,19 +136,7 @@ void TriangleTree::Build() {
     const int index = static_cast<int>(nodes_.size());
     if (task.parent >= 0) nodes_[task.parent].first = index;
     Node node;
-    node.low.setConstant(std::numeric_limits<double>::infinity());
-    node.high = -node.low;
-    Vector3d center_low = node.low;
-    Vector3d center_high = node.high;
-    for (int i = task.first; i < task.first + task.count; ++i) {
-      for (int c = 0; c < 3; ++c) {
-        const Vector3d& p = source[3 * static_cast<std::size_t>(order_[i]) + c];
-        node.low = node.low.cwiseMin(p);
-        node.high = node.high.cwiseMax(p);
-      }
-      center_low = center_low.cwiseMin(centers[order_[i]]);
-      center_high = center_high.cwiseMax(centers[order_[i]]);
-    }
+    const Vector3d spread = Enclose(source, centers, task.first, task.count, &node);
     if (task.count <= kLeafSize) {
       node.first = task.first;
       node.count = task.count;
@@ -138,7 +145,7 @@ void TriangleTree::Build() {
     }
     nodes_.push_back(node);
     int axis = 0;
-    (center_high - center_low).maxCoeff(&axis);
+    spread.maxCoeff(&axis);
     // The median keeps the depth logarithmic whatever the input; ties go by index.
     const int half = task.count / 2;
     std::nth_element(order_.begin() + task.first, order_.begin() + task.first + half,

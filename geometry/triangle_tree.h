@@ -54,6 +54,10 @@ class TriangleTree {
   };
 
   void Build();
+  // Bounds of some triangles into `node`; returns the extent of their centres.
+  Eigen::Vector3d Enclose(const std::vector<Eigen::Vector3d>& source,
+                          const std::vector<Eigen::Vector3d>& centers, int first, int count,
+                          Node* node) const;
 
   std::vector<Eigen::Vector3d> corners_;  // (3M x 3), in tree order
   std::vector<int> order_;                // (M) tree order to the mesh's index

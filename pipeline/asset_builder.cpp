@@ -72,6 +72,9 @@ void GiveMass(const BuildRequest& request, assets::Asset* asset) {
   asset->parameters.mass.sample = mass.mass;
   asset->friction = asset->parameters.friction.sample;
   asset->restitution = asset->parameters.restitution.sample;
+  constexpr double kRollingResistance = 0.01;
+  asset->rolling_friction =
+      kRollingResistance * 0.5 * core::Bounds(asset->solid).sizes().mean();
 }
 
 void Decompose(const BuildRequest& request, assets::Asset* asset) {
@@ -131,7 +134,7 @@ BuiltAsset BuildAsset(const core::TexturedMesh& visual, const BuildRequest& requ
   clock.Begin("collision parts");
   Decompose(request, &asset);
   clock.Begin("rest pose");
-  PlaceInLinkFrame(FindRestPose(sim::BodyFromAsset(asset), asset.solid), &asset);
+  PlaceInLinkFrame(FindRestPose(sim::BodyFromAsset(asset)), &asset);
   clock.End();
   return built;
 }

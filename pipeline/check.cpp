@@ -7,6 +7,7 @@
 #include "assets/asset_folder.h"
 #include "assets/urdf_reader.h"
 #include "core/error.h"
+#include "geometry/concavity.h"
 #include "geometry/mass_properties.h"
 #include "geometry/soundness.h"
 #include "geometry/surface_distance.h"
@@ -45,7 +46,13 @@ void CheckSolid(const assets::Asset& asset, const CheckLimits& limits, CheckRows
 void CheckParts(const assets::Asset& asset, const CheckLimits& limits, CheckRows* rows) {
   rows->Report("parts", static_cast<double>(asset.parts.size()), "convex collision parts");
   rows->Report("concavity", asset.concavity, "of the parts, in CoACD's units (longest side 2)");
-  rows->AtLeast("coverage", asset.coverage, limits.coverage, "of the solid's surface in the parts");
+  geometry::ConcavityOptions options;
+  options.surface_samples = 6000;
+  options.volume_samples = 1000;
+  const geometry::DecompositionQuality quality =
+      geometry::MeasureDecomposition(asset.solid, asset.parts, options);
+  rows->AtMost("parts-cover", quality.solid_to_parts, limits.cover_distance_ratio,
+               "of the diagonal from the solid's surface to the parts', farthest point");
   int bad = 0;
   for (const core::TriangleMesh& part : asset.parts) {
     const geometry::Soundness s = geometry::Examine(part);

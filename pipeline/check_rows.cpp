@@ -40,11 +40,6 @@ void CheckRows::AtMost(const std::string& code, double figure, double limit,
   Require(code, figure <= limit, figure, what + ", at most " + Rounded(limit));
 }
 
-void CheckRows::AtLeast(const std::string& code, double figure, double limit,
-                        const std::string& what) {
-  Require(code, figure >= limit, figure, what + ", at least " + Rounded(limit));
-}
-
 void CheckRows::Fail(const std::string& code, const std::string& why) {
   rows_.push_back({code, core::Severity::kError, place_, why, 0.0});
 }

@@ -14,7 +14,6 @@ class CheckRows {
   void Report(const std::string& code, double figure, const std::string& what);
   void Require(const std::string& code, bool passes, double figure, const std::string& what);
   void AtMost(const std::string& code, double figure, double limit, const std::string& what);
-  void AtLeast(const std::string& code, double figure, double limit, const std::string& what);
   void Fail(const std::string& code, const std::string& why);
   void Warn(const core::Finding& finding);
 

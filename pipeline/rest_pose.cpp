@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "geometry/convex_hull.h"
 #include "geometry/stable_poses.h"
 #include "sim/drop_test.h"
 
@@ -15,7 +16,8 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kHolds = 5.0 * kDegree;   // more is a fall
 constexpr double kRocks = 0.5 * kDegree;   // less is the file's own upright
 constexpr double kRolling = 1e-3;          // m of drift that only a rolling body has
-constexpr int kPosesTried = 6;
+constexpr double kNearUpright = 20.0 * kDegree;
+constexpr int kPosesTried = 8;
 
 // The orientation without its turn about the vertical, which is free.
 Eigen::Isometry3d WithoutYaw(const Eigen::Isometry3d& pose) {
@@ -45,9 +47,33 @@ Eigen::Isometry3d Settled(const Eigen::Isometry3d& start, const sim::DropResult&
   return WithoutYaw(drop.rest_pose);
 }
 
+// What the engines see: the hull of all parts, whose facets are the faces it can lie on.
+core::TriangleMesh HullOfParts(const sim::RigidBody& body) {
+  std::vector<Eigen::Vector3d> points;
+  for (const core::TriangleMesh& part : body.parts) {
+    points.insert(points.end(), part.vertices.begin(), part.vertices.end());
+  }
+  return geometry::ConvexHull(points);
+}
+
+// Poses near the given one first (a fruit that lay a little aslant), then by probability.
+std::vector<geometry::StablePose> PosesToTry(const sim::RigidBody& body) {
+  std::vector<geometry::StablePose> poses =
+      geometry::StablePoses(HullOfParts(body), body.inertial.center_of_mass);
+  const auto tilt = [](const geometry::StablePose& pose) {
+    return sim::TiltBetween(pose.resting_from_body, Eigen::Isometry3d::Identity());
+  };
+  const auto far = std::stable_partition(
+      poses.begin(), poses.end(), [&](const auto& pose) { return tilt(pose) < kNearUpright; });
+  std::stable_sort(poses.begin(), far,
+                   [&](const auto& a, const auto& b) { return tilt(a) < tilt(b); });
+  if (poses.size() > kPosesTried) poses.resize(kPosesTried);
+  return poses;
+}
+
 }  // namespace
 
-RestPose FindRestPose(const sim::RigidBody& body, const core::TriangleMesh& solid) {
+RestPose FindRestPose(const sim::RigidBody& body) {
   RestPose result;
   const Eigen::Isometry3d upright = Eigen::Isometry3d::Identity();
   const sim::DropResult given = Drop(body, upright, 2.0);
@@ -56,28 +82,29 @@ RestPose FindRestPose(const sim::RigidBody& body, const core::TriangleMesh& soli
     result.sentence = "stands the way it came";
     return result;
   }
-  result.as_given = false;
-  std::vector<geometry::StablePose> poses =
-      geometry::StablePoses(solid, body.inertial.center_of_mass);
-  if (poses.size() > kPosesTried) poses.resize(kPosesTried);
+  const std::vector<geometry::StablePose> poses = PosesToTry(body);
   for (const geometry::StablePose& pose : poses) {
     Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
     start.linear() = pose.resting_from_body.linear();
     const sim::DropResult drop = Drop(body, start, 2.0);
     if (!Holds(drop)) continue;
     result.turn = Settled(start, drop);
-    result.sentence = "does not stand the way it came; lies in its most probable stable pose that "
-                      "holds (" + std::to_string(std::lround(100.0 * pose.probability)) + " %)";
+    const double tilt = sim::TiltBetween(result.turn, upright);
+    result.as_given = tilt < kNearUpright;
+    result.sentence =
+        (result.as_given ? "stands nearly the way it came, turned by "
+                         : "does not stand the way it came; lies in a stable pose, turned by ") +
+        std::to_string(std::lround(tilt / kDegree)) + " degrees";
     return result;
   }
-  // Nothing holds: a thing that rolls, or one that rocks long. Give it time, take where it ends.
-  const sim::DropResult patient = Drop(body, upright, 12.0);
-  result.rolls = !patient.rests || patient.drift > kRolling ||
-                 (!poses.empty() && poses[0].tipping_angle < 4.0 * kDegree);
-  result.as_given = result.rolls || patient.tilt < kHolds;
-  result.turn = result.rolls ? upright : WithoutYaw(patient.rest_pose);
-  result.sentence = result.rolls ? "rolls: it rests in no pose of its own"
-                                 : "rocks; lies where it came to rest after 12 s";
+  // Nothing holds at once: give it time, and take the pose in which it ends.
+  const sim::DropResult patient = Drop(body, upright, 15.0);
+  result.turn = WithoutYaw(patient.rest_pose);
+  const double tilt = sim::TiltBetween(result.turn, upright);
+  result.as_given = tilt < kNearUpright;
+  result.rolls = !Holds(Drop(body, result.turn, 2.0));
+  result.sentence = result.rolls ? "rolls: no pose holds it within 5 degrees"
+                                 : "rocks; lies where it came to rest after 15 s";
   return result;
 }
 

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 
-#include "core/mesh.h"
 #include "sim/rigid_body.h"
 
 namespace simwright::pipeline {
@@ -16,10 +15,10 @@ struct RestPose {
   std::string sentence;   // for a person
 };
 
-// How `body` rests: dropped as it is given; where it falls over, in its stable poses, most
-// probable first. A pose holds when the body comes to rest within 5 degrees of it; where it rocks
-// by more than half a degree the pose it rocked into is taken. `solid` is the body's closed
-// surface, in its frame.
-RestPose FindRestPose(const sim::RigidBody& body, const core::TriangleMesh& solid);
+// How `body` rests: dropped as it is given; where it falls over, in its stable poses, those within
+// 20 degrees of the given one first, then the most probable. A pose holds when the body comes to
+// rest within 5 degrees of it; where it rocks by more than half a degree the pose it rocked into
+// is taken.
+RestPose FindRestPose(const sim::RigidBody& body);
 
 }  // namespace simwright::pipeline

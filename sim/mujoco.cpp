@@ -43,8 +43,10 @@ class SceneFile {
     std::ofstream out(path_);
     out << "<mujoco><compiler angle=\"radian\" meshdir=\"" << folder.string()
         << "\" texturedir=\"" << folder.string() << "\"/><include file=\""
-        << fs::absolute(mjcf).string() << "\"/><worldbody>"
-        << "<geom name=\"floor\" type=\"plane\" size=\"0 0 1\" condim=\"4\" friction=\"0.01\"/>";
+        // MuJoCo 2.2 puts the scene's folder before any include, also before an absolute one.
+        << fs::relative(fs::canonical(mjcf), fs::canonical(path_.parent_path())).string()
+        << "\"/><worldbody>"
+        << "<geom name=\"floor\" type=\"plane\" size=\"0 0 1\" condim=\"6\" friction=\"0.01 1e-5 1e-5\"/>";
     for (size_t i = 0; i < balls.size(); ++i) {
       out << "<body name=\"ball_" << i << "\"><freejoint/><geom type=\"sphere\" size=\""
           << balls[i] << "\" condim=\"4\" solref=\"0.005 1\"/></body>";

@@ -10,7 +10,8 @@
 namespace simwright::sim {
 
 RigidBody BodyFromAsset(const assets::Asset& asset) {
-  return {asset.name, asset.parts, asset.inertial, asset.friction, asset.restitution};
+  return {asset.name,     asset.parts,       asset.inertial,
+          asset.friction, asset.restitution, asset.rolling_friction};
 }
 
 RigidBody BodyFromUrdf(const assets::UrdfModel& model) {
@@ -26,6 +27,7 @@ RigidBody BodyFromUrdf(const assets::UrdfModel& model) {
       body.parts.push_back(std::move(part));
       body.friction = link.friction;
       body.restitution = link.restitution;
+      body.rolling_friction = link.rolling_friction;
     }
     if (!link.inertial) continue;
     const geometry::MassProperties one = geometry::Transformed(

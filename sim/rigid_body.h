@@ -19,6 +19,7 @@ struct RigidBody {
   assets::Inertial inertial;              // in the body's frame
   double friction = 0.5;
   double restitution = 0.0;
+  double rolling_friction = 0.0;  // m: the lever of the normal force that resists rolling
 };
 
 RigidBody BodyFromAsset(const assets::Asset& asset);

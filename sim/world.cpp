@@ -64,7 +64,9 @@ World::World(const WorldOptions& options)
   solver.m_splitImpulse = 1;  // penetration is mended without adding velocity
   // The default of 4 cm would let small things sink in before they are pushed out.
   solver.m_splitImpulsePenetrationThreshold = 0.0;
-  bullet_->dispatcher.setDispatcherFlags(btCollisionDispatcher::CD_STATIC_STATIC_REPORTED);
+  // A hull meets a plane in its deepest vertex alone: without more, a thing on a small facet
+  // trembles for ever. Turned a little each way, it is found to touch in the whole facet.
+  bullet_->configuration.setPlaneConvexMultipointIterations(8, 8);
   bullet_->floor_shape.setMargin(0.0);
   btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, &bullet_->floor_shape);
   info.m_friction = options.floor_friction;
@@ -105,6 +107,8 @@ int World::Add(const RigidBody& body, const Eigen::Isometry3d& world_from_body) 
   info.m_startWorldTransform = ToBullet(world_from_body * loaded->body_from_principal);
   info.m_friction = body.friction;
   info.m_restitution = body.restitution;
+  info.m_rollingFriction = body.rolling_friction;
+  info.m_spinningFriction = body.rolling_friction;
   loaded->rigid = std::make_unique<btRigidBody>(info);
   loaded->rigid->setActivationState(DISABLE_DEACTIVATION);
   // Sized for the body: Bullet's fixed 2 cm would join contacts of small things.

@@ -66,7 +66,7 @@ Row Hacd(const core::TriangleMesh& mesh, int parts) {
   hacd.SetCompacityWeight(0.1);
   hacd.SetVolumeWeight(0.0);
   hacd.SetNClusters(parts);
-  hacd.SetNVerticesPerCH(100);
+  hacd.SetNVerticesPerCH(64);  // as ours
   hacd.SetConcavity(1e9);
   hacd.SetAddExtraDistPoints(false);
   hacd.SetAddNeighboursDistPoints(false);

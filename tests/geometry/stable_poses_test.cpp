@@ -1,0 +1,136 @@
+#include "geometry/stable_poses.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "geometry/mass_properties.h"
+#include "tests/geometry/solid_shapes.h"
+
+namespace simwright::geometry {
+namespace {
+
+using Eigen::Vector3d;
+using shapes::kPi;
+
+std::vector<StablePose> Poses(const core::TriangleMesh& mesh) {
+  return StablePoses(mesh, SolidMassProperties(mesh, 1.0).center_of_mass);
+}
+
+// What every pose promises: the centre of mass over the origin, the body on z = 0.
+void ExpectRests(const core::TriangleMesh& mesh, const StablePose& pose) {
+  const Vector3d center = SolidMassProperties(mesh, 1.0).center_of_mass;
+  core::TriangleMesh laid = mesh;
+  core::Transform(Eigen::Affine3d(pose.resting_from_body.matrix()), &laid);
+  EXPECT_NEAR(core::Bounds(laid).min().z(), 0.0, 1e-9);
+  EXPECT_LT((pose.resting_from_body * center - Vector3d(0, 0, pose.center_height)).norm(), 1e-9);
+  EXPECT_NEAR(pose.resting_from_body.linear().determinant(), 1.0, 1e-12);
+  for (const Vector3d& corner : pose.support) {
+    EXPECT_NEAR((pose.resting_from_body * corner).z(), 0.0, 1e-9);
+  }
+}
+
+// The solid angle of a rectangle a x b seen from height h over its middle.
+double RectangleAngle(double a, double b, double h) {
+  return 4.0 * std::asin(a * b / std::sqrt((a * a + 4 * h * h) * (b * b + 4 * h * h)));
+}
+
+TEST(StablePoses, BoxLiesOnSixFacesByTheirSolidAngles) {
+  const core::TriangleMesh box = shapes::Box(1, 2, 3);
+  const auto poses = Poses(box);
+  ASSERT_EQ(poses.size(), 6u);
+  const double expected[] = {RectangleAngle(2, 3, .5), RectangleAngle(1, 3, 1),
+                             RectangleAngle(1, 2, 1.5)};
+  const double height[] = {0.5, 1.0, 1.5};
+  const double margin[] = {1.0, 0.5, 0.5};
+  double sum = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_NEAR(poses[i].probability, expected[i / 2] / (4 * kPi), 1e-9);
+    EXPECT_NEAR(poses[i].center_height, height[i / 2], 1e-12);
+    EXPECT_NEAR(poses[i].margin, margin[i / 2], 1e-12);
+    EXPECT_NEAR(poses[i].tipping_angle, std::atan2(margin[i / 2], height[i / 2]), 1e-12);
+    EXPECT_EQ(poses[i].support.size(), 4u);
+    ExpectRests(box, poses[i]);
+    sum += poses[i].probability;
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+}
+
+TEST(StablePoses, RegularTetrahedronHasFourEqual) {
+  core::TriangleMesh mesh;
+  mesh.vertices = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+  mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+  const auto poses = Poses(mesh);
+  ASSERT_EQ(poses.size(), 4u);
+  for (const auto& pose : poses) {
+    EXPECT_NEAR(pose.probability, 0.25, 1e-9);
+    ExpectRests(mesh, pose);
+  }
+}
+
+// A slender handle through a heavy head: it lies, and does not stand on the handle's end.
+TEST(StablePoses, HammerLies) {
+  const core::TriangleMesh hammer =
+      shapes::BoxUnion({shapes::BoxAt(-.01, -.01, 0, .01, .01, .3),
+                        shapes::BoxAt(-.05, -.015, .26, .05, .015, .29)});
+  const auto poses = Poses(hammer);
+  ASSERT_GE(poses.size(), 2u);
+  // On its side: the head's flank and the handle's end carry it.
+  EXPECT_GT(std::abs(poses[0].face_normal.y()), 0.99);
+  EXPECT_GT(poses[0].probability, 0.3);
+  for (const auto& pose : poses) {
+    ExpectRests(hammer, pose);
+    EXPECT_GT(pose.margin, 0.0);
+  }
+  const Vector3d center = SolidMassProperties(hammer, 1.0).center_of_mass;
+  EXPECT_NEAR(TippingAngle(hammer, center, -Vector3d::UnitZ(), 1e-6), std::atan2(0.01, center.z()),
+              1e-9);
+  EXPECT_GT(poses[0].tipping_angle, TippingAngle(hammer, center, -Vector3d::UnitZ(), 1e-6));
+}
+
+// Height 2 on radius 0.5: stands on its base with the solid angle of a disc seen from h/4.
+TEST(StablePoses, ConeStandsOnItsBaseOrLies) {
+  const core::TriangleMesh cone = shapes::Cone(0.5, 2.0, 64);
+  const auto poses = Poses(cone);
+  double base = 0.0;
+  for (const auto& pose : poses) {
+    if (pose.face_normal.z() < -0.99) base += pose.probability;
+    ExpectRests(cone, pose);
+  }
+  EXPECT_NEAR(base, 0.5 * (1.0 - 0.5 / std::hypot(0.5, 0.5)), 2e-3);
+  // The sides share the rest alike: a cone of half angle atan(1/4) lies stably on each facet.
+  EXPECT_EQ(poses.size(), 65u);
+}
+
+// A tall leaning prism whose base does not carry it: that share goes to where it falls.
+TEST(StablePoses, UnstableFaceHandsItsShareOn) {
+  core::TriangleMesh leaning = shapes::Box(1, 1, 3);
+  for (Vector3d& v : leaning.vertices) v.x() += 0.8 * v.z();
+  const auto poses = Poses(leaning);
+  double sum = 0.0, falls = 0.0;
+  for (const auto& pose : poses) {
+    EXPECT_LT(std::abs(pose.face_normal.z()), 0.9);  // neither on its base nor on its top
+    sum += pose.probability;
+    if (pose.face_normal.x() > 0.5 || pose.face_normal.x() < -0.5) falls += pose.probability;
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+  EXPECT_EQ(poses.size(), 4u);
+  EXPECT_GT(falls, 0.5);
+}
+
+TEST(TippingAngle, NegativeWhereItDoesNotStand) {
+  const core::TriangleMesh sphere = shapes::Sphere(1.0, 32);
+  EXPECT_LE(TippingAngle(sphere, Vector3d::Zero(), Vector3d(1, 2, 3), 1e-9), 1e-9);
+  const core::TriangleMesh box = shapes::Box(1, 1, 1);
+  EXPECT_NEAR(TippingAngle(box, Vector3d(.5, .5, .5), {0, 0, -1}, 1e-9), kPi / 4, 1e-12);
+  EXPECT_LT(TippingAngle(box, Vector3d(1.5, .5, .5), {0, 0, -1}, 1e-9), 0.0);
+}
+
+TEST(StablePoses, RefusesBadInput) {
+  const core::TriangleMesh box = shapes::Box(1, 1, 1);
+  EXPECT_THROW(StablePoses(box, Vector3d(2, 0, 0)), core::Error);
+  EXPECT_THROW(StablePoses(box, Vector3d(std::nan(""), 0, 0)), core::Error);
+  EXPECT_THROW(StablePoses({}, Vector3d::Zero()), core::Error);
+}
+
+}  // namespace
+}  // namespace simwright::geometry
