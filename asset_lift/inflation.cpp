@@ -89,6 +89,8 @@ class Inflater {
     if (prior_.open && !prior_.round) {
       field.HollowUprightBody(body, 2.0 * body.MaxRadius() * options_.wall_ratio);
     }
+    // It stands on its foot, whatever of the outline lies below.
+    field.CutBelow(body.bottom);
     const cv::Mat rest = Residual(mask_, Silhouette(body, camera_), matte_.right - matte_.left);
     if (cv::countNonZero(rest) > 0) {
       field.AddDepthMap(PoissonDepth(rest), {body.axis_x, body.axis_y, 0.0});
@@ -106,7 +108,8 @@ class Inflater {
                                                Eigen::Vector3d::Zero()));
   }
 
-  // What stood in the photo has a foot to stand on: the lowest few percent are cut level.
+  // What stood in the photo has a foot to stand on: where the form has none, the lowest few
+  // percent are cut level.
   InflatedShape Finish(ShapeForm form, OutlineField& field,
                        const Eigen::Hyperplane<double, 3>& mirror) const {
     core::CheckCancelled();
@@ -114,9 +117,11 @@ class Inflater {
     shape.form = form;
     shape.mirror = mirror;
     shape.mesh = field.Extract(options_.resolution);
-    const Eigen::AlignedBox3d box = core::Bounds(shape.mesh);
-    field.CutBelow(box.min().z() + options_.foot_ratio * box.sizes().z());
-    shape.mesh = field.Extract(options_.resolution);
+    if (form != ShapeForm::kUpright) {
+      const Eigen::AlignedBox3d box = core::Bounds(shape.mesh);
+      field.CutBelow(box.min().z() + options_.foot_ratio * box.sizes().z());
+      shape.mesh = field.Extract(options_.resolution);
+    }
     geometry::SimplifyOptions simplify;
     simplify.face_budget = options_.face_budget;
     if (static_cast<int>(shape.mesh.triangles.size()) > simplify.face_budget) {

@@ -31,7 +31,7 @@ double Excess(const std::vector<Piece>& pieces) {
 // Heights along `axis` where the surface has flat faces across it or creases inward, weightiest
 // first: a cut there leaves no remainder.
 std::vector<double> FeatureHeights(const core::TriangleMesh& mesh, const Vector3d& axis,
-                                   double width) {
+                                   double width, int most) {
   std::map<long, double> weight, moment;
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
     const Vector3d area = core::TriangleAreaVector(mesh, t);
@@ -49,7 +49,7 @@ std::vector<double> FeatureHeights(const core::TriangleMesh& mesh, const Vector3
   std::sort(by_weight.begin(), by_weight.end());
   std::vector<double> heights;
   for (const auto& [w, height] : by_weight) {
-    if (heights.size() == kFeatures) break;
+    if (static_cast<int>(heights.size()) == most) break;
     heights.push_back(height);
   }
   return heights;
@@ -64,7 +64,8 @@ void AddPlanes(const Piece& piece, const Vector3d& axis, int count, const CutCon
   }
   const double slab = kSlab * context.diagonal;
   if (high - low < 2.0 * slab) return;
-  std::vector<double> heights = FeatureHeights(piece.mesh, axis, 0.1 * slab);
+  std::vector<double> heights =
+      FeatureHeights(piece.mesh, axis, 0.1 * slab, std::min(count, kFeatures));
   for (int i = 0; i < count; ++i) heights.push_back(low + (high - low) * (i + 1) / (count + 1));
   std::vector<double> taken;
   for (const double height : heights) {
@@ -79,9 +80,9 @@ void AddPlanes(const Piece& piece, const Vector3d& axis, int count, const CutCon
 }
 
 // Directions to cut across: the axes, and the piece's own where they are others.
-std::vector<Vector3d> Directions(const Piece& piece, const CutContext& context) {
+std::vector<Vector3d> Directions(const Piece& piece, bool own) {
   std::vector<Vector3d> directions{Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
-  if (!context.options->principal_axes) return directions;
+  if (!own) return directions;
   const MassProperties properties = ShellMassProperties(piece.mesh, 1.0, 1.0);
   const Eigen::Matrix3d axes = PrincipalInertiaOf(properties.inertia).axes.toRotationMatrix();
   for (int k = 0; k < 3; ++k) {
@@ -93,9 +94,10 @@ std::vector<Vector3d> Directions(const Piece& piece, const CutContext& context) 
   return directions;
 }
 
-std::vector<CutPlane> Candidates(const Piece& piece, int count, const CutContext& context) {
+std::vector<CutPlane> Candidates(const Piece& piece, int count, bool own,
+                                 const CutContext& context) {
   std::vector<CutPlane> planes;
-  for (const Vector3d& axis : Directions(piece, context)) {
+  for (const Vector3d& axis : Directions(piece, own)) {
     AddPlanes(piece, axis, count, context, &planes);
   }
   return planes;
@@ -130,8 +132,9 @@ double ExcessAhead(const Piece& piece, int depth, double negligible, const CutCo
   const double now = piece.Excess();
   if (depth == 0 || now <= negligible) return now;
   double best = now;
-  const int count = std::max(3, context.options->candidates / 2);
-  for (const CutPlane& plane : Candidates(piece, count, context)) {
+  // Coarser than the cuts that are made: it only has to tell good beginnings from bad ones.
+  const int count = std::max(3, context.options->candidates / 3);
+  for (const CutPlane& plane : Candidates(piece, count, false, context)) {
     const std::vector<Piece> pieces = CutPiece(piece, plane, context);
     if (pieces.empty()) continue;
     double sum = 0.0;
@@ -170,7 +173,8 @@ std::vector<Piece> CutPiece(const Piece& piece, const CutPlane& plane, const Cut
 
 std::vector<Piece> BestCut(const Piece& piece, const CutContext& context) {
   const DecompositionOptions& options = *context.options;
-  const std::vector<CutPlane> planes = Candidates(piece, options.candidates, context);
+  const std::vector<CutPlane> planes =
+      Candidates(piece, options.candidates, options.principal_axes, context);
   std::vector<Trial> trials(planes.size());
   core::ParallelFor(static_cast<int>(planes.size()), [&](int i) {
     trials[i].plane = planes[i];

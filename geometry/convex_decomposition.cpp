@@ -117,19 +117,53 @@ void TakeInVertices(const core::TriangleMesh& solid, const CutContext& context,
   }
 }
 
-// The hull within the vertex limit. What fewer vertices cut off a round hull is given back by
-// growing it about its middle to the volume that it had, so that it errs to both sides alike.
+// The hull within the vertex limit. What fewer vertices cut off a round hull is half given back:
+// each vertex moves out by half of what sticks out of its faces, along their normals, so that the
+// hull errs to both sides alike and its flat faces stay where they are.
 core::TriangleMesh Limited(Piece piece, const CutContext& context) {
   const DecompositionOptions& options = *context.options;
   if (static_cast<int>(piece.hull.vertices.size()) <= options.max_hull_vertices) {
     return std::move(piece.hull);
   }
-  core::TriangleMesh hull = ThickenedConvexHull(
-      piece.hull.vertices, options.min_thickness * context.diagonal, options.max_hull_vertices);
-  const double grow = std::cbrt(piece.hull_volume / SignedVolume(hull));
-  const Vector3d middle = core::Bounds(hull).center();
-  for (Vector3d& v : hull.vertices) v = middle + std::clamp(grow, 1.0, 1.05) * (v - middle);
-  return hull;
+  const double thinnest = options.min_thickness * context.diagonal;
+  const core::TriangleMesh hull =
+      ThickenedConvexHull(piece.hull.vertices, thinnest, options.max_hull_vertices);
+  const std::vector<Eigen::Vector4d> planes = FacePlanes(hull);
+  std::vector<double> out(planes.size(), 0.0);  // how far the full hull sticks out of each face
+  for (const Vector3d& v : piece.hull.vertices) {
+    std::size_t face = 0;
+    double height = 0.0;
+    for (std::size_t f = 0; f < planes.size(); ++f) {
+      const double h = planes[f].head<3>().dot(v) - planes[f][3];
+      if (h <= height) continue;
+      height = h;
+      face = f;
+    }
+    out[face] = std::max(out[face], height);
+  }
+  std::vector<Vector3d> push(hull.vertices.size(), Vector3d::Zero());
+  std::vector<double> farthest(hull.vertices.size(), 0.0);
+  for (std::size_t f = 0; f < planes.size(); ++f) {
+    for (const int v : hull.triangles[f]) {
+      push[v] += out[f] * planes[f].head<3>();
+      farthest[v] = std::max(farthest[v], out[f]);
+    }
+  }
+  // Faces that are whole stay in their planes: no crack opens where two parts meet.
+  for (int round = 0; round < 3; ++round) {
+    for (std::size_t f = 0; f < planes.size(); ++f) {
+      if (out[f] > 1e-9 * context.diagonal) continue;
+      const Vector3d normal = planes[f].head<3>();
+      for (const int v : hull.triangles[f]) push[v] -= normal.dot(push[v]) * normal;
+    }
+  }
+  std::vector<Vector3d> grown = hull.vertices;
+  for (std::size_t v = 0; v < grown.size(); ++v) {
+    // What the planes leave of it may be nothing.
+    if (push[v].norm() <= 0.1 * farthest[v]) continue;
+    grown[v] += 0.5 * farthest[v] * push[v].normalized();
+  }
+  return ThickenedConvexHull(grown, thinnest, options.max_hull_vertices);
 }
 
 ConvexDecomposition DecomposeUnit(const core::TriangleMesh& solid,
