@@ -149,8 +149,8 @@ std::vector<Vector3d> SampleUnion(const std::vector<core::TriangleMesh>& parts, 
             return a.template head<3>().dot(p) - a[3] < b.template head<3>().dot(p) - b[3];
           });
       // A step outward tells a face shared back to back (inside the union) from two faces that
-      // lie on one another (on its surface).
-      const Vector3d outward = p + 2e-6 * diagonal * face->head<3>();
+      // lie on one another (on its surface); a crack thinner than the step is none.
+      const Vector3d outward = p + options.coverage_tolerance * diagonal * face->head<3>();
       if (!set.Holds(outward, 0.0, i)) kept[i].push_back(p);
     }
   });
@@ -237,8 +237,9 @@ DecompositionQuality MeasureDecomposition(const core::TriangleMesh& solid,
     const std::size_t end = std::min(on_solid.size(), static_cast<std::size_t>(b + 1) * kBlock);
     for (std::size_t i = static_cast<std::size_t>(b) * kBlock; i < end; ++i) {
       const Vector3d& p = on_solid[i];
-      to_parts[i] = set.Holds(p, 0.0, -1) ? set.WayOut(p, 1e-6 * diagonal, grid.Distance(p))
-                                          : parts_tree.Closest(p).distance;
+      to_parts[i] = set.Holds(p, 0.0, -1)
+                        ? set.WayOut(p, options.coverage_tolerance * diagonal, grid.Distance(p))
+                        : parts_tree.Closest(p).distance;
     }
   });
   core::ParallelFor(static_cast<int>(on_parts.size() + kBlock - 1) / kBlock, [&](int b) {

@@ -10,7 +10,8 @@ namespace simwright::geometry {
 struct ConcavityOptions {
   int surface_samples = 20000;  // points on each surface: Hausdorff noise below 1% of the diagonal
   int volume_samples = 100000;  // Monte Carlo points in the bounds: 1 sigma of 0.3% of the box
-  double coverage_tolerance = 1e-3;  // of the diagonal: a point that near to a part is covered
+  double coverage_tolerance = 1e-3;  // of the diagonal: a point that near to a part is covered,
+                                     // and a crack between parts that narrow is closed
   std::uint64_t seed = 1;
 };
 

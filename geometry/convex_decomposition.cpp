@@ -152,7 +152,7 @@ core::TriangleMesh Limited(Piece piece, const CutContext& context) {
   // Faces that are whole stay in their planes: no crack opens where two parts meet.
   for (int round = 0; round < 3; ++round) {
     for (std::size_t f = 0; f < planes.size(); ++f) {
-      if (out[f] > 1e-9 * context.diagonal) continue;
+      if (out[f] > 1e-5 * context.diagonal) continue;
       const Vector3d normal = planes[f].head<3>();
       for (const int v : hull.triangles[f]) push[v] -= normal.dot(push[v]) * normal;
     }
