@@ -123,7 +123,7 @@ ElevationEstimate EstimateElevation(const Matte& matte, const CategoryPrior& pri
                           std::max(1, matte.right - matte.left);
   std::vector<double> log_posterior = SizeLikelihood(observed, prior);
   const double habit = prior.flat ? 38.0 : prior.round ? 18.0 : 22.0;
-  const double habit_deviation = prior.flat ? 16.0 : 11.0;
+  const double habit_deviation = prior.flat ? 16.0 : 13.0;
   std::string cues = "habit and proportions";
   std::vector<std::pair<double, double>> arcs;  // (elevation, deviation), degrees
   if (prior.revolved && !prior.round) {
@@ -135,7 +135,7 @@ ElevationEstimate EstimateElevation(const Matte& matte, const CategoryPrior& pri
     }
     const double rim = prior.open ? EndArcRatio(matte, false) : -1.0;
     if (rim >= 0.0) {
-      arcs.emplace_back(std::asin(rim) / kDegree, 7.0);
+      arcs.emplace_back(std::asin(rim) / kDegree, 4.0);
       cues += ", curve of the rim";
     }
   }

@@ -10,6 +10,7 @@
 #include "asset_lift/upright_body.h"
 #include "core/error.h"
 #include "core/progress.h"
+#include "geometry/mass_properties.h"
 #include "geometry/simplify.h"
 #include "render/forward.h"
 
@@ -45,6 +46,40 @@ cv::Mat Residual(const cv::Mat& mask, const cv::Mat& body, double width) {
   cv::dilate(kept, grown, cv::getStructuringElement(cv::MORPH_ELLIPSE,
                                                     cv::Size(2 * reach + 1, 2 * reach + 1)));
   return grown & mask;
+}
+
+double Reach(const core::TriangleMesh& mesh, const Eigen::Vector3d& direction) {
+  double reach = -1e300;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    reach = std::max(reach, vertex.dot(direction));
+  }
+  return reach;
+}
+
+// The direction, near straight down, in which the surface is nearest to the centre of mass: a body
+// lies with its centre as low as it can be. Straight down where there is none within 25 degrees.
+Eigen::Vector3d RestingDirection(const core::TriangleMesh& mesh, const Eigen::Vector3d& center) {
+  const Eigen::Vector3d straight = -Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d down = straight;
+  double height = Reach(mesh, down) - down.dot(center);
+  for (double step = 0.1; step > 0.005;) {
+    const Eigen::Vector3d u = down.unitOrthogonal(), v = down.cross(u);
+    Eigen::Vector3d best = down;
+    for (int i = 0; i < 16; ++i) {
+      const double angle = 2.0 * M_PI * i / 16;
+      const Eigen::Vector3d tried =
+          (down + step * (std::cos(angle) * u + std::sin(angle) * v)).normalized();
+      const double lower = Reach(mesh, tried) - tried.dot(center);
+      if (lower < height - 1e-9) {
+        height = lower;
+        best = tried;
+      }
+    }
+    if (best == down) step *= 0.5;
+    down = best;
+    if (down.dot(straight) < 0.906) return straight;
+  }
+  return down;
 }
 
 class Inflater {
@@ -89,39 +124,45 @@ class Inflater {
     if (prior_.open && !prior_.round) {
       field.HollowUprightBody(body, 2.0 * body.MaxRadius() * options_.wall_ratio);
     }
-    // It stands on its foot, whatever of the outline lies below.
-    field.CutBelow(body.bottom);
     const cv::Mat rest = Residual(mask_, Silhouette(body, camera_), matte_.right - matte_.left);
     if (cv::countNonZero(rest) > 0) {
       field.AddDepthMap(PoissonDepth(rest), {body.axis_x, body.axis_y, 0.0});
     }
-    return Finish(ShapeForm::kUpright, field,
-                  Eigen::Hyperplane<double, 3>(Eigen::Vector3d::UnitY(),
-                                               Eigen::Vector3d(0, body.axis_y, 0)));
+    const Eigen::Hyperplane<double, 3> mirror(Eigen::Vector3d::UnitY(),
+                                              Eigen::Vector3d(0, body.axis_y, 0));
+    // It stands on its foot: what of the outline lies below is cut level, as much of it as the
+    // silhouette can spare.
+    InflatedShape shape;
+    for (int lowered = 0; lowered < 4 && shape.silhouette_iou < 0.97; ++lowered) {
+      const double spare = 0.025 * lowered * (body.top() - body.bottom);
+      field.Cut(-Eigen::Vector3d::UnitZ(), -(body.bottom - spare));
+      shape = Finish(ShapeForm::kUpright, field.Extract(options_.resolution), mirror);
+    }
+    return shape;
   }
 
   InflatedShape Flat(ShapeForm form, const cv::Mat& depth) const {
     OutlineField field(camera_, mask_);
     field.AddDepthMap(depth, Eigen::Vector3d::Zero());
-    return Finish(form, field,
+    core::TriangleMesh mesh = field.Extract(options_.resolution);
+    // What lay in the photo has a flat to lie on: under its centre of mass, a little is cut off.
+    const Eigen::Vector3d center = geometry::SolidMassProperties(mesh, 1.0).center_of_mass;
+    const Eigen::Vector3d down = RestingDirection(mesh, center);
+    const double height = core::Bounds(mesh).sizes().z();
+    field.Cut(down, Reach(mesh, down) - options_.foot_ratio * height);
+    mesh = field.Extract(options_.resolution);
+    return Finish(form, std::move(mesh),
                   Eigen::Hyperplane<double, 3>(camera_.world_from_camera.linear().col(2),
                                                Eigen::Vector3d::Zero()));
   }
 
-  // What stood in the photo has a foot to stand on: where the form has none, the lowest few
-  // percent are cut level.
-  InflatedShape Finish(ShapeForm form, OutlineField& field,
+  InflatedShape Finish(ShapeForm form, core::TriangleMesh mesh,
                        const Eigen::Hyperplane<double, 3>& mirror) const {
     core::CheckCancelled();
     InflatedShape shape;
     shape.form = form;
     shape.mirror = mirror;
-    shape.mesh = field.Extract(options_.resolution);
-    if (form != ShapeForm::kUpright) {
-      const Eigen::AlignedBox3d box = core::Bounds(shape.mesh);
-      field.CutBelow(box.min().z() + options_.foot_ratio * box.sizes().z());
-      shape.mesh = field.Extract(options_.resolution);
-    }
+    shape.mesh = std::move(mesh);
     geometry::SimplifyOptions simplify;
     simplify.face_budget = options_.face_budget;
     if (static_cast<int>(shape.mesh.triangles.size()) > simplify.face_budget) {
@@ -199,8 +240,8 @@ ElevationEstimate RefineElevation(const Matte& matte, double focal,
         *std::max_element(body.radius.begin(), body.radius.begin() + static_cast<long>(third));
     const double foot = widest > 0.0 ? body.radius.front() / widest : 0.0;
     const double z = (elevation - estimate.elevation) / std::max(0.05, estimate.deviation);
-    // A percent of the outline left out weighs as much as a foot narrower by a quarter.
-    const double score = -0.5 * z * z + 60.0 * body.coverage + 2.5 * foot;
+    // A percent of the outline left out weighs as much as a foot narrower by a sixth.
+    const double score = -0.5 * z * z + 60.0 * body.coverage + 4.0 * foot;
     if (score > best_score) {
       best_score = score;
       best.elevation = elevation;

@@ -105,7 +105,7 @@ double OutlineField::Value(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d pixel = camera_.Project(point);
   if (pixel.z() <= 0.0) return std::abs(value);
   const double cone = -Lookup(edge_distance_, pixel.x(), pixel.y()) * pixel.z() / camera_.fy;
-  return std::max({value, cone, floor_ - point.z()});
+  return std::max({value, cone, cut_direction_.dot(point) - cut_reach_});
 }
 
 core::TriangleMesh OutlineField::Extract(int resolution) const {

@@ -25,8 +25,11 @@ class OutlineField {
   // the camera.
   void AddDepthMap(const cv::Mat& squared_depth, const Eigen::Vector3d& anchor);
 
-  // Nothing remains below the level `z` (world).
-  void CutBelow(double z) { floor_ = z; }
+  // Nothing remains where direction.dot(point) > reach; `direction` unit, world.
+  void Cut(const Eigen::Vector3d& direction, double reach) {
+    cut_direction_ = direction;
+    cut_reach_ = reach;
+  }
 
   // The closed surface; `resolution` cells along the longest side of the bodies' box. Throws
   // core::Error where nothing lies inside.
@@ -40,7 +43,8 @@ class OutlineField {
   std::vector<std::function<double(const Eigen::Vector3d&)>> bodies_;
   std::vector<std::function<double(const Eigen::Vector3d&)>> hollows_;
   Eigen::AlignedBox3d box_;
-  double floor_ = -1e30;
+  Eigen::Vector3d cut_direction_ = -Eigen::Vector3d::UnitZ();
+  double cut_reach_ = 1e30;
 };
 
 }  // namespace simwright::asset_lift

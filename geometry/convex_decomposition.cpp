@@ -53,25 +53,37 @@ void MeasureConcavity(const CutContext& context, Piece* piece) {
       context.fit->Concavity(piece->hull, piece->volume, std::numeric_limits<double>::infinity());
 }
 
-// Cuts the most concave piece again and again until all meet the threshold or there are `limit`.
-std::vector<Piece> CutDown(const core::TriangleMesh& solid, double threshold, int limit,
-                           const CutContext& context) {
+// Cuts the most concave piece again and again until all meet the threshold or there are as many as
+// the last of `limits` (ascending). The pieces as they were when each limit was reached; those met
+// after the work was done hold its end once.
+std::vector<std::vector<Piece>> CutDown(const core::TriangleMesh& solid, double threshold,
+                                        const std::vector<int>& limits, const CutContext& context) {
   std::vector<Piece> pieces, done;
   for (core::TriangleMesh& body : ConnectedBodies(solid)) {
     pieces.push_back(MakePiece(std::move(body), context));
     MeasureConcavity(context, &pieces.back());
   }
+  std::vector<std::vector<Piece>> stages;
+  const auto keep = [&] {
+    stages.push_back(done);
+    stages.back().insert(stages.back().end(), pieces.begin(), pieces.end());
+    for (Piece& piece : stages.back()) piece.mesh = {};  // joining needs the hulls alone
+  };
+  std::size_t limit = 0;
   while (!pieces.empty()) {
     core::CheckCancelled();
+    while (limit < limits.size() &&
+           static_cast<int>(pieces.size() + done.size()) >= limits[limit]) {
+      if (++limit < limits.size()) keep();
+    }
+    if (limit == limits.size()) break;
     const auto worst =
         std::max_element(pieces.begin(), pieces.end(),
                          [](const Piece& a, const Piece& b) { return a.concavity < b.concavity; });
     Piece piece = std::move(*worst);
     pieces.erase(worst);
     std::vector<Piece> cut;
-    if (piece.concavity > threshold && static_cast<int>(pieces.size() + done.size()) + 1 < limit) {
-      cut = BestCut(piece, context);
-    }
+    if (piece.concavity > threshold) cut = BestCut(piece, context);
     if (cut.empty()) {
       done.push_back(std::move(piece));
       continue;
@@ -81,7 +93,30 @@ std::vector<Piece> CutDown(const core::TriangleMesh& solid, double threshold, in
       pieces.push_back(std::move(p));
     }
   }
-  return done;
+  keep();
+  return stages;
+}
+
+// Stages of the cutting, joined to at most `max_parts`, and of those the least concave one.
+std::vector<Piece> BestJoined(std::vector<std::vector<Piece>> stages, int max_parts,
+                              const CutContext& context) {
+  const DecompositionOptions& options = *context.options;
+  std::vector<Piece>* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::vector<Piece>& pieces : stages) {
+    if (options.merge || static_cast<int>(pieces.size()) > max_parts) {
+      MergePieces(context, options.merge ? options.threshold : 0.0, max_parts, &pieces);
+    }
+    double worst = 0.0;
+    for (Piece& piece : pieces) {
+      MeasureConcavity(context, &piece);
+      worst = std::max(worst, piece.concavity);
+    }
+    if (worst >= least) continue;
+    least = worst;
+    best = &pieces;
+  }
+  return std::move(*best);
 }
 
 // Grows the hulls by the solid's own vertices that the thinned solid left outside.
@@ -175,15 +210,13 @@ ConvexDecomposition DecomposeUnit(const core::TriangleMesh& solid,
   context.excess = MakePiece(solid, context).Excess();
 
   // More pieces than are wanted are cut, then joined: joining looks at all neighbours, cutting
-  // only at one piece at a time.
-  const int limit =
-      options.max_parts > 0 ? std::min(kMostParts, 2 * options.max_parts + 6) : kMostParts;
-  const core::TriangleMesh searched = Thinned(solid, diagonal);
-  std::vector<Piece> pieces = CutDown(searched, options.threshold, limit, context);
-  if (options.merge || static_cast<int>(pieces.size()) > kMostParts ||
-      (options.max_parts > 0 && static_cast<int>(pieces.size()) > options.max_parts)) {
-    MergePieces(context, options.merge ? options.threshold : 0.0, options.max_parts, &pieces);
-  }
+  // only at one piece at a time. How many more serves best differs; several are tried.
+  const int p = options.max_parts;
+  std::vector<int> limits{kMostParts};
+  if (p > 0) limits = {p, p + p / 4 + 1, p + p / 2 + 2, 2 * p + 6};
+  std::vector<Piece> pieces =
+      BestJoined(CutDown(Thinned(solid, diagonal), options.threshold, limits, context),
+                 p > 0 ? p : kMostParts, context);
   TakeInVertices(solid, context, &pieces);
 
   ConvexDecomposition result;

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "core/parallel.h"
 #include "core/progress.h"
@@ -20,8 +22,7 @@ struct Join {
   double cost = 0.0;
 };
 
-bool Neighbours(const Piece& a, const Piece& b, double reach) {
-  if (core::Bounds(a.hull).exteriorDistance(core::Bounds(b.hull)) > reach) return false;
+bool Touching(const Piece& a, const Piece& b, double reach) {
   return SignedDistance({a.hull.vertices, 0.0}, {b.hull.vertices, 0.0}).distance <= reach;
 }
 
@@ -42,6 +43,33 @@ double JoinCost(const Piece& a, const Piece& b, double enough, const CutContext&
   return context.fit->Concavity(joined.hull, joined.volume, enough);
 }
 
+// Each piece that is left with the few whose boxes lie nearest.
+std::vector<Join> NearestPairs(const std::vector<Piece>& pieces, const std::vector<bool>& gone) {
+  constexpr std::size_t kNearest = 4;
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Piece& piece : pieces) boxes.push_back(core::Bounds(piece.hull));
+  std::vector<Join> joins;
+  for (int i = 0; i < static_cast<int>(pieces.size()); ++i) {
+    if (gone[i]) continue;
+    std::vector<std::pair<double, int>> others;
+    for (int j = 0; j < static_cast<int>(pieces.size()); ++j) {
+      if (j != i && !gone[j]) others.emplace_back(boxes[i].exteriorDistance(boxes[j]), j);
+    }
+    const std::size_t count = std::min(kNearest, others.size());
+    std::partial_sort(others.begin(), others.begin() + count, others.end());
+    for (std::size_t k = 0; k < count; ++k) {
+      joins.push_back({std::min(i, others[k].second), std::max(i, others[k].second)});
+    }
+  }
+  const auto ends = [](const Join& join) { return std::pair(join.a, join.b); };
+  std::sort(joins.begin(), joins.end(),
+            [&](const Join& x, const Join& y) { return ends(x) < ends(y); });
+  joins.erase(std::unique(joins.begin(), joins.end(),
+                          [&](const Join& x, const Join& y) { return ends(x) == ends(y); }),
+              joins.end());
+  return joins;
+}
+
 }  // namespace
 
 void MergePieces(const CutContext& context, double threshold, int max_parts,
@@ -58,9 +86,12 @@ void MergePieces(const CutContext& context, double threshold, int max_parts,
     });
   };
   const double reach = kTouching * context.diagonal;
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Piece& piece : *pieces) boxes.push_back(core::Bounds(piece.hull));
   for (int i = 0; i < static_cast<int>(pieces->size()); ++i) {
     for (int j = i + 1; j < static_cast<int>(pieces->size()); ++j) {
-      if (Neighbours((*pieces)[i], (*pieces)[j], reach)) joins.push_back({i, j});
+      if (boxes[i].exteriorDistance(boxes[j]) > reach) continue;
+      if (Touching((*pieces)[i], (*pieces)[j], reach)) joins.push_back({i, j});
     }
   }
   measure(0);
@@ -71,11 +102,8 @@ void MergePieces(const CutContext& context, double threshold, int max_parts,
     if (joins.empty()) {
       if (max_parts == 0 || alive <= max_parts) break;
       // Bodies that do not touch: the limit joins what lies apart, too.
-      for (int i = 0; i < static_cast<int>(pieces->size()); ++i) {
-        for (int j = i + 1; j < static_cast<int>(pieces->size()); ++j) {
-          if (!gone[i] && !gone[j]) joins.push_back({i, j});
-        }
-      }
+      joins = NearestPairs(*pieces, gone);
+      if (joins.empty()) break;
       measure(0);
     }
     const auto best = std::min_element(

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Installs what Simwright builds, tests and runs with, from Debian 12's packages. Does nothing for
+# what is there already. --catalogue adds the furniture that the catalogue tests use (120 MB).
+set -euo pipefail
+
+packages=(
+  build-essential g++ cmake ninja-build ccache pkg-config git
+  libeigen3-dev libassimp-dev libcgal-dev libembree-dev libopencv-dev libopencv-contrib-dev
+  libbullet-dev libbullet-extras-dev liburdfdom-dev libmujoco-dev nlohmann-json3-dev
+  libcli11-dev libtinyxml2-dev libzip-dev libexif-dev libgif-dev libwebp-dev libconsole-bridge-dev
+  wordnet-base libgtest-dev libbenchmark-dev libsdformat-dev clang-14 libclang-rt-14-dev
+)
+[ "${1:-}" != "--catalogue" ] || packages+=(sweethome3d-furniture python3-skimage)
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' ||
+    missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+run=()
+if [ "$(id -u)" != 0 ]; then
+  command -v sudo >/dev/null || {
+    echo "error: ${#missing[@]} packages are missing and there is no sudo (run as root: apt-get install ${missing[*]})" >&2
+    exit 1
+  }
+  run=(sudo)
+fi
+echo "Installing ${#missing[@]} packages"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+install() {
+  "${run[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq update >"$log" 2>&1 &&
+    "${run[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends \
+      "${missing[@]}" >>"$log" 2>&1
+}
+# A mirror in the middle of an update answers once and not again: one more try.
+install || { sleep 5; install; } || { tail -20 "$log" >&2; exit 1; }

@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and passes all tests. Further arguments go to ctest:
+#   ./test.sh -L fast
+set -euo pipefail
+cd "$(dirname "$0")"
+./setup.sh
+cmake --preset release ${SIMWRIGHT_CMAKE_FLAGS:-} >/dev/null
+cmake --build --preset release
+ctest --test-dir build --output-on-failure -j "$(nproc)" "$@"

@@ -1,0 +1,113 @@
+// The house of DESIGN: a module includes only from floors below its own, and each large library
+// has one door. Read from the include lines, so that the rule needs no compiler.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+
+namespace simwright {
+namespace {
+namespace fs = std::filesystem;
+
+const std::map<std::string, int> kFloor = {
+    {"core", 0},       {"geometry", 1}, {"nn", 1},         {"render", 1}, {"llm", 1},
+    {"texture", 2},    {"physics_params", 2},              {"asset_lift", 3}, {"assets", 3},
+    {"library", 4},    {"robot", 4},    {"sim", 5},        {"tasks", 6},  {"scene", 6},
+    {"rl", 7},         {"pipeline", 8}, {"cli", 9}};
+
+// Include pattern -> where it may stand: a module, or a file's stem below one.
+struct Door {
+  std::regex pattern;
+  std::set<std::string> places;
+};
+const std::vector<Door> kDoors = {
+    {std::regex("^embree3?/"), {"render"}},
+    {std::regex("^CGAL/"), {"geometry"}},
+    {std::regex("^assimp/"), {"assets"}},
+    {std::regex("^(urdf_parser|urdf_model|console_bridge)/"), {"assets"}},
+    {std::regex("^bt[A-Z]|^Bullet"), {"sim"}},
+    {std::regex("^mujoco/"), {"sim/mujoco"}},
+    {std::regex("^curl/"), {"llm"}},
+    {std::regex("^opencv2/"), {"core/image", "asset_lift", "texture"}},
+    {std::regex("^ceres/"), {"asset_lift", "scene"}},
+    {std::regex("^(torch|ATen)/"), {"nn"}},
+    {std::regex("^CLI/"), {"cli"}},
+    {std::regex("^zip\\.h"), {"assets"}},
+    {std::regex("^tinyxml2\\.h"), {"assets"}},
+};
+
+struct Include {
+  std::string module, stem, file, target;
+  int line;
+};
+
+std::vector<Include> AllIncludes() {
+  std::vector<Include> includes;
+  const std::regex line_pattern("^\\s*#\\s*include\\s*[<\"]([^>\"]+)[>\"]");
+  for (const auto& [module, floor] : kFloor) {
+    const fs::path folder = fs::path(SIMWRIGHT_SOURCE_DIR) / module;
+    if (!fs::exists(folder)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      const std::string ending = entry.path().extension();
+      if (ending != ".h" && ending != ".cpp") continue;
+      std::ifstream in(entry.path());
+      int number = 0;
+      for (std::string line; std::getline(in, line);) {
+        ++number;
+        std::smatch match;
+        if (std::regex_search(line, match, line_pattern)) {
+          includes.push_back({module, module + "/" + entry.path().stem().string(),
+                              entry.path().string(), match[1], number});
+        }
+      }
+    }
+  }
+  return includes;
+}
+
+TEST(Architecture, ModulesIncludeOnlyFromFloorsBelow) {
+  int checked = 0;
+  for (const Include& include : AllIncludes()) {
+    const std::string other = include.target.substr(0, include.target.find('/'));
+    const auto floor = kFloor.find(other);
+    if (floor == kFloor.end() || include.target.find('/') == std::string::npos) continue;
+    ++checked;
+    if (other == include.module) continue;
+    EXPECT_LT(floor->second, kFloor.at(include.module))
+        << include.file << ":" << include.line << " includes " << include.target;
+  }
+  EXPECT_GT(checked, 100);  // the reading works at all
+}
+
+TEST(Architecture, EachLibraryHasOneDoor) {
+  int checked = 0;
+  for (const Include& include : AllIncludes()) {
+    for (const Door& door : kDoors) {
+      if (!std::regex_search(include.target, door.pattern)) continue;
+      ++checked;
+      EXPECT_TRUE(door.places.contains(include.module) || door.places.contains(include.stem))
+          << include.file << ":" << include.line << " includes " << include.target;
+    }
+  }
+  EXPECT_GT(checked, 10);
+}
+
+TEST(Architecture, LargeLibrariesStayOutOfHeaders) {
+  for (const Include& include : AllIncludes()) {
+    if (!include.file.ends_with(".h") || include.module == "cli") continue;
+    // OpenCV's matrices are asset_lift's own currency between its files.
+    if (include.module == "asset_lift" && include.target.starts_with("opencv2/core")) continue;
+    // CGAL's types are geometry's, in headers named as such.
+    if (include.module == "geometry" && include.stem.find("cgal") != std::string::npos) continue;
+    for (const Door& door : kDoors) {
+      EXPECT_FALSE(std::regex_search(include.target, door.pattern))
+          << include.file << ":" << include.line << " includes " << include.target;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace simwright

@@ -1,0 +1,123 @@
+#include "assets/urdf_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+
+#include "assets/obj_file.h"
+#include "assets/primitive_meshes.h"
+#include "core/error.h"
+
+namespace simwright::assets {
+namespace {
+namespace fs = std::filesystem;
+
+class Urdf : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    root_ = fs::temp_directory_path() /
+            (std::string("simwright_urdf_") +
+             ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(root_);
+    fs::create_directories(root_ / "pkg" / "urdf");
+    fs::create_directories(root_ / "pkg" / "meshes");
+    std::ofstream(root_ / "pkg" / "meshes" / "box.obj") << ObjText(BoxMesh({1, 1, 1}));
+    std::ofstream(root_ / "outside.obj") << ObjText(BoxMesh({1, 1, 1}));
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  fs::path Write(const std::string& body) {
+    const fs::path path = root_ / "pkg" / "urdf" / "robot.urdf";
+    std::ofstream(path) << "<?xml version=\"1.0\"?><robot name=\"r\">" << body << "</robot>";
+    return path;
+  }
+  static std::string Link(const std::string& name, const std::string& mesh, double mass = 1.0) {
+    return "<link name=\"" + name + "\"><inertial><mass value=\"" + std::to_string(mass) +
+           "\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial>"
+           "<collision><geometry><mesh filename=\"" + mesh + "\"/></geometry></collision></link>";
+  }
+  // The error's text, empty when there was none.
+  std::string ErrorOf(const fs::path& path) {
+    try {
+      ReadUrdf(path);
+      return "";
+    } catch (const core::Error& error) {
+      return error.what();
+    }
+  }
+  fs::path root_;
+};
+
+TEST_F(Urdf, FindsMeshesInsideThePackage) {
+  for (const char* mesh : {"../meshes/box.obj", "package://pkg/meshes/box.obj"}) {
+    const UrdfModel model = ReadUrdf(Write(Link("a", mesh)));
+    EXPECT_TRUE(model.findings.empty()) << mesh;
+    ASSERT_EQ(model.links[0].collisions.size(), 1u) << mesh;
+    EXPECT_EQ(model.links[0].collisions[0].mesh.triangles.size(), 12u);
+  }
+}
+
+TEST_F(Urdf, WarnsOfMissingMeshesAndInertialsAndGoesOn) {
+  const UrdfModel model = ReadUrdf(
+      Write("<link name=\"a\"><visual><geometry><mesh filename=\"none.obj\"/></geometry></visual>"
+            "<collision><geometry><box size=\"1 2 3\"/></geometry></collision></link>"));
+  std::set<std::string> codes;
+  for (const core::Finding& f : model.findings) codes.insert(f.code);
+  EXPECT_TRUE(codes.contains("urdf-missing-mesh"));
+  EXPECT_TRUE(codes.contains("urdf-no-inertial"));
+  EXPECT_EQ(model.links[0].collisions.size(), 1u);
+}
+
+TEST_F(Urdf, RefusesMeshesBeyondItsRoot) {
+  EXPECT_NE(ErrorOf(Write(Link("a", "../../outside.obj"))).find("outside"), std::string::npos);
+  EXPECT_NE(ErrorOf(Write(Link("a", "/etc/passwd"))).find("outside"), std::string::npos);
+  UrdfReadOptions wider;
+  wider.root = root_;
+  EXPECT_EQ(ReadUrdf(Write(Link("a", "../../outside.obj")), wider).links[0].collisions.size(), 1u);
+}
+
+TEST_F(Urdf, RefusesLoopsMissingLinksAndImpossibleMasses) {
+  const std::string box = "../meshes/box.obj";
+  const std::string joint = "<joint name=\"%\" type=\"fixed\"><parent link=\"@\"/><child link=\"#\"/></joint>";
+  const auto joined = [&](std::string name, std::string parent, std::string child) {
+    std::string text = joint;
+    text.replace(text.find('%'), 1, name);
+    text.replace(text.find('@'), 1, parent);
+    text.replace(text.find('#'), 1, child);
+    return text;
+  };
+  EXPECT_NE(ErrorOf(Write(Link("a", box) + Link("b", box) + joined("j", "a", "b") +
+                          joined("k", "b", "a"))).find("loop"), std::string::npos);
+  EXPECT_NE(ErrorOf(Write(Link("a", box) + joined("j", "a", "ghost"))).find("ghost"),
+            std::string::npos);
+  EXPECT_NE(ErrorOf(Write(Link("a", box, -1.0))).find("mass"), std::string::npos);
+  EXPECT_NE(ErrorOf(Write("")).find("no link"), std::string::npos);
+}
+
+TEST_F(Urdf, RefusesEntityBombsAndWhatIsNoUrdf) {
+  const fs::path path = root_ / "bomb.urdf";
+  std::ofstream(path) << "<?xml version=\"1.0\"?><!DOCTYPE lolz [<!ENTITY a \"ha\">"
+                         "<!ENTITY b \"&a;&a;&a;&a;\">]><robot name=\"&b;\"><link name=\"l\"/></robot>";
+  EXPECT_NE(ErrorOf(path).find("DOCTYPE"), std::string::npos);
+  std::ofstream(path) << "not xml at all";
+  EXPECT_NE(ErrorOf(path).find("XML"), std::string::npos);
+  std::ofstream(path) << "";
+  EXPECT_FALSE(ErrorOf(path).empty());
+}
+
+TEST_F(Urdf, PlacesLinksByTheirJoints) {
+  const UrdfModel model = ReadUrdf(Write(
+      Link("a", "../meshes/box.obj") + Link("b", "../meshes/box.obj") +
+      "<joint name=\"j\" type=\"revolute\"><origin xyz=\"1 2 3\" rpy=\"0 0 1.5707963267948966\"/>"
+      "<parent link=\"a\"/><child link=\"b\"/><axis xyz=\"0 0 2\"/>"
+      "<limit lower=\"-1\" upper=\"2\" effort=\"1\" velocity=\"1\"/></joint>"));
+  const auto poses = LinkPosesAtZero(model);
+  EXPECT_NEAR((poses[1].translation() - Eigen::Vector3d(1, 2, 3)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((poses[1].linear().col(0) - Eigen::Vector3d::UnitY()).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((model.joints[0].axis - Eigen::Vector3d::UnitZ()).norm(), 0.0, 1e-12);
+  EXPECT_EQ(model.joints[0].upper, 2.0);
+}
+
+}  // namespace
+}  // namespace simwright::assets

@@ -1,0 +1,140 @@
+#include "render/forward.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace simwright::render {
+namespace {
+
+core::TexturedMesh Square(double side, double z) {
+  core::TexturedMesh mesh;
+  const double h = 0.5 * side;
+  mesh.mesh.vertices = {{-h, -h, z}, {h, -h, z}, {h, h, z}, {-h, h, z}};
+  mesh.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+// Looks down from above: image right is world +x, image down is world -y.
+core::Camera FromAbove(double height, int size, double focal) {
+  core::Camera camera;
+  camera.width = camera.height = size;
+  camera.fx = camera.fy = focal;
+  camera.cx = camera.cy = 0.5 * size;
+  camera.world_from_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  camera.world_from_camera.translation() = Eigen::Vector3d(0, 0, height);
+  return camera;
+}
+
+TEST(Forward, DepthMaskNormalAndLabelOfASquare) {
+  const core::TexturedMesh far = Square(10.0, 0.0), near = Square(1.0, 0.5);
+  Scene scene;
+  EXPECT_EQ(scene.Add(&far), 0);
+  EXPECT_EQ(scene.Add(&near), 1);
+  scene.Commit();
+  const core::Camera camera = FromAbove(2.5, 100, 100.0);
+  ForwardOptions options;
+  options.samples_per_side = 4;
+  const ForwardBuffers buffers = RenderForward(scene, camera, options);
+  const size_t middle = buffers.Index(50, 50), edge = buffers.Index(2, 2);
+  EXPECT_NEAR(buffers.depth[middle], 2.0f, 1e-5f);
+  EXPECT_NEAR(buffers.depth[edge], 2.5f, 1e-5f);
+  EXPECT_EQ(buffers.label[middle], 1);
+  EXPECT_EQ(buffers.label[edge], 0);
+  EXPECT_NEAR(buffers.normal[middle].z(), 1.0f, 1e-6f);
+  // The near square is 1 m wide at 2 m: 50 pixels.
+  int near_pixels = 0;
+  for (const int label : buffers.label) near_pixels += label == 1;
+  EXPECT_NEAR(near_pixels, 2500, 110);
+}
+
+TEST(Forward, CoverageIsTheAreaToAFractionOfAPixel) {
+  const core::TexturedMesh square = Square(1.0, 0.0);
+  Scene scene;
+  scene.Add(&square);
+  scene.Commit();
+  const core::Camera camera = FromAbove(2.0, 64, 50.3);  // 25.15 pixels wide
+  ForwardOptions options;
+  options.samples_per_side = 16;
+  const ForwardBuffers buffers = RenderForward(scene, camera, options);
+  double area = 0.0;
+  for (const float m : buffers.mask) area += m;
+  EXPECT_NEAR(area, 25.15 * 25.15, 0.02 * 25.15 * 25.15);
+}
+
+TEST(Forward, MovedVerticesAreRefitted) {
+  core::TexturedMesh square = Square(1.0, 0.0);
+  Scene scene;
+  scene.Add(&square);
+  scene.Commit();
+  std::vector<Eigen::Vector3d> raised = square.mesh.vertices;
+  for (Eigen::Vector3d& v : raised) v.z() += 0.7;
+  scene.MoveVertices(0, raised);
+  scene.Commit();
+  EXPECT_NEAR(scene.Intersect({0, 0, 3}, {0, 0, -1}).depth, 2.3f, 1e-5f);
+  EXPECT_TRUE(scene.Occluded({0, 0, 3}, {0, 0, -1}, 0.0f, 2.5f));
+  EXPECT_FALSE(scene.Occluded({0, 0, 3}, {0, 0, -1}, 0.0f, 2.0f));
+}
+
+TEST(Forward, TextureAppearsWhereItsCoordinatesSay) {
+  core::TexturedMesh square = Square(2.0, 0.0);
+  core::Image texture(2, 2, 3);
+  texture.At(0, 0)[0] = 255;  // upper left red, the rest black
+  square.textures.push_back(texture);
+  square.materials.push_back({"t", Eigen::Vector4f::Ones(), 0});
+  square.triangle_material = {0, 0};
+  square.corner_uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+  Scene scene;
+  scene.Add(&square);
+  scene.Commit();
+  ForwardOptions options;
+  options.shaded = true;
+  options.lit = false;
+  const ForwardBuffers buffers = RenderForward(scene, FromAbove(2.0, 40, 40.0), options);
+  // World (-0.5, 0.5) is texture's upper left, seen at image (10, 10).
+  EXPECT_GT(buffers.color.At(10, 10)[0], 200);
+  EXPECT_LT(buffers.color.At(30, 30)[0], 60);
+}
+
+TEST(Forward, ThreadsDoNotChangeThePicture) {
+  const core::TexturedMesh square = Square(1.0, 0.0);
+  Scene scene;
+  scene.Add(&square);
+  scene.Commit();
+  ForwardOptions options;
+  options.shaded = true;
+  options.occlusion_rays = 4;
+  core::SetThreadCount(1);
+  const ForwardBuffers one = RenderForward(scene, FromAbove(2.0, 50, 60.0), options);
+  core::SetThreadCount(3);
+  const ForwardBuffers three = RenderForward(scene, FromAbove(2.0, 50, 60.0), options);
+  core::SetThreadCount(0);
+  EXPECT_EQ(one.color.pixels, three.color.pixels);
+  EXPECT_EQ(one.depth, three.depth);
+}
+
+TEST(Light, IrradianceOfAClampedCosineLobe) {
+  // Uniform radiance L gives irradiance pi L: over pi, L.
+  const SphericalHarmonicsLight uniform = SphericalHarmonicsLight::Uniform(0.7f);
+  EXPECT_NEAR(uniform.Shade(Eigen::Vector3f(0.6f, 0.0f, 0.8f)).x(), 0.7f, 1e-4f);
+  // Radiance 1 + z integrates against the cosine lobe of normal n to pi + (2 pi / 3) n_z.
+  SphericalHarmonicsLight tilted = SphericalHarmonicsLight::Uniform(1.0f);
+  tilted.radiance.row(2).array() += 1.0f / 0.488603f;
+  EXPECT_NEAR(tilted.Shade(Eigen::Vector3f::UnitZ()).y(), 1.0f + 2.0f / 3.0f, 1e-4f);
+  EXPECT_NEAR(SrgbFromLinear(LinearFromSrgb(0.37f)), 0.37f, 1e-5f);
+}
+
+TEST(Forward, RefusesImpossiblePictures) {
+  Scene scene;
+  core::Camera camera;
+  EXPECT_THROW(RenderForward(scene, camera), core::Error);
+  core::TexturedMesh empty;
+  EXPECT_THROW(scene.Add(&empty), core::Error);
+}
+
+}  // namespace
+}  // namespace simwright::render
