@@ -12,6 +12,7 @@
 #include "core/progress.h"
 #include "geometry/mass_properties.h"
 #include "geometry/simplify.h"
+#include "geometry/stable_poses.h"
 #include "render/forward.h"
 
 namespace simwright::asset_lift {
@@ -70,7 +71,8 @@ Eigen::Vector3d RestingDirection(const core::TriangleMesh& mesh, const Eigen::Ve
       const Eigen::Vector3d tried =
           (down + step * (std::cos(angle) * u + std::sin(angle) * v)).normalized();
       const double lower = Reach(mesh, tried) - tried.dot(center);
-      if (lower < height - 1e-9) {
+      // A gain too small to turn a real body is a roll about its own axis, not a settling.
+      if (lower < height - 0.02 * step * std::abs(height)) {
         height = lower;
         best = tried;
       }
@@ -148,9 +150,13 @@ class Inflater {
     // What lay in the photo has a flat to lie on: under its centre of mass, a little is cut off.
     const Eigen::Vector3d center = geometry::SolidMassProperties(mesh, 1.0).center_of_mass;
     const Eigen::Vector3d down = RestingDirection(mesh, center);
-    const double height = core::Bounds(mesh).sizes().z();
-    field.Cut(down, Reach(mesh, down) - options_.foot_ratio * height);
-    mesh = field.Extract(options_.resolution);
+    const double height = core::Bounds(mesh).sizes().z(), reach = Reach(mesh, down);
+    for (double ratio = options_.foot_ratio; ratio < 2.6 * options_.foot_ratio; ratio *= 1.5) {
+      field.Cut(down, reach - ratio * height);
+      mesh = field.Extract(options_.resolution);
+      const Eigen::Vector3d now = geometry::SolidMassProperties(mesh, 1.0).center_of_mass;
+      if (geometry::TippingAngle(mesh, now, down, 1e-3 * height) > options_.foot_angle) break;
+    }
     return Finish(form, std::move(mesh),
                   Eigen::Hyperplane<double, 3>(camera_.world_from_camera.linear().col(2),
                                                Eigen::Vector3d::Zero()));

@@ -25,7 +25,8 @@ struct InflationOptions {
   double revolved_coverage = 0.78;  // of the outline that a turned body must explain, with a prior
   double plain_coverage = 0.955;    // ... and without one
   double wall_ratio = 0.05;    // of the width: a vessel's wall
-  double foot_ratio = 0.025;   // of the height: cut level so that it stands; half a fruit's dent
+  double foot_ratio = 0.025;   // of the height: cut off so that it stands; half a fruit's dent
+  double foot_angle = 0.12;    // rad of tilt that the foot has to bear; it grows 2.25 times at most
   int face_budget = 12000;     // of the mesh handed on
 };
 

@@ -115,6 +115,7 @@ Wrapped WrapOnce(const TriangleMesh& unit, double fineness, const SolidOptions& 
   // The finer try looks harder, for hollows that few lines of sight enter.
   const int rays = fineness > 1.0 ? 500000 : 100000;
   wrap_options.seen = SampleOuterHits(unit, rays, 7);
+  if (fineness > 1.0) wrap_options.reach = 0.7 * options.tolerance_ratio;
   const SurfaceWrap wrap = WrapSurface(unit, wrap_options);
   if (wrap.mesh.empty()) {
     throw core::Error("no surface could be wrapped round the mesh", "solid");
@@ -138,7 +139,7 @@ void WrapSolid(const TriangleMesh& welded, const Vector3d& center, double diagon
     unit = ClusterVertices(unit, options.cell_ratio / 3.0);
   }
   Wrapped wrapped = WrapOnce(unit, 1.0, options);
-  if (wrapped.distance > 0.96 * options.tolerance_ratio) {
+  if (wrapped.distance > 0.88 * options.tolerance_ratio) {
     Wrapped finer = WrapOnce(unit, 1.6, options);
     if (finer.distance < wrapped.distance) wrapped = std::move(finer);
   }

@@ -46,9 +46,13 @@ class Wrapper {
       CarveSight();
     }
     SurfaceWrap wrap;
-    const ScalarGrid field = Field(&wrap.sheet_share);
+    ScalarGrid field = Field(&wrap.sheet_share);
     wrap.mesh = ExtractIsosurface(field, 0.0f);
     DropBubbles(&wrap.mesh);
+    if (options_.reach > 0.0 && !wrap.mesh.empty() && CarveWalls(wrap.mesh, &field)) {
+      wrap.mesh = ExtractIsosurface(field, 0.0f);
+      DropBubbles(&wrap.mesh);
+    }
     return wrap;
   }
 
@@ -159,18 +163,44 @@ class Wrapper {
       const int steps = 2 * (grid_.size()[0] + grid_.size()[1] + grid_.size()[2]);
       for (int step = 0; step < steps && !NearOutside(at, hit.to_eye, 1.25);
            ++step, at += 0.5 * hit.to_eye) {
-        std::array<int, 3> node;
-        for (int axis = 0; axis < 3; ++axis) {
-          node[axis] =
-              std::clamp(static_cast<int>(std::lround(at[axis])), 1, grid_.size()[axis] - 2);
-        }
-        const std::size_t index = Index(node);
+        const std::size_t index = NodeAt(at);
         outside_[index] = 1;
         // Within 0.87 cells of the line: farther than that from the surface, on the same side.
         if (grid_.Distance(index) > 0.9 * grid_.cell()) hollow.push_back(index);
       }
       if (!hollow.empty()) Creep(std::move(hollow), std::numeric_limits<int>::max());
     }
+  }
+
+  // Lines of sight to seen points that the walls of sheets buried; whether there were any.
+  bool CarveWalls(const core::TriangleMesh& mesh, ScalarGrid* field) const {
+    std::vector<Vector3d> points;
+    for (const OuterHit& hit : options_.seen) points.push_back(hit.point);
+    const std::vector<double> distance = DistancesToSurface(points, mesh);
+    std::vector<std::size_t> carved;
+    for (std::size_t h = 0; h < points.size(); ++h) {
+      if (distance[h] <= options_.reach) continue;
+      Vector3d at = InCells(points[h]);
+      const int steps = 2 * (field->nx + field->ny + field->nz);
+      for (int step = 0; step < steps; ++step, at += 0.5 * options_.seen[h].to_eye) {
+        const std::size_t node = NodeAt(at);
+        if (step > 2 && field->values[node] > 0.0f) break;
+        carved.push_back(node);
+      }
+    }
+    const float open = static_cast<float>(0.3 * grid_.cell());
+    for (const std::size_t node : carved) {
+      field->values[node] = std::max(field->values[node], open);
+    }
+    return !carved.empty();
+  }
+
+  std::size_t NodeAt(const Vector3d& at) const {
+    std::array<int, 3> node;
+    for (int axis = 0; axis < 3; ++axis) {
+      node[axis] = std::clamp(static_cast<int>(std::lround(at[axis])), 1, grid_.size()[axis] - 2);
+    }
+    return Index(node);
   }
 
   // Whether there is something behind the surface, seen from an outside node: an inside node deep

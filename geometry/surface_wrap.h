@@ -16,6 +16,9 @@ struct SurfaceWrapOptions {
   // creeps on without limit, and slits that are still too narrow for the grid are carved open along
   // the lines of sight. Empty: it stops after `creep_steps`.
   std::vector<OuterHit> seen;
+  // Seen points farther than this from the surface get their line of sight carved out of the walls
+  // too. 0: the walls stay whole.
+  double reach = 0.0;
   double wall = 0.0;  // thickness given to sheets, and to parts too thin for the grid
 };
 
