@@ -1,0 +1,210 @@
+// The program as a user meets it: bad input gives one clear line, exit code 1, and nothing is left
+// behind; good input gives the same bytes twice.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <zip.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "assets/obj_file.h"
+#include "assets/primitive_meshes.h"
+#include "core/files.h"
+#include "core/image.h"
+
+namespace simwright {
+namespace {
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int code = -1;
+  std::string text;  // stdout and stderr
+};
+
+Outcome RunProgram(const std::string& arguments) {
+  Outcome outcome;
+  FILE* pipe = popen((std::string(SIMWRIGHT_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return outcome;
+  std::array<char, 4096> buffer;
+  size_t count;
+  while ((count = fread(buffer.data(), 1, buffer.size(), pipe)) > 0) {
+    outcome.text.append(buffer.data(), count);
+  }
+  const int status = pclose(pipe);
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  return outcome;
+}
+
+class CommandLine : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() /
+              (std::string("simwright_cli_") +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string Write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return (folder_ / name).string();
+  }
+  std::string Out() const { return (folder_ / "out").string(); }
+
+  // One line "error: ...", exit 1, no output and no hidden leftovers.
+  void ExpectRefused(const std::string& arguments, const std::string& word) {
+    const size_t before = Entries();
+    const Outcome outcome = RunProgram(arguments + " --quiet");
+    EXPECT_EQ(outcome.code, 1) << arguments << "\n" << outcome.text;
+    EXPECT_EQ(outcome.text.rfind("error: ", 0), 0u) << arguments << "\n" << outcome.text;
+    EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
+    EXPECT_NE(outcome.text.find(word), std::string::npos) << arguments << "\n" << outcome.text;
+    EXPECT_EQ(Entries(), before) << arguments << " left something behind";
+  }
+  size_t Entries() const {
+    return static_cast<size_t>(std::distance(fs::recursive_directory_iterator(folder_), {}));
+  }
+  fs::path folder_;
+};
+
+core::Image DiscPhoto(int size) {
+  core::Image photo(size, size, 4);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const double dx = x - 0.5 * size, dy = y - 0.5 * size;
+      if (dx * dx + dy * dy > 0.09 * size * size) continue;
+      photo.At(x, y)[0] = static_cast<uint8_t>(120 + 100 * x / size);
+      photo.At(x, y)[1] = 60;
+      photo.At(x, y)[3] = 255;
+    }
+  }
+  return photo;
+}
+
+TEST_F(CommandLine, BadPhotosAreRefused) {
+  const auto lift = [&](const std::string& photo) {
+    return "lift " + photo + " --category apple -o " + Out();
+  };
+  const std::string png = core::EncodePng(DiscPhoto(64));
+  ExpectRefused(lift(folder_ / "none.png"), "no such file");
+  ExpectRefused(lift(Write("text.png", "this is a text")), "not a picture");
+  ExpectRefused(lift(Write("empty.png", "")), "empty");
+  ExpectRefused(lift(Write("cut.png", png.substr(0, png.size() / 2))), "truncated");
+  ExpectRefused(lift(Write("one.png", core::EncodePng(core::Image(1, 1, 3, 90)))), "1 x 1");
+  ExpectRefused(lift(Write("clear.png", core::EncodePng(core::Image(64, 64, 4)))), "transparent");
+  ExpectRefused(lift(Write("flat.png", core::EncodePng(core::Image(64, 64, 3, 90)))), "object");
+  std::string huge = png;
+  const std::string side("\x00\x01\x86\xA0", 4);
+  huge.replace(16, 4, side);
+  huge.replace(20, 4, side);
+  ExpectRefused(lift(Write("huge.png", huge)), "100000 x 100000");
+  Write("disc.png", png);
+  ExpectRefused("lift " + (folder_ / "disc.png").string() + " --category democracy -o " + Out(),
+                "closest");
+}
+
+TEST_F(CommandLine, BadMeshesAreRefused) {
+  const auto import = [&](const std::string& mesh) { return "import " + mesh + " -o " + Out(); };
+  const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  ExpectRefused(import(Write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n")), "error");
+  ExpectRefused(import(Write("bare.obj", three)), "error");
+  ExpectRefused(import(Write("tiny.obj", "v 0 0 0\nv 1e-9 0 0\nv 0 1e-9 0\nf 1 2 3\n")), "--unit");
+  ExpectRefused(import(Write("vast.obj", "v 0 0 0\nv 1e9 0 0\nv 0 1e9 0\nf 1 2 3\n")), "--unit");
+  ExpectRefused(import(Write("point.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n")), "error");
+  ExpectRefused(import(Write("bad.sh3f", "no zip")), "catalogue");
+  ExpectRefused(import((folder_ / "none").string()), "no such");
+}
+
+TEST_F(CommandLine, ACatalogueThatClimbsOutIsRefused) {
+  const std::string path = (folder_ / "evil.sh3f").string(), text = "id#1=a\n";
+  int code = 0;
+  zip_t* archive = zip_open(path.c_str(), ZIP_CREATE, &code);
+  for (const char* name : {"PluginFurnitureCatalog.properties", "../../evil.obj"}) {
+    zip_file_add(archive, name, zip_source_buffer(archive, text.data(), text.size(), 0), 0);
+  }
+  ASSERT_EQ(zip_close(archive), 0);
+  ExpectRefused("import " + path + " -o " + Out(), "outside");
+}
+
+TEST_F(CommandLine, WrongUsageIsExitTwo) {
+  EXPECT_EQ(RunProgram("lift").code, 2);
+  EXPECT_EQ(RunProgram("no-such-command").code, 2);
+  EXPECT_EQ(RunProgram("import x.obj -o y --unit parsec").code, 2);
+  EXPECT_EQ(RunProgram("--help").code, 0);
+  for (const char* command : {"lift", "import", "physics", "check", "doctor", "version"}) {
+    const Outcome help = RunProgram(std::string(command) + " --help");
+    EXPECT_EQ(help.code, 0);
+    EXPECT_NE(help.text.find("Example"), std::string::npos) << command;
+  }
+}
+
+TEST_F(CommandLine, OneOpenFaceBecomesASheetWithAWall) {
+  const std::string mesh = Write("sheet.obj", "v 0 0 0\nv 0.2 0 0\nv 0 0.2 0\nf 1 2 3\n");
+  const Outcome outcome = RunProgram("import " + mesh + " --category tray -o " + Out() + " --no-check");
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  const std::string json = core::ReadFile(folder_ / "out" / "sheet" / "asset.json");
+  EXPECT_NE(json.find("sheet_thickness_m"), std::string::npos);
+}
+
+TEST_F(CommandLine, AnExistingOutputIsKeptUnlessForced) {
+  const std::string mesh = Write("box.obj", assets::ObjText(assets::BoxMesh({0.2, 0.1, 0.1})));
+  const std::string import = "import " + mesh + " --category box -o " + Out();
+  ASSERT_EQ(RunProgram(import).code, 0) << RunProgram(import + " --force").text;
+  const fs::path file = folder_ / "out" / "box" / "asset.json";
+  std::ofstream(file, std::ios::app) << "\n";
+  const std::string marked = core::ReadFile(file);
+  ExpectRefused(import, "--force");
+  EXPECT_EQ(core::ReadFile(file), marked);
+  EXPECT_EQ(RunProgram(import + " --force --quiet").code, 0);
+  EXPECT_NE(core::ReadFile(file), marked);
+}
+
+TEST_F(CommandLine, AFullDiskLeavesNothing) {
+  // No folder can be made below a device.
+  const std::string mesh = Write("box.obj", assets::ObjText(assets::BoxMesh({0.2, 0.1, 0.1})));
+  ExpectRefused("import " + mesh + " --category box -o /dev/full/out", "error");
+}
+
+TEST_F(CommandLine, TheSameSeedGivesTheSameBytes) {
+  Write("disc.png", core::EncodePng(DiscPhoto(160)));
+  for (const char* name : {"a/disc", "b/disc"}) {
+    const Outcome outcome = RunProgram("lift " + (folder_ / "disc.png").string() +
+                                " --category orange --seed 7 -o " + (folder_ / name).string());
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+  }
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(folder_ / "a" / "disc")) {
+    ++files;
+    EXPECT_EQ(core::ReadFile(entry.path()),
+              core::ReadFile(folder_ / "b" / "disc" / entry.path().filename()))
+        << entry.path();
+  }
+  EXPECT_GE(files, 10);
+}
+
+TEST_F(CommandLine, LiftedAndImportedAssetsPassTheirCheck) {
+  Write("disc.png", core::EncodePng(DiscPhoto(160)));
+  ASSERT_EQ(RunProgram("lift " + (folder_ / "disc.png").string() + " --category orange -o " + Out()).code, 0);
+  const Outcome check = RunProgram("check " + Out());
+  EXPECT_EQ(check.code, 0) << check.text;
+  const std::string mesh = Write("crate.obj", assets::ObjText(assets::BoxMesh({0.3, 0.2, 0.25})));
+  const Outcome import = RunProgram("import " + mesh + " --category crate -o " + (folder_ / "m").string());
+  EXPECT_EQ(import.code, 0) << import.text;
+}
+
+TEST_F(CommandLine, PhysicsPrintsRangesAndSample) {
+  const Outcome outcome = RunProgram("physics --category mug --seed 3 --json");
+  EXPECT_EQ(outcome.code, 0);
+  for (const char* key : {"length_m", "width_m", "height_m", "mass_kg", "min", "max", "sample"}) {
+    EXPECT_NE(outcome.text.find(key), std::string::npos) << key;
+  }
+  EXPECT_EQ(RunProgram("physics --category mug --seed 3 --json").text, outcome.text);
+  ExpectRefused("physics --category mugg", "mug");
+}
+
+}  // namespace
+}  // namespace simwright

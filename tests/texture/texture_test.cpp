@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "texture/bake.h"
+#include "texture/photo_projection.h"
+#include "texture/uv_atlas.h"
+
+namespace simwright::texture {
+namespace {
+
+// A ball by latitude and longitude, closed, vertices on the sphere.
+core::TriangleMesh Ball(int rings) {
+  core::TriangleMesh mesh;
+  mesh.vertices.emplace_back(0, 0, 1);
+  const int around = 2 * rings;
+  for (int r = 1; r < rings; ++r) {
+    for (int k = 0; k < around; ++k) {
+      const double a = M_PI * r / rings, b = 2 * M_PI * k / around;
+      mesh.vertices.emplace_back(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a));
+    }
+  }
+  mesh.vertices.emplace_back(0, 0, -1);
+  const int last = static_cast<int>(mesh.vertices.size()) - 1;
+  const auto at = [&](int r, int k) { return 1 + (r - 1) * around + k % around; };
+  for (int k = 0; k < around; ++k) {
+    mesh.triangles.emplace_back(0, at(1, k), at(1, k + 1));
+    for (int r = 1; r + 1 < rings; ++r) {
+      mesh.triangles.emplace_back(at(r, k), at(r + 1, k), at(r + 1, k + 1));
+      mesh.triangles.emplace_back(at(r, k), at(r + 1, k + 1), at(r, k + 1));
+    }
+    mesh.triangles.emplace_back(last, at(rings - 1, k + 1), at(rings - 1, k));
+  }
+  return mesh;
+}
+
+TEST(UvAtlas, NoTwoTrianglesShareATexel) {
+  const core::TriangleMesh ball = Ball(16);
+  AtlasOptions options;
+  options.size = 512;
+  const auto uvs = UnwrapToAtlas(ball, options);
+  ASSERT_EQ(uvs.size(), 3 * ball.triangles.size());
+  std::vector<int> owner(512 * 512, -1);
+  int shared = 0, covered = 0;
+  for (size_t t = 0; t < ball.triangles.size(); ++t) {
+    const Eigen::Vector2f a = uvs[3 * t] * 512, b = uvs[3 * t + 1] * 512, c = uvs[3 * t + 2] * 512;
+    EXPECT_GE(a.minCoeff(), 0.0f);
+    EXPECT_LE(a.maxCoeff(), 512.0f);
+    for (int y = 0; y < 512; ++y) {
+      for (int x = 0; x < 512; ++x) {
+        const Eigen::Vector2f p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+        if (p.x() < std::min({a.x(), b.x(), c.x()}) || p.x() > std::max({a.x(), b.x(), c.x()}) ||
+            p.y() < std::min({a.y(), b.y(), c.y()}) || p.y() > std::max({a.y(), b.y(), c.y()})) {
+          continue;
+        }
+        const auto side = [&](const Eigen::Vector2f& m, const Eigen::Vector2f& n) {
+          return (n - m).x() * (p - m).y() - (n - m).y() * (p - m).x();
+        };
+        // Strictly inside: edges are shared by right.
+        if (side(a, b) <= 1e-3f || side(b, c) <= 1e-3f || side(c, a) <= 1e-3f) continue;
+        ++covered;
+        int& at = owner[static_cast<size_t>(y * 512 + x)];
+        shared += at >= 0;
+        at = static_cast<int>(t);
+      }
+    }
+  }
+  EXPECT_EQ(shared, 0);
+  EXPECT_GT(covered, 512 * 512 / 4);
+}
+
+TEST(Bake, EachPointOfTheSurfaceFindsItsOwnColour) {
+  const core::TriangleMesh ball = Ball(24);
+  const auto uvs = UnwrapToAtlas(ball);
+  const core::Image texture = BakeTexture(ball, uvs, 1024, 4, [](const SurfacePoint& p) {
+    return Eigen::Vector3f((0.5 * (p.position + Eigen::Vector3d::Ones())).cast<float>());
+  });
+  double worst = 0.0;
+  for (size_t t = 0; t < ball.triangles.size(); ++t) {
+    const Eigen::Vector2f uv = (uvs[3 * t] + uvs[3 * t + 1] + uvs[3 * t + 2]) / 3.0f;
+    Eigen::Vector3d p = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) p += ball.vertices[ball.triangles[t][k]] / 3.0;
+    const Eigen::Vector3f color = core::SampleTexture(texture, uv).head<3>();
+    worst = std::max<double>(
+        worst, (color.cast<double>() - 0.5 * (p + Eigen::Vector3d::Ones())).cwiseAbs().maxCoeff());
+  }
+  EXPECT_LT(worst, 0.02);
+}
+
+TEST(PhotoProjection, FrontTakesThePhotoAndTheBackMirrorsIt) {
+  const core::TriangleMesh ball = Ball(32);
+  const core::Camera camera =
+      core::OrbitCamera(Eigen::Vector3d::Zero(), 8.0, 0.0, -M_PI / 2, 0.4, 200, 200);
+  // Left half red, right half blue.
+  core::Image photo(200, 200, 3), alpha(200, 200, 1, 255);
+  for (int y = 0; y < 200; ++y) {
+    for (int x = 0; x < 200; ++x) photo.At(x, y)[x < 100 ? 0 : 2] = 255;
+  }
+  const Eigen::Hyperplane<double, 3> mirror(Eigen::Vector3d::UnitY(), Eigen::Vector3d::Zero());
+  const core::TexturedMesh textured = ProjectPhoto(ball, camera, photo, alpha, mirror);
+  const auto color_at = [&](const Eigen::Vector3d& p) {
+    size_t best = 0;
+    double nearest = 1e9;
+    for (size_t t = 0; t < ball.triangles.size(); ++t) {
+      Eigen::Vector3d c = Eigen::Vector3d::Zero();
+      for (int k = 0; k < 3; ++k) c += ball.vertices[ball.triangles[t][k]] / 3.0;
+      if ((c - p).norm() < nearest) {
+        nearest = (c - p).norm();
+        best = t;
+      }
+    }
+    const auto& uvs = textured.corner_uvs;
+    const Eigen::Vector2f uv = (uvs[3 * best] + uvs[3 * best + 1] + uvs[3 * best + 2]) / 3.0f;
+    return Eigen::Vector3f(core::SampleTexture(textured.textures[0], uv).head<3>());
+  };
+  for (const double y : {-0.8, 0.8}) {  // the camera's side and the far one
+    EXPECT_GT(color_at({-0.6, y, 0}).x(), 0.9f) << y;
+    EXPECT_GT(color_at({0.6, y, 0}).z(), 0.9f) << y;
+  }
+  // Never white, never the unseen grey.
+  for (size_t i = 0; i < textured.textures[0].pixels.size(); i += 3) {
+    EXPECT_LT(textured.textures[0].pixels[i + 1], 40);
+  }
+}
+
+TEST(PhotoProjection, RefusesSizesThatDoNotFit) {
+  const core::TriangleMesh ball = Ball(8);
+  const core::Camera camera =
+      core::OrbitCamera(Eigen::Vector3d::Zero(), 8.0, 0.0, 0.0, 0.4, 20, 20);
+  const Eigen::Hyperplane<double, 3> mirror(Eigen::Vector3d::UnitY(), Eigen::Vector3d::Zero());
+  EXPECT_THROW(ProjectPhoto(ball, camera, core::Image(20, 20, 3), core::Image(10, 20, 1), mirror),
+               core::Error);
+}
+
+}  // namespace
+}  // namespace simwright::texture
