@@ -12,8 +12,10 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "core/random.h"
 #include "geometry/isosurface.h"
 #include "geometry/surface_grid.h"
+#include "geometry/triangle_tree.h"
 #include "geometry/weld.h"
 
 namespace simwright::geometry {
@@ -25,6 +27,10 @@ constexpr int kMargin = 3;
 // Cells from a seen point to the outside node that counts as meeting it: in a corner of three walls
 // the nearest can be sqrt(3) off.
 constexpr double kMet = 1.75;
+constexpr int kLooks = 100;          // lines about a hidden point
+constexpr int kLookBudget = 200000;  // lines a round: about a second
+constexpr int kLookRounds = 4;
+constexpr double kLookSpread = 8.0;  // cells
 
 double Band(const SurfaceWrapOptions& options) {
   // A cell beyond the wall: both ends of the edges that its surface crosses have their distance.
@@ -34,7 +40,7 @@ double Band(const SurfaceWrapOptions& options) {
 class Wrapper {
  public:
   Wrapper(const core::TriangleMesh& mesh, const SurfaceWrapOptions& options)
-      : options_(options), grid_(mesh, options.cell, Band(options), kMargin) {
+      : mesh_(mesh), options_(options), grid_(mesh, options.cell, Band(options), kMargin) {
     outside_.assign(grid_.count(), 0);
   }
 
@@ -152,24 +158,71 @@ class Wrapper {
     });
   }
 
-  // Opens the lines of sight to points that no outside node is near: the nodes nearest to the line
-  // become outside, back to where the outside is. What such a line crosses in the open is a hollow
-  // that is seen into, and is entered.
+  // Opens the lines of sight to points that no outside node is near, then looks about each of them
+  // for more: a slit that one line in ten thousand enters is carved along its whole mouth.
   void CarveSight() {
+    std::vector<OuterHit> hidden;
     for (const OuterHit& hit : options_.seen) {
-      Vector3d at = InCells(hit.point);
-      if (NearOutside(at, hit.normal, kMet)) continue;
-      std::vector<std::size_t> hollow;
-      const int steps = 2 * (grid_.size()[0] + grid_.size()[1] + grid_.size()[2]);
-      for (int step = 0; step < steps && !NearOutside(at, hit.to_eye, 1.25);
-           ++step, at += 0.5 * hit.to_eye) {
-        const std::size_t index = NodeAt(at);
-        outside_[index] = 1;
-        // Within 0.87 cells of the line: farther than that from the surface, on the same side.
-        if (grid_.Distance(index) > 0.9 * grid_.cell()) hollow.push_back(index);
-      }
-      if (!hollow.empty()) Creep(std::move(hollow), std::numeric_limits<int>::max());
+      if (Carve(hit)) hidden.push_back(hit);
     }
+    if (hidden.empty()) return;
+    const TriangleTree tree(mesh_);
+    for (int round = 0; round < kLookRounds && !hidden.empty(); ++round) {
+      const int looks = std::min(kLooks, kLookBudget / static_cast<int>(hidden.size()));
+      std::vector<std::vector<OuterHit>> found(hidden.size());
+      core::ParallelFor(static_cast<int>(hidden.size()), [&](int h) {
+        core::Rng rng = core::StreamRng(static_cast<std::uint64_t>(round), h);
+        for (int look = 0; look < looks; ++look)
+          found[h].push_back(LookAbout(tree, hidden[h], rng));
+      });
+      hidden.clear();
+      for (const auto& some : found) {
+        for (const OuterHit& hit : some) {
+          if (!Carve(hit)) continue;
+          hidden.push_back(hit);
+          options_.seen.push_back(hit);
+        }
+      }
+    }
+  }
+
+  // What a line close to that of `hit` meets first, from beyond the mesh.
+  OuterHit LookAbout(const TriangleTree& tree, const OuterHit& hit, core::Rng& rng) const {
+    const double spread = kLookSpread * grid_.cell();
+    const double away = 2.0 * grid_.cell() * (grid_.size()[0] + grid_.size()[1] + grid_.size()[2]);
+    // Lines that turn about the hit, and lines that run beside it.
+    const Vector3d target = hit.point + spread * core::Uniform(rng) * core::UniformDirection(rng);
+    const Vector3d eye = hit.point + 30.0 * spread * hit.to_eye +
+                         10.0 * spread * core::Uniform(rng) * core::UniformDirection(rng);
+    const Vector3d to_eye = (eye - target).normalized();
+    const Vector3d from = target + away * to_eye;
+    const auto first = tree.FirstHit(from, -to_eye, 2.0 * away);
+    OuterHit result = hit;
+    if (!first) return result;
+    result.point = first->point;
+    result.to_eye = to_eye;
+    result.normal = tree.Normal(first->triangle);
+    if (result.normal.dot(to_eye) < 0.0) result.normal = -result.normal;
+    return result;
+  }
+
+  // Opens one line of sight: the nodes nearest to it become outside, back to where the outside is.
+  // What it crosses in the open is a hollow that is seen into, and is entered. Returns whether
+  // there was anything to open.
+  bool Carve(const OuterHit& hit) {
+    Vector3d at = InCells(hit.point);
+    if (NearOutside(at, hit.normal, kMet)) return false;
+    std::vector<std::size_t> hollow;
+    const int steps = 2 * (grid_.size()[0] + grid_.size()[1] + grid_.size()[2]);
+    for (int step = 0; step < steps && !NearOutside(at, hit.to_eye, 1.25);
+         ++step, at += 0.5 * hit.to_eye) {
+      const std::size_t index = NodeAt(at);
+      outside_[index] = 1;
+      // Within 0.87 cells of the line: farther than that from the surface, on the same side.
+      if (grid_.Distance(index) > 0.9 * grid_.cell()) hollow.push_back(index);
+    }
+    if (!hollow.empty()) Creep(std::move(hollow), std::numeric_limits<int>::max());
+    return true;
   }
 
   // Lines of sight to seen points that the walls of sheets buried; whether there were any.
@@ -329,7 +382,8 @@ class Wrapper {
     return Index(node);
   }
 
-  const SurfaceWrapOptions options_;
+  const core::TriangleMesh& mesh_;
+  SurfaceWrapOptions options_;
   const SurfaceGrid grid_;
   std::vector<std::uint8_t> outside_;
 };

@@ -95,6 +95,8 @@ TriangleTree::TriangleTree(const core::TriangleMesh& mesh) {
       corners_[3 * static_cast<std::size_t>(t) + c] = mesh.vertices[mesh.triangles[t][c]];
     }
   }
+  normals_.resize(count);
+  for (int t = 0; t < count; ++t) normals_[t] = core::TriangleAreaVector(mesh, t).normalized();
   if (count > 0) Build();
 }
 

@@ -44,6 +44,9 @@ class TriangleTree {
   // Triangles whose bounds meet `box`, ascending.
   void Overlapping(const Eigen::AlignedBox3d& box, std::vector<int>* triangles) const;
 
+  // The unit normal of a triangle, by its index in the mesh; zero for one without area.
+  Eigen::Vector3d Normal(int triangle) const { return normals_[triangle]; }
+
   int size() const { return static_cast<int>(corners_.size() / 3); }
 
  private:
@@ -61,6 +64,7 @@ class TriangleTree {
 
   std::vector<Eigen::Vector3d> corners_;  // (3M x 3), in tree order
   std::vector<int> order_;                // (M) tree order to the mesh's index
+  std::vector<Eigen::Vector3d> normals_;  // (M x 3), in the mesh's order
   std::vector<Node> nodes_;               // depth first: the left child follows its parent
 };
 

@@ -17,6 +17,7 @@ constexpr double kHolds = 5.0 * kDegree;   // more is a fall
 constexpr double kRocks = 0.5 * kDegree;   // less is the file's own upright
 constexpr double kRolling = 0.7e-3;  // m of drift in 2 s; the check allows 1 mm
 constexpr double kNearUpright = 20.0 * kDegree;
+constexpr double kFirm = 4.0 * kDegree;
 constexpr int kPosesTried = 8;
 
 // The orientation without its turn about the vertical, which is free.
@@ -65,8 +66,11 @@ std::vector<geometry::StablePose> PosesToTry(const sim::RigidBody& body) {
   };
   const auto far = std::stable_partition(
       poses.begin(), poses.end(), [&](const auto& pose) { return tilt(pose) < kNearUpright; });
-  std::stable_sort(poses.begin(), far,
-                   [&](const auto& a, const auto& b) { return tilt(a) < tilt(b); });
+  // Of the near ones those that bear some tilt first: two engines then agree on them.
+  std::stable_sort(poses.begin(), far, [&](const auto& a, const auto& b) {
+    const bool firm_a = a.tipping_angle > kFirm, firm_b = b.tipping_angle > kFirm;
+    return firm_a != firm_b ? firm_a : tilt(a) < tilt(b);
+  });
   if (poses.size() > kPosesTried) poses.resize(kPosesTried);
   return poses;
 }
