@@ -23,8 +23,8 @@ class Shader {
   }
 
   // Linear RGB of a hit at `point`, whose shading normal faces the eye.
-  Eigen::Vector3f Color(const Hit& hit, const Eigen::Vector3f& point,
-                        const Eigen::Vector3f& normal, std::uint32_t seed) const {
+  Eigen::Vector3f Color(const Hit& hit, const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
+                        std::uint32_t seed) const {
     const Eigen::Vector4f albedo = scene_.Albedo(hit);
     Eigen::Vector3f color;
     for (int c = 0; c < 3; ++c) color[c] = LinearFromSrgb(albedo[c]);
@@ -65,36 +65,67 @@ class RowRenderer {
  public:
   RowRenderer(const Scene& scene, const core::Camera& camera, const ForwardOptions& options,
               ForwardBuffers* buffers)
-      : scene_(scene), camera_(camera), options_(options), shader_(scene, options),
-        buffers_(*buffers), origin_(camera.position().cast<float>()) {}
+      : scene_(scene),
+        options_(options),
+        shader_(scene, options),
+        buffers_(*buffers),
+        origin_(camera.position().cast<float>()) {
+    const Eigen::Matrix3d& turn = camera.world_from_camera.linear();
+    per_x_ = (turn.col(0) / camera.fx).cast<float>();
+    per_y_ = turn.col(1) / camera.fy;
+    at_zero_ = turn * Eigen::Vector3d(-camera.cx / camera.fx, -camera.cy / camera.fy, 1.0);
+  }
 
+  // Depth, normal, mask and labels of one ray a pixel need neither sums nor colours.
   void Draw(int y) const {
+    if (options_.samples_per_side == 1 && !options_.shaded) {
+      const Eigen::Vector3f start = RowStart(y + 0.5);
+      for (int x = 0; x < buffers_.width; ++x) {
+        const Eigen::Vector3f ray = start + (static_cast<float>(x) + 0.5f) * per_x_;
+        const Hit hit = scene_.Intersect(origin_, ray);
+        if (hit.instance < 0) continue;
+        const size_t at = buffers_.Index(x, y);
+        Keep(hit, FacingNormal(hit, ray), at);
+        buffers_.mask[at] = 1.0f;
+      }
+      return;
+    }
     for (int x = 0; x < buffers_.width; ++x) DrawPixel(x, y);
   }
 
  private:
+  // The ray through image point (0, y), world; a pixel to the right adds `per_x_`.
+  Eigen::Vector3f RowStart(double y) const { return (at_zero_ + y * per_y_).cast<float>(); }
+
+  Eigen::Vector3f FacingNormal(const Hit& hit, const Eigen::Vector3f& ray) const {
+    const Eigen::Vector3f normal = scene_.ShadingNormal(hit);
+    return normal.dot(ray) > 0.0f ? Eigen::Vector3f(-normal) : normal;
+  }
+
+  void Keep(const Hit& hit, const Eigen::Vector3f& normal, size_t at) const {
+    buffers_.depth[at] = hit.depth;
+    buffers_.normal[at] = normal;
+    buffers_.label[at] = hit.instance;
+    buffers_.triangle[at] = hit.triangle;
+  }
+
   void DrawPixel(int x, int y) const {
     const int n = options_.samples_per_side;
     const size_t at = buffers_.Index(x, y);
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     int covered = 0;
     for (int j = 0; j < n; ++j) {
+      const Eigen::Vector3f start = RowStart(y + (j + 0.5) / n);
       for (int i = 0; i < n; ++i) {
         const Eigen::Vector3f ray =
-            camera_.Ray({x + (i + 0.5) / n, y + (j + 0.5) / n}).cast<float>();
+            start + (static_cast<float>(x) + (static_cast<float>(i) + 0.5f) / n) * per_x_;
         const Hit hit = scene_.Intersect(origin_, ray);
         if (hit.instance < 0) continue;
         ++covered;
         const bool representative = i == n / 2 && j == n / 2;
         if (!representative && !options_.shaded) continue;
-        Eigen::Vector3f normal = scene_.ShadingNormal(hit);
-        if (normal.dot(ray) > 0.0f) normal = -normal;
-        if (representative) {
-          buffers_.depth[at] = hit.depth;
-          buffers_.normal[at] = normal;
-          buffers_.label[at] = hit.instance;
-          buffers_.triangle[at] = hit.triangle;
-        }
+        const Eigen::Vector3f normal = FacingNormal(hit, ray);
+        if (representative) Keep(hit, normal, at);
         if (options_.shaded) {
           const auto seed = static_cast<std::uint32_t>(at * 64 + static_cast<size_t>(j * n + i));
           sum += shader_.Color(hit, origin_ + hit.depth * ray, normal, seed);
@@ -115,11 +146,12 @@ class RowRenderer {
   }
 
   const Scene& scene_;
-  const core::Camera& camera_;
   const ForwardOptions& options_;
   Shader shader_;
   ForwardBuffers& buffers_;
   Eigen::Vector3f origin_;
+  Eigen::Vector3f per_x_;            // the ray's change from a pixel to the next
+  Eigen::Vector3d per_y_, at_zero_;  // ... from a row to the next, and the ray through (0, 0)
 };
 
 }  // namespace

@@ -63,6 +63,7 @@ BENCHMARK(ForwardBuffers512)
     ->ArgsProduct({{1000, 10000, 100000}, {1, 2}})
     ->ArgNames({"triangles", "threads"})
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 
 }  // namespace
