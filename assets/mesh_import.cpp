@@ -4,10 +4,15 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <iterator>
 #include <memory>
+#include <set>
+#include <stdexcept>
 #include <unordered_map>
 
+#include <assimp/BaseImporter.h>
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/IOStream.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -23,7 +28,55 @@ namespace {
 constexpr size_t kMaxFaces = 20'000'000;
 constexpr int kMaxTextureSide = 4096;  // what every GPU and simulator still loads
 
+constexpr const char* kEndings[] = {".obj", ".ply", ".stl", ".glb", ".gltf", ".dae"};
+
 using Warn = std::function<void(const std::string&)>;
+
+// Assimp tries every reader that it has on a file whose own reader does not know it. Only those of
+// the formats above stay, so that a broken file meets no other code.
+void KeepKnownFormats(Assimp::Importer* importer) {
+  for (size_t i = importer->GetImporterCount(); i-- > 0;) {
+    std::set<std::string> endings;
+    importer->GetImporter(i)->GetExtensionList(endings);
+    const bool known = std::any_of(std::begin(kEndings), std::end(kEndings),
+                                   [&](const char* e) { return endings.contains(e + 1); });
+    if (!known) importer->UnregisterLoader(importer->GetImporter(i));
+  }
+}
+
+// A file held in memory. Some of Assimp's readers wait for ever for the rest of a file that was cut
+// short: reading again and again at the end is an error here.
+class HeldFile : public Assimp::IOStream {
+ public:
+  explicit HeldFile(std::string bytes) : bytes_(std::move(bytes)) {}
+  size_t Read(void* buffer, size_t size, size_t count) override {
+    if (size == 0 || count == 0) return 0;
+    const size_t whole = std::min(count, (bytes_.size() - at_) / size);
+    if (whole == 0 && ++reads_at_end_ > kMostReadsAtEnd) {
+      throw std::runtime_error("the file ends in the middle of something");
+    }
+    std::memcpy(buffer, bytes_.data() + at_, whole * size);
+    at_ += whole * size;
+    return whole;
+  }
+  aiReturn Seek(size_t offset, aiOrigin origin) override {
+    const size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at_ : bytes_.size();
+    const size_t target = base + offset;  // an offset backwards wraps round, as Assimp passes it
+    if (target > bytes_.size()) return aiReturn_FAILURE;
+    at_ = target;
+    return aiReturn_SUCCESS;
+  }
+  size_t Tell() const override { return at_; }
+  size_t FileSize() const override { return bytes_.size(); }
+  size_t Write(const void*, size_t, size_t) override { return 0; }
+  void Flush() override {}
+
+ private:
+  static constexpr int kMostReadsAtEnd = 1000;
+  std::string bytes_;
+  size_t at_ = 0;
+  int reads_at_end_ = 0;
+};
 
 // Opens files inside one folder alone: a material library or buffer elsewhere is "not there".
 class FolderIo : public Assimp::DefaultIOSystem {
@@ -34,7 +87,11 @@ class FolderIo : public Assimp::DefaultIOSystem {
   }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     if (!Inside(file) || std::strchr(mode, 'w') != nullptr) return nullptr;
-    return Assimp::DefaultIOSystem::Open(file, mode);
+    try {
+      return new HeldFile(core::ReadFile(file));  // Assimp closes, and so deletes it
+    } catch (const core::Error&) {
+      return nullptr;
+    }
   }
 
  private:
@@ -208,8 +265,6 @@ std::string LowerEnding(const fs::path& path) {
 }  // namespace
 
 bool HasMeshEnding(const fs::path& path) {
-  constexpr const char* kEndings[] = {".obj", ".ply", ".stl", ".glb", ".gltf", ".dae", ".off",
-                                      ".3ds", ".fbx"};
   const std::string ending = LowerEnding(path);
   return std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
 }
@@ -224,6 +279,7 @@ core::TexturedMesh ReadMesh(const fs::path& path, const Warn& warn) {
   }
   const fs::path folder = fs::absolute(path).parent_path();
   Assimp::Importer importer;
+  KeepKnownFormats(&importer);
   importer.SetIOHandler(new FolderIo(folder));  // the importer owns it
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);

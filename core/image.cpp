@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include <libexif/exif-data.h>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -60,6 +61,8 @@ Image DecodeStill(std::string_view bytes, ImageFormat format, const std::string&
                     const_cast<char*>(bytes.data()));
   // IMREAD_COLOR honours the EXIF orientation and converts CMYK; alpha needs UNCHANGED.
   const int flags = format == ImageFormat::kJpeg ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED;
+  // What its readers log of a damaged file is said below, in one line.
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::Mat decoded;
   try {
     decoded = cv::imdecode(raw, flags);

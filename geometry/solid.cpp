@@ -12,7 +12,7 @@
 #include "geometry/surface_distance.h"
 #include "geometry/surface_wrap.h"
 #include "geometry/weld.h"
-#include "geometry/winding_number.h"
+#include "geometry/nesting.h"
 
 namespace simwright::geometry {
 namespace {
@@ -123,6 +123,8 @@ Wrapped WrapOnce(const TriangleMesh& unit, double fineness, const SolidOptions& 
   Wrapped wrapped;
   wrapped.mesh = Simplify(
       wrap.mesh, {options.face_budget, kSimplifyShare * options.tolerance_ratio / fineness});
+  // A speck that thinning moved into its neighbour.
+  DropBuried(&wrapped.mesh);
   wrapped.sheet_share = wrap.sheet_share;
   wrapped.wall = wrap_options.wall;
   SurfaceDistanceOptions check;
@@ -185,7 +187,6 @@ const char* Name(SolidMethod method) {
       return "as it is";
     case SolidMethod::kRepaired:
       return "repaired";
-      return "united";
     case SolidMethod::kWrapped:
       return "wrapped";
   }

@@ -6,7 +6,7 @@
 
 #include "geometry/self_intersection.h"
 #include "geometry/weld.h"
-#include "geometry/winding_number.h"
+#include "geometry/nesting.h"
 
 namespace simwright::geometry {
 namespace {
@@ -90,18 +90,10 @@ int CountNonManifoldVertices(const core::TriangleMesh& mesh) {
 
 // Each component faces out in the open, and inward where it bounds a hollow of another.
 bool FacesOutward(const core::TriangleMesh& mesh, const std::vector<int>& component, int count) {
-  std::vector<double> six(count, 0.0);
-  const Eigen::Vector3d reference = mesh.vertices[mesh.triangles[0][0]];
-  for (std::size_t t = 0; t < component.size(); ++t) {
-    const Eigen::Vector3i& corner = mesh.triangles[t];
-    const Eigen::Vector3d a = mesh.vertices[corner[0]] - reference;
-    const Eigen::Vector3d b = mesh.vertices[corner[1]] - reference;
-    const Eigen::Vector3d c = mesh.vertices[corner[2]] - reference;
-    six[component[t]] += a.dot(b.cross(c));
-  }
+  const std::vector<double> volumes = ComponentVolumes(mesh, component, count);
   const std::vector<int> winding = EnclosingWinding(mesh, component, count);
   for (int c = 0; c < count; ++c) {
-    if (six[c] > 0.0 ? winding[c] != 0 : winding[c] != 1) return false;
+    if (volumes[c] > 0.0 ? winding[c] != 0 : winding[c] != 1) return false;
   }
   return true;
 }

@@ -17,6 +17,7 @@
 #include "geometry/surface_grid.h"
 #include "geometry/triangle_tree.h"
 #include "geometry/weld.h"
+#include "geometry/nesting.h"
 
 namespace simwright::geometry {
 namespace {
@@ -326,14 +327,9 @@ class Wrapper {
     if (mesh->empty()) return;
     int count = 0;
     const std::vector<int> component = EdgeComponents(*mesh, &count);
-    std::vector<double> six(count, 0.0);
-    for (std::size_t t = 0; t < component.size(); ++t) {
-      const Eigen::Vector3i& c = mesh->triangles[t];
-      six[component[t]] +=
-          mesh->vertices[c[0]].dot(mesh->vertices[c[1]].cross(mesh->vertices[c[2]]));
-    }
+    const std::vector<double> volumes = ComponentVolumes(*mesh, component, count);
     std::vector<char> keep(count);
-    for (int c = 0; c < count; ++c) keep[c] = six[c] > 0.0;
+    for (int c = 0; c < count; ++c) keep[c] = volumes[c] > 0.0;
     if (std::all_of(keep.begin(), keep.end(), [](char kept) { return kept; })) return;
     KeepSeenBubbles(*mesh, component, &keep);
     std::vector<Eigen::Vector3i> kept;
@@ -341,7 +337,7 @@ class Wrapper {
       if (keep[component[t]]) kept.push_back(mesh->triangles[t]);
     }
     mesh->triangles.swap(kept);
-    *mesh = Weld(*mesh, 0.0);
+    DropBuried(mesh);
   }
 
   // A bubble is seen where a seen point has a vertex of it, and none of the outer surface, within

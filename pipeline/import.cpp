@@ -20,13 +20,15 @@ namespace simwright::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* kStopped = "stopped before it was done";
+
 bool IsCatalogue(const fs::path& path) { return path.extension() == ".sh3f"; }
 
 char UpOf(const fs::path& mesh, char wanted) {
   if (wanted != 0) return wanted;
   std::string ending = mesh.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), ::tolower);
-  return ending == ".stl" || ending == ".ply" || ending == ".off" ? 'z' : 'y';
+  return ending == ".stl" || ending == ".ply" ? 'z' : 'y';
 }
 
 // World (z up) from a file whose `up` axis points up; right-handed turns.
@@ -98,6 +100,18 @@ void ScaleToSize(const Eigen::Vector3d& size, core::TriangleMesh* mesh) {
   core::Transform(Eigen::Affine3d(Eigen::Scaling(factors)), mesh);
 }
 
+void RequirePassed(const CheckReport& report, const std::string& name) {
+  if (report.passed()) return;
+  std::string failures;
+  for (const core::Finding& row : report.rows) {
+    if (row.severity != core::Severity::kError) continue;
+    char figure[40];
+    std::snprintf(figure, sizeof(figure), " %.4g ", row.figure);
+    failures += (failures.empty() ? "" : "; ") + row.code + figure + row.sentence;
+  }
+  throw core::Error("fails its check: " + failures, name, "--no-check writes it all the same");
+}
+
 class Importer {
  public:
   Importer(const fs::path& output, const ImportOptions& options)
@@ -132,10 +146,13 @@ class Importer {
     core::StagedFolder staged(target, options_.force);
     assets::WriteAsset(built.asset, staged.staging());
     core::WritePng(staged.staging() / "preview.png", AssetPreview(built.asset));
+    if (options_.check) {
+      outcome->check = CheckAsset(staged.staging());
+      RequirePassed(*outcome->check, item.name);
+    }
     staged.Commit();
     outcome->folder = target;
     outcome->seconds = built.seconds;
-    if (options_.check) outcome->check = CheckAsset(target);
   }
 
  private:
@@ -249,15 +266,18 @@ std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items, const
     outcome.name = item.name;
     const auto start = std::chrono::steady_clock::now();
     try {
+      core::CheckCancelled();
       const auto found = catalogues.find(item.mesh);
       importer.Import(item, item.piece >= 0 ? found->second.get() : nullptr,
                       many ? &silent : progress, &outcome);
     } catch (const core::Error& error) {
       outcome.refusal = error.what();
+    } catch (const core::Cancelled&) {
+      outcome.refusal = kStopped;
     }
     outcome.seconds["total"] =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (many) progress->Advance();
+    if (many && !core::CancelRequested()) progress->Advance();
   });
   progress->Finish();
   return outcomes;

@@ -18,7 +18,7 @@ struct ImportOptions {
   double height = 0.0;        // m, > 0: scale to this height instead
   std::uint64_t seed = 1;
   bool force = false;         // replace outputs that exist
-  bool check = true;          // check each asset after it is written
+  bool check = true;          // check each asset; one that fails is refused
   std::string only;           // catalogues: take pieces whose id or name contains this
   int limit = 0;              // catalogues: at most so many pieces; 0: all
 };
@@ -45,7 +45,8 @@ std::vector<ImportItem> ListImports(const std::vector<std::filesystem::path>& in
 
 // Imports all items in parallel, each into output/NAME. A mesh that cannot become an asset is
 // refused with its reason and does not stop the others. Catalogue pieces take the catalogue's
-// true sizes. Throws core::Cancelled; and core::Error when an output exists and `force` is not set.
+// true sizes. After Ctrl-C what was done stays, and the others are refused as stopped. Throws
+// core::Error when an output exists and `force` is not set.
 std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items,
                                      const std::filesystem::path& output,
                                      const ImportOptions& options, core::Progress* progress);

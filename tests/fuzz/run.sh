@@ -1,0 +1,47 @@
+#!/bin/bash
+# tests/fuzz/run.sh [SECONDS=60]: builds the fuzz targets with clang in build-fuzz/ and runs each for
+# that long. Exit 1 where one crashes; the input that did it stays in build-fuzz/found/.
+set -euo pipefail
+seconds=${1:-60}
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+build=${SIMWRIGHT_FUZZ_BUILD:-$root/build-fuzz}
+cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+  -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DSIMWRIGHT_FUZZ=ON \
+  -DSIMWRIGHT_TESTS=OFF -DSIMWRIGHT_BENCH=OFF -DSIMWRIGHT_SANITIZE=OFF > /dev/null
+targets="image_fuzz mesh_fuzz urdf_fuzz catalogue_fuzz"
+ninja -C "$build" $targets
+mkdir -p "$build/found"
+# Small files of each kind, made here so that no binary is kept.
+image_seeds=$build/seeds/image_fuzz
+catalogue_seeds=$build/seeds/catalogue_fuzz
+mkdir -p "$image_seeds" "$catalogue_seeds"
+printf 'P5 2 2 255\n\1\2\3\4' > "$image_seeds/two.pgm"
+printf 'GIF89a\1\0\1\0\200\0\0\0\0\0\377\377\377,\0\0\0\0\1\0\1\0\0\2\2D\1\0;' > "$image_seeds/one.gif"
+printf '\211PNG\r\n\032\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\10\0\0\0\0\x3a\x7e\x9b\x55\0\0\0\nIDATx\234c\140\0\0\0\2\0\1\x48\xaf\xa4\x71\0\0\0\0IEND\256B\140\202' > "$image_seeds/one.png"
+head -c 4096 "$root/examples/apple.jpg" > "$image_seeds/cut.jpg"
+folder=$(mktemp -d)
+printf 'id#1=cup\nname#1=Cup\nmodel#1=/cup.obj\nwidth#1=8\ndepth#1=8\nheight#1=9\ncategory#1=Kitchen\n' \
+  > "$folder/PluginFurnitureCatalog.properties"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' > "$folder/cup.obj"
+if command -v python3 > /dev/null; then
+  (cd "$folder" && python3 -m zipfile -c "$catalogue_seeds/cup.sh3f" \
+    PluginFurnitureCatalog.properties cup.obj)
+fi
+rm -rf "$folder"
+failed=0
+for target in $targets; do
+  corpus=$build/corpus/$target
+  seeds=$here/seeds/$target
+  [ -d "$seeds" ] || seeds=$build/seeds/$target
+  mkdir -p "$corpus"
+  echo "$target: $seconds s"
+  if ! ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 "$build/bin/$target" "$corpus" "$seeds" \
+      -max_total_time="$seconds" -timeout=20 -rss_limit_mb=3000 -max_len=8192 -print_final_stats=1 \
+      -artifact_prefix="$build/found/$target-" > "$build/$target.log" 2>&1; then
+    echo "$target: FAILED, see $build/$target.log"
+    failed=1
+  fi
+  grep -E "number_of_executed_units|SUMMARY|ERROR" "$build/$target.log" || true
+done
+exit $failed
