@@ -151,7 +151,7 @@ void DropBuried(core::TriangleMesh* mesh) {
     if (winding[c] == (volumes[c] > 0.0 ? 0 : 1)) kept.push_back(mesh->triangles[t]);
   }
   mesh->triangles.swap(kept);
-  *mesh = Weld(*mesh, 0.0);
+  *mesh = WithoutUnusedVertices(*mesh);
 }
 
 }  // namespace simwright::geometry

@@ -4,14 +4,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <unordered_map>
 
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/progress.h"
 #include "geometry/self_intersection.h"
 #include "geometry/soundness.h"
-#include "geometry/weld.h"
 
 namespace simwright::geometry {
 namespace {
@@ -83,10 +85,19 @@ class CostQueue {
   int lowest_ = kOctaves * kSteps;
 };
 
+// A mesh made from another one, and for each vertex the other's that it still is, or -1.
+struct Thinned {
+  core::TriangleMesh mesh;
+  std::vector<int> sources;
+};
+
 class Collapser {
  public:
   Collapser(const core::TriangleMesh& mesh, const std::vector<char>& locked)
-      : vertices_(mesh.vertices), triangles_(mesh.triangles), locked_(locked) {
+      : source_(mesh),
+        vertices_(mesh.vertices),
+        triangles_(mesh.triangles),
+        locked_(locked) {
     // Sums of squares lose digits far from the origin.
     center_ = core::Bounds(mesh).center();
     for (Vector3d& v : vertices_) v -= center_;
@@ -128,23 +139,27 @@ class Collapser {
     }
   }
 
-  core::TriangleMesh Result() const {
-    core::TriangleMesh mesh;
+  Thinned Result() const {
+    Thinned result;
+    core::TriangleMesh& mesh = result.mesh;
     std::vector<int> index(vertices_.size(), -1);
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       if (!alive_[t]) continue;
       Eigen::Vector3i corner;
       for (int c = 0; c < 3; ++c) {
-        int& at = index[triangles_[t][c]];
+        const int v = triangles_[t][c];
+        int& at = index[v];
         if (at < 0) {
           at = static_cast<int>(mesh.vertices.size());
-          mesh.vertices.push_back(vertices_[triangles_[t][c]] + center_);
+          const bool same = version_[v] == 0;
+          mesh.vertices.push_back(same ? source_.vertices[v] : vertices_[v] + center_);
+          result.sources.push_back(same ? v : -1);
         }
         corner[c] = at;
       }
       mesh.triangles.push_back(corner);
     }
-    return mesh;
+    return result;
   }
 
  private:
@@ -265,6 +280,7 @@ class Collapser {
     }
   }
 
+  const core::TriangleMesh& source_;
   Vector3d center_;
   std::vector<Vector3d> vertices_;
   std::vector<Eigen::Vector3i> triangles_;
@@ -314,9 +330,15 @@ void LockAround(const core::TriangleMesh& source, const core::TriangleMesh& resu
 constexpr int kTries = 8;
 constexpr int kPairLimit = 5000;
 
+Thinned AsItWas(const core::TriangleMesh& source) {
+  Thinned same{source, std::vector<int>(source.vertices.size())};
+  std::iota(same.sources.begin(), same.sources.end(), 0);
+  return same;
+}
+
 // One descent to `budget`, tried again with more vertices held until nothing crosses.
-core::TriangleMesh Descend(const core::TriangleMesh& source, int budget, double max_error) {
-  std::vector<char> locked(source.vertices.size(), 0);
+Thinned Descend(const core::TriangleMesh& source, int budget, double max_error,
+                std::vector<char> locked) {
   double edge = 0.0;
   for (const Eigen::Vector3i& t : source.triangles) {
     edge += (source.vertices[t[0]] - source.vertices[t[1]]).norm();
@@ -325,18 +347,131 @@ core::TriangleMesh Descend(const core::TriangleMesh& source, int budget, double 
   for (int tries = 0; tries < kTries; ++tries, reach *= 1.6) {
     Collapser collapser(source, locked);
     collapser.Run(budget, max_error);
-    core::TriangleMesh result = collapser.Result();
-    const auto pairs = SelfIntersections(result, kPairLimit);
+    Thinned result = collapser.Result();
+    const auto pairs = SelfIntersections(result.mesh, kPairLimit);
     bool degenerate = false;
-    for (int t = 0; t < static_cast<int>(result.triangles.size()) && !degenerate; ++t) {
-      degenerate = IsDegenerate(result, t);
+    for (int t = 0; t < static_cast<int>(result.mesh.triangles.size()) && !degenerate; ++t) {
+      degenerate = IsDegenerate(result.mesh, t);
     }
     if (pairs.empty() && !degenerate) return result;
-    if (degenerate) return source;
-    LockAround(source, result, pairs, reach, &locked);
+    if (degenerate) break;
+    LockAround(source, result.mesh, pairs, reach, &locked);
   }
-  return source;
+  return AsItWas(source);
 }
+
+constexpr int kBlockFaces = 40000;  // what a core's cache holds with its quadrics
+
+// Faces in blocks that lie together: along a space-filling curve (Morton) over their centres.
+std::vector<std::vector<int>> Blocks(const core::TriangleMesh& mesh) {
+  const Eigen::AlignedBox3d box = core::Bounds(mesh);
+  const double scale = 1023.0 / std::max(box.sizes().maxCoeff(), 1e-300);
+  std::vector<std::pair<std::uint32_t, int>> order(mesh.triangles.size());
+  for (std::size_t t = 0; t < order.size(); ++t) {
+    const Eigen::Vector3i& c = mesh.triangles[t];
+    const Vector3d at =
+        scale * ((mesh.vertices[c[0]] + mesh.vertices[c[1]] + mesh.vertices[c[2]]) / 3.0 -
+                 box.min());
+    std::uint32_t code = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::uint32_t cell = static_cast<std::uint32_t>(std::clamp(at[axis], 0.0, 1023.0));
+      for (int bit = 0; bit < 10; ++bit) code |= (cell >> bit & 1u) << (3 * bit + axis);
+    }
+    order[t] = {code, static_cast<int>(t)};
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::vector<int>> blocks((order.size() + kBlockFaces - 1) / kBlockFaces);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    blocks[i / kBlockFaces].push_back(order[i].second);
+  }
+  return blocks;
+}
+
+// A mesh in blocks of faces that are thinned apart from each other.
+class BlockThinner {
+ public:
+  explicit BlockThinner(const core::TriangleMesh& mesh)
+      : mesh_(mesh), blocks_(Blocks(mesh)), owner_(mesh.vertices.size(), kNobody) {
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      for (const int t : blocks_[b]) {
+        for (int c = 0; c < 3; ++c) {
+          int& owner = owner_[mesh.triangles[t][c]];
+          owner = owner == kNobody || owner == static_cast<int>(b) ? static_cast<int>(b) : kShared;
+        }
+      }
+    }
+  }
+
+  // Thins what is nearly flat; the blocks' common vertices stay. Where faces of two blocks come to
+  // cross, both blocks are left as they were.
+  core::TriangleMesh Run(double max_error) {
+    std::vector<Thinned> thinned(blocks_.size());
+    core::ParallelFor(static_cast<int>(blocks_.size()),
+                      [&](int b) { thinned[b] = Thin(b, max_error); });
+    for (int tries = 0; tries < kTries; ++tries) {
+      std::vector<int> block;  // of each face
+      core::TriangleMesh joined = Join(thinned, &block);
+      const auto pairs = SelfIntersections(joined, kPairLimit);
+      if (pairs.empty()) return joined;
+      for (const auto& [s, t] : pairs) {
+        for (const int b : {block[s], block[t]}) thinned[b] = Thin(b, 0.0);
+      }
+    }
+    return mesh_;
+  }
+
+ private:
+  static constexpr int kNobody = -1;
+  static constexpr int kShared = -2;
+
+  // Error 0: the block as it was.
+  Thinned Thin(int b, double max_error) const {
+    core::TriangleMesh part;
+    std::vector<char> locked;
+    std::vector<int> original;
+    std::unordered_map<int, int> index;
+    for (const int t : blocks_[b]) {
+      Eigen::Vector3i corner;
+      for (int c = 0; c < 3; ++c) {
+        const int v = mesh_.triangles[t][c];
+        const auto [entry, fresh] = index.try_emplace(v, static_cast<int>(part.vertices.size()));
+        corner[c] = entry->second;
+        if (!fresh) continue;
+        part.vertices.push_back(mesh_.vertices[v]);
+        locked.push_back(owner_[v] == kShared);
+        original.push_back(v);
+      }
+      part.triangles.push_back(corner);
+    }
+    Thinned thinned = max_error > 0.0 ? Descend(part, 0, max_error, locked) : AsItWas(part);
+    for (int& s : thinned.sources) s = s < 0 ? -1 : original[s];
+    return thinned;
+  }
+
+  core::TriangleMesh Join(const std::vector<Thinned>& thinned, std::vector<int>* block) const {
+    core::TriangleMesh joined;
+    std::unordered_map<int, int> shared;
+    for (std::size_t b = 0; b < thinned.size(); ++b) {
+      std::vector<int> index;
+      for (std::size_t v = 0; v < thinned[b].mesh.vertices.size(); ++v) {
+        const int at = static_cast<int>(joined.vertices.size());
+        const int source = thinned[b].sources[v];
+        const bool common = source >= 0 && owner_[source] == kShared;
+        index.push_back(common ? shared.try_emplace(source, at).first->second : at);
+        if (index.back() == at) joined.vertices.push_back(thinned[b].mesh.vertices[v]);
+      }
+      for (const Eigen::Vector3i& t : thinned[b].mesh.triangles) {
+        joined.triangles.emplace_back(index[t[0]], index[t[1]], index[t[2]]);
+        block->push_back(static_cast<int>(b));
+      }
+    }
+    return joined;
+  }
+
+  const core::TriangleMesh& mesh_;
+  const std::vector<std::vector<int>> blocks_;
+  std::vector<int> owner_;  // of each vertex: its block, or kShared
+};
 
 }  // namespace
 
@@ -347,6 +482,9 @@ core::TriangleMesh Simplify(const core::TriangleMesh& mesh, const SimplifyOption
                       "make a solid of it first");
   }
   core::TriangleMesh result = mesh;
+  if (options.max_error > 0.0 && static_cast<int>(mesh.triangles.size()) > 2 * kBlockFaces) {
+    result = BlockThinner(mesh).Run(0.15 * options.max_error);
+  }
   // In steps: one that has to be tried again is then a cheap one. The first takes what is nearly
   // flat, which hardly ever makes faces cross.
   const int halfway = std::max(4 * options.face_budget, 4);
@@ -355,46 +493,10 @@ core::TriangleMesh Simplify(const core::TriangleMesh& mesh, const SimplifyOption
   const std::array<std::pair<int, double>, 3> steps = {
       std::pair{halfway, 0.15 * error}, std::pair{halfway, error}, std::pair{budget, error}};
   for (const auto& [faces, limit] : steps) {
-    if (static_cast<int>(result.triangles.size()) > faces) result = Descend(result, faces, limit);
+    if (static_cast<int>(result.triangles.size()) <= faces) continue;
+    result = Descend(result, faces, limit, std::vector<char>(result.vertices.size(), 0)).mesh;
   }
   return result;
-}
-
-core::TriangleMesh ClusterVertices(const core::TriangleMesh& mesh, double cell) {
-  core::RequireValid(mesh, "vertex clustering");
-  if (!(cell > 0.0)) throw core::Error("the cell must be positive", "vertex clustering");
-  const Vector3d low = core::Bounds(mesh).min();
-  const auto key_of = [&](const Vector3d& p) {
-    const Vector3d at = ((p - low) / cell).array().floor().min(2097151.0);
-    return (static_cast<std::uint64_t>(at.x()) << 42) | (static_cast<std::uint64_t>(at.y()) << 21) |
-           static_cast<std::uint64_t>(at.z());
-  };
-  std::vector<std::pair<std::uint64_t, int>> order(mesh.vertices.size());
-  for (std::size_t v = 0; v < order.size(); ++v) {
-    order[v] = {key_of(mesh.vertices[v]), static_cast<int>(v)};
-  }
-  std::sort(order.begin(), order.end());
-  core::TriangleMesh clustered = mesh;
-  for (std::size_t first = 0; first < order.size();) {
-    std::size_t end = first;
-    Vector3d mean = Vector3d::Zero();
-    for (; end < order.size() && order[end].first == order[first].first; ++end) {
-      mean += mesh.vertices[order[end].second];
-    }
-    mean /= static_cast<double>(end - first);
-    int nearest = order[first].second;
-    for (std::size_t i = first; i < end; ++i) {
-      if ((mesh.vertices[order[i].second] - mean).squaredNorm() <
-          (mesh.vertices[nearest] - mean).squaredNorm()) {
-        nearest = order[i].second;
-      }
-    }
-    for (std::size_t i = first; i < end; ++i) {
-      clustered.vertices[order[i].second] = mesh.vertices[nearest];
-    }
-    first = end;
-  }
-  return Weld(clustered, 0.0);
 }
 
 }  // namespace simwright::geometry

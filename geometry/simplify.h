@@ -18,9 +18,4 @@ struct SimplifyOptions {
 // Returns the simplified mesh. Throws core::Error for a mesh that is not closed and manifold.
 core::TriangleMesh Simplify(const core::TriangleMesh& mesh, const SimplifyOptions& options);
 
-// Fast thinning of any triangles, also millions: vertices of one grid cell of edge `cell` (metres)
-// fall together in the one nearest their mean; faces that vanish or repeat are dropped.
-// No vertex moves farther than cell * sqrt(3). Throws core::Error for cell <= 0.
-core::TriangleMesh ClusterVertices(const core::TriangleMesh& mesh, double cell);
-
 }  // namespace simwright::geometry

@@ -7,12 +7,13 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "geometry/alpha_wrap.h"
+#include "geometry/cluster_vertices.h"
+#include "geometry/nesting.h"
 #include "geometry/simplify.h"
 #include "geometry/soundness.h"
 #include "geometry/surface_distance.h"
 #include "geometry/surface_wrap.h"
 #include "geometry/weld.h"
-#include "geometry/nesting.h"
 
 namespace simwright::geometry {
 namespace {

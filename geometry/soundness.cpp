@@ -11,30 +11,16 @@
 namespace simwright::geometry {
 namespace {
 
-struct EdgeUse {
-  std::uint64_t key;
-  int forward;  // 1 from the lower vertex to the higher, else -1
-};
-
 void ExamineEdges(const core::TriangleMesh& mesh, Soundness* result) {
-  std::vector<EdgeUse> uses;
-  uses.reserve(3 * mesh.triangles.size());
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    for (int c = 0; c < 3; ++c) {
-      const std::uint32_t a = t[c];
-      const std::uint32_t b = t[(c + 1) % 3];
-      uses.push_back(
-          {(static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b), a < b ? 1 : -1});
-    }
-  }
-  std::sort(uses.begin(), uses.end(),
-            [](const EdgeUse& a, const EdgeUse& b) { return a.key < b.key; });
+  const std::vector<EdgeUse> uses = SortedEdgeUses(mesh);
   result->closed = true;
   result->oriented = true;
   for (std::size_t i = 0; i < uses.size();) {
     int balance = 0;
     std::size_t end = i;
-    for (; end < uses.size() && uses[end].key == uses[i].key; ++end) balance += uses[end].forward;
+    for (; end < uses.size() && uses[end].key == uses[i].key; ++end) {
+      balance += uses[end].forward ? 1 : -1;
+    }
     const std::size_t faces = end - i;
     if (faces == 1) ++result->open_edges;
     if (faces > 2) ++result->non_manifold_edges;

@@ -228,13 +228,19 @@ class Wrapper {
 
   // Lines of sight to seen points that the walls of sheets buried; whether there were any.
   bool CarveWalls(const core::TriangleMesh& mesh, ScalarGrid* field) const {
-    std::vector<Vector3d> points;
-    for (const OuterHit& hit : options_.seen) points.push_back(hit.point);
-    const std::vector<double> distance = DistancesToSurface(points, mesh);
+    const TriangleTree tree(mesh);
+    const int count = static_cast<int>(options_.seen.size());
+    std::vector<char> buried(options_.seen.size());
+    constexpr int kBlock = 1024;
+    core::ParallelFor((count + kBlock - 1) / kBlock, [&](int block) {
+      for (int h = block * kBlock; h < std::min(count, (block + 1) * kBlock); ++h) {
+        buried[h] = tree.Closest(options_.seen[h].point, options_.reach).triangle < 0;
+      }
+    });
     std::vector<std::size_t> carved;
-    for (std::size_t h = 0; h < points.size(); ++h) {
-      if (distance[h] <= options_.reach) continue;
-      Vector3d at = InCells(points[h]);
+    for (std::size_t h = 0; h < buried.size(); ++h) {
+      if (!buried[h]) continue;
+      Vector3d at = InCells(options_.seen[h].point);
       const int steps = 2 * (field->nx + field->ny + field->nz);
       for (int step = 0; step < steps; ++step, at += 0.5 * options_.seen[h].to_eye) {
         const std::size_t node = NodeAt(at);

@@ -72,30 +72,6 @@ std::vector<int> NearRepresentatives(const std::vector<Vector3d>& vertices, doub
   return to;
 }
 
-struct EdgeUse {
-  std::uint64_t key;
-  int triangle;
-  bool forward;
-};
-
-// Every use of every edge, sorted so that the uses of one edge stand together.
-std::vector<EdgeUse> SortedEdgeUses(const core::TriangleMesh& mesh) {
-  std::vector<EdgeUse> uses;
-  uses.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int c = 0; c < 3; ++c) {
-      const std::uint32_t a = mesh.triangles[t][c];
-      const std::uint32_t b = mesh.triangles[t][(c + 1) % 3];
-      const std::uint64_t key = (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
-      uses.push_back({key, static_cast<int>(t), a < b});
-    }
-  }
-  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
-    return a.key != b.key ? a.key < b.key : a.triangle < b.triangle;
-  });
-  return uses;
-}
-
 int Root(std::vector<int>& parent, int x) {
   while (parent[x] != x) x = parent[x] = parent[parent[x]];
   return x;
@@ -138,6 +114,49 @@ core::TriangleMesh Weld(const core::TriangleMesh& mesh, double tolerance) {
     welded.triangles.push_back(corner);
   }
   return welded;
+}
+
+std::vector<EdgeUse> SortedEdgeUses(const core::TriangleMesh& mesh) {
+  std::vector<std::size_t> start(mesh.vertices.size() + 1, 0);
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    for (int c = 0; c < 3; ++c) ++start[std::min(t[c], t[(c + 1) % 3]) + 1];
+  }
+  for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
+  std::vector<std::size_t> next(start.begin(), start.end() - 1);
+  std::vector<EdgeUse> uses(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int c = 0; c < 3; ++c) {
+      const std::uint32_t a = mesh.triangles[t][c];
+      const std::uint32_t b = mesh.triangles[t][(c + 1) % 3];
+      const std::uint64_t key = (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
+      uses[next[std::min(a, b)]++] = {key, static_cast<int>(t), a < b};
+    }
+  }
+  for (std::size_t v = 0; v + 1 < start.size(); ++v) {
+    std::sort(uses.begin() + static_cast<std::ptrdiff_t>(start[v]),
+              uses.begin() + static_cast<std::ptrdiff_t>(start[v + 1]),
+              [](const EdgeUse& x, const EdgeUse& y) {
+                return x.key != y.key ? x.key < y.key : x.triangle < y.triangle;
+              });
+  }
+  return uses;
+}
+
+core::TriangleMesh WithoutUnusedVertices(const core::TriangleMesh& mesh) {
+  core::TriangleMesh used;
+  used.triangles = mesh.triangles;
+  std::vector<int> index(mesh.vertices.size(), -1);
+  for (Eigen::Vector3i& t : used.triangles) {
+    for (int c = 0; c < 3; ++c) {
+      int& at = index[t[c]];
+      if (at < 0) {
+        at = static_cast<int>(used.vertices.size());
+        used.vertices.push_back(mesh.vertices[t[c]]);
+      }
+      t[c] = at;
+    }
+  }
+  return used;
 }
 
 std::vector<int> EdgeComponents(const core::TriangleMesh& mesh, int* count) {

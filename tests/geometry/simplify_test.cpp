@@ -1,3 +1,4 @@
+#include "geometry/cluster_vertices.h"
 #include "geometry/simplify.h"
 
 #include <cmath>
