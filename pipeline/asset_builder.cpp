@@ -1,12 +1,9 @@
 #include "pipeline/asset_builder.h"
 
 #include <chrono>
-#include <limits>
 
 #include "core/error.h"
-#include "geometry/convex_hull.h"
 #include "geometry/mass_properties.h"
-#include "geometry/surface_distance.h"
 #include "pipeline/foot.h"
 #include "pipeline/rest_pose.h"
 
@@ -82,32 +79,6 @@ void GiveMass(const BuildRequest& request, assets::Asset* asset) {
       kRollingResistance * 0.5 * core::Bounds(asset->solid).sizes().mean();
 }
 
-// A hull of few vertices loses the small flat foot on which a round thing stands: the corners of
-// the solid's lowest facet go back into the nearest parts.
-void KeepFoot(assets::Asset* asset) {
-  const std::vector<Eigen::Vector3d> foot = FootCorners(asset->solid, kFootCorners);
-  if (foot.size() < 3) return;
-  std::vector<std::vector<Eigen::Vector3d>> added(asset->parts.size());
-  for (const Eigen::Vector3d& corner : foot) {
-    size_t nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (size_t i = 0; i < asset->parts.size(); ++i) {
-      const double distance = geometry::DistancesToSurface({corner}, asset->parts[i])[0];
-      if (distance < least) {
-        least = distance;
-        nearest = i;
-      }
-    }
-    added[nearest].push_back(corner);
-  }
-  for (size_t i = 0; i < asset->parts.size(); ++i) {
-    if (added[i].empty()) continue;
-    std::vector<Eigen::Vector3d> points = asset->parts[i].vertices;
-    points.insert(points.end(), added[i].begin(), added[i].end());
-    asset->parts[i] = geometry::ConvexHull(points);
-  }
-}
-
 void Decompose(const BuildRequest& request, assets::Asset* asset) {
   geometry::DecompositionOptions options = request.decomposition;
   options.max_hull_vertices -= kFootCorners;
@@ -115,7 +86,7 @@ void Decompose(const BuildRequest& request, assets::Asset* asset) {
   asset->parts = geometry::Hulls(decomposition);
   asset->concavity = decomposition.concavity;
   asset->coverage = decomposition.coverage;
-  KeepFoot(asset);
+  KeepFoot(FindFoot(asset->solid, asset->inertial.center_of_mass, kFootCorners), &asset->parts);
 }
 
 // Turns the asset about its rest pose and moves it so that it stands on z = 0, centred.

@@ -8,9 +8,20 @@
 
 namespace simwright::pipeline {
 
-// At most `count` corners of the polygon on which `solid` stands at its lowest level: extreme
-// vertices, by direction, of those within 0.1 % of its height of the lowest. Empty where it stands
-// on a point.
-std::vector<Eigen::Vector3d> FootCorners(const core::TriangleMesh& solid, int count);
+// The flat on which a solid stands or lies.
+struct Foot {
+  Eigen::Vector3d down = -Eigen::Vector3d::UnitZ();  // unit, outward
+  double reach = 0.0;                                // m: the solid lies in down . x <= reach
+  std::vector<Eigen::Vector3d> corners;              // of the flat; fewer than three: a point
+};
+
+// The foot nearest to straight down, within 25 degrees, that bears a tilt of 3 degrees under
+// `center_of_mass`; else what is within 0.1 % of the height of the lowest vertex. At most `count`
+// corners, extreme ones by direction. Throws core::Error for an invalid or flat mesh.
+Foot FindFoot(const core::TriangleMesh& solid, const Eigen::Vector3d& center_of_mass, int count);
+
+// A hull of few vertices loses the small flat on which a round thing stands: the corners go back
+// into the nearest of `parts` (convex), and what sticks out below the flat is pressed in.
+void KeepFoot(const Foot& foot, std::vector<core::TriangleMesh>* parts);
 
 }  // namespace simwright::pipeline

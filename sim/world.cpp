@@ -65,8 +65,9 @@ World::World(const WorldOptions& options)
   // The default of 4 cm would let small things sink in before they are pushed out.
   solver.m_splitImpulsePenetrationThreshold = 0.0;
   // A hull meets a plane in its deepest vertex alone: without more, a thing on a small facet
-  // trembles for ever. Turned a little each way, it is found to touch in the whole facet.
-  bullet_->configuration.setPlaneConvexMultipointIterations(8, 8);
+  // trembles for ever. Turned a little each way, it is found to touch in the whole facet; but with
+  // four points held no more are sought, or those of many parts drive each other along the floor.
+  bullet_->configuration.setPlaneConvexMultipointIterations(8, 4);
   bullet_->floor_shape.setMargin(0.0);
   btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, &bullet_->floor_shape);
   info.m_friction = options.floor_friction;
