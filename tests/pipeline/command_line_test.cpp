@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -97,6 +100,14 @@ TEST_F(CommandLine, BadPhotosAreRefused) {
   ExpectRefused(lift(Write("one.png", core::EncodePng(core::Image(1, 1, 3, 90)))), "1 x 1");
   ExpectRefused(lift(Write("clear.png", core::EncodePng(core::Image(64, 64, 4)))), "transparent");
   ExpectRefused(lift(Write("flat.png", core::EncodePng(core::Image(64, 64, 3, 90)))), "object");
+  core::Image two(128, 64, 4);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 128; ++x) {
+      const double dx = x % 64 - 32, dy = y - 32;
+      two.At(x, y)[3] = dx * dx + dy * dy < 400 ? 255 : 0;
+    }
+  }
+  ExpectRefused(lift(Write("two.png", core::EncodePng(two))), "objects");
   std::string huge = png;
   const std::string side("\x00\x01\x86\xA0", 4);
   huge.replace(16, 4, side);
@@ -128,6 +139,81 @@ TEST_F(CommandLine, ACatalogueThatClimbsOutIsRefused) {
   }
   ASSERT_EQ(zip_close(archive), 0);
   ExpectRefused("import " + path + " -o " + Out(), "outside");
+}
+
+TEST_F(CommandLine, BadUrdfsAreRefused) {
+  const auto check = [&](const std::string& name, const std::string& body) {
+    return "check " + Write(name, "<robot name='r'>" + body + "</robot>");
+  };
+  const std::string links = "<link name='a'/><link name='b'/>";
+  const auto joint = [](const std::string& name, const std::string& from, const std::string& to) {
+    return "<joint name='" + name + "' type='fixed'><parent link='" + from + "'/><child link='" +
+           to + "'/></joint>";
+  };
+  ExpectRefused(check("loop.urdf", links + joint("j", "a", "b") + joint("k", "b", "a")), "loop");
+  ExpectRefused(check("gone.urdf", links + joint("j", "a", "c")), "c");
+  ExpectRefused(check("light.urdf", "<link name='a'><inertial><mass value='-1'/><inertia ixx='1' "
+                                    "iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>"),
+                "mass");
+  ExpectRefused(check("away.urdf", "<link name='a'><collision><geometry><mesh "
+                                   "filename='../../../../etc/passwd'/></geometry></collision>"
+                                   "</link>"),
+                "outside");
+  std::string bomb = "<!DOCTYPE robot [<!ENTITY a0 'ha'>";
+  for (int i = 1; i < 30; ++i) {
+    const std::string before = "&a" + std::to_string(i - 1) + ";";
+    bomb += "<!ENTITY a" + std::to_string(i) + " '" + before + before + "'>";
+  }
+  ExpectRefused("check " + Write("bomb.urdf", bomb + "]><robot name='&a29;'/>"), "error");
+}
+
+// A photo of 12 megapixels is scaled down: it takes no longer than a small one.
+TEST_F(CommandLine, LargePhotosAreOrdinary) {
+  Write("large.jpg", core::EncodeJpeg(core::Resize(core::ReadImage(
+                         SIMWRIGHT_SOURCE_DIR "/examples/apple.jpg"), 4000, 3000), 90));
+  const Outcome outcome = RunProgram("lift " + (folder_ / "large.jpg").string() +
+                                     " --category apple -o " + Out());
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+}
+
+// A scan of five million faces is decimated.
+TEST_F(CommandLine, LargeMeshesAreOrdinary) {
+  constexpr int kRings = 1581;  // 2 * 1581^2: five million faces
+  std::string stl(84 + 50ull * 2 * kRings * kRings, '\0');
+  const auto point = [&](int i, int j) {
+    const double polar = M_PI * i / kRings, turn = 2.0 * M_PI * j / kRings;
+    const double r = 0.1 + 0.004 * std::sin(8 * polar) * std::sin(6 * turn) * std::sin(polar);
+    return std::array<float, 3>{static_cast<float>(r * std::sin(polar) * std::cos(turn)),
+                                static_cast<float>(r * std::sin(polar) * std::sin(turn)),
+                                static_cast<float>(r * std::cos(polar))};
+  };
+  const std::uint32_t faces = 2 * kRings * kRings;
+  std::memcpy(&stl[80], &faces, 4);
+  char* at = &stl[84];
+  const auto face = [&](const std::array<std::array<float, 3>, 3>& corners) {
+    std::memcpy(at + 12, corners.data(), 36);
+    at += 50;
+  };
+  for (int i = 0; i < kRings; ++i) {
+    for (int j = 0; j < kRings; ++j) {
+      const int k = (j + 1) % kRings;
+      face({point(i, j), point(i + 1, j), point(i + 1, k)});
+      face({point(i, j), point(i + 1, k), point(i, k)});
+    }
+  }
+  const Outcome outcome =
+      RunProgram("import " + Write("scan.stl", stl) + " --category object -o " + Out());
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+}
+
+TEST_F(CommandLine, CtrlCLeavesNothing) {
+  const std::string mesh = Write("ball.obj", assets::ObjText(assets::SphereMesh(0.1, 200)));
+  const size_t before = Entries();
+  const Outcome outcome = RunProgram("import " + mesh + " --category ball -o " + Out() +
+                                     " 2>&1 & pid=$!; sleep 0.5; kill -INT $pid; wait $pid");
+  EXPECT_NE(outcome.code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("stopped"), std::string::npos) << outcome.text;
+  EXPECT_EQ(Entries(), before);
 }
 
 TEST_F(CommandLine, WrongUsageIsExitTwo) {
