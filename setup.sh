@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what Simwright builds, tests and runs with, from Debian 12's packages. Does nothing for
-# what is there already. --catalogue adds the furniture that the catalogue tests use (120 MB).
+# what is there already. --catalogue adds the furniture that the catalogue tests use (120 MB),
+# --fuzz the compiler of the fuzz targets.
 set -euo pipefail
 
 packages=(
@@ -8,9 +9,15 @@ packages=(
   libeigen3-dev libassimp-dev libcgal-dev libembree-dev libopencv-dev libopencv-contrib-dev
   libbullet-dev libbullet-extras-dev liburdfdom-dev libmujoco-dev nlohmann-json3-dev
   libcli11-dev libtinyxml2-dev libzip-dev libexif-dev libgif-dev libwebp-dev libconsole-bridge-dev
-  wordnet-base libgtest-dev libbenchmark-dev libsdformat-dev clang-14 libclang-rt-14-dev
+  wordnet-base libgtest-dev libbenchmark-dev libsdformat-dev
 )
-[ "${1:-}" != "--catalogue" ] || packages+=(sweethome3d-furniture python3-skimage)
+for wanted in "$@"; do
+  case $wanted in
+    --catalogue) packages+=(sweethome3d-furniture python3-skimage) ;;
+    --fuzz) packages+=(clang-14 libclang-rt-14-dev) ;;
+    *) echo "error: $wanted is not known (use --catalogue or --fuzz)" >&2; exit 2 ;;
+  esac
+done
 
 missing=()
 for package in "${packages[@]}"; do

@@ -29,19 +29,30 @@ if command -v python3 > /dev/null; then
     PluginFurnitureCatalog.properties cup.obj)
 fi
 rm -rf "$folder"
+# All at once: most of the time of some goes into files, that of others into decoding.
+fuzz() {
+  local target=$1 seeds=$here/seeds/$1
+  [ -d "$seeds" ] || seeds=$build/seeds/$target
+  mkdir -p "$build/corpus/$target"
+  ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1:quarantine_size_mb=16 \
+    "$build/bin/$target" "$build/corpus/$target" "$seeds" \
+    -max_total_time="$seconds" -timeout=20 -rss_limit_mb=3000 -max_len=8192 -print_final_stats=1 \
+    -artifact_prefix="$build/found/$target-" > "$build/$target.log" 2>&1
+}
+declare -A running
+for target in $targets; do
+  fuzz "$target" &
+  running[$target]=$!
+done
 failed=0
 for target in $targets; do
-  corpus=$build/corpus/$target
-  seeds=$here/seeds/$target
-  [ -d "$seeds" ] || seeds=$build/seeds/$target
-  mkdir -p "$corpus"
-  echo "$target: $seconds s"
-  if ! ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 "$build/bin/$target" "$corpus" "$seeds" \
-      -max_total_time="$seconds" -timeout=20 -rss_limit_mb=3000 -max_len=8192 -print_final_stats=1 \
-      -artifact_prefix="$build/found/$target-" > "$build/$target.log" 2>&1; then
+  if wait "${running[$target]}"; then
+    runs=$(grep -a number_of_executed_units "$build/$target.log" | grep -oE '[0-9]+$')
+    echo "$target: $runs inputs in $seconds s"
+  else
     echo "$target: FAILED, see $build/$target.log"
+    grep -aE "SUMMARY|ERROR" "$build/$target.log" || true
     failed=1
   fi
-  grep -E "number_of_executed_units|SUMMARY|ERROR" "$build/$target.log" || true
 done
 exit $failed
