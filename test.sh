@@ -4,6 +4,6 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 ./setup.sh
-cmake --preset release ${SIMWRIGHT_CMAKE_FLAGS:-} >/dev/null
+cmake --preset release -DSIMWRIGHT_TESTS=ON ${SIMWRIGHT_CMAKE_FLAGS:-} >/dev/null
 cmake --build --preset release
-ctest --test-dir build --output-on-failure -j "$(nproc)" "$@"
+ctest --test-dir build --no-tests=error --output-on-failure -j "$(nproc)" "$@"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/error.h"
@@ -105,18 +106,28 @@ struct Wrapped {
   double distance = 0.0;  // largest of both directions, a share of the diagonal
 };
 
-// One wrap of `unit`, a mesh of diagonal 1. `fineness` divides the cell, the wall (which would
-// close gaps between sheets) and what simplification may move.
-Wrapped WrapOnce(const TriangleMesh& unit, double fineness, const SolidOptions& options) {
+// How hard a wrap tries; each costs about twice the one before.
+struct Effort {
+  double fineness;  // divides the cell, the wall (which would close gaps between sheets) and what
+                    // simplification may move
+  int rays;         // lines of sight: more find hollows that few of them enter
+  bool carves;      // opens lines of sight that the walls of sheets buried, too
+};
+constexpr Effort kEfforts[] = {
+    {1.0, 100000, false}, {1.6, 200000, false}, {1.6, 500000, true}};
+// Share of the tolerance at which a wrap is good enough: other rays find somewhat more.
+constexpr double kGoodEnough = 0.96;
+
+// One wrap of `unit`, a mesh of diagonal 1.
+Wrapped WrapOnce(const TriangleMesh& unit, const Effort& effort, const SolidOptions& options) {
+  const double fineness = effort.fineness;
   SurfaceWrapOptions wrap_options;
   wrap_options.wall = options.sheet_thickness_ratio / fineness;
   wrap_options.cell = options.cell_ratio / fineness;
   while (WrapGridNodes(unit, wrap_options) > options.max_nodes) wrap_options.cell *= 1.1;
   wrap_options.closing = wrap_options.cell;
-  // The finer try looks harder, for hollows that few lines of sight enter.
-  const int rays = fineness > 1.0 ? 500000 : 100000;
-  wrap_options.seen = SampleOuterHits(unit, rays, 7);
-  if (fineness > 1.0) wrap_options.reach = 0.7 * options.tolerance_ratio;
+  wrap_options.seen = SampleOuterHits(unit, effort.rays, 7);
+  if (effort.carves) wrap_options.reach = 0.7 * options.tolerance_ratio;
   const SurfaceWrap wrap = WrapSurface(unit, wrap_options);
   if (wrap.mesh.empty()) {
     throw core::Error("no surface could be wrapped round the mesh", "solid");
@@ -141,10 +152,12 @@ void WrapSolid(const TriangleMesh& welded, const Vector3d& center, double diagon
   if (static_cast<int>(unit.triangles.size()) > kThinFirst) {
     unit = ClusterVertices(unit, options.cell_ratio / 3.0);
   }
-  Wrapped wrapped = WrapOnce(unit, 1.0, options);
-  if (wrapped.distance > 0.88 * options.tolerance_ratio) {
-    Wrapped finer = WrapOnce(unit, 1.6, options);
-    if (finer.distance < wrapped.distance) wrapped = std::move(finer);
+  Wrapped wrapped;
+  wrapped.distance = std::numeric_limits<double>::infinity();
+  for (const Effort& effort : kEfforts) {
+    if (wrapped.distance <= kGoodEnough * options.tolerance_ratio) break;
+    Wrapped next = WrapOnce(unit, effort, options);
+    if (next.distance < wrapped.distance) wrapped = std::move(next);
   }
   TriangleMesh mesh = std::move(wrapped.mesh);
   for (Vector3d& v : mesh.vertices) v = center + diagonal * v;
