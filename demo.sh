@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 ./setup.sh
-cmake --preset release -DSIMWRIGHT_TESTS=OFF -DSIMWRIGHT_BENCH=OFF >/dev/null
+cmake --preset release >/dev/null
 cmake --build --preset release --target simwright
 out=${1:-out/coffee_cup}
 build/bin/simwright lift examples/coffee.png --mask examples/coffee_mask.png \

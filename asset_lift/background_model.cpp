@@ -159,8 +159,7 @@ void CompleteRound(const cv::Mat& bgr, const SegmentationOptions& options, cv::M
   cv::ellipse(next, scaled(1.0f), cv::Scalar(cv::GC_PR_FGD), -1);
   cv::ellipse(next, scaled(0.94f), cv::Scalar(cv::GC_FGD), -1);
   cv::Mat background_model, foreground_model;
-  cv::grabCut(bgr, next, cv::Rect(), background_model, foreground_model, 2,
-              cv::GC_INIT_WITH_MASK);
+  cv::grabCut(bgr, next, cv::Rect(), background_model, foreground_model, 2, cv::GC_INIT_WITH_MASK);
   *trimap = next;
 }
 

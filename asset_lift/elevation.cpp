@@ -37,8 +37,7 @@ double OutlineRatio(double length, double width, double height, bool revolved, d
     return (height * std::cos(e) + across * std::sin(e)) / across;
   }
   const double c = std::abs(std::cos(yaw)), s = std::abs(std::sin(yaw));
-  return (height * std::cos(e) + (length * s + width * c) * std::sin(e)) /
-         (length * c + width * s);
+  return (height * std::cos(e) + (length * s + width * c) * std::sin(e)) / (length * c + width * s);
 }
 
 // log p(observed ratio | elevation), sizes and yaw integrated out. The outline of a real thing is
@@ -61,8 +60,8 @@ std::vector<double> SizeLikelihood(double observed, const CategoryPrior& prior) 
       const double height = draw(prior.height_min, prior.height_max, 7);
       // Photos show a thing's broad side more often than its end.
       const double yaw = 0.5 * std::numbers::pi * std::pow(Halton(i, 11), 1.3);
-      const double ratio =
-          OutlineRatio(length, width, height, prior.revolved || prior.round, degrees * kDegree, yaw);
+      const double ratio = OutlineRatio(length, width, height, prior.revolved || prior.round,
+                                        degrees * kDegree, yaw);
       sum += std::exp(LogNormal(std::log(observed), std::log(ratio), kSlack));
     }
     log_likelihood.push_back(std::log(sum / kDraws));
@@ -119,8 +118,8 @@ double EndArcRatio(const Matte& matte, bool lower_end) {
 }
 
 ElevationEstimate EstimateElevation(const Matte& matte, const CategoryPrior& prior) {
-  const double observed = static_cast<double>(matte.bottom - matte.top) /
-                          std::max(1, matte.right - matte.left);
+  const double observed =
+      static_cast<double>(matte.bottom - matte.top) / std::max(1, matte.right - matte.left);
   std::vector<double> log_posterior = SizeLikelihood(observed, prior);
   const double habit = prior.flat ? 38.0 : prior.round ? 18.0 : 22.0;
   const double habit_deviation = prior.flat ? 16.0 : 13.0;

@@ -12,10 +12,10 @@ struct CategoryPrior {
   double length_min = 0.1, length_max = 0.1;  // m, longer side on the ground
   double width_min = 0.1, width_max = 0.1;    // m
   double height_min = 0.1, height_max = 0.1;  // m
-  bool round = false;     // a ball or a fruit: no flat base, no rim
-  bool revolved = false;  // turned on a wheel: round from above
-  bool open = false;      // a vessel one can look into
-  bool flat = false;      // lies flat: people photograph it from above
+  bool round = false;                         // a ball or a fruit: no flat base, no rim
+  bool revolved = false;                      // turned on a wheel: round from above
+  bool open = false;                          // a vessel one can look into
+  bool flat = false;                          // lies flat: people photograph it from above
 };
 
 struct ElevationEstimate {

@@ -44,8 +44,8 @@ cv::Mat Residual(const cv::Mat& mask, const cv::Mat& body, double width) {
   if (cv::countNonZero(kept) == 0) return kept;
   const int reach = std::max(3, static_cast<int>(0.07 * width));
   cv::Mat grown;
-  cv::dilate(kept, grown, cv::getStructuringElement(cv::MORPH_ELLIPSE,
-                                                    cv::Size(2 * reach + 1, 2 * reach + 1)));
+  cv::dilate(kept, grown,
+             cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * reach + 1, 2 * reach + 1)));
   return grown & mask;
 }
 
@@ -103,8 +103,7 @@ class Inflater {
     if (shapes.empty() || shapes[0].silhouette_iou < 0.97) {
       const MirrorAxis axis = FindMirrorAxis(mask_);
       if (axis.agreement > (prior_.round ? 0.85 : 0.93)) {
-        shapes.push_back(Flat(ShapeForm::kLying,
-                              LyingDepth(mask_, axis.center, axis.direction)));
+        shapes.push_back(Flat(ShapeForm::kLying, LyingDepth(mask_, axis.center, axis.direction)));
       }
     }
     if (shapes.empty() || shapes.back().silhouette_iou < 0.97) {

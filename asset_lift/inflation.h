@@ -13,21 +13,21 @@
 namespace simwright::asset_lift {
 
 enum class ShapeForm {
-  kUpright,   // turned about the vertical, with what sticks out (a handle) inflated
-  kLying,     // turned about an axis in the picture plane
-  kInflated   // smooth inflation of the outline
+  kUpright,  // turned about the vertical, with what sticks out (a handle) inflated
+  kLying,    // turned about an axis in the picture plane
+  kInflated  // smooth inflation of the outline
 };
 
 const char* Name(ShapeForm form);  // "turned upright", "turned lying", "inflated"
 
 struct InflationOptions {
-  int resolution = 104;        // grid cells along the longest side of the first mesh
+  int resolution = 104;             // grid cells along the longest side of the first mesh
   double revolved_coverage = 0.78;  // of the outline that a turned body must explain, with a prior
   double plain_coverage = 0.955;    // ... and without one
-  double wall_ratio = 0.05;    // of the width: a vessel's wall
-  double foot_ratio = 0.025;   // of the height: cut off so that it stands; half a fruit's dent
-  double foot_angle = 0.12;    // rad of tilt that the foot has to bear; it grows 2.25 times at most
-  int face_budget = 12000;     // of the mesh handed on
+  double wall_ratio = 0.05;         // of the width: a vessel's wall
+  double foot_ratio = 0.025;        // of the height: cut off so that it stands; half a fruit's dent
+  double foot_angle = 0.12;  // rad of tilt that the foot has to bear; it grows 2.25 times at most
+  int face_budget = 12000;   // of the mesh handed on
 };
 
 // A closed first mesh in the world (z up, the camera's units), and how well it fits.

@@ -44,8 +44,7 @@ double FocalLength(const core::Image& photo, const LiftOptions& options, std::st
 Matte Enlarged(const Matte& matte, int factor) {
   if (factor == 1) return matte;
   Matte larger = matte;
-  larger.alpha =
-      core::Resize(matte.alpha, matte.alpha.width * factor, matte.alpha.height * factor);
+  larger.alpha = core::Resize(matte.alpha, matte.alpha.width * factor, matte.alpha.height * factor);
   larger.left *= factor;
   larger.top *= factor;
   larger.right *= factor;
@@ -82,8 +81,7 @@ LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior,
   const double elevation = std::clamp(lifted.elevation.elevation, 0.03, 1.5);
   lifted.camera = PhotoCamera(lifted.matte, focal, elevation);
   progress->Stage("shape");
-  const InflatedShape shape =
-      InflateOutline(lifted.matte, lifted.camera, prior, options.inflation);
+  const InflatedShape shape = InflateOutline(lifted.matte, lifted.camera, prior, options.inflation);
   lifted.form = shape.form;
   lifted.silhouette_iou = shape.silhouette_iou;
   progress->Stage("texture");

@@ -18,11 +18,11 @@ struct LiftOptions {
   double elevation = -1.0;          // rad; negative: estimated
   // Field of view over the photo's longer side, rad; 0: from `focal_35mm`, else the default.
   double field_of_view = 0.0;
-  double focal_35mm = 0.0;          // 35 mm-equivalent focal length, mm; 0: unknown
+  double focal_35mm = 0.0;  // 35 mm-equivalent focal length, mm; 0: unknown
   // A picture of one thing is mostly a crop or taken from a few steps away: narrower than a lens.
   double default_field_of_view = 0.61;  // rad, 35 degrees
-  int texture_size = 1024;          // pixels a side
-  int max_side = 1024;              // a larger photo is scaled down first
+  int texture_size = 1024;              // pixels a side
+  int max_side = 1024;                  // a larger photo is scaled down first
   std::uint64_t seed = 1;
   SegmentationOptions segmentation;
   InflationOptions inflation;
@@ -32,8 +32,8 @@ struct LiftOptions {
 // arbitrary scale (the camera one unit away).
 struct LiftedMesh {
   core::TexturedMesh mesh;
-  core::Camera camera;        // of the photo as it was used (scaled down)
-  core::Image photo;          // as it was used
+  core::Camera camera;  // of the photo as it was used (scaled down)
+  core::Image photo;    // as it was used
   Matte matte;
   ElevationEstimate elevation;
   ShapeForm form = ShapeForm::kInflated;

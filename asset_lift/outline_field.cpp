@@ -18,9 +18,9 @@ double Lookup(const cv::Mat& map, double px, double py) {
   const double outside = std::hypot(px - 0.5 - x, py - 0.5 - y);
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
   const double fx = x - x0, fy = y - y0;
-  const double value = (1 - fy) * ((1 - fx) * map.at<float>(y0, x0) + fx * map.at<float>(y0, x0 + 1)) +
-                       fy * ((1 - fx) * map.at<float>(y0 + 1, x0) +
-                             fx * map.at<float>(y0 + 1, x0 + 1));
+  const double value =
+      (1 - fy) * ((1 - fx) * map.at<float>(y0, x0) + fx * map.at<float>(y0, x0 + 1)) +
+      fy * ((1 - fx) * map.at<float>(y0 + 1, x0) + fx * map.at<float>(y0 + 1, x0 + 1));
   return outside > 1.0 ? std::min(value, 0.0) - 4.0 * outside : value;
 }
 
@@ -73,17 +73,17 @@ void OutlineField::AddDepthMap(const cv::Mat& squared_depth, const Eigen::Vector
   double deepest = 0.0;
   cv::minMaxLoc(squared_depth, nullptr, &deepest);
   const double half = metres * std::sqrt(std::max(1.0, deepest));
-  bodies_.push_back([camera, squared_depth, camera_from_world, depth, metres,
-                     half](const Eigen::Vector3d& p) {
-    const Eigen::Vector3d local = camera_from_world * p;
-    if (local.z() <= 1e-6) return half;
-    const double u = Lookup(squared_depth, camera.fx * local.x() / local.z() + camera.cx,
-                            camera.fy * local.y() / local.z() + camera.cy) *
-                     metres * metres;
-    const double d = local.z() - depth;
-    // (d^2 - u) over its slope: about a distance.
-    return (d * d - u) / (2.0 * std::max(0.15 * half, std::sqrt(std::max(0.0, u))));
-  });
+  bodies_.push_back(
+      [camera, squared_depth, camera_from_world, depth, metres, half](const Eigen::Vector3d& p) {
+        const Eigen::Vector3d local = camera_from_world * p;
+        if (local.z() <= 1e-6) return half;
+        const double u = Lookup(squared_depth, camera.fx * local.x() / local.z() + camera.cx,
+                                camera.fy * local.y() / local.z() + camera.cy) *
+                         metres * metres;
+        const double d = local.z() - depth;
+        // (d^2 - u) over its slope: about a distance.
+        return (d * d - u) / (2.0 * std::max(0.15 * half, std::sqrt(std::max(0.0, u))));
+      });
   for (int y = 0; y < squared_depth.rows; ++y) {
     for (int x = 0; x < squared_depth.cols; ++x) {
       if (squared_depth.at<float>(y, x) <= 0.0f) continue;

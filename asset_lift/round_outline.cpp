@@ -29,8 +29,8 @@ Gradient ImageGradient(const cv::Mat& bgr) {
     cv::Mat gx, gy;
     cv::Sobel(channel, gx, CV_32F, 1, 0);
     cv::Sobel(channel, gy, CV_32F, 0, 1);
-    const cv::Mat stronger = (gx.mul(gx) + gy.mul(gy)) >
-                             (gradient.x.mul(gradient.x) + gradient.y.mul(gradient.y));
+    const cv::Mat stronger =
+        (gx.mul(gx) + gy.mul(gy)) > (gradient.x.mul(gradient.x) + gradient.y.mul(gradient.y));
     gx.copyTo(gradient.x, stronger);
     gy.copyTo(gradient.y, stronger);
   }
@@ -81,7 +81,8 @@ double RimSupport(const cv::RotatedRect& e, const Gradient& gradient) {
 double Covered(const cv::RotatedRect& e, const cv::Mat& mask) {
   cv::Mat drawn = cv::Mat::zeros(mask.size(), CV_8U);
   cv::ellipse(drawn, e, cv::Scalar(255), -1);
-  return cv::countNonZero(drawn & mask) / std::max(1.0, static_cast<double>(cv::countNonZero(mask)));
+  return cv::countNonZero(drawn & mask) /
+         std::max(1.0, static_cast<double>(cv::countNonZero(mask)));
 }
 
 }  // namespace

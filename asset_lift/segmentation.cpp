@@ -39,8 +39,7 @@ cv::Mat OneObject(const cv::Mat& mask, const SegmentationOptions& options) {
   }
   if (regions.by_area.size() > 1 &&
       regions.by_area[1].first > options.second_object * regions.by_area[0].first) {
-    throw core::Error("the photo shows two objects or more", "",
-                      "crop it to one, or give --mask");
+    throw core::Error("the photo shows two objects or more", "", "crop it to one, or give --mask");
   }
   if (regions.by_area[0].first > options.max_area * pixels) {
     throw core::Error("the object fills the whole photo: there is no background around it", "",

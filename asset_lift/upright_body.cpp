@@ -42,7 +42,8 @@ void FillRadii(const Sights& sights, const cv::Mat& mask, const core::Camera& ca
   for (size_t level = 0; level < body->radius.size(); ++level) {
     const double z = body->bottom + body->step * static_cast<double>(level);
     const Eigen::Vector3d pixel = camera.Project({body->axis_x, body->axis_y, z});
-    const int px = static_cast<int>(std::floor(pixel.x())), py = static_cast<int>(std::floor(pixel.y()));
+    const int px = static_cast<int>(std::floor(pixel.x())),
+              py = static_cast<int>(std::floor(pixel.y()));
     body->radius[level] = 0.0;
     if (px < 0 || py < 0 || px >= mask.cols || py >= mask.rows) continue;
     if (mask.at<uchar>(py, px) == 0) continue;
@@ -81,7 +82,8 @@ double Coverage(const Sights& sights, const core::Camera& camera, const UprightB
       }
     }
   }
-  return static_cast<double>(covered) / static_cast<double>(std::max<size_t>(1, sights.inside.size()));
+  return static_cast<double>(covered) /
+         static_cast<double>(std::max<size_t>(1, sights.inside.size()));
 }
 
 // Cuts levels from one end while the silhouette stays; binary search on the number cut.
@@ -120,7 +122,9 @@ double UprightBody::RadiusAt(double z) const {
   return (1.0 - f) * radius[low] + f * radius[low + 1];
 }
 
-double UprightBody::MaxRadius() const { return *std::max_element(radius.begin(), radius.end()); }
+double UprightBody::MaxRadius() const {
+  return *std::max_element(radius.begin(), radius.end());
+}
 
 UprightBody FitUprightBody(const cv::Mat& mask, const core::Camera& camera) {
   const Sights sights = CollectSights(mask, camera);
@@ -165,10 +169,11 @@ cv::Mat Silhouette(const UprightBody& body, const core::Camera& camera) {
     if (radius <= 0.0) continue;
     for (int k = 0; k < kSides; ++k) {
       const double angle = 2.0 * M_PI * k / kSides;
-      const Eigen::Vector3d p = camera.Project({body.axis_x + radius * std::cos(angle),
-                                                body.axis_y + radius * std::sin(angle), z});
-      polygon[static_cast<size_t>(k)] = cv::Point(static_cast<int>(std::lround(16.0 * (p.x() - 0.5))),
-                                                  static_cast<int>(std::lround(16.0 * (p.y() - 0.5))));
+      const Eigen::Vector3d p = camera.Project(
+          {body.axis_x + radius * std::cos(angle), body.axis_y + radius * std::sin(angle), z});
+      polygon[static_cast<size_t>(k)] =
+          cv::Point(static_cast<int>(std::lround(16.0 * (p.x() - 0.5))),
+                    static_cast<int>(std::lround(16.0 * (p.y() - 0.5))));
     }
     cv::fillConvexPoly(mask, polygon, cv::Scalar(255), cv::LINE_8, 4);
   }

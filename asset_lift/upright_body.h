@@ -16,7 +16,7 @@ struct UprightBody {
   std::vector<double> radius;         // by level; 0 where there is nothing
   double coverage = 0.0;              // share of the mask that the body's silhouette covers
 
-  double RadiusAt(double z) const;    // linear between levels, 0 outside
+  double RadiusAt(double z) const;  // linear between levels, 0 outside
   double top() const { return bottom + step * static_cast<double>(radius.size() - 1); }
   double MaxRadius() const;
 };

@@ -31,10 +31,10 @@ struct Asset {
   std::vector<core::TriangleMesh> parts;  // closed, convex, cover the solid
 
   Inertial inertial;
-  double volume = 0.0;           // m^3, enclosed by the solid
-  double density = 0.0;          // kg/m^3, of the material
-  double wall_thickness = 0.0;   // m; 0 where the solid is full
-  std::string mass_sentence;     // how mass, volume and material were reconciled
+  double volume = 0.0;          // m^3, enclosed by the solid
+  double density = 0.0;         // kg/m^3, of the material
+  double wall_thickness = 0.0;  // m; 0 where the solid is full
+  std::string mass_sentence;    // how mass, volume and material were reconciled
   double friction = 0.5;
   double restitution = 0.1;
   // Lever of the normal force that resists rolling, m: 0.01 of the mean radius, as of fruit, wood
@@ -47,14 +47,15 @@ struct Asset {
   double concavity = 0.0;        // of the parts, relative to the diagonal
   double coverage = 0.0;         // share of the solid's surface that the parts cover
 
-  // link = scale * rotation * input + translation: the turn, scale and shift from the file or photo.
+  // link = scale * rotation * input + translation: the turn, scale and shift from the file or
+  // photo.
   double scale = 1.0;
   Eigen::Isometry3d link_from_input = Eigen::Isometry3d::Identity();
-  bool rolls = false;            // rests on a point or line: judged by its drift alone
+  bool rolls = false;  // rests on a point or line: judged by its drift alone
 
-  std::string source;            // the photo or mesh it came from, file name only
+  std::string source;  // the photo or mesh it came from, file name only
   std::uint64_t seed = 0;
-  core::Findings findings;       // what a person should know of its making
+  core::Findings findings;  // what a person should know of its making
 };
 
 // `text` as a name for files and links: other characters become '_', never empty, no leading dot.

@@ -22,7 +22,9 @@ physics_params::Estimate EstimateFrom(const Json& json) {
   return {json.at("min"), json.at("max"), json.at("sample"), json.at("source")};
 }
 
-Json ToJson(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
+Json ToJson(const Eigen::Vector3d& v) {
+  return Json::array({v.x(), v.y(), v.z()});
+}
 
 Json ToJson(const Eigen::Matrix3d& m) {
   Json rows = Json::array();
@@ -43,8 +45,11 @@ const char* SeverityName(core::Severity severity) {
 Json ToJson(const core::Findings& findings) {
   Json list = Json::array();
   for (const core::Finding& f : findings) {
-    list.push_back({{"code", f.code}, {"severity", SeverityName(f.severity)}, {"place", f.place},
-                    {"sentence", f.sentence}, {"figure", f.figure}});
+    list.push_back({{"code", f.code},
+                    {"severity", SeverityName(f.severity)},
+                    {"place", f.place},
+                    {"sentence", f.sentence},
+                    {"figure", f.figure}});
   }
   return list;
 }
@@ -58,13 +63,14 @@ Json AssetJson(const Asset& a) {
   json["category_resolution"] = p.resolution;
   json["source"] = a.source;
   json["seed"] = a.seed;
-  json["size_m"] = {{"length", ToJson(p.length)}, {"width", ToJson(p.width)},
-                    {"height", ToJson(p.height)}};
+  json["size_m"] = {
+      {"length", ToJson(p.length)}, {"width", ToJson(p.width)}, {"height", ToJson(p.height)}};
   const Eigen::AlignedBox3d box = core::Bounds(a.visual.mesh);
   json["bounds_m"] = {{"min", ToJson(Eigen::Vector3d(box.min()))},
                       {"max", ToJson(Eigen::Vector3d(box.max()))}};
   json["mass_kg"] = ToJson(p.mass);
-  json["material"] = {{"name", p.material}, {"fill", physics_params::FillName(p.fill)},
+  json["material"] = {{"name", p.material},
+                      {"fill", physics_params::FillName(p.fill)},
                       {"density_kg_m3", ToJson(p.density)}};
   json["friction"] = ToJson(p.friction);
   json["restitution"] = ToJson(p.restitution);
@@ -76,13 +82,16 @@ Json AssetJson(const Asset& a) {
   json["density_kg_m3"] = a.density;
   json["wall_thickness_m"] = a.wall_thickness;
   json["mass_reconciled"] = a.mass_sentence;
-  json["solid"] = {{"method", a.solid_method}, {"watertight", true},
-                   {"faces", a.solid.triangles.size()}, {"sheet_thickness_m", a.sheet_thickness}};
-  json["parts"] = {{"count", a.parts.size()}, {"concavity", a.concavity},
-                   {"coverage", a.coverage}};
+  json["solid"] = {{"method", a.solid_method},
+                   {"watertight", true},
+                   {"faces", a.solid.triangles.size()},
+                   {"sheet_thickness_m", a.sheet_thickness}};
+  json["parts"] = {{"count", a.parts.size()}, {"concavity", a.concavity}, {"coverage", a.coverage}};
   const Eigen::Quaterniond q(a.link_from_input.linear());
-  json["link_from_input"] = {{"scale", a.scale}, {"rotation_wxyz", {q.w(), q.x(), q.y(), q.z()}},
-                             {"translation", ToJson(Eigen::Vector3d(a.link_from_input.translation()))}};
+  json["link_from_input"] = {
+      {"scale", a.scale},
+      {"rotation_wxyz", {q.w(), q.x(), q.y(), q.z()}},
+      {"translation", ToJson(Eigen::Vector3d(a.link_from_input.translation()))}};
   json["rolls"] = a.rolls;
   json["findings"] = ToJson(a.findings);
   json["versions"] = {{"simwright", SIMWRIGHT_VERSION}};
@@ -124,9 +133,10 @@ Asset AssetFrom(const Json& json) {
   const Json& turn = json.at("link_from_input");
   a.scale = turn.at("scale");
   const Json& q = turn.at("rotation_wxyz");
-  a.link_from_input.linear() =
-      Eigen::Quaterniond(q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>(),
-                         q.at(3).get<double>()).normalized().toRotationMatrix();
+  a.link_from_input.linear() = Eigen::Quaterniond(q.at(0).get<double>(), q.at(1).get<double>(),
+                                                  q.at(2).get<double>(), q.at(3).get<double>())
+                                   .normalized()
+                                   .toRotationMatrix();
   a.link_from_input.translation() = VectorFrom(turn.at("translation"));
   a.rolls = json.at("rolls");
   return a;

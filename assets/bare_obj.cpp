@@ -65,8 +65,8 @@ core::TriangleMesh ReadBareObj(const std::filesystem::path& path) {
                       : keyword == "f" ? ReadFace(line, &mesh)
                                        : true;
     if (!good) {
-      throw core::Error("line " + std::to_string(line_number) + " is not understood",
-                        path.string(), "make the file again");
+      throw core::Error("line " + std::to_string(line_number) + " is not understood", path.string(),
+                        "make the file again");
     }
   }
   if (mesh.triangles.empty()) throw core::Error("the mesh has no faces", path.string());

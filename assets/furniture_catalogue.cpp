@@ -127,13 +127,13 @@ FurnitureCatalogue::FurnitureCatalogue(const fs::path& path)
     const char* name = zip_get_name(zip_->archive, static_cast<zip_uint64_t>(i), 0);
     zip_->names.emplace_back(name == nullptr ? "" : name);
     if (ClimbsOut(zip_->names.back())) {
-      throw core::Error("an entry of the catalogue leads outside its folder: '" +
-                            zip_->names.back() + "'",
-                        path.string(), "do not use this file");
+      throw core::Error(
+          "an entry of the catalogue leads outside its folder: '" + zip_->names.back() + "'",
+          path.string(), "do not use this file");
     }
   }
-  const auto entry = std::find(zip_->names.begin(), zip_->names.end(),
-                               "PluginFurnitureCatalog.properties");
+  const auto entry =
+      std::find(zip_->names.begin(), zip_->names.end(), "PluginFurnitureCatalog.properties");
   if (entry == zip_->names.end()) {
     throw core::Error("holds no PluginFurnitureCatalog.properties", path.string(),
                       "use a .sh3f catalogue of Sweet Home 3D");

@@ -11,12 +11,12 @@ namespace simwright::assets {
 
 // One piece of a Sweet Home 3D furniture catalogue (.sh3f: a zip with a properties file).
 struct CataloguePiece {
-  std::string id;               // unique in the catalogue, else "#N"
-  std::string name;             // e.g. "Coffee cup"
-  std::string category;         // the catalogue's own, e.g. "Kitchen"
+  std::string id;        // unique in the catalogue, else "#N"
+  std::string name;      // e.g. "Coffee cup"
+  std::string category;  // the catalogue's own, e.g. "Kitchen"
   std::string creator;
   std::string license;
-  std::string model;            // entry of the zip, e.g. "blendswap-cc-0/cup/cup.obj"
+  std::string model;                // entry of the zip, e.g. "blendswap-cc-0/cup/cup.obj"
   Eigen::Vector3d size_m{0, 0, 0};  // width (x), depth (y), height (z) in metres, as it stands
   // Turns the model's vectors (y up) before they are scaled to the size; identity without one.
   Eigen::Matrix3d model_rotation = Eigen::Matrix3d::Identity();

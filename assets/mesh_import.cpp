@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -12,11 +12,11 @@
 
 #include <assimp/BaseImporter.h>
 #include <assimp/DefaultIOSystem.h>
-#include <assimp/IOStream.hpp>
-#include <assimp/Importer.hpp>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/IOStream.hpp>
+#include <assimp/Importer.hpp>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -154,8 +154,9 @@ void Collector::ReadMaterials() {
     if (source.Get(AI_MATKEY_BASE_COLOR, color) == AI_SUCCESS ||
         source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS) {
       material.base_color = Eigen::Vector4f(color.r, color.g, color.b, color.a)
-                                .array().isFinite().select(
-                                    Eigen::Vector4f(color.r, color.g, color.b, color.a), 0.8f);
+                                .array()
+                                .isFinite()
+                                .select(Eigen::Vector4f(color.r, color.g, color.b, color.a), 0.8f);
       material.base_color = material.base_color.cwiseMax(0.0f).cwiseMin(1.0f);
     }
     float opacity = 1.0f;
@@ -184,8 +185,8 @@ int Collector::ReadTexture(const aiString& name) {
     core::Image image;
     if (const aiTexture* embedded = scene_.GetEmbeddedTexture(name.C_Str())) {
       if (embedded->mHeight != 0) throw core::Error("raw embedded pixels are not read");
-      image = core::DecodeImage({reinterpret_cast<const char*>(embedded->pcData),
-                                 embedded->mWidth}, name.C_Str(), options);
+      image = core::DecodeImage({reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth},
+                                name.C_Str(), options);
     } else {
       std::string relative = name.C_Str();
       std::replace(relative.begin(), relative.end(), '\\', '/');
@@ -285,9 +286,9 @@ core::TexturedMesh ReadMesh(const fs::path& path, const Warn& warn) {
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* scene = nullptr;
   try {
-    scene = importer.ReadFile(fs::absolute(path).string(),
-                              aiProcess_Triangulate | aiProcess_SortByPType |
-                                  aiProcess_ValidateDataStructure);
+    scene = importer.ReadFile(fs::absolute(path).string(), aiProcess_Triangulate |
+                                                               aiProcess_SortByPType |
+                                                               aiProcess_ValidateDataStructure);
   } catch (const std::exception&) {
     scene = nullptr;
   }

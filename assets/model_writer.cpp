@@ -23,7 +23,9 @@ std::string Numbers(std::initializer_list<double> values) {
   return text;
 }
 
-std::string Numbers(const Eigen::Vector3d& v) { return Numbers({v.x(), v.y(), v.z()}); }
+std::string Numbers(const Eigen::Vector3d& v) {
+  return Numbers({v.x(), v.y(), v.z()});
+}
 
 // Nested elements with attributes; closes itself.
 class Element {
@@ -88,16 +90,21 @@ double DampingRatio(double restitution) {
 void MjcfAssets(tinyxml2::XMLPrinter* printer, const Asset& asset, bool textured) {
   Element assets(printer, "asset");
   if (textured) {
-    Element(printer, "texture").Set("name", asset.name + "_texture").Set("type", "2d")
+    Element(printer, "texture")
+        .Set("name", asset.name + "_texture")
+        .Set("type", "2d")
         .Set("file", "texture.png");
-    Element(printer, "material").Set("name", asset.name + "_material")
+    Element(printer, "material")
+        .Set("name", asset.name + "_material")
         .Set("texture", asset.name + "_texture");
   }
-  Element(printer, "mesh").Set("name", asset.name + "_visual")
+  Element(printer, "mesh")
+      .Set("name", asset.name + "_visual")
       .Set("file", VisualSuitsMujoco(asset.visual.mesh) ? "visual.obj" : "solid.obj");
   for (size_t i = 0; i < asset.parts.size(); ++i) {
     const std::string file = CollisionFileName(static_cast<int>(i));
-    Element(printer, "mesh").Set("name", asset.name + "_" + file.substr(0, file.find('.')))
+    Element(printer, "mesh")
+        .Set("name", asset.name + "_" + file.substr(0, file.find('.')))
         .Set("file", file);
   }
 }
@@ -107,13 +114,17 @@ void MjcfBody(tinyxml2::XMLPrinter* printer, const Asset& asset, bool textured) 
   body.Set("name", asset.name);
   Element(printer, "freejoint").Set("name", asset.name + "_free");
   const Eigen::Matrix3d& I = asset.inertial.inertia;
-  Element(printer, "inertial").Set("pos", Numbers(asset.inertial.center_of_mass))
+  Element(printer, "inertial")
+      .Set("pos", Numbers(asset.inertial.center_of_mass))
       .Set("mass", Number(asset.inertial.mass))
       .Set("fullinertia", Numbers({I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)}));
   {
     Element visual(printer, "geom");
-    visual.Set("type", "mesh").Set("mesh", asset.name + "_visual").Set("contype", "0")
-        .Set("conaffinity", "0").Set("group", "2");
+    visual.Set("type", "mesh")
+        .Set("mesh", asset.name + "_visual")
+        .Set("contype", "0")
+        .Set("conaffinity", "0")
+        .Set("group", "2");
     if (textured) {
       visual.Set("material", asset.name + "_material");
     } else if (!asset.visual.materials.empty()) {
@@ -123,8 +134,10 @@ void MjcfBody(tinyxml2::XMLPrinter* printer, const Asset& asset, bool textured) 
   }
   for (size_t i = 0; i < asset.parts.size(); ++i) {
     const std::string file = CollisionFileName(static_cast<int>(i));
-    Element(printer, "geom").Set("type", "mesh")
-        .Set("mesh", asset.name + "_" + file.substr(0, file.find('.'))).Set("group", "3")
+    Element(printer, "geom")
+        .Set("type", "mesh")
+        .Set("mesh", asset.name + "_" + file.substr(0, file.find('.')))
+        .Set("group", "3")
         .Set("condim", "6")
         .Set("friction", Numbers({asset.friction, asset.rolling_friction, asset.rolling_friction}))
         .Set("solref", Numbers({0.005, DampingRatio(asset.restitution)}));
@@ -163,12 +176,17 @@ std::string UrdfText(const Asset& asset) {
     link.Set("name", asset.name);
     {
       Element inertial(&printer, "inertial");
-      Element(&printer, "origin").Set("xyz", Numbers(asset.inertial.center_of_mass))
+      Element(&printer, "origin")
+          .Set("xyz", Numbers(asset.inertial.center_of_mass))
           .Set("rpy", "0 0 0");
       Element(&printer, "mass").Set("value", Number(asset.inertial.mass));
       const Eigen::Matrix3d& I = asset.inertial.inertia;
-      Element(&printer, "inertia").Set("ixx", Number(I(0, 0))).Set("ixy", Number(I(0, 1)))
-          .Set("ixz", Number(I(0, 2))).Set("iyy", Number(I(1, 1))).Set("iyz", Number(I(1, 2)))
+      Element(&printer, "inertia")
+          .Set("ixx", Number(I(0, 0)))
+          .Set("ixy", Number(I(0, 1)))
+          .Set("ixz", Number(I(0, 2)))
+          .Set("iyy", Number(I(1, 1)))
+          .Set("iyz", Number(I(1, 2)))
           .Set("izz", Number(I(2, 2)));
     }
     UrdfMesh(&printer, "visual", "visual.obj");

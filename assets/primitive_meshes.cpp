@@ -12,7 +12,7 @@ core::TriangleMesh BoxMesh(const Eigen::Vector3d& size) {
   core::TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {
     mesh.vertices.push_back(0.5 * size.cwiseProduct(Eigen::Vector3d(
-        i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0)));
+                                      i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0)));
   }
   mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};

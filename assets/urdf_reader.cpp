@@ -22,10 +22,11 @@ constexpr std::uint64_t kMaxUrdfBytes = 16ull << 20;
 
 Eigen::Isometry3d ToIsometry(const urdf::Pose& pose) {
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.translation() =
-      Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
-  result.linear() = Eigen::Quaterniond(pose.rotation.w, pose.rotation.x, pose.rotation.y,
-                                       pose.rotation.z).normalized().toRotationMatrix();
+  result.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
+  result.linear() =
+      Eigen::Quaterniond(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z)
+          .normalized()
+          .toRotationMatrix();
   return result;
 }
 
@@ -190,12 +191,18 @@ void Reader::ReadContacts(const std::string& text) {
 
 UrdfJointType TypeOf(const urdf::Joint& joint) {
   switch (joint.type) {
-    case urdf::Joint::REVOLUTE: return UrdfJointType::kRevolute;
-    case urdf::Joint::CONTINUOUS: return UrdfJointType::kContinuous;
-    case urdf::Joint::PRISMATIC: return UrdfJointType::kPrismatic;
-    case urdf::Joint::FLOATING: return UrdfJointType::kFloating;
-    case urdf::Joint::PLANAR: return UrdfJointType::kPlanar;
-    default: return UrdfJointType::kFixed;
+    case urdf::Joint::REVOLUTE:
+      return UrdfJointType::kRevolute;
+    case urdf::Joint::CONTINUOUS:
+      return UrdfJointType::kContinuous;
+    case urdf::Joint::PRISMATIC:
+      return UrdfJointType::kPrismatic;
+    case urdf::Joint::FLOATING:
+      return UrdfJointType::kFloating;
+    case urdf::Joint::PLANAR:
+      return UrdfJointType::kPlanar;
+    default:
+      return UrdfJointType::kFixed;
   }
 }
 
@@ -223,8 +230,8 @@ UrdfModel Reader::Read() {
               [](const auto& a, const auto& b) { return a->name < b->name; });
     for (const auto& child : children) {
       const urdf::Joint& source = *child->parent_joint;
-      UrdfJoint joint{source.name, source.parent_link_name, source.child_link_name,
-                      TypeOf(source), ToIsometry(source.parent_to_joint_origin_transform)};
+      UrdfJoint joint{source.name, source.parent_link_name, source.child_link_name, TypeOf(source),
+                      ToIsometry(source.parent_to_joint_origin_transform)};
       joint.axis = Eigen::Vector3d(source.axis.x, source.axis.y, source.axis.z).normalized();
       if (source.limits) {
         joint.lower = source.limits->lower;

@@ -16,8 +16,8 @@ namespace simwright::assets {
 
 // A shape of a link, as a mesh in the link's frame. Boxes, cylinders and spheres are meshed.
 struct UrdfShape {
-  core::TriangleMesh mesh;     // metres, scale and origin applied
-  std::string file;            // the mesh file, absolute; empty for a primitive
+  core::TriangleMesh mesh;  // metres, scale and origin applied
+  std::string file;         // the mesh file, absolute; empty for a primitive
 };
 
 struct UrdfLink {
@@ -25,9 +25,9 @@ struct UrdfLink {
   std::optional<Inertial> inertial;  // in the link's frame; none where the file gives none
   std::vector<UrdfShape> visuals;
   std::vector<UrdfShape> collisions;
-  double friction = 0.5;             // <contact><lateral_friction>, where given
+  double friction = 0.5;  // <contact><lateral_friction>, where given
   double restitution = 0.0;
-  double rolling_friction = 0.0;     // <contact><rolling_friction>, m
+  double rolling_friction = 0.0;  // <contact><rolling_friction>, m
 };
 
 enum class UrdfJointType { kFixed, kRevolute, kContinuous, kPrismatic, kFloating, kPlanar };
@@ -37,7 +37,7 @@ struct UrdfJoint {
   UrdfJointType type = UrdfJointType::kFixed;
   Eigen::Isometry3d parent_from_joint = Eigen::Isometry3d::Identity();  // at position zero
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();                      // joint frame, unit
-  double lower = 0.0, upper = 0.0;  // rad or m
+  double lower = 0.0, upper = 0.0;                                      // rad or m
 };
 
 struct UrdfModel {

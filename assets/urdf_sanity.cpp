@@ -20,7 +20,8 @@ std::string LinkOf(const tinyxml2::XMLElement& joint, const char* role) {
 
 void RequireTree(const tinyxml2::XMLElement& robot, const std::string& where) {
   std::set<std::string> links;
-  for (auto* link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
+  for (auto* link = robot.FirstChildElement("link"); link;
+       link = link->NextSiblingElement("link")) {
     if (const char* name = link->Attribute("name")) links.insert(name);
   }
   if (links.empty()) throw core::Error("the robot has no link", where);
@@ -80,9 +81,10 @@ void RequirePhysical(const Inertial& inertial, const std::string& where) {
   }
   const Eigen::Vector3d moments = geometry::PrincipalInertiaOf(inertial.inertia).moments;
   if (!geometry::SatisfiesTriangleInequality(moments, 1e-3)) {
-    throw core::Error("no rigid body has this inertia: one principal moment exceeds the sum of "
-                      "the other two, or is not positive",
-                      where, "compute the inertia from the shape");
+    throw core::Error(
+        "no rigid body has this inertia: one principal moment exceeds the sum of "
+        "the other two, or is not positive",
+        where, "compute the inertia from the shape");
   }
 }
 

@@ -42,8 +42,9 @@ int Check(const Flags& flags, const CommonOptions& common) {
 void AddCheck(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
   CLI::App* command = app->add_subcommand("check", "Geometry, inertia, readers and a drop test");
-  command->footer("Example:\n  simwright check apple\n"
-                  "Exit code 1 when a property fails.");
+  command->footer(
+      "Example:\n  simwright check apple\n"
+      "Exit code 1 when a property fails.");
   command->add_option("inputs", flags->inputs, "Asset folders or URDF files")->required();
   command->add_option("--root", flags->root,
                       "URDF: no file outside this folder is read; default: the URDF's own");

@@ -3,8 +3,7 @@
 namespace simwright::cli {
 
 void AddCommon(CLI::App* command, CommonOptions* common) {
-  command->add_option("--seed", common->seed, "Seed of every random choice")
-      ->capture_default_str();
+  command->add_option("--seed", common->seed, "Seed of every random choice")->capture_default_str();
   command->add_option("--threads", common->threads, "Threads to use; 0: all of the machine's")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);

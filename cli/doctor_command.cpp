@@ -17,7 +17,9 @@ void AddDoctor(CLI::App* app, CommonOptions* common, Run* run) {
         const bool bad = finding.severity == core::Severity::kError;
         sound = sound && !bad;
         std::printf("%-4s  %-12s %s\n",
-                    bad ? "FAIL" : finding.severity == core::Severity::kWarning ? "warn" : "good",
+                    bad                                            ? "FAIL"
+                    : finding.severity == core::Severity::kWarning ? "warn"
+                                                                   : "good",
                     finding.code.c_str(), finding.sentence.c_str());
       }
       return sound ? 0 : 1;

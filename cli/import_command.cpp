@@ -32,6 +32,7 @@ nlohmann::ordered_json ToJson(const pipeline::ImportOutcome& outcome) {
   json["folder"] = outcome.folder.string();
   if (!outcome.refusal.empty()) json["refused"] = outcome.refusal;
   if (outcome.check) json["passed"] = outcome.check->passed();
+  if (outcome.kept) json["kept"] = true;
   json["seconds"] = outcome.seconds;
   return json;
 }
@@ -39,6 +40,10 @@ nlohmann::ordered_json ToJson(const pipeline::ImportOutcome& outcome) {
 void PrintLine(const pipeline::ImportOutcome& outcome) {
   if (!outcome.refusal.empty()) {
     std::printf("refused  %s: %s\n", outcome.name.c_str(), outcome.refusal.c_str());
+    return;
+  }
+  if (outcome.kept) {
+    std::printf("kept     %s\n", outcome.folder.c_str());
     return;
   }
   std::printf("%s  %s  (%.1f s)\n", outcome.check ? "passes " : "written", outcome.folder.c_str(),
@@ -86,11 +91,13 @@ int Import(Flags flags, const CommonOptions& common) {
 void AddImport(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
   CLI::App* command = app->add_subcommand("import", "Meshes and catalogues become assets");
-  command->footer("Example:\n  simwright import chair.glb --category chair -o assets\n"
-                  "  simwright import BlendSwap-CC-0.sh3f --only cup -o cups\n"
-                  "A mesh whose asset would fail its check is refused. Exit code 1 when any was.");
-  command->add_option("inputs", flags->inputs,
-                      "OBJ, PLY, STL, glTF, GLB, DAE, folders of them, or .sh3f catalogues")
+  command->footer(
+      "Example:\n  simwright import chair.glb --category chair -o assets\n"
+      "  simwright import BlendSwap-CC-0.sh3f --only cup -o cups\n"
+      "A mesh whose asset would fail its check is refused. Exit code 1 when any was.");
+  command
+      ->add_option("inputs", flags->inputs,
+                   "OBJ, PLY, STL, glTF, GLB, DAE, folders of them, or .sh3f catalogues")
       ->required();
   command->add_option("-o,--output", flags->output, "Folder for the assets, one folder each")
       ->required();
@@ -106,6 +113,8 @@ void AddImport(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_option("--only", flags->options.only, "Catalogues: pieces with this in the name");
   command->add_option("--limit", flags->options.limit, "Catalogues: at most so many pieces")
       ->check(CLI::NonNegativeNumber);
+  command->add_flag("--resume", flags->options.resume,
+                    "Keep assets that are there, import the others");
   command->add_flag("--no-check", flags->no_check, "Write assets unchecked, good or not");
   AddCommon(command, common);
   AddForce(command, common);

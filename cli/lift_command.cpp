@@ -57,8 +57,9 @@ int Lift(Flags flags, const CommonOptions& common) {
 void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
   CLI::App* command = app->add_subcommand("lift", "A photo becomes a simulation-ready asset");
-  command->footer("Example:\n  simwright lift examples/apple.jpg --category apple -o apple\n"
-                  "  simwright lift coffee.png --mask coffee_mask.png --category 'coffee cup' -o cup");
+  command->footer(
+      "Example:\n  simwright lift examples/apple.jpg --category apple -o apple\n"
+      "  simwright lift coffee.png --mask coffee_mask.png --category 'coffee cup' -o cup");
   command->add_option("photos", flags->photos, "PNG, JPEG, WebP, TIFF, GIF ... of one thing each")
       ->required();
   command->add_option("--category", flags->request.category, "What it is, e.g. mug")->required();
@@ -66,11 +67,13 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_option("--mask", flags->mask, "Picture that is bright where the object is");
   command->add_option("--height", flags->request.height, "Its true height, m; default: drawn")
       ->check(CLI::PositiveNumber);
-  command->add_option("--elevation", flags->request.elevation_degrees,
-                      "Degrees the camera looked down; default: estimated")
+  command
+      ->add_option("--elevation", flags->request.elevation_degrees,
+                   "Degrees the camera looked down; default: estimated")
       ->check(CLI::Range(0.0, 85.0));
-  command->add_option("--fov", flags->request.fov_degrees,
-                      "Field of view over the longer side, degrees; default: EXIF or 35")
+  command
+      ->add_option("--fov", flags->request.fov_degrees,
+                   "Field of view over the longer side, degrees; default: EXIF or 35")
       ->check(CLI::Range(1.0, 160.0));
   AddCommon(command, common);
   AddForce(command, common);

@@ -15,11 +15,13 @@ int Main(int argc, char** argv) {
   using namespace simwright;
   CLI::App app{"Photos and meshes become assets that hold in simulation."};
   app.name("simwright");
-  app.footer("Example:\n  simwright lift examples/apple.jpg --category apple -o apple\n"
-             "Each subcommand has its own --help with an example.");
+  app.footer(
+      "Example:\n  simwright lift examples/apple.jpg --category apple -o apple\n"
+      "Each subcommand has its own --help with an example.");
   app.require_subcommand(1);
-  app.set_config("--config", "", "Read flags from a TOML file, a section a subcommand; "
-                                 "flags given here win");
+  app.set_config("--config", "",
+                 "Read flags from a TOML file, a section a subcommand; "
+                 "flags given here win");
   cli::CommonOptions common;
   cli::Run run;
   cli::AddLift(&app, &common, &run);

@@ -52,8 +52,8 @@ void PrintTable(const PhysicalParameters& p) {
   PrintRow("width", p.width, "m");
   PrintRow("height", p.height, "m");
   PrintRow("mass", p.mass, "kg");
-  PrintRow("density", p.density, ("kg/m3, " + p.material + ", " +
-                                  physics_params::FillName(p.fill)).c_str());
+  PrintRow("density", p.density,
+           ("kg/m3, " + p.material + ", " + physics_params::FillName(p.fill)).c_str());
   PrintRow("friction", p.friction, "");
   PrintRow("restitution", p.restitution, "");
   std::printf("  size and mass: %s\n  material: %s\n", p.length.source.c_str(),
@@ -84,8 +84,7 @@ int Physics(const Flags& flags, const CommonOptions& common) {
 
 void AddPhysics(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
-  CLI::App* command =
-      app->add_subcommand("physics", "Sizes, mass and contact of a kind of thing");
+  CLI::App* command = app->add_subcommand("physics", "Sizes, mass and contact of a kind of thing");
   command->footer("Example:\n  simwright physics --category mug --seed 3 --json");
   command->add_option("asset", flags->asset, "An asset's folder: prints what it was given");
   command->add_option("--category", flags->category, "A household thing, e.g. 'wine glass'");

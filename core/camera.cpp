@@ -7,12 +7,13 @@
 
 namespace simwright::core {
 
-Camera OrbitCamera(const Eigen::Vector3d& target, double distance, double elevation,
-                   double azimuth, double vertical_fov, int width, int height) {
+Camera OrbitCamera(const Eigen::Vector3d& target, double distance, double elevation, double azimuth,
+                   double vertical_fov, int width, int height) {
   if (!(distance > 0.0) || width <= 0 || height <= 0 || !(vertical_fov > 0.0) ||
       !(vertical_fov < std::numbers::pi) || !(std::abs(elevation) < std::numbers::pi / 2)) {
-    throw Error("a camera needs a positive distance and size, a field of view within (0, 180) "
-                "degrees and an elevation within (-90, 90) degrees");
+    throw Error(
+        "a camera needs a positive distance and size, a field of view within (0, 180) "
+        "degrees and an elevation within (-90, 90) degrees");
   }
   Camera camera;
   camera.width = width;

@@ -8,8 +8,8 @@ namespace simwright::core {
 // Pinhole camera. Looks along +z, x right, y down (OpenCV). Pixel (i, j) covers
 // [i, i+1) x [j, j+1): its centre is at (i + 0.5, j + 0.5).
 struct Camera {
-  int width = 0;   // pixels
-  int height = 0;  // pixels
+  int width = 0;              // pixels
+  int height = 0;             // pixels
   double fx = 0.0, fy = 0.0;  // focal lengths, pixels
   double cx = 0.0, cy = 0.0;  // principal point, pixels
   Eigen::Isometry3d world_from_camera = Eigen::Isometry3d::Identity();
@@ -35,7 +35,7 @@ struct Camera {
 // `azimuth` (rad) from the world's +x axis, looking at `target` with the world's z up in the
 // image. `vertical_fov` in rad. Requires |elevation| < pi/2, distance > 0, width and height > 0.
 // Throws core::Error otherwise.
-Camera OrbitCamera(const Eigen::Vector3d& target, double distance, double elevation,
-                   double azimuth, double vertical_fov, int width, int height);
+Camera OrbitCamera(const Eigen::Vector3d& target, double distance, double elevation, double azimuth,
+                   double vertical_fov, int width, int height);
 
 }  // namespace simwright::core

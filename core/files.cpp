@@ -62,8 +62,7 @@ std::string ReadFile(const fs::path& path, std::uint64_t limit) {
     bytes.append(buffer, static_cast<size_t>(count));
     if (bytes.size() > limit) {
       close(file);
-      throw Error("the file is larger than " + std::to_string(limit >> 20) + " MiB",
-                  path.string());
+      throw Error("the file is larger than " + std::to_string(limit >> 20) + " MiB", path.string());
     }
   }
   close(file);

@@ -9,7 +9,7 @@ enum class Severity { kInfo, kWarning, kError };
 
 // One thing that a check, a linter or a reader has to report.
 struct Finding {
-  std::string code;      // stable short name, e.g. "urdf-missing-mesh"
+  std::string code;  // stable short name, e.g. "urdf-missing-mesh"
   Severity severity = Severity::kInfo;
   std::string place;     // file, element, row; may be empty
   std::string sentence;  // for a person

@@ -44,21 +44,25 @@ cv::Mat ToEightBit(const cv::Mat& mat) {
 cv::Mat ToRgbOrder(const cv::Mat& mat) {
   cv::Mat result;
   switch (mat.channels()) {
-    case 1: return mat;
+    case 1:
+      return mat;
     case 2: {  // grey and alpha, which OpenCV's PNG reader may hand on
       cv::Mat planes[2];
       cv::split(mat, planes);
       cv::merge(std::vector<cv::Mat>{planes[0], planes[0], planes[0], planes[1]}, result);
       return result;
     }
-    case 3: cv::cvtColor(mat, result, cv::COLOR_BGR2RGB); return result;
-    default: cv::cvtColor(mat, result, cv::COLOR_BGRA2RGBA); return result;
+    case 3:
+      cv::cvtColor(mat, result, cv::COLOR_BGR2RGB);
+      return result;
+    default:
+      cv::cvtColor(mat, result, cv::COLOR_BGRA2RGBA);
+      return result;
   }
 }
 
 Image DecodeStill(std::string_view bytes, ImageFormat format, const std::string& where) {
-  const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U,
-                    const_cast<char*>(bytes.data()));
+  const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
   // IMREAD_COLOR honours the EXIF orientation and converts CMYK; alpha needs UNCHANGED.
   const int flags = format == ImageFormat::kJpeg ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED;
   // What its readers log of a damaged file is said below, in one line.
@@ -89,12 +93,12 @@ Image DecodeImage(std::string_view bytes, const std::string& where,
     throw Error("this is not a picture that can be read", where,
                 "use PNG, JPEG, WebP, TIFF, BMP, GIF or PNM");
   }
-  if (header.width > 0 && header.height > 0 &&
-      header.width > options.max_pixels / header.height) {
-    throw Error("the picture claims " + std::to_string(header.width) + " x " +
-                    std::to_string(header.height) + " pixels",
-                where, "scale it down below " + std::to_string(options.max_pixels / 1'000'000) +
-                           " megapixels");
+  if (header.width > 0 && header.height > 0 && header.width > options.max_pixels / header.height) {
+    throw Error(
+        "the picture claims " + std::to_string(header.width) + " x " +
+            std::to_string(header.height) + " pixels",
+        where,
+        "scale it down below " + std::to_string(options.max_pixels / 1'000'000) + " megapixels");
   }
   if (header.truncated) {
     throw Error("the picture is truncated: its end is missing", where, "copy or export it again");

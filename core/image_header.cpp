@@ -106,7 +106,9 @@ void ReadTiff(std::string_view bytes, ImageHeader* header) {
 
 ImageHeader ReadImageHeader(std::string_view bytes) {
   ImageHeader header;
-  const auto starts = [&](std::string_view magic) { return bytes.substr(0, magic.size()) == magic; };
+  const auto starts = [&](std::string_view magic) {
+    return bytes.substr(0, magic.size()) == magic;
+  };
   if (starts("\x89PNG\r\n\x1a\n")) {
     ReadPng(bytes, &header);
   } else if (starts("\xFF\xD8\xFF")) {
@@ -117,15 +119,15 @@ ImageHeader ReadImageHeader(std::string_view bytes) {
     header.format = ImageFormat::kGif;
     header.width = LittleEndian(bytes, 6, 2);
     header.height = LittleEndian(bytes, 8, 2);
-  } else if (bytes.size() >= 8 && (starts(std::string_view("II*\0", 4)) ||
-                                   starts(std::string_view("MM\0*", 4)))) {
+  } else if (bytes.size() >= 8 &&
+             (starts(std::string_view("II*\0", 4)) || starts(std::string_view("MM\0*", 4)))) {
     ReadTiff(bytes, &header);
   } else if (starts("BM") && bytes.size() >= 26) {
     header.format = ImageFormat::kBmp;
-    header.width = std::abs(static_cast<std::int64_t>(
-        static_cast<std::int32_t>(LittleEndian(bytes, 18, 4))));
-    header.height = std::abs(static_cast<std::int64_t>(
-        static_cast<std::int32_t>(LittleEndian(bytes, 22, 4))));
+    header.width =
+        std::abs(static_cast<std::int64_t>(static_cast<std::int32_t>(LittleEndian(bytes, 18, 4))));
+    header.height =
+        std::abs(static_cast<std::int64_t>(static_cast<std::int32_t>(LittleEndian(bytes, 22, 4))));
   } else if (bytes.size() >= 8 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '7') {
     ReadPnm(bytes, &header);
   } else if (starts("\x76\x2f\x31\x01") || starts("#?RADIANCE") ||

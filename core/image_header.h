@@ -6,15 +6,24 @@
 namespace simwright::core {
 
 enum class ImageFormat {
-  kUnknown, kPng, kJpeg, kWebp, kAnimatedWebp, kGif, kTiff, kBmp, kPnm, kOther
+  kUnknown,
+  kPng,
+  kJpeg,
+  kWebp,
+  kAnimatedWebp,
+  kGif,
+  kTiff,
+  kBmp,
+  kPnm,
+  kOther
 };
 
 // What a picture file says of itself before anything is decoded.
 struct ImageHeader {
   ImageFormat format = ImageFormat::kUnknown;
-  std::int64_t width = 0;   // 0 where the header was not understood
+  std::int64_t width = 0;  // 0 where the header was not understood
   std::int64_t height = 0;
-  bool truncated = false;   // the format's end marker is missing (PNG, JPEG)
+  bool truncated = false;  // the format's end marker is missing (PNG, JPEG)
 };
 
 // Reads magic bytes and sizes; never throws, never reads beyond `bytes`.

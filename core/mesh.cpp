@@ -90,7 +90,8 @@ Eigen::Vector4f SampleTexture(const Image& texture, const Eigen::Vector2f& uv) {
   const auto wrap = [](int i, int n) { return ((i % n) + n) % n; };
   // Texel centres lie at half-integers; image rows run downwards, v upwards.
   const float x = (uv.x() - std::floor(uv.x())) * static_cast<float>(texture.width) - 0.5f;
-  const float y = (1.0f - (uv.y() - std::floor(uv.y()))) * static_cast<float>(texture.height) - 0.5f;
+  const float y =
+      (1.0f - (uv.y() - std::floor(uv.y()))) * static_cast<float>(texture.height) - 0.5f;
   const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
   const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
   Eigen::Vector4f sum = Eigen::Vector4f::Zero();
@@ -101,9 +102,14 @@ Eigen::Vector4f SampleTexture(const Image& texture, const Eigen::Vector2f& uv) {
           texture.At(wrap(x0 + dx, texture.width), wrap(y0 + dy, texture.height));
       const auto channel = [&](int c) { return static_cast<float>(p[c]) / 255.0f; };
       switch (texture.channels) {
-        case 1: sum += weight * Eigen::Vector4f(channel(0), channel(0), channel(0), 1.0f); break;
-        case 3: sum += weight * Eigen::Vector4f(channel(0), channel(1), channel(2), 1.0f); break;
-        default: sum += weight * Eigen::Vector4f(channel(0), channel(1), channel(2), channel(3));
+        case 1:
+          sum += weight * Eigen::Vector4f(channel(0), channel(0), channel(0), 1.0f);
+          break;
+        case 3:
+          sum += weight * Eigen::Vector4f(channel(0), channel(1), channel(2), 1.0f);
+          break;
+        default:
+          sum += weight * Eigen::Vector4f(channel(0), channel(1), channel(2), channel(3));
       }
     }
   }

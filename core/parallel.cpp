@@ -13,7 +13,9 @@ namespace {
 std::atomic<int> thread_count{0};
 thread_local bool inside_parallel_for = false;
 
-int MachineThreads() { return std::max(1u, std::thread::hardware_concurrency()); }
+int MachineThreads() {
+  return std::max(1u, std::thread::hardware_concurrency());
+}
 
 }  // namespace
 
@@ -22,7 +24,9 @@ int ThreadCount() {
   return count > 0 ? count : MachineThreads();
 }
 
-void SetThreadCount(int count) { thread_count = std::max(0, count); }
+void SetThreadCount(int count) {
+  thread_count = std::max(0, count);
+}
 
 void ParallelFor(int count, const std::function<void(int)>& body) {
   const int workers = inside_parallel_for ? 1 : std::min(ThreadCount(), count);

@@ -24,15 +24,21 @@ void InstallCancelHandler() {
   std::signal(SIGTERM, OnInterrupt);
 }
 
-void RequestCancel() { cancel_requested = 1; }
+void RequestCancel() {
+  cancel_requested = 1;
+}
 
-bool CancelRequested() { return cancel_requested != 0; }
+bool CancelRequested() {
+  return cancel_requested != 0;
+}
 
 void CheckCancelled() {
   if (CancelRequested()) throw Cancelled();
 }
 
-Progress::~Progress() { Finish(); }
+Progress::~Progress() {
+  Finish();
+}
 
 Progress::Style Progress::StyleForStderr() {
   return isatty(STDERR_FILENO) ? Style::kTerminal : Style::kPlain;

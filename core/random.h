@@ -11,7 +11,9 @@ namespace simwright::core {
 using Rng = std::mt19937_64;
 
 // Uniform in [0, 1), from the top 53 bits: the same on every standard library.
-inline double Uniform(Rng& rng) { return static_cast<double>(rng() >> 11) * 0x1.0p-53; }
+inline double Uniform(Rng& rng) {
+  return static_cast<double>(rng() >> 11) * 0x1.0p-53;
+}
 
 // Uniform in [low, high).
 inline double Uniform(Rng& rng, double low, double high) {

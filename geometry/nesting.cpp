@@ -27,8 +27,8 @@ Eigen::Matrix3d OddTurn() {
 bool LeftOf(int i, int j, const std::vector<Vector3d>& vertices, const Vector3d& point) {
   const Vector3d& a = vertices[std::min(i, j)];
   const Vector3d& b = vertices[std::max(i, j)];
-  const bool left = (b.x() - a.x()) * (point.y() - a.y()) - (b.y() - a.y()) * (point.x() - a.x()) >
-                    0.0;
+  const bool left =
+      (b.x() - a.x()) * (point.y() - a.y()) - (b.y() - a.y()) * (point.x() - a.x()) > 0.0;
   return i < j ? left : !left;
 }
 

@@ -5,9 +5,9 @@
 namespace simwright::geometry {
 
 struct RemeshOptions {
-  double edge_length = 0.0;           // target, metres, > 0
-  int iterations = 3;                 // 3: most edges within 4/5 .. 4/3 of the target
-  double feature_angle_deg = 40.0;    // edges sharper than this stay where they are
+  double edge_length = 0.0;         // target, metres, > 0
+  int iterations = 3;               // 3: most edges within 4/5 .. 4/3 of the target
+  double feature_angle_deg = 40.0;  // edges sharper than this stay where they are
 };
 
 // Isotropic remeshing (Botsch and Kobbelt 2004): even triangles of the given edge length, sharp

@@ -94,10 +94,7 @@ struct Thinned {
 class Collapser {
  public:
   Collapser(const core::TriangleMesh& mesh, const std::vector<char>& locked)
-      : source_(mesh),
-        vertices_(mesh.vertices),
-        triangles_(mesh.triangles),
-        locked_(locked) {
+      : source_(mesh), vertices_(mesh.vertices), triangles_(mesh.triangles), locked_(locked) {
     // Sums of squares lose digits far from the origin.
     center_ = core::Bounds(mesh).center();
     for (Vector3d& v : vertices_) v -= center_;
@@ -370,8 +367,8 @@ std::vector<std::vector<int>> Blocks(const core::TriangleMesh& mesh) {
   for (std::size_t t = 0; t < order.size(); ++t) {
     const Eigen::Vector3i& c = mesh.triangles[t];
     const Vector3d at =
-        scale * ((mesh.vertices[c[0]] + mesh.vertices[c[1]] + mesh.vertices[c[2]]) / 3.0 -
-                 box.min());
+        scale *
+        ((mesh.vertices[c[0]] + mesh.vertices[c[1]] + mesh.vertices[c[2]]) / 3.0 - box.min());
     std::uint32_t code = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const std::uint32_t cell = static_cast<std::uint32_t>(std::clamp(at[axis], 0.0, 1023.0));

@@ -113,8 +113,7 @@ struct Effort {
   int rays;         // lines of sight: more find hollows that few of them enter
   bool carves;      // opens lines of sight that the walls of sheets buried, too
 };
-constexpr Effort kEfforts[] = {
-    {1.0, 100000, false}, {1.6, 200000, false}, {1.6, 500000, true}};
+constexpr Effort kEfforts[] = {{1.0, 100000, false}, {1.6, 200000, false}, {1.6, 500000, true}};
 // Share of the tolerance at which a wrap is good enough: other rays find somewhat more.
 constexpr double kGoodEnough = 0.96;
 

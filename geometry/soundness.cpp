@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/nesting.h"
 #include "geometry/self_intersection.h"
 #include "geometry/weld.h"
-#include "geometry/nesting.h"
 
 namespace simwright::geometry {
 namespace {

@@ -11,13 +11,13 @@ struct Soundness {
   bool closed = false;    // each edge has as many faces running one way as the other, none is open
   bool oriented = false;  // neighbours agree, and each component that no other encloses faces out
   bool manifold = false;  // each edge has two faces, each vertex one fan of faces
-  int open_edges = 0;            // edges with one face
-  int non_manifold_edges = 0;    // edges with three or more faces
-  int non_manifold_vertices = 0; // vertices with more than one fan
-  int self_intersections = 0;  // pairs of faces that meet elsewhere than in what they share
-  int components = 0;          // connected through edges
-  int degenerate_triangles = 0;  // repeated vertex, or area zero in exact arithmetic
-  double signed_volume = 0.0;    // m^3, by the divergence theorem; negative when inside out
+  int open_edges = 0;     // edges with one face
+  int non_manifold_edges = 0;     // edges with three or more faces
+  int non_manifold_vertices = 0;  // vertices with more than one fan
+  int self_intersections = 0;     // pairs of faces that meet elsewhere than in what they share
+  int components = 0;             // connected through edges
+  int degenerate_triangles = 0;   // repeated vertex, or area zero in exact arithmetic
+  double signed_volume = 0.0;     // m^3, by the divergence theorem; negative when inside out
 
   // A solid: everything holds and the volume is positive.
   bool Sound() const {

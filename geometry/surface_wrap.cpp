@@ -14,10 +14,10 @@
 #include "core/progress.h"
 #include "core/random.h"
 #include "geometry/isosurface.h"
+#include "geometry/nesting.h"
 #include "geometry/surface_grid.h"
 #include "geometry/triangle_tree.h"
 #include "geometry/weld.h"
-#include "geometry/nesting.h"
 
 namespace simwright::geometry {
 namespace {

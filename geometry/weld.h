@@ -18,7 +18,7 @@ core::TriangleMesh WithoutUnusedVertices(const core::TriangleMesh& mesh);
 struct EdgeUse {
   std::uint64_t key;  // (lower vertex << 32) | higher vertex
   int triangle;
-  bool forward;       // from the lower vertex to the higher
+  bool forward;  // from the lower vertex to the higher
 };
 
 // Every use of every edge (3M), by key, then by triangle.

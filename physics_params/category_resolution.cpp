@@ -60,8 +60,7 @@ const Category* FindSingular(const std::string& name, const KnowledgeBase& base)
   if (const Category* exact = base.FindCategory(name)) return exact;
   for (const std::string_view suffix : {"s", "es"}) {
     if (name.size() > suffix.size() + 2 && name.ends_with(suffix)) {
-      const Category* found =
-          base.FindCategory(name.substr(0, name.size() - suffix.size()));
+      const Category* found = base.FindCategory(name.substr(0, name.size() - suffix.size()));
       if (found != nullptr) return found;
     }
   }

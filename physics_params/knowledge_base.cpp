@@ -105,8 +105,8 @@ KnowledgeBase::KnowledgeBase(std::string_view categories, std::string_view mater
   std::map<std::string, std::string> source_of;
   for (const Row& row : Rows(sources, "sources", 2)) source_of[row.cells[0]] = row.cells[1];
   for (const Row& row : Rows(materials, "materials", 5)) {
-    materials_.push_back({row.cells[0], row.Range(1, 1.0), row.Range(2, 1.0), row.Range(3, 1.0),
-                          row.cells[4]});
+    materials_.push_back(
+        {row.cells[0], row.Range(1, 1.0), row.Range(2, 1.0), row.Range(3, 1.0), row.cells[4]});
   }
   constexpr double kCentimetre = 0.01, kGram = 0.001;
   for (const Row& row : Rows(categories, "categories", 9)) {
@@ -156,7 +156,11 @@ std::string NormaliseName(std::string_view name) {
   return result;
 }
 
-const char* FillName(Fill fill) { return kFillNames[static_cast<int>(fill)]; }
-const char* ShapeName(Shape shape) { return kShapeNames[static_cast<int>(shape)]; }
+const char* FillName(Fill fill) {
+  return kFillNames[static_cast<int>(fill)];
+}
+const char* ShapeName(Shape shape) {
+  return kShapeNames[static_cast<int>(shape)];
+}
 
 }  // namespace simwright::physics_params

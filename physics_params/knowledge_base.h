@@ -40,7 +40,7 @@ struct Category {
   std::vector<std::string> materials;  // likeliest first; each is in the base
   Fill fill = Fill::kSolid;
   Shape shape = Shape::kFree;
-  std::string source;                  // a sentence
+  std::string source;  // a sentence
 };
 
 // What is known of household things. Constant after construction; safe from several threads.
@@ -48,8 +48,7 @@ class KnowledgeBase {
  public:
   // Parses the three tables (formats: the comments at their heads). Throws core::Error, naming
   // table and line, on a malformed row, an unknown material or source, or min > max.
-  KnowledgeBase(std::string_view categories, std::string_view materials,
-                std::string_view sources);
+  KnowledgeBase(std::string_view categories, std::string_view materials, std::string_view sources);
 
   // The base that is shipped with the program.
   static const KnowledgeBase& Shipped();

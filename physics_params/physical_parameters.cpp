@@ -18,8 +18,7 @@ Estimate Drawn(const Interval& range, double t, const std::string& source) {
   return {range.min, range.max, Lerp(range, t), source};
 }
 
-const Material& DrawMaterial(const Category& category, const KnowledgeBase& base,
-                             core::Rng& rng) {
+const Material& DrawMaterial(const Category& category, const KnowledgeBase& base, core::Rng& rng) {
   double total = 0.0;
   for (size_t i = 0; i < category.materials.size(); ++i) total += 1.0 / static_cast<double>(i + 1);
   double left = core::Uniform(rng) * total;
@@ -63,9 +62,9 @@ PhysicalParameters SampleParameters(const Category& category, const KnowledgeBas
   p.height = Drawn(category.height, near_size(0.15), category.source);
   // Mass spans decades: interpolate its logarithm, led by the size.
   p.mass = {category.mass.min, category.mass.max,
-            std::clamp(category.mass.min *
-                           std::pow(category.mass.max / category.mass.min, near_size(0.2)),
-                       category.mass.min, category.mass.max),
+            std::clamp(
+                category.mass.min * std::pow(category.mass.max / category.mass.min, near_size(0.2)),
+                category.mass.min, category.mass.max),
             category.source};
   p.density = Drawn(material.density, core::Uniform(rng), material.source);
   p.friction = Drawn(material.friction, core::Uniform(rng), material.source);

@@ -53,8 +53,8 @@ struct MassModel {
   double density = 0.0;         // kg/m^3 of the material (solid), or of the wall (shell)
   double wall_thickness = 0.0;  // m; 0: the solid is full
   std::string material;
-  bool within_range = true;     // mass lies in the category's range
-  std::string sentence;         // how mass, volume and material were reconciled
+  bool within_range = true;  // mass lies in the category's range
+  std::string sentence;      // how mass, volume and material were reconciled
 };
 
 // Makes mass, volume and density agree. `volume` (m^3) and `area` (m^2) are those of the closed

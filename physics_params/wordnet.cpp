@@ -42,9 +42,14 @@ int Number(std::string_view field, int base = 10) {
 // Regular English plurals, as WordNet's own morphology undoes them (morphy: s, ses, xes, zes,
 // ches, shes, men, ies).
 std::vector<std::string> Singulars(const std::string& lemma) {
-  static constexpr std::array<std::array<const char*, 2>, 8> kRules = {
-      {{"s", ""}, {"ses", "s"}, {"xes", "x"}, {"zes", "z"}, {"ches", "ch"}, {"shes", "sh"},
-       {"men", "man"}, {"ies", "y"}}};
+  static constexpr std::array<std::array<const char*, 2>, 8> kRules = {{{"s", ""},
+                                                                        {"ses", "s"},
+                                                                        {"xes", "x"},
+                                                                        {"zes", "z"},
+                                                                        {"ches", "ch"},
+                                                                        {"shes", "sh"},
+                                                                        {"men", "man"},
+                                                                        {"ies", "y"}}};
   std::vector<std::string> result;
   for (const auto& [suffix, replacement] : kRules) {
     const std::string_view ending(suffix);
@@ -118,8 +123,8 @@ std::vector<WordNet::Synset> WordNet::PhysicalSenses(std::string_view normalised
     const auto node = nodes_.find(synset);
     if (node == nodes_.end()) continue;
     constexpr std::array kPhysicalFiles = {5, 6, 13, 17, 18, 20};
-    if (std::find(kPhysicalFiles.begin(), kPhysicalFiles.end(),
-                  node->second.lexicographer_file) != kPhysicalFiles.end()) {
+    if (std::find(kPhysicalFiles.begin(), kPhysicalFiles.end(), node->second.lexicographer_file) !=
+        kPhysicalFiles.end()) {
       physical.push_back(synset);
     }
   }

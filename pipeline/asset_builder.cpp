@@ -53,9 +53,8 @@ void GiveMass(const BuildRequest& request, assets::Asset* asset) {
   asset->parameters.resolution = request.category.sentence;
   const geometry::MassProperties unit = geometry::SolidMassProperties(asset->solid, 1.0);
   asset->volume = unit.volume;
-  const std::string unusual =
-      physics_params::FollowSize(category, core::Bounds(asset->visual.mesh).sizes(),
-                                 unit.volume, &asset->parameters);
+  const std::string unusual = physics_params::FollowSize(
+      category, core::Bounds(asset->visual.mesh).sizes(), unit.volume, &asset->parameters);
   if (!unusual.empty()) {
     asset->findings.push_back(
         {"unusual-size", core::Severity::kWarning, asset->name, unusual, 0.0});
@@ -75,8 +74,7 @@ void GiveMass(const BuildRequest& request, assets::Asset* asset) {
   asset->friction = asset->parameters.friction.sample;
   asset->restitution = asset->parameters.restitution.sample;
   constexpr double kRollingResistance = 0.01;
-  asset->rolling_friction =
-      kRollingResistance * 0.5 * core::Bounds(asset->solid).sizes().mean();
+  asset->rolling_friction = kRollingResistance * 0.5 * core::Bounds(asset->solid).sizes().mean();
 }
 
 void Decompose(const BuildRequest& request, assets::Asset* asset) {
@@ -113,8 +111,8 @@ void PlaceInLinkFrame(const RestPose& rest, assets::Asset* asset) {
   asset->parameters.length.sample = std::max(size.x(), size.y());
   asset->parameters.width.sample = std::min(size.x(), size.y());
   asset->parameters.height.sample = size.z();
-  asset->findings.push_back({"rest-pose", rest.as_given ? core::Severity::kInfo
-                                                        : core::Severity::kWarning,
+  asset->findings.push_back({"rest-pose",
+                             rest.as_given ? core::Severity::kInfo : core::Severity::kWarning,
                              asset->name, rest.sentence, 0.0});
 }
 

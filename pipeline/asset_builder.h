@@ -13,9 +13,9 @@
 namespace simwright::pipeline {
 
 struct BuildRequest {
-  std::string name;                      // made file-safe
-  std::string source;                    // file name of the photo or mesh
-  physics_params::Resolution category;   // of RequireCategory or ResolveCategory; not null
+  std::string name;                     // made file-safe
+  std::string source;                   // file name of the photo or mesh
+  physics_params::Resolution category;  // of RequireCategory or ResolveCategory; not null
   std::uint64_t seed = 1;
   geometry::SolidOptions solid;
   geometry::DecompositionOptions decomposition;

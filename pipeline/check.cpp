@@ -67,12 +67,11 @@ void CheckInertia(const assets::Asset& asset, const CheckLimits& limits, CheckRo
           ? geometry::ShellMassProperties(asset.solid, asset.wall_thickness, asset.density)
           : geometry::SolidMassProperties(asset.solid, asset.density);
   const double size = core::Bounds(asset.solid).diagonal().norm();
-  rows->AtMost("inertia-exact",
-               InertialDifference(asset.inertial,
-                                  {exact.mass, exact.center_of_mass, exact.inertia}, size),
-               limits.reader_tolerance, "from the integrals over solid.obj, relative");
-  const Eigen::Vector3d moments =
-      geometry::PrincipalInertiaOf(asset.inertial.inertia).moments;
+  rows->AtMost(
+      "inertia-exact",
+      InertialDifference(asset.inertial, {exact.mass, exact.center_of_mass, exact.inertia}, size),
+      limits.reader_tolerance, "from the integrals over solid.obj, relative");
+  const Eigen::Vector3d moments = geometry::PrincipalInertiaOf(asset.inertial.inertia).moments;
   rows->Require("inertia-possible", geometry::SatisfiesTriangleInequality(moments),
                 moments[2] / (moments[0] + moments[1]),
                 "largest principal moment over the sum of the others");
@@ -97,8 +96,8 @@ void CheckReaders(const assets::Asset& asset, const fs::path& folder, const Chec
       rows->Fail(code, warning);
       return;
     }
-    rows->AtMost(code, InertialDifference(inertial, asset.inertial, size),
-                 limits.reader_tolerance, "mass, centre and inertia against asset.json, relative");
+    rows->AtMost(code, InertialDifference(inertial, asset.inertial, size), limits.reader_tolerance,
+                 "mass, centre and inertia against asset.json, relative");
   };
   CheckReader("loads-urdfdom", rows, [&] {
     const assets::UrdfModel model = assets::ReadUrdf(folder / (asset.name + ".urdf"));
@@ -108,8 +107,8 @@ void CheckReaders(const assets::Asset& asset, const fs::path& folder, const Chec
   });
   CheckReader("loads-bullet", rows, [&] {
     sim::World world;
-    const sim::RigidBody body = sim::BodyFromUrdf(
-        assets::ReadUrdf(folder / (asset.name + ".urdf")));
+    const sim::RigidBody body =
+        sim::BodyFromUrdf(assets::ReadUrdf(folder / (asset.name + ".urdf")));
     world.Add(body, Eigen::Isometry3d::Identity());
     compare("loads-bullet", world.LoadedInertial(0), "");
   });
@@ -147,7 +146,8 @@ void CheckDynamics(const assets::Asset& asset, const fs::path& folder, const Che
     if (!warnings.empty()) rows->Fail("mujoco-warnings", warnings[0]);
     if (asset.rolls) return;
     const Eigen::Vector3d com = asset.inertial.center_of_mass;
-    rows->AtMost("engines-agree", std::abs((bullet.rest_pose * com - mujoco.rest_pose * com).z()) * 1e3,
+    rows->AtMost("engines-agree",
+                 std::abs((bullet.rest_pose * com - mujoco.rest_pose * com).z()) * 1e3,
                  limits.engines_distance * 1e3, "mm in height between Bullet and MuJoCo at rest");
     rows->AtMost("engines-agree-tilt",
                  sim::TiltBetween(bullet.rest_pose, mujoco.rest_pose) * kDegrees,

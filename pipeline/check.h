@@ -20,12 +20,12 @@ struct CheckLimits {
   double surface_distance_ratio = 0.005;  // solid to visual's outer surface, both ways
   // The solid's surface to that of the parts: hulls of 64 vertices lie up to 2 % inside a ball.
   double cover_distance_ratio = 0.06;
-  double reader_tolerance = 1e-6;         // mass, centre, inertia against asset.json, relative
-  double rest_time = 2.0;                 // s
-  double tilt = 2.0;                      // degrees from the rest pose
-  double drift = 1e-3;                    // m in 2 s
-  double engines_distance = 1e-3;         // m, Bullet against MuJoCo at rest
-  double engines_tilt = 2.0;              // degrees
+  double reader_tolerance = 1e-6;  // mass, centre, inertia against asset.json, relative
+  double rest_time = 2.0;          // s
+  double tilt = 2.0;               // degrees from the rest pose
+  double drift = 1e-3;             // m in 2 s
+  double engines_distance = 1e-3;  // m, Bullet against MuJoCo at rest
+  double engines_tilt = 2.0;       // degrees
 };
 
 // Checks an asset folder, with its files as they are on disk. Throws core::Error when the folder

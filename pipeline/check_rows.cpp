@@ -17,9 +17,12 @@ std::string Rounded(double value) {
 
 const char* Verdict(const core::Finding& row) {
   switch (row.severity) {
-    case core::Severity::kError: return "FAIL";
-    case core::Severity::kWarning: return "warn";
-    default: return "pass";
+    case core::Severity::kError:
+      return "FAIL";
+    case core::Severity::kWarning:
+      return "warn";
+    default:
+      return "pass";
   }
 }
 
@@ -44,7 +47,9 @@ void CheckRows::Fail(const std::string& code, const std::string& why) {
   rows_.push_back({code, core::Severity::kError, place_, why, 0.0});
 }
 
-void CheckRows::Warn(const core::Finding& finding) { rows_.push_back(finding); }
+void CheckRows::Warn(const core::Finding& finding) {
+  rows_.push_back(finding);
+}
 
 std::string CheckTable(const CheckReport& report) {
   std::string table = report.subject + "\n";
@@ -63,8 +68,10 @@ std::string CheckJson(const CheckReport& report) {
   json["passed"] = report.passed();
   json["rows"] = nlohmann::ordered_json::array();
   for (const core::Finding& row : report.rows) {
-    json["rows"].push_back({{"property", row.code}, {"verdict", Verdict(row)},
-                            {"figure", row.figure}, {"sentence", row.sentence}});
+    json["rows"].push_back({{"property", row.code},
+                            {"verdict", Verdict(row)},
+                            {"figure", row.figure},
+                            {"sentence", row.sentence}});
   }
   return json.dump(2) + "\n";
 }

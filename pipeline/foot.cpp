@@ -25,9 +25,9 @@ std::vector<Eigen::Vector3d> Extremes(const std::vector<Eigen::Vector3d>& points
   for (int i = 0; i < count && points.size() >= 3; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / count;
     const Eigen::Vector3d direction = std::cos(angle) * u + std::sin(angle) * v;
-    const auto best = std::max_element(points.begin(), points.end(), [&](const auto& a, const auto& b) {
-      return a.dot(direction) < b.dot(direction);
-    });
+    const auto best = std::max_element(
+        points.begin(), points.end(),
+        [&](const auto& a, const auto& b) { return a.dot(direction) < b.dot(direction); });
     chosen.insert(static_cast<size_t>(best - points.begin()));
   }
   std::vector<Eigen::Vector3d> corners;
@@ -41,8 +41,7 @@ Foot FindFoot(const core::TriangleMesh& solid, const Eigen::Vector3d& center_of_
   Foot foot;
   double least = kNearDown;
   const geometry::StablePose* nearest = nullptr;
-  const auto poses =
-      geometry::StablePoses(geometry::ConvexHull(solid.vertices), center_of_mass);
+  const auto poses = geometry::StablePoses(geometry::ConvexHull(solid.vertices), center_of_mass);
   for (const geometry::StablePose& pose : poses) {
     const double tilt = std::acos(std::clamp(-pose.face_normal.z(), -1.0, 1.0));
     if (pose.tipping_angle < kFirm || tilt >= least) continue;
@@ -61,7 +60,8 @@ Foot FindFoot(const core::TriangleMesh& solid, const Eigen::Vector3d& center_of_
     }
   }
   foot.reach = -std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3d& v : solid.vertices) foot.reach = std::max(foot.reach, v.dot(foot.down));
+  for (const Eigen::Vector3d& v : solid.vertices)
+    foot.reach = std::max(foot.reach, v.dot(foot.down));
   foot.corners = Extremes(low, foot.down, count);
   return foot;
 }

@@ -22,7 +22,9 @@ namespace {
 
 constexpr const char* kStopped = "stopped before it was done";
 
-bool IsCatalogue(const fs::path& path) { return path.extension() == ".sh3f"; }
+bool IsCatalogue(const fs::path& path) {
+  return path.extension() == ".sh3f";
+}
 
 char UpOf(const fs::path& mesh, char wanted) {
   if (wanted != 0) return wanted;
@@ -244,9 +246,10 @@ std::vector<ImportItem> ListImports(const std::vector<fs::path>& inputs,
 std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items, const fs::path& output,
                                      const ImportOptions& options, core::Progress* progress) {
   for (const ImportItem& item : items) {
-    if (!options.force && fs::exists(output / item.name)) {
+    if (!options.force && !options.resume && fs::exists(output / item.name)) {
       throw core::Error("the output exists already", (output / item.name).string(),
-                        "choose another place or replace it with --force");
+                        "choose another place, keep what is there with --resume, or replace it "
+                        "with --force");
     }
   }
   std::map<fs::path, std::unique_ptr<assets::FurnitureCatalogue>> catalogues;
@@ -264,6 +267,11 @@ std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items, const
     const ImportItem& item = items[static_cast<size_t>(i)];
     ImportOutcome& outcome = outcomes[static_cast<size_t>(i)];
     outcome.name = item.name;
+    if (options.resume && fs::exists(output / item.name)) {
+      outcome.folder = output / item.name;
+      outcome.kept = true;
+      return;
+    }
     const auto start = std::chrono::steady_clock::now();
     try {
       core::CheckCancelled();

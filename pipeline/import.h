@@ -12,28 +12,30 @@
 namespace simwright::pipeline {
 
 struct ImportOptions {
-  std::string category;       // empty: from the file's name, else the catch-all "object"
-  char up = 0;                // 'x', 'y', 'z', or 0: y for OBJ, glTF and DAE, z for STL and PLY
-  double unit = 1.0;          // metres a file unit; 1: the file is in metres (as glTF and DAE are)
-  double height = 0.0;        // m, > 0: scale to this height instead
+  std::string category;  // empty: from the file's name, else the catch-all "object"
+  char up = 0;           // 'x', 'y', 'z', or 0: y for OBJ, glTF and DAE, z for STL and PLY
+  double unit = 1.0;     // metres a file unit; 1: the file is in metres (as glTF and DAE are)
+  double height = 0.0;   // m, > 0: scale to this height instead
   std::uint64_t seed = 1;
-  bool force = false;         // replace outputs that exist
-  bool check = true;          // check each asset; one that fails is refused
-  std::string only;           // catalogues: take pieces whose id or name contains this
-  int limit = 0;              // catalogues: at most so many pieces; 0: all
+  bool force = false;   // replace outputs that exist
+  bool resume = false;  // keep outputs that exist, and import the others
+  bool check = true;    // check each asset; one that fails is refused
+  std::string only;     // catalogues: take pieces whose id or name contains this
+  int limit = 0;        // catalogues: at most so many pieces; 0: all
 };
 
 // One thing to import: a mesh file, or a piece of a catalogue.
 struct ImportItem {
-  std::filesystem::path mesh;          // file; for a catalogue piece the .sh3f
-  int piece = -1;                      // index into the catalogue's pieces, or -1
-  std::string name;                    // of the asset's folder
+  std::filesystem::path mesh;  // file; for a catalogue piece the .sh3f
+  int piece = -1;              // index into the catalogue's pieces, or -1
+  std::string name;            // of the asset's folder
 };
 
 struct ImportOutcome {
   std::string name;
-  std::filesystem::path folder;        // where the asset is; empty when refused
-  std::string refusal;                 // the reason, when refused
+  std::filesystem::path folder;  // where the asset is; empty when refused
+  std::string refusal;           // the reason, when refused
+  bool kept = false;             // was there already, and stays
   StageSeconds seconds;
   std::optional<CheckReport> check;
 };
@@ -46,7 +48,7 @@ std::vector<ImportItem> ListImports(const std::vector<std::filesystem::path>& in
 // Imports all items in parallel, each into output/NAME. A mesh that cannot become an asset is
 // refused with its reason and does not stop the others. Catalogue pieces take the catalogue's
 // true sizes. After Ctrl-C what was done stays, and the others are refused as stopped. Throws
-// core::Error when an output exists and `force` is not set.
+// core::Error when an output exists and neither `force` nor `resume` is set.
 std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items,
                                      const std::filesystem::path& output,
                                      const ImportOptions& options, core::Progress* progress);

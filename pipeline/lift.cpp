@@ -72,8 +72,7 @@ asset_lift::CategoryPrior PriorOf(const physics_params::Category& category) {
 
 LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
   core::StagedFolder staged(request.output, request.force);
-  const physics_params::Resolution resolution =
-      physics_params::RequireCategory(request.category);
+  const physics_params::Resolution resolution = physics_params::RequireCategory(request.category);
   const std::string bytes = core::ReadFile(request.photo, 1ull << 30);
   asset_lift::LiftOptions options;
   core::ImageReadOptions read;
@@ -101,9 +100,8 @@ LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
   core::Transform(Eigen::Affine3d(Eigen::Scaling(scale)), &lifted.mesh.mesh);
 
   BuildRequest build;
-  build.name = request.output.filename().empty()
-                   ? request.output.parent_path().filename().string()
-                   : request.output.filename().string();
+  build.name = request.output.filename().empty() ? request.output.parent_path().filename().string()
+                                                 : request.output.filename().string();
   build.source = request.photo.filename().string();
   build.category = resolution;
   build.seed = request.seed;

@@ -13,13 +13,13 @@ namespace simwright::pipeline {
 
 struct LiftRequest {
   std::filesystem::path photo;
-  std::string category;                       // required
+  std::string category;  // required
   std::optional<std::filesystem::path> mask;
-  double height = 0.0;                        // m; 0: drawn from the category's range
-  double elevation_degrees = -1.0;            // negative: estimated
-  double fov_degrees = 0.0;                   // 0: EXIF or the default
+  double height = 0.0;              // m; 0: drawn from the category's range
+  double elevation_degrees = -1.0;  // negative: estimated
+  double fov_degrees = 0.0;         // 0: EXIF or the default
   std::uint64_t seed = 1;
-  std::filesystem::path output;               // the asset's folder
+  std::filesystem::path output;  // the asset's folder
   bool force = false;
 };
 
@@ -30,9 +30,9 @@ struct LiftOutcome {
   double silhouette_iou = 0.0;
 };
 
-// Photo to asset folder, with what the lift saw beside it: matte.png (the cut-out), lift.png (photo,
-// cut-out, the mesh from the photo's camera). Throws core::Error: the photo cannot be read, the
-// category is unknown, no single object stands out, the output exists; core::Cancelled.
+// Photo to asset folder, with what the lift saw beside it: matte.png (the cut-out), lift.png
+// (photo, cut-out, the mesh from the photo's camera). Throws core::Error: the photo cannot be read,
+// the category is unknown, no single object stands out, the output exists; core::Cancelled.
 LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress);
 
 // The prior of a category for the lift.

@@ -13,9 +13,9 @@ namespace simwright::pipeline {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kHolds = 5.0 * kDegree;   // more is a fall
-constexpr double kRocks = 0.5 * kDegree;   // less is the file's own upright
-constexpr double kRolling = 0.7e-3;  // m of drift in 2 s; the check allows 1 mm
+constexpr double kHolds = 5.0 * kDegree;  // more is a fall
+constexpr double kRocks = 0.5 * kDegree;  // less is the file's own upright
+constexpr double kRolling = 0.7e-3;       // m of drift in 2 s; the check allows 1 mm
 constexpr double kNearUpright = 20.0 * kDegree;
 constexpr double kFirm = 4.0 * kDegree;
 constexpr int kPosesTried = 8;

@@ -10,9 +10,9 @@ namespace simwright::pipeline {
 
 struct RestPose {
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();  // rotation to apply to the body
-  bool as_given = true;   // it stands the way it came (turned by less than 5 degrees)
-  bool rolls = false;     // it comes to rest nowhere in particular: a ball
-  std::string sentence;   // for a person
+  bool as_given = true;  // it stands the way it came (turned by less than 5 degrees)
+  bool rolls = false;    // it comes to rest nowhere in particular: a ball
+  std::string sentence;  // for a person
 };
 
 // How `body` rests: dropped as it is given; where it falls over, in its stable poses, those within

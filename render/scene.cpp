@@ -65,9 +65,9 @@ int Scene::Add(const core::TexturedMesh* mesh, const Eigen::Isometry3d& world_fr
   instance.geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetNewGeometryBuffer(instance.geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                           3 * sizeof(float), mesh->mesh.vertices.size());
-  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-      instance.geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
-      mesh->mesh.triangles.size()));
+  auto* indices = static_cast<unsigned*>(
+      rtcSetNewGeometryBuffer(instance.geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(unsigned), mesh->mesh.triangles.size()));
   for (size_t i = 0; i < mesh->mesh.triangles.size(); ++i) {
     for (int k = 0; k < 3; ++k) {
       indices[3 * i + k] = static_cast<unsigned>(mesh->mesh.triangles[i][k]);
@@ -93,13 +93,16 @@ void Scene::MoveVertices(int instance, const std::vector<Eigen::Vector3d>& verti
   rtcCommitGeometry(moved.geometry);
 }
 
-void Scene::Commit() { rtcCommitScene(embree_->scene); }
+void Scene::Commit() {
+  rtcCommitScene(embree_->scene);
+}
 
 Hit Scene::Intersect(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near,
                      float far) const {
   RTCRayHit query;
-  query.ray = {origin.x(), origin.y(), origin.z(), near, direction.x(), direction.y(),
-               direction.z(), 0.0f, far, ~0u, 0, 0};
+  query.ray = {
+      origin.x(), origin.y(), origin.z(), near, direction.x(), direction.y(), direction.z(), 0.0f,
+      far,        ~0u,        0,          0};
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;
@@ -112,15 +115,18 @@ Hit Scene::Intersect(const Eigen::Vector3f& origin, const Eigen::Vector3f& direc
 
 bool Scene::Occluded(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near,
                      float far) const {
-  RTCRay ray{origin.x(), origin.y(), origin.z(), near, direction.x(), direction.y(),
-             direction.z(), 0.0f, far, ~0u, 0, 0};
+  RTCRay ray{
+      origin.x(), origin.y(), origin.z(), near, direction.x(), direction.y(), direction.z(), 0.0f,
+      far,        ~0u,        0,          0};
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcOccluded1(embree_->scene, &context, &ray);
   return ray.tfar < 0.0f;
 }
 
-int Scene::size() const { return static_cast<int>(embree_->instances.size()); }
+int Scene::size() const {
+  return static_cast<int>(embree_->instances.size());
+}
 
 const core::TexturedMesh& Scene::mesh(int instance) const {
   return *embree_->instances.at(static_cast<size_t>(instance)).mesh;
@@ -157,8 +163,7 @@ Eigen::Vector4f Scene::Albedo(const Hit& hit) const {
   const Eigen::Vector2f uv = (1.0f - hit.u - hit.v) * mesh.corner_uvs[3 * t] +
                              hit.u * mesh.corner_uvs[3 * t + 1] +
                              hit.v * mesh.corner_uvs[3 * t + 2];
-  return core::SampleTexture(mesh.textures[material.texture], uv)
-      .cwiseProduct(material.base_color);
+  return core::SampleTexture(mesh.textures[material.texture], uv).cwiseProduct(material.base_color);
 }
 
 Eigen::AlignedBox3f Scene::bounds() const {

@@ -12,9 +12,9 @@ namespace simwright::render {
 
 // What a ray met.
 struct Hit {
-  float depth = 0.0f;     // ray parameter: a multiple of the direction's length
-  int instance = -1;      // index as returned by Scene::Add; -1: nothing was met
-  int triangle = -1;      // of that instance's mesh
+  float depth = 0.0f;        // ray parameter: a multiple of the direction's length
+  int instance = -1;         // index as returned by Scene::Add; -1: nothing was met
+  int triangle = -1;         // of that instance's mesh
   float u = 0.0f, v = 0.0f;  // barycentric weights of the triangle's corners 1 and 2
 };
 
@@ -41,8 +41,8 @@ class Scene {
   void Commit();
 
   // The nearest hit of origin + t * direction with t in (near, far).
-  Hit Intersect(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
-                float near = 0.0f, float far = 1e30f) const;
+  Hit Intersect(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near = 0.0f,
+                float far = 1e30f) const;
   // Whether anything is met with t in (near, far).
   bool Occluded(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near,
                 float far) const;

@@ -8,9 +8,9 @@
 namespace simwright::render {
 
 struct TurntableOptions {
-  int views = 4;            // equally spaced about the vertical
-  int size = 360;           // pixels a side
-  double elevation = 0.42;  // rad above the horizon
+  int views = 4;                // equally spaced about the vertical
+  int size = 360;               // pixels a side
+  double elevation = 0.42;      // rad above the horizon
   double first_azimuth = -1.2;  // rad from +x
   int samples_per_side = 3;
 };

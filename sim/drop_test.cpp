@@ -42,9 +42,8 @@ DropResult DropWatch::Finish() const {
   result.drift = (result.final_pose * body_.inertial.center_of_mass -
                   result.rest_pose * body_.inertial.center_of_mass)
                      .norm();
-  result.turn = Eigen::AngleAxisd(result.rest_pose.linear().transpose() *
-                                  result.final_pose.linear())
-                    .angle();
+  result.turn =
+      Eigen::AngleAxisd(result.rest_pose.linear().transpose() * result.final_pose.linear()).angle();
   result.lowest_point = LowestPoint(body_, result.final_pose);
   return result;
 }

@@ -7,9 +7,9 @@
 namespace simwright::sim {
 
 struct DropOptions {
-  double height = 0.01;          // m, of the lowest point above the floor at the start
-  double settle_time = 2.0;      // s, within which it has to come to rest
-  double watch_time = 2.0;       // s, over which the drift is measured afterwards
+  double height = 0.01;      // m, of the lowest point above the floor at the start
+  double settle_time = 2.0;  // s, within which it has to come to rest
+  double watch_time = 2.0;   // s, over which the drift is measured afterwards
   // m/s of its fastest point at which a body counts as resting: ODE's default for putting bodies
   // to sleep. Creep below it shows in the drift.
   double rest_speed = 0.01;
@@ -25,7 +25,7 @@ struct DropResult {
   double drift = 0.0;         // m, of the centre of mass over watch_time
   double turn = 0.0;          // rad, over watch_time, about any axis
   double lowest_point = 0.0;  // m, at the end: below 0 is penetration
-  Eigen::Isometry3d rest_pose = Eigen::Isometry3d::Identity();  // world_from_body after settling
+  Eigen::Isometry3d rest_pose = Eigen::Isometry3d::Identity();   // world_from_body after settling
   Eigen::Isometry3d final_pose = Eigen::Isometry3d::Identity();  // after watching
 };
 

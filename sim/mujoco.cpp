@@ -41,15 +41,17 @@ class SceneFile {
     close(file);
     path_ = pattern;
     std::ofstream out(path_);
-    out << "<mujoco><compiler angle=\"radian\" meshdir=\"" << folder.string()
-        << "\" texturedir=\"" << folder.string() << "\"/><include file=\""
+    out << "<mujoco><compiler angle=\"radian\" meshdir=\"" << folder.string() << "\" texturedir=\""
+        << folder.string()
+        << "\"/><include file=\""
         // MuJoCo 2.2 puts the scene's folder before any include, also before an absolute one.
         << fs::relative(fs::canonical(mjcf), fs::canonical(path_.parent_path())).string()
         << "\"/><worldbody>"
-        << "<geom name=\"floor\" type=\"plane\" size=\"0 0 1\" condim=\"6\" friction=\"0.01 1e-5 1e-5\"/>";
+        << "<geom name=\"floor\" type=\"plane\" size=\"0 0 1\" condim=\"6\" friction=\"0.01 1e-5 "
+           "1e-5\"/>";
     for (size_t i = 0; i < balls.size(); ++i) {
-      out << "<body name=\"ball_" << i << "\"><freejoint/><geom type=\"sphere\" size=\""
-          << balls[i] << "\" condim=\"4\" solref=\"0.005 1\"/></body>";
+      out << "<body name=\"ball_" << i << "\"><freejoint/><geom type=\"sphere\" size=\"" << balls[i]
+          << "\" condim=\"4\" solref=\"0.005 1\"/></body>";
     }
     out << "</worldbody></mujoco>\n";
   }
@@ -98,7 +100,9 @@ MujocoWorld::MujocoWorld(const fs::path& mjcf, const std::vector<double>& balls)
 
 MujocoWorld::~MujocoWorld() = default;
 
-const std::vector<std::string>& MujocoWorld::warnings() const { return model_->warnings; }
+const std::vector<std::string>& MujocoWorld::warnings() const {
+  return model_->warnings;
+}
 
 void MujocoWorld::SetPose(int body, const Eigen::Isometry3d& pose) {
   double* q = model_->data->qpos + model_->Position(body);
@@ -117,7 +121,9 @@ void MujocoWorld::Step() {
   mj_step(model_->model, model_->data);
 }
 
-double MujocoWorld::time() const { return model_->data->time; }
+double MujocoWorld::time() const {
+  return model_->data->time;
+}
 
 Eigen::Isometry3d MujocoWorld::Pose(int body) const {
   const double* q = model_->data->qpos + model_->Position(body);

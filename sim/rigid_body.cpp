@@ -31,8 +31,8 @@ RigidBody BodyFromUrdf(const assets::UrdfModel& model) {
     }
     if (!link.inertial) continue;
     const geometry::MassProperties one = geometry::Transformed(
-        poses[i], {0.0, link.inertial->mass, link.inertial->center_of_mass,
-                   link.inertial->inertia});
+        poses[i],
+        {0.0, link.inertial->mass, link.inertial->center_of_mass, link.inertial->inertia});
     total = total.mass > 0.0 ? geometry::Combined(total, one) : one;
   }
   if (body.parts.empty()) {

@@ -10,8 +10,12 @@
 namespace simwright::sim {
 namespace {
 
-btVector3 ToBullet(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-Eigen::Vector3d FromBullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+btVector3 ToBullet(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+Eigen::Vector3d FromBullet(const btVector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
 
 btTransform ToBullet(const Eigen::Isometry3d& pose) {
   const Eigen::Quaterniond q(pose.linear());
@@ -53,8 +57,7 @@ struct World::Bullet {
   }
 };
 
-World::World(const WorldOptions& options)
-    : bullet_(std::make_unique<Bullet>()), options_(options) {
+World::World(const WorldOptions& options) : bullet_(std::make_unique<Bullet>()), options_(options) {
   if (!(options.time_step > 0.0) || options.solver_iterations < 1 || !(options.margin >= 0.0)) {
     throw core::Error("a world needs a positive time step and at least one solver iteration");
   }
@@ -84,8 +87,8 @@ int World::Add(const RigidBody& body, const Eigen::Isometry3d& world_from_body) 
   }
   auto loaded = std::make_unique<LoadedBody>();
   const geometry::PrincipalInertia principal = geometry::PrincipalInertiaOf(body.inertial.inertia);
-  loaded->body_from_principal = Eigen::Translation3d(body.inertial.center_of_mass) *
-                                Eigen::Isometry3d(principal.axes);
+  loaded->body_from_principal =
+      Eigen::Translation3d(body.inertial.center_of_mass) * Eigen::Isometry3d(principal.axes);
   const Eigen::Isometry3d principal_from_body = loaded->body_from_principal.inverse();
   loaded->compound = std::make_unique<btCompoundShape>(true, static_cast<int>(body.parts.size()));
   for (const core::TriangleMesh& part : body.parts) {
@@ -102,8 +105,7 @@ int World::Add(const RigidBody& body, const Eigen::Isometry3d& world_from_body) 
     loaded->hulls.push_back(std::move(hull));
   }
   loaded->compound->setMargin(options_.margin);
-  btRigidBody::btRigidBodyConstructionInfo info(body.inertial.mass, nullptr,
-                                                loaded->compound.get(),
+  btRigidBody::btRigidBodyConstructionInfo info(body.inertial.mass, nullptr, loaded->compound.get(),
                                                 ToBullet(principal.moments));
   info.m_startWorldTransform = ToBullet(world_from_body * loaded->body_from_principal);
   info.m_friction = body.friction;
@@ -153,8 +155,7 @@ assets::Inertial World::LoadedInertial(int body) const {
   assets::Inertial inertial;
   inertial.mass = 1.0 / loaded.rigid->getInvMass();
   inertial.center_of_mass = loaded.body_from_principal.translation();
-  const Eigen::Vector3d moments =
-      FromBullet(loaded.rigid->getInvInertiaDiagLocal()).cwiseInverse();
+  const Eigen::Vector3d moments = FromBullet(loaded.rigid->getInvInertiaDiagLocal()).cwiseInverse();
   const Eigen::Matrix3d R = loaded.body_from_principal.linear();
   inertial.inertia = R * moments.asDiagonal() * R.transpose();
   return inertial;

@@ -34,10 +34,10 @@ class World {
   // One time step.
   void Step();
 
-  Eigen::Isometry3d Pose(int body) const;              // world_from_body
-  Eigen::Vector3d LinearVelocity(int body) const;      // of the centre of mass, m/s
-  Eigen::Vector3d AngularVelocity(int body) const;     // rad/s
-  double DeepestPenetration() const;                   // m, over all contacts; 0 without any
+  Eigen::Isometry3d Pose(int body) const;           // world_from_body
+  Eigen::Vector3d LinearVelocity(int body) const;   // of the centre of mass, m/s
+  Eigen::Vector3d AngularVelocity(int body) const;  // rad/s
+  double DeepestPenetration() const;                // m, over all contacts; 0 without any
   double time() const { return time_; }
 
   // The inertial as the engine holds it, back in the body's frame: what `check` compares.

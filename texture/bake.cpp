@@ -107,8 +107,9 @@ core::Image BakeTexture(const core::TriangleMesh& mesh,
       const size_t t = static_cast<size_t>(point.triangle);
       const Eigen::Vector2f uv((static_cast<float>(x) + 0.5f) / static_cast<float>(size),
                                1.0f - (static_cast<float>(y) + 0.5f) / static_cast<float>(size));
-      point.barycentric = Barycentric(uv, corner_uvs[3 * t], corner_uvs[3 * t + 1],
-                                      corner_uvs[3 * t + 2]).cwiseMax(0.0f);
+      point.barycentric =
+          Barycentric(uv, corner_uvs[3 * t], corner_uvs[3 * t + 1], corner_uvs[3 * t + 2])
+              .cwiseMax(0.0f);
       point.barycentric /= std::max(1e-12f, point.barycentric.sum());
       point.position.setZero();
       for (int k = 0; k < 3; ++k) {

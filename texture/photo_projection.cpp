@@ -60,10 +60,13 @@ core::Image ForegroundColors(const core::Image& photo, const core::Image& alpha,
 
 class PhotoPainter {
  public:
-  PhotoPainter(const core::TriangleMesh& mesh, const core::Camera& camera,
-               const core::Image& photo, const core::Image& alpha,
-               const Eigen::Hyperplane<double, 3>& mirror, const ProjectionOptions& options)
-      : mesh_(mesh), camera_(camera), mirror_(mirror), options_(options),
+  PhotoPainter(const core::TriangleMesh& mesh, const core::Camera& camera, const core::Image& photo,
+               const core::Image& alpha, const Eigen::Hyperplane<double, 3>& mirror,
+               const ProjectionOptions& options)
+      : mesh_(mesh),
+        camera_(camera),
+        mirror_(mirror),
+        options_(options),
         colors_(ForegroundColors(photo, alpha, options.edge_pixels)) {
     shape_.mesh = mesh;
     scene_.Add(&shape_);
@@ -85,8 +88,8 @@ class PhotoPainter {
   Sample Blend(const Eigen::Vector3d& position, const Eigen::Vector3d& normal) const {
     Sample front = See(position, normal);
     if (front.weight >= 1.0f) return front;
-    const Eigen::Vector3d mirrored = position - 2.0 * mirror_.signedDistance(position) *
-                                                    mirror_.normal();
+    const Eigen::Vector3d mirrored =
+        position - 2.0 * mirror_.signedDistance(position) * mirror_.normal();
     const Eigen::Vector3d mirrored_normal =
         normal - 2.0 * normal.dot(mirror_.normal()) * mirror_.normal();
     const Sample back = See(mirrored, mirrored_normal);
@@ -111,9 +114,9 @@ class PhotoPainter {
     }
     const double fade =
         std::clamp((cosine - options_.fade_to) / (options_.fade_from - options_.fade_to), 0.0, 1.0);
-    const Eigen::Vector2f uv(static_cast<float>(pixel.x()) / static_cast<float>(colors_.width),
-                             1.0f - static_cast<float>(pixel.y()) /
-                                        static_cast<float>(colors_.height));
+    const Eigen::Vector2f uv(
+        static_cast<float>(pixel.x()) / static_cast<float>(colors_.width),
+        1.0f - static_cast<float>(pixel.y()) / static_cast<float>(colors_.height));
     return {core::SampleTexture(colors_, uv).head<3>(),
             static_cast<float>(fade * fade * (3.0 - 2.0 * fade))};
   }
@@ -177,8 +180,8 @@ core::TexturedMesh ProjectPhoto(const core::TriangleMesh& mesh, const core::Came
                                 const core::Image& photo, const core::Image& alpha,
                                 const Eigen::Hyperplane<double, 3>& mirror,
                                 const ProjectionOptions& options) {
-  if (photo.width != alpha.width || photo.height != alpha.height ||
-      photo.width != camera.width || photo.height != camera.height || alpha.channels != 1) {
+  if (photo.width != alpha.width || photo.height != alpha.height || photo.width != camera.width ||
+      photo.height != camera.height || alpha.channels != 1) {
     throw core::Error("photo, matte and camera differ in size");
   }
   core::TexturedMesh textured;

@@ -220,8 +220,8 @@ std::vector<Eigen::Vector2f> Unwrapper::CornerUvs() const {
   for (const Chart& chart : charts_) {
     for (const int t : chart.triangles) {
       for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector2d pixel = (Flat(t, k) - chart.low) * density_ +
-                                      Eigen::Vector2d(chart.x + 0.5, chart.y + 0.5);
+        const Eigen::Vector2d pixel =
+            (Flat(t, k) - chart.low) * density_ + Eigen::Vector2d(chart.x + 0.5, chart.y + 0.5);
         uvs[3 * static_cast<size_t>(t) + static_cast<size_t>(k)] =
             (pixel / options_.size).cast<float>();
       }

@@ -9,8 +9,8 @@
 namespace simwright::texture {
 
 struct AtlasOptions {
-  int size = 1024;     // pixels a side; a power of two suits every renderer
-  int padding = 2;     // pixels kept free round each chart, filled by dilation when baking
+  int size = 1024;  // pixels a side; a power of two suits every renderer
+  int padding = 2;  // pixels kept free round each chart, filled by dilation when baking
 };
 
 // Texture coordinates for any mesh, each triangle with its own place in the atlas: six-way cube

@@ -158,7 +158,8 @@ void BenchImport(const std::string& name, const core::TriangleMesh& mesh,
 }
 
 int Run(int argc, char** argv) {
-  const int runs = argc > 2 && std::string(argv[1]) == "--runs" ? std::max(1, std::atoi(argv[2])) : 3;
+  const int runs =
+      argc > 2 && std::string(argv[1]) == "--runs" ? std::max(1, std::atoi(argv[2])) : 3;
   const fs::path folder =
       fs::temp_directory_path() / ("simwright_stage_shares_" + std::to_string(::getpid()));
   fs::create_directories(folder);

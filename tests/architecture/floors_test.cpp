@@ -12,11 +12,12 @@ namespace simwright {
 namespace {
 namespace fs = std::filesystem;
 
-const std::map<std::string, int> kFloor = {
-    {"core", 0},       {"geometry", 1}, {"nn", 1},         {"render", 1}, {"llm", 1},
-    {"texture", 2},    {"physics_params", 2},              {"asset_lift", 3}, {"assets", 3},
-    {"library", 4},    {"robot", 4},    {"sim", 5},        {"tasks", 6},  {"scene", 6},
-    {"rl", 7},         {"pipeline", 8}, {"cli", 9}};
+const std::map<std::string, int> kFloor = {{"core", 0},           {"geometry", 1},   {"nn", 1},
+                                           {"render", 1},         {"llm", 1},        {"texture", 2},
+                                           {"physics_params", 2}, {"asset_lift", 3}, {"assets", 3},
+                                           {"library", 4},        {"robot", 4},      {"sim", 5},
+                                           {"tasks", 6},          {"scene", 6},      {"rl", 7},
+                                           {"pipeline", 8},       {"cli", 9}};
 
 // Include pattern -> where it may stand: a module, or a file's stem below one.
 struct Door {

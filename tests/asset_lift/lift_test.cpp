@@ -41,9 +41,8 @@ core::Image Photograph(const core::TexturedMesh& mesh, double elevation, int siz
   scene.Add(&mesh);
   scene.Commit();
   const Eigen::AlignedBox3d box = core::Bounds(mesh.mesh);
-  const core::Camera camera =
-      core::OrbitCamera(box.center(), 1.9 * box.diagonal().norm(), elevation, -M_PI / 2, kFov,
-                        size, size);
+  const core::Camera camera = core::OrbitCamera(box.center(), 1.9 * box.diagonal().norm(),
+                                                elevation, -M_PI / 2, kFov, size, size);
   render::ForwardOptions options;
   options.shaded = true;
   options.samples_per_side = 3;
@@ -81,8 +80,8 @@ TEST(Lift, ACylinderComesBackAsOne) {
 TEST(Lift, EstimatesTheElevationOfAPot) {
   for (const double elevation : {0.2, 0.4, 0.6}) {
     core::Progress progress;
-    const LiftedMesh lifted = LiftPhoto(Photograph(Cylinder(0.04, 0.1), elevation, 300), PotPrior(),
-                                        {}, &progress);
+    const LiftedMesh lifted =
+        LiftPhoto(Photograph(Cylinder(0.04, 0.1), elevation, 300), PotPrior(), {}, &progress);
     EXPECT_NEAR(lifted.elevation.elevation, elevation, 0.175) << elevation;
   }
 }
@@ -126,7 +125,7 @@ TEST(Segmentation, FindsABrightDiscOnATexturedGround) {
   double both = 0, either = 0;
   for (int y = 0; y < 200; ++y) {
     for (int x = 0; x < 240; ++x) {
-      const bool truth = std::hypot(x - 125.0, y - 95.0) < 55, found = matte.alpha.At(x, y)[0] > 127;
+      const bool truth = std::hypot(x - 125.0, y - 95.0)<55, found = matte.alpha.At(x, y)[0]> 127;
       both += truth && found;
       either += truth || found;
     }
@@ -136,8 +135,8 @@ TEST(Segmentation, FindsABrightDiscOnATexturedGround) {
 
 TEST(Segmentation, SaysWhyThereIsNoObject) {
   EXPECT_THROW(SegmentObject(core::Image(1, 1, 3), {}), core::Error);
-  EXPECT_THROW(SegmentObject(core::Image(100, 100, 4), {}), core::Error);         // transparent
-  EXPECT_THROW(SegmentObject(core::Image(100, 100, 3, 128), {}), core::Error);    // uniform
+  EXPECT_THROW(SegmentObject(core::Image(100, 100, 4), {}), core::Error);       // transparent
+  EXPECT_THROW(SegmentObject(core::Image(100, 100, 3, 128), {}), core::Error);  // uniform
   core::Image two(200, 100, 4);
   for (int y = 20; y < 80; ++y) {
     for (int x : {30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 150, 151, 152, 153, 154, 155, 156, 157}) {

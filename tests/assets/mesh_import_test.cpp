@@ -34,8 +34,8 @@ class MeshFiles : public ::testing::Test {
     int code = 0;
     zip_t* archive = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
     for (const auto& [name, text] : entries) {
-      zip_file_add(archive, name.c_str(),
-                   zip_source_buffer(archive, text.data(), text.size(), 0), 0);
+      zip_file_add(archive, name.c_str(), zip_source_buffer(archive, text.data(), text.size(), 0),
+                   0);
     }
     EXPECT_EQ(zip_close(archive), 0);
     return path;
@@ -89,8 +89,8 @@ TEST_F(MeshFiles, TexturesOutsideTheFolderAreLeftOut) {
   core::Image image(2, 2, 3, 128);
   core::WritePng(folder_ / "secret.png", image);
   std::ofstream(folder_ / "in" / "m.mtl") << "newmtl m\nKd 1 1 1\nmap_Kd ../secret.png\n";
-  std::ofstream(folder_ / "in" / "m.obj")
-      << "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n";
+  std::ofstream(folder_ / "in" / "m.obj") << "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt "
+                                             "1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n";
   std::vector<std::string> warnings;
   const core::TexturedMesh mesh = ReadMesh(
       folder_ / "in" / "m.obj", [&](const std::string& text) { warnings.push_back(text); });
@@ -116,8 +116,8 @@ TEST_F(MeshFiles, BadCataloguesAreOneErrorEach) {
   EXPECT_THROW(FurnitureCatalogue(Zip({{"PluginFurnitureCatalog.properties", "id#1=a\n"},
                                        {"../climbs/out.obj", "x"}})),
                core::Error);
-  const FurnitureCatalogue missing(Zip({{"PluginFurnitureCatalog.properties",
-                                         "id#1=a\nname#1=A\nmodel#1=/none.obj\n"}}));
+  const FurnitureCatalogue missing(
+      Zip({{"PluginFurnitureCatalog.properties", "id#1=a\nname#1=A\nmodel#1=/none.obj\n"}}));
   EXPECT_THROW(missing.Extract(missing.pieces()[0], folder_), core::Error);
 }
 

@@ -35,7 +35,8 @@ class Urdf : public ::testing::Test {
   static std::string Link(const std::string& name, const std::string& mesh, double mass = 1.0) {
     return "<link name=\"" + name + "\"><inertial><mass value=\"" + std::to_string(mass) +
            "\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial>"
-           "<collision><geometry><mesh filename=\"" + mesh + "\"/></geometry></collision></link>";
+           "<collision><geometry><mesh filename=\"" +
+           mesh + "\"/></geometry></collision></link>";
   }
   // The error's text, empty when there was none.
   std::string ErrorOf(const fs::path& path) {
@@ -79,7 +80,8 @@ TEST_F(Urdf, RefusesMeshesBeyondItsRoot) {
 
 TEST_F(Urdf, RefusesLoopsMissingLinksAndImpossibleMasses) {
   const std::string box = "../meshes/box.obj";
-  const std::string joint = "<joint name=\"%\" type=\"fixed\"><parent link=\"@\"/><child link=\"#\"/></joint>";
+  const std::string joint =
+      "<joint name=\"%\" type=\"fixed\"><parent link=\"@\"/><child link=\"#\"/></joint>";
   const auto joined = [&](std::string name, std::string parent, std::string child) {
     std::string text = joint;
     text.replace(text.find('%'), 1, name);
@@ -88,7 +90,9 @@ TEST_F(Urdf, RefusesLoopsMissingLinksAndImpossibleMasses) {
     return text;
   };
   EXPECT_NE(ErrorOf(Write(Link("a", box) + Link("b", box) + joined("j", "a", "b") +
-                          joined("k", "b", "a"))).find("loop"), std::string::npos);
+                          joined("k", "b", "a")))
+                .find("loop"),
+            std::string::npos);
   EXPECT_NE(ErrorOf(Write(Link("a", box) + joined("j", "a", "ghost"))).find("ghost"),
             std::string::npos);
   EXPECT_NE(ErrorOf(Write(Link("a", box, -1.0))).find("mass"), std::string::npos);
@@ -97,8 +101,9 @@ TEST_F(Urdf, RefusesLoopsMissingLinksAndImpossibleMasses) {
 
 TEST_F(Urdf, RefusesEntityBombsAndWhatIsNoUrdf) {
   const fs::path path = root_ / "bomb.urdf";
-  std::ofstream(path) << "<?xml version=\"1.0\"?><!DOCTYPE lolz [<!ENTITY a \"ha\">"
-                         "<!ENTITY b \"&a;&a;&a;&a;\">]><robot name=\"&b;\"><link name=\"l\"/></robot>";
+  std::ofstream(path)
+      << "<?xml version=\"1.0\"?><!DOCTYPE lolz [<!ENTITY a \"ha\">"
+         "<!ENTITY b \"&a;&a;&a;&a;\">]><robot name=\"&b;\"><link name=\"l\"/></robot>";
   EXPECT_NE(ErrorOf(path).find("DOCTYPE"), std::string::npos);
   std::ofstream(path) << "not xml at all";
   EXPECT_NE(ErrorOf(path).find("XML"), std::string::npos);

@@ -20,9 +20,7 @@ class Files : public ::testing::Test {
     fs::create_directories(root_);
   }
   void TearDown() override { fs::remove_all(root_); }
-  int Entries() const {
-    return static_cast<int>(std::distance(fs::directory_iterator(root_), {}));
-  }
+  int Entries() const { return static_cast<int>(std::distance(fs::directory_iterator(root_), {})); }
   fs::path root_;
 };
 

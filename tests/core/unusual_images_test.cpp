@@ -1,11 +1,11 @@
 // Pictures as cameras, printers and the web leave them: CMYK, 16 bits a channel, animated. Each is
 // written by the format's own library.
-#include <gtest/gtest.h>
-#include <cstdio>  // jpeglib.h wants FILE
 #include <gif_lib.h>
+#include <gtest/gtest.h>
 #include <jpeglib.h>
 #include <webp/encode.h>
 #include <webp/mux.h>
+#include <cstdio>  // jpeglib.h wants FILE
 
 #include <array>
 #include <cstdlib>
@@ -85,7 +85,8 @@ TEST(UnusualImage, AnAnimatedGifGivesItsFirstFrame) {
   GifFileType* gif = EGifOpen(&bytes, Collect, &error);
   ASSERT_NE(gif, nullptr);
   EGifSetGifVersion(gif, true);
-  const std::array<GifColorType, 4> colours = {{{200, 30, 40}, {10, 220, 30}, {0, 0, 0}, {9, 9, 9}}};
+  const std::array<GifColorType, 4> colours = {
+      {{200, 30, 40}, {10, 220, 30}, {0, 0, 0}, {9, 9, 9}}};
   ColorMapObject* map = GifMakeMapObject(4, colours.data());
   ASSERT_EQ(EGifPutScreenDesc(gif, kSide, kSide, 2, 0, map), GIF_OK);
   for (const GifPixelType frame : {0, 1}) {

@@ -1,5 +1,5 @@
-#include "geometry/cluster_vertices.h"
 #include "geometry/simplify.h"
+#include "geometry/cluster_vertices.h"
 
 #include <cmath>
 #include <numbers>

@@ -152,12 +152,14 @@ TEST_F(CommandLine, BadUrdfsAreRefused) {
   };
   ExpectRefused(check("loop.urdf", links + joint("j", "a", "b") + joint("k", "b", "a")), "loop");
   ExpectRefused(check("gone.urdf", links + joint("j", "a", "c")), "c");
-  ExpectRefused(check("light.urdf", "<link name='a'><inertial><mass value='-1'/><inertia ixx='1' "
-                                    "iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>"),
+  ExpectRefused(check("light.urdf",
+                      "<link name='a'><inertial><mass value='-1'/><inertia ixx='1' "
+                      "iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>"),
                 "mass");
-  ExpectRefused(check("away.urdf", "<link name='a'><collision><geometry><mesh "
-                                   "filename='../../../../etc/passwd'/></geometry></collision>"
-                                   "</link>"),
+  ExpectRefused(check("away.urdf",
+                      "<link name='a'><collision><geometry><mesh "
+                      "filename='../../../../etc/passwd'/></geometry></collision>"
+                      "</link>"),
                 "outside");
   std::string bomb = "<!DOCTYPE robot [<!ENTITY a0 'ha'>";
   for (int i = 1; i < 30; ++i) {
@@ -169,10 +171,12 @@ TEST_F(CommandLine, BadUrdfsAreRefused) {
 
 // A photo of 12 megapixels is scaled down: it takes no longer than a small one.
 TEST_F(CommandLine, LargePhotosAreOrdinary) {
-  Write("large.jpg", core::EncodeJpeg(core::Resize(core::ReadImage(
-                         SIMWRIGHT_SOURCE_DIR "/examples/apple.jpg"), 4000, 3000), 90));
-  const Outcome outcome = RunProgram("lift " + (folder_ / "large.jpg").string() +
-                                     " --category apple -o " + Out());
+  Write("large.jpg",
+        core::EncodeJpeg(
+            core::Resize(core::ReadImage(SIMWRIGHT_SOURCE_DIR "/examples/apple.jpg"), 4000, 3000),
+            90));
+  const Outcome outcome =
+      RunProgram("lift " + (folder_ / "large.jpg").string() + " --category apple -o " + Out());
   EXPECT_EQ(outcome.code, 0) << outcome.text;
 }
 
@@ -230,7 +234,8 @@ TEST_F(CommandLine, WrongUsageIsExitTwo) {
 
 TEST_F(CommandLine, OneOpenFaceBecomesASheetWithAWall) {
   const std::string mesh = Write("sheet.obj", "v 0 0 0\nv 0.2 0 0\nv 0 0.2 0\nf 1 2 3\n");
-  const Outcome outcome = RunProgram("import " + mesh + " --category tray -o " + Out() + " --no-check");
+  const Outcome outcome =
+      RunProgram("import " + mesh + " --category tray -o " + Out() + " --no-check");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   const std::string json = core::ReadFile(folder_ / "out" / "sheet" / "asset.json");
   EXPECT_NE(json.find("sheet_thickness_m"), std::string::npos);
@@ -245,6 +250,8 @@ TEST_F(CommandLine, AnExistingOutputIsKeptUnlessForced) {
   const std::string marked = core::ReadFile(file);
   ExpectRefused(import, "--force");
   EXPECT_EQ(core::ReadFile(file), marked);
+  EXPECT_EQ(RunProgram(import + " --resume --quiet").code, 0);
+  EXPECT_EQ(core::ReadFile(file), marked);
   EXPECT_EQ(RunProgram(import + " --force --quiet").code, 0);
   EXPECT_NE(core::ReadFile(file), marked);
 }
@@ -258,8 +265,9 @@ TEST_F(CommandLine, AFullDiskLeavesNothing) {
 TEST_F(CommandLine, TheSameSeedGivesTheSameBytes) {
   Write("disc.png", core::EncodePng(DiscPhoto(160)));
   for (const char* name : {"a/disc", "b/disc"}) {
-    const Outcome outcome = RunProgram("lift " + (folder_ / "disc.png").string() +
-                                " --category orange --seed 7 -o " + (folder_ / name).string());
+    const Outcome outcome =
+        RunProgram("lift " + (folder_ / "disc.png").string() + " --category orange --seed 7 -o " +
+                   (folder_ / name).string());
     ASSERT_EQ(outcome.code, 0) << outcome.text;
   }
   int files = 0;
@@ -274,11 +282,14 @@ TEST_F(CommandLine, TheSameSeedGivesTheSameBytes) {
 
 TEST_F(CommandLine, LiftedAndImportedAssetsPassTheirCheck) {
   Write("disc.png", core::EncodePng(DiscPhoto(160)));
-  ASSERT_EQ(RunProgram("lift " + (folder_ / "disc.png").string() + " --category orange -o " + Out()).code, 0);
+  ASSERT_EQ(
+      RunProgram("lift " + (folder_ / "disc.png").string() + " --category orange -o " + Out()).code,
+      0);
   const Outcome check = RunProgram("check " + Out());
   EXPECT_EQ(check.code, 0) << check.text;
   const std::string mesh = Write("crate.obj", assets::ObjText(assets::BoxMesh({0.3, 0.2, 0.25})));
-  const Outcome import = RunProgram("import " + mesh + " --category crate -o " + (folder_ / "m").string());
+  const Outcome import =
+      RunProgram("import " + mesh + " --category crate -o " + (folder_ / "m").string());
   EXPECT_EQ(import.code, 0) << import.text;
 }
 

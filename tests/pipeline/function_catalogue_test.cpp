@@ -8,10 +8,10 @@
 
 #include "assets/asset_folder.h"
 #include "geometry/distance.h"
-#include "tests/pipeline/openings.h"
 #include "pipeline/import.h"
 #include "sim/mujoco.h"
 #include "sim/world.h"
+#include "tests/pipeline/openings.h"
 
 namespace simwright::pipeline {
 namespace {
@@ -37,8 +37,7 @@ class Function : public ::testing::TestWithParam<Piece> {
     options.only = GetParam().name;
     options.limit = 1;
     core::Progress progress;
-    const auto outcomes =
-        ImportAll(ListImports({catalogue}, options), folder_, options, &progress);
+    const auto outcomes = ImportAll(ListImports({catalogue}, options), folder_, options, &progress);
     ASSERT_EQ(outcomes.size(), 1u);
     ASSERT_EQ(outcomes[0].refusal, "");
     asset_ = assets::ReadAsset(outcomes[0].folder);
@@ -110,8 +109,8 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, Holds,
                                            Piece{"KatorLegaz", "Coffee mug"},
                                            Piece{"KatorLegaz", "Bowl"}),
                          NameOf);
-INSTANTIATE_TEST_SUITE_P(Catalogue, LetsThrough, ::testing::Values(Piece{"KatorLegaz", "Coffee mug"}),
-                         NameOf);
+INSTANTIATE_TEST_SUITE_P(Catalogue, LetsThrough,
+                         ::testing::Values(Piece{"KatorLegaz", "Coffee mug"}), NameOf);
 
 }  // namespace
 }  // namespace simwright::pipeline

@@ -21,9 +21,10 @@ RigidBody Box(const Eigen::Vector3d& size, double mass) {
   body.name = "box";
   body.parts = {assets::BoxMesh(size)};
   const Eigen::Vector3d s2 = size.cwiseAbs2();
-  body.inertial = {mass, Eigen::Vector3d::Zero(),
-                   (mass / 12.0 * Eigen::Vector3d(s2.y() + s2.z(), s2.x() + s2.z(), s2.x() + s2.y()))
-                       .asDiagonal()};
+  body.inertial = {
+      mass, Eigen::Vector3d::Zero(),
+      (mass / 12.0 * Eigen::Vector3d(s2.y() + s2.z(), s2.x() + s2.z(), s2.x() + s2.y()))
+          .asDiagonal()};
   return body;
 }
 
@@ -113,7 +114,9 @@ TEST_F(Mujoco, AgreesWithBulletAtRest) {
   EXPECT_NEAR(bullet.rest_pose.translation().z(), mujoco.rest_pose.translation().z(), 1e-3);
 }
 
-TEST_F(Mujoco, MissingFileIsAnError) { EXPECT_THROW(MujocoWorld(folder_ / "none.xml"), core::Error); }
+TEST_F(Mujoco, MissingFileIsAnError) {
+  EXPECT_THROW(MujocoWorld(folder_ / "none.xml"), core::Error);
+}
 
 }  // namespace
 }  // namespace simwright::sim
