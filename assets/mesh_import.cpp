@@ -79,6 +79,52 @@ class HeldFile : public Assimp::IOStream {
 };
 
 // Opens files inside one folder alone: a material library or buffer elsewhere is "not there".
+std::string LowerEnding(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+// Whether an OBJ statement is a point, a line, or a face of fewer than three corners.
+bool HasNoFace(std::string_view statement) {
+  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\\'; };
+  int words = 0;
+  char keyword = 0;
+  for (size_t i = 0; i < statement.size();) {
+    while (i < statement.size() && (is_space(statement[i]) || statement[i] == '\n')) ++i;
+    const size_t start = i;
+    while (i < statement.size() && !is_space(statement[i]) && statement[i] != '\n') ++i;
+    if (i == start) break;
+    if (words++ > 0) continue;
+    if (i - start > 1) return false;
+    keyword = statement[start];
+  }
+  return keyword == 'l' || keyword == 'p' || (keyword == 'f' && words < 4);
+}
+
+// Spaces over an OBJ's points and lines: Assimp 5.2 puts them into one mesh with the faces, and its
+// own validation then refuses the file.
+void BlankLinesAndPoints(std::string* text) {
+  for (size_t start = 0; start < text->size();) {
+    const auto line_end = [&](size_t from) {
+      return std::min(text->find('\n', from), text->size());
+    };
+    size_t end = line_end(start);
+    // A backslash carries a statement on to the next line.
+    while (end > start && end < text->size() &&
+           ((*text)[end - 1] == '\\' ||
+            (end > start + 1 && (*text)[end - 1] == '\r' && (*text)[end - 2] == '\\'))) {
+      end = line_end(end + 1);
+    }
+    if (HasNoFace(std::string_view(*text).substr(start, end - start))) {
+      std::fill(text->begin() + static_cast<std::ptrdiff_t>(start),
+                text->begin() + static_cast<std::ptrdiff_t>(end), ' ');
+    }
+    start = end + 1;
+  }
+}
+
 class FolderIo : public Assimp::DefaultIOSystem {
  public:
   explicit FolderIo(fs::path root) : root_(std::move(root)) {}
@@ -88,7 +134,9 @@ class FolderIo : public Assimp::DefaultIOSystem {
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     if (!Inside(file) || std::strchr(mode, 'w') != nullptr) return nullptr;
     try {
-      return new HeldFile(core::ReadFile(file));  // Assimp closes, and so deletes it
+      std::string bytes = core::ReadFile(file);
+      if (LowerEnding(file) == ".obj") BlankLinesAndPoints(&bytes);
+      return new HeldFile(std::move(bytes));  // Assimp closes, and so deletes it
     } catch (const core::Error&) {
       return nullptr;
     }
@@ -254,13 +302,6 @@ void Collector::AddNode(const aiNode& node, const aiMatrix4x4& parent, int depth
     AddMesh(mesh, placed, name.empty() ? "part" : name);
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) AddNode(*node.mChildren[i], placed, depth + 1);
-}
-
-std::string LowerEnding(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
 }
 
 }  // namespace

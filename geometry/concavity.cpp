@@ -232,14 +232,17 @@ DecompositionQuality MeasureDecomposition(const core::TriangleMesh& solid,
   const TriangleTree parts_tree(all_parts);
 
   DecompositionQuality quality;
-  std::vector<double> to_parts(on_solid.size()), to_solid(on_parts.size());
+  std::vector<double> to_parts(on_solid.size()), outside(on_solid.size(), 0.0);
+  std::vector<double> to_solid(on_parts.size());
   core::ParallelFor(static_cast<int>(on_solid.size() + kBlock - 1) / kBlock, [&](int b) {
     const std::size_t end = std::min(on_solid.size(), static_cast<std::size_t>(b + 1) * kBlock);
     for (std::size_t i = static_cast<std::size_t>(b) * kBlock; i < end; ++i) {
       const Vector3d& p = on_solid[i];
-      to_parts[i] = set.Holds(p, 0.0, -1)
-                        ? set.WayOut(p, options.coverage_tolerance * diagonal, grid.Distance(p))
-                        : parts_tree.Closest(p).distance;
+      if (set.Holds(p, 0.0, -1)) {
+        to_parts[i] = set.WayOut(p, options.coverage_tolerance * diagonal, grid.Distance(p));
+      } else {
+        to_parts[i] = outside[i] = parts_tree.Closest(p).distance;
+      }
     }
   });
   core::ParallelFor(static_cast<int>(on_parts.size() + kBlock - 1) / kBlock, [&](int b) {
@@ -248,6 +251,7 @@ DecompositionQuality MeasureDecomposition(const core::TriangleMesh& solid,
       to_solid[i] = tree.Closest(on_parts[i]).distance;
     }
   });
+  quality.uncovered = *std::max_element(outside.begin(), outside.end()) / diagonal;
   if (!on_parts.empty()) {
     quality.solid_to_parts = *std::max_element(to_parts.begin(), to_parts.end()) / diagonal;
     quality.parts_to_solid = *std::max_element(to_solid.begin(), to_solid.end()) / diagonal;
@@ -275,10 +279,10 @@ double HausdorffToHull(const core::TriangleMesh& mesh, const core::TriangleMesh&
   const TriangleTree mesh_tree(mesh), hull_tree(hull);
   double farthest = 0.0;
   for (const Vector3d& p : SampleSurface(hull, samples, seed)) {
-    farthest = std::max(farthest, mesh_tree.Closest(p).distance);
+    if (!mesh_tree.Within(p, farthest)) farthest = mesh_tree.Closest(p).distance;
   }
   for (const Vector3d& p : SampleSurface(mesh, samples, seed + 1)) {
-    farthest = std::max(farthest, hull_tree.Closest(p).distance);
+    if (!hull_tree.Within(p, farthest)) farthest = hull_tree.Closest(p).distance;
   }
   return farthest;
 }

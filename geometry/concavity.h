@@ -20,6 +20,7 @@ struct ConcavityOptions {
 struct DecompositionQuality {
   double concavity = 0.0;       // the larger of the two distances below
   double solid_to_parts = 0.0;  // largest distance of a point on the solid to the union's surface
+  double uncovered = 0.0;  // largest distance of a point on the solid to the union: 0 inside it
   double parts_to_solid = 0.0;  // largest distance of a point on the union's surface to the solid
   double mean_parts_to_solid = 0.0;
   double volume_error = 0.0;    // volume of the symmetric difference

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "geometry/exact_hull.h"
 #include "geometry/quickhull.h"
 
 namespace simwright::geometry {
@@ -19,6 +20,8 @@ using Eigen::Vector3d;
 constexpr double kOnFace = 1e-7;  // of the diagonal; stated in the header
 constexpr double kFlat = 1e-6;    // of the diagonal; stated in the header
 constexpr int kMostLeftOut = 40;  // at each tolerance
+// Of so many points the exact hull is sooner made than a rounded one is mended.
+constexpr std::size_t kMany = 1000;
 
 double DiagonalOf(const std::vector<Vector3d>& points) {
   Eigen::AlignedBox3d box;
@@ -50,8 +53,10 @@ std::optional<core::TriangleMesh> TryHullAsIs(std::vector<Vector3d> points, doub
                                               int max_vertices) {
   // A nearly degenerate set is mended by leaving out points that lie all but on the line between
   // two others; where that does not do, by a coarser notion of "on the face".
+  const int most_left_out = points.size() > kMany ? 1 : kMostLeftOut;
   for (const double tolerance : {kOnFace, 1e-6, 1e-5, 1e-4, 1e-3}) {
-    for (int left_out = 0; left_out < kMostLeftOut && points.size() >= 4; ++left_out) {
+    if (tolerance > 1e-6 && points.size() > kMany) break;
+    for (int left_out = 0; left_out < most_left_out && points.size() >= 4; ++left_out) {
       Quickhull hull(points, diagonal, tolerance * diagonal);
       if (!hull.Start()) return std::nullopt;
       hull.Grow(max_vertices);
@@ -78,13 +83,16 @@ std::optional<core::TriangleMesh> TryHull(const std::vector<Vector3d>& points, d
   for (const Vector3d& p : points) {
     stretched.push_back((frame.transpose() * p - box.center()).cwiseQuotient(box.sizes()));
   }
-  auto hull = TryHullAsIs(std::move(stretched), std::sqrt(3.0), max_vertices);
-  if (hull) {
+  if (auto hull = TryHullAsIs(std::move(stretched), std::sqrt(3.0), max_vertices)) {
     for (Vector3d& v : hull->vertices) {
       v = frame * (v.cwiseProduct(box.sizes()) + box.center());
     }
+    return hull;
   }
-  return hull;
+  // Thousands of points on nearly flat faces are past what rounded planes can tell.
+  core::TriangleMesh exact = ExactHull(points, max_vertices);
+  if (exact.empty()) return std::nullopt;
+  return exact;
 }
 
 void RequireLimit(int max_vertices) {

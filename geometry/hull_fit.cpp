@@ -95,8 +95,8 @@ bool HullFit::Outside(const Vector3d& p) const {
 double HullFit::Overhang(const core::TriangleMesh& hull, double enough) const {
   double farthest = 0.0;
   VisitSurface(hull, kHullPoints, [&](const Vector3d& p) {
-    const double distance = tree_.Closest(p).distance;
-    if (distance > farthest && Outside(p)) farthest = distance;
+    // Most points are nearer than the farthest so far, which takes less to find than how near.
+    if (!tree_.Within(p, farthest) && Outside(p)) farthest = tree_.Closest(p).distance;
     return farthest <= enough;
   });
   return farthest;

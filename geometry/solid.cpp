@@ -9,6 +9,7 @@
 #include "core/progress.h"
 #include "geometry/alpha_wrap.h"
 #include "geometry/cluster_vertices.h"
+#include "geometry/hidden_sights.h"
 #include "geometry/nesting.h"
 #include "geometry/simplify.h"
 #include "geometry/soundness.h"
@@ -113,12 +114,17 @@ struct Effort {
   int rays;         // lines of sight: more find hollows that few of them enter
   bool carves;      // opens lines of sight that the walls of sheets buried, too
 };
-constexpr Effort kEfforts[] = {{1.0, 100000, false}, {1.6, 200000, false}, {1.6, 500000, true}};
+constexpr Effort kEfforts[] = {{1.0, 100000, false},
+                               {1.6, 200000, false},
+                               {1.6, 500000, true},
+                               {1.6, 500000, true}};
 // Share of the tolerance at which a wrap is good enough: other rays find somewhat more.
 constexpr double kGoodEnough = 0.96;
+constexpr double kDoubtful = 0.7;  // share of the tolerance from which a place is looked into
 
-// One wrap of `unit`, a mesh of diagonal 1.
-Wrapped WrapOnce(const TriangleMesh& unit, const Effort& effort, const SolidOptions& options) {
+// One wrap of `unit`, a mesh of diagonal 1. `sights` are lines of sight beyond the random ones.
+Wrapped WrapOnce(const TriangleMesh& unit, const Effort& effort,
+                 const std::vector<OuterHit>& sights, const SolidOptions& options) {
   const double fineness = effort.fineness;
   SurfaceWrapOptions wrap_options;
   wrap_options.wall = options.sheet_thickness_ratio / fineness;
@@ -126,6 +132,7 @@ Wrapped WrapOnce(const TriangleMesh& unit, const Effort& effort, const SolidOpti
   while (WrapGridNodes(unit, wrap_options) > options.max_nodes) wrap_options.cell *= 1.1;
   wrap_options.closing = wrap_options.cell;
   wrap_options.seen = SampleOuterHits(unit, effort.rays, 7);
+  wrap_options.seen.insert(wrap_options.seen.end(), sights.begin(), sights.end());
   if (effort.carves) wrap_options.reach = 0.7 * options.tolerance_ratio;
   const SurfaceWrap wrap = WrapSurface(unit, wrap_options);
   if (wrap.mesh.empty()) {
@@ -140,9 +147,28 @@ Wrapped WrapOnce(const TriangleMesh& unit, const Effort& effort, const SolidOpti
   wrapped.wall = wrap_options.wall;
   SurfaceDistanceOptions check;
   check.seed = 11;  // other rays than those the wrap was led by
-  check.rays = 150000;
+  check.rays = 400000;
+  check.solid_samples = 200000;
   wrapped.distance = OuterSurfaceDistance(unit, wrapped.mesh, check).MaxRatio();
   return wrapped;
+}
+
+// Lines of sight into the places where a wrap is no longer close: what is beyond the tolerance is
+// often nearby, and so narrow that random lines miss it.
+std::vector<OuterHit> Doubtful(const TriangleMesh& unit, const Wrapped& wrapped, std::uint64_t seed,
+                               const SolidOptions& options) {
+  HiddenSightOptions hidden;
+  hidden.reach = kDoubtful * options.tolerance_ratio;
+  if (wrapped.distance <= hidden.reach) return {};
+  hidden.radius = 4.0 * options.tolerance_ratio;
+  hidden.seed = seed;
+  return HiddenSights(unit, wrapped.mesh, hidden);
+}
+
+double FarthestFrom(const TriangleMesh& mesh, const std::vector<Vector3d>& points) {
+  double farthest = 0.0;
+  for (const double d : DistancesToSurface(points, mesh)) farthest = std::max(farthest, d);
+  return farthest;
 }
 
 void WrapSolid(const TriangleMesh& welded, const Vector3d& center, double diagonal,
@@ -153,10 +179,18 @@ void WrapSolid(const TriangleMesh& welded, const Vector3d& center, double diagon
   }
   Wrapped wrapped;
   wrapped.distance = std::numeric_limits<double>::infinity();
+  std::vector<OuterHit> sights;
   for (const Effort& effort : kEfforts) {
-    if (wrapped.distance <= kGoodEnough * options.tolerance_ratio) break;
-    Wrapped next = WrapOnce(unit, effort, options);
+    Wrapped next = WrapOnce(unit, effort, sights, options);
+    const std::vector<OuterHit> more = Doubtful(unit, next, 100 + sights.size(), options);
+    std::vector<Vector3d> looked_at;
+    for (const OuterHit& hit : more) looked_at.push_back(hit.point);
+    // The solid lies farthest from what is seen at one of its corners, as a rule.
+    next.distance = std::max({next.distance, FarthestFrom(next.mesh, looked_at),
+                              FarthestFrom(unit, next.mesh.vertices)});
+    sights.insert(sights.end(), more.begin(), more.end());
     if (next.distance < wrapped.distance) wrapped = std::move(next);
+    if (wrapped.distance <= kGoodEnough * options.tolerance_ratio) break;
   }
   TriangleMesh mesh = std::move(wrapped.mesh);
   for (Vector3d& v : mesh.vertices) v = center + diagonal * v;

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "geometry/convex_hull.h"
+#include "geometry/plane_hull.h"
 
 namespace simwright::geometry {
 namespace {
@@ -180,31 +181,6 @@ StablePose PoseOn(const Facet& facet, const Vector3d& center) {
   pose.resting_from_body.translation() =
       Vector3d(0.0, 0.0, facet.height) - turn.toRotationMatrix() * center;
   return pose;
-}
-
-// Counter-clockwise hull (Andrew's monotone chain), without collinear points.
-std::vector<Vector2d> PlaneHull(std::vector<Vector2d> points) {
-  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
-    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-  });
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return points;
-  std::vector<Vector2d> hull;
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::size_t start = hull.size();
-    for (const Vector2d& p : points) {
-      while (hull.size() >= start + 2) {
-        const Vector2d a = hull.back() - hull[hull.size() - 2];
-        const Vector2d b = p - hull.back();
-        if (a.x() * b.y() - a.y() * b.x() > 0.0) break;
-        hull.pop_back();
-      }
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
 }
 
 }  // namespace

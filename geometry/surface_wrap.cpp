@@ -234,7 +234,7 @@ class Wrapper {
     constexpr int kBlock = 1024;
     core::ParallelFor((count + kBlock - 1) / kBlock, [&](int block) {
       for (int h = block * kBlock; h < std::min(count, (block + 1) * kBlock); ++h) {
-        buried[h] = tree.Closest(options_.seen[h].point, options_.reach).triangle < 0;
+        buried[h] = !tree.Within(options_.seen[h].point, options_.reach);
       }
     });
     std::vector<std::size_t> carved;

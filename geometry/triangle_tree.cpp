@@ -167,28 +167,21 @@ void TriangleTree::Build() {
   }
 }
 
-SurfacePoint TriangleTree::Closest(const Vector3d& p, double reach) const {
-  SurfacePoint best;
-  if (nodes_.empty()) return best;
-  double best_squared = reach * reach;
+template <typename Visit>
+void TriangleTree::VisitNear(const Vector3d& p, const double& reach_squared, Visit visit) const {
+  if (nodes_.empty()) return;
   std::array<std::pair<int, double>, kMaxDepth> stack;
   int top = 0;
   stack[top++] = {0, BoxDistanceSquared(p, nodes_[0].low, nodes_[0].high)};
   while (top > 0) {
     const auto [index, bound] = stack[--top];
-    if (bound > best_squared) continue;
+    if (bound > reach_squared) continue;
     const Node& node = nodes_[index];
     if (node.count > 0) {
       for (int i = node.first; i < node.first + node.count; ++i) {
         const Vector3d* c = &corners_[3 * static_cast<std::size_t>(i)];
         const Vector3d q = ClosestPointOnTriangle(p, c[0], c[1], c[2]);
-        const double squared = (q - p).squaredNorm();
-        if (squared < best_squared ||
-            (squared == best_squared && (best.triangle < 0 || order_[i] < best.triangle))) {
-          best_squared = squared;
-          best.point = q;
-          best.triangle = order_[i];
-        }
+        if (!visit(q, (q - p).squaredNorm(), order_[i])) return;
       }
       continue;
     }
@@ -199,11 +192,35 @@ SurfacePoint TriangleTree::Closest(const Vector3d& p, double reach) const {
     const bool left_first = dl <= dr;
     const std::pair<int, double> far = left_first ? std::pair{right, dr} : std::pair{left, dl};
     const std::pair<int, double> near = left_first ? std::pair{left, dl} : std::pair{right, dr};
-    if (far.second <= best_squared) stack[top++] = far;
-    if (near.second <= best_squared) stack[top++] = near;
+    if (far.second <= reach_squared) stack[top++] = far;
+    if (near.second <= reach_squared) stack[top++] = near;
   }
+}
+
+SurfacePoint TriangleTree::Closest(const Vector3d& p, double reach) const {
+  SurfacePoint best;
+  double best_squared = reach * reach;
+  VisitNear(p, best_squared, [&](const Vector3d& q, double squared, int triangle) {
+    if (squared < best_squared ||
+        (squared == best_squared && (best.triangle < 0 || triangle < best.triangle))) {
+      best_squared = squared;
+      best.point = q;
+      best.triangle = triangle;
+    }
+    return true;
+  });
   if (best.triangle >= 0) best.distance = std::sqrt(best_squared);
   return best;
+}
+
+bool TriangleTree::Within(const Vector3d& p, double reach) const {
+  const double reach_squared = reach * reach;
+  bool within = false;
+  VisitNear(p, reach_squared, [&](const Vector3d&, double squared, int) {
+    within = squared <= reach_squared;
+    return !within;
+  });
+  return within;
 }
 
 std::optional<SurfacePoint> TriangleTree::FirstHit(const Vector3d& origin,

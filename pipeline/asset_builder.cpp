@@ -11,6 +11,7 @@ namespace simwright::pipeline {
 namespace {
 
 constexpr int kFootCorners = 12;
+constexpr int kRestPasses = 3;
 
 class StageClock {
  public:
@@ -84,12 +85,11 @@ void Decompose(const BuildRequest& request, assets::Asset* asset) {
   asset->parts = geometry::Hulls(decomposition);
   asset->concavity = decomposition.concavity;
   asset->coverage = decomposition.coverage;
-  KeepFoot(FindFoot(asset->solid, asset->inertial.center_of_mass, kFootCorners), &asset->parts);
 }
 
-// Turns the asset about its rest pose and moves it so that it stands on z = 0, centred.
-void PlaceInLinkFrame(const RestPose& rest, assets::Asset* asset) {
-  Eigen::Isometry3d link_from_body = rest.turn;
+// Turns the asset and moves it so that it stands on z = 0, centred.
+void PlaceInLinkFrame(const Eigen::Isometry3d& turn, assets::Asset* asset) {
+  Eigen::Isometry3d link_from_body = turn;
   core::TriangleMesh turned = asset->solid;
   core::Transform(Eigen::Affine3d(link_from_body), &turned);
   const Eigen::AlignedBox3d box = core::Bounds(turned);
@@ -100,20 +100,36 @@ void PlaceInLinkFrame(const RestPose& rest, assets::Asset* asset) {
   core::Transform(map, &asset->solid);
   for (core::TriangleMesh& part : asset->parts) core::Transform(map, &part);
   asset->link_from_input = link_from_body * asset->link_from_input;
-  asset->rolls = rest.rolls;
   const Eigen::Matrix3d R = link_from_body.linear();
   asset->inertial.center_of_mass = link_from_body * asset->inertial.center_of_mass;
   asset->inertial.inertia = R * asset->inertial.inertia * R.transpose();
   // Rounding may leave the two halves a last bit apart; readers want one number.
   asset->inertial.inertia =
       (0.5 * (asset->inertial.inertia + asset->inertial.inertia.transpose())).eval();
+}
+
+// Finds how the asset rests and puts it so. Where that is not how it came, the flat that it lies on
+// is another one, and it may rest otherwise once its parts keep that flat.
+void LayDown(const BuildRequest& request, assets::Asset* asset) {
+  RestPose rest;
+  Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+  for (int pass = 0; pass < kRestPasses; ++pass) {
+    KeepFoot(FindFoot(asset->solid, asset->inertial.center_of_mass, kFootCorners),
+             request.decomposition.max_hull_vertices, &asset->parts);
+    rest = FindRestPose(sim::BodyFromAsset(*asset));
+    PlaceInLinkFrame(rest.turn, asset);
+    turn = rest.turn * turn;
+    if (rest.turn.linear().isIdentity()) break;
+  }
+  asset->rolls = rest.rolls;
   const Eigen::Vector3d size = core::Bounds(asset->visual.mesh).sizes();
   asset->parameters.length.sample = std::max(size.x(), size.y());
   asset->parameters.width.sample = std::min(size.x(), size.y());
   asset->parameters.height.sample = size.z();
+  const bool as_given = StandsAsGiven(turn);
   asset->findings.push_back({"rest-pose",
-                             rest.as_given ? core::Severity::kInfo : core::Severity::kWarning,
-                             asset->name, rest.sentence, 0.0});
+                             as_given ? core::Severity::kInfo : core::Severity::kWarning,
+                             asset->name, RestSentence(turn, rest.rolls), 0.0});
 }
 
 }  // namespace
@@ -136,7 +152,7 @@ BuiltAsset BuildAsset(const core::TexturedMesh& visual, const BuildRequest& requ
   clock.Begin("collision parts");
   Decompose(request, &asset);
   clock.Begin("rest pose");
-  PlaceInLinkFrame(FindRestPose(sim::BodyFromAsset(asset)), &asset);
+  LayDown(request, &asset);
   clock.End();
   return built;
 }

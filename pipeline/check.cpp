@@ -51,8 +51,10 @@ void CheckParts(const assets::Asset& asset, const CheckLimits& limits, CheckRows
   options.volume_samples = 1000;
   const geometry::DecompositionQuality quality =
       geometry::MeasureDecomposition(asset.solid, asset.parts, options);
-  rows->AtMost("parts-cover", quality.solid_to_parts, limits.cover_distance_ratio,
-               "of the diagonal from the solid's surface to the parts', farthest point");
+  rows->Report("parts-hausdorff", quality.concavity,
+               "of the diagonal between the solid's surface and the parts', farthest point");
+  rows->AtMost("parts-cover", quality.uncovered, limits.cover_distance_ratio,
+               "of the diagonal from the solid's surface to the nearest part, farthest point");
   int bad = 0;
   for (const core::TriangleMesh& part : asset.parts) {
     const geometry::Soundness s = geometry::Examine(part);

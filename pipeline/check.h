@@ -18,8 +18,8 @@ struct CheckReport {
 // Limits of a check (DESIGN.md, "An asset is right when").
 struct CheckLimits {
   double surface_distance_ratio = 0.005;  // solid to visual's outer surface, both ways
-  // The solid's surface to that of the parts: hulls of 64 vertices lie up to 2 % inside a ball.
-  double cover_distance_ratio = 0.06;
+  // From the solid's surface to the nearest part: hulls of 64 vertices lie up to 2 % inside a ball.
+  double cover_distance_ratio = 0.03;
   double reader_tolerance = 1e-6;  // mass, centre, inertia against asset.json, relative
   double rest_time = 2.0;          // s
   double tilt = 2.0;               // degrees from the rest pose

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <set>
 
 #include "geometry/convex_hull.h"
+#include "geometry/plane_hull.h"
 #include "geometry/stable_poses.h"
 #include "geometry/surface_distance.h"
 
@@ -16,22 +16,21 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kNearDown = 25.0 * kDegree;
 constexpr double kFirm = 3.0 * kDegree;
+constexpr double kLevel = 3e-3;   // of the diagonal: what is that near to the flat is part of it
+constexpr double kSpared = 0.05;  // of the flat's area: fewer corners give steadier contacts
+constexpr int kPartCorners = 8;   // of a part on the flat; more lie closer than contacts need
 
-// Of `points` the farthest in each of `count` directions across `down`.
-std::vector<Eigen::Vector3d> Extremes(const std::vector<Eigen::Vector3d>& points,
-                                      const Eigen::Vector3d& down, int count) {
+// At most `count` corners of what `points` span across `down`, all at height `reach` along it.
+std::vector<Eigen::Vector3d> Outline(const std::vector<Eigen::Vector3d>& points,
+                                     const Eigen::Vector3d& down, double reach, int count) {
   const Eigen::Vector3d u = down.unitOrthogonal(), v = down.cross(u);
-  std::set<size_t> chosen;
-  for (int i = 0; i < count && points.size() >= 3; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / count;
-    const Eigen::Vector3d direction = std::cos(angle) * u + std::sin(angle) * v;
-    const auto best = std::max_element(
-        points.begin(), points.end(),
-        [&](const auto& a, const auto& b) { return a.dot(direction) < b.dot(direction); });
-    chosen.insert(static_cast<size_t>(best - points.begin()));
-  }
+  std::vector<Eigen::Vector2d> flat;
+  for (const Eigen::Vector3d& p : points) flat.emplace_back(u.dot(p), v.dot(p));
   std::vector<Eigen::Vector3d> corners;
-  for (const size_t c : chosen) corners.push_back(points[c]);
+  for (const Eigen::Vector2d& p :
+       geometry::FewerCorners(geometry::PlaneHull(std::move(flat)), count, kSpared)) {
+    corners.push_back(p.x() * u + p.y() * v + reach * down);
+  }
   return corners;
 }
 
@@ -62,11 +61,11 @@ Foot FindFoot(const core::TriangleMesh& solid, const Eigen::Vector3d& center_of_
   foot.reach = -std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& v : solid.vertices)
     foot.reach = std::max(foot.reach, v.dot(foot.down));
-  foot.corners = Extremes(low, foot.down, count);
+  foot.corners = Outline(low, foot.down, foot.reach, count);
   return foot;
 }
 
-void KeepFoot(const Foot& foot, std::vector<core::TriangleMesh>* parts) {
+void KeepFoot(const Foot& foot, int max_vertices, std::vector<core::TriangleMesh>* parts) {
   if (foot.corners.size() < 3) return;
   std::vector<std::vector<Eigen::Vector3d>> added(parts->size());
   for (const Eigen::Vector3d& corner : foot.corners) {
@@ -80,19 +79,24 @@ void KeepFoot(const Foot& foot, std::vector<core::TriangleMesh>* parts) {
     }
     added[nearest].push_back(corner);
   }
+  Eigen::AlignedBox3d box;
+  for (const core::TriangleMesh& part : *parts) box.extend(core::Bounds(part));
+  const double level = kLevel * box.diagonal().norm();
   for (size_t i = 0; i < parts->size(); ++i) {
-    std::vector<Eigen::Vector3d> points = (*parts)[i].vertices;
-    bool below = false;
-    for (Eigen::Vector3d& p : points) {
+    std::vector<Eigen::Vector3d> points, on_foot = added[i];
+    for (const Eigen::Vector3d& p : (*parts)[i].vertices) {
       const double out = p.dot(foot.down) - foot.reach;
-      if (out <= 0.0) continue;
-      p -= out * foot.down;
-      below = true;
+      if (out < -level) {
+        points.push_back(p);
+      } else {
+        on_foot.push_back(p - out * foot.down);
+      }
     }
-    if (added[i].empty() && !below) continue;
-    points.insert(points.end(), added[i].begin(), added[i].end());
+    if (on_foot.empty()) continue;
+    on_foot = Outline(on_foot, foot.down, foot.reach, kPartCorners);
+    points.insert(points.end(), on_foot.begin(), on_foot.end());
     const double thinnest = 1e-3 * core::Bounds((*parts)[i]).diagonal().norm();
-    (*parts)[i] = geometry::ThickenedConvexHull(points, thinnest);
+    (*parts)[i] = geometry::ThickenedConvexHull(points, thinnest, max_vertices);
   }
 }
 

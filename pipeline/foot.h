@@ -21,7 +21,9 @@ struct Foot {
 Foot FindFoot(const core::TriangleMesh& solid, const Eigen::Vector3d& center_of_mass, int count);
 
 // A hull of few vertices loses the small flat on which a round thing stands: the corners go back
-// into the nearest of `parts` (convex), and what sticks out below the flat is pressed in.
-void KeepFoot(const Foot& foot, std::vector<core::TriangleMesh>* parts);
+// into the nearest of `parts` (convex), and what lies within 0.3 % of the diagonal of the flat, or
+// beyond it, is moved onto it, at most eight corners a part: engines keep few contacts a hull, and
+// a foot that is nearly flat chatters between them. No part gets more than `max_vertices`.
+void KeepFoot(const Foot& foot, int max_vertices, std::vector<core::TriangleMesh>* parts);
 
 }  // namespace simwright::pipeline

@@ -83,7 +83,6 @@ RestPose FindRestPose(const sim::RigidBody& body) {
   const sim::DropResult given = Drop(body, upright, 2.0);
   if (Holds(given)) {
     result.turn = Settled(upright, given);
-    result.sentence = "stands the way it came";
     return result;
   }
   const std::vector<geometry::StablePose> poses = PosesToTry(body);
@@ -93,23 +92,27 @@ RestPose FindRestPose(const sim::RigidBody& body) {
     const sim::DropResult drop = Drop(body, start, 2.0);
     if (!Holds(drop)) continue;
     result.turn = Settled(start, drop);
-    const double tilt = sim::TiltBetween(result.turn, upright);
-    result.as_given = tilt < kNearUpright;
-    result.sentence =
-        (result.as_given ? "stands nearly the way it came, turned by "
-                         : "does not stand the way it came; lies in a stable pose, turned by ") +
-        std::to_string(std::lround(tilt / kDegree)) + " degrees";
     return result;
   }
   // Nothing holds at once: give it time, and take the pose in which it ends.
   const sim::DropResult patient = Drop(body, upright, 15.0);
   result.turn = WithoutYaw(patient.rest_pose);
-  const double tilt = sim::TiltBetween(result.turn, upright);
-  result.as_given = tilt < kNearUpright;
   result.rolls = !Holds(Drop(body, result.turn, 2.0));
-  result.sentence = result.rolls ? "rolls: no pose holds it within 5 degrees"
-                                 : "rocks; lies where it came to rest after 15 s";
   return result;
+}
+
+bool StandsAsGiven(const Eigen::Isometry3d& turn) {
+  return sim::TiltBetween(turn, Eigen::Isometry3d::Identity()) < kNearUpright;
+}
+
+std::string RestSentence(const Eigen::Isometry3d& turn, bool rolls) {
+  if (rolls) return "rolls: no pose holds it within 5 degrees";
+  const double tilt = sim::TiltBetween(turn, Eigen::Isometry3d::Identity());
+  if (tilt < kRocks) return "stands the way it came";
+  return (StandsAsGiven(turn)
+              ? "stands nearly the way it came, turned by "
+              : "does not stand the way it came; lies in a stable pose, turned by ") +
+         std::to_string(std::lround(tilt / kDegree)) + " degrees";
 }
 
 }  // namespace simwright::pipeline

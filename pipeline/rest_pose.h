@@ -10,9 +10,7 @@ namespace simwright::pipeline {
 
 struct RestPose {
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();  // rotation to apply to the body
-  bool as_given = true;  // it stands the way it came (turned by less than 5 degrees)
-  bool rolls = false;    // it comes to rest nowhere in particular: a ball
-  std::string sentence;  // for a person
+  bool rolls = false;  // it comes to rest nowhere in particular: a ball
 };
 
 // How `body` rests: dropped as it is given; where it falls over, in its stable poses, those within
@@ -20,5 +18,11 @@ struct RestPose {
 // rest within 5 degrees of it; where it rocks by more than half a degree the pose it rocked into
 // is taken.
 RestPose FindRestPose(const sim::RigidBody& body);
+
+// Whether a thing so turned still stands the way it came: within 20 degrees, whatever its yaw.
+bool StandsAsGiven(const Eigen::Isometry3d& turn);
+
+// For a person: how a thing rests that was turned so.
+std::string RestSentence(const Eigen::Isometry3d& turn, bool rolls);
 
 }  // namespace simwright::pipeline

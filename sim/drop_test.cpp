@@ -25,13 +25,23 @@ Eigen::Isometry3d StartPose(const RigidBody& body, const DropOptions& options) {
 
 DropWatch::DropWatch(const RigidBody& body, const DropOptions& options,
                      const Eigen::Isometry3d& start)
-    : body_(body), options_(options), start_(start) {}
+    : body_(body), options_(options), start_(start), radius_(Radius(body)), anchor_(start) {}
 
-void DropWatch::Observe(double time, const Eigen::Isometry3d& world_from_body, double speed) {
+void DropWatch::Observe(double time, const Eigen::Isometry3d& world_from_body) {
   if (time <= options_.settle_time + 1e-9) {
-    if (speed > options_.rest_speed) result_.rest_time = time;
+    const Eigen::Vector3d moved =
+        world_from_body * body_.inertial.center_of_mass - anchor_ * body_.inertial.center_of_mass;
+    const Eigen::AngleAxisd turned(anchor_.linear().transpose() * world_from_body.linear());
+    // No point moved further than this.
+    const double farthest = moved.norm() + radius_ * std::abs(turned.angle());
+    const bool left = farthest > options_.rest_speed * options_.rest_window;
+    if (left) result_.rest_time = time;
+    if (left || time - anchor_time_ >= options_.rest_window) {
+      anchor_ = world_from_body;
+      anchor_time_ = time;
+    }
     result_.rest_pose = world_from_body;
-    result_.rests = speed <= options_.rest_speed;
+    result_.rests = time - result_.rest_time >= options_.rest_window;
   }
   result_.final_pose = world_from_body;
 }
@@ -52,14 +62,10 @@ DropResult DropInBullet(const RigidBody& body, const DropOptions& options) {
   World world;
   const Eigen::Isometry3d start = StartPose(body, options);
   const int index = world.Add(body, start);
-  const double radius = Radius(body);
   DropWatch watch(body, options, start);
   while (world.time() < options.settle_time + options.watch_time - 1e-9) {
     world.Step();
-    // The fastest point of the body moves at no more than this.
-    const double speed =
-        world.LinearVelocity(index).norm() + radius * world.AngularVelocity(index).norm();
-    watch.Observe(world.time(), world.Pose(index), speed);
+    watch.Observe(world.time(), world.Pose(index));
   }
   core::CheckCancelled();
   return watch.Finish();

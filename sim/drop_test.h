@@ -10,17 +10,19 @@ struct DropOptions {
   double height = 0.01;      // m, of the lowest point above the floor at the start
   double settle_time = 2.0;  // s, within which it has to come to rest
   double watch_time = 2.0;   // s, over which the drift is measured afterwards
-  // m/s of its fastest point at which a body counts as resting: ODE's default for putting bodies
-  // to sleep. Creep below it shows in the drift.
+  // m/s: a body rests while, over rest_window, none of its points gets further from where it was
+  // than this speed would take it. The speed is ODE's default for putting bodies to sleep, which
+  // also takes the mean over some steps. Creep below it shows in the drift.
   double rest_speed = 0.01;
+  double rest_window = 0.1;                                 // s
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity();  // orientation; shifted to `height`
 };
 
 // What became of a dropped body. Angles leave the turn about the vertical out: a body may end up
 // facing elsewhere.
 struct DropResult {
-  bool rests = false;         // slower than rest_speed at the end of settle_time
-  double rest_time = 0.0;     // s, when it last exceeded rest_speed; settle_time where it never did
+  bool rests = false;         // it rested when settle_time ended
+  double rest_time = 0.0;     // s, since when it rests; settle_time where it does not
   double tilt = 0.0;          // rad, between the start's and the resting vertical
   double drift = 0.0;         // m, of the centre of mass over watch_time
   double turn = 0.0;          // rad, over watch_time, about any axis
@@ -40,13 +42,16 @@ class DropWatch {
  public:
   DropWatch(const RigidBody& body, const DropOptions& options, const Eigen::Isometry3d& start);
   // Called once a step, with the time since the start.
-  void Observe(double time, const Eigen::Isometry3d& world_from_body, double speed);
+  void Observe(double time, const Eigen::Isometry3d& world_from_body);
   DropResult Finish() const;
 
  private:
   const RigidBody& body_;
   DropOptions options_;
   Eigen::Isometry3d start_;
+  double radius_;             // m, of the body about its centre of mass
+  Eigen::Isometry3d anchor_;  // where it was at the start of the window
+  double anchor_time_ = 0.0;  // s
   DropResult result_;
 };
 

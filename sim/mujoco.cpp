@@ -78,7 +78,6 @@ struct MujocoWorld::Model {
   // The world is body 0 in MuJoCo; each of ours has one free joint.
   int Body(int index) const { return index + 1; }
   int Position(int index) const { return model->jnt_qposadr[model->body_jntadr[Body(index)]]; }
-  int Velocity(int index) const { return model->jnt_dofadr[model->body_jntadr[Body(index)]]; }
 };
 
 MujocoWorld::MujocoWorld(const fs::path& mjcf, const std::vector<double>& balls)
@@ -133,12 +132,6 @@ Eigen::Isometry3d MujocoWorld::Pose(int body) const {
   return pose;
 }
 
-double MujocoWorld::Speed(int body, double radius) const {
-  const double* v = model_->data->qvel + model_->Velocity(body);
-  return Eigen::Map<const Eigen::Vector3d>(v).norm() +
-         radius * Eigen::Map<const Eigen::Vector3d>(v + 3).norm();
-}
-
 assets::Inertial MujocoWorld::LoadedInertial(int body) const {
   const mjModel& m = *model_->model;
   const int b = model_->Body(body);
@@ -158,11 +151,10 @@ DropResult DropInMujoco(const RigidBody& body, const fs::path& mjcf, const DropO
   MujocoWorld world(mjcf);
   const Eigen::Isometry3d start = StartPose(body, options);
   world.SetPose(0, start);
-  const double radius = Radius(body);
   DropWatch watch(body, options, start);
   while (world.time() < options.settle_time + options.watch_time - 1e-9) {
     world.Step();
-    watch.Observe(world.time(), world.Pose(0), world.Speed(0, radius));
+    watch.Observe(world.time(), world.Pose(0));
   }
   core::CheckCancelled();
   if (warnings != nullptr) *warnings = world.warnings();

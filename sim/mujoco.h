@@ -30,8 +30,7 @@ class MujocoWorld {
   void SetPose(int body, const Eigen::Isometry3d& world_from_body);
   void Step();
   double time() const;
-  Eigen::Isometry3d Pose(int body) const;       // world_from_body
-  double Speed(int body, double radius) const;  // m/s, of a point at `radius` from the centre
+  Eigen::Isometry3d Pose(int body) const;  // world_from_body
   assets::Inertial LoadedInertial(int body) const;
 
  private:

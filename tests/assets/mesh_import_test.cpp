@@ -71,6 +71,20 @@ TEST_F(MeshFiles, ReadsItsOwnObjBitForBit) {
   EXPECT_EQ(back.triangles, box.triangles);
 }
 
+// Assimp's own validation refuses a file whose faces and lines share a group.
+TEST_F(MeshFiles, LinesAndPointsOfAnObjAreLeftOut) {
+  const std::string box = ObjText(BoxMesh({1, 1, 1}));
+  const size_t faces = box.find("f ");
+  const std::string lines = "l 1 2\nl 1 2 3 \\\n 4 5\np 1 2\n\tl 3 4\r\nf 1 2\nf 5 \\\n6\n\nl 7 8";
+  for (const std::string& text :
+       {box.substr(0, faces) + lines + "\n" + box.substr(faces), box + lines}) {
+    const core::TexturedMesh mesh = ReadMesh(Write("lines.obj", text));
+    EXPECT_EQ(mesh.mesh.triangles.size(), 12u);
+    EXPECT_EQ(mesh.mesh.vertices.size(), 8u);
+  }
+  EXPECT_THROW(ReadMesh(Write("only.obj", box.substr(0, faces) + lines)), core::Error);
+}
+
 TEST_F(MeshFiles, BadMeshesAreOneErrorEach) {
   EXPECT_THROW(ReadMesh(folder_ / "none.obj"), core::Error);
   EXPECT_THROW(ReadMesh(Write("empty.obj", "")), core::Error);

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "geometry/exact_hull.h"
 #include "geometry/soundness.h"
 #include "geometry/weld.h"
 #include "tests/geometry/solid_shapes.h"
@@ -82,6 +83,36 @@ TEST(ConvexHull, HoldsEveryPointOfAwkwardSets) {
         EXPECT_LT(Outside(hull, points), 2e-3) << kind << ' ' << noise << ' ' << seed;
       }
     }
+  }
+}
+
+TEST(ExactHull, AgreesWithOurs) {
+  core::Rng rng(3);
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 500; ++i) points.push_back(core::Uniform(rng) * core::UniformDirection(rng));
+  const core::TriangleMesh exact = ExactHull(points, 0);
+  ExpectSound(exact);
+  EXPECT_LT(Outside(exact, points), 1e-15);
+  EXPECT_NEAR(SignedVolume(exact), SignedVolume(ConvexHull(points)), 1e-9);
+  EXPECT_EQ(ExactHull(points, 16).vertices.size(), 16u);
+  EXPECT_TRUE(ExactHull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 3, 0}}, 0).empty());
+}
+
+// A loaf: dense points on surfaces that are flat but for their noise, joined by round edges.
+TEST(ConvexHull, OfALoafIsNotCalledFlat) {
+  for (int seed = 0; seed < 4; ++seed) {
+    core::Rng rng = core::StreamRng(seed, 9);
+    std::vector<Vector3d> points;
+    for (int i = 0; i < 20000; ++i) {
+      Vector3d p = core::UniformDirection(rng);
+      for (int k = 0; k < 3; ++k) p[k] = std::copysign(std::pow(std::abs(p[k]), 0.2), p[k]);
+      points.push_back(p.cwiseProduct(Vector3d(1.0, 0.4, 0.5)) +
+                       1e-6 * core::Uniform(rng) * core::UniformDirection(rng));
+    }
+    const core::TriangleMesh hull = ConvexHull(points);
+    EXPECT_GT(SignedVolume(hull), 0.8 * SignedVolume(ExactHull(points, 0)));
+    EXPECT_LT(Outside(hull, points), 2e-3);
+    EXPECT_LE(ConvexHull(points, 64).vertices.size(), 64u);
   }
 }
 

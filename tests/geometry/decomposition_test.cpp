@@ -225,10 +225,12 @@ TEST(MeasureDecomposition, KnowsExcessAndMissingVolume) {
   // of that slope 0.5 from either arm.
   EXPECT_NEAR(hull.solid_to_parts, 0.5 / diagonal, 0.01);
   EXPECT_NEAR(hull.parts_to_solid, 0.5 / diagonal, 0.01);
+  EXPECT_LT(hull.uncovered, 1e-12);
   const DecompositionQuality cube = MeasureDecomposition(l, {shapes::Box(1, 1, 1)});
   EXPECT_NEAR(cube.missing_volume, 2.0 / 3.0, 0.01);
   EXPECT_EQ(cube.excess_volume, 0.0);
   EXPECT_NEAR(cube.solid_to_parts, 1.0 / diagonal, 0.01);
+  EXPECT_NEAR(cube.uncovered, 1.0 / diagonal, 0.01);
   // Five of an L's fourteen unit squares touch the cube, less those that face the arms.
   EXPECT_NEAR(cube.coverage, 4.0 / 14.0, 0.01);
 }

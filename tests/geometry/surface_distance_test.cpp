@@ -83,6 +83,8 @@ TEST(TriangleTree, AgreesWithBruteForce) {
     EXPECT_NEAR(found.distance, least, 1e-12);
     EXPECT_NEAR((found.point - p).norm(), least, 1e-12);
     EXPECT_EQ(tree.Closest(p, 0.5 * least).triangle, -1);
+    EXPECT_FALSE(tree.Within(p, (1.0 - 1e-9) * least));
+    EXPECT_TRUE(tree.Within(p, (1.0 + 1e-9) * least));
 
     const Vector3d direction = core::UniformDirection(rng);
     double first = INFINITY;

@@ -1,0 +1,83 @@
+#include "geometry/hidden_sights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "geometry/triangle_tree.h"
+
+namespace simwright::geometry {
+namespace {
+
+using core::TriangleMesh;
+using Eigen::Vector3d;
+
+void AddSlab(const Vector3d& low, const Vector3d& high, TriangleMesh* mesh) {
+  TriangleMesh box;
+  for (int c = 0; c < 8; ++c) {
+    box.vertices.emplace_back(c & 1 ? high.x() : low.x(), c & 2 ? high.y() : low.y(),
+                              c & 4 ? high.z() : low.z());
+  }
+  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  core::Append(box, mesh);
+}
+
+// Two slabs 4 mm apart with a floor between them: a slit 0.3 deep. The solid fills it.
+class Slit : public ::testing::Test {
+ protected:
+  Slit() {
+    AddSlab({-0.5, -0.5, 0}, {-0.002, 0.5, 0.5}, &visual_);
+    AddSlab({0.002, -0.5, 0}, {0.5, 0.5, 0.5}, &visual_);
+    AddSlab({-0.1, -0.5, 0}, {0.1, 0.5, 0.2}, &visual_);
+    AddSlab({-0.5, -0.5, 0}, {0.5, 0.5, 0.5}, &solid_);
+    options_.reach = 0.05;
+    options_.radius = 0.1;
+    options_.rays = 20000;
+  }
+  TriangleMesh visual_, solid_;
+  HiddenSightOptions options_;
+};
+
+TEST_F(Slit, IsLookedIntoFarMoreOftenThanByChance) {
+  const std::vector<OuterHit> random = SampleOuterHits(visual_, 20000, 1);
+  const auto inside = [](const OuterHit& hit) {
+    return std::abs(hit.point.x()) < 0.0021 && hit.point.z() < 0.45;
+  };
+  const auto by_chance = std::count_if(random.begin(), random.end(), inside);
+  const std::vector<OuterHit> sights = HiddenSights(visual_, solid_, options_);
+  const auto looked = std::count_if(sights.begin(), sights.end(), inside);
+  EXPECT_GT(by_chance, 0);
+  EXPECT_GT(looked, 8 * by_chance);
+}
+
+// Each is a first hit of a line from outside.
+TEST_F(Slit, SightsAreTrue) {
+  const TriangleTree tree(visual_);
+  for (const OuterHit& hit : HiddenSights(visual_, solid_, options_)) {
+    EXPECT_LT(tree.Closest(hit.point).distance, 1e-9);
+    EXPECT_FALSE(tree.SegmentMeets(hit.point + 1e-6 * hit.to_eye, hit.point + 5.0 * hit.to_eye));
+    EXPECT_GE(hit.normal.dot(hit.to_eye), 0.0);
+  }
+}
+
+TEST_F(Slit, NothingIsHiddenFromAFaithfulSolid) {
+  EXPECT_TRUE(HiddenSights(solid_, solid_, options_).empty());
+}
+
+TEST_F(Slit, RepeatsBitForBit) {
+  const auto a = HiddenSights(visual_, solid_, options_);
+  const auto b = HiddenSights(visual_, solid_, options_);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].point, b[i].point);
+}
+
+TEST_F(Slit, RefusesAReachOrRadiusThatIsNotPositive) {
+  options_.radius = 0.0;
+  EXPECT_THROW(HiddenSights(visual_, solid_, options_), core::Error);
+}
+
+}  // namespace
+}  // namespace simwright::geometry

@@ -1,0 +1,67 @@
+#include "geometry/plane_hull.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+
+namespace simwright::geometry {
+namespace {
+
+using Eigen::Vector2d;
+
+double Area(const std::vector<Vector2d>& polygon) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector2d& a = polygon[i];
+    const Vector2d& b = polygon[(i + 1) % polygon.size()];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return 0.5 * twice;
+}
+
+std::vector<Vector2d> RegularPolygon(int corners) {
+  std::vector<Vector2d> polygon;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / corners;
+    polygon.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  return polygon;
+}
+
+TEST(PlaneHull, OfASquareFullOfPointsIsItsCorners) {
+  core::Rng rng(1);
+  std::vector<Vector2d> points{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 0}, {1, 0.3}};
+  for (int i = 0; i < 200; ++i) points.emplace_back(core::Uniform(rng), core::Uniform(rng));
+  const std::vector<Vector2d> hull = PlaneHull(points);
+  EXPECT_EQ(hull.size(), 4u);
+  EXPECT_NEAR(Area(hull), 1.0, 1e-15);
+}
+
+TEST(PlaneHull, OfALineHasNoArea) {
+  EXPECT_LT(PlaneHull({{0, 0}, {1, 1}, {2, 2}, {0.5, 0.5}}).size(), 3u);
+  EXPECT_EQ(PlaneHull({{3, 4}, {3, 4}}).size(), 1u);
+}
+
+TEST(FewerCorners, DropsWhatCostsLeastArea) {
+  // A square with two corners cut off by 1 %: four corners hold it within 5 % of its area.
+  const std::vector<Vector2d> cut{{0.1, 0}, {0.9, 0}, {1, 0.1}, {1, 1}, {0, 1}, {0, 0.1}};
+  EXPECT_EQ(FewerCorners(cut, 8, 0.0).size(), 6u);
+  const std::vector<Vector2d> few = FewerCorners(cut, 8, 0.2);
+  EXPECT_EQ(few.size(), 4u);
+  EXPECT_GT(Area(few), 0.8 * Area(cut));
+}
+
+TEST(FewerCorners, KeepsToTheNumberWhateverTheLoss) {
+  const std::vector<Vector2d> disc = RegularPolygon(64);
+  const std::vector<Vector2d> few = FewerCorners(disc, 8, 0.05);
+  EXPECT_EQ(few.size(), 8u);
+  // No polygon of eight corners in a disc has more area than the regular one.
+  EXPECT_LE(Area(few), Area(RegularPolygon(8)) + 1e-12);
+  EXPECT_GT(Area(few), 0.9 * Area(RegularPolygon(8)));
+}
+
+}  // namespace
+}  // namespace simwright::geometry
