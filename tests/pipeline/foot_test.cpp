@@ -1,0 +1,121 @@
+#include "pipeline/foot.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "geometry/convex_hull.h"
+#include "geometry/soundness.h"
+#include "pipeline/rest_pose.h"
+
+namespace simwright::pipeline {
+namespace {
+
+using Eigen::Vector3d;
+
+core::TriangleMesh Plate(double noise) {
+  core::Rng rng(5);
+  std::vector<Vector3d> points;
+  for (int i = 0; i <= 10; ++i) {
+    for (const double y : {-0.02, 0.02}) {
+      points.emplace_back(0.03 * (i - 5), y, noise * core::Uniform(rng));
+      points.emplace_back(0.03 * (i - 5), y, 0.004);
+    }
+  }
+  return geometry::ConvexHull(points);
+}
+
+// A cylinder's foot as a hull of few vertices has it.
+core::TriangleMesh Can(int corners) {
+  std::vector<Vector3d> points;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / corners;
+    for (const double z : {0.0, 0.1}) {
+      points.emplace_back(0.03 * std::cos(angle), 0.03 * std::sin(angle), z);
+    }
+  }
+  return geometry::ConvexHull(points);
+}
+
+int VerticesAt(const core::TriangleMesh& part, const Foot& foot) {
+  int count = 0;
+  for (const Vector3d& p : part.vertices) {
+    count += std::abs(p.dot(foot.down) - foot.reach) < 1e-12;
+  }
+  return count;
+}
+
+TEST(Foot, OfABoxIsItsLowerFace) {
+  const Foot foot = FindFoot(Plate(0.0), {0, 0, 0.002}, 12);
+  EXPECT_NEAR((foot.down + Vector3d::UnitZ()).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(foot.reach, 0.0, 1e-12);
+  ASSERT_EQ(foot.corners.size(), 4u);
+  for (const Vector3d& corner : foot.corners) {
+    EXPECT_NEAR(std::abs(corner.x()), 0.15, 1e-12);
+    EXPECT_NEAR(std::abs(corner.y()), 0.02, 1e-12);
+  }
+}
+
+TEST(Foot, OneThatIsNearlyFlatBecomesFlat) {
+  const core::TriangleMesh uneven = Plate(3e-4);
+  const Foot foot = FindFoot(uneven, {0, 0, 0.002}, 12);
+  EXPECT_GT(-foot.down.z(), 0.99);
+  std::vector<core::TriangleMesh> parts{uneven};
+  ASSERT_LT(VerticesAt(parts[0], foot), 4);
+  KeepFoot(foot, 64, &parts);
+  EXPECT_GE(VerticesAt(parts[0], foot), 4);
+  EXPECT_LE(VerticesAt(parts[0], foot), 8);
+  // Nothing between the flat and the upper face is left to rock on.
+  for (const Vector3d& p : parts[0].vertices) {
+    const double above = foot.reach - p.dot(foot.down);
+    EXPECT_TRUE(above < 1e-12 || above > 0.003) << above;
+  }
+  EXPECT_TRUE(geometry::Examine(parts[0]).Sound());
+}
+
+TEST(Foot, ARoundOneKeepsEightCornersAndItsReach) {
+  const core::TriangleMesh can = Can(40);
+  const Foot foot = FindFoot(can, {0, 0, 0.05}, 12);
+  std::vector<core::TriangleMesh> parts{can};
+  KeepFoot(foot, 64, &parts);
+  EXPECT_EQ(VerticesAt(parts[0], foot), 8);
+  EXPECT_LE(parts[0].vertices.size(), 64u);
+  // The apothem of eight of forty corners, at worst six steps apart.
+  double least = INFINITY;
+  for (int i = 0; i < 360; ++i) {
+    const double angle = i * std::numbers::pi / 180.0;
+    double reach = 0.0;
+    for (const Vector3d& p : parts[0].vertices) {
+      if (p.z() > 1e-9) continue;
+      reach = std::max(reach, p.x() * std::cos(angle) + p.y() * std::sin(angle));
+    }
+    least = std::min(least, reach);
+  }
+  EXPECT_GT(least, (1.0 - 1e-9) * 0.03 * std::cos(6 * std::numbers::pi / 40));
+}
+
+TEST(Foot, PartsAboveItStayAsTheyAre) {
+  core::TriangleMesh lid = Can(12);
+  for (Vector3d& p : lid.vertices) p.z() += 0.2;
+  std::vector<core::TriangleMesh> parts{Can(12), lid};
+  KeepFoot(FindFoot(Can(12), {0, 0, 0.05}, 12), 64, &parts);
+  EXPECT_EQ(parts[1].vertices, lid.vertices);
+}
+
+TEST(RestSentence, SaysHowItWasTurned) {
+  Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+  EXPECT_EQ(RestSentence(turn, false), "stands the way it came");
+  turn.linear() = Eigen::AngleAxisd(1.0, Vector3d::UnitZ()).toRotationMatrix();
+  EXPECT_EQ(RestSentence(turn, false), "stands the way it came");  // yaw is free
+  turn.linear() = Eigen::AngleAxisd(0.1, Vector3d::UnitX()).toRotationMatrix();
+  EXPECT_NE(RestSentence(turn, false).find("nearly"), std::string::npos);
+  EXPECT_NE(RestSentence(turn, false).find("6 degrees"), std::string::npos);
+  turn.linear() = Eigen::AngleAxisd(1.5, Vector3d::UnitX()).toRotationMatrix();
+  EXPECT_FALSE(StandsAsGiven(turn));
+  EXPECT_NE(RestSentence(turn, false).find("does not stand"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace simwright::pipeline
