@@ -213,8 +213,11 @@ TEST_F(CommandLine, LargeMeshesAreOrdinary) {
 TEST_F(CommandLine, CtrlCLeavesNothing) {
   const std::string mesh = Write("ball.obj", assets::ObjText(assets::SphereMesh(0.1, 200)));
   const size_t before = Entries();
-  const Outcome outcome = RunProgram("import " + mesh + " --category ball -o " + Out() +
-                                     " 2>&1 & pid=$!; sleep 0.5; kill -INT $pid; wait $pid");
+  // A shell starts what goes on behind with SIGINT ignored: wait until the program catches it.
+  const Outcome outcome =
+      RunProgram("import " + mesh + " --category ball -o " + Out() +
+                 " 2>&1 & pid=$!; until grep -q 'SigCgt.*[2367abef]$' /proc/$pid/status; do "
+                 "sleep 0.05; done; sleep 0.3; kill -INT $pid; wait $pid");
   EXPECT_NE(outcome.code, 0) << outcome.text;
   EXPECT_NE(outcome.text.find("stopped"), std::string::npos) << outcome.text;
   EXPECT_EQ(Entries(), before);
