@@ -119,7 +119,7 @@ constexpr Effort kEfforts[] = {{1.0, 100000, false},
                                {1.6, 500000, true},
                                {1.6, 500000, true}};
 // Share of the tolerance at which a wrap is good enough: other rays find somewhat more.
-constexpr double kGoodEnough = 0.96;
+constexpr double kGoodEnough = 0.9;
 constexpr double kDoubtful = 0.7;  // share of the tolerance from which a place is looked into
 
 // One wrap of `unit`, a mesh of diagonal 1. `sights` are lines of sight beyond the random ones.
