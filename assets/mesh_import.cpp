@@ -78,7 +78,6 @@ class HeldFile : public Assimp::IOStream {
   int reads_at_end_ = 0;
 };
 
-// Opens files inside one folder alone: a material library or buffer elsewhere is "not there".
 std::string LowerEnding(const fs::path& path) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
@@ -125,6 +124,7 @@ void BlankLinesAndPoints(std::string* text) {
   }
 }
 
+// Opens files inside one folder alone: a material library or buffer elsewhere is "not there".
 class FolderIo : public Assimp::DefaultIOSystem {
  public:
   explicit FolderIo(fs::path root) : root_(std::move(root)) {}

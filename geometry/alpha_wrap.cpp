@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "geometry/surface_mesh.h"
 #include "geometry/weld.h"
 
 namespace simwright::geometry {
@@ -40,19 +41,8 @@ core::TriangleMesh AlphaWrap(const core::TriangleMesh& mesh, const AlphaWrapOpti
     throw core::Error(std::string("no wrap could be made: ") + e.what(), "alpha wrap");
   }
   if (wrap.has_garbage()) wrap.collect_garbage();
-  core::TriangleMesh result;
-  for (const auto v : wrap.vertices()) {
-    const auto& p = wrap.point(v);
-    result.vertices.push_back(bounds.center() + diagonal * Eigen::Vector3d(p.x(), p.y(), p.z()));
-  }
-  for (const auto f : wrap.faces()) {
-    Eigen::Vector3i corner;
-    int c = 0;
-    for (const auto v : wrap.vertices_around_face(wrap.halfedge(f))) {
-      corner[c++] = static_cast<int>(static_cast<std::size_t>(v));
-    }
-    result.triangles.push_back(corner);
-  }
+  core::TriangleMesh result = FromSurfaceMesh(wrap);
+  for (Eigen::Vector3d& v : result.vertices) v = bounds.center() + diagonal * v;
   return result;
 }
 

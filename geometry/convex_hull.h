@@ -11,6 +11,8 @@ namespace simwright::geometry {
 // The convex hull of `points` (m): a closed, outward triangle mesh, every vertex one of `points`.
 // Points nearer to a face than 1e-7 of the bounding box's diagonal count as on it and are left
 // out, so that coplanar sets give no slivers inside a face.
+// Where that fails in rounded arithmetic (thousands of nearly coplanar points) it is
+// geometry/exact_hull.h's, which keeps them.
 // With `max_vertices` >= 4 the hull stops after that many vertices, each the one that sticks out
 // farthest of what was there before: it then lies inside the full hull.
 // Throws core::Error for fewer than 4 points, coordinates that are not finite, `max_vertices`

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "geometry/surface_mesh.h"
+
 namespace simwright::geometry {
 namespace {
 
@@ -18,22 +20,9 @@ core::TriangleMesh HullOfAll(const std::vector<Vector3d>& points) {
   for (const Vector3d& p : points) given.emplace_back(p.x(), p.y(), p.z());
   CGAL::Surface_mesh<Kernel::Point_3> surface;
   CGAL::convex_hull_3(given.begin(), given.end(), surface);
-  core::TriangleMesh hull;
   // Three corners or fewer, or a polygon: the points were flat.
-  if (surface.number_of_vertices() < 4 || surface.number_of_faces() < 4) return hull;
-  for (const auto v : surface.vertices()) {
-    const auto& p = surface.point(v);
-    hull.vertices.emplace_back(p.x(), p.y(), p.z());
-  }
-  for (const auto f : surface.faces()) {
-    Eigen::Vector3i corner;
-    int c = 0;
-    for (const auto v : surface.vertices_around_face(surface.halfedge(f))) {
-      corner[c++] = static_cast<int>(static_cast<std::size_t>(v));
-    }
-    hull.triangles.push_back(corner);
-  }
-  return hull;
+  if (surface.number_of_vertices() < 4 || surface.number_of_faces() < 4) return {};
+  return FromSurfaceMesh(surface);
 }
 
 // Farthest-first: the first is the farthest from the mean.

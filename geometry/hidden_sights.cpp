@@ -60,6 +60,9 @@ std::vector<OuterHit> HiddenSights(const core::TriangleMesh& visual,
   if (!(options.reach > 0.0) || !(options.radius > 0.0)) {
     throw core::Error("reach and radius must be positive", "hidden sights");
   }
+  if (options.places < 0 || options.sights < 0) {
+    throw core::Error("the number of places or sights is negative", "hidden sights");
+  }
   const std::vector<Place> places = FarApart(visual, solid, options);
   const TriangleTree tree(visual);
   const double outside = 2.0 * core::Bounds(visual).diagonal().norm();

@@ -22,7 +22,8 @@ struct HiddenSightOptions {
 // farther apart than `reach`, many lines are sent through points of the one that found it (or
 // through the solid's point, where that is what lies apart); returned are the first hits of those
 // that come from outside and end within `radius` of the place. Deterministic for a seed.
-// Throws core::Error where one of the meshes has no faces or is not valid.
+// Throws core::Error where one of the meshes has no faces or is not valid, a length is not positive
+// or a number negative.
 std::vector<OuterHit> HiddenSights(const core::TriangleMesh& visual,
                                    const core::TriangleMesh& solid,
                                    const HiddenSightOptions& options);

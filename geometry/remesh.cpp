@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "geometry/surface_mesh.h"
 #include "geometry/weld.h"
 
 namespace simwright::geometry {
@@ -60,20 +61,7 @@ core::TriangleMesh RemeshIsotropic(const core::TriangleMesh& mesh, const RemeshO
                                .edge_is_constrained_map(fixed)
                                .protect_constraints(true));
   surface.collect_garbage();
-  core::TriangleMesh result;
-  for (const auto v : surface.vertices()) {
-    const auto& p = surface.point(v);
-    result.vertices.emplace_back(p.x(), p.y(), p.z());
-  }
-  for (const auto f : surface.faces()) {
-    Eigen::Vector3i corner;
-    int c = 0;
-    for (const auto v : surface.vertices_around_face(surface.halfedge(f))) {
-      corner[c++] = static_cast<int>(static_cast<std::size_t>(v));
-    }
-    result.triangles.push_back(corner);
-  }
-  return result;
+  return FromSurfaceMesh(surface);
 }
 
 }  // namespace simwright::geometry

@@ -107,17 +107,16 @@ struct Wrapped {
   double distance = 0.0;  // largest of both directions, a share of the diagonal
 };
 
-// How hard a wrap tries; each costs about twice the one before.
+// How hard a wrap tries. Each next one also knows the slits in which the one before was found
+// short.
 struct Effort {
   double fineness;  // divides the cell, the wall (which would close gaps between sheets) and what
                     // simplification may move
   int rays;         // lines of sight: more find hollows that few of them enter
   bool carves;      // opens lines of sight that the walls of sheets buried, too
 };
-constexpr Effort kEfforts[] = {{1.0, 100000, false},
-                               {1.6, 200000, false},
-                               {1.6, 500000, true},
-                               {1.6, 500000, true}};
+constexpr Effort kEfforts[] = {
+    {1.0, 100000, false}, {1.6, 200000, false}, {1.6, 500000, true}, {1.6, 500000, true}};
 // Share of the tolerance at which a wrap is good enough: other rays find somewhat more.
 constexpr double kGoodEnough = 0.9;
 constexpr double kDoubtful = 0.7;  // share of the tolerance from which a place is looked into

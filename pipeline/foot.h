@@ -17,7 +17,7 @@ struct Foot {
 
 // The foot nearest to straight down, within 25 degrees, that bears a tilt of 3 degrees under
 // `center_of_mass`; else what is within 0.1 % of the height of the lowest vertex. At most `count`
-// corners, extreme ones by direction. Throws core::Error for an invalid or flat mesh.
+// corners, which may leave 5 % of its area out. Throws core::Error for an invalid or flat mesh.
 Foot FindFoot(const core::TriangleMesh& solid, const Eigen::Vector3d& center_of_mass, int count);
 
 // A hull of few vertices loses the small flat on which a round thing stands: the corners go back

@@ -216,8 +216,9 @@ TEST_F(CommandLine, CtrlCLeavesNothing) {
   // A shell starts what goes on behind with SIGINT ignored: wait until the program catches it.
   const Outcome outcome =
       RunProgram("import " + mesh + " --category ball -o " + Out() +
-                 " 2>&1 & pid=$!; until grep -q 'SigCgt.*[2367abef]$' /proc/$pid/status; do "
-                 "sleep 0.05; done; sleep 0.3; kill -INT $pid; wait $pid");
+                 " 2>&1 & pid=$!; for i in $(seq 400); do "
+                 "grep -q 'SigCgt.*[2367abef]$' /proc/$pid/status && break; sleep 0.05; done; "
+                 "sleep 0.3; kill -INT $pid; wait $pid");
   EXPECT_NE(outcome.code, 0) << outcome.text;
   EXPECT_NE(outcome.text.find("stopped"), std::string::npos) << outcome.text;
   EXPECT_EQ(Entries(), before);
