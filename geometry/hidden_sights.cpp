@@ -1,5 +1,6 @@
 #include "geometry/hidden_sights.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -13,85 +14,94 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kHalvings = 8.0;  // down to 0.4 % of a radius, or of a radian
+constexpr double kHalvings = 8.0;    // down to 0.4 % of a radius, or of a radian
+constexpr int kRaysAtOnce = 500000;  // about 100 MB of hits
 
-// Where to look, from where it was seen, and the normal of what was seen; zero: not known.
-struct Place {
-  Vector3d point;
-  Vector3d to_eye = Vector3d::Zero();
-  Vector3d normal = Vector3d::Zero();
-};
+void AppendFar(const std::vector<OuterHit>& hits, const TriangleTree& solid, double reach,
+               std::vector<OuterHit>* far) {
+  constexpr int kBlock = 1024;
+  const int count = static_cast<int>(hits.size());
+  std::vector<char> near(hits.size());
+  core::ParallelFor((count + kBlock - 1) / kBlock, [&](int block) {
+    core::CheckCancelled();
+    for (int i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
+      near[i] = solid.Within(hits[i].point, reach);
+    }
+  });
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!near[i]) far->push_back(hits[i]);
+  }
+}
 
-std::vector<Place> Spread(const std::vector<Place>& all, int most) {
+std::vector<OuterHit> Spread(const std::vector<OuterHit>& all, int most) {
   const std::size_t count = static_cast<std::size_t>(most);
   if (all.size() <= count) return all;
-  std::vector<Place> some;
+  std::vector<OuterHit> some;
   for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
   return some;
 }
 
-std::vector<Place> FarApart(const core::TriangleMesh& visual, const core::TriangleMesh& solid,
-                            const HiddenSightOptions& options) {
-  std::vector<Place> hidden, excess;
-  const std::vector<OuterHit> hits = SampleOuterHits(visual, options.rays, options.seed);
-  std::vector<Vector3d> points;
-  for (const OuterHit& hit : hits) points.push_back(hit.point);
-  const std::vector<double> buried = DistancesToSurface(points, solid);
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (buried[i] > options.reach)
-      hidden.push_back({hits[i].point, hits[i].to_eye, hits[i].normal});
+// Lines that pass a known line of sight closely. Each goes through a point that is known to be
+// free: one on the line that got in. How wide the slit is, and from how far round one sees in, is
+// not known: scales are drawn log-uniformly, along the wall that was seen and away from it on
+// their own.
+std::vector<OuterHit> LookInto(const OuterHit& known, const TriangleTree& visual, double outside,
+                               const HiddenSightOptions& options, core::Rng* rng) {
+  std::vector<OuterHit> found;
+  const auto scale = [&] { return std::exp2(-kHalvings * core::Uniform(*rng)); };
+  for (int i = 0; i < options.sights; ++i) {
+    const Vector3d through = known.point + options.radius * scale() * known.to_eye;
+    const Vector3d any = core::UniformDirection(*rng);
+    const double out = any.dot(known.normal);
+    const Vector3d to_eye =
+        (known.to_eye + scale() * (any - out * known.normal) + scale() * out * known.normal)
+            .normalized();
+    if (!to_eye.allFinite() || visual.FirstHit(through, to_eye, outside)) continue;
+    const auto hit = visual.FirstHit(through, -to_eye, outside);
+    if (!hit) continue;
+    Vector3d normal = visual.Normal(hit->triangle);
+    if (normal.dot(to_eye) < 0.0) normal = -normal;
+    found.push_back({hit->point, to_eye, normal});
   }
-  const std::vector<Vector3d> on_solid =
-      SampleSurface(solid, options.solid_samples, options.seed + 1);
-  const std::vector<double> apart = DistancesToSurface(on_solid, visual);
-  for (std::size_t i = 0; i < on_solid.size(); ++i) {
-    if (apart[i] > options.reach) excess.push_back({on_solid[i]});
-  }
-  std::vector<Place> places = Spread(hidden, options.places);
-  for (const Place& place : Spread(excess, options.places)) places.push_back(place);
-  return places;
+  return found;
 }
 
 }  // namespace
 
 std::vector<OuterHit> HiddenSights(const core::TriangleMesh& visual,
                                    const core::TriangleMesh& solid,
-                                   const HiddenSightOptions& options) {
+                                   const HiddenSightOptions& options, int* random_count) {
   if (!(options.reach > 0.0) || !(options.radius > 0.0)) {
     throw core::Error("reach and radius must be positive", "hidden sights");
   }
-  if (options.places < 0 || options.sights < 0) {
-    throw core::Error("the number of places or sights is negative", "hidden sights");
+  if (std::min({options.rays, options.places, options.sights, options.generations}) < 0) {
+    throw core::Error("the number of rays, places, sights or generations is negative",
+                      "hidden sights");
   }
-  const std::vector<Place> places = FarApart(visual, solid, options);
+  const TriangleTree solid_tree(solid);
+  std::vector<OuterHit> all;
+  for (int done = 0; done < options.rays; done += kRaysAtOnce) {
+    AppendFar(SampleOuterHits(visual, std::min(kRaysAtOnce, options.rays - done),
+                              options.seed + static_cast<std::uint64_t>(done)),
+              solid_tree, options.reach, &all);
+  }
+  if (random_count != nullptr) *random_count = static_cast<int>(all.size());
   const TriangleTree tree(visual);
   const double outside = 2.0 * core::Bounds(visual).diagonal().norm();
-  std::vector<std::vector<OuterHit>> found(places.size());
-  core::ParallelFor(static_cast<int>(places.size()), [&](int p) {
-    core::CheckCancelled();
-    const Place& place = places[static_cast<std::size_t>(p)];
-    core::Rng rng = core::StreamRng(options.seed + 2, static_cast<std::uint64_t>(p));
-    for (int i = 0; i < options.sights; ++i) {
-      // Each line goes through a point that is known to be free: one on the line that got in. How
-      // wide the slit is, and from how far round one sees in, is not known: scales are drawn
-      // log-uniformly, along the wall that was seen and away from it on their own.
-      const auto scale = [&] { return std::exp2(-kHalvings * core::Uniform(rng)); };
-      const Vector3d through = place.point + options.radius * scale() * place.to_eye;
-      const Vector3d any = core::UniformDirection(rng);
-      const double out = any.dot(place.normal);
-      const Vector3d to_eye =
-          (place.to_eye + scale() * (any - out * place.normal) + scale() * out * place.normal)
-              .normalized();
-      if (!to_eye.allFinite() || tree.FirstHit(through, to_eye, outside)) continue;
-      const auto hit = tree.FirstHit(through, -to_eye, outside);
-      if (!hit || (hit->point - place.point).norm() > options.radius) continue;
-      Vector3d normal = tree.Normal(hit->triangle);
-      if (normal.dot(to_eye) < 0.0) normal = -normal;
-      found[static_cast<std::size_t>(p)].push_back({hit->point, to_eye, normal});
-    }
-  });
-  std::vector<OuterHit> all;
-  for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+  std::vector<OuterHit> known = all;
+  for (int generation = 0; generation < options.generations; ++generation) {
+    known = Spread(known, options.places);
+    std::vector<std::vector<OuterHit>> found(known.size());
+    core::ParallelFor(static_cast<int>(known.size()), [&](int k) {
+      core::CheckCancelled();
+      core::Rng rng = core::StreamRng(options.seed + 1 + static_cast<std::uint64_t>(generation),
+                                      static_cast<std::uint64_t>(k));
+      found[k] = LookInto(known[k], tree, outside, options, &rng);
+    });
+    known.clear();
+    for (const auto& some : found) AppendFar(some, solid_tree, options.reach, &known);
+    all.insert(all.end(), known.begin(), known.end());
+  }
   return all;
 }
 

@@ -9,23 +9,23 @@
 namespace simwright::geometry {
 
 struct HiddenSightOptions {
-  double reach = 0.0;         // > 0, in the mesh's unit: what lies farther apart is looked into
-  int rays = 80000;           // random lines of sight among which such places are looked for
-  int solid_samples = 30000;  // points on the solid, likewise
-  int places = 60;            // at most so many are looked into, of each kind
-  int sights = 400;           // lines of sight tried at each place
-  double radius = 0.0;        // > 0: of a place, in the mesh's unit
+  double reach = 0.0;   // > 0, in the mesh's unit: what is seen farther than this from the solid
+  int rays = 2000000;   // random chords among which such sights are looked for; >= 0
+  int places = 60;      // at most so many of them are looked into; >= 0
+  int sights = 400;     // lines of sight tried at each; >= 0
+  int generations = 2;  // of places: what is found is looked into again; >= 0
+  double radius = 0.0;  // > 0: how far up a known line of sight others pass, in the mesh's unit
   std::uint64_t seed = 1;
 };
 
-// Random lines of sight seldom enter a slit. Where the outer surface of `visual` and `solid` lie
-// farther apart than `reach`, many lines are sent through points of the one that found it (or
-// through the solid's point, where that is what lies apart); returned are the first hits of those
-// that come from outside and end within `radius` of the place. Deterministic for a seed.
-// Throws core::Error where one of the meshes has no faces or is not valid, a length is not positive
-// or a number negative.
+// Random lines of sight seldom enter a slit. Where some are found to end farther than `reach` from
+// `solid`, many more are sent through points of them, turned a little. Returned are all first hits
+// on `visual` from outside that lie farther than `reach` from `solid`; the first ones returned are
+// the random ones, of which `*random_count` (may be null) says how many there are.
+// Deterministic for a seed, whatever the threads. Throws core::Error where one of the meshes has no
+// faces or is not valid, a length is not positive or a number negative.
 std::vector<OuterHit> HiddenSights(const core::TriangleMesh& visual,
                                    const core::TriangleMesh& solid,
-                                   const HiddenSightOptions& options);
+                                   const HiddenSightOptions& options, int* random_count = nullptr);
 
 }  // namespace simwright::geometry

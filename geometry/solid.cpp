@@ -99,13 +99,19 @@ TriangleMesh Normalized(const TriangleMesh& mesh, const Vector3d& center, double
 constexpr int kThinFirst = 300000;  // more faces than this are thinned before the grid
 // What simplification may move, root mean square: half of it is left for the grid's own steps.
 constexpr double kSimplifyShare = 0.15;
+constexpr double kSimplifyMost = 0.35;  // and at most
 
 struct Wrapped {
   TriangleMesh mesh;  // in the unit box
   double sheet_share = 0.0;
   double wall = 0.0;      // given to sheets, a share of the diagonal
   double distance = 0.0;  // largest of both directions, a share of the diagonal
+  int beyond = 0;         // of the random sights of HiddenSights, those farther than the tolerance
 };
+
+bool Closer(const Wrapped& a, const Wrapped& b) {
+  return a.beyond != b.beyond ? a.beyond < b.beyond : a.distance < b.distance;
+}
 
 // How hard a wrap tries. Each next one also knows the slits in which the one before was found
 // short.
@@ -116,10 +122,11 @@ struct Effort {
   bool carves;      // opens lines of sight that the walls of sheets buried, too
 };
 constexpr Effort kEfforts[] = {
-    {1.0, 100000, false}, {1.6, 200000, false}, {1.6, 500000, true}, {1.6, 500000, true}};
+    {1.0, 100000, false}, {1.6, 200000, false}, {1.6, 500000, true}, {2.0, 500000, true}};
 // Share of the tolerance at which a wrap is good enough: other rays find somewhat more.
 constexpr double kGoodEnough = 0.9;
-constexpr double kDoubtful = 0.7;  // share of the tolerance from which a place is looked into
+constexpr double kDoubtful = 0.7;   // share of the tolerance from which a place is looked into
+constexpr double kSlitDepth = 0.3;  // share of the diagonal up which a known sight is followed
 
 // One wrap of `unit`, a mesh of diagonal 1. `sights` are lines of sight beyond the random ones.
 Wrapped WrapOnce(const TriangleMesh& unit, const Effort& effort,
@@ -138,8 +145,9 @@ Wrapped WrapOnce(const TriangleMesh& unit, const Effort& effort,
     throw core::Error("no surface could be wrapped round the mesh", "solid");
   }
   Wrapped wrapped;
-  wrapped.mesh = Simplify(
-      wrap.mesh, {options.face_budget, kSimplifyShare * options.tolerance_ratio / fineness});
+  wrapped.mesh =
+      Simplify(wrap.mesh, {options.face_budget, kSimplifyShare * options.tolerance_ratio / fineness,
+                           kSimplifyMost * options.tolerance_ratio / fineness});
   // A speck that thinning moved into its neighbour.
   DropBuried(&wrapped.mesh);
   wrapped.sheet_share = wrap.sheet_share;
@@ -153,21 +161,28 @@ Wrapped WrapOnce(const TriangleMesh& unit, const Effort& effort,
 }
 
 // Lines of sight into the places where a wrap is no longer close: what is beyond the tolerance is
-// often nearby, and so narrow that random lines miss it.
-std::vector<OuterHit> Doubtful(const TriangleMesh& unit, const Wrapped& wrapped, std::uint64_t seed,
-                               const SolidOptions& options) {
+// often nearby, and so narrow that random lines miss it. What they show counts in `wrapped`.
+std::vector<OuterHit> Doubtful(const TriangleMesh& unit, std::uint64_t seed,
+                               const SolidOptions& options, Wrapped* wrapped) {
+  // The solid lies farthest from what is seen at one of its corners, as a rule.
+  for (const double d : DistancesToSurface(wrapped->mesh.vertices, unit)) {
+    wrapped->distance = std::max(wrapped->distance, d);
+  }
   HiddenSightOptions hidden;
   hidden.reach = kDoubtful * options.tolerance_ratio;
-  if (wrapped.distance <= hidden.reach) return {};
-  hidden.radius = 4.0 * options.tolerance_ratio;
+  if (wrapped->distance <= hidden.reach) return {};
+  hidden.radius = kSlitDepth;
   hidden.seed = seed;
-  return HiddenSights(unit, wrapped.mesh, hidden);
-}
-
-double FarthestFrom(const TriangleMesh& mesh, const std::vector<Vector3d>& points) {
-  double farthest = 0.0;
-  for (const double d : DistancesToSurface(points, mesh)) farthest = std::max(farthest, d);
-  return farthest;
+  int random_count = 0;
+  const std::vector<OuterHit> sights = HiddenSights(unit, wrapped->mesh, hidden, &random_count);
+  std::vector<Vector3d> ends;
+  for (const OuterHit& hit : sights) ends.push_back(hit.point);
+  const std::vector<double> distances = DistancesToSurface(ends, wrapped->mesh);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    wrapped->distance = std::max(wrapped->distance, distances[i]);
+    wrapped->beyond += static_cast<int>(i) < random_count && distances[i] > options.tolerance_ratio;
+  }
+  return sights;
 }
 
 void WrapSolid(const TriangleMesh& welded, const Vector3d& center, double diagonal,
@@ -177,18 +192,13 @@ void WrapSolid(const TriangleMesh& welded, const Vector3d& center, double diagon
     unit = ClusterVertices(unit, options.cell_ratio / 3.0);
   }
   Wrapped wrapped;
-  wrapped.distance = std::numeric_limits<double>::infinity();
+  wrapped.beyond = std::numeric_limits<int>::max();
   std::vector<OuterHit> sights;
   for (const Effort& effort : kEfforts) {
     Wrapped next = WrapOnce(unit, effort, sights, options);
-    const std::vector<OuterHit> more = Doubtful(unit, next, 100 + sights.size(), options);
-    std::vector<Vector3d> looked_at;
-    for (const OuterHit& hit : more) looked_at.push_back(hit.point);
-    // The solid lies farthest from what is seen at one of its corners, as a rule.
-    next.distance = std::max({next.distance, FarthestFrom(next.mesh, looked_at),
-                              FarthestFrom(unit, next.mesh.vertices)});
+    const std::vector<OuterHit> more = Doubtful(unit, 100 + sights.size(), options, &next);
     sights.insert(sights.end(), more.begin(), more.end());
-    if (next.distance < wrapped.distance) wrapped = std::move(next);
+    if (Closer(next, wrapped)) wrapped = std::move(next);
     if (wrapped.distance <= kGoodEnough * options.tolerance_ratio) break;
   }
   TriangleMesh mesh = std::move(wrapped.mesh);

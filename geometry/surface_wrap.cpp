@@ -32,6 +32,8 @@ constexpr int kLooks = 100;          // lines about a hidden point
 constexpr int kLookBudget = 200000;  // lines a round: about a second
 constexpr int kLookRounds = 4;
 constexpr double kLookSpread = 8.0;  // cells
+constexpr double kTubeRadius = 0.6;  // cells: of what is opened round a line of sight
+constexpr double kTubeLeast = 0.15;  // cells from the surface of the nodes nearest to it
 
 double Band(const SurfaceWrapOptions& options) {
   // A cell beyond the wall: both ends of the edges that its surface crosses have their distance.
@@ -237,31 +239,69 @@ class Wrapper {
         buried[h] = !tree.Within(options_.seen[h].point, options_.reach);
       }
     });
-    std::vector<std::size_t> carved;
+    bool carved = false;
     for (std::size_t h = 0; h < buried.size(); ++h) {
       if (!buried[h]) continue;
-      Vector3d at = InCells(options_.seen[h].point);
-      const int steps = 2 * (field->nx + field->ny + field->nz);
-      for (int step = 0; step < steps; ++step, at += 0.5 * options_.seen[h].to_eye) {
-        const std::size_t node = NodeAt(at);
-        if (step > 2 && field->values[node] > 0.0f) break;
-        carved.push_back(node);
-      }
+      carved = true;
+      OpenTube(options_.seen[h], field);
     }
-    const float open = static_cast<float>(0.3 * grid_.cell());
-    for (const std::size_t node : carved) {
-      field->values[node] = std::max(field->values[node], open);
-    }
-    return !carved.empty();
+    return carved;
   }
 
-  std::size_t NodeAt(const Vector3d& at) const {
+  // Opens a round tube along a line of sight, from what is seen to the grid's border: tubes side by
+  // side make a smooth slot. The nodes nearest to the line are open in any case, each a neighbour
+  // of the one before, so that the tube is one with the outside.
+  void OpenTube(const OuterHit& hit, ScalarGrid* field) const {
+    const Vector3d start = InCells(hit.point);
+    const Vector3d last(grid_.size()[0] - 2.0, grid_.size()[1] - 2.0, grid_.size()[2] - 2.0);
+    int main_axis = 0;
+    hit.to_eye.cwiseAbs().maxCoeff(&main_axis);
+    const double sign = hit.to_eye[main_axis] < 0.0 ? -1.0 : 1.0;
+    const Vector3d step = hit.to_eye / std::abs(hit.to_eye[main_axis]);  // one layer of nodes
+    const int u = (main_axis + 1) % 3;
+    const int v = (main_axis + 2) % 3;
+    std::array<int, 3> previous = RoundedNode(start);
+    Open(field, Index(previous), kTubeLeast);
+    const double first = sign * std::ceil(sign * start[main_axis]);
+    Vector3d at = start + std::abs(first - start[main_axis]) * step;
+    for (; (at.array() >= 1.0).all() && (at.array() <= last.array()).all(); at += step) {
+      std::array<int, 3> node;
+      node[main_axis] = static_cast<int>(std::lround(at[main_axis]));
+      for (int n = 0; n < 25; ++n) {
+        node[u] = static_cast<int>(std::lround(at[u])) + n % 5 - 2;
+        node[v] = static_cast<int>(std::lround(at[v])) + n / 5 - 2;
+        if (node[u] < 0 || node[v] < 0 || node[u] >= grid_.size()[u] ||
+            node[v] >= grid_.size()[v]) {
+          continue;
+        }
+        const Vector3d offset = Vector3d(node[0], node[1], node[2]) - start;
+        const double along = offset.dot(hit.to_eye);
+        const double beside = (offset - along * hit.to_eye).norm();
+        Open(field, Index(node), std::min(kTubeRadius - beside, along));
+      }
+      const std::array<int, 3> next = RoundedNode(at);
+      for (int axis = 0; axis < 3; ++axis) {
+        if (previous[axis] == next[axis]) continue;
+        previous[axis] = next[axis];
+        Open(field, Index(previous), kTubeLeast);
+      }
+    }
+  }
+
+  // `value` in cells.
+  void Open(ScalarGrid* field, std::size_t node, double value) const {
+    field->values[node] = std::max(field->values[node], static_cast<float>(value * grid_.cell()));
+  }
+
+  std::array<int, 3> RoundedNode(const Vector3d& at) const {
     std::array<int, 3> node;
     for (int axis = 0; axis < 3; ++axis) {
       node[axis] = std::clamp(static_cast<int>(std::lround(at[axis])), 1, grid_.size()[axis] - 2);
     }
-    return Index(node);
+    return node;
   }
+
+  std::size_t NodeAt(const Vector3d& at) const { return Index(RoundedNode(at)); }
 
   // Whether there is something behind the surface, seen from an outside node: an inside node deep
   // enough that the part is no thinner than a cell there.

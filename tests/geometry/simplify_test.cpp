@@ -63,6 +63,42 @@ TEST(Simplify, TheErrorLimitHoldsBeforeTheBudget) {
   EXPECT_LT(OuterSurfaceDistance(fine, close).visual_to_solid_p99, 5e-4);
 }
 
+// A box with a trench 2.4 cells wide and 0.5 deep: little area, so the mean does not mind it.
+TriangleMesh TrenchedBox() {
+  ScalarGrid grid;
+  grid.nx = grid.ny = grid.nz = 81;
+  grid.cell = 2.0 / 80;
+  grid.origin.setConstant(-1.0);
+  const auto box = [](const Vector3d& p, const Vector3d& center, const Vector3d& half) {
+    return ((p - center).cwiseAbs() - half).maxCoeff();
+  };
+  for (int n = 0; n < 81 * 81 * 81; ++n) {
+    const Vector3d p = grid.origin + grid.cell * Vector3d(n % 81, n / 81 % 81, n / (81 * 81));
+    const double solid = box(p, Vector3d::Zero(), Vector3d::Constant(0.8));
+    const double trench = box(p, {0.011, 0, 0.8}, {0.03, 0.3, 0.5});
+    grid.values.push_back(static_cast<float>(std::max(solid, -trench)));
+  }
+  return ExtractIsosurface(grid, 0.0f);
+}
+
+TEST(Simplify, TheDistanceLimitKeepsWhatTheMeanHides) {
+  const TriangleMesh fine = TrenchedBox();
+  const auto farthest = [](const TriangleMesh& from, const TriangleMesh& to) {
+    double most = 0.0;
+    for (const double d : DistancesToSurface(from.vertices, to)) most = std::max(most, d);
+    return most;
+  };
+  const SimplifyOptions mean{4, 0.03, 0.0};
+  EXPECT_GT(farthest(fine, Simplify(fine, mean)), 0.12);
+  const SimplifyOptions both{4, 0.03, 0.05};
+  const TriangleMesh kept = Simplify(fine, both);
+  EXPECT_TRUE(Examine(kept).Sound());
+  EXPECT_LT(kept.triangles.size(), fine.triangles.size() / 3);
+  // Three descents at most, each within the limit.
+  EXPECT_LT(farthest(fine, kept), 3 * 0.05);
+  EXPECT_LT(farthest(kept, fine), 3 * 0.05);
+}
+
 TEST(Simplify, RefusesWhatIsNotClosed) {
   TriangleMesh open = SphereUnderPlate(21);
   open.triangles.pop_back();

@@ -1,0 +1,67 @@
+#include "geometry/surface_wrap.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/soundness.h"
+#include "geometry/surface_distance.h"
+#include "geometry/triangle_tree.h"
+
+namespace simwright::geometry {
+namespace {
+
+using core::TriangleMesh;
+using Eigen::Vector3d;
+
+void AddBox(const Vector3d& low, const Vector3d& high, TriangleMesh* mesh) {
+  TriangleMesh box;
+  for (int c = 0; c < 8; ++c) {
+    box.vertices.emplace_back(c & 1 ? high.x() : low.x(), c & 2 ? high.y() : low.y(),
+                              c & 4 ? high.z() : low.z());
+  }
+  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  core::Append(box, mesh);
+}
+
+// Two blocks 0.2 mm apart on a floor, the slit 0.3 deep: a fiftieth of a cell, so that only lines
+// of sight can open it.
+class HairlineSlit : public ::testing::Test {
+ protected:
+  HairlineSlit() {
+    AddBox({-0.3963, -0.4, 0.1}, {-0.0001, 0.4, 0.4}, &mesh_);
+    AddBox({0.0001, -0.4, 0.1}, {0.4, 0.4, 0.4}, &mesh_);
+    AddBox({-0.3963, -0.4, 0.0}, {0.4, 0.4, 0.1}, &mesh_);
+    options_.cell = 0.01;
+    options_.closing = 0.01;
+    options_.wall = 0.02;
+  }
+  TriangleMesh mesh_;
+  SurfaceWrapOptions options_;
+};
+
+TEST_F(HairlineSlit, StaysClosedWhereNobodyLooksIn) {
+  const SurfaceWrap wrap = WrapSurface(mesh_, options_);
+  EXPECT_TRUE(Examine(wrap.mesh).Sound());
+  EXPECT_GT(TriangleTree(wrap.mesh).Closest({0, 0, 0.1}).distance, 0.08);
+}
+
+TEST_F(HairlineSlit, ObliqueLinesOfSightOpenIt) {
+  // Along the slit, neither along an axis nor through nodes of the grid.
+  for (const double slope : {-1.3, -0.41, 0.0, 0.77}) {
+    const Vector3d to_eye = Vector3d(0, slope, 1).normalized();
+    options_.seen.push_back({{0, 0.1 * slope, 0.1}, to_eye, Vector3d::UnitZ()});
+  }
+  options_.reach = 0.02;
+  const SurfaceWrap wrap = WrapSurface(mesh_, options_);
+  const Soundness state = Examine(wrap.mesh);
+  EXPECT_TRUE(state.Sound()) << Describe(state);
+  const TriangleTree tree(wrap.mesh);
+  for (const OuterHit& hit : options_.seen) {
+    EXPECT_LT(tree.Closest(hit.point).distance, options_.reach) << hit.point.transpose();
+  }
+  // And nothing else has moved.
+  for (const double d : DistancesToSurface(wrap.mesh.vertices, mesh_)) EXPECT_LT(d, 0.02);
+}
+
+}  // namespace
+}  // namespace simwright::geometry
