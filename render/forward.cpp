@@ -97,9 +97,21 @@ class RowRenderer {
   // The ray through image point (0, y), world; a pixel to the right adds `per_x_`.
   Eigen::Vector3f RowStart(double y) const { return (at_zero_ + y * per_y_).cast<float>(); }
 
+  // The shading normal on the side from which the ray comes.
   Eigen::Vector3f FacingNormal(const Hit& hit, const Eigen::Vector3f& ray) const {
     const Eigen::Vector3f normal = scene_.ShadingNormal(hit);
-    return normal.dot(ray) > 0.0f ? Eigen::Vector3f(-normal) : normal;
+    return normal.dot(ray) > 0.0f ? TurnedNormal(hit, normal, ray) : normal;
+  }
+
+  // A back face turns its normal round. A front face that is seen so flatly that its smooth normal
+  // looks away keeps its side: the normal is brought to the horizon, not behind the face.
+  Eigen::Vector3f TurnedNormal(const Hit& hit, Eigen::Vector3f normal,
+                               const Eigen::Vector3f& ray) const {
+    const Eigen::Matrix3f c = scene_.Corners(hit.instance, hit.triangle);
+    const Eigen::Vector3f face = (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0));
+    if (face.dot(ray) > 0.0f) normal = -normal;
+    const float away = normal.dot(ray) / ray.squaredNorm();
+    return away > 0.0f ? (normal - away * ray).stableNormalized() : normal;
   }
 
   void Keep(const Hit& hit, const Eigen::Vector3f& normal, size_t at) const {

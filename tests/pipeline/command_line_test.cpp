@@ -210,6 +210,16 @@ TEST_F(CommandLine, LargeMeshesAreOrdinary) {
   EXPECT_EQ(outcome.code, 0) << outcome.text;
 }
 
+TEST_F(CommandLine, TheExampleChairBecomesAnAssetThatHolds) {
+  const Outcome outcome = RunProgram("import " SIMWRIGHT_SOURCE_DIR
+                                     "/examples/chair.obj --category chair --quiet -o " +
+                                     Out());
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  const Outcome check = RunProgram("check " + Out() + "/chair");
+  EXPECT_EQ(check.code, 0) << check.text;
+  EXPECT_EQ(check.text.find("fail"), std::string::npos) << check.text;
+}
+
 TEST_F(CommandLine, CtrlCLeavesNothing) {
   const std::string mesh = Write("ball.obj", assets::ObjText(assets::SphereMesh(0.1, 200)));
   const size_t before = Entries();

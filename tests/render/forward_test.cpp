@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/camera.h"
 #include "core/error.h"
 #include "core/parallel.h"
 
@@ -126,6 +127,43 @@ TEST(Light, IrradianceOfAClampedCosineLobe) {
   tilted.radiance.row(2).array() += 1.0f / 0.488603f;
   EXPECT_NEAR(tilted.Shade(Eigen::Vector3f::UnitZ()).y(), 1.0f + 2.0f / 3.0f, 1e-4f);
   EXPECT_NEAR(SrgbFromLinear(LinearFromSrgb(0.37f)), 0.37f, 1e-5f);
+}
+
+// The corner normals of a box lean over its edges: on a side that is seen flatly they look away
+// from the eye, and still belong to that side, which is lit.
+TEST(Forward, NormalsStayOnTheirSideOfAFaceSeenFlatly) {
+  core::TexturedMesh box;
+  for (int c = 0; c < 8; ++c) {
+    box.mesh.vertices.emplace_back(c & 1 ? 0.1 : -0.1, c & 2 ? 0.1 : -0.1, c & 4 ? 1.0 : 0.0);
+  }
+  box.mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                        {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  Scene scene;
+  scene.Add(&box);
+  scene.Commit();
+  ForwardOptions options;
+  options.samples_per_side = 3;
+  options.shaded = true;
+  options.occlusion_rays = 8;
+  int flat = 0;
+  for (const double azimuth : {-0.1, -0.05, 0.05, 0.1}) {
+    // From the front, past the side: the orbit starts where its azimuth says.
+    const core::Camera camera = core::OrbitCamera({0, 0, 0.5}, 3.0, 0.3, azimuth, 0.4, 200, 200);
+    const ForwardBuffers buffers = RenderForward(scene, camera, options);
+    for (size_t at = 0; at < buffers.triangle.size(); ++at) {
+      if (buffers.triangle[at] < 0) continue;
+      const Eigen::Vector3d area = core::TriangleAreaVector(box.mesh, buffers.triangle[at]);
+      const Eigen::Vector3f face = area.normalized().cast<float>();
+      ASSERT_GE(buffers.normal[at].dot(face), 0.0f) << buffers.triangle[at];
+      const int x = static_cast<int>(at) % 200, y = static_cast<int>(at) / 200;
+      if (buffers.mask[at] == 1.0f) {
+        EXPECT_GT(buffers.color.At(x, y)[0], 40) << x << " " << y;
+      }
+      const Eigen::Vector3d to_eye = camera.position() - Eigen::Vector3d(0, 0, 0.5);
+      flat += area.normalized().dot(to_eye.normalized()) < 0.15;
+    }
+  }
+  EXPECT_GT(flat, 100);
 }
 
 TEST(Forward, RefusesImpossiblePictures) {
