@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/error.h"
 #include "core/progress.h"
 
 namespace simwright::geometry {
@@ -285,6 +286,9 @@ class Collapser {
 
 Thinned CollapseEdges(const core::TriangleMesh& mesh, const std::vector<char>& locked, int budget,
                       double max_error) {
+  if (locked.size() != mesh.vertices.size()) {
+    throw core::Error("a lock is needed for each vertex", "edge collapse");
+  }
   Collapser collapser(mesh, locked);
   collapser.Run(budget, max_error);
   return collapser.Result();

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kHalvings = 8.0;    // down to 0.4 % of a radius, or of a radian
-constexpr int kRaysAtOnce = 500000;  // about 100 MB of hits
+constexpr int kRaysAtOnce = 500000;  // at most 72 MB of hits
 
 void AppendFar(const std::vector<OuterHit>& hits, const TriangleTree& solid, double reach,
                std::vector<OuterHit>* far) {

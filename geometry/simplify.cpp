@@ -25,8 +25,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kTries = 8;
-constexpr int kPairLimit = 5000;
-constexpr int kFarLimit = 5000;
+constexpr int kPairLimit = 5000;       // places mended a try: crossing pairs,
+constexpr int kFarLimit = 5000;        // and points too far off
 constexpr int kFewestSamples = 10000;  // of a surface, to see how far it lies from another
 
 using Boxes = std::vector<Eigen::AlignedBox3d>;
@@ -280,7 +280,7 @@ core::TriangleMesh Simplify(const core::TriangleMesh& mesh, const SimplifyOption
                       "make a solid of it first");
   }
   // In steps: one that has to be tried again is then a cheap one. The first takes what is nearly
-  // flat, which hardly ever makes faces cross. Each has its share of the distance.
+  // flat, which hardly ever makes faces cross.
   const double error = options.max_error;
   const double distance = options.max_distance;
   core::TriangleMesh result = mesh;

@@ -109,6 +109,7 @@ struct Wrapped {
   int beyond = 0;         // of the random sights of HiddenSights, those farther than the tolerance
 };
 
+// The farthest single sight is chance; how many are beyond the tolerance is what a check meets.
 bool Closer(const Wrapped& a, const Wrapped& b) {
   return a.beyond != b.beyond ? a.beyond < b.beyond : a.distance < b.distance;
 }

@@ -7,32 +7,23 @@
 
 #include "core/error.h"
 #include "geometry/triangle_tree.h"
+#include "tests/geometry/solid_shapes.h"
 
 namespace simwright::geometry {
 namespace {
 
 using core::TriangleMesh;
 using Eigen::Vector3d;
-
-void AddSlab(const Vector3d& low, const Vector3d& high, TriangleMesh* mesh) {
-  TriangleMesh box;
-  for (int c = 0; c < 8; ++c) {
-    box.vertices.emplace_back(c & 1 ? high.x() : low.x(), c & 2 ? high.y() : low.y(),
-                              c & 4 ? high.z() : low.z());
-  }
-  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  core::Append(box, mesh);
-}
+using shapes::Box;
 
 // Two slabs 4 mm apart with a floor between them: a slit 0.3 deep. The solid fills it.
 class Slit : public ::testing::Test {
  protected:
   Slit() {
-    AddSlab({-0.5, -0.5, 0}, {-0.002, 0.5, 0.5}, &visual_);
-    AddSlab({0.002, -0.5, 0}, {0.5, 0.5, 0.5}, &visual_);
-    AddSlab({-0.1, -0.5, 0}, {0.1, 0.5, 0.2}, &visual_);
-    AddSlab({-0.5, -0.5, 0}, {0.5, 0.5, 0.5}, &solid_);
+    core::Append(Box({-0.5, -0.5, 0}, {-0.002, 0.5, 0.5}), &visual_);
+    core::Append(Box({0.002, -0.5, 0}, {0.5, 0.5, 0.5}), &visual_);
+    core::Append(Box({-0.1, -0.5, 0}, {0.1, 0.5, 0.2}), &visual_);
+    core::Append(Box({-0.5, -0.5, 0}, {0.5, 0.5, 0.5}), &solid_);
     options_.reach = 0.05;
     options_.radius = 0.1;
     options_.rays = 300000;

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "geometry/alpha_wrap.h"
+#include "geometry/edge_collapse.h"
 #include "geometry/isosurface.h"
 #include "geometry/remesh.h"
 #include "geometry/soundness.h"
@@ -104,6 +105,7 @@ TEST(Simplify, RefusesWhatIsNotClosed) {
   open.triangles.pop_back();
   EXPECT_THROW(Simplify(open, {100, 0.0}), core::Error);
   EXPECT_THROW(Simplify({}, {100, 0.0}), core::Error);
+  EXPECT_THROW(CollapseEdges(SphereUnderPlate(21), {}, 4, 0.0), core::Error);
 }
 
 TEST(ClusterVertices, MovesNothingFartherThanItsCell) {

@@ -192,6 +192,18 @@ inline TriangleMesh Box(double x, double y, double z) {
   return BoxUnion({BoxAt(0, 0, 0, x, y, z)});
 }
 
+// Of twelve triangles, between two corners.
+inline TriangleMesh Box(const Vector3d& low, const Vector3d& high) {
+  TriangleMesh mesh;
+  for (int c = 0; c < 8; ++c) {
+    mesh.vertices.emplace_back(c & 1 ? high.x() : low.x(), c & 2 ? high.y() : low.y(),
+                               c & 4 ? high.z() : low.z());
+  }
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
 // A star-shaped polygon (round its origin) drawn out along z.
 inline TriangleMesh Prism(const std::vector<Vector2d>& polygon, double height) {
   TriangleMesh mesh;

@@ -12,23 +12,14 @@
 #include "geometry/soundness.h"
 #include "geometry/surface_distance.h"
 #include "geometry/weld.h"
+#include "tests/geometry/solid_shapes.h"
 
 namespace simwright::geometry {
 namespace {
 
 using core::TriangleMesh;
 using Eigen::Vector3d;
-
-TriangleMesh Box(const Vector3d& low, const Vector3d& high) {
-  TriangleMesh mesh;
-  for (int c = 0; c < 8; ++c) {
-    mesh.vertices.emplace_back(c & 1 ? high.x() : low.x(), c & 2 ? high.y() : low.y(),
-                               c & 4 ? high.z() : low.z());
-  }
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return mesh;
-}
+using shapes::Box;
 
 TriangleMesh Torus(double major, double minor, int around, int tube) {
   TriangleMesh mesh;

@@ -5,32 +5,23 @@
 #include "geometry/soundness.h"
 #include "geometry/surface_distance.h"
 #include "geometry/triangle_tree.h"
+#include "tests/geometry/solid_shapes.h"
 
 namespace simwright::geometry {
 namespace {
 
 using core::TriangleMesh;
 using Eigen::Vector3d;
-
-void AddBox(const Vector3d& low, const Vector3d& high, TriangleMesh* mesh) {
-  TriangleMesh box;
-  for (int c = 0; c < 8; ++c) {
-    box.vertices.emplace_back(c & 1 ? high.x() : low.x(), c & 2 ? high.y() : low.y(),
-                              c & 4 ? high.z() : low.z());
-  }
-  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  core::Append(box, mesh);
-}
+using shapes::Box;
 
 // Two blocks 0.2 mm apart on a floor, the slit 0.3 deep: a fiftieth of a cell, so that only lines
 // of sight can open it.
 class HairlineSlit : public ::testing::Test {
  protected:
   HairlineSlit() {
-    AddBox({-0.3963, -0.4, 0.1}, {-0.0001, 0.4, 0.4}, &mesh_);
-    AddBox({0.0001, -0.4, 0.1}, {0.4, 0.4, 0.4}, &mesh_);
-    AddBox({-0.3963, -0.4, 0.0}, {0.4, 0.4, 0.1}, &mesh_);
+    core::Append(Box({-0.3963, -0.4, 0.1}, {-0.0001, 0.4, 0.4}), &mesh_);
+    core::Append(Box({0.0001, -0.4, 0.1}, {0.4, 0.4, 0.4}), &mesh_);
+    core::Append(Box({-0.3963, -0.4, 0.0}, {0.4, 0.4, 0.1}), &mesh_);
     options_.cell = 0.01;
     options_.closing = 0.01;
     options_.wall = 0.02;
