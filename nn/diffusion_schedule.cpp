@@ -1,0 +1,66 @@
+#include "nn/diffusion_schedule.h"
+
+#include <cmath>
+
+#include "core/error.h"
+
+namespace simwright::nn {
+namespace {
+
+torch::Tensor Column(const torch::Tensor& table, const torch::Tensor& t) {
+  return table.to(t.device())
+      .index_select(0, t.to(torch::kLong))
+      .to(torch::kFloat)
+      .reshape({-1, 1, 1, 1});
+}
+
+}  // namespace
+
+DiffusionSchedule::DiffusionSchedule(const torch::Tensor& betas) {
+  const torch::Tensor kept = torch::cumprod(1.0 - betas, 0);
+  signal_ = torch::sqrt(kept);
+  noise_ = torch::sqrt(1.0 - kept);
+}
+
+DiffusionSchedule DiffusionSchedule::Cosine(int steps) {
+  if (steps < 2) throw core::Error("a diffusion has at least two steps");
+  const torch::Tensor time = torch::arange(steps + 1, torch::kDouble) / static_cast<double>(steps);
+  const torch::Tensor kept = torch::pow(torch::cos((time + 0.008) / 1.008 * (0.5 * M_PI)), 2);
+  const torch::Tensor betas = 1.0 - kept.slice(0, 1, steps + 1) / kept.slice(0, 0, steps);
+  return DiffusionSchedule(torch::clamp(betas, 1e-6, 0.999));
+}
+
+DiffusionSchedule DiffusionSchedule::ScaledLinear(int steps, double first, double last) {
+  if (steps < 2 || !(first > 0.0) || !(last > first) || last >= 1.0) {
+    throw core::Error("a diffusion has at least two steps and betas that rise between 0 and 1");
+  }
+  return DiffusionSchedule(
+      torch::pow(torch::linspace(std::sqrt(first), std::sqrt(last), steps, torch::kDouble), 2));
+}
+
+torch::Tensor DiffusionSchedule::Signal(const torch::Tensor& t) const {
+  return Column(signal_, t);
+}
+
+torch::Tensor DiffusionSchedule::Noise(const torch::Tensor& t) const {
+  return Column(noise_, t);
+}
+
+torch::Tensor DiffusionSchedule::AddNoise(const torch::Tensor& clean, const torch::Tensor& noise,
+                                          const torch::Tensor& t) const {
+  return Signal(t) * clean + Noise(t) * noise;
+}
+
+torch::Tensor DiffusionSchedule::CleanFrom(const torch::Tensor& noisy, const torch::Tensor& noise,
+                                           const torch::Tensor& t) const {
+  return (noisy - Noise(t) * noise) / Signal(t);
+}
+
+torch::Tensor DiffusionSchedule::DdimStep(const torch::Tensor& noisy, const torch::Tensor& noise,
+                                          int t, int previous) const {
+  const torch::Tensor clean = (noisy - NoiseAt(t) * noise) / SignalAt(t);
+  if (previous < 0) return clean;
+  return SignalAt(previous) * clean + NoiseAt(previous) * noise;
+}
+
+}  // namespace simwright::nn

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "nn/torch.h"
+
+namespace simwright::nn {
+
+// Discrete variance-preserving diffusion (Ho et al. 2020): x_t = a_t x_0 + s_t noise with
+// a_t^2 + s_t^2 = 1, t = 0 .. steps - 1.
+class DiffusionSchedule {
+ public:
+  // Cosine schedule (Nichol and Dhariwal 2021, offset 0.008), betas at most 0.999.
+  static DiffusionSchedule Cosine(int steps);
+  // Betas whose square roots rise evenly from `first` to `last`, as in latent diffusion (Rombach et
+  // al. 2022), which Zero-1-to-3 keeps: 0.00085 to 0.012 over 1000 steps.
+  static DiffusionSchedule ScaledLinear(int steps, double first, double last);
+
+  int steps() const { return static_cast<int>(signal_.size(0)); }
+  // a_t and s_t for t (B, int64), as (B x 1 x 1 x 1) on t's device.
+  torch::Tensor Signal(const torch::Tensor& t) const;
+  torch::Tensor Noise(const torch::Tensor& t) const;
+  double SignalAt(int t) const { return signal_[t].item<double>(); }
+  double NoiseAt(int t) const { return noise_[t].item<double>(); }
+
+  // x_t from x_0 and noise, (B x C x H x W) each.
+  torch::Tensor AddNoise(const torch::Tensor& clean, const torch::Tensor& noise,
+                         const torch::Tensor& t) const;
+  // The x_0 that x_t and its predicted noise stand for.
+  torch::Tensor CleanFrom(const torch::Tensor& noisy, const torch::Tensor& noise,
+                          const torch::Tensor& t) const;
+  // The deterministic step of DDIM (Song et al. 2021) from t to `previous` < t; -1: to x_0.
+  torch::Tensor DdimStep(const torch::Tensor& noisy, const torch::Tensor& noise, int t,
+                         int previous) const;
+
+ private:
+  explicit DiffusionSchedule(const torch::Tensor& betas);
+  torch::Tensor signal_, noise_;  // (steps) float64
+};
+
+}  // namespace simwright::nn
