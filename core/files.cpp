@@ -168,4 +168,15 @@ void StagedFolder::Commit() {
   if (!old.empty()) fs::remove_all(old, code);
 }
 
+TemporaryFolder::TemporaryFolder() {
+  std::string pattern = (fs::temp_directory_path() / "simwright_XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) ThrowErrno("cannot create a temporary folder", pattern);
+  path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code code;
+  fs::remove_all(path_, code);
+}
+
 }  // namespace simwright::core

@@ -42,4 +42,17 @@ class StagedFolder {
   bool committed_ = false;
 };
 
+// A new folder below the system's temporary one that is gone when this is.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();  // throws core::Error where none can be made
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 }  // namespace simwright::core

@@ -25,4 +25,23 @@ void Ema::CopyTo(torch::nn::Module* module) const {
   for (size_t i = 0; i < now.size(); ++i) now[i].copy_(average_[i]);
 }
 
+void Ema::Save(torch::serialize::OutputArchive* archive) const {
+  archive->write("updates", torch::tensor(static_cast<std::int64_t>(updates_)), true);
+  for (size_t i = 0; i < average_.size(); ++i) {
+    archive->write(std::to_string(i), average_[i].to(torch::kCPU), true);
+  }
+}
+
+void Ema::Load(torch::serialize::InputArchive* archive) {
+  const torch::NoGradGuard no_grad;
+  torch::Tensor updates;
+  archive->read("updates", updates, true);
+  updates_ = updates.item<long>();
+  for (size_t i = 0; i < average_.size(); ++i) {
+    torch::Tensor stored;
+    archive->read(std::to_string(i), stored, true);
+    average_[i].copy_(stored);
+  }
+}
+
 }  // namespace simwright::nn

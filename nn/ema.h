@@ -16,6 +16,10 @@ class Ema {
   // Writes the average into the module's parameters.
   void CopyTo(torch::nn::Module* module) const;
 
+  void Save(torch::serialize::OutputArchive* archive) const;
+  // Throws c10::Error where the archive holds another module's average.
+  void Load(torch::serialize::InputArchive* archive);
+
  private:
   double decay_;
   long updates_ = 0;

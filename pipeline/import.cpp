@@ -6,14 +6,13 @@
 #include <memory>
 #include <set>
 
-#include <unistd.h>
-
 #include "assets/asset_folder.h"
 #include "assets/furniture_catalogue.h"
 #include "assets/mesh_import.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
+#include "pipeline/catalogue_meshes.h"
 #include "pipeline/preview.h"
 
 namespace simwright::pipeline {
@@ -47,26 +46,6 @@ std::string Unique(std::string name, std::set<std::string>* taken) {
   return name;
 }
 
-// A folder that is gone when this is.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "simwright_import_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) {
-      throw core::Error("cannot create a temporary folder", pattern);
-    }
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code code;
-    fs::remove_all(path_, code);
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 // What the file's name says of it, else the catch-all.
 physics_params::Resolution CategoryOf(const std::string& wanted, const std::string& name) {
   if (!wanted.empty()) return physics_params::RequireCategory(wanted);
@@ -78,28 +57,6 @@ physics_params::Resolution CategoryOf(const std::string& wanted, const std::stri
     found.sentence += "; taken for a plastic or wooden object: give --category for a better mass";
   }
   return found;
-}
-
-void ScaleToSize(const Eigen::Vector3d& size, core::TriangleMesh* mesh) {
-  const Eigen::Vector3d now = core::Bounds(*mesh).sizes();
-  Eigen::Vector3d factors;
-  // A flat sheet has no extent to scale in one direction: it keeps the others' mean.
-  double sum = 0.0;
-  int counted = 0;
-  for (int k = 0; k < 3; ++k) {
-    if (now[k] > 1e-9 * now.maxCoeff() && size[k] > 0.0) {
-      factors[k] = size[k] / now[k];
-      sum += factors[k];
-      ++counted;
-    } else {
-      factors[k] = 0.0;
-    }
-  }
-  if (counted == 0) return;
-  for (int k = 0; k < 3; ++k) {
-    if (factors[k] == 0.0) factors[k] = sum / counted;
-  }
-  core::Transform(Eigen::Affine3d(Eigen::Scaling(factors)), mesh);
 }
 
 void RequirePassed(const CheckReport& report, const std::string& name) {
@@ -129,12 +86,7 @@ class Importer {
     core::TexturedMesh visual;
     if (catalogue != nullptr) {
       const assets::CataloguePiece& piece = catalogue->pieces()[static_cast<size_t>(item.piece)];
-      const TemporaryFolder folder;
-      const fs::path model = catalogue->Extract(piece, folder.path());
-      ImportOptions read = options_;
-      read.height = 0.0;
-      read.unit = 1.0;
-      visual = ReadPiece(model, piece, read, &findings);
+      visual = ReadCataloguePiece(*catalogue, piece, &findings);
       request.source = item.mesh.filename().string() + ":" + piece.id;
       request.category = CategoryOf(options_.category, piece.name);
     } else {
@@ -158,19 +110,6 @@ class Importer {
   }
 
  private:
-  core::TexturedMesh ReadPiece(const fs::path& model, const assets::CataloguePiece& piece,
-                               const ImportOptions& read, core::Findings* findings) const {
-    core::TexturedMesh mesh = assets::ReadMesh(model, [&](const std::string& sentence) {
-      findings->push_back({"texture", core::Severity::kWarning, piece.id, sentence, 0.0});
-    });
-    // The rotation turns the model in its own frame, where y is up (Sweet Home 3D).
-    Eigen::Affine3d turn = Eigen::Affine3d::Identity();
-    turn.linear() = WorldFromFile(UpOf(model, read.up)) * piece.model_rotation;
-    core::Transform(turn, &mesh.mesh);
-    ScaleToSize(piece.size_m, &mesh.mesh);
-    return mesh;
-  }
-
   const fs::path output_;
   const ImportOptions& options_;
 };

@@ -5,13 +5,11 @@
 #include <cstdlib>
 #include <set>
 
-#include <stdlib.h>
-
 #include "assets/furniture_catalogue.h"
-#include "assets/mesh_import.h"
 #include "core/error.h"
 #include "core/image.h"
 #include "physics_params/category_resolution.h"
+#include "pipeline/catalogue_meshes.h"
 #include "pipeline/lift.h"
 #include "render/forward.h"
 
@@ -21,35 +19,6 @@ namespace {
 
 constexpr int kSide = 400;
 constexpr double kFieldOfView = 35.0 * M_PI / 180.0;
-
-struct TemporaryFolder {
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "simwright_bench_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw core::Error("no temporary folder", pattern);
-    path = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code code;
-    fs::remove_all(path, code);
-  }
-  fs::path path;
-};
-
-core::TexturedMesh ReadPiece(const assets::FurnitureCatalogue& catalogue,
-                             const assets::CataloguePiece& piece) {
-  const TemporaryFolder folder;
-  core::TexturedMesh mesh = assets::ReadMesh(catalogue.Extract(piece, folder.path));
-  Eigen::Matrix3d z_up;
-  z_up << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-  Eigen::Affine3d turn = Eigen::Affine3d::Identity();
-  turn.linear() = z_up * piece.model_rotation;
-  core::Transform(turn, &mesh.mesh);
-  const Eigen::Vector3d now = core::Bounds(mesh.mesh).sizes();
-  if (!(now.minCoeff() > 0.0)) throw core::Error("flat", piece.name);
-  core::Transform(Eigen::Affine3d(Eigen::Scaling(Eigen::Vector3d(piece.size_m.cwiseQuotient(now)))),
-                  &mesh.mesh);
-  return mesh;
-}
 
 core::Image Cropped(const core::Image& image, int x0, int y0, int width, int height) {
   core::Image crop(width, height, 3);
@@ -143,7 +112,7 @@ std::vector<CatalogueObject> HouseholdObjects(const std::vector<fs::path>& catal
           physics_params::ResolveCategory(piece.name, base, physics_params::WordNet::Installed());
       if (found.category == nullptr || !taken.insert(piece.name).second) continue;
       try {
-        objects.push_back({piece.name, found.category->name, ReadPiece(catalogue, piece),
+        objects.push_back({piece.name, found.category->name, pipeline::ReadCataloguePiece(catalogue, piece, nullptr),
                            pipeline::PriorOf(*found.category)});
       } catch (const core::Error& error) {
         std::fprintf(stderr, "left out: %s\n", error.what());

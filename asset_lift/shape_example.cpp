@@ -1,0 +1,200 @@
+#include "asset_lift/shape_example.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "render/forward.h"
+
+namespace simwright::asset_lift {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+constexpr int kSolidResolution = 112;
+constexpr int kPictureSide = 96;  // of the picture that the crop is cut from
+
+core::TexturedMesh Normalised(core::TexturedMesh mesh, const Eigen::Vector3d& stretch) {
+  core::Transform(Eigen::Affine3d(Eigen::Scaling(stretch)), &mesh.mesh);
+  const Eigen::AlignedBox3d box = core::Bounds(mesh.mesh);
+  const double reach = box.isEmpty() ? 0.0 : 0.5 * box.diagonal().norm();
+  if (!(reach > 0.0)) throw core::Error("a mesh without extent is no training object");
+  const Eigen::Affine3d place = Eigen::Scaling(1.0 / reach) * Eigen::Translation3d(-box.center());
+  core::Transform(place, &mesh.mesh);
+  return mesh;
+}
+
+// Colour of a surface in the light, seen from outside: (RGB, sRGB bytes).
+void Shade(const render::Scene& scene, const render::Hit& hit, const Eigen::Vector3f& normal,
+           const render::SphericalHarmonicsLight& light, std::uint8_t* pixel) {
+  const Eigen::Vector4f albedo = scene.Albedo(hit);
+  const Eigen::Vector3f irradiance = light.Shade(normal);
+  for (int c = 0; c < 3; ++c) {
+    const float linear = render::LinearFromSrgb(albedo[c]) * irradiance[c];
+    pixel[c] = static_cast<std::uint8_t>(
+        std::lround(255.0f * render::SrgbFromLinear(std::clamp(linear, 0.0f, 1.0f))));
+  }
+}
+
+// The farthest surface along a ray from beyond the object, and its normal as seen from there.
+void ShadeBack(const render::Scene& scene, const Eigen::Vector3f& eye, const Eigen::Vector3f& ray,
+               const render::SphericalHarmonicsLight& light, std::uint8_t* pixel) {
+  const float far = 2.5f * eye.norm() / ray.norm();
+  const Eigen::Vector3f start = eye + far * ray;
+  const render::Hit hit = scene.Intersect(start, -ray);
+  if (hit.instance < 0) return;
+  Eigen::Vector3f normal = scene.ShadingNormal(hit);
+  if (normal.dot(ray) < 0.0f) normal = -normal;
+  Shade(scene, hit, normal, light, pixel);
+}
+
+Matte MatteOf(const render::ForwardBuffers& buffers) {
+  Matte matte;
+  matte.left = buffers.width;
+  matte.top = buffers.height;
+  for (int y = 0; y < buffers.height; ++y) {
+    for (int x = 0; x < buffers.width; ++x) {
+      if (buffers.mask[buffers.Index(x, y)] <= 0.0f) continue;
+      matte.left = std::min(matte.left, x);
+      matte.right = std::max(matte.right, x + 1);
+      matte.top = std::min(matte.top, y);
+      matte.bottom = std::max(matte.bottom, y + 1);
+    }
+  }
+  return matte;
+}
+
+// The camera whose picture is just the crop of `frame`.
+core::Camera CropCamera(const ViewFrame& frame) {
+  core::Camera camera = frame.camera;
+  const double scale = kCropSide / (2.0 * frame.half);
+  camera.width = camera.height = kCropSide;
+  camera.fx *= scale;
+  camera.fy *= scale;
+  camera.cx = (camera.cx - frame.center_x + frame.half) * scale;
+  camera.cy = (camera.cy - frame.center_y + frame.half) * scale;
+  return camera;
+}
+
+// Middle of the object's depths along the central ray.
+double MiddleDepth(const core::TriangleMesh& mesh, const ViewFrame& frame) {
+  const Eigen::Vector3d eye = frame.camera.position(), direction = frame.Direction();
+  double near = 1e30, far = -1e30;
+  for (const Eigen::Vector3d& v : mesh.vertices) {
+    const double depth = (v - eye).dot(direction);
+    near = std::min(near, depth);
+    far = std::max(far, depth);
+  }
+  return 0.5 * (near + far);
+}
+
+}  // namespace
+
+TrainingObject::TrainingObject(core::TexturedMesh mesh, const Eigen::Vector3d& stretch)
+    : mesh_(Normalised(std::move(mesh), stretch)),
+      solid_(std::make_unique<geometry::VoxelSolid>(mesh_.mesh, kSolidResolution)) {
+  scene_.Add(&mesh_);
+  scene_.Commit();
+}
+
+core::Camera RandomPhotoCamera(core::Rng* rng, int side, double* elevation) {
+  const double habit = 22.0 + 16.0 * core::Normal(*rng);
+  *elevation = std::clamp(habit, -5.0, 72.0) * kDegree;
+  const double fov = core::Uniform(*rng, 12.0, 50.0) * kDegree;
+  const double distance = 1.06 / std::sin(0.5 * fov);
+  core::Camera camera = core::OrbitCamera(Eigen::Vector3d::Zero(), distance, *elevation,
+                                          core::Uniform(*rng, 0.0, 2.0 * M_PI), fov, side, side);
+  const double roll = 2.0 * kDegree * core::Normal(*rng);
+  camera.world_from_camera.rotate(Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()));
+  return camera;
+}
+
+render::SphericalHarmonicsLight RandomLight(core::Rng* rng) {
+  Eigen::Vector3d key = core::UniformDirection(*rng);
+  key.z() = std::abs(key.z()) + 0.3;
+  render::SphericalHarmonicsLight light =
+      render::SphericalHarmonicsLight::Studio(key.normalized().cast<float>());
+  const auto even =
+      render::SphericalHarmonicsLight::Uniform(static_cast<float>(core::Uniform(*rng, 0.6, 1.0)));
+  const auto share = static_cast<float>(core::Uniform(*rng, 0.3, 1.0));
+  Eigen::RowVector3f tint;
+  for (int c = 0; c < 3; ++c) tint[c] = static_cast<float>(core::Uniform(*rng, 0.85, 1.1));
+  light.radiance = (share * light.radiance + (1.0f - share) * even.radiance) * tint.asDiagonal();
+  return light;
+}
+
+ShapeExample MakeShapeExample(const TrainingObject& object, core::Rng* rng) {
+  ShapeExample example;
+  core::Camera camera = RandomPhotoCamera(rng, kPictureSide, &example.elevation);
+  const render::SphericalHarmonicsLight light = RandomLight(rng);
+  const Matte matte = MatteOf(render::RenderForward(object.scene(), camera));
+  example.frame = FrameAround(matte, camera, 1.0);
+  example.frame.depth = MiddleDepth(object.mesh().mesh, example.frame);
+
+  const core::Camera crop = CropCamera(example.frame);
+  render::ForwardOptions options;
+  options.samples_per_side = 2;
+  options.shaded = true;
+  options.light = light;
+  options.occlusion_rays = core::Uniform(*rng) < 0.5 ? 4 : 0;
+  example.picture = render::RenderForward(object.scene(), crop, options).color.pixels;
+
+  const size_t pixels = static_cast<size_t>(kCropSide) * kCropSide;
+  example.back.assign(3 * pixels, 0);
+  example.occupancy.assign(pixels * kDepthCells, 0);
+  const Eigen::Vector3d eye = crop.position(), direction = example.frame.Direction();
+  const double radius = example.frame.Radius();
+  for (int y = 0; y < kCropSide; ++y) {
+    for (int x = 0; x < kCropSide; ++x) {
+      const size_t at = static_cast<size_t>(y) * kCropSide + x;
+      const Eigen::Vector3d ray = crop.Ray({x + 0.5, y + 0.5});
+      if (example.picture[4 * at + 3] > 0) {
+        ShadeBack(object.scene(), eye.cast<float>(), ray.cast<float>(), light,
+                  &example.back[3 * at]);
+      }
+      const Eigen::Vector3d step = ray / ray.dot(direction);
+      for (int k = 0; k < kDepthCells; ++k) {
+        const double w = kDepthReach * ((k + 0.5) * 2.0 / kDepthCells - 1.0);
+        const float share =
+            object.solid().Occupancy(eye + (example.frame.depth + w * radius) * step);
+        example.occupancy[static_cast<size_t>(k) * pixels + at] =
+            static_cast<std::uint8_t>(std::lround(255.0f * share));
+      }
+    }
+  }
+  return example;
+}
+
+core::Image CropPicture(const core::Image& photo, const core::Image& alpha,
+                        const ViewFrame& frame) {
+  // Averaged by area: sub-samples on a grid fine enough to meet each pixel of the crop.
+  const double scale = 2.0 * frame.half / kCropSide;
+  const int samples = std::clamp(static_cast<int>(std::ceil(scale)), 2, 16);
+  core::Image crop(kCropSide, kCropSide, 4);
+  core::ParallelFor(kCropSide, [&](int y) {
+    for (int x = 0; x < kCropSide; ++x) {
+      double sum[4] = {0, 0, 0, 0};
+      for (int s = 0; s < samples * samples; ++s) {
+        const int px = static_cast<int>(
+            std::floor(frame.center_x - frame.half + scale * (x + (s % samples + 0.5) / samples)));
+        const int py = static_cast<int>(
+            std::floor(frame.center_y - frame.half + scale * (y + (s / samples + 0.5) / samples)));
+        if (px < 0 || py < 0 || px >= photo.width || py >= photo.height) continue;
+        const double share = alpha.At(px, py)[0] / 255.0;
+        for (int c = 0; c < 3; ++c) {
+          sum[c] += share * photo.At(px, py)[photo.channels < 3 ? 0 : c];
+        }
+        sum[3] += share;
+      }
+      if (sum[3] <= 0.0) continue;
+      for (int c = 0; c < 3; ++c) {
+        crop.At(x, y)[c] = static_cast<std::uint8_t>(std::lround(sum[c] / sum[3]));
+      }
+      crop.At(x, y)[3] =
+          static_cast<std::uint8_t>(std::lround(255.0 * sum[3] / (samples * samples)));
+    }
+  });
+  return crop;
+}
+
+}  // namespace simwright::asset_lift

@@ -1,0 +1,199 @@
+#include "asset_lift/shape_training.h"
+
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+#include "asset_lift/shape_example.h"
+#include "asset_lift/shape_network.h"
+#include "asset_lift/training_pool.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "nn/checkpoint.h"
+#include "nn/compute.h"
+#include "nn/ema.h"
+#include "nn/resume.h"
+
+namespace simwright::asset_lift {
+namespace {
+
+struct Batch {
+  torch::Tensor pictures;   // (B x 4 x S x S)
+  torch::Tensor occupancy;  // (B x D x S x S)
+  torch::Tensor back;       // (B x 3 x S x S)
+  torch::Tensor elevation;  // (B)
+};
+
+torch::Tensor Bytes(std::vector<std::uint8_t>* values, at::IntArrayRef shape) {
+  return torch::from_blob(values->data(), shape, torch::kUInt8).to(torch::kFloat).div(255.0);
+}
+
+// Photos of random objects of the pool. A mirrored photo is a photo of a mirrored object.
+Batch DrawBatch(const TrainingPool& pool, int size, std::uint64_t seed, std::uint64_t step) {
+  std::vector<ShapeExample> examples(static_cast<size_t>(size));
+  std::vector<std::uint8_t> mirrored(static_cast<size_t>(size));
+  core::ParallelFor(size, [&](int i) {
+    core::Rng rng =
+        core::StreamRng(seed ^ 0x51a9e5ull, step * 4096 + static_cast<std::uint64_t>(i));
+    const TrainingObject& object =
+        pool.object(static_cast<int>(core::UniformIndex(rng, pool.size())));
+    examples[static_cast<size_t>(i)] = MakeShapeExample(object, &rng);
+    mirrored[static_cast<size_t>(i)] = core::Uniform(rng) < 0.5;
+  });
+  std::vector<torch::Tensor> pictures, occupancy, back;
+  std::vector<float> elevation;
+  for (size_t i = 0; i < examples.size(); ++i) {
+    ShapeExample& e = examples[i];
+    torch::Tensor picture = PicturesFromRgba(e.picture.data(), 1, kCropSide)[0];
+    torch::Tensor volume = Bytes(&e.occupancy, {kDepthCells, kCropSide, kCropSide});
+    torch::Tensor behind = Bytes(&e.back, {kCropSide, kCropSide, 3}).permute({2, 0, 1});
+    if (mirrored[i]) {
+      picture = picture.flip(2);
+      volume = volume.flip(2);
+      behind = behind.flip(2);
+    }
+    pictures.push_back(picture);
+    occupancy.push_back(volume);
+    back.push_back(behind);
+    elevation.push_back(static_cast<float>(e.elevation));
+  }
+  return {torch::stack(pictures), torch::stack(occupancy), torch::stack(back),
+          torch::tensor(elevation)};
+}
+
+struct Losses {
+  torch::Tensor total;
+  double iou = 0.0;
+  double elevation_error = 0.0;  // degrees
+};
+
+// Cross-entropy and Dice of the volume, where the outline leaves room for it; L1 of the hidden
+// side's colour; Laplace likelihood of the elevation.
+Losses LossesOf(const ShapeNetworkOutput& output, const Batch& batch) {
+  // Columns with no share of the outline are empty beyond doubt: they teach little.
+  const torch::Tensor seen = (batch.pictures.slice(1, 3, 4) > 0.02).to(torch::kFloat);
+  const torch::Tensor weight = 0.05 + 0.95 * seen;
+  const torch::Tensor entropy =
+      (torch::binary_cross_entropy_with_logits(output.occupancy, batch.occupancy, {}, {},
+                                               at::Reduction::None) *
+       weight)
+          .sum() /
+      (weight.sum() * kDepthCells);
+  const torch::Tensor share = torch::sigmoid(output.occupancy) * seen;
+  const torch::Tensor both = (share * batch.occupancy).sum({1, 2, 3});
+  const torch::Tensor dice =
+      1.0 - (2.0 * both + 1.0) / (share.sum({1, 2, 3}) + batch.occupancy.sum({1, 2, 3}) + 1.0);
+  const torch::Tensor color = ((output.back - batch.back).abs() * seen).sum() / (3.0 * seen.sum());
+  const torch::Tensor off = (output.elevation.select(1, 0) - batch.elevation).abs();
+  const torch::Tensor log_b = torch::clamp(output.elevation.select(1, 1), -4.0, 1.0);
+  const torch::Tensor likelihood = (off * torch::exp(-log_b) + log_b).mean();
+  Losses losses;
+  losses.total = entropy + 0.3 * dice.mean() + 0.3 * color + 0.03 * likelihood;
+  const torch::NoGradGuard no_grad;
+  const torch::Tensor ours = (output.occupancy > 0.0) & (seen > 0.5), truth = batch.occupancy > 0.5;
+  losses.iou = ((ours & truth).sum({1, 2, 3}).to(torch::kFloat) /
+                torch::clamp_min((ours | truth).sum({1, 2, 3}).to(torch::kFloat), 1.0))
+                   .mean()
+                   .item<double>();
+  losses.elevation_error = off.mean().item<double>() * 180.0 / M_PI;
+  return losses;
+}
+
+double LearningRate(const ShapeTrainingOptions& options, int step) {
+  const double done = static_cast<double>(step) / options.steps;
+  const double warm = std::min(1.0, done / 0.03 + 1.0 / options.steps);
+  return options.learning_rate * warm * (0.525 + 0.475 * std::cos(M_PI * done));
+}
+
+nn::CheckpointFacts Facts(const ShapeTrainingOptions& options, int step, size_t meshes) {
+  return {{"kind", "shape"},
+          {"step", std::to_string(step)},
+          {"batch", std::to_string(options.batch)},
+          {"seed", std::to_string(options.seed)},
+          {"meshes", std::to_string(meshes)}};
+}
+
+}  // namespace
+
+bool ShapeTrainingOptions::IsValid(std::string* error) const {
+  const auto fail = [&](const char* why) {
+    if (error != nullptr) *error = why;
+    return false;
+  };
+  if (steps < 1 || batch < 1) return fail("training needs a step and a photo a step");
+  if (!(learning_rate > 0.0)) return fail("the learning rate has to be positive");
+  if (pool < 1 || exchange < 0 || exchange > pool) return fail("the pool is too small");
+  if (!(parametric_share >= 0.0 && parametric_share <= 1.0)) {
+    return fail("the share of parametric shapes lies in [0, 1]");
+  }
+  return true;
+}
+
+ShapeTrainingReport TrainShapeNetwork(
+    const std::vector<core::TexturedMesh>& meshes, const ShapeTrainingOptions& options,
+    const std::filesystem::path& weights, core::Progress* progress,
+    const std::function<void(const ShapeTrainingReport&)>& report) {
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error(error, "prior training");
+  nn::UseThreads();
+  torch::manual_seed(options.seed);
+  const torch::Device device = nn::BestDevice();
+  ShapeNetwork network;
+  network->to(device);
+  torch::optim::AdamW optimizer(
+      network->parameters(),
+      torch::optim::AdamWOptions(options.learning_rate).weight_decay(options.weight_decay));
+  nn::Ema average(*network, options.ema_decay);
+  std::filesystem::path state = weights;
+  state += ".state";
+  const int first =
+      options.resume ? nn::LoadTrainingState(state, network.get(), &optimizer, &average) : 0;
+  progress->Stage("preparing shapes");
+  TrainingPool pool(&meshes, options.pool, options.parametric_share,
+                    options.seed + 1000003ull * static_cast<std::uint64_t>(first));
+  progress->Stage("shape prior", options.steps - first);
+  const auto start = std::chrono::steady_clock::now();
+  ShapeTrainingReport mean, last;
+  int counted = 0;
+  const auto save = [&](int step) {
+    nn::SaveTrainingState(state, step, *network, optimizer, average);
+    ShapeNetwork kept;
+    average.CopyTo(kept.get());
+    nn::SaveCheckpoint(*kept, Facts(options, step, meshes.size()), weights);
+  };
+  for (int step = first; step < options.steps; ++step) {
+    pool.Exchange(options.exchange);
+    Batch batch = DrawBatch(pool, options.batch, options.seed, static_cast<std::uint64_t>(step));
+    batch = {batch.pictures.to(device), batch.occupancy.to(device), batch.back.to(device),
+             batch.elevation.to(device)};
+    for (auto& group : optimizer.param_groups()) {
+      static_cast<torch::optim::AdamWOptions&>(group.options()).lr(LearningRate(options, step));
+    }
+    const Losses losses = LossesOf(network(batch.pictures), batch);
+    optimizer.zero_grad();
+    losses.total.backward();
+    torch::nn::utils::clip_grad_norm_(network->parameters(), 1.0);
+    optimizer.step();
+    average.Update(*network);
+    mean.loss += losses.total.item<double>();
+    mean.occupancy_iou += losses.iou;
+    mean.elevation_error += losses.elevation_error;
+    ++counted;
+    if ((step + 1) % 50 == 0 || step + 1 == options.steps) {
+      last = {step + 1, mean.loss / counted, mean.occupancy_iou / counted,
+              mean.elevation_error / counted,
+              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+      if (report) report(last);
+      mean = {};
+      counted = 0;
+    }
+    if ((step + 1) % options.save_every == 0 || step + 1 == options.steps) save(step + 1);
+    progress->Advance();
+  }
+  progress->Finish();
+  std::filesystem::remove(state);
+  return last;
+}
+
+}  // namespace simwright::asset_lift
