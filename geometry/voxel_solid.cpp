@@ -37,9 +37,9 @@ std::vector<std::uint8_t> ReachedFromBorder(const SurfaceGrid& grid) {
   return reached;
 }
 
-// Whether one of the 26 neighbours of an inner node was not reached.
-bool BesideInside(const std::vector<std::uint8_t>& reached, const SurfaceGrid& grid,
-                  std::size_t node) {
+// Whether one of the 26 neighbours of an inner node lies on the other side of the surface.
+bool BesideOtherSide(const std::vector<std::uint8_t>& reached, const SurfaceGrid& grid,
+                     std::size_t node) {
   const auto& stride = grid.stride();
   for (int z = -1; z <= 1; ++z) {
     for (int y = -1; y <= 1; ++y) {
@@ -47,7 +47,7 @@ bool BesideInside(const std::vector<std::uint8_t>& reached, const SurfaceGrid& g
         const auto step = x * static_cast<std::ptrdiff_t>(stride[0]) +
                           y * static_cast<std::ptrdiff_t>(stride[1]) +
                           z * static_cast<std::ptrdiff_t>(stride[2]);
-        if (!reached[node + static_cast<std::size_t>(step)]) return true;
+        if (reached[node + static_cast<std::size_t>(step)] != reached[node]) return true;
       }
     }
   }
@@ -78,11 +78,14 @@ VoxelSolid::VoxelSolid(const core::TriangleMesh& mesh, int resolution, double sh
                                  static_cast<std::size_t>(j) * grid.stride()[1] +
                                  static_cast<std::size_t>(k) * grid.stride()[2];
         const double distance = std::min<double>(grid.Distance(node) / cell_, kBandCells);
-        // Beside an inside the surface is a solid's, and its distance is right as it is.
-        const bool sheet = reached[node] && distance < 0.5 * sheet_cells + 0.5 &&
-                           !BesideInside(reached, grid, node);
-        const double outside =
-            sheet ? distance - 0.5 * sheet_cells : (reached[node] ? distance : -distance);
+        // Beside the other side the surface is a solid's, and its distance is right as it is. A
+        // surface without one is a sheet outside, and buried inside.
+        double outside = distance;
+        if (distance < 0.5 * sheet_cells + 0.5 && !BesideOtherSide(reached, grid, node)) {
+          outside = reached[node] ? distance - 0.5 * sheet_cells : -kBandCells;
+        } else if (!reached[node]) {
+          outside = -distance;
+        }
         const double share = std::clamp(0.5 - outside, 0.0, 1.0);
         occupancy_[(static_cast<std::size_t>(k) * ny_ + j) * nx_ + i] =
             static_cast<std::uint8_t>(std::lround(255.0 * share));

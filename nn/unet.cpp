@@ -5,6 +5,10 @@
 namespace simwright::nn {
 namespace {
 
+torch::nn::Conv2d Conv1(int in, int out) {
+  return torch::nn::Conv2d(torch::nn::Conv2dOptions(in, out, 1));
+}
+
 torch::nn::Conv2d Conv3(int in, int out, int stride = 1) {
   return torch::nn::Conv2d(torch::nn::Conv2dOptions(in, out, 3).padding(1).stride(stride));
 }
@@ -61,11 +65,11 @@ UNetImpl::UNetImpl(const UNetOptions& options) : options_(options) {
         up_attention_->push_back(SpatialAttention(c, options.heads));
       }
     }
-    if (level > 0) grow_->push_back(Conv3(c, channels[static_cast<size_t>(level) - 1]));
+    if (level > 0) grow_->push_back(Conv1(c, channels[static_cast<size_t>(level) - 1]));
   }
   out_norm_ = register_module(
       "out_norm", torch::nn::GroupNorm(torch::nn::GroupNormOptions(channels[0] / 8, channels[0])));
-  out_ = register_module("out", Conv3(channels[0], options.out_channels * fold));
+  out_ = register_module("out", Conv1(channels[0], options.out_channels * fold));
 }
 
 torch::Tensor UNetImpl::forward(const torch::Tensor& x, const torch::Tensor& embedding) {
@@ -102,8 +106,8 @@ torch::Tensor UNetImpl::ForwardWithBottleneck(const torch::Tensor& x,
       }
     }
     if (level == 0) break;
-    h = torch::upsample_nearest2d(h, std::vector<std::int64_t>{h.size(2) * 2, h.size(3) * 2});
     h = grow_->at<torch::nn::Conv2dImpl>(static_cast<size_t>(levels - 1 - level)).forward(h);
+    h = torch::upsample_nearest2d(h, std::vector<std::int64_t>{h.size(2) * 2, h.size(3) * 2});
   }
   h = out_(torch::silu(out_norm_(h)));
   return options_.patch > 1 ? torch::pixel_shuffle(h, options_.patch) : h;
