@@ -126,7 +126,7 @@ render::SphericalHarmonicsLight RandomLight(core::Rng* rng) {
 ShapeExample MakeShapeExample(const TrainingObject& object, core::Rng* rng) {
   ShapeExample example;
   core::Camera camera = RandomPhotoCamera(rng, kPictureSide, &example.elevation);
-  const render::SphericalHarmonicsLight light = RandomLight(rng);
+  const render::SphericalHarmonicsLight light = example.light = RandomLight(rng);
   const Matte matte = MatteOf(render::RenderForward(object.scene(), camera));
   example.frame = FrameAround(matte, camera, 1.0);
   example.frame.depth = MiddleDepth(object.mesh().mesh, example.frame);

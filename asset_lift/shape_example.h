@@ -48,7 +48,8 @@ render::SphericalHarmonicsLight RandomLight(core::Rng* rng);
 // What the network sees and what it should say. Pixels (kCropSide^2), rows from the top.
 struct ShapeExample {
   ViewFrame frame;
-  double elevation = 0.0;               // rad, of the sight line to the object's middle
+  double elevation = 0.0;  // rad, of the sight line to the object's middle
+  render::SphericalHarmonicsLight light;
   std::vector<std::uint8_t> picture;    // RGBA, sRGB
   std::vector<std::uint8_t> back;       // RGB of the last surface behind each pixel, as seen from
                                         // behind, in the same light; 0 where nothing is

@@ -1,19 +1,15 @@
-#include "asset_lift/shape_training.h"
-
-#include <chrono>
 #include <cmath>
-#include <sstream>
 
+#include "asset_lift/prior_training.h"
 #include "asset_lift/shape_example.h"
 #include "asset_lift/shape_network.h"
+#include "asset_lift/training_means.h"
 #include "asset_lift/training_pool.h"
 #include "core/error.h"
-#include "core/files.h"
 #include "core/parallel.h"
 #include "nn/checkpoint.h"
 #include "nn/compute.h"
-#include "nn/ema.h"
-#include "nn/resume.h"
+#include "nn/trainer.h"
 
 namespace simwright::asset_lift {
 namespace {
@@ -100,29 +96,15 @@ Losses LossesOf(const ShapeNetworkOutput& output, const Batch& batch) {
   return losses;
 }
 
-double LearningRate(const ShapeTrainingOptions& options, int step) {
-  const double done = static_cast<double>(step) / options.steps;
-  const double warm = std::min(1.0, done / 0.03 + 1.0 / options.steps);
-  return options.learning_rate * warm * (0.525 + 0.475 * std::cos(M_PI * done));
-}
-
-nn::CheckpointFacts Facts(const ShapeTrainingOptions& options, int step, size_t meshes) {
-  return {{"kind", "shape"},
-          {"step", std::to_string(step)},
-          {"batch", std::to_string(options.batch)},
-          {"seed", std::to_string(options.seed)},
-          {"meshes", std::to_string(meshes)}};
-}
-
 }  // namespace
 
-bool ShapeTrainingOptions::IsValid(std::string* error) const {
+bool PriorTrainingOptions::IsValid(std::string* error) const {
   const auto fail = [&](const char* why) {
     if (error != nullptr) *error = why;
     return false;
   };
-  if (steps < 1 || batch < 1) return fail("training needs a step and a photo a step");
-  if (!(learning_rate > 0.0)) return fail("the learning rate has to be positive");
+  if (!trainer.IsValid(error)) return false;
+  if (batch < 1) return fail("training needs a photo a step");
   if (pool < 1 || exchange < 0 || exchange > pool) return fail("the pool is too small");
   if (!(parametric_share >= 0.0 && parametric_share <= 1.0)) {
     return fail("the share of parametric shapes lies in [0, 1]");
@@ -130,10 +112,11 @@ bool ShapeTrainingOptions::IsValid(std::string* error) const {
   return true;
 }
 
-ShapeTrainingReport TrainShapeNetwork(
-    const std::vector<core::TexturedMesh>& meshes, const ShapeTrainingOptions& options,
-    const std::filesystem::path& weights, core::Progress* progress,
-    const std::function<void(const ShapeTrainingReport&)>& report) {
+PriorTrainingReport TrainShapeNetwork(const std::vector<core::TexturedMesh>& meshes,
+                                      const PriorTrainingOptions& options,
+                                      const std::filesystem::path& weights,
+                                      core::Progress* progress,
+                                      const PriorTrainingListener& report) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error(error, "prior training");
   nn::UseThreads();
@@ -141,59 +124,38 @@ ShapeTrainingReport TrainShapeNetwork(
   const torch::Device device = nn::BestDevice();
   ShapeNetwork network;
   network->to(device);
-  torch::optim::AdamW optimizer(
-      network->parameters(),
-      torch::optim::AdamWOptions(options.learning_rate).weight_decay(options.weight_decay));
-  nn::Ema average(*network, options.ema_decay);
-  std::filesystem::path state = weights;
-  state += ".state";
-  const int first =
-      options.resume ? nn::LoadTrainingState(state, network.get(), &optimizer, &average) : 0;
+  nn::Trainer trainer(network.get(), options.trainer, weights.string() + ".state");
   progress->Stage("preparing shapes");
   TrainingPool pool(&meshes, options.pool, options.parametric_share,
-                    options.seed + 1000003ull * static_cast<std::uint64_t>(first));
-  progress->Stage("shape prior", options.steps - first);
-  const auto start = std::chrono::steady_clock::now();
-  ShapeTrainingReport mean, last;
-  int counted = 0;
-  const auto save = [&](int step) {
-    nn::SaveTrainingState(state, step, *network, optimizer, average);
-    ShapeNetwork kept;
-    average.CopyTo(kept.get());
-    nn::SaveCheckpoint(*kept, Facts(options, step, meshes.size()), weights);
-  };
-  for (int step = first; step < options.steps; ++step) {
+                    options.seed + 1000003ull * static_cast<std::uint64_t>(trainer.first_step()));
+  const int steps = options.trainer.steps;
+  progress->Stage("shape prior", steps - trainer.first_step());
+  TrainingMeans means({"volume IoU", "elevation error, deg"}, steps, report);
+  for (int step = trainer.first_step(); step < steps; ++step) {
     pool.Exchange(options.exchange);
     Batch batch = DrawBatch(pool, options.batch, options.seed, static_cast<std::uint64_t>(step));
     batch = {batch.pictures.to(device), batch.occupancy.to(device), batch.back.to(device),
              batch.elevation.to(device)};
-    for (auto& group : optimizer.param_groups()) {
-      static_cast<torch::optim::AdamWOptions&>(group.options()).lr(LearningRate(options, step));
-    }
     const Losses losses = LossesOf(network(batch.pictures), batch);
-    optimizer.zero_grad();
-    losses.total.backward();
-    torch::nn::utils::clip_grad_norm_(network->parameters(), 1.0);
-    optimizer.step();
-    average.Update(*network);
-    mean.loss += losses.total.item<double>();
-    mean.occupancy_iou += losses.iou;
-    mean.elevation_error += losses.elevation_error;
-    ++counted;
-    if ((step + 1) % 50 == 0 || step + 1 == options.steps) {
-      last = {step + 1, mean.loss / counted, mean.occupancy_iou / counted,
-              mean.elevation_error / counted,
-              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
-      if (report) report(last);
-      mean = {};
-      counted = 0;
+    trainer.Descend(step, losses.total);
+    means.Add(step, losses.total.item<double>(), {losses.iou, losses.elevation_error});
+    if (trainer.SaveDue(step)) {
+      trainer.SaveState(step + 1);
+      ShapeNetwork kept;
+      trainer.CopyAverageTo(kept.get());
+      nn::SaveCheckpoint(*kept,
+                         {{"kind", "shape"},
+                          {"step", std::to_string(step + 1)},
+                          {"batch", std::to_string(options.batch)},
+                          {"seed", std::to_string(options.seed)},
+                          {"meshes", std::to_string(meshes.size())}},
+                         weights);
     }
-    if ((step + 1) % options.save_every == 0 || step + 1 == options.steps) save(step + 1);
     progress->Advance();
   }
   progress->Finish();
-  std::filesystem::remove(state);
-  return last;
+  trainer.Finish();
+  return means.last();
 }
 
 }  // namespace simwright::asset_lift

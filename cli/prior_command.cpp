@@ -10,6 +10,9 @@ namespace {
 struct Flags {
   pipeline::PriorTrainingRequest request;
   bool parametric_only = false;
+  bool resume = false;
+  int batch = 0, pool = 0;  // 0: the defaults
+  std::string only;
 };
 
 int Train(Flags flags, const CommonOptions& common) {
@@ -17,7 +20,14 @@ int Train(Flags flags, const CommonOptions& common) {
   if (flags.request.catalogues.empty() && !flags.parametric_only) {
     flags.request.catalogues = {pipeline::DefaultTrainingCatalogue()};
   }
-  flags.request.shape.seed = common.seed;
+  flags.request.shape = flags.only != "view";
+  flags.request.view = flags.only != "shape";
+  for (auto* options : {&flags.request.shape_options, &flags.request.view_options}) {
+    options->seed = common.seed;
+    options->trainer.resume = flags.resume;
+    if (flags.batch > 0) options->batch = flags.batch;
+    if (flags.pool > 0) options->pool = flags.pool;
+  }
   pipeline::TrainPriors(flags.request, &progress, [&](const std::string& line) {
     if (!common.quiet) std::printf("%s\n", line.c_str());
     std::fflush(stdout);
@@ -39,14 +49,21 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_flag("--parametric-only", flags->parametric_only,
                     "Learn from parametric shapes alone");
   command->add_option("-o,--output", flags->request.output, "Folder of the weights")->required();
-  command->add_option("--steps", flags->request.shape.steps, "Steps of the shape prior")
+  command->add_option("--only", flags->only, "Train one of the two: shape or view")
+      ->check(CLI::IsMember({"shape", "view"}));
+  command
+      ->add_option("--shape-steps", flags->request.shape_options.trainer.steps,
+                   "Steps of the shape prior")
+      ->capture_default_str();
+  command
+      ->add_option("--view-steps", flags->request.view_options.trainer.steps,
+                   "Steps of the view prior")
+      ->capture_default_str();
+  command->add_option("--batch", flags->batch, "Photos a step; default: 16")
       ->check(CLI::PositiveNumber);
-  command->add_option("--batch", flags->request.shape.batch, "Photos a step")
+  command->add_option("--pool", flags->pool, "Objects kept ready; default: 160")
       ->check(CLI::PositiveNumber);
-  command->add_option("--pool", flags->request.shape.pool, "Objects kept ready")
-      ->check(CLI::PositiveNumber);
-  command->add_flag("--resume", flags->request.shape.resume,
-                    "Go on from what an earlier run left in the folder");
+  command->add_flag("--resume", flags->resume, "Go on from what an earlier run left in the folder");
   AddCommon(command, common);
   command->callback([flags, common, run] { *run = [=] { return Train(*flags, *common); }; });
 }

@@ -1,6 +1,7 @@
 #include "pipeline/prior_training.h"
 
-#include <cstdio>
+#include <cmath>
+#include <sstream>
 
 #include "core/error.h"
 #include "pipeline/catalogue_meshes.h"
@@ -9,6 +10,13 @@ namespace simwright::pipeline {
 
 std::filesystem::path DefaultTrainingCatalogue() {
   return "/usr/share/sweethome3d/furniture/BlendSwap-CC-0.sh3f";
+}
+
+PriorTrainingRequest::PriorTrainingRequest() {
+  shape_options.trainer.steps = 3200;
+  shape_options.trainer.learning_rate = 8e-4;
+  view_options.trainer.steps = 2500;
+  view_options.trainer.learning_rate = 1e-3;
 }
 
 void TrainPriors(const PriorTrainingRequest& request, core::Progress* progress,
@@ -24,15 +32,24 @@ void TrainPriors(const PriorTrainingRequest& request, core::Progress* progress,
     std::move(read.begin(), read.end(), std::back_inserter(meshes));
   }
   std::filesystem::create_directories(request.output);
-  asset_lift::TrainShapeNetwork(
-      meshes, request.shape, request.output / "shape_prior.pt", progress,
-      [&](const asset_lift::ShapeTrainingReport& r) {
-        char line[160];
-        std::snprintf(line, sizeof(line),
-                      "shape step %d  loss %.4f  volume IoU %.3f  elevation %.1f deg  %.0f s",
-                      r.step, r.loss, r.occupancy_iou, r.elevation_error, r.seconds);
-        report(line);
-      });
+  const auto listener = [&](const char* name) {
+    return [&report, name](const asset_lift::PriorTrainingReport& r) {
+      std::ostringstream line;
+      line << name << " prior, step " << r.step << ", loss " << r.loss;
+      for (const auto& [metric, value] : r.metrics) line << ", " << metric << ' ' << value;
+      line << ", " << std::lround(r.seconds) << " s";
+      report(line.str());
+    };
+  };
+  const std::filesystem::path shape = request.output / "shape_prior.pt";
+  if (request.shape) {
+    asset_lift::TrainShapeNetwork(meshes, request.shape_options, shape, progress,
+                                  listener("shape"));
+  }
+  if (request.view) {
+    asset_lift::TrainViewNetwork(meshes, shape, request.view_options,
+                                 request.output / "view_prior.pt", progress, listener("view"));
+  }
 }
 
 }  // namespace simwright::pipeline

@@ -1,0 +1,131 @@
+#include "asset_lift/score_distillation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "asset_lift/view_prior.h"
+#include "core/error.h"
+#include "nn/compute.h"
+
+namespace simwright::asset_lift {
+namespace {
+
+double Annealed(double first, double last, double anneal, double progress) {
+  return first + (last - first) * std::min(1.0, progress / std::max(anneal, 1e-6));
+}
+
+torch::Tensor Planes(const core::FloatImage& image) {
+  return torch::from_blob(const_cast<float*>(image.values.data()),
+                          {1, image.height, image.width, image.channels}, torch::kFloat)
+      .permute({0, 3, 1, 2});
+}
+
+void CopyChannels(const torch::Tensor& planes, int first, core::FloatImage* image) {
+  const torch::Tensor rows = planes[0]
+                                 .slice(0, first, first + image->channels)
+                                 .permute({1, 2, 0})
+                                 .to(torch::kCPU)
+                                 .contiguous();
+  std::copy_n(rows.data_ptr<float>(), image->values.size(), image->values.begin());
+}
+
+// Noise from our own generator: the same seed gives the same fit whatever libtorch draws.
+torch::Tensor NormalLike(const torch::Tensor& like, core::Rng* rng) {
+  torch::Tensor noise = torch::empty(like.sizes(), torch::kFloat);
+  float* value = noise.data_ptr<float>();
+  for (std::int64_t i = 0; i < noise.numel(); ++i) {
+    value[i] = static_cast<float>(core::Normal(*rng));
+  }
+  return noise.to(like.device());
+}
+
+}  // namespace
+
+bool ScoreDistillationOptions::IsValid(std::string* error) const {
+  const auto fail = [&](const char* why) {
+    if (error != nullptr) *error = why;
+    return false;
+  };
+  for (const double t : {t_min_first, t_min_last, t_max_first, t_max_last}) {
+    if (!(t >= 0.0 && t <= 1.0)) return fail("shares of the diffusion lie in [0, 1]");
+  }
+  if (t_min_first > t_max_first || t_min_last > t_max_last) {
+    return fail("t_min lies below t_max");
+  }
+  if (!(elevation_min < elevation_max) || std::abs(elevation_min) > 1.55 ||
+      std::abs(elevation_max) > 1.55) {
+    return fail("elevations rise within -1.55 .. 1.55 rad");
+  }
+  if (!(largest_gradient > 0.0) || side < 0) return fail("sides and gradients are not negative");
+  return true;
+}
+
+ScoreDistillation::ScoreDistillation(std::shared_ptr<ViewPrior> prior, const ViewFrame& frame,
+                                     const core::Image& photo, const core::Image& alpha,
+                                     const ScoreDistillationOptions& options)
+    : prior_(std::move(prior)), frame_(frame), options_(options) {
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error(error, "score distillation");
+  nn::UseThreads();
+  prior_->SetReference({frame, photo, alpha});
+}
+
+ScoreDistillation::~ScoreDistillation() = default;
+
+core::Camera ScoreDistillation::NextCamera(double /*progress*/, core::Rng* rng) {
+  // Even over the sphere's band between the two elevations.
+  const double low = std::sin(options_.elevation_min), high = std::sin(options_.elevation_max);
+  const double elevation = std::asin(core::Uniform(*rng, low, high));
+  const double azimuth = core::Uniform(*rng, 0.0, 2.0 * M_PI);
+  const double distance = frame_.camera.position().norm();
+  // As wide as the crop of the reference, and a little, since other sides may be longer.
+  const double fov = 2.0 * std::atan(1.25 * frame_.half / frame_.camera.fx);
+  const int side = options_.side > 0 ? options_.side : prior_->side();
+  return core::OrbitCamera(Eigen::Vector3d::Zero(), distance, elevation, azimuth, fov, side, side);
+}
+
+double ScoreDistillation::Evaluate(const core::Camera& camera, const ObjectPicture& picture,
+                                   double progress, core::Rng* rng, ObjectPicture* gradient) {
+  const double steps = prior_->schedule().steps();
+  const double t_min =
+      Annealed(options_.t_min_first, options_.t_min_last, options_.anneal, progress);
+  const double t_max =
+      Annealed(options_.t_max_first, options_.t_max_last, options_.anneal, progress);
+  const torch::Tensor t =
+      torch::full({1},
+                  std::clamp<std::int64_t>(std::llround(steps * core::Uniform(*rng, t_min, t_max)),
+                                           0, static_cast<std::int64_t>(steps) - 1),
+                  torch::kLong);
+  torch::Tensor given = torch::cat({Planes(picture.color), Planes(picture.opacity)}, 1);
+  given.requires_grad_(true);
+  const int side = prior_->side();
+  const torch::Tensor seen =
+      picture.color.width == side
+          ? given
+          : torch::adaptive_avg_pool2d(given, std::vector<std::int64_t>{side, side});
+  const torch::Tensor latent = prior_->Encode(seen);
+  torch::Tensor step;
+  {
+    const torch::NoGradGuard no_grad;
+    const torch::Tensor clean = latent.detach();
+    const torch::Tensor noise = NormalLike(clean, rng);
+    const torch::Tensor noisy = prior_->schedule().AddNoise(clean, noise, t);
+    torch::Tensor guess = prior_->PredictNoise(noisy, t, {camera}, true);
+    if (options_.guidance != 1.0) {
+      const torch::Tensor blind = prior_->PredictNoise(noisy, t, {camera}, false);
+      guess = blind + options_.guidance * (guess - blind);
+    }
+    const torch::Tensor weight = prior_->schedule().Noise(t.to(clean.device())).square();
+    step = torch::clamp(weight * (guess - noise), -options_.largest_gradient,
+                        options_.largest_gradient);
+    step = torch::nan_to_num(step, 0.0, 0.0, 0.0);
+  }
+  latent.backward(step);
+  *gradient = {core::FloatImage(picture.color.width, picture.color.height, 3),
+               core::FloatImage(picture.color.width, picture.color.height, 1)};
+  CopyChannels(given.grad(), 0, &gradient->color);
+  CopyChannels(given.grad(), 3, &gradient->opacity);
+  return 0.5 * step.square().mean().item<double>();
+}
+
+}  // namespace simwright::asset_lift

@@ -1,0 +1,61 @@
+#include "asset_lift/view_network.h"
+
+#include <cmath>
+
+namespace simwright::asset_lift {
+namespace {
+
+// (1 x C x H x W) from (H x W x C).
+torch::Tensor Planes(const core::FloatImage& image) {
+  return torch::from_blob(const_cast<float*>(image.values.data()),
+                          {1, image.height, image.width, image.channels}, torch::kFloat)
+      .permute({0, 3, 1, 2})
+      .contiguous();
+}
+
+}  // namespace
+
+ViewNetworkImpl::ViewNetworkImpl(const ViewNetworkOptions& options)
+    : embedding_(options.embedding) {
+  nn::UNetOptions body;
+  body.in_channels = 4 + 5 + 4;
+  body.out_channels = 4;
+  body.channels = options.channels;
+  body.embedding = options.embedding;
+  body_ = register_module("body", nn::UNet(body));
+  time_ = register_module("time", torch::nn::Linear(embedding_, embedding_));
+  camera_ = register_module("camera", torch::nn::Linear(5, embedding_));
+  mixed_ = register_module("mixed", torch::nn::Linear(embedding_, embedding_));
+}
+
+torch::Tensor ViewNetworkImpl::forward(const torch::Tensor& noisy, const torch::Tensor& drawn,
+                                       const torch::Tensor& taken, const torch::Tensor& camera,
+                                       const torch::Tensor& t) {
+  const torch::Tensor embedding =
+      mixed_(torch::silu(time_(nn::SinusoidalEmbedding(t, embedding_)) + camera_(camera)));
+  return body_(torch::cat({noisy, drawn, taken}, 1), embedding);
+}
+
+torch::Tensor PictureTensor(const ObjectPicture& picture) {
+  return 2.0 * torch::cat({Planes(picture.color), Planes(picture.opacity)}, 1) - 1.0;
+}
+
+torch::Tensor DrawnTensor(const PredictionPicture& drawn, const core::Camera& camera,
+                          double radius) {
+  const torch::Tensor opacity = Planes(drawn.picture.opacity);
+  // Depth times opacity, about the middle times opacity: 0 where nothing is.
+  const torch::Tensor depth =
+      (Planes(drawn.depth) - camera.position().norm() * opacity) / std::max(radius, 1e-6);
+  return torch::cat({PictureTensor(drawn.picture), depth}, 1);
+}
+
+torch::Tensor CameraTensor(const core::Camera& reference, const core::Camera& camera) {
+  const RelativeCamera r = RelativeTo(reference, camera);
+  const Eigen::Vector3d from = reference.position();
+  return torch::tensor({r.elevation, std::sin(r.azimuth), std::cos(r.azimuth), r.distance,
+                        std::asin(from.z() / from.norm())},
+                       torch::kFloat)
+      .unsqueeze(0);
+}
+
+}  // namespace simwright::asset_lift

@@ -1,0 +1,101 @@
+#include "nn/trainer.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/files.h"
+
+namespace simwright::nn {
+
+bool TrainerOptions::IsValid(std::string* error) const {
+  const auto fail = [&](const char* why) {
+    if (error != nullptr) *error = why;
+    return false;
+  };
+  if (steps < 1 || save_every < 1) return fail("a training takes at least one step");
+  if (!(learning_rate > 0.0) || !(largest_norm > 0.0)) {
+    return fail("the learning rate and the gradient's largest norm are positive");
+  }
+  if (!(weight_decay >= 0.0) || !(warm_share >= 0.0 && warm_share < 1.0)) {
+    return fail("the weight decay is not negative and the warm-up shorter than the training");
+  }
+  if (!(ema_decay >= 0.0 && ema_decay < 1.0)) return fail("an average's decay lies in [0, 1)");
+  return true;
+}
+
+Trainer::Trainer(torch::nn::Module* module, const TrainerOptions& options,
+                 const std::filesystem::path& state)
+    : module_(module), options_(options), state_(state) {
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error(error, "training");
+  optimizer_ = std::make_unique<torch::optim::AdamW>(
+      module->parameters(),
+      torch::optim::AdamWOptions(options.learning_rate).weight_decay(options.weight_decay));
+  average_ = std::make_unique<Ema>(*module, options.ema_decay);
+  if (options.resume && std::filesystem::exists(state)) LoadState();
+}
+
+double Trainer::LearningRate(int step) const {
+  const double done = static_cast<double>(step) / options_.steps;
+  const double warm =
+      std::min(1.0, (step + 1.0) / std::max(1.0, options_.warm_share * options_.steps));
+  return options_.learning_rate * warm * (0.525 + 0.475 * std::cos(M_PI * std::min(1.0, done)));
+}
+
+void Trainer::Descend(int step, const torch::Tensor& loss) {
+  if (!std::isfinite(loss.item<double>())) return;
+  for (auto& group : optimizer_->param_groups()) {
+    static_cast<torch::optim::AdamWOptions&>(group.options()).lr(LearningRate(step));
+  }
+  optimizer_->zero_grad();
+  loss.backward();
+  torch::nn::utils::clip_grad_norm_(module_->parameters(), options_.largest_norm);
+  optimizer_->step();
+  average_->Update(*module_);
+}
+
+bool Trainer::SaveDue(int step) const {
+  return (step + 1) % options_.save_every == 0 || step + 1 == options_.steps;
+}
+
+void Trainer::SaveState(int step) const {
+  torch::serialize::OutputArchive archive, network, adam, mean;
+  archive.write("step", torch::tensor(step), true);
+  module_->save(network);
+  archive.write("module", network);
+  optimizer_->save(adam);
+  archive.write("optimizer", adam);
+  average_->Save(&mean);
+  archive.write("average", mean);
+  std::ostringstream bytes;
+  archive.save_to(bytes);
+  core::WriteFile(state_, bytes.str());
+}
+
+void Trainer::LoadState() {
+  std::istringstream bytes(core::ReadFile(state_, 1ull << 34));
+  try {
+    torch::serialize::InputArchive archive, network, adam, mean;
+    archive.load_from(bytes);
+    torch::Tensor step;
+    archive.read("step", step, true);
+    archive.read("module", network);
+    module_->load(network);
+    archive.read("optimizer", adam);
+    optimizer_->load(adam);
+    archive.read("average", mean);
+    average_->Load(&mean);
+    first_ = step.item<int>();
+  } catch (const c10::Error&) {
+    throw core::Error("is no training state of this network", state_.string(),
+                      "remove it, or train without --resume");
+  }
+}
+
+void Trainer::Finish() const {
+  std::error_code missing;
+  std::filesystem::remove(state_, missing);
+}
+
+}  // namespace simwright::nn
