@@ -58,21 +58,44 @@ core::Image ForegroundColors(const core::Image& photo, const core::Image& alpha,
   return colors;
 }
 
+// A photo's foreground colours, and the camera they were seen by.
+struct SeenColors {
+  core::Camera camera;
+  core::Image colors;
+};
+
 class PhotoPainter {
  public:
-  PhotoPainter(const core::TriangleMesh& mesh, const core::Camera& camera, const core::Image& photo,
-               const core::Image& alpha, const Eigen::Hyperplane<double, 3>& mirror,
+  PhotoPainter(const core::TriangleMesh& mesh, const std::vector<PhotoView>& views,
                const ProjectionOptions& options)
-      : mesh_(mesh),
-        camera_(camera),
-        mirror_(mirror),
-        options_(options),
-        colors_(ForegroundColors(photo, alpha, options.edge_pixels)) {
+      : mesh_(mesh), options_(options) {
+    for (const PhotoView& view : views) {
+      seen_.push_back({view.camera, ForegroundColors(view.photo, view.alpha, options.edge_pixels)});
+    }
     shape_.mesh = mesh;
     scene_.Add(&shape_);
     scene_.Commit();
     reach_ = static_cast<float>(core::Bounds(mesh).diagonal().norm());
+  }
+
+  // What no camera sees repeats the front across the plane, and then its surroundings.
+  void HideBehindMirror(const Eigen::Hyperplane<double, 3>& mirror) {
+    mirror_ = &mirror;
     vertex_colors_ = SpreadColors();
+  }
+
+  // What no camera sees has these colours.
+  void HideBehind(const std::vector<Eigen::Vector3f>& vertex_colors) {
+    vertex_colors_ = vertex_colors;
+  }
+
+  // Whether a camera sees anything of the mesh.
+  bool SeesAnything() const {
+    const std::vector<Eigen::Vector3d> normals = core::VertexNormals(mesh_);
+    for (size_t v = 0; v < normals.size(); ++v) {
+      if (Blend(mesh_.vertices[v], normals[v]).weight >= 0.5f) return true;
+    }
+    return false;
   }
 
   Eigen::Vector3f Color(const SurfacePoint& point) const {
@@ -87,11 +110,11 @@ class PhotoPainter {
   // Front, and where it fades the mirror image of it; weight 1 where either shows fully.
   Sample Blend(const Eigen::Vector3d& position, const Eigen::Vector3d& normal) const {
     Sample front = See(position, normal);
-    if (front.weight >= 1.0f) return front;
+    if (front.weight >= 1.0f || mirror_ == nullptr) return front;
     const Eigen::Vector3d mirrored =
-        position - 2.0 * mirror_.signedDistance(position) * mirror_.normal();
+        position - 2.0 * mirror_->signedDistance(position) * mirror_->normal();
     const Eigen::Vector3d mirrored_normal =
-        normal - 2.0 * normal.dot(mirror_.normal()) * mirror_.normal();
+        normal - 2.0 * normal.dot(mirror_->normal()) * mirror_->normal();
     const Sample back = See(mirrored, mirrored_normal);
     const float rest = (1.0f - front.weight) * back.weight;
     const float total = front.weight + rest;
@@ -99,13 +122,31 @@ class PhotoPainter {
     return {(front.weight * front.color + rest * back.color) / total, std::min(1.0f, total)};
   }
 
+  // All cameras' view of a point: the squarest counts most.
   Sample See(const Eigen::Vector3d& position, const Eigen::Vector3d& normal) const {
-    const Eigen::Vector3d to_eye = (camera_.position() - position).normalized();
+    Sample all;
+    float total = 0.0f;
+    for (const SeenColors& seen : seen_) {
+      const Sample one = SeeFrom(seen, position, normal);
+      if (one.weight <= 0.0f) continue;
+      const float share = one.weight * one.weight;
+      all.color += share * one.color;
+      all.weight = std::max(all.weight, one.weight);
+      total += share;
+    }
+    if (total > 0.0f) all.color /= total;
+    return all;
+  }
+
+  Sample SeeFrom(const SeenColors& seen, const Eigen::Vector3d& position,
+                 const Eigen::Vector3d& normal) const {
+    const Eigen::Vector3d to_eye = (seen.camera.position() - position).normalized();
     const double cosine = normal.dot(to_eye);
     if (cosine <= options_.fade_to) return {};
-    const Eigen::Vector3d pixel = camera_.Project(position);
-    if (pixel.z() <= 0.0 || pixel.x() < 0.0 || pixel.y() < 0.0 || pixel.x() >= colors_.width ||
-        pixel.y() >= colors_.height) {
+    const Eigen::Vector3d pixel = seen.camera.Project(position);
+    const core::Image& colors = seen.colors;
+    if (pixel.z() <= 0.0 || pixel.x() < 0.0 || pixel.y() < 0.0 || pixel.x() >= colors.width ||
+        pixel.y() >= colors.height) {
       return {};
     }
     const Eigen::Vector3f start = (position + 2e-3 * reach_ * normal).cast<float>();
@@ -115,9 +156,9 @@ class PhotoPainter {
     const double fade =
         std::clamp((cosine - options_.fade_to) / (options_.fade_from - options_.fade_to), 0.0, 1.0);
     const Eigen::Vector2f uv(
-        static_cast<float>(pixel.x()) / static_cast<float>(colors_.width),
-        1.0f - static_cast<float>(pixel.y()) / static_cast<float>(colors_.height));
-    return {core::SampleTexture(colors_, uv).head<3>(),
+        static_cast<float>(pixel.x()) / static_cast<float>(colors.width),
+        1.0f - static_cast<float>(pixel.y()) / static_cast<float>(colors.height));
+    return {core::SampleTexture(colors, uv).head<3>(),
             static_cast<float>(fade * fade * (3.0 - 2.0 * fade))};
   }
 
@@ -126,10 +167,9 @@ class PhotoPainter {
   std::vector<Eigen::Vector3f> SpreadColors() const;
 
   const core::TriangleMesh& mesh_;
-  const core::Camera& camera_;
-  const Eigen::Hyperplane<double, 3>& mirror_;
   const ProjectionOptions& options_;
-  core::Image colors_;
+  std::vector<SeenColors> seen_;
+  const Eigen::Hyperplane<double, 3>* mirror_ = nullptr;
   core::TexturedMesh shape_;
   render::Scene scene_;
   float reach_ = 1.0f;
@@ -174,22 +214,21 @@ std::vector<Eigen::Vector3f> PhotoPainter::SpreadColors() const {
   return colors;
 }
 
-}  // namespace
-
-core::TexturedMesh ProjectPhoto(const core::TriangleMesh& mesh, const core::Camera& camera,
-                                const core::Image& photo, const core::Image& alpha,
-                                const Eigen::Hyperplane<double, 3>& mirror,
-                                const ProjectionOptions& options) {
-  if (photo.width != alpha.width || photo.height != alpha.height || photo.width != camera.width ||
-      photo.height != camera.height || alpha.channels != 1) {
+void RequireFit(const PhotoView& view) {
+  if (view.photo.width != view.alpha.width || view.photo.height != view.alpha.height ||
+      view.photo.width != view.camera.width || view.photo.height != view.camera.height ||
+      view.alpha.channels != 1) {
     throw core::Error("photo, matte and camera differ in size");
   }
+}
+
+core::TexturedMesh Painted(const core::TriangleMesh& mesh, const PhotoPainter& painter,
+                           const ProjectionOptions& options) {
   core::TexturedMesh textured;
   textured.mesh = mesh;
   AtlasOptions atlas;
   atlas.size = options.texture_size;
   textured.corner_uvs = UnwrapToAtlas(mesh, atlas);
-  const PhotoPainter painter(mesh, camera, photo, alpha, mirror, options);
   textured.textures.push_back(
       BakeTexture(mesh, textured.corner_uvs, options.texture_size, atlas.padding + 2,
                   [&](const SurfacePoint& point) { return painter.Color(point); }));
@@ -198,6 +237,34 @@ core::TexturedMesh ProjectPhoto(const core::TriangleMesh& mesh, const core::Came
   textured.part_names.push_back("object");
   textured.triangle_part.assign(mesh.triangles.size(), 0);
   return textured;
+}
+
+}  // namespace
+
+core::TexturedMesh ProjectPhoto(const core::TriangleMesh& mesh, const core::Camera& camera,
+                                const core::Image& photo, const core::Image& alpha,
+                                const Eigen::Hyperplane<double, 3>& mirror,
+                                const ProjectionOptions& options) {
+  const PhotoView view{camera, photo, alpha};
+  RequireFit(view);
+  PhotoPainter painter(mesh, {view}, options);
+  painter.HideBehindMirror(mirror);
+  return Painted(mesh, painter, options);
+}
+
+core::TexturedMesh ProjectPhotos(const core::TriangleMesh& mesh,
+                                 const std::vector<PhotoView>& views,
+                                 const std::vector<Eigen::Vector3f>& hidden,
+                                 const ProjectionOptions& options) {
+  if (views.empty()) throw core::Error("a texture needs at least one photo");
+  if (hidden.size() != mesh.vertices.size()) {
+    throw core::Error("the hidden side needs a colour a vertex");
+  }
+  for (const PhotoView& view : views) RequireFit(view);
+  PhotoPainter painter(mesh, views, options);
+  if (!painter.SeesAnything()) throw core::Error("no camera sees anything of the mesh");
+  painter.HideBehind(hidden);
+  return Painted(mesh, painter, options);
 }
 
 }  // namespace simwright::texture

@@ -124,6 +124,44 @@ TEST(PhotoProjection, FrontTakesThePhotoAndTheBackMirrorsIt) {
   }
 }
 
+// The colour of the texture at the middle of the face that is nearest to `p`.
+Eigen::Vector3f ColorNear(const core::TexturedMesh& textured, const Eigen::Vector3d& p) {
+  size_t best = 0;
+  double nearest = 1e9;
+  for (size_t t = 0; t < textured.mesh.triangles.size(); ++t) {
+    Eigen::Vector3d c = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) c += textured.mesh.vertices[textured.mesh.triangles[t][k]] / 3.0;
+    if ((c - p).norm() < nearest) {
+      nearest = (c - p).norm();
+      best = t;
+    }
+  }
+  const auto& uvs = textured.corner_uvs;
+  const Eigen::Vector2f uv = (uvs[3 * best] + uvs[3 * best + 1] + uvs[3 * best + 2]) / 3.0f;
+  return core::SampleTexture(textured.textures[0], uv).head<3>();
+}
+
+TEST(PhotoProjection, EachPhotoColoursItsSideAndTheRestIsAsTold) {
+  const core::TriangleMesh ball = Ball(32);
+  std::vector<PhotoView> views;
+  for (const double azimuth : {-M_PI / 2, 0.0}) {  // from -y a red photo, from +x a green one
+    core::Image photo(120, 120, 3);
+    for (size_t i = views.size(); i < photo.pixels.size(); i += 3) photo.pixels[i] = 255;
+    views.push_back({core::OrbitCamera(Eigen::Vector3d::Zero(), 8.0, 0.0, azimuth, 0.4, 120, 120),
+                     photo, core::Image(120, 120, 1, 255)});
+  }
+  const std::vector<Eigen::Vector3f> blue(ball.vertices.size(), Eigen::Vector3f::UnitZ());
+  const core::TexturedMesh textured = ProjectPhotos(ball, views, blue);
+  EXPECT_LT((ColorNear(textured, {-0.5, -0.8, 0}) - Eigen::Vector3f::UnitX()).norm(), 0.05f);
+  EXPECT_LT((ColorNear(textured, {0.8, 0.5, 0}) - Eigen::Vector3f::UnitY()).norm(), 0.05f);
+  EXPECT_LT((ColorNear(textured, {-0.7, 0.7, 0}) - Eigen::Vector3f::UnitZ()).norm(), 0.05f);
+  const Eigen::Vector3f between = ColorNear(textured, {0.7, -0.7, 0});
+  EXPECT_NEAR(between.x(), 0.5f, 0.15f);  // both look as squarely
+  EXPECT_NEAR(between.y(), 0.5f, 0.15f);
+  EXPECT_THROW(ProjectPhotos(ball, {}, blue), core::Error);
+  EXPECT_THROW(ProjectPhotos(ball, views, {}), core::Error);
+}
+
 TEST(PhotoProjection, RefusesSizesThatDoNotFit) {
   const core::TriangleMesh ball = Ball(8);
   const core::Camera camera =
