@@ -16,8 +16,7 @@ class LearnedViewPrior : public ViewPrior {
       : shape_(std::move(shape)),
         device_(nn::BestDevice()),
         schedule_(nn::DiffusionSchedule::Cosine(kViewDiffusionSteps)) {
-    nn::ReadCheckpointFacts(weights, "view");
-    nn::LoadCheckpoint(weights, network_.get());
+    nn::LoadCheckpoint(weights, "view", network_.get());
     network_->to(device_);
     network_->eval();
   }

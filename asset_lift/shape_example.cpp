@@ -11,7 +11,11 @@ namespace simwright::asset_lift {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr int kSolidResolution = 112;
+// Grown so that no wall is thinner than the network's depth cells: what aliasing leaves of a
+// thinner one no network can learn.
+constexpr int kSolidResolution = 80;
+constexpr double kSheetCells = 2.0;
+constexpr double kGrowthCells = 0.6;
 constexpr int kPictureSide = 96;  // of the picture that the crop is cut from
 
 core::TexturedMesh Normalised(core::TexturedMesh mesh, const Eigen::Vector3d& stretch) {
@@ -92,7 +96,8 @@ double MiddleDepth(const core::TriangleMesh& mesh, const ViewFrame& frame) {
 
 TrainingObject::TrainingObject(core::TexturedMesh mesh, const Eigen::Vector3d& stretch)
     : mesh_(Normalised(std::move(mesh), stretch)),
-      solid_(std::make_unique<geometry::VoxelSolid>(mesh_.mesh, kSolidResolution)) {
+      solid_(std::make_unique<geometry::VoxelSolid>(mesh_.mesh, kSolidResolution, kSheetCells,
+                                                    kGrowthCells)) {
   scene_.Add(&mesh_);
   scene_.Commit();
 }

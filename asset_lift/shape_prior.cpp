@@ -54,8 +54,7 @@ struct ShapePrior::Network {
 
 ShapePrior::ShapePrior(const std::filesystem::path& weights)
     : network_(std::make_unique<Network>()) {
-  nn::ReadCheckpointFacts(weights, "shape");
-  nn::LoadCheckpoint(weights, network_->module.get());
+  nn::LoadCheckpoint(weights, "shape", network_->module.get());
   network_->module->to(network_->device);
   network_->module->eval();
 }

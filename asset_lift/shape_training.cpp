@@ -85,7 +85,7 @@ Losses LossesOf(const ShapeNetworkOutput& output, const Batch& batch) {
   const torch::Tensor log_b = torch::clamp(output.elevation.select(1, 1), -4.0, 1.0);
   const torch::Tensor likelihood = (off * torch::exp(-log_b) + log_b).mean();
   Losses losses;
-  losses.total = entropy + 0.3 * dice.mean() + 0.3 * color + 0.03 * likelihood;
+  losses.total = entropy + 0.5 * dice.mean() + 0.3 * color + 0.03 * likelihood;
   const torch::NoGradGuard no_grad;
   const torch::Tensor ours = (output.occupancy > 0.0) & (seen > 0.5), truth = batch.occupancy > 0.5;
   losses.iou = ((ours & truth).sum({1, 2, 3}).to(torch::kFloat) /

@@ -56,7 +56,8 @@ bool BesideOtherSide(const std::vector<std::uint8_t>& reached, const SurfaceGrid
 
 }  // namespace
 
-VoxelSolid::VoxelSolid(const core::TriangleMesh& mesh, int resolution, double sheet_cells) {
+VoxelSolid::VoxelSolid(const core::TriangleMesh& mesh, int resolution, double sheet_cells,
+                       double growth_cells) {
   core::RequireValid(mesh, "voxel solid");
   if (resolution < 8 || resolution > 512) {
     throw core::Error("a voxel solid has 8 to 512 cells along its longest side");
@@ -86,7 +87,7 @@ VoxelSolid::VoxelSolid(const core::TriangleMesh& mesh, int resolution, double sh
         } else if (!reached[node]) {
           outside = -distance;
         }
-        const double share = std::clamp(0.5 - outside, 0.0, 1.0);
+        const double share = std::clamp(0.5 - outside + growth_cells, 0.0, 1.0);
         occupancy_[(static_cast<std::size_t>(k) * ny_ + j) * nx_ + i] =
             static_cast<std::uint8_t>(std::lround(255.0 * share));
       }

@@ -16,9 +16,10 @@ class VoxelSolid {
  public:
   // `resolution`: cells along the mesh's longest side, 8 to 512. A node is outside where it can be
   // reached from the border without crossing a triangle; sheets (and all that is thinner than a
-  // cell) are given a thickness of `sheet_cells`. Throws core::Error for an invalid mesh, one
-  // without extent, or a resolution out of range.
-  VoxelSolid(const core::TriangleMesh& mesh, int resolution, double sheet_cells = 1.5);
+  // cell) are given a thickness of `sheet_cells`; everything then grows by `growth_cells` (at most
+  // 1). Throws core::Error for an invalid mesh, one without extent, or a resolution out of range.
+  VoxelSolid(const core::TriangleMesh& mesh, int resolution, double sheet_cells = 1.5,
+             double growth_cells = 0.0);
 
   // Share in [0, 1] of a cell about `point` that is filled: a ramp one cell wide across the
   // surface, trilinear between nodes.

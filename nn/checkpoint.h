@@ -16,11 +16,9 @@ using CheckpointFacts = std::map<std::string, std::string>;
 void SaveCheckpoint(const torch::nn::Module& module, const CheckpointFacts& facts,
                     const std::filesystem::path& path);
 
-// The facts of a checkpoint. Throws core::Error: missing, damaged, or of another kind than `kind`.
-CheckpointFacts ReadCheckpointFacts(const std::filesystem::path& path, const std::string& kind);
-
-// Fills the module. Throws core::Error where the file is missing, damaged, or holds other names or
-// shapes than the module, naming the first.
-void LoadCheckpoint(const std::filesystem::path& path, torch::nn::Module* module);
+// Fills the module and returns the facts. Throws core::Error where the file is missing, damaged, of
+// another kind than `kind`, or holds other names or shapes than the module, naming the first.
+CheckpointFacts LoadCheckpoint(const std::filesystem::path& path, const std::string& kind,
+                               torch::nn::Module* module);
 
 }  // namespace simwright::nn

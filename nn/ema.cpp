@@ -25,23 +25,24 @@ void Ema::CopyTo(torch::nn::Module* module) const {
   for (size_t i = 0; i < now.size(); ++i) now[i].copy_(average_[i]);
 }
 
-void Ema::Save(torch::serialize::OutputArchive* archive) const {
-  archive->write("updates", torch::tensor(static_cast<std::int64_t>(updates_)), true);
+void Ema::Collect(NamedTensors* tensors) const {
+  (*tensors)["average.updates"] = torch::tensor(static_cast<std::int64_t>(updates_));
   for (size_t i = 0; i < average_.size(); ++i) {
-    archive->write(std::to_string(i), average_[i].to(torch::kCPU), true);
+    (*tensors)["average." + std::to_string(i)] = average_[i];
   }
 }
 
-void Ema::Load(torch::serialize::InputArchive* archive) {
+bool Ema::Load(const NamedTensors& tensors) {
   const torch::NoGradGuard no_grad;
-  torch::Tensor updates;
-  archive->read("updates", updates, true);
-  updates_ = updates.item<long>();
+  const auto updates = tensors.find("average.updates");
+  if (updates == tensors.end()) return false;
   for (size_t i = 0; i < average_.size(); ++i) {
-    torch::Tensor stored;
-    archive->read(std::to_string(i), stored, true);
-    average_[i].copy_(stored);
+    const auto found = tensors.find("average." + std::to_string(i));
+    if (found == tensors.end() || !found->second.sizes().equals(average_[i].sizes())) return false;
+    average_[i].copy_(found->second);
   }
+  updates_ = updates->second.item<std::int64_t>();
+  return true;
 }
 
 }  // namespace simwright::nn

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "nn/tensor_file.h"
 #include "nn/torch.h"
 
 namespace simwright::nn {
@@ -16,9 +17,9 @@ class Ema {
   // Writes the average into the module's parameters.
   void CopyTo(torch::nn::Module* module) const;
 
-  void Save(torch::serialize::OutputArchive* archive) const;
-  // Throws c10::Error where the archive holds another module's average.
-  void Load(torch::serialize::InputArchive* archive);
+  // All of it as tensors, and back. Load returns false where they are another module's.
+  void Collect(NamedTensors* tensors) const;
+  bool Load(const NamedTensors& tensors);
 
  private:
   double decay_;

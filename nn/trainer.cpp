@@ -1,10 +1,9 @@
 #include "nn/trainer.h"
 
 #include <cmath>
-#include <sstream>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "nn/tensor_file.h"
 
 namespace simwright::nn {
 
@@ -60,37 +59,44 @@ bool Trainer::SaveDue(int step) const {
 }
 
 void Trainer::SaveState(int step) const {
-  torch::serialize::OutputArchive archive, network, adam, mean;
-  archive.write("step", torch::tensor(step), true);
-  module_->save(network);
-  archive.write("module", network);
-  optimizer_->save(adam);
-  archive.write("optimizer", adam);
-  average_->Save(&mean);
-  archive.write("average", mean);
-  std::ostringstream bytes;
-  archive.save_to(bytes);
-  core::WriteFile(state_, bytes.str());
+  NamedTensors tensors;
+  tensors["step"] = torch::tensor(step);
+  CollectTensors(*module_, "module.", &tensors);
+  average_->Collect(&tensors);
+  // AdamW's moments, by the parameters' order.
+  const std::vector<torch::Tensor> parameters = module_->parameters();
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    const auto found =
+        optimizer_->state().find(c10::guts::to_string(parameters[i].unsafeGetTensorImpl()));
+    if (found == optimizer_->state().end()) continue;
+    const auto& moments = static_cast<const torch::optim::AdamWParamState&>(*found->second);
+    const std::string name = "adam." + std::to_string(i);
+    tensors[name + ".step"] = torch::tensor(moments.step());
+    tensors[name + ".first"] = moments.exp_avg();
+    tensors[name + ".second"] = moments.exp_avg_sq();
+  }
+  WriteTensors(tensors, state_);
 }
 
 void Trainer::LoadState() {
-  std::istringstream bytes(core::ReadFile(state_, 1ull << 34));
-  try {
-    torch::serialize::InputArchive archive, network, adam, mean;
-    archive.load_from(bytes);
-    torch::Tensor step;
-    archive.read("step", step, true);
-    archive.read("module", network);
-    module_->load(network);
-    archive.read("optimizer", adam);
-    optimizer_->load(adam);
-    archive.read("average", mean);
-    average_->Load(&mean);
-    first_ = step.item<int>();
-  } catch (const c10::Error&) {
+  const NamedTensors tensors = ReadTensors(state_);
+  if (!tensors.contains("step") || !RestoreTensors(tensors, "module.", module_).empty() ||
+      !average_->Load(tensors)) {
     throw core::Error("is no training state of this network", state_.string(),
                       "remove it, or train without --resume");
   }
+  const std::vector<torch::Tensor> parameters = module_->parameters();
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    const std::string name = "adam." + std::to_string(i);
+    if (!tensors.contains(name + ".step")) continue;
+    auto moments = std::make_unique<torch::optim::AdamWParamState>();
+    moments->step(tensors.at(name + ".step").item<std::int64_t>());
+    moments->exp_avg(tensors.at(name + ".first").to(parameters[i].device()));
+    moments->exp_avg_sq(tensors.at(name + ".second").to(parameters[i].device()));
+    optimizer_->state()[c10::guts::to_string(parameters[i].unsafeGetTensorImpl())] =
+        std::move(moments);
+  }
+  first_ = tensors.at("step").item<int>();
 }
 
 void Trainer::Finish() const {

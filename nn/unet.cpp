@@ -38,7 +38,7 @@ UNetImpl::UNetImpl(const UNetOptions& options) : options_(options) {
   const int fold = options.patch * options.patch;
   const std::vector<int>& channels = options.channels;
   const int levels = static_cast<int>(channels.size());
-  in_ = register_module("in", Conv3(options.in_channels * fold, channels[0]));
+  entry_ = register_module("entry", Conv3(options.in_channels * fold, channels[0]));
   down_ = register_module("down", torch::nn::ModuleList());
   down_attention_ = register_module("down_attention", torch::nn::ModuleList());
   shrink_ = register_module("shrink", torch::nn::ModuleList());
@@ -67,9 +67,9 @@ UNetImpl::UNetImpl(const UNetOptions& options) : options_(options) {
     }
     if (level > 0) grow_->push_back(Conv1(c, channels[static_cast<size_t>(level) - 1]));
   }
-  out_norm_ = register_module(
-      "out_norm", torch::nn::GroupNorm(torch::nn::GroupNormOptions(channels[0] / 8, channels[0])));
-  out_ = register_module("out", Conv1(channels[0], options.out_channels * fold));
+  exit_norm_ = register_module(
+      "exit_norm", torch::nn::GroupNorm(torch::nn::GroupNormOptions(channels[0] / 8, channels[0])));
+  exit_ = register_module("exit", Conv1(channels[0], options.out_channels * fold));
 }
 
 torch::Tensor UNetImpl::forward(const torch::Tensor& x, const torch::Tensor& embedding) {
@@ -80,7 +80,7 @@ torch::Tensor UNetImpl::ForwardWithBottleneck(const torch::Tensor& x,
                                               const torch::Tensor& embedding,
                                               torch::Tensor* bottleneck) {
   const int levels = static_cast<int>(options_.channels.size());
-  torch::Tensor h = in_(options_.patch > 1 ? torch::pixel_unshuffle(x, options_.patch) : x);
+  torch::Tensor h = entry_(options_.patch > 1 ? torch::pixel_unshuffle(x, options_.patch) : x);
   std::vector<torch::Tensor> skips;
   size_t block = 0, attention = 0;
   for (int level = 0; level < levels; ++level) {
@@ -109,7 +109,7 @@ torch::Tensor UNetImpl::ForwardWithBottleneck(const torch::Tensor& x,
     h = grow_->at<torch::nn::Conv2dImpl>(static_cast<size_t>(levels - 1 - level)).forward(h);
     h = torch::upsample_nearest2d(h, std::vector<std::int64_t>{h.size(2) * 2, h.size(3) * 2});
   }
-  h = out_(torch::silu(out_norm_(h)));
+  h = exit_(torch::silu(exit_norm_(h)));
   return options_.patch > 1 ? torch::pixel_shuffle(h, options_.patch) : h;
 }
 

@@ -40,8 +40,8 @@ class UNetImpl : public torch::nn::Module {
 
  private:
   UNetOptions options_;
-  torch::nn::Conv2d in_{nullptr}, out_{nullptr};
-  torch::nn::GroupNorm out_norm_{nullptr};
+  torch::nn::Conv2d entry_{nullptr}, exit_{nullptr};
+  torch::nn::GroupNorm exit_norm_{nullptr};
   torch::nn::ModuleList down_, down_attention_, shrink_, up_, up_attention_, grow_;
 };
 TORCH_MODULE(UNet);

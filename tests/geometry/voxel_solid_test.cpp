@@ -13,6 +13,9 @@ namespace {
 TEST(VoxelSolid, FillsABoxToItsVolume) {
   const VoxelSolid solid(shapes::Box({-0.5, -0.3, -0.2}, {0.5, 0.3, 0.2}), 64);
   EXPECT_NEAR(solid.Volume(), 1.0 * 0.6 * 0.4, 0.01 * 0.24);
+  const VoxelSolid grown(shapes::Box({-0.5, -0.3, -0.2}, {0.5, 0.3, 0.2}), 64, 1.5, 0.5);
+  const double more = 1.0 / 64;  // half a cell on either side
+  EXPECT_NEAR(grown.Volume(), (1.0 + more) * (0.6 + more) * (0.4 + more), 0.01 * 0.24);
   EXPECT_EQ(solid.Occupancy({0, 0, 0}), 1.0f);
   EXPECT_EQ(solid.Occupancy({0.6, 0, 0}), 0.0f);
   EXPECT_EQ(solid.Occupancy({0, 0, 0.3}), 0.0f);

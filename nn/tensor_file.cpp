@@ -1,0 +1,62 @@
+#include "nn/tensor_file.h"
+
+#include "core/error.h"
+#include "core/files.h"
+
+namespace simwright::nn {
+namespace {
+
+template <typename Visit>
+void ForEachTensor(const torch::nn::Module& module, const Visit& visit) {
+  for (const auto& item : module.named_parameters()) visit(item.key(), item.value());
+  for (const auto& item : module.named_buffers()) visit(item.key(), item.value());
+}
+
+}  // namespace
+
+void WriteTensors(const NamedTensors& tensors, const std::filesystem::path& path) {
+  c10::Dict<std::string, torch::Tensor> dictionary;
+  for (const auto& [name, tensor] : tensors) {
+    dictionary.insert(name, tensor.detach().to(torch::kCPU).contiguous());
+  }
+  const std::vector<char> bytes = torch::pickle_save(dictionary);
+  core::WriteFile(path, {bytes.data(), bytes.size()});
+}
+
+NamedTensors ReadTensors(const std::filesystem::path& path) {
+  const std::string bytes = core::ReadFile(path, 1ull << 34);
+  NamedTensors tensors;
+  try {
+    const c10::IValue value = torch::pickle_load(std::vector<char>(bytes.begin(), bytes.end()));
+    for (const auto& entry : value.toGenericDict()) {
+      tensors[entry.key().toStringRef()] = entry.value().toTensor();
+    }
+  } catch (const std::exception&) {
+    throw core::Error("is no weights file of this program, or a damaged one", path.string());
+  }
+  return tensors;
+}
+
+void CollectTensors(const torch::nn::Module& module, const std::string& prefix,
+                    NamedTensors* tensors) {
+  ForEachTensor(module, [&](const std::string& name, const torch::Tensor& value) {
+    (*tensors)[prefix + name] = value;
+  });
+}
+
+std::string RestoreTensors(const NamedTensors& tensors, const std::string& prefix,
+                           torch::nn::Module* module) {
+  const torch::NoGradGuard no_grad;
+  std::string missing;
+  ForEachTensor(*module, [&](const std::string& name, torch::Tensor value) {
+    const auto found = tensors.find(prefix + name);
+    if (found == tensors.end() || !found->second.sizes().equals(value.sizes())) {
+      if (missing.empty()) missing = name;
+      return;
+    }
+    value.copy_(found->second);
+  });
+  return missing;
+}
+
+}  // namespace simwright::nn

@@ -1,0 +1,45 @@
+#include "nn/diffusion_schedule.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+
+namespace simwright::nn {
+namespace {
+
+TEST(DiffusionSchedule, KeepsTheVarianceAndItsEnds) {
+  for (const DiffusionSchedule& schedule :
+       {DiffusionSchedule::Cosine(1000), DiffusionSchedule::ScaledLinear(1000, 0.00085, 0.012)}) {
+    for (int t = 0; t < 999; t += 37) {
+      EXPECT_NEAR(std::pow(schedule.SignalAt(t), 2) + std::pow(schedule.NoiseAt(t), 2), 1.0, 1e-12);
+      EXPECT_LT(schedule.SignalAt(t + 1), schedule.SignalAt(t));
+    }
+  }
+  // Nichol and Dhariwal's a_t^2 = f(t) / f(0), f(t) = cos^2((t / T + s) / (1 + s) pi / 2).
+  const auto f = [](double t) { return std::pow(std::cos((t + 0.008) / 1.008 * M_PI / 2), 2); };
+  const DiffusionSchedule cosine = DiffusionSchedule::Cosine(1000);
+  EXPECT_NEAR(std::pow(cosine.SignalAt(499), 2), f(0.5) / f(0.0), 1e-6);
+  // Stable diffusion's sqrt(alphas_cumprod) at its last step is 0.0683.
+  EXPECT_NEAR(DiffusionSchedule::ScaledLinear(1000, 0.00085, 0.012).SignalAt(999), 0.0683, 2e-4);
+}
+
+TEST(DiffusionSchedule, StepsWithTheTrueNoiseLeadToTheCleanPicture) {
+  const DiffusionSchedule schedule = DiffusionSchedule::Cosine(100);
+  torch::manual_seed(3);
+  const torch::Tensor clean = torch::randn({2, 3, 4, 4}), noise = torch::randn({2, 3, 4, 4});
+  const torch::Tensor t = torch::full({2}, 90, torch::kLong);
+  torch::Tensor x = schedule.AddNoise(clean, noise, t);
+  EXPECT_LT((schedule.CleanFrom(x, noise, t) - clean).abs().max().item<double>(), 1e-4);
+  for (int at = 90; at >= 0; at -= 10) x = schedule.DdimStep(x, noise, at, at - 10);
+  EXPECT_LT((x - clean).abs().max().item<double>(), 1e-4);
+}
+
+TEST(DiffusionSchedule, RefusesWhatIsNone) {
+  EXPECT_THROW(DiffusionSchedule::Cosine(1), core::Error);
+  EXPECT_THROW(DiffusionSchedule::ScaledLinear(10, 0.1, 0.01), core::Error);
+}
+
+}  // namespace
+}  // namespace simwright::nn

@@ -1,0 +1,96 @@
+// What is written to disk comes back: weights, and all that a training goes on from.
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "nn/checkpoint.h"
+#include "nn/trainer.h"
+#include "nn/unet.h"
+
+namespace simwright::nn {
+namespace {
+
+UNet SmallUNet(std::uint64_t seed) {
+  torch::manual_seed(seed);
+  UNetOptions options;
+  options.channels = {16, 24};
+  options.attention_from = 1;
+  return UNet(options);
+}
+
+double Difference(const torch::nn::Module& a, const torch::nn::Module& b) {
+  const auto first = a.parameters(), second = b.parameters();
+  double largest = 0.0;
+  for (size_t i = 0; i < first.size(); ++i) {
+    largest = std::max(largest, (first[i] - second[i]).abs().max().item<double>());
+  }
+  return largest;
+}
+
+torch::Tensor LossOf(UNet network, int step) {
+  torch::manual_seed(1000 + step);
+  const torch::Tensor x = torch::randn({2, 4, 8, 8});
+  return torch::mse_loss(network(x), x.roll(1, 1));
+}
+
+TEST(Checkpoint, KeepsWeightsToHalfPrecisionAndSaysItsKind) {
+  const core::TemporaryFolder folder;
+  UNet written = SmallUNet(1), read = SmallUNet(2);
+  ASSERT_GT(Difference(*written, *read), 0.1);
+  SaveCheckpoint(*written, {{"kind", "shape"}, {"step", "7"}}, folder.path() / "w.pt");
+  EXPECT_EQ(LoadCheckpoint(folder.path() / "w.pt", "shape", read.get()).at("step"), "7");
+  EXPECT_LT(Difference(*written, *read), 1e-3);
+  EXPECT_THROW(LoadCheckpoint(folder.path() / "w.pt", "view", read.get()), core::Error);
+  UNetOptions other;
+  other.channels = {16, 32};
+  UNet wider(other);
+  EXPECT_THROW(LoadCheckpoint(folder.path() / "w.pt", "shape", wider.get()), core::Error);
+  core::WriteFile(folder.path() / "bad.pt", "no weights");
+  EXPECT_THROW(LoadCheckpoint(folder.path() / "bad.pt", "shape", read.get()), core::Error);
+  EXPECT_THROW(LoadCheckpoint(folder.path() / "none.pt", "shape", read.get()), core::Error);
+}
+
+TEST(Trainer, GoesOnAsIfItHadNeverStopped) {
+  const core::TemporaryFolder folder;
+  TrainerOptions options;
+  options.steps = 12;
+  UNet whole = SmallUNet(1);
+  Trainer through(whole.get(), options, folder.path() / "whole");
+  const double before = LossOf(whole, 0).item<double>();
+  for (int step = 0; step < 12; ++step) through.Descend(step, LossOf(whole, step));
+  EXPECT_LT(LossOf(whole, 0).item<double>(), 0.98 * before);
+
+  UNet half = SmallUNet(1);
+  Trainer first(half.get(), options, folder.path() / "state");
+  for (int step = 0; step < 5; ++step) first.Descend(step, LossOf(half, step));
+  first.SaveState(5);
+  UNet rest = SmallUNet(3);
+  options.resume = true;
+  Trainer second(rest.get(), options, folder.path() / "state");
+  ASSERT_EQ(second.first_step(), 5);
+  for (int step = 5; step < 12; ++step) second.Descend(step, LossOf(rest, step));
+  EXPECT_LT(Difference(*whole, *rest), 1e-6);
+  UNet average_whole = SmallUNet(4), average_rest = SmallUNet(5);
+  through.CopyAverageTo(average_whole.get());
+  second.CopyAverageTo(average_rest.get());
+  EXPECT_LT(Difference(*average_whole, *average_rest), 1e-6);
+  EXPECT_GT(Difference(*average_whole, *whole), 1e-5);  // it is an average, not the last
+
+  core::WriteFile(folder.path() / "state", "damaged");
+  EXPECT_THROW(Trainer(rest.get(), options, folder.path() / "state"), core::Error);
+}
+
+TEST(Trainer, RateWarmsUpAndFallsToATwentieth) {
+  UNet network = SmallUNet(1);
+  TrainerOptions options;
+  options.steps = 1000;
+  options.learning_rate = 1.0;
+  const Trainer trainer(network.get(), options, "unused");
+  EXPECT_LT(trainer.LearningRate(0), 0.05);
+  EXPECT_NEAR(trainer.LearningRate(30), 1.0, 0.01);
+  EXPECT_NEAR(trainer.LearningRate(500), 0.525, 1e-9);
+  EXPECT_NEAR(trainer.LearningRate(1000), 0.05, 1e-9);
+}
+
+}  // namespace
+}  // namespace simwright::nn
