@@ -149,23 +149,24 @@ void DifferentiablePass::DrawRow(int y, DifferentiableBuffers* buffers) {
   const int samples = options_.samples_per_side * options_.samples_per_side;
   SeenPoint* seen = &seen_[static_cast<std::size_t>(y) * camera_.width * samples];
   for (int x = 0; x < camera_.width; ++x) {
-    SurfaceValue sum;
+    Eigen::Vector3d color = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
+    double depth = 0.0;
     int covered = 0;
     for (int s = 0; s < samples; ++s, ++seen) {
       *seen = SeenAlong(RayThrough(SamplePosition(x, y, s)));
       if (seen->object < 0) continue;
       const SurfaceValue value = shading_.Value(*seen);
       ++covered;
-      sum.color += value.color;
-      sum.depth += value.depth;
-      sum.normal += value.normal;
+      color += value.color.cast<double>();
+      depth += value.depth;
+      normal += value.normal.cast<double>();
     }
-    const float share = 1.0f / static_cast<float>(samples);
-    Eigen::Map<Eigen::Vector3f>(buffers->color.At(x, y)) = share * sum.color;
-    *buffers->mask.At(x, y) = share * static_cast<float>(covered);
-    *buffers->depth.At(x, y) = share * sum.depth;
+    const double share = 1.0 / samples;
+    Eigen::Map<Eigen::Vector3f>(buffers->color.At(x, y)) = (share * color).cast<float>();
+    *buffers->mask.At(x, y) = static_cast<float>(share * covered);
+    *buffers->depth.At(x, y) = static_cast<float>(share * depth);
     if (options_.draw_normals) {
-      Eigen::Map<Eigen::Vector3f>(buffers->normal.At(x, y)) = share * sum.normal;
+      Eigen::Map<Eigen::Vector3f>(buffers->normal.At(x, y)) = (share * normal).cast<float>();
     }
   }
 }

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "tests/render/gradient_gate.h"
@@ -12,8 +11,10 @@
 // The scenes on which gradients are held against finite differences.
 namespace simwright::render {
 
+constexpr double kSceneScale = 0.4;  // things are about 0.6 m across
+
 inline core::Camera GateCamera(int size) {
-  return core::OrbitCamera(Eigen::Vector3d::Zero(), 3.0, 0.35, 0.6, 0.75, size, size);
+  return core::OrbitCamera(Eigen::Vector3d::Zero(), 3.0 * kSceneScale, 0.35, 0.6, 0.75, size, size);
 }
 
 // Vertex colours that vary smoothly over the mesh.
@@ -22,7 +23,7 @@ inline void Paint(DifferentiableObject* object) {
   for (const Eigen::Vector3d& v : object->mesh.vertices) {
     Eigen::Vector3f color;
     for (int c = 0; c < 3; ++c) {
-      color[c] = static_cast<float>(0.5 + 0.2 * SmoothFunction(40 + 5 * c, 1.5)(v));
+      color[c] = static_cast<float>(0.5 + 0.2 * SmoothFunction(40 + 5 * c, 4.0)(v));
     }
     object->vertex_colors.push_back(color);
   }
@@ -33,6 +34,7 @@ inline GateScene TriangleScene(int size) {
   scene.camera = GateCamera(size);
   scene.objects.resize(1);
   scene.objects[0].mesh.vertices = {{0.3, -0.8, -0.4}, {0.1, 0.9, -0.3}, {-0.3, 0.1, 0.8}};
+  for (Eigen::Vector3d& v : scene.objects[0].mesh.vertices) v *= kSceneScale;
   scene.objects[0].mesh.triangles = {{0, 1, 2}};
   Paint(&scene.objects[0]);
   scene.options.draw_normals = true;
@@ -42,8 +44,8 @@ inline GateScene TriangleScene(int size) {
 // Reaches out of the picture on two sides.
 inline GateScene ClippedTriangleScene(int size) {
   GateScene scene = TriangleScene(size);
-  scene.objects[0].mesh.vertices[1] = {0.1, 2.6, -0.5};
-  scene.objects[0].mesh.vertices[2] = {-0.4, 0.2, 1.9};
+  scene.objects[0].mesh.vertices[1] = kSceneScale * Eigen::Vector3d(0.1, 2.6, -0.5);
+  scene.objects[0].mesh.vertices[2] = kSceneScale * Eigen::Vector3d(-0.4, 0.2, 1.9);
   return scene;
 }
 
@@ -51,7 +53,7 @@ inline GateScene ClippedTriangleScene(int size) {
 inline GateScene NearTriangleScene(int size) {
   GateScene scene = TriangleScene(size);
   const Eigen::Vector3d eye = scene.camera.position();
-  scene.objects[0].mesh.vertices[1] = 1.3 * eye + Eigen::Vector3d(-0.2, 0.3, -0.6);
+  scene.objects[0].mesh.vertices[1] = 1.3 * eye + kSceneScale * Eigen::Vector3d(-0.2, 0.3, -0.6);
   return scene;
 }
 
@@ -59,6 +61,7 @@ inline GateScene OccludingTrianglesScene(int size) {
   GateScene scene = TriangleScene(size);
   DifferentiableObject behind;
   behind.mesh.vertices = {{-0.6, -0.7, 0.5}, {-0.7, 0.9, 0.6}, {-0.5, 0.0, -0.8}};
+  for (Eigen::Vector3d& v : behind.mesh.vertices) v *= kSceneScale;
   behind.mesh.triangles = {{0, 1, 2}};
   Paint(&behind);
   for (Eigen::Vector3f& color : behind.vertex_colors) color = Eigen::Vector3f::Ones() - color;
@@ -66,42 +69,50 @@ inline GateScene OccludingTrianglesScene(int size) {
   return scene;
 }
 
-// A subdivided icosahedron: 20 * 4^levels faces, bumps of 6% of the radius.
-inline core::TriangleMesh BumpySphere(int levels) {
+// Points of a triangle's grid, `n` steps a side, as an icosahedron's face is divided: a bumpy
+// sphere of 20 n^2 faces.
+inline core::TriangleMesh BumpySphere(int n) {
   const double g = std::numbers::phi;
+  const std::vector<Eigen::Vector3d> corners = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
+                                                {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
+                                                {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  const std::vector<Eigen::Vector3i> faces = {
+      {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   core::TriangleMesh mesh;
-  mesh.vertices = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
-                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-  mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
-                    {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                    {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
-                    {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
-  for (int level = 0; level < levels; ++level) {
-    std::map<std::pair<int, int>, int> middles;
-    const auto middle = [&](int a, int b) {
-      const auto [at, added] = middles.try_emplace(std::minmax(a, b), mesh.vertices.size());
-      if (added) mesh.vertices.push_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
-      return at->second;
-    };
-    std::vector<Eigen::Vector3i> finer;
-    for (const Eigen::Vector3i& t : mesh.triangles) {
-      const int ab = middle(t[0], t[1]), bc = middle(t[1], t[2]), ca = middle(t[2], t[0]);
-      finer.insert(finer.end(), {{t[0], ab, ca}, {t[1], bc, ab}, {t[2], ca, bc}, {ab, bc, ca}});
+  std::map<std::array<long, 3>, int> found;
+  const auto vertex = [&](const Eigen::Vector3i& face, int i, int j) {
+    const Eigen::Vector3d p =
+        ((n - i - j) * corners[face[0]] + i * corners[face[1]] + j * corners[face[2]]).normalized();
+    const auto [at, added] = found.try_emplace(
+        {std::lround(1e7 * p.x()), std::lround(1e7 * p.y()), std::lround(1e7 * p.z())},
+        static_cast<int>(mesh.vertices.size()));
+    if (added) {
+      const double bumps = std::sin(5.0 * p.x()) * std::cos(4.0 * p.y()) * std::cos(4.5 * p.z());
+      mesh.vertices.push_back(kSceneScale * (0.85 + 0.05 * bumps) * p);
     }
-    mesh.triangles = finer;
-    for (Eigen::Vector3d& v : mesh.vertices) v.normalize();
-  }
-  for (Eigen::Vector3d& v : mesh.vertices) {
-    v *= 0.85 + 0.05 * std::sin(5.0 * v.x()) * std::cos(4.0 * v.y()) * std::cos(4.5 * v.z());
+    return at->second;
+  };
+  for (const Eigen::Vector3i& face : faces) {
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; i + j < n; ++j) {
+        mesh.triangles.emplace_back(vertex(face, i, j), vertex(face, i + 1, j),
+                                    vertex(face, i, j + 1));
+        if (i + j + 1 == n) continue;
+        mesh.triangles.emplace_back(vertex(face, i + 1, j), vertex(face, i + 1, j + 1),
+                                    vertex(face, i, j + 1));
+      }
+    }
   }
   return mesh;
 }
 
-inline GateScene BumpySphereScene(int size, int levels) {
+inline GateScene BumpySphereScene(int size, int n) {
   GateScene scene;
   scene.camera = GateCamera(size);
   scene.objects.resize(1);
-  scene.objects[0].mesh = BumpySphere(levels);
+  scene.objects[0].mesh = BumpySphere(n);
   Paint(&scene.objects[0]);
   scene.options.draw_normals = true;
   scene.options.lit = true;
@@ -116,7 +127,8 @@ inline GateScene TexturedQuadScene(int size) {
   DifferentiableObject& quad = scene.objects[0];
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 3; ++i) {
-      quad.mesh.vertices.emplace_back(0.15 * ((i + j) % 2), 0.75 * (i - 1), 0.6 * (j - 1));
+      quad.mesh.vertices.push_back(
+          kSceneScale * Eigen::Vector3d(0.15 * ((i + j) % 2), 0.75 * (i - 1), 0.6 * (j - 1)));
     }
   }
   const auto uv = [&](int v) {

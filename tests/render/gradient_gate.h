@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <numbers>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -17,7 +20,10 @@
 // Finite differences with common random numbers against DifferentiableRenderer's gradients.
 namespace simwright::render {
 
-constexpr double kStep = 4e-3;  // of finite differences, world units
+constexpr double kStep = 4e-3;  // of finite differences, world units; relative for lenses
+// Of single vertices of fine meshes: a vertex that moves by a share of its edges turns faces at the
+// outline from and to the camera, where the picture's derivative jumps.
+constexpr double kFineStep = 2e-4;
 
 enum Output { kColor, kMask, kDepth, kNormal, kOutputs };
 using Losses = std::array<double, kOutputs>;
@@ -198,8 +204,8 @@ inline Comparison CompareFields(const GateScene& scene, int fields, int samples_
   for (int f = 0; f < fields; ++f) {
     const auto displacement = [&](std::size_t object, const Eigen::Vector3d& p) {
       const std::uint64_t seed = 100 + 10 * static_cast<std::uint64_t>(f) + 1000 * object;
-      return Eigen::Vector3d(SmoothFunction(seed, 2.0)(p), SmoothFunction(seed + 1, 2.0)(p),
-                             SmoothFunction(seed + 2, 2.0)(p));
+      return Eigen::Vector3d(SmoothFunction(seed, 5.0)(p), SmoothFunction(seed + 1, 5.0)(p),
+                             SmoothFunction(seed + 2, 5.0)(p));
     };
     const auto apply = [&](double step, core::Camera*) {
       for (std::size_t o = 0; o < scene.objects.size(); ++o) {
@@ -243,7 +249,7 @@ inline Eigen::Vector4i Reach(const GateScene& scene, int vertex) {
     if (!near[i]) continue;
     const Eigen::Vector3d at =
         scene.camera.Project(scene.objects[0].world_from_object * mesh.vertices[i]);
-    if (at.z() < 2.0 * kStep) return {0, 0, scene.camera.width, scene.camera.height};
+    if (at.z() < 0.01) return {0, 0, scene.camera.width, scene.camera.height};
     box.extend(Eigen::Vector2d(at.head<2>()));
   }
   const auto within = [](double value, int most) {
@@ -275,7 +281,7 @@ inline std::vector<int> ChosenVertices(const SceneGradients& of_mask, int count)
 
 // For up to `vertices` single ones of the first object, each axis; half of them where the picture
 // steps, if there are so many. Each picture has about `rays` rays, all where the vertex matters.
-inline Comparison CompareVertices(const GateScene& scene, int vertices, int rays,
+inline Comparison CompareVertices(const GateScene& scene, int vertices, double step, int rays,
                                   const std::array<SceneGradients, kOutputs>& gradients) {
   const DifferentiableBuffers images = LossImages(scene);
   Comparison comparison;
@@ -288,14 +294,14 @@ inline Comparison CompareVertices(const GateScene& scene, int vertices, int rays
     DifferentiableRenderer renderer(scene.objects, options);
     std::vector<Eigen::Vector3d> moved = scene.objects[0].mesh.vertices;
     for (int axis = 0; axis < 3; ++axis) {
-      const auto apply = [&](double step, core::Camera*) {
-        moved[v] = scene.objects[0].mesh.vertices[v] + step * Eigen::Vector3d::Unit(axis);
+      const auto apply = [&](double by, core::Camera*) {
+        moved[v] = scene.objects[0].mesh.vertices[v] + by * Eigen::Vector3d::Unit(axis);
         renderer.SetVertices(0, moved);
       };
       Losses prediction{};
       for (int k = 0; k < kOutputs; ++k) prediction[k] = gradients[k].objects[0].vertices[v][axis];
       comparison.Add(CentralDifference(&renderer, Window(scene.camera, r[0], r[1], r[2], r[3]),
-                                       Window(images, r[0], r[1], r[2], r[3]), kStep, 1, apply),
+                                       Window(images, r[0], r[1], r[2], r[3]), step, 1, apply),
                      prediction);
     }
   }
@@ -308,11 +314,9 @@ inline Eigen::Isometry3d Turned(const Eigen::Isometry3d& pose, int axis, double 
   return turned;
 }
 
-enum class Moved { kCamera, kObject };
-enum class Motion { kTranslation, kRotation };
-
-// Of the camera's or the first object's pose.
-inline Comparison ComparePose(const GateScene& scene, Moved moved, Motion motion,
+// The camera's translation (axes 0-2) and rotation (3-5), or the first object's (6-11). Rotations
+// are measured by how far they move what is about 0.3 m from the object's origin.
+inline Comparison ComparePose(const GateScene& scene, int first_axis, int last_axis,
                               int samples_per_side, int seeds,
                               const std::array<SceneGradients, kOutputs>& gradients) {
   DifferentiableOptions options = scene.options;
@@ -320,15 +324,21 @@ inline Comparison ComparePose(const GateScene& scene, Moved moved, Motion motion
   DifferentiableRenderer renderer(scene.objects, options);
   const DifferentiableBuffers images = LossImages(scene);
   Comparison comparison;
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int axis = first_axis; axis <= last_axis; ++axis) {
+    const bool camera_moves = axis < 6, turns = axis % 6 >= 3;
+    const double unit = turns && !camera_moves ? 1.0 / 0.3 : 1.0;
     const auto changed = [&](const Eigen::Isometry3d& pose, double step) {
-      if (motion == Motion::kRotation) return Turned(pose, axis, step);
-      Eigen::Isometry3d shifted = pose;
-      shifted.translation() += step * Eigen::Vector3d::Unit(axis);
-      return shifted;
+      Eigen::Isometry3d moved = pose;
+      const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis % 3);
+      if (turns) {
+        moved.linear() = Eigen::AngleAxisd(unit * step, along) * pose.linear();
+      } else {
+        moved.translation() += step * along;
+      }
+      return moved;
     };
     const auto apply = [&](double step, core::Camera* camera) {
-      if (moved == Moved::kCamera) {
+      if (camera_moves) {
         camera->world_from_camera = changed(scene.camera.world_from_camera, step);
       } else {
         renderer.SetPose(0, changed(scene.objects[0].world_from_object, step));
@@ -337,8 +347,8 @@ inline Comparison ComparePose(const GateScene& scene, Moved moved, Motion motion
     Losses prediction{};
     for (int k = 0; k < kOutputs; ++k) {
       const PoseGradient& pose =
-          moved == Moved::kCamera ? gradients[k].camera.pose : gradients[k].objects[0].pose;
-      prediction[k] = (motion == Motion::kRotation ? pose.rotation : pose.translation)[axis];
+          camera_moves ? gradients[k].camera.pose : gradients[k].objects[0].pose;
+      prediction[k] = unit * (turns ? pose.rotation : pose.translation)[axis % 3];
     }
     comparison.Add(CentralDifference(&renderer, scene.camera, images, kStep, seeds, apply),
                    prediction);
@@ -372,6 +382,19 @@ inline Comparison CompareLens(const GateScene& scene, int samples_per_side, int 
                    prediction);
   }
   return comparison;
+}
+
+// The gates: 2% and a cosine of 0.99. For single vertices, whose differences are noisy, the cosine.
+inline void ExpectGate(const Comparison& comparison, const char* what, double most = 0.02) {
+  static const char* const kNames[] = {"color", "mask", "depth", "normal"};
+  for (int k = 0; k < kOutputs; ++k) {
+    const Agreement a = comparison.Of(k);
+    if (a.size < 1e-9) continue;
+    std::printf("    %-16s %-7s size %9.3f  error %6.3f%%  cosine %.5f\n", what, kNames[k], a.size,
+                100.0 * a.error, a.cosine);
+    EXPECT_LE(a.error, most) << what << ", " << kNames[k];
+    EXPECT_GE(a.cosine, 0.99) << what << ", " << kNames[k];
+  }
 }
 
 }  // namespace simwright::render
