@@ -20,12 +20,10 @@ inline core::Camera GateCamera(int size) {
 // Vertex colours that vary smoothly over the mesh.
 inline void Paint(DifferentiableObject* object) {
   object->vertex_colors.clear();
+  const SmoothFunction red(40, 4.0), green(45, 4.0), blue(50, 4.0);
   for (const Eigen::Vector3d& v : object->mesh.vertices) {
-    Eigen::Vector3f color;
-    for (int c = 0; c < 3; ++c) {
-      color[c] = static_cast<float>(0.5 + 0.2 * SmoothFunction(40 + 5 * c, 4.0)(v));
-    }
-    object->vertex_colors.push_back(color);
+    const Eigen::Vector3d color(red(v), green(v), blue(v));
+    object->vertex_colors.push_back((0.2 * color).cast<float>() + Eigen::Vector3f::Constant(0.5f));
   }
 }
 

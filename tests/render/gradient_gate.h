@@ -202,15 +202,21 @@ inline Comparison CompareFields(const GateScene& scene, int fields, int samples_
   const DifferentiableBuffers images = LossImages(scene);
   Comparison comparison;
   for (int f = 0; f < fields; ++f) {
-    const auto displacement = [&](std::size_t object, const Eigen::Vector3d& p) {
-      const std::uint64_t seed = 100 + 10 * static_cast<std::uint64_t>(f) + 1000 * object;
-      return Eigen::Vector3d(SmoothFunction(seed, 5.0)(p), SmoothFunction(seed + 1, 5.0)(p),
-                             SmoothFunction(seed + 2, 5.0)(p));
-    };
+    std::vector<std::vector<Eigen::Vector3d>> displacements;  // by object and vertex
+    for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+      const std::uint64_t seed = 100 + 10 * static_cast<std::uint64_t>(f) + 1000 * o;
+      const SmoothFunction x(seed, 5.0), y(seed + 1, 5.0), z(seed + 2, 5.0);
+      displacements.emplace_back();
+      for (const Eigen::Vector3d& p : scene.objects[o].mesh.vertices) {
+        displacements[o].emplace_back(x(p), y(p), z(p));
+      }
+    }
     const auto apply = [&](double step, core::Camera*) {
       for (std::size_t o = 0; o < scene.objects.size(); ++o) {
         std::vector<Eigen::Vector3d> vertices = scene.objects[o].mesh.vertices;
-        for (Eigen::Vector3d& v : vertices) v += step * displacement(o, v);
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+          vertices[i] += step * displacements[o][i];
+        }
         renderer.SetVertices(static_cast<int>(o), vertices);
       }
     };
@@ -218,7 +224,7 @@ inline Comparison CompareFields(const GateScene& scene, int fields, int samples_
     for (std::size_t o = 0; o < scene.objects.size(); ++o) {
       const std::vector<Eigen::Vector3d>& vertices = scene.objects[o].mesh.vertices;
       for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const Eigen::Vector3d d = displacement(o, vertices[i]);
+        const Eigen::Vector3d& d = displacements[o][i];
         for (int k = 0; k < kOutputs; ++k) {
           prediction[k] += gradients[k].objects[o].vertices[i].dot(d);
         }
