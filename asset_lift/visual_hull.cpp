@@ -24,57 +24,6 @@ void RequireImage(const core::FloatImage& image, const core::Camera& camera, int
   }
 }
 
-// A view's mask as a field in space.
-class Cone {
- public:
-  explicit Cone(const ObservedView& view)
-      : camera_(view.camera),
-        camera_from_world_(view.camera.world_from_camera.inverse()),
-        distance_(MaskDistance(view.opacity)),
-        depth_(view.depth) {}
-
-  // Signed distance to the cone of the mask, m, positive outside; lowest where nothing is known.
-  double At(const Eigen::Vector3d& point) const {
-    const Eigen::Vector3d p = camera_from_world_ * point;
-    if (!(p.z() > 0.0)) return std::abs(p.z()) + 1e-6;
-    const double x = camera_.fx * p.x() / p.z() + camera_.cx - 0.5;
-    const double y = camera_.fy * p.y() / p.z() + camera_.cy - 0.5;
-    const double inner_x = std::clamp(x, 0.0, camera_.width - 1.0);
-    const double inner_y = std::clamp(y, 0.0, camera_.height - 1.0);
-    const double beyond = std::hypot(x - inner_x, y - inner_y);
-    const double pixels = Bilinear(inner_x, inner_y);
-    const double metres = p.z() / std::max(camera_.fx, camera_.fy);
-    if (beyond > 0.5) {
-      return pixels < 0.0 ? std::numeric_limits<double>::lowest() : (pixels + beyond) * metres;
-    }
-    return std::max(pixels * metres, InFront(x, y, p.z()));
-  }
-
- private:
-  double Bilinear(double x, double y) const {
-    const int x0 = std::min(static_cast<int>(x), std::max(0, camera_.width - 2));
-    const int y0 = std::min(static_cast<int>(y), std::max(0, camera_.height - 2));
-    const int x1 = std::min(x0 + 1, camera_.width - 1), y1 = std::min(y0 + 1, camera_.height - 1);
-    const double fx = x - x0, fy = y - y0;
-    return (1.0 - fy) * ((1.0 - fx) * *distance_.At(x0, y0) + fx * *distance_.At(x1, y0)) +
-           fy * ((1.0 - fx) * *distance_.At(x0, y1) + fx * *distance_.At(x1, y1));
-  }
-
-  // How far the point lies in front of the measured surface.
-  double InFront(double x, double y, double z) const {
-    if (depth_.empty()) return std::numeric_limits<double>::lowest();
-    const float depth =
-        *depth_.At(std::clamp(static_cast<int>(std::lround(x)), 0, camera_.width - 1),
-                   std::clamp(static_cast<int>(std::lround(y)), 0, camera_.height - 1));
-    return depth > 0.0f ? depth - z : std::numeric_limits<double>::lowest();
-  }
-
-  core::Camera camera_;
-  Eigen::Isometry3d camera_from_world_;
-  core::FloatImage distance_;
-  core::FloatImage depth_;
-};
-
 // The masks' rays through their middles meet here, in the least squares.
 Eigen::Vector3d MeetingPoint(const std::vector<ObservedView>& views) {
   Eigen::Matrix3d sum = 1e-9 * Eigen::Matrix3d::Identity();
@@ -168,6 +117,44 @@ void RequireValid(const std::vector<ObservedView>& views) {
   }
 }
 
+MaskCone::MaskCone(const ObservedView& view)
+    : camera_(view.camera),
+      camera_from_world_(view.camera.world_from_camera.inverse()),
+      distance_(MaskDistance(view.opacity)),
+      depth_(view.depth) {}
+
+double MaskCone::At(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d p = camera_from_world_ * point;
+  if (!(p.z() > 0.0)) return std::abs(p.z()) + 1e-6;
+  const double x = camera_.fx * p.x() / p.z() + camera_.cx - 0.5;
+  const double y = camera_.fy * p.y() / p.z() + camera_.cy - 0.5;
+  const double inner_x = std::clamp(x, 0.0, camera_.width - 1.0);
+  const double inner_y = std::clamp(y, 0.0, camera_.height - 1.0);
+  const double beyond = std::hypot(x - inner_x, y - inner_y);
+  const double pixels = Bilinear(inner_x, inner_y);
+  const double metres = p.z() / std::max(camera_.fx, camera_.fy);
+  if (beyond > 0.5) {
+    return pixels < 0.0 ? std::numeric_limits<double>::lowest() : (pixels + beyond) * metres;
+  }
+  return std::max(pixels * metres, InFront(x, y, p.z()));
+}
+
+double MaskCone::Bilinear(double x, double y) const {
+  const int x0 = std::min(static_cast<int>(x), camera_.width - 2);
+  const int y0 = std::min(static_cast<int>(y), camera_.height - 2);
+  const double fx = x - x0, fy = y - y0;
+  return (1.0 - fy) * ((1.0 - fx) * *distance_.At(x0, y0) + fx * *distance_.At(x0 + 1, y0)) +
+         fy * ((1.0 - fx) * *distance_.At(x0, y0 + 1) + fx * *distance_.At(x0 + 1, y0 + 1));
+}
+
+double MaskCone::InFront(double x, double y, double z) const {
+  if (depth_.empty()) return std::numeric_limits<double>::lowest();
+  const float depth =
+      *depth_.At(std::clamp(static_cast<int>(std::lround(x)), 0, camera_.width - 1),
+                 std::clamp(static_cast<int>(std::lround(y)), 0, camera_.height - 1));
+  return depth > 0.0f ? depth - z : std::numeric_limits<double>::lowest();
+}
+
 core::FloatImage MaskDistance(const core::FloatImage& opacity) {
   cv::Mat inside(opacity.height, opacity.width, CV_8U), outside;
   for (int y = 0; y < opacity.height; ++y) {
@@ -207,7 +194,7 @@ geometry::ScalarGrid HullField(const std::vector<ObservedView>& views,
   field.ny = nodes(1);
   field.nz = nodes(2);
   field.values.resize(field.Index(0, 0, field.nz));
-  std::vector<Cone> cones;
+  std::vector<MaskCone> cones;
   for (const ObservedView& view : views) cones.emplace_back(view);
   core::ParallelFor(field.nz, [&](int k) {
     core::CheckCancelled();
@@ -215,7 +202,7 @@ geometry::ScalarGrid HullField(const std::vector<ObservedView>& views,
       for (int i = 0; i < field.nx; ++i) {
         const Eigen::Vector3d p = field.origin + field.cell * Eigen::Vector3d(i, j, k);
         double farthest = -box.diagonal().norm();
-        for (const Cone& cone : cones) farthest = std::max(farthest, cone.At(p));
+        for (const MaskCone& cone : cones) farthest = std::max(farthest, cone.At(p));
         field.values[field.Index(i, j, k)] = static_cast<float>(farthest);
       }
     }
@@ -223,15 +210,19 @@ geometry::ScalarGrid HullField(const std::vector<ObservedView>& views,
   return field;
 }
 
-Eigen::AlignedBox3d HullBounds(const std::vector<ObservedView>& views) {
-  RequireValid(views);
-  if (views.size() < 2) throw core::Error("a visual hull needs two views at least");
+Eigen::AlignedBox3d ReachBox(const std::vector<ObservedView>& views) {
   const Eigen::Vector3d middle = MeetingPoint(views);
   double reach = 0.0;
   for (const ObservedView& view : views) reach = std::max(reach, Reach(view, middle));
   reach *= 1.3;
-  Eigen::AlignedBox3d box(Eigen::Vector3d(middle.array() - reach),
-                          Eigen::Vector3d(middle.array() + reach));
+  return Eigen::AlignedBox3d(Eigen::Vector3d(middle.array() - reach),
+                             Eigen::Vector3d(middle.array() + reach));
+}
+
+Eigen::AlignedBox3d HullBounds(const std::vector<ObservedView>& views) {
+  RequireValid(views);
+  if (views.size() < 2) throw core::Error("a visual hull needs two views at least");
+  Eigen::AlignedBox3d box = ReachBox(views);
   for (int round = 0; round < 2; ++round) {
     const Eigen::AlignedBox3d inside = InsideBounds(HullField(views, box, 40));
     if (inside.isEmpty()) ThrowNothingLeft();

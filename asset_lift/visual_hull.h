@@ -42,6 +42,29 @@ core::TriangleMesh VisualHull(const std::vector<ObservedView>& views,
 // Signed distance to the mask's outline, pixels, negative inside. (H x W x 1), at pixel centres.
 core::FloatImage MaskDistance(const core::FloatImage& opacity);
 
+// A view's mask as a field in space.
+class MaskCone {
+ public:
+  explicit MaskCone(const ObservedView& view);
+
+  // Signed distance to the cone of the mask, m, roughly, positive outside; the lowest double where
+  // the view says nothing. Where the view has a depth, at least what the point lies in front of it.
+  double At(const Eigen::Vector3d& point) const;
+
+ private:
+  double Bilinear(double x, double y) const;
+  double InFront(double x, double y, double z) const;
+
+  core::Camera camera_;
+  Eigen::Isometry3d camera_from_world_;
+  core::FloatImage distance_;
+  core::FloatImage depth_;
+};
+
+// Where the middles of the masks are seen (the nearest point to those rays), and how far the masks
+// reach from there at most, m: a box about all that any mask shows.
+Eigen::AlignedBox3d ReachBox(const std::vector<ObservedView>& views);
+
 // The signed distance to the hull of the masks, m, roughly: right at the surface and in sign.
 geometry::ScalarGrid HullField(const std::vector<ObservedView>& views,
                                const Eigen::AlignedBox3d& box, int cells);
