@@ -19,11 +19,31 @@ Eigen::Matrix<float, 9, 1> Basis(const Eigen::Vector3f& n) {
 
 }  // namespace
 
-Eigen::Vector3f SphericalHarmonicsLight::Shade(const Eigen::Vector3f& n) const {
+Eigen::Matrix<float, 9, 1> IrradianceWeights(const Eigen::Vector3f& n) {
   Eigen::Matrix<float, 9, 1> weights = Basis(n);
   weights.segment<3>(1) *= 2.0f / 3.0f;
   weights.segment<5>(4) *= 0.25f;
-  return (radiance.transpose() * weights).cwiseMax(0.0f);
+  return weights;
+}
+
+Eigen::Matrix<float, 9, 3> IrradianceWeightsJacobian(const Eigen::Vector3f& n) {
+  constexpr float k1 = 2.0f / 3.0f * kBand1, k2 = 0.25f * kBand2, k2z = 0.25f * kBand2z,
+                  k2xx = 0.25f * kBand2xx;
+  Eigen::Matrix<float, 9, 3> jacobian;
+  jacobian << 0.0f, 0.0f, 0.0f,        //
+      0.0f, k1, 0.0f,                  //
+      0.0f, 0.0f, k1,                  //
+      k1, 0.0f, 0.0f,                  //
+      k2 * n.y(), k2 * n.x(), 0.0f,    //
+      0.0f, k2 * n.z(), k2 * n.y(),    //
+      0.0f, 0.0f, 6.0f * k2z * n.z(),  //
+      k2 * n.z(), 0.0f, k2 * n.x(),    //
+      2.0f * k2xx * n.x(), -2.0f * k2xx * n.y(), 0.0f;
+  return jacobian;
+}
+
+Eigen::Vector3f SphericalHarmonicsLight::Shade(const Eigen::Vector3f& n) const {
+  return (radiance.transpose() * IrradianceWeights(n)).cwiseMax(0.0f);
 }
 
 SphericalHarmonicsLight SphericalHarmonicsLight::Uniform(float level) {

@@ -20,6 +20,11 @@ struct SphericalHarmonicsLight {
   static SphericalHarmonicsLight Studio(const Eigen::Vector3f& key);
 };
 
+// What each coefficient adds to Shade(n) before it is kept from being negative (9), and how that
+// changes with n (9 x 3), n free to leave the unit sphere.
+Eigen::Matrix<float, 9, 1> IrradianceWeights(const Eigen::Vector3f& n);
+Eigen::Matrix<float, 9, 3> IrradianceWeightsJacobian(const Eigen::Vector3f& n);
+
 // sRGB transfer function (IEC 61966-2-1), component-wise; `linear` in [0, 1].
 float LinearFromSrgb(float srgb);
 float SrgbFromLinear(float linear);

@@ -7,18 +7,11 @@
 #include <Eigen/Geometry>
 
 #include "core/mesh.h"
+#include "render/ray_tree.h"
 
 namespace simwright::render {
 
-// What a ray met.
-struct Hit {
-  float depth = 0.0f;        // ray parameter: a multiple of the direction's length
-  int instance = -1;         // index as returned by Scene::Add; -1: nothing was met
-  int triangle = -1;         // of that instance's mesh
-  float u = 0.0f, v = 0.0f;  // barycentric weights of the triangle's corners 1 and 2
-};
-
-// Meshes placed in the world, ready to be met by rays (Embree, ROBUST). Vertices may move
+// Meshes placed in the world, ready to be met by rays (RayTree). Vertices may move
 // afterwards (`MoveVertices`): the tree is refitted, not rebuilt.
 // Queries are const and safe from several threads.
 class Scene {
@@ -60,8 +53,8 @@ class Scene {
   Eigen::AlignedBox3f bounds() const;
 
  private:
-  struct Embree;
-  std::unique_ptr<Embree> embree_;
+  struct Content;
+  std::unique_ptr<Content> content_;
 };
 
 }  // namespace simwright::render

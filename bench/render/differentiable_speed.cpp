@@ -1,0 +1,87 @@
+// Milliseconds of a fitting step's picture and gradients: 128 x 128 pixels, moved vertices (refit
+// included), forward and backward of colour, mask and depth, on a bumpy ball.
+//   bench_differentiable_speed
+// Arguments: triangles (about), samples a pixel's side, edge samples, lit with smooth normals.
+#include <cmath>
+
+#include <benchmark/benchmark.h>
+
+#include "core/camera.h"
+#include "core/mesh.h"
+#include "core/parallel.h"
+#include "render/differentiable.h"
+
+namespace simwright {
+namespace {
+
+// A latitude-longitude ball with bumps: `rings` x 2 rings quads, two triangles each.
+core::TriangleMesh BumpyBall(int rings) {
+  core::TriangleMesh ball;
+  const int sectors = 2 * rings;
+  for (int i = 0; i <= rings; ++i) {
+    for (int j = 0; j < sectors; ++j) {
+      const double polar = M_PI * (i + 0.5) / (rings + 1.0), turn = 2.0 * M_PI * j / sectors;
+      const double r = 0.5 + 0.03 * std::sin(9.0 * polar) * std::cos(7.0 * turn);
+      ball.vertices.emplace_back(r * std::sin(polar) * std::cos(turn),
+                                 r * std::sin(polar) * std::sin(turn), r * std::cos(polar));
+    }
+  }
+  for (int i = 0; i < rings; ++i) {
+    for (int j = 0; j < sectors; ++j) {
+      const int a = i * sectors + j, b = i * sectors + (j + 1) % sectors;
+      ball.triangles.emplace_back(a, a + sectors, b + sectors);
+      ball.triangles.emplace_back(a, b + sectors, b);
+    }
+  }
+  return ball;
+}
+
+void Step(benchmark::State& state) {
+  render::DifferentiableObject object;
+  object.mesh = BumpyBall(static_cast<int>(std::lround(std::sqrt(state.range(0) / 4.0))));
+  object.vertex_colors.assign(object.mesh.vertices.size(), Eigen::Vector3f(0.7f, 0.5f, 0.3f));
+  render::DifferentiableOptions options;
+  options.samples_per_side = static_cast<int>(state.range(1));
+  options.edge_samples = static_cast<int>(state.range(2));
+  options.lit = state.range(3) != 0;
+  const core::Camera camera =
+      core::OrbitCamera(Eigen::Vector3d::Zero(), 1.8, 0.4, 0.7, 0.61, 128, 128);
+  render::DifferentiableBuffers gradient;
+  gradient.color = core::FloatImage(128, 128, 3, 0.5f);
+  gradient.mask = core::FloatImage(128, 128, 1, 1.0f);
+  gradient.depth = core::FloatImage(128, 128, 1, -0.25f);
+  const std::vector<Eigen::Vector3d> start = object.mesh.vertices;
+  std::vector<Eigen::Vector3d> vertices = start;
+  render::DifferentiableRenderer renderer({object}, options);
+  render::SceneGradients gradients;
+  std::uint64_t step = 0;
+  for (auto _ : state) {
+    const double scale = 1.0 + 0.01 * std::sin(0.3 * static_cast<double>(++step));
+    for (std::size_t i = 0; i < start.size(); ++i) vertices[i] = scale * start[i];
+    renderer.SetVertices(0, vertices);
+    renderer.Render(camera, step);
+    gradients.SetZero();
+    renderer.Backward(gradient, &gradients);
+    benchmark::DoNotOptimize(gradients.objects[0].vertices.data());
+  }
+  state.counters["triangles"] = static_cast<double>(object.mesh.triangles.size());
+  state.counters["threads"] = core::ThreadCount();
+}
+BENCHMARK(Step)
+    ->ArgNames({"triangles", "side", "edges", "lit"})
+    ->Args({1000, 2, 4000, 0})
+    ->Args({10000, 2, 4000, 0})
+    ->Args({100000, 2, 4000, 0})
+    ->Args({10000, 2, 4000, 1})
+    ->Args({100000, 2, 4000, 1})
+    ->Args({10000, 1, 4000, 0})
+    ->Args({10000, 4, 4000, 0})
+    ->Args({10000, 8, 4000, 0})
+    ->Args({10000, 2, 16000, 0})
+    ->Args({10000, 2, 64000, 0})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+
+}  // namespace
+}  // namespace simwright
