@@ -1,0 +1,264 @@
+#include "asset_lift/field_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "asset_lift/field_adam.h"
+#include "asset_lift/field_carving.h"
+#include "asset_lift/field_targets.h"
+#include "core/error.h"
+#include "core/random.h"
+
+namespace simwright::asset_lift {
+namespace {
+
+constexpr int kSnapshotInterval = 10;  // steps
+constexpr int kMaxSetbacks = 3;
+
+int TotalSteps(const FieldFitOptions& options) {
+  int steps = 0;
+  for (const FieldFitStage& stage : options.stages) steps += stage.steps;
+  return steps;
+}
+
+// The picture that rays of a whole camera saw.
+ObjectPicture ToPicture(const core::Camera& camera, const PixelRays& pixels,
+                        const RayPictures<float>& seen) {
+  ObjectPicture picture;
+  picture.color = core::FloatImage(camera.width, camera.height, 3);
+  picture.opacity = core::FloatImage(camera.width, camera.height, 1);
+  for (std::size_t r = 0; r < pixels.rays.size(); ++r) {
+    for (int c = 0; c < 3; ++c) {
+      picture.color.values[3 * pixels.pixel[r] + c] = seen.color[3 * r + c];
+    }
+    picture.opacity.values[pixels.pixel[r]] = seen.opacity[r];
+  }
+  return picture;
+}
+
+void RequireDrawable(const core::Camera& camera) {
+  if (camera.width < 1 || camera.height < 1 || !(camera.fx > 0.0) || !(camera.fy > 0.0) ||
+      !std::isfinite(camera.fx + camera.fy + camera.cx + camera.cy) ||
+      !camera.world_from_camera.matrix().allFinite()) {
+    throw core::Error("a camera has no pixels, no focal length, or is not finite", "field");
+  }
+}
+
+class Fitter {
+ public:
+  Fitter(const std::vector<ObservedView>& views, PictureObjective* objective,
+         const FieldFitOptions& options)
+      : options_(options),
+        objective_(objective),
+        fit_{RadianceField(options.field, options.seed), {}, {}, 0.0, {}},
+        view_renderer_(WithNormals(options)),
+        picture_renderer_(WithNormals(options)),
+        rng_(core::StreamRng(options.seed, 1)),
+        total_(TotalSteps(options)),
+        good_(fit_.field.parameters()),
+        candidate_(good_) {
+    for (const ObservedView& view : views) views_.push_back(ScaledView(view, LastSide()));
+    if (options.carve) Carve();
+  }
+
+  FieldFit Run(core::Progress* progress) {
+    for (int i = 0; i < 2; ++i) UpdateOccupancy();
+    for (const FieldFitStage& stage : options_.stages) {
+      std::vector<ObservedView> scaled;
+      for (const ObservedView& view : views_) scaled.push_back(ScaledView(view, stage.view_side));
+      TargetDeck deck(std::move(scaled), !options_.carve);
+      for (int s = 0; s < stage.steps; ++s) {
+        Step(&deck);
+        if (progress != nullptr) progress->Advance();
+        core::CheckCancelled();
+        if (setbacks_ == kMaxSetbacks) return Finished();
+      }
+    }
+    return Finished();
+  }
+
+ private:
+  static VolumeRenderOptions WithNormals(const FieldFitOptions& options) {
+    VolumeRenderOptions render = options.render;
+    render.normals = options.weights.UseNormals();
+    return render;
+  }
+
+  int LastSide() const {
+    int side = 0;
+    for (const FieldFitStage& stage : options_.stages) side = std::max(side, stage.view_side);
+    return side;
+  }
+
+  void Carve() {
+    Carving carving = CarveByMasks(views_, options_.field.center, options_.field.half_side,
+                                   options_.carve_margin);
+    fit_.findings = carving.findings;
+    fit_.occupancy.Restrict(carving.allowed);
+    std::sort(carving.contradicting.rbegin(), carving.contradicting.rend());
+    for (const int view : carving.contradicting) views_.erase(views_.begin() + view);
+  }
+
+  double Done() const { return static_cast<double>(fit_.losses.size()) / total_; }
+
+  void UpdateOccupancy() { fit_.occupancy.Update(fit_.field, options_.occupancy, rng_()); }
+
+  void Step(TargetDeck* deck) {
+    const double rate = options_.rate * std::pow(options_.last_rate / options_.rate, Done()) *
+                        std::pow(0.5, setbacks_);
+    double loss = ObservationGradient(deck);
+    if (objective_ != nullptr && std::isfinite(loss)) loss += ObjectiveGradient();
+    const bool stepped = std::isfinite(loss) && adam_.Step(rate, &fit_.field, &gradient_);
+    fit_.losses.push_back(loss);
+    const int steps = static_cast<int>(fit_.losses.size());
+    if (!stepped) {
+      StepBack();
+    } else if (steps % kSnapshotInterval == 0) {
+      // The steps since the last snapshot have shown that it was good.
+      good_ = candidate_;
+      candidate_ = fit_.field.parameters();
+    }
+    if (steps % options_.occupancy_interval == 0) UpdateOccupancy();
+  }
+
+  void StepBack() {
+    ++setbacks_;
+    fit_.field.parameters() = good_;
+    candidate_ = good_;
+    adam_ = FieldAdam();
+    gradient_ = FieldGradient<float>();
+    if (setbacks_ < kMaxSetbacks) return;
+    fit_.findings.push_back(
+        {"field-fit-unstable", core::Severity::kWarning, "radiance field",
+         "the fit met numbers that are not finite three times and stopped at step " +
+             std::to_string(fit_.losses.size()) + " of " + std::to_string(total_),
+         static_cast<double>(fit_.losses.size())});
+  }
+
+  double ObservationGradient(TargetDeck* deck) {
+    deck->Deal(options_.rays_per_step, &rng_, &hand_);
+    if (hand_.pixels.rays.empty()) return 0.0;
+    view_renderer_.Render(fit_.field, fit_.occupancy, hand_.pixels.rays, rng_(), &seen_);
+    of_seen_.Resize(hand_.pixels.rays.size());
+    const Eigen::Vector3f background(static_cast<float>(core::Uniform(rng_)),
+                                     static_cast<float>(core::Uniform(rng_)),
+                                     static_cast<float>(core::Uniform(rng_)));
+    double loss = AddObservationLoss(hand_, seen_, background, options_.field.half_side,
+                                     options_.weights, &of_seen_);
+    loss += AddShapeLoss(hand_.pixels, seen_, options_.weights, &of_seen_);
+    double squares = 0.0;
+    for (std::size_t i = 0; i < seen_.color.size(); ++i) {
+      squares += std::pow(seen_.color[i] - hand_.color[i], 2);
+    }
+    errors_.push_back(squares / static_cast<double>(seen_.color.size()));
+    if (std::isfinite(loss)) view_renderer_.AddGradient(fit_.field, of_seen_, &gradient_);
+    return loss;
+  }
+
+  double ObjectiveGradient() {
+    const core::Camera camera = objective_->NextCamera(Done(), &rng_);
+    RequireDrawable(camera);
+    pixels_.Clear();
+    pixels_.AppendPicture(camera);
+    picture_renderer_.Render(fit_.field, fit_.occupancy, pixels_.rays, rng_(), &seen_);
+    ObjectPicture of_picture;
+    double loss =
+        options_.weights.objective *
+        objective_->Evaluate(camera, ToPicture(camera, pixels_, seen_), Done(), &rng_, &of_picture);
+    const std::size_t count = pixels_.rays.size();
+    if (of_picture.color.values.size() != 3 * count || of_picture.opacity.values.size() != count) {
+      throw core::Error("the objective's gradient is not of its picture's size", "field fit");
+    }
+    const auto weight = static_cast<float>(options_.weights.objective);
+    of_seen_.Resize(count);
+    for (std::size_t r = 0; r < count; ++r) {
+      const std::size_t pixel = pixels_.pixel[r];
+      for (int c = 0; c < 3; ++c) {
+        of_seen_.color[3 * r + c] = weight * of_picture.color.values[3 * pixel + c];
+      }
+      of_seen_.opacity[r] = weight * of_picture.opacity.values[pixel];
+    }
+    loss += AddShapeLoss(pixels_, seen_, options_.weights, &of_seen_);
+    if (std::isfinite(loss)) picture_renderer_.AddGradient(fit_.field, of_seen_, &gradient_);
+    return loss;
+  }
+
+  FieldFit Finished() {
+    const std::size_t last = std::min<std::size_t>(errors_.size(), 20);
+    double sum = 0.0;
+    for (std::size_t i = errors_.size() - last; i < errors_.size(); ++i) sum += errors_[i];
+    fit_.color_error = last > 0 ? std::sqrt(sum / static_cast<double>(last)) : 0.0;
+    return std::move(fit_);
+  }
+
+  const FieldFitOptions& options_;
+  PictureObjective* const objective_;
+  FieldFit fit_;
+  std::vector<ObservedView> views_;  // at the largest stage's size
+  VolumeRenderer<float> view_renderer_, picture_renderer_;
+  FieldAdam adam_;
+  FieldGradient<float> gradient_;
+  core::Rng rng_;
+  const int total_;
+  int setbacks_ = 0;
+  // Parameters that a later step proved good, and ones that no step has looked at yet.
+  std::vector<float> good_, candidate_;
+  std::vector<double> errors_;
+  RayTargets hand_;
+  PixelRays pixels_;
+  RayPictures<float> seen_, of_seen_;
+};
+
+}  // namespace
+
+bool FieldFitOptions::IsValid(std::string* error) const {
+  if (!field.IsValid(error) || !weights.IsValid(error) || !render.IsValid(error)) return false;
+  const char* fault = nullptr;
+  for (const FieldFitStage& stage : stages) {
+    if (stage.steps < 0 || stage.view_side < 8) fault = "a stage has steps and 8 pixels at least";
+  }
+  if (TotalSteps(*this) < 1) fault = "a fit has a step at least";
+  if (rays_per_step < 1) fault = "a step has a ray at least";
+  if (!(rate > 0.0 && rate < 1.0) || !(last_rate > 0.0 && last_rate < 1.0)) {
+    fault = "the rates lie in (0, 1)";
+  }
+  if (occupancy_interval < 1) fault = "the occupancy grid is updated every so many steps";
+  if (!(occupancy.decay >= 0.0 && occupancy.decay <= 1.0) || !(occupancy.threshold >= 0.0)) {
+    fault = "the occupancy's decay lies in [0, 1], its threshold is not negative";
+  }
+  if (!(carve_margin >= 0.0)) fault = "the margin of carving is not negative";
+  if (fault != nullptr && error != nullptr) *error = fault;
+  return fault == nullptr;
+}
+
+FieldFit FitField(const std::vector<ObservedView>& views, PictureObjective* objective,
+                  const FieldFitOptions& options, core::Progress* progress) {
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error(error, "field fit");
+  RequireValidViews(views);
+  if (progress != nullptr) progress->Stage("radiance field", TotalSteps(options));
+  return Fitter(views, objective, options).Run(progress);
+}
+
+ObjectPicture DrawField(const FieldFit& fit, const core::Camera& camera,
+                        core::FloatImage* normals) {
+  RequireDrawable(camera);
+  PixelRays pixels;
+  pixels.AppendPicture(camera);
+  VolumeRenderOptions options;
+  options.normals = normals != nullptr;
+  VolumeRenderer<float> renderer(options);
+  RayPictures<float> seen;
+  renderer.Render(fit.field, fit.occupancy, pixels.rays, 1, &seen);
+  if (normals != nullptr) {
+    *normals = core::FloatImage(camera.width, camera.height, 3);
+    for (std::size_t r = 0; r < pixels.rays.size(); ++r) {
+      for (int a = 0; a < 3; ++a) {
+        normals->values[3 * pixels.pixel[r] + a] = seen.normal[3 * r + a];
+      }
+    }
+  }
+  return ToPicture(camera, pixels, seen);
+}
+
+}  // namespace simwright::asset_lift
