@@ -30,7 +30,7 @@ struct FieldSurface {
   core::TriangleMesh mesh;
   std::vector<Eigen::Vector3f> colors;  // (N x 3) sRGB of the field at the vertices
   double level = 0.0;                   // density, 1/m
-  double iou = 0.0;  // of the silhouettes with the masks, the mean over the views
+  double iou = 0.0;         // of the silhouettes with the masks, the mean over the views
   core::Findings findings;  // "field-surface-faint", "field-surface-silhouette"
 };
 

@@ -3,6 +3,7 @@
 #include "asset_lift/shape_example.h"
 #include "asset_lift/shape_network.h"
 #include "asset_lift/view_network.h"
+#include "asset_lift/view_prior.h"
 #include "core/error.h"
 #include "nn/checkpoint.h"
 #include "nn/compute.h"
@@ -67,9 +68,9 @@ class LearnedViewPrior : public ViewPrior {
 
 }  // namespace
 
-std::unique_ptr<ViewPrior> LoadLearnedViewPrior(const std::filesystem::path& weights,
+std::shared_ptr<ViewPrior> LoadLearnedViewPrior(const std::filesystem::path& weights,
                                                 std::shared_ptr<const ShapePrior> shape) {
-  return std::make_unique<LearnedViewPrior>(weights, std::move(shape));
+  return std::make_shared<LearnedViewPrior>(weights, std::move(shape));
 }
 
 }  // namespace simwright::asset_lift

@@ -4,13 +4,14 @@
 #include <memory>
 
 #include "asset_lift/shape_prior.h"
-#include "asset_lift/view_prior.h"
 
 namespace simwright::asset_lift {
 
+class ViewPrior;
+
 // Our own view prior (see view_network.h); `shape` answers for the reference. Throws core::Error
 // where the weights are missing, damaged or of another kind.
-std::unique_ptr<ViewPrior> LoadLearnedViewPrior(const std::filesystem::path& weights,
+std::shared_ptr<ViewPrior> LoadLearnedViewPrior(const std::filesystem::path& weights,
                                                 std::shared_ptr<const ShapePrior> shape);
 
 }  // namespace simwright::asset_lift

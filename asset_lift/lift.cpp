@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "asset_lift/first_guess.h"
+#include "asset_lift/shape_example.h"
+#include "asset_lift/shape_prior.h"
+#include "asset_lift/view_prior.h"
 #include "core/error.h"
 #include "texture/photo_projection.h"
 
@@ -52,11 +56,109 @@ Matte Enlarged(const Matte& matte, int factor) {
   return larger;
 }
 
+// An outline that runs into the picture's border goes on beyond it: the picture grows so that the
+// shape can. Returns the share of the border that the object touches.
+double PadWhereCutOff(core::Image* photo, Matte* matte) {
+  const int w = photo->width, h = photo->height;
+  int touched = 0;
+  for (int x = 0; x < w; ++x) {
+    touched += (matte->alpha.At(x, 0)[0] > 127) + (matte->alpha.At(x, h - 1)[0] > 127);
+  }
+  for (int y = 0; y < h; ++y) {
+    touched += (matte->alpha.At(0, y)[0] > 127) + (matte->alpha.At(w - 1, y)[0] > 127);
+  }
+  if (touched == 0) return 0.0;
+  const int pad = std::max(w, h) / 8;
+  core::Image wider(w + 2 * pad, h + 2 * pad, photo->channels);
+  core::Image alpha(w + 2 * pad, h + 2 * pad, 1);
+  for (int y = 0; y < wider.height; ++y) {
+    for (int x = 0; x < wider.width; ++x) {
+      const int fx = std::clamp(x - pad, 0, w - 1), fy = std::clamp(y - pad, 0, h - 1);
+      std::copy_n(photo->At(fx, fy), photo->channels, wider.At(x, y));
+      if (fx == x - pad && fy == y - pad) alpha.At(x, y)[0] = matte->alpha.At(fx, fy)[0];
+    }
+  }
+  matte->area *= static_cast<double>(w) * h / (static_cast<double>(alpha.width) * alpha.height);
+  *photo = std::move(wider);
+  matte->alpha = std::move(alpha);
+  matte->left += pad;
+  matte->right += pad;
+  matte->top += pad;
+  matte->bottom += pad;
+  return touched / (2.0 * (w + h));
+}
+
+// The outline's inflation, textured from the photo and its mirror image.
+void FinishOutline(const InflatedShape& shape, const texture::ProjectionOptions& projection,
+                   LiftedMesh* lifted) {
+  lifted->start = std::string("the outline, ") + Name(shape.form);
+  lifted->silhouette_iou = shape.silhouette_iou;
+  lifted->mesh = texture::ProjectPhoto(shape.mesh, lifted->camera, lifted->photo,
+                                       lifted->matte.alpha, shape.mirror, projection);
+}
+
+// A colour a vertex for what the photo does not show.
+std::vector<Eigen::Vector3f> HiddenColors(const ShapeFit& fit,
+                                          const std::optional<ShapePrediction>& prediction) {
+  if (!prediction) return fit.colors;
+  std::vector<Eigen::Vector3f> colors;
+  for (const Eigen::Vector3d& v : fit.mesh.vertices) colors.push_back(prediction->Color(v));
+  return colors;
+}
+
+// The first guess, then the stages, then the texture.
+void FitAndPaint(const InflatedShape& outline, const LiftPriors& priors, const LiftOptions& options,
+                 const texture::ProjectionOptions& projection, core::Progress* progress,
+                 LiftedMesh* lifted) {
+  const ViewFrame frame = FrameAround(lifted->matte, lifted->camera, 1.0);
+  std::optional<ShapePrediction> prediction;
+  if (priors.shape != nullptr) {
+    prediction =
+        priors.shape->Predict(CropPicture(lifted->photo, lifted->matte.alpha, frame), frame);
+  }
+  // A body of revolution is known to the pixel; of other things the learned guess knows more.
+  const bool learned =
+      prediction && !prediction->Box().isEmpty() && outline.form == ShapeForm::kInflated;
+  const FirstGuess guess = learned ? GuessFrom(*prediction) : GuessFrom(outline.mesh);
+  lifted->start = learned ? "the learned prior" : std::string("the outline, ") + Name(outline.form);
+  std::unique_ptr<ScoreDistillation> in_field, in_mesh;
+  if (priors.view != nullptr) {
+    in_field = std::make_unique<ScoreDistillation>(priors.view, frame, lifted->photo,
+                                                   lifted->matte.alpha, options.field_distillation);
+    in_mesh = std::make_unique<ScoreDistillation>(priors.view, frame, lifted->photo,
+                                                  lifted->matte.alpha, options.mesh_distillation);
+  }
+  ShapeFitOptions stages = options.fit;
+  stages.field_stage = stages.field_stage && options.effort == LiftEffort::kFull;
+  stages.field.seed = stages.mesh.seed = options.seed;
+  const ShapeFit fit =
+      FitShape({CropView(lifted->photo, lifted->matte.alpha, frame, options.fit_side)}, guess,
+               in_field.get(), in_mesh.get(), stages, progress);
+  lifted->findings.insert(lifted->findings.end(), fit.findings.begin(), fit.findings.end());
+  lifted->silhouette_iou = SilhouetteIou(fit.mesh, lifted->camera, lifted->matte);
+  progress->Stage("texture");
+  const std::vector<Eigen::Vector3f> hidden = HiddenColors(fit, prediction);
+  lifted->mesh =
+      hidden.empty()
+          ? texture::ProjectPhoto(fit.mesh, lifted->camera, lifted->photo, lifted->matte.alpha,
+                                  outline.mirror, projection)
+          : texture::ProjectPhotos(fit.mesh, {{lifted->camera, lifted->photo, lifted->matte.alpha}},
+                                   hidden, projection);
+}
+
 }  // namespace
 
-LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior,
+LiftOptions::LiftOptions() {
+  mesh_distillation.t_min_first = mesh_distillation.t_min_last = 0.02;
+  mesh_distillation.t_max_first = mesh_distillation.t_max_last = 0.5;
+}
+
+LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior, const LiftPriors& priors,
                      const LiftOptions& options, core::Progress* progress) {
   LiftedMesh lifted;
+  const auto tell = [&](const std::string& code, const std::string& sentence, double figure) {
+    lifted.findings.push_back({code, core::Severity::kInfo, "", sentence, figure});
+  };
   progress->Stage("segmentation");
   lifted.photo = ScaledDown(photo, options.max_side);
   SegmentationOptions segmentation = options.segmentation;
@@ -64,13 +166,21 @@ LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior,
   segmentation.round_object = prior.round;
   lifted.matte = SegmentObject(lifted.photo, options.mask, segmentation);
   const int longer = std::max(lifted.photo.width, lifted.photo.height);
+  std::string camera_sentence;
+  double focal = FocalLength(lifted.photo, options, &camera_sentence);
   if (const int factor = longer < 200 ? 3 : 1; factor > 1) {
     lifted.photo =
         core::Resize(lifted.photo, lifted.photo.width * factor, lifted.photo.height * factor);
     lifted.matte = Enlarged(lifted.matte, factor);
+    focal *= factor;
   }
-  std::string camera_sentence;
-  const double focal = FocalLength(lifted.photo, options, &camera_sentence);
+  tell("segmentation", "the object was cut out by " + lifted.matte.method, lifted.matte.area);
+  tell("camera", camera_sentence, focal);
+  if (const double touched = PadWhereCutOff(&lifted.photo, &lifted.matte); touched > 0.0) {
+    lifted.findings.push_back({"border", core::Severity::kWarning, "",
+                               "the object touches the photo's border: what is cut off is guessed",
+                               touched});
+  }
   lifted.elevation = EstimateElevation(lifted.matte, prior);
   if (options.elevation >= 0.0) {
     lifted.elevation = {options.elevation, 0.0, "elevation given"};
@@ -80,23 +190,21 @@ LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior,
   // Level sight lines never cross the planes in which a turned body's discs lie.
   const double elevation = std::clamp(lifted.elevation.elevation, 0.03, 1.5);
   lifted.camera = PhotoCamera(lifted.matte, focal, elevation);
-  progress->Stage("shape");
-  const InflatedShape shape = InflateOutline(lifted.matte, lifted.camera, prior, options.inflation);
-  lifted.form = shape.form;
-  lifted.silhouette_iou = shape.silhouette_iou;
-  progress->Stage("texture");
+  tell("elevation", lifted.elevation.sentence, elevation);
+  progress->Stage("outline");
+  const InflatedShape outline =
+      InflateOutline(lifted.matte, lifted.camera, prior, options.inflation);
+  lifted.form = outline.form;
   texture::ProjectionOptions projection;
   projection.texture_size = options.texture_size;
-  lifted.mesh = texture::ProjectPhoto(shape.mesh, lifted.camera, lifted.photo, lifted.matte.alpha,
-                                      shape.mirror, projection);
+  if (options.effort == LiftEffort::kOutline) {
+    progress->Stage("texture");
+    FinishOutline(outline, projection, &lifted);
+  } else {
+    FitAndPaint(outline, priors, options, projection, progress, &lifted);
+  }
   progress->Finish();
-  const auto tell = [&](const std::string& code, const std::string& sentence, double figure) {
-    lifted.findings.push_back({code, core::Severity::kInfo, "", sentence, figure});
-  };
-  tell("segmentation", "the object was cut out by " + lifted.matte.method, lifted.matte.area);
-  tell("camera", camera_sentence, focal);
-  tell("elevation", lifted.elevation.sentence, elevation);
-  tell("shape", std::string("the shape is ") + Name(shape.form), shape.silhouette_iou);
+  tell("shape", "the shape began as " + lifted.start, lifted.silhouette_iou);
   return lifted;
 }
 

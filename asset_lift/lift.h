@@ -1,11 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "asset_lift/elevation.h"
 #include "asset_lift/inflation.h"
+#include "asset_lift/score_distillation.h"
 #include "asset_lift/segmentation.h"
+#include "asset_lift/shape_fit.h"
 #include "core/camera.h"
 #include "core/finding.h"
 #include "core/mesh.h"
@@ -13,7 +17,30 @@
 
 namespace simwright::asset_lift {
 
+class ShapePrior;
+class ViewPrior;
+
+// The learned parts of a lift; each may be null. Shared: loading takes longer than a crop.
+struct LiftPriors {
+  std::shared_ptr<const ShapePrior> shape;  // the first guess, and the hidden side's colours
+  std::shared_ptr<ViewPrior> view;          // what score distillation asks
+};
+
+// How much is done to find the shape.
+enum class LiftEffort {
+  kOutline,  // the inflated outline as it is: a few seconds, no learned prior
+  kFast,     // the first guess, refined as a mesh: under a minute
+  kFull      // a radiance field about the first guess, then the mesh stage
+};
+
 struct LiftOptions {
+  LiftEffort effort = LiftEffort::kFull;
+  ShapeFitOptions fit;
+  // Score distillation of either stage. The mesh stage's noise is that of threestudio's second
+  // stage.
+  ScoreDistillationOptions field_distillation, mesh_distillation;
+  int fit_side = 128;  // pixels a side of the crop that the stages fit
+
   std::optional<core::Image> mask;  // the object's mask, of the photo's proportions
   double elevation = -1.0;          // rad; negative: estimated
   // Field of view over the photo's longer side, rad; 0: from `focal_35mm`, else the default.
@@ -26,6 +53,8 @@ struct LiftOptions {
   std::uint64_t seed = 1;
   SegmentationOptions segmentation;
   InflationOptions inflation;
+
+  LiftOptions();
 };
 
 // A photo's object as a textured, closed mesh. In the world: z up, the camera on the side of -y,
@@ -36,14 +65,17 @@ struct LiftedMesh {
   core::Image photo;    // as it was used
   Matte matte;
   ElevationEstimate elevation;
-  ShapeForm form = ShapeForm::kInflated;
+  ShapeForm form = ShapeForm::kInflated;  // of the outline
+  std::string start;                      // what the fit started from, in words
   double silhouette_iou = 0.0;
   core::Findings findings;
 };
 
-// Segments, estimates the camera, inflates and textures. Throws core::Error with the reason where
-// no single object stands out, and core::Cancelled.
-LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior,
+// Segments, estimates the camera, guesses the shape, fits it and textures it: the front from the
+// photo, the hidden side from the priors. Where there is no shape prior the guess is the inflated
+// outline. Throws core::Error with the reason where no single object stands out, and
+// core::Cancelled.
+LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior, const LiftPriors& priors,
                      const LiftOptions& options, core::Progress* progress);
 
 }  // namespace simwright::asset_lift

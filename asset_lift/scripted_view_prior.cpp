@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "asset_lift/view_prior.h"
 #include "core/error.h"
 #include "nn/compute.h"
 #include "nn/script.h"
@@ -22,20 +23,15 @@ std::string Shape(const torch::Tensor& tensor) {
 }
 
 // (1 x 3 x side x side) in [-1, 1] of the crop of a picture, over white.
-torch::Tensor OverWhite(const ReferenceView& view, int side) {
-  torch::Tensor picture = torch::ones({1, 3, side, side});
+torch::Tensor OverWhite(const ReferenceView& reference, int side) {
+  const ObservedView view = CropView(reference.photo, reference.alpha, reference.frame, side);
+  torch::Tensor picture = torch::empty({1, 3, side, side});
   auto at = picture.accessor<float, 4>();
-  const double scale = 2.0 * view.frame.half / side;
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      const int px = static_cast<int>(view.frame.center_x - view.frame.half + scale * (x + 0.5));
-      const int py = static_cast<int>(view.frame.center_y - view.frame.half + scale * (y + 0.5));
-      if (px < 0 || py < 0 || px >= view.photo.width || py >= view.photo.height) continue;
-      const float share = static_cast<float>(view.alpha.At(px, py)[0]) / 255.0f;
+      const float share = view.opacity.At(x, y)[0];
       for (int c = 0; c < 3; ++c) {
-        const int channel = view.photo.channels < 3 ? 0 : c;
-        const float value = static_cast<float>(view.photo.At(px, py)[channel]) / 127.5f - 1.0f;
-        at[0][c][y][x] = share * value + (1.0f - share);
+        at[0][c][y][x] = share * (2.0f * view.color.At(x, y)[c] - 1.0f) + (1.0f - share);
       }
     }
   }
@@ -143,8 +139,8 @@ class ScriptedViewPrior : public ViewPrior {
 
 }  // namespace
 
-std::unique_ptr<ViewPrior> LoadScriptedViewPrior(const std::filesystem::path& path) {
-  return std::make_unique<ScriptedViewPrior>(nn::LoadScript(path), path.string());
+std::shared_ptr<ViewPrior> LoadScriptedViewPrior(const std::filesystem::path& path) {
+  return std::make_shared<ScriptedViewPrior>(nn::LoadScript(path), path.string());
 }
 
 }  // namespace simwright::asset_lift

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "asset_lift/view_prior.h"
-
 namespace simwright::asset_lift {
+
+class ViewPrior;
 
 // A view prior from a TorchScript module, so that an exported Zero-1-to-3 drops in. The module has
 //   forward(image, camera, noisy, t) -> noise
@@ -22,6 +22,6 @@ namespace simwright::asset_lift {
 //   attributes `side` (S, default 64), `steps` (1000), `beta_first` (0.00085), `beta_last` (0.012).
 // Throws core::Error where the file is no TorchScript, or a trial call shows another signature:
 // what was expected and what came.
-std::unique_ptr<ViewPrior> LoadScriptedViewPrior(const std::filesystem::path& path);
+std::shared_ptr<ViewPrior> LoadScriptedViewPrior(const std::filesystem::path& path);
 
 }  // namespace simwright::asset_lift

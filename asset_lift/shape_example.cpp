@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/parallel.h"
 #include "render/forward.h"
 
 namespace simwright::asset_lift {
@@ -68,18 +67,6 @@ Matte MatteOf(const render::ForwardBuffers& buffers) {
   return matte;
 }
 
-// The camera whose picture is just the crop of `frame`.
-core::Camera CropCamera(const ViewFrame& frame) {
-  core::Camera camera = frame.camera;
-  const double scale = kCropSide / (2.0 * frame.half);
-  camera.width = camera.height = kCropSide;
-  camera.fx *= scale;
-  camera.fy *= scale;
-  camera.cx = (camera.cx - frame.center_x + frame.half) * scale;
-  camera.cy = (camera.cy - frame.center_y + frame.half) * scale;
-  return camera;
-}
-
 // Middle of the object's depths along the central ray.
 double MiddleDepth(const core::TriangleMesh& mesh, const ViewFrame& frame) {
   const Eigen::Vector3d eye = frame.camera.position(), direction = frame.Direction();
@@ -136,7 +123,7 @@ ShapeExample MakeShapeExample(const TrainingObject& object, core::Rng* rng) {
   example.frame = FrameAround(matte, camera, 1.0);
   example.frame.depth = MiddleDepth(object.mesh().mesh, example.frame);
 
-  const core::Camera crop = CropCamera(example.frame);
+  const core::Camera crop = example.frame.CropCamera(kCropSide);
   render::ForwardOptions options;
   options.samples_per_side = 2;
   options.shaded = true;
@@ -172,33 +159,16 @@ ShapeExample MakeShapeExample(const TrainingObject& object, core::Rng* rng) {
 
 core::Image CropPicture(const core::Image& photo, const core::Image& alpha,
                         const ViewFrame& frame) {
-  // Averaged by area: sub-samples on a grid fine enough to meet each pixel of the crop.
-  const double scale = 2.0 * frame.half / kCropSide;
-  const int samples = std::clamp(static_cast<int>(std::ceil(scale)), 2, 16);
+  const ObservedView view = CropView(photo, alpha, frame, kCropSide);
   core::Image crop(kCropSide, kCropSide, 4);
-  core::ParallelFor(kCropSide, [&](int y) {
-    for (int x = 0; x < kCropSide; ++x) {
-      double sum[4] = {0, 0, 0, 0};
-      for (int s = 0; s < samples * samples; ++s) {
-        const int px = static_cast<int>(
-            std::floor(frame.center_x - frame.half + scale * (x + (s % samples + 0.5) / samples)));
-        const int py = static_cast<int>(
-            std::floor(frame.center_y - frame.half + scale * (y + (s / samples + 0.5) / samples)));
-        if (px < 0 || py < 0 || px >= photo.width || py >= photo.height) continue;
-        const double share = alpha.At(px, py)[0] / 255.0;
-        for (int c = 0; c < 3; ++c) {
-          sum[c] += share * photo.At(px, py)[photo.channels < 3 ? 0 : c];
-        }
-        sum[3] += share;
-      }
-      if (sum[3] <= 0.0) continue;
-      for (int c = 0; c < 3; ++c) {
-        crop.At(x, y)[c] = static_cast<std::uint8_t>(std::lround(sum[c] / sum[3]));
-      }
-      crop.At(x, y)[3] =
-          static_cast<std::uint8_t>(std::lround(255.0 * sum[3] / (samples * samples)));
+  for (size_t i = 0; i < view.opacity.values.size(); ++i) {
+    for (size_t c = 0; c < 3; ++c) {
+      crop.pixels[4 * i + c] =
+          static_cast<std::uint8_t>(std::lround(255.0f * view.color.values[3 * i + c]));
     }
-  });
+    crop.pixels[4 * i + 3] =
+        static_cast<std::uint8_t>(std::lround(255.0f * view.opacity.values[i]));
+  }
   return crop;
 }
 

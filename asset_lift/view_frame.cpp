@@ -1,6 +1,7 @@
 #include "asset_lift/view_frame.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace simwright::asset_lift {
 
@@ -19,6 +20,17 @@ Eigen::Vector3d ViewFrame::Locate(const Eigen::Vector3d& point) const {
           ((point - camera.position()).dot(Direction()) - depth) / Radius()};
 }
 
+core::Camera ViewFrame::CropCamera(int side) const {
+  core::Camera crop = camera;
+  const double scale = side / (2.0 * half);
+  crop.width = crop.height = side;
+  crop.fx *= scale;
+  crop.fy *= scale;
+  crop.cx = (crop.cx - center_x + half) * scale;
+  crop.cy = (crop.cy - center_y + half) * scale;
+  return crop;
+}
+
 ViewFrame FrameAround(const Matte& matte, const core::Camera& camera, double depth, double margin) {
   ViewFrame frame;
   frame.camera = camera;
@@ -27,6 +39,37 @@ ViewFrame FrameAround(const Matte& matte, const core::Camera& camera, double dep
   frame.half = 0.5 * margin * std::max({1, matte.right - matte.left, matte.bottom - matte.top});
   frame.depth = depth;
   return frame;
+}
+
+ObservedView CropView(const core::Image& photo, const core::Image& alpha, const ViewFrame& frame,
+                      int side) {
+  ObservedView view;
+  view.camera = frame.CropCamera(side);
+  const double scale = side / (2.0 * frame.half);
+  view.color = core::FloatImage(side, side, 3);
+  view.opacity = core::FloatImage(side, side, 1);
+  const int samples = std::clamp(static_cast<int>(std::ceil(1.0 / scale)), 2, 16);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      double sum[4] = {0, 0, 0, 0};
+      for (int s = 0; s < samples * samples; ++s) {
+        const int px = static_cast<int>(
+            std::floor(frame.center_x - frame.half + (x + (s % samples + 0.5) / samples) / scale));
+        const int py = static_cast<int>(
+            std::floor(frame.center_y - frame.half + (y + (s / samples + 0.5) / samples) / scale));
+        if (px < 0 || py < 0 || px >= photo.width || py >= photo.height) continue;
+        const double share = alpha.At(px, py)[0] / 255.0;
+        sum[3] += share;
+        for (int c = 0; c < 3; ++c) {
+          sum[c] += share * photo.At(px, py)[photo.channels < 3 ? 0 : c] / 255.0;
+        }
+      }
+      view.opacity.At(x, y)[0] = static_cast<float>(sum[3] / (samples * samples));
+      if (sum[3] <= 0.0) continue;
+      for (int c = 0; c < 3; ++c) view.color.At(x, y)[c] = static_cast<float>(sum[c] / sum[3]);
+    }
+  }
+  return view;
 }
 
 }  // namespace simwright::asset_lift

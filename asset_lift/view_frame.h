@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "asset_lift/observed_view.h"
 #include "asset_lift/segmentation.h"
 #include "core/camera.h"
 
@@ -21,6 +22,8 @@ struct ViewFrame {
   Eigen::Vector3d PointAt(const Eigen::Vector3d& uvw) const;
   // (u, v, w) of a world point in front of the camera.
   Eigen::Vector3d Locate(const Eigen::Vector3d& point) const;
+  // The camera whose picture of `side` pixels a side is just the crop.
+  core::Camera CropCamera(int side) const;
   // Unit direction of the central ray, world.
   Eigen::Vector3d Direction() const;
 };
@@ -29,5 +32,10 @@ struct ViewFrame {
 // middle lies at `depth` (m).
 ViewFrame FrameAround(const Matte& matte, const core::Camera& camera, double depth,
                       double margin = 1.15);
+
+// The crop of `frame` out of a picture, averaged by area, as a view of `side` pixels a side with
+// its own camera. `photo` and `alpha` (1 channel) as large as the frame's camera says.
+ObservedView CropView(const core::Image& photo, const core::Image& alpha, const ViewFrame& frame,
+                      int side);
 
 }  // namespace simwright::asset_lift

@@ -13,6 +13,8 @@ namespace {
 struct Flags {
   std::vector<std::filesystem::path> photos;
   std::filesystem::path mask;
+  std::filesystem::path cameras;
+  bool fast = false, outline = false;
   pipeline::LiftRequest request;
 };
 
@@ -39,6 +41,20 @@ int Lift(Flags flags, const CommonOptions& common) {
   flags.request.seed = common.seed;
   flags.request.force = common.force;
   if (!flags.mask.empty()) flags.request.mask = flags.mask;
+  if (flags.fast) flags.request.effort = asset_lift::LiftEffort::kFast;
+  if (flags.outline) flags.request.effort = asset_lift::LiftEffort::kOutline;
+  if (!flags.cameras.empty()) {
+    if (flags.photos.size() < 2)
+      throw core::Error("--cameras goes with several photos of one thing");
+    if (flags.request.mask) throw core::Error("--mask goes with one photo");
+    const pipeline::LiftRequest& one = flags.request;
+    Print(pipeline::LiftToFolder(
+              pipeline::MultiLiftRequest{flags.photos, flags.cameras, one.category, one.height,
+                                         one.effort, one.seed, one.output, one.force},
+              &progress),
+          common);
+    return 0;
+  }
   if (flags.photos.size() > 1 && flags.request.mask) {
     throw core::Error("--mask goes with one photo");
   }
@@ -59,14 +75,23 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
   CLI::App* command = app->add_subcommand("lift", "A photo becomes a simulation-ready asset");
   command->footer(
       "Example:\n  simwright lift examples/apple.jpg --category apple -o apple\n"
-      "  simwright lift coffee.png --mask coffee_mask.png --category 'coffee cup' -o cup");
-  command->add_option("photos", flags->photos, "PNG, JPEG, WebP, TIFF, GIF ... of one thing each")
+      "  simwright lift coffee.png --mask coffee_mask.png --category 'coffee cup' -o cup\n"
+      "  simwright lift front.jpg left.jpg back.jpg --cameras cams.json --category mug -o mug");
+  command
+      ->add_option("photos", flags->photos,
+                   "PNG, JPEG, WebP, TIFF, GIF ... of one thing each; with --cameras of one thing")
       ->required();
   command->add_option("--category", flags->request.category, "What it is, e.g. mug")->required();
   command->add_option("-o,--output", flags->request.output, "The asset's folder")->required();
   command->add_option("--mask", flags->mask, "Picture that is bright where the object is");
   command->add_option("--height", flags->request.height, "Its true height, m; default: drawn")
       ->check(CLI::PositiveNumber);
+  command->add_option("--cameras", flags->cameras,
+                      "JSON with the cameras of several photos of one thing (docs/formats.md)");
+  command->add_option("--prior", flags->request.prior,
+                      "A TorchScript view prior instead of ours, e.g. an exported Zero-1-to-3");
+  command->add_flag("--fast", flags->fast, "No radiance field: under a minute");
+  command->add_flag("--outline", flags->outline, "The inflated outline alone: a few seconds");
   command
       ->add_option("--elevation", flags->request.elevation_degrees,
                    "Degrees the camera looked down; default: estimated")

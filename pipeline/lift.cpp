@@ -4,10 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "asset_lift/multi_view_lift.h"
 #include "assets/asset_folder.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "pipeline/camera_file.h"
 #include "pipeline/preview.h"
+#include "pipeline/prior_weights.h"
 #include "render/forward.h"
 
 namespace simwright::pipeline {
@@ -44,10 +47,10 @@ core::Image LiftSheet(const asset_lift::LiftedMesh& lifted, const core::Image& c
 // From the lift's arbitrary scale to metres: by the height that was asked for, else so that the
 // volume of the bounding box is that of the sampled one, which spreads the error of a wrong
 // proportion over all sides.
-double ScaleOf(const LiftRequest& request, const physics_params::PhysicalParameters& parameters,
+double ScaleOf(double height, const physics_params::PhysicalParameters& parameters,
                const core::TriangleMesh& mesh) {
   const Eigen::Vector3d size = core::Bounds(mesh).sizes();
-  if (request.height > 0.0) return request.height / size.z();
+  if (height > 0.0) return height / size.z();
   const double wanted =
       parameters.length.sample * parameters.width.sample * parameters.height.sample;
   return std::cbrt(wanted / size.prod());
@@ -70,9 +73,64 @@ asset_lift::CategoryPrior PriorOf(const physics_params::Category& category) {
   return prior;
 }
 
+namespace {
+
+// What both kinds of lift do with a lifted mesh: true size, the asset, its pictures, the folder.
+struct Finishing {
+  std::filesystem::path output;
+  std::string source;
+  physics_params::Resolution category;
+  double height = 0.0;  // m; 0: see `metric`
+  bool metric = false;  // the mesh is in metres already
+  std::uint64_t seed = 1;
+};
+
+LiftOutcome Finish(const Finishing& finishing, double lift_seconds, asset_lift::LiftedMesh lifted,
+                   core::StagedFolder* staged, core::Progress* progress) {
+  const physics_params::PhysicalParameters parameters = physics_params::SampleParameters(
+      *finishing.category.category, physics_params::KnowledgeBase::Shipped(), finishing.seed);
+  const core::Image cut = CutOut(lifted);
+  const core::Image sheet = LiftSheet(lifted, cut);
+  const double scale = finishing.metric && finishing.height <= 0.0
+                           ? 1.0
+                           : ScaleOf(finishing.height, parameters, lifted.mesh.mesh);
+  core::Transform(Eigen::Affine3d(Eigen::Scaling(scale)), &lifted.mesh.mesh);
+
+  BuildRequest build;
+  build.name = finishing.output.filename().empty()
+                   ? finishing.output.parent_path().filename().string()
+                   : finishing.output.filename().string();
+  build.source = finishing.source;
+  build.category = finishing.category;
+  build.seed = finishing.seed;
+  BuiltAsset built = BuildAsset(lifted.mesh, build, progress);
+  built.asset.scale = scale;
+  built.asset.findings.insert(built.asset.findings.begin(), lifted.findings.begin(),
+                              lifted.findings.end());
+  assets::WriteAsset(built.asset, staged->staging());
+  core::WritePng(staged->staging() / "preview.png", AssetPreview(built.asset));
+  core::WritePng(staged->staging() / "matte.png", cut);
+  core::WritePng(staged->staging() / "lift.png", sheet);
+  staged->Commit();
+  LiftOutcome outcome{finishing.output, built.seconds, built.asset.findings, lifted.silhouette_iou};
+  outcome.seconds["lift"] = lift_seconds;
+  return outcome;
+}
+
+double SecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
 LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
   core::StagedFolder staged(request.output, request.force);
-  const physics_params::Resolution resolution = physics_params::RequireCategory(request.category);
+  Finishing finishing{request.output,
+                      request.photo.filename().string(),
+                      physics_params::RequireCategory(request.category),
+                      request.height,
+                      false,
+                      request.seed};
   const std::string bytes = core::ReadFile(request.photo, 1ull << 30);
   asset_lift::LiftOptions options;
   core::ImageReadOptions read;
@@ -83,40 +141,52 @@ LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
   options.field_of_view = request.fov_degrees * kDegree;
   options.focal_35mm = core::ExifFocalLength35mm(bytes);
   options.seed = request.seed;
-  asset_lift::LiftedMesh lifted;
+  options.effort = request.effort;
   const auto start = std::chrono::steady_clock::now();
+  core::Findings findings;
+  asset_lift::LiftPriors priors;
+  if (request.effort != asset_lift::LiftEffort::kOutline) {
+    priors = LoadLiftPriors(request.prior, &findings);
+  }
+  asset_lift::LiftedMesh lifted;
   try {
-    lifted = asset_lift::LiftPhoto(photo, PriorOf(*resolution.category), options, progress);
+    lifted = asset_lift::LiftPhoto(photo, PriorOf(*finishing.category.category), priors, options,
+                                   progress);
   } catch (const core::Error& error) {
     throw core::Error(error.what(), request.photo.string());
   }
-  const double lift_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const physics_params::PhysicalParameters parameters = physics_params::SampleParameters(
-      *resolution.category, physics_params::KnowledgeBase::Shipped(), request.seed);
-  const core::Image cut = CutOut(lifted);
-  const core::Image sheet = LiftSheet(lifted, cut);
-  const double scale = ScaleOf(request, parameters, lifted.mesh.mesh);
-  core::Transform(Eigen::Affine3d(Eigen::Scaling(scale)), &lifted.mesh.mesh);
+  lifted.findings.insert(lifted.findings.begin(), findings.begin(), findings.end());
+  return Finish(finishing, SecondsSince(start), std::move(lifted), &staged, progress);
+}
 
-  BuildRequest build;
-  build.name = request.output.filename().empty() ? request.output.parent_path().filename().string()
-                                                 : request.output.filename().string();
-  build.source = request.photo.filename().string();
-  build.category = resolution;
-  build.seed = request.seed;
-  BuiltAsset built = BuildAsset(lifted.mesh, build, progress);
-  built.asset.scale = scale;
-  built.asset.findings.insert(built.asset.findings.begin(), lifted.findings.begin(),
-                              lifted.findings.end());
-  assets::WriteAsset(built.asset, staged.staging());
-  core::WritePng(staged.staging() / "preview.png", AssetPreview(built.asset));
-  core::WritePng(staged.staging() / "matte.png", cut);
-  core::WritePng(staged.staging() / "lift.png", sheet);
-  staged.Commit();
-  LiftOutcome outcome{request.output, built.seconds, built.asset.findings, lifted.silhouette_iou};
-  outcome.seconds["lift"] = lift_seconds;
-  return outcome;
+LiftOutcome LiftToFolder(const MultiLiftRequest& request, core::Progress* progress) {
+  core::StagedFolder staged(request.output, request.force);
+  Finishing finishing{request.output,
+                      request.cameras.filename().string(),
+                      physics_params::RequireCategory(request.category),
+                      request.height,
+                      true,
+                      request.seed};
+  const std::map<std::string, core::Camera> cameras = ReadCameraFile(request.cameras);
+  std::vector<asset_lift::PosedPhoto> photos;
+  for (const std::filesystem::path& path : request.photos) {
+    const auto found = cameras.find(path.filename().string());
+    if (found == cameras.end()) {
+      throw core::Error("has no camera for " + path.filename().string(), request.cameras.string());
+    }
+    photos.push_back({core::ReadImage(path), found->second, path.filename().string()});
+    if (photos.back().photo.width != found->second.width ||
+        photos.back().photo.height != found->second.height) {
+      throw core::Error("is not as large as its camera says", path.string());
+    }
+  }
+  asset_lift::MultiViewOptions options;
+  options.field_stage = request.effort == asset_lift::LiftEffort::kFull;
+  options.seed = request.seed;
+  const auto start = std::chrono::steady_clock::now();
+  asset_lift::LiftedMesh lifted =
+      asset_lift::LiftPhotos(photos, PriorOf(*finishing.category.category), options, progress);
+  return Finish(finishing, SecondsSince(start), std::move(lifted), &staged, progress);
 }
 
 }  // namespace simwright::pipeline

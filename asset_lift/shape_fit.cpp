@@ -1,0 +1,52 @@
+#include "asset_lift/shape_fit.h"
+
+namespace simwright::asset_lift {
+namespace {
+
+// The guess's cube with room to grow, about its middle.
+void PlaceField(const FirstGuess& guess, double scale, RadianceFieldOptions* field) {
+  field->center = guess.box.center();
+  field->half_side = 0.5 * 1.3 * guess.box.sizes().maxCoeff();
+  const auto odds = guess.odds;
+  field->density_bias = [odds, scale](const Eigen::Vector3d& point) { return scale * odds(point); };
+}
+
+void Append(const core::Findings& from, core::Findings* to) {
+  to->insert(to->end(), from.begin(), from.end());
+}
+
+}  // namespace
+
+ShapeFitOptions::ShapeFitOptions() {
+  // What stage 1 leaves needs no coarse rounds: the mesh stage refines.
+  mesh.rounds = 2;
+  mesh.steps_per_round = 60;
+  mesh.first_edge_ratio = 0.03;
+  mesh.last_edge_ratio = 0.02;
+}
+
+ShapeFit FitShape(const std::vector<ObservedView>& views, const FirstGuess& guess,
+                  PictureObjective* field_objective, PictureObjective* mesh_objective,
+                  const ShapeFitOptions& options, core::Progress* progress) {
+  ShapeFit fit;
+  fit.mesh = guess.surface;
+  if (options.field_stage) {
+    FieldFitOptions field = options.field;
+    PlaceField(guess, options.guess_scale, &field.field);
+    const FieldFit fitted = FitField(views, field_objective, field, progress);
+    FieldSurface surface = ExtractSurface(fitted, views, options.surface);
+    Append(fitted.findings, &fit.findings);
+    Append(surface.findings, &fit.findings);
+    fit.mesh = std::move(surface.mesh);
+    fit.colors = std::move(surface.colors);
+  }
+  if (options.mesh_stage) {
+    MeshFitResult refined = FitMesh(fit.mesh, views, mesh_objective, options.mesh, progress);
+    Append(refined.findings, &fit.findings);
+    fit.mesh = std::move(refined.mesh);
+    fit.colors = std::move(refined.vertex_colors);
+  }
+  return fit;
+}
+
+}  // namespace simwright::asset_lift

@@ -1,0 +1,47 @@
+#include "pipeline/prior_weights.h"
+
+#include <cstdlib>
+
+#include "asset_lift/learned_view_prior.h"
+#include "asset_lift/scripted_view_prior.h"
+
+namespace simwright::pipeline {
+namespace fs = std::filesystem;
+
+fs::path ModelsFolder() {
+  if (const char* told = std::getenv("SIMWRIGHT_MODELS"); told != nullptr && *told != '\0') {
+    return told;
+  }
+  std::error_code none;
+  const fs::path program = fs::read_symlink("/proc/self/exe", none);
+  if (none) return {};
+  const fs::path folder = program.parent_path();
+  for (const fs::path& candidate :
+       {folder / ".." / "share" / "simwright" / "models", folder / ".." / ".." / "models"}) {
+    if (fs::is_directory(candidate, none)) return candidate.lexically_normal();
+  }
+  return {};
+}
+
+asset_lift::LiftPriors LoadLiftPriors(const fs::path& view_script, core::Findings* findings) {
+  asset_lift::LiftPriors priors;
+  const fs::path folder = ModelsFolder();
+  const fs::path shape = folder / "shape_prior.pt", view = folder / "view_prior.pt";
+  const bool have_shape = !folder.empty() && fs::exists(shape);
+  if (have_shape) priors.shape = std::make_shared<asset_lift::ShapePrior>(shape);
+  if (!view_script.empty()) {
+    priors.view = asset_lift::LoadScriptedViewPrior(view_script);
+  } else if (have_shape && fs::exists(view)) {
+    priors.view = asset_lift::LoadLearnedViewPrior(view, priors.shape);
+  }
+  if (!have_shape || priors.view == nullptr) {
+    findings->push_back({"prior", core::Severity::kWarning, folder.string(),
+                         std::string("no weights of the ") + (have_shape ? "view" : "shape") +
+                             " prior were found: the hidden side follows from the outline "
+                             "(simwright prior train -o models makes them)",
+                         0.0});
+  }
+  return priors;
+}
+
+}  // namespace simwright::pipeline
