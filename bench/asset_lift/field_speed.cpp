@@ -1,13 +1,19 @@
 // How fast the radiance field is.
 //   bench_field_speed [--benchmark_filter=REGEX]
-// Batches: the hash grid and its network, forward and backward, points along random short rays, on
-// all threads; `items_per_second` are points.
+// ForwardBackward: the hash grid and its network, points along random short rays, on all threads;
+// Kernels: the same on one thread, with each instruction set; View: a picture of 64 x 64 rays of 64
+// samples each, drawn and taken back; Adam: a step over all parameters. `items_per_second` are
+// points of the field, or parameters.
 #include <benchmark/benchmark.h>
 
-#include <memory>
+#include <algorithm>
 #include <vector>
 
+#include "asset_lift/field_adam.h"
+#include "asset_lift/field_model.h"
+#include "asset_lift/field_targets.h"
 #include "asset_lift/radiance_field.h"
+#include "asset_lift/volume_rendering.h"
 #include "core/parallel.h"
 #include "core/random.h"
 
@@ -38,14 +44,19 @@ std::vector<FieldBatch<float>> RayBatches(int count) {
   return batches;
 }
 
-void ForwardBackward(benchmark::State& state, const RadianceFieldOptions& options, bool backward) {
-  const RadianceField field(options, 1);
-  std::vector<FieldBatch<float>> batches = RayBatches(2048);
+FieldBatchGradient<float> SomeGradient() {
   FieldBatchGradient<float> gradient{};
   for (int s = 0; s < kFieldBatch; ++s) {
     gradient.density[s] = 1e-3f;
     for (int c = 0; c < 3; ++c) gradient.color[c][s] = 1e-3f;
   }
+  return gradient;
+}
+
+void ForwardBackward(benchmark::State& state, const RadianceFieldOptions& options, bool backward) {
+  const RadianceField field(options, 1);
+  std::vector<FieldBatch<float>> batches = RayBatches(2048);
+  const FieldBatchGradient<float> gradient = SomeGradient();
   const int threads = core::ThreadCount();
   std::vector<std::vector<float>> sums(threads, std::vector<float>(field.parameters().size()));
   for (auto _ : state) {
@@ -60,6 +71,65 @@ void ForwardBackward(benchmark::State& state, const RadianceFieldOptions& option
   state.SetItemsProcessed(state.iterations() * batches.size() * kFieldBatch);
   state.SetLabel(RadianceField::UsesAvx2() ? "AVX2" : "plain x86-64");
 }
+
+void Kernels(benchmark::State& state, bool avx2) {
+  if (avx2 && !RadianceField::UsesAvx2()) {
+    state.SkipWithError("no AVX2 here");
+    return;
+  }
+  const FieldKernels<float> kernels = avx2 ? Avx2FieldKernels<float>() : PlainFieldKernels<float>();
+  const RadianceField field(RadianceFieldOptions(), 1);
+  std::vector<FieldBatch<float>> batches = RayBatches(512);
+  const FieldBatchGradient<float> gradient = SomeGradient();
+  std::vector<float> sum(field.parameters().size());
+  for (auto _ : state) {
+    for (auto& batch : batches) {
+      kernels.evaluate(field.Model(), &batch);
+      kernels.add_gradient(field.Model(), batch, gradient, sum.data());
+    }
+    benchmark::DoNotOptimize(sum.data());
+  }
+  state.SetItemsProcessed(state.iterations() * batches.size() * kFieldBatch);
+}
+BENCHMARK_CAPTURE(Kernels, avx2, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Kernels, plain, false)->Unit(benchmark::kMillisecond);
+
+void View(benchmark::State& state) {
+  RadianceFieldOptions options;
+  options.density_scale = 0.1;  // a haze: no ray ends early
+  const RadianceField field(options, 1);
+  PixelRays pixels;
+  pixels.AppendPicture(core::OrbitCamera(Eigen::Vector3d::Zero(), 2.0, 0.4, 0.7, 0.35, 64, 64));
+  VolumeRenderOptions render;
+  render.finest_step = 1e-3;
+  VolumeRenderer<float> renderer(render);
+  const OccupancyGrid everywhere;
+  RayPictures<float> pictures, gradient;
+  gradient.Resize(pixels.rays.size());
+  std::fill(gradient.color.begin(), gradient.color.end(), 1e-3f);
+  FieldGradient<float> sum;
+  std::int64_t samples = 0;
+  for (auto _ : state) {
+    renderer.Render(field, everywhere, pixels.rays, 1, &pictures);
+    renderer.AddGradient(field, gradient, &sum);
+    samples += renderer.samples();
+  }
+  state.SetItemsProcessed(samples);
+}
+BENCHMARK(View)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void Adam(benchmark::State& state) {
+  RadianceField field(RadianceFieldOptions(), 1);
+  FieldGradient<float> gradient;
+  gradient.Prepare(field);
+  FieldAdam adam;
+  for (auto _ : state) {
+    gradient.parts[0][0] = 1.0f;
+    if (!adam.Step(1e-3, &field, &gradient)) state.SkipWithError("not finite");
+  }
+  state.SetItemsProcessed(state.iterations() * field.parameters().size());
+}
+BENCHMARK(Adam)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 #define FIELD(name, backward, ...)                                       \
   BENCHMARK_CAPTURE(ForwardBackward, name, Sized(__VA_ARGS__), backward) \
