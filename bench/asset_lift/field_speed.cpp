@@ -2,15 +2,19 @@
 //   bench_field_speed [--benchmark_filter=REGEX]
 // ForwardBackward: the hash grid and its network, points along random short rays, on all threads;
 // Kernels: the same on one thread, with each instruction set; View: a picture of 64 x 64 rays of 64
-// samples each, drawn and taken back; Adam: a step over all parameters. `items_per_second` are
-// points of the field, or parameters.
+// samples each, drawn and taken back; Adam: a step over all parameters; Fit: the default stage 1
+// from one view, with an objective that draws a 64-pixel picture a step and costs nothing itself;
+// Surface: what comes after it. `items_per_second` are points of the field, parameters, or steps.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "asset_lift/field_adam.h"
+#include "asset_lift/field_fit.h"
 #include "asset_lift/field_model.h"
+#include "asset_lift/field_surface.h"
 #include "asset_lift/field_targets.h"
 #include "asset_lift/radiance_field.h"
 #include "asset_lift/volume_rendering.h"
@@ -130,6 +134,63 @@ void Adam(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * field.parameters().size());
 }
 BENCHMARK(Adam)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// A grey ball of radius 0.15 from one unit away.
+ObservedView BallView() {
+  ObservedView view;
+  constexpr int kSide = 128;
+  view.camera = core::OrbitCamera(Eigen::Vector3d::Zero(), 1.0, 0.3, -M_PI / 2, 0.5, kSide, kSide);
+  view.color = core::FloatImage(kSide, kSide, 3, 0.6f);
+  view.opacity = core::FloatImage(kSide, kSide, 1);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const Eigen::Vector3d along = view.camera.Ray({x + 0.5, y + 0.5}).normalized();
+      *view.opacity.At(x, y) = view.camera.position().cross(along).norm() < 0.15 ? 1.0f : 0.0f;
+    }
+  }
+  return view;
+}
+
+// Wants each picture a little brighter where there is something.
+class Brighter : public PictureObjective {
+ public:
+  core::Camera NextCamera(double, core::Rng* rng) override {
+    return core::OrbitCamera(Eigen::Vector3d::Zero(), 1.0, core::Uniform(*rng, -0.2, 1.0),
+                             core::Uniform(*rng, -M_PI, M_PI), 0.5, 64, 64);
+  }
+  double Evaluate(const core::Camera&, const ObjectPicture& picture, double, core::Rng*,
+                  ObjectPicture* gradient) override {
+    *gradient = picture;
+    for (float& x : gradient->color.values) x = x > 0.0f ? -1e-3f : 0.0f;
+    return 0.0;
+  }
+};
+
+FieldFitOptions LiftSized() {
+  FieldFitOptions options;
+  options.field.half_side = 0.25;
+  return options;
+}
+
+void Fit(benchmark::State& state) {
+  const std::vector<ObservedView> views = {BallView()};
+  std::size_t steps = 0;
+  for (auto _ : state) {
+    Brighter objective;
+    steps += FitField(views, &objective, LiftSized(), nullptr).losses.size();
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(steps));
+}
+BENCHMARK(Fit)->Unit(benchmark::kSecond)->UseRealTime()->MeasureProcessCPUTime();
+
+void Surface(benchmark::State& state) {
+  const std::vector<ObservedView> views = {BallView()};
+  FieldFitOptions options = LiftSized();
+  options.stages = {{60, 64}};
+  const FieldFit fit = FitField(views, nullptr, options, nullptr);
+  for (auto _ : state) benchmark::DoNotOptimize(ExtractSurface(fit, views).iou);
+}
+BENCHMARK(Surface)->Unit(benchmark::kSecond)->UseRealTime()->MeasureProcessCPUTime();
 
 #define FIELD(name, backward, ...)                                       \
   BENCHMARK_CAPTURE(ForwardBackward, name, Sized(__VA_ARGS__), backward) \
