@@ -107,7 +107,13 @@ class Fitter {
     const double rate = options_.rate * std::pow(options_.last_rate / options_.rate, Done()) *
                         std::pow(0.5, setbacks_);
     double loss = ObservationGradient(deck);
-    if (objective_ != nullptr && std::isfinite(loss)) loss += ObjectiveGradient();
+    if (std::isfinite(loss)) {
+      if (objective_ != nullptr) {
+        loss += ObjectiveGradient();
+      } else if (options_.shape_picture_side > 0) {
+        loss += ShapeGradient();
+      }
+    }
     const bool stepped = std::isfinite(loss) && adam_.Step(rate, &fit_.field, &gradient_);
     fit_.losses.push_back(loss);
     const int steps = static_cast<int>(fit_.losses.size());
@@ -183,7 +189,27 @@ class Fitter {
     return loss;
   }
 
+  // From where a view could have been taken: about the cube's centre, as far off as the first.
+  double ShapeGradient() {
+    const core::Camera& like = views_[0].camera;
+    const double distance = (like.position() - options_.field.center).norm();
+    const double elevation = core::Uniform(rng_, -0.5, 1.2),
+                 azimuth = core::Uniform(rng_, -M_PI, M_PI);
+    const core::Camera camera =
+        core::OrbitCamera(options_.field.center, std::max(distance, 1e-6), elevation, azimuth,
+                          2.0 * std::atan(0.5 * like.height / like.fy), options_.shape_picture_side,
+                          options_.shape_picture_side);
+    pixels_.Clear();
+    pixels_.AppendPicture(camera);
+    picture_renderer_.Render(fit_.field, fit_.occupancy, pixels_.rays, rng_(), &seen_);
+    of_seen_.Resize(pixels_.rays.size());
+    const double loss = AddShapeLoss(pixels_, seen_, options_.weights, &of_seen_);
+    if (std::isfinite(loss)) picture_renderer_.AddGradient(fit_.field, of_seen_, &gradient_);
+    return loss;
+  }
+
   FieldFit Finished() {
+    for (int i = 0; i < 2; ++i) UpdateOccupancy();
     const std::size_t last = std::min<std::size_t>(errors_.size(), 20);
     double sum = 0.0;
     for (std::size_t i = errors_.size() - last; i < errors_.size(); ++i) sum += errors_[i];

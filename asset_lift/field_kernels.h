@@ -62,7 +62,6 @@ struct Scratch {
   alignas(64) std::uint32_t index[8][kFieldBatch];  // a cell's corners: entries of the table
   alignas(64) Real weight[8][kFieldBatch];
   alignas(64) Real unit[3][kFieldBatch];  // positions in [0, 1]
-  alignas(64) Real features[kFieldBatch * kMaxFieldInputs];
   alignas(64) Real hidden[kFieldBatch * kMaxFieldHidden];
   alignas(64) Real outputs[kFieldBatch * 8];  // or their gradients; four of eight in use
   alignas(64) Real hidden_gradient[kFieldBatch * kMaxFieldHidden];
@@ -201,7 +200,7 @@ inline void Corners(const HashGridLevel& level, Scratch<Real>* scratch) {
 // Features of a batch, (points x stride).
 template <typename Real, int kFeatures>
 inline void Encode(const HashGridLayout& layout, int stride, const Real* table,
-                   Scratch<Real>* scratch) {
+                   Scratch<Real>* scratch, Real* features) {
   typedef Real Entry __attribute__((vector_size(kFeatures * sizeof(Real))));
   int first = 0;
   for (const HashGridLevel& level : layout.levels()) {
@@ -215,7 +214,7 @@ inline void Encode(const HashGridLayout& layout, int stride, const Real* table,
         std::memcpy(&entry, entries + std::size_t{scratch->index[c][s]} * kFeatures, sizeof(Entry));
         sum += scratch->weight[c][s] * entry;
       }
-      std::memcpy(scratch->features + s * stride + first, &sum, sizeof(Entry));
+      std::memcpy(features + s * stride + first, &sum, sizeof(Entry));
     }
     first += kFeatures;
   }
@@ -282,13 +281,11 @@ struct Sizes {
   static constexpr int kPerEntry = kFeatures;
 };
 
-// Features and hidden units of a batch.
+// Hidden units of a batch from its features.
 template <typename Shape, typename Real>
 inline void ToHidden(const FieldModel<Real>& model, const Shape& shape,
                      const FieldBatch<Real>& batch, Scratch<Real>* scratch) {
-  UnitPositions(batch, scratch);
-  Encode<Real, Shape::kPerEntry>(*model.layout, shape.stride, model.table, scratch);
-  Multiply(kFieldBatch, shape.inputs, shape.hidden, scratch->features, shape.stride, false,
+  Multiply(kFieldBatch, shape.inputs, shape.hidden, batch.features, shape.stride, false,
            model.hidden_weights, false, scratch->hidden);
   for (int k = 0; k < kFieldBatch * shape.hidden; ++k) {
     scratch->hidden[k] = scratch->hidden[k] > Real(0) ? scratch->hidden[k] : Real(0);
@@ -299,6 +296,9 @@ template <typename Shape, typename Real>
 inline void Evaluate(const FieldModel<Real>& model, FieldBatch<Real>* batch) {
   const Shape shape(model);
   Scratch<Real> scratch;
+  UnitPositions(*batch, &scratch);
+  Encode<Real, Shape::kPerEntry>(*model.layout, shape.stride, model.table, &scratch,
+                                 batch->features);
   ToHidden(model, shape, *batch, &scratch);
   Real* weights = scratch.turned_weights;  // (hidden x 8)
   for (int j = 0; j < shape.hidden; ++j) {
@@ -313,7 +313,8 @@ inline void Evaluate(const FieldModel<Real>& model, FieldBatch<Real>* batch) {
     for (int c = 0; c < 3; ++c) batch->color[c][s] = scratch.outputs[s * 8 + 1 + c];
   }
   AddBias(model.bias, &scratch, batch);
-  for (int s = 0; s < kFieldBatch; ++s) batch->density[s] = Softplus(batch->raw[s]);
+  const Real scale = model.density_scale;
+  for (int s = 0; s < kFieldBatch; ++s) batch->density[s] = scale * Softplus(batch->raw[s]);
   for (int c = 0; c < 3; ++c) {
     for (int s = 0; s < kFieldBatch; ++s) {
       batch->color[c][s] = Real(1) / (Real(1) + Exp(-batch->color[c][s]));
@@ -323,10 +324,11 @@ inline void Evaluate(const FieldModel<Real>& model, FieldBatch<Real>* batch) {
 
 // Gradients before the activations, (points x kFieldOutputs).
 template <typename Real>
-inline void OutputGradient(const FieldBatch<Real>& batch, const FieldBatchGradient<Real>& gradient,
-                           Real* outputs) {
+inline void OutputGradient(const FieldModel<Real>& model, const FieldBatch<Real>& batch,
+                           const FieldBatchGradient<Real>& gradient, Real* outputs) {
+  const Real scale = model.density_scale, inverse = Real(1) / scale;
   for (int s = 0; s < kFieldBatch; ++s) {
-    const Real slope = Real(1) - Exp(-batch.density[s]);
+    const Real slope = scale * (Real(1) - Exp(-inverse * batch.density[s]));
     outputs[s * kFieldOutputs] = gradient.raw[s] + gradient.density[s] * slope;
     for (int c = 0; c < 3; ++c) {
       const Real color = batch.color[c][s];
@@ -343,7 +345,7 @@ inline void AddGradient(const FieldModel<Real>& model, const FieldBatch<Real>& b
   const int inputs = shape.inputs, hidden = shape.hidden, stride = shape.stride;
   Scratch<Real> scratch;
   ToHidden(model, shape, batch, &scratch);
-  OutputGradient(batch, gradient, scratch.outputs);
+  OutputGradient(model, batch, gradient, scratch.outputs);
   Real* hidden_sum = sum + (model.hidden_weights - model.table);
   Real* output_sum = sum + (model.output_weights - model.table);
   Multiply(kFieldOutputs, kFieldBatch, hidden, scratch.outputs, kFieldOutputs, true, scratch.hidden,
@@ -353,8 +355,8 @@ inline void AddGradient(const FieldModel<Real>& model, const FieldBatch<Real>& b
   for (int k = 0; k < kFieldBatch * hidden; ++k) {
     scratch.hidden_gradient[k] = scratch.hidden[k] > Real(0) ? scratch.hidden_gradient[k] : Real(0);
   }
-  Multiply(inputs, kFieldBatch, hidden, scratch.features, stride, true, scratch.hidden_gradient,
-           true, hidden_sum);
+  Multiply(inputs, kFieldBatch, hidden, batch.features, stride, true, scratch.hidden_gradient, true,
+           hidden_sum);
   Real* weights = scratch.turned_weights;  // (hidden x stride)
   for (int i = 0; i < stride; ++i) {
     for (int j = 0; j < hidden; ++j) {
@@ -363,6 +365,7 @@ inline void AddGradient(const FieldModel<Real>& model, const FieldBatch<Real>& b
   }
   Multiply(kFieldBatch, hidden, stride, scratch.hidden_gradient, hidden, false, weights, false,
            scratch.feature_gradient);
+  UnitPositions(batch, &scratch);
   Scatter<Real, Shape::kPerEntry>(*model.layout, stride, &scratch, sum);
 }
 

@@ -18,7 +18,9 @@ struct FieldLossWeights {
   double orientation = 1.0;
   double sparsity = 0.1;
   double opaque = 0.1;
-  double normal_smoothness = 8.0;
+  // Published: 8, with pictures of more pixels. Here 8 wears thin parts away: a chair from 8 views
+  // reaches a volume IoU of 0.54 with it, 0.65 with 1; from one view there is no difference.
+  double normal_smoothness = 1.0;
 
   bool IsValid(std::string* error) const;  // finite and not negative
   bool UseNormals() const { return orientation > 0.0 || normal_smoothness > 0.0; }
@@ -36,7 +38,8 @@ double AddObservationLoss(const RayTargets& targets, const RayPictures<float>& p
 //                2022), at the ray's median point
 //   sparsity     sqrt(opacity^2 + 0.01)
 //   opaque       the entropy of the opacity: either there or not
-//   smoothness   |n_a - n_b|^2 / 4 of neighbouring pixels, by the product of their opacities
+//   smoothness   |n_a - n_b|^2 / 4 of neighbouring pixels, by the product of their opacities (taken
+//   as constants, as in the first)
 double AddShapeLoss(const PixelRays& pixels, const RayPictures<float>& pictures,
                     const FieldLossWeights& weights, RayPictures<float>* gradient);
 

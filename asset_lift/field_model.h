@@ -10,7 +10,6 @@
 namespace simwright::asset_lift {
 
 inline constexpr int kFieldOutputs = 4;  // density, red, green, blue
-inline constexpr int kMaxFieldInputs = 64;
 inline constexpr int kMaxFieldHidden = 128;
 inline constexpr int kBiasCells = 64;  // a side of a tabulated bias
 
@@ -28,6 +27,7 @@ struct FieldModel {
   const Real* table = nullptr;
   const Real* hidden_weights = nullptr;  // (inputs x hidden), behind the table
   const Real* output_weights = nullptr;  // (kFieldOutputs x hidden), behind those
+  Real density_scale = 1;
   FieldBias<Real> bias;
 };
 

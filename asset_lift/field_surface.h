@@ -14,7 +14,7 @@ namespace simwright::asset_lift {
 struct FieldSurfaceOptions {
   int resolution = 96;  // cells a side of the cube
   // Levels tried, as the density's 1/m times the cube's half side: from a haze to a solid.
-  std::vector<double> levels = {0.5, 1.0, 2.0, 4.0, 7.0, 10.0, 15.0, 25.0, 40.0, 60.0};
+  std::vector<double> levels = {0.5, 1.0, 2.0, 4.0, 7.0, 10.0, 15.0, 25.0, 40.0, 80.0};
   // Pixels of a view's longer side at which silhouettes are compared.
   int silhouette_side = 128;
   // Below this agreement the surface is returned with a finding.
@@ -43,9 +43,10 @@ struct FieldSurface {
 FieldSurface ExtractSurface(const FieldFit& fit, const std::vector<ObservedView>& views,
                             const FieldSurfaceOptions& options = {});
 
-// Colours (sRGB) of the field near surface points: the mean over a short way along the normal,
-// from `depth` (m) outside to `depth` within, weighed by density, so that a point that is a
-// little off the fitted surface still meets it. `normals` are unit, outward. (N x 3).
+// Colours (sRGB) of the field as a surface shows them: at each point the field is looked at along
+// the normal, from `depth` (m) outside to `depth` within, and what is in front covers what is
+// behind. So a point that is a little off the fitted surface still meets it, and the field's
+// inside, which no view has ever shown, stays hidden. `normals` are unit, outward. (N x 3).
 std::vector<Eigen::Vector3f> SurfaceColors(const RadianceField& field,
                                            const std::vector<Eigen::Vector3d>& points,
                                            const std::vector<Eigen::Vector3d>& normals,

@@ -46,6 +46,9 @@ bool RadianceFieldOptions::IsValid(std::string* error) const {
   if (!(half_side > 0.0) || !std::isfinite(half_side) || !center.allFinite()) {
     fault = "a field's cube needs a finite centre and a positive size";
   }
+  if (!(density_scale > 0.0) || !std::isfinite(density_scale)) {
+    fault = "the density's scale is positive";
+  }
   if (!std::isfinite(blob_scale) || !(blob_std > 0.0)) {
     fault = "the density's blob needs a finite scale and a positive width";
   }
@@ -101,6 +104,7 @@ FieldModel<Real> BasicRadianceField<Real>::Model() const {
   model.table = parameters_.data();
   model.hidden_weights = model.table + table_size_;
   model.output_weights = model.hidden_weights + model.inputs * model.hidden;
+  model.density_scale = static_cast<Real>(options_.density_scale);
   model.bias.blob_scale = static_cast<Real>(options_.blob_scale);
   model.bias.blob_slope = static_cast<Real>(options_.blob_scale / options_.blob_std);
   model.bias.table = bias_.empty() ? nullptr : bias_.data();

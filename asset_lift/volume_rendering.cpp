@@ -59,8 +59,11 @@ template <typename Real>
 struct Tile {
   int first = 0, rays = 0;
   std::array<Ray<Real>, kTileRays> ray;
+  int stride = 0;                     // numbers in a row of features
   std::vector<Sample<Real>> samples;  // (kTileRays x kSlots)
+  std::vector<Real> features;         // (kTileRays x kSlots x stride)
   std::vector<Taps<Real>> taps;       // (kTileRays), empty where no normals were asked for
+  std::vector<Real> tap_features;     // (kTileRays x kTaps x stride)
   std::int64_t looked_at = 0;
 };
 
@@ -71,9 +74,11 @@ class GradientBatches {
   GradientBatches(const BasicRadianceField<Real>& field, Real* sum)
       : field_(field), sum_(sum), batch_{}, gradient_{} {}
 
-  // Where the next point goes.
-  int Next() {
+  // Where the next point goes, whose features are these.
+  int Next(const Real* features) {
     if (count_ == kFieldBatch) Flush();
+    std::copy_n(features, field_.feature_stride(),
+                batch_.features + count_ * field_.feature_stride());
     return count_++;
   }
   void Flush() {
@@ -101,7 +106,9 @@ class TileRenderer {
       : field_(field), occupancy_(occupancy), options_(options), tile_(*tile) {}
 
   void Render(const std::vector<FieldRay>& rays, std::uint32_t seed, RayPictures<Real>* pictures) {
+    tile_.stride = field_.feature_stride();
     tile_.samples.resize(kTileRays * kSlots);
+    tile_.features.resize(static_cast<std::size_t>(kTileRays * kSlots) * tile_.stride);
     tile_.looked_at = 0;
     for (int r = 0; r < tile_.rays; ++r) Start(rays[tile_.first + r], seed, r);
     while (LookFurther()) {
@@ -135,14 +142,15 @@ class TileRenderer {
     pending_.clear();
     for (int r = 0; r < tile_.rays; ++r) {
       Ray<Real>& ray = tile_.ray[r];
-      Sample<Real>* slot = &tile_.samples[r * kSlots + ray.count];
+      int slot = r * kSlots + ray.count;
       for (int taken = 0; taken < kRound && ray.next < ray.strata;) {
         const std::uint32_t jitter = Mixed(ray.seed ^ (static_cast<std::uint32_t>(ray.next) << 20));
         const double t = ray.near + (ray.next++ + jitter * 0x1p-32) * ray.step;
         const Eigen::Vector3d at = ray.origin + t * ray.direction;
         if (!occupancy_.Occupied(at.x(), at.y(), at.z())) continue;
-        for (int a = 0; a < 3; ++a) slot->position[a] = static_cast<Real>(at[a]);
-        slot->t = static_cast<Real>(t);
+        Sample<Real>& sample = tile_.samples[slot];
+        for (int a = 0; a < 3; ++a) sample.position[a] = static_cast<Real>(at[a]);
+        sample.t = static_cast<Real>(t);
         pending_.push_back({slot++, r});
         ++taken;
       }
@@ -150,11 +158,11 @@ class TileRenderer {
     if (pending_.empty()) return false;
     tile_.looked_at += static_cast<std::int64_t>(pending_.size());
     for (std::size_t i = 0; i < pending_.size(); i += kFieldBatch) EvaluatePending(i);
-    for (const auto& [sample, r] : pending_) {
+    for (const auto& [slot, r] : pending_) {
       Ray<Real>& ray = tile_.ray[r];
       if (ray.transmittance < options_.least_transmittance) continue;
       ++ray.count;
-      ray.transmittance *= std::exp(-sample->density * ray.delta);
+      ray.transmittance *= std::exp(-tile_.samples[slot].density * ray.delta);
       if (ray.transmittance < options_.least_transmittance) ray.next = ray.strata;
     }
     return true;
@@ -164,14 +172,17 @@ class TileRenderer {
     const int count = static_cast<int>(std::min<std::size_t>(kFieldBatch, pending_.size() - first));
     for (int a = 0; a < 3; ++a) {
       for (int s = 0; s < kFieldBatch; ++s) {
-        batch_.position[a][s] = pending_[first + std::min(s, count - 1)].sample->position[a];
+        const int slot = pending_[first + std::min(s, count - 1)].slot;
+        batch_.position[a][s] = tile_.samples[slot].position[a];
       }
     }
     field_.Evaluate(&batch_);
     for (int s = 0; s < count; ++s) {
-      Sample<Real>& sample = *pending_[first + s].sample;
-      sample.density = batch_.density[s];
-      for (int c = 0; c < 3; ++c) sample.color[c] = batch_.color[c][s];
+      const int slot = pending_[first + s].slot;
+      tile_.samples[slot].density = batch_.density[s];
+      for (int c = 0; c < 3; ++c) tile_.samples[slot].color[c] = batch_.color[c][s];
+      std::copy_n(batch_.features + s * tile_.stride, tile_.stride,
+                  &tile_.features[static_cast<std::size_t>(slot) * tile_.stride]);
     }
   }
 
@@ -208,6 +219,7 @@ class TileRenderer {
 
   void TakeNormals(RayPictures<Real>* pictures) {
     tile_.taps.resize(kTileRays);
+    tile_.tap_features.resize(static_cast<std::size_t>(kTileRays * kTaps) * tile_.stride);
     constexpr int kPerBatch = kFieldBatch / kTaps;
     std::array<int, kPerBatch> rays;
     int count = 0;
@@ -239,6 +251,8 @@ class TileRenderer {
     field_.Evaluate(&batch_);
     for (int n = 0; n < count; ++n) {
       Taps<Real>& taps = tile_.taps[rays[n]];
+      std::copy_n(batch_.features + n * kTaps * tile_.stride, kTaps * tile_.stride,
+                  &tile_.tap_features[static_cast<std::size_t>(rays[n] * kTaps) * tile_.stride]);
       Real sum[3] = {0, 0, 0};
       for (int k = 0; k < kTaps; ++k) {
         for (int a = 0; a < 3; ++a) sum[a] += kTap[k][a] * batch_.raw[n * kTaps + k];
@@ -254,7 +268,7 @@ class TileRenderer {
   }
 
   struct Pending {
-    Sample<Real>* sample;
+    int slot;  // of the tile's samples
     int ray;
   };
 
@@ -289,7 +303,8 @@ void AddSampleGradients(const Tile<Real>& tile, int r, const RayPictures<Real>& 
     const Sample<Real>& sample = samples[k];
     const Real of_weight = color[0] * sample.color[0] + color[1] * sample.color[1] +
                            color[2] * sample.color[2] + opacity + depth * sample.t;
-    const int s = batches->Next();
+    const int s =
+        batches->Next(&tile.features[static_cast<std::size_t>(r * kSlots + k) * tile.stride]);
     for (int a = 0; a < 3; ++a) batches->batch().position[a][s] = sample.position[a];
     batches->batch().density[s] = sample.density;
     batches->gradient().density[s] = ray.delta * (after[k] * of_weight - behind);
@@ -313,7 +328,8 @@ void AddNormalGradients(const Tile<Real>& tile, int r, const RayPictures<Real>& 
   for (int a = 0; a < 3; ++a) of_sum[a] = -(outer[a] - along * taps.normal[a]) / taps.slope;
   if (of_sum[0] == 0 && of_sum[1] == 0 && of_sum[2] == 0) return;
   for (int k = 0; k < kTaps; ++k) {
-    const int s = batches->Next();
+    const int s =
+        batches->Next(&tile.tap_features[static_cast<std::size_t>(r * kTaps + k) * tile.stride]);
     Real raw = 0;
     for (int a = 0; a < 3; ++a) {
       batches->batch().position[a][s] = taps.position[k][a];

@@ -200,14 +200,15 @@ TEST(RadianceField, BiasGivenAsAFunctionIsReadInTheWorld) {
   RadianceFieldOptions options;
   options.center = {1.0, 2.0, 3.0};
   options.half_side = 0.25;
+  options.density_scale = 3.0;
   options.density_bias = [](const Eigen::Vector3d& p) { return 40.0 * (p.z() - 3.0) + 2.0; };
   RadianceField field(options, 1);
   for (float& p : field.parameters()) p = 0.0f;
-  // softplus(2), softplus(6), and nothing beyond the cube; per metre.
+  // 3 softplus(2), 3 softplus(6), and nothing beyond the cube; per metre.
   const std::vector<float> density =
       field.DensityAt({{1.0, 2.0, 3.0}, {1.1, 1.9, 3.1}, {1.0, 2.0, 3.3}});
-  EXPECT_NEAR(density[0], std::log1p(std::exp(2.0)) / 0.25, 1e-3);
-  EXPECT_NEAR(density[1], std::log1p(std::exp(6.0)) / 0.25, 1e-3);
+  EXPECT_NEAR(density[0], 3.0 * std::log1p(std::exp(2.0)) / 0.25, 1e-3);
+  EXPECT_NEAR(density[1], 3.0 * std::log1p(std::exp(6.0)) / 0.25, 1e-3);
   EXPECT_EQ(density[2], 0.0f);
 }
 
@@ -290,6 +291,7 @@ RadianceField OnlyBias(const RadianceFieldOptions& options) {
 TEST(VolumeRendering, HomogeneousCubeLosesLightWithTheChord) {
   RadianceFieldOptions options;
   options.half_side = 0.4;
+  options.density_scale = 1.0;
   options.density_bias = [](const Eigen::Vector3d&) { return 0.7; };
   const RadianceField field = OnlyBias(options);
   const double density = std::log1p(std::exp(0.7)) / 0.4;
@@ -315,6 +317,7 @@ TEST(VolumeRendering, HomogeneousCubeLosesLightWithTheChord) {
 TEST(VolumeRendering, HomogeneousSphereLosesLightWithTheChord) {
   RadianceFieldOptions options;
   options.half_side = 1.0;
+  options.density_scale = 1.0;
   constexpr double kRadius = 0.7;
   // Density log(1 + e) within, none outside, half of it at the radius; the fall from one to the
   // other takes a cell of the table.
@@ -354,6 +357,7 @@ TEST(VolumeRendering, HomogeneousSphereLosesLightWithTheChord) {
 TEST(VolumeRendering, BlobLosesLightAndFacesOutward) {
   RadianceFieldOptions options;
   options.half_side = 1.0;
+  options.density_scale = 1.0;
   options.blob_scale = 60.0;
   const RadianceField field = OnlyBias(options);
   VolumeRenderOptions render;
