@@ -197,7 +197,10 @@ LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior, const
   lifted.form = outline.form;
   texture::ProjectionOptions projection;
   projection.texture_size = options.texture_size;
-  if (options.effort == LiftEffort::kOutline) {
+  // A body of revolution is known all round from its outline: no guess about its back is as good.
+  const bool turned = outline.form != ShapeForm::kInflated;
+  const bool nothing_learned = priors.shape == nullptr && priors.view == nullptr;
+  if (options.effort == LiftEffort::kOutline || turned || nothing_learned) {
     progress->Stage("texture");
     FinishOutline(outline, projection, &lifted);
   } else {

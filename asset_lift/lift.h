@@ -72,9 +72,9 @@ struct LiftedMesh {
 };
 
 // Segments, estimates the camera, guesses the shape, fits it and textures it: the front from the
-// photo, the hidden side from the priors. Where there is no shape prior the guess is the inflated
-// outline. Throws core::Error with the reason where no single object stands out, and
-// core::Cancelled.
+// photo, the hidden side from the priors. What is turned on a wheel stays as its outline turned,
+// and so does everything where nothing learned is given. Throws core::Error with the reason where
+// no single object stands out, and core::Cancelled.
 LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior, const LiftPriors& priors,
                      const LiftOptions& options, core::Progress* progress);
 

@@ -34,17 +34,19 @@ float Mix(float a, float b, float share) {
   return a + share * (b - a);
 }
 
-// The picture's value at (u, v), bilinear. `Value(pixel index)`.
+// The picture's value at (u, v), bilinear. `Value(pixel index)` returns a number or a vector, which
+// is named: Eigen's unevaluated sums would point to what is gone.
 template <typename Value>
 auto OverPicture(double u, double v, const Value& value) {
+  using Result = decltype(value(size_t{0}));
   const Between x = Cells((u + 1.0) * 0.5 * kCropSide - 0.5, kCropSide);
   const Between y = Cells((v + 1.0) * 0.5 * kCropSide - 0.5, kCropSide);
-  const auto at = [&](int column, int row) {
+  const auto at = [&](int column, int row) -> Result {
     return value(static_cast<size_t>(row) * kCropSide + static_cast<size_t>(column));
   };
-  const auto top = (1.0f - x.share) * at(x.low, y.low) + x.share * at(x.high, y.low);
-  const auto low = (1.0f - x.share) * at(x.low, y.high) + x.share * at(x.high, y.high);
-  return ((1.0f - y.share) * top + y.share * low);
+  const Result top = (1.0f - x.share) * at(x.low, y.low) + x.share * at(x.high, y.low);
+  const Result low = (1.0f - x.share) * at(x.low, y.high) + x.share * at(x.high, y.high);
+  return Result((1.0f - y.share) * top + y.share * low);
 }
 
 bool InBlock(const Eigen::Vector3d& uvw) {
@@ -152,9 +154,10 @@ PredictionPicture DrawPrediction(const ShapePrediction& prediction, const core::
         const double t = span.near + (s + 0.5) * step;
         const Eigen::Vector3d uvw = prediction.frame.Locate(camera.position() + t * ray);
         const float logit = LogitAt(prediction, uvw);
-        if (logit < -4.0f) continue;
-        // 1 - (1 - p)^cells with 1 - p = 1 / (1 + e^logit), sharpened so that walls are opaque.
-        const float opacity = 1.0f - std::pow(1.0f + std::exp(2.0f * logit), -cells);
+        if (logit < -1.5f) continue;
+        // 1 - (1 - p)^cells with 1 - p = 1 / (1 + e^logit), sharpened: walls are opaque, and a ray
+        // that grazes what is less likely than not passes.
+        const float opacity = 1.0f - std::pow(1.0f + std::exp(4.0f * logit), -cells);
         color += through * opacity * ColorAt(prediction, uvw);
         depth += through * opacity * static_cast<float>(t);
         through *= 1.0f - opacity;

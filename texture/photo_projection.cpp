@@ -11,6 +11,8 @@
 namespace simwright::texture {
 namespace {
 
+constexpr int kLargestTexture = 4096;  // pixels a side
+
 struct Sample {
   Eigen::Vector3f color{0, 0, 0};
   float weight = 0.0f;  // 0: not seen
@@ -228,9 +230,17 @@ core::TexturedMesh Painted(const core::TriangleMesh& mesh, const PhotoPainter& p
   textured.mesh = mesh;
   AtlasOptions atlas;
   atlas.size = options.texture_size;
-  textured.corner_uvs = UnwrapToAtlas(mesh, atlas);
+  // A rough surface falls into more charts than a small texture has room for.
+  while (textured.corner_uvs.empty()) {
+    try {
+      textured.corner_uvs = UnwrapToAtlas(mesh, atlas);
+    } catch (const core::Error&) {
+      if (atlas.size >= kLargestTexture) throw;
+      atlas.size *= 2;
+    }
+  }
   textured.textures.push_back(
-      BakeTexture(mesh, textured.corner_uvs, options.texture_size, atlas.padding + 2,
+      BakeTexture(mesh, textured.corner_uvs, atlas.size, atlas.padding + 2,
                   [&](const SurfacePoint& point) { return painter.Color(point); }));
   textured.materials.push_back({"photo", Eigen::Vector4f::Ones(), 0});
   textured.triangle_material.assign(mesh.triangles.size(), 0);

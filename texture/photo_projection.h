@@ -12,7 +12,7 @@
 namespace simwright::texture {
 
 struct ProjectionOptions {
-  int texture_size = 1024;
+  int texture_size = 1024;  // pixels a side; doubled where the surface's pieces do not fit
   // Photo colours fade out between these cosines of the angle to the viewer: at the rim a pixel
   // smears over much surface and mixes with the background.
   double fade_from = 0.35, fade_to = 0.12;

@@ -65,7 +65,7 @@ TEST(Lift, ACylinderComesBackAsOne) {
   LiftOptions options;
   options.elevation = elevation;
   core::Progress progress;
-  const LiftedMesh lifted = LiftPhoto(photo, PotPrior(), options, &progress);
+  const LiftedMesh lifted = LiftPhoto(photo, PotPrior(), {}, options, &progress);
   EXPECT_GE(lifted.silhouette_iou, 0.97);
   EXPECT_EQ(lifted.form, ShapeForm::kUpright);
   const geometry::Soundness soundness = geometry::Examine(lifted.mesh.mesh);
@@ -81,7 +81,7 @@ TEST(Lift, EstimatesTheElevationOfAPot) {
   for (const double elevation : {0.2, 0.4, 0.6}) {
     core::Progress progress;
     const LiftedMesh lifted =
-        LiftPhoto(Photograph(Cylinder(0.04, 0.1), elevation, 300), PotPrior(), {}, &progress);
+        LiftPhoto(Photograph(Cylinder(0.04, 0.1), elevation, 300), PotPrior(), {}, {}, &progress);
     EXPECT_NEAR(lifted.elevation.elevation, elevation, 0.175) << elevation;
   }
 }
@@ -100,7 +100,7 @@ TEST(Lift, AHoleInTheOutlineGoesThroughTheMesh) {
   LiftOptions options;
   options.elevation = 0.3;
   core::Progress progress;
-  const LiftedMesh lifted = LiftPhoto(photo, {}, options, &progress);
+  const LiftedMesh lifted = LiftPhoto(photo, {}, {}, options, &progress);
   EXPECT_GE(lifted.silhouette_iou, 0.97);
   EXPECT_TRUE(geometry::Examine(lifted.mesh.mesh).Sound());
   // A ring has Euler characteristic 0, a ball 2.

@@ -1,0 +1,120 @@
+// The whole way, small: both priors trained for a few steps, a photo lifted with them.
+#include <gtest/gtest.h>
+
+#include "asset_lift/learned_view_prior.h"
+#include "asset_lift/lift.h"
+#include "asset_lift/prior_training.h"
+#include "asset_lift/shape_prior.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "geometry/soundness.h"
+#include "render/forward.h"
+
+namespace simwright::asset_lift {
+namespace {
+
+// Three boxes, not symmetric: nothing that the outline alone would turn.
+core::TexturedMesh Steps() {
+  core::TexturedMesh mesh;
+  const auto add = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+    const int first = static_cast<int>(mesh.mesh.vertices.size());
+    for (int i = 0; i < 8; ++i) {
+      mesh.mesh.vertices.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(),
+                                      i & 4 ? high.z() : low.z());
+    }
+    for (const Eigen::Vector3i& t : std::initializer_list<Eigen::Vector3i>{{0, 2, 3},
+                                                                           {0, 3, 1},
+                                                                           {4, 5, 7},
+                                                                           {4, 7, 6},
+                                                                           {0, 1, 5},
+                                                                           {0, 5, 4},
+                                                                           {2, 6, 7},
+                                                                           {2, 7, 3},
+                                                                           {0, 4, 6},
+                                                                           {0, 6, 2},
+                                                                           {1, 3, 7},
+                                                                           {1, 7, 5}}) {
+      mesh.mesh.triangles.push_back(t + Eigen::Vector3i::Constant(first));
+    }
+  };
+  add({0, 0, 0}, {0.3, 0.2, 0.05});
+  add({0, 0, 0.05}, {0.2, 0.2, 0.1});
+  add({0, 0, 0.1}, {0.08, 0.2, 0.2});
+  mesh.materials.push_back({"paint", {0.2f, 0.5f, 0.8f, 1.0f}, -1});
+  mesh.triangle_material.assign(mesh.mesh.triangles.size(), 0);
+  return mesh;
+}
+
+core::Image Photograph(const core::TexturedMesh& mesh, int size) {
+  render::Scene scene;
+  scene.Add(&mesh);
+  scene.Commit();
+  const Eigen::AlignedBox3d box = core::Bounds(mesh.mesh);
+  render::ForwardOptions options;
+  options.shaded = true;
+  options.samples_per_side = 3;
+  return render::RenderForward(scene,
+                               core::OrbitCamera(box.center(), 1.9 * box.diagonal().norm(), 0.4,
+                                                 -1.1, 0.61, size, size),
+                               options)
+      .color;
+}
+
+class FullLift : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new core::TemporaryFolder();
+    PriorTrainingOptions options;
+    options.trainer.steps = 6;
+    options.trainer.save_every = 3;
+    options.batch = 4;
+    options.pool = 4;
+    options.parametric_share = 1.0;
+    core::Progress silent;
+    shape_report_ = TrainShapeNetwork({}, options, Weights("shape.pt"), &silent);
+    view_report_ = TrainViewNetwork({}, Weights("shape.pt"), options, Weights("view.pt"), &silent);
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  static std::filesystem::path Weights(const char* name) { return folder_->path() / name; }
+
+  static core::TemporaryFolder* folder_;
+  static PriorTrainingReport shape_report_, view_report_;
+};
+core::TemporaryFolder* FullLift::folder_ = nullptr;
+PriorTrainingReport FullLift::shape_report_, FullLift::view_report_;
+
+TEST_F(FullLift, TrainingReportsAndLeavesWeightsOnly) {
+  EXPECT_EQ(shape_report_.step, 6);
+  EXPECT_GT(shape_report_.loss, 0.0);
+  ASSERT_EQ(shape_report_.metrics.size(), 2u);
+  EXPECT_EQ(view_report_.step, 6);
+  EXPECT_TRUE(std::filesystem::exists(Weights("view.pt")));
+  EXPECT_FALSE(std::filesystem::exists(Weights("view.pt.state")));
+}
+
+TEST_F(FullLift, BothStagesGiveASolidThatShowsThePhoto) {
+  LiftPriors priors;
+  priors.shape = std::make_shared<ShapePrior>(Weights("shape.pt"));
+  priors.view = LoadLearnedViewPrior(Weights("view.pt"), priors.shape);
+  LiftOptions options;
+  options.elevation = 0.4;
+  options.fit.field.stages = {{20, 48}};
+  options.fit.mesh.rounds = 1;
+  options.fit.mesh.steps_per_round = 15;
+  options.texture_size = 512;
+  core::Progress silent;
+  const core::Image photo = Photograph(Steps(), 256);
+  for (const LiftEffort effort : {LiftEffort::kFull, LiftEffort::kFast}) {
+    options.effort = effort;
+    const LiftedMesh lifted = LiftPhoto(photo, {}, priors, options, &silent);
+    EXPECT_EQ(lifted.start, "the learned prior");
+    EXPECT_TRUE(geometry::Examine(lifted.mesh.mesh).Sound());
+    // Even six steps of training cannot lead the shape away from its outline.
+    EXPECT_GT(lifted.silhouette_iou, 0.85);
+    EXPECT_EQ(lifted.mesh.textures.size(), 1u);
+  }
+  EXPECT_THROW(LoadLearnedViewPrior(Weights("shape.pt"), priors.shape), core::Error);
+}
+
+}  // namespace
+}  // namespace simwright::asset_lift

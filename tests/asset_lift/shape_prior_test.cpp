@@ -1,0 +1,131 @@
+// What the shape prior learns from, and what its answer says of points, pictures and surfaces.
+#include "asset_lift/shape_prior.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "asset_lift/first_guess.h"
+#include "asset_lift/shape_example.h"
+#include "asset_lift/training_shapes.h"
+#include "core/error.h"
+#include "geometry/mass_properties.h"
+#include "geometry/soundness.h"
+
+namespace simwright::asset_lift {
+namespace {
+
+constexpr size_t kPixels = static_cast<size_t>(kCropSide) * kCropSide;
+
+// A ball of radius 0.5 at the origin, from ten radii away: the answer a
+// perfect prior would give. The front is red, the hidden side blue.
+ShapePrediction BallPrediction() {
+  ShapePrediction ball;
+  ball.frame.camera = core::OrbitCamera(Eigen::Vector3d::Zero(), 5.0, 0.3, -1.2, 0.3, 128, 128);
+  ball.frame.center_x = ball.frame.center_y = 64;
+  ball.frame.half = 0.65 * ball.frame.camera.fx / 5.0;
+  ball.frame.depth = 5.0;
+  ball.crop = core::Image(kCropSide, kCropSide, 4);
+  ball.back = core::Image(kCropSide, kCropSide, 3);
+  ball.logits.resize(kPixels * kDepthCells);
+  ball.front_w.assign(kPixels, 0.0f);
+  ball.back_w.assign(kPixels, 0.0f);
+  const double unit = ball.frame.Radius();
+  for (int y = 0; y < kCropSide; ++y) {
+    for (int x = 0; x < kCropSide; ++x) {
+      const size_t at = static_cast<size_t>(y) * kCropSide + x;
+      const Eigen::Vector2d uv((x + 0.5) * 2 / kCropSide - 1, (y + 0.5) * 2 / kCropSide - 1);
+      ball.crop.pixels[4 * at] = 255;
+      ball.back.pixels[3 * at + 2] = 255;
+      double most = -8.0;
+      for (int k = 0; k < kDepthCells; ++k) {
+        const double w = kDepthReach * ((k + 0.5) * 2.0 / kDepthCells - 1.0);
+        const double r = ball.frame.PointAt({uv.x(), uv.y(), w}).norm();
+        const double logit = std::clamp(30.0 * (0.5 - r) / unit, -8.0, 8.0);
+        ball.logits[static_cast<size_t>(k) * kPixels + at] = static_cast<float>(logit);
+        most = std::max(most, logit);
+      }
+      ball.crop.pixels[4 * at + 3] = most > 0.0 ? 255 : 0;
+      const double left = 0.25 - std::pow(0.65 * uv.norm(), 2);
+      const double half = left > 0.0 ? std::sqrt(left) / unit : 0.0;
+      ball.front_w[at] = static_cast<float>(-half);
+      ball.back_w[at] = static_cast<float>(half);
+    }
+  }
+  return ball;
+}
+
+TEST(ShapePrediction, ABallIsABallInOddsSurfaceAndPicture) {
+  const ShapePrediction ball = BallPrediction();
+  EXPECT_GT(ball.Logit({0, 0, 0}), 4.0f);
+  EXPECT_GT(ball.Logit({0, 0, 0.4}), 1.0f);
+  EXPECT_LT(ball.Logit({0, 0, 0.6}), -1.0f);
+  EXPECT_LT(ball.Logit({9, 0, 0}), -7.0f);  // outside the block
+
+  const core::TriangleMesh surface = PredictedSurface(ball, 64);
+  EXPECT_TRUE(geometry::Examine(surface).Sound());
+  EXPECT_NEAR(geometry::SolidMassProperties(surface, 1.0).mass, M_PI / 6, 0.03);
+
+  // From the side: half of it red, half blue, and as large as the ball's outline.
+  const core::Camera side =
+      core::OrbitCamera(Eigen::Vector3d::Zero(), 5.0, 0.0, -1.2 + M_PI / 2, 0.3, 48, 48);
+  const PredictionPicture drawn = DrawPrediction(ball, side);
+  double area = 0.0, red = 0.0, blue = 0.0;
+  for (int i = 0; i < 48 * 48; ++i) {
+    area += drawn.picture.opacity.values[static_cast<size_t>(i)];
+    red += drawn.picture.color.values[static_cast<size_t>(3 * i)];
+    blue += drawn.picture.color.values[static_cast<size_t>(3 * i + 2)];
+  }
+  // A ball's outline from 5: tan of its half angle.
+  const double radius = side.fx * std::tan(std::asin(0.1));
+  EXPECT_NEAR(area, M_PI * radius * radius, 0.04 * area);
+  EXPECT_NEAR(red / (red + blue), 0.5, 0.08);
+  EXPECT_NEAR(drawn.depth.At(24, 24)[0], 4.5, 0.05);
+}
+
+TEST(FirstGuess, OddsOfAMeshFollowItsSurface) {
+  const FirstGuess guess = EllipsoidGuess(BallPrediction().frame, {0.8, 0.4});
+  const double unit = BallPrediction().frame.Radius();
+  EXPECT_TRUE(geometry::Examine(guess.surface).Sound());
+  EXPECT_NEAR(geometry::SolidMassProperties(guess.surface, 1.0).mass,
+              4.0 / 3 * M_PI * 0.8 * 0.4 * 0.4 * unit * unit * unit, 0.03 * unit * unit * unit);
+  EXPECT_NEAR(guess.odds({0, 0, 0}), 4.0, 1e-9);
+  EXPECT_NEAR(guess.odds({0, 0, 3}), -4.0, 1e-9);
+  EXPECT_NEAR(guess.odds(guess.surface.vertices[40]), 0.0, 0.2);
+}
+
+TEST(TrainingShapes, AreSeenWholeAndFillTheirTruth) {
+  for (int i = 0; i < 12; ++i) {
+    core::Rng rng = core::StreamRng(7, static_cast<std::uint64_t>(i));
+    const TrainingObject object(MakeTrainingShape(&rng), {1.1, 0.9, 1.0});
+    const ShapeExample example = MakeShapeExample(object, &rng);
+    // The outline touches the margin's inside, and each pixel of it has something behind it.
+    int covered = 0, explained = 0;
+    for (size_t p = 0; p < kPixels; ++p) {
+      if (example.picture[4 * p + 3] < 255) continue;
+      ++covered;
+      int most = 0;
+      for (int k = 0; k < kDepthCells; ++k) {
+        most = std::max<int>(most, example.occupancy[static_cast<size_t>(k) * kPixels + p]);
+      }
+      explained += most > 127;
+    }
+    EXPECT_GT(covered, 60) << i;
+    EXPECT_GT(explained, 0.9 * covered) << i;
+    EXPECT_EQ(example.picture[3], 0) << i;  // the corner is free
+    // What the frame says of the truth agrees with the mesh: its vertices lie in the block.
+    for (const Eigen::Vector3d& v : object.mesh().mesh.vertices) {
+      EXPECT_LT(example.frame.Locate(v).head<2>().cwiseAbs().maxCoeff(), 1.0) << i;
+    }
+    EXPECT_EQ(MakeTrainingShape(&(rng = core::StreamRng(7, static_cast<std::uint64_t>(i))))
+                  .mesh.vertices.size(),
+              object.mesh().mesh.vertices.size());
+  }
+}
+
+TEST(ShapePrior, RefusesWeightsThatAreNone) {
+  EXPECT_THROW(ShapePrior("/nowhere/shape_prior.pt"), core::Error);
+}
+
+}  // namespace
+}  // namespace simwright::asset_lift
