@@ -183,7 +183,12 @@ class Fit {
       mesh_ = smoothed;
       return;
     }
-    geometry::Solid solid = geometry::MakeSolid(mesh_);
+    // The fit's own error is larger than what a fine wrap would keep, at a tenth of the time.
+    geometry::SolidOptions coarse;
+    coarse.cell_ratio = 0.006;
+    coarse.tolerance_ratio = 0.012;
+    coarse.sheet_thickness_ratio = 0.0108;
+    geometry::Solid solid = geometry::MakeSolid(mesh_, coarse);
     Report("made-solid", core::Severity::kInfo,
            std::string("the surface was no solid: ") + geometry::Name(solid.method));
     colors_ = ColorsAt(solid.mesh.vertices, mesh_, colors_);
