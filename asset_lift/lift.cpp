@@ -118,7 +118,7 @@ void FitAndPaint(const InflatedShape& outline, const LiftPriors& priors, const L
   }
   // A body of revolution is known to the pixel; of other things the learned guess knows more.
   const bool learned =
-      prediction && !prediction->Box().isEmpty() && outline.form == ShapeForm::kInflated;
+      prediction && !prediction->box.isEmpty() && outline.form == ShapeForm::kInflated;
   const FirstGuess guess = learned ? GuessFrom(*prediction) : GuessFrom(outline.mesh);
   lifted->start = learned ? "the learned prior" : std::string("the outline, ") + Name(outline.form);
   std::unique_ptr<ScoreDistillation> in_field, in_mesh;

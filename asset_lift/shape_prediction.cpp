@@ -113,19 +113,19 @@ Eigen::Vector3f ShapePrediction::Color(const Eigen::Vector3d& point) const {
   return ColorAt(*this, frame.Locate(point));
 }
 
-Eigen::AlignedBox3d ShapePrediction::Box() const {
+Eigen::AlignedBox3d FilledBox(const ShapePrediction& prediction) {
   Eigen::AlignedBox3d box;
   const double step = 2.0 / kCropSide, deep = 2.0 * kDepthReach / kDepthCells;
-  for (size_t i = 0; i < logits.size(); ++i) {
-    if (logits[i] <= 0.0f) continue;
+  for (size_t i = 0; i < prediction.logits.size(); ++i) {
+    if (prediction.logits[i] <= 0.0f) continue;
     const size_t pixel = i % kPixels;
     const Eigen::Vector3d middle(step * (static_cast<double>(pixel % kCropSide) + 0.5) - 1.0,
                                  step * (static_cast<double>(pixel / kCropSide) + 0.5) - 1.0,
                                  deep * (static_cast<double>(i / kPixels) + 0.5) - kDepthReach);
     for (int corner = 0; corner < 8; ++corner) {
-      box.extend(frame.PointAt(middle + Eigen::Vector3d((corner & 1 ? 1 : -1) * step,
-                                                        (corner & 2 ? 1 : -1) * step,
-                                                        (corner & 4 ? 1 : -1) * deep)));
+      box.extend(prediction.frame.PointAt(middle + Eigen::Vector3d((corner & 1 ? 1 : -1) * step,
+                                                                   (corner & 2 ? 1 : -1) * step,
+                                                                   (corner & 4 ? 1 : -1) * deep)));
     }
   }
   return box;
@@ -137,7 +137,7 @@ PredictionPicture DrawPrediction(const ShapePrediction& prediction, const core::
   drawn.picture.color = core::FloatImage(camera.width, camera.height, 3);
   drawn.picture.opacity = core::FloatImage(camera.width, camera.height, 1);
   drawn.depth = core::FloatImage(camera.width, camera.height, 1);
-  const Eigen::AlignedBox3d box = prediction.Box();
+  const Eigen::AlignedBox3d box = prediction.box;
   if (box.isEmpty() || samples < 1) return drawn;
   // A cell of even odds lets half through; steps of other lengths as Beer-Lambert says.
   const double cell = 2.0 * kDepthReach / kDepthCells * prediction.frame.Radius();
@@ -171,7 +171,7 @@ PredictionPicture DrawPrediction(const ShapePrediction& prediction, const core::
 }
 
 core::TriangleMesh PredictedSurface(const ShapePrediction& prediction, int resolution) {
-  const Eigen::AlignedBox3d box = prediction.Box();
+  const Eigen::AlignedBox3d box = prediction.box;
   if (box.isEmpty()) throw core::Error("the shape prior sees nothing in the picture");
   if (resolution < 8) throw core::Error("a surface takes at least 8 cells");
   geometry::ScalarGrid grid;

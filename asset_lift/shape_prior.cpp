@@ -100,6 +100,7 @@ std::vector<ShapePrediction> ShapePrior::Predict(const std::vector<core::Image>&
     p.elevation = elevation[at][0].item<double>();
     p.elevation_deviation = std::exp(std::clamp(elevation[at][1].item<double>(), -4.0, 1.0));
     HoldToOutline(&p);
+    p.box = FilledBox(p);
   }
   return predictions;
 }

@@ -32,8 +32,11 @@ struct ShapePrediction {
   // column, the predicted ones of the hidden side in the other.
   Eigen::Vector3f Color(const Eigen::Vector3d& point) const;
   // World box of the cells that are more likely filled than not; empty where there are none.
-  Eigen::AlignedBox3d Box() const;
+  Eigen::AlignedBox3d box;
 };
+
+// What ShapePrediction::box holds, from the other members: whoever makes a prediction fills it.
+Eigen::AlignedBox3d FilledBox(const ShapePrediction& prediction);
 
 // The prediction drawn from any camera, by `samples` steps through its box: colour and opacity as a
 // fit shows them, and the depth (m, 0 where nothing is) times opacity.

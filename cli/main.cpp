@@ -1,4 +1,8 @@
+#include <stdlib.h>
+#include <unistd.h>
+
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -42,9 +46,18 @@ int Main(int argc, char** argv) {
   return run();
 }
 
+// libtorch's threads wait for each other by spinning, unless told otherwise before its OpenMP
+// starts: beside other work a network then runs several times slower. Told by starting once more.
+void WaitWithoutSpinning(char** argv) {
+  if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
+  setenv("OMP_WAIT_POLICY", "passive", 1);
+  execv("/proc/self/exe", argv);  // where that fails the program goes on as it is
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  WaitWithoutSpinning(argv);
   try {
     return Main(argc, argv);
   } catch (const simwright::core::Cancelled&) {

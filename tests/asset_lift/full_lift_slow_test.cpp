@@ -65,7 +65,7 @@ class FullLift : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = new core::TemporaryFolder();
     PriorTrainingOptions options;
-    options.trainer.steps = 6;
+    options.trainer.steps = 4;
     options.trainer.save_every = 3;
     options.batch = 4;
     options.pool = 4;
@@ -84,10 +84,10 @@ core::TemporaryFolder* FullLift::folder_ = nullptr;
 PriorTrainingReport FullLift::shape_report_, FullLift::view_report_;
 
 TEST_F(FullLift, TrainingReportsAndLeavesWeightsOnly) {
-  EXPECT_EQ(shape_report_.step, 6);
+  EXPECT_EQ(shape_report_.step, 4);
   EXPECT_GT(shape_report_.loss, 0.0);
   ASSERT_EQ(shape_report_.metrics.size(), 2u);
-  EXPECT_EQ(view_report_.step, 6);
+  EXPECT_EQ(view_report_.step, 4);
   EXPECT_TRUE(std::filesystem::exists(Weights("view.pt")));
   EXPECT_FALSE(std::filesystem::exists(Weights("view.pt.state")));
 }
@@ -98,9 +98,9 @@ TEST_F(FullLift, BothStagesGiveASolidThatShowsThePhoto) {
   priors.view = LoadLearnedViewPrior(Weights("view.pt"), priors.shape);
   LiftOptions options;
   options.elevation = 0.4;
-  options.fit.field.stages = {{20, 48}};
+  options.fit.field.stages = {{8, 48}};
   options.fit.mesh.rounds = 1;
-  options.fit.mesh.steps_per_round = 15;
+  options.fit.mesh.steps_per_round = 6;
   options.texture_size = 512;
   core::Progress silent;
   const core::Image photo = Photograph(Steps(), 256);
@@ -109,7 +109,7 @@ TEST_F(FullLift, BothStagesGiveASolidThatShowsThePhoto) {
     const LiftedMesh lifted = LiftPhoto(photo, {}, priors, options, &silent);
     EXPECT_EQ(lifted.start, "the learned prior");
     EXPECT_TRUE(geometry::Examine(lifted.mesh.mesh).Sound());
-    // Even six steps of training cannot lead the shape away from its outline.
+    // Even four steps of training cannot lead the shape away from its outline.
     EXPECT_GT(lifted.silhouette_iou, 0.85);
     EXPECT_EQ(lifted.mesh.textures.size(), 1u);
   }

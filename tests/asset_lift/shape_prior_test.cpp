@@ -52,6 +52,7 @@ ShapePrediction BallPrediction() {
       ball.back_w[at] = static_cast<float>(half);
     }
   }
+  ball.box = FilledBox(ball);
   return ball;
 }
 
