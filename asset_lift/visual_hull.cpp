@@ -9,6 +9,7 @@
 #include "asset_lift/space_carving.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "geometry/weld.h"
 
 namespace simwright::asset_lift {
 namespace {
@@ -76,6 +77,25 @@ Eigen::AlignedBox3d InsideBounds(const geometry::ScalarGrid& field) {
     box.max().array() += 1.5 * field.cell;
   }
   return box;
+}
+
+// Without specks and bubbles: parts of less than a hundredth of the largest one's volume.
+core::TriangleMesh LargeParts(const core::TriangleMesh& mesh) {
+  int count = 0;
+  const std::vector<int> part = geometry::EdgeComponents(mesh, &count);
+  std::vector<double> volume(count, 0.0);
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Eigen::Vector3i& t = mesh.triangles[f];
+    volume[part[f]] +=
+        mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6.0;
+  }
+  const double least = 0.01 * *std::max_element(volume.begin(), volume.end());
+  core::TriangleMesh kept;
+  kept.vertices = mesh.vertices;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (volume[part[f]] >= least) kept.triangles.push_back(mesh.triangles[f]);
+  }
+  return geometry::WithoutUnusedVertices(kept);
 }
 
 [[noreturn]] void ThrowNothingLeft() {
@@ -242,9 +262,9 @@ core::TriangleMesh VisualHull(const std::vector<ObservedView>& views,
   if (options.color_tolerance > 0.0) {
     CarveByColor(views, options.color_tolerance, &field, progress);
   }
-  core::TriangleMesh hull = geometry::ExtractIsosurface(field, 0.0f);
+  const core::TriangleMesh hull = geometry::ExtractIsosurface(field, 0.0f);
   if (hull.empty()) ThrowNothingLeft();
-  return hull;
+  return LargeParts(hull);
 }
 
 }  // namespace simwright::asset_lift
