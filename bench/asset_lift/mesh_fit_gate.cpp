@@ -1,7 +1,7 @@
 // Meshes fitted to 16 pictures (masks and colours, 128 x 128) with known cameras: how far the
 // result is from the true surface, and how long it takes.
 //   bench_mesh_fit_gate [NAME] [VIEWS] [PIXELS]
-// Starts: a sphere; the true surface wrapped coarsely (alpha 1/8, offset 1/40 of the diagonal);
+// Starts: a sphere; the true surface wrapped coarsely (alpha 1/15, offset 1/60 of the diagonal);
 // the visual hull; the hull carved by colour.
 // Chamfer: mean of the two mean nearest distances, 20000 points each, over the diagonal.
 #include <chrono>
@@ -42,8 +42,8 @@ void Fit(const FitShape& shape, const std::string& from, int count, int size) {
     options.last_edge_ratio = 0.015;
     if (from == "wrap") {
       geometry::AlphaWrapOptions wrap;
-      wrap.alpha_ratio = 1.0 / 8.0;
-      wrap.offset_ratio = 1.0 / 40.0;
+      wrap.alpha_ratio = 1.0 / 15.0;
+      wrap.offset_ratio = 1.0 / 60.0;
       start = geometry::AlphaWrap(shape.mesh, wrap);
     } else {
       asset_lift::VisualHullOptions hull;
