@@ -52,8 +52,9 @@ struct MeshFitResult {
   std::vector<double> mask_iou;                // by view, at the fit's resolution
   std::vector<double> color_error;             // by view: mean |difference| a pixel of the object
   int steps = 0;
-  bool complete = true;     // false: stopped early with the last good mesh
-  core::Findings findings;  // steps back, remeshing left out, how crossings were removed
+  bool complete = true;  // false: stopped early with the last good mesh
+  // Steps back, remeshing left out, how crossings were removed, views that contradict the others.
+  core::Findings findings;
 };
 
 // Moves the mesh until its pictures are those of the views, and `objective` (may be null; then

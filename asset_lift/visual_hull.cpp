@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "asset_lift/space_carving.h"
+#include "asset_lift/view_agreement.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "geometry/weld.h"
@@ -98,9 +99,12 @@ core::TriangleMesh LargeParts(const core::TriangleMesh& mesh) {
   return geometry::WithoutUnusedVertices(kept);
 }
 
-[[noreturn]] void ThrowNothingLeft() {
+[[noreturn]] void ThrowNothingLeft(const std::vector<ObservedView>& views) {
+  std::string which;
+  for (const int i : ExamineViews(views).contradicting) which += " " + std::to_string(i);
   throw core::Error("no place lies within all the masks", "visual hull",
-                    "the cameras contradict each other or a mask shows something else");
+                    which.empty() ? "the cameras contradict each other or the grid is too coarse"
+                                  : "these views contradict the others:" + which);
 }
 
 }  // namespace
@@ -245,7 +249,7 @@ Eigen::AlignedBox3d HullBounds(const std::vector<ObservedView>& views) {
   Eigen::AlignedBox3d box = ReachBox(views);
   for (int round = 0; round < 2; ++round) {
     const Eigen::AlignedBox3d inside = InsideBounds(HullField(views, box, 40));
-    if (inside.isEmpty()) ThrowNothingLeft();
+    if (inside.isEmpty()) ThrowNothingLeft(views);
     box = inside;
   }
   return box;
@@ -263,7 +267,7 @@ core::TriangleMesh VisualHull(const std::vector<ObservedView>& views,
     CarveByColor(views, options.color_tolerance, &field, progress);
   }
   const core::TriangleMesh hull = geometry::ExtractIsosurface(field, 0.0f);
-  if (hull.empty()) ThrowNothingLeft();
+  if (hull.empty()) ThrowNothingLeft(views);
   return LargeParts(hull);
 }
 

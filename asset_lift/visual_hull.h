@@ -34,9 +34,9 @@ void RequireValid(const std::vector<ObservedView>& views);
 // Whatever lies in all the masks' cones and, where a view has depths, not in front of them: an
 // outer bound of what was seen, and the start of a fit. A view says nothing about places beyond a
 // border that its mask touches. Specks of less than a hundredth of the largest part's volume are
-// left out. Closed, oriented, free of self-intersections, m. Throws core::Error
-// where no place lies in all masks, for views that are not valid or fewer than two;
-// core::Cancelled.
+// left out. Closed, oriented, free of self-intersections, m. Throws core::Error where no place lies
+// in all masks (naming the views that ExamineViews blames), for views that are not valid or fewer
+// than two; core::Cancelled.
 core::TriangleMesh VisualHull(const std::vector<ObservedView>& views,
                               const VisualHullOptions& options = {},
                               core::Progress* progress = nullptr);

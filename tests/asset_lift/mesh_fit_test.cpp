@@ -254,6 +254,17 @@ TEST(MeshFit, TheSameSeedGivesTheSameMesh) {
   EXPECT_EQ(one.vertex_colors, two.vertex_colors);
 }
 
+TEST(MeshFit, AWrongCameraIsNamed) {
+  std::vector<ObservedView> views = ViewsOf(Hook(), 6, 48);
+  views[4].camera.world_from_camera =
+      Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ()) * views[4].camera.world_from_camera;
+  MeshFitOptions options = Quick();
+  options.rounds = options.steps_per_round = 1;
+  const MeshFitResult result = FitMesh(Sphere(0.1), views, nullptr, options);
+  ASSERT_EQ(Count(result, "view-contradicts"), 1);
+  EXPECT_EQ(result.findings.back().place, "view 4");
+}
+
 TEST(MeshFit, BadInputIsNamed) {
   const std::vector<ObservedView> views = ViewsOf(Sphere(0.1), 2, 24);
   EXPECT_THROW(FitMesh({}, views, nullptr), core::Error);
