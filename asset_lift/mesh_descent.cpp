@@ -34,6 +34,11 @@ void Scale(float factor, core::FloatImage* image) {
   for (float& v : image->values) v *= factor;
 }
 
+bool AllFinite(const core::FloatImage& image) {
+  return std::all_of(image.values.begin(), image.values.end(),
+                     [](float v) { return std::isfinite(v); });
+}
+
 bool AllFinite(const std::vector<Eigen::Vector3f>& vectors) {
   for (const Eigen::Vector3f& v : vectors) {
     if (!v.allFinite()) return false;
@@ -98,6 +103,8 @@ double MeshDescent::AddObjective(PictureObjective* objective, double progress, c
   const ObjectPicture shown{picture.color, picture.mask};
   ObjectPicture gradient;
   const double loss = objective->Evaluate(camera, shown, progress, rng, &gradient);
+  // Where the mask has no edge its gradient moves nothing and would not show.
+  if (!AllFinite(gradient.color) || !AllFinite(gradient.opacity)) return kNotFinite;
   const auto weight = static_cast<float>(options_.objective_weight);
   Scale(weight, &gradient.color);
   Scale(weight, &gradient.opacity);

@@ -6,6 +6,7 @@
 
 #include "asset_lift/crossing_repair.h"
 #include "asset_lift/mesh_descent.h"
+#include "asset_lift/view_agreement.h"
 #include "asset_lift/visual_hull.h"
 #include "core/error.h"
 #include "geometry/remesh.h"
@@ -263,7 +264,12 @@ MeshFitResult FitMesh(const core::TriangleMesh& start, const std::vector<Observe
   if (views.empty() && objective == nullptr) {
     throw core::Error("there is neither a view nor an objective to fit to", "mesh fit");
   }
-  return Fit(start, views, objective, options, progress).Run();
+  MeshFitResult result = Fit(start, views, objective, options, progress).Run();
+  if (views.size() >= 2) {
+    const core::Findings disagreements = ExamineViews(views).findings;
+    result.findings.insert(result.findings.end(), disagreements.begin(), disagreements.end());
+  }
+  return result;
 }
 
 }  // namespace simwright::asset_lift

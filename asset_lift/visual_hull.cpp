@@ -7,8 +7,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "asset_lift/space_carving.h"
+#include "asset_lift/view_agreement.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "geometry/weld.h"
 
 namespace simwright::asset_lift {
 namespace {
@@ -78,9 +80,31 @@ Eigen::AlignedBox3d InsideBounds(const geometry::ScalarGrid& field) {
   return box;
 }
 
-[[noreturn]] void ThrowNothingLeft() {
+// Without specks and bubbles: parts of less than a hundredth of the largest one's volume.
+core::TriangleMesh LargeParts(const core::TriangleMesh& mesh) {
+  int count = 0;
+  const std::vector<int> part = geometry::EdgeComponents(mesh, &count);
+  std::vector<double> volume(count, 0.0);
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Eigen::Vector3i& t = mesh.triangles[f];
+    volume[part[f]] +=
+        mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6.0;
+  }
+  const double least = 0.01 * *std::max_element(volume.begin(), volume.end());
+  core::TriangleMesh kept;
+  kept.vertices = mesh.vertices;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (volume[part[f]] >= least) kept.triangles.push_back(mesh.triangles[f]);
+  }
+  return geometry::WithoutUnusedVertices(kept);
+}
+
+[[noreturn]] void ThrowNothingLeft(const std::vector<ObservedView>& views) {
+  std::string which;
+  for (const int i : ExamineViews(views).contradicting) which += " " + std::to_string(i);
   throw core::Error("no place lies within all the masks", "visual hull",
-                    "the cameras contradict each other or a mask shows something else");
+                    which.empty() ? "the cameras contradict each other or the grid is too coarse"
+                                  : "these views contradict the others:" + which);
 }
 
 }  // namespace
@@ -225,7 +249,7 @@ Eigen::AlignedBox3d HullBounds(const std::vector<ObservedView>& views) {
   Eigen::AlignedBox3d box = ReachBox(views);
   for (int round = 0; round < 2; ++round) {
     const Eigen::AlignedBox3d inside = InsideBounds(HullField(views, box, 40));
-    if (inside.isEmpty()) ThrowNothingLeft();
+    if (inside.isEmpty()) ThrowNothingLeft(views);
     box = inside;
   }
   return box;
@@ -242,9 +266,9 @@ core::TriangleMesh VisualHull(const std::vector<ObservedView>& views,
   if (options.color_tolerance > 0.0) {
     CarveByColor(views, options.color_tolerance, &field, progress);
   }
-  core::TriangleMesh hull = geometry::ExtractIsosurface(field, 0.0f);
-  if (hull.empty()) ThrowNothingLeft();
-  return hull;
+  const core::TriangleMesh hull = geometry::ExtractIsosurface(field, 0.0f);
+  if (hull.empty()) ThrowNothingLeft(views);
+  return LargeParts(hull);
 }
 
 }  // namespace simwright::asset_lift

@@ -17,10 +17,11 @@ struct VisualHullOptions {
   int cells = 96;
   // Where to look, world, m; empty: found from where the masks' cones cross.
   Eigen::AlignedBox3d bounds;
-  // Largest standard deviation of the colours (sRGB, the worst channel) that the views which see a
-  // place may find there; where it is more, it is air (space carving, Kutulakos and Seitz 2000).
-  // Opens hollows that no outline shows, but needs patterned surfaces, even light, true cameras.
-  // 0: masks (and depths, where given) alone. 0.1 is a start.
+  // Largest standard deviation of the colours (sRGB, all channels together) that the views which
+  // see a place may find there; where it is more, it is air (space carving, Kutulakos and Seitz
+  // 2000). Opens hollows that no outline shows, but needs patterned surfaces, even light and true
+  // cameras; where it would eat what the masks show, it is left out. 0: masks (and depths, where
+  // given) alone. 0.1 is a start.
   double color_tolerance = 0.0;
 
   bool IsValid(std::string* error) const;
@@ -32,9 +33,10 @@ void RequireValid(const std::vector<ObservedView>& views);
 
 // Whatever lies in all the masks' cones and, where a view has depths, not in front of them: an
 // outer bound of what was seen, and the start of a fit. A view says nothing about places beyond a
-// border that its mask touches. Closed, oriented, free of self-intersections, m. Throws core::Error
-// where no place lies in all masks, for views that are not valid or fewer than two;
-// core::Cancelled.
+// border that its mask touches. Specks of less than a hundredth of the largest part's volume are
+// left out. Closed, oriented, free of self-intersections, m. Throws core::Error where no place lies
+// in all masks (naming the views that ExamineViews blames), for views that are not valid or fewer
+// than two; core::Cancelled.
 core::TriangleMesh VisualHull(const std::vector<ObservedView>& views,
                               const VisualHullOptions& options = {},
                               core::Progress* progress = nullptr);

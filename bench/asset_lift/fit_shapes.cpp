@@ -94,11 +94,12 @@ std::vector<Eigen::Vector3f> Pattern(const core::TriangleMesh& mesh) {
 }  // namespace
 
 std::vector<FitShape> FitShapes() {
-  return {{"bumpy sphere", Surface(BumpySphere, 0.13, 96), true},
-          {"torus", Surface([](const Eigen::Vector3d& p) { return Ring(p, 0.1, 0.035); }, 0.15, 96),
-           false},
-          {"mug", Surface(Mug, 0.08, 160), false},
-          {"chair", Surface(Chair, 0.5, 160), false}};
+  return {{"bumpy sphere", Surface(BumpySphere, 0.13, 96), {"sphere"}},
+          {"torus",
+           Surface([](const Eigen::Vector3d& p) { return Ring(p, 0.1, 0.035); }, 0.15, 96),
+           {"wrap", "hull"}},
+          {"mug", Surface(Mug, 0.08, 160), {"wrap", "hull", "carved"}},
+          {"chair", Surface(Chair, 0.5, 160), {"wrap", "hull"}}};
 }
 
 std::vector<asset_lift::ObservedView> PatternedViews(const core::TriangleMesh& mesh, int count,
@@ -112,12 +113,14 @@ std::vector<asset_lift::ObservedView> PatternedViews(const core::TriangleMesh& m
   const Eigen::AlignedBox3d box = core::Bounds(mesh);
   constexpr double kFov = 0.6;
   const double distance = 0.54 * box.diagonal().norm() / std::sin(0.5 * kFov);
-  const double elevations[] = {-0.35, 0.2, 0.6, 1.05};
+  // Evenly over the sphere from 25 deg below to 70 deg above, a golden turn apart.
+  const auto elevation = [&](int i) { return std::asin(-0.42 + 1.36 * (i + 0.5) / count); };
+  const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
   std::vector<asset_lift::ObservedView> views;
   for (int i = 0; i < count; ++i) {
     asset_lift::ObservedView view;
-    view.camera = core::OrbitCamera(box.center(), distance, elevations[i % 4],
-                                    2.0 * std::numbers::pi * i / count, kFov, size, size);
+    view.camera =
+        core::OrbitCamera(box.center(), distance, elevation(i), turn * i, kFov, size, size);
     const render::DifferentiableBuffers& picture = renderer.Render(view.camera, 100 + i);
     view.opacity = picture.mask;
     view.color = picture.color;

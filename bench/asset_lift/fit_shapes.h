@@ -12,13 +12,13 @@ namespace simwright {
 struct FitShape {
   std::string name;
   core::TriangleMesh mesh;
-  bool like_a_ball = false;  // the fit starts from a sphere, else from the visual hull
+  std::vector<std::string> starts;  // of fits: "sphere", "wrap", "hull", "carved"
 };
 
 // Bumpy sphere, torus, mug (hollow, with a handle) and chair, about 0.2 to 1 m.
 std::vector<FitShape> FitShapes();
 
-// `count` pictures from all round, four elevations (-20 to 60 deg), `size` pixels a side, 64
+// `count` pictures from all round, 25 deg below to 70 deg above, `size` pixels a side, 64
 // samples a pixel, of the mesh with a smooth pattern of colours and baked light. Not lit.
 std::vector<asset_lift::ObservedView> PatternedViews(const core::TriangleMesh& mesh, int count,
                                                      int size);

@@ -1,0 +1,284 @@
+#include "asset_lift/mesh_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "asset_lift/crossing_repair.h"
+#include "asset_lift/large_steps.h"
+#include "asset_lift/normal_penalty.h"
+#include "asset_lift/view_loss.h"
+#include "core/error.h"
+#include "geometry/soundness.h"
+#include "geometry/surface_distance.h"
+#include "tests/asset_lift/fit_scene.h"
+
+namespace simwright::asset_lift {
+namespace {
+
+double Chamfer(const core::TriangleMesh& one, const core::TriangleMesh& other) {
+  const auto mean = [](const core::TriangleMesh& from, const core::TriangleMesh& to) {
+    const std::vector<double> d =
+        geometry::DistancesToSurface(geometry::SampleSurface(from, 4000, 7), to);
+    return std::accumulate(d.begin(), d.end(), 0.0) / static_cast<double>(d.size());
+  };
+  return 0.5 * (mean(one, other) + mean(other, one));
+}
+
+MeshFitOptions Quick() {
+  MeshFitOptions options;
+  options.rounds = 2;
+  options.steps_per_round = 40;
+  options.first_edge_ratio = 0.07;
+  options.last_edge_ratio = 0.045;
+  options.max_side = 48;
+  options.views_per_step = 2;
+  options.edge_samples = 1500;
+  return options;
+}
+
+TEST(LargeSteps, SolveUndoesApplyAndKeepsTranslations) {
+  const core::TriangleMesh mesh = Sphere(0.1);
+  const LargeSteps steps(mesh, 5.0);
+  const Eigen::MatrixX3d v =
+      Eigen::MatrixX3d::Random(static_cast<Eigen::Index>(mesh.vertices.size()), 3);
+  EXPECT_LT((steps.Solve(steps.Apply(v)) - v).norm(), 1e-9 * v.norm());
+  const Eigen::MatrixX3d one = Eigen::MatrixX3d::Ones(v.rows(), 3);
+  EXPECT_LT((steps.Apply(one) - one).norm(), 1e-9);
+  // A spike at one vertex is spread: the matrix' inverse smooths.
+  Eigen::MatrixX3d spike = Eigen::MatrixX3d::Zero(v.rows(), 3);
+  spike(7, 0) = 1.0;
+  const Eigen::MatrixX3d spread = steps.Solve(spike);
+  EXPECT_LT(spread(7, 0), 0.2);
+  EXPECT_GT(spread.col(0).minCoeff(), -1e-12);
+  EXPECT_NEAR(spread.col(0).sum(), 1.0, 1e-9);
+  EXPECT_THROW(LargeSteps(mesh, -1.0), core::Error);
+}
+
+TEST(LargeSteps, AdamKeepsTheGradientsDirection) {
+  AdamUniform adam(2);
+  Eigen::MatrixX3d gradient(2, 3);
+  gradient << 3.0, -1.0, 0.5, 0.1, 0.0, 2.0;
+  // With the first step's corrections: -rate * g / max|g|.
+  const Eigen::MatrixX3d step = adam.Step(gradient, 0.3);
+  EXPECT_LT((step + 0.1 * gradient).norm(), 1e-12);
+}
+
+TEST(NormalPenalty, DerivativeMatchesDifferences) {
+  core::TriangleMesh mesh = BumpySphere();
+  const NormalPenalty penalty(mesh);
+  std::vector<Eigen::Vector3d> gradient(mesh.vertices.size(), Eigen::Vector3d::Zero()), unused;
+  penalty.Add(mesh.vertices, 2.0, &gradient);
+  for (const int v : {3, 100, 999}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      constexpr double kStep = 1e-7;
+      const auto value = [&](double by) {
+        std::vector<Eigen::Vector3d> moved = mesh.vertices;
+        moved[v][axis] += by;
+        unused.assign(moved.size(), Eigen::Vector3d::Zero());
+        return 2.0 * penalty.Add(moved, 1.0, &unused);
+      };
+      const double difference = (value(kStep) - value(-kStep)) / (2.0 * kStep);
+      EXPECT_NEAR(gradient[v][axis], difference, 1e-3 * gradient[v].norm());
+    }
+  }
+}
+
+TEST(ViewLoss, TargetsAreAveragedDown) {
+  std::vector<ObservedView> views = ViewsOf(Sphere(0.1), 1, 64);
+  const ViewTarget target = MakeTarget(views[0], 16);
+  EXPECT_EQ(target.camera.width, 16);
+  EXPECT_NEAR(target.camera.fx, views[0].camera.fx / 4.0, 1e-9);
+  const double area =
+      std::accumulate(views[0].opacity.values.begin(), views[0].opacity.values.end(), 0.0);
+  EXPECT_NEAR(target.area, area / 16.0, 1e-3);
+  const ViewTarget same = MakeTarget(views[0], 100);
+  EXPECT_EQ(same.opacity.values, views[0].opacity.values);
+  // 64 to 48: each small pixel holds 4/3 of a large one, the sum of areas stays.
+  EXPECT_NEAR(MakeTarget(views[0], 48).area, area * 0.5625, 1e-2);
+}
+
+TEST(ViewLoss, DerivativeMatchesDifferences) {
+  const std::vector<ObservedView> views = ViewsOf(Sphere(0.1), 2, 12);
+  const ViewTarget target = MakeTarget(views[0], 12);
+  render::DifferentiableBuffers picture{views[1].color, views[1].opacity, views[1].depth, {}};
+  ViewLossWeights weights;
+  weights.length = 0.3;
+  render::DifferentiableBuffers gradient, unused;
+  ViewLoss(target, picture, weights, &gradient);
+  const auto check = [&](core::FloatImage* image, const core::FloatImage& slope, int at) {
+    const float value = image->values[at];
+    image->values[at] = value + 1e-3f;
+    const double up = ViewLoss(target, picture, weights, &unused);
+    image->values[at] = value - 1e-3f;
+    const double down = ViewLoss(target, picture, weights, &unused);
+    image->values[at] = value;
+    EXPECT_NEAR((up - down) / 2e-3, slope.values[at], 1e-3 * std::abs(slope.values[at]) + 1e-6);
+  };
+  const int middle = 6 * 12 + 4;
+  check(&picture.color, gradient.color, 3 * middle + 1);
+  check(&picture.depth, gradient.depth, middle);
+  check(&picture.mask, gradient.mask, 14);
+  EXPECT_NE(gradient.depth.values[middle], 0.0f);
+}
+
+TEST(CrossingRepair, AFoldIsSmoothedAway) {
+  core::TriangleMesh mesh = Sphere(0.1);
+  mesh.vertices[50] = -1.1 * mesh.vertices[50];  // through the other side
+  ASSERT_GT(geometry::Examine(mesh).self_intersections, 0);
+  EXPECT_TRUE(SmoothCrossings(&mesh, 15));
+  EXPECT_TRUE(geometry::Examine(mesh).Sound());
+}
+
+TEST(MeshFit, ABumpySphereFromASphere) {
+  const core::TriangleMesh truth = BumpySphere();
+  const std::vector<ObservedView> views = ViewsOf(truth, 8, 48);
+  const core::TriangleMesh start = Sphere(0.085);
+  const MeshFitResult result = FitMesh(start, views, nullptr, Quick());
+  const double diagonal = core::Bounds(truth).diagonal().norm();
+  EXPECT_GT(Chamfer(start, truth), 0.03 * diagonal);
+  EXPECT_LT(Chamfer(result.mesh, truth), 0.007 * diagonal);
+  EXPECT_TRUE(geometry::Examine(result.mesh).Sound());
+  EXPECT_TRUE(result.complete);
+  EXPECT_EQ(result.steps, 80);
+  ASSERT_EQ(result.mask_iou.size(), 8u);
+  for (const double iou : result.mask_iou) EXPECT_GT(iou, 0.95);
+  for (const double error : result.color_error) EXPECT_LT(error, 0.08);
+  EXPECT_EQ(result.vertex_colors.size(), result.mesh.vertices.size());
+}
+
+// One camera cannot tell size from distance; depths can.
+TEST(MeshFit, DepthsPlaceWhatMasksAloneCannot) {
+  std::vector<ObservedView> views = ViewsOf(Sphere(0.1), 1, 48);
+  views[0].color = {};
+  // A smaller ball, nearer: nearly the same outline.
+  core::TriangleMesh start = Sphere(0.08);
+  const Eigen::Vector3d eye = views[0].camera.position();
+  for (Eigen::Vector3d& v : start.vertices) v += 0.2 * eye;
+  MeshFitOptions options = Quick();
+  options.views_per_step = 1;
+  // How far the front of the mesh is from where it should be.
+  const auto miss = [&](const core::TriangleMesh& mesh) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector3d& v : mesh.vertices) nearest = std::min(nearest, (v - eye).norm());
+    return std::abs(nearest - (eye.norm() - 0.1));
+  };
+  ASSERT_GT(miss(start), 0.09);
+  const double with_depth = miss(FitMesh(start, views, nullptr, options).mesh);
+  views[0].depth = {};
+  const double without = miss(FitMesh(start, views, nullptr, options).mesh);
+  EXPECT_LT(with_depth, 0.01);
+  EXPECT_GT(without, 0.05);
+}
+
+// Asks for a picture like a view's, from the view's camera; may go wrong on the way.
+class LikeAView : public PictureObjective {
+ public:
+  LikeAView(const std::vector<ObservedView>& views, int wrong_from, int wrong_to)
+      : wrong_from_(wrong_from), wrong_to_(wrong_to) {
+    for (const ObservedView& view : views) targets_.push_back(MakeTarget(view, 48));
+  }
+  core::Camera NextCamera(double, core::Rng* rng) override {
+    at_ = static_cast<int>(core::UniformIndex(*rng, static_cast<int>(targets_.size())));
+    return targets_[at_].camera;
+  }
+  double Evaluate(const core::Camera&, const ObjectPicture& picture, double, core::Rng*,
+                  ObjectPicture* gradient) override {
+    render::DifferentiableBuffers shown, slope;
+    shown.color = picture.color;
+    shown.mask = picture.opacity;
+    ViewLossWeights weights;
+    weights.depth = 0.0;
+    const double loss = ViewLoss(targets_[at_], shown, weights, &slope);
+    *gradient = {slope.color, slope.mask};
+    const int call = calls_++;
+    if (call >= wrong_from_ && call < wrong_to_) {
+      gradient->opacity.values[30 * 48 + 24] = std::numeric_limits<float>::quiet_NaN();
+    }
+    return loss;
+  }
+
+ private:
+  std::vector<ViewTarget> targets_;
+  int at_ = 0, calls_ = 0, wrong_from_, wrong_to_;
+};
+
+int Count(const MeshFitResult& result, const std::string& code) {
+  int count = 0;
+  for (const core::Finding& finding : result.findings) count += finding.code == code;
+  return count;
+}
+
+TEST(MeshFit, AnObjectiveAloneShapesTheMesh) {
+  const core::TriangleMesh truth = BumpySphere();
+  LikeAView objective(ViewsOf(truth, 8, 48), 0, 0);
+  MeshFitOptions options = Quick();
+  options.steps_per_round = 80;
+  const MeshFitResult result = FitMesh(Sphere(0.085), {}, &objective, options);
+  EXPECT_LT(Chamfer(result.mesh, truth), 0.01 * core::Bounds(truth).diagonal().norm());
+  EXPECT_EQ(result.steps, 160);
+}
+
+TEST(MeshFit, NotFiniteNowAndThenCostsAStepBack) {
+  const core::TriangleMesh truth = BumpySphere();
+  const std::vector<ObservedView> views = ViewsOf(truth, 8, 48);
+  LikeAView objective(views, 33, 35);
+  const MeshFitResult result = FitMesh(Sphere(0.085), views, &objective, Quick());
+  EXPECT_TRUE(result.complete);
+  EXPECT_EQ(Count(result, "stepped-back"), 2);
+  EXPECT_EQ(result.steps, 78);
+  EXPECT_LT(Chamfer(result.mesh, truth), 0.01 * core::Bounds(truth).diagonal().norm());
+}
+
+TEST(MeshFit, NotFiniteForGoodStopsWithTheLastGoodMesh) {
+  const core::TriangleMesh truth = BumpySphere();
+  const std::vector<ObservedView> views = ViewsOf(truth, 8, 48);
+  LikeAView objective(views, 30, 1000);
+  const MeshFitResult result = FitMesh(Sphere(0.085), views, &objective, Quick());
+  EXPECT_FALSE(result.complete);
+  EXPECT_EQ(Count(result, "stopped-early"), 1);
+  EXPECT_EQ(result.steps, 30);
+  EXPECT_TRUE(geometry::Examine(result.mesh).Sound());
+  EXPECT_LT(Chamfer(result.mesh, truth), 0.03 * core::Bounds(truth).diagonal().norm());
+}
+
+TEST(MeshFit, TheSameSeedGivesTheSameMesh) {
+  const std::vector<ObservedView> views = ViewsOf(BumpySphere(), 4, 32);
+  MeshFitOptions options = Quick();
+  options.steps_per_round = 10;
+  const MeshFitResult one = FitMesh(Sphere(0.085), views, nullptr, options);
+  const MeshFitResult two = FitMesh(Sphere(0.085), views, nullptr, options);
+  EXPECT_EQ(one.mesh.vertices, two.mesh.vertices);
+  EXPECT_EQ(one.vertex_colors, two.vertex_colors);
+}
+
+TEST(MeshFit, AWrongCameraIsNamed) {
+  std::vector<ObservedView> views = ViewsOf(Hook(), 6, 48);
+  views[4].camera.world_from_camera =
+      Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ()) * views[4].camera.world_from_camera;
+  MeshFitOptions options = Quick();
+  options.rounds = options.steps_per_round = 1;
+  const MeshFitResult result = FitMesh(Sphere(0.1), views, nullptr, options);
+  ASSERT_EQ(Count(result, "view-contradicts"), 1);
+  EXPECT_EQ(result.findings.back().place, "view 4");
+}
+
+TEST(MeshFit, BadInputIsNamed) {
+  const std::vector<ObservedView> views = ViewsOf(Sphere(0.1), 2, 24);
+  EXPECT_THROW(FitMesh({}, views, nullptr), core::Error);
+  EXPECT_THROW(FitMesh(Sphere(0.1), {}, nullptr), core::Error);
+  MeshFitOptions options;
+  options.step_ratio = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(FitMesh(Sphere(0.1), views, nullptr, options), core::Error);
+  options = {};
+  options.color_weight = -1.0;
+  EXPECT_THROW(FitMesh(Sphere(0.1), views, nullptr, options), core::Error);
+  std::vector<ObservedView> broken = views;
+  broken[1].camera.fx = 0.0;
+  EXPECT_THROW(FitMesh(Sphere(0.1), broken, nullptr), core::Error);
+}
+
+}  // namespace
+}  // namespace simwright::asset_lift
