@@ -119,7 +119,9 @@ QualityRow Measured(const Truth& truth, const std::string& variant, const Varian
     if (sheet.wanted() && variant == sheet_variant) {
       sheet.Add(truth.index, truth.made.photo, views, truth.views);
     }
-  } catch (const core::Error& error) {
+  } catch (const core::Cancelled&) {
+    throw;
+  } catch (const std::exception& error) {  // libtorch's too: one object does not end the table
     row = QualityRow::Failed(error.what());
   }
   row.object = truth.key;
@@ -245,6 +247,7 @@ void MeasureObject(const HeldOutPiece& piece, size_t index, const Settings& sett
 int Run(const Settings& settings) {
   if (settings.choose) return Choose(settings);
   if (settings.summary) {
+    if (!fs::exists(settings.out)) throw core::Error("--summary wants a table", settings.out);
     PrintSummary(QualityTable(settings.out, true).rows());
     return 0;
   }
