@@ -120,10 +120,25 @@ Eigen::Vector2d DifferentiablePass::SamplePosition(int x, int y, int sample) con
   return {x + (sample % n + High(bits)) / n, y + (sample / n + Low(bits)) / n};
 }
 
-SeenPoint DifferentiablePass::SeenAlong(const Eigen::Vector3d& ray) const {
-  const Eigen::Vector3f direction = (camera_.world_from_camera.linear() * ray).cast<float>();
-  const Hit hit = tree_.Intersect(origin_, direction, static_cast<float>(options_.near), kFar);
-  return {hit.instance, hit.triangle, hit.u, hit.v, hit.depth};
+void DifferentiablePass::TraceRow(int y, SeenPoint* seen) const {
+  const int samples = options_.samples_per_side * options_.samples_per_side;
+  const int rays = camera_.width * samples;
+  const Eigen::Matrix3d turn = camera_.world_from_camera.linear();
+  const auto near = static_cast<float>(options_.near);
+  Eigen::Vector3f directions[RayTree::kBundle];
+  Hit hits[RayTree::kBundle];
+  for (int first = 0; first < rays; first += RayTree::kBundle) {
+    const int count = std::min(RayTree::kBundle, rays - first);
+    for (int k = 0; k < count; ++k) {
+      const int ray = first + k;
+      directions[k] =
+          (turn * RayThrough(SamplePosition(ray / samples, y, ray % samples))).cast<float>();
+    }
+    tree_.IntersectBundle(origin_, directions, count, near, kFar, hits);
+    for (int k = 0; k < count; ++k) {
+      seen[first + k] = {hits[k].instance, hits[k].triangle, hits[k].u, hits[k].v, hits[k].depth};
+    }
+  }
 }
 
 void DifferentiablePass::Draw(const core::Camera& camera, std::uint64_t seed,
@@ -148,12 +163,12 @@ void DifferentiablePass::Draw(const core::Camera& camera, std::uint64_t seed,
 void DifferentiablePass::DrawRow(int y, DifferentiableBuffers* buffers) {
   const int samples = options_.samples_per_side * options_.samples_per_side;
   SeenPoint* seen = &seen_[static_cast<std::size_t>(y) * camera_.width * samples];
+  TraceRow(y, seen);
   for (int x = 0; x < camera_.width; ++x) {
     Eigen::Vector3d color = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
     double depth = 0.0;
     int covered = 0;
     for (int s = 0; s < samples; ++s, ++seen) {
-      *seen = SeenAlong(RayThrough(SamplePosition(x, y, s)));
       if (seen->object < 0) continue;
       const SurfaceValue value = shading_.Value(*seen);
       ++covered;

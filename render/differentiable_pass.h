@@ -32,7 +32,8 @@ class DifferentiablePass {
   Eigen::Vector3d RayThrough(const Eigen::Vector2d& pixel) const {
     return {(pixel.x() - camera_.cx) / camera_.fx, (pixel.y() - camera_.cy) / camera_.fy, 1.0};
   }
-  SeenPoint SeenAlong(const Eigen::Vector3d& ray) const;
+  // Traces a row's rays, in its order of samples.
+  void TraceRow(int y, SeenPoint* seen) const;
 
   void BackpropagateRow(int y, const DifferentiableBuffers& gradient, GradientSums* sums) const;
   void BackpropagateEdges(int slice, int slices, const DifferentiableBuffers& gradient,

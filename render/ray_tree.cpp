@@ -2,6 +2,8 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 
 namespace simwright::render {
@@ -129,6 +131,40 @@ Hit RayTree::Intersect(const Eigen::Vector3f& origin, const Eigen::Vector3f& dir
   rtcInitIntersectContext(&context);
   rtcIntersect1(embree_->scene, &context, &query);
   return Answer(query);
+}
+
+void RayTree::IntersectBundle(const Eigen::Vector3f& origin, const Eigen::Vector3f* directions,
+                              int count, float near, float far, Hit* hits) const {
+  static_assert(kBundle == 8);
+  RTCRayHit8 query;
+  alignas(32) int valid[kBundle];
+  for (int k = 0; k < kBundle; ++k) {
+    const Eigen::Vector3f& direction = directions[std::min(k, count - 1)];
+    valid[k] = k < count ? -1 : 0;
+    query.ray.org_x[k] = origin.x();
+    query.ray.org_y[k] = origin.y();
+    query.ray.org_z[k] = origin.z();
+    query.ray.tnear[k] = near;
+    query.ray.dir_x[k] = direction.x();
+    query.ray.dir_y[k] = direction.y();
+    query.ray.dir_z[k] = direction.z();
+    query.ray.time[k] = 0.0f;
+    query.ray.tfar[k] = far;
+    query.ray.mask[k] = ~0u;
+    query.ray.id[k] = query.ray.flags[k] = 0;
+    query.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect8(valid, embree_->scene, &context, &query);
+  for (int k = 0; k < count; ++k) {
+    hits[k] = {};
+    if (query.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
+    hits[k] = {query.ray.tfar[k], static_cast<int>(query.hit.geomID[k]),
+               static_cast<int>(query.hit.primID[k]), query.hit.u[k], query.hit.v[k]};
+  }
 }
 
 Hit RayTree::IntersectIgnoring(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
