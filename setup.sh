@@ -9,7 +9,7 @@ packages=(
   libeigen3-dev libassimp-dev libcgal-dev libembree-dev libopencv-dev libopencv-contrib-dev
   libbullet-dev libbullet-extras-dev liburdfdom-dev libmujoco-dev nlohmann-json3-dev
   libcli11-dev libtinyxml2-dev libzip-dev libexif-dev libgif-dev libwebp-dev libconsole-bridge-dev
-  wordnet-base libtorch-dev libopenblas0-pthread libceres-dev libgtest-dev
+  wordnet-base libtorch-dev libopenblas0-pthread libgtest-dev
   libbenchmark-dev libsdformat-dev
 )
 for wanted in "$@"; do

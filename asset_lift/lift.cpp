@@ -146,6 +146,53 @@ void FitAndPaint(const InflatedShape& outline, const LiftPriors& priors, const L
                                    hidden, projection);
 }
 
+void Tell(const std::string& code, const std::string& sentence, double figure, LiftedMesh* lifted) {
+  lifted->findings.push_back({code, core::Severity::kInfo, "", sentence, figure});
+}
+
+// Scales the photo, cuts the object out and gives it room. Returns the focal length in pixels of
+// the photo as it is then.
+double CutOut(const core::Image& photo, const CategoryPrior& prior, const LiftOptions& options,
+              LiftedMesh* lifted) {
+  lifted->photo = ScaledDown(photo, options.max_side);
+  SegmentationOptions segmentation = options.segmentation;
+  segmentation.seed = options.seed;
+  segmentation.round_object = prior.round;
+  lifted->matte = SegmentObject(lifted->photo, options.mask, segmentation);
+  const int longer = std::max(lifted->photo.width, lifted->photo.height);
+  std::string camera_sentence;
+  double focal = FocalLength(lifted->photo, options, &camera_sentence);
+  if (const int factor = longer < 200 ? 3 : 1; factor > 1) {
+    lifted->photo =
+        core::Resize(lifted->photo, lifted->photo.width * factor, lifted->photo.height * factor);
+    lifted->matte = Enlarged(lifted->matte, factor);
+    focal *= factor;
+  }
+  Tell("segmentation", "the object was cut out by " + lifted->matte.method, lifted->matte.area,
+       lifted);
+  Tell("camera", camera_sentence, focal, lifted);
+  if (const double touched = PadWhereCutOff(&lifted->photo, &lifted->matte); touched > 0.0) {
+    lifted->findings.push_back({"border", core::Severity::kWarning, "",
+                                "the object touches the photo's border: what is cut off is guessed",
+                                touched});
+  }
+  return focal;
+}
+
+void PlaceCamera(double focal, const CategoryPrior& prior, const LiftOptions& options,
+                 LiftedMesh* lifted) {
+  lifted->elevation = EstimateElevation(lifted->matte, prior);
+  if (options.elevation >= 0.0) {
+    lifted->elevation = {options.elevation, 0.0, "elevation given"};
+  } else if (prior.revolved && !prior.round) {
+    lifted->elevation = RefineElevation(lifted->matte, focal, lifted->elevation);
+  }
+  // Level sight lines never cross the planes in which a turned body's discs lie.
+  const double elevation = std::clamp(lifted->elevation.elevation, 0.03, 1.5);
+  lifted->camera = PhotoCamera(lifted->matte, focal, elevation);
+  Tell("elevation", lifted->elevation.sentence, elevation, lifted);
+}
+
 }  // namespace
 
 LiftOptions::LiftOptions() {
@@ -156,41 +203,9 @@ LiftOptions::LiftOptions() {
 LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior, const LiftPriors& priors,
                      const LiftOptions& options, core::Progress* progress) {
   LiftedMesh lifted;
-  const auto tell = [&](const std::string& code, const std::string& sentence, double figure) {
-    lifted.findings.push_back({code, core::Severity::kInfo, "", sentence, figure});
-  };
   progress->Stage("segmentation");
-  lifted.photo = ScaledDown(photo, options.max_side);
-  SegmentationOptions segmentation = options.segmentation;
-  segmentation.seed = options.seed;
-  segmentation.round_object = prior.round;
-  lifted.matte = SegmentObject(lifted.photo, options.mask, segmentation);
-  const int longer = std::max(lifted.photo.width, lifted.photo.height);
-  std::string camera_sentence;
-  double focal = FocalLength(lifted.photo, options, &camera_sentence);
-  if (const int factor = longer < 200 ? 3 : 1; factor > 1) {
-    lifted.photo =
-        core::Resize(lifted.photo, lifted.photo.width * factor, lifted.photo.height * factor);
-    lifted.matte = Enlarged(lifted.matte, factor);
-    focal *= factor;
-  }
-  tell("segmentation", "the object was cut out by " + lifted.matte.method, lifted.matte.area);
-  tell("camera", camera_sentence, focal);
-  if (const double touched = PadWhereCutOff(&lifted.photo, &lifted.matte); touched > 0.0) {
-    lifted.findings.push_back({"border", core::Severity::kWarning, "",
-                               "the object touches the photo's border: what is cut off is guessed",
-                               touched});
-  }
-  lifted.elevation = EstimateElevation(lifted.matte, prior);
-  if (options.elevation >= 0.0) {
-    lifted.elevation = {options.elevation, 0.0, "elevation given"};
-  } else if (prior.revolved && !prior.round) {
-    lifted.elevation = RefineElevation(lifted.matte, focal, lifted.elevation);
-  }
-  // Level sight lines never cross the planes in which a turned body's discs lie.
-  const double elevation = std::clamp(lifted.elevation.elevation, 0.03, 1.5);
-  lifted.camera = PhotoCamera(lifted.matte, focal, elevation);
-  tell("elevation", lifted.elevation.sentence, elevation);
+  const double focal = CutOut(photo, prior, options, &lifted);
+  PlaceCamera(focal, prior, options, &lifted);
   progress->Stage("outline");
   const InflatedShape outline =
       InflateOutline(lifted.matte, lifted.camera, prior, options.inflation);
@@ -207,7 +222,7 @@ LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior, const
     FitAndPaint(outline, priors, options, projection, progress, &lifted);
   }
   progress->Finish();
-  tell("shape", "the shape began as " + lifted.start, lifted.silhouette_iou);
+  Tell("shape", "the shape began as " + lifted.start, lifted.silhouette_iou, &lifted);
   return lifted;
 }
 

@@ -47,8 +47,9 @@ PriorTrainingReport TrainShapeNetwork(const std::vector<core::TexturedMesh>& mes
                                       core::Progress* progress,
                                       const PriorTrainingListener& report = {});
 
-// The view prior's network, which builds upon the shape prior of `shape_weights`. Metrics: the mean
-// squared error of the noise, and that of guessing from the shape prior's drawing alone.
+// The view prior's network, which builds upon the shape prior of `shape_weights`. The loss is
+// the mean squared error of the noise; the metric is that of guessing from the shape prior's drawing
+// alone.
 PriorTrainingReport TrainViewNetwork(const std::vector<core::TexturedMesh>& meshes,
                                      const std::filesystem::path& shape_weights,
                                      const PriorTrainingOptions& options,

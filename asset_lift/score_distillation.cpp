@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "asset_lift/image_tensor.h"
 #include "asset_lift/view_prior.h"
 #include "core/error.h"
 #include "nn/compute.h"
@@ -12,21 +13,6 @@ namespace {
 
 double Annealed(double first, double last, double anneal, double progress) {
   return first + (last - first) * std::min(1.0, progress / std::max(anneal, 1e-6));
-}
-
-torch::Tensor Planes(const core::FloatImage& image) {
-  return torch::from_blob(const_cast<float*>(image.values.data()),
-                          {1, image.height, image.width, image.channels}, torch::kFloat)
-      .permute({0, 3, 1, 2});
-}
-
-void CopyChannels(const torch::Tensor& planes, int first, core::FloatImage* image) {
-  const torch::Tensor rows = planes[0]
-                                 .slice(0, first, first + image->channels)
-                                 .permute({1, 2, 0})
-                                 .to(torch::kCPU)
-                                 .contiguous();
-  std::copy_n(rows.data_ptr<float>(), image->values.size(), image->values.begin());
 }
 
 // Noise from our own generator: the same seed gives the same fit whatever libtorch draws.
@@ -73,15 +59,8 @@ ScoreDistillation::ScoreDistillation(std::shared_ptr<ViewPrior> prior, const Vie
 ScoreDistillation::~ScoreDistillation() = default;
 
 core::Camera ScoreDistillation::NextCamera(double /*progress*/, core::Rng* rng) {
-  // Even over the sphere's band between the two elevations.
-  const double low = std::sin(options_.elevation_min), high = std::sin(options_.elevation_max);
-  const double elevation = std::asin(core::Uniform(*rng, low, high));
-  const double azimuth = core::Uniform(*rng, 0.0, 2.0 * M_PI);
-  const double distance = frame_.camera.position().norm();
-  // As wide as the crop of the reference, and a little, since other sides may be longer.
-  const double fov = 2.0 * std::atan(1.25 * frame_.half / frame_.camera.fx);
-  const int side = options_.side > 0 ? options_.side : prior_->side();
-  return core::OrbitCamera(Eigen::Vector3d::Zero(), distance, elevation, azimuth, fov, side, side);
+  return RandomCameraAround(frame_, options_.elevation_min, options_.elevation_max,
+                            options_.side > 0 ? options_.side : prior_->side(), rng);
 }
 
 double ScoreDistillation::Evaluate(const core::Camera& camera, const ObjectPicture& picture,
@@ -96,7 +75,8 @@ double ScoreDistillation::Evaluate(const core::Camera& camera, const ObjectPictu
                   std::clamp<std::int64_t>(std::llround(steps * core::Uniform(*rng, t_min, t_max)),
                                            0, static_cast<std::int64_t>(steps) - 1),
                   torch::kLong);
-  torch::Tensor given = torch::cat({Planes(picture.color), Planes(picture.opacity)}, 1);
+  torch::Tensor given =
+      torch::cat({TensorFromImage(picture.color), TensorFromImage(picture.opacity)}, 1);
   given.requires_grad_(true);
   const int side = prior_->side();
   const torch::Tensor seen =
@@ -123,8 +103,8 @@ double ScoreDistillation::Evaluate(const core::Camera& camera, const ObjectPictu
   latent.backward(step);
   *gradient = {core::FloatImage(picture.color.width, picture.color.height, 3),
                core::FloatImage(picture.color.width, picture.color.height, 1)};
-  CopyChannels(given.grad(), 0, &gradient->color);
-  CopyChannels(given.grad(), 3, &gradient->opacity);
+  ImageFromTensor(given.grad(), 0, &gradient->color);
+  ImageFromTensor(given.grad(), 3, &gradient->opacity);
   return 0.5 * step.square().mean().item<double>();
 }
 

@@ -3,13 +3,10 @@
 #include "asset_lift/prior_training.h"
 #include "asset_lift/shape_example.h"
 #include "asset_lift/shape_network.h"
-#include "asset_lift/training_means.h"
-#include "asset_lift/training_pool.h"
+#include "asset_lift/training_loop.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "nn/checkpoint.h"
 #include "nn/compute.h"
-#include "nn/trainer.h"
 
 namespace simwright::asset_lift {
 namespace {
@@ -98,20 +95,6 @@ Losses LossesOf(const ShapeNetworkOutput& output, const Batch& batch) {
 
 }  // namespace
 
-bool PriorTrainingOptions::IsValid(std::string* error) const {
-  const auto fail = [&](const char* why) {
-    if (error != nullptr) *error = why;
-    return false;
-  };
-  if (!trainer.IsValid(error)) return false;
-  if (batch < 1) return fail("training needs a photo a step");
-  if (pool < 1 || exchange < 0 || exchange > pool) return fail("the pool is too small");
-  if (!(parametric_share >= 0.0 && parametric_share <= 1.0)) {
-    return fail("the share of parametric shapes lies in [0, 1]");
-  }
-  return true;
-}
-
 PriorTrainingReport TrainShapeNetwork(const std::vector<core::TexturedMesh>& meshes,
                                       const PriorTrainingOptions& options,
                                       const std::filesystem::path& weights,
@@ -124,38 +107,18 @@ PriorTrainingReport TrainShapeNetwork(const std::vector<core::TexturedMesh>& mes
   const torch::Device device = nn::BestDevice();
   ShapeNetwork network;
   network->to(device);
-  nn::Trainer trainer(network.get(), options.trainer, weights.string() + ".state");
-  progress->Stage("preparing shapes");
-  TrainingPool pool(&meshes, options.pool, options.parametric_share,
-                    options.seed + 1000003ull * static_cast<std::uint64_t>(trainer.first_step()));
-  const int steps = options.trainer.steps;
-  progress->Stage("shape prior", steps - trainer.first_step());
-  TrainingMeans means({"volume IoU", "elevation error, deg"}, steps, report);
-  for (int step = trainer.first_step(); step < steps; ++step) {
-    pool.Exchange(options.exchange);
-    Batch batch = DrawBatch(pool, options.batch, options.seed, static_cast<std::uint64_t>(step));
-    batch = {batch.pictures.to(device), batch.occupancy.to(device), batch.back.to(device),
-             batch.elevation.to(device)};
-    const Losses losses = LossesOf(network(batch.pictures), batch);
-    trainer.Descend(step, losses.total);
-    means.Add(step, losses.total.item<double>(), {losses.iou, losses.elevation_error});
-    if (trainer.SaveDue(step)) {
-      trainer.SaveState(step + 1);
-      ShapeNetwork kept;
-      trainer.CopyAverageTo(kept.get());
-      nn::SaveCheckpoint(*kept,
-                         {{"kind", "shape"},
-                          {"step", std::to_string(step + 1)},
-                          {"batch", std::to_string(options.batch)},
-                          {"seed", std::to_string(options.seed)},
-                          {"meshes", std::to_string(meshes.size())}},
-                         weights);
-    }
-    progress->Advance();
-  }
-  progress->Finish();
-  trainer.Finish();
-  return means.last();
+  ShapeNetwork kept;
+  const PriorTraining training{
+      "shape", {"volume IoU", "elevation error, deg"}, 0, network.get(), kept.get()};
+  return TrainPrior(training, meshes, options, weights, progress, report,
+                    [&](const TrainingPool& pool, int step) {
+                      Batch batch = DrawBatch(pool, options.batch, options.seed,
+                                              static_cast<std::uint64_t>(step));
+                      batch = {batch.pictures.to(device), batch.occupancy.to(device),
+                               batch.back.to(device), batch.elevation.to(device)};
+                      const Losses losses = LossesOf(network(batch.pictures), batch);
+                      return PriorLoss{losses.total, {losses.iou, losses.elevation_error}};
+                    });
 }
 
 }  // namespace simwright::asset_lift

@@ -96,7 +96,7 @@ class Assembly {
     core::Append(part, &shape_.mesh);
   }
 
-  // Edges towards the origin's axis, four of them, at (+-x, +-y).
+  // Four legs at (+-x, +-y), from the floor up.
   void AddLegs(double x, double y, double height, double thick, int material) {
     const bool round = Chance(0.4);
     const double taper = Draw(0.5, 1.0);
@@ -258,9 +258,10 @@ void Chair(Assembly* a) {
   }
   if (a->Chance(0.35)) {
     const double high = seat + a->Draw(0.12, 0.3), wide = a->Draw(0.05, 0.2);
+    const bool panel = a->Chance(0.5);  // down to the floor, or a rail in the air
     for (const int side : {-1, 1}) {
-      a->Add(BoxPart({wide, 2 * y, a->Chance(0.5) ? 0.06 : high}),
-             {side * x, 0, a->Chance(0.5) ? high : 0.5 * high}, Eigen::Matrix3d::Identity(), 1);
+      a->Add(BoxPart({wide, 2 * y, panel ? high : 0.06}), {side * x, 0, panel ? 0.5 * high : high},
+             Eigen::Matrix3d::Identity(), 1);
     }
   }
   if (a->Chance(0.75)) {

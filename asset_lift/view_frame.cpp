@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
+
 namespace simwright::asset_lift {
 
 Eigen::Vector3d ViewFrame::Direction() const {
@@ -41,8 +43,22 @@ ViewFrame FrameAround(const Matte& matte, const core::Camera& camera, double dep
   return frame;
 }
 
+core::Camera RandomCameraAround(const ViewFrame& frame, double elevation_min, double elevation_max,
+                                int side, core::Rng* rng) {
+  const double elevation =
+      std::asin(core::Uniform(*rng, std::sin(elevation_min), std::sin(elevation_max)));
+  const double azimuth = core::Uniform(*rng, 0.0, 2.0 * M_PI);
+  const double fov = 2.0 * std::atan(1.25 * frame.half / frame.camera.fx);
+  return core::OrbitCamera(Eigen::Vector3d::Zero(), frame.camera.position().norm(), elevation,
+                           azimuth, fov, side, side);
+}
+
 ObservedView CropView(const core::Image& photo, const core::Image& alpha, const ViewFrame& frame,
                       int side) {
+  if (photo.width != alpha.width || photo.height != alpha.height || alpha.channels != 1 ||
+      side < 1) {
+    throw core::Error("a crop wants a photo and a matte of one size");
+  }
   ObservedView view;
   view.camera = frame.CropCamera(side);
   const double scale = side / (2.0 * frame.half);

@@ -5,6 +5,7 @@
 #include "asset_lift/observed_view.h"
 #include "asset_lift/segmentation.h"
 #include "core/camera.h"
+#include "core/random.h"
 
 namespace simwright::asset_lift {
 
@@ -33,8 +34,15 @@ struct ViewFrame {
 ViewFrame FrameAround(const Matte& matte, const core::Camera& camera, double depth,
                       double margin = 1.15);
 
+// A camera on a sphere about the world's origin, as far as the frame's, even over the band between
+// the two elevations (rad), `side` pixels a side. It sees a quarter more than the crop, since other
+// sides of the object may be longer.
+core::Camera RandomCameraAround(const ViewFrame& frame, double elevation_min, double elevation_max,
+                                int side, core::Rng* rng);
+
 // The crop of `frame` out of a picture, averaged by area, as a view of `side` pixels a side with
-// its own camera. `photo` and `alpha` (1 channel) as large as the frame's camera says.
+// its own camera. Throws core::Error unless `photo` and `alpha` (1 channel) are of one size and
+// `side` >= 1.
 ObservedView CropView(const core::Image& photo, const core::Image& alpha, const ViewFrame& frame,
                       int side);
 

@@ -2,19 +2,9 @@
 
 #include <cmath>
 
+#include "asset_lift/image_tensor.h"
+
 namespace simwright::asset_lift {
-namespace {
-
-// (1 x C x H x W) from (H x W x C).
-torch::Tensor Planes(const core::FloatImage& image) {
-  return torch::from_blob(const_cast<float*>(image.values.data()),
-                          {1, image.height, image.width, image.channels}, torch::kFloat)
-      .permute({0, 3, 1, 2})
-      .contiguous();
-}
-
-}  // namespace
-
 ViewNetworkImpl::ViewNetworkImpl(const ViewNetworkOptions& options)
     : embedding_(options.embedding) {
   nn::UNetOptions body;
@@ -37,15 +27,16 @@ torch::Tensor ViewNetworkImpl::forward(const torch::Tensor& noisy, const torch::
 }
 
 torch::Tensor PictureTensor(const ObjectPicture& picture) {
-  return 2.0 * torch::cat({Planes(picture.color), Planes(picture.opacity)}, 1) - 1.0;
+  return 2.0 * torch::cat({TensorFromImage(picture.color), TensorFromImage(picture.opacity)}, 1) -
+         1.0;
 }
 
 torch::Tensor DrawnTensor(const PredictionPicture& drawn, const core::Camera& camera,
                           double radius) {
-  const torch::Tensor opacity = Planes(drawn.picture.opacity);
+  const torch::Tensor opacity = TensorFromImage(drawn.picture.opacity);
   // Depth times opacity, about the middle times opacity: 0 where nothing is.
   const torch::Tensor depth =
-      (Planes(drawn.depth) - camera.position().norm() * opacity) / std::max(radius, 1e-6);
+      (TensorFromImage(drawn.depth) - camera.position().norm() * opacity) / std::max(radius, 1e-6);
   return torch::cat({PictureTensor(drawn.picture), depth}, 1);
 }
 

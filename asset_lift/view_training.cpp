@@ -5,14 +5,12 @@
 #include "asset_lift/shape_example.h"
 #include "asset_lift/shape_network.h"
 #include "asset_lift/shape_prior.h"
-#include "asset_lift/training_means.h"
-#include "asset_lift/training_pool.h"
+#include "asset_lift/training_loop.h"
 #include "asset_lift/view_network.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "nn/checkpoint.h"
 #include "nn/compute.h"
-#include "nn/trainer.h"
+#include "nn/diffusion_schedule.h"
 #include "render/forward.h"
 
 namespace simwright::asset_lift {
@@ -22,6 +20,8 @@ namespace {
 constexpr int kViewsAPhoto = 4;
 // Of the pictures no condition is told, so that guidance has something to lead away from.
 constexpr double kBlindShare = 0.1;
+// What score distillation asks for: ScoreDistillationOptions.
+constexpr double kElevationMin = -0.17, kElevationMax = 1.4;  // rad
 
 struct ViewBatch {
   torch::Tensor clean;   // (B x 4 x S x S)
@@ -57,15 +57,6 @@ ObjectPicture TrueView(const TrainingObject& object, const core::Camera& camera,
   return picture;
 }
 
-// As score distillation asks for them (ScoreDistillation::NextCamera).
-core::Camera OtherCamera(const ViewFrame& frame, core::Rng* rng) {
-  const double elevation = std::asin(core::Uniform(*rng, std::sin(-0.17), std::sin(1.4)));
-  const double azimuth = core::Uniform(*rng, 0.0, 2.0 * M_PI);
-  const double fov = 2.0 * std::atan(1.25 * frame.half / frame.camera.fx);
-  return core::OrbitCamera(Eigen::Vector3d::Zero(), frame.camera.position().norm(), elevation,
-                           azimuth, fov, kViewSide, kViewSide);
-}
-
 ViewBatch DrawViews(const TrainingPool& pool, const ShapePrior& shape, int size, std::uint64_t seed,
                     std::uint64_t step) {
   const int photos = std::max(1, size / kViewsAPhoto);
@@ -90,7 +81,8 @@ ViewBatch DrawViews(const TrainingPool& pool, const ShapePrior& shape, int size,
     const auto at = static_cast<size_t>(i), photo = at / kViewsAPhoto;
     core::Rng rng =
         core::StreamRng(seed ^ 0x0c0ffeeull, step * 4096 + static_cast<std::uint64_t>(i));
-    const core::Camera from = OtherCamera(frames[photo], &rng);
+    const core::Camera from =
+        RandomCameraAround(frames[photo], kElevationMin, kElevationMax, kViewSide, &rng);
     clean[at] = PictureTensor(TrueView(*objects[photo], from, examples[photo].light));
     const bool blind = core::Uniform(rng) < kBlindShare;
     camera[at] = CameraTensor(frames[photo].camera, from);
@@ -101,6 +93,20 @@ ViewBatch DrawViews(const TrainingPool& pool, const ShapePrior& shape, int size,
                       : PicturesFromRgba(examples[photo].picture.data(), 1, kCropSide);
   });
   return {torch::cat(clean), torch::cat(drawn), torch::cat(taken), torch::cat(camera)};
+}
+
+// The network's mean squared error of the noise; as its metric, that of guessing the noise from the
+// shape prior's drawing alone.
+PriorLoss DenoisingLoss(ViewNetwork network, const nn::DiffusionSchedule& schedule,
+                        const ViewBatch& batch) {
+  const torch::Tensor t = torch::randint(0, schedule.steps(), {batch.clean.size(0)},
+                                         batch.clean.options().dtype(torch::kLong));
+  const torch::Tensor noise = torch::randn_like(batch.clean);
+  const torch::Tensor noisy = schedule.AddNoise(batch.clean, noise, t);
+  const torch::Tensor guess = network(noisy, batch.drawn, batch.taken, batch.camera, t);
+  const torch::Tensor from_drawing =
+      (noisy - schedule.Signal(t) * batch.drawn.slice(1, 0, 4)) / schedule.Noise(t);
+  return {torch::mse_loss(guess, noise), {torch::mse_loss(from_drawing, noise).item<double>()}};
 }
 
 }  // namespace
@@ -118,49 +124,18 @@ PriorTrainingReport TrainViewNetwork(const std::vector<core::TexturedMesh>& mesh
   const ShapePrior shape(shape_weights);
   ViewNetwork network;
   network->to(device);
-  nn::Trainer trainer(network.get(), options.trainer, weights.string() + ".state");
-  progress->Stage("preparing shapes");
-  TrainingPool pool(
-      &meshes, options.pool, options.parametric_share,
-      options.seed + 77 + 1000003ull * static_cast<std::uint64_t>(trainer.first_step()));
+  ViewNetwork kept;
   const nn::DiffusionSchedule schedule = nn::DiffusionSchedule::Cosine(kViewDiffusionSteps);
-  const int steps = options.trainer.steps;
-  progress->Stage("view prior", steps - trainer.first_step());
-  TrainingMeans means({"noise error", "noise error of the drawing"}, steps, report);
-  for (int step = trainer.first_step(); step < steps; ++step) {
-    pool.Exchange(options.exchange);
-    ViewBatch batch =
-        DrawViews(pool, shape, options.batch, options.seed, static_cast<std::uint64_t>(step));
-    const torch::Tensor clean = batch.clean.to(device), drawn = batch.drawn.to(device);
-    const torch::Tensor t = torch::randint(0, schedule.steps(), {clean.size(0)},
-                                           torch::TensorOptions(torch::kLong).device(device));
-    const torch::Tensor noise = torch::randn_like(clean);
-    const torch::Tensor noisy = schedule.AddNoise(clean, noise, t);
-    const torch::Tensor guess =
-        network(noisy, drawn, batch.taken.to(device), batch.camera.to(device), t);
-    const torch::Tensor loss = torch::mse_loss(guess, noise);
-    trainer.Descend(step, loss);
-    const torch::Tensor plain =
-        (noisy - schedule.Signal(t) * drawn.slice(1, 0, 4)) / schedule.Noise(t);
-    const double of_drawing = torch::mse_loss(plain, noise).item<double>();
-    means.Add(step, loss.item<double>(), {loss.item<double>(), of_drawing});
-    if (trainer.SaveDue(step)) {
-      trainer.SaveState(step + 1);
-      ViewNetwork kept;
-      trainer.CopyAverageTo(kept.get());
-      nn::SaveCheckpoint(*kept,
-                         {{"kind", "view"},
-                          {"step", std::to_string(step + 1)},
-                          {"batch", std::to_string(options.batch)},
-                          {"seed", std::to_string(options.seed)},
-                          {"meshes", std::to_string(meshes.size())}},
-                         weights);
-    }
-    progress->Advance();
-  }
-  progress->Finish();
-  trainer.Finish();
-  return means.last();
+  const PriorTraining training{
+      "view", {"noise error of the drawing"}, 77, network.get(), kept.get()};
+  return TrainPrior(training, meshes, options, weights, progress, report,
+                    [&](const TrainingPool& pool, int step) {
+                      ViewBatch batch = DrawViews(pool, shape, options.batch, options.seed,
+                                                  static_cast<std::uint64_t>(step));
+                      batch = {batch.clean.to(device), batch.drawn.to(device),
+                               batch.taken.to(device), batch.camera.to(device)};
+                      return DenoisingLoss(network, schedule, batch);
+                    });
 }
 
 }  // namespace simwright::asset_lift

@@ -1,5 +1,7 @@
+#include <cmath>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "pipeline/prior_training.h"
@@ -15,6 +17,31 @@ struct Flags {
   std::string only;
 };
 
+void PrintLine(const pipeline::TrainedPrior& prior) {
+  std::printf("%s prior, step %d, loss %.4f", prior.name.c_str(), prior.report.step,
+              prior.report.loss);
+  for (const auto& [metric, value] : prior.report.metrics) {
+    std::printf(", %s %.4g", metric.c_str(), value);
+  }
+  std::printf(", %ld s\n", std::lround(prior.report.seconds));
+  std::fflush(stdout);
+}
+
+void PrintJson(const std::vector<pipeline::TrainedPrior>& trained) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const pipeline::TrainedPrior& prior : trained) {
+    nlohmann::ordered_json entry;
+    entry["prior"] = prior.name;
+    entry["weights"] = prior.weights.string();
+    entry["steps"] = prior.report.step;
+    entry["loss"] = prior.report.loss;
+    for (const auto& [metric, value] : prior.report.metrics) entry["metrics"][metric] = value;
+    entry["seconds"] = prior.report.seconds;
+    json.push_back(entry);
+  }
+  std::printf("%s\n", json.dump(2).c_str());
+}
+
 int Train(Flags flags, const CommonOptions& common) {
   core::Progress progress(common.ProgressStyle());
   if (flags.request.catalogues.empty() && !flags.parametric_only) {
@@ -28,11 +55,17 @@ int Train(Flags flags, const CommonOptions& common) {
     if (flags.batch > 0) options->batch = flags.batch;
     if (flags.pool > 0) options->pool = flags.pool;
   }
-  pipeline::TrainPriors(flags.request, &progress, [&](const std::string& line) {
-    if (!common.quiet) std::printf("%s\n", line.c_str());
-    std::fflush(stdout);
-  });
-  std::printf("weights: %s\n", flags.request.output.c_str());
+  const std::vector<pipeline::TrainedPrior> trained =
+      pipeline::TrainPriors(flags.request, &progress, [&](const pipeline::TrainedPrior& prior) {
+        if (!common.quiet && !common.json) PrintLine(prior);
+      });
+  if (common.json) {
+    PrintJson(trained);
+  } else {
+    for (const pipeline::TrainedPrior& prior : trained) {
+      std::printf("weights: %s\n", prior.weights.c_str());
+    }
+  }
   return 0;
 }
 

@@ -11,7 +11,4 @@ torch::Device BestDevice();
 // core. Call before heavy work.
 void UseThreads();
 
-// `parameter` count of a module, learned ones only.
-std::int64_t ParameterCount(const torch::nn::Module& module);
-
 }  // namespace simwright::nn

@@ -1,7 +1,6 @@
 #include "pipeline/prior_training.h"
 
-#include <cmath>
-#include <sstream>
+#include <iterator>
 
 #include "core/error.h"
 #include "pipeline/catalogue_meshes.h"
@@ -19,8 +18,8 @@ PriorTrainingRequest::PriorTrainingRequest() {
   view_options.trainer.learning_rate = 1e-3;
 }
 
-void TrainPriors(const PriorTrainingRequest& request, core::Progress* progress,
-                 const std::function<void(const std::string&)>& report) {
+std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core::Progress* progress,
+                                      const TrainedPriorListener& listener) {
   std::vector<core::TexturedMesh> meshes;
   for (const std::filesystem::path& path : request.catalogues) {
     if (!std::filesystem::exists(path)) {
@@ -32,24 +31,25 @@ void TrainPriors(const PriorTrainingRequest& request, core::Progress* progress,
     std::move(read.begin(), read.end(), std::back_inserter(meshes));
   }
   std::filesystem::create_directories(request.output);
-  const auto listener = [&](const char* name) {
-    return [&report, name](const asset_lift::PriorTrainingReport& r) {
-      std::ostringstream line;
-      line << name << " prior, step " << r.step << ", loss " << r.loss;
-      for (const auto& [metric, value] : r.metrics) line << ", " << metric << ' ' << value;
-      line << ", " << std::lround(r.seconds) << " s";
-      report(line.str());
+  const std::filesystem::path shape = request.output / "shape_prior.pt",
+                              view = request.output / "view_prior.pt";
+  const auto named = [&](const char* name, const std::filesystem::path& weights) {
+    return [&listener, name, weights](const asset_lift::PriorTrainingReport& report) {
+      if (listener) listener({name, weights, report});
     };
   };
-  const std::filesystem::path shape = request.output / "shape_prior.pt";
+  std::vector<TrainedPrior> trained;
   if (request.shape) {
-    asset_lift::TrainShapeNetwork(meshes, request.shape_options, shape, progress,
-                                  listener("shape"));
+    trained.push_back({"shape", shape,
+                       asset_lift::TrainShapeNetwork(meshes, request.shape_options, shape, progress,
+                                                     named("shape", shape))});
   }
   if (request.view) {
-    asset_lift::TrainViewNetwork(meshes, shape, request.view_options,
-                                 request.output / "view_prior.pt", progress, listener("view"));
+    trained.push_back({"view", view,
+                       asset_lift::TrainViewNetwork(meshes, shape, request.view_options, view,
+                                                    progress, named("view", view))});
   }
+  return trained;
 }
 
 }  // namespace simwright::pipeline

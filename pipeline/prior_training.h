@@ -25,10 +25,18 @@ struct PriorTrainingRequest {
 // Where Debian's sweethome3d-furniture keeps its CC0 part: what the shipped weights learned from.
 std::filesystem::path DefaultTrainingCatalogue();
 
-// Trains the learned priors and writes their weights into the folder: shape_prior.pt and
-// view_prior.pt. `report`
-// hears a line now and then. Throws core::Error, core::Cancelled.
-void TrainPriors(const PriorTrainingRequest& request, core::Progress* progress,
-                 const std::function<void(const std::string&)>& report);
+struct TrainedPrior {
+  std::string name;               // "shape" or "view"
+  std::filesystem::path weights;  // in the request's folder: shape_prior.pt or view_prior.pt
+  asset_lift::PriorTrainingReport report;  // of the last steps
+};
+
+// Hears of every prior's means now and then.
+using TrainedPriorListener = std::function<void(const TrainedPrior&)>;
+
+// Trains the learned priors and writes their weights into the folder. Throws core::Error,
+// core::Cancelled.
+std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core::Progress* progress,
+                                      const TrainedPriorListener& listener = {});
 
 }  // namespace simwright::pipeline
