@@ -166,4 +166,21 @@ ElevationEstimate EstimateElevation(const Matte& matte, const CategoryPrior& pri
   return estimate;
 }
 
+ElevationEstimate Combined(const ElevationEstimate& a, const ElevationEstimate& b) {
+  const double precision_a = 1.0 / (a.deviation * a.deviation),
+               precision_b = 1.0 / (b.deviation * b.deviation),
+               precision = precision_a + precision_b;
+  const double share_a = precision_a / precision, share_b = precision_b / precision;
+  const double apart = a.elevation - b.elevation;
+  ElevationEstimate joint;
+  joint.elevation = share_a * a.elevation + share_b * b.elevation;
+  joint.deviation = std::sqrt(1.0 / precision + share_a * share_b * apart * apart);
+  char text[400];
+  std::snprintf(text, sizeof(text), "elevation %.0f +- %.0f degrees: %s; %s",
+                joint.elevation / kDegree, joint.deviation / kDegree, a.sentence.c_str(),
+                b.sentence.c_str());
+  joint.sentence = text;
+  return joint;
+}
+
 }  // namespace simwright::asset_lift

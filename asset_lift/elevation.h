@@ -31,6 +31,10 @@ struct ElevationEstimate {
 // back: of a circle seen from elevation e the half axes are as 1 : sin e.
 ElevationEstimate EstimateElevation(const Matte& matte, const CategoryPrior& prior);
 
+// Two independent readings as one: their mean by precision. What they disagree by adds to its
+// deviation.
+ElevationEstimate Combined(const ElevationEstimate& a, const ElevationEstimate& b);
+
 // Half axes' ratio b / a in [0, 1] of the ellipse that the lower (or upper) end of the outline
 // follows over its middle; negative where the end is not such an arc.
 double EndArcRatio(const Matte& matte, bool lower_end);

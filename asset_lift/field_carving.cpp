@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "asset_lift/occupancy_grid.h"
+#include "asset_lift/view_agreement.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSide = OccupancyGrid::kSide;
 constexpr int kCells = kSide * kSide * kSide;
-constexpr double kAgreement = 0.8;
+constexpr double kLeastSeen = 0.8;
 
 // Distance of each pixel to the nearest one of the mask, in pixels: along columns, then along rows.
 std::vector<float> DistanceToMask(const core::FloatImage& opacity) {
@@ -82,78 +82,26 @@ std::vector<std::uint8_t> RuledOut(const ObservedView& view, const Eigen::Vector
   return out;
 }
 
-class Jury {
- public:
-  Jury(const std::vector<ObservedView>& views, const Eigen::Vector3d& center, double half_side,
-       double margin)
-      : views_(views), center_(center), half_side_(half_side), votes_(kCells, 0) {
-    for (const ObservedView& view : views) {
-      core::CheckCancelled();
-      out_.push_back(RuledOut(view, center, half_side, margin));
-      for (int c = 0; c < kCells; ++c) votes_[c] += out_.back()[c];
-    }
-    heard_.assign(views.size(), true);
-  }
-
-  void Dismiss(int view) {
-    heard_[view] = false;
-    for (int c = 0; c < kCells; ++c) votes_[c] -= out_[view][c];
-  }
-
-  // What the views that are heard leave, but for `absent` (-1: none).
-  std::vector<std::uint8_t> Allowed(int absent) const {
-    std::vector<std::uint8_t> allowed(kCells);
-    for (int c = 0; c < kCells; ++c) {
-      allowed[c] = votes_[c] - (absent >= 0 ? out_[absent][c] : 0) == 0;
-    }
-    return allowed;
-  }
-
-  // The least share of a heard mask's pixels (of every third row and column) that see something.
-  double LeastAgreement(int absent, int* worst) const {
-    OccupancyGrid grid;
-    grid.Restrict(Allowed(absent));
-    double least = 1.0;
-    for (int v = 0; v < static_cast<int>(views_.size()); ++v) {
-      if (!heard_[v] || v == absent) continue;
-      const double share = Agreement(grid, views_[v]);
-      if (share < least) {
-        least = share;
-        if (worst != nullptr) *worst = v;
-      }
-    }
-    return least;
-  }
-
-  int heard() const { return static_cast<int>(std::count(heard_.begin(), heard_.end(), true)); }
-  bool Hears(int view) const { return heard_[view]; }
-
- private:
-  double Agreement(const OccupancyGrid& grid, const ObservedView& view) const {
+// The least share of a view's mask (of every third row and column) that sees an allowed cell.
+double LeastSeen(const std::vector<ObservedView>& views, const std::vector<std::uint8_t>& allowed,
+                 const Eigen::Vector3d& center, double half_side) {
+  OccupancyGrid grid;
+  grid.Restrict(allowed);
+  double least = 1.0;
+  for (const ObservedView& view : views) {
     int seen = 0, met = 0;
     for (int y = 1; y < view.camera.height; y += 3) {
       for (int x = 1; x < view.camera.width; x += 3) {
         if (*view.opacity.At(x, y) <= 0.5f) continue;
         ++seen;
         double near = 0.0, far = 1e30;
-        met += grid.Clip((view.camera.position() - center_) / half_side_,
-                         view.camera.Ray({x + 0.5, y + 0.5}) / half_side_, &near, &far);
+        met += grid.Clip((view.camera.position() - center) / half_side,
+                         view.camera.Ray({x + 0.5, y + 0.5}) / half_side, &near, &far);
       }
     }
-    return seen > 0 ? static_cast<double>(met) / seen : 1.0;
+    if (seen > 0) least = std::min(least, static_cast<double>(met) / seen);
   }
-
-  const std::vector<ObservedView>& views_;
-  const Eigen::Vector3d center_;
-  const double half_side_;
-  std::vector<std::vector<std::uint8_t>> out_;  // per view
-  std::vector<int> votes_;                      // heard views that rule a cell out
-  std::vector<bool> heard_;
-};
-
-core::Finding Contradiction(const std::string& place, double agreement) {
-  return {"field-view-contradiction", core::Severity::kWarning, place,
-          "the camera of " + place + " contradicts the other views' masks", agreement};
+  return least;
 }
 
 }  // namespace
@@ -161,41 +109,28 @@ core::Finding Contradiction(const std::string& place, double agreement) {
 Carving CarveByMasks(const std::vector<ObservedView>& views, const Eigen::Vector3d& center,
                      double half_side, double margin) {
   Carving carving;
-  Jury jury(views, center, half_side, margin);
-  int worst = 0;
-  double agreement = jury.LeastAgreement(-1, &worst);
-  while (agreement < kAgreement) {
-    if (jury.heard() <= 2) {
-      // Nothing says which of the two is wrong; or the only view sees nothing of the cube.
-      std::string place;
-      for (int v = 0; v < static_cast<int>(views.size()); ++v) {
-        if (!jury.Hears(v)) continue;
-        place += (place.empty() ? "view " : " and view ") + std::to_string(v + 1);
-      }
-      carving.findings.push_back(Contradiction(place, agreement));
-      if (jury.heard() == 1) {
-        carving.findings.back().sentence =
-            "much of the mask of " + place + " lies outside of the cube that is looked at";
-      }
-      carving.allowed.assign(kCells, 1);
-      return carving;
+  carving.allowed.assign(kCells, 1);
+  std::vector<ObservedView> agreeing = views;
+  if (views.size() > 1) {
+    const ViewAgreement agreement = ExamineViews(views);
+    carving.findings = agreement.findings;
+    if (agreement.contradicting.size() + 2 > views.size()) return carving;
+    carving.contradicting = agreement.contradicting;
+    for (auto i = carving.contradicting.rbegin(); i != carving.contradicting.rend(); ++i) {
+      agreeing.erase(agreeing.begin() + *i);
     }
-    int culprit = worst;
-    double best = agreement;
-    for (int v = 0; v < static_cast<int>(views.size()); ++v) {
-      if (!jury.Hears(v)) continue;
-      const double without = jury.LeastAgreement(v, nullptr);
-      if (without > best) {
-        best = without;
-        culprit = v;
-      }
-    }
-    jury.Dismiss(culprit);
-    carving.contradicting.push_back(culprit);
-    carving.findings.push_back(Contradiction("view " + std::to_string(culprit + 1), agreement));
-    agreement = jury.LeastAgreement(-1, &worst);
   }
-  carving.allowed = jury.Allowed(-1);
+  for (const ObservedView& view : agreeing) {
+    core::CheckCancelled();
+    const std::vector<std::uint8_t> out = RuledOut(view, center, half_side, margin);
+    for (int c = 0; c < kCells; ++c) carving.allowed[c] &= out[c] == 0;
+  }
+  if (const double seen = LeastSeen(agreeing, carving.allowed, center, half_side);
+      seen < kLeastSeen) {
+    carving.allowed.assign(kCells, 1);
+    carving.findings.push_back({"field-beside-object", core::Severity::kWarning, "",
+                                "much of a mask lies outside of the cube that is looked at", seen});
+  }
   return carving;
 }
 

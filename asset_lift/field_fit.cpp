@@ -95,8 +95,9 @@ class Fitter {
                                    options_.carve_margin);
     fit_.findings = carving.findings;
     fit_.occupancy.Restrict(carving.allowed);
-    std::sort(carving.contradicting.rbegin(), carving.contradicting.rend());
-    for (const int view : carving.contradicting) views_.erase(views_.begin() + view);
+    for (auto i = carving.contradicting.rbegin(); i != carving.contradicting.rend(); ++i) {
+      views_.erase(views_.begin() + *i);
+    }
   }
 
   double Done() const { return static_cast<double>(fit_.losses.size()) / total_; }

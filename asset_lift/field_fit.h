@@ -53,7 +53,7 @@ struct FieldFit {
   OccupancyGrid occupancy;     // what is ruled out, and what the fit left empty
   std::vector<double> losses;  // a value a step done: all terms together
   double color_error = 0.0;    // root mean square over the last steps' rays, sRGB over black
-  core::Findings findings;     // "field-view-contradiction", "field-fit-unstable"
+  core::Findings findings;     // field_carving.h's; "field-fit-unstable"
 };
 
 // A radiance field that shows what the views show and, between them, what `objective` (may be null)

@@ -179,13 +179,31 @@ double CutOut(const core::Image& photo, const CategoryPrior& prior, const LiftOp
   return focal;
 }
 
-void PlaceCamera(double focal, const CategoryPrior& prior, const LiftOptions& options,
-                 LiftedMesh* lifted) {
+// What the shape prior reads from the crop, which looks the same from wherever it was taken.
+ElevationEstimate LearnedElevation(const ShapePrior& shape, const LiftedMesh& lifted,
+                                   double focal) {
+  const ViewFrame frame =
+      FrameAround(lifted.matte, PhotoCamera(lifted.matte, focal, lifted.elevation.elevation), 1.0);
+  const ShapePrediction prediction =
+      shape.Predict(CropPicture(lifted.photo, lifted.matte.alpha, frame), frame);
+  // The network states the mean absolute error of a Laplace distribution.
+  ElevationEstimate estimate{prediction.elevation, M_SQRT2 * prediction.elevation_deviation, ""};
+  char text[80];
+  std::snprintf(text, sizeof(text), "%.0f +- %.0f from the learned prior",
+                estimate.elevation * 180.0 / M_PI, estimate.deviation * 180.0 / M_PI);
+  estimate.sentence = text;
+  return estimate;
+}
+
+void PlaceCamera(double focal, const CategoryPrior& prior, const ShapePrior* shape,
+                 const LiftOptions& options, LiftedMesh* lifted) {
   lifted->elevation = EstimateElevation(lifted->matte, prior);
   if (options.elevation >= 0.0) {
     lifted->elevation = {options.elevation, 0.0, "elevation given"};
   } else if (prior.revolved && !prior.round) {
     lifted->elevation = RefineElevation(lifted->matte, focal, lifted->elevation);
+  } else if (shape != nullptr) {
+    lifted->elevation = Combined(lifted->elevation, LearnedElevation(*shape, *lifted, focal));
   }
   // Level sight lines never cross the planes in which a turned body's discs lie.
   const double elevation = std::clamp(lifted->elevation.elevation, 0.03, 1.5);
@@ -205,7 +223,7 @@ LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior, const
   LiftedMesh lifted;
   progress->Stage("segmentation");
   const double focal = CutOut(photo, prior, options, &lifted);
-  PlaceCamera(focal, prior, options, &lifted);
+  PlaceCamera(focal, prior, priors.shape.get(), options, &lifted);
   progress->Stage("outline");
   const InflatedShape outline =
       InflateOutline(lifted.matte, lifted.camera, prior, options.inflation);

@@ -98,7 +98,6 @@ double ScoreDistillation::Evaluate(const core::Camera& camera, const ObjectPictu
     const torch::Tensor weight = prior_->schedule().Noise(t.to(clean.device())).square();
     step = torch::clamp(weight * (guess - noise), -options_.largest_gradient,
                         options_.largest_gradient);
-    step = torch::nan_to_num(step, 0.0, 0.0, 0.0);
   }
   latent.backward(step);
   *gradient = {core::FloatImage(picture.color.width, picture.color.height, 3),

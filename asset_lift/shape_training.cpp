@@ -111,13 +111,15 @@ PriorTrainingReport TrainShapeNetwork(const std::vector<core::TexturedMesh>& mes
   const PriorTraining training{
       "shape", {"volume IoU", "elevation error, deg"}, 0, network.get(), kept.get()};
   return TrainPrior(training, meshes, options, weights, progress, report,
-                    [&](const TrainingPool& pool, int step) {
-                      Batch batch = DrawBatch(pool, options.batch, options.seed,
-                                              static_cast<std::uint64_t>(step));
-                      batch = {batch.pictures.to(device), batch.occupancy.to(device),
-                               batch.back.to(device), batch.elevation.to(device)};
-                      const Losses losses = LossesOf(network(batch.pictures), batch);
-                      return PriorLoss{losses.total, {losses.iou, losses.elevation_error}};
+                    [&](const TrainingPool& pool, int step) -> PriorBatch {
+                      const Batch drawn = DrawBatch(pool, options.batch, options.seed,
+                                                    static_cast<std::uint64_t>(step));
+                      return [&network, device, drawn] {
+                        const Batch batch{drawn.pictures.to(device), drawn.occupancy.to(device),
+                                          drawn.back.to(device), drawn.elevation.to(device)};
+                        const Losses losses = LossesOf(network(batch.pictures), batch);
+                        return PriorLoss{losses.total, {losses.iou, losses.elevation_error}};
+                      };
                     });
 }
 

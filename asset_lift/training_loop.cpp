@@ -1,6 +1,7 @@
 #include "asset_lift/training_loop.h"
 
 #include <chrono>
+#include <future>
 
 #include "core/error.h"
 #include "nn/checkpoint.h"
@@ -67,7 +68,8 @@ PriorTrainingReport TrainPrior(const PriorTraining& training,
                                const std::vector<core::TexturedMesh>& meshes,
                                const PriorTrainingOptions& options,
                                const std::filesystem::path& weights, core::Progress* progress,
-                               const PriorTrainingListener& listener, const PriorStep& step) {
+                               const PriorTrainingListener& listener,
+                               const PriorBatchSource& source) {
   nn::Trainer trainer(training.network, options.trainer, weights.string() + ".state");
   const int first = trainer.first_step(), steps = options.trainer.steps;
   progress->Stage("preparing shapes");
@@ -77,9 +79,16 @@ PriorTrainingReport TrainPrior(const PriorTraining& training,
       options.seed + training.seed_offset + 1000003ull * static_cast<std::uint64_t>(first));
   progress->Stage(training.kind + " prior", steps - first);
   TrainingMeans means(training.metrics, steps, listener);
-  for (int i = first; i < steps; ++i) {
+  const auto draw = [&](int step) {
     pool.Exchange(options.exchange);
-    const PriorLoss loss = step(pool, i);
+    return source(pool, step);
+  };
+  // One batch ahead: neither photographing nor the network alone keeps all cores busy.
+  std::future<PriorBatch> next = std::async(std::launch::async, draw, first);
+  for (int i = first; i < steps; ++i) {
+    const PriorBatch batch = next.get();
+    if (i + 1 < steps) next = std::async(std::launch::async, draw, i + 1);
+    const PriorLoss loss = batch();
     trainer.Descend(i, loss.total);
     means.Add(i, loss);
     if (trainer.SaveDue(i)) {

@@ -25,8 +25,11 @@ struct PriorLoss {
   std::vector<double> metrics;  // as named
 };
 
-// Draws a batch of photos of the pool's objects for a step and says what the network makes of them.
-using PriorStep = std::function<PriorLoss(const TrainingPool& pool, int step)>;
+// A batch: says what the network makes of it.
+using PriorBatch = std::function<PriorLoss()>;
+// Photographs the pool's objects for a step. Called ahead of time from another thread, while the
+// network learns from the batch before: it must leave the network alone.
+using PriorBatchSource = std::function<PriorBatch(const TrainingPool& pool, int step)>;
 
 // The loop around a network's steps: objects, optimiser, reports, weights and the state to go on
 // from, as promised in prior_training.h.
@@ -34,6 +37,7 @@ PriorTrainingReport TrainPrior(const PriorTraining& training,
                                const std::vector<core::TexturedMesh>& meshes,
                                const PriorTrainingOptions& options,
                                const std::filesystem::path& weights, core::Progress* progress,
-                               const PriorTrainingListener& listener, const PriorStep& step);
+                               const PriorTrainingListener& listener,
+                               const PriorBatchSource& source);
 
 }  // namespace simwright::asset_lift

@@ -129,12 +129,14 @@ PriorTrainingReport TrainViewNetwork(const std::vector<core::TexturedMesh>& mesh
   const PriorTraining training{
       "view", {"noise error of the drawing"}, 77, network.get(), kept.get()};
   return TrainPrior(training, meshes, options, weights, progress, report,
-                    [&](const TrainingPool& pool, int step) {
-                      ViewBatch batch = DrawViews(pool, shape, options.batch, options.seed,
-                                                  static_cast<std::uint64_t>(step));
-                      batch = {batch.clean.to(device), batch.drawn.to(device),
-                               batch.taken.to(device), batch.camera.to(device)};
-                      return DenoisingLoss(network, schedule, batch);
+                    [&](const TrainingPool& pool, int step) -> PriorBatch {
+                      const ViewBatch drawn = DrawViews(pool, shape, options.batch, options.seed,
+                                                        static_cast<std::uint64_t>(step));
+                      return [&network, &schedule, device, drawn] {
+                        return DenoisingLoss(network, schedule,
+                                             {drawn.clean.to(device), drawn.drawn.to(device),
+                                              drawn.taken.to(device), drawn.camera.to(device)});
+                      };
                     });
 }
 

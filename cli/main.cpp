@@ -1,3 +1,4 @@
+#include <malloc.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -54,10 +55,18 @@ void WaitWithoutSpinning(char** argv) {
   execv("/proc/self/exe", argv);  // where that fails the program goes on as it is
 }
 
+// A network's tensors come and go by the megabyte: given back to the system every time, a sixth of
+// a training's time went into clearing fresh pages.
+void KeepFreedMemory() {
+  mallopt(M_MMAP_THRESHOLD, 1 << 28);
+  mallopt(M_TRIM_THRESHOLD, 1 << 29);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   WaitWithoutSpinning(argv);
+  KeepFreedMemory();
   try {
     return Main(argc, argv);
   } catch (const simwright::core::Cancelled&) {

@@ -227,12 +227,12 @@ TEST(FieldFit, NamesTheViewThatContradictsTheOthers) {
   views[3].camera = core::OrbitCamera({-0.08, 0.15, 0.16}, 1.0, 0.2, 3.6, kFov, 32, 32);
   const FieldFit fit = FitField(views, nullptr, options, nullptr);
   ASSERT_EQ(fit.findings.size(), 1u);
-  EXPECT_EQ(fit.findings[0].code, "field-view-contradiction");
-  EXPECT_EQ(fit.findings[0].place, "view 4");
+  EXPECT_EQ(fit.findings[0].code, "view-contradicts");
+  EXPECT_EQ(fit.findings[0].place, "view 3");
   // Of two, nothing says which is wrong.
   const Carving two = CarveByMasks({views[0], views[3]}, Eigen::Vector3d::Zero(), 0.25, 1.0);
-  ASSERT_EQ(two.findings.size(), 1u);
-  EXPECT_EQ(two.findings[0].place, "view 1 and view 2");
+  EXPECT_EQ(two.findings.size(), 2u);
+  EXPECT_TRUE(two.contradicting.empty());
   EXPECT_EQ(std::count(two.allowed.begin(), two.allowed.end(), 0), 0);
 }
 
@@ -251,6 +251,9 @@ TEST(FieldCarving, LeavesTheConesAndAllOfTheObject) {
   }
   EXPECT_EQ(lost, 0);
   EXPECT_LT(left, 2.0 * inside);  // the hull of eight cones, a cell and a pixel wider
+  const Carving beside = CarveByMasks({views[0]}, {0.6, 0.6, 0.6}, 0.25, 1.0);
+  ASSERT_EQ(beside.findings.size(), 1u);
+  EXPECT_EQ(beside.findings[0].code, "field-beside-object");
 }
 
 // A fit that knows nothing, and whose density is that of `bias` everywhere.

@@ -86,6 +86,14 @@ TEST(Lift, EstimatesTheElevationOfAPot) {
   }
 }
 
+TEST(Lift, TwoReadingsOfAnElevationWeighTheirPrecision) {
+  const ElevationEstimate joint = Combined({0.2, 0.1, "a"}, {0.5, 0.2, "b"});
+  // Precisions 100 and 25: shares 0.8 and 0.2; variance 1 / 125 + 0.16 * 0.3^2.
+  EXPECT_NEAR(joint.elevation, 0.26, 1e-12);
+  EXPECT_NEAR(joint.deviation, std::sqrt(0.008 + 0.0144), 1e-12);
+  EXPECT_NE(joint.sentence.find("a; b"), std::string::npos) << joint.sentence;
+}
+
 TEST(Lift, AHoleInTheOutlineGoesThroughTheMesh) {
   core::Image photo(200, 200, 4);
   for (int y = 0; y < 200; ++y) {

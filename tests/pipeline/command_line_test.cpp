@@ -1,11 +1,9 @@
 // The program as a user meets it: bad input gives one clear line, exit code 1, and nothing is left
 // behind; good input gives the same bytes twice.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <zip.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -17,29 +15,11 @@
 #include "assets/primitive_meshes.h"
 #include "core/files.h"
 #include "core/image.h"
+#include "program.h"
 
 namespace simwright {
 namespace {
 namespace fs = std::filesystem;
-
-struct Outcome {
-  int code = -1;
-  std::string text;  // stdout and stderr
-};
-
-Outcome RunProgram(const std::string& arguments) {
-  Outcome outcome;
-  FILE* pipe = popen((std::string(SIMWRIGHT_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return outcome;
-  std::array<char, 4096> buffer;
-  size_t count;
-  while ((count = fread(buffer.data(), 1, buffer.size(), pipe)) > 0) {
-    outcome.text.append(buffer.data(), count);
-  }
-  const int status = pclose(pipe);
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  return outcome;
-}
 
 class CommandLine : public ::testing::Test {
  protected:
