@@ -16,6 +16,7 @@ struct CategoryPrior {
   bool revolved = false;                      // turned on a wheel: round from above
   bool open = false;                          // a vessel one can look into
   bool flat = false;                          // lies flat: people photograph it from above
+  bool angular = false;                       // a box, or made of boxes
 };
 
 struct ElevationEstimate {

@@ -31,7 +31,8 @@ FirstGuess GuessFrom(const core::TriangleMesh& mesh) {
   guess.surface = mesh;
   guess.box = core::Bounds(mesh);
   const auto tree = std::make_shared<geometry::TriangleTree>(mesh);
-  const auto solid = std::make_shared<geometry::VoxelSolid>(mesh, kSignCells, 0.0);
+  const auto solid = std::make_shared<geometry::VoxelSolid>(
+      mesh, geometry::VoxelSolidOptions{.resolution = kSignCells, .sheet_cells = 0.0});
   const double sure_at = guess.box.diagonal().norm() / 40.0;
   guess.odds = [tree, solid, sure_at](const Eigen::Vector3d& point) {
     const double distance = std::min(tree->Closest(point).distance / sure_at, 1.0);

@@ -97,6 +97,13 @@ void FinishOutline(const InflatedShape& shape, const texture::ProjectionOptions&
                                        lifted->matte.alpha, shape.mirror, projection);
 }
 
+// A body of revolution is known all round from its outline: no guess about its back is as good. But
+// a box's outline, or that of a thing lying flat, only looks like one.
+bool KnownAllRound(ShapeForm form, const CategoryPrior& prior) {
+  if (form == ShapeForm::kInflated || prior.angular) return false;
+  return form == ShapeForm::kUpright || !prior.flat;
+}
+
 // A colour a vertex for what the photo does not show.
 std::vector<Eigen::Vector3f> HiddenColors(const ShapeFit& fit,
                                           const std::optional<ShapePrediction>& prediction) {
@@ -116,9 +123,7 @@ void FitAndPaint(const InflatedShape& outline, const LiftPriors& priors, const L
     prediction =
         priors.shape->Predict(CropPicture(lifted->photo, lifted->matte.alpha, frame), frame);
   }
-  // A body of revolution is known to the pixel; of other things the learned guess knows more.
-  const bool learned =
-      prediction && !prediction->box.isEmpty() && outline.form == ShapeForm::kInflated;
+  const bool learned = prediction && !prediction->box.isEmpty();
   const FirstGuess guess = learned ? GuessFrom(*prediction) : GuessFrom(outline.mesh);
   lifted->start = learned ? "the learned prior" : std::string("the outline, ") + Name(outline.form);
   std::unique_ptr<ScoreDistillation> in_field, in_mesh;
@@ -230,8 +235,7 @@ LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior, const
   lifted.form = outline.form;
   texture::ProjectionOptions projection;
   projection.texture_size = options.texture_size;
-  // A body of revolution is known all round from its outline: no guess about its back is as good.
-  const bool turned = outline.form != ShapeForm::kInflated;
+  const bool turned = KnownAllRound(outline.form, prior);
   const bool nothing_learned = priors.shape == nullptr && priors.view == nullptr;
   if (options.effort == LiftEffort::kOutline || turned || nothing_learned) {
     progress->Stage("texture");

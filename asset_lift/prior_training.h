@@ -22,6 +22,8 @@ struct PriorTrainingOptions {
   // Share of parametric shapes; the others are the catalogue's meshes, stretched.
   double parametric_share = 0.4;
   std::uint64_t seed = 1;
+  // Weights to begin with, of the same kind; empty: drawn at random.
+  std::filesystem::path start;
 
   // False, with the reason, for values that no training can have.
   bool IsValid(std::string* error) const;
@@ -47,9 +49,9 @@ PriorTrainingReport TrainShapeNetwork(const std::vector<core::TexturedMesh>& mes
                                       core::Progress* progress,
                                       const PriorTrainingListener& report = {});
 
-// The view prior's network, which builds upon the shape prior of `shape_weights`. The loss is
-// the mean squared error of the noise; the metric is that of guessing from the shape prior's drawing
-// alone.
+// The view prior's network, which builds upon the shape prior of `shape_weights`. The loss is the
+// mean squared error of the noise; metrics: that of the clean picture times the signal's share, and
+// the same for taking the shape prior's drawing for it.
 PriorTrainingReport TrainViewNetwork(const std::vector<core::TexturedMesh>& meshes,
                                      const std::filesystem::path& shape_weights,
                                      const PriorTrainingOptions& options,

@@ -12,9 +12,18 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 // Grown so that no wall is thinner than the network's depth cells: what aliasing leaves of a
 // thinner one no network can learn.
-constexpr int kSolidResolution = 80;
-constexpr double kSheetCells = 2.0;
-constexpr double kGrowthCells = 0.6;
+geometry::VoxelSolidOptions FilledOptions() {
+  geometry::VoxelSolidOptions options;
+  options.resolution = 80;
+  options.sheet_cells = 2.0;
+  options.growth_cells = 0.6;
+  // Most catalogue pieces are shells with cracks and without an underside. What they stand for is
+  // solid, and so is what a simulation makes of them.
+  options.gap_cells = 2.5;
+  options.on_floor = true;
+  return options;
+}
+
 constexpr int kPictureSide = 96;  // of the picture that the crop is cut from
 
 core::TexturedMesh Normalised(core::TexturedMesh mesh, const Eigen::Vector3d& stretch) {
@@ -83,8 +92,7 @@ double MiddleDepth(const core::TriangleMesh& mesh, const ViewFrame& frame) {
 
 TrainingObject::TrainingObject(core::TexturedMesh mesh, const Eigen::Vector3d& stretch)
     : mesh_(Normalised(std::move(mesh), stretch)),
-      solid_(std::make_unique<geometry::VoxelSolid>(mesh_.mesh, kSolidResolution, kSheetCells,
-                                                    kGrowthCells)) {
+      solid_(std::make_unique<geometry::VoxelSolid>(mesh_.mesh, FilledOptions())) {
   scene_.Add(&mesh_);
   scene_.Commit();
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "asset_lift/outline_hold.h"
 #include "asset_lift/shape_example.h"
 #include "asset_lift/shape_network.h"
 #include "core/error.h"
@@ -14,37 +15,6 @@ namespace simwright::asset_lift {
 namespace {
 
 constexpr size_t kPixels = static_cast<size_t>(kCropSide) * kCropSide;
-// A pixel of the outline has something behind it: its most likely cells are lifted to these odds.
-constexpr float kLeastPeak = 0.7f;
-constexpr float kEmpty = -8.0f;
-
-// The outline's say: nothing beside it, something behind each of its pixels.
-void HoldToOutline(ShapePrediction* prediction) {
-  for (size_t pixel = 0; pixel < kPixels; ++pixel) {
-    const bool seen = prediction->crop.pixels[4 * pixel + 3] > 127;
-    float peak = -1e30f;
-    for (int k = 0; k < kDepthCells; ++k) {
-      peak = std::max(peak, prediction->logits[static_cast<size_t>(k) * kPixels + pixel]);
-    }
-    const float lift = seen ? std::max(0.0f, kLeastPeak - peak) : 0.0f;
-    int first = -1, last = -1;
-    for (int k = 0; k < kDepthCells; ++k) {
-      float& logit = prediction->logits[static_cast<size_t>(k) * kPixels + pixel];
-      // Beside the outline the volume goes on smoothly; Logit() cuts it at the outline itself.
-      logit = std::max(kEmpty, logit + lift);
-      if (logit <= 0.0f) continue;
-      if (first < 0) first = k;
-      last = k;
-    }
-    if (first < 0) continue;
-    const auto w = [](int k) {
-      return static_cast<float>(kDepthReach * ((k + 0.5) * 2.0 / kDepthCells - 1.0));
-    };
-    prediction->front_w[pixel] = w(first);
-    prediction->back_w[pixel] = w(last);
-  }
-}
-
 }  // namespace
 
 struct ShapePrior::Network {
@@ -77,14 +47,21 @@ std::vector<ShapePrediction> ShapePrior::Predict(const std::vector<core::Image>&
     pictures.push_back(PicturesFromRgba(crop.pixels.data(), 1, kCropSide));
   }
   const torch::NoGradGuard no_grad;
-  const ShapeNetworkOutput output = network_->module(torch::cat(pictures).to(network_->device));
-  const torch::Tensor logits = output.occupancy.to(torch::kCPU).contiguous();
-  const torch::Tensor back = (output.back.clamp(0.0, 1.0) * 255.0)
+  // A mirrored photo is a photo of the mirrored object: both answers count, and their errors
+  // differ.
+  const torch::Tensor seen = torch::cat(pictures).to(network_->device);
+  const ShapeNetworkOutput output = network_->module(seen);
+  const ShapeNetworkOutput mirrored = network_->module(seen.flip(3));
+  const auto mean = [](const torch::Tensor& a, const torch::Tensor& b) {
+    return (0.5 * (a + b)).to(torch::kCPU).contiguous();
+  };
+  const torch::Tensor logits = mean(output.occupancy, mirrored.occupancy.flip(3));
+  const torch::Tensor back = (mean(output.back, mirrored.back.flip(3)).clamp(0.0, 1.0) * 255.0)
                                  .round()
-                                 .to(torch::kCPU, torch::kUInt8)
+                                 .to(torch::kUInt8)
                                  .permute({0, 2, 3, 1})
                                  .contiguous();
-  const torch::Tensor elevation = output.elevation.to(torch::kCPU).contiguous();
+  const torch::Tensor elevation = mean(output.elevation, mirrored.elevation);
   std::vector<ShapePrediction> predictions(crops.size());
   for (size_t i = 0; i < crops.size(); ++i) {
     ShapePrediction& p = predictions[i];
@@ -95,8 +72,6 @@ std::vector<ShapePrediction> ShapePrior::Predict(const std::vector<core::Image>&
     std::memcpy(p.back.pixels.data(), back[at].data_ptr(), 3 * kPixels);
     p.logits.resize(kPixels * kDepthCells);
     std::memcpy(p.logits.data(), logits[at].data_ptr(), p.logits.size() * sizeof(float));
-    p.front_w.assign(kPixels, 0.0f);
-    p.back_w.assign(kPixels, 0.0f);
     p.elevation = elevation[at][0].item<double>();
     p.elevation_deviation = std::exp(std::clamp(elevation[at][1].item<double>(), -4.0, 1.0));
     HoldToOutline(&p);

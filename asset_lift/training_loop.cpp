@@ -70,6 +70,9 @@ PriorTrainingReport TrainPrior(const PriorTraining& training,
                                const std::filesystem::path& weights, core::Progress* progress,
                                const PriorTrainingListener& listener,
                                const PriorBatchSource& source) {
+  if (!options.start.empty()) {
+    nn::LoadCheckpoint(options.start, training.kind, training.network);
+  }
   nn::Trainer trainer(training.network, options.trainer, weights.string() + ".state");
   const int first = trainer.first_step(), steps = options.trainer.steps;
   progress->Stage("preparing shapes");

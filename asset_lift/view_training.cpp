@@ -95,18 +95,20 @@ ViewBatch DrawViews(const TrainingPool& pool, const ShapePrior& shape, int size,
   return {torch::cat(clean), torch::cat(drawn), torch::cat(taken), torch::cat(camera)};
 }
 
-// The network's mean squared error of the noise; as its metric, that of guessing the noise from the
-// shape prior's drawing alone.
+// The network's mean squared error of the noise. As its metrics, in the noisy picture's scale, the
+// squared error of the clean picture that follows from it, and that of taking the shape prior's
+// drawing for the clean picture.
 PriorLoss DenoisingLoss(ViewNetwork network, const nn::DiffusionSchedule& schedule,
                         const ViewBatch& batch) {
   const torch::Tensor t = torch::randint(0, schedule.steps(), {batch.clean.size(0)},
                                          batch.clean.options().dtype(torch::kLong));
   const torch::Tensor noise = torch::randn_like(batch.clean);
   const torch::Tensor noisy = schedule.AddNoise(batch.clean, noise, t);
-  const torch::Tensor guess = network(noisy, batch.drawn, batch.taken, batch.camera, t);
-  const torch::Tensor from_drawing =
-      (noisy - schedule.Signal(t) * batch.drawn.slice(1, 0, 4)) / schedule.Noise(t);
-  return {torch::mse_loss(guess, noise), {torch::mse_loss(from_drawing, noise).item<double>()}};
+  const torch::Tensor off = network(noisy, batch.drawn, batch.taken, batch.camera, t) - noise;
+  const torch::Tensor drawn_off = batch.drawn.slice(1, 0, 4) - batch.clean;
+  return {off.square().mean(),
+          {(schedule.Noise(t) * off).square().mean().item<double>(),
+           (schedule.Signal(t) * drawn_off).square().mean().item<double>()}};
 }
 
 }  // namespace
@@ -127,7 +129,7 @@ PriorTrainingReport TrainViewNetwork(const std::vector<core::TexturedMesh>& mesh
   ViewNetwork kept;
   const nn::DiffusionSchedule schedule = nn::DiffusionSchedule::Cosine(kViewDiffusionSteps);
   const PriorTraining training{
-      "view", {"noise error of the drawing"}, 77, network.get(), kept.get()};
+      "view", {"picture error", "picture error of the drawing"}, 77, network.get(), kept.get()};
   return TrainPrior(training, meshes, options, weights, progress, report,
                     [&](const TrainingPool& pool, int step) -> PriorBatch {
                       const ViewBatch drawn = DrawViews(pool, shape, options.batch, options.seed,

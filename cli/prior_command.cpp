@@ -14,6 +14,8 @@ struct Flags {
   bool parametric_only = false;
   bool resume = false;
   int batch = 0, pool = 0;  // 0: the defaults
+  double rate = 0.0;        // 0: the defaults
+  std::string from;
   std::string only;
 };
 
@@ -54,6 +56,11 @@ int Train(Flags flags, const CommonOptions& common) {
     options->trainer.resume = flags.resume;
     if (flags.batch > 0) options->batch = flags.batch;
     if (flags.pool > 0) options->pool = flags.pool;
+    if (flags.rate > 0.0) options->trainer.learning_rate = flags.rate;
+  }
+  if (!flags.from.empty()) {
+    flags.request.shape_options.start = pipeline::ShapeWeights(flags.from);
+    flags.request.view_options.start = pipeline::ViewWeights(flags.from);
   }
   const std::vector<pipeline::TrainedPrior> trained =
       pipeline::TrainPriors(flags.request, &progress, [&](const pipeline::TrainedPrior& prior) {
@@ -96,6 +103,10 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
       ->check(CLI::PositiveNumber);
   command->add_option("--pool", flags->pool, "Objects kept ready; default: 160")
       ->check(CLI::PositiveNumber);
+  command->add_option("--rate", flags->rate, "Learning rate; default: 8e-4 (shape), 1e-3 (view)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--from", flags->from,
+                      "Folder of weights to begin with, to learn from a catalogue of one's own");
   command->add_flag("--resume", flags->resume, "Go on from what an earlier run left in the folder");
   AddCommon(command, common);
   command->callback([flags, common, run] { *run = [=] { return Train(*flags, *common); }; });

@@ -13,29 +13,71 @@ namespace {
 constexpr int kMargin = 2;
 constexpr double kBandCells = 2.0;
 
-// Nodes that a walk from the grid's border reaches without crossing a triangle.
-std::vector<std::uint8_t> ReachedFromBorder(const SurfaceGrid& grid) {
-  std::vector<std::uint8_t> reached(grid.count(), 0);
-  std::vector<std::size_t> front = {0};  // the margin is free, so one corner stands for all
-  reached[0] = 1;
-  const auto& size = grid.size();
-  const auto& stride = grid.stride();
-  while (!front.empty()) {
-    const std::size_t node = front.back();
-    front.pop_back();
+// A walk over the grid's nodes along edges that no triangle crosses.
+class Walk {
+ public:
+  // `floor`: the layer of nodes below which nobody walks, or 0.
+  Walk(const SurfaceGrid& grid, int floor)
+      : grid_(grid), floor_(floor), reached_(grid.count(), 0) {}
+
+  // From the top corner, which the margin keeps free, past nodes farther than `gap` (cells) from
+  // the surface; then from all of them on to the surface, and as far into what is narrower.
+  void Go(double gap) {
+    const std::size_t start = grid_.count() - 1;
+    reached_[start] = 1;
+    std::vector<std::size_t> front = {start}, shore;
+    while (!front.empty()) {
+      const std::size_t node = front.back();
+      front.pop_back();
+      bool inner = true;
+      ForNeighbours(node, [&](std::size_t next) {
+        if (grid_.Distance(next) < gap * grid_.cell()) {
+          inner = false;
+          return;
+        }
+        reached_[next] = 1;
+        front.push_back(next);
+      });
+      if (!inner) shore.push_back(node);
+    }
+    // A way of length `gap` takes up to sqrt(3) times as many steps along the axes.
+    for (int step = 0; step < static_cast<int>(std::ceil(std::sqrt(3.0) * gap)); ++step) {
+      std::vector<std::size_t> next_shore;
+      for (const std::size_t node : shore) {
+        ForNeighbours(node, [&](std::size_t next) {
+          reached_[next] = 1;
+          next_shore.push_back(next);
+        });
+      }
+      shore = std::move(next_shore);
+    }
+    const std::size_t below = static_cast<std::size_t>(floor_) * grid_.stride()[2];
+    std::fill(reached_.begin(), reached_.begin() + static_cast<std::ptrdiff_t>(below), 1);
+  }
+
+  const std::vector<std::uint8_t>& reached() const { return reached_; }
+
+ private:
+  // Those not reached yet.
+  template <typename Visit>
+  void ForNeighbours(std::size_t node, const Visit& visit) const {
+    const auto& size = grid_.size();
+    const auto& stride = grid_.stride();
     for (int axis = 0; axis < 3; ++axis) {
       const auto at = static_cast<int>(node / stride[axis] % static_cast<std::size_t>(size[axis]));
+      const int lowest = axis == 2 ? floor_ : 0;
       for (const int step : {-1, 1}) {
-        if (at + step < 0 || at + step >= size[axis]) continue;
+        if (at + step < lowest || at + step >= size[axis]) continue;
         const std::size_t next = step > 0 ? node + stride[axis] : node - stride[axis];
-        if (reached[next] || grid.Crossed(std::min(node, next), axis)) continue;
-        reached[next] = 1;
-        front.push_back(next);
+        if (!reached_[next] && !grid_.Crossed(std::min(node, next), axis)) visit(next);
       }
     }
   }
-  return reached;
-}
+
+  const SurfaceGrid& grid_;
+  int floor_;
+  std::vector<std::uint8_t> reached_;
+};
 
 // Whether one of the 26 neighbours of an inner node lies on the other side of the surface.
 bool BesideOtherSide(const std::vector<std::uint8_t>& reached, const SurfaceGrid& grid,
@@ -56,17 +98,34 @@ bool BesideOtherSide(const std::vector<std::uint8_t>& reached, const SurfaceGrid
 
 }  // namespace
 
-VoxelSolid::VoxelSolid(const core::TriangleMesh& mesh, int resolution, double sheet_cells,
-                       double growth_cells) {
-  core::RequireValid(mesh, "voxel solid");
+bool VoxelSolidOptions::IsValid(std::string* error) const {
+  const char* fault = nullptr;
   if (resolution < 8 || resolution > 512) {
-    throw core::Error("a voxel solid has 8 to 512 cells along its longest side");
+    fault = "a voxel solid has 8 to 512 cells along its longest side";
   }
+  if (!(sheet_cells >= 0.0) || !(growth_cells >= 0.0 && growth_cells <= 1.0)) {
+    fault = "a sheet's thickness is not negative, and growth lies in [0, 1] cells";
+  }
+  if (!(gap_cells >= 0.0 && gap_cells <= 16.0)) fault = "gaps of 0 to 16 cells are closed";
+  if (fault != nullptr && error != nullptr) *error = fault;
+  return fault == nullptr;
+}
+
+VoxelSolid::VoxelSolid(const core::TriangleMesh& mesh, const VoxelSolidOptions& options) {
+  core::RequireValid(mesh, "voxel solid");
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error(error);
   const double longest = mesh.empty() ? 0.0 : core::Bounds(mesh).sizes().maxCoeff();
   if (!(longest > 0.0)) throw core::Error("a mesh without extent fills nothing");
-  cell_ = longest / resolution;
-  const SurfaceGrid grid(mesh, cell_, kBandCells * cell_, kMargin);
-  const std::vector<std::uint8_t> reached = ReachedFromBorder(grid);
+  cell_ = longest / options.resolution;
+  const double band = std::max(kBandCells, options.gap_cells + 0.5);
+  const int margin = kMargin + static_cast<int>(std::ceil(options.gap_cells));
+  const SurfaceGrid grid(mesh, cell_, band * cell_, margin);
+  const double bottom = core::Bounds(mesh).min().z() - grid.origin().z();
+  // The first layer of nodes that is not below the mesh.
+  Walk walk(grid, options.on_floor ? static_cast<int>(std::ceil(bottom / cell_ - 1e-6)) : 0);
+  walk.Go(options.gap_cells);
+  const std::vector<std::uint8_t>& reached = walk.reached();
   origin_ = grid.origin();
   nx_ = grid.size()[0];
   ny_ = grid.size()[1];
@@ -82,12 +141,12 @@ VoxelSolid::VoxelSolid(const core::TriangleMesh& mesh, int resolution, double sh
         // Beside the other side the surface is a solid's, and its distance is right as it is. A
         // surface without one is a sheet outside, and buried inside.
         double outside = distance;
-        if (distance < 0.5 * sheet_cells + 0.5 && !BesideOtherSide(reached, grid, node)) {
-          outside = reached[node] ? distance - 0.5 * sheet_cells : -kBandCells;
+        if (distance < 0.5 * options.sheet_cells + 0.5 && !BesideOtherSide(reached, grid, node)) {
+          outside = reached[node] ? distance - 0.5 * options.sheet_cells : -kBandCells;
         } else if (!reached[node]) {
           outside = -distance;
         }
-        const double share = std::clamp(0.5 - outside + growth_cells, 0.0, 1.0);
+        const double share = std::clamp(0.5 - outside + options.growth_cells, 0.0, 1.0);
         occupancy_[(static_cast<std::size_t>(k) * ny_ + j) * nx_ + i] =
             static_cast<std::uint8_t>(std::lround(255.0 * share));
       }

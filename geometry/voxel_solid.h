@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,16 +11,28 @@
 
 namespace simwright::geometry {
 
+struct VoxelSolidOptions {
+  int resolution = 80;  // cells along the mesh's longest side, 8 to 512
+  // Thickness of sheets and of all that is thinner than a cell.
+  double sheet_cells = 1.5;
+  double growth_cells = 0.0;  // by which everything grows, [0, 1]
+  // What is behind openings narrower than twice this is filled: 0 to 16. Shells with cracks and
+  // missing faces are meant as solids; a cup's mouth is wider.
+  double gap_cells = 0.0;
+  // The mesh stands on a floor (z up): what only its open underside leads to is filled.
+  bool on_floor = false;
+
+  // False, with the reason, for values out of range.
+  bool IsValid(std::string* error) const;
+};
+
 // What a mesh fills, on a regular grid: good to a cell, for any triangles, in a fraction of the
 // time that a clean solid takes. Const and safe from several threads.
 class VoxelSolid {
  public:
-  // `resolution`: cells along the mesh's longest side, 8 to 512. A node is outside where it can be
-  // reached from the border without crossing a triangle; sheets (and all that is thinner than a
-  // cell) are given a thickness of `sheet_cells`; everything then grows by `growth_cells` (at most
-  // 1). Throws core::Error for an invalid mesh, one without extent, or a resolution out of range.
-  VoxelSolid(const core::TriangleMesh& mesh, int resolution, double sheet_cells = 1.5,
-             double growth_cells = 0.0);
+  // A node is outside where it can be reached from the border without crossing a triangle. Throws
+  // core::Error for an invalid mesh, one without extent, or options that are not valid.
+  VoxelSolid(const core::TriangleMesh& mesh, const VoxelSolidOptions& options);
 
   // Share in [0, 1] of a cell about `point` that is filled: a ramp one cell wide across the
   // surface, trilinear between nodes.

@@ -70,6 +70,7 @@ asset_lift::CategoryPrior PriorOf(const physics_params::Category& category) {
   prior.revolved = category.shape == physics_params::Shape::kRevolved;
   prior.open = category.fill == physics_params::Fill::kOpen;
   prior.flat = category.shape == physics_params::Shape::kFlat;
+  prior.angular = category.shape == physics_params::Shape::kBox;
   return prior;
 }
 

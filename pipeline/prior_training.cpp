@@ -18,6 +18,14 @@ PriorTrainingRequest::PriorTrainingRequest() {
   view_options.trainer.learning_rate = 1e-3;
 }
 
+std::filesystem::path ShapeWeights(const std::filesystem::path& folder) {
+  return folder / "shape_prior.pt";
+}
+
+std::filesystem::path ViewWeights(const std::filesystem::path& folder) {
+  return folder / "view_prior.pt";
+}
+
 std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core::Progress* progress,
                                       const TrainedPriorListener& listener) {
   std::vector<core::TexturedMesh> meshes;
@@ -31,8 +39,8 @@ std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core:
     std::move(read.begin(), read.end(), std::back_inserter(meshes));
   }
   std::filesystem::create_directories(request.output);
-  const std::filesystem::path shape = request.output / "shape_prior.pt",
-                              view = request.output / "view_prior.pt";
+  const std::filesystem::path shape = ShapeWeights(request.output),
+                              view = ViewWeights(request.output);
   const auto named = [&](const char* name, const std::filesystem::path& weights) {
     return [&listener, name, weights](const asset_lift::PriorTrainingReport& report) {
       if (listener) listener({name, weights, report});

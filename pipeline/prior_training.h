@@ -25,9 +25,13 @@ struct PriorTrainingRequest {
 // Where Debian's sweethome3d-furniture keeps its CC0 part: what the shipped weights learned from.
 std::filesystem::path DefaultTrainingCatalogue();
 
+// The two files of weights in a folder.
+std::filesystem::path ShapeWeights(const std::filesystem::path& folder);
+std::filesystem::path ViewWeights(const std::filesystem::path& folder);
+
 struct TrainedPrior {
-  std::string name;               // "shape" or "view"
-  std::filesystem::path weights;  // in the request's folder: shape_prior.pt or view_prior.pt
+  std::string name;                        // "shape" or "view"
+  std::filesystem::path weights;           // in the request's folder
   asset_lift::PriorTrainingReport report;  // of the last steps
 };
 

@@ -4,6 +4,7 @@
 
 #include "asset_lift/learned_view_prior.h"
 #include "asset_lift/scripted_view_prior.h"
+#include "pipeline/prior_training.h"
 
 namespace simwright::pipeline {
 namespace fs = std::filesystem;
@@ -26,7 +27,7 @@ fs::path ModelsFolder() {
 asset_lift::LiftPriors LoadLiftPriors(const fs::path& view_script, core::Findings* findings) {
   asset_lift::LiftPriors priors;
   const fs::path folder = ModelsFolder();
-  const fs::path shape = folder / "shape_prior.pt", view = folder / "view_prior.pt";
+  const fs::path shape = ShapeWeights(folder), view = ViewWeights(folder);
   const bool have_shape = !folder.empty() && fs::exists(shape);
   if (have_shape) priors.shape = std::make_shared<asset_lift::ShapePrior>(shape);
   if (!view_script.empty()) {

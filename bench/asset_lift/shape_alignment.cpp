@@ -17,7 +17,6 @@ constexpr int kRays = 15000;        // two ends each: some 20,000 points that me
 constexpr int kTreePoints = 8000;   // that are searched when aligning
 constexpr int kSearchPoints = 300;  // a candidate rotation is judged by
 constexpr int kFitPoints = 2000;    // that closest points are iterated on
-constexpr int kSolidCells = 96;
 constexpr int kRefined = 8;
 constexpr int kIterations = 40;
 
@@ -207,6 +206,16 @@ const Eigen::Vector3d& PointTree::Nearest(const Eigen::Vector3d& p) const {
   return points_[best];
 }
 
+// Catalogue pieces are shells with cracks, often without an underside: what they stand for is
+// filled where neither an opening of a twentieth of the side leads, nor the floor it stands on.
+geometry::VoxelSolidOptions SolidOptions() {
+  geometry::VoxelSolidOptions options;
+  options.resolution = 96;
+  options.gap_cells = 2.5;
+  options.on_floor = true;
+  return options;
+}
+
 ComparableShape::ComparableShape(const core::TriangleMesh& mesh, std::uint64_t seed) : mesh_(mesh) {
   core::RequireValid(mesh, "a shape to compare");
   Eigen::AlignedBox3d box;
@@ -223,7 +232,7 @@ ComparableShape::ComparableShape(const core::TriangleMesh& mesh, std::uint64_t s
   tree_ = std::make_unique<PointTree>(std::vector<Eigen::Vector3d>(
       points_.begin(), points_.begin() + static_cast<long>(Used(points_, kTreePoints))));
   surface_ = std::make_unique<geometry::TriangleTree>(mesh_);
-  solid_ = std::make_unique<geometry::VoxelSolid>(mesh_, kSolidCells);
+  solid_ = std::make_unique<geometry::VoxelSolid>(mesh_, SolidOptions());
 }
 
 Eigen::Affine3d Align(const ComparableShape& truth, const ComparableShape& other) {

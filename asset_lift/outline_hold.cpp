@@ -1,0 +1,137 @@
+#include "asset_lift/outline_hold.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "asset_lift/shape_example.h"
+
+namespace simwright::asset_lift {
+namespace {
+
+constexpr int kSide = kCropSide;
+constexpr size_t kPixels = static_cast<size_t>(kSide) * kSide;
+constexpr float kEmpty = -8.0f;
+constexpr float kSheetPeak = 0.7f;  // log odds in a sheet's middle
+constexpr float kPixel = 2.0f / kSide;
+constexpr float kCell = static_cast<float>(2.0 * kDepthReach / kDepthCells);
+// How far a sheet's depth may change from a pixel to the next: one standard deviation.
+constexpr float kSlope = 0.7f * kPixel;
+constexpr int kSweeps = 200;
+
+float DepthOf(int cell) {
+  return static_cast<float>(kDepthReach * ((cell + 0.5) * 2.0 / kDepthCells - 1.0));
+}
+
+// One pixel's column of the volume.
+struct Column {
+  bool seen = false;       // within the outline
+  bool sure = false;       // the network says that something is there
+  float center = 0.0f;     // w of the middle
+  float precision = 0.0f;  // of the middle, where it is not sure: one over its variance
+  float rim = 0.0f;        // distance to the outline's edge
+};
+
+Column Read(const ShapePrediction& prediction, size_t pixel) {
+  Column column;
+  column.seen = prediction.crop.pixels[4 * pixel + 3] > 127;
+  double sum = 0.0, mean = 0.0, square = 0.0;
+  for (int k = 0; k < kDepthCells; ++k) {
+    const float logit = prediction.logits[static_cast<size_t>(k) * kPixels + pixel];
+    column.sure = column.sure || logit > 0.0f;
+    const double share = 1.0 / (1.0 + std::exp(-logit)), w = DepthOf(k);
+    sum += share;
+    mean += share * w;
+    square += share * w * w;
+  }
+  mean /= sum;
+  column.center = static_cast<float>(mean);
+  column.precision =
+      static_cast<float>(1.0 / (std::max(0.0, square / sum - mean * mean) + kCell * kCell));
+  return column;
+}
+
+// Distance to what is not seen, by sweeps with the steps 1 and sqrt(2) (Borgefors 1986).
+void MeasureRims(std::vector<Column>* columns) {
+  const auto at = [&](int x, int y) -> float {
+    if (x < 0 || y < 0 || x >= kSide || y >= kSide) return 0.0f;
+    return (*columns)[static_cast<size_t>(y) * kSide + static_cast<size_t>(x)].rim;
+  };
+  for (Column& column : *columns) column.rim = column.seen ? 1e6f : 0.0f;
+  const auto relax = [&](int x, int y, int d) {
+    float& rim = (*columns)[static_cast<size_t>(y) * kSide + static_cast<size_t>(x)].rim;
+    const float straight = std::min(at(x - d, y), at(x, y - d)) + 1.0f;
+    const float across = std::min(at(x - d, y - d), at(x + d, y - d)) + static_cast<float>(M_SQRT2);
+    rim = std::min({rim, straight, across});
+  };
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) relax(x, y, 1);
+  }
+  for (int y = kSide - 1; y >= 0; --y) {
+    for (int x = kSide - 1; x >= 0; --x) relax(x, y, -1);
+  }
+  for (Column& column : *columns) column.rim *= kPixel;
+}
+
+// The middles of unsure columns, drawn towards their neighbours': Gauss-Seidel on the posterior of
+// independent readings and a membrane through them.
+void SmoothMiddles(std::vector<Column>* columns) {
+  const std::vector<Column> read = *columns;
+  constexpr float kStiffness = 1.0f / (kSlope * kSlope);
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const size_t pixel = static_cast<size_t>(y) * kSide + static_cast<size_t>(x);
+        Column& column = (*columns)[pixel];
+        if (!column.seen || column.sure) continue;
+        float weight = read[pixel].precision, sum = weight * read[pixel].center;
+        const auto draw = [&](int nx, int ny) {
+          if (nx < 0 || ny < 0 || nx >= kSide || ny >= kSide) return;
+          const Column& next =
+              (*columns)[static_cast<size_t>(ny) * kSide + static_cast<size_t>(nx)];
+          if (!next.seen) return;
+          weight += kStiffness;
+          sum += kStiffness * next.center;
+        };
+        draw(x - 1, y);
+        draw(x + 1, y);
+        draw(x, y - 1);
+        draw(x, y + 1);
+        column.center = sum / weight;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void HoldToOutline(ShapePrediction* prediction) {
+  std::vector<Column> columns(kPixels);
+  for (size_t pixel = 0; pixel < kPixels; ++pixel) columns[pixel] = Read(*prediction, pixel);
+  MeasureRims(&columns);
+  SmoothMiddles(&columns);
+  prediction->front_w.assign(kPixels, 0.0f);
+  prediction->back_w.assign(kPixels, 0.0f);
+  for (size_t pixel = 0; pixel < kPixels; ++pixel) {
+    const Column& column = columns[pixel];
+    const bool sheet = column.seen && !column.sure;
+    const float half = std::max(column.rim, kCell);
+    int first = -1, last = -1;
+    for (int k = 0; k < kDepthCells; ++k) {
+      float& logit = prediction->logits[static_cast<size_t>(k) * kPixels + pixel];
+      // Beside the outline the volume goes on smoothly; Logit() cuts it at the outline itself.
+      logit = std::max(kEmpty, logit);
+      if (sheet) {
+        const float off = (DepthOf(k) - column.center) / half;
+        logit = std::max(logit, kSheetPeak * (1.0f - off * off));
+      }
+      if (logit <= 0.0f) continue;
+      if (first < 0) first = k;
+      last = k;
+    }
+    if (first < 0) continue;
+    prediction->front_w[pixel] = DepthOf(first);
+    prediction->back_w[pixel] = DepthOf(last);
+  }
+}
+
+}  // namespace simwright::asset_lift
