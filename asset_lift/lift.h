@@ -36,8 +36,8 @@ enum class LiftEffort {
 struct LiftOptions {
   LiftEffort effort = LiftEffort::kFull;
   ShapeFitOptions fit;
-  // Score distillation of either stage. The mesh stage's noise is that of threestudio's second
-  // stage.
+  // Score distillation of either stage: gentle, as suits our own view prior; TrustViewPrior changes
+  // that.
   ScoreDistillationOptions field_distillation, mesh_distillation;
   int fit_side = 128;  // pixels a side of the crop that the stages fit
 
@@ -56,6 +56,11 @@ struct LiftOptions {
 
   LiftOptions();
 };
+
+// Score distillation with the published weights, guidance and noise (Zero-1-to-3 in threestudio;
+// the mesh stage's noise is that of its second stage), and a first guess that gives way: for a view
+// prior that was trained at their size. Leaves everything else as it is.
+void TrustViewPrior(LiftOptions* options);
 
 // A photo's object as a textured, closed mesh. In the world: z up, the camera on the side of -y,
 // arbitrary scale (the camera one unit away).

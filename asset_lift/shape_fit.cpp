@@ -1,14 +1,21 @@
 #include "asset_lift/shape_fit.h"
 
+#include <algorithm>
+
 namespace simwright::asset_lift {
 namespace {
+
+// A bias beyond this is as good as solid, or as empty.
+constexpr double kSureBias = 10.0;
 
 // The guess's cube with room to grow, about its middle.
 void PlaceField(const FirstGuess& guess, double scale, RadianceFieldOptions* field) {
   field->center = guess.box.center();
   field->half_side = 0.5 * 1.3 * guess.box.sizes().maxCoeff();
   const auto odds = guess.odds;
-  field->density_bias = [odds, scale](const Eigen::Vector3d& point) { return scale * odds(point); };
+  field->density_bias = [odds, scale](const Eigen::Vector3d& point) {
+    return std::clamp(scale * odds(point), -kSureBias, kSureBias);
+  };
 }
 
 void Append(const core::Findings& from, core::Findings* to) {

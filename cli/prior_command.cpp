@@ -83,7 +83,9 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
   prior->require_subcommand(1);
   auto flags = std::make_shared<Flags>();
   CLI::App* command = prior->add_subcommand("train", "Train their weights anew");
-  command->footer("Example (as the shipped weights were made):\n  simwright prior train -o models");
+  command->footer(
+      "Example (weights like the shipped ones, in about three hours on two cores):\n"
+      "  simwright prior train -o models");
   command->add_option("catalogues", flags->request.catalogues,
                       "Furniture catalogues (.sh3f) to learn from; default: the CC0 one of Debian");
   command->add_flag("--parametric-only", flags->parametric_only,

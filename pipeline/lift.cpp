@@ -143,6 +143,7 @@ LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
   options.focal_35mm = core::ExifFocalLength35mm(bytes);
   options.seed = request.seed;
   options.effort = request.effort;
+  if (!request.prior.empty()) asset_lift::TrustViewPrior(&options);
   const auto start = std::chrono::steady_clock::now();
   core::Findings findings;
   asset_lift::LiftPriors priors;

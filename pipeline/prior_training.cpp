@@ -6,15 +6,41 @@
 #include "pipeline/catalogue_meshes.h"
 
 namespace simwright::pipeline {
+namespace {
+
+// What is missing is said before the minutes that reading takes.
+void RequireFiles(const PriorTrainingRequest& request) {
+  for (const std::filesystem::path& path : request.catalogues) {
+    if (!std::filesystem::exists(path)) {
+      throw core::Error("no such catalogue", path.string(),
+                        "./setup.sh --catalogue installs the one that the shipped weights learned "
+                        "from; --parametric-only learns without one");
+    }
+  }
+  const auto require_start = [](bool wanted, const asset_lift::PriorTrainingOptions& options) {
+    if (wanted && !options.start.empty() && !std::filesystem::exists(options.start)) {
+      throw core::Error("no such weights to begin with", options.start.string(),
+                        "--from names a folder that `simwright prior train` made");
+    }
+  };
+  require_start(request.shape, request.shape_options);
+  require_start(request.view, request.view_options);
+  if (request.view && !request.shape && !std::filesystem::exists(ShapeWeights(request.output))) {
+    throw core::Error("the view prior builds upon a shape prior", ShapeWeights(request.output),
+                      "train that one too, or copy one there");
+  }
+}
+
+}  // namespace
 
 std::filesystem::path DefaultTrainingCatalogue() {
   return "/usr/share/sweethome3d/furniture/BlendSwap-CC-0.sh3f";
 }
 
 PriorTrainingRequest::PriorTrainingRequest() {
-  shape_options.trainer.steps = 3200;
+  shape_options.trainer.steps = 9200;
   shape_options.trainer.learning_rate = 8e-4;
-  view_options.trainer.steps = 2500;
+  view_options.trainer.steps = 2250;
   view_options.trainer.learning_rate = 1e-3;
 }
 
@@ -28,13 +54,9 @@ std::filesystem::path ViewWeights(const std::filesystem::path& folder) {
 
 std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core::Progress* progress,
                                       const TrainedPriorListener& listener) {
+  RequireFiles(request);
   std::vector<core::TexturedMesh> meshes;
   for (const std::filesystem::path& path : request.catalogues) {
-    if (!std::filesystem::exists(path)) {
-      throw core::Error("no such catalogue", path.string(),
-                        "./setup.sh --catalogue installs the one that the shipped weights learned "
-                        "from; --parametric-only learns without one");
-    }
     std::vector<core::TexturedMesh> read = ReadCatalogue(path, progress);
     std::move(read.begin(), read.end(), std::back_inserter(meshes));
   }

@@ -18,7 +18,7 @@ struct PriorTrainingRequest {
   bool view = true;              // builds upon the shape prior in the folder
   asset_lift::PriorTrainingOptions shape_options, view_options;
 
-  // The shipped weights' settings.
+  // What makes weights like the shipped ones.
   PriorTrainingRequest();
 };
 

@@ -112,7 +112,8 @@ std::vector<CatalogueObject> HouseholdObjects(const std::vector<fs::path>& catal
           physics_params::ResolveCategory(piece.name, base, physics_params::WordNet::Installed());
       if (found.category == nullptr || !taken.insert(piece.name).second) continue;
       try {
-        objects.push_back({piece.name, found.category->name, pipeline::ReadCataloguePiece(catalogue, piece, nullptr),
+        objects.push_back({piece.name, found.category->name,
+                           pipeline::ReadCataloguePiece(catalogue, piece, nullptr),
                            pipeline::PriorOf(*found.category)});
       } catch (const core::Error& error) {
         std::fprintf(stderr, "left out: %s\n", error.what());

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "asset_lift/first_guess.h"
+#include "asset_lift/outline_hold.h"
 #include "asset_lift/shape_example.h"
 #include "asset_lift/training_shapes.h"
 #include "core/error.h"
@@ -82,6 +83,60 @@ TEST(ShapePrediction, ABallIsABallInOddsSurfaceAndPicture) {
   EXPECT_NEAR(area, M_PI * radius * radius, 0.04 * area);
   EXPECT_NEAR(red / (red + blue), 0.5, 0.08);
   EXPECT_NEAR(drawn.depth.At(24, 24)[0], 4.5, 0.05);
+}
+
+// The filled cells of a pixel's column: first, last and how many.
+Eigen::Vector3i FilledCells(const ShapePrediction& prediction, int x, int y) {
+  Eigen::Vector3i cells(-1, -1, 0);
+  for (int k = 0; k < kDepthCells; ++k) {
+    const size_t at = static_cast<size_t>(k) * kPixels + static_cast<size_t>(y) * kCropSide +
+                      static_cast<size_t>(x);
+    if (prediction.logits[at] <= 0.0f) continue;
+    if (cells[0] < 0) cells[0] = k;
+    cells[1] = k;
+    ++cells[2];
+  }
+  return cells;
+}
+
+// Every pixel of a band is seen; the network is sure of its left half, and about its right half
+// knows only about where it is, a different place for each row.
+TEST(OutlineHold, UnsureColumnsGetASmoothSheetAndSureOnesKeepTheirWord) {
+  constexpr int kTop = 20, kBottom = 44, kLeft = 10, kMiddle = 32, kRight = 54;
+  ShapePrediction held;
+  held.crop = core::Image(kCropSide, kCropSide, 4);
+  held.logits.assign(kPixels * kDepthCells, -6.0f);
+  const auto logit = [&](int x, int y, int k) -> float& {
+    return held.logits[static_cast<size_t>(k) * kPixels + static_cast<size_t>(y) * kCropSide +
+                       static_cast<size_t>(x)];
+  };
+  for (int y = kTop; y < kBottom; ++y) {
+    for (int x = kLeft; x < kRight; ++x) {
+      held.crop.At(x, y)[3] = 255;
+      const int wanders = 30 + (y % 2 == 0 ? 3 : -3);
+      for (int k = 0; k < kDepthCells; ++k) {
+        if (x < kMiddle) {
+          logit(x, y, k) = k >= 28 && k <= 31 ? 3.0f : -6.0f;
+        } else {
+          logit(x, y, k) = std::abs(k - wanders) < 5 ? -1.0f : -6.0f;
+        }
+      }
+    }
+  }
+  HoldToOutline(&held);
+  EXPECT_EQ(FilledCells(held, 20, 30), Eigen::Vector3i(28, 31, 4));
+  EXPECT_EQ(FilledCells(held, 4, 30), Eigen::Vector3i(-1, -1, 0));  // beside the outline
+  // One piece, near where the rows' readings meet, however they alternate.
+  for (int y = kTop + 4; y < kBottom - 4; ++y) {
+    const Eigen::Vector3i cells = FilledCells(held, 44, y);
+    ASSERT_GT(cells[2], 0) << y;
+    EXPECT_EQ(cells[1] - cells[0] + 1, cells[2]) << y;
+    EXPECT_NEAR(0.5 * (cells[0] + cells[1]), 30.0, 1.5) << y;
+  }
+  // As thick as the band is wide there: more in its middle than at its edge.
+  EXPECT_GT(FilledCells(held, 44, 32)[2], FilledCells(held, 44, kTop)[2] + 2);
+  const size_t at = 32 * kCropSide + 44;
+  EXPECT_LT(held.front_w[at], held.back_w[at]);
 }
 
 TEST(FirstGuess, OddsOfAMeshFollowItsSurface) {

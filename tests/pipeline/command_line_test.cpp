@@ -110,6 +110,13 @@ TEST_F(CommandLine, BadMeshesAreRefused) {
   ExpectRefused(import((folder_ / "none").string()), "no such");
 }
 
+TEST_F(CommandLine, TrainingRefusesWhatIsNotThere) {
+  const std::string train = "prior train --parametric-only -o " + Out();
+  ExpectRefused(train + " --from " + (folder_ / "none").string(), "shape_prior.pt");
+  ExpectRefused(train + " --batch 4 --only view", "shape_prior.pt");  // it builds upon the other
+  ExpectRefused("prior train -o " + Out() + " " + (folder_ / "none.sh3f").string(), "none.sh3f");
+}
+
 TEST_F(CommandLine, ACatalogueThatClimbsOutIsRefused) {
   const std::string path = (folder_ / "evil.sh3f").string(), text = "id#1=a\n";
   int code = 0;
@@ -191,9 +198,8 @@ TEST_F(CommandLine, LargeMeshesAreOrdinary) {
 }
 
 TEST_F(CommandLine, TheExampleChairBecomesAnAssetThatHolds) {
-  const Outcome outcome = RunProgram("import " SIMWRIGHT_SOURCE_DIR
-                                     "/examples/chair.obj --category chair --quiet -o " +
-                                     Out());
+  const Outcome outcome = RunProgram(
+      "import " SIMWRIGHT_SOURCE_DIR "/examples/chair.obj --category chair --quiet -o " + Out());
   ASSERT_EQ(outcome.code, 0) << outcome.text;
   const Outcome check = RunProgram("check " + Out() + "/chair");
   EXPECT_EQ(check.code, 0) << check.text;

@@ -86,12 +86,34 @@ TEST(LiftCommand, APhotoOfAnotherSizeThanItsCamerasIsRefused) {
   const core::TemporaryFolder folder;
   const std::string photos = PhotosAndCameras(folder.path(), 3, -1);
   core::WriteFile(folder.path() / "view1.png", core::EncodePng(core::Image(80, 80, 3, 100)));
-  const Outcome lift = RunProgram("lift " + photos + "--cameras " +
-                                  (folder.path() / "cams.json").string() +
-                                  " --category ball --quiet -o " + (folder.path() / "out").string());
+  const Outcome lift =
+      RunProgram("lift " + photos + "--cameras " + (folder.path() / "cams.json").string() +
+                 " --category ball --quiet -o " + (folder.path() / "out").string());
   EXPECT_EQ(lift.code, 1) << lift.text;
   EXPECT_NE(lift.text.find("view1.png"), std::string::npos) << lift.text;
   EXPECT_FALSE(fs::exists(folder.path() / "out"));
+}
+
+// The outline of a box looks like a turned body's, and is not one: its category says so.
+TEST(LiftCommand, ABoxIsNoTurnedBody) {
+  const core::TemporaryFolder folder;
+  core::Image photo(160, 160, 4);
+  for (int y = 30; y < 130; ++y) {
+    for (int x = 50; x < 110; ++x) {
+      photo.At(x, y)[1] = static_cast<std::uint8_t>(y);
+      photo.At(x, y)[3] = 255;
+    }
+  }
+  core::WriteFile(folder.path() / "front.png", core::EncodePng(photo));
+  const auto lift = [&](const std::string& category) {
+    const Outcome outcome = RunProgram("lift " + (folder.path() / "front.png").string() +
+                                       " --elevation 0 --fast --category " + category + " -o " +
+                                       (folder.path() / category).string());
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    return outcome.text;
+  };
+  EXPECT_NE(lift("bottle").find("turned upright"), std::string::npos);
+  EXPECT_NE(lift("box").find("the learned prior"), std::string::npos);
 }
 
 // A bracket: no body of revolution, so that its hidden side has to be guessed and fitted.
