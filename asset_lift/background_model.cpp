@@ -13,6 +13,9 @@
 namespace simwright::asset_lift {
 namespace {
 
+// Pixels nearer than this to the border's colours, in standard deviations, look like background.
+constexpr double kAlike = 3.0;
+
 // The photo in BGR at the working size, slightly smoothed: sensor noise and print screens would
 // otherwise dominate the colour models.
 cv::Mat WorkingCopy(const core::Image& photo, int side) {
@@ -146,8 +149,18 @@ cv::Mat ForegroundOf(const cv::Mat& trimap) {
   return (trimap == cv::GC_FGD) | (trimap == cv::GC_PR_FGD);
 }
 
-// GrabCut again between a smaller and a larger copy of the round outline.
-void CompleteRound(const cv::Mat& bgr, const SegmentationOptions& options, cv::Mat* trimap) {
+// Pixels that GrabCut gave to the background, of the border's colours and brighter than the thing:
+// no shade on it looks like that.
+cv::Mat BrightBackground(const cv::Mat& bgr, const cv::Mat& distance, const cv::Mat& foreground) {
+  cv::Mat grey;
+  cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
+  return ~foreground & (distance < kAlike) & (grey > cv::mean(grey, foreground)[0]);
+}
+
+// GrabCut again between a smaller and a larger copy of the round outline. Towards the rim a thing
+// may be flatter than its ellipse: bright background there stays undecided.
+void CompleteRound(const cv::Mat& bgr, const cv::Mat& distance, const SegmentationOptions& options,
+                   cv::Mat* trimap) {
   const std::optional<cv::RotatedRect> outline =
       FindRoundOutline(bgr, ForegroundOf(*trimap), options.seed);
   if (!outline) return;
@@ -158,6 +171,9 @@ void CompleteRound(const cv::Mat& bgr, const SegmentationOptions& options, cv::M
   cv::ellipse(next, scaled(1.06f), cv::Scalar(cv::GC_PR_BGD), -1);
   cv::ellipse(next, scaled(1.0f), cv::Scalar(cv::GC_PR_FGD), -1);
   cv::ellipse(next, scaled(0.94f), cv::Scalar(cv::GC_FGD), -1);
+  next.setTo(cv::GC_PR_BGD,
+             (next == cv::GC_FGD) & BrightBackground(bgr, distance, ForegroundOf(*trimap)));
+  cv::ellipse(next, scaled(0.7f), cv::Scalar(cv::GC_FGD), -1);
   cv::Mat background_model, foreground_model;
   cv::grabCut(bgr, next, cv::Rect(), background_model, foreground_model, 2, cv::GC_INIT_WITH_MASK);
   *trimap = next;
@@ -177,7 +193,8 @@ cv::Mat FilledHoles(const cv::Mat& mask, double smallest_hole) {
 
 cv::Mat FindForeground(const core::Image& photo, const SegmentationOptions& options) {
   const cv::Mat bgr = WorkingCopy(photo, options.working_side);
-  cv::Mat trimap = Trimap(DistanceFromBorder(bgr, options.seed), Saliency(bgr));
+  const cv::Mat distance = DistanceFromBorder(bgr, options.seed);
+  cv::Mat trimap = Trimap(distance, Saliency(bgr));
   const int foreground = cv::countNonZero((trimap == cv::GC_PR_FGD) | (trimap == cv::GC_FGD));
   if (foreground < options.min_area * static_cast<double>(trimap.total())) {
     throw core::Error("no object stands out from the background", "",
@@ -187,7 +204,7 @@ cv::Mat FindForeground(const core::Image& photo, const SegmentationOptions& opti
   cv::setRNGSeed(static_cast<int>(options.seed));
   cv::grabCut(bgr, trimap, cv::Rect(), background_model, foreground_model,
               options.grabcut_iterations, cv::GC_INIT_WITH_MASK);
-  if (options.round_object) CompleteRound(bgr, options, &trimap);
+  if (options.round_object) CompleteRound(bgr, distance, options, &trimap);
   cv::Mat mask = ForegroundOf(trimap);
   const double size = 0.01 * std::max(mask.rows, mask.cols);
   const int radius = std::max(1, static_cast<int>(std::lround(size)));

@@ -141,6 +141,29 @@ TEST(Segmentation, FindsABrightDiscOnATexturedGround) {
   EXPECT_GT(both / either, 0.95);
 }
 
+// The apple is red, the wall behind it green: an ellipse about its flat top must not take the wall
+// beside the stem along, nor its shaded side the thing's.
+TEST(Segmentation, ARoundThingMayBeFlatOnTop) {
+  const core::Image photo = core::ReadImage(SIMWRIGHT_SOURCE_DIR "/examples/apple.jpg");
+  SegmentationOptions options;
+  options.round_object = true;
+  const Matte matte = SegmentObject(photo, {}, options);
+  int inside = 0, green = 0, red = 0, red_left_out = 0;
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width; ++x) {
+      const std::uint8_t* p = photo.At(x, y);
+      const bool found = matte.alpha.At(x, y)[0] > 127;
+      inside += found;
+      green += found && p[1] > p[0] && p[1] > 80;
+      red += p[0] > p[1] + 40;
+      red_left_out += p[0] > p[1] + 40 && !found;
+    }
+  }
+  EXPECT_GT(inside, 0);
+  EXPECT_LT(green, 0.02 * inside);
+  EXPECT_LT(red_left_out, 0.02 * red);
+}
+
 TEST(Segmentation, SaysWhyThereIsNoObject) {
   EXPECT_THROW(SegmentObject(core::Image(1, 1, 3), {}), core::Error);
   EXPECT_THROW(SegmentObject(core::Image(100, 100, 4), {}), core::Error);       // transparent
