@@ -160,7 +160,7 @@ ElevationEstimate EstimateElevation(const Matte& matte, const CategoryPrior& pri
   estimate.elevation = mean * kDegree;
   estimate.deviation = std::sqrt(std::max(0.0, square / total - mean * mean)) * kDegree;
   char text[160];
-  std::snprintf(text, sizeof(text), "elevation %.0f +- %.0f degrees from %s", mean,
+  std::snprintf(text, sizeof(text), "%.0f +- %.0f degrees from %s", mean,
                 estimate.deviation / kDegree, cues.c_str());
   estimate.sentence = text;
   return estimate;
@@ -176,7 +176,7 @@ ElevationEstimate Combined(const ElevationEstimate& a, const ElevationEstimate& 
   joint.elevation = share_a * a.elevation + share_b * b.elevation;
   joint.deviation = std::sqrt(1.0 / precision + share_a * share_b * apart * apart);
   char text[400];
-  std::snprintf(text, sizeof(text), "elevation %.0f +- %.0f degrees: %s; %s",
+  std::snprintf(text, sizeof(text), "%.0f +- %.0f degrees: %s; %s",
                 joint.elevation / kDegree, joint.deviation / kDegree, a.sentence.c_str(),
                 b.sentence.c_str());
   joint.sentence = text;

@@ -22,7 +22,7 @@ struct CategoryPrior {
 struct ElevationEstimate {
   double elevation = 0.35;  // rad, of the sight line to the object above the horizon
   double deviation = 0.2;   // rad, one standard deviation of the posterior
-  std::string sentence;     // which cues decided
+  std::string sentence;     // the figure and which cues decided, to follow "elevation"
 };
 
 // How high above the object the photo was taken, as the mean of a posterior over 0 to 80 degrees:

@@ -204,7 +204,7 @@ void PlaceCamera(double focal, const CategoryPrior& prior, const ShapePrior* sha
                  const LiftOptions& options, LiftedMesh* lifted) {
   lifted->elevation = EstimateElevation(lifted->matte, prior);
   if (options.elevation >= 0.0) {
-    lifted->elevation = {options.elevation, 0.0, "elevation given"};
+    lifted->elevation = {options.elevation, 0.0, "given"};
   } else if (prior.revolved && !prior.round) {
     lifted->elevation = RefineElevation(lifted->matte, focal, lifted->elevation);
   } else if (shape != nullptr) {
@@ -213,7 +213,7 @@ void PlaceCamera(double focal, const CategoryPrior& prior, const ShapePrior* sha
   // Level sight lines never cross the planes in which a turned body's discs lie.
   const double elevation = std::clamp(lifted->elevation.elevation, 0.03, 1.5);
   lifted->camera = PhotoCamera(lifted->matte, focal, elevation);
-  Tell("elevation", lifted->elevation.sentence, elevation, lifted);
+  Tell("elevation", "elevation " + lifted->elevation.sentence, elevation, lifted);
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ Matte SegmentObject(const core::Image& photo, const std::optional<core::Image>& 
   cv::Mat grown, kept;
   cv::dilate(object, grown, cv::Mat::ones(5, 5, CV_8U));
   alpha.copyTo(kept, grown);
-  return MatteFrom(kept, "found");
+  return MatteFrom(kept, "colour and contrast");
 }
 
 }  // namespace simwright::asset_lift

@@ -10,7 +10,7 @@ namespace simwright::asset_lift {
 // The object of a photo, cut out.
 struct Matte {
   core::Image alpha;   // 1 channel, as large as the photo; 255 inside the object
-  std::string method;  // "alpha channel", "given mask" or "found"
+  std::string method;  // "alpha channel", "given mask" or "colour and contrast"
   // Share of pixels in [0, 1] that the object covers, and its box in pixels.
   double area = 0.0;
   int left = 0, top = 0, right = 0, bottom = 0;  // half-open
