@@ -114,13 +114,7 @@ void Turn(const Category& known, ObjectAnswer* answer, EstimatedCategory* estima
   answer->height = best[2];
 }
 
-// Mass over the bounding box, kg/m^3: the least and the most that the ranges allow.
-Interval BoxDensity(const Interval& mass, const Interval& length, const Interval& width,
-                    const Interval& height) {
-  return {mass.min / (length.max * width.max * height.max),
-          mass.max / (length.min * width.min * height.min)};
-}
-
+// Mass over the bounding box, kg/m^3.
 double MiddleDensity(const ObjectAnswer& answer) {
   return Middle(*answer.mass) /
          (Middle(*answer.length) * Middle(*answer.width) * Middle(*answer.height));
@@ -211,6 +205,50 @@ void OrderSides(EstimatedCategory* estimate) {
   std::swap(estimate->length_source, estimate->width_source);
 }
 
+// Throws unless sizes and mass are those of some thing. Returns its density over the bounding box.
+double RequirePlausible(const Category& category, const ObjectAnswer& answer,
+                        const std::string& where, const char* remedy) {
+  for (const Interval& side : {category.length, category.width, category.height}) {
+    if (side.min < kSmallest || side.max > kLargest) {
+      throw core::Error("a size of " + Text(side, 1e-2, "cm") + " is that of no household thing",
+                        where, remedy);
+    }
+  }
+  const double density = MiddleDensity(answer);
+  if (!(density >= kLightest && density <= kHeaviest)) {
+    char text[120];
+    std::snprintf(text, sizeof(text),
+                  "its mass over its sizes gives %.3g kg/m3, outside %.0f to %.0f", density,
+                  kLightest, kHeaviest);
+    throw core::Error(text, where, remedy);
+  }
+  return density;
+}
+
+// Those that the answer names and that are dense enough; else the lightest of all that are: what
+// is known least assumes least. Empty: there is none.
+std::vector<std::string> ChooseMaterials(const std::string& words, double density,
+                                         const KnowledgeBase& base, EstimatedCategory* estimate) {
+  std::vector<std::string> chosen;
+  for (const std::string& material : MaterialsIn(words, base)) {
+    if (density <= kRounding * base.FindMaterial(material)->density.max) {
+      chosen.push_back(material);
+    } else {
+      Report(estimate, "llm-density", core::Severity::kWarning,
+             "it is too heavy for its size to be made of " + material, density);
+    }
+  }
+  if (!chosen.empty()) return chosen;
+  constexpr double kFirm = 400.0;  // kg/m^3; foams and textiles are not guessed
+  const Material* fitting = nullptr;
+  for (const Material& material : base.materials()) {
+    if (material.density.max * kRounding < density || material.density.min < kFirm) continue;
+    if (fitting == nullptr || material.density.max < fitting->density.max) fitting = &material;
+  }
+  if (fitting != nullptr) chosen.push_back(fitting->name);
+  return chosen;
+}
+
 }  // namespace
 
 EstimatedCategory ReconcileAnswer(const Resolution& known, const ObjectAnswer& said,
@@ -253,45 +291,14 @@ EstimatedCategory CategoryFromAnswer(const std::string& name, const ObjectAnswer
   category.height = Spread(*answer.height);
   category.mass = Spread(*answer.mass);
   OrderSides(&estimate);
-  for (const Interval& side : {category.length, category.width, category.height}) {
-    if (side.min < kSmallest || side.max > kLargest) {
-      throw core::Error("a size of " + Text(side, 1e-2, "cm") + " is that of no household thing",
-                        where, remedy);
-    }
-  }
-  const double density = MiddleDensity(answer);
-  const Interval densities =
-      BoxDensity(category.mass, category.length, category.width, category.height);
-  if (density < kLightest || density > kHeaviest || densities.max < kLightest) {
-    char text[120];
-    std::snprintf(text, sizeof(text),
-                  "its mass over its sizes gives %.3g kg/m3, outside %.0f to %.0f", density,
-                  kLightest, kHeaviest);
-    throw core::Error(text, where, remedy);
+  const double density = RequirePlausible(category, answer, where, remedy);
+  category.materials = ChooseMaterials(answer.material, density, base, &estimate);
+  if (category.materials.empty()) {
+    throw core::Error("no known material is as dense as it", where, remedy);
   }
   double densest = 0.0;
-  for (const std::string& material : MaterialsIn(answer.material, base)) {
-    const double most = base.FindMaterial(material)->density.max;
-    if (density > kRounding * most) {
-      Report(&estimate, "llm-density", core::Severity::kWarning,
-             "it is too heavy for its size to be made of " + material, density);
-      continue;
-    }
-    densest = std::max(densest, most);
-    category.materials.push_back(material);
-  }
-  if (category.materials.empty()) {
-    // The lightest of those that are dense enough: what is known least assumes least.
-    const Material* fitting = nullptr;
-    for (const Material& material : base.materials()) {
-      if (material.density.max < density || material.density.min < 400.0) continue;
-      if (fitting == nullptr || material.density.max < fitting->density.max) fitting = &material;
-    }
-    if (fitting == nullptr) {
-      throw core::Error("no known material is as dense as it", where, remedy);
-    }
-    category.materials = {fitting->name};
-    densest = fitting->density.max;
+  for (const std::string& material : category.materials) {
+    densest = std::max(densest, base.FindMaterial(material)->density.max);
   }
   // A solid ball fills half of its box, a bowl a few hundredths; given ranges are mostly wide.
   category.fill = density > 0.2 * densest ? Fill::kSolid : Fill::kHollow;
