@@ -8,9 +8,10 @@ packages=(
   build-essential g++ cmake ninja-build ccache pkg-config git
   libeigen3-dev libassimp-dev libcgal-dev libembree-dev libopencv-dev libopencv-contrib-dev
   libbullet-dev libbullet-extras-dev liburdfdom-dev libmujoco-dev nlohmann-json3-dev
-  libcli11-dev libtinyxml2-dev libzip-dev libexif-dev libgif-dev libwebp-dev libconsole-bridge-dev
+  libcli11-dev libcurl4-openssl-dev libtinyxml2-dev libzip-dev libexif-dev libgif-dev libwebp-dev
+  libconsole-bridge-dev
   wordnet-base libtorch-dev libopenblas0-pthread libgtest-dev
-  libbenchmark-dev libsdformat-dev
+  libbenchmark-dev libsdformat-dev libcpp-httplib-dev
 )
 for wanted in "$@"; do
   case $wanted in

@@ -5,7 +5,10 @@
 
 #include "assets/asset_folder.h"
 #include "cli/command.h"
+#include "cli/language_model_options.h"
 #include "core/error.h"
+#include "core/finding.h"
+#include "physics_params/category_estimate.h"
 #include "physics_params/category_resolution.h"
 #include "physics_params/physical_parameters.h"
 
@@ -18,13 +21,22 @@ using physics_params::PhysicalParameters;
 struct Flags {
   std::string category;
   std::filesystem::path asset;
+  LanguageModelOptions language_model;
+};
+
+// What is printed: the parameters, and what there was to say about them.
+struct Result {
+  PhysicalParameters parameters;
+  core::Findings findings;
+  std::string usage;  // a line; empty where no model was asked
 };
 
 nlohmann::ordered_json ToJson(const Estimate& e) {
   return {{"min", e.min}, {"max", e.max}, {"sample", e.sample}};
 }
 
-void PrintJson(const PhysicalParameters& p) {
+void PrintJson(const Result& result) {
+  const PhysicalParameters& p = result.parameters;
   nlohmann::ordered_json json;
   json["category"] = p.category;
   json["resolution"] = p.resolution;
@@ -38,15 +50,38 @@ void PrintJson(const PhysicalParameters& p) {
   json["density_kg_m3"] = ToJson(p.density);
   json["friction"] = ToJson(p.friction);
   json["restitution"] = ToJson(p.restitution);
-  json["sources"] = {{"size_and_mass", p.length.source}, {"material", p.density.source}};
-  std::printf("%s\n", json.dump(2).c_str());
+  json["sources"] = {{"length", p.length.source},
+                     {"width", p.width.source},
+                     {"height", p.height.source},
+                     {"mass", p.mass.source},
+                     {"material", p.density.source}};
+  json["findings"] = nlohmann::ordered_json::array();
+  for (const core::Finding& finding : result.findings) {
+    json["findings"].push_back({{"code", finding.code}, {"sentence", finding.sentence}});
+  }
+  // A name or an answer may hold what is no UTF-8.
+  std::printf("%s\n",
+              json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
 }
 
 void PrintRow(const char* name, const Estimate& e, const char* unit) {
   std::printf("  %-12s %9.4g to %-9.4g sample %-9.4g %s\n", name, e.min, e.max, e.sample, unit);
 }
 
-void PrintTable(const PhysicalParameters& p) {
+// "size and mass: ..." where one source says it all, else a line a quantity.
+void PrintSources(const PhysicalParameters& p) {
+  const std::string& one = p.length.source;
+  if (p.width.source == one && p.height.source == one && p.mass.source == one) {
+    std::printf("  size and mass: %s\n", one.c_str());
+  } else {
+    std::printf("  length: %s\n  width: %s\n  height: %s\n  mass: %s\n", one.c_str(),
+                p.width.source.c_str(), p.height.source.c_str(), p.mass.source.c_str());
+  }
+  std::printf("  material: %s\n", p.density.source.c_str());
+}
+
+void PrintTable(const Result& result, bool quiet) {
+  const PhysicalParameters& p = result.parameters;
   std::printf("%s (%s)\n", p.category.c_str(), p.resolution.c_str());
   PrintRow("length", p.length, "m");
   PrintRow("width", p.width, "m");
@@ -56,26 +91,48 @@ void PrintTable(const PhysicalParameters& p) {
            ("kg/m3, " + p.material + ", " + physics_params::FillName(p.fill)).c_str());
   PrintRow("friction", p.friction, "");
   PrintRow("restitution", p.restitution, "");
-  std::printf("  size and mass: %s\n  material: %s\n", p.length.source.c_str(),
-              p.density.source.c_str());
+  PrintSources(p);
+  if (quiet) return;
+  for (const core::Finding& finding : result.findings) {
+    const bool warning = finding.severity == core::Severity::kWarning;
+    std::printf("  %s%s\n", warning ? "warning: " : "", finding.sentence.c_str());
+  }
+  if (!result.usage.empty()) std::printf("  %s\n", result.usage.c_str());
+}
+
+Result AskModel(const Flags& flags, const CommonOptions& common) {
+  const physics_params::KnowledgeBase& base = physics_params::KnowledgeBase::Shipped();
+  const std::unique_ptr<llm::ChatModel> model = MakeLanguageModel(flags.language_model, common);
+  core::Progress progress(common.ProgressStyle());
+  const physics_params::EstimatedCategory estimate = physics_params::EstimateCategory(
+      flags.category, base, physics_params::WordNet::Installed(), model.get(), &progress);
+  progress.Finish();
+  return {physics_params::SampleEstimate(estimate, base, common.seed), estimate.findings,
+          UsageLine(model->usage())};
 }
 
 int Physics(const Flags& flags, const CommonOptions& common) {
-  PhysicalParameters parameters;
+  Result result;
   if (!flags.asset.empty()) {
-    parameters = assets::ReadAsset(flags.asset).parameters;
-  } else if (!flags.category.empty()) {
-    const physics_params::Resolution resolution = physics_params::RequireCategory(flags.category);
-    parameters = physics_params::SampleParameters(
-        *resolution.category, physics_params::KnowledgeBase::Shipped(), common.seed);
-    parameters.resolution = resolution.sentence;
-  } else {
+    if (flags.language_model.given()) {
+      throw core::Error("an asset has its parameters already", flags.asset.string(),
+                        "--llm and --replay go with --category");
+    }
+    result.parameters = assets::ReadAsset(flags.asset).parameters;
+  } else if (flags.category.empty()) {
     throw core::Error("nothing to look up", "", "give --category NAME or an asset's folder");
+  } else if (flags.language_model.given()) {
+    result = AskModel(flags, common);
+  } else {
+    const physics_params::Resolution resolution = physics_params::RequireCategory(flags.category);
+    result.parameters = physics_params::SampleParameters(
+        *resolution.category, physics_params::KnowledgeBase::Shipped(), common.seed);
+    result.parameters.resolution = resolution.sentence;
   }
   if (common.json) {
-    PrintJson(parameters);
+    PrintJson(result);
   } else {
-    PrintTable(parameters);
+    PrintTable(result, common.quiet);
   }
   return 0;
 }
@@ -85,9 +142,13 @@ int Physics(const Flags& flags, const CommonOptions& common) {
 void AddPhysics(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
   CLI::App* command = app->add_subcommand("physics", "Sizes, mass and contact of a kind of thing");
-  command->footer("Example:\n  simwright physics --category mug --seed 3 --json");
+  command->footer(
+      "Examples:\n  simwright physics --category mug --seed 3 --json\n"
+      "  simwright physics --category 'lava lamp' --llm http://localhost:8080/v1 --record l.jsonl");
   command->add_option("asset", flags->asset, "An asset's folder: prints what it was given");
   command->add_option("--category", flags->category, "A household thing, e.g. 'wine glass'");
+  AddLanguageModel(command, &flags->language_model);
+  AddForce(command, common);
   AddCommon(command, common);
   command->callback([flags, common, run] { *run = [=] { return Physics(*flags, *common); }; });
 }

@@ -1,0 +1,95 @@
+#include "llm/answer_cache.h"
+
+#include <cstdint>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "llm/answer_json.h"
+#include "llm/json_text.h"
+#include "llm/request_key.h"
+
+namespace simwright::llm {
+namespace {
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr std::uint64_t kLargestEntry = 64u << 20;  // bytes
+
+}  // namespace
+
+CachingChatModel::CachingChatModel(std::unique_ptr<ChatModel> inner, const fs::path& folder,
+                                   const std::string& identity)
+    : inner_(std::move(inner)), folder_(folder), identity_(identity) {
+  std::error_code code;
+  fs::create_directories(folder_, code);
+  if (!fs::is_directory(folder_, code)) {
+    throw core::Error("the cache's folder cannot be made", folder_.string(),
+                      "check that the place exists and may be written");
+  }
+}
+
+ChatAnswer CachingChatModel::Ask(const ChatRequest& request, core::Progress* progress) {
+  RequireValid(request);
+  const Json content = {
+      {"model", inner_->name()}, {"server", identity_}, {"request", CanonicalRequest(request)}};
+  const std::string text = content.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const fs::path file = folder_ / (ContentHash(text) + ".json");
+  ChatAnswer answer;
+  if (Read(file, text, &answer)) {
+    ++hits_;
+    return answer;
+  }
+  answer = inner_->Ask(request, progress);
+  if (!answer.text.empty() && answer.finish_reason != "length") Write(file, text, answer);
+  return answer;
+}
+
+bool CachingChatModel::Read(const fs::path& file, const std::string& content, ChatAnswer* answer) {
+  std::error_code code;
+  if (!fs::exists(file, code)) return false;
+  std::string fault = "is no entry of the cache";
+  try {
+    const Json json = ParseJson(core::ReadFile(file, kLargestEntry));
+    if (json.is_object() && json.contains("content") && json.contains("answer")) {
+      // Another request of the same hash: asked anew, and this entry gives way to it.
+      if (json["content"] != content) return false;
+      if (AnswerFromJson(json["answer"], answer)) return true;
+    }
+  } catch (const core::Error& error) {
+    fault = error.what();
+  }
+  findings_.push_back({"llm-cache-damaged", core::Severity::kWarning, file.string(),
+                       "a kept answer cannot be read and is asked anew: " + fault, 0.0});
+  return false;
+}
+
+void CachingChatModel::Write(const fs::path& file, const std::string& content,
+                             const ChatAnswer& answer) {
+  const nlohmann::ordered_json json = {{"content", content}, {"answer", AnswerToJson(answer)}};
+  try {
+    core::WriteFile(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  } catch (const core::Error& error) {
+    // The answer is there and may have cost money: no reason to lose it.
+    findings_.push_back({"llm-cache-not-written", core::Severity::kWarning, file.string(),
+                         std::string("the answer could not be kept: ") + error.what(), 0.0});
+  }
+}
+
+Usage CachingChatModel::usage() const {
+  Usage usage = inner_->usage();
+  usage.answers += hits_;
+  usage.from_cache += hits_;
+  return usage;
+}
+
+core::Findings CachingChatModel::TakeFindings() {
+  core::Findings findings = inner_->TakeFindings();
+  findings.insert(findings.end(), findings_.begin(), findings_.end());
+  findings_.clear();
+  return findings;
+}
+
+}  // namespace simwright::llm

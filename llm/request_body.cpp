@@ -1,0 +1,96 @@
+#include "llm/request_body.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include <nlohmann/json.hpp>
+
+namespace simwright::llm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json MessageJson(const ChatMessage& message) {
+  Json json = {{"role", RoleName(message.role)}};
+  if (message.images.empty()) {
+    json["content"] = message.text;
+    return json;
+  }
+  Json parts = Json::array();
+  if (!message.text.empty()) parts.push_back({{"type", "text"}, {"text", message.text}});
+  for (const ChatImage& image : message.images) {
+    const std::string url = "data:" + image.mime_type + ";base64," + Base64(image.bytes);
+    parts.push_back({{"type", "image_url"}, {"image_url", {{"url", url}}}});
+  }
+  json["content"] = std::move(parts);
+  return json;
+}
+
+std::string LowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+}  // namespace
+
+std::string RequestBody(const ChatRequest& request, const std::string& model,
+                        const Dialect& dialect) {
+  Json json;
+  if (!model.empty()) json["model"] = model;
+  json["messages"] = Json::array();
+  for (const ChatMessage& message : request.messages) {
+    json["messages"].push_back(MessageJson(message));
+  }
+  if (request.temperature && dialect.temperature) json["temperature"] = *request.temperature;
+  if (request.max_tokens) {
+    json[dialect.max_completion_tokens ? "max_completion_tokens" : "max_tokens"] =
+        *request.max_tokens;
+  }
+  if (request.seed && dialect.seed) json["seed"] = *request.seed;
+  if (request.json && dialect.json_mode) json["response_format"] = {{"type", "json_object"}};
+  json["stream"] = false;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string Narrow(const std::string& message, const ChatRequest& request, Dialect* dialect) {
+  const std::string text = LowerCase(message);
+  const auto names = [&](const char* word) { return text.find(word) != std::string::npos; };
+  if (request.max_tokens && !dialect->max_completion_tokens && names("max_completion_tokens")) {
+    dialect->max_completion_tokens = true;
+    return "the server wants max_completion_tokens instead of max_tokens";
+  }
+  if (request.json && dialect->json_mode &&
+      (names("response_format") || names("json_object") || names("json mode"))) {
+    dialect->json_mode = false;
+    return "the server has no JSON mode; it is asked for JSON in words alone";
+  }
+  if (request.temperature && dialect->temperature && names("temperature")) {
+    dialect->temperature = false;
+    return "the model allows no temperature but its own";
+  }
+  if (request.seed && dialect->seed && names("seed")) {
+    dialect->seed = false;
+    return "the server takes no seed: its answers cannot be repeated";
+  }
+  return "";
+}
+
+std::string Base64(std::string_view bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      bits = bits << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= count ? kDigits[bits >> (18 - 6 * k) & 63u] : '=';
+    }
+  }
+  return text;
+}
+
+}  // namespace simwright::llm

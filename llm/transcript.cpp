@@ -1,0 +1,220 @@
+#include "llm/transcript.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "llm/answer_json.h"
+#include "llm/json_text.h"
+#include "llm/redaction.h"
+#include "llm/request_key.h"
+
+namespace simwright::llm {
+namespace {
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr const char* kFormat = "simwright-llm";
+constexpr int kVersion = 1;
+constexpr std::uint64_t kLargestTranscript = 256u << 20;  // bytes
+constexpr std::size_t kShortHash = 8;                     // digits shown to a person
+
+template <typename J>
+std::string Dump(const J& json) {
+  return json.dump(-1, ' ', false, J::error_handler_t::replace);
+}
+
+std::string StringOf(const Json& object, const char* name) {
+  const auto found = object.find(name);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+void ReadHead(const Json& json, const std::string& where) {
+  if (!json.is_object() || StringOf(json, "transcript") != kFormat) {
+    throw core::Error("is no transcript: its first line says something else", where,
+                      "make one with --record");
+  }
+  if (!json.contains("version") || json["version"] != kVersion) {
+    throw core::Error("is a transcript of another version of the program", where,
+                      "record it again");
+  }
+}
+
+TranscriptEntry ReadEntry(const Json& json, const std::string& where) {
+  if (!json.is_object()) throw core::Error("the line is cut off or damaged", where);
+  TranscriptEntry entry;
+  entry.task = StringOf(json, "task");
+  entry.model = StringOf(json, "model");
+  const auto request = json.find("request");
+  if (request == json.end() || !request->is_object()) {
+    throw core::Error("the line has no request", where);
+  }
+  entry.request = Dump(*request);
+  const auto hash = json.find("hash");  // a transcript written by hand need not have it
+  if (hash != json.end() && *hash != ContentHash(entry.request)) {
+    throw core::Error("the request was changed after it was recorded", where,
+                      "take its hash out if that was meant");
+  }
+  const auto answer = json.find("answer");
+  if (answer == json.end() || !AnswerFromJson(*answer, &entry.answer)) {
+    throw core::Error("the line has no answer with a text", where);
+  }
+  return entry;
+}
+
+// All texts of a canonical request, one after the other.
+std::string TextOf(const std::string& canonical) {
+  const Json json = ParseJson(canonical);
+  std::string text;
+  const auto messages = json.is_object() ? json.find("messages") : json.end();
+  if (!json.is_object() || messages == json.end() || !messages->is_array()) return text;
+  for (const Json& message : *messages) {
+    if (message.is_object()) text += StringOf(message, "text") + "\n";
+  }
+  return text;
+}
+
+std::set<std::string> WordsOf(const std::string& text) {
+  std::istringstream in(text);
+  std::set<std::string> words;
+  for (std::string word; in >> word;) words.insert(word);
+  return words;
+}
+
+// Words in common over words in all, in [0, 1].
+double Likeness(const std::set<std::string>& a, const std::set<std::string>& b) {
+  const auto common =
+      std::count_if(a.begin(), a.end(), [&](const std::string& word) { return b.contains(word); });
+  const double all = static_cast<double>(a.size() + b.size()) - static_cast<double>(common);
+  return all == 0.0 ? 1.0 : static_cast<double>(common) / all;
+}
+
+// Where two texts part: a few words of `recorded` from there.
+std::string Parting(const std::string& asked, const std::string& recorded) {
+  if (asked == recorded) return "its text is the same, its settings or pictures differ";
+  const auto parting = std::mismatch(asked.begin(), asked.end(), recorded.begin(), recorded.end());
+  std::size_t at = static_cast<std::size_t>(parting.second - recorded.begin());
+  while (at > 0 && !std::isspace(static_cast<unsigned char>(recorded[at - 1]))) --at;
+  return "there it goes '" + Shortened(std::string_view(recorded).substr(at), 40) +
+         "' where now it is '" + Shortened(std::string_view(asked).substr(at), 40) + "'";
+}
+
+}  // namespace
+
+std::string TranscriptHead() {
+  return Dump(nlohmann::ordered_json{{"transcript", kFormat}, {"version", kVersion}}) + "\n";
+}
+
+std::string TranscriptLine(const TranscriptEntry& entry) {
+  const nlohmann::ordered_json json = {{"hash", ContentHash(entry.request)},
+                                       {"task", entry.task},
+                                       {"model", entry.model},
+                                       {"request", Json::parse(entry.request)},
+                                       {"answer", AnswerToJson(entry.answer)}};
+  return Dump(json) + "\n";
+}
+
+std::vector<TranscriptEntry> ReadTranscript(std::string_view text, const std::string& where) {
+  std::vector<TranscriptEntry> entries;
+  bool head = true;
+  int number = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    ++number;
+    if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+    const Json json = ParseJson(line);
+    const std::string place = where + " line " + std::to_string(number);
+    if (head) {
+      ReadHead(json, place);
+      head = false;
+      continue;
+    }
+    entries.push_back(ReadEntry(json, place));
+    entries.back().line = number;
+  }
+  if (head) throw core::Error("the transcript is empty", where, "make one with --record");
+  return entries;
+}
+
+RecordingChatModel::RecordingChatModel(std::unique_ptr<ChatModel> inner, const fs::path& file,
+                                       bool replace)
+    : inner_(std::move(inner)), file_(file), text_(TranscriptHead()) {
+  std::error_code code;
+  if (!replace && fs::exists(file_, code)) {
+    throw core::Error("the transcript exists already", file_.string(),
+                      "choose another name or replace it with --force");
+  }
+  if (fs::is_directory(file_, code)) throw core::Error("this is a folder", file_.string());
+  if (!fs::is_directory(fs::absolute(file_).parent_path(), code)) {
+    throw core::Error("there is no folder to write the transcript into", file_.string());
+  }
+}
+
+ChatAnswer RecordingChatModel::Ask(const ChatRequest& request, core::Progress* progress) {
+  const ChatAnswer answer = inner_->Ask(request, progress);
+  text_ += TranscriptLine({0, request.task, inner_->name(), CanonicalRequest(request), answer});
+  core::WriteFile(file_, text_);
+  return answer;
+}
+
+ReplayChatModel::ReplayChatModel(const fs::path& file)
+    : file_(file),
+      entries_(ReadTranscript(core::ReadFile(file, kLargestTranscript), file.string())) {
+  for (std::size_t i = 0; i < entries_.size(); ++i) of_request_[entries_[i].request].push_back(i);
+}
+
+ChatAnswer ReplayChatModel::Ask(const ChatRequest& request, core::Progress* progress) {
+  RequireValid(request);
+  if (progress != nullptr) progress->Stage("reading " + file_.filename().string());
+  const std::string key = CanonicalRequest(request);
+  const std::string asked = (request.task.empty() ? "" : request.task + ", ") + "'" +
+                            FirstWords(request) + "', request " +
+                            ContentHash(key).substr(0, kShortHash);
+  const auto found = of_request_.find(key);
+  if (found == of_request_.end()) {
+    throw core::Error("holds no answer to " + asked + "; " + Nearest(request), file_.string(),
+                      "record it again with --record");
+  }
+  std::size_t& given = given_[key];
+  if (given == found->second.size()) {
+    throw core::Error(
+        "holds " + std::to_string(given) + " answers to " + asked + ", and one more is asked for",
+        file_.string(), "record it again with --record");
+  }
+  const ChatAnswer& answer = entries_[found->second[given++]].answer;
+  ++usage_.answers;
+  ++usage_.from_cache;
+  return answer;
+}
+
+std::string ReplayChatModel::Nearest(const ChatRequest& request) const {
+  const std::string asked = TextOf(CanonicalRequest(request));
+  const std::set<std::string> words = WordsOf(asked);
+  const TranscriptEntry* nearest = nullptr;
+  double likeness = -1.0;
+  std::string text;
+  for (const TranscriptEntry& entry : entries_) {
+    const std::string recorded = TextOf(entry.request);
+    const double like = Likeness(words, WordsOf(recorded));
+    if (like > likeness) {
+      likeness = like;
+      nearest = &entry;
+      text = recorded;
+    }
+  }
+  if (nearest == nullptr) return "it holds no answer at all";
+  return "the nearest recorded is line " + std::to_string(nearest->line) + " (" + nearest->task +
+         ", request " + ContentHash(nearest->request).substr(0, kShortHash) +
+         "): " + Parting(asked, text);
+}
+
+}  // namespace simwright::llm
