@@ -53,6 +53,7 @@ struct Pass {
   void Numbers(const Stage& stage) const;
   void LoadChunk(const Stage& stage, int start, int count) const;
   void LoadOne(const Load& load, int start, int count) const;
+  void ReturnColumns(const Stage& stage) const;
   void StartGathering(const Stage& stage) const;
   void Gather(const Stage& stage, int start, int count) const;
   void FinishGathering(const Stage& stage) const;
@@ -97,6 +98,14 @@ void Pass::LoadChunk(const Stage& stage, int start, int count) const {
     const float* from = spills + static_cast<std::ptrdiff_t>(flip.slot) * max_envs;
     float* to = Register(flip.column);
     for (int i = 0; i < count; ++i) to[i] = from[num_envs - 1 - (start + i)];
+  }
+}
+
+// What the caller's own columns stood in for is a register again.
+void Pass::ReturnColumns(const Stage& stage) const {
+  for (const Load& load : stage.loads) columns[load.column] = Register(load.column);
+  for (const reward::TripleLoad& triple : stage.triples) {
+    for (const Column column : triple.columns) columns[column] = Register(column);
   }
 }
 
@@ -262,6 +271,7 @@ void RewardProgram::Run(std::span<const RewardBinding> bindings, int num_envs,
       StoreComponents(pass, components, start, count);
     }
     pass.FinishGathering(stage);
+    pass.ReturnColumns(stage);
   }
 }
 

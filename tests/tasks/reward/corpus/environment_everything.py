@@ -14,7 +14,7 @@ def compute_reward(env):
     total += env.get_position(asset_name="cup")[:, 2] + quat_unit(env.get_orientation("cup"))[:, 3]
     total += env.get_linear_velocity("cup").norm(dim=-1) + env.get_angular_velocity("cup")[:, 0]
     g = env.get_robot_gripper_orientation()
-    total += quat_diff_rad(g, q) + normalize(v)[:, 0] + normalize_angle(total * 3)
+    total += torch.cos(quat_diff_rad(g, q)) + normalize(v)[:, 0] + normalize_angle(total * 3)
     total += quat_from_angle_axis(total, v)[:, 3]
     total += env.get_robot_gripper_velocity()[:, 0] + env.get_robot_gripper_angular_velocity()[:, 1]
     total += env.get_robot_gripper_opening() + env.get_robot_gripper_contact("cup").float()

@@ -8,7 +8,7 @@ def compute_reward_v5(object_rot: torch.Tensor, goal_rot: torch.Tensor, object_a
                       fingertip_pos: torch.Tensor, object_pos: torch.Tensor,
                       dof_vel: torch.Tensor) -> Tuple[torch.Tensor, Dict[str, torch.Tensor]]:
     quat_diff = quat_mul(object_rot, quat_conjugate(goal_rot))
-    rot_dist = 2.0 * torch.asin(torch.clamp(torch.norm(quat_diff[:, 0:3], p=2, dim=-1), max=1.0))
+    rot_dist = 2.0 * torch.asin(torch.clamp(torch.norm(quat_diff[:, 0:3], p=2, dim=-1), max=0.99))
     spin = object_angvel[:, 2] - torch.abs(object_angvel[..., 0])
     tips = torch.zeros_like(object_pos[:, 0])
     for i in range(fingertip_pos.shape[1]):

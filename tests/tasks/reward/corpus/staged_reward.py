@@ -12,7 +12,7 @@ def compute_dense_reward(self) -> float:
     hand = get_eef_pos(self)[0]
     quat = get_eef_pos(self)[1]
     cup = get_position(self, "cup")
-    goal = self.get_goal_pose()
+    goal = get_goal_pose(self)
     target = np.array([0.1, 0.2, 0.3])
     distance = np.linalg.norm(hand - cup)
     reward = shaped(distance) + shaped(np.linalg.norm(cup - goal), scale=2.0)
@@ -30,6 +30,8 @@ def compute_dense_reward(self) -> float:
     if turn > 0.75:
         return reward - 3.0
     inside = (hand > -0.5).all() and (cup < 0.9).all()
+    if 0.1 < turn <= 0.9:
+        reward = reward + 0.125
     count = 0
     for i in range(len(cup)):
         if cup[i] > 0:
