@@ -10,7 +10,7 @@ def compute_reward(env):
     w = env.get_angular_velocity_by_link_name("microwave", "handle_0")
     total += quat_rotate(q, v).sum(-1) + quat_apply(q, w)[:, 0] + quat_axis(q, 2)[:, 2]
     roll, pitch, yaw = get_euler_xyz(q)
-    total += torch.cos(roll) + torch.sin(pitch) + torch.cos(yaw)
+    total += (torch.cos(roll) + torch.cos(yaw)) * torch.cos(pitch) + torch.sin(pitch)
     total += env.get_position(asset_name="cup")[:, 2] + quat_unit(env.get_orientation("cup"))[:, 3]
     total += env.get_linear_velocity("cup").norm(dim=-1) + env.get_angular_velocity("cup")[:, 0]
     g = env.get_robot_gripper_orientation()
