@@ -10,7 +10,7 @@ packages=(
   libbullet-dev libbullet-extras-dev liburdfdom-dev libmujoco-dev nlohmann-json3-dev
   libcli11-dev libtinyxml2-dev libzip-dev libexif-dev libgif-dev libwebp-dev libconsole-bridge-dev
   wordnet-base libtorch-dev libopenblas0-pthread libgtest-dev
-  libbenchmark-dev libsdformat-dev
+  libbenchmark-dev libsdformat-dev python3-torch python3-numpy
 )
 for wanted in "$@"; do
   case $wanted in

@@ -61,9 +61,9 @@ struct Code {
   int registers = 0;
   int numbers = 0;
   int spills = 0;
-  int chunk = 0;  // environments at a time
+  int chunk = 0;                 // environments at a time
   std::vector<float> constants;  // of the first numbers
-  Column batch_size = 0;  // a number where the program uses it, else 0
+  Column batch_size = 0;         // a number where the program uses it, else 0
   Column reward = 0;
   bool has_success = false;
   Column success = 0;

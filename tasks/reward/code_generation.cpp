@@ -217,8 +217,7 @@ Step Generator::Fuse(NodeId node) const {
     if (!UsedOnce(product) || graph_[product].operation != kMultiply) continue;
     if (IsSquareOfDifference(product)) {
       const Node& difference = graph_[graph_[product].operands[0]];
-      return {kSquaredDifferenceAdd, node,
-              {difference.operands[0], difference.operands[1], rest}};
+      return {kSquaredDifferenceAdd, node, {difference.operands[0], difference.operands[1], rest}};
     }
     return {kMultiplyAdd, node, {graph_[product].operands[0], graph_[product].operands[1], rest}};
   }
@@ -273,7 +272,8 @@ void Generator::Schedule(Stage* stage) {
     for (int k = 0; k < OperandCount(step.operation); ++k) {
       const NodeId operand = step.operands[k];
       const Node& read = graph_[operand];
-      const bool computed = !read.uniform && read.operation != kInput && read.operation != kBatchFlip;
+      const bool computed =
+          !read.uniform && read.operation != kInput && read.operation != kBatchFlip;
       if (computed && last[operand] == static_cast<int>(i)) {
         free_.push_back(register_[operand]);
         last[operand] = -1;  // once, where an operand stands twice
@@ -308,10 +308,8 @@ void Generator::FinishStage(int level, Stage* stage) {
   for (NodeId node = 0; node < graph_.size(); ++node) {
     const Node& one = graph_[node];
     if (!live_[node] || !CrossesEnvironments(one.operation) || levels_[node] != level + 1) continue;
-    const Column result =
-        one.operation == kBatchFlip ? spill_[node] : -1 - number_[node];
-    stage->gatherings.push_back(
-        {one.operation, ColumnOf(one.operands[0]), one.index, result});
+    const Column result = one.operation == kBatchFlip ? spill_[node] : -1 - number_[node];
+    stage->gatherings.push_back({one.operation, ColumnOf(one.operands[0]), one.index, result});
   }
   if (level + 1 != static_cast<int>(code_.stages.size())) return;
   code_.reward = ColumnOf(outputs_.reward);
@@ -351,8 +349,9 @@ Code Generator::Generate(const RewardOptions& options) {
   const std::size_t bytes =
       (static_cast<std::size_t>(code_.registers) * code_.chunk + code_.numbers) * sizeof(float);
   if (bytes > options.max_workspace_bytes) {
-    Fail("too-large", {}, "the program needs " + std::to_string(bytes) + " bytes to run, at most " +
-                              std::to_string(options.max_workspace_bytes) + " are allowed");
+    Fail("too-large", {},
+         "the program needs " + std::to_string(bytes) + " bytes to run, at most " +
+             std::to_string(options.max_workspace_bytes) + " are allowed");
   }
   return std::move(code_);
 }

@@ -42,11 +42,11 @@ const Function& FindEntry(const Module& module, const RewardOptions& options) {
   }
   if (best != nullptr) return *best;
   if (names.empty()) {
-    Fail("no-function", {}, "there is no function here; a program begins with def compute_reward(env):");
+    Fail("no-function", {},
+         "there is no function here; a program begins with def compute_reward(env):");
   }
   Fail("no-function", {},
-       "there is no function '" + options.entry + "'" +
-           reward::Suggestion(options.entry, names));
+       "there is no function '" + options.entry + "'" + reward::Suggestion(options.entry, names));
 }
 
 bool HasError(const core::Findings& findings) {

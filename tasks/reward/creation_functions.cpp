@@ -21,8 +21,9 @@ Value FromData(Elaborator& elaborator, const Arguments& arguments) {
   const bool list = data.Is(ValueKind::kList) || data.Is(ValueKind::kTuple);
   if (list && WantsTensors(arguments) && HoldsRows(elaborator, data, arguments.Place(0))) {
     Fail("type", arguments.Place(0),
-         "'" + arguments.called + "' makes a tensor of numbers, but this list holds tensors with "
-         "a row an environment; use torch.stack([...], dim=-1)");
+         "'" + arguments.called +
+             "' makes a tensor of numbers, but this list holds tensors with "
+             "a row an environment; use torch.stack([...], dim=-1)");
   }
   const Tensor tensor = ArrayFrom(elaborator, data, arguments.Place(0));
   const DataType type = TypeArgument(arguments, 1, tensor.type);
@@ -74,7 +75,8 @@ Value FullLike(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Tensor like = TensorArgument(elaborator, arguments, 0);
   const DataType type = TypeArgument(arguments, 2, like.type);
-  const Tensor value = math.Cast(NumberOrTensor(elaborator, arguments, 1), type, arguments.Place(1));
+  const Tensor value =
+      math.Cast(NumberOrTensor(elaborator, arguments, 1), type, arguments.Place(1));
   if (!value.shape.empty()) {
     Fail("shape", arguments.Place(1), "the value to fill with is one number");
   }
@@ -104,8 +106,7 @@ Value Arange(Elaborator& elaborator, const Arguments& arguments) {
   for (int i = 0; i < static_cast<int>(count); ++i) {
     nodes.push_back(math.graph().Constant(start + step * i));
   }
-  const DataType type =
-      TypeArgument(arguments, 3, whole ? DataType::kInteger : DataType::kFloat);
+  const DataType type = TypeArgument(arguments, 3, whole ? DataType::kInteger : DataType::kFloat);
   const int size = static_cast<int>(nodes.size());
   return TensorValue(math.Make(type, {size}, std::move(nodes), arguments.position));
 }
@@ -123,8 +124,8 @@ Value Linspace(Elaborator& elaborator, const Arguments& arguments) {
     const double way = count == 1 ? 0.0 : static_cast<double>(i) / static_cast<double>(count - 1);
     nodes.push_back(math.graph().Constant(start + (stop - start) * way));
   }
-  return TensorValue(math.Make(DataType::kFloat, {static_cast<int>(count)}, std::move(nodes),
-                               arguments.position));
+  return TensorValue(
+      math.Make(DataType::kFloat, {static_cast<int>(count)}, std::move(nodes), arguments.position));
 }
 
 Value Eye(Elaborator& elaborator, const Arguments& arguments) {
@@ -174,8 +175,8 @@ Value Same(Elaborator& elaborator, const Arguments& arguments) {
 }
 
 Value Clone(Elaborator& elaborator, const Arguments& arguments) {
-  return TensorValue(elaborator.math().Copy(TensorArgument(elaborator, arguments, 0),
-                                            arguments.position));
+  return TensorValue(
+      elaborator.math().Copy(TensorArgument(elaborator, arguments, 0), arguments.position));
 }
 
 // x.item(): one number, which may differ between environments of a program for one of them.
@@ -190,15 +191,19 @@ Value Item(Elaborator& elaborator, const Arguments& arguments) {
       elaborator.math().Make(tensor.type, {}, elaborator.math().Nodes(tensor), arguments.position));
 }
 
-constexpr int Type(DataType type) { return static_cast<int>(type); }
+constexpr int Type(DataType type) {
+  return static_cast<int>(type);
+}
 
 constexpr LibraryFunction kFunctions[] = {
-    {"torch.tensor torch.as_tensor torch.FloatTensor np.array np.asarray to_torch", "data dtype=None",
-     FromData},
-    {"torch.zeros torch.empty np.zeros np.empty", "*size dtype=None", Filled, ScalarOperation::kConstant, 0},
+    {"torch.tensor torch.as_tensor torch.FloatTensor np.array np.asarray to_torch",
+     "data dtype=None", FromData},
+    {"torch.zeros torch.empty np.zeros np.empty", "*size dtype=None", Filled,
+     ScalarOperation::kConstant, 0},
     {"torch.ones np.ones", "*size dtype=None", Filled, ScalarOperation::kConstant, 1},
     {"torch.full np.full", "size fill_value dtype=None", Full},
-    {"torch.zeros_like torch.empty_like np.zeros_like", "input dtype=None", FilledLike, ScalarOperation::kConstant, 0},
+    {"torch.zeros_like torch.empty_like np.zeros_like", "input dtype=None", FilledLike,
+     ScalarOperation::kConstant, 0},
     {"torch.ones_like np.ones_like", "input dtype=None", FilledLike, ScalarOperation::kConstant, 1},
     {"torch.full_like np.full_like", "input fill_value dtype=None", FullLike},
     {"Tensor.new_zeros", "input *size", NewFilled, ScalarOperation::kConstant, 0},
@@ -206,8 +211,10 @@ constexpr LibraryFunction kFunctions[] = {
     {"torch.arange np.arange", "start end=None step=None dtype=None", Arange},
     {"torch.linspace np.linspace", "start end steps=50", Linspace},
     {"torch.eye np.eye", "n", Eye},
-    {"Tensor.float Tensor.double Tensor.half", "input", CastTo, ScalarOperation::kConstant, Type(DataType::kFloat)},
-    {"Tensor.int Tensor.long", "input", CastTo, ScalarOperation::kConstant, Type(DataType::kInteger)},
+    {"Tensor.float Tensor.double Tensor.half", "input", CastTo, ScalarOperation::kConstant,
+     Type(DataType::kFloat)},
+    {"Tensor.int Tensor.long", "input", CastTo, ScalarOperation::kConstant,
+     Type(DataType::kInteger)},
     {"Tensor.bool", "input", CastTo, ScalarOperation::kConstant, Type(DataType::kBool)},
     {"Tensor.to Tensor.type Tensor.astype Tensor.type_as", "input *target dtype=None", To},
     {"Tensor.detach Tensor.cpu Tensor.cuda Tensor.numpy Tensor.contiguous Tensor.requires_grad_",
@@ -218,6 +225,8 @@ constexpr LibraryFunction kFunctions[] = {
 
 }  // namespace
 
-LibraryPart CreationFunctions() { return {kFunctions, std::size(kFunctions)}; }
+LibraryPart CreationFunctions() {
+  return {kFunctions, std::size(kFunctions)};
+}
 
 }  // namespace simwright::tasks::reward

@@ -10,13 +10,13 @@ namespace {
 
 const std::map<std::string, DataType>& NumberTypes() {
   static const auto* types = new std::map<std::string, DataType>{
-      {"float", DataType::kFloat},     {"float16", DataType::kFloat},
-      {"float32", DataType::kFloat},   {"float64", DataType::kFloat},
-      {"double", DataType::kFloat},    {"half", DataType::kFloat},
-      {"int", DataType::kInteger},     {"int8", DataType::kInteger},
-      {"int16", DataType::kInteger},   {"int32", DataType::kInteger},
-      {"int64", DataType::kInteger},   {"long", DataType::kInteger},
-      {"bool", DataType::kBool},       {"bool_", DataType::kBool},
+      {"float", DataType::kFloat},       {"float16", DataType::kFloat},
+      {"float32", DataType::kFloat},     {"float64", DataType::kFloat},
+      {"double", DataType::kFloat},      {"half", DataType::kFloat},
+      {"int", DataType::kInteger},       {"int8", DataType::kInteger},
+      {"int16", DataType::kInteger},     {"int32", DataType::kInteger},
+      {"int64", DataType::kInteger},     {"long", DataType::kInteger},
+      {"bool", DataType::kBool},         {"bool_", DataType::kBool},
       {"FloatTensor", DataType::kFloat}, {"LongTensor", DataType::kInteger},
       {"BoolTensor", DataType::kBool}};
   return *types;
@@ -93,12 +93,10 @@ Value Elaborator::EnvironmentAttribute(const Value& environment, const std::stri
   }
   std::vector<std::string> known = ApiNames();
   for (const char* attribute : {"device", "num_envs", "env_num"}) known.emplace_back(attribute);
-  Fail("undefined", position,
-       "the environment has no '" + name + "'" + Suggestion(name, known));
+  Fail("undefined", position, "the environment has no '" + name + "'" + Suggestion(name, known));
 }
 
-Value Elaborator::TensorAttribute(const Value& value, const std::string& name,
-                                  Position position) {
+Value Elaborator::TensorAttribute(const Value& value, const std::string& name, Position position) {
   const Tensor& tensor = *value.tensor;
   if (name == "shape") {
     std::vector<Value> sizes;
@@ -134,23 +132,27 @@ Value Elaborator::EvaluateAttribute(const Expression& expression) {
   const std::string& name = expression.text;
   const Position position = expression.position;
   switch (base.kind) {
-    case ValueKind::kModule: return ModuleAttribute(base.text, name, position);
-    case ValueKind::kEnvironment: return EnvironmentAttribute(base, name, position);
-    case ValueKind::kTensor: return TensorAttribute(base, name, position);
+    case ValueKind::kModule:
+      return ModuleAttribute(base.text, name, position);
+    case ValueKind::kEnvironment:
+      return EnvironmentAttribute(base, name, position);
+    case ValueKind::kTensor:
+      return TensorAttribute(base, name, position);
     case ValueKind::kTuple:
       if (base.field_names != nullptr) {
         for (std::size_t i = 0; i < base.field_names->size(); ++i) {
           if ((*base.field_names)[i] == name) return (*base.items)[i];
         }
-        Fail("undefined", position,
-             "this has .values and .indices, but no '." + name + "'");
+        Fail("undefined", position, "this has .values and .indices, but no '." + name + "'");
       }
       break;
     case ValueKind::kOpaque:
       if (base.text == "device") return base;
       Fail("undefined", position, "'" + base.text + "' is not known here");
-    case ValueKind::kUndefined: Fail(base.text.empty() ? "" : "undefined", position, base.text);
-    default: break;
+    case ValueKind::kUndefined:
+      Fail(base.text.empty() ? "" : "undefined", position, base.text);
+    default:
+      break;
   }
   const char* prefix = base.Is(ValueKind::kList)   ? "List."
                        : base.Is(ValueKind::kDict) ? "Dict."
@@ -161,8 +163,9 @@ Value Elaborator::EvaluateAttribute(const Expression& expression) {
     method.items = std::make_shared<const std::vector<Value>>(1, base);
     return method;
   }
-  Fail("undefined", position, "'." + name + "' is not offered by " + Describe(base) +
-                                  (base.IsNumber() ? ", which is a plain number and no tensor" : ""));
+  Fail("undefined", position,
+       "'." + name + "' is not offered by " + Describe(base) +
+           (base.IsNumber() ? ", which is a plain number and no tensor" : ""));
 }
 
 }  // namespace simwright::tasks::reward

@@ -30,7 +30,9 @@ bool Same(const Value& a, const Value& b) {
   return Same(a, b, &budget);
 }
 
-Value Differs(const std::string& how) { return PlainValue(ValueKind::kUndefined, how); }
+Value Differs(const std::string& how) {
+  return PlainValue(ValueKind::kUndefined, how);
+}
 
 std::vector<NodeId> NodesIn(const Tensor& tensor, const std::vector<Object>& heap) {
   std::vector<NodeId> nodes;
@@ -42,17 +44,25 @@ std::vector<NodeId> NodesIn(const Tensor& tensor, const std::vector<Object>& hea
 
 int Elaborator::Truth(const Value& value, Tensor* flag, Position position) {
   switch (value.kind) {
-    case ValueKind::kNone: return 0;
+    case ValueKind::kNone:
+      return 0;
     case ValueKind::kBool:
     case ValueKind::kInteger:
-    case ValueKind::kFloat: return value.Number() != 0.0 ? 1 : 0;
-    case ValueKind::kString: return value.text.empty() ? 0 : 1;
-    case ValueKind::kTuple: return value.items->empty() ? 0 : 1;
+    case ValueKind::kFloat:
+      return value.Number() != 0.0 ? 1 : 0;
+    case ValueKind::kString:
+      return value.text.empty() ? 0 : 1;
+    case ValueKind::kTuple:
+      return value.items->empty() ? 0 : 1;
     case ValueKind::kList:
-    case ValueKind::kDict: return heap_[value.object].items->empty() ? 0 : 1;
-    case ValueKind::kTensor: break;
-    case ValueKind::kBatchSize: return 1;
-    default: math_.FromValue(value, position);  // throws, with the right sentence
+    case ValueKind::kDict:
+      return heap_[value.object].items->empty() ? 0 : 1;
+    case ValueKind::kTensor:
+      break;
+    case ValueKind::kBatchSize:
+      return 1;
+    default:
+      math_.FromValue(value, position);  // throws, with the right sentence
   }
   if (value.tensor->lanes.size() != 1) {
     Fail("condition", position,
@@ -119,8 +129,8 @@ Elaborator::Flow Elaborator::ExecuteBoth(const Statement& statement, std::size_t
   }
   const auto keep = [&](const BranchEnd& end, bool negate) {
     if (end.flow == Flow::kReturn) {
-      frame_->early.push_back({negate ? Both(Tensor{}, flag, true, position) : flag,
-                               end.frame.result});
+      frame_->early.push_back(
+          {negate ? Both(Tensor{}, flag, true, position) : flag, end.frame.result});
       return;
     }
     for (const EarlyReturn& early : end.frame.early) {
@@ -155,9 +165,9 @@ void Elaborator::JoinNames(const Tensor& flag, const BranchEnd& yes, const Branc
   for (auto& [name, value] : names) {
     const auto in_yes = yes.frame.names.find(name), in_no = no.frame.names.find(name);
     if (in_yes == yes.frame.names.end() || in_no == no.frame.names.end()) {
-      value = Differs("'" + name + "' is set only where the condition in line " +
-                      std::to_string(position.line) +
-                      " goes one way; set it before the 'if' as well");
+      value =
+          Differs("'" + name + "' is set only where the condition in line " +
+                  std::to_string(position.line) + " goes one way; set it before the 'if' as well");
     } else if (!Same(in_yes->second, in_no->second)) {
       value = Join(flag, {in_yes->second, yes.heap}, {in_no->second, no.heap}, position);
     }
@@ -175,8 +185,8 @@ void Elaborator::JoinObjects(const Tensor& flag, const BranchEnd& yes, const Bra
     if (a.nodes != nullptr) {
       std::vector<NodeId> nodes = *a.nodes;
       for (std::size_t i = 0; i < nodes.size(); ++i) {
-        nodes[i] = graph_.Apply(ScalarOperation::kSelect, math_.At(flag, 0), nodes[i],
-                                (*b.nodes)[i]);
+        nodes[i] =
+            graph_.Apply(ScalarOperation::kSelect, math_.At(flag, 0), nodes[i], (*b.nodes)[i]);
       }
       joined.nodes = std::make_shared<const std::vector<NodeId>>(std::move(nodes));
     } else if (a.keys != nullptr) {
@@ -193,8 +203,7 @@ void Elaborator::JoinObjects(const Tensor& flag, const BranchEnd& yes, const Bra
   }
 }
 
-Value Elaborator::Choose(const Tensor& flag, const Value& yes, const Value& no,
-                         Position position) {
+Value Elaborator::Choose(const Tensor& flag, const Value& yes, const Value& no, Position position) {
   const std::vector<Object> heap = heap_.Copy();
   return Join(flag, {yes, heap}, {no, heap}, position);
 }
@@ -244,8 +253,8 @@ Value Elaborator::JoinDicts(const Tensor& flag, const Object& yes,
                             const std::vector<Object>& no_heap, Position position) {
   std::vector<Value> keys = *yes.keys, items;
   for (const Value& key : *no.keys) {
-    const bool known = std::any_of(keys.begin(), keys.end(),
-                                   [&](const Value& other) { return Same(key, other); });
+    const bool known =
+        std::any_of(keys.begin(), keys.end(), [&](const Value& other) { return Same(key, other); });
     if (!known) keys.push_back(key);
   }
   const auto find = [](const Object& object, const Value& key) -> const Value* {

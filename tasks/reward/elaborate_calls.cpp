@@ -153,8 +153,8 @@ class Binder {
 }  // namespace
 
 Value Elaborator::CallValue(const Value& callee, std::vector<Value> values,
-                            std::vector<std::string> keywords,
-                            const std::vector<Position>& places, Position position) {
+                            std::vector<std::string> keywords, const std::vector<Position>& places,
+                            Position position) {
   if (callee.Is(ValueKind::kApi)) return CallApi(callee, values, keywords, places, position);
   if (callee.Is(ValueKind::kFunction)) {
     if (callee.items != nullptr) {  // called on the environment, which it is handed first
@@ -169,8 +169,9 @@ Value Elaborator::CallValue(const Value& callee, std::vector<Value> values,
   }
   if (callee.Is(ValueKind::kOpaque)) {
     if (callee.text == "device") return callee;
-    Fail("undefined", position,
-         "'" + callee.text + "' is not known here; only torch, numpy, math and the environment are");
+    Fail(
+        "undefined", position,
+        "'" + callee.text + "' is not known here; only torch, numpy, math and the environment are");
   }
   if (!callee.Is(ValueKind::kLibrary)) {
     Fail("not-a-function", position, "this is no function but " + Describe(callee));
@@ -178,8 +179,10 @@ Value Elaborator::CallValue(const Value& callee, std::vector<Value> values,
   Binder binder(*callee.library, callee.text, position);
   if (callee.items != nullptr) binder.Positional((*callee.items)[0], position);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (keywords[i].empty()) binder.Positional(values[i], places[i]);
-    else binder.Keyword(keywords[i], values[i], places[i]);
+    if (keywords[i].empty())
+      binder.Positional(values[i], places[i]);
+    else
+      binder.Keyword(keywords[i], values[i], places[i]);
   }
   return callee.library->handler(*this, binder.Finish());
 }

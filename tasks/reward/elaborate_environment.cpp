@@ -110,8 +110,9 @@ Elaborator::ApiArguments Elaborator::BindApi(const ApiFunction& function, const 
            "the " + std::string(name) + " is named by a string, this is " + Describe(values[i]));
     }
     (name == "asset" ? bound.asset : name == "link" ? bound.link : bound.joint) = values[i].text;
-    (name == "asset" ? bound.asset_at : name == "link" ? bound.link_at : bound.joint_at) =
-        places[i];
+    (name == "asset"  ? bound.asset_at
+     : name == "link" ? bound.link_at
+                      : bound.joint_at) = places[i];
   }
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (given[i] || parameters[i].optional) continue;
@@ -221,21 +222,19 @@ Value Elaborator::ApiGeometry(const ApiFunction& function, const ApiArguments& a
   }
   std::vector<int> last;
   if (function.result == ApiResult::kDistance) {
-    const Tensor difference = math_.Map(ScalarOperation::kSubtract, points[0], points[1],
-                                        DataType::kFloat, position);
-    const Tensor squares = math_.Map(ScalarOperation::kMultiply, difference, difference,
-                                     DataType::kFloat, position);
+    const Tensor difference =
+        math_.Map(ScalarOperation::kSubtract, points[0], points[1], DataType::kFloat, position);
+    const Tensor squares =
+        math_.Map(ScalarOperation::kMultiply, difference, difference, DataType::kFloat, position);
     last = {static_cast<int>(squares.shape.size()) - 1};
     const Tensor sum = math_.Reduce(Reduction::kSum, squares, last, false, position);
-    return TensorValue(
-        math_.Map(ScalarOperation::kSquareRoot, sum, DataType::kFloat, position));
+    return TensorValue(math_.Map(ScalarOperation::kSquareRoot, sum, DataType::kFloat, position));
   }
-  const Tensor above = math_.Map(ScalarOperation::kLessEqual, points[1], points[0],
-                                 DataType::kBool, position);
-  const Tensor below = math_.Map(ScalarOperation::kLessEqual, points[0], points[2],
-                                 DataType::kBool, position);
-  const Tensor inside =
-      math_.Map(ScalarOperation::kAnd, above, below, DataType::kBool, position);
+  const Tensor above =
+      math_.Map(ScalarOperation::kLessEqual, points[1], points[0], DataType::kBool, position);
+  const Tensor below =
+      math_.Map(ScalarOperation::kLessEqual, points[0], points[2], DataType::kBool, position);
+  const Tensor inside = math_.Map(ScalarOperation::kAnd, above, below, DataType::kBool, position);
   last = {static_cast<int>(inside.shape.size()) - 1};
   return TensorValue(math_.Reduce(Reduction::kAll, inside, last, false, position));
 }
@@ -260,9 +259,12 @@ Value Elaborator::ApiValue(const ApiFunction& function, const ApiArguments& argu
                          position);
       }
       return read(function.input, function.width, DataType::kFloat);
-    case ApiResult::kFlag: return read(function.input, function.width, DataType::kBool);
-    case ApiResult::kLower: return JointLimit(arguments, false);
-    case ApiResult::kUpper: return JointLimit(arguments, true);
+    case ApiResult::kFlag:
+      return read(function.input, function.width, DataType::kBool);
+    case ApiResult::kLower:
+      return JointLimit(arguments, false);
+    case ApiResult::kUpper:
+      return JointLimit(arguments, true);
     case ApiResult::kLimits:
     case ApiResult::kLimitPair: {
       Value pair = TupleValue({JointLimit(arguments, false), JointLimit(arguments, true)});
@@ -282,7 +284,8 @@ Value Elaborator::ApiValue(const ApiFunction& function, const ApiArguments& argu
                          TensorValue(math_.Slice(*box.tensor, last, 3, 6, 1))});
     }
     case ApiResult::kInsideBox:
-    case ApiResult::kDistance: return ApiGeometry(function, arguments, position);
+    case ApiResult::kDistance:
+      return ApiGeometry(function, arguments, position);
   }
   return Value{};
 }

@@ -10,17 +10,17 @@ constexpr std::size_t kLongestText = 4096;
 
 // What Python offers and a reward must not touch.
 constexpr std::string_view kForbiddenNames[] = {
-    "eval",    "exec",     "open",     "compile",    "input",    "globals",      "locals",
-    "vars",    "getattr",  "setattr",  "delattr",    "hasattr",  "dir",          "help",
-    "id",      "type",     "object",   "super",      "memoryview", "breakpoint", "classmethod",
-    "property", "callable", "iter",    "next",       "exit",     "quit"};
+    "eval",     "exec",     "open",    "compile", "input",      "globals",    "locals",
+    "vars",     "getattr",  "setattr", "delattr", "hasattr",    "dir",        "help",
+    "id",       "type",     "object",  "super",   "memoryview", "breakpoint", "classmethod",
+    "property", "callable", "iter",    "next",    "exit",       "quit"};
 
 }  // namespace
 
 Value Elaborator::NewList(std::vector<Value> items) {
   if (static_cast<int>(items.size()) > options_.max_lanes) {
-    Fail("too-large", {}, "a list holds more than " + std::to_string(options_.max_lanes) +
-                              " elements");
+    Fail("too-large", {},
+         "a list holds more than " + std::to_string(options_.max_lanes) + " elements");
   }
   Value value = PlainValue(ValueKind::kList);
   value.object = heap_.AddList(std::move(items));
@@ -55,15 +55,24 @@ Value Elaborator::Evaluate(const Expression& expression) {
 
 Value Elaborator::EvaluateKind(const Expression& expression) {
   switch (expression.kind) {
-    case ExpressionKind::kNone: return Value{};
-    case ExpressionKind::kTrue: return BoolValue(true);
-    case ExpressionKind::kFalse: return BoolValue(false);
-    case ExpressionKind::kEllipsis: return PlainValue(ValueKind::kEllipsis);
-    case ExpressionKind::kInteger: return IntegerValue(expression.integer);
-    case ExpressionKind::kFloat: return FloatValue(expression.number);
-    case ExpressionKind::kString: return StringValue(expression.text);
-    case ExpressionKind::kFormatString: return EvaluateFormat(expression);
-    case ExpressionKind::kName: return EvaluateName(expression);
+    case ExpressionKind::kNone:
+      return Value{};
+    case ExpressionKind::kTrue:
+      return BoolValue(true);
+    case ExpressionKind::kFalse:
+      return BoolValue(false);
+    case ExpressionKind::kEllipsis:
+      return PlainValue(ValueKind::kEllipsis);
+    case ExpressionKind::kInteger:
+      return IntegerValue(expression.integer);
+    case ExpressionKind::kFloat:
+      return FloatValue(expression.number);
+    case ExpressionKind::kString:
+      return StringValue(expression.text);
+    case ExpressionKind::kFormatString:
+      return EvaluateFormat(expression);
+    case ExpressionKind::kName:
+      return EvaluateName(expression);
     case ExpressionKind::kTuple:
     case ExpressionKind::kList: {
       std::vector<Value> items;
@@ -71,25 +80,34 @@ Value Elaborator::EvaluateKind(const Expression& expression) {
       return expression.kind == ExpressionKind::kList ? NewList(std::move(items))
                                                       : TupleValue(std::move(items));
     }
-    case ExpressionKind::kDict: return EvaluateDict(expression);
-    case ExpressionKind::kUnary: return EvaluateUnary(expression);
+    case ExpressionKind::kDict:
+      return EvaluateDict(expression);
+    case ExpressionKind::kUnary:
+      return EvaluateUnary(expression);
     case ExpressionKind::kBinary: {
       const Value left = Evaluate(*expression.children[0]);
       return Binary(expression.operation, left, Evaluate(*expression.children[1]),
                     expression.position);
     }
-    case ExpressionKind::kCompare: return EvaluateCompare(expression);
-    case ExpressionKind::kBoolean: return EvaluateBoolean(expression);
-    case ExpressionKind::kConditional: return EvaluateConditional(expression);
-    case ExpressionKind::kCall: return EvaluateCall(expression);
-    case ExpressionKind::kAttribute: return EvaluateAttribute(expression);
+    case ExpressionKind::kCompare:
+      return EvaluateCompare(expression);
+    case ExpressionKind::kBoolean:
+      return EvaluateBoolean(expression);
+    case ExpressionKind::kConditional:
+      return EvaluateConditional(expression);
+    case ExpressionKind::kCall:
+      return EvaluateCall(expression);
+    case ExpressionKind::kAttribute:
+      return EvaluateAttribute(expression);
     case ExpressionKind::kSubscript: {
       const Value base = Evaluate(*expression.children[0]);
       return Subscript(base, Evaluate(*expression.children[1]), expression.position);
     }
-    case ExpressionKind::kSlice: return EvaluateSlice(expression);
+    case ExpressionKind::kSlice:
+      return EvaluateSlice(expression);
     case ExpressionKind::kListComprehension:
-    case ExpressionKind::kDictComprehension: return EvaluateComprehension(expression);
+    case ExpressionKind::kDictComprehension:
+      return EvaluateComprehension(expression);
   }
   return Value{};
 }
@@ -188,8 +206,10 @@ Value Elaborator::EvaluateDict(const Expression& expression) {
 Value Elaborator::EvaluateUnary(const Expression& expression) {
   const Value value = Evaluate(*expression.children[0]);
   switch (expression.operation) {
-    case Operator::kNegate: return Negate(value, expression.position);
-    case Operator::kInvert: return Invert(value, expression.position);
+    case Operator::kNegate:
+      return Negate(value, expression.position);
+    case Operator::kInvert:
+      return Invert(value, expression.position);
     case Operator::kNot: {
       Tensor flag;
       const int truth = Truth(value, &flag, expression.position);
@@ -229,14 +249,13 @@ Value Elaborator::EvaluateBoolean(const Expression& expression) {
     }
     Tensor other;
     const int known = Truth(next, &other, expression.children[i]->position);
-    const bool flags = result.NumberType() == DataType::kBool &&
-                       next.NumberType() == DataType::kBool;
+    const bool flags =
+        result.NumberType() == DataType::kBool && next.NumberType() == DataType::kBool;
     if (known >= 0 && flags) {
       if (known == (all ? 0 : 1)) result = next;
     } else if (flags) {
       const ScalarOperation operation = all ? ScalarOperation::kAnd : ScalarOperation::kOr;
-      result = TensorValue(
-          math_.Map(operation, flag, other, DataType::kBool, expression.position));
+      result = TensorValue(math_.Map(operation, flag, other, DataType::kBool, expression.position));
     } else {
       result = all ? Choose(flag, next, result, expression.position)
                    : Choose(flag, result, next, expression.position);
@@ -316,12 +335,17 @@ Value Elaborator::EvaluateCall(const Expression& expression) {
 
 std::vector<Value> Elaborator::Items(const Value& value, Position position) {
   switch (value.kind) {
-    case ValueKind::kTuple: return *value.items;
-    case ValueKind::kList: return *heap_[value.object].items;
-    case ValueKind::kDict: return *heap_[value.object].keys;
+    case ValueKind::kTuple:
+      return *value.items;
+    case ValueKind::kList:
+      return *heap_[value.object].items;
+    case ValueKind::kDict:
+      return *heap_[value.object].keys;
     case ValueKind::kBatchSize:
-    case ValueKind::kTensor: break;
-    default: Fail("loop", position, "this cannot be gone through: " + Describe(value));
+    case ValueKind::kTensor:
+      break;
+    default:
+      Fail("loop", position, "this cannot be gone through: " + Describe(value));
   }
   if (value.Is(ValueKind::kBatchSize) || value.tensor->shape.empty() ||
       value.tensor->shape[0] == kBatch) {

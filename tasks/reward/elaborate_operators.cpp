@@ -7,18 +7,30 @@ namespace {
 
 const char* Sign(Operator operation) {
   switch (operation) {
-    case Operator::kAdd: return "+";
-    case Operator::kSubtract: return "-";
-    case Operator::kMultiply: return "*";
-    case Operator::kDivide: return "/";
-    case Operator::kFloorDivide: return "//";
-    case Operator::kRemainder: return "%";
-    case Operator::kPower: return "**";
-    case Operator::kMatrixMultiply: return "@";
-    case Operator::kAnd: return "&";
-    case Operator::kOr: return "|";
-    case Operator::kExclusiveOr: return "^";
-    default: return "this";
+    case Operator::kAdd:
+      return "+";
+    case Operator::kSubtract:
+      return "-";
+    case Operator::kMultiply:
+      return "*";
+    case Operator::kDivide:
+      return "/";
+    case Operator::kFloorDivide:
+      return "//";
+    case Operator::kRemainder:
+      return "%";
+    case Operator::kPower:
+      return "**";
+    case Operator::kMatrixMultiply:
+      return "@";
+    case Operator::kAnd:
+      return "&";
+    case Operator::kOr:
+      return "|";
+    case Operator::kExclusiveOr:
+      return "^";
+    default:
+      return "this";
   }
 }
 
@@ -34,9 +46,15 @@ Value IntegerBinary(Operator operation, std::int64_t a, std::int64_t b, Position
   std::int64_t result = 0;
   bool overflow = false;
   switch (operation) {
-    case Operator::kAdd: overflow = __builtin_add_overflow(a, b, &result); break;
-    case Operator::kSubtract: overflow = __builtin_sub_overflow(a, b, &result); break;
-    case Operator::kMultiply: overflow = __builtin_mul_overflow(a, b, &result); break;
+    case Operator::kAdd:
+      overflow = __builtin_add_overflow(a, b, &result);
+      break;
+    case Operator::kSubtract:
+      overflow = __builtin_sub_overflow(a, b, &result);
+      break;
+    case Operator::kMultiply:
+      overflow = __builtin_mul_overflow(a, b, &result);
+      break;
     case Operator::kFloorDivide:
     case Operator::kRemainder: {
       if (b == -1) {
@@ -46,8 +64,8 @@ Value IntegerBinary(Operator operation, std::int64_t a, std::int64_t b, Position
       }
       const std::int64_t quotient = a / b, rest = a % b;
       const bool down = rest != 0 && ((rest < 0) != (b < 0));
-      result = operation == Operator::kFloorDivide ? quotient - (down ? 1 : 0)
-                                                   : rest + (down ? b : 0);
+      result =
+          operation == Operator::kFloorDivide ? quotient - (down ? 1 : 0) : rest + (down ? b : 0);
       break;
     }
     case Operator::kPower: {
@@ -63,10 +81,17 @@ Value IntegerBinary(Operator operation, std::int64_t a, std::int64_t b, Position
       if (a == 0) result = b == 0 ? 1 : 0;
       break;
     }
-    case Operator::kAnd: result = a & b; break;
-    case Operator::kOr: result = a | b; break;
-    case Operator::kExclusiveOr: result = a ^ b; break;
-    default: Fail("type", position, std::string(Sign(operation)) + " has no meaning on numbers");
+    case Operator::kAnd:
+      result = a & b;
+      break;
+    case Operator::kOr:
+      result = a | b;
+      break;
+    case Operator::kExclusiveOr:
+      result = a ^ b;
+      break;
+    default:
+      Fail("type", position, std::string(Sign(operation)) + " has no meaning on numbers");
   }
   if (overflow) Overflow(position);
   return IntegerValue(result);
@@ -88,20 +113,25 @@ Value NumberBinary(Operator operation, const Value& a, const Value& b, Position 
     return result;
   }
   switch (operation) {
-    case Operator::kAdd: return FloatValue(x + y);
-    case Operator::kSubtract: return FloatValue(x - y);
-    case Operator::kMultiply: return FloatValue(x * y);
-    case Operator::kFloorDivide: return FloatValue(std::floor(x / y));
+    case Operator::kAdd:
+      return FloatValue(x + y);
+    case Operator::kSubtract:
+      return FloatValue(x - y);
+    case Operator::kMultiply:
+      return FloatValue(x * y);
+    case Operator::kFloorDivide:
+      return FloatValue(std::floor(x / y));
     case Operator::kRemainder: {
       const double rest = std::fmod(x, y);
       return FloatValue(rest != 0.0 && ((rest < 0.0) != (y < 0.0)) ? rest + y : rest);
     }
-    case Operator::kPower: return FloatValue(std::pow(x, y));
+    case Operator::kPower:
+      return FloatValue(std::pow(x, y));
     default:
       Fail("type", position,
            "'" + std::string(Sign(operation)) +
-               "' joins flags; compare the numbers first, in brackets: (a < 1) " +
-               Sign(operation) + " (b < 2)");
+               "' joins flags; compare the numbers first, in brackets: (a < 1) " + Sign(operation) +
+               " (b < 2)");
   }
 }
 
@@ -114,22 +144,30 @@ struct TensorOperation {
 TensorOperation Resolve(Operator operation, DataType type, Position position) {
   const bool flags = type == DataType::kBool;
   switch (operation) {
-    case Operator::kAdd: return {flags ? ScalarOperation::kOr : ScalarOperation::kAdd, type};
+    case Operator::kAdd:
+      return {flags ? ScalarOperation::kOr : ScalarOperation::kAdd, type};
     case Operator::kSubtract:
       if (flags) {
         Fail("type", position,
              "flags cannot be subtracted; use torch.logical_xor, or .float() them first");
       }
       return {ScalarOperation::kSubtract, type};
-    case Operator::kMultiply: return {flags ? ScalarOperation::kAnd : ScalarOperation::kMultiply, type};
-    case Operator::kDivide: return {ScalarOperation::kDivide, DataType::kFloat};
-    case Operator::kFloorDivide: return {ScalarOperation::kFloorDivide, type};
-    case Operator::kRemainder: return {ScalarOperation::kFloorRemainder, type};
-    case Operator::kPower: return {ScalarOperation::kPower, flags ? DataType::kInteger : type};
+    case Operator::kMultiply:
+      return {flags ? ScalarOperation::kAnd : ScalarOperation::kMultiply, type};
+    case Operator::kDivide:
+      return {ScalarOperation::kDivide, DataType::kFloat};
+    case Operator::kFloorDivide:
+      return {ScalarOperation::kFloorDivide, type};
+    case Operator::kRemainder:
+      return {ScalarOperation::kFloorRemainder, type};
+    case Operator::kPower:
+      return {ScalarOperation::kPower, flags ? DataType::kInteger : type};
     case Operator::kAnd:
     case Operator::kOr:
-    case Operator::kExclusiveOr: break;
-    default: Fail("type", position, "this operator has no meaning on tensors");
+    case Operator::kExclusiveOr:
+      break;
+    default:
+      Fail("type", position, "this operator has no meaning on tensors");
   }
   if (!flags) {
     Fail("type", position,
@@ -145,7 +183,7 @@ bool Equal(const Value& a, const Value& b, int* budget) {
   if (--*budget < 0) return false;
   if (a.IsNumber() && b.IsNumber()) return a.Number() == b.Number();
   if (a.kind != b.kind || a.text != b.text || a.object != b.object) return false;
-  if (!a.Is(ValueKind::kTuple)) return true;
+  if (!a.Is(ValueKind::kTuple) || a.items == b.items) return true;
   if (a.items->size() != b.items->size()) return false;
   for (std::size_t i = 0; i < a.items->size(); ++i) {
     if (!Equal((*a.items)[i], (*b.items)[i], budget)) return false;
@@ -234,24 +272,29 @@ Value Elaborator::Compare(Operator operation, const Value& a, const Value& b, Po
   if (a.IsNumber() && b.IsNumber()) {
     const double x = a.Number(), y = b.Number();
     switch (operation) {
-      case Operator::kLess: return BoolValue(x < y);
-      case Operator::kLessEqual: return BoolValue(x <= y);
-      case Operator::kGreater: return BoolValue(x > y);
-      case Operator::kGreaterEqual: return BoolValue(x >= y);
-      case Operator::kEqual: return BoolValue(x == y);
-      default: return BoolValue(x != y);
+      case Operator::kLess:
+        return BoolValue(x < y);
+      case Operator::kLessEqual:
+        return BoolValue(x <= y);
+      case Operator::kGreater:
+        return BoolValue(x > y);
+      case Operator::kGreaterEqual:
+        return BoolValue(x >= y);
+      case Operator::kEqual:
+        return BoolValue(x == y);
+      default:
+        return BoolValue(x != y);
     }
   }
   if (Numeric(a) && Numeric(b)) {
     const bool swap = operation == Operator::kGreater || operation == Operator::kGreaterEqual;
     const Tensor x = math_.FromValue(swap ? b : a, position);
     const Tensor y = math_.FromValue(swap ? a : b, position);
-    const ScalarOperation meant =
-        operation == Operator::kEqual      ? ScalarOperation::kEqual
-        : operation == Operator::kNotEqual ? ScalarOperation::kNotEqual
-        : operation == Operator::kLess || operation == Operator::kGreater
-            ? ScalarOperation::kLess
-            : ScalarOperation::kLessEqual;
+    const ScalarOperation meant = operation == Operator::kEqual      ? ScalarOperation::kEqual
+                                  : operation == Operator::kNotEqual ? ScalarOperation::kNotEqual
+                                  : operation == Operator::kLess || operation == Operator::kGreater
+                                      ? ScalarOperation::kLess
+                                      : ScalarOperation::kLessEqual;
     return TensorValue(math_.Map(meant, x, y, DataType::kBool, position));
   }
   if (equality) {
@@ -276,8 +319,9 @@ Value Elaborator::Invert(const Value& value, Position position) {
   if (value.IsNumber()) return IntegerValue(~value.integer);
   const Tensor tensor = math_.FromValue(value, position);
   if (tensor.type == DataType::kFloat) {
-    Fail("type", position, "'~' inverts flags, this is " + Describe(value) +
-                               "; compare it first, in brackets: ~(x < 1)");
+    Fail("type", position,
+         "'~' inverts flags, this is " + Describe(value) +
+             "; compare it first, in brackets: ~(x < 1)");
   }
   if (tensor.type == DataType::kBool) {
     return TensorValue(math_.Map(ScalarOperation::kNot, tensor, tensor.type, position));

@@ -14,8 +14,7 @@ NodeId Elaborator::RewardNode(const Value& value, Position position) {
   if (tensor.shape != Shape{kBatch} && !tensor.shape.empty()) {
     const bool column = tensor.lanes.size() == 1;
     Fail("bad-reward", position,
-         "the reward has to be one number an environment, [N]; this is " +
-             ShapeText(tensor.shape) +
+         "the reward has to be one number an environment, [N]; this is " + ShapeText(tensor.shape) +
              (column ? "; use .squeeze(-1)" : "; sum it with .sum(dim=-1)"));
   }
   const NodeId node = math_.At(tensor, 0);

@@ -8,9 +8,9 @@ namespace {
 
 // Modules that reach the machine: refused, though nothing of them could be used anyway.
 constexpr std::string_view kForbiddenModules[] = {
-    "os",     "sys",     "subprocess", "socket",    "shutil",   "pathlib", "builtins", "importlib",
-    "ctypes", "pickle",  "io",         "threading", "requests", "urllib",  "http",     "tempfile",
-    "signal", "runpy",   "code",       "multiprocessing"};
+    "os",        "sys",      "subprocess", "socket", "shutil",    "pathlib",        "builtins",
+    "importlib", "ctypes",   "pickle",     "io",     "threading", "requests",       "urllib",
+    "http",      "tempfile", "signal",     "runpy",  "code",      "multiprocessing"};
 
 // Names that mean what they are called, so that no program may give them another meaning.
 constexpr std::string_view kFixedNames[] = {"torch", "np", "numpy", "math"};
@@ -23,8 +23,7 @@ std::string CanonicalModule(const std::string& module) {
 
 }  // namespace
 
-Elaborator::Elaborator(const Module& module, const RewardScene* scene,
-                       const RewardOptions& options)
+Elaborator::Elaborator(const Module& module, const RewardScene* scene, const RewardOptions& options)
     : module_(module),
       scene_(scene),
       options_(options),
@@ -155,7 +154,7 @@ Elaborator::Flow Elaborator::Execute(const Block& block) {
       if (fault.code == "too-many-steps" || fault.code == "too-deep") throw;
       if (!fault.code.empty()) {
         Position position = fault.position;
-        if (fault.code == "too-large") position = statement->position;
+        if (position.line == 1 && position.column == 1) position = statement->position;
         Report(fault.code, core::Severity::kError, position, fault.sentence);
       }
       if (errors_ >= options_.max_findings || fault.code == "too-large") throw Fault{};
@@ -182,26 +181,36 @@ void Elaborator::Poison(const Expression& target) {
 Elaborator::Flow Elaborator::Execute(const Statement& statement) {
   Step(statement.position);
   switch (statement.kind) {
-    case StatementKind::kExpression: Evaluate(*statement.value); return Flow::kNext;
+    case StatementKind::kExpression:
+      Evaluate(*statement.value);
+      return Flow::kNext;
     case StatementKind::kAssign: {
       const Value value = Evaluate(*statement.value);
       for (const ExpressionPtr& target : statement.targets) Assign(*target, value);
       return Flow::kNext;
     }
-    case StatementKind::kAugmented: Augment(statement); return Flow::kNext;
+    case StatementKind::kAugmented:
+      Augment(statement);
+      return Flow::kNext;
     case StatementKind::kReturn:
       returned_at_ = statement.value != nullptr ? statement.value->position : statement.position;
       frame_->result = statement.value == nullptr ? Value{} : Evaluate(*statement.value);
       return Flow::kReturn;
-    case StatementKind::kIf: return ExecuteIf(statement, 0);
-    case StatementKind::kFor: return ExecuteFor(statement);
-    case StatementKind::kBlock: return Execute(statement.blocks[0]);
+    case StatementKind::kIf:
+      return ExecuteIf(statement, 0);
+    case StatementKind::kFor:
+      return ExecuteFor(statement);
+    case StatementKind::kBlock:
+      return Execute(statement.blocks[0]);
     case StatementKind::kImport:
       for (const Import& import : statement.imports) DoImport(import);
       return Flow::kNext;
-    case StatementKind::kPass: return Flow::kNext;
-    case StatementKind::kBreak: return Flow::kBreak;
-    case StatementKind::kContinue: return Flow::kContinue;
+    case StatementKind::kPass:
+      return Flow::kNext;
+    case StatementKind::kBreak:
+      return Flow::kBreak;
+    case StatementKind::kContinue:
+      return Flow::kContinue;
   }
   return Flow::kNext;
 }
@@ -220,8 +229,7 @@ Elaborator::Flow Elaborator::ExecuteFor(const Statement& statement) {
 
 void Elaborator::AssignName(const std::string& name, const Value& value, Position position) {
   const auto held = frame_->names.find(name);
-  const bool environment =
-      held != frame_->names.end() && held->second.Is(ValueKind::kEnvironment);
+  const bool environment = held != frame_->names.end() && held->second.Is(ValueKind::kEnvironment);
   const bool fixed =
       std::find(std::begin(kFixedNames), std::end(kFixedNames), name) != std::end(kFixedNames);
   if ((fixed && !value.Is(ValueKind::kModule)) ||
@@ -239,15 +247,23 @@ void Elaborator::AssignName(const std::string& name, const Value& value, Positio
 
 void Elaborator::Assign(const Expression& target, const Value& value) {
   switch (target.kind) {
-    case ExpressionKind::kName: AssignName(target.text, value, target.position); return;
+    case ExpressionKind::kName:
+      AssignName(target.text, value, target.position);
+      return;
     case ExpressionKind::kTuple:
-    case ExpressionKind::kList: Unpack(target, value); return;
-    case ExpressionKind::kSubscript: AssignSubscript(target, value); return;
+    case ExpressionKind::kList:
+      Unpack(target, value);
+      return;
+    case ExpressionKind::kSubscript:
+      AssignSubscript(target, value);
+      return;
     case ExpressionKind::kAttribute:
       Fail("bad-target", target.position,
-           "'." + target.text + "' cannot be assigned: a reward reads the environment and leaves "
-           "it as it is; use a local name");
-    default: Fail("bad-target", target.position, "this cannot be assigned to");
+           "'." + target.text +
+               "' cannot be assigned: a reward reads the environment and leaves "
+               "it as it is; use a local name");
+    default:
+      Fail("bad-target", target.position, "this cannot be assigned to");
   }
 }
 

@@ -12,11 +12,11 @@ std::vector<Value> IndexParts(const Value& index) {
 
 bool IsWhole(const Value& slice) {
   const std::vector<Value>& parts = *slice.items;
-  const bool from_start = parts[0].Is(ValueKind::kNone) ||
-                          (parts[0].Is(ValueKind::kInteger) && parts[0].integer == 0);
+  const bool from_start =
+      parts[0].Is(ValueKind::kNone) || (parts[0].Is(ValueKind::kInteger) && parts[0].integer == 0);
   const bool to_end = parts[1].Is(ValueKind::kNone) || parts[1].Is(ValueKind::kBatchSize);
-  const bool each = parts[2].Is(ValueKind::kNone) ||
-                    (parts[2].Is(ValueKind::kInteger) && parts[2].integer == 1);
+  const bool each =
+      parts[2].Is(ValueKind::kNone) || (parts[2].Is(ValueKind::kInteger) && parts[2].integer == 1);
   return from_start && to_end && each;
 }
 
@@ -78,8 +78,8 @@ Tensor Elaborator::ApplyIndex(const Tensor& tensor, const Value& index, int* dim
       if (!item.Is(ValueKind::kInteger)) {
         Fail("index", position, "a list of indices wants whole numbers, this is " + Describe(item));
       }
-      parts.push_back(math_.Unsqueeze(math_.Take(tensor, *dimension, item.integer, position),
-                                      *dimension));
+      parts.push_back(
+          math_.Unsqueeze(math_.Take(tensor, *dimension, item.integer, position), *dimension));
     }
     if (parts.empty()) Fail("index", position, "the list of indices is empty");
     return math_.Concatenate(parts, (*dimension)++, position);
@@ -141,8 +141,7 @@ Value Elaborator::SubscriptItems(const Value& base, const std::vector<Value>& it
   }
   if (index.integer < -size || index.integer >= size) {
     Fail("index", position,
-         "there is no element " + std::to_string(index.integer) + " among " +
-             std::to_string(size));
+         "there is no element " + std::to_string(index.integer) + " among " + std::to_string(size));
   }
   return items[index.integer < 0 ? index.integer + size : index.integer];
 }
@@ -158,9 +157,9 @@ Value Elaborator::SubscriptDict(const Value& base, const Value& index, Position 
     if (key.Is(ValueKind::kString)) known.push_back(key.text);
   }
   Fail("bad-key", position,
-       "the dictionary has no key " +
-           (index.Is(ValueKind::kString) ? "'" + index.text + "'" + Suggestion(index.text, known)
-                                         : "like this: " + Describe(index)));
+       "the dictionary has no key " + (index.Is(ValueKind::kString)
+                                           ? "'" + index.text + "'" + Suggestion(index.text, known)
+                                           : "like this: " + Describe(index)));
 }
 
 Value Elaborator::Subscript(const Value& base, const Value& index, Position position) {
@@ -168,14 +167,21 @@ Value Elaborator::Subscript(const Value& base, const Value& index, Position posi
   switch (base.kind) {
     case ValueKind::kTensor:
       return TensorValue(SubscriptTensor(*base.tensor, index, position));
-    case ValueKind::kTuple: value = SubscriptItems(base, *base.items, index, position); break;
+    case ValueKind::kTuple:
+      value = SubscriptItems(base, *base.items, index, position);
+      break;
     case ValueKind::kList:
       value = SubscriptItems(base, *heap_[base.object].items, index, position);
       break;
-    case ValueKind::kDict: value = SubscriptDict(base, index, position); break;
-    case ValueKind::kOpaque: return base;  // Dict[str, Tensor]
-    case ValueKind::kUndefined: Fail(base.text.empty() ? "" : "undefined", position, base.text);
-    default: Fail("index", position, Describe(base) + " has no elements");
+    case ValueKind::kDict:
+      value = SubscriptDict(base, index, position);
+      break;
+    case ValueKind::kOpaque:
+      return base;  // Dict[str, Tensor]
+    case ValueKind::kUndefined:
+      Fail(base.text.empty() ? "" : "undefined", position, base.text);
+    default:
+      Fail("index", position, Describe(base) + " has no elements");
   }
   if (value.Is(ValueKind::kUndefined)) {
     Fail(value.text.empty() ? "" : "undefined", position, value.text);

@@ -133,16 +133,14 @@ class Elaborator {
   Value EvaluateComprehension(const Expression& expression);
   Value EvaluateSlice(const Expression& expression);
   Value EvaluateCall(const Expression& expression);
-  Value CallValue(const Value& callee, std::vector<Value> values,
-                  std::vector<std::string> keywords, const std::vector<Position>& places,
-                  Position position);
+  Value CallValue(const Value& callee, std::vector<Value> values, std::vector<std::string> keywords,
+                  const std::vector<Position>& places, Position position);
   std::vector<std::string> VisibleNames() const;
 
   // elaborate_attributes.cpp
   Value EvaluateAttribute(const Expression& expression);
   Value ModuleAttribute(const std::string& module, const std::string& name, Position position);
-  Value EnvironmentAttribute(const Value& environment, const std::string& name,
-                             Position position);
+  Value EnvironmentAttribute(const Value& environment, const std::string& name, Position position);
   Value TensorAttribute(const Value& value, const std::string& name, Position position);
 
   // elaborate_operators.cpp

@@ -14,32 +14,52 @@ enum Variant { kMakesFloat, kKeepsType, kMakesFlag };
 void RefuseBatch(const Arguments& arguments, const Tensor& tensor) {
   if (!arguments.called.starts_with("math.") || tensor.shape.empty()) return;
   Fail("type", arguments.Place(0),
-       "'" + arguments.called + "' takes one number, this is a tensor " +
-           ShapeText(tensor.shape) + "; use torch." + arguments.called.substr(5));
+       "'" + arguments.called + "' takes one number, this is a tensor " + ShapeText(tensor.shape) +
+           "; use torch." + arguments.called.substr(5));
 }
 
 double OnNumber(ScalarOperation operation, double x) {
   switch (operation) {
-    case kNegate: return -x;
-    case kAbsolute: return std::fabs(x);
-    case kSquareRoot: return std::sqrt(x);
-    case kExponential: return std::exp(x);
-    case kLogarithm: return std::log(x);
-    case kSine: return std::sin(x);
-    case kCosine: return std::cos(x);
-    case kTangent: return std::tan(x);
-    case kArcSine: return std::asin(x);
-    case kArcCosine: return std::acos(x);
-    case kArcTangent: return std::atan(x);
-    case kHyperbolicTangent: return std::tanh(x);
-    case kFloor: return std::floor(x);
-    case kCeiling: return std::ceil(x);
-    case kRound: return std::nearbyint(x);
-    case kTruncate: return std::trunc(x);
-    case kLogarithmOfOnePlus: return std::log1p(x);
-    case kExponentialMinusOne: return std::expm1(x);
-    case kSign: return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0;
-    default: return 1.0 / (1.0 + std::exp(-x));  // the sigmoid
+    case kNegate:
+      return -x;
+    case kAbsolute:
+      return std::fabs(x);
+    case kSquareRoot:
+      return std::sqrt(x);
+    case kExponential:
+      return std::exp(x);
+    case kLogarithm:
+      return std::log(x);
+    case kSine:
+      return std::sin(x);
+    case kCosine:
+      return std::cos(x);
+    case kTangent:
+      return std::tan(x);
+    case kArcSine:
+      return std::asin(x);
+    case kArcCosine:
+      return std::acos(x);
+    case kArcTangent:
+      return std::atan(x);
+    case kHyperbolicTangent:
+      return std::tanh(x);
+    case kFloor:
+      return std::floor(x);
+    case kCeiling:
+      return std::ceil(x);
+    case kRound:
+      return std::nearbyint(x);
+    case kTruncate:
+      return std::trunc(x);
+    case kLogarithmOfOnePlus:
+      return std::log1p(x);
+    case kExponentialMinusOne:
+      return std::expm1(x);
+    case kSign:
+      return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0;
+    default:
+      return 1.0 / (1.0 + std::exp(-x));  // the sigmoid
   }
 }
 
@@ -71,8 +91,7 @@ Value Unary(Elaborator& elaborator, const Arguments& arguments) {
 
 Value LogicalNot(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
-  return TensorValue(
-      elaborator.math().Map(kNot, tensor, DataType::kBool, arguments.position));
+  return TensorValue(elaborator.math().Map(kNot, tensor, DataType::kBool, arguments.position));
 }
 
 // Functions of one operand that are short formulas of others.
@@ -126,21 +145,32 @@ class Formulas {
 
 Tensor Formulas::Of(int formula, const Tensor& x) {
   switch (formula) {
-    case kSquare: return Do(kMultiply, x, x);
-    case kReciprocal: return Do(kDivide, Number(1.0), x);
-    case kRootReciprocal: return Do(kDivide, Number(1.0), Do(kSquareRoot, x));
-    case kRelu: return Do(kMaximum, x, math_.Scalar(x.type, math_.graph().Constant(0.0)));
-    case kLogarithm2: return Do(kMultiply, Do(kLogarithm, x), Number(1.44269504088896341));
-    case kLogarithm10: return Do(kMultiply, Do(kLogarithm, x), Number(0.43429448190325183));
-    case kHyperbolicSine: return HalfOf(kSubtract, x);
-    case kHyperbolicCosine: return HalfOf(kAdd, x);
+    case kSquare:
+      return Do(kMultiply, x, x);
+    case kReciprocal:
+      return Do(kDivide, Number(1.0), x);
+    case kRootReciprocal:
+      return Do(kDivide, Number(1.0), Do(kSquareRoot, x));
+    case kRelu:
+      return Do(kMaximum, x, math_.Scalar(x.type, math_.graph().Constant(0.0)));
+    case kLogarithm2:
+      return Do(kMultiply, Do(kLogarithm, x), Number(1.44269504088896341));
+    case kLogarithm10:
+      return Do(kMultiply, Do(kLogarithm, x), Number(0.43429448190325183));
+    case kHyperbolicSine:
+      return HalfOf(kSubtract, x);
+    case kHyperbolicCosine:
+      return HalfOf(kAdd, x);
     // max(x, 0) + log(1 + e^-|x|), which does not overflow.
     case kSoftplus:
       return Do(kAdd, Do(kMaximum, x, Number(0.0)),
                 Do(kLogarithmOfOnePlus, Do(kExponential, Do(kNegate, Do(kAbsolute, x)))));
-    case kRadians: return Do(kMultiply, x, Number(0.017453292519943295));
-    case kDegrees: return Do(kMultiply, x, Number(57.295779513082321));
-    case kIsInfinite: return Infinite(x);
+    case kRadians:
+      return Do(kMultiply, x, Number(0.017453292519943295));
+    case kDegrees:
+      return Do(kMultiply, x, Number(57.295779513082321));
+    case kIsInfinite:
+      return Infinite(x);
     case kIsFinite: {
       const Tensor nan = math_.Map(kIsNan, x, DataType::kBool, position_);
       return Do(kNot, Do(kOr, nan, Infinite(x)));
@@ -167,20 +197,28 @@ Value ByFormula(Elaborator& elaborator, const Arguments& arguments) {
   if (value.IsNumber() && !WantsTensors(arguments)) {
     const double x = value.Number();
     switch (formula) {
-      case kSquare: return value.Is(ValueKind::kFloat) ? FloatValue(x * x)
-                                                       : elaborator.Binary(Operator::kMultiply, value,
-                                                                           value, arguments.position);
-      case kLogarithm2: return FloatValue(std::log2(x));
-      case kLogarithm10: return FloatValue(std::log10(x));
-      case kRadians: return FloatValue(x * 0.017453292519943295);
-      case kDegrees: return FloatValue(x * 57.295779513082321);
-      case kIsInfinite: return BoolValue(std::isinf(x));
-      case kIsFinite: return BoolValue(std::isfinite(x));
-      default: break;
+      case kSquare:
+        return value.Is(ValueKind::kFloat)
+                   ? FloatValue(x * x)
+                   : elaborator.Binary(Operator::kMultiply, value, value, arguments.position);
+      case kLogarithm2:
+        return FloatValue(std::log2(x));
+      case kLogarithm10:
+        return FloatValue(std::log10(x));
+      case kRadians:
+        return FloatValue(x * 0.017453292519943295);
+      case kDegrees:
+        return FloatValue(x * 57.295779513082321);
+      case kIsInfinite:
+        return BoolValue(std::isinf(x));
+      case kIsFinite:
+        return BoolValue(std::isfinite(x));
+      default:
+        break;
     }
   }
-  const Tensor tensor = keeps ? TensorArgument(elaborator, arguments, 0)
-                              : FloatArgument(elaborator, arguments, 0);
+  const Tensor tensor =
+      keeps ? TensorArgument(elaborator, arguments, 0) : FloatArgument(elaborator, arguments, 0);
   RefuseBatch(arguments, tensor);
   return TensorValue(Formulas(elaborator, arguments.position).Of(formula, tensor));
 }
@@ -301,13 +339,15 @@ Value IsClose(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor gap = formulas.Do(kAbsolute, formulas.Do(kSubtract, a, b));
   const Tensor relative = formulas.Number(NumberArgument(elaborator, arguments, 2));
   const Tensor absolute = formulas.Number(NumberArgument(elaborator, arguments, 3));
-  const Tensor room = formulas.Do(
-      kAdd, absolute, formulas.Do(kMultiply, relative, formulas.Do(kAbsolute, b)));
+  const Tensor room =
+      formulas.Do(kAdd, absolute, formulas.Do(kMultiply, relative, formulas.Do(kAbsolute, b)));
   return TensorValue(
       elaborator.math().Map(kLessEqual, gap, room, DataType::kBool, arguments.position));
 }
 
-constexpr int As(Operator operation) { return static_cast<int>(operation); }
+constexpr int As(Operator operation) {
+  return static_cast<int>(operation);
+}
 
 constexpr LibraryFunction kFunctions[] = {
     {"torch.abs torch.absolute Tensor.abs np.abs np.absolute abs math.fabs np.fabs", "input", Unary,
@@ -337,12 +377,13 @@ constexpr LibraryFunction kFunctions[] = {
      kMakesFloat},
     {"torch.tanh Tensor.tanh np.tanh math.tanh torch.nn.functional.tanh", "input", Unary,
      kHyperbolicTangent, kMakesFloat},
-    {"torch.sigmoid Tensor.sigmoid torch.nn.functional.sigmoid torch.special.expit", "input",
-     Unary, kSigmoid, kMakesFloat},
+    {"torch.sigmoid Tensor.sigmoid torch.nn.functional.sigmoid torch.special.expit", "input", Unary,
+     kSigmoid, kMakesFloat},
     {"torch.isnan Tensor.isnan np.isnan", "input", Unary, kIsNan, kMakesFlag},
     {"torch.logical_not Tensor.logical_not np.logical_not", "input", LogicalNot},
     {"torch.square Tensor.square np.square", "input", ByFormula, kConstant, kSquare},
-    {"torch.reciprocal Tensor.reciprocal np.reciprocal", "input", ByFormula, kConstant, kReciprocal},
+    {"torch.reciprocal Tensor.reciprocal np.reciprocal", "input", ByFormula, kConstant,
+     kReciprocal},
     {"torch.rsqrt Tensor.rsqrt", "input", ByFormula, kConstant, kRootReciprocal},
     {"torch.relu Tensor.relu torch.nn.functional.relu", "input", ByFormula, kConstant, kRelu},
     {"torch.nn.functional.leaky_relu", "input", ByFormula, kConstant, kLeakyRelu},
@@ -407,6 +448,8 @@ constexpr LibraryFunction kFunctions[] = {
 
 }  // namespace
 
-LibraryPart ElementwiseFunctions() { return {kFunctions, std::size(kFunctions)}; }
+LibraryPart ElementwiseFunctions() {
+  return {kFunctions, std::size(kFunctions)};
+}
 
 }  // namespace simwright::tasks::reward

@@ -31,12 +31,12 @@ constexpr ApiFunction kApi[] = {
     {"get_linear_velocity get_velocity get_linear_velocity_by_asset_name get_asset_velocity "
      "get_asset_linear_velocity",
      "asset", kVector, kAssetLinearVelocity, 3, "how fast an asset moves, m/s"},
-    {"get_angular_velocity get_angular_velocity_by_asset_name get_asset_angular_velocity",
-     "asset", kVector, kAssetAngularVelocity, 3, "how fast an asset turns, rad/s"},
+    {"get_angular_velocity get_angular_velocity_by_asset_name get_asset_angular_velocity", "asset",
+     kVector, kAssetAngularVelocity, 3, "how fast an asset turns, rad/s"},
     {"get_robot_gripper_pose get_robot_gripper_position get_gripper_pose get_gripper_position",
      "asset? link?", kVector, kGripperPosition, 3, "between the fingertips, m"},
-    {"get_robot_gripper_orientation get_robot_gripper_quaternion get_gripper_orientation",
-     "", kVector, kGripperOrientation, 4, "how the gripper is turned, quaternion xyzw"},
+    {"get_robot_gripper_orientation get_robot_gripper_quaternion get_gripper_orientation", "",
+     kVector, kGripperOrientation, 4, "how the gripper is turned, quaternion xyzw"},
     {"get_robot_gripper_velocity get_robot_gripper_linear_velocity get_gripper_velocity", "",
      kVector, kGripperLinearVelocity, 3, "how fast the gripper moves, m/s"},
     {"get_robot_gripper_angular_velocity get_gripper_angular_velocity", "", kVector,
@@ -46,8 +46,8 @@ constexpr ApiFunction kApi[] = {
      "", kVector, kGripperOpening, 1, "between the fingers, m"},
     {"get_robot_gripper_contact get_gripper_contact check_contact", "asset? link?", kFlag,
      kGripperContact, 1, "a finger touches something, or the thing named"},
-    {"check_grasped is_grasped get_grasped get_robot_gripper_grasp", "asset link?", kFlag,
-     kGrasped, 1, "both fingers hold the asset, or its link"},
+    {"check_grasped is_grasped get_grasped get_robot_gripper_grasp", "asset link?", kFlag, kGrasped,
+     1, "both fingers hold the asset, or its link"},
     {"get_eef_pos get_eef_pose", "", kPose, kGripperPosition, 3,
      "position and orientation of the gripper"},
     {"get_state_by_joint_name get_state_by_asset_joint_name get_joint_state get_joint_position "
@@ -88,19 +88,35 @@ void EachName(const ApiFunction& function, const Visit& visit) {
 }  // namespace
 
 std::string_view RewardInputName(RewardInput input) {
-  static constexpr std::string_view kNames[] = {
-      "link_position",         "link_orientation",      "link_linear_velocity",
-      "link_angular_velocity", "link_bounding_box",     "asset_position",
-      "asset_orientation",     "asset_linear_velocity", "asset_angular_velocity",
-      "asset_bounding_box",    "gripper_position",      "gripper_orientation",
-      "gripper_linear_velocity", "gripper_angular_velocity", "gripper_opening",
-      "gripper_contact",       "grasped",               "joint_state",
-      "joint_velocity",        "joint_lower",           "joint_upper",
-      "goal_position",         "parameter"};
+  static constexpr std::string_view kNames[] = {"link_position",
+                                                "link_orientation",
+                                                "link_linear_velocity",
+                                                "link_angular_velocity",
+                                                "link_bounding_box",
+                                                "asset_position",
+                                                "asset_orientation",
+                                                "asset_linear_velocity",
+                                                "asset_angular_velocity",
+                                                "asset_bounding_box",
+                                                "gripper_position",
+                                                "gripper_orientation",
+                                                "gripper_linear_velocity",
+                                                "gripper_angular_velocity",
+                                                "gripper_opening",
+                                                "gripper_contact",
+                                                "grasped",
+                                                "joint_state",
+                                                "joint_velocity",
+                                                "joint_lower",
+                                                "joint_upper",
+                                                "goal_position",
+                                                "parameter"};
   return kNames[static_cast<int>(input)];
 }
 
-std::span<const ApiFunction> EnvironmentApi() { return kApi; }
+std::span<const ApiFunction> EnvironmentApi() {
+  return kApi;
+}
 
 const ApiFunction* FindApiFunction(std::string_view name) {
   static const auto* by_name = [] {

@@ -39,16 +39,16 @@ std::string_view RewardInputName(RewardInput input);
 
 // What a call of the environment's API gives.
 enum class ApiResult {
-  kVector,       // [N, width], or [N] where the width is 1
-  kFlag,         // [N], true or false
-  kLimits,       // {"lower": ..., "upper": ...}, also by [0] and [1]
-  kLimitPair,    // (lower, upper)
-  kLower,        // a scalar
-  kUpper,        // a scalar
-  kBox,          // (lowest corner [N, 3], highest corner [N, 3])
-  kPose,         // (position [N, 3], orientation [N, 4])
-  kInsideBox,    // [N]: a point inside a box
-  kDistance,     // [N]: between two points
+  kVector,     // [N, width], or [N] where the width is 1
+  kFlag,       // [N], true or false
+  kLimits,     // {"lower": ..., "upper": ...}, also by [0] and [1]
+  kLimitPair,  // (lower, upper)
+  kLower,      // a scalar
+  kUpper,      // a scalar
+  kBox,        // (lowest corner [N, 3], highest corner [N, 3])
+  kPose,       // (position [N, 3], orientation [N, 4])
+  kInsideBox,  // [N]: a point inside a box
+  kDistance,   // [N]: between two points
 };
 
 // One function of the environment's API. It can be called on the environment, env.f("cup"), and
@@ -58,7 +58,7 @@ struct ApiFunction {
   std::string_view names;      // the first one is the name proper, the others mean the same
   std::string_view arguments;  // of asset, link, joint, point, low, high; "?" may be left out
   ApiResult result;
-  RewardInput input;        // with a link; where none is named, the asset's
+  RewardInput input;  // with a link; where none is named, the asset's
   int width;
   std::string_view document;  // one line
 };

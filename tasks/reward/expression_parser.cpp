@@ -14,19 +14,19 @@ struct BinaryLevel {
 
 // From loose to tight, as in Python.
 constexpr BinaryLevel kBinary[] = {
-    {"|", Operator::kOr, 0},          {"^", Operator::kExclusiveOr, 1},
-    {"&", Operator::kAnd, 2},         {"+", Operator::kAdd, 4},
-    {"-", Operator::kSubtract, 4},    {"*", Operator::kMultiply, 5},
-    {"/", Operator::kDivide, 5},      {"//", Operator::kFloorDivide, 5},
-    {"%", Operator::kRemainder, 5},   {"@", Operator::kMatrixMultiply, 5},
+    {"|", Operator::kOr, 0},        {"^", Operator::kExclusiveOr, 1},
+    {"&", Operator::kAnd, 2},       {"+", Operator::kAdd, 4},
+    {"-", Operator::kSubtract, 4},  {"*", Operator::kMultiply, 5},
+    {"/", Operator::kDivide, 5},    {"//", Operator::kFloorDivide, 5},
+    {"%", Operator::kRemainder, 5}, {"@", Operator::kMatrixMultiply, 5},
 };
 constexpr int kTightest = 5;
 
 constexpr std::string_view kReserved[] = {
-    "False", "None",   "True",  "and",    "as",   "assert", "async",  "await",    "break",
-    "class", "continue", "def", "del",    "elif", "else",   "except", "finally",  "for",
-    "from",  "global", "if",    "import", "in",   "is",     "lambda", "nonlocal", "not",
-    "or",    "pass",   "raise", "return", "try",  "while",  "with",   "yield"};
+    "False", "None",     "True",  "and",    "as",   "assert", "async",  "await",    "break",
+    "class", "continue", "def",   "del",    "elif", "else",   "except", "finally",  "for",
+    "from",  "global",   "if",    "import", "in",   "is",     "lambda", "nonlocal", "not",
+    "or",    "pass",     "raise", "return", "try",  "while",  "with",   "yield"};
 
 bool IsReserved(std::string_view name) {
   return std::find(std::begin(kReserved), std::end(kReserved), name) != std::end(kReserved);
@@ -34,13 +34,19 @@ bool IsReserved(std::string_view name) {
 
 std::string Shown(const Token& token) {
   switch (token.kind) {
-    case TokenKind::kNewline: return "the end of the line";
-    case TokenKind::kEnd: return "the end of the program";
-    case TokenKind::kIndent: return "a deeper indentation";
-    case TokenKind::kDedent: return "the end of the block";
+    case TokenKind::kNewline:
+      return "the end of the line";
+    case TokenKind::kEnd:
+      return "the end of the program";
+    case TokenKind::kIndent:
+      return "a deeper indentation";
+    case TokenKind::kDedent:
+      return "the end of the block";
     case TokenKind::kString:
-    case TokenKind::kFormatString: return "a string";
-    default: return "'" + token.text.substr(0, 40) + "'";
+    case TokenKind::kFormatString:
+      return "a string";
+    default:
+      return "'" + token.text.substr(0, 40) + "'";
   }
 }
 
@@ -203,8 +209,8 @@ ExpressionPtr ExpressionParser::ParseNot() {
 
 bool ExpressionParser::AcceptComparison(Operator* operation) {
   static constexpr std::pair<std::string_view, Operator> kSigns[] = {
-      {"<", Operator::kLess},     {"<=", Operator::kLessEqual}, {">", Operator::kGreater},
-      {"==", Operator::kEqual},   {">=", Operator::kGreaterEqual}, {"!=", Operator::kNotEqual},
+      {"<", Operator::kLess},   {"<=", Operator::kLessEqual},    {">", Operator::kGreater},
+      {"==", Operator::kEqual}, {">=", Operator::kGreaterEqual}, {"!=", Operator::kNotEqual},
       {"in", Operator::kIn}};
   for (const auto& [sign, meaning] : kSigns) {
     if (!At(sign)) continue;
@@ -246,10 +252,9 @@ ExpressionPtr ExpressionParser::ParseBinary(int level) {
     if (At("<<") || At(">>")) {
       Fail("syntax", Peek().position, "shifts of bits are not part of the language");
     }
-    const auto* found =
-        std::find_if(std::begin(kBinary), std::end(kBinary), [&](const BinaryLevel& binary) {
-          return binary.level == level && At(binary.sign);
-        });
+    const auto* found = std::find_if(
+        std::begin(kBinary), std::end(kBinary),
+        [&](const BinaryLevel& binary) { return binary.level == level && At(binary.sign); });
     if (found == std::end(kBinary)) break;
     ExpressionPtr both = Make(ExpressionKind::kBinary, Take().position);
     both->operation = found->operation;
@@ -340,7 +345,8 @@ void ExpressionParser::ParseArgument(Expression* call) {
     Fail("syntax", position, "an argument without a name follows one with a name");
   }
   ExpressionPtr value = ParseExpression();
-  if (At("for")) value = ParseComprehension(ExpressionKind::kListComprehension, std::move(value), nullptr);
+  if (At("for"))
+    value = ParseComprehension(ExpressionKind::kListComprehension, std::move(value), nullptr);
   call->keywords.push_back(keyword);
   Add(call, std::move(value));
 }
@@ -381,7 +387,8 @@ ExpressionPtr ExpressionParser::ParseSubscript(ExpressionPtr base) {
 ExpressionPtr ExpressionParser::ParseAtom() {
   const Token& token = Peek();
   switch (token.kind) {
-    case TokenKind::kName: return ParseNameOrConstant();
+    case TokenKind::kName:
+      return ParseNameOrConstant();
     case TokenKind::kInteger:
     case TokenKind::kFloat: {
       const bool whole = token.kind == TokenKind::kInteger;
@@ -393,8 +400,10 @@ ExpressionPtr ExpressionParser::ParseAtom() {
       return number;
     }
     case TokenKind::kString:
-    case TokenKind::kFormatString: return ParseStrings();
-    default: break;
+    case TokenKind::kFormatString:
+      return ParseStrings();
+    default:
+      break;
   }
   if (At("(")) return ParseParenthesised();
   if (At("[")) return ParseListDisplay();
@@ -525,8 +534,8 @@ ExpressionPtr ExpressionParser::ParseDictDisplay() {
     Expect(":", "after the key (sets are not part of the language)");
     ExpressionPtr value = ParseExpression();
     if (At("for") && dict->children.empty()) {
-      dict = ParseComprehension(ExpressionKind::kDictComprehension, std::move(key),
-                                std::move(value));
+      dict =
+          ParseComprehension(ExpressionKind::kDictComprehension, std::move(key), std::move(value));
       break;
     }
     Add(dict.get(), std::move(key));

@@ -45,9 +45,9 @@ NodeId Graph::Add(const Node& node) {
   const auto [found, fresh] = known_.try_emplace(key, size());
   if (!fresh) return found->second;
   if (size() >= max_nodes_) {
-    Fail("too-large", {},
-         "the program computes more than " + std::to_string(max_nodes_) +
-             " numbers an environment");
+    Fail(
+        "too-large", {},
+        "the program computes more than " + std::to_string(max_nodes_) + " numbers an environment");
   }
   nodes_.push_back(node);
   return size() - 1;
@@ -88,22 +88,27 @@ NodeId Graph::SimplifyBinary(ScalarOperation operation, NodeId a, NodeId b) cons
     case kAdd:
       if (right_known && right == 0.0f) return a;
       return left_known && left == 0.0f ? b : -1;
-    case kSubtract: return right_known && right == 0.0f ? a : -1;
+    case kSubtract:
+      return right_known && right == 0.0f ? a : -1;
     case kMultiply:
       if (right_known && right == 1.0f) return a;
       return left_known && left == 1.0f ? b : -1;
     case kDivide:
-    case kPower: return right_known && right == 1.0f ? a : -1;
+    case kPower:
+      return right_known && right == 1.0f ? a : -1;
     case kMinimum:
-    case kMaximum: return a == b ? a : -1;
-    case kNotEqual: return right_known && right == 0.0f && IsFlag(nodes_[a].operation) ? a : -1;
+    case kMaximum:
+      return a == b ? a : -1;
+    case kNotEqual:
+      return right_known && right == 0.0f && IsFlag(nodes_[a].operation) ? a : -1;
     case kAnd:
       if (right_known && right != 0.0f && IsFlag(nodes_[a].operation)) return a;
       return left_known && left != 0.0f && IsFlag(nodes_[b].operation) ? b : -1;
     case kOr:
       if (right_known && right == 0.0f && IsFlag(nodes_[a].operation)) return a;
       return left_known && left == 0.0f && IsFlag(nodes_[b].operation) ? b : -1;
-    default: return -1;
+    default:
+      return -1;
   }
 }
 
@@ -115,7 +120,8 @@ NodeId Graph::Simplify(ScalarOperation operation, NodeId a, NodeId b, NodeId c) 
     case kSelect:
       if (b == c) return b;
       return IsConstant(a, &condition) ? (condition != 0.0f ? b : c) : -1;
-    case kNegate: return first.operation == kNegate ? first.operands[0] : -1;
+    case kNegate:
+      return first.operation == kNegate ? first.operands[0] : -1;
     case kNot:
       return first.operation == kNot && IsFlag(nodes_[first.operands[0]].operation)
                  ? first.operands[0]
@@ -125,8 +131,10 @@ NodeId Graph::Simplify(ScalarOperation operation, NodeId a, NodeId b, NodeId c) 
     case kTruncate:
     case kFloor:
     case kCeiling:
-    case kRound: return first.operation >= kFloor && first.operation <= kSign ? a : -1;
-    default: return OperandCount(operation) == 2 ? SimplifyBinary(operation, a, b) : -1;
+    case kRound:
+      return first.operation >= kFloor && first.operation <= kSign ? a : -1;
+    default:
+      return OperandCount(operation) == 2 ? SimplifyBinary(operation, a, b) : -1;
   }
 }
 

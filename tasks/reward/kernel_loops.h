@@ -5,7 +5,9 @@
 // that the compiler vectorises them; polynomials are minimax or Taylor, the error of each stated.
 namespace simwright::tasks::reward::SIMWRIGHT_KERNEL_ISA {
 
-inline float Choose(bool condition, float yes, float no) { return condition ? yes : no; }
+inline float Choose(bool condition, float yes, float no) {
+  return condition ? yes : no;
+}
 
 // e^x, within 2e-7 of its value.
 inline float Exponential(float x) {
@@ -53,8 +55,9 @@ inline float Logarithm(float x) {
 // sin(r) and cos(r) for |r| <= pi/4, within 1e-7.
 inline float SineNearZero(float r) {
   const float q = r * r;
-  return r + r * q * (-1.66666667e-1f +
-                      q * (8.33333333e-3f + q * (-1.98412698e-4f + q * 2.75573192e-6f)));
+  return r +
+         r * q *
+             (-1.66666667e-1f + q * (8.33333333e-3f + q * (-1.98412698e-4f + q * 2.75573192e-6f)));
 }
 inline float CosineNearZero(float r) {
   const float q = r * r;
@@ -68,8 +71,8 @@ constexpr float kLargestAngle = 8192.0f;
 inline float SineOfQuarters(float x, std::int32_t quarters) {
   const float shifted = x * 0.636619772f + 12582912.0f;
   const float whole = shifted - 12582912.0f;
-  const float r = ((x - whole * 1.5703125f) - whole * 4.837512969970703125e-4f) -
-                  whole * 7.549789948768648e-8f;
+  const float r =
+      ((x - whole * 1.5703125f) - whole * 4.837512969970703125e-4f) - whole * 7.549789948768648e-8f;
   const std::int32_t quadrant = std::bit_cast<std::int32_t>(shifted) + quarters;
   const float size = Choose((quadrant & 1) != 0, CosineNearZero(r), SineNearZero(r));
   return Choose((quadrant & 2) != 0, -size, size);
@@ -78,10 +81,12 @@ inline float SineOfQuarters(float x, std::int32_t quarters) {
 // asin(x) for |x| <= 1/2, within 2e-7.
 inline float ArcSineNearZero(float x) {
   const float q = x * x;
-  return x + x * q * (1.6666667e-1f +
-                      q * (7.4999995e-2f +
-                           q * (4.4646284e-2f +
-                                q * (3.0293402e-2f + q * (2.3073306e-2f + q * (1.3055688e-2f + q * 3.1877e-2f))))));
+  return x + x * q *
+                 (1.6666667e-1f +
+                  q * (7.4999995e-2f +
+                       q * (4.4646284e-2f +
+                            q * (3.0293402e-2f +
+                                 q * (2.3073306e-2f + q * (1.3055688e-2f + q * 3.1877e-2f))))));
 }
 
 inline float ArcSine(float x) {
@@ -107,9 +112,11 @@ inline float ArcTangent(float x) {
   const float start = Choose(large, 1.57079633f, Choose(middle, 0.785398163f, 0.0f));
   const float q = t * t;
   const float series =
-      t + t * q * (-3.33333331e-1f +
-                   q * (1.99999206e-1f + q * (-1.42815640e-1f +
-                        q * (1.10190408e-1f + q * (-8.2474300e-2f + q * 4.0e-2f)))));
+      t +
+      t * q *
+          (-3.33333331e-1f +
+           q * (1.99999206e-1f +
+                q * (-1.42815640e-1f + q * (1.10190408e-1f + q * (-8.2474300e-2f + q * 4.0e-2f)))));
   const float value = start + series;
   return Choose(x < 0.0f, -value, value);
 }
@@ -130,17 +137,23 @@ inline float HyperbolicTangent(float x) {
   const float size = Choose(x < 0.0f, -x, x);
   const float q = x * x;
   const float near =
-      x + x * q * (-3.33333313e-1f +
-                   q * (1.33331472e-1f +
-                        q * (-5.39397757e-2f + q * (2.13890374e-2f - q * 6.8e-3f))));
+      x + x * q *
+              (-3.33333313e-1f +
+               q * (1.33331472e-1f + q * (-5.39397757e-2f + q * (2.13890374e-2f - q * 6.8e-3f))));
   const float far = 1.0f - 2.0f / (Exponential(2.0f * size) + 1.0f);
   return Choose(size < 0.4f, near, Choose(x < 0.0f, -far, far));
 }
 
-inline float Sigmoid(float x) { return 1.0f / (1.0f + Exponential(-x)); }
+inline float Sigmoid(float x) {
+  return 1.0f / (1.0f + Exponential(-x));
+}
 
-inline float Minimum(float a, float b) { return Choose(a < b || a != a, a, b); }
-inline float Maximum(float a, float b) { return Choose(a > b || a != a, a, b); }
+inline float Minimum(float a, float b) {
+  return Choose(a < b || a != a, a, b);
+}
+inline float Maximum(float a, float b) {
+  return Choose(a > b || a != a, a, b);
+}
 
 inline float FloorRemainder(float a, float b) {
   const float r = std::fmod(a, b);
@@ -156,12 +169,12 @@ inline float FloorDivide(float a, float b) {
   return quotient - whole > 0.5f ? whole + 1.0f : whole;
 }
 
-#define SIMWRIGHT_OPERATION(name, expression)                            \
-  struct name {                                                         \
+#define SIMWRIGHT_OPERATION(name, expression)                                  \
+  struct name {                                                                \
     static inline float Of([[maybe_unused]] float a, [[maybe_unused]] float b, \
-                           [[maybe_unused]] float c) {                  \
-      return expression;                                                \
-    }                                                                   \
+                           [[maybe_unused]] float c) {                         \
+      return expression;                                                       \
+    }                                                                          \
   };
 
 SIMWRIGHT_OPERATION(NegateOf, -a)
@@ -188,7 +201,7 @@ SIMWRIGHT_OPERATION(LogarithmOfOnePlusOf, std::log1p(a))
 SIMWRIGHT_OPERATION(ExponentialMinusOneOf, std::expm1(a))
 SIMWRIGHT_OPERATION(AddOf, a + b)
 SIMWRIGHT_OPERATION(SubtractOf, a - b)
-SIMWRIGHT_OPERATION(MultiplyOf, a * b)
+SIMWRIGHT_OPERATION(MultiplyOf, a* b)
 SIMWRIGHT_OPERATION(DivideOf, a / b)
 SIMWRIGHT_OPERATION(PowerOf, std::pow(a, b))
 SIMWRIGHT_OPERATION(ArcTangent2Of, ArcTangent2(a, b))
@@ -204,7 +217,7 @@ SIMWRIGHT_OPERATION(TruncatedRemainderOf, std::fmod(a, b))
 SIMWRIGHT_OPERATION(FloorRemainderOf, FloorRemainder(a, b))
 SIMWRIGHT_OPERATION(FloorDivideOf, FloorDivide(a, b))
 SIMWRIGHT_OPERATION(SelectOf, Choose(a != 0.0f, b, c))
-SIMWRIGHT_OPERATION(MultiplyAddOf, a * b + c)
+SIMWRIGHT_OPERATION(MultiplyAddOf, a* b + c)
 SIMWRIGHT_OPERATION(MultiplySubtractOf, c - a * b)
 SIMWRIGHT_OPERATION(SquaredDifferenceAddOf, (a - b) * (a - b) + c)
 #undef SIMWRIGHT_OPERATION
@@ -238,11 +251,33 @@ void AngleLoop(float* __restrict result, const float* __restrict a, const float*
   }
 }
 
+typedef float Eight __attribute__((vector_size(32)));
+
+// x0 y0 z0 x1 ... of eight rows lie in three vectors; no two numbers of one column at one place.
 inline void SplitTriples(const float* __restrict rows, float* const columns[3], int count) {
   float* __restrict x = columns[0];
   float* __restrict y = columns[1];
   float* __restrict z = columns[2];
-  for (int i = 0; i < count; ++i) {
+  int i = 0;
+  for (; i + 8 <= count; i += 8) {
+    Eight a, b, c;
+    std::memcpy(&a, rows + 3 * i, sizeof(a));
+    std::memcpy(&b, rows + 3 * i + 8, sizeof(b));
+    std::memcpy(&c, rows + 3 * i + 16, sizeof(c));
+    Eight p = __builtin_shufflevector(a, b, 0, 9, 2, 3, 12, 5, 6, 15);
+    p = __builtin_shufflevector(p, c, 0, 1, 10, 3, 4, 13, 6, 7);
+    p = __builtin_shufflevector(p, p, 0, 3, 6, 1, 4, 7, 2, 5);
+    Eight q = __builtin_shufflevector(a, b, 0, 1, 10, 3, 4, 13, 6, 7);
+    q = __builtin_shufflevector(q, c, 8, 1, 2, 11, 4, 5, 14, 7);
+    q = __builtin_shufflevector(q, q, 1, 4, 7, 2, 5, 0, 3, 6);
+    Eight r = __builtin_shufflevector(a, b, 8, 1, 2, 11, 4, 5, 14, 7);
+    r = __builtin_shufflevector(r, c, 0, 9, 2, 3, 12, 5, 6, 15);
+    r = __builtin_shufflevector(r, r, 2, 5, 0, 3, 6, 1, 4, 7);
+    std::memcpy(x + i, &p, sizeof(p));
+    std::memcpy(y + i, &q, sizeof(q));
+    std::memcpy(z + i, &r, sizeof(r));
+  }
+  for (; i < count; ++i) {
     x[i] = rows[3 * i];
     y[i] = rows[3 * i + 1];
     z[i] = rows[3 * i + 2];

@@ -8,16 +8,22 @@
 namespace simwright::tasks::reward {
 namespace {
 
-bool IsNameStart(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-bool IsNamePart(char c) { return IsNameStart(c) || IsDigit(c); }
+bool IsNameStart(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) || c == '_';
+}
+bool IsDigit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool IsNamePart(char c) {
+  return IsNameStart(c) || IsDigit(c);
+}
 
 // Longest first.
 constexpr std::string_view kOperators[] = {
-    "**=", "//=", ">>=", "<<=", "...", "**", "//", "->", "<=", ">=", "==", "!=", "+=", "-=",
-    "*=",  "/=",  "%=",  "&=",  "|=",  "^=", "@=", ":=", "<<", ">>", "+",  "-",  "*",  "/",
-    "%",   "@",   "&",   "|",   "^",   "~",  "<",  ">",  "(",  ")",  "[",  "]",  "{",  "}",
-    ",",   ":",   ".",   ";",   "=",   "!"};
+    "**=", "//=", ">>=", "<<=", "...", "**", "//", "->", "<=", ">=", "==", "!=",
+    "+=",  "-=",  "*=",  "/=",  "%=",  "&=", "|=", "^=", "@=", ":=", "<<", ">>",
+    "+",   "-",   "*",   "/",   "%",   "@",  "&",  "|",  "^",  "~",  "<",  ">",
+    "(",   ")",   "[",   "]",   "{",   "}",  ",",  ":",  ".",  ";",  "=",  "!"};
 
 class Lexer {
  public:
@@ -150,8 +156,7 @@ std::vector<Token> Lexer::Lines() {
     if (!AtEnd()) Advance();
   }
   if (!open_.empty()) {
-    Fail("open-bracket", open_.back().position,
-         "this '" + open_.back().text + "' is never closed");
+    Fail("open-bracket", open_.back().position, "this '" + open_.back().text + "' is never closed");
   }
   EndLine();
   for (; indents_.size() > 1; indents_.pop_back()) Push(TokenKind::kDedent, position_);
@@ -267,18 +272,36 @@ void Lexer::Escape(std::string* text) {
   if (AtEnd()) return;
   Advance();
   switch (c) {
-    case 'n': *text += '\n'; break;
-    case 't': *text += '\t'; break;
-    case 'r': *text += '\r'; break;
-    case '0': *text += '\0'; break;
-    case 'x': CodePoint(2, text); break;
-    case 'u': CodePoint(4, text); break;
-    case 'U': CodePoint(8, text); break;
-    case '\n': break;
+    case 'n':
+      *text += '\n';
+      break;
+    case 't':
+      *text += '\t';
+      break;
+    case 'r':
+      *text += '\r';
+      break;
+    case '0':
+      *text += '\0';
+      break;
+    case 'x':
+      CodePoint(2, text);
+      break;
+    case 'u':
+      CodePoint(4, text);
+      break;
+    case 'U':
+      CodePoint(8, text);
+      break;
+    case '\n':
+      break;
     case '\\':
     case '\'':
-    case '"': *text += c; break;
-    default: (*text += '\\') += c;
+    case '"':
+      *text += c;
+      break;
+    default:
+      (*text += '\\') += c;
   }
 }
 

@@ -18,7 +18,8 @@ void AddNames(const LibraryFunction& function, Index* index) {
     const std::size_t blank = rest.find(' ');
     const std::string name(rest.substr(0, blank));
     index->functions.emplace(name, &function);
-    for (std::size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', dot + 1)) {
+    for (std::size_t dot = name.find('.'); dot != std::string::npos;
+         dot = name.find('.', dot + 1)) {
       index->modules.insert(name.substr(0, dot));
     }
     rest = blank == std::string_view::npos ? "" : rest.substr(blank + 1);
@@ -47,7 +48,9 @@ const LibraryFunction* FindLibraryFunction(const std::string& name) {
   return found == TheIndex().functions.end() ? nullptr : found->second;
 }
 
-bool IsLibraryModule(const std::string& module) { return TheIndex().modules.contains(module); }
+bool IsLibraryModule(const std::string& module) {
+  return TheIndex().modules.contains(module);
+}
 
 std::vector<std::string> LibraryNames(const std::string& prefix) {
   std::vector<std::string> names;

@@ -4,7 +4,9 @@
 
 namespace simwright::tasks::reward {
 
-bool WantsTensors(const Arguments& arguments) { return arguments.called.starts_with("torch."); }
+bool WantsTensors(const Arguments& arguments) {
+  return arguments.called.starts_with("torch.");
+}
 
 Tensor TensorArgument(Elaborator& elaborator, const Arguments& arguments, std::size_t i) {
   const Value& value = arguments[i];

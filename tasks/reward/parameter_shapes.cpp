@@ -29,9 +29,9 @@ void EachExpression(const Block& block, const std::function<void(const Expressio
 
 // What the indices of x[...] say: the least width that the last dimension has to have.
 struct Usage {
-  int width = 0;    // 0: unknown
+  int width = 0;  // 0: unknown
   bool exact = false;
-  int rank = 0;     // trailing dimensions seen in an index
+  int rank = 0;  // trailing dimensions seen in an index
 };
 
 void NoteIndex(const Expression& index, Usage* usage) {
@@ -50,18 +50,25 @@ void NoteIndex(const Expression& index, Usage* usage) {
   usage->rank = std::max(usage->rank, ellipsis ? 1 : named - 1);
   const Expression& last = *parts.back();
   int width = 0;
-  if (last.kind == ExpressionKind::kInteger) width = static_cast<int>(last.integer) + 1;
+  if (last.kind == ExpressionKind::kInteger) {
+    width = static_cast<int>(std::min<std::int64_t>(last.integer, 1024)) + 1;
+  }
   if (last.kind == ExpressionKind::kSlice && last.children[1] != nullptr &&
       last.children[1]->kind == ExpressionKind::kInteger) {
-    width = static_cast<int>(last.children[1]->integer);
+    width = static_cast<int>(std::min<std::int64_t>(last.children[1]->integer, 1024));
+  }
+  if (last.kind == ExpressionKind::kList) {
+    for (const ExpressionPtr& child : last.children) {
+      if (child->kind != ExpressionKind::kInteger) continue;
+      width = std::max(width, static_cast<int>(std::min<std::int64_t>(child->integer, 1024)) + 1);
+    }
   }
   if (width > 0 && width < 1024) usage->width = std::max(usage->width, width);
 }
 
 bool Contains(const std::string& name, std::initializer_list<const char*> parts) {
-  return std::any_of(parts.begin(), parts.end(), [&](const char* part) {
-    return name.find(part) != std::string::npos;
-  });
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const char* part) { return name.find(part) != std::string::npos; });
 }
 
 std::vector<int> GuessByName(const std::string& name) {
@@ -149,6 +156,9 @@ void InferParameterShapes(const Module& module, const Function& entry, const Rew
   for (const std::string& name : open) {
     options->parameter_shapes[name] = FirstGuess(name, usages[name]);
   }
+  // First those of which the name says nothing.
+  std::stable_partition(open.begin(), open.end(),
+                        [](const std::string& name) { return GuessByName(name).empty(); });
   Reach best = Try(module, entry, scene, *options);
   // One parameter at a time, as long as something gets further.
   for (int round = 0; round < 4 && !best.whole; ++round) {

@@ -99,12 +99,13 @@ void StatementParser::SkipDecorator() {
   const ExpressionPtr decorator = ParseExpression();
   const std::string name = DottedName(*decorator);
   static constexpr std::string_view kHarmless[] = {
-      "torch.jit.script", "torch.no_grad", "torch.jit.export", "staticmethod", "jit.script",
-      "torch.inference_mode", "torch.compile"};
+      "torch.jit.script", "torch.no_grad",        "torch.jit.export", "staticmethod",
+      "jit.script",       "torch.inference_mode", "torch.compile"};
   if (std::find(std::begin(kHarmless), std::end(kHarmless), name) == std::end(kHarmless)) {
     Fail("bad-decorator", position,
-         "the decorator '@" + name + "' is not known; of decorators only those that change no "
-         "result, such as @torch.jit.script, are read");
+         "the decorator '@" + name +
+             "' is not known; of decorators only those that change no "
+             "result, such as @torch.jit.script, are read");
   }
   EndOfLine();
 }
@@ -311,11 +312,10 @@ StatementParser::Line StatementParser::ParseAssignment() {
   Line statement = New(StatementKind::kExpression);
   ExpressionPtr first = ParseExpressionList();
   static constexpr std::pair<std::string_view, Operator> kAugmented[] = {
-      {"+=", Operator::kAdd},          {"-=", Operator::kSubtract},
-      {"*=", Operator::kMultiply},     {"/=", Operator::kDivide},
-      {"//=", Operator::kFloorDivide}, {"%=", Operator::kRemainder},
-      {"**=", Operator::kPower},       {"&=", Operator::kAnd},
-      {"|=", Operator::kOr},           {"^=", Operator::kExclusiveOr}};
+      {"+=", Operator::kAdd},        {"-=", Operator::kSubtract},     {"*=", Operator::kMultiply},
+      {"/=", Operator::kDivide},     {"//=", Operator::kFloorDivide}, {"%=", Operator::kRemainder},
+      {"**=", Operator::kPower},     {"&=", Operator::kAnd},          {"|=", Operator::kOr},
+      {"^=", Operator::kExclusiveOr}};
   for (const auto& [sign, operation] : kAugmented) {
     if (!At(sign)) continue;
     statement->kind = StatementKind::kAugmented;

@@ -65,8 +65,7 @@ class ExpressionParser {
   ExpressionPtr ParseParenthesised();
   ExpressionPtr ParseListDisplay();
   ExpressionPtr ParseDictDisplay();
-  ExpressionPtr ParseComprehension(ExpressionKind kind, ExpressionPtr element,
-                                   ExpressionPtr value);
+  ExpressionPtr ParseComprehension(ExpressionKind kind, ExpressionPtr element, ExpressionPtr value);
   bool AtExpressionEnd() const;
 
   std::vector<Token> tokens_;

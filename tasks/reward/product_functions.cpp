@@ -31,7 +31,8 @@ Einsum ParseEinsum(const std::string& text, Position position) {
     } else if (std::isalpha(static_cast<unsigned char>(c))) {
       current += c;
     } else {
-      Fail("einsum", position, std::string("'") + c + "' has no place in an einsum such as 'bi,bi->b'");
+      Fail("einsum", position,
+           std::string("'") + c + "' has no place in an einsum such as 'bi,bi->b'");
     }
   }
   if (arrow) {
@@ -59,7 +60,8 @@ Tensor Aligned(TensorMath& math, const Tensor& tensor, const std::string& own,
   }
   Tensor aligned = math.Permute(tensor, order);
   for (std::size_t i = 0; i < letters.size(); ++i) {
-    if (own.find(letters[i]) == std::string::npos) aligned = math.Unsqueeze(aligned, static_cast<int>(i));
+    if (own.find(letters[i]) == std::string::npos)
+      aligned = math.Unsqueeze(aligned, static_cast<int>(i));
   }
   return aligned;
 }
@@ -189,13 +191,13 @@ Value Cross(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(math.Concatenate(parts, dimension, position));
 }
 
-Tensor Length(TensorMath& math, const Tensor& tensor, int dimension, bool keep,
-              Position position) {
+Tensor Length(TensorMath& math, const Tensor& tensor, int dimension, bool keep, Position position) {
   return math.Map(kSquareRoot, Contract(math, tensor, tensor, dimension, keep, position),
                   DataType::kFloat, position);
 }
 
-// Along a dimension, with the least length `eps`; Isaac Gym's `normalize` (variant 1) along the last.
+// Along a dimension, with the least length `eps`; Isaac Gym's `normalize` (variant 1) along the
+// last.
 Value Normalize(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Position position = arguments.position;
@@ -220,8 +222,8 @@ Value CosineSimilarity(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor a = FloatArgument(elaborator, arguments, 0);
   const Tensor b = FloatArgument(elaborator, arguments, 1);
   const auto along = static_cast<int>(IntegerArgument(elaborator, arguments, 2));
-  const Tensor eps = math.Scalar(
-      DataType::kFloat, math.graph().Constant(NumberArgument(elaborator, arguments, 3)));
+  const Tensor eps = math.Scalar(DataType::kFloat,
+                                 math.graph().Constant(NumberArgument(elaborator, arguments, 3)));
   const auto length = [&](const Tensor& tensor) {
     return math.Map(kMaximum, Length(math, tensor, along, false, position), eps, DataType::kFloat,
                     position);
@@ -253,21 +255,19 @@ Value Cdist(Elaborator& elaborator, const Arguments& arguments) {
 Value PairwiseDistance(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Position position = arguments.position;
-  const Tensor gap =
-      math.Map(kSubtract, FloatArgument(elaborator, arguments, 0),
-               FloatArgument(elaborator, arguments, 1), DataType::kFloat, position);
+  const Tensor gap = math.Map(kSubtract, FloatArgument(elaborator, arguments, 0),
+                              FloatArgument(elaborator, arguments, 1), DataType::kFloat, position);
   const Tensor eps = math.Scalar(DataType::kFloat, math.graph().Constant(1e-6));
-  return TensorValue(Length(math, math.Map(kAdd, gap, eps, DataType::kFloat, position), -1, false,
-                            position));
+  return TensorValue(
+      Length(math, math.Map(kAdd, gap, eps, DataType::kFloat, position), -1, false, position));
 }
 
 // The mean squared or absolute (variant 1) difference, a scalar unless reduction="none".
 Value Loss(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Position position = arguments.position;
-  const Tensor gap =
-      math.Map(kSubtract, FloatArgument(elaborator, arguments, 0),
-               FloatArgument(elaborator, arguments, 1), DataType::kFloat, position);
+  const Tensor gap = math.Map(kSubtract, FloatArgument(elaborator, arguments, 0),
+                              FloatArgument(elaborator, arguments, 1), DataType::kFloat, position);
   const Tensor each = arguments.function->variant == 1
                           ? math.Map(kAbsolute, gap, DataType::kFloat, position)
                           : math.Map(kMultiply, gap, gap, DataType::kFloat, position);
@@ -275,9 +275,8 @@ Value Loss(Elaborator& elaborator, const Arguments& arguments) {
   if (reduction == "none") return TensorValue(each);
   std::vector<int> all;
   for (std::size_t d = 0; d < each.shape.size(); ++d) all.push_back(static_cast<int>(d));
-  return TensorValue(reduction == "sum"
-                         ? math.Reduce(Reduction::kSum, each, all, false, position)
-                         : math.Mean(each, all, false, position));
+  return TensorValue(reduction == "sum" ? math.Reduce(Reduction::kSum, each, all, false, position)
+                                        : math.Mean(each, all, false, position));
 }
 
 constexpr LibraryFunction kFunctions[] = {
@@ -298,6 +297,8 @@ constexpr LibraryFunction kFunctions[] = {
 
 }  // namespace
 
-LibraryPart ProductFunctions() { return {kFunctions, std::size(kFunctions)}; }
+LibraryPart ProductFunctions() {
+  return {kFunctions, std::size(kFunctions)};
+}
 
 }  // namespace simwright::tasks::reward

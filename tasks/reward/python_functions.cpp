@@ -65,8 +65,8 @@ Value Sum(Elaborator& elaborator, const Arguments& arguments) {
   const Value& value = arguments[0];
   if (value.Is(ValueKind::kTensor) && !value.tensor->shape.empty() &&
       value.tensor->shape[0] == kBatch) {
-    return TensorValue(elaborator.math().Reduce(Reduction::kSum, *value.tensor, {0}, false,
-                                                arguments.position));
+    return TensorValue(
+        elaborator.math().Reduce(Reduction::kSum, *value.tensor, {0}, false, arguments.position));
   }
   Value total = arguments[1];
   for (const Value& item : elaborator.Items(value, arguments.Place(0))) {
@@ -83,8 +83,8 @@ Value Quantifier(Elaborator& elaborator, const Arguments& arguments) {
     Tensor flag;
     const int truth = elaborator.Truth(item, &flag, arguments.position);
     const Value one = truth < 0 ? TensorValue(flag) : BoolValue(truth == 1);
-    result = elaborator.Binary(any ? Operator::kOr : Operator::kAnd, result, one,
-                               arguments.position);
+    result =
+        elaborator.Binary(any ? Operator::kOr : Operator::kAnd, result, one, arguments.position);
   }
   return result;
 }
@@ -128,8 +128,8 @@ Value Round(Elaborator& elaborator, const Arguments& arguments) {
     return FloatValue(rounded);
   }
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
-  return TensorValue(elaborator.math().Map(ScalarOperation::kRound, tensor, tensor.type,
-                                           arguments.position));
+  return TensorValue(
+      elaborator.math().Map(ScalarOperation::kRound, tensor, tensor.type, arguments.position));
 }
 
 Value Enumerate(Elaborator& elaborator, const Arguments& arguments) {
@@ -164,7 +164,9 @@ Value MakeList(Elaborator& elaborator, const Arguments& arguments) {
                                           : elaborator.NewList(std::move(items));
 }
 
-Value EmptyDict(Elaborator& elaborator, const Arguments&) { return elaborator.NewDict({}, {}); }
+Value EmptyDict(Elaborator& elaborator, const Arguments&) {
+  return elaborator.NewDict({}, {});
+}
 
 // list.append and list.extend (variant 1).
 Value Append(Elaborator& elaborator, const Arguments& arguments) {
@@ -210,10 +212,14 @@ Value DictGet(Elaborator& elaborator, const Arguments& arguments) {
 }
 
 // x.item() of what is a plain number already.
-Value Itself(Elaborator&, const Arguments& arguments) { return arguments[0]; }
+Value Itself(Elaborator&, const Arguments& arguments) {
+  return arguments[0];
+}
 
 constexpr ScalarOperation kNothing = ScalarOperation::kConstant;
-constexpr int Type(DataType type) { return static_cast<int>(type); }
+constexpr int Type(DataType type) {
+  return static_cast<int>(type);
+}
 
 constexpr LibraryFunction kFunctions[] = {
     {"len", "x", Length},
@@ -243,6 +249,8 @@ constexpr LibraryFunction kFunctions[] = {
 
 }  // namespace
 
-LibraryPart PythonFunctions() { return {kFunctions, std::size(kFunctions)}; }
+LibraryPart PythonFunctions() {
+  return {kFunctions, std::size(kFunctions)};
+}
 
 }  // namespace simwright::tasks::reward

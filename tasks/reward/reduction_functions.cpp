@@ -29,8 +29,8 @@ Value Mean(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
   WantFloats(arguments, tensor);
   const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
-  return TensorValue(elaborator.math().Mean(tensor, dimensions, FlagArgument(arguments, 2),
-                                            arguments.position));
+  return TensorValue(
+      elaborator.math().Mean(tensor, dimensions, FlagArgument(arguments, 2), arguments.position));
 }
 
 // Standard deviation and variance (variant 1); torch divides by n - 1, numpy by n.
@@ -48,8 +48,8 @@ Value Deviation(Elaborator& elaborator, const Arguments& arguments) {
   const bool unbiased = FlagArgument(arguments, 3) && !arguments.called.starts_with("np.");
   NodeId count = math.CountOver(tensor, dimensions);
   if (unbiased) count = math.graph().Apply(kSubtract, count, math.graph().Constant(1.0));
-  const Tensor variance = math.Map(kDivide, sum, math.Scalar(DataType::kFloat, count),
-                                   DataType::kFloat, position);
+  const Tensor variance =
+      math.Map(kDivide, sum, math.Scalar(DataType::kFloat, count), DataType::kFloat, position);
   if (arguments.function->variant == 1) return TensorValue(variance);
   return TensorValue(math.Map(kSquareRoot, variance, DataType::kFloat, position));
 }
@@ -172,8 +172,7 @@ Value CountNonzero(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor flags =
       math.Cast(TensorArgument(elaborator, arguments, 0), DataType::kBool, arguments.position);
   const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, flags);
-  return TensorValue(
-      math.Reduce(Reduction::kSum, flags, dimensions, false, arguments.position));
+  return TensorValue(math.Reduce(Reduction::kSum, flags, dimensions, false, arguments.position));
 }
 
 // e^x over its sum along a dimension, the largest taken out first.
@@ -183,14 +182,16 @@ Value Softmax(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = FloatArgument(elaborator, arguments, 0);
   const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
   const Tensor most = math.Reduce(Reduction::kMaximum, tensor, dimensions, true, position);
-  const Tensor power = math.Map(
-      kExponential, math.Map(kSubtract, tensor, most, DataType::kFloat, position),
-      DataType::kFloat, position);
+  const Tensor power =
+      math.Map(kExponential, math.Map(kSubtract, tensor, most, DataType::kFloat, position),
+               DataType::kFloat, position);
   const Tensor sum = math.Reduce(Reduction::kSum, power, dimensions, true, position);
   return TensorValue(math.Map(kDivide, power, sum, DataType::kFloat, position));
 }
 
-constexpr int Variant(Reduction reduction) { return static_cast<int>(reduction); }
+constexpr int Variant(Reduction reduction) {
+  return static_cast<int>(reduction);
+}
 
 constexpr LibraryFunction kFunctions[] = {
     {"torch.sum Tensor.sum np.sum", "input dim=None keepdim=False", Simple, kConstant,
@@ -222,6 +223,8 @@ constexpr LibraryFunction kFunctions[] = {
 
 }  // namespace
 
-LibraryPart ReductionFunctions() { return {kFunctions, std::size(kFunctions)}; }
+LibraryPart ReductionFunctions() {
+  return {kFunctions, std::size(kFunctions)};
+}
 
 }  // namespace simwright::tasks::reward

@@ -12,11 +12,11 @@ namespace simwright::tasks {
 struct RewardOptions {
   std::size_t max_source_bytes = 64 * 1024;
   int max_tokens = 20'000;
-  int max_depth = 100;             // of nested expressions and blocks
-  int max_call_depth = 16;         // of functions calling each other
-  int max_steps = 100'000;         // statements and operations, loops unrolled
-  int max_lanes = 4096;            // numbers an environment in one tensor
-  int max_nodes = 200'000;         // scalar operations an environment, before sharing
+  int max_depth = 100;      // of nested expressions and blocks
+  int max_call_depth = 16;  // of functions calling each other
+  int max_steps = 100'000;  // statements and operations, loops unrolled
+  int max_lanes = 4096;     // numbers an environment in one tensor
+  int max_nodes = 200'000;  // scalar operations an environment, before sharing
   std::size_t max_workspace_bytes = std::size_t{64} << 20;
   int max_findings = 20;
 

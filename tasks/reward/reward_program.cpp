@@ -45,8 +45,7 @@ struct Pass {
   const float* Row(int slot, int environment, int lane) const {
     const RewardBinding& binding = bindings[slot];
     return binding.data +
-           static_cast<std::ptrdiff_t>(environment) *
-               EnvironmentStride(binding, code.slots[slot]) +
+           static_cast<std::ptrdiff_t>(environment) * EnvironmentStride(binding, code.slots[slot]) +
            lane * binding.lane_stride;
   }
 
@@ -131,7 +130,9 @@ void Pass::Gather(const Stage& stage, int start, int count) const {
     const float* from = columns[one.operand];
     double& total = gathered[i];
     switch (one.operation) {
-      case ScalarOperation::kBatchSum: total += Kernels().sum(from, count); break;
+      case ScalarOperation::kBatchSum:
+        total += Kernels().sum(from, count);
+        break;
       case ScalarOperation::kBatchFlip:
         std::copy_n(from, count,
                     spills + static_cast<std::ptrdiff_t>(one.result) * max_envs + start);
@@ -171,7 +172,8 @@ void StoreComponents(const Pass& pass, std::span<float* const> components, int s
       float* to = components[i] + static_cast<std::size_t>(start) * width + k;
       const float* from = pass.columns[columns[k]];
       const bool shared = columns[k] < 0;
-      for (int e = 0; e < count; ++e) to[static_cast<std::size_t>(e) * width] = from[shared ? 0 : e];
+      for (int e = 0; e < count; ++e)
+        to[static_cast<std::size_t>(e) * width] = from[shared ? 0 : e];
     }
   }
 }
@@ -221,10 +223,18 @@ void Check(const Code& code, std::span<const RewardBinding> bindings, int num_en
 
 }  // namespace
 
-const std::vector<RewardSlot>& RewardProgram::slots() const { return code_->slots; }
-bool RewardProgram::has_success() const { return code_->has_success; }
-const std::string& RewardProgram::entry() const { return code_->entry; }
-int RewardProgram::operations() const { return code_->operations; }
+const std::vector<RewardSlot>& RewardProgram::slots() const {
+  return code_->slots;
+}
+bool RewardProgram::has_success() const {
+  return code_->has_success;
+}
+const std::string& RewardProgram::entry() const {
+  return code_->entry;
+}
+int RewardProgram::operations() const {
+  return code_->operations;
+}
 
 std::vector<RewardComponent> RewardProgram::components() const {
   std::vector<RewardComponent> components;

@@ -60,8 +60,7 @@ class RewardProgram {
   // match the slots, num_envs is not in [1, workspace.max_envs()], the workspace is another
   // program's, or the program reads a single environment that is not there.
   void Run(std::span<const RewardBinding> bindings, int num_envs, RewardWorkspace* workspace,
-           float* reward, std::uint8_t* success,
-           std::span<float* const> components = {}) const;
+           float* reward, std::uint8_t* success, std::span<float* const> components = {}) const;
 
  private:
   friend class RewardWorkspace;

@@ -63,8 +63,7 @@ class Columns {
   Vector Rotate(const Vector& q, const Vector& v, bool inverse) {
     const Tensor two = Number(2.0);
     const Tensor scale = Subtract(Multiply(two, Multiply(q[3], q[3])), Number(1.0));
-    const Tensor dot =
-        Add(Add(Multiply(q[0], v[0]), Multiply(q[1], v[1])), Multiply(q[2], v[2]));
+    const Tensor dot = Add(Add(Multiply(q[0], v[0]), Multiply(q[1], v[1])), Multiply(q[2], v[2]));
     const Vector cross = Cross(q, v);
     Vector result;
     for (int i = 0; i < 3; ++i) {
@@ -97,7 +96,9 @@ class Columns {
     return {Do(kNegate, q[0]), Do(kNegate, q[1]), Do(kNegate, q[2]), q[3]};
   }
   // To [-pi, pi].
-  Tensor WrapAngle(const Tensor& angle) { return Do(kArcTangent2, Do(kSine, angle), Do(kCosine, angle)); }
+  Tensor WrapAngle(const Tensor& angle) {
+    return Do(kArcTangent2, Do(kSine, angle), Do(kCosine, angle));
+  }
 
  private:
   TensorMath& math_;
@@ -130,7 +131,8 @@ Value Conjugate(Elaborator& elaborator, const Arguments& arguments) {
 
 Value FromAngleAxis(Elaborator& elaborator, const Arguments& arguments) {
   Columns columns(elaborator, arguments.position);
-  const Tensor half = columns.Multiply(FloatArgument(elaborator, arguments, 0), columns.Number(0.5));
+  const Tensor half =
+      columns.Multiply(FloatArgument(elaborator, arguments, 0), columns.Number(0.5));
   auto axis = columns.Split(FloatArgument(elaborator, arguments, 1), 3, "an axis");
   Tensor squares = columns.Multiply(axis[0], axis[0]);
   for (int i = 1; i < 3; ++i) squares = columns.Add(squares, columns.Multiply(axis[i], axis[i]));
@@ -152,8 +154,7 @@ Value Difference(Elaborator& elaborator, const Arguments& arguments) {
   const auto turn = columns.Product(a, columns.Conjugate(b));
   Tensor squares = columns.Multiply(turn[0], turn[0]);
   for (int i = 1; i < 3; ++i) squares = columns.Add(squares, columns.Multiply(turn[i], turn[i]));
-  const Tensor size =
-      columns.Do(kMinimum, columns.Do(kSquareRoot, squares), columns.Number(1.0));
+  const Tensor size = columns.Do(kMinimum, columns.Do(kSquareRoot, squares), columns.Number(1.0));
   return TensorValue(columns.Multiply(columns.Number(2.0), columns.Do(kArcSine, size)));
 }
 
@@ -190,8 +191,8 @@ Value EulerAngles(Elaborator& elaborator, const Arguments& arguments) {
       columns.Subtract(columns.Subtract(columns.Add(m(3, 3), m(0, 0)), m(1, 1)), m(2, 2)));
   std::vector<Value> angles;
   for (const Tensor& angle : {roll, columns.Do(kArcSine, clipped), yaw}) {
-    angles.push_back(TensorValue(
-        columns.Do(kFloorRemainder, angle, columns.Number(6.283185307179586))));
+    angles.push_back(
+        TensorValue(columns.Do(kFloorRemainder, angle, columns.Number(6.283185307179586))));
   }
   return TupleValue(std::move(angles));
 }
@@ -211,6 +212,8 @@ constexpr LibraryFunction kFunctions[] = {
 
 }  // namespace
 
-LibraryPart RotationFunctions() { return {kFunctions, std::size(kFunctions)}; }
+LibraryPart RotationFunctions() {
+  return {kFunctions, std::size(kFunctions)};
+}
 
 }  // namespace simwright::tasks::reward

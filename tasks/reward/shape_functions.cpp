@@ -75,8 +75,7 @@ Value Permute(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
   std::vector<int> order;
   for (const std::int64_t one : Sizes(elaborator, arguments[1], arguments.Place(1))) {
-    const int dimension =
-        elaborator.math().Dimension(one, tensor.shape.size(), arguments.Place(1));
+    const int dimension = elaborator.math().Dimension(one, tensor.shape.size(), arguments.Place(1));
     if (std::find(order.begin(), order.end(), dimension) == order.end()) order.push_back(dimension);
   }
   if (order.size() != tensor.shape.size()) {
@@ -104,8 +103,10 @@ Value Flatten(Elaborator& elaborator, const Arguments& arguments) {
   for (int d = 0; d < static_cast<int>(rank); ++d) {
     if (d > first && d <= last) continue;
     const int size = tensor.shape[d];
-    if (d == first && last > first) sizes.push_back(-1);
-    else sizes.push_back(size == kBatch ? TensorMath::kKnownBatch : size);
+    if (d == first && last > first)
+      sizes.push_back(-1);
+    else
+      sizes.push_back(size == kBatch ? TensorMath::kKnownBatch : size);
   }
   return TensorValue(elaborator.math().Reshape(tensor, sizes, arguments.position));
 }
@@ -173,8 +174,7 @@ Value Flip(Elaborator& elaborator, const Arguments& arguments) {
     if (!one.Is(ValueKind::kInteger)) {
       Fail("arguments", arguments.Place(1), "a dimension is a whole number");
     }
-    const int dimension =
-        math.Dimension(one.integer, tensor.shape.size(), arguments.Place(1));
+    const int dimension = math.Dimension(one.integer, tensor.shape.size(), arguments.Place(1));
     if (tensor.shape[dimension] == kBatch) {
       tensor = math.Map(ScalarOperation::kBatchFlip, tensor, tensor.type, arguments.position);
       continue;
@@ -199,9 +199,9 @@ Value Pieces(Elaborator& elaborator, const Tensor& tensor, int dimension, std::i
   const std::int64_t total = tensor.shape[dimension];
   for (std::int64_t start = 0; start < total; start += size) {
     const std::int64_t stop = std::min(total, start + size);
-    pieces.push_back(TensorValue(
-        drop ? elaborator.math().Take(tensor, dimension, start, position)
-             : elaborator.math().Slice(tensor, dimension, start, stop, 1)));
+    pieces.push_back(TensorValue(drop
+                                     ? elaborator.math().Take(tensor, dimension, start, position)
+                                     : elaborator.math().Slice(tensor, dimension, start, stop, 1)));
   }
   return TupleValue(std::move(pieces));
 }
@@ -275,6 +275,8 @@ constexpr LibraryFunction kFunctions[] = {
 
 }  // namespace
 
-LibraryPart ShapeFunctions() { return {kFunctions, std::size(kFunctions)}; }
+LibraryPart ShapeFunctions() {
+  return {kFunctions, std::size(kFunctions)};
+}
 
 }  // namespace simwright::tasks::reward

@@ -44,7 +44,10 @@ std::string NearestName(std::string_view name, const std::vector<std::string>& k
   // A third of the letters may differ; more is another word.
   int best = std::max<int>(1, static_cast<int>(wanted.size()) / 3) + 1;
   for (const std::string& candidate : known) {
-    const int distance = EditDistance(wanted, Lower(candidate));
+    const std::string other = Lower(candidate);
+    const bool begins = std::min(wanted.size(), other.size()) >= 3 &&
+                        (wanted.starts_with(other) || other.starts_with(wanted));
+    const int distance = begins ? 1 : EditDistance(wanted, other);
     if (distance < best) {
       best = distance;
       nearest = candidate;

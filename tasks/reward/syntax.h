@@ -48,20 +48,20 @@ enum class ExpressionKind {
   kInteger,
   kFloat,
   kString,
-  kFormatString,   // children: the parts, joined
-  kName,           // text
+  kFormatString,  // children: the parts, joined
+  kName,          // text
   kTuple,
   kList,
-  kDict,           // children: key, value, key, value ...
-  kUnary,          // operation, children[0]
-  kBinary,         // operation, children[0..1]
-  kCompare,        // children[0] operations[0] children[1] operations[1] ...
-  kBoolean,        // operation, children
-  kConditional,    // children: condition, then, otherwise
-  kCall,           // children[0]: callee; then arguments, named by keywords ("" or "*": none)
-  kAttribute,      // children[0].text
-  kSubscript,      // children[0][children[1]]
-  kSlice,          // children: start, stop, step; each may be null
+  kDict,               // children: key, value, key, value ...
+  kUnary,              // operation, children[0]
+  kBinary,             // operation, children[0..1]
+  kCompare,            // children[0] operations[0] children[1] operations[1] ...
+  kBoolean,            // operation, children
+  kConditional,        // children: condition, then, otherwise
+  kCall,               // children[0]: callee; then arguments, named by keywords ("" or "*": none)
+  kAttribute,          // children[0].text
+  kSubscript,          // children[0][children[1]]
+  kSlice,              // children: start, stop, step; each may be null
   kListComprehension,  // children: element, target, iterable, condition or null
   kDictComprehension,  // children: key, target, iterable, condition or null, value
 };

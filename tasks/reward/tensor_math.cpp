@@ -6,7 +6,9 @@
 namespace simwright::tasks::reward {
 namespace {
 
-int LaneSize(int size) { return size == kBatch ? 1 : size; }
+int LaneSize(int size) {
+  return size == kBatch ? 1 : size;
+}
 
 // How far a step along each dimension goes through the lanes.
 std::vector<int> Strides(const Shape& shape) {
@@ -39,13 +41,16 @@ void Walk(const Shape& shape, const std::vector<int>& strides, const Visit& visi
 Tensor View(const Tensor& tensor, Shape shape, const std::vector<int>& strides, int start) {
   Tensor view{tensor.type, std::move(shape), tensor.storage, {}};
   view.lanes.reserve(static_cast<std::size_t>(LaneCount(view.shape)));
-  Walk(view.shape, strides, [&](int offset) { view.lanes.push_back(tensor.lanes[start + offset]); });
+  Walk(view.shape, strides,
+       [&](int offset) { view.lanes.push_back(tensor.lanes[start + offset]); });
   return view;
 }
 
 }  // namespace
 
-DataType Promote(DataType a, DataType b) { return std::max(a, b); }
+DataType Promote(DataType a, DataType b) {
+  return std::max(a, b);
+}
 
 Tensor TensorMath::Make(DataType type, Shape shape, std::vector<NodeId> nodes, Position position) {
   if (std::count(shape.begin(), shape.end(), kBatch) > 1) {
@@ -55,8 +60,8 @@ Tensor TensorMath::Make(DataType type, Shape shape, std::vector<NodeId> nodes, P
   }
   if (LaneCount(shape) > options_.max_lanes) {
     Fail("too-large", position,
-         "a tensor " + ShapeText(shape) + " holds more than " +
-             std::to_string(options_.max_lanes) + " numbers an environment");
+         "a tensor " + ShapeText(shape) + " holds more than " + std::to_string(options_.max_lanes) +
+             " numbers an environment");
   }
   Tensor tensor{type, std::move(shape), heap_.AddStorage({}), {}};
   tensor.lanes.resize(nodes.size());
@@ -74,7 +79,9 @@ Tensor TensorMath::Full(DataType type, Shape shape, NodeId node, Position positi
               position);
 }
 
-Tensor TensorMath::Scalar(DataType type, NodeId node) { return Make(type, {}, {node}, {}); }
+Tensor TensorMath::Scalar(DataType type, NodeId node) {
+  return Make(type, {}, {node}, {});
+}
 
 NodeId TensorMath::At(const Tensor& tensor, std::size_t lane) const {
   return (*heap_[tensor.storage].nodes)[tensor.lanes[lane]];
@@ -137,8 +144,7 @@ Tensor TensorMath::Map(ScalarOperation operation, const Tensor& a, const Tensor&
 
 Tensor TensorMath::Select(const Tensor& condition, const Tensor& a, const Tensor& b,
                           Position position) {
-  const Shape shape =
-      Broadcast(Broadcast(a.shape, b.shape, position), condition.shape, position);
+  const Shape shape = Broadcast(Broadcast(a.shape, b.shape, position), condition.shape, position);
   const Tensor choice = Expand(condition, shape, position);
   const Tensor yes = Expand(a, shape, position), no = Expand(b, shape, position);
   std::vector<NodeId> nodes(choice.lanes.size());
@@ -172,8 +178,8 @@ Shape TensorMath::Broadcast(const Shape& a, const Shape& b, Position position) c
   }
   if (LaneCount(shape) > options_.max_lanes) {
     Fail("too-large", position,
-         "a tensor " + ShapeText(shape) + " holds more than " +
-             std::to_string(options_.max_lanes) + " numbers an environment");
+         "a tensor " + ShapeText(shape) + " holds more than " + std::to_string(options_.max_lanes) +
+             " numbers an environment");
   }
   return shape;
 }
@@ -228,8 +234,8 @@ Tensor TensorMath::Take(const Tensor& tensor, int dimension, std::int64_t index,
   return View(tensor, std::move(shape), strides, start);
 }
 
-Tensor TensorMath::Slice(const Tensor& tensor, int dimension, std::int64_t start,
-                         std::int64_t stop, std::int64_t step) const {
+Tensor TensorMath::Slice(const Tensor& tensor, int dimension, std::int64_t start, std::int64_t stop,
+                         std::int64_t step) const {
   std::vector<int> strides = Strides(tensor.shape);
   Shape shape = tensor.shape;
   const int stride = strides[dimension];
@@ -271,17 +277,22 @@ Tensor TensorMath::Reshape(const Tensor& tensor, const std::vector<std::int64_t>
   bool has_batch = false;
   for (const std::int64_t size : sizes) {
     const int at = static_cast<int>(shape.size());
-    if (size == -1 && open < 0) open = at;
-    else if (size == -1) Fail("shape", position, "only one size may be -1");
+    if (size == -1 && open < 0)
+      open = at;
+    else if (size == -1)
+      Fail("shape", position, "only one size may be -1");
     has_batch = has_batch || size == kKnownBatch;
     if (size == 0 || size < kKnownBatch || size > options_.max_lanes) {
       Fail("shape", position, "a size of " + std::to_string(size) + " is not possible");
     }
     if (size > 0) product = std::min<std::int64_t>(product * size, 1LL << 40);
-    shape.push_back(size == kKnownBatch ? kBatch : static_cast<int>(std::max<std::int64_t>(size, 1)));
+    shape.push_back(size == kKnownBatch ? kBatch
+                                        : static_cast<int>(std::max<std::int64_t>(size, 1)));
   }
-  if (open >= 0 && batch >= 0 && !has_batch) shape[open] = kBatch;
-  else if (open >= 0 && product > 0) shape[open] = static_cast<int>(lanes / product);
+  if (open >= 0 && batch >= 0 && !has_batch)
+    shape[open] = kBatch;
+  else if (open >= 0 && product > 0)
+    shape[open] = static_cast<int>(lanes / product);
   const int to = BatchDimension(shape);
   const auto before = [](const Shape& of, int dimension) {
     return LaneCount(Shape(of.begin(), of.begin() + std::max(0, dimension)));
@@ -290,8 +301,9 @@ Tensor TensorMath::Reshape(const Tensor& tensor, const std::vector<std::int64_t>
       std::count(shape.begin(), shape.end(), kBatch) > 1 ||
       before(shape, to) != before(tensor.shape, batch)) {
     Fail("shape", position,
-         "a tensor " + ShapeText(tensor.shape) + " cannot be reshaped to this; the product of the "
-         "sizes must stay, and N must keep its place");
+         "a tensor " + ShapeText(tensor.shape) +
+             " cannot be reshaped to this; the product of the "
+             "sizes must stay, and N must keep its place");
   }
   Tensor view = tensor;
   view.shape = std::move(shape);
@@ -328,9 +340,8 @@ Tensor TensorMath::Concatenate(const std::vector<Tensor>& tensors, int dimension
   int start = 0;
   for (const Tensor& tensor : tensors) {
     std::size_t lane = 0;
-    Walk(tensor.shape, strides, [&](int offset) {
-      nodes[start * strides[dimension] + offset] = At(tensor, lane++);
-    });
+    Walk(tensor.shape, strides,
+         [&](int offset) { nodes[start * strides[dimension] + offset] = At(tensor, lane++); });
     start += tensor.shape[dimension];
   }
   return Make(type, std::move(shape), std::move(nodes), position);

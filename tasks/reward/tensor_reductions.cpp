@@ -35,24 +35,34 @@ std::vector<int> Targets(const Shape& shape, const std::vector<int>& dimensions)
 NodeId TensorMath::Combine(Reduction reduction, NodeId a, NodeId b) {
   using enum ScalarOperation;
   switch (reduction) {
-    case Reduction::kSum: return graph_.Apply(kAdd, a, b);
-    case Reduction::kProduct: return graph_.Apply(kMultiply, a, b);
-    case Reduction::kMinimum: return graph_.Apply(kMinimum, a, b);
-    case Reduction::kMaximum: return graph_.Apply(kMaximum, a, b);
-    case Reduction::kAll: return graph_.Apply(kAnd, a, b);
-    case Reduction::kAny: break;
+    case Reduction::kSum:
+      return graph_.Apply(kAdd, a, b);
+    case Reduction::kProduct:
+      return graph_.Apply(kMultiply, a, b);
+    case Reduction::kMinimum:
+      return graph_.Apply(kMinimum, a, b);
+    case Reduction::kMaximum:
+      return graph_.Apply(kMaximum, a, b);
+    case Reduction::kAll:
+      return graph_.Apply(kAnd, a, b);
+    case Reduction::kAny:
+      break;
   }
   return graph_.Apply(kOr, a, b);
 }
 
 NodeId TensorMath::OverBatch(Reduction reduction, NodeId a, Position position) {
   switch (reduction) {
-    case Reduction::kSum: return graph_.Apply(ScalarOperation::kBatchSum, a);
+    case Reduction::kSum:
+      return graph_.Apply(ScalarOperation::kBatchSum, a);
     case Reduction::kMinimum:
-    case Reduction::kAll: return graph_.Apply(ScalarOperation::kBatchMinimum, a);
+    case Reduction::kAll:
+      return graph_.Apply(ScalarOperation::kBatchMinimum, a);
     case Reduction::kMaximum:
-    case Reduction::kAny: return graph_.Apply(ScalarOperation::kBatchMaximum, a);
-    case Reduction::kProduct: break;
+    case Reduction::kAny:
+      return graph_.Apply(ScalarOperation::kBatchMaximum, a);
+    case Reduction::kProduct:
+      break;
   }
   Fail("unsupported", position,
        "a product over all environments is not offered; name another dimension with dim=");
@@ -97,8 +107,10 @@ NodeId TensorMath::CountOver(const Tensor& tensor, const std::vector<int>& dimen
   double count = 1.0;
   bool batch = false;
   for (const int d : dimensions) {
-    if (tensor.shape[d] == kBatch) batch = true;
-    else count *= tensor.shape[d];
+    if (tensor.shape[d] == kBatch)
+      batch = true;
+    else
+      count *= tensor.shape[d];
   }
   const NodeId lanes = graph_.Constant(count);
   return batch ? graph_.Apply(ScalarOperation::kMultiply, lanes, graph_.BatchSize()) : lanes;

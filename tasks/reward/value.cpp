@@ -59,7 +59,9 @@ Value FloatValue(double number) {
   return value;
 }
 
-Value StringValue(std::string text) { return PlainValue(ValueKind::kString, std::move(text)); }
+Value StringValue(std::string text) {
+  return PlainValue(ValueKind::kString, std::move(text));
+}
 
 Value TensorValue(Tensor tensor) {
   Value value = PlainValue(ValueKind::kTensor);
@@ -75,11 +77,16 @@ Value TupleValue(std::vector<Value> items) {
 
 std::string Describe(const Value& value) {
   switch (value.kind) {
-    case ValueKind::kNone: return "None";
-    case ValueKind::kBool: return value.integer != 0 ? "True" : "False";
-    case ValueKind::kInteger: return "the number " + std::to_string(value.integer);
-    case ValueKind::kFloat: return "a number";
-    case ValueKind::kString: return "the string '" + value.text.substr(0, 40) + "'";
+    case ValueKind::kNone:
+      return "None";
+    case ValueKind::kBool:
+      return value.integer != 0 ? "True" : "False";
+    case ValueKind::kInteger:
+      return "the number " + std::to_string(value.integer);
+    case ValueKind::kFloat:
+      return "a number";
+    case ValueKind::kString:
+      return "the string '" + value.text.substr(0, 40) + "'";
     case ValueKind::kTensor: {
       const char* type = value.tensor->type == DataType::kBool      ? "a bool tensor "
                          : value.tensor->type == DataType::kInteger ? "an integer tensor "
@@ -87,20 +94,32 @@ std::string Describe(const Value& value) {
       return value.tensor->shape.empty() ? std::string("a scalar tensor")
                                          : type + ShapeText(value.tensor->shape);
     }
-    case ValueKind::kTuple: return "a tuple of " + std::to_string(value.items->size());
-    case ValueKind::kList: return "a list";
-    case ValueKind::kDict: return "a dictionary";
-    case ValueKind::kBatchSize: return "the number of environments";
-    case ValueKind::kSlice: return "a slice";
-    case ValueKind::kEllipsis: return "'...'";
-    case ValueKind::kModule: return "the module " + value.text;
-    case ValueKind::kEnvironment: return "the environment";
+    case ValueKind::kTuple:
+      return "a tuple of " + std::to_string(value.items->size());
+    case ValueKind::kList:
+      return "a list";
+    case ValueKind::kDict:
+      return "a dictionary";
+    case ValueKind::kBatchSize:
+      return "the number of environments";
+    case ValueKind::kSlice:
+      return "a slice";
+    case ValueKind::kEllipsis:
+      return "'...'";
+    case ValueKind::kModule:
+      return "the module " + value.text;
+    case ValueKind::kEnvironment:
+      return "the environment";
     case ValueKind::kFunction:
     case ValueKind::kLibrary:
-    case ValueKind::kApi: return "a function (its call lacks '()')";
-    case ValueKind::kType: return "a type";
-    case ValueKind::kOpaque: return "nothing with a value here";
-    case ValueKind::kUndefined: return "an undefined value";
+    case ValueKind::kApi:
+      return "a function (its call lacks '()')";
+    case ValueKind::kType:
+      return "a type";
+    case ValueKind::kOpaque:
+      return "nothing with a value here";
+    case ValueKind::kUndefined:
+      return "an undefined value";
   }
   return "a value";
 }
