@@ -5,6 +5,8 @@
 // that the compiler vectorises them; polynomials are minimax or Taylor, the error of each stated.
 namespace simwright::tasks::reward::SIMWRIGHT_KERNEL_ISA {
 
+// Compiler built-ins stand where the standard library has a function: one that was compiled with
+// other options is not inlined here.
 inline float Choose(bool condition, float yes, float no) {
   return condition ? yes : no;
 }
@@ -22,8 +24,8 @@ inline float Exponential(float x) {
            r * (0.5f + r * (1.66666667e-1f +
                             r * (4.16666667e-2f + r * (8.33333333e-3f + r * 1.38888889e-3f)))));
   // 2^n as 2 * 2^(n-1): n itself reaches 128.
-  const auto bits = std::bit_cast<std::int32_t>(shifted);
-  const float scale = std::bit_cast<float>((bits + 126) << 23);
+  const auto bits = __builtin_bit_cast(std::int32_t, shifted);
+  const float scale = __builtin_bit_cast(float, (bits + 126) << 23);
   const float value = p * scale * 2.0f;
   return Choose(x > 88.7228f, std::numeric_limits<float>::infinity(),
                 Choose(x < -87.3f, 0.0f, value));
@@ -42,9 +44,9 @@ inline float Logarithm(float x) {
   // Numbers below the smallest normal one are lifted first.
   const bool tiny = x < 1.17549435e-38f;
   const float lifted = Choose(tiny, x * 8388608.0f, x);
-  const auto bits = std::bit_cast<std::int32_t>(lifted);
+  const auto bits = __builtin_bit_cast(std::int32_t, lifted);
   const std::int32_t exponent = ((bits - 0x3f3504f3) >> 23);
-  const float m = std::bit_cast<float>(bits - (exponent << 23));
+  const float m = __builtin_bit_cast(float, bits - (exponent << 23));
   const float e = static_cast<float>(exponent) - Choose(tiny, 23.0f, 0.0f);
   const float value = e * 0.693359375f + (LogarithmNearOne(m - 1.0f) - e * 2.12194440e-4f);
   const float infinity = std::numeric_limits<float>::infinity();
@@ -73,7 +75,7 @@ inline float SineOfQuarters(float x, std::int32_t quarters) {
   const float whole = shifted - 12582912.0f;
   const float r =
       ((x - whole * 1.5703125f) - whole * 4.837512969970703125e-4f) - whole * 7.549789948768648e-8f;
-  const std::int32_t quadrant = std::bit_cast<std::int32_t>(shifted) + quarters;
+  const std::int32_t quadrant = __builtin_bit_cast(std::int32_t, shifted) + quarters;
   const float size = Choose((quadrant & 1) != 0, CosineNearZero(r), SineNearZero(r));
   return Choose((quadrant & 2) != 0, -size, size);
 }
@@ -92,7 +94,7 @@ inline float ArcSineNearZero(float x) {
 inline float ArcSine(float x) {
   const float size = Choose(x < 0.0f, -x, x);
   const bool far = size > 0.5f;
-  const float inner = Choose(far, std::sqrt((1.0f - size) * 0.5f), size);
+  const float inner = Choose(far, __builtin_sqrtf((1.0f - size) * 0.5f), size);
   const float near = ArcSineNearZero(inner);
   const float value = Choose(far, 1.57079633f - 2.0f * near, near);
   return Choose(x < 0.0f, -value, value);
@@ -100,7 +102,7 @@ inline float ArcSine(float x) {
 
 inline float ArcCosine(float x) {
   const float size = Choose(x < 0.0f, -x, x);
-  const float near = ArcSineNearZero(Choose(size > 0.5f, std::sqrt((1.0f - size) * 0.5f), x));
+  const float near = ArcSineNearZero(Choose(size > 0.5f, __builtin_sqrtf((1.0f - size) * 0.5f), x));
   const float far = Choose(x < 0.0f, 3.14159265f - 2.0f * near, 2.0f * near);
   return Choose(size > 0.5f, far, 1.57079633f - near);
 }
@@ -128,8 +130,8 @@ inline float ArcTangent2(float y, float x) {
   const float ratio = Choose(high == 0.0f, 0.0f, Choose(low == high, 1.0f, low / high));
   const float acute = ArcTangent(ratio);
   const float upper = Choose(steep, 1.57079633f - acute, acute);
-  const float value = Choose(std::bit_cast<std::int32_t>(x) < 0, 3.14159265f - upper, upper);
-  const float signed_value = Choose(std::bit_cast<std::int32_t>(y) < 0, -value, value);
+  const float value = Choose(__builtin_bit_cast(std::int32_t, x) < 0, 3.14159265f - upper, upper);
+  const float signed_value = Choose(__builtin_bit_cast(std::int32_t, y) < 0, -value, value);
   return Choose(x != x || y != y, x + y, signed_value);
 }
 
@@ -165,7 +167,7 @@ inline float FloorDivide(float a, float b) {
   const float remainder = std::fmod(a, b);
   float quotient = (a - remainder) / b;
   if (remainder != 0.0f && ((b < 0.0f) != (remainder < 0.0f))) quotient -= 1.0f;
-  const float whole = std::floor(quotient);
+  const float whole = __builtin_floorf(quotient);
   return quotient - whole > 0.5f ? whole + 1.0f : whole;
 }
 
@@ -178,8 +180,8 @@ inline float FloorDivide(float a, float b) {
   };
 
 SIMWRIGHT_OPERATION(NegateOf, -a)
-SIMWRIGHT_OPERATION(AbsoluteOf, std::fabs(a))
-SIMWRIGHT_OPERATION(SquareRootOf, std::sqrt(a))
+SIMWRIGHT_OPERATION(AbsoluteOf, __builtin_fabsf(a))
+SIMWRIGHT_OPERATION(SquareRootOf, __builtin_sqrtf(a))
 SIMWRIGHT_OPERATION(ExponentialOf, Exponential(a))
 SIMWRIGHT_OPERATION(LogarithmOf, Logarithm(a))
 SIMWRIGHT_OPERATION(SineOf, SineOfQuarters(a, 0))
@@ -190,10 +192,10 @@ SIMWRIGHT_OPERATION(ArcCosineOf, ArcCosine(a))
 SIMWRIGHT_OPERATION(ArcTangentOf, ArcTangent(a))
 SIMWRIGHT_OPERATION(HyperbolicTangentOf, HyperbolicTangent(a))
 SIMWRIGHT_OPERATION(SigmoidOf, Sigmoid(a))
-SIMWRIGHT_OPERATION(FloorOf, std::floor(a))
-SIMWRIGHT_OPERATION(CeilingOf, std::ceil(a))
-SIMWRIGHT_OPERATION(RoundOf, std::nearbyint(a))
-SIMWRIGHT_OPERATION(TruncateOf, std::trunc(a))
+SIMWRIGHT_OPERATION(FloorOf, __builtin_floorf(a))
+SIMWRIGHT_OPERATION(CeilingOf, __builtin_ceilf(a))
+SIMWRIGHT_OPERATION(RoundOf, __builtin_nearbyintf(a))
+SIMWRIGHT_OPERATION(TruncateOf, __builtin_truncf(a))
 SIMWRIGHT_OPERATION(SignOf, Choose(a > 0.0f, 1.0f, Choose(a < 0.0f, -1.0f, 0.0f)))
 SIMWRIGHT_OPERATION(IsNanOf, Choose(a != a, 1.0f, 0.0f))
 SIMWRIGHT_OPERATION(NotOf, Choose(a == 0.0f, 1.0f, 0.0f))
@@ -244,10 +246,11 @@ void AngleLoop(float* __restrict result, const float* __restrict a, const float*
                int count) {
   Loop<Operation, 1, 0>(result, a, b, c, count);
   int large = 0;
-  for (int i = 0; i < count; ++i) large |= !(std::fabs(a[i]) <= kLargestAngle);
+  for (int i = 0; i < count; ++i) large |= !(__builtin_fabsf(a[i]) <= kLargestAngle);
   if (large == 0) return;
   for (int i = 0; i < count; ++i) {
-    if (!(std::fabs(a[i]) <= kLargestAngle)) result[i] = kSine ? std::sin(a[i]) : std::cos(a[i]);
+    if (!(__builtin_fabsf(a[i]) <= kLargestAngle))
+      result[i] = kSine ? std::sin(a[i]) : std::cos(a[i]);
   }
 }
 

@@ -1,6 +1,5 @@
 // The kernels for processors with AVX-512. Every header that they need comes before the
 // switch: code that other files share must not be compiled for these alone.
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>

@@ -1,5 +1,4 @@
 // The kernels for any processor.
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
