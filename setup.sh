@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what Simwright builds, tests and runs with, from Debian 12's packages. Does nothing for
-# what is there already. --catalogue adds the furniture that the catalogue tests use (120 MB),
-# --fuzz the compiler of the fuzz targets.
+# what is there already. --tests adds what tests alone need (python3-torch, beside which reward
+# programs are run), --catalogue the furniture that the catalogue tests use (120 MB), --fuzz the
+# compiler of the fuzz targets.
 set -euo pipefail
 
 packages=(
@@ -15,9 +16,10 @@ packages=(
 )
 for wanted in "$@"; do
   case $wanted in
+    --tests) packages+=(python3-torch python3-numpy) ;;
     --catalogue) packages+=(sweethome3d-furniture python3-skimage) ;;
     --fuzz) packages+=(clang-14 libclang-rt-14-dev) ;;
-    *) echo "error: $wanted is not known (use --catalogue or --fuzz)" >&2; exit 2 ;;
+    *) echo "error: $wanted is not known (use --tests, --catalogue or --fuzz)" >&2; exit 2 ;;
   esac
 done
 

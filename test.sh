@@ -3,7 +3,7 @@
 #   ./test.sh -L fast
 set -euo pipefail
 cd "$(dirname "$0")"
-./setup.sh
+./setup.sh --tests
 cmake --preset release -DSIMWRIGHT_TESTS=ON ${SIMWRIGHT_CMAKE_FLAGS:-} >/dev/null
 cmake --build --preset release
 ctest --test-dir build --no-tests=error --output-on-failure -j "$(nproc)" "$@"

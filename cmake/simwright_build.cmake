@@ -32,14 +32,22 @@ if(CCACHE_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
 endif()
 
-# simwright_module(NAME [PUBLIC lib...] [PRIVATE lib...])
-# One static library simwright::NAME from the sources of the folder. PUBLIC: what its headers
-# include; PRIVATE: what stays behind its door.
+# simwright_module(NAME [FOLDERS folder...] [PUBLIC lib...] [PRIVATE lib...])
+# One static library simwright::NAME from the sources of the folder, and of those FOLDERS inside it.
+# PUBLIC: what its headers include; PRIVATE: what stays behind its door.
 function(simwright_module name)
-  cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "" "FOLDERS;PUBLIC;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   file(GLOB headers CONFIGURE_DEPENDS *.h)
-  add_library(simwright_${name} STATIC ${sources} ${headers})
+  set(inner_headers)
+  foreach(folder ${arg_FOLDERS})
+    file(GLOB folder_sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+    file(GLOB folder_headers CONFIGURE_DEPENDS ${folder}/*.h)
+    list(APPEND sources ${folder_sources})
+    list(APPEND inner_headers ${folder_headers})
+    install(FILES ${folder_headers} DESTINATION include/simwright/${name}/${folder})
+  endforeach()
+  add_library(simwright_${name} STATIC ${sources} ${headers} ${inner_headers})
   add_library(simwright::${name} ALIAS simwright_${name})
   set_target_properties(simwright_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(simwright_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>

@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "core/error.h"
+#include "tasks/reward/code_generation.h"
+#include "tasks/reward/parameter_shapes.h"
+#include "tasks/reward/parser.h"
+#include "tasks/reward/reward_program.h"
+#include "tasks/reward/spelling.h"
+
+namespace simwright::tasks {
+namespace {
+
+using reward::Fail;
+using reward::Fault;
+using reward::Function;
+using reward::Module;
+
+// The function that others of the file do not call, of those whose name says reward.
+const Function& FindEntry(const Module& module, const RewardOptions& options) {
+  std::vector<std::string> names;
+  const Function* best = nullptr;
+  int best_rank = -1;
+  const std::set<std::string> called = reward::CalledNames(module);
+  for (const auto& function : module.functions) {
+    names.push_back(function->name);
+    if (!options.entry.empty()) {
+      if (function->name == options.entry) best = function.get();
+      continue;
+    }
+    const std::string& name = function->name;
+    int rank = 0;
+    if (name.find("reward") != std::string::npos) rank = 1;
+    if (name.find("compute_reward") != std::string::npos) rank = 2;
+    if (name == "compute_reward") rank = 3;
+    if (!called.contains(name)) rank += 4;
+    if (rank >= best_rank) {
+      best = function.get();
+      best_rank = rank;
+    }
+  }
+  if (best != nullptr) return *best;
+  if (names.empty()) {
+    Fail("no-function", {},
+         "there is no function here; a program begins with def compute_reward(env):");
+  }
+  Fail("no-function", {},
+       "there is no function '" + options.entry + "'" + reward::Suggestion(options.entry, names));
+}
+
+bool HasError(const core::Findings& findings) {
+  return std::any_of(findings.begin(), findings.end(), [](const core::Finding& finding) {
+    return finding.severity == core::Severity::kError;
+  });
+}
+
+core::Finding FindingOf(const Fault& fault) {
+  return {fault.code, core::Severity::kError,
+          std::to_string(fault.position.line) + ":" + std::to_string(fault.position.column),
+          fault.sentence, 0.0};
+}
+
+CompileOutcome Compile(std::string_view source, const RewardScene* scene,
+                       const RewardOptions& options) {
+  CompileOutcome outcome;
+  const Module module = reward::Parse(source, options);
+  const Function& entry = FindEntry(module, options);
+  RewardOptions shaped = options;
+  reward::InferParameterShapes(module, entry, scene, &shaped);
+  reward::Elaborator elaborator(module, scene, shaped);
+  const reward::ElaboratedOutputs outputs = elaborator.Run(entry);
+  outcome.findings = elaborator.findings();
+  if (HasError(outcome.findings)) return outcome;
+  reward::Code code = reward::GenerateCode(elaborator, outputs, shaped);
+  code.entry = entry.name;
+  outcome.program.emplace(std::make_shared<const reward::Code>(std::move(code)));
+  return outcome;
+}
+
+}  // namespace
+
+CompileOutcome CompileReward(std::string_view source, const RewardScene* scene,
+                             const RewardOptions& options) {
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error(error, "reward options");
+  try {
+    return Compile(source, scene, options);
+  } catch (const Fault& fault) {
+    CompileOutcome outcome;
+    outcome.findings.push_back(FindingOf(fault));
+    return outcome;
+  }
+}
+
+std::string RenderFinding(const core::Finding& finding, std::string_view source) {
+  const char* severity = finding.severity == core::Severity::kError     ? "error"
+                         : finding.severity == core::Severity::kWarning ? "warning"
+                                                                        : "note";
+  std::string text = finding.place + ": " + severity + ": " + finding.sentence + "\n";
+  int line = 0, column = 0;
+  if (std::sscanf(finding.place.c_str(), "%d:%d", &line, &column) != 2 || line < 1) return text;
+  for (int i = 1; i < line; ++i) {
+    const std::size_t end = source.find('\n');
+    if (end == std::string_view::npos) return text;
+    source.remove_prefix(end + 1);
+  }
+  std::string_view shown = source.substr(0, source.find('\n'));
+  if (shown.ends_with('\r')) shown.remove_suffix(1);
+  constexpr std::size_t kWidest = 400;
+  if (shown.size() > kWidest) return text;
+  std::string caret;
+  int at = 1;
+  for (const char c : shown) {
+    if (at >= column) break;
+    if ((static_cast<unsigned char>(c) & 0xC0) == 0x80) continue;  // inside a character
+    caret += c == '\t' ? '\t' : ' ';
+    ++at;
+  }
+  return text + "    " + std::string(shown) + "\n    " + caret + "^\n";
+}
+
+}  // namespace simwright::tasks

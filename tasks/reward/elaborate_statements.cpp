@@ -1,0 +1,400 @@
+#include <algorithm>
+
+#include "tasks/reward/elaborator.h"
+#include "tasks/reward/spelling.h"
+
+namespace simwright::tasks::reward {
+namespace {
+
+// Modules that reach the machine: refused, though nothing of them could be used anyway.
+constexpr std::string_view kForbiddenModules[] = {
+    "os",        "sys",      "subprocess", "socket", "shutil",    "pathlib",        "builtins",
+    "importlib", "ctypes",   "pickle",     "io",     "threading", "requests",       "urllib",
+    "http",      "tempfile", "signal",     "runpy",  "code",      "multiprocessing"};
+
+// Names that mean what they are called, so that no program may give them another meaning.
+constexpr std::string_view kFixedNames[] = {"torch", "np", "numpy", "math"};
+
+std::string CanonicalModule(const std::string& module) {
+  if (module == "numpy" || module.starts_with("numpy.")) return "np" + module.substr(5);
+  if (module == "F") return "torch.nn.functional";
+  return module;
+}
+
+}  // namespace
+
+Elaborator::Elaborator(const Module& module, const RewardScene* scene, const RewardOptions& options)
+    : module_(module),
+      scene_(scene),
+      options_(options),
+      graph_(options.max_nodes),
+      math_(options, &graph_, &heap_) {}
+
+void Elaborator::Report(const std::string& code, core::Severity severity, Position position,
+                        const std::string& sentence) {
+  const std::string place = std::to_string(position.line) + ":" + std::to_string(position.column);
+  for (const core::Finding& finding : findings_) {  // once, however often a loop comes by
+    if (finding.place == place && finding.code == code) return;
+  }
+  if (severity == core::Severity::kError && errors_++ == 0) first_error_ = position;
+  if (static_cast<int>(findings_.size()) < options_.max_findings) {
+    findings_.push_back({code, severity, place, sentence, 0.0});
+  }
+}
+
+void Elaborator::Step(Position position) {
+  if (++steps_ > options_.max_steps) {
+    Fail("too-many-steps", position,
+         "the program takes more than " + std::to_string(options_.max_steps) +
+             " steps, loops unrolled; shorten its loops");
+  }
+}
+
+void Elaborator::DoImport(const Import& import) {
+  const std::string root = import.module.substr(0, import.module.find('.'));
+  if (std::find(std::begin(kForbiddenModules), std::end(kForbiddenModules), root) !=
+      std::end(kForbiddenModules)) {
+    Fail("forbidden", import.position,
+         "a reward cannot import '" + root + "'; it computes with torch, numpy and math alone");
+  }
+  const std::string module = CanonicalModule(import.module);
+  auto& names = frame_ == nullptr ? globals_ : frame_->names;
+  const bool known = IsLibraryModule(module);
+  if (import.name.empty()) {
+    const std::string local = import.alias.empty() ? root : import.alias;
+    const std::string meant = import.alias.empty() ? CanonicalModule(root) : module;
+    names[local] = known ? PlainValue(ValueKind::kModule, meant)
+                         : PlainValue(ValueKind::kOpaque, import.module);
+  } else if (import.name != "*" && known) {
+    const std::string full = module + "." + import.name;
+    if (import.name != import.alias || IsLibraryModule(full) ||
+        FindLibraryFunction(full) != nullptr) {
+      names[import.alias] = ModuleAttribute(module, import.name, import.position);
+    }
+  }
+  // What else is imported (types, Isaac Gym's utilities) is known by its bare name or not at all.
+}
+
+void Elaborator::Globals() {
+  globals_["torch"] = PlainValue(ValueKind::kModule, "torch");
+  globals_["np"] = globals_["numpy"] = PlainValue(ValueKind::kModule, "np");
+  globals_["math"] = PlainValue(ValueKind::kModule, "math");
+  globals_["F"] = PlainValue(ValueKind::kModule, "torch.nn.functional");
+  for (const std::string type : {"Tensor", "Tuple", "Dict", "List", "Optional", "Any", "Union"}) {
+    globals_[type] = PlainValue(ValueKind::kOpaque, type);
+  }
+  for (const auto& function : module_.functions) {
+    const auto [found, fresh] = functions_.emplace(function->name, function.get());
+    if (!fresh) {
+      Report("defined-twice", core::Severity::kWarning, function->position,
+             "'" + function->name + "' is defined twice; the last one counts");
+      found->second = function.get();
+    }
+    const bool fixed = std::find(std::begin(kFixedNames), std::end(kFixedNames), function->name) !=
+                       std::end(kFixedNames);
+    if (fixed) {
+      Report("shadows", core::Severity::kError, function->position,
+             "a function may not be called '" + function->name + "', which is a module");
+    } else if (FindApiFunction(function->name) != nullptr) {
+      Report("shadows", core::Severity::kError, function->position,
+             "'" + function->name + "' is a function of the environment; call yours otherwise");
+    } else if (FindLibraryFunction(function->name) != nullptr) {
+      Report("shadows", core::Severity::kWarning, function->position,
+             "'" + function->name + "' takes the place of the known function of this name");
+    }
+    Value value = PlainValue(ValueKind::kFunction, function->name);
+    value.function = function.get();
+    globals_[function->name] = value;
+  }
+  Frame frame;
+  for (const auto& statement : module_.statements) {
+    frame_ = statement->kind == StatementKind::kImport ? nullptr : &frame;
+    try {
+      if (statement->kind == StatementKind::kReturn) {
+        Fail("syntax", statement->position, "'return' stands outside a function");
+      }
+      Execute(*statement);
+    } catch (const Fault& fault) {
+      if (!fault.code.empty()) {
+        Report(fault.code, core::Severity::kError, fault.position, fault.sentence);
+      }
+    }
+    for (auto& [name, value] : frame.names) globals_[name] = value;
+  }
+  frame_ = nullptr;
+}
+
+ElaboratedOutputs Elaborator::Run(const Function& entry) {
+  Globals();
+  ElaboratedOutputs outputs;
+  try {
+    std::vector<Value> values;
+    for (const Parameter& parameter : entry.parameters) values.push_back(ParameterValue(parameter));
+    returned_at_ = entry.position;
+    const Value result =
+        Call(entry, values, std::vector<std::string>(values.size()), entry.position);
+    if (errors_ == 0) outputs = Outputs(result, returned_at_);
+  } catch (const Fault& fault) {
+    if (!fault.code.empty() || errors_ == 0) {
+      Report(fault.code.empty() ? "undefined" : fault.code, core::Severity::kError, fault.position,
+             fault.sentence);
+    }
+  }
+  return outputs;
+}
+
+Elaborator::Flow Elaborator::Execute(const Block& block) {
+  for (const auto& statement : block) {
+    Flow flow = Flow::kNext;
+    try {
+      flow = Execute(*statement);
+    } catch (const Fault& fault) {
+      // Goes on with the next line, so that one reading shows all that is wrong; what this line
+      // was to define is unusable from here on, silently.
+      if (fault.code == "too-many-steps" || fault.code == "too-deep") throw;
+      if (!fault.code.empty()) {
+        Position position = fault.position;
+        if (position.line == 1 && position.column == 1) position = statement->position;
+        Report(fault.code, core::Severity::kError, position, fault.sentence);
+      }
+      if (errors_ >= options_.max_findings || fault.code == "too-large") throw Fault{};
+      for (const ExpressionPtr& target : statement->targets) Poison(*target);
+      if (statement->kind == StatementKind::kReturn) {
+        frame_->result = PlainValue(ValueKind::kUndefined);
+        return Flow::kReturn;
+      }
+    }
+    if (flow != Flow::kNext) return flow;
+  }
+  return Flow::kNext;
+}
+
+void Elaborator::Poison(const Expression& target) {
+  if (target.kind == ExpressionKind::kName) {
+    frame_->names[target.text] = PlainValue(ValueKind::kUndefined);
+  }
+  if (target.kind == ExpressionKind::kTuple || target.kind == ExpressionKind::kList) {
+    for (const ExpressionPtr& child : target.children) Poison(*child);
+  }
+}
+
+Elaborator::Flow Elaborator::Execute(const Statement& statement) {
+  Step(statement.position);
+  switch (statement.kind) {
+    case StatementKind::kExpression:
+      Evaluate(*statement.value);
+      return Flow::kNext;
+    case StatementKind::kAssign: {
+      const Value value = Evaluate(*statement.value);
+      for (const ExpressionPtr& target : statement.targets) Assign(*target, value);
+      return Flow::kNext;
+    }
+    case StatementKind::kAugmented:
+      Augment(statement);
+      return Flow::kNext;
+    case StatementKind::kReturn:
+      returned_at_ = statement.value != nullptr ? statement.value->position : statement.position;
+      frame_->result = statement.value == nullptr ? Value{} : Evaluate(*statement.value);
+      return Flow::kReturn;
+    case StatementKind::kIf:
+      return ExecuteIf(statement, 0);
+    case StatementKind::kFor:
+      return ExecuteFor(statement);
+    case StatementKind::kBlock:
+      return Execute(statement.blocks[0]);
+    case StatementKind::kImport:
+      for (const Import& import : statement.imports) DoImport(import);
+      return Flow::kNext;
+    case StatementKind::kPass:
+      return Flow::kNext;
+    case StatementKind::kBreak:
+      return Flow::kBreak;
+    case StatementKind::kContinue:
+      return Flow::kContinue;
+  }
+  return Flow::kNext;
+}
+
+Elaborator::Flow Elaborator::ExecuteFor(const Statement& statement) {
+  const Value range = Evaluate(*statement.value);
+  for (const Value& item : Items(range, statement.value->position)) {
+    Step(statement.position);
+    Assign(*statement.targets[0], item);
+    const Flow flow = Execute(statement.blocks[0]);
+    if (flow == Flow::kBreak) break;
+    if (flow == Flow::kReturn) return flow;
+  }
+  return Flow::kNext;
+}
+
+void Elaborator::AssignName(const std::string& name, const Value& value, Position position) {
+  const auto held = frame_->names.find(name);
+  const bool environment = held != frame_->names.end() && held->second.Is(ValueKind::kEnvironment);
+  const bool fixed =
+      std::find(std::begin(kFixedNames), std::end(kFixedNames), name) != std::end(kFixedNames);
+  if ((fixed && !value.Is(ValueKind::kModule)) ||
+      (environment && !value.Is(ValueKind::kEnvironment))) {
+    Fail("shadows", position,
+         "'" + name + "' is the " + (fixed ? "module" : "environment") +
+             " and may not be given another meaning; choose another name");
+  }
+  if (FindApiFunction(name) != nullptr) {
+    Fail("shadows", position,
+         "'" + name + "' is a function of the environment; choose another name for the value");
+  }
+  frame_->names[name] = value;
+}
+
+void Elaborator::Assign(const Expression& target, const Value& value) {
+  switch (target.kind) {
+    case ExpressionKind::kName:
+      AssignName(target.text, value, target.position);
+      return;
+    case ExpressionKind::kTuple:
+    case ExpressionKind::kList:
+      Unpack(target, value);
+      return;
+    case ExpressionKind::kSubscript:
+      AssignSubscript(target, value);
+      return;
+    case ExpressionKind::kAttribute:
+      Fail("bad-target", target.position,
+           "'." + target.text +
+               "' cannot be assigned: a reward reads the environment and leaves "
+               "it as it is; use a local name");
+    default:
+      Fail("bad-target", target.position, "this cannot be assigned to");
+  }
+}
+
+void Elaborator::Unpack(const Expression& target, const Value& value) {
+  const std::vector<Value> items = Items(value, target.position);
+  if (items.size() != target.children.size()) {
+    Fail("unpack", target.position,
+         std::to_string(target.children.size()) + " names stand here for " +
+             std::to_string(items.size()) + " values");
+  }
+  for (std::size_t i = 0; i < items.size(); ++i) Assign(*target.children[i], items[i]);
+}
+
+// t += x changes the tensor that t names, as in torch, where shape and type allow it; numbers and
+// all else are computed anew.
+void Elaborator::Augment(const Statement& statement) {
+  const Expression& target = *statement.targets[0];
+  if (target.kind != ExpressionKind::kName && target.kind != ExpressionKind::kSubscript) {
+    Fail("bad-target", target.position, "this cannot be changed in place");
+  }
+  if (target.kind == ExpressionKind::kSubscript && AugmentMasked(statement)) return;
+  const Value old = Evaluate(target);
+  const Value operand = Evaluate(*statement.value);
+  const Value fresh = Binary(statement.operation, old, operand, statement.position);
+  if (!old.Is(ValueKind::kTensor) || !fresh.Is(ValueKind::kTensor)) {
+    Assign(target, fresh);
+    return;
+  }
+  const Tensor& before = *old.tensor;
+  const Tensor& after = *fresh.tensor;
+  if (after.type > before.type) {
+    Fail("type", statement.position,
+         "the result is " + Describe(fresh) + ", which " + Describe(old) +
+             " cannot hold; write x = x " + "+ y" + ", or make the tensor .float() first");
+  }
+  if (after.shape != before.shape) {
+    // A scalar that counts up rewards over environments: torch would refuse the growth.
+    if (!before.shape.empty()) {
+      Fail("shape", statement.position,
+           "the result " + ShapeText(after.shape) + " does not fit into the tensor " +
+               ShapeText(before.shape) + " in place; write x = x + y");
+    }
+    Assign(target, fresh);
+    return;
+  }
+  math_.Write(before, math_.Nodes(after));
+}
+
+Value Elaborator::Call(const Function& function, const std::vector<Value>& values,
+                       const std::vector<std::string>& keywords, Position position) {
+  if (std::find(calls_.begin(), calls_.end(), &function) != calls_.end()) {
+    Fail("recursion", position,
+         "'" + function.name + "' calls itself; recursion is not part of the language");
+  }
+  if (static_cast<int>(calls_.size()) >= options_.max_call_depth) {
+    Fail("too-deep", position,
+         "functions call each other deeper than " + std::to_string(options_.max_call_depth));
+  }
+  Frame frame;
+  frame.function = &function;
+  BindParameters(function, values, keywords, position, &frame);
+  Frame* const caller = frame_;
+  const Position returned_at = returned_at_;
+  frame_ = &frame;
+  calls_.push_back(&function);
+  const auto leave = [&] {
+    calls_.pop_back();
+    frame_ = caller;
+  };
+  Value result;
+  try {
+    const Flow flow = Execute(function.body);
+    result = Finish(&frame, flow, function.position);
+  } catch (const Fault&) {
+    leave();
+    throw;
+  }
+  leave();
+  if (caller != nullptr) returned_at_ = returned_at;
+  return result;
+}
+
+void Elaborator::BindParameters(const Function& function, const std::vector<Value>& values,
+                                const std::vector<std::string>& keywords, Position position,
+                                Frame* frame) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::string name = keywords[i];
+    if (name.empty()) {
+      if (next >= function.parameters.size()) {
+        Fail("arguments", position,
+             "'" + function.name + "' takes " + std::to_string(function.parameters.size()) +
+                 " arguments, more are given");
+      }
+      name = function.parameters[next++].name;
+    }
+    const bool known =
+        std::any_of(function.parameters.begin(), function.parameters.end(),
+                    [&](const Parameter& parameter) { return parameter.name == name; });
+    if (!known || frame->names.contains(name)) {
+      Fail("arguments", position,
+           "'" + function.name + "' " +
+               (known ? "is given '" + name + "' twice" : "has no parameter '" + name + "'"));
+    }
+    frame->names[name] = values[i];
+  }
+  for (const Parameter& parameter : function.parameters) {
+    if (frame->names.contains(parameter.name)) continue;
+    if (parameter.initial == nullptr) {
+      Fail("arguments", position,
+           "'" + function.name + "' lacks its argument '" + parameter.name + "'");
+    }
+    frame->names[parameter.name] = Evaluate(*parameter.initial);
+  }
+}
+
+// The value of a function whose environments may have returned at different places.
+Value Elaborator::Finish(Frame* frame, Flow flow, Position position) {
+  if (flow == Flow::kBreak || flow == Flow::kContinue) {
+    Fail("syntax", position, "'break' or 'continue' stands outside a loop");
+  }
+  if (flow != Flow::kReturn && !frame->early.empty()) {
+    Fail("no-return", position,
+         "'" + frame->function->name + "' returns in some environments only; end it with a return");
+  }
+  if (flow != Flow::kReturn) return Value{};
+  Value result = frame->result;
+  for (std::size_t i = frame->early.size(); i-- > 0;) {
+    result = Choose(frame->early[i].flag, frame->early[i].value, result, returned_at_);
+  }
+  return result;
+}
+
+}  // namespace simwright::tasks::reward

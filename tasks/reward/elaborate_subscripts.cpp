@@ -1,0 +1,308 @@
+#include <algorithm>
+
+#include "tasks/reward/elaborator.h"
+#include "tasks/reward/spelling.h"
+
+namespace simwright::tasks::reward {
+namespace {
+
+std::vector<Value> IndexParts(const Value& index) {
+  return index.Is(ValueKind::kTuple) ? *index.items : std::vector<Value>{index};
+}
+
+bool IsWhole(const Value& slice) {
+  const std::vector<Value>& parts = *slice.items;
+  const bool from_start =
+      parts[0].Is(ValueKind::kNone) || (parts[0].Is(ValueKind::kInteger) && parts[0].integer == 0);
+  const bool to_end = parts[1].Is(ValueKind::kNone) || parts[1].Is(ValueKind::kBatchSize);
+  const bool each =
+      parts[2].Is(ValueKind::kNone) || (parts[2].Is(ValueKind::kInteger) && parts[2].integer == 1);
+  return from_start && to_end && each;
+}
+
+struct Bounds {
+  std::int64_t start, stop, step;
+};
+
+// A slice's bounds for `size` elements, as Python clips them.
+Bounds Clip(const Value& slice, std::int64_t size, Position position) {
+  std::int64_t given[3] = {0, size, 1};
+  for (int i = 0; i < 3; ++i) {
+    const Value& part = (*slice.items)[i];
+    if (part.Is(ValueKind::kNone)) continue;
+    if (!part.Is(ValueKind::kInteger)) {
+      Fail("index", position, "a slice wants whole numbers, this is " + Describe(part));
+    }
+    given[i] = part.integer;
+  }
+  if (given[2] < 1) {
+    Fail("index", position, "a slice goes forward here; use .flip(dim) to turn the order round");
+  }
+  for (int i = 0; i < 2; ++i) {
+    if (given[i] < 0) given[i] = std::max<std::int64_t>(0, given[i] + size);
+    given[i] = std::min(given[i], size);
+  }
+  return {given[0], std::max(given[0], given[1]), std::min<std::int64_t>(given[2], size + 1)};
+}
+
+}  // namespace
+
+bool Elaborator::IsMask(const Value& index) const {
+  return index.Is(ValueKind::kTensor) && index.tensor->type == DataType::kBool;
+}
+
+Tensor Elaborator::SliceTensor(const Tensor& tensor, int dimension, const Value& slice,
+                               Position position) {
+  if (IsWhole(slice)) return tensor;
+  if (tensor.shape[dimension] == kBatch) {
+    Fail("index", position,
+         "a part of the environments cannot be taken: every environment gets its own reward");
+  }
+  const Bounds bounds = Clip(slice, tensor.shape[dimension], position);
+  return math_.Slice(tensor, dimension, bounds.start, bounds.stop, bounds.step);
+}
+
+// Applies one part of an index to dimension *dimension, and moves on to the next.
+Tensor Elaborator::ApplyIndex(const Tensor& tensor, const Value& index, int* dimension,
+                              Position position) {
+  if (index.Is(ValueKind::kNone)) return math_.Unsqueeze(tensor, (*dimension)++);
+  if (*dimension >= static_cast<int>(tensor.shape.size())) {
+    Fail("index", position,
+         "there are more indices than dimensions: the tensor is " + ShapeText(tensor.shape));
+  }
+  if (index.Is(ValueKind::kInteger)) return math_.Take(tensor, *dimension, index.integer, position);
+  if (index.Is(ValueKind::kSlice)) return SliceTensor(tensor, (*dimension)++, index, position);
+  if (index.Is(ValueKind::kList)) {
+    std::vector<Tensor> parts;
+    for (const Value& item : Items(index, position)) {
+      if (!item.Is(ValueKind::kInteger)) {
+        Fail("index", position, "a list of indices wants whole numbers, this is " + Describe(item));
+      }
+      parts.push_back(
+          math_.Unsqueeze(math_.Take(tensor, *dimension, item.integer, position), *dimension));
+    }
+    if (parts.empty()) Fail("index", position, "the list of indices is empty");
+    return math_.Concatenate(parts, (*dimension)++, position);
+  }
+  float known = 0.0f;
+  if (index.Is(ValueKind::kTensor) && index.tensor->type == DataType::kInteger &&
+      index.tensor->shape.empty() && graph_.IsConstant(math_.At(*index.tensor, 0), &known)) {
+    return math_.Take(tensor, *dimension, static_cast<std::int64_t>(known), position);
+  }
+  if (IsMask(index)) {
+    Fail("index", position,
+         "how many numbers a mask picks is not known before; use torch.where(mask, a, b)");
+  }
+  Fail("index", position,
+       "an index is a whole number, a slice, None or '...'; this is " + Describe(index));
+}
+
+Tensor Elaborator::SubscriptTensor(const Tensor& tensor, const Value& index, Position position) {
+  const std::vector<Value> parts = IndexParts(index);
+  int taken = 0;  // dimensions that the parts stand for
+  for (const Value& part : parts) {
+    if (!part.Is(ValueKind::kNone) && !part.Is(ValueKind::kEllipsis)) ++taken;
+  }
+  Tensor view = tensor;
+  int dimension = 0;
+  bool ellipsis = false;
+  for (const Value& part : parts) {
+    if (!part.Is(ValueKind::kEllipsis)) {
+      view = ApplyIndex(view, part, &dimension, position);
+      continue;
+    }
+    if (ellipsis) Fail("index", position, "'...' may stand once in an index");
+    ellipsis = true;
+    dimension += std::max(0, static_cast<int>(tensor.shape.size()) - taken);
+  }
+  return view;
+}
+
+Value Elaborator::SubscriptItems(const Value& base, const std::vector<Value>& items,
+                                 const Value& index, Position position) {
+  const auto size = static_cast<std::int64_t>(items.size());
+  if (index.Is(ValueKind::kSlice)) {
+    const Bounds bounds = Clip(index, size, position);
+    std::vector<Value> taken;
+    for (std::int64_t i = bounds.start; i < bounds.stop; i += bounds.step) {
+      taken.push_back(items[i]);
+    }
+    return base.Is(ValueKind::kList) ? NewList(std::move(taken)) : TupleValue(std::move(taken));
+  }
+  if (index.Is(ValueKind::kString) && base.field_names != nullptr) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if ((*base.field_names)[i] == index.text) return items[i];
+    }
+    Fail("bad-key", position,
+         "there is no '" + index.text + "' in this" + Suggestion(index.text, *base.field_names));
+  }
+  if (!index.Is(ValueKind::kInteger)) {
+    Fail("index", position, "a whole number is wanted as index, this is " + Describe(index));
+  }
+  if (index.integer < -size || index.integer >= size) {
+    Fail("index", position,
+         "there is no element " + std::to_string(index.integer) + " among " + std::to_string(size));
+  }
+  return items[index.integer < 0 ? index.integer + size : index.integer];
+}
+
+Value Elaborator::SubscriptDict(const Value& base, const Value& index, Position position) {
+  const Object& dict = heap_[base.object];
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < dict.keys->size(); ++i) {
+    const Value& key = (*dict.keys)[i];
+    if (key.kind == index.kind && key.text == index.text && key.integer == index.integer) {
+      return (*dict.items)[i];
+    }
+    if (key.Is(ValueKind::kString)) known.push_back(key.text);
+  }
+  Fail("bad-key", position,
+       "the dictionary has no key " + (index.Is(ValueKind::kString)
+                                           ? "'" + index.text + "'" + Suggestion(index.text, known)
+                                           : "like this: " + Describe(index)));
+}
+
+Value Elaborator::Subscript(const Value& base, const Value& index, Position position) {
+  Value value;
+  switch (base.kind) {
+    case ValueKind::kTensor:
+      return TensorValue(SubscriptTensor(*base.tensor, index, position));
+    case ValueKind::kTuple:
+      value = SubscriptItems(base, *base.items, index, position);
+      break;
+    case ValueKind::kList:
+      value = SubscriptItems(base, *heap_[base.object].items, index, position);
+      break;
+    case ValueKind::kDict:
+      value = SubscriptDict(base, index, position);
+      break;
+    case ValueKind::kOpaque:
+      return base;  // Dict[str, Tensor]
+    case ValueKind::kUndefined:
+      Fail(base.text.empty() ? "" : "undefined", position, base.text);
+    default:
+      Fail("index", position, Describe(base) + " has no elements");
+  }
+  if (value.Is(ValueKind::kUndefined)) {
+    Fail(value.text.empty() ? "" : "undefined", position, value.text);
+  }
+  return value;
+}
+
+// The mask as flags of every number of the tensor.
+Tensor Elaborator::MaskFor(const Tensor& tensor, const Value& index, Position position) {
+  Tensor mask = *index.tensor;
+  const bool fits = mask.shape.size() <= tensor.shape.size() &&
+                    std::equal(mask.shape.begin(), mask.shape.end(), tensor.shape.begin());
+  if (!fits) {
+    Fail("shape", position,
+         "a mask " + ShapeText(mask.shape) + " does not fit a tensor " + ShapeText(tensor.shape));
+  }
+  while (mask.shape.size() < tensor.shape.size()) {
+    mask = math_.Unsqueeze(mask, static_cast<int>(mask.shape.size()));
+  }
+  return math_.Expand(mask, tensor.shape, position);
+}
+
+void Elaborator::AssignSubscript(const Expression& target, const Value& value) {
+  const Value base = Evaluate(*target.children[0]);
+  const Value index = Evaluate(*target.children[1]);
+  const Position position = target.position;
+  if (base.Is(ValueKind::kTensor)) {
+    Value key = index;
+    Tensor view = *base.tensor;
+    // A mask over the environments, and what it leaves of the other dimensions: t[mask, 2].
+    if (index.Is(ValueKind::kTuple) && !index.items->empty() && IsMask((*index.items)[0]) &&
+        (*index.items)[0].tensor->shape.size() == 1) {
+      std::vector<Value> parts = *index.items;
+      key = parts[0];
+      parts[0] = TupleValue({Value{}, Value{}, Value{}});
+      parts[0].kind = ValueKind::kSlice;
+      view = SubscriptTensor(view, TupleValue(std::move(parts)), position);
+    } else if (!IsMask(index)) {
+      view = SubscriptTensor(view, index, position);
+    }
+    Tensor fresh = math_.FromValue(value, position);
+    if (fresh.type > view.type && view.type == DataType::kBool) {
+      fresh = math_.Cast(fresh, view.type, position);
+    } else if (fresh.type == DataType::kFloat && view.type == DataType::kInteger) {
+      fresh = math_.Cast(fresh, view.type, position);
+    }
+    if (IsMask(key)) {
+      const Tensor mask = MaskFor(view, key, position);
+      if (fresh.lanes.size() != 1 || !fresh.shape.empty()) {
+        Fail("index", position,
+             "only a number can be put where a mask picks; use torch.where(mask, a, b)");
+      }
+      fresh = math_.Select(mask, fresh, view, position);
+    }
+    // A leading 1 of what is put in may be dropped, as torch does.
+    while (fresh.shape.size() > view.shape.size() && fresh.shape[0] == 1) {
+      fresh = math_.Squeeze(fresh, 0);
+    }
+    math_.Write(view, math_.Nodes(math_.Expand(fresh, view.shape, position)));
+    return;
+  }
+  if (!base.Is(ValueKind::kList) && !base.Is(ValueKind::kDict)) {
+    Fail("bad-target", position, Describe(base) + " cannot be changed");
+  }
+  if (value.Is(ValueKind::kList) || value.Is(ValueKind::kDict)) {
+    Fail("type", position, "a list or dictionary inside another cannot be set here");
+  }
+  const Object& old = heap_[base.object];
+  std::vector<Value> items = *old.items;
+  if (base.Is(ValueKind::kList)) {
+    SubscriptItems(base, items, index, position);  // checks the index
+    if (!index.Is(ValueKind::kInteger)) Fail("index", position, "a list is changed one by one");
+    const auto size = static_cast<std::int64_t>(items.size());
+    items[index.integer < 0 ? index.integer + size : index.integer] = value;
+    Object fresh;
+    fresh.items = std::make_shared<const std::vector<Value>>(std::move(items));
+    heap_.Set(base.object, std::move(fresh));
+    return;
+  }
+  if (!index.Is(ValueKind::kString) && !index.Is(ValueKind::kInteger)) {
+    Fail("bad-key", position, "a key is a string or a whole number, this is " + Describe(index));
+  }
+  std::vector<Value> keys = *old.keys;
+  std::size_t at = 0;
+  while (at < keys.size() && (keys[at].kind != index.kind || keys[at].text != index.text ||
+                              keys[at].integer != index.integer)) {
+    ++at;
+  }
+  if (at == keys.size()) {
+    keys.push_back(index);
+    items.push_back(value);
+  }
+  items[at] = value;
+  Object fresh;
+  fresh.keys = std::make_shared<const std::vector<Value>>(std::move(keys));
+  fresh.items = std::make_shared<const std::vector<Value>>(std::move(items));
+  heap_.Set(base.object, std::move(fresh));
+}
+
+// t[mask] += x with a number x.
+bool Elaborator::AugmentMasked(const Statement& statement) {
+  const Expression& target = *statement.targets[0];
+  const Value base = Evaluate(*target.children[0]);
+  if (!base.Is(ValueKind::kTensor)) return false;
+  const Value index = Evaluate(*target.children[1]);
+  if (!IsMask(index)) return false;
+  const Tensor mask = MaskFor(*base.tensor, index, target.position);
+  const Value operand = Evaluate(*statement.value);
+  const Tensor number = math_.FromValue(operand, statement.position);
+  if (!number.shape.empty()) {
+    Fail("index", target.position,
+         "only a number can be put where a mask picks; use torch.where(mask, a, b)");
+  }
+  const Value changed = Binary(statement.operation, base, operand, statement.position);
+  const Tensor fresh = math_.Select(mask, *changed.tensor, *base.tensor, statement.position);
+  if (fresh.type > base.tensor->type) {
+    Fail("type", statement.position,
+         "the result is " + Describe(changed) + ", which " + Describe(base) + " cannot hold");
+  }
+  math_.Write(*base.tensor, math_.Nodes(fresh));
+  return true;
+}
+
+}  // namespace simwright::tasks::reward

@@ -1,0 +1,205 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/finding.h"
+#include "tasks/reward/environment_api.h"
+#include "tasks/reward/graph.h"
+#include "tasks/reward/library.h"
+#include "tasks/reward/reward_options.h"
+#include "tasks/reward/reward_scene.h"
+#include "tasks/reward/reward_slot.h"
+#include "tasks/reward/syntax.h"
+#include "tasks/reward/tensor_math.h"
+#include "tasks/reward/value.h"
+
+namespace simwright::tasks::reward {
+
+// What a program gives: nodes of the graph, one number an environment.
+struct ElaboratedOutputs {
+  NodeId reward = -1;
+  NodeId success = -1;  // -1: none
+  struct Component {
+    std::string name;
+    std::vector<NodeId> nodes;
+  };
+  std::vector<Component> components;
+};
+
+// Runs a program once on symbols: numbers and strings are computed, loops unrolled, functions
+// entered, tensors become nodes of the graph. What is left is arithmetic without control flow.
+class Elaborator {
+ public:
+  Elaborator(const Module& module, const RewardScene* scene, const RewardOptions& options);
+
+  // Runs `entry`. Where findings() then holds an error, the outputs mean nothing.
+  ElaboratedOutputs Run(const Function& entry);
+
+  const core::Findings& findings() const { return findings_; }
+  // Position of the first error; used to tell which guess of shapes came further.
+  Position first_error() const { return first_error_; }
+  Graph& graph() { return graph_; }
+  const std::vector<RewardSlot>& slots() const { return slots_; }
+  // Of input i of the graph: its slot and its place in the slot.
+  const std::vector<std::pair<int, int>>& inputs() const { return inputs_; }
+
+  // What library functions use.
+  TensorMath& math() { return math_; }
+  const RewardOptions& options() const { return options_; }
+  void Step(Position position);
+  void Report(const std::string& code, core::Severity severity, Position position,
+              const std::string& sentence);
+  // The elements of a tuple, list, dictionary (its keys), or of a tensor along its first dimension.
+  std::vector<Value> Items(const Value& value, Position position);
+  Value Binary(Operator operation, const Value& a, const Value& b, Position position);
+  Value Compare(Operator operation, const Value& a, const Value& b, Position position);
+  Value Subscript(const Value& base, const Value& index, Position position);
+  Value NewList(std::vector<Value> items);
+  Value NewDict(std::vector<Value> keys, std::vector<Value> items);
+  // True or false where it is known, else -1 and the flag of each environment in `flag`.
+  int Truth(const Value& value, Tensor* flag, Position position);
+  Value Choose(const Tensor& flag, const Value& yes, const Value& no, Position position);
+
+ private:
+  enum class Flow { kNext, kBreak, kContinue, kReturn };
+  struct EarlyReturn {
+    Tensor flag;
+    Value value;
+  };
+  struct Frame {
+    std::map<std::string, Value> names;
+    const Function* function = nullptr;
+    std::vector<EarlyReturn> early;
+    Value result;
+  };
+  struct BranchEnd {
+    Frame frame;
+    Flow flow = Flow::kNext;
+    std::vector<Object> heap;
+  };
+  // A value, and the heap that its objects are looked up in.
+  struct Side {
+    const Value& value;
+    const std::vector<Object>& heap;
+  };
+  struct SubscriptPlan;
+
+  // elaborate_statements.cpp
+  void Globals();
+  void DoImport(const Import& import);
+  Flow Execute(const Block& block);
+  Flow Execute(const Statement& statement);
+  Flow ExecuteFor(const Statement& statement);
+  void Assign(const Expression& target, const Value& value);
+  void AssignName(const std::string& name, const Value& value, Position position);
+  void AssignSubscript(const Expression& target, const Value& value);
+  void Unpack(const Expression& target, const Value& value);
+  void Augment(const Statement& statement);
+  bool AugmentMasked(const Statement& statement);
+  void Poison(const Expression& target);
+  Value Call(const Function& function, const std::vector<Value>& values,
+             const std::vector<std::string>& keywords, Position position);
+  void BindParameters(const Function& function, const std::vector<Value>& values,
+                      const std::vector<std::string>& keywords, Position position, Frame* frame);
+  Value Finish(Frame* frame, Flow flow, Position position);
+
+  // elaborate_branches.cpp
+  Flow ExecuteIf(const Statement& statement, std::size_t branch);
+  Flow ExecuteBoth(const Statement& statement, std::size_t branch, const Tensor& flag);
+  BranchEnd RunBranch(const Statement& statement, std::size_t branch, bool otherwise);
+  void JoinNames(const Tensor& flag, const BranchEnd& yes, const BranchEnd& no, Position position);
+  void JoinObjects(const Tensor& flag, const BranchEnd& yes, const BranchEnd& no, int count,
+                   Position position);
+  Value Join(const Tensor& flag, const Side& yes, const Side& no, Position position);
+  Value JoinItems(const Tensor& flag, const Side& yes, const Side& no, Position position);
+  Value JoinDicts(const Tensor& flag, const Object& yes, const std::vector<Object>& yes_heap,
+                  const Object& no, const std::vector<Object>& no_heap, Position position);
+  Value JoinTensors(const Tensor& flag, const Side& yes, const Side& no, Position position);
+  Value Frozen(const Value& value);
+  Tensor Both(const Tensor& a, const Tensor& b, bool negate_b, Position position);
+
+  // elaborate_expressions.cpp
+  Value Evaluate(const Expression& expression);
+  Value EvaluateKind(const Expression& expression);
+  Value EvaluateName(const Expression& expression);
+  Value EvaluateFormat(const Expression& expression);
+  Value EvaluateDict(const Expression& expression);
+  Value EvaluateUnary(const Expression& expression);
+  Value EvaluateCompare(const Expression& expression);
+  Value EvaluateBoolean(const Expression& expression);
+  Value EvaluateConditional(const Expression& expression);
+  Value EvaluateComprehension(const Expression& expression);
+  Value EvaluateSlice(const Expression& expression);
+  Value EvaluateCall(const Expression& expression);
+  Value CallValue(const Value& callee, std::vector<Value> values, std::vector<std::string> keywords,
+                  const std::vector<Position>& places, Position position);
+  std::vector<std::string> VisibleNames() const;
+
+  // elaborate_attributes.cpp
+  Value EvaluateAttribute(const Expression& expression);
+  Value ModuleAttribute(const std::string& module, const std::string& name, Position position);
+  Value EnvironmentAttribute(const Value& environment, const std::string& name, Position position);
+  Value TensorAttribute(const Value& value, const std::string& name, Position position);
+
+  // elaborate_operators.cpp
+  Value BinaryTensors(Operator operation, const Value& a, const Value& b, Position position);
+  Value Negate(const Value& value, Position position);
+  Value Invert(const Value& value, Position position);
+
+  // elaborate_subscripts.cpp
+  Tensor SubscriptTensor(const Tensor& tensor, const Value& index, Position position);
+  Tensor ApplyIndex(const Tensor& tensor, const Value& index, int* dimension, Position position);
+  Tensor SliceTensor(const Tensor& tensor, int dimension, const Value& slice, Position position);
+  Value SubscriptItems(const Value& base, const std::vector<Value>& items, const Value& index,
+                       Position position);
+  Value SubscriptDict(const Value& base, const Value& index, Position position);
+  bool IsMask(const Value& index) const;
+  Tensor MaskFor(const Tensor& tensor, const Value& index, Position position);
+
+  // elaborate_environment.cpp
+  Value CallApi(const Value& callee, const std::vector<Value>& values,
+                const std::vector<std::string>& keywords, const std::vector<Position>& places,
+                Position position);
+  struct ApiArguments;
+  ApiArguments BindApi(const ApiFunction& function, const Value& callee,
+                       const std::vector<Value>& values, const std::vector<std::string>& keywords,
+                       const std::vector<Position>& places, Position position);
+  void CheckNames(const ApiFunction& function, ApiArguments* arguments);
+  Value ApiValue(const ApiFunction& function, const ApiArguments& arguments, Position position);
+  Value ApiGeometry(const ApiFunction& function, const ApiArguments& arguments, Position position);
+  Value JointLimit(const ApiArguments& arguments, bool upper);
+  Value SlotValue(RewardInput input, const std::string& asset, const std::string& part,
+                  const Shape& shape, DataType type, bool uniform, Position position);
+  int AddSlot(RewardSlot slot);
+  Value ParameterValue(const Parameter& parameter);
+
+  // elaborate_outputs.cpp
+  ElaboratedOutputs Outputs(const Value& result, Position position);
+  NodeId RewardNode(const Value& value, Position position);
+  NodeId SuccessNode(const Value& value, Position position);
+  void Components(const Value& value, Position position, ElaboratedOutputs* outputs);
+
+  const Module& module_;
+  const RewardScene* scene_;
+  const RewardOptions& options_;
+  core::Findings findings_;
+  Position first_error_;
+  int errors_ = 0;
+  Graph graph_;
+  Heap heap_;
+  TensorMath math_;
+  std::vector<RewardSlot> slots_;
+  std::vector<int> slot_inputs_;  // first input of each slot
+  std::vector<std::pair<int, int>> inputs_;
+  std::map<std::string, Value> globals_;
+  std::map<std::string, const Function*> functions_;
+  Frame* frame_ = nullptr;
+  std::vector<const Function*> calls_;
+  Position returned_at_;
+  int steps_ = 0;
+  int depth_ = 0;
+};
+
+}  // namespace simwright::tasks::reward

@@ -1,0 +1,38 @@
+// The kernels for processors with AVX2. Every header that they need comes before the
+// switch: code that other files share must not be compiled for these alone.
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "tasks/reward/kernels.h"
+
+#if defined(__x86_64__)
+#define SIMWRIGHT_KERNEL_ISA kernels_avx2
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2")
+#pragma GCC optimize("no-math-errno", "no-trapping-math")
+#endif
+#include "tasks/reward/kernel_loops.h"
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
+
+namespace simwright::tasks::reward {
+
+const KernelTable& Avx2Kernels() {
+#if defined(__x86_64__)
+  static const KernelTable table = kernels_avx2::MakeTable();
+  return table;
+#else
+  return PlainKernels();
+#endif
+}
+
+}  // namespace simwright::tasks::reward

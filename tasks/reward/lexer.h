@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tasks/reward/fault.h"
+#include "tasks/reward/reward_options.h"
+
+namespace simwright::tasks::reward {
+
+enum class TokenKind {
+  kName,  // also keywords
+  kInteger,
+  kFloat,
+  kString,
+  kFormatString,  // text as written between the quotes
+  kOperator,
+  kNewline,
+  kIndent,
+  kDedent,
+  kEnd,
+};
+
+struct Token {
+  TokenKind kind = TokenKind::kEnd;
+  std::string text;  // a string's contents with its escapes resolved
+  Position position;
+  std::int64_t integer = 0;
+  double number = 0.0;
+};
+
+// Splits a source into tokens; the last one is kEnd. Throws Fault on what is no token of the
+// language, on bad indentation, and beyond the bounds of `options`.
+std::vector<Token> Tokenise(std::string_view source, const RewardOptions& options);
+
+// The same for one expression inside a format string, which stands at `start`.
+std::vector<Token> TokeniseExpression(std::string_view source, Position start,
+                                      const RewardOptions& options);
+
+}  // namespace simwright::tasks::reward

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tasks/reward/scalar_operation.h"
+#include "tasks/reward/value.h"
+
+namespace simwright::tasks::reward {
+
+class Elaborator;
+
+// The arguments of one call, in the order of the function's parameters.
+struct Arguments {
+  const LibraryFunction* function = nullptr;
+  std::string called;  // as written, "torch.norm" or ".norm"
+  Position position;
+  std::vector<Value> values;
+  std::vector<Position> places;
+  std::vector<bool> given;
+
+  const Value& operator[](std::size_t i) const { return values[i]; }
+  Position Place(std::size_t i) const { return places[i]; }
+};
+
+using Handler = Value (*)(Elaborator&, const Arguments&);
+
+// A function of torch, numpy, math, Python or Isaac Gym's utilities that programs may call.
+struct LibraryFunction {
+  std::string_view names;       // "torch.norm Tensor.norm np.linalg.norm"
+  std::string_view parameters;  // "input p=2 dim=None"; "*sizes" takes all that is left
+  Handler handler;
+  ScalarOperation operation = ScalarOperation::kConstant;  // of an elementwise function
+  int variant = 0;                                         // what else tells functions apart
+};
+
+struct LibraryPart {
+  const LibraryFunction* functions;
+  std::size_t count;
+};
+
+// Tables, one a file.
+LibraryPart ElementwiseFunctions();
+LibraryPart ReductionFunctions();
+LibraryPart CreationFunctions();
+LibraryPart ShapeFunctions();
+LibraryPart ProductFunctions();
+LibraryPart RotationFunctions();
+LibraryPart PythonFunctions();
+
+// Null where there is none of this name.
+const LibraryFunction* FindLibraryFunction(const std::string& name);
+
+// True where some name begins with "module.".
+bool IsLibraryModule(const std::string& module);
+
+// The names that follow "prefix" ("torch.", "Tensor.", "" for bare ones), for suggestions.
+std::vector<std::string> LibraryNames(const std::string& prefix);
+
+}  // namespace simwright::tasks::reward

@@ -1,0 +1,230 @@
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "tasks/reward/library_arguments.h"
+
+namespace simwright::tasks::reward {
+namespace {
+
+using enum ScalarOperation;
+
+void WantFloats(const Arguments& arguments, const Tensor& tensor) {
+  // Numpy turns whole numbers into floats by itself.
+  if (tensor.type == DataType::kFloat || arguments.called.starts_with("np.")) return;
+  Fail("type", arguments.position,
+       "'" + arguments.called + "' wants floats, this is " + Describe(TensorValue(tensor)) +
+           "; .float() it first");
+}
+
+Value Simple(Elaborator& elaborator, const Arguments& arguments) {
+  const Tensor tensor = TensorArgument(elaborator, arguments, 0);
+  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
+  const auto reduction = static_cast<Reduction>(arguments.function->variant);
+  return TensorValue(elaborator.math().Reduce(reduction, tensor, dimensions,
+                                              FlagArgument(arguments, 2), arguments.position));
+}
+
+Value Mean(Elaborator& elaborator, const Arguments& arguments) {
+  const Tensor tensor = TensorArgument(elaborator, arguments, 0);
+  WantFloats(arguments, tensor);
+  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
+  return TensorValue(
+      elaborator.math().Mean(tensor, dimensions, FlagArgument(arguments, 2), arguments.position));
+}
+
+// Standard deviation and variance (variant 1); torch divides by n - 1, numpy by n.
+Value Deviation(Elaborator& elaborator, const Arguments& arguments) {
+  TensorMath& math = elaborator.math();
+  const Position position = arguments.position;
+  const Tensor tensor = TensorArgument(elaborator, arguments, 0);
+  WantFloats(arguments, tensor);
+  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
+  const Tensor mean = math.Mean(tensor, dimensions, true, position);
+  const Tensor gap = math.Map(kSubtract, tensor, mean, DataType::kFloat, position);
+  const Tensor squares = math.Map(kMultiply, gap, gap, DataType::kFloat, position);
+  const Tensor sum =
+      math.Reduce(Reduction::kSum, squares, dimensions, FlagArgument(arguments, 2), position);
+  const bool unbiased = FlagArgument(arguments, 3) && !arguments.called.starts_with("np.");
+  NodeId count = math.CountOver(tensor, dimensions);
+  if (unbiased) count = math.graph().Apply(kSubtract, count, math.graph().Constant(1.0));
+  const Tensor variance =
+      math.Map(kDivide, sum, math.Scalar(DataType::kFloat, count), DataType::kFloat, position);
+  if (arguments.function->variant == 1) return TensorValue(variance);
+  return TensorValue(math.Map(kSquareRoot, variance, DataType::kFloat, position));
+}
+
+double Order(Elaborator& elaborator, const Arguments& arguments, std::size_t i) {
+  const Value& value = arguments[i];
+  if (value.Is(ValueKind::kNone)) return 2.0;
+  if (value.Is(ValueKind::kString)) {
+    if (value.text == "fro") return 2.0;
+    if (value.text == "inf") return std::numeric_limits<double>::infinity();
+    Fail("arguments", arguments.Place(i), "the norm '" + value.text + "' is not offered");
+  }
+  return NumberArgument(elaborator, arguments, i);
+}
+
+Value Norm(Elaborator& elaborator, const Arguments& arguments) {
+  TensorMath& math = elaborator.math();
+  const Position position = arguments.position;
+  Tensor tensor = TensorArgument(elaborator, arguments, 0);
+  WantFloats(arguments, tensor);
+  const double p = Order(elaborator, arguments, 1);
+  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 2, tensor);
+  const bool keep = FlagArgument(arguments, 3);
+  const auto number = [&](double value) {
+    return math.Scalar(DataType::kFloat, math.graph().Constant(value));
+  };
+  const auto map = [&](ScalarOperation operation, const Tensor& a) {
+    return math.Map(operation, a, DataType::kFloat, position);
+  };
+  if (p == 2.0) {
+    const Tensor squares = math.Map(kMultiply, tensor, tensor, DataType::kFloat, position);
+    return TensorValue(
+        map(kSquareRoot, math.Reduce(Reduction::kSum, squares, dimensions, keep, position)));
+  }
+  const Tensor sizes = map(kAbsolute, tensor);
+  if (std::isinf(p)) {
+    const Reduction reduction = p > 0 ? Reduction::kMaximum : Reduction::kMinimum;
+    return TensorValue(math.Reduce(reduction, sizes, dimensions, keep, position));
+  }
+  if (p == 0.0) {
+    const Tensor some = math.Map(kNotEqual, tensor, number(0.0), DataType::kFloat, position);
+    return TensorValue(math.Reduce(Reduction::kSum, some, dimensions, keep, position));
+  }
+  const Tensor powers = math.Map(kPower, sizes, number(p), DataType::kFloat, position);
+  const Tensor sum = math.Reduce(Reduction::kSum, powers, dimensions, keep, position);
+  return TensorValue(math.Map(kPower, sum, number(1.0 / p), DataType::kFloat, position));
+}
+
+// The place of the first largest (or least) number along a dimension.
+Tensor PlaceOfExtreme(Elaborator& elaborator, const Tensor& tensor, int dimension, bool largest,
+                      Position position) {
+  TensorMath& math = elaborator.math();
+  Tensor best = math.Take(tensor, dimension, 0, position);
+  Tensor place = math.Full(DataType::kInteger, best.shape, math.graph().Constant(0.0), position);
+  for (int i = 1; i < tensor.shape[dimension]; ++i) {
+    const Tensor other = math.Take(tensor, dimension, i, position);
+    const Tensor better = largest ? math.Map(kLess, best, other, DataType::kBool, position)
+                                  : math.Map(kLess, other, best, DataType::kBool, position);
+    best = math.Select(better, other, best, position);
+    place = math.Select(better, math.Scalar(DataType::kInteger, math.graph().Constant(i)), place,
+                        position);
+  }
+  return place;
+}
+
+// Everywhere where it is of any use: a place among the environments is not offered.
+Value PlaceValue(Elaborator& elaborator, const Tensor& tensor, int dimension, bool keep,
+                 bool largest, Position position) {
+  if (tensor.shape[dimension] == kBatch) {
+    return PlainValue(ValueKind::kUndefined,
+                      "which environment is the best one is not offered; name another dimension "
+                      "with dim=");
+  }
+  Tensor place = PlaceOfExtreme(elaborator, tensor, dimension, largest, position);
+  if (keep) place = elaborator.math().Unsqueeze(place, dimension);
+  return TensorValue(std::move(place));
+}
+
+// torch.max(x), torch.max(x, dim), torch.max(x, y), and the builtin of numbers (python_functions).
+Value Extreme(Elaborator& elaborator, const Arguments& arguments) {
+  TensorMath& math = elaborator.math();
+  const bool largest = arguments.function->variant == 1;
+  const Position position = arguments.position;
+  const Tensor tensor = TensorArgument(elaborator, arguments, 0);
+  const Reduction reduction = largest ? Reduction::kMaximum : Reduction::kMinimum;
+  const Value& second = arguments[1];
+  const bool numpy = arguments.called.starts_with("np.");
+  if (second.Is(ValueKind::kTensor)) {
+    const Tensor& other = *second.tensor;
+    return TensorValue(math.Map(largest ? kMaximum : kMinimum, tensor, other,
+                                Promote(tensor.type, other.type), position));
+  }
+  if (second.Is(ValueKind::kFloat)) {
+    Fail("arguments", arguments.Place(1),
+         "'" + arguments.called + "' compares tensors, this is a number; use torch.clamp(x, " +
+             (largest ? "min=" : "max=") + "...)");
+  }
+  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
+  const bool keep = FlagArgument(arguments, 2);
+  Value values = TensorValue(math.Reduce(reduction, tensor, dimensions, keep, position));
+  if (second.Is(ValueKind::kNone) || numpy || dimensions.size() != 1) return values;
+  return NamedTuple(
+      {std::move(values), PlaceValue(elaborator, tensor, dimensions[0], keep, largest, position)},
+      {"values", "indices"});
+}
+
+Value PlaceOf(Elaborator& elaborator, const Arguments& arguments) {
+  const Tensor tensor = TensorArgument(elaborator, arguments, 0);
+  std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
+  if (dimensions.size() != 1) {
+    Fail("arguments", arguments.position,
+         "'" + arguments.called + "' wants the dimension to look along, dim=-1");
+  }
+  return PlaceValue(elaborator, tensor, dimensions[0], FlagArgument(arguments, 2),
+                    arguments.function->variant == 1, arguments.position);
+}
+
+Value CountNonzero(Elaborator& elaborator, const Arguments& arguments) {
+  TensorMath& math = elaborator.math();
+  const Tensor flags =
+      math.Cast(TensorArgument(elaborator, arguments, 0), DataType::kBool, arguments.position);
+  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, flags);
+  return TensorValue(math.Reduce(Reduction::kSum, flags, dimensions, false, arguments.position));
+}
+
+// e^x over its sum along a dimension, the largest taken out first.
+Value Softmax(Elaborator& elaborator, const Arguments& arguments) {
+  TensorMath& math = elaborator.math();
+  const Position position = arguments.position;
+  const Tensor tensor = FloatArgument(elaborator, arguments, 0);
+  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
+  const Tensor most = math.Reduce(Reduction::kMaximum, tensor, dimensions, true, position);
+  const Tensor power =
+      math.Map(kExponential, math.Map(kSubtract, tensor, most, DataType::kFloat, position),
+               DataType::kFloat, position);
+  const Tensor sum = math.Reduce(Reduction::kSum, power, dimensions, true, position);
+  return TensorValue(math.Map(kDivide, power, sum, DataType::kFloat, position));
+}
+
+constexpr int Variant(Reduction reduction) {
+  return static_cast<int>(reduction);
+}
+
+constexpr LibraryFunction kFunctions[] = {
+    {"torch.sum Tensor.sum np.sum", "input dim=None keepdim=False", Simple, kConstant,
+     Variant(Reduction::kSum)},
+    {"torch.prod Tensor.prod np.prod", "input dim=None keepdim=False", Simple, kConstant,
+     Variant(Reduction::kProduct)},
+    {"torch.amin Tensor.amin np.amin", "input dim=None keepdim=False", Simple, kConstant,
+     Variant(Reduction::kMinimum)},
+    {"torch.amax Tensor.amax np.amax", "input dim=None keepdim=False", Simple, kConstant,
+     Variant(Reduction::kMaximum)},
+    {"torch.all Tensor.all np.all", "input dim=None keepdim=False", Simple, kConstant,
+     Variant(Reduction::kAll)},
+    {"torch.any Tensor.any np.any", "input dim=None keepdim=False", Simple, kConstant,
+     Variant(Reduction::kAny)},
+    {"torch.mean Tensor.mean np.mean np.average", "input dim=None keepdim=False", Mean},
+    {"torch.std Tensor.std np.std", "input dim=None keepdim=False unbiased=True", Deviation},
+    {"torch.var Tensor.var np.var", "input dim=None keepdim=False unbiased=True", Deviation,
+     kConstant, 1},
+    {"torch.norm Tensor.norm torch.linalg.norm torch.linalg.vector_norm",
+     "input p=2 dim=None keepdim=False", Norm},
+    {"np.linalg.norm", "input p=2 dim=None keepdim=False", Norm},
+    {"torch.min Tensor.min np.min", "input dim=None keepdim=False", Extreme, kConstant, 0},
+    {"torch.max Tensor.max np.max", "input dim=None keepdim=False", Extreme, kConstant, 1},
+    {"torch.argmin Tensor.argmin np.argmin", "input dim=None keepdim=False", PlaceOf, kConstant, 0},
+    {"torch.argmax Tensor.argmax np.argmax", "input dim=None keepdim=False", PlaceOf, kConstant, 1},
+    {"torch.count_nonzero np.count_nonzero", "input dim=None", CountNonzero},
+    {"torch.softmax Tensor.softmax torch.nn.functional.softmax", "input dim", Softmax},
+};
+
+}  // namespace
+
+LibraryPart ReductionFunctions() {
+  return {kFunctions, std::size(kFunctions)};
+}
+
+}  // namespace simwright::tasks::reward

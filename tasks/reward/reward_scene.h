@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace simwright::tasks {
+
+enum class RewardJointType { kFixed, kRevolute, kContinuous, kPrismatic };
+
+struct RewardJoint {
+  std::string name;
+  RewardJointType type = RewardJointType::kFixed;
+  double lower = 0.0;  // rad or m; equal to upper where the joint is fixed
+  double upper = 0.0;
+};
+
+struct RewardAsset {
+  std::string name;
+  std::vector<std::string> links;
+  std::vector<RewardJoint> joints;
+};
+
+// What a reward program may name: the assets of one environment.
+struct RewardScene {
+  std::vector<RewardAsset> assets;
+};
+
+}  // namespace simwright::tasks

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tasks/reward/fault.h"
+
+namespace simwright::tasks::reward {
+
+enum class Operator {
+  kNone,
+  kAdd,
+  kSubtract,
+  kMultiply,
+  kDivide,
+  kFloorDivide,
+  kRemainder,
+  kPower,
+  kMatrixMultiply,
+  kAnd,  // & on flags and integers
+  kOr,
+  kExclusiveOr,
+  kInvert,
+  kNegate,
+  kPlus,
+  kNot,
+  kLess,
+  kLessEqual,
+  kGreater,
+  kGreaterEqual,
+  kEqual,
+  kNotEqual,
+  kIn,
+  kNotIn,
+  kIs,
+  kIsNot,
+  kBooleanAnd,
+  kBooleanOr,
+};
+
+enum class ExpressionKind {
+  kNone,
+  kTrue,
+  kFalse,
+  kEllipsis,
+  kInteger,
+  kFloat,
+  kString,
+  kFormatString,  // children: the parts, joined
+  kName,          // text
+  kTuple,
+  kList,
+  kDict,               // children: key, value, key, value ...
+  kUnary,              // operation, children[0]
+  kBinary,             // operation, children[0..1]
+  kCompare,            // children[0] operations[0] children[1] operations[1] ...
+  kBoolean,            // operation, children
+  kConditional,        // children: condition, then, otherwise
+  kCall,               // children[0]: callee; then arguments, named by keywords ("" or "*": none)
+  kAttribute,          // children[0].text
+  kSubscript,          // children[0][children[1]]
+  kSlice,              // children: start, stop, step; each may be null
+  kListComprehension,  // children: element, target, iterable, condition or null
+  kDictComprehension,  // children: key, target, iterable, condition or null, value
+};
+
+struct Expression;
+using ExpressionPtr = std::unique_ptr<Expression>;
+
+struct Expression {
+  ExpressionKind kind = ExpressionKind::kNone;
+  Position position;  // of an operation: its sign; of an attribute: its name; of a call: its callee
+  int depth = 1;      // of the tree below
+  Operator operation = Operator::kNone;
+  std::string text;
+  std::int64_t integer = 0;
+  double number = 0.0;
+  std::vector<ExpressionPtr> children;
+  std::vector<Operator> operations;
+  std::vector<std::string> keywords;
+};
+
+enum class StatementKind {
+  kExpression,  // value
+  kAssign,      // targets = value
+  kAugmented,   // targets[0] operation= value
+  kReturn,      // value or null
+  kIf,          // targets: conditions; blocks: one each, and a last one for else
+  kFor,         // targets[0] in value: blocks[0]
+  kBlock,       // blocks[0], of a harmless `with`
+  kImport,      // imports
+  kPass,
+  kBreak,
+  kContinue,
+};
+
+struct Statement;
+using Block = std::vector<std::unique_ptr<Statement>>;
+
+struct Import {
+  std::string module;  // "torch.nn"
+  std::string name;    // after `from`; "*" for all, empty for a plain import
+  std::string alias;   // the name it gets
+  Position position;
+};
+
+struct Statement {
+  StatementKind kind = StatementKind::kPass;
+  Position position;
+  Operator operation = Operator::kNone;
+  std::vector<ExpressionPtr> targets;
+  ExpressionPtr value;
+  std::vector<Block> blocks;
+  std::vector<Import> imports;
+};
+
+struct Parameter {
+  std::string name;
+  Position position;
+  ExpressionPtr annotation;  // null: none
+  ExpressionPtr initial;     // null: none
+};
+
+struct Function {
+  std::string name;
+  Position position;
+  std::vector<Parameter> parameters;
+  Block body;
+};
+
+struct Module {
+  std::vector<std::unique_ptr<Function>> functions;
+  Block statements;  // imports and constants
+};
+
+}  // namespace simwright::tasks::reward
