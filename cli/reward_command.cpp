@@ -1,0 +1,50 @@
+#include <cstdio>
+#include <memory>
+
+#include "cli/command.h"
+#include "pipeline/reward_check.h"
+
+namespace simwright::cli {
+namespace {
+
+struct Flags {
+  pipeline::RewardCheckRequest request;
+  bool no_scene = false;
+};
+
+int Reward(const Flags& flags, const CommonOptions& common) {
+  pipeline::RewardCheckRequest request = flags.request;
+  request.scene = !flags.no_scene;
+  const pipeline::RewardCheckReport report = pipeline::CheckReward(request);
+  const std::string text =
+      common.json ? pipeline::RewardCheckJson(report) : pipeline::RewardCheckText(report);
+  if (common.json || !common.quiet || !report.passed()) std::fputs(text.c_str(), stdout);
+  return report.passed() ? 0 : 1;
+}
+
+}  // namespace
+
+void AddReward(CLI::App* app, CommonOptions* common, Run* run) {
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command =
+      app->add_subcommand("reward", "Checks a reward program before anything is trained");
+  command->footer(
+      "Examples:\n  simwright reward open_door.py --assets microwave\n"
+      "  simwright reward locomotion.py --no-scene\n"
+      "Exit code 1 where the program has an error. The language: docs/rewards.md.");
+  command->add_option("program", flags->request.program, "A file with the reward function")
+      ->required();
+  CLI::Option* assets =
+      command->add_option("--assets", flags->request.assets,
+                          "Asset folders or URDFs that it may name, each as PATH or NAME=PATH");
+  command
+      ->add_flag("--no-scene", flags->no_scene,
+                 "The function alone: its parameters are inputs, names are not looked up")
+      ->excludes(assets);
+  command->add_option("--function", flags->request.entry,
+                      "The function that gives the reward; default: by its name");
+  AddCommon(command, common);
+  command->callback([flags, common, run] { *run = [=] { return Reward(*flags, *common); }; });
+}
+
+}  // namespace simwright::cli
