@@ -36,10 +36,14 @@ void Elaborator::Report(const std::string& code, core::Severity severity, Positi
   for (const core::Finding& finding : findings_) {  // once, however often a loop comes by
     if (finding.place == place && finding.code == code) return;
   }
-  if (severity == core::Severity::kError && errors_++ == 0) first_error_ = position;
-  if (static_cast<int>(findings_.size()) < options_.max_findings) {
-    findings_.push_back({code, severity, place, sentence, 0.0});
+  if (severity == core::Severity::kError && errors_++ == 0) {
+    first_error_ = position;
+    first_code_ = code;
   }
+  // Errors are never crowded out by warnings.
+  const bool error = severity == core::Severity::kError;
+  const int held = error ? errors_ - 1 : static_cast<int>(findings_.size());
+  if (held < options_.max_findings) findings_.push_back({code, severity, place, sentence, 0.0});
 }
 
 void Elaborator::Step(Position position) {
