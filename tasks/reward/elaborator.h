@@ -81,6 +81,15 @@ class Elaborator {
     Flow flow = Flow::kNext;
     std::vector<Object> heap;
   };
+  // Counts how deep the elaborator calls itself.
+  class Deeper {
+   public:
+    Deeper(Elaborator* elaborator, Position position);
+    ~Deeper() { --elaborator_->depth_; }
+
+   private:
+    Elaborator* elaborator_;
+  };
   // A value, and the heap that its objects are looked up in.
   struct Side {
     const Value& value;

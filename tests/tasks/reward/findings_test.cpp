@@ -225,6 +225,14 @@ TEST(RewardBounds, DeepAndLongProgramsFailWithOneFinding) {
   }
 }
 
+TEST(RewardBounds, LongChainsOfBranchesDoNotOverflowTheStack) {
+  std::string source = GRIPPER "    r = g[:, 0]\n    if r > 0:\n        r = r + 1\n";
+  source += Repeat("    elif r > 1:\n        r = r * 2\n", 1000) + "    return r\n";
+  const CompileOutcome outcome = CompileReward(source, nullptr);
+  ASSERT_EQ(outcome.findings.size(), 1u);
+  EXPECT_EQ(outcome.findings[0].code, "too-deep");
+}
+
 TEST(RewardBounds, GrowthIsBounded) {
   const std::string growing[] = {
       BODY "    s = 'a'\n    for i in range(60):\n        s = s + s\n    return 1\n",
