@@ -116,8 +116,9 @@ Elaborator::BranchEnd Elaborator::RunBranch(const Statement& statement, std::siz
 Elaborator::Flow Elaborator::ExecuteBoth(const Statement& statement, std::size_t branch,
                                          const Tensor& flag) {
   const Position position = statement.targets[branch]->position;
+  const Deeper deeper(this, position);
   const std::vector<Object> before = heap_.Copy();
-  steps_ += static_cast<int>(before.size() / 64);
+  steps_ += static_cast<int>(before.size() / 8);
   const int count = static_cast<int>(before.size());
   const BranchEnd yes = RunBranch(statement, branch, false);
   for (int object = 0; object < count; ++object) heap_.Set(object, before[object]);
@@ -205,6 +206,7 @@ void Elaborator::JoinObjects(const Tensor& flag, const BranchEnd& yes, const Bra
 
 Value Elaborator::Choose(const Tensor& flag, const Value& yes, const Value& no, Position position) {
   const std::vector<Object> heap = heap_.Copy();
+  steps_ += static_cast<int>(heap.size() / 16);
   return Join(flag, {yes, heap}, {no, heap}, position);
 }
 

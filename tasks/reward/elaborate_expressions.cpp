@@ -35,17 +35,10 @@ Value Elaborator::NewDict(std::vector<Value> keys, std::vector<Value> items) {
 
 Value Elaborator::Evaluate(const Expression& expression) {
   Step(expression.position);
-  // Frames of inlined functions add up on one stack.
-  if (++depth_ > 3 * options_.max_depth) {
-    --depth_;
-    Fail("too-deep", expression.position, "functions and expressions are nested too deeply");
-  }
+  const Deeper deeper(this, expression.position);
   try {
-    Value value = EvaluateKind(expression);
-    --depth_;
-    return value;
+    return EvaluateKind(expression);
   } catch (const Fault& fault) {
-    --depth_;
     if (fault.code == "too-large" && fault.position.line == 1 && fault.position.column == 1) {
       Fail(fault.code, expression.position, fault.sentence);
     }

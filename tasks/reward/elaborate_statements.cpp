@@ -36,10 +36,22 @@ void Elaborator::Report(const std::string& code, core::Severity severity, Positi
   for (const core::Finding& finding : findings_) {  // once, however often a loop comes by
     if (finding.place == place && finding.code == code) return;
   }
-  if (severity == core::Severity::kError && errors_++ == 0) first_error_ = position;
-  if (static_cast<int>(findings_.size()) < options_.max_findings) {
-    findings_.push_back({code, severity, place, sentence, 0.0});
+  if (severity == core::Severity::kError && errors_++ == 0) {
+    first_error_ = position;
+    first_code_ = code;
   }
+  // Errors are never crowded out by warnings.
+  const bool error = severity == core::Severity::kError;
+  const int held = error ? errors_ - 1 : static_cast<int>(findings_.size());
+  if (held < options_.max_findings) findings_.push_back({code, severity, place, sentence, 0.0});
+}
+
+Elaborator::Deeper::Deeper(Elaborator* elaborator, Position position) : elaborator_(elaborator) {
+  // Frames of functions that are entered add up on one stack.
+  if (elaborator_->depth_ >= 3 * elaborator_->options_.max_depth) {
+    Fail("too-deep", position, "functions, branches and expressions are nested too deeply");
+  }
+  ++elaborator_->depth_;
 }
 
 void Elaborator::Step(Position position) {
@@ -277,8 +289,7 @@ void Elaborator::Unpack(const Expression& target, const Value& value) {
   for (std::size_t i = 0; i < items.size(); ++i) Assign(*target.children[i], items[i]);
 }
 
-// t += x changes the tensor that t names, as in torch, where shape and type allow it; numbers and
-// all else are computed anew.
+// t += x changes the tensor that t names, as in torch; numbers and all else are computed anew.
 void Elaborator::Augment(const Statement& statement) {
   const Expression& target = *statement.targets[0];
   if (target.kind != ExpressionKind::kName && target.kind != ExpressionKind::kSubscript) {
@@ -288,7 +299,8 @@ void Elaborator::Augment(const Statement& statement) {
   const Value old = Evaluate(target);
   const Value operand = Evaluate(*statement.value);
   const Value fresh = Binary(statement.operation, old, operand, statement.position);
-  if (!old.Is(ValueKind::kTensor) || !fresh.Is(ValueKind::kTensor)) {
+  // One number is never changed in place: programs for one environment hold it in a plain float.
+  if (!old.Is(ValueKind::kTensor) || !fresh.Is(ValueKind::kTensor) || old.tensor->shape.empty()) {
     Assign(target, fresh);
     return;
   }
@@ -297,17 +309,12 @@ void Elaborator::Augment(const Statement& statement) {
   if (after.type > before.type) {
     Fail("type", statement.position,
          "the result is " + Describe(fresh) + ", which " + Describe(old) +
-             " cannot hold; write x = x " + "+ y" + ", or make the tensor .float() first");
+             " cannot hold; write x = x + y, or make the tensor .float() first");
   }
   if (after.shape != before.shape) {
-    // A scalar that counts up rewards over environments: torch would refuse the growth.
-    if (!before.shape.empty()) {
-      Fail("shape", statement.position,
-           "the result " + ShapeText(after.shape) + " does not fit into the tensor " +
-               ShapeText(before.shape) + " in place; write x = x + y");
-    }
-    Assign(target, fresh);
-    return;
+    Fail("shape", statement.position,
+         "the result " + ShapeText(after.shape) + " does not fit into the tensor " +
+             ShapeText(before.shape) + " in place; write x = x + y");
   }
   math_.Write(before, math_.Nodes(after));
 }

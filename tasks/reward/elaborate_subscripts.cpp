@@ -207,76 +207,86 @@ Tensor Elaborator::MaskFor(const Tensor& tensor, const Value& index, Position po
 void Elaborator::AssignSubscript(const Expression& target, const Value& value) {
   const Value base = Evaluate(*target.children[0]);
   const Value index = Evaluate(*target.children[1]);
-  const Position position = target.position;
   if (base.Is(ValueKind::kTensor)) {
-    Value key = index;
-    Tensor view = *base.tensor;
-    // A mask over the environments, and what it leaves of the other dimensions: t[mask, 2].
-    if (index.Is(ValueKind::kTuple) && !index.items->empty() && IsMask((*index.items)[0]) &&
-        (*index.items)[0].tensor->shape.size() == 1) {
-      std::vector<Value> parts = *index.items;
-      key = parts[0];
-      parts[0] = TupleValue({Value{}, Value{}, Value{}});
-      parts[0].kind = ValueKind::kSlice;
-      view = SubscriptTensor(view, TupleValue(std::move(parts)), position);
-    } else if (!IsMask(index)) {
-      view = SubscriptTensor(view, index, position);
-    }
-    Tensor fresh = math_.FromValue(value, position);
-    if (fresh.type > view.type && view.type == DataType::kBool) {
-      fresh = math_.Cast(fresh, view.type, position);
-    } else if (fresh.type == DataType::kFloat && view.type == DataType::kInteger) {
-      fresh = math_.Cast(fresh, view.type, position);
-    }
-    if (IsMask(key)) {
-      const Tensor mask = MaskFor(view, key, position);
-      if (fresh.lanes.size() != 1 || !fresh.shape.empty()) {
-        Fail("index", position,
-             "only a number can be put where a mask picks; use torch.where(mask, a, b)");
-      }
-      fresh = math_.Select(mask, fresh, view, position);
-    }
-    // A leading 1 of what is put in may be dropped, as torch does.
-    while (fresh.shape.size() > view.shape.size() && fresh.shape[0] == 1) {
-      fresh = math_.Squeeze(fresh, 0);
-    }
-    math_.Write(view, math_.Nodes(math_.Expand(fresh, view.shape, position)));
+    AssignInTensor(*base.tensor, index, value, target.position);
     return;
   }
   if (!base.Is(ValueKind::kList) && !base.Is(ValueKind::kDict)) {
-    Fail("bad-target", position, Describe(base) + " cannot be changed");
+    if (base.Is(ValueKind::kUndefined)) math_.FromValue(base, target.position);
+    Fail("bad-target", target.position, Describe(base) + " cannot be changed");
   }
+  // So that nothing ever holds itself.
   if (value.Is(ValueKind::kList) || value.Is(ValueKind::kDict)) {
-    Fail("type", position, "a list or dictionary inside another cannot be set here");
+    Fail("type", target.position, "a list or dictionary inside another cannot be set here");
   }
-  const Object& old = heap_[base.object];
-  std::vector<Value> items = *old.items;
+  AssignInContainer(base, index, value, target.position);
+}
+
+void Elaborator::AssignInTensor(const Tensor& tensor, const Value& index, const Value& value,
+                                Position position) {
+  Value key = index;
+  Tensor view = tensor;
+  // A mask over the environments, and what it leaves of the other dimensions: t[mask, 2].
+  if (index.Is(ValueKind::kTuple) && !index.items->empty() && IsMask((*index.items)[0]) &&
+      (*index.items)[0].tensor->shape.size() == 1) {
+    std::vector<Value> parts = *index.items;
+    key = parts[0];
+    parts[0] = TupleValue({Value{}, Value{}, Value{}});
+    parts[0].kind = ValueKind::kSlice;
+    view = SubscriptTensor(view, TupleValue(std::move(parts)), position);
+  } else if (!IsMask(index)) {
+    view = SubscriptTensor(view, index, position);
+    // One environment's row is a copy here: writing there would be lost.
+    if (view.storage != tensor.storage) {
+      Fail("index", position,
+           "this sets a copy, since the index names single elements or one environment; set each "
+           "column, t[:, i] = ...");
+    }
+  }
+  Tensor fresh = math_.FromValue(value, position);
+  if (fresh.type > view.type && view.type != DataType::kFloat) {
+    fresh = math_.Cast(fresh, view.type, position);
+  }
+  if (IsMask(key)) {
+    if (!fresh.shape.empty()) {
+      Fail("index", position,
+           "only a number can be put where a mask picks; use torch.where(mask, a, b)");
+    }
+    fresh = math_.Select(MaskFor(view, key, position), fresh, view, position);
+  }
+  // A leading 1 of what is put in may be dropped, as torch does.
+  while (fresh.shape.size() > view.shape.size() && fresh.shape[0] == 1) {
+    fresh = math_.Squeeze(fresh, 0);
+  }
+  math_.Write(view, math_.Nodes(math_.Expand(fresh, view.shape, position)));
+}
+
+void Elaborator::AssignInContainer(const Value& base, const Value& index, const Value& value,
+                                   Position position) {
+  Object fresh = heap_[base.object];
+  std::vector<Value> items = *fresh.items;
   if (base.Is(ValueKind::kList)) {
     SubscriptItems(base, items, index, position);  // checks the index
     if (!index.Is(ValueKind::kInteger)) Fail("index", position, "a list is changed one by one");
     const auto size = static_cast<std::int64_t>(items.size());
     items[index.integer < 0 ? index.integer + size : index.integer] = value;
-    Object fresh;
-    fresh.items = std::make_shared<const std::vector<Value>>(std::move(items));
-    heap_.Set(base.object, std::move(fresh));
-    return;
+  } else {
+    if (!index.Is(ValueKind::kString) && !index.Is(ValueKind::kInteger)) {
+      Fail("bad-key", position, "a key is a string or a whole number, this is " + Describe(index));
+    }
+    std::vector<Value> keys = *fresh.keys;
+    std::size_t at = 0;
+    while (at < keys.size() && (keys[at].kind != index.kind || keys[at].text != index.text ||
+                                keys[at].integer != index.integer)) {
+      ++at;
+    }
+    if (at == keys.size()) {
+      keys.push_back(index);
+      items.push_back(value);
+    }
+    items[at] = value;
+    fresh.keys = std::make_shared<const std::vector<Value>>(std::move(keys));
   }
-  if (!index.Is(ValueKind::kString) && !index.Is(ValueKind::kInteger)) {
-    Fail("bad-key", position, "a key is a string or a whole number, this is " + Describe(index));
-  }
-  std::vector<Value> keys = *old.keys;
-  std::size_t at = 0;
-  while (at < keys.size() && (keys[at].kind != index.kind || keys[at].text != index.text ||
-                              keys[at].integer != index.integer)) {
-    ++at;
-  }
-  if (at == keys.size()) {
-    keys.push_back(index);
-    items.push_back(value);
-  }
-  items[at] = value;
-  Object fresh;
-  fresh.keys = std::make_shared<const std::vector<Value>>(std::move(keys));
   fresh.items = std::make_shared<const std::vector<Value>>(std::move(items));
   heap_.Set(base.object, std::move(fresh));
 }

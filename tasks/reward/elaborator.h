@@ -38,8 +38,10 @@ class Elaborator {
   ElaboratedOutputs Run(const Function& entry);
 
   const core::Findings& findings() const { return findings_; }
-  // Position of the first error; used to tell which guess of shapes came further.
+  // Place and code of the first error, empty where there is none: what tells which guess of shapes
+  // came further.
   Position first_error() const { return first_error_; }
+  const std::string& first_code() const { return first_code_; }
   Graph& graph() { return graph_; }
   const std::vector<RewardSlot>& slots() const { return slots_; }
   // Of input i of the graph: its slot and its place in the slot.
@@ -79,13 +81,20 @@ class Elaborator {
     Flow flow = Flow::kNext;
     std::vector<Object> heap;
   };
+  // Counts how deep the elaborator calls itself.
+  class Deeper {
+   public:
+    Deeper(Elaborator* elaborator, Position position);
+    ~Deeper() { --elaborator_->depth_; }
+
+   private:
+    Elaborator* elaborator_;
+  };
   // A value, and the heap that its objects are looked up in.
   struct Side {
     const Value& value;
     const std::vector<Object>& heap;
   };
-  struct SubscriptPlan;
-
   // elaborate_statements.cpp
   void Globals();
   void DoImport(const Import& import);
@@ -95,6 +104,10 @@ class Elaborator {
   void Assign(const Expression& target, const Value& value);
   void AssignName(const std::string& name, const Value& value, Position position);
   void AssignSubscript(const Expression& target, const Value& value);
+  void AssignInTensor(const Tensor& tensor, const Value& index, const Value& value,
+                      Position position);
+  void AssignInContainer(const Value& base, const Value& index, const Value& value,
+                         Position position);
   void Unpack(const Expression& target, const Value& value);
   void Augment(const Statement& statement);
   bool AugmentMasked(const Statement& statement);
@@ -186,6 +199,7 @@ class Elaborator {
   const RewardOptions& options_;
   core::Findings findings_;
   Position first_error_;
+  std::string first_code_;
   int errors_ = 0;
   Graph graph_;
   Heap heap_;

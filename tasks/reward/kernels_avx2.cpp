@@ -14,7 +14,6 @@
 #else
 #pragma GCC push_options
 #pragma GCC target("avx2")
-#pragma GCC optimize("no-math-errno", "no-trapping-math")
 #endif
 #include "tasks/reward/kernel_loops.h"
 #if defined(__clang__)

@@ -15,7 +15,6 @@
 #else
 #pragma GCC push_options
 #pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw,prefer-vector-width=512")
-#pragma GCC optimize("no-math-errno", "no-trapping-math")
 #endif
 #include "tasks/reward/kernel_loops.h"
 #if defined(__clang__)

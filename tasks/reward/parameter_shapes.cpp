@@ -92,6 +92,7 @@ std::vector<int> FirstGuess(const std::string& name, const Usage& usage) {
 // How far the program comes with these shapes: no error, or the place of the first one.
 struct Reach {
   bool whole = false;
+  bool by_shape = false;  // another shape may mend what is wrong
   Position position;
   bool operator>(const Reach& other) const {
     if (whole != other.whole) return whole;
@@ -100,15 +101,24 @@ struct Reach {
   }
 };
 
+constexpr std::string_view kShapeFaults[] = {
+    "shape", "dimension",  "index",       "two-batches", "unpack",        "einsum",
+    "loop",  "bad-reward", "bad-success", "condition",   "shared-reward", "too-large"};
+
+// What a program may cost to guess at, in attempts.
+constexpr int kMostAttempts = 150;
+
 Reach Try(const Module& module, const Function& entry, const RewardScene* scene,
           const RewardOptions& options) {
-  Elaborator elaborator(module, scene, options);
+  RewardOptions until_first = options;
+  until_first.max_findings = 1;
+  Elaborator elaborator(module, scene, until_first);
   elaborator.Run(entry);
   Reach reach;
   reach.position = elaborator.first_error();
-  reach.whole = std::none_of(
-      elaborator.findings().begin(), elaborator.findings().end(),
-      [](const core::Finding& finding) { return finding.severity == core::Severity::kError; });
+  reach.whole = elaborator.first_code().empty();
+  reach.by_shape = std::find(std::begin(kShapeFaults), std::end(kShapeFaults),
+                             elaborator.first_code()) != std::end(kShapeFaults);
   return reach;
 }
 
@@ -160,14 +170,16 @@ void InferParameterShapes(const Module& module, const Function& entry, const Rew
   std::stable_partition(open.begin(), open.end(),
                         [](const std::string& name) { return GuessByName(name).empty(); });
   Reach best = Try(module, entry, scene, *options);
+  int attempts = 0;
   // One parameter at a time, as long as something gets further.
-  for (int round = 0; round < 4 && !best.whole; ++round) {
+  for (int round = 0; round < 4 && !best.whole && best.by_shape; ++round) {
     bool better = false;
     for (const std::string& name : open) {
       const std::vector<std::vector<int>> candidates = {
           {3}, {4}, {}, {1}, {7}, {13}, {8}, {6}, {4, 3}, {usages[name].width}};
       for (const std::vector<int>& candidate : candidates) {
         if (candidate == std::vector<int>{0}) continue;
+        if (!best.by_shape || ++attempts > kMostAttempts) return;
         RewardOptions changed = *options;
         changed.parameter_shapes[name] = candidate;
         const Reach reach = Try(module, entry, scene, changed);

@@ -44,7 +44,15 @@ class ExpressionParser {
   const RewardOptions& options_;
 
  private:
-  class Nesting;
+  // Counts how deep the parser calls itself.
+  class Nesting {
+   public:
+    explicit Nesting(ExpressionParser* parser);
+    ~Nesting() { --parser_->nesting_; }
+
+   private:
+    ExpressionParser* parser_;
+  };
 
   ExpressionPtr ParseBoolean(Operator operation, std::string_view word);
   ExpressionPtr ParseNot();

@@ -73,6 +73,11 @@ class RewardWorkspace {
   // For up to `max_envs` environments. Throws core::Error unless 1 <= max_envs <= 2^24.
   RewardWorkspace(const RewardProgram& program, int max_envs);
 
+  RewardWorkspace(const RewardWorkspace&) = delete;  // it points into its own memory
+  RewardWorkspace& operator=(const RewardWorkspace&) = delete;
+  RewardWorkspace(RewardWorkspace&&) = default;
+  RewardWorkspace& operator=(RewardWorkspace&&) = default;
+
   int max_envs() const { return max_envs_; }
 
  private:

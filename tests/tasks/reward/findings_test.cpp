@@ -225,6 +225,14 @@ TEST(RewardBounds, DeepAndLongProgramsFailWithOneFinding) {
   }
 }
 
+TEST(RewardBounds, LongChainsOfBranchesDoNotOverflowTheStack) {
+  std::string source = GRIPPER "    r = g[:, 0]\n    if r > 0:\n        r = r + 1\n";
+  source += Repeat("    elif r > 1:\n        r = r * 2\n", 1000) + "    return r\n";
+  const CompileOutcome outcome = CompileReward(source, nullptr);
+  ASSERT_EQ(outcome.findings.size(), 1u);
+  EXPECT_EQ(outcome.findings[0].code, "too-deep");
+}
+
 TEST(RewardBounds, GrowthIsBounded) {
   const std::string growing[] = {
       BODY "    s = 'a'\n    for i in range(60):\n        s = s + s\n    return 1\n",
@@ -250,6 +258,50 @@ TEST(RewardFinding, AllMistakesOfAProgramAreReportedOnce) {
   ASSERT_EQ(outcome.findings.size(), 2u);
   EXPECT_EQ(outcome.findings[0].place, "3:15");
   EXPECT_EQ(outcome.findings[1].place, "5:26");
+}
+
+TEST(RewardFinding, WarningsCrowdOutNoError) {
+  RewardOptions options;
+  options.max_findings = 1;
+  const RewardScene scene = SampleScene();
+  const std::string source =
+      BODY "    x = env.get_joint_state('cup', 'base_joint')\n    return y\n";
+  const CompileOutcome outcome = CompileReward(source, &scene, options);
+  EXPECT_FALSE(outcome.program.has_value());
+  EXPECT_EQ(outcome.findings.back().code, "undefined");
+}
+
+TEST(RewardParameters, ShapesAreInferredOrGiven) {
+  const std::string source =
+      "def compute_reward(tips: torch.Tensor, weight: torch.Tensor, gain: float):\n"
+      "    n, k, d = tips.shape\n    near = torch.norm(tips - weight.unsqueeze(1), dim=-1)\n"
+      "    return near.sum(dim=1) * gain\n";
+  RewardOptions options;
+  options.parameter_shapes["tips"] = {5, 3};
+  const CompileOutcome given = CompileReward(source, nullptr, options);
+  ASSERT_TRUE(given.program.has_value()) << RenderFinding(given.findings[0], source);
+  EXPECT_EQ(given.program->slots()[0].shape, "[N, 5, 3]");
+  EXPECT_EQ(given.program->slots()[1].shape, "[N, 3]");
+  EXPECT_TRUE(given.program->slots()[2].uniform);
+  EXPECT_TRUE(CompileReward(source, nullptr).program.has_value());
+}
+
+TEST(RewardProgram, RefusesWhatDoesNotFit) {
+  const CompileOutcome outcome = CompileReward(GRIPPER "    return g[7, 0] + g[:, 1]\n", nullptr);
+  ASSERT_TRUE(outcome.program.has_value());
+  const RewardProgram& program = *outcome.program;
+  RewardWorkspace workspace(program, 16);
+  std::vector<float> rows(48), reward(16);
+  for (int i = 0; i < 48; ++i) rows[i] = static_cast<float>(i);
+  const std::vector<RewardBinding> bindings = {{rows.data()}};
+  program.Run(bindings, 16, &workspace, reward.data(), nullptr);
+  EXPECT_EQ(reward[2], 21.0f + 7.0f);
+  EXPECT_THROW(program.Run(bindings, 5, &workspace, reward.data(), nullptr), core::Error);
+  EXPECT_THROW(program.Run(bindings, 17, &workspace, reward.data(), nullptr), core::Error);
+  EXPECT_THROW(program.Run({}, 16, &workspace, reward.data(), nullptr), core::Error);
+  const CompileOutcome other = CompileReward(GRIPPER "    return g[:, 1]\n", nullptr);
+  RewardWorkspace foreign(*other.program, 16);
+  EXPECT_THROW(program.Run(bindings, 16, &foreign, reward.data(), nullptr), core::Error);
 }
 
 TEST(RewardFinding, IsRenderedWithACaret) {

@@ -18,6 +18,9 @@ def compute_dense_reward(self) -> float:
     reward = shaped(distance) + shaped(np.linalg.norm(cup - goal), scale=2.0)
     speed = np.sqrt(np.square(cup - target).sum()) + np.log(np.exp(distance) + 1)
     reward -= np.clip(speed, 0.0, 1.5) * 0.5
+    before = reward
+    reward += 0.5
+    reward -= 0.25 * before
     bonus = 1.0 if distance < 0.8 else -0.25
     reward += bonus
     facing = np.dot(hand, cup) / (np.linalg.norm(hand) * np.linalg.norm(cup) + 1e-6)
