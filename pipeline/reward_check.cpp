@@ -140,7 +140,7 @@ RewardCheckReport CheckReward(const RewardCheckRequest& request) {
 std::string RewardCheckText(const RewardCheckReport& report) {
   std::string text;
   for (const core::Finding& finding : report.findings) {
-    text += InProgram(finding) ? report.subject + ":" + RenderFinding(finding, report.source)
+    text += InProgram(finding) ? report.subject + ":" + tasks::RenderFinding(finding, report.source)
                                : finding.place + ": " + SeverityName(finding.severity) + ": " +
                                      finding.sentence + "\n";
   }
