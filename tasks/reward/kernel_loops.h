@@ -24,8 +24,8 @@ inline float Exponential(float x) {
            r * (0.5f + r * (1.66666667e-1f +
                             r * (4.16666667e-2f + r * (8.33333333e-3f + r * 1.38888889e-3f)))));
   // 2^n as 2 * 2^(n-1): n itself reaches 128.
-  const auto bits = __builtin_bit_cast(std::int32_t, shifted);
-  const float scale = __builtin_bit_cast(float, (bits + 126) << 23);
+  const auto bits = __builtin_bit_cast(std::uint32_t, shifted);
+  const float scale = __builtin_bit_cast(float, (bits + 126u) << 23);
   const float value = p * scale * 2.0f;
   return Choose(x > 88.7228f, std::numeric_limits<float>::infinity(),
                 Choose(x < -87.3f, 0.0f, value));
@@ -44,9 +44,10 @@ inline float Logarithm(float x) {
   // Numbers below the smallest normal one are lifted first.
   const bool tiny = x < 1.17549435e-38f;
   const float lifted = Choose(tiny, x * 8388608.0f, x);
-  const auto bits = __builtin_bit_cast(std::int32_t, lifted);
-  const std::int32_t exponent = ((bits - 0x3f3504f3) >> 23);
-  const float m = __builtin_bit_cast(float, bits - (exponent << 23));
+  // Unsigned, since the bits of negative numbers and NaN wrap around.
+  const auto bits = __builtin_bit_cast(std::uint32_t, lifted);
+  const std::int32_t exponent = static_cast<std::int32_t>(bits - 0x3f3504f3u) >> 23;
+  const float m = __builtin_bit_cast(float, bits - (static_cast<std::uint32_t>(exponent) << 23));
   const float e = static_cast<float>(exponent) - Choose(tiny, 23.0f, 0.0f);
   const float value = e * 0.693359375f + (LogarithmNearOne(m - 1.0f) - e * 2.12194440e-4f);
   const float infinity = std::numeric_limits<float>::infinity();
@@ -70,12 +71,12 @@ inline float CosineNearZero(float r) {
 constexpr float kLargestAngle = 8192.0f;
 
 // sin(x + quarters * pi/2) for |x| <= kLargestAngle.
-inline float SineOfQuarters(float x, std::int32_t quarters) {
+inline float SineOfQuarters(float x, std::uint32_t quarters) {
   const float shifted = x * 0.636619772f + 12582912.0f;
   const float whole = shifted - 12582912.0f;
   const float r =
       ((x - whole * 1.5703125f) - whole * 4.837512969970703125e-4f) - whole * 7.549789948768648e-8f;
-  const std::int32_t quadrant = __builtin_bit_cast(std::int32_t, shifted) + quarters;
+  const std::uint32_t quadrant = __builtin_bit_cast(std::uint32_t, shifted) + quarters;
   const float size = Choose((quadrant & 1) != 0, CosineNearZero(r), SineNearZero(r));
   return Choose((quadrant & 2) != 0, -size, size);
 }
