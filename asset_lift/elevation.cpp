@@ -176,9 +176,8 @@ ElevationEstimate Combined(const ElevationEstimate& a, const ElevationEstimate& 
   joint.elevation = share_a * a.elevation + share_b * b.elevation;
   joint.deviation = std::sqrt(1.0 / precision + share_a * share_b * apart * apart);
   char text[400];
-  std::snprintf(text, sizeof(text), "%.0f +- %.0f degrees: %s; %s",
-                joint.elevation / kDegree, joint.deviation / kDegree, a.sentence.c_str(),
-                b.sentence.c_str());
+  std::snprintf(text, sizeof(text), "%.0f +- %.0f degrees: %s; %s", joint.elevation / kDegree,
+                joint.deviation / kDegree, a.sentence.c_str(), b.sentence.c_str());
   joint.sentence = text;
   return joint;
 }
