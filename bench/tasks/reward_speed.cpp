@@ -8,10 +8,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <fstream>
 #include <random>
-#include <sstream>
 
+#include "core/files.h"
 #include "tasks/reward/reward_program.h"
 
 namespace simwright::bench {
@@ -19,13 +18,6 @@ namespace {
 
 std::string FilePath(const char* name) {
   return std::string(SIMWRIGHT_SOURCE_DIR) + "/" + name;
-}
-
-std::string ReadText(const std::string& path) {
-  std::ifstream in(path);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
 }
 
 tasks::RewardScene Scene() {
@@ -67,7 +59,8 @@ struct Setup {
 };
 
 void DoorReward(benchmark::State& state) {
-  Setup setup(ReadText(FilePath("bench/tasks/door_reward.py")), static_cast<int>(state.range(0)));
+  Setup setup(core::ReadFile(FilePath("bench/tasks/door_reward.py")),
+              static_cast<int>(state.range(0)));
   for (auto _ : state) {
     setup.Run();
     benchmark::ClobberMemory();
@@ -78,7 +71,7 @@ void DoorReward(benchmark::State& state) {
 BENCHMARK(DoorReward)->Arg(256)->Arg(4096)->Unit(benchmark::kMicrosecond);
 
 void CompileDoorReward(benchmark::State& state) {
-  const std::string source = ReadText(FilePath("bench/tasks/door_reward.py"));
+  const std::string source = core::ReadFile(FilePath("bench/tasks/door_reward.py"));
   const tasks::RewardScene scene = Scene();
   for (auto _ : state) benchmark::DoNotOptimize(tasks::CompileReward(source, &scene));
 }
@@ -86,7 +79,7 @@ BENCHMARK(CompileDoorReward)->Unit(benchmark::kMicrosecond);
 
 // The longest of the tests' programs, with the shapes of its parameters inferred.
 void CompileLongReward(benchmark::State& state, const char* name) {
-  const std::string source = ReadText(FilePath("tests/tasks/reward/corpus/") + name);
+  const std::string source = core::ReadFile(FilePath("tests/tasks/reward/corpus/") + name);
   for (auto _ : state) benchmark::DoNotOptimize(tasks::CompileReward(source, nullptr));
 }
 BENCHMARK_CAPTURE(CompileLongReward, shapes, "shapes.py")->Unit(benchmark::kMicrosecond);
@@ -123,7 +116,7 @@ int ComparePython(const std::string& python) {
   std::printf(
       "| environments | ours, us | python3-torch, 1 thread, us | ratio |\n|---|---|---|---|\n");
   for (const int num_envs : {256, 4096}) {
-    Setup setup(ReadText(FilePath("bench/tasks/door_reward.py")), num_envs);
+    Setup setup(core::ReadFile(FilePath("bench/tasks/door_reward.py")), num_envs);
     const double ours = MedianMicroseconds(&setup);
     const double theirs = PythonMicroseconds(python, num_envs);
     if (theirs == 0.0) return 1;

@@ -11,6 +11,7 @@
 #include <random>
 #include <sstream>
 
+#include "core/files.h"
 #include "tasks/reward/reward_program.h"
 #include "tests/tasks/reward/sample_scene.h"
 
@@ -20,13 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr int kEnvironments = 1037;  // several chunks, and no multiple of any vector
 constexpr const char* kPython = "/usr/bin/python3";
-
-std::string ReadText(const fs::path& path) {
-  std::ifstream in(path);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 struct CorpusRun {
   fs::path file;
@@ -171,7 +165,7 @@ std::vector<CorpusRun> Programs() {
   std::mt19937 generator(7);
   std::vector<CorpusRun> runs;
   for (const fs::path& file : files) {
-    const std::string source = ReadText(file);
+    const std::string source = core::ReadFile(file);
     const CompileOutcome outcome = CompileReward(source, &scene);
     for (const core::Finding& finding : outcome.findings) {
       EXPECT_NE(finding.severity, core::Severity::kError)
@@ -190,9 +184,8 @@ std::vector<CorpusRun> Programs() {
 
 TEST(RewardCorpus, GivesTheNumbersOfPython) {
   const std::vector<CorpusRun> runs = Programs();
-  const fs::path folder =
-      fs::temp_directory_path() / ("simwright_reward_" + std::to_string(std::random_device{}()));
-  fs::create_directories(folder);
+  const core::TemporaryFolder temporary;
+  const fs::path& folder = temporary.path();
   WriteManifest(runs, folder / "manifest.txt");
   const std::string command = std::string(kPython) + " '" + SIMWRIGHT_TEST_DATA +
                               "/reward/run_corpus.py' '" + folder.string() + "'";
@@ -211,7 +204,6 @@ TEST(RewardCorpus, GivesTheNumbersOfPython) {
       }
     }
   }
-  fs::remove_all(folder);
 }
 
 }  // namespace
