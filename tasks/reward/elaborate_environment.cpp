@@ -222,6 +222,7 @@ Value Elaborator::ApiGeometry(const ApiFunction& function, const ApiArguments& a
   }
   std::vector<int> last;
   if (function.result == ApiResult::kDistance) {
+    WarnOfSelfDistance(points[0], points[1], position);
     const Tensor difference =
         math_.Map(ScalarOperation::kSubtract, points[0], points[1], DataType::kFloat, position);
     const Tensor squares =

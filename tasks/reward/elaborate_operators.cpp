@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "tasks/reward/elaborator.h"
@@ -203,7 +204,18 @@ Value Elaborator::BinaryTensors(Operator operation, const Value& a, const Value&
     Fail("type", position, "whole numbers to a negative power; .float() them first");
   }
   const TensorOperation meant = Resolve(operation, type, position);
+  if (operation == Operator::kSubtract) WarnOfSelfDistance(left, right, position);
   return TensorValue(math_.Map(meant.operation, left, right, meant.type, position));
+}
+
+void Elaborator::WarnOfSelfDistance(const Tensor& a, const Tensor& b, Position position) {
+  const std::vector<NodeId> nodes = math_.Nodes(a);
+  if (nodes != math_.Nodes(b)) return;
+  if (std::all_of(nodes.begin(), nodes.end(), [&](NodeId n) { return graph_.IsConstant(n); })) {
+    return;
+  }
+  Report("self-distance", core::Severity::kWarning, position,
+         "both sides are the same thing: the difference is always zero");
 }
 
 Value Elaborator::Binary(Operator operation, const Value& a, const Value& b, Position position) {

@@ -158,6 +158,7 @@ class Elaborator {
 
   // elaborate_operators.cpp
   Value BinaryTensors(Operator operation, const Value& a, const Value& b, Position position);
+  void WarnOfSelfDistance(const Tensor& a, const Tensor& b, Position position);
   Value Negate(const Value& value, Position position);
   Value Invert(const Value& value, Position position);
 

@@ -1,0 +1,255 @@
+#include "tasks/cavities.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+
+namespace simwright::tasks {
+namespace {
+
+constexpr int kResolution = 40;
+constexpr int kShieldedSides = 5;
+
+using Cell = Eigen::Vector3i;
+
+// A convex part as half-spaces, for asking whether a point is inside.
+struct HalfSpaces {
+  Eigen::AlignedBox3d box;
+  std::vector<Eigen::Vector4d> planes;  // outward normal, offset
+
+  bool Contains(const Eigen::Vector3d& point) const {
+    if (!box.contains(point)) return false;
+    for (const Eigen::Vector4d& plane : planes) {
+      if (plane.head<3>().dot(point) > plane[3]) return false;
+    }
+    return true;
+  }
+};
+
+HalfSpaces SpacesOf(const core::TriangleMesh& part) {
+  HalfSpaces spaces;
+  spaces.box = core::Bounds(part);
+  for (std::size_t t = 0; t < part.triangles.size(); ++t) {
+    const Eigen::Vector3d normal =
+        core::TriangleAreaVector(part, static_cast<int>(t)).normalized();
+    if (!normal.allFinite()) continue;
+    Eigen::Vector4d plane;
+    plane << normal, normal.dot(part.vertices[static_cast<std::size_t>(part.triangles[t][0])]);
+    const bool known = std::any_of(
+        spaces.planes.begin(), spaces.planes.end(),
+        [&](const Eigen::Vector4d& other) { return (other - plane).cwiseAbs().maxCoeff() < 1e-9; });
+    if (!known) spaces.planes.push_back(plane);
+  }
+  return spaces;
+}
+
+// Cells that the parts fill, on a grid with an empty border.
+class Grid {
+ public:
+  explicit Grid(const std::vector<core::TriangleMesh>& parts) {
+    Eigen::AlignedBox3d box;
+    for (const core::TriangleMesh& part : parts) box.extend(core::Bounds(part));
+    cell_ = std::max(box.sizes().maxCoeff() / kResolution, 1e-4);
+    size_ = (box.sizes() / cell_).array().ceil().cast<int>() + 2;
+    origin_ = box.center() - 0.5 * cell_ * size_.cast<double>();
+    full_.assign(static_cast<std::size_t>(size_.prod()), 0);
+    for (const core::TriangleMesh& part : parts) Fill(part);
+  }
+
+  const Cell& size() const { return size_; }
+  double cell() const { return cell_; }
+  bool Inside(const Cell& c) const {
+    return (c.array() >= 0).all() && (c.array() < size_.array()).all();
+  }
+  std::size_t Index(const Cell& c) const {
+    return static_cast<std::size_t>((c.z() * size_.y() + c.y()) * size_.x() + c.x());
+  }
+  bool Full(const Cell& c) const { return full_[Index(c)] != 0; }
+  Eigen::Vector3d Corner(const Cell& c) const { return origin_ + cell_ * c.cast<double>(); }
+
+ private:
+  // A wall thinner than a cell fills the cells that it passes: points a third of a cell apart are
+  // asked, within the part's bounds.
+  void Fill(const core::TriangleMesh& part) {
+    const HalfSpaces spaces = SpacesOf(part);
+    const Eigen::Vector3d extent = spaces.box.sizes();
+    Eigen::Array3i count = (extent / (cell_ / 3.0)).array().ceil().cast<int>();
+    count = count.max(1);
+    const Eigen::Vector3d step = extent.array() / count.cast<double>();
+    for (int k = 0; k < count.z(); ++k) {
+      for (int j = 0; j < count.y(); ++j) {
+        for (int i = 0; i < count.x(); ++i) {
+          const Eigen::Vector3d point =
+              spaces.box.min() +
+              Eigen::Vector3d((Eigen::Array3d(i, j, k) + 0.5) * step.array());
+          const Cell c = ((point - origin_) / cell_).array().floor().cast<int>();
+          if (Inside(c) && !Full(c) && spaces.Contains(point)) full_[Index(c)] = 1;
+        }
+      }
+    }
+  }
+
+  double cell_ = 0.0;
+  Cell size_;
+  Eigen::Vector3d origin_;
+  std::vector<char> full_;
+};
+
+constexpr std::array<std::array<int, 3>, 6> kSides = {
+    {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
+
+Cell Side(int side) {
+  return Cell(kSides[static_cast<std::size_t>(side)].data());
+}
+
+// For each free cell the sides on which the link stands in the way, as bits.
+std::vector<unsigned char> Shields(const Grid& grid) {
+  const Cell size = grid.size();
+  std::vector<unsigned char> shields(static_cast<std::size_t>(size.prod()), 0);
+  for (int side = 0; side < 6; ++side) {
+    const Cell step = Side(side);
+    // From the side inwards: what was met on the way shields all that follows.
+    const int axis = side / 2;
+    const int across = (axis + 1) % 3, along = (axis + 2) % 3;
+    for (int u = 0; u < size[across]; ++u) {
+      for (int v = 0; v < size[along]; ++v) {
+        Cell c;
+        c[across] = u;
+        c[along] = v;
+        c[axis] = step[axis] < 0 ? 0 : size[axis] - 1;
+        bool met = false;
+        for (; grid.Inside(c); c -= step) {
+          if (grid.Full(c)) met = true;
+          if (met) shields[grid.Index(c)] |= static_cast<unsigned char>(1 << side);
+        }
+      }
+    }
+  }
+  return shields;
+}
+
+// The open side that most cells of a room share.
+int OpenSide(const std::vector<Cell>& room, const Grid& grid,
+             const std::vector<unsigned char>& shields) {
+  std::array<int, 6> open{};
+  for (const Cell& c : room) {
+    for (int side = 0; side < 6; ++side) open[side] += !((shields[grid.Index(c)] >> side) & 1);
+  }
+  return static_cast<int>(std::max_element(open.begin(), open.end()) - open.begin());
+}
+
+// Grows a box from the room's middle, side by side, while all cells that it takes in are the
+// room's.
+Eigen::AlignedBox3d FreeBox(const std::vector<Cell>& room, const Grid& grid) {
+  std::vector<char> in_room(static_cast<std::size_t>(grid.size().prod()), 0);
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Cell& c : room) {
+    in_room[grid.Index(c)] = 1;
+    mean += c.cast<double>();
+  }
+  mean /= static_cast<double>(room.size());
+  const Cell start = *std::min_element(room.begin(), room.end(), [&](const Cell& a, const Cell& b) {
+    return (a.cast<double>() - mean).squaredNorm() < (b.cast<double>() - mean).squaredNorm();
+  });
+  Cell low = start, high = start;
+  const auto layer_is_free = [&](int side) {
+    Cell from = low, to = high;
+    const int axis = side / 2;
+    from[axis] = to[axis] = side % 2 == 0 ? low[axis] - 1 : high[axis] + 1;
+    if (!grid.Inside(from) || !grid.Inside(to)) return false;
+    for (int k = from.z(); k <= to.z(); ++k) {
+      for (int j = from.y(); j <= to.y(); ++j) {
+        for (int i = from.x(); i <= to.x(); ++i) {
+          if (!in_room[grid.Index({i, j, k})]) return false;
+        }
+      }
+    }
+    return true;
+  };
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (int side = 0; side < 6; ++side) {
+      if (!layer_is_free(side)) continue;
+      (side % 2 == 0 ? low[side / 2] : high[side / 2]) += side % 2 == 0 ? -1 : 1;
+      grown = true;
+    }
+  }
+  return {grid.Corner(low), grid.Corner(high + Cell::Ones())};
+}
+
+}  // namespace
+
+std::vector<Cavity> FindCavities(int link, const std::vector<core::TriangleMesh>& parts,
+                                 double least) {
+  std::vector<Cavity> cavities;
+  if (parts.empty()) return cavities;
+  const Grid grid(parts);
+  const std::vector<unsigned char> shields = Shields(grid);
+  std::vector<char> seen(shields.size(), 0);
+  const auto shielded = [&](const Cell& c) {
+    return !grid.Full(c) && __builtin_popcount(shields[grid.Index(c)]) >= kShieldedSides;
+  };
+  const Cell size = grid.size();
+  for (int k = 0; k < size.z(); ++k) {
+    for (int j = 0; j < size.y(); ++j) {
+      for (int i = 0; i < size.x(); ++i) {
+        const Cell seed(i, j, k);
+        if (seen[grid.Index(seed)] || !shielded(seed)) continue;
+        std::vector<Cell> room{seed};
+        seen[grid.Index(seed)] = 1;
+        for (std::size_t at = 0; at < room.size(); ++at) {
+          for (int side = 0; side < 6; ++side) {
+            const Cell next = room[at] + Side(side);
+            if (!grid.Inside(next) || seen[grid.Index(next)] || !shielded(next)) continue;
+            seen[grid.Index(next)] = 1;
+            room.push_back(next);
+          }
+        }
+        Cavity cavity;
+        cavity.link = link;
+        cavity.box = FreeBox(room, grid);
+        if (cavity.box.sizes().minCoeff() < least) continue;
+        cavity.opening = Side(OpenSide(room, grid, shields)).cast<double>();
+        cavities.push_back(cavity);
+      }
+    }
+  }
+  std::sort(cavities.begin(), cavities.end(), [](const Cavity& a, const Cavity& b) {
+    return a.box.volume() > b.box.volume();
+  });
+  return cavities;
+}
+
+void FindDoors(Thing* thing) {
+  const std::vector<Eigen::Isometry3d> poses = LinkPosesOf(*thing, RestPositions(*thing));
+  for (Cavity& cavity : thing->cavities) {
+    // A thin slab before the opening, and whatever of another moving link stands in it.
+    Eigen::AlignedBox3d slab = cavity.box;
+    const Eigen::Vector3d beyond = 0.25 * cavity.box.sizes().cwiseProduct(cavity.opening);
+    slab.extend(cavity.box.max() + beyond.cwiseMax(0.0));
+    slab.extend(cavity.box.min() + beyond.cwiseMin(0.0));
+    const Eigen::Isometry3d link_from_root =
+        poses[static_cast<std::size_t>(cavity.link)].inverse();
+    double most = 0.2;  // of the opening's area, at least
+    for (std::size_t j = 0; j < thing->joints.size(); ++j) {
+      const int moved = thing->joints[j].link;
+      if (moved == cavity.link) continue;
+      Eigen::AlignedBox3d cover;
+      for (const Eigen::Vector3d& point : thing->links[static_cast<std::size_t>(moved)].outline) {
+        cover.extend(link_from_root * poses[static_cast<std::size_t>(moved)] * point);
+      }
+      if (cover.isEmpty() || !cover.intersects(slab)) continue;
+      const Eigen::Vector3d shared = cover.intersection(slab).sizes();
+      double share = 1.0;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (std::abs(cavity.opening[axis]) < 0.5) share *= shared[axis] / slab.sizes()[axis];
+      }
+      if (share <= most) continue;
+      most = share;
+      cavity.door = static_cast<int>(j);
+    }
+  }
+}
+
+}  // namespace simwright::tasks

@@ -1,0 +1,180 @@
+#include "tasks/thing.h"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "core/error.h"
+#include "tasks/cavities.h"
+#include "tasks/reward_names.h"
+
+namespace simwright::tasks {
+namespace {
+
+// The points farthest out along 98 directions: the axes, the diagonals, and those between.
+std::vector<Eigen::Vector3d> Outermost(const std::vector<const core::TriangleMesh*>& meshes) {
+  std::vector<Eigen::Vector3d> outline;
+  for (int x = -2; x <= 2; ++x) {
+    for (int y = -2; y <= 2; ++y) {
+      for (int z = -2; z <= 2; ++z) {
+        const int largest = std::max({std::abs(x), std::abs(y), std::abs(z)});
+        const bool multiple = largest == 2 && x % 2 == 0 && y % 2 == 0 && z % 2 == 0;
+        if (largest == 0 || multiple) continue;
+        const Eigen::Vector3d direction(x, y, z);
+        const Eigen::Vector3d* farthest = nullptr;
+        for (const core::TriangleMesh* mesh : meshes) {
+          for (const Eigen::Vector3d& vertex : mesh->vertices) {
+            if (farthest == nullptr || direction.dot(vertex) > direction.dot(*farthest)) {
+              farthest = &vertex;
+            }
+          }
+        }
+        if (farthest == nullptr) return {};
+        if (std::find(outline.begin(), outline.end(), *farthest) == outline.end()) {
+          outline.push_back(*farthest);
+        }
+      }
+    }
+  }
+  return outline;
+}
+
+ThingLink LinkOf(const assets::UrdfLink& source, const assets::SemanticModel& model) {
+  ThingLink link;
+  link.name = source.name;
+  const auto known = model.semantics.find(source.name);
+  if (known != model.semantics.end()) link.label = known->second.label;
+  std::vector<const core::TriangleMesh*> meshes;
+  for (const assets::UrdfShape& shape : source.collisions) meshes.push_back(&shape.mesh);
+  if (meshes.empty()) {
+    for (const assets::UrdfShape& shape : source.visuals) meshes.push_back(&shape.mesh);
+  }
+  link.outline = Outermost(meshes);
+  for (const Eigen::Vector3d& point : link.outline) link.box.extend(point);
+  if (!link.box.isEmpty()) link.middle = link.box.center();
+  if (source.inertial) link.mass = source.inertial->mass;
+  return link;
+}
+
+bool IsHandle(const std::string& label) {
+  return label == "handle" || label == "knob" || label == "lever" || label == "pull";
+}
+
+// The handle that is fixed to what the joint moves, directly or through fixed links; else the link
+// itself.
+int GripOf(const Thing& thing, int moved) {
+  std::vector<char> carried(thing.links.size(), 0);
+  carried[static_cast<std::size_t>(moved)] = 1;
+  for (std::size_t i = static_cast<std::size_t>(moved) + 1; i < thing.links.size(); ++i) {
+    const ThingLink& link = thing.links[i];
+    if (link.joint >= 0 || !carried[static_cast<std::size_t>(link.parent)]) continue;
+    carried[i] = 1;
+    if (IsHandle(link.label) && !link.outline.empty()) return static_cast<int>(i);
+  }
+  return moved;
+}
+
+void AddCavities(const assets::SemanticModel& model, Thing* thing) {
+  for (std::size_t i = 0; i < model.model.links.size(); ++i) {
+    std::vector<core::TriangleMesh> parts;
+    for (const assets::UrdfShape& shape : model.model.links[i].collisions) {
+      parts.push_back(shape.mesh);
+    }
+    for (const Cavity& cavity : FindCavities(static_cast<int>(i), parts)) {
+      thing->cavities.push_back(cavity);
+    }
+  }
+  std::stable_sort(
+      thing->cavities.begin(), thing->cavities.end(),
+      [](const Cavity& a, const Cavity& b) { return a.box.volume() > b.box.volume(); });
+  FindDoors(thing);
+}
+
+}  // namespace
+
+int Thing::FindLink(const std::string& wanted) const {
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (links[i].name == wanted) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+int Thing::FindJoint(const std::string& wanted) const {
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (joints[i].name == wanted) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+Thing ThingOf(const std::string& name, const assets::SemanticModel& model) {
+  Thing thing;
+  thing.name = name;
+  thing.category = model.category;
+  std::map<std::string, RewardJoint> moving;  // with the limits that programs see
+  for (const RewardJoint& joint : NamesOf(name, model.model).joints) {
+    if (joint.type != RewardJointType::kFixed) moving[joint.name] = joint;
+  }
+  std::map<std::string, int> index;
+  for (std::size_t i = 0; i < model.model.links.size(); ++i) {
+    ThingLink link = LinkOf(model.model.links[i], model);
+    index[link.name] = static_cast<int>(i);
+    if (i > 0) {
+      const assets::UrdfJoint& source = model.model.joints[i - 1];
+      link.parent = index.at(source.parent);
+      link.parent_from_link = source.parent_from_joint;
+      const auto joint = moving.find(source.name);
+      if (joint != moving.end()) {
+        link.joint = static_cast<int>(thing.joints.size());
+        ThingJoint moves;
+        moves.name = source.name;
+        moves.type = joint->second.type;
+        moves.link = static_cast<int>(i);
+        moves.axis = source.axis;
+        moves.lower = joint->second.lower;
+        moves.upper = joint->second.upper;
+        thing.joints.push_back(moves);
+      }
+    }
+    thing.mass += link.mass;
+    thing.links.push_back(std::move(link));
+  }
+  for (ThingJoint& joint : thing.joints) joint.grip = GripOf(thing, joint.link);
+  const std::vector<Eigen::Isometry3d> poses = LinkPosesOf(thing, RestPositions(thing));
+  for (std::size_t i = 0; i < thing.links.size(); ++i) {
+    for (const Eigen::Vector3d& point : thing.links[i].outline) thing.box.extend(poses[i] * point);
+  }
+  if (thing.box.isEmpty()) thing.box.extend(Eigen::Vector3d::Zero());
+  AddCavities(model, &thing);
+  return thing;
+}
+
+std::vector<Eigen::Isometry3d> LinkPosesOf(const Thing& thing,
+                                           const std::vector<double>& positions) {
+  if (positions.size() != thing.joints.size()) {
+    throw core::Error("got " + std::to_string(positions.size()) + " joint positions, there are " +
+                          std::to_string(thing.joints.size()) + " joints",
+                      thing.name);
+  }
+  std::vector<Eigen::Isometry3d> poses(thing.links.size(), Eigen::Isometry3d::Identity());
+  for (std::size_t i = 1; i < thing.links.size(); ++i) {
+    const ThingLink& link = thing.links[i];
+    poses[i] = poses[static_cast<std::size_t>(link.parent)] * link.parent_from_link;
+    if (link.joint < 0) continue;
+    const ThingJoint& joint = thing.joints[static_cast<std::size_t>(link.joint)];
+    const double q = positions[static_cast<std::size_t>(link.joint)];
+    if (joint.type == RewardJointType::kPrismatic) {
+      poses[i].translate(q * joint.axis);
+    } else {
+      poses[i].rotate(Eigen::AngleAxisd(q, joint.axis));
+    }
+  }
+  return poses;
+}
+
+std::vector<double> RestPositions(const Thing& thing) {
+  std::vector<double> positions;
+  for (const ThingJoint& joint : thing.joints) positions.push_back(joint.rest());
+  return positions;
+}
+
+}  // namespace simwright::tasks
