@@ -31,8 +31,7 @@ HalfSpaces SpacesOf(const core::TriangleMesh& part) {
   HalfSpaces spaces;
   spaces.box = core::Bounds(part);
   for (std::size_t t = 0; t < part.triangles.size(); ++t) {
-    const Eigen::Vector3d normal =
-        core::TriangleAreaVector(part, static_cast<int>(t)).normalized();
+    const Eigen::Vector3d normal = core::TriangleAreaVector(part, static_cast<int>(t)).normalized();
     if (!normal.allFinite()) continue;
     Eigen::Vector4d plane;
     plane << normal, normal.dot(part.vertices[static_cast<std::size_t>(part.triangles[t][0])]);
@@ -81,8 +80,7 @@ class Grid {
       for (int j = 0; j < count.y(); ++j) {
         for (int i = 0; i < count.x(); ++i) {
           const Eigen::Vector3d point =
-              spaces.box.min() +
-              Eigen::Vector3d((Eigen::Array3d(i, j, k) + 0.5) * step.array());
+              spaces.box.min() + Eigen::Vector3d((Eigen::Array3d(i, j, k) + 0.5) * step.array());
           const Cell c = ((point - origin_) / cell_).array().floor().cast<int>();
           if (Inside(c) && !Full(c) && spaces.Contains(point)) full_[Index(c)] = 1;
         }
@@ -215,9 +213,8 @@ std::vector<Cavity> FindCavities(int link, const std::vector<core::TriangleMesh>
       }
     }
   }
-  std::sort(cavities.begin(), cavities.end(), [](const Cavity& a, const Cavity& b) {
-    return a.box.volume() > b.box.volume();
-  });
+  std::sort(cavities.begin(), cavities.end(),
+            [](const Cavity& a, const Cavity& b) { return a.box.volume() > b.box.volume(); });
   return cavities;
 }
 
@@ -229,8 +226,7 @@ void FindDoors(Thing* thing) {
     const Eigen::Vector3d beyond = 0.25 * cavity.box.sizes().cwiseProduct(cavity.opening);
     slab.extend(cavity.box.max() + beyond.cwiseMax(0.0));
     slab.extend(cavity.box.min() + beyond.cwiseMin(0.0));
-    const Eigen::Isometry3d link_from_root =
-        poses[static_cast<std::size_t>(cavity.link)].inverse();
+    const Eigen::Isometry3d link_from_root = poses[static_cast<std::size_t>(cavity.link)].inverse();
     double most = 0.2;  // of the opening's area, at least
     for (std::size_t j = 0; j < thing->joints.size(); ++j) {
       const int moved = thing->joints[j].link;

@@ -145,14 +145,14 @@ class SlotWriter {
         return Put(Eigen::Matrix3d(state.gripper.linear()), row);
       case RewardInput::kGripperLinearVelocity:
         if (before_ == nullptr) return;
-        return Put(Eigen::Vector3d((state.gripper.translation() -
-                                    before_->state().gripper.translation()) /
-                                   time_step_),
-                   row);
+        return Put(
+            Eigen::Vector3d((state.gripper.translation() - before_->state().gripper.translation()) /
+                            time_step_),
+            row);
       case RewardInput::kGripperAngularVelocity:
         if (before_ == nullptr) return;
-        return Put(
-            TurnRate(before_->state().gripper.linear(), state.gripper.linear(), time_step_), row);
+        return Put(TurnRate(before_->state().gripper.linear(), state.gripper.linear(), time_step_),
+                   row);
       case RewardInput::kGripperOpening:
         (*row)[0] = static_cast<float>(state.opening);
         return;

@@ -49,8 +49,8 @@ SceneState StateOf(const SceneModel& model, const InitialState& start,
     }
     state.joints[thing][static_cast<std::size_t>(joint)] = condition.position;
   }
-  state.gripper = start.world_from_robot *
-                  robot::ForwardKinematics(robot::PandaArm(), robot::PandaArm().ready);
+  state.gripper =
+      start.world_from_robot * robot::ForwardKinematics(robot::PandaArm(), robot::PandaArm().ready);
   if (!start.held.empty()) {
     const int held = static_cast<int>(find(start.held));
     state.touched = held;

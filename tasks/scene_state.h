@@ -22,8 +22,8 @@ struct SceneModel {
 
 // One moment of an episode: where everything is. World frame, m, rad.
 struct SceneState {
-  std::vector<Eigen::Isometry3d> roots;      // world_from_root, by thing
-  std::vector<std::vector<double>> joints;   // positions, by thing and joint
+  std::vector<Eigen::Isometry3d> roots;     // world_from_root, by thing
+  std::vector<std::vector<double>> joints;  // positions, by thing and joint
   // The tool between the fingertips: z along the approach, y from finger to finger.
   Eigen::Isometry3d gripper = Eigen::Isometry3d::Identity();
   double opening = 0.08;                           // m between the fingers

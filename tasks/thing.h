@@ -19,18 +19,18 @@ struct ThingLink {
   Eigen::Isometry3d parent_from_link = Eigen::Isometry3d::Identity();  // its joint at zero
   // The outermost points of its shapes, at most 98, m, link frame; none where it has no shape.
   std::vector<Eigen::Vector3d> outline;
-  Eigen::AlignedBox3d box;                              // of the shapes, link frame; may be empty
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();     // of the box; where "the link is"
-  double mass = 0.0;                                    // kg; 0 where the file gives none
+  Eigen::AlignedBox3d box;                           // of the shapes, link frame; may be empty
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // of the box; where "the link is"
+  double mass = 0.0;                                 // kg; 0 where the file gives none
 };
 
 struct ThingJoint {
   std::string name;
   RewardJointType type = RewardJointType::kRevolute;
-  int link = -1;                                         // what it moves
-  int grip = -1;                                         // the link that a hand takes: its handle, or itself
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();       // frame of its link, unit
-  double lower = 0.0, upper = 0.0;                       // rad or m
+  int link = -1;  // what it moves
+  int grip = -1;  // the link that a hand takes: its handle, or itself
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // frame of its link, unit
+  double lower = 0.0, upper = 0.0;                  // rad or m
   // The position nearest zero within the limits: closed, off, released.
   double rest() const { return lower > 0.0 ? lower : upper < 0.0 ? upper : 0.0; }
   // The limit farther from rest(): open, on, pressed.
@@ -40,15 +40,15 @@ struct ThingJoint {
 // A room inside a link: what stands around it is the link's own.
 struct Cavity {
   int link = -1;
-  Eigen::AlignedBox3d box;  // m, link frame: the free box
+  Eigen::AlignedBox3d box;                             // m, link frame: the free box
   Eigen::Vector3d opening = Eigen::Vector3d::UnitZ();  // unit, link frame: the open side
-  int door = -1;            // into Thing::joints: what closes it; -1: always open
+  int door = -1;  // into Thing::joints: what closes it; -1: always open
 };
 
 // An asset as tasks see it: a tree of links with their outlines and what they are called. Constant.
 struct Thing {
-  std::string name;      // as programs call it
-  std::string category;  // may be empty
+  std::string name;                // as programs call it
+  std::string category;            // may be empty
   std::vector<ThingLink> links;    // parents first
   std::vector<ThingJoint> joints;  // those that move
   std::vector<Cavity> cavities;    // largest first

@@ -1,0 +1,265 @@
+#include "tasks/layout.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "robot/inverse_kinematics.h"
+#include "robot/panda.h"
+
+namespace simwright::tasks {
+namespace {
+
+constexpr double kGap = 0.02;         // m between things
+constexpr double kRobotRadius = 0.2;  // m, what its base needs of the floor
+// Heights of the robot's base that are tried: on the floor first, else on a pedestal.
+constexpr std::array<double, 6> kBaseHeights = {0.0, 0.2, 0.4, 0.6, 0.8, 1.0};
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+using Pose = Eigen::Isometry3d;
+
+Pose Turned(double angle) {
+  return Pose(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
+}
+
+// The side of a thing that its handles and rooms are on, as the turn about z that brings it to -x.
+double TurnToFront(const Thing& thing) {
+  const std::vector<Pose> poses = LinkPosesOf(thing, RestPositions(thing));
+  Eigen::Vector2d front = Eigen::Vector2d::Zero();
+  const Eigen::Vector2d middle = thing.box.center().head<2>();
+  for (const ThingJoint& joint : thing.joints) {
+    const auto grip = static_cast<std::size_t>(joint.grip);
+    const Eigen::Vector3d point = poses[grip] * thing.links[grip].middle;
+    front += (point.head<2>() - middle).cwiseQuotient(thing.box.sizes().head<2>().cwiseMax(1e-6));
+  }
+  for (const Cavity& cavity : thing.cavities) {
+    front += (poses[static_cast<std::size_t>(cavity.link)].linear() * cavity.opening).head<2>();
+  }
+  if (front.norm() < 0.05) return 0.0;  // ours face -x
+  const int axis = std::abs(front.x()) >= std::abs(front.y()) ? 0 : 1;
+  const double angle = axis == 0 ? (front.x() > 0.0 ? 0.0 : std::numbers::pi)
+                                 : (front.y() > 0.0 ? 0.5 : -0.5) * std::numbers::pi;
+  return std::numbers::pi - angle;
+}
+
+class Planner {
+ public:
+  Planner(const SceneModel& model, const LayoutRequest& request, core::Rng& rng)
+      : model_(model), request_(request), rng_(rng) {}
+
+  std::optional<InitialState> Plan() {
+    for (double height : kBaseHeights) {
+      start_ = InitialState{};
+      start_.joints = request_.joints;
+      start_.world_from_robot = Eigen::Translation3d(0, 0, height) * Pose::Identity();
+      taken_ = {Eigen::AlignedBox2d(Eigen::Vector2d::Constant(-kRobotRadius),
+                                    Eigen::Vector2d::Constant(kRobotRadius))};
+      if (PlaceAll()) return start_;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  bool Rests(int thing) const {
+    return std::any_of(request_.resting.begin(), request_.resting.end(),
+                       [&](const Resting& resting) { return resting.thing == thing; });
+  }
+
+  bool PlaceAll() {
+    int articulated = 0;
+    for (int thing : request_.things) {
+      if (!model_.things[static_cast<std::size_t>(thing)].articulated() || Rests(thing)) continue;
+      constexpr std::array<double, 4> kDirections = {0.0, 80.0, -80.0, 160.0};
+      if (articulated == static_cast<int>(kDirections.size())) return false;
+      if (!PlaceArticulated(thing,
+                            kDirections[static_cast<std::size_t>(articulated++)] * kDegree)) {
+        return false;
+      }
+    }
+    for (int thing : request_.things) {
+      if (model_.things[static_cast<std::size_t>(thing)].articulated() || Rests(thing)) continue;
+      if (thing == request_.held ? !PlaceHeld(thing) : !PlaceBeside(thing)) return false;
+    }
+    for (const Resting& resting : request_.resting) {
+      if (!PlaceResting(resting)) return false;
+    }
+    return true;
+  }
+
+  void Add(int thing, const Pose& pose) {
+    const Thing& known = model_.things[static_cast<std::size_t>(thing)];
+    start_.placements.push_back({known.name, pose, known.articulated()});
+  }
+
+  SceneState State() const { return StateOf(model_, start_); }
+
+  // Grips of the worked joints along their way, in the root's frame.
+  std::vector<Eigen::Vector3d> GripPoints(int thing) const {
+    const auto t = static_cast<std::size_t>(thing);
+    const Thing& known = model_.things[t];
+    std::vector<double> positions = RestPositions(known);
+    std::vector<Eigen::Vector3d> points;
+    for (const auto& [owner, j] : request_.worked) {
+      if (owner != thing) continue;
+      const ThingJoint& joint = known.joints[static_cast<std::size_t>(j)];
+      const auto grip = static_cast<std::size_t>(joint.grip);
+      for (double share : {0.0, 0.4, 0.8}) {
+        positions[static_cast<std::size_t>(j)] =
+            joint.rest() + share * (joint.far() - joint.rest());
+        points.push_back(LinkPosesOf(known, positions)[grip] * known.links[grip].middle);
+      }
+      positions[static_cast<std::size_t>(j)] = joint.rest();
+    }
+    return points;
+  }
+
+  // What the thing covers of the floor, with its worked joints at both ends, root frame.
+  Eigen::AlignedBox3d Swept(int thing) const {
+    const Thing& known = model_.things[static_cast<std::size_t>(thing)];
+    Eigen::AlignedBox3d box = known.box;
+    for (const Eigen::Vector3d& point : GripPoints(thing)) box.extend(point);
+    return box;
+  }
+
+  bool PlaceArticulated(int thing, double direction) {
+    const Thing& known = model_.things[static_cast<std::size_t>(thing)];
+    const Pose turn = Turned(TurnToFront(known));
+    Eigen::AlignedBox3d turned;
+    for (int corner = 0; corner < 8; ++corner) {
+      turned.extend(turn * known.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+    }
+    const std::vector<Eigen::Vector3d> grips = GripPoints(thing);
+    for (double distance : {0.45, 0.35, 0.55, 0.65, 0.75}) {
+      for (double aside : {0.0, 0.2, -0.2, 0.4, -0.4}) {
+        const Eigen::Vector3d shift(distance - turned.min().x(), aside - turned.center().y(),
+                                    -turned.min().z());
+        const Pose pose = Turned(direction) * Eigen::Translation3d(shift) * turn;
+        const bool reached =
+            std::all_of(grips.begin(), grips.end(), [&](const Eigen::Vector3d& point) {
+              return Reaches(start_.world_from_robot, pose * point);
+            });
+        if (!reached || !IsFree(pose, known.box)) continue;
+        Add(thing, pose);
+        Take(pose, Swept(thing));
+        return true;
+      }
+    }
+    return false;
+  }
+
+  Eigen::AlignedBox2d FlatBox(const Pose& pose, const Eigen::AlignedBox3d& box) const {
+    Eigen::AlignedBox2d flat;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector3d point =
+          pose * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+      flat.extend(Eigen::Vector2d(point.head<2>()));
+    }
+    return flat;
+  }
+
+  bool IsFree(const Pose& pose, const Eigen::AlignedBox3d& box) const {
+    Eigen::AlignedBox2d flat = FlatBox(pose, box);
+    flat.min().array() -= kGap;
+    flat.max().array() += kGap;
+    return std::none_of(taken_.begin(), taken_.end(),
+                        [&](const Eigen::AlignedBox2d& other) { return flat.intersects(other); });
+  }
+
+  void Take(const Pose& pose, const Eigen::AlignedBox3d& box) {
+    taken_.push_back(FlatBox(pose, box));
+  }
+
+  // On the floor, within reach, where nothing else is.
+  bool PlaceBeside(int thing) {
+    const Thing& known = model_.things[static_cast<std::size_t>(thing)];
+    const double turn = core::Uniform(rng_, -0.3, 0.3);
+    const int first = static_cast<int>(core::UniformIndex(rng_, 4));
+    constexpr std::array<double, 4> kRadii = {0.45, 0.55, 0.38, 0.65};
+    for (int i = 0; i < 4; ++i) {
+      const double radius = kRadii[static_cast<std::size_t>((first + i) % 4)];
+      for (int step = 0; step < 17; ++step) {
+        const double angle = 15.0 * kDegree * ((step + 1) / 2) * (step % 2 == 0 ? 1.0 : -1.0);
+        const Eigen::Vector3d middle = known.box.center();
+        const Pose pose = Eigen::Translation3d(radius * std::cos(angle), radius * std::sin(angle),
+                                               -known.box.min().z()) *
+                          Turned(turn) * Eigen::Translation3d(-middle.x(), -middle.y(), 0.0);
+        if (!IsFree(pose, known.box)) continue;
+        if (!Reaches(start_.world_from_robot, pose * middle, -Eigen::Vector3d::UnitZ())) continue;
+        Add(thing, pose);
+        Take(pose, known.box);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool PlaceHeld(int thing) {
+    const Eigen::Vector3d hand =
+        (start_.world_from_robot *
+         robot::ForwardKinematics(robot::PandaArm(), robot::PandaArm().ready))
+            .translation();
+    Add(thing,
+        Eigen::Translation3d(hand - model_.things[static_cast<std::size_t>(thing)].box.center()) *
+            Pose::Identity());
+    start_.held = model_.things[static_cast<std::size_t>(thing)].name;
+    return true;
+  }
+
+  bool PlaceResting(const Resting& resting) {
+    const Thing& known = model_.things[static_cast<std::size_t>(resting.thing)];
+    const Thing& holder = model_.things[static_cast<std::size_t>(resting.holder)];
+    const SceneState state = State();
+    const auto h = static_cast<std::size_t>(resting.holder);
+    Eigen::Vector3d base;  // where the middle of its underside goes
+    if (resting.cavity < 0) {
+      const Eigen::AlignedBox3d box = WorldBox(model_, state, resting.holder, 0);
+      base << box.center().head<2>(), box.max().z();
+    } else {
+      const Cavity& cavity = holder.cavities[static_cast<std::size_t>(resting.cavity)];
+      Eigen::Vector3d floor = cavity.box.center();
+      const Pose link = state.roots[h] *
+                        LinkPosesOf(holder, state.joints[h])[static_cast<std::size_t>(cavity.link)];
+      base = link * floor;
+      base.z() -= 0.5 * cavity.box.sizes().z();
+    }
+    const Eigen::Vector3d under(known.box.center().x(), known.box.center().y(),
+                                known.box.min().z());
+    const Pose pose = Eigen::Translation3d(base - under) * Pose::Identity();
+    if (!Reaches(start_.world_from_robot, pose * known.box.center())) return false;
+    Add(resting.thing, pose);
+    return true;
+  }
+
+  const SceneModel& model_;
+  const LayoutRequest& request_;
+  core::Rng& rng_;
+  InitialState start_;
+  std::vector<Eigen::AlignedBox2d> taken_;
+};
+
+}  // namespace
+
+std::optional<InitialState> LayOut(const SceneModel& model, const LayoutRequest& request,
+                                   core::Rng& rng) {
+  return Planner(model, request, rng).Plan();
+}
+
+bool Reaches(const Eigen::Isometry3d& world_from_robot, const Eigen::Vector3d& point,
+             const std::optional<Eigen::Vector3d>& approach) {
+  const Pose robot_from_world = world_from_robot.inverse();
+  robot::ToolTarget target;
+  target.position = robot_from_world * point;
+  if (approach) target.approach = robot_from_world.linear() * *approach;
+  // Beyond what the stretched arm spans from its second joint: 0.316 + 0.384 m to the wrist, whose
+  // axis lies 0.088 m beside, and 0.21 m of flange and hand.
+  constexpr double kSpan = 0.316 + 0.384 + 0.088 + 0.2104;
+  if ((target.position - Eigen::Vector3d(0, 0, 0.333)).norm() > kSpan) return false;
+  core::Rng rng(1);  // the same answer for the same point
+  robot::InverseKinematicsOptions options;
+  options.position_tolerance = 5e-3;
+  options.approach_tolerance = 0.2;
+  return robot::SolveInverseKinematics(robot::PandaArm(), target, rng, options).reached;
+}
+
+}  // namespace simwright::tasks

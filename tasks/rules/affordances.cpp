@@ -1,0 +1,136 @@
+#include "tasks/rules/affordances.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+namespace simwright::tasks {
+namespace {
+
+constexpr double kHandOpening = 0.075;  // m, of 8 cm
+constexpr double kPayload = 2.5;        // kg; the Panda's is 3
+constexpr double kPushable = 8.0;       // kg
+constexpr double kRimHeight = 0.3;      // m: what is higher is not taken by its rim
+constexpr double kLongest = 0.5;        // m, of what one hand carries
+constexpr double kSpare = 0.01;         // m
+constexpr double kLeastTurn = 0.6;      // rad that make a door
+constexpr double kLeastSlide = 0.06;    // m that make a drawer
+constexpr double kLeastPress = 0.002;   // m
+
+template <std::size_t N>
+bool Holds(const std::string& text, const std::array<const char*, N>& words) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](const char* word) { return text.find(word) != std::string::npos; });
+}
+
+// The label, or else the link's own name, in lower case.
+std::string Called(const Thing& thing, const ThingJoint& joint) {
+  const ThingLink& link = thing.links[static_cast<std::size_t>(joint.link)];
+  std::string name = link.label.empty() ? link.name : link.label;
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return name;
+}
+
+// Highest points of the thing, within 3 mm: where something can stand.
+Eigen::AlignedBox2d Top(const Thing& thing, bool lowest) {
+  const std::vector<Eigen::Isometry3d> poses = LinkPosesOf(thing, RestPositions(thing));
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : thing.links[0].outline) box.extend(poses[0] * point);
+  Eigen::AlignedBox2d top;
+  for (const Eigen::Vector3d& point : thing.links[0].outline) {
+    const Eigen::Vector3d at = poses[0] * point;
+    const double away = lowest ? at.z() - box.min().z() : box.max().z() - at.z();
+    if (away < 3e-3) top.extend(Eigen::Vector2d(at.head<2>()));
+  }
+  return top;
+}
+
+Eigen::Vector3d OpeningOf(const Thing& holder, const Cavity& cavity) {
+  return LinkPosesOf(holder, RestPositions(holder))[static_cast<std::size_t>(cavity.link)]
+             .linear() *
+         cavity.opening;
+}
+
+bool OpensUpwards(const Thing& thing) {
+  return std::any_of(thing.cavities.begin(), thing.cavities.end(),
+                     [&](const Cavity& cavity) { return OpeningOf(thing, cavity).z() > 0.7; });
+}
+
+}  // namespace
+
+JointUse UseOf(const Thing& thing, const ThingJoint& joint) {
+  const std::string name = Called(thing, joint);
+  const bool slides = joint.type == RewardJointType::kPrismatic;
+  const double range = joint.upper - joint.lower;
+  if (range < (slides ? kLeastPress : 0.1)) return JointUse::kNone;
+  if (Holds(name, std::array{"door", "lid", "drawer", "window", "sash", "cover", "flap", "shutter",
+                             "screen", "tray", "rack"})) {
+    return JointUse::kOpen;
+  }
+  if (Holds(name, std::array{"button", "key", "pedal"})) return JointUse::kPress;
+  if (Holds(name, std::array{"knob", "dial", "valve", "tap", "faucet", "wheel"})) {
+    return JointUse::kTurn;
+  }
+  if (Holds(name, std::array{"lever", "handle", "spout"})) {
+    return slides ? JointUse::kPress : JointUse::kTurn;
+  }
+  if (Holds(name, std::array{"switch", "toggle"})) return JointUse::kSwitch;
+  if (slides) return range >= kLeastSlide ? JointUse::kOpen : JointUse::kPress;
+  return range >= kLeastTurn ? JointUse::kOpen : JointUse::kSwitch;
+}
+
+std::string PartName(const Thing& thing, const ThingJoint& joint) {
+  const std::string kind = Called(thing, joint);
+  int same = 0, number = 0;
+  for (const ThingJoint& other : thing.joints) {
+    if (Called(thing, other) != kind) continue;
+    ++same;
+    if (&other == &joint) number = same;
+  }
+  std::string name = kind;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return same > 1 ? name + " " + std::to_string(number) : name;
+}
+
+bool CanBeLifted(const Thing& thing) {
+  if (thing.articulated() || thing.mass > kPayload) return false;
+  const Eigen::Vector3d size = thing.box.sizes();
+  if (size.maxCoeff() > kLongest || size.z() < 0.015) return false;
+  const bool narrow = size.head<2>().minCoeff() <= kHandOpening;
+  return narrow || (OpensUpwards(thing) && size.z() <= kRimHeight);
+}
+
+bool CanBePushed(const Thing& thing) {
+  return !thing.articulated() && thing.mass <= kPushable && thing.height() >= 0.02 &&
+         thing.box.sizes().maxCoeff() <= 2.0 * kLongest;
+}
+
+bool CanPour(const Thing& thing) {
+  return CanBeLifted(thing) && OpensUpwards(thing) &&
+         thing.height() >= 0.5 * thing.box.sizes().head<2>().minCoeff();
+}
+
+bool StandsOn(const Thing& thing, const Thing& holder) {
+  const Eigen::AlignedBox2d top = Top(holder, false), foot = Top(thing, true);
+  if (top.isEmpty() || foot.isEmpty() || OpensUpwards(holder)) return false;
+  const Eigen::Vector2d whole = holder.box.sizes().head<2>();
+  const bool level = (top.sizes().array() >= 0.6 * whole.array()).all();
+  return level && (foot.sizes().array() + kSpare <= top.sizes().array()).all();
+}
+
+bool FitsInto(const Thing& thing, const Thing& holder, int cavity) {
+  const Cavity& room = holder.cavities[static_cast<std::size_t>(cavity)];
+  const Eigen::Vector3d opening = OpeningOf(holder, room);
+  if (opening.z() < -0.3) return false;
+  const Eigen::Isometry3d pose =
+      LinkPosesOf(holder, RestPositions(holder))[static_cast<std::size_t>(room.link)];
+  const Eigen::Vector3d space = (pose.linear() * room.box.sizes()).cwiseAbs();
+  const Eigen::Vector3d size = thing.box.sizes();
+  const bool upwards = opening.z() > 0.7;
+  // What opens above may be stood out of: a spoon in a cup.
+  const double height = upwards ? 2.0 * space.z() : space.z() - kSpare;
+  return size.x() + kSpare <= space.x() && size.y() + kSpare <= space.y() && size.z() <= height;
+}
+
+}  // namespace simwright::tasks

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "tasks/thing.h"
+
+namespace simwright::tasks {
+
+// What moving a joint is called.
+enum class JointUse {
+  kNone,    // not for a hand: too small a range
+  kOpen,    // open / close: doors, drawers, lids, sashes, screens
+  kTurn,    // turn on / turn off: knobs, taps, valves
+  kSwitch,  // switch on / switch off
+  kPress,   // press: buttons, keys, a toaster's lever
+};
+
+// By the label of what it moves (semantics.txt), without one by the link's name, its type and
+// range: what turns by more than 0.6 rad or slides by more than 6 cm opens, what slides less is
+// pressed.
+JointUse UseOf(const Thing& thing, const ThingJoint& joint);
+
+// "door", "drawer 2", "lid": what a person would call what the joint moves.
+std::string PartName(const Thing& thing, const ThingJoint& joint);
+
+// Whether one hand of 8 cm opening and 2.5 kg lifts it: narrow enough somewhere, or with a rim to
+// take.
+bool CanBeLifted(const Thing& thing);
+
+// Whether a hand can push it along the floor: rigid, higher than 2 cm, at most 8 kg.
+bool CanBePushed(const Thing& thing);
+
+// Whether it holds what can be poured: open above, and can be lifted.
+bool CanPour(const Thing& thing);
+
+// Whether `thing` stands on top of `holder`: a level top, larger than its foot.
+bool StandsOn(const Thing& thing, const Thing& holder);
+
+// Whether `thing` fits the cavity of `holder` as it stands, with a centimetre to spare.
+bool FitsInto(const Thing& thing, const Thing& holder, int cavity);
+
+}  // namespace simwright::tasks

@@ -1,0 +1,311 @@
+#include "tasks/rules/idea.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+#include "tasks/rules/affordances.h"
+#include "tasks/rules/step.h"
+
+namespace simwright::tasks {
+namespace {
+
+template <typename T>
+void Shuffle(std::vector<T>* items, core::Rng& rng) {
+  for (std::size_t i = items->size(); i > 1; --i) {
+    std::swap(
+        (*items)[i - 1],
+        (*items)[static_cast<std::size_t>(core::UniformIndex(rng, static_cast<std::int64_t>(i)))]);
+  }
+}
+
+std::string Joined(std::string text) {
+  std::replace(text.begin(), text.end(), ' ', '_');
+  std::replace(text.begin(), text.end(), '-', '_');
+  return text;
+}
+
+// Collects the ideas of each kind.
+class Thinker {
+ public:
+  Thinker(const SceneModel& model, std::size_t most, core::Rng& rng)
+      : model_(model), most_(most), rng_(rng) {
+    order_.resize(model.things.size());
+    std::iota(order_.begin(), order_.end(), 0);
+    Shuffle(&order_, rng_);
+    for (int t : order_) {
+      if (CanBeLifted(Known(t))) lifted_.push_back(t);
+      if (!Known(t).cavities.empty()) holders_.push_back(t);
+    }
+  }
+
+  std::vector<Idea> Think() {
+    Joints();
+    Single();
+    Onto();
+    Into();
+    Pour();
+    Stacks();
+    Stores();
+    return TakeTurns();
+  }
+
+ private:
+  const Thing& Known(int thing) const { return model_.things[static_cast<std::size_t>(thing)]; }
+  std::string Say(int thing) const { return SpokenName(Known(thing)); }
+
+  void Joints() {
+    std::vector<Idea> away, back, all;
+    for (int t : order_) {
+      const Thing& thing = Known(t);
+      std::vector<Fact> open;
+      for (std::size_t j = 0; j < thing.joints.size(); ++j) {
+        const JointUse use = UseOf(thing, thing.joints[j]);
+        if (use == JointUse::kNone) continue;
+        const int joint = static_cast<int>(j);
+        Idea idea;
+        idea.layout.things = {t};
+        idea.layout.worked = {{t, joint}};
+        idea.goals = {{FactKind::kJointAway, t, -1, joint}};
+        away.push_back(idea);
+        if (use == JointUse::kOpen) open.push_back(idea.goals[0]);
+        if (use == JointUse::kPress) continue;
+        idea.goals = {{FactKind::kJointAtRest, t, -1, joint}};
+        idea.layout.joints = {{thing.name, thing.joints[j].name, thing.joints[j].far()}};
+        back.push_back(idea);
+      }
+      if (open.size() >= 2) all.push_back(OpenAll(t, open));
+    }
+    kinds_.push_back(std::move(away));
+    kinds_.push_back(std::move(back));
+    kinds_.push_back(std::move(all));
+  }
+
+  Idea OpenAll(int thing, std::vector<Fact> open) {
+    Idea idea;
+    idea.name = Joined("open_all_of_" + Known(thing).name);
+    idea.description = "Open everything that opens on the " + Say(thing) + ".";
+    idea.layout.things = {thing};
+    if (open.size() > 4) open.resize(4);
+    for (const Fact& fact : open) idea.layout.worked.emplace_back(thing, fact.part);
+    idea.goals = open;
+    return idea;
+  }
+
+  void Single() {
+    std::vector<Idea> picked, moved, pushed;
+    for (int t : order_) {
+      Idea idea;
+      idea.layout.things = {t};
+      if (CanBeLifted(Known(t))) {
+        idea.goals = {{FactKind::kHolding, t}};
+        picked.push_back(idea);
+        idea.name = Joined("move_" + Known(t).name);
+        idea.description = "Take the " + Say(t) + " and put it down at the goal.";
+        idea.goals = {{FactKind::kAtGoal, t}};
+        moved.push_back(idea);
+        idea.name.clear();
+        idea.description.clear();
+      }
+      if (CanBePushed(Known(t))) {
+        idea.goals = {{FactKind::kPushed, t}};
+        pushed.push_back(idea);
+      }
+    }
+    kinds_.push_back(std::move(picked));
+    kinds_.push_back(std::move(moved));
+    kinds_.push_back(std::move(pushed));
+  }
+
+  // Pairs in a mixed order, as many as can be of use.
+  void EachPair(const std::vector<int>& firsts, const std::vector<int>& seconds,
+                const std::function<void(int, int)>& visit) {
+    const std::size_t bound = 4 * most_ + 64;
+    std::size_t visited = 0;
+    for (std::size_t shift = 0; shift < seconds.size(); ++shift) {
+      for (std::size_t i = 0; i < firsts.size() && visited < bound; ++i) {
+        const int second = seconds[(i + shift) % seconds.size()];
+        if (firsts[i] == second) continue;
+        ++visited;
+        visit(firsts[i], second);
+      }
+    }
+  }
+
+  void Onto() {
+    std::vector<Idea> ideas;
+    EachPair(lifted_, order_, [&](int thing, int holder) {
+      if (!StandsOn(Known(thing), Known(holder)) || Known(holder).height() > 0.6) return;
+      Idea idea;
+      idea.name = Joined("place_" + Known(thing).name + "_on_" + Known(holder).name);
+      idea.description = "Pick up the " + Say(thing) + " and stand it on the " + Say(holder) + ".";
+      idea.layout.things = {thing, holder};
+      idea.goals = {{FactKind::kOn, thing, holder}};
+      ideas.push_back(std::move(idea));
+    });
+    kinds_.push_back(std::move(ideas));
+  }
+
+  void Into() {
+    std::vector<Idea> put, taken, used;
+    EachPair(lifted_, holders_, [&](int thing, int holder) {
+      const Thing& known = Known(holder);
+      for (std::size_t c = 0; c < known.cavities.size() && c < 3; ++c) {
+        const int cavity = static_cast<int>(c);
+        if (!FitsInto(Known(thing), known, cavity)) continue;
+        put.push_back(PutIdea(thing, holder, cavity));
+        taken.push_back(TakeIdea(thing, holder, cavity));
+        const int control = ControlOf(known, known.cavities[c].door);
+        if (control >= 0 && known.cavities[c].door >= 0) {
+          used.push_back(UseIdea(put.back(), holder, control));
+        }
+        return;
+      }
+    });
+    kinds_.push_back(std::move(put));
+    kinds_.push_back(std::move(taken));
+    kinds_.push_back(std::move(used));
+  }
+
+  // A knob or button of a thing that has a door.
+  int ControlOf(const Thing& thing, int door) const {
+    for (std::size_t j = 0; j < thing.joints.size(); ++j) {
+      const JointUse use = UseOf(thing, thing.joints[j]);
+      const bool control =
+          use == JointUse::kTurn || use == JointUse::kPress || use == JointUse::kSwitch;
+      if (control && static_cast<int>(j) != door) return static_cast<int>(j);
+    }
+    return -1;
+  }
+
+  Idea PutIdea(int thing, int holder, int cavity) {
+    const int door = Known(holder).cavities[static_cast<std::size_t>(cavity)].door;
+    Idea idea;
+    idea.name = Joined("put_" + Known(thing).name + "_into_" + Known(holder).name);
+    idea.description = "Put the " + Say(thing) + " into the " + Say(holder);
+    idea.layout.things = {holder, thing};
+    idea.goals = {{FactKind::kIn, thing, holder, cavity}};
+    if (door >= 0) {
+      idea.name += "_and_close_it";
+      idea.description += " and close it";
+      idea.layout.worked = {{holder, door}};
+      idea.goals.push_back({FactKind::kJointAtRest, holder, -1, door});
+    }
+    idea.description += ".";
+    return idea;
+  }
+
+  Idea TakeIdea(int thing, int holder, int cavity) {
+    const int door = Known(holder).cavities[static_cast<std::size_t>(cavity)].door;
+    Idea idea;
+    idea.name = Joined("take_" + Known(thing).name + "_out_of_" + Known(holder).name);
+    idea.description = "Take the " + Say(thing) + " out of the " + Say(holder) + ".";
+    idea.layout.things = {holder, thing};
+    idea.layout.resting = {{thing, holder, cavity}};
+    idea.goals = {{FactKind::kAtGoal, thing}};
+    if (door >= 0) idea.layout.worked = {{holder, door}};
+    return idea;
+  }
+
+  Idea UseIdea(Idea put, int holder, int control) {
+    const Thing& known = Known(holder);
+    const ThingJoint& joint = known.joints[static_cast<std::size_t>(control)];
+    const bool press = UseOf(known, joint) == JointUse::kPress;
+    put.name +=
+        Joined(std::string(press ? "_and_press_" : "_and_turn_on_") + PartName(known, joint));
+    put.description.back() = ',';
+    put.description += std::string(press ? " then press" : " then turn on") + " the " +
+                       PartName(known, joint) + ".";
+    put.layout.worked.emplace_back(holder, control);
+    put.goals.push_back({FactKind::kJointAway, holder, -1, control});
+    return put;
+  }
+
+  void Pour() {
+    std::vector<Idea> ideas;
+    EachPair(lifted_, lifted_, [&](int thing, int other) {
+      if (!CanPour(Known(thing)) || !CanPour(Known(other))) return;
+      Idea idea;
+      idea.name = Joined("pour_from_" + Known(thing).name + "_into_" + Known(other).name);
+      idea.description =
+          "Pick up the " + Say(thing) + " and pour from it into the " + Say(other) + ".";
+      idea.layout.things = {thing, other};
+      idea.goals = {{FactKind::kPoured, thing, other}};
+      ideas.push_back(std::move(idea));
+    });
+    kinds_.push_back(std::move(ideas));
+  }
+
+  void Stacks() {
+    std::vector<Idea> ideas;
+    EachPair(lifted_, lifted_, [&](int top, int middle) {
+      if (!StandsOn(Known(top), Known(middle))) return;
+      for (int base : order_) {
+        const bool apart = base != top && base != middle && !Known(base).articulated();
+        if (!apart || !StandsOn(Known(middle), Known(base)) || Known(base).height() > 0.4) continue;
+        Idea idea;
+        idea.name =
+            Joined("stack_" + Known(top).name + "_" + Known(middle).name + "_" + Known(base).name);
+        idea.description = "Stack the " + Say(middle) + " on the " + Say(base) + " and the " +
+                           Say(top) + " on top.";
+        idea.layout.things = {top, middle, base};
+        idea.goals = {{FactKind::kOn, middle, base}, {FactKind::kOn, top, middle}};
+        ideas.push_back(std::move(idea));
+        return;
+      }
+    });
+    kinds_.push_back(std::move(ideas));
+  }
+
+  // Two things into one room that has a door.
+  void Stores() {
+    std::vector<Idea> ideas;
+    EachPair(lifted_, lifted_, [&](int first, int second) {
+      if (first > second) return;
+      for (int holder : holders_) {
+        const Thing& known = Known(holder);
+        if (holder == first || holder == second || known.cavities[0].door < 0) continue;
+        if (!FitsInto(Known(first), known, 0) || !FitsInto(Known(second), known, 0)) continue;
+        Idea idea = PutIdea(first, holder, 0);
+        idea.name = Joined("store_" + Known(first).name + "_and_" + Known(second).name + "_in_" +
+                           known.name);
+        idea.description = "Put the " + Say(first) + " and the " + Say(second) + " into the " +
+                           Say(holder) + " and close it.";
+        idea.layout.things.push_back(second);
+        idea.goals.insert(idea.goals.begin() + 1, {FactKind::kIn, second, holder, 0});
+        ideas.push_back(std::move(idea));
+        std::rotate(holders_.begin(), holders_.begin() + 1, holders_.end());
+        return;
+      }
+    });
+    kinds_.push_back(std::move(ideas));
+  }
+
+  std::vector<Idea> TakeTurns() {
+    std::vector<Idea> mixed;
+    bool any = true;
+    for (std::size_t turn = 0; any && mixed.size() < most_; ++turn) {
+      any = false;
+      for (std::vector<Idea>& kind : kinds_) {
+        if (turn >= kind.size() || mixed.size() == most_) continue;
+        any = true;
+        mixed.push_back(std::move(kind[turn]));
+      }
+    }
+    return mixed;
+  }
+
+  const SceneModel& model_;
+  std::size_t most_;
+  core::Rng& rng_;
+  std::vector<int> order_, lifted_, holders_;
+  std::vector<std::vector<Idea>> kinds_;
+};
+
+}  // namespace
+
+std::vector<Idea> ThinkOfTasks(const SceneModel& model, std::size_t most, core::Rng& rng) {
+  return Thinker(model, most, rng).Think();
+}
+
+}  // namespace simwright::tasks

@@ -1,0 +1,351 @@
+#include "tasks/rules/step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "tasks/rules/affordances.h"
+
+namespace simwright::tasks {
+namespace {
+
+constexpr double kAway = 0.7;         // share of a joint's range that counts as open, on, pressed
+constexpr double kAtRest = 0.05;      // share within which it counts as closed, off
+constexpr double kActedShare = 0.78;  // to which an ideal hand goes
+constexpr double kLift = 0.15;        // m
+constexpr double kSide = 0.18;        // m, to where things are put or pushed
+constexpr double kTilt = 2.2;         // rad
+
+std::string Number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f", std::abs(value) < 5e-4 ? 0.0 : value);
+  return text;
+}
+
+std::string Triple(const Eigen::Vector3d& v) {
+  return "torch.tensor([" + Number(v.x()) + ", " + Number(v.y()) + ", " + Number(v.z()) +
+         "], device=env.device)";
+}
+
+std::string Quoted(const std::string& name) {
+  return "\"" + name + "\"";
+}
+
+// A function line by line.
+class Program {
+ public:
+  explicit Program(const std::string& comment) { Line("# " + comment); }
+  Program& Line(const std::string& line) {
+    text_ += "    " + line + "\n";
+    return *this;
+  }
+  std::string Text() const { return "def compute_reward(env):\n" + text_; }
+  void Returns() { Line("return reward, success"); }
+
+ private:
+  std::string text_;
+};
+
+void AddReach(const std::string& target, Program* program) {
+  program->Line("gripper = env.get_robot_gripper_pose()")
+      .Line("reach = torch.norm(gripper - " + target + ", dim=-1)");
+}
+
+struct Verbs {
+  const char *away, *away_name, *back, *back_name;
+};
+
+Verbs VerbsOf(JointUse use) {
+  switch (use) {
+    case JointUse::kTurn:
+      return {"Turn on", "turn_on", "Turn off", "turn_off"};
+    case JointUse::kSwitch:
+      return {"Switch on", "switch_on", "Switch off", "switch_off"};
+    case JointUse::kPress:
+      return {"Press", "press", "Release", "release"};
+    default:
+      return {"Open", "open", "Close", "close"};
+  }
+}
+
+std::string FileName(std::string text) {
+  std::replace(text.begin(), text.end(), ' ', '_');
+  std::replace(text.begin(), text.end(), '-', '_');
+  return text;
+}
+
+// The share of its way that the joint has gone, as an expression of `state` and `limits`.
+std::string ShareText(const ThingJoint& joint) {
+  const bool up = joint.far() == joint.upper;
+  const std::string far = up ? "limits[\"upper\"]" : "limits[\"lower\"]";
+  const std::string near = up ? "limits[\"lower\"]" : "limits[\"upper\"]";
+  const double rest = joint.rest();
+  if (rest == (up ? joint.lower : joint.upper)) {
+    return "(state - " + near + ") / (" + far + " - " + near + ")";
+  }
+  if (rest == 0.0) return "state / " + far;
+  return "(state - " + Number(rest) + ") / (" + far + " - " + Number(rest) + ")";
+}
+
+Step JointStep(const SceneModel& model, const Operator& one) {
+  const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
+  const ThingJoint& joint = thing.joints[static_cast<std::size_t>(one.part)];
+  const bool away = one.verb == Verb::kOpen;
+  const Verbs verbs = VerbsOf(UseOf(thing, joint));
+  const std::string part = PartName(thing, joint);
+  const std::string grip = thing.links[static_cast<std::size_t>(joint.grip)].name;
+  Step step;
+  step.name = FileName(std::string(away ? verbs.away_name : verbs.back_name) + "_" + thing.name +
+                       "_" + part);
+  step.description = std::string(away ? verbs.away : verbs.back) + " the " + part + " of the " +
+                     SpokenName(thing) + ".";
+  Program program("Reach for the " + grip + ", then move the joint.");
+  program.Line("handle = env.get_pose_by_link_name(" + Quoted(thing.name) + ", " + Quoted(grip) +
+               ")");
+  AddReach("handle", &program);
+  const std::string names = Quoted(thing.name) + ", " + Quoted(joint.name);
+  program.Line("state = env.get_state_by_joint_name(" + names + ")")
+      .Line("limits = env.get_limits_by_joint_name(" + names + ")")
+      .Line("moved = " + ShareText(joint));
+  if (away) {
+    program.Line("reward = 2.0 * torch.clamp(moved, max=1.0) - reach")
+        .Line("success = moved >= " + Number(kAway));
+  } else {
+    program.Line("reward = -2.0 * torch.clamp(moved, min=0.0) - reach")
+        .Line("success = moved <= " + Number(kAtRest));
+  }
+  program.Returns();
+  step.program = program.Text();
+  step.success = joint.name + " of " + thing.name +
+                 (away ? " past " + Number(100.0 * kAway).substr(0, 2) + " % of its way"
+                       : " within 5 % of its rest");
+  const double target =
+      away ? joint.rest() + kActedShare * (joint.far() - joint.rest()) : joint.rest();
+  step.action = {ActionKind::kMoveJoint, one.thing, one.part, target, Eigen::Vector3d::Zero()};
+  return step;
+}
+
+Step PickStep(const SceneModel& model, const SceneState& state, const Operator& one) {
+  const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
+  const std::string spoken = SpokenName(thing), name = Quoted(thing.name);
+  Step step;
+  step.name = FileName("pick_up_" + thing.name);
+  step.description = "Pick up the " + spoken + ".";
+  const Eigen::Vector3d middle = LinkPoint(model, state, one.thing, 0);
+  Eigen::Vector3d raised = middle + Eigen::Vector3d(0, 0, kLift);
+  if (one.part >= 0) {
+    // Out through the opening first, then up.
+    const Thing& holder = model.things[static_cast<std::size_t>(one.other)];
+    step.name += FileName("_from_" + holder.name);
+    step.description = "Take the " + spoken + " out of the " + SpokenName(holder) + ".";
+    const Cavity& cavity = holder.cavities[static_cast<std::size_t>(one.part)];
+    const auto h = static_cast<std::size_t>(one.other);
+    const Eigen::Isometry3d link =
+        state.roots[h] *
+        LinkPosesOf(holder, state.joints[h])[static_cast<std::size_t>(cavity.link)];
+    const Eigen::Vector3d out = link.linear() * cavity.opening;
+    const double depth = std::abs(cavity.box.sizes().dot(cavity.opening));
+    raised = middle + (0.6 * depth + 0.5 * thing.box.sizes().maxCoeff() + 0.05) * out;
+  } else if (one.other >= 0) {
+    step.name += FileName("_from_" + model.things[static_cast<std::size_t>(one.other)].name);
+  }
+  step.goal = raised;
+  Program program("Grasp the " + spoken + " and bring it to the goal.");
+  program.Line("thing = env.get_position(" + name + ")");
+  AddReach("thing", &program);
+  program.Line("grasped = env.check_grasped(" + name + ")")
+      .Line("missing = torch.norm(env.get_goal_pose() - thing, dim=-1)")
+      .Line("reward = grasped.float() - reach - 2.0 * missing")
+      .Line("success = torch.logical_and(grasped, missing <= 0.03)");
+  program.Returns();
+  step.program = program.Text();
+  step.success = thing.name + " held within 3 cm of the goal";
+  step.action = {ActionKind::kCarry, one.thing, -1, 0.0, raised};
+  return step;
+}
+
+// A place on the floor beside where the thing stands, on the side that is nearer to the middle.
+Eigen::Vector3d BesideOf(const SceneModel& model, const SceneState& state, int thing) {
+  const Thing& known = model.things[static_cast<std::size_t>(thing)];
+  Eigen::Vector3d target = LinkPoint(model, state, thing, 0);
+  target.y() += target.y() > 0.0 ? -kSide : kSide;
+  target.z() = known.links[0].middle.z() - known.box.min().z();
+  return target;
+}
+
+Step PutDownStep(const SceneModel& model, const SceneState& state, const Operator& one) {
+  const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
+  const std::string name = Quoted(thing.name);
+  Step step;
+  step.name = FileName("put_down_" + thing.name);
+  step.description = "Put the " + SpokenName(thing) + " down at the goal.";
+  step.goal = BesideOf(model, state, one.thing);
+  Program program("Bring the " + SpokenName(thing) + " to the goal and let go of it.");
+  program.Line("thing = env.get_position(" + name + ")")
+      .Line("distance = torch.norm(env.get_goal_pose() - thing, dim=-1)")
+      .Line("there = distance <= 0.03")
+      .Line("released = torch.logical_not(env.check_grasped(" + name + "))")
+      .Line("success = torch.logical_and(there, released)")
+      .Line("reward = there.float() + success.float() - 2.0 * distance");
+  program.Returns();
+  step.program = program.Text();
+  step.success = thing.name + " within 3 cm of the goal, not held";
+  step.action = {ActionKind::kPlace, one.thing, -1, 0.0, *step.goal};
+  return step;
+}
+
+Step PlaceOnStep(const SceneModel& model, const SceneState& state, const Operator& one) {
+  const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
+  const Thing& holder = model.things[static_cast<std::size_t>(one.other)];
+  Step step;
+  step.name = FileName("place_" + thing.name + "_on_" + holder.name);
+  step.description = "Place the " + SpokenName(thing) + " on the " + SpokenName(holder) + ".";
+  Program program("Stand the " + SpokenName(thing) + " on top and let go of it.");
+  program
+      .Line("low, high = env.get_bounding_box_link(" + Quoted(holder.name) + ", " +
+            Quoted(holder.links[0].name) + ")")
+      .Line("top = 0.5 * (low + high)")
+      .Line("top[:, 2] = high[:, 2]")
+      .Line("foot_low, foot_high = env.get_bounding_box(" + Quoted(thing.name) + ")")
+      .Line("foot = 0.5 * (foot_low + foot_high)")
+      .Line("foot[:, 2] = foot_low[:, 2]")
+      .Line("distance = torch.norm(top - foot, dim=-1)")
+      .Line("there = distance <= 0.03")
+      .Line("released = torch.logical_not(env.check_grasped(" + Quoted(thing.name) + "))")
+      .Line("success = torch.logical_and(there, released)")
+      .Line("reward = there.float() + success.float() - 2.0 * distance");
+  program.Returns();
+  step.program = program.Text();
+  step.success = "the foot of " + thing.name + " within 3 cm of the middle of " + holder.name +
+                 "'s top, not held";
+  const Eigen::AlignedBox3d body = WorldBox(model, state, one.other, 0);
+  Eigen::Vector3d target = body.center();
+  target.z() = body.max().z() + 0.5 * thing.height() + 1e-3;
+  step.action = {ActionKind::kPlace, one.thing, -1, 0.0, target};
+  return step;
+}
+
+Step PutIntoStep(const SceneModel& model, const SceneState& state, const Operator& one) {
+  const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
+  const Thing& holder = model.things[static_cast<std::size_t>(one.other)];
+  const Cavity& cavity = holder.cavities[static_cast<std::size_t>(one.part)];
+  const ThingLink& link = holder.links[static_cast<std::size_t>(cavity.link)];
+  const auto h = static_cast<std::size_t>(one.other);
+  const Eigen::Isometry3d pose =
+      state.roots[h] * LinkPosesOf(holder, state.joints[h])[static_cast<std::size_t>(cavity.link)];
+  // The room as shares of the link's box along the world's axes: so it moves with the link.
+  Eigen::AlignedBox3d room;
+  for (int corner = 0; corner < 8; ++corner) {
+    room.extend(pose * cavity.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+  }
+  const Eigen::AlignedBox3d box = WorldBox(model, state, one.other, cavity.link);
+  const Eigen::Vector3d size = box.sizes().cwiseMax(1e-6);
+  Eigen::Vector3d target = room.center();
+  target.z() = room.min().z() + 0.5 * thing.height() + 1e-3;
+  // What stands out of a cup has its middle above the cup's room.
+  const double lift = std::max(0.0, target.z() + 0.02 - room.max().z());
+  const Eigen::Vector3d low = (room.min() - box.min()).cwiseQuotient(size);
+  const Eigen::Vector3d high =
+      (room.max() + Eigen::Vector3d(0, 0, lift) - box.min()).cwiseQuotient(size);
+  const Eigen::Vector3d wanted = (target - box.min()).cwiseQuotient(size);
+  Step step;
+  step.name = FileName("put_" + thing.name + "_into_" + holder.name);
+  step.description = "Put the " + SpokenName(thing) + " into the " + SpokenName(holder) + ".";
+  Program program("Bring the " + SpokenName(thing) + " inside and let go of it.");
+  program.Line("thing = env.get_position(" + Quoted(thing.name) + ")")
+      .Line("low, high = env.get_bounding_box_link(" + Quoted(holder.name) + ", " +
+            Quoted(link.name) + ")")
+      .Line("size = high - low")
+      .Line("inside = env.in_bbox(thing, low + size * " + Triple(low) + ",")
+      .Line("                     low + size * " + Triple(high) + ")")
+      .Line("distance = torch.norm(low + size * " + Triple(wanted) + " - thing, dim=-1)")
+      .Line("released = torch.logical_not(env.check_grasped(" + Quoted(thing.name) + "))")
+      .Line("success = torch.logical_and(inside, released)")
+      .Line("reward = inside.float() + success.float() - 2.0 * distance");
+  program.Returns();
+  step.program = program.Text();
+  step.success =
+      "the middle of " + thing.name + " inside " + link.name + " of " + holder.name + ", not held";
+  step.action = {ActionKind::kPlace, one.thing, -1, 0.0, target};
+  return step;
+}
+
+Step PushStep(const SceneModel& model, const SceneState& state, const Operator& one) {
+  const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
+  Step step;
+  step.name = FileName("push_" + thing.name);
+  step.description = "Push the " + SpokenName(thing) + " along the floor to the goal.";
+  Eigen::Vector3d goal = LinkPoint(model, state, one.thing, 0);
+  goal.y() += goal.y() > 0.0 ? -kSide : kSide;
+  step.goal = goal;
+  Program program("Reach for the " + SpokenName(thing) + " and push it to the goal.");
+  program.Line("thing = env.get_position(" + Quoted(thing.name) + ")");
+  AddReach("thing", &program);
+  program.Line("goal = env.get_goal_pose()")
+      .Line("distance = torch.norm(goal[:, :2] - thing[:, :2], dim=-1)")
+      .Line("reward = -2.0 * distance - 0.5 * reach")
+      .Line("success = distance <= 0.03");
+  program.Returns();
+  step.program = program.Text();
+  step.success = thing.name + " within 3 cm of the goal, seen from above";
+  step.action = {ActionKind::kPush, one.thing, -1, 0.0, goal};
+  return step;
+}
+
+Step PourStep(const SceneModel& model, const SceneState& state, const Operator& one) {
+  const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
+  const Thing& holder = model.things[static_cast<std::size_t>(one.other)];
+  Step step;
+  step.name = FileName("pour_" + thing.name + "_over_" + holder.name);
+  step.description = "Hold the " + SpokenName(thing) + " over the " + SpokenName(holder) +
+                     " and tilt it as if to pour.";
+  const Eigen::AlignedBox3d box = WorldBox(model, state, one.other);
+  Eigen::Vector3d above = box.center();
+  above.z() = box.max().z() + 0.5 * thing.box.sizes().maxCoeff() + 0.05;
+  Program program("Hold it above, then tilt it: upright is 1, on its side 0, upside down -1.");
+  program.Line("thing = env.get_position(" + Quoted(thing.name) + ")")
+      .Line("low, high = env.get_bounding_box(" + Quoted(holder.name) + ")")
+      .Line("above = 0.5 * (low + high)")
+      .Line("above[:, 2] = high[:, 2] + " + Number(above.z() - box.max().z()))
+      .Line("distance = torch.norm(above - thing, dim=-1)")
+      .Line("turn = env.get_orientation(" + Quoted(thing.name) + ")")
+      .Line("upright = 1.0 - 2.0 * (turn[:, 0] ** 2 + turn[:, 1] ** 2)")
+      .Line("near = distance <= 0.1")
+      .Line("reward = -2.0 * distance - torch.where(near, upright, torch.ones_like(upright))")
+      .Line("success = torch.logical_and(near, upright <= -0.2)");
+  program.Returns();
+  step.program = program.Text();
+  step.success = thing.name + " above " + holder.name + ", tilted by more than 100 degrees";
+  step.action = {ActionKind::kTilt, one.thing, -1, kTilt, above};
+  return step;
+}
+
+}  // namespace
+
+std::string SpokenName(const Thing& thing) {
+  std::string name = thing.name;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+Step StepOf(const SceneModel& model, const SceneState& state, const Operator& one) {
+  switch (one.verb) {
+    case Verb::kOpen:
+    case Verb::kClose:
+      return JointStep(model, one);
+    case Verb::kPick:
+      return PickStep(model, state, one);
+    case Verb::kPlaceOn:
+      return PlaceOnStep(model, state, one);
+    case Verb::kPutInto:
+      return PutIntoStep(model, state, one);
+    case Verb::kPutDown:
+      return PutDownStep(model, state, one);
+    case Verb::kPush:
+      return PushStep(model, state, one);
+    default:
+      return PourStep(model, state, one);
+  }
+}
+
+}  // namespace simwright::tasks

@@ -1,0 +1,198 @@
+#include "tasks/verification/action_sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace simwright::tasks {
+namespace {
+
+constexpr double kLift = 0.3;      // m
+constexpr double kAside = 0.25;    // m
+constexpr double kTurnOver = 2.6;  // rad
+constexpr double kTooFar = 4.0;    // m
+constexpr double kBeyond = 0.35;   // of a joint's range
+constexpr int kMostChains = 400;
+constexpr int kMostCavities = 4;  // of one thing
+
+class Sampler {
+ public:
+  Sampler(const SceneModel& model, const SceneState& start, const std::vector<RewardSlot>& slots)
+      : model_(model), start_(start) {
+    for (const RewardSlot& slot : slots) Note(slot);
+  }
+
+  ActionSequences Sample() {
+    for (int thing : things_) {
+      const Thing& known = model_.things[static_cast<std::size_t>(thing)];
+      if (known.articulated()) {
+        for (std::size_t j = 0; j < known.joints.size(); ++j) AddJoint(thing, static_cast<int>(j));
+      } else {
+        AddThing(thing);
+      }
+    }
+    for (const auto& [thing, link] : links_) {
+      sequences_.single.push_back(
+          {{ActionKind::kReach, thing, link, 0.0, Eigen::Vector3d::Zero()}});
+    }
+    Chain();
+    return std::move(sequences_);
+  }
+
+ private:
+  void Note(const RewardSlot& slot) {
+    const int thing = model_.Find(slot.asset);
+    if (thing < 0) return;
+    things_.insert(thing);
+    const Thing& known = model_.things[static_cast<std::size_t>(thing)];
+    const int link = slot.part.empty() ? 0 : known.FindLink(slot.part);
+    if (link >= 0) links_.insert({thing, link});
+    const int joint = slot.part.empty() ? -1 : known.FindJoint(slot.part);
+    if (joint >= 0) joints_.insert({thing, joint});
+    // A link that is looked at is moved by the joints above it.
+    for (int at = link; at > 0;) {
+      const ThingLink& moved = known.links[static_cast<std::size_t>(at)];
+      if (moved.joint >= 0) joints_.insert({thing, moved.joint});
+      at = moved.parent;
+    }
+  }
+
+  bool Articulated(int thing) const {
+    return model_.things[static_cast<std::size_t>(thing)].articulated();
+  }
+
+  void AddJoint(int thing, int index) {
+    if (!joints_.contains({thing, index})) return;
+    const ThingJoint& joint =
+        model_.things[static_cast<std::size_t>(thing)].joints[static_cast<std::size_t>(index)];
+    const double now =
+        start_.joints[static_cast<std::size_t>(thing)][static_cast<std::size_t>(index)];
+    const double range = joint.upper - joint.lower;
+    const auto move = [&](double position) {
+      return Action{ActionKind::kMoveJoint, thing, index, position, Eigen::Vector3d::Zero()};
+    };
+    for (double end : {joint.far(), joint.lower, joint.upper}) {
+      if (std::abs(end - now) < 0.02 * range) continue;
+      if (!moves_.empty() && moves_.back().thing == thing && moves_.back().part == index &&
+          moves_.back().position == end) {
+        continue;
+      }
+      moves_.push_back(move(end));
+      sequences_.single.push_back({move(end)});
+    }
+    // What starts half open may have to go both ways before it is done.
+    sequences_.beyond_limits.push_back({move(joint.upper + kBeyond * range)});
+    sequences_.beyond_limits.push_back({move(joint.lower - kBeyond * range)});
+  }
+
+  void Carry(ActionKind kind, int thing, const Eigen::Vector3d& target, double angle = 0.0) {
+    const Action action{kind, thing, -1, angle, target};
+    handlings_.push_back(action);
+    sequences_.single.push_back({action});
+  }
+
+  void AddThing(int thing) {
+    const Eigen::AlignedBox3d box = WorldBox(model_, start_, thing);
+    const Eigen::Vector3d middle = box.center();
+    const Eigen::Vector3d up(0, 0, kLift);
+    Carry(ActionKind::kCarry, thing, middle + up);
+    Carry(ActionKind::kTilt, thing, middle + up, kTurnOver);
+    if (!start_.goal.isZero()) {
+      Carry(ActionKind::kCarry, thing, start_.goal);
+      Carry(ActionKind::kPlace, thing, start_.goal);
+      Carry(ActionKind::kPush, thing, start_.goal);
+    }
+    for (double side : {-kAside, kAside}) {
+      Eigen::Vector3d aside = middle + Eigen::Vector3d(0, side, 0);
+      aside.z() = 0.5 * box.sizes().z();
+      Carry(ActionKind::kPlace, thing, aside);
+      Carry(ActionKind::kPush, thing, middle + Eigen::Vector3d(0, side, 0));
+      Carry(ActionKind::kPush, thing, middle + Eigen::Vector3d(side, 0, 0));
+    }
+    for (int other : things_) {
+      if (other != thing) AddOnto(thing, other, box);
+    }
+    for (const Eigen::Vector3d& way :
+         {Eigen::Vector3d(0, 0, kTooFar), Eigen::Vector3d(kTooFar, 0, 0),
+          Eigen::Vector3d(0, kTooFar, 0)}) {
+      sequences_.too_far.push_back({{ActionKind::kCarry, thing, -1, 0.0, middle + way}});
+    }
+  }
+
+  void AddOnto(int thing, int other, const Eigen::AlignedBox3d& box) {
+    const auto o = static_cast<std::size_t>(other);
+    const Thing& holder = model_.things[o];
+    const double half = 0.5 * box.sizes().z();
+    const Eigen::AlignedBox3d body = WorldBox(model_, start_, other, 0);
+    Eigen::Vector3d on_top = body.center();
+    on_top.z() = body.max().z() + half + 1e-3;
+    Carry(ActionKind::kPlace, thing, on_top);
+    Eigen::Vector3d beside = body.center();
+    beside.y() += 0.5 * (body.sizes().y() + box.sizes().y()) + 0.05;
+    beside.z() = half;
+    Carry(ActionKind::kPlace, thing, beside);
+    if (!holder.articulated()) {
+      Carry(ActionKind::kTilt, thing, on_top + Eigen::Vector3d(0, 0, 0.1), kTurnOver);
+    }
+    const std::vector<Eigen::Isometry3d> poses = LinkPosesOf(holder, start_.joints[o]);
+    int cavities = 0;
+    for (const Cavity& cavity : holder.cavities) {
+      if (++cavities > kMostCavities) break;
+      Eigen::Vector3d inside =
+          start_.roots[o] * poses[static_cast<std::size_t>(cavity.link)] * cavity.box.center();
+      inside.z() += half - 0.5 * cavity.box.sizes().z() + 1e-3;
+      Carry(ActionKind::kPlace, thing, inside);
+    }
+  }
+
+  void Chain() {
+    std::vector<std::vector<Action>>& chains = sequences_.chained;
+    const auto add = [&](std::vector<Action> chain) {
+      if (static_cast<int>(chains.size()) < kMostChains) chains.push_back(std::move(chain));
+    };
+    for (const Action& move : moves_) {
+      for (const Action& handling : handlings_) {
+        add({move, handling});
+        add({handling, move});
+      }
+      for (const Action& other : moves_) {
+        if (&other != &move && (other.thing != move.thing || other.part != move.part)) {
+          add({move, other});
+        }
+      }
+    }
+    for (const Action& handling : handlings_) {
+      for (const Action& other : handlings_) {
+        if (other.thing != handling.thing && handling.kind == ActionKind::kPlace) {
+          add({handling, other});
+        }
+      }
+    }
+    for (const Action& move : moves_) {
+      for (const Action& handling : handlings_) {
+        if (handling.kind != ActionKind::kPlace) continue;
+        Action back = move;
+        back.position =
+            start_
+                .joints[static_cast<std::size_t>(move.thing)][static_cast<std::size_t>(move.part)];
+        add({move, handling, back});
+      }
+    }
+  }
+
+  const SceneModel& model_;
+  const SceneState& start_;
+  std::set<int> things_;
+  std::set<std::pair<int, int>> links_, joints_;
+  std::vector<Action> moves_, handlings_;
+  ActionSequences sequences_;
+};
+
+}  // namespace
+
+ActionSequences SampleActions(const SceneModel& model, const SceneState& start,
+                              const std::vector<RewardSlot>& slots) {
+  return Sampler(model, start, slots).Sample();
+}
+
+}  // namespace simwright::tasks

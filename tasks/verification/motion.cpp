@@ -1,0 +1,240 @@
+#include "tasks/verification/motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace simwright::tasks {
+namespace {
+
+constexpr int kApproachSteps = 10;
+constexpr int kJointSteps = 30;
+constexpr int kCarrySteps = 10;
+constexpr int kLowerSteps = 8;
+constexpr double kCarryHeight = 0.12;  // m above the higher of start and target
+constexpr double kRetreat = 0.1;       // m
+constexpr double kOpen = 0.08;         // m between the fingers
+
+class MotionMaker {
+ public:
+  MotionMaker(const SceneModel& model, const SceneState& start) : model_(model), state_(start) {
+    if (state_.grasped) Hold(state_.touched);
+    Keep(MotionPhase::kApproach);
+  }
+
+  void Do(const Action& action) {
+    switch (action.kind) {
+      case ActionKind::kReach:
+        return Approach(LinkPoint(model_, state_, action.thing, action.part), std::nullopt);
+      case ActionKind::kMoveJoint:
+        return MoveJoint(action.thing, action.part, action.position);
+      case ActionKind::kCarry:
+      case ActionKind::kPlace:
+        Grasp(action.thing);
+        Bring(action.target, action.kind == ActionKind::kPlace);
+        if (action.kind == ActionKind::kPlace) Release();
+        return;
+      case ActionKind::kPush:
+        return Push(action.thing, action.target);
+      case ActionKind::kTilt:
+        Grasp(action.thing);
+        Bring(action.target, false);
+        return Tilt(action.position);
+    }
+  }
+
+  Motion Take() { return std::move(motion_); }
+
+ private:
+  void Keep(MotionPhase phase) {
+    motion_.states.push_back(state_);
+    motion_.phases.push_back(phase);
+  }
+
+  Eigen::Vector3d Middle(int thing) const { return WorldBox(model_, state_, thing).center(); }
+
+  void Hold(int thing) {
+    held_ = thing;
+    gripper_from_held_ = state_.gripper.inverse() * state_.roots[static_cast<std::size_t>(thing)];
+  }
+
+  void MoveGripper(const Eigen::Isometry3d& to, double share) {
+    const Eigen::Quaterniond a(from_.linear()), b(to.linear());
+    state_.gripper.translation() = (1.0 - share) * from_.translation() + share * to.translation();
+    state_.gripper.linear() = a.slerp(share, b).normalized().toRotationMatrix();
+    if (held_ >= 0) {
+      state_.roots[static_cast<std::size_t>(held_)] = state_.gripper * gripper_from_held_;
+    }
+  }
+
+  void Travel(const Eigen::Isometry3d& to, int steps, MotionPhase phase) {
+    from_ = state_.gripper;
+    for (int i = 1; i <= steps; ++i) {
+      MoveGripper(to, static_cast<double>(i) / steps);
+      Keep(phase);
+    }
+  }
+
+  // The gripper at `point`, its z along `approach` or as it is.
+  void Approach(const Eigen::Vector3d& point, const std::optional<Eigen::Vector3d>& approach) {
+    Eigen::Isometry3d to = state_.gripper;
+    to.translation() = point;
+    if (approach) {
+      const Eigen::Vector3d z = state_.gripper.linear().col(2);
+      to.linear() = Eigen::Quaterniond::FromTwoVectors(z, *approach).toRotationMatrix() *
+                    state_.gripper.linear();
+    }
+    Travel(to, kApproachSteps, MotionPhase::kApproach);
+  }
+
+  void Grasp(int thing) {
+    if (held_ == thing) return;
+    if (held_ >= 0) Release();
+    Approach(Middle(thing), -Eigen::Vector3d::UnitZ());
+    Touch(thing, 0);
+    const Eigen::Vector3d size = WorldBox(model_, state_, thing).sizes();
+    state_.opening = std::min(kOpen, size.head<2>().minCoeff());
+    Hold(thing);
+    Keep(MotionPhase::kMove);
+  }
+
+  void Touch(int thing, int link) {
+    state_.touched = thing;
+    state_.touched_link = link;
+    state_.grasped = true;
+  }
+
+  void Release() {
+    held_ = -1;
+    state_.touched = state_.touched_link = -1;
+    state_.grasped = false;
+    state_.opening = kOpen;
+    Keep(MotionPhase::kRelease);
+    Eigen::Isometry3d back = state_.gripper;
+    back.translation() -= kRetreat * state_.gripper.linear().col(2);
+    Travel(back, 2, MotionPhase::kRelease);
+  }
+
+  // What is held, with its middle to `target`: up, across and down.
+  void Bring(const Eigen::Vector3d& target, bool lower) {
+    const Eigen::Vector3d offset = state_.gripper.translation() - Middle(held_);
+    const Eigen::Vector3d start = Middle(held_);
+    const auto go = [&](const Eigen::Vector3d& middle, int steps) {
+      Eigen::Isometry3d to = state_.gripper;
+      to.translation() = middle + offset;
+      Travel(to, steps, MotionPhase::kMove);
+    };
+    if (!lower) return go(target, kCarrySteps + kLowerSteps);
+    const double height = std::max(start.z(), target.z()) + kCarryHeight;
+    go({start.x(), start.y(), height}, kLowerSteps);
+    go({target.x(), target.y(), height}, kCarrySteps);
+    go(target, kLowerSteps);
+  }
+
+  void Tilt(double angle) {
+    from_ = state_.gripper;
+    for (int i = 1; i <= kJointSteps; ++i) {
+      Eigen::Isometry3d to = from_;
+      to.linear() =
+          Eigen::AngleAxisd(angle * i / kJointSteps, Eigen::Vector3d::UnitY()) * from_.linear();
+      state_.gripper = to;
+      state_.roots[static_cast<std::size_t>(held_)] = to * gripper_from_held_;
+      Keep(MotionPhase::kMove);
+    }
+  }
+
+  void Push(int thing, const Eigen::Vector3d& target) {
+    if (held_ >= 0) Release();
+    const Eigen::Vector3d start = Middle(thing);
+    Eigen::Vector3d way = target - start;
+    way.z() = 0.0;
+    const double length = way.norm();
+    if (!(length > 1e-6)) return;
+    const double behind = 0.5 * WorldBox(model_, state_, thing).sizes().head<2>().minCoeff();
+    Approach(start - behind * way / length, std::nullopt);
+    state_.touched = thing;
+    state_.touched_link = 0;
+    const Eigen::Isometry3d root = state_.roots[static_cast<std::size_t>(thing)];
+    const Eigen::Vector3d hand = state_.gripper.translation();
+    for (int i = 1; i <= kJointSteps; ++i) {
+      const Eigen::Vector3d moved = way * i / kJointSteps;
+      state_.roots[static_cast<std::size_t>(thing)].translation() = root.translation() + moved;
+      state_.gripper.translation() = hand + moved;
+      Keep(MotionPhase::kMove);
+    }
+  }
+
+  // The things that stand in what the joint moves.
+  std::vector<int> Passengers(int thing, int link) const {
+    const Eigen::AlignedBox3d box = WorldBox(model_, state_, thing, link);
+    std::vector<int> passengers;
+    for (std::size_t other = 0; other < model_.things.size(); ++other) {
+      if (static_cast<int>(other) == thing || model_.things[other].articulated()) continue;
+      if (static_cast<int>(other) == held_) continue;
+      if (box.contains(Middle(static_cast<int>(other)))) {
+        passengers.push_back(static_cast<int>(other));
+      }
+    }
+    return passengers;
+  }
+
+  Eigen::Isometry3d LinkPose(int thing, int link) const {
+    const auto t = static_cast<std::size_t>(thing);
+    return state_.roots[t] *
+           LinkPosesOf(model_.things[t], state_.joints[t])[static_cast<std::size_t>(link)];
+  }
+
+  void MoveJoint(int thing, int index, double position) {
+    if (held_ >= 0) Release();
+    const auto t = static_cast<std::size_t>(thing), j = static_cast<std::size_t>(index);
+    const ThingJoint& joint = model_.things[t].joints[j];
+    const Eigen::Vector3d grip = LinkPoint(model_, state_, thing, joint.grip);
+    Eigen::Vector3d towards = grip - state_.gripper.translation();
+    towards.z() = 0.0;
+    Approach(grip, towards.norm() > 1e-6 ? towards.normalized() : -Eigen::Vector3d::UnitZ());
+    Touch(thing, joint.grip);
+    state_.opening = 0.02;
+    const Eigen::Isometry3d hand_from = LinkPose(thing, joint.link).inverse() * state_.gripper;
+    const std::vector<int> passengers = Passengers(thing, joint.link);
+    const double start = state_.joints[t][j];
+    for (int i = 1; i <= kJointSteps; ++i) {
+      const Eigen::Isometry3d before = LinkPose(thing, joint.link);
+      state_.joints[t][j] = start + (position - start) * i / kJointSteps;
+      const Eigen::Isometry3d after = LinkPose(thing, joint.link);
+      state_.gripper = after * hand_from;
+      for (int passenger : passengers) {
+        Eigen::Isometry3d& root = state_.roots[static_cast<std::size_t>(passenger)];
+        root = after * before.inverse() * root;
+      }
+      Keep(MotionPhase::kMove);
+    }
+    LetGo();
+  }
+
+  // The hand leaves a joint where it is.
+  void LetGo() {
+    state_.touched = state_.touched_link = -1;
+    state_.grasped = false;
+    state_.opening = kOpen;
+    Keep(MotionPhase::kRelease);
+  }
+
+  const SceneModel& model_;
+  SceneState state_;
+  Motion motion_;
+  Eigen::Isometry3d from_ = Eigen::Isometry3d::Identity();
+  int held_ = -1;
+  Eigen::Isometry3d gripper_from_held_ = Eigen::Isometry3d::Identity();
+};
+
+}  // namespace
+
+Motion MakeMotion(const SceneModel& model, const SceneState& start,
+                  const std::vector<Action>& actions) {
+  MotionMaker maker(model, start);
+  for (const Action& action : actions) maker.Do(action);
+  return maker.Take();
+}
+
+}  // namespace simwright::tasks

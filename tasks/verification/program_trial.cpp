@@ -1,0 +1,80 @@
+#include "tasks/verification/program_trial.h"
+
+#include "tasks/scene_signals.h"
+
+namespace simwright::tasks {
+
+TrialResult RunOnStates(const RewardProgram& program, const SceneModel& model,
+                        const std::vector<SceneState>& states, bool follows) {
+  TrialResult result;
+  if (states.empty()) return result;
+  const std::vector<RewardSlot>& slots = program.slots();
+  std::vector<std::vector<float>> rows(slots.size());
+  std::vector<std::vector<float>> values;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const SceneState* previous = follows && i > 0 ? &states[i - 1] : nullptr;
+    SlotValues(model, states[i], previous, kMotionTimeStep, slots, &values);
+    for (std::size_t s = 0; s < slots.size(); ++s) {
+      if (slots[s].uniform && i > 0) continue;
+      rows[s].insert(rows[s].end(), values[s].begin(), values[s].end());
+    }
+  }
+  std::vector<RewardBinding> bindings;
+  for (const std::vector<float>& row : rows) bindings.push_back({row.data()});
+  const int count = static_cast<int>(states.size());
+  result.reward.resize(states.size());
+  result.success.assign(states.size(), 0);
+  RewardWorkspace workspace(program, count);
+  program.Run(bindings, count, &workspace, result.reward.data(),
+              program.has_success() ? result.success.data() : nullptr);
+  return result;
+}
+
+std::vector<SceneState> RandomStates(const SceneModel& model, const SceneState& start,
+                                     const std::vector<RewardSlot>& slots, int count,
+                                     core::Rng& rng) {
+  std::vector<int> things;
+  for (const RewardSlot& slot : slots) {
+    const int thing = model.Find(slot.asset);
+    if (thing >= 0 && (things.empty() || things.back() != thing)) things.push_back(thing);
+  }
+  std::vector<SceneState> states;
+  for (int i = 0; i < count; ++i) {
+    SceneState state = start;
+    for (int thing : things) {
+      const auto t = static_cast<std::size_t>(thing);
+      const Thing& known = model.things[t];
+      for (std::size_t j = 0; j < known.joints.size(); ++j) {
+        const double beyond = 0.2 * (known.joints[j].upper - known.joints[j].lower);
+        state.joints[t][j] =
+            core::Uniform(rng, known.joints[j].lower - beyond, known.joints[j].upper + beyond);
+      }
+      if (known.articulated()) continue;
+      const double reach = core::Uniform(rng);  // some near, some far
+      state.roots[t].translation() += reach * core::UniformDirection(rng);
+      state.roots[t].rotate(
+          Eigen::AngleAxisd(core::Uniform(rng, 0.0, 3.0), core::UniformDirection(rng)));
+    }
+    const Eigen::Vector3d around = core::Uniform(rng) * core::UniformDirection(rng);
+    state.touched = -1;
+    state.grasped = false;
+    if (!things.empty() && core::Uniform(rng) < 0.6) {
+      const int thing = things[static_cast<std::size_t>(
+          core::UniformIndex(rng, static_cast<std::int64_t>(things.size())))];
+      const auto links =
+          static_cast<std::int64_t>(model.things[static_cast<std::size_t>(thing)].links.size());
+      const int link = static_cast<int>(core::UniformIndex(rng, links));
+      state.gripper.translation() = LinkPoint(model, state, thing, link) + 0.05 * around;
+      state.touched = thing;
+      state.touched_link = link;
+      state.grasped = core::Uniform(rng) < 0.5;
+    } else {
+      state.gripper.translation() += around;
+    }
+    state.opening = core::Uniform(rng, 0.0, 0.08);
+    states.push_back(std::move(state));
+  }
+  return states;
+}
+
+}  // namespace simwright::tasks

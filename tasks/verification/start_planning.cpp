@@ -1,0 +1,132 @@
+#include "tasks/verification/start_planning.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "tasks/layout.h"
+
+namespace simwright::tasks {
+namespace {
+
+constexpr std::size_t kMostThings = 8;
+constexpr double kGoalAside = 0.12;  // m
+constexpr double kGoalAbove = 0.15;  // m
+
+std::string Lower(const std::string& text) {
+  std::string lower = text;
+  for (char& c : lower) {
+    c = c == '_' || c == '-' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return lower;
+}
+
+// Joints whose state the program reads; without any, those that move the links it reads.
+std::set<std::pair<int, int>> JointsRead(const SceneModel& model,
+                                         const std::vector<RewardSlot>& slots) {
+  std::set<std::pair<int, int>> states, above;
+  for (const RewardSlot& slot : slots) {
+    const int thing = model.Find(slot.asset);
+    if (thing < 0 || slot.part.empty()) continue;
+    const Thing& known = model.things[static_cast<std::size_t>(thing)];
+    const int joint = known.FindJoint(slot.part);
+    if (joint >= 0) states.insert({thing, joint});
+    for (int at = known.FindLink(slot.part); at > 0;
+         at = known.links[static_cast<std::size_t>(at)].parent) {
+      const int moved_by = known.links[static_cast<std::size_t>(at)].joint;
+      if (moved_by >= 0) above.insert({thing, moved_by});
+    }
+  }
+  return states.empty() ? above : states;
+}
+
+// "take the cup out of the microwave": the microwave, for the cup.
+int TakenOutOf(const SceneModel& model, const std::string& title, int thing) {
+  for (const char* words : {"out of ", "from inside ", "from "}) {
+    const std::size_t at = title.find(words);
+    if (at == std::string::npos) continue;
+    const std::string rest = title.substr(at);
+    for (std::size_t other = 0; other < model.things.size(); ++other) {
+      const Thing& known = model.things[other];
+      if (static_cast<int>(other) == thing || known.cavities.empty()) continue;
+      const bool named =
+          rest.find(Lower(known.name)) != std::string::npos ||
+          (!known.category.empty() && rest.find(Lower(known.category)) != std::string::npos);
+      if (named) return static_cast<int>(other);
+    }
+  }
+  return -1;
+}
+
+}  // namespace
+
+std::optional<InitialState> PlanStart(const SceneModel& model, const std::vector<RewardSlot>& slots,
+                                      const std::vector<std::string>& assets,
+                                      const std::string& title, TitleDirection direction,
+                                      core::Rng& rng) {
+  LayoutRequest request;
+  const auto want = [&](const std::string& name) {
+    const int thing = model.Find(name);
+    const bool known =
+        std::find(request.things.begin(), request.things.end(), thing) != request.things.end();
+    if (thing >= 0 && !known && request.things.size() < kMostThings)
+      request.things.push_back(thing);
+  };
+  for (const RewardSlot& slot : slots) want(slot.asset);
+  for (const std::string& asset : assets) want(asset);
+  for (const auto& [thing, joint] : JointsRead(model, slots)) {
+    request.worked.emplace_back(thing, joint);
+    const Thing& known = model.things[static_cast<std::size_t>(thing)];
+    const ThingJoint& moved = known.joints[static_cast<std::size_t>(joint)];
+    if (direction == TitleDirection::kBack) {
+      request.joints.push_back({known.name, moved.name, moved.far()});
+    }
+  }
+  const std::string text = Lower(title);
+  for (int thing : request.things) {
+    if (model.things[static_cast<std::size_t>(thing)].articulated()) continue;
+    const int holder = TakenOutOf(model, text, thing);
+    const bool placed =
+        std::find(request.things.begin(), request.things.end(), holder) != request.things.end();
+    if (placed) request.resting.push_back({thing, holder, 0});
+  }
+  return LayOut(model, request, rng);
+}
+
+Eigen::Vector3d PlanGoal(const SceneModel& model, const SceneState& start,
+                         const std::vector<RewardSlot>& slots) {
+  for (const RewardSlot& slot : slots) {
+    const int thing = model.Find(slot.asset);
+    if (thing < 0 || model.things[static_cast<std::size_t>(thing)].articulated()) continue;
+    return WorldBox(model, start, thing).center() + Eigen::Vector3d(0, kGoalAside, kGoalAbove);
+  }
+  for (const auto& [thing, joint] : JointsRead(model, slots)) {
+    const auto t = static_cast<std::size_t>(thing), j = static_cast<std::size_t>(joint);
+    SceneState end = start;
+    end.joints[t][j] = model.things[t].joints[j].far();
+    return LinkPoint(model, end, thing, model.things[t].joints[j].grip);
+  }
+  return start.gripper.translation() + Eigen::Vector3d(0, kGoalAside, 0);
+}
+
+InitialState StartFrom(const SceneModel& model, const SceneState& state,
+                       const InitialState& before) {
+  InitialState start;
+  start.world_from_robot = before.world_from_robot;
+  for (const AssetPlacement& placement : before.placements) {
+    const auto thing = static_cast<std::size_t>(model.Find(placement.asset));
+    start.placements.push_back({placement.asset, state.roots[thing], placement.fixed});
+    const Thing& known = model.things[thing];
+    for (std::size_t j = 0; j < known.joints.size(); ++j) {
+      if (state.joints[thing][j] == known.joints[j].rest()) continue;
+      start.joints.push_back({known.name, known.joints[j].name, state.joints[thing][j]});
+    }
+  }
+  if (state.grasped && state.touched >= 0 &&
+      !model.things[static_cast<std::size_t>(state.touched)].articulated()) {
+    start.held = model.things[static_cast<std::size_t>(state.touched)].name;
+  }
+  return start;
+}
+
+}  // namespace simwright::tasks

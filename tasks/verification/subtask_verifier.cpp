@@ -1,0 +1,355 @@
+#include "tasks/verification/subtask_verifier.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "core/error.h"
+#include "tasks/reward/reward_program.h"
+#include "tasks/verification/action_sampling.h"
+#include "tasks/verification/path_search.h"
+#include "tasks/verification/program_trial.h"
+#include "tasks/verification/start_planning.h"
+#include "tasks/verification/title_direction.h"
+
+namespace simwright::tasks {
+namespace {
+
+using core::Severity;
+
+// "line:column" of the last return, where findings about what a program does are shown.
+std::string LastReturn(const std::string& source) {
+  std::istringstream lines(source);
+  std::string place;
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const std::size_t at = line.find_first_not_of(" \t");
+    if (at == std::string::npos || line.compare(at, 6, "return") != 0) continue;
+    place = std::to_string(number) + ":" + std::to_string(at + 1);
+  }
+  return place;
+}
+
+// What the program calls success, in its own words: the right side of the last assignment to it,
+// or what stands second behind the last return.
+std::string SuccessWords(const std::string& source) {
+  std::istringstream lines(source);
+  std::string words;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find_first_not_of(" \t");
+    if (at == std::string::npos) continue;
+    const std::string text = line.substr(at);
+    for (const char* name : {"success = ", "is_success = ", "done = "}) {
+      if (text.rfind(name, 0) == 0) words = text.substr(std::string(name).size());
+    }
+  }
+  return words;
+}
+
+std::string Rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
+bool HasError(const core::Findings& findings) {
+  return std::any_of(findings.begin(), findings.end(), [](const core::Finding& finding) {
+    return finding.severity == Severity::kError;
+  });
+}
+
+// What is only doubtful in a file is wrong in a task.
+void Sharpen(core::Findings* findings) {
+  for (core::Finding& finding : *findings) {
+    if (finding.code == "constant-reward" || finding.code == "constant-success" ||
+        finding.code == "self-distance") {
+      finding.severity = Severity::kError;
+    }
+  }
+}
+
+// The joint that moved most of its range, and whether away from its rest.
+TitleDirection DirectionOf(const SceneModel& model, const SceneState& from, const SceneState& to) {
+  double most = 0.05;
+  TitleDirection direction = TitleDirection::kNone;
+  for (std::size_t t = 0; t < model.things.size(); ++t) {
+    for (std::size_t j = 0; j < model.things[t].joints.size(); ++j) {
+      const ThingJoint& joint = model.things[t].joints[j];
+      const double share =
+          std::abs(to.joints[t][j] - from.joints[t][j]) / std::max(joint.upper - joint.lower, 1e-9);
+      if (share <= most) continue;
+      most = share;
+      const bool away =
+          std::abs(to.joints[t][j] - joint.rest()) > std::abs(from.joints[t][j] - joint.rest());
+      direction = away ? TitleDirection::kAway : TitleDirection::kBack;
+    }
+  }
+  return direction;
+}
+
+// One program on one start.
+class Trial {
+ public:
+  Trial(const SceneModel& model, const VerificationOptions& options, const RewardProgram& program,
+        const Subtask& subtask, const std::string& title)
+      : model_(model),
+        options_(options),
+        program_(program),
+        subtask_(subtask),
+        asked_(DirectionOfTitle(title)),
+        place_(LastReturn(subtask.program)),
+        start_(StateOf(model, subtask.start, subtask.goal)) {}
+
+  core::Findings Run() {
+    const ActionSequences actions = SampleActions(model_, start_, program_.slots());
+    LookAround();
+    if (program_.has_success() && StartsDone()) return std::move(findings_);
+    path_ = Find(actions.single, false);
+    if (!path_ || !path_->reachable) {
+      std::optional<SuccessPath> longer = Find(actions.chained, true);
+      if (longer && (longer->reachable || !path_)) path_ = std::move(longer);
+    }
+    if (range_.finite && range_.any && range_.highest - range_.lowest <= kSame) {
+      Report("constant-reward", Severity::kError,
+             "the reward is the same number in every state: nothing can be learned from it");
+    }
+    if (!range_.finite) {
+      Report("reward-not-finite", Severity::kError,
+             "the reward is infinite or no number in some states: guard divisions, roots and "
+             "logarithms");
+    }
+    if (!program_.has_success()) {
+      if (options_.needs_success) {
+        Report("no-success", Severity::kError,
+               "the function gives no success: end it with 'return reward, success'");
+      }
+      return std::move(findings_);
+    }
+    if (range_.always_success) {
+      Report("constant-success", Severity::kError, "success holds in every state");
+    } else if (!path_) {
+      ReportNoPath(actions);
+    } else {
+      ReportPath();
+    }
+    return std::move(findings_);
+  }
+
+  const std::optional<SuccessPath>& path() const { return path_; }
+
+ private:
+  static constexpr double kSame = 1e-7;
+
+  void Report(const std::string& code, Severity severity, const std::string& sentence,
+              double figure = 0.0) {
+    findings_.push_back({code, severity, place_, sentence, figure});
+  }
+
+  std::optional<SuccessPath> Find(const std::vector<std::vector<Action>>& sequences, bool early) {
+    return FindSuccessPath(program_, model_, start_, subtask_.start.world_from_robot, sequences,
+                           early, &range_);
+  }
+
+  void LookAround() {
+    core::Rng rng = core::StreamRng(options_.seed, 1);
+    const std::vector<SceneState> states =
+        RandomStates(model_, start_, program_.slots(), options_.random_states, rng);
+    const TrialResult trial = RunOnStates(program_, model_, states, false);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      range_.Add(trial.reward[i], trial.success[i] != 0);
+    }
+  }
+
+  // True, with a finding, where success holds at the start.
+  bool StartsDone() {
+    const TrialResult trial = RunOnStates(program_, model_, {start_}, false);
+    range_.Add(trial.reward[0], trial.success[0] != 0);
+    if (trial.success[0] == 0) return false;
+    if (range_.always_success) {
+      Report("constant-success", Severity::kError, "success holds in every state");
+      return true;
+    }
+    if (asked_ != TitleDirection::kNone && SucceedsFromOtherEnd()) {
+      ReportTitle(asked_ == TitleDirection::kAway ? TitleDirection::kBack : TitleDirection::kAway);
+      return true;
+    }
+    Report("success-at-start", Severity::kError,
+           "success holds before anything was done: ask for a change, or start elsewhere");
+    return true;
+  }
+
+  // Whether the program is about the way that the title does not name: with every joint that it
+  // reads at the other end there is a path to success.
+  bool SucceedsFromOtherEnd() {
+    SceneState other = start_;
+    bool any = false;
+    for (const RewardSlot& slot : program_.slots()) {
+      const int thing = model_.Find(slot.asset);
+      if (thing < 0 || slot.part.empty()) continue;
+      const auto t = static_cast<std::size_t>(thing);
+      const int joint = model_.things[t].FindJoint(slot.part);
+      if (joint < 0) continue;
+      const auto j = static_cast<std::size_t>(joint);
+      const ThingJoint& moved = model_.things[t].joints[j];
+      const bool open = std::abs(start_.joints[t][j] - moved.far()) <
+                        std::abs(start_.joints[t][j] - moved.rest());
+      other.joints[t][j] = open ? moved.rest() : moved.far();
+      any = true;
+    }
+    if (!any) return false;
+    const ActionSequences actions = SampleActions(model_, other, program_.slots());
+    const std::optional<SuccessPath> path = FindSuccessPath(
+        program_, model_, other, subtask_.start.world_from_robot, actions.single, true, nullptr);
+    return path.has_value();
+  }
+
+  void ReportTitle(TitleDirection done) {
+    const bool away = done == TitleDirection::kAway;
+    Report("title-direction", Severity::kError,
+           std::string("the title asks for the joint to go ") +
+               (away ? "back to its rest (closed, off)" : "away from its rest (open, on)") +
+               ", the program's success for the other way");
+  }
+
+  void ReportNoPath(const ActionSequences& actions) {
+    if (Find(actions.beyond_limits, true)) {
+      Report("success-outside-limits", Severity::kError,
+             "success is only reached beyond a joint's limits: measure it against "
+             "env.get_limits_by_joint_name");
+      return;
+    }
+    if (Find(actions.too_far, true)) {
+      Report("success-out-of-reach", Severity::kError,
+             "success is only reached where the arm does not get to");
+      return;
+    }
+    if (range_.ever_success) {
+      Report("no-path", Severity::kWarning,
+             "no path to success was found: joints moved, things lifted, carried, placed, pushed "
+             "and tilted do not bring it about");
+      return;
+    }
+    Report("success-never", Severity::kError, "success holds in no state that was tried");
+  }
+
+  void ReportPath() {
+    if (!path_->reachable) {
+      Report("success-out-of-reach", Severity::kError,
+             "the arm does not reach where success takes it");
+    }
+    if (path_->agreement < options_.against) {
+      Report("sign-against-success", Severity::kError,
+             "the reward falls while success comes nearer (rank correlation " +
+                 Rounded(path_->agreement) + "): is a sign wrong?",
+             path_->agreement);
+    } else if (path_->agreement <= options_.unclear) {
+      Report("sign-unclear", Severity::kWarning,
+             "the reward does not rise while success comes nearer (rank correlation " +
+                 Rounded(path_->agreement) + ")",
+             path_->agreement);
+    }
+    const TitleDirection done =
+        DirectionOf(model_, path_->motion.states.front(), path_->motion.states[path_->first]);
+    if (asked_ != TitleDirection::kNone && done != TitleDirection::kNone && done != asked_) {
+      ReportTitle(done);
+    }
+  }
+
+  const SceneModel& model_;
+  const VerificationOptions& options_;
+  const RewardProgram& program_;
+  const Subtask& subtask_;
+  TitleDirection asked_;
+  std::string place_;
+  SceneState start_;
+  RewardRange range_;
+  std::optional<SuccessPath> path_;
+  core::Findings findings_;
+};
+
+bool ReadsGoal(const RewardProgram& program) {
+  return std::any_of(program.slots().begin(), program.slots().end(), [](const RewardSlot& slot) {
+    return slot.input == RewardInput::kGoalPosition;
+  });
+}
+
+// The title that says what a joint shall do: the subtask's own words first.
+std::string TitleOf(const Task& task, const Subtask& subtask) {
+  const std::string own = subtask.name + " . " + subtask.description;
+  if (DirectionOfTitle(own) != TitleDirection::kNone || task.subtasks.size() > 1) return own;
+  return own + " . " + task.name + " . " + task.description;
+}
+
+}  // namespace
+
+bool VerificationOptions::IsValid(std::string* error) const {
+  const char* wrong = nullptr;
+  if (!(against >= -1.0 && against <= unclear && unclear <= 1.0)) {
+    wrong = "-1 <= against <= unclear <= 1 must hold";
+  }
+  if (random_states < 1) wrong = "random_states must be at least 1";
+  if (wrong != nullptr && error != nullptr) *error = wrong;
+  return wrong == nullptr;
+}
+
+SubtaskVerifier::SubtaskVerifier(const SceneModel& model, const VerificationOptions& options)
+    : model_(model), options_(options) {
+  std::string error;
+  if (!options_.IsValid(&error)) throw core::Error(error, "verification");
+}
+
+std::optional<InitialState> SubtaskVerifier::EndBefore(const Task& task, const Subtask& subtask,
+                                                       const RewardProgram& program) const {
+  const auto self = std::find_if(task.subtasks.begin(), task.subtasks.end(),
+                                 [&](const Subtask& s) { return s.name == subtask.name; });
+  if (self == task.subtasks.begin() || self == task.subtasks.end()) return std::nullopt;
+  const auto end = ends_.find({task.name, std::prev(self)->name});
+  if (end == ends_.end()) return std::nullopt;
+  for (const RewardSlot& slot : program.slots()) {
+    const auto& placed = end->second.placements;
+    const bool there =
+        slot.asset.empty() ||
+        std::any_of(placed.begin(), placed.end(),
+                    [&](const AssetPlacement& one) { return one.asset == slot.asset; });
+    if (!there) return std::nullopt;
+  }
+  return end->second;
+}
+
+core::Findings SubtaskVerifier::Verify(const Task& task, Subtask* subtask) {
+  CompileOutcome outcome = CompileReward(subtask->program, &model_.names);
+  core::Findings findings = std::move(outcome.findings);
+  Sharpen(&findings);
+  if (subtask->success.empty()) subtask->success = SuccessWords(subtask->program);
+  if (!outcome.program || HasError(findings)) return findings;
+  const std::string title = TitleOf(task, *subtask);
+  if (subtask->start.placements.empty()) {
+    std::optional<InitialState> planned = EndBefore(task, *subtask, *outcome.program);
+    if (!planned) {
+      core::Rng rng = core::StreamRng(options_.seed, 0);
+      planned = PlanStart(model_, outcome.program->slots(), task.assets, title,
+                          DirectionOfTitle(title), rng);
+    }
+    if (!planned) {
+      findings.push_back({"no-layout", Severity::kError, "",
+                          "the things cannot be placed so that the robot reaches them", 0.0});
+      return findings;
+    }
+    subtask->start = *planned;
+  }
+  if (ReadsGoal(*outcome.program) && !subtask->goal) {
+    subtask->goal = PlanGoal(model_, StateOf(model_, subtask->start), outcome.program->slots());
+  }
+  Trial trial(model_, options_, *outcome.program, *subtask, title);
+  const core::Findings seen = trial.Run();
+  findings.insert(findings.end(), seen.begin(), seen.end());
+  if (trial.path()) {
+    ends_[{task.name, subtask->name}] =
+        StartFrom(model_, trial.path()->motion.states[trial.path()->first], subtask->start);
+  }
+  return findings;
+}
+
+}  // namespace simwright::tasks
