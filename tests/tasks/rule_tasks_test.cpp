@@ -1,0 +1,121 @@
+// What can be done with things, what follows from it, and that what comes out is sound.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tasks/rules/affordances.h"
+#include "tasks/rules/planner.h"
+#include "tasks/rules/rule_tasks.h"
+#include "tasks/scene_state.h"
+#include "tests/tasks/household.h"
+
+namespace simwright::tasks {
+namespace {
+
+SceneModel Kitchen() {
+  return MakeSceneModel({Microwave(), DrawerUnit(), Cup(), Cup("jug", 0.045, 0.16),
+                         Box("book", {0.2, 0.15, 0.03}, 0.6), Box("tin", {0.06, 0.06, 0.08}, 0.3)});
+}
+
+TEST(Cavities, AMicrowavesRoomIsWhatItsWallsEnclose) {
+  const SceneModel model = MakeSceneModel({Microwave()});
+  const Thing& thing = model.things[0];
+  ASSERT_EQ(thing.cavities.size(), 1u);
+  const Cavity& room = thing.cavities[0];
+  // Inside: 0.38 x 0.46 x 0.26, from the back wall to the front. A cell is 1/40 of 0.5 m.
+  const double cell = 0.5 / 40;
+  EXPECT_NEAR(room.box.sizes().x(), 0.38, 2 * cell);
+  EXPECT_NEAR(room.box.sizes().y(), 0.46, 2 * cell);
+  EXPECT_NEAR(room.box.sizes().z(), 0.26, 2 * cell);
+  EXPECT_NEAR(room.box.center().y(), 0.0, cell);
+  EXPECT_EQ(room.opening, -Eigen::Vector3d::UnitX());
+  ASSERT_EQ(room.door, thing.FindJoint("door_joint"));
+}
+
+TEST(Cavities, ACupOpensAboveAndABlockHasNone) {
+  const SceneModel model = MakeSceneModel({Cup(), Box("block", {0.1, 0.1, 0.1}, 0.5)});
+  ASSERT_EQ(model.things[0].cavities.size(), 1u);
+  EXPECT_EQ(model.things[0].cavities[0].opening, Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(model.things[0].cavities[0].door, -1);
+  EXPECT_GT(model.things[0].cavities[0].box.sizes().z(), 0.08);
+  EXPECT_TRUE(model.things[1].cavities.empty());
+}
+
+TEST(Affordances, FollowFromLabelsAndSizes) {
+  const SceneModel model = Kitchen();
+  const Thing& microwave = model.things[0];
+  EXPECT_EQ(UseOf(microwave, microwave.joints[microwave.FindJoint("door_joint")]), JointUse::kOpen);
+  EXPECT_EQ(UseOf(microwave, microwave.joints[microwave.FindJoint("button_joint")]),
+            JointUse::kPress);
+  EXPECT_TRUE(CanBeLifted(model.things[2]));
+  EXPECT_FALSE(CanBeLifted(microwave));
+  EXPECT_FALSE(CanBeLifted(MakeSceneModel({Box("brick", {0.2, 0.2, 0.2}, 1.0)}).things[0]));
+  EXPECT_FALSE(CanBeLifted(MakeSceneModel({Box("lead", {0.05, 0.05, 0.05}, 6.0)}).things[0]));
+  EXPECT_TRUE(StandsOn(model.things[5], model.things[4]));   // the tin on the book
+  EXPECT_FALSE(StandsOn(model.things[4], model.things[5]));  // not the book on the tin
+  EXPECT_FALSE(StandsOn(model.things[5], model.things[2]));  // a cup has no top
+  EXPECT_TRUE(FitsInto(model.things[2], microwave, 0));
+  EXPECT_FALSE(FitsInto(microwave, microwave, 0));
+}
+
+TEST(Planner, OpensBeforeItFillsAndClosesAfter) {
+  const SceneModel model = Kitchen();
+  const int microwave = 0, cup = 2;
+  const int door = model.things[0].FindJoint("door_joint");
+  Facts facts{{FactKind::kHandEmpty},
+              {FactKind::kJointAtRest, microwave, -1, door},
+              {FactKind::kOnFloor, cup},
+              {FactKind::kFree, cup},
+              {FactKind::kFree, microwave}};
+  const std::vector<Operator> plan = Plan(
+      OperatorsFor(model, {microwave, cup}),
+      {{FactKind::kIn, cup, microwave, 0}, {FactKind::kJointAtRest, microwave, -1, door}}, &facts);
+  ASSERT_EQ(plan.size(), 4u);
+  EXPECT_EQ(plan[0].verb, Verb::kOpen);
+  EXPECT_EQ(plan[1].verb, Verb::kPick);
+  EXPECT_EQ(plan[2].verb, Verb::kPutInto);
+  EXPECT_EQ(plan[3].verb, Verb::kClose);
+  EXPECT_TRUE(facts.contains({FactKind::kIn, cup, microwave, 0}));
+  EXPECT_FALSE(facts.contains({FactKind::kJointAway, microwave, -1, door}));
+}
+
+TEST(RuleTasks, AreSoundAndOfEveryKind) {
+  const SceneModel model = Kitchen();
+  RuleOptions options;
+  options.count = 60;
+  const RuleTasks result = GenerateTasksByRules(model, options);
+  std::set<std::string> names;
+  std::size_t longest = 0;
+  for (const Task& task : result.tasks) {
+    EXPECT_TRUE(task.sound()) << task.name;
+    EXPECT_TRUE(names.insert(task.name).second) << task.name;
+    longest = std::max(longest, task.subtasks.size());
+  }
+  EXPECT_GE(result.tasks.size(), 40u);
+  EXPECT_GE(longest, 4u);
+  for (const char* name : {"open_microwave_door", "close_microwave_door", "press_microwave_button",
+                           "open_drawer_unit_drawer", "pick_up_cup", "push_book",
+                           "put_cup_into_microwave_and_close_it", "take_cup_out_of_microwave",
+                           "place_tin_on_book", "pour_from_jug_into_cup"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+  }
+  for (const auto& [why, count] : result.dropped)
+    std::printf("dropped %s %d\n", why.c_str(), count);
+}
+
+TEST(RuleTasks, AreTheSameForASeed) {
+  const SceneModel model = Kitchen();
+  const RuleTasks a = GenerateTasksByRules(model, {12, 5});
+  const RuleTasks b = GenerateTasksByRules(model, {12, 5});
+  ASSERT_EQ(a.tasks.size(), b.tasks.size());
+  for (std::size_t i = 0; i < a.tasks.size(); ++i) {
+    EXPECT_EQ(a.tasks[i].name, b.tasks[i].name);
+    ASSERT_EQ(a.tasks[i].subtasks.size(), b.tasks[i].subtasks.size());
+    for (std::size_t s = 0; s < a.tasks[i].subtasks.size(); ++s) {
+      EXPECT_EQ(a.tasks[i].subtasks[s].program, b.tasks[i].subtasks[s].program);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace simwright::tasks
