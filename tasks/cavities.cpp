@@ -218,32 +218,77 @@ std::vector<Cavity> FindCavities(int link, const std::vector<core::TriangleMesh>
   return cavities;
 }
 
+namespace {
+
+constexpr double kCovers = 0.2;  // of an opening's area, from which a link counts as its door
+constexpr double kFilled = 0.3;  // of a room's volume, from which another link fills it
+
+// The box of link `other` about its outline, in the frame of link `link`.
+Eigen::AlignedBox3d BoxSeenFrom(const Thing& thing, const std::vector<Eigen::Isometry3d>& poses,
+                                int link, int other) {
+  const Eigen::Isometry3d link_from_other =
+      poses[static_cast<std::size_t>(link)].inverse() * poses[static_cast<std::size_t>(other)];
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : thing.links[static_cast<std::size_t>(other)].outline) {
+    box.extend(link_from_other * point);
+  }
+  return box;
+}
+
+// The joint nearest above a link that moves it; -1: none.
+int MovedBy(const Thing& thing, int link) {
+  for (int at = link; at >= 0; at = thing.links[static_cast<std::size_t>(at)].parent) {
+    const int joint = thing.links[static_cast<std::size_t>(at)].joint;
+    if (joint >= 0) return joint;
+  }
+  return -1;
+}
+
+// What share of the slab before the opening a box covers, seen along the opening.
+double Covered(const Eigen::AlignedBox3d& cover, const Eigen::AlignedBox3d& slab,
+               const Eigen::Vector3d& opening) {
+  if (cover.isEmpty() || !cover.intersects(slab)) return 0.0;
+  const Eigen::Vector3d shared = cover.intersection(slab).sizes();
+  double share = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(opening[axis]) < 0.5) share *= shared[axis] / slab.sizes()[axis];
+  }
+  return share;
+}
+
+}  // namespace
+
 void FindDoors(Thing* thing) {
   const std::vector<Eigen::Isometry3d> poses = LinkPosesOf(*thing, RestPositions(*thing));
+  const int links = static_cast<int>(thing->links.size());
+  const auto is_filled = [&](const Cavity& cavity) {
+    for (int other = 0; other < links; ++other) {
+      if (other == cavity.link || MovedBy(*thing, other) == MovedBy(*thing, cavity.link)) continue;
+      if (MovedBy(*thing, other) < 0) continue;  // the body about a drawer is not in it
+      const Eigen::AlignedBox3d box = BoxSeenFrom(*thing, poses, cavity.link, other);
+      if (box.isEmpty() || !box.intersects(cavity.box)) continue;
+      if (box.intersection(cavity.box).volume() > kFilled * cavity.box.volume()) return true;
+    }
+    return false;
+  };
+  std::erase_if(thing->cavities, is_filled);
   for (Cavity& cavity : thing->cavities) {
-    // A thin slab before the opening, and whatever of another moving link stands in it.
+    // A thin slab before the opening, and whatever stands in it.
     Eigen::AlignedBox3d slab = cavity.box;
     const Eigen::Vector3d beyond = 0.25 * cavity.box.sizes().cwiseProduct(cavity.opening);
-    slab.extend(cavity.box.max() + beyond.cwiseMax(0.0));
-    slab.extend(cavity.box.min() + beyond.cwiseMin(0.0));
-    const Eigen::Isometry3d link_from_root = poses[static_cast<std::size_t>(cavity.link)].inverse();
-    double most = 0.2;  // of the opening's area, at least
-    for (std::size_t j = 0; j < thing->joints.size(); ++j) {
-      const int moved = thing->joints[j].link;
-      if (moved == cavity.link) continue;
-      Eigen::AlignedBox3d cover;
-      for (const Eigen::Vector3d& point : thing->links[static_cast<std::size_t>(moved)].outline) {
-        cover.extend(link_from_root * poses[static_cast<std::size_t>(moved)] * point);
-      }
-      if (cover.isEmpty() || !cover.intersects(slab)) continue;
-      const Eigen::Vector3d shared = cover.intersection(slab).sizes();
-      double share = 1.0;
-      for (int axis = 0; axis < 3; ++axis) {
-        if (std::abs(cavity.opening[axis]) < 0.5) share *= shared[axis] / slab.sizes()[axis];
-      }
+    slab.extend(Eigen::Vector3d(cavity.box.max() + beyond.cwiseMax(0.0)));
+    slab.extend(Eigen::Vector3d(cavity.box.min() + beyond.cwiseMin(0.0)));
+    const int own = MovedBy(*thing, cavity.link);
+    double most = kCovers;
+    for (int other = 0; other < links; ++other) {
+      const int moved_by = MovedBy(*thing, other);
+      if (other == cavity.link || (moved_by < 0 && own < 0)) continue;
+      const double share =
+          Covered(BoxSeenFrom(*thing, poses, cavity.link, other), slab, cavity.opening);
       if (share <= most) continue;
       most = share;
-      cavity.door = static_cast<int>(j);
+      // A drawer is closed by what it slides under: its own joint opens it.
+      cavity.door = moved_by >= 0 && moved_by != own ? moved_by : own;
     }
   }
 }

@@ -14,7 +14,9 @@ namespace simwright::tasks {
 std::vector<Cavity> FindCavities(int link, const std::vector<core::TriangleMesh>& parts,
                                  double least = 0.02);
 
-// Names, for every cavity of `thing`, the joint whose link covers the opening while at rest.
+// Names, for every cavity of `thing`, the joint that opens it: that of a link which covers the
+// opening while at rest, or the cavity's own where it slides in under another (a drawer). Removes
+// those that another link fills, as a drawer fills its cabinet.
 void FindDoors(Thing* thing);
 
 }  // namespace simwright::tasks

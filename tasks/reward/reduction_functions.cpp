@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -73,6 +74,11 @@ Value Norm(Elaborator& elaborator, const Arguments& arguments) {
   const double p = Order(elaborator, arguments, 1);
   const std::vector<int> dimensions = Dimensions(elaborator, arguments, 2, tensor);
   const bool keep = FlagArgument(arguments, 3);
+  if (std::any_of(dimensions.begin(), dimensions.end(),
+                  [&](int dimension) { return tensor.shape[dimension] == kBatch; })) {
+    elaborator.Report("norm-over-environments", core::Severity::kWarning, position,
+                      "this is one length over all environments; name the dimension, dim=-1");
+  }
   const auto number = [&](double value) {
     return math.Scalar(DataType::kFloat, math.graph().Constant(value));
   };

@@ -19,7 +19,9 @@ constexpr double kTilt = 2.2;         // rad
 std::string Number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3f", std::abs(value) < 5e-4 ? 0.0 : value);
-  return text;
+  std::string number = text;
+  while (number.ends_with("0") && !number.ends_with(".0")) number.pop_back();
+  return number;
 }
 
 std::string Triple(const Eigen::Vector3d& v) {
@@ -117,7 +119,7 @@ Step JointStep(const SceneModel& model, const Operator& one) {
   program.Returns();
   step.program = program.Text();
   step.success = joint.name + " of " + thing.name +
-                 (away ? " past " + Number(100.0 * kAway).substr(0, 2) + " % of its way"
+                 (away ? " past " + std::to_string(std::lround(100.0 * kAway)) + " % of its way"
                        : " within 5 % of its rest");
   const double target =
       away ? joint.rest() + kActedShare * (joint.far() - joint.rest()) : joint.rest();

@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kApproachSteps = 10;
 constexpr int kJointSteps = 30;
-constexpr int kCarrySteps = 10;
-constexpr int kLowerSteps = 8;
+constexpr int kCarrySteps = 16;
+constexpr int kLowerSteps = 12;
 constexpr double kCarryHeight = 0.12;  // m above the higher of start and target
 constexpr double kRetreat = 0.1;       // m
 constexpr double kOpen = 0.08;         // m between the fingers
@@ -140,7 +140,7 @@ class MotionMaker {
           Eigen::AngleAxisd(angle * i / kJointSteps, Eigen::Vector3d::UnitY()) * from_.linear();
       state_.gripper = to;
       state_.roots[static_cast<std::size_t>(held_)] = to * gripper_from_held_;
-      Keep(MotionPhase::kMove);
+      Keep(MotionPhase::kTurnOver);
     }
   }
 

@@ -25,7 +25,7 @@ struct Action {
   Eigen::Vector3d target = Eigen::Vector3d::Zero();  // m, world
 };
 
-enum class MotionPhase { kApproach, kMove, kRelease };
+enum class MotionPhase { kApproach, kMove, kTurnOver, kRelease };
 
 // A path of states, as an ideal hand would take it: what is held moves with the gripper, what
 // stands in a drawer moves with the drawer. It is kinematic: nothing is in the way, nothing slips.

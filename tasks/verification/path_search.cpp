@@ -15,7 +15,8 @@ namespace {
 constexpr double kGoodEnough = 0.5;
 // A part of the way counts where the reward changes by this share of its change over the whole.
 constexpr double kChanges = 0.03;
-constexpr std::size_t kShortest = 4;  // states
+constexpr std::size_t kShortest = 3;  // states
+constexpr double kStep = 0.2;         // of the whole change, between two states
 
 double Spread(std::span<const double> values) {
   if (values.empty()) return 0.0;
@@ -29,20 +30,34 @@ double Agreement(std::span<const double> reward) {
   return RankCorrelation(reward, progress, 1e-6 * Spread(reward));
 }
 
+// Where the parts of a way end: at the hand's arrival, where it starts to turn things over, and
+// behind a step of the reward (a bonus), which would outweigh all that happens between two of them.
+std::vector<std::size_t> PartEnds(const Motion& motion, std::span<const double> reward,
+                                  double spread) {
+  std::vector<std::size_t> ends;
+  const auto kind = [&](std::size_t i) {
+    const MotionPhase phase = motion.phases[i];
+    return phase == MotionPhase::kRelease ? MotionPhase::kMove : phase;
+  };
+  for (std::size_t i = 1; i < reward.size(); ++i) {
+    const bool step = std::abs(reward[i] - reward[i - 1]) > kStep * spread;
+    if (step || kind(i) != kind(i - 1)) ends.push_back(i);
+  }
+  ends.push_back(reward.size());
+  return ends;
+}
+
 // Fills agreement and whole.
 void Judge(const std::vector<float>& rewards, SuccessPath* path) {
-  const std::vector<double> reward(rewards.begin(),
+  const std::vector<double> values(rewards.begin(),
                                    rewards.begin() + static_cast<std::ptrdiff_t>(path->first) + 1);
+  const std::span<const double> reward(values);
   const double spread = Spread(reward);
   path->whole = path->agreement = Agreement(reward);
-  std::size_t arrival = 0;
-  while (arrival < reward.size() && path->motion.phases[arrival] == MotionPhase::kApproach) {
-    ++arrival;
-  }
-  const std::span<const double> all(reward);
-  const std::span<const double> approach = all.first(arrival);
-  const std::span<const double> act = all.subspan(arrival > 0 ? arrival - 1 : 0);
-  for (const std::span<const double>& part : {approach, act}) {
+  std::size_t begin = 0;
+  for (std::size_t end : PartEnds(path->motion, reward, spread)) {
+    const std::span<const double> part = reward.subspan(begin, end - begin);
+    begin = end;
     if (part.size() < kShortest || Spread(part) < kChanges * spread) continue;
     path->agreement = std::min(path->agreement, Agreement(part));
   }

@@ -13,8 +13,9 @@ struct SuccessPath {
   Motion motion;
   std::size_t first = 0;   // the first state in which success holds
   bool reachable = false;  // by the arm, all along
-  // Rank correlation of reward and progress up to `first`: over the whole way, while the hand
-  // comes, and from then on; the least of those in which the reward changes.
+  // Rank correlation of reward and progress up to `first`: over the whole way, and over each part
+  // (the hand comes; moves; turns over; between two steps of the reward); the least of those in
+  // which the reward changes.
   double agreement = 0.0;
   double whole = 0.0;
 };

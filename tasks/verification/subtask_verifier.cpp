@@ -64,7 +64,8 @@ bool HasError(const core::Findings& findings) {
 void Sharpen(core::Findings* findings) {
   for (core::Finding& finding : *findings) {
     if (finding.code == "constant-reward" || finding.code == "constant-success" ||
-        finding.code == "self-distance") {
+        finding.code == "self-distance" || finding.code == "norm-over-environments" ||
+        finding.code == "shared-reward") {
       finding.severity = Severity::kError;
     }
   }
@@ -309,10 +310,10 @@ std::optional<InitialState> SubtaskVerifier::EndBefore(const Task& task, const S
   if (end == ends_.end()) return std::nullopt;
   for (const RewardSlot& slot : program.slots()) {
     const auto& placed = end->second.placements;
-    const bool there =
-        slot.asset.empty() ||
-        std::any_of(placed.begin(), placed.end(),
-                    [&](const AssetPlacement& one) { return one.asset == slot.asset; });
+    const bool there = slot.asset.empty() ||
+                       std::any_of(placed.begin(), placed.end(), [&](const AssetPlacement& one) {
+                         return one.asset == slot.asset;
+                       });
     if (!there) return std::nullopt;
   }
   return end->second;
