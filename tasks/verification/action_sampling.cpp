@@ -109,6 +109,12 @@ class Sampler {
       Carry(ActionKind::kPush, thing, middle + Eigen::Vector3d(0, side, 0));
       Carry(ActionKind::kPush, thing, middle + Eigen::Vector3d(side, 0, 0));
     }
+    // Free floor, to the robot's left and right.
+    for (double side : {-0.35, 0.35}) {
+      Eigen::Vector3d free = start_.gripper.translation() + Eigen::Vector3d(0.05, side, 0);
+      free.z() = 0.5 * box.sizes().z();
+      Carry(ActionKind::kPlace, thing, free);
+    }
     for (int other : things_) {
       if (other != thing) AddOnto(thing, other, box);
     }
