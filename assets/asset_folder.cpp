@@ -1,7 +1,6 @@
 #include "assets/asset_folder.h"
 
-#include <nlohmann/json.hpp>
-
+#include "assets/asset_json.h"
 #include "assets/mesh_import.h"
 #include "assets/model_writer.h"
 #include "assets/obj_file.h"
@@ -11,73 +10,18 @@
 namespace simwright::assets {
 namespace {
 
-using Json = nlohmann::ordered_json;
-constexpr int kFormatVersion = 1;
-
-Json ToJson(const physics_params::Estimate& e) {
-  return {{"min", e.min}, {"max", e.max}, {"sample", e.sample}, {"source", e.source}};
-}
-
-physics_params::Estimate EstimateFrom(const Json& json) {
-  return {json.at("min"), json.at("max"), json.at("sample"), json.at("source")};
-}
-
-Json ToJson(const Eigen::Vector3d& v) {
-  return Json::array({v.x(), v.y(), v.z()});
-}
-
-Json ToJson(const Eigen::Matrix3d& m) {
-  Json rows = Json::array();
-  for (int row = 0; row < 3; ++row) rows.push_back(ToJson(Eigen::Vector3d(m.row(row))));
-  return rows;
-}
-
-Eigen::Vector3d VectorFrom(const Json& json) {
-  return Eigen::Vector3d(json.at(0).get<double>(), json.at(1).get<double>(),
-                         json.at(2).get<double>());
-}
-
-const char* SeverityName(core::Severity severity) {
-  constexpr const char* kNames[] = {"info", "warning", "error"};
-  return kNames[static_cast<int>(severity)];
-}
-
-Json ToJson(const core::Findings& findings) {
-  Json list = Json::array();
-  for (const core::Finding& f : findings) {
-    list.push_back({{"code", f.code},
-                    {"severity", SeverityName(f.severity)},
-                    {"place", f.place},
-                    {"sentence", f.sentence},
-                    {"figure", f.figure}});
-  }
-  return list;
-}
-
 Json AssetJson(const Asset& a) {
-  const auto& p = a.parameters;
   Json json;
   json["format"] = kFormatVersion;
   json["name"] = a.name;
-  json["category"] = p.category;
-  json["category_resolution"] = p.resolution;
   json["source"] = a.source;
   json["seed"] = a.seed;
-  json["size_m"] = {
-      {"length", ToJson(p.length)}, {"width", ToJson(p.width)}, {"height", ToJson(p.height)}};
+  json.update(ToJson(a.parameters));
   const Eigen::AlignedBox3d box = core::Bounds(a.visual.mesh);
   json["bounds_m"] = {{"min", ToJson(Eigen::Vector3d(box.min()))},
                       {"max", ToJson(Eigen::Vector3d(box.max()))}};
-  json["mass_kg"] = ToJson(p.mass);
-  json["material"] = {{"name", p.material},
-                      {"fill", physics_params::FillName(p.fill)},
-                      {"density_kg_m3", ToJson(p.density)}};
-  json["friction"] = ToJson(p.friction);
-  json["restitution"] = ToJson(p.restitution);
   json["rolling_friction_m"] = a.rolling_friction;
-  json["mass"] = a.inertial.mass;
-  json["center_of_mass"] = ToJson(a.inertial.center_of_mass);
-  json["inertia"] = ToJson(a.inertial.inertia);
+  json.update(ToJson(a.inertial));
   json["volume_m3"] = a.volume;
   json["density_kg_m3"] = a.density;
   json["wall_thickness_m"] = a.wall_thickness;
@@ -87,41 +31,27 @@ Json AssetJson(const Asset& a) {
                    {"faces", a.solid.triangles.size()},
                    {"sheet_thickness_m", a.sheet_thickness}};
   json["parts"] = {{"count", a.parts.size()}, {"concavity", a.concavity}, {"coverage", a.coverage}};
-  const Eigen::Quaterniond q(a.link_from_input.linear());
-  json["link_from_input"] = {
-      {"scale", a.scale},
-      {"rotation_wxyz", {q.w(), q.x(), q.y(), q.z()}},
-      {"translation", ToJson(Eigen::Vector3d(a.link_from_input.translation()))}};
+  json["link_from_input"] = ToJson(a.link_from_input);
+  json["link_from_input"]["scale"] = a.scale;
   json["rolls"] = a.rolls;
   json["findings"] = ToJson(a.findings);
   json["versions"] = {{"simwright", SIMWRIGHT_VERSION}};
   return json;
 }
 
-Asset AssetFrom(const Json& json) {
+Asset AssetFrom(const Json& json, const std::string& where) {
+  if (json.value("articulated", false)) {
+    throw core::Error("has joints and is no single body", where, "read it as an articulated asset");
+  }
   Asset a;
   a.name = json.at("name");
-  auto& p = a.parameters;
-  p.category = json.at("category");
-  p.resolution = json.at("category_resolution");
-  p.length = EstimateFrom(json.at("size_m").at("length"));
-  p.width = EstimateFrom(json.at("size_m").at("width"));
-  p.height = EstimateFrom(json.at("size_m").at("height"));
-  p.mass = EstimateFrom(json.at("mass_kg"));
-  p.material = json.at("material").at("name");
-  p.density = EstimateFrom(json.at("material").at("density_kg_m3"));
-  p.friction = EstimateFrom(json.at("friction"));
-  p.restitution = EstimateFrom(json.at("restitution"));
-  a.friction = p.friction.sample;
-  a.restitution = p.restitution.sample;
+  a.parameters = ParametersFrom(json);
+  a.friction = a.parameters.friction.sample;
+  a.restitution = a.parameters.restitution.sample;
   a.rolling_friction = json.at("rolling_friction_m");
   a.source = json.at("source");
   a.seed = json.at("seed");
-  a.inertial.mass = json.at("mass");
-  a.inertial.center_of_mass = VectorFrom(json.at("center_of_mass"));
-  for (int row = 0; row < 3; ++row) {
-    a.inertial.inertia.row(row) = VectorFrom(json.at("inertia").at(row));
-  }
+  a.inertial = InertialFrom(json);
   a.volume = json.at("volume_m3");
   a.density = json.at("density_kg_m3");
   a.wall_thickness = json.at("wall_thickness_m");
@@ -132,12 +62,7 @@ Asset AssetFrom(const Json& json) {
   a.coverage = json.at("parts").at("coverage");
   const Json& turn = json.at("link_from_input");
   a.scale = turn.at("scale");
-  const Json& q = turn.at("rotation_wxyz");
-  a.link_from_input.linear() = Eigen::Quaterniond(q.at(0).get<double>(), q.at(1).get<double>(),
-                                                  q.at(2).get<double>(), q.at(3).get<double>())
-                                   .normalized()
-                                   .toRotationMatrix();
-  a.link_from_input.translation() = VectorFrom(turn.at("translation"));
+  a.link_from_input = PoseFrom(turn);
   a.rolls = json.at("rolls");
   return a;
 }
@@ -169,7 +94,7 @@ Asset ReadAsset(const std::filesystem::path& folder) {
     if (json.at("format").get<int>() > kFormatVersion) {
       throw core::Error("was written by a newer version", file.string(), "update simwright");
     }
-    asset = AssetFrom(json);
+    asset = AssetFrom(json, file.string());
     parts = json.at("parts").at("count");
   } catch (const nlohmann::json::exception& error) {
     throw core::Error(std::string("is not a valid asset description: ") + error.what(),

@@ -3,62 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <initializer_list>
 
 #include <tinyxml2.h>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-#include "geometry/mass_properties.h"
+#include "assets/xml_element.h"
 
 namespace simwright::assets {
 namespace {
-
-std::string Number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.17g", value);
-  return text;
-}
-
-std::string Numbers(std::initializer_list<double> values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : " ") + Number(value);
-  return text;
-}
-
-std::string Numbers(const Eigen::Vector3d& v) {
-  return Numbers({v.x(), v.y(), v.z()});
-}
-
-// Nested elements with attributes; closes itself.
-class Element {
- public:
-  Element(tinyxml2::XMLPrinter* printer, const char* name) : printer_(printer) {
-    printer_->OpenElement(name);
-  }
-  ~Element() { printer_->CloseElement(); }
-  Element(const Element&) = delete;
-  Element& operator=(const Element&) = delete;
-  Element& Set(const char* name, const std::string& value) {
-    printer_->PushAttribute(name, value.c_str());
-    return *this;
-  }
-  void Text(const std::string& text) { printer_->PushText(text.c_str()); }
-
- private:
-  tinyxml2::XMLPrinter* printer_;
-};
-
-void Leaf(tinyxml2::XMLPrinter* printer, const char* name, const std::string& text) {
-  Element(printer, name).Text(text);
-}
-
-void UrdfMesh(tinyxml2::XMLPrinter* printer, const char* role, const std::string& file) {
-  Element owner(printer, role);
-  Element(printer, "origin").Set("xyz", "0 0 0").Set("rpy", "0 0 0");
-  Element geometry(printer, "geometry");
-  Element(printer, "mesh").Set("filename", file);
-}
 
 void SdfMesh(tinyxml2::XMLPrinter* printer, const char* role, const std::string& name,
              const std::string& file, const Asset* surface_of) {
@@ -79,15 +31,6 @@ void SdfMesh(tinyxml2::XMLPrinter* printer, const char* role, const std::string&
   }
   Element bounce(printer, "bounce");
   Leaf(printer, "restitution_coefficient", Number(surface_of->restitution));
-}
-
-// MuJoCo's spring-damper contact has no coefficient of restitution. A damping ratio gives one:
-// e = exp(-pi d / sqrt(1 - d^2)) for a linear spring and damper; never under 0.4, where stacks
-// ring, and 1 for what hardly bounces.
-double DampingRatio(double restitution) {
-  const double e = std::clamp(restitution, 0.01, 0.99);
-  const double l = std::log(e);
-  return std::clamp(std::abs(l) / std::sqrt(M_PI * M_PI + l * l), 0.4, 1.0);
 }
 
 void MjcfAssets(tinyxml2::XMLPrinter* printer, const Asset& asset, bool textured) {
@@ -116,17 +59,7 @@ void MjcfBody(tinyxml2::XMLPrinter* printer, const Asset& asset, bool textured) 
   Element body(printer, "body");
   body.Set("name", asset.name);
   Element(printer, "freejoint").Set("name", asset.name + "_free");
-  // On principal axes: found by MuJoCo 2.2 they were off by up to 1e-6 of the inertia.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(asset.inertial.inertia);
-  Eigen::Matrix3d rotation = axes.eigenvectors();
-  if (rotation.determinant() < 0.0) rotation.col(0) *= -1.0;
-  const Eigen::Quaterniond quat(rotation);
-  const Eigen::Vector3d& moments = axes.eigenvalues();
-  Element(printer, "inertial")
-      .Set("pos", Numbers(asset.inertial.center_of_mass))
-      .Set("quat", Numbers({quat.w(), quat.x(), quat.y(), quat.z()}))
-      .Set("mass", Number(asset.inertial.mass))
-      .Set("diaginertia", Numbers({moments.x(), moments.y(), moments.z()}));
+  MjcfInertial(printer, asset.inertial);
   {
     Element visual(printer, "geom");
     visual.Set("type", "mesh")
@@ -183,30 +116,12 @@ std::string UrdfText(const Asset& asset) {
     robot.Set("name", asset.name);
     Element link(&printer, "link");
     link.Set("name", asset.name);
-    {
-      Element inertial(&printer, "inertial");
-      Element(&printer, "origin")
-          .Set("xyz", Numbers(asset.inertial.center_of_mass))
-          .Set("rpy", "0 0 0");
-      Element(&printer, "mass").Set("value", Number(asset.inertial.mass));
-      const Eigen::Matrix3d& I = asset.inertial.inertia;
-      Element(&printer, "inertia")
-          .Set("ixx", Number(I(0, 0)))
-          .Set("ixy", Number(I(0, 1)))
-          .Set("ixz", Number(I(0, 2)))
-          .Set("iyy", Number(I(1, 1)))
-          .Set("iyz", Number(I(1, 2)))
-          .Set("izz", Number(I(2, 2)));
-    }
+    UrdfInertial(&printer, asset.inertial);
     UrdfMesh(&printer, "visual", "visual.obj");
     for (size_t i = 0; i < asset.parts.size(); ++i) {
       UrdfMesh(&printer, "collision", CollisionFileName(static_cast<int>(i)));
     }
-    // Bullet's and Gazebo's extension: friction and bounce travel with the link.
-    Element contact(&printer, "contact");
-    Element(&printer, "lateral_friction").Set("value", Number(asset.friction));
-    Element(&printer, "rolling_friction").Set("value", Number(asset.rolling_friction));
-    Element(&printer, "restitution").Set("value", Number(asset.restitution));
+    UrdfContact(&printer, asset.friction, asset.rolling_friction, asset.restitution);
   }
   return printer.CStr();
 }
@@ -250,18 +165,7 @@ std::string MjcfText(const Asset& asset) {
     Element mujoco(&printer, "mujoco");
     mujoco.Set("model", asset.name);
     Element(&printer, "compiler").Set("angle", "radian");
-    {
-      Element option(&printer, "option");
-      // The default tolerance lets light things with many contacts tremble; at 1e-14 a cup of a
-      // few grams rests still. Elliptic cones tremble less than pyramids, and with impratio 10
-      // held things slip less.
-      option.Set("timestep", "0.002")
-          .Set("solver", "Newton")
-          .Set("tolerance", "1e-14")
-          .Set("cone", "elliptic")
-          .Set("impratio", "10");
-      Element(&printer, "flag").Set("multiccd", "enable");
-    }
+    MjcfOption(&printer);
     {
       // MuJoCo 2.2 reserves 500 rows of constraints and 100 contacts, which a thing of many parts
       // overflows (three contacts of six rows a part on a plane), and memory for their square:

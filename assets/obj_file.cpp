@@ -65,8 +65,8 @@ std::vector<int> GroupedOrder(const core::TexturedMesh& visual) {
 }
 
 std::string VisualObjText(const core::TexturedMesh& visual,
-                          const std::vector<std::string>& material_names) {
-  std::string text = "mtllib visual.mtl\n";
+                          const std::vector<std::string>& material_names, const std::string& stem) {
+  std::string text = "mtllib " + stem + ".mtl\n";
   text.reserve(visual.mesh.vertices.size() * 40 + visual.mesh.triangles.size() * 40);
   for (const Eigen::Vector3d& v : visual.mesh.vertices) {
     Print(&text, "v %.9g %.9g %.9g\n", v.x(), v.y(), v.z());
@@ -123,10 +123,11 @@ std::string ObjText(const core::TriangleMesh& mesh, bool exact) {
   return text;
 }
 
-void WriteVisual(const core::TexturedMesh& visual, const std::filesystem::path& folder) {
+void WriteVisual(const core::TexturedMesh& visual, const std::filesystem::path& folder,
+                 const std::string& stem) {
   const std::vector<std::string> names = MaterialNames(visual);
-  core::WriteFile(folder / "visual.obj", VisualObjText(visual, names));
-  core::WriteFile(folder / "visual.mtl", MtlText(visual, names));
+  core::WriteFile(folder / (stem + ".obj"), VisualObjText(visual, names, stem));
+  core::WriteFile(folder / (stem + ".mtl"), MtlText(visual, names));
   const int count = static_cast<int>(visual.textures.size());
   for (int i = 0; i < count; ++i) {
     core::WritePng(folder / TextureFileName(i, count), visual.textures[i]);

@@ -1,7 +1,7 @@
 #include "assets/urdf_reader.h"
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 
 #include <console_bridge/console.h>
 #include <tinyxml2.h>
@@ -59,6 +59,7 @@ class Reader {
     model_.findings.push_back({code, core::Severity::kWarning, path_.string(), sentence, 0.0});
   }
   void AddLink(const urdf::Link& link, const std::string& text);
+  void AddJoint(const urdf::Joint& joint);
   void AddShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
                 std::vector<UrdfShape>* shapes);
   std::optional<fs::path> FindMesh(const std::string& name);
@@ -206,6 +207,42 @@ UrdfJointType TypeOf(const urdf::Joint& joint) {
   }
 }
 
+void Reader::AddJoint(const urdf::Joint& source) {
+  UrdfJoint joint;
+  joint.name = source.name;
+  joint.parent = source.parent_link_name;
+  joint.child = source.child_link_name;
+  joint.type = TypeOf(source);
+  joint.parent_from_joint = ToIsometry(source.parent_to_joint_origin_transform);
+  joint.axis = Eigen::Vector3d(source.axis.x, source.axis.y, source.axis.z).normalized();
+  if (source.limits) {
+    joint.lower = source.limits->lower;
+    joint.upper = source.limits->upper;
+    joint.effort = source.limits->effort;
+    joint.velocity = source.limits->velocity;
+  }
+  if (source.dynamics) {
+    joint.damping = source.dynamics->damping;
+    joint.friction = source.dynamics->friction;
+  }
+  for (const double value : {joint.lower, joint.upper, joint.damping, joint.friction}) {
+    if (std::isfinite(value)) continue;
+    throw core::Error("a limit, damping or friction is not finite",
+                      path_.string() + " joint '" + joint.name + "'");
+  }
+  if (joint.damping < 0.0 || joint.friction < 0.0) {
+    throw core::Error("damping or friction is negative",
+                      path_.string() + " joint '" + joint.name + "'", "both only resist motion");
+  }
+  if (source.mimic) {
+    joint.mimic = {source.mimic->joint_name, source.mimic->multiplier, source.mimic->offset};
+    model_.findings.push_back({"urdf-mimic", core::Severity::kInfo, path_.string(),
+                               "joint '" + joint.name + "' follows '" + joint.mimic->joint + "'",
+                               joint.mimic->multiplier});
+  }
+  model_.joints.push_back(std::move(joint));
+}
+
 UrdfModel Reader::Read() {
   const std::string text = core::ReadFile(path_, kMaxUrdfBytes);
   RequireHarmlessUrdfText(text, path_.string());
@@ -229,15 +266,7 @@ UrdfModel Reader::Read() {
     std::sort(children.begin(), children.end(),
               [](const auto& a, const auto& b) { return a->name < b->name; });
     for (const auto& child : children) {
-      const urdf::Joint& source = *child->parent_joint;
-      UrdfJoint joint{source.name, source.parent_link_name, source.child_link_name, TypeOf(source),
-                      ToIsometry(source.parent_to_joint_origin_transform)};
-      joint.axis = Eigen::Vector3d(source.axis.x, source.axis.y, source.axis.z).normalized();
-      if (source.limits) {
-        joint.lower = source.limits->lower;
-        joint.upper = source.limits->upper;
-      }
-      model_.joints.push_back(joint);
+      AddJoint(*child->parent_joint);
       queue.push_back(child);
     }
   }
@@ -252,18 +281,6 @@ UrdfModel Reader::Read() {
 
 UrdfModel ReadUrdf(const fs::path& path, const UrdfReadOptions& options) {
   return Reader(path, options).Read();
-}
-
-std::vector<Eigen::Isometry3d> LinkPosesAtZero(const UrdfModel& model) {
-  std::map<std::string, size_t> index_of;
-  std::vector<Eigen::Isometry3d> poses(model.links.size(), Eigen::Isometry3d::Identity());
-  for (size_t i = 0; i < model.links.size(); ++i) {
-    index_of[model.links[i].name] = i;
-    if (i == 0) continue;
-    const UrdfJoint& joint = model.joints[i - 1];
-    poses[i] = poses[index_of.at(joint.parent)] * joint.parent_from_joint;
-  }
-  return poses;
 }
 
 }  // namespace simwright::assets

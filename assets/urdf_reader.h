@@ -32,12 +32,26 @@ struct UrdfLink {
 
 enum class UrdfJointType { kFixed, kRevolute, kContinuous, kPrismatic, kFloating, kPlanar };
 
+// A joint that follows another: position = multiplier * leader's + offset.
+struct UrdfMimic {
+  std::string joint;  // the leader
+  double multiplier = 1.0;
+  double offset = 0.0;  // rad or m
+};
+
 struct UrdfJoint {
   std::string name, parent, child;
   UrdfJointType type = UrdfJointType::kFixed;
   Eigen::Isometry3d parent_from_joint = Eigen::Isometry3d::Identity();  // at position zero
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();                      // joint frame, unit
   double lower = 0.0, upper = 0.0;                                      // rad or m
+  double damping = 0.0;   // <dynamics>, N m s/rad or N s/m
+  double friction = 0.0;  // <dynamics>, N m or N: below it a loaded joint holds still
+  double effort = 0.0;    // <limit>, N m or N; 0 where the file gives none
+  double velocity = 0.0;  // <limit>, rad/s or m/s; 0 where the file gives none
+  std::optional<UrdfMimic> mimic;
+
+  bool Moves() const { return type != UrdfJointType::kFixed; }
 };
 
 struct UrdfModel {
@@ -56,13 +70,11 @@ struct UrdfReadOptions {
 // Reads a URDF with urdfdom. Mesh names may be relative, "file://", "../meshes/x" inside the root,
 // or "package://NAME/x": x is then looked for in the root, the URDF's folder and the folders above
 // it inside the root. A mesh that is missing or cannot be read is left out with a warning, a
-// missing inertial is reported.
+// missing inertial and a joint that mimics another are reported.
 // Throws core::Error: no XML or no URDF, larger than 16 MiB, a DOCTYPE or entity, a loop, a joint
-// to a missing link, no root, a mass that is not positive, an inertia that no body can have, a
-// mesh path that leads outside the root.
+// to a missing link, no root, a mass that is not positive, an inertia that no body can have, joint
+// damping, friction or limits that are not finite, negative damping or friction, a mesh path that
+// leads outside the root.
 UrdfModel ReadUrdf(const std::filesystem::path& path, const UrdfReadOptions& options = {});
-
-// Pose of each link in the frame of the root, all joints at zero.
-std::vector<Eigen::Isometry3d> LinkPosesAtZero(const UrdfModel& model);
 
 }  // namespace simwright::assets

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "assets/semantic_model.h"
 #include "assets/urdf_reader.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -18,20 +19,6 @@ namespace fs = std::filesystem;
 
 // A reward function is a page; the compiler's own bound is far below this.
 constexpr std::uint64_t kLargestProgram = 16u << 20;
-
-// The folder's own URDF: of its name, PartNet-Mobility's, or the only one.
-fs::path UrdfIn(const fs::path& folder) {
-  const fs::path named = folder / (fs::weakly_canonical(folder).filename().string() + ".urdf");
-  if (fs::exists(named)) return named;
-  if (fs::exists(folder / "mobility.urdf")) return folder / "mobility.urdf";
-  std::vector<fs::path> found;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".urdf") found.push_back(entry.path());
-  }
-  if (found.size() == 1) return found.front();
-  throw core::Error(found.empty() ? "holds no URDF" : "holds several URDFs", folder.string(),
-                    "name the .urdf file itself");
-}
 
 struct NamedAsset {
   std::string name;
@@ -49,7 +36,7 @@ NamedAsset Located(const std::string& argument) {
   }
   if (!fs::exists(place)) throw core::Error("no such asset", place, "give a folder or a .urdf");
   const bool folder = fs::is_directory(place);
-  asset.urdf = folder ? UrdfIn(place) : fs::path(place);
+  asset.urdf = folder ? assets::UrdfIn(place) : fs::path(place);
   if (asset.name.empty()) {
     const fs::path whole = fs::weakly_canonical(place);
     asset.name = folder ? whole.filename().string() : whole.stem().string();

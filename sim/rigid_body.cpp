@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "assets/joint_poses.h"
 #include "assets/primitive_meshes.h"
 #include "core/error.h"
 #include "geometry/mass_properties.h"

@@ -5,38 +5,15 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "core/error.h"
-#include "geometry/mass_properties.h"
+#include "sim/bullet_shape.h"
 
 namespace simwright::sim {
 namespace {
 
-btVector3 ToBullet(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-Eigen::Vector3d FromBullet(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-btTransform ToBullet(const Eigen::Isometry3d& pose) {
-  const Eigen::Quaterniond q(pose.linear());
-  return btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()), ToBullet(pose.translation()));
-}
-
-Eigen::Isometry3d FromBullet(const btTransform& transform) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  const btQuaternion q = transform.getRotation();
-  pose.linear() = Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized().toRotationMatrix();
-  pose.translation() = FromBullet(transform.getOrigin());
-  return pose;
-}
-
-// One body with its shapes. Bullet wants the centre of mass at the origin and the inertia
-// diagonal, so the body's frame is turned to the principal axes.
 struct LoadedBody {
-  std::vector<std::unique_ptr<btConvexHullShape>> hulls;
-  std::unique_ptr<btCompoundShape> compound;
+  LoadedBody(const RigidBody& body, double margin) : shape(body, margin) {}
+  BulletShape shape;
   std::unique_ptr<btRigidBody> rigid;
-  Eigen::Isometry3d body_from_principal;
 };
 
 }  // namespace
@@ -85,29 +62,11 @@ int World::Add(const RigidBody& body, const Eigen::Isometry3d& world_from_body) 
   if (body.parts.empty() || !(body.inertial.mass > 0.0)) {
     throw core::Error("a body needs collision parts and a mass", body.name);
   }
-  auto loaded = std::make_unique<LoadedBody>();
-  const geometry::PrincipalInertia principal = geometry::PrincipalInertiaOf(body.inertial.inertia);
-  loaded->body_from_principal =
-      Eigen::Translation3d(body.inertial.center_of_mass) * Eigen::Isometry3d(principal.axes);
-  const Eigen::Isometry3d principal_from_body = loaded->body_from_principal.inverse();
-  loaded->compound = std::make_unique<btCompoundShape>(true, static_cast<int>(body.parts.size()));
-  for (const core::TriangleMesh& part : body.parts) {
-    if (part.vertices.size() < 4) {
-      throw core::Error("a collision part has fewer than four vertices", body.name);
-    }
-    auto hull = std::make_unique<btConvexHullShape>();
-    for (const Eigen::Vector3d& vertex : part.vertices) {
-      hull->addPoint(ToBullet(principal_from_body * vertex), false);
-    }
-    hull->setMargin(options_.margin);
-    hull->recalcLocalAabb();
-    loaded->compound->addChildShape(btTransform::getIdentity(), hull.get());
-    loaded->hulls.push_back(std::move(hull));
-  }
-  loaded->compound->setMargin(options_.margin);
-  btRigidBody::btRigidBodyConstructionInfo info(body.inertial.mass, nullptr, loaded->compound.get(),
-                                                ToBullet(principal.moments));
-  info.m_startWorldTransform = ToBullet(world_from_body * loaded->body_from_principal);
+  auto loaded = std::make_unique<LoadedBody>(body, options_.margin);
+  const BulletShape& shape = loaded->shape;
+  btRigidBody::btRigidBodyConstructionInfo info(body.inertial.mass, nullptr, shape.compound(),
+                                                ToBullet(shape.moments()));
+  info.m_startWorldTransform = ToBullet(world_from_body * shape.body_from_principal());
   info.m_friction = body.friction;
   info.m_restitution = body.restitution;
   info.m_rollingFriction = body.rolling_friction;
@@ -128,7 +87,8 @@ void World::Step() {
 
 Eigen::Isometry3d World::Pose(int body) const {
   const LoadedBody& loaded = *bullet_->bodies.at(static_cast<size_t>(body));
-  return FromBullet(loaded.rigid->getWorldTransform()) * loaded.body_from_principal.inverse();
+  return FromBullet(loaded.rigid->getWorldTransform()) *
+         loaded.shape.body_from_principal().inverse();
 }
 
 Eigen::Vector3d World::LinearVelocity(int body) const {
@@ -154,9 +114,9 @@ assets::Inertial World::LoadedInertial(int body) const {
   const LoadedBody& loaded = *bullet_->bodies.at(static_cast<size_t>(body));
   assets::Inertial inertial;
   inertial.mass = 1.0 / loaded.rigid->getInvMass();
-  inertial.center_of_mass = loaded.body_from_principal.translation();
+  inertial.center_of_mass = loaded.shape.body_from_principal().translation();
   const Eigen::Vector3d moments = FromBullet(loaded.rigid->getInvInertiaDiagLocal()).cwiseInverse();
-  const Eigen::Matrix3d R = loaded.body_from_principal.linear();
+  const Eigen::Matrix3d R = loaded.shape.body_from_principal().linear();
   inertial.inertia = R * moments.asDiagonal() * R.transpose();
   return inertial;
 }

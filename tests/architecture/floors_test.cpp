@@ -30,7 +30,7 @@ const std::vector<Door> kDoors = {
     {std::regex("^assimp/"), {"assets"}},
     {std::regex("^(urdf_parser|urdf_model|console_bridge)/"), {"assets"}},
     {std::regex("^bt[A-Z]|^Bullet"), {"sim"}},
-    {std::regex("^mujoco/"), {"sim/mujoco"}},
+    {std::regex("^mujoco/"), {"sim/mujoco", "sim/mujoco_scene", "sim/mujoco_rig"}},
     {std::regex("^curl/"), {"llm"}},
     {std::regex("^opencv2/"), {"core/image", "asset_lift", "texture"}},
     {std::regex("^ceres/"), {"asset_lift", "scene"}},

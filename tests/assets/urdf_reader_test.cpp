@@ -5,6 +5,7 @@
 #include <fstream>
 #include <set>
 
+#include "assets/joint_poses.h"
 #include "assets/obj_file.h"
 #include "assets/primitive_meshes.h"
 #include "core/error.h"

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "assets/joint_poses.h"
 #include "assets/urdf_reader.h"
 #include "core/error.h"
 #include "temporary_file.h"

@@ -1,0 +1,258 @@
+#include "assets/articulated_writer.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <tinyxml2.h>
+
+#include "assets/model_writer.h"
+#include "assets/xml_element.h"
+#include "core/error.h"
+
+namespace simwright::assets {
+namespace {
+
+using Printer = tinyxml2::XMLPrinter;
+
+constexpr struct {
+  UrdfJointType type;
+  const char* urdf;
+  const char* semantics;
+} kJointTypes[] = {{UrdfJointType::kFixed, "fixed", "fixed"},
+                   {UrdfJointType::kRevolute, "revolute", "hinge"},
+                   {UrdfJointType::kContinuous, "continuous", "hinge"},
+                   {UrdfJointType::kPrismatic, "prismatic", "slider"},
+                   {UrdfJointType::kFloating, "floating", "free"},
+                   {UrdfJointType::kPlanar, "planar", "free"}};
+
+void UrdfVisual(Printer* printer, const ColoredPiece& piece) {
+  Element visual(printer, "visual");
+  Element(printer, "origin").Set("xyz", "0 0 0").Set("rpy", "0 0 0");
+  {
+    Element geometry(printer, "geometry");
+    Element(printer, "mesh").Set("filename", piece.stem + ".obj");
+  }
+  const Eigen::Vector4f& c = piece.mesh.materials.front().base_color;
+  Element material(printer, "material");
+  material.Set("name", piece.stem);
+  Element(printer, "color").Set("rgba", Numbers({c.x(), c.y(), c.z(), c.w()}));
+}
+
+void UrdfLinkElement(Printer* printer, const ArticulatedLink& link) {
+  Element element(printer, "link");
+  element.Set("name", link.name);
+  UrdfInertial(printer, link.inertial);
+  for (const ColoredPiece& piece : ColoredPieces(link)) UrdfVisual(printer, piece);
+  for (size_t i = 0; i < link.parts.size(); ++i) {
+    UrdfMesh(printer, "collision", LinkCollisionFileName(link.name, static_cast<int>(i)));
+  }
+  UrdfContact(printer, link.friction, 0.0, link.restitution);
+}
+
+void UrdfJointElement(Printer* printer, const UrdfJoint& joint) {
+  Element element(printer, "joint");
+  element.Set("name", joint.name).Set("type", JointTypeName(joint.type));
+  Element(printer, "parent").Set("link", joint.parent);
+  Element(printer, "child").Set("link", joint.child);
+  const Eigen::Vector3d angles = joint.parent_from_joint.linear().eulerAngles(2, 1, 0);
+  Element(printer, "origin")
+      .Set("xyz", Numbers(Eigen::Vector3d(joint.parent_from_joint.translation())))
+      .Set("rpy", Numbers({angles[2], angles[1], angles[0]}));
+  if (!joint.Moves()) return;
+  Element(printer, "axis").Set("xyz", Numbers(joint.axis));
+  Element(printer, "dynamics")
+      .Set("damping", Number(joint.damping))
+      .Set("friction", Number(joint.friction));
+  Element(printer, "limit")
+      .Set("lower", Number(joint.lower))
+      .Set("upper", Number(joint.upper))
+      .Set("effort", Number(joint.effort))
+      .Set("velocity", Number(joint.velocity));
+}
+
+std::string MeshName(const std::string& asset, const std::string& file) {
+  return asset + "_" + file.substr(0, file.find('.'));
+}
+
+void MjcfMeshes(Printer* printer, const ArticulatedAsset& asset) {
+  Element assets(printer, "asset");
+  const auto add = [&](const std::string& file) {
+    Element(printer, "mesh").Set("name", MeshName(asset.name, file)).Set("file", file);
+  };
+  for (const ArticulatedLink& link : asset.links) {
+    for (const ColoredPiece& piece : ColoredPieces(link)) {
+      if (VisualSuitsMujoco(piece.mesh.mesh)) add(piece.stem + ".obj");
+    }
+    for (size_t i = 0; i < link.parts.size(); ++i) {
+      add(LinkCollisionFileName(link.name, static_cast<int>(i)));
+    }
+  }
+}
+
+void MjcfGeoms(Printer* printer, const std::string& asset, const ArticulatedLink& link) {
+  for (const ColoredPiece& piece : ColoredPieces(link)) {
+    if (!VisualSuitsMujoco(piece.mesh.mesh)) continue;
+    const Eigen::Vector4f& c = piece.mesh.materials.front().base_color;
+    Element(printer, "geom")
+        .Set("type", "mesh")
+        .Set("mesh", MeshName(asset, piece.stem))
+        .Set("contype", "0")
+        .Set("conaffinity", "0")
+        .Set("group", "2")
+        .Set("rgba", Numbers({c.x(), c.y(), c.z(), c.w()}));
+  }
+  for (size_t i = 0; i < link.parts.size(); ++i) {
+    const std::string file = LinkCollisionFileName(link.name, static_cast<int>(i));
+    Element(printer, "geom")
+        .Set("type", "mesh")
+        .Set("mesh", MeshName(asset, file))
+        .Set("group", "3")
+        .Set("condim", "4")
+        .Set("friction", Numbers({link.friction, 0.005, 0.0001}))
+        .Set("solref", Numbers({0.005, DampingRatio(link.restitution)}));
+  }
+}
+
+void MjcfJoint(Printer* printer, const UrdfJoint& joint) {
+  const bool slides = joint.type == UrdfJointType::kPrismatic;
+  Element(printer, "joint")
+      .Set("name", joint.name)
+      .Set("type", slides ? "slide" : "hinge")
+      .Set("pos", "0 0 0")
+      .Set("axis", Numbers(joint.axis))
+      .Set("limited", joint.type == UrdfJointType::kContinuous ? "false" : "true")
+      .Set("range", Numbers({joint.lower, joint.upper}))
+      .Set("damping", Number(joint.damping))
+      .Set("frictionloss", Number(joint.friction))
+      // MuJoCo's friction is a soft constraint: as it comes a lid that it holds creeps by 0.02
+      // rad/s. The stiffest impedance it allows makes that 1e-4.
+      .Set("solreffriction", "0.004 1")
+      .Set("solimpfriction", "0.999 0.9999 0.001 0.5 2");
+}
+
+void MjcfBodies(Printer* printer, const ArticulatedAsset& asset, size_t link) {
+  Element body(printer, "body");
+  body.Set("name", asset.links[link].name);
+  if (link > 0) {
+    const UrdfJoint& joint = asset.joints[link - 1];
+    const Eigen::Quaterniond q(joint.parent_from_joint.linear());
+    body.Set("pos", Numbers(Eigen::Vector3d(joint.parent_from_joint.translation())))
+        .Set("quat", Numbers({q.w(), q.x(), q.y(), q.z()}));
+    if (joint.Moves()) MjcfJoint(printer, joint);
+  } else if (!asset.fixed) {
+    Element(printer, "freejoint").Set("name", asset.name + "_free");
+  }
+  MjcfInertial(printer, asset.links[link].inertial);
+  MjcfGeoms(printer, asset.name, asset.links[link]);
+  for (size_t i = 0; i < asset.joints.size(); ++i) {
+    if (asset.joints[i].parent == asset.links[link].name) MjcfBodies(printer, asset, i + 1);
+  }
+}
+
+}  // namespace
+
+std::vector<ColoredPiece> ColoredPieces(const ArticulatedLink& link) {
+  if (!link.visual.textures.empty()) {
+    throw core::Error("links are written with colours, not textures", link.name);
+  }
+  std::vector<ColoredPiece> pieces;
+  for (size_t m = 0; m < link.visual.materials.size(); ++m) {
+    core::TriangleMesh mesh;
+    std::vector<int> index_of(link.visual.mesh.vertices.size(), -1);
+    for (size_t t = 0; t < link.visual.mesh.triangles.size(); ++t) {
+      if (link.visual.triangle_material[t] != static_cast<int>(m)) continue;
+      Eigen::Vector3i triangle = link.visual.mesh.triangles[t];
+      for (int& corner : triangle) {
+        int& index = index_of[static_cast<size_t>(corner)];
+        if (index < 0) {
+          index = static_cast<int>(mesh.vertices.size());
+          mesh.vertices.push_back(link.visual.mesh.vertices[static_cast<size_t>(corner)]);
+        }
+        corner = index;
+      }
+      mesh.triangles.push_back(triangle);
+    }
+    if (mesh.empty()) continue;
+    char number[32];
+    std::snprintf(number, sizeof(number), "_visual_%03zu", m);
+    ColoredPiece piece{link.name + number, {}};
+    piece.mesh.triangle_material.assign(mesh.triangles.size(), 0);
+    piece.mesh.mesh = std::move(mesh);
+    piece.mesh.materials = {link.visual.materials[m]};
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+std::string LinkCollisionFileName(const std::string& link, int part) {
+  return link + "_" + CollisionFileName(part);
+}
+
+std::string ArticulatedUrdfText(const ArticulatedAsset& asset) {
+  Printer printer;
+  printer.PushHeader(false, true);
+  {
+    Element robot(&printer, "robot");
+    robot.Set("name", asset.name);
+    for (const ArticulatedLink& link : asset.links) UrdfLinkElement(&printer, link);
+    for (const UrdfJoint& joint : asset.joints) UrdfJointElement(&printer, joint);
+  }
+  return printer.CStr();
+}
+
+std::string ArticulatedMjcfText(const ArticulatedAsset& asset) {
+  Printer printer;
+  {
+    Element mujoco(&printer, "mujoco");
+    mujoco.Set("model", asset.name);
+    Element(&printer, "compiler").Set("angle", "radian");
+    MjcfOption(&printer);
+    {
+      int parts = 0;
+      for (const ArticulatedLink& link : asset.links) parts += static_cast<int>(link.parts.size());
+      // Rows of constraints and contacts that MuJoCo 2.2 reserves: a part touches in up to four
+      // points of four rows, but few parts touch at once.
+      Element(&printer, "size")
+          .Set("njmax", std::to_string(std::min(500 + 16 * parts, 2500)))
+          .Set("nconmax", std::to_string(200 + 4 * parts));
+    }
+    MjcfMeshes(&printer, asset);
+    Element worldbody(&printer, "worldbody");
+    MjcfBodies(&printer, asset, 0);
+  }
+  return printer.CStr();
+}
+
+std::string SemanticsKind(UrdfJointType type) {
+  for (const auto& row : kJointTypes) {
+    if (row.type == type) return row.semantics;
+  }
+  return "fixed";
+}
+
+std::string JointTypeName(UrdfJointType type) {
+  for (const auto& row : kJointTypes) {
+    if (row.type == type) return row.urdf;
+  }
+  return "fixed";
+}
+
+UrdfJointType JointTypeNamed(const std::string& name) {
+  for (const auto& row : kJointTypes) {
+    if (row.urdf == name) return row.type;
+  }
+  throw core::Error("is no type of joint", name, "fixed, revolute, continuous, prismatic");
+}
+
+std::string SemanticsText(const ArticulatedAsset& asset) {
+  std::string text;
+  for (size_t i = 0; i < asset.links.size(); ++i) {
+    const std::string kind = i > 0         ? SemanticsKind(asset.joints[i - 1].type)
+                             : asset.fixed ? "static"
+                                           : "free";
+    text += asset.links[i].name + " " + kind + " " + asset.links[i].label + "\n";
+  }
+  return text;
+}
+
+}  // namespace simwright::assets

@@ -1,0 +1,129 @@
+#include "assets/semantic_model.h"
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "assets/articulated_writer.h"
+#include "core/error.h"
+#include "core/files.h"
+
+namespace simwright::assets {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::uint64_t kMostBytes = 4 << 20;
+
+// "switch_off" has no number at its end, "handle_0" and "drawer2" have: what is left is the label.
+std::string LabelFromName(const std::string& link) {
+  std::string label = link;
+  while (!label.empty() && std::isdigit(static_cast<unsigned char>(label.back()))) label.pop_back();
+  while (!label.empty() && (label.back() == '_' || label.back() == '-')) label.pop_back();
+  return label == "link" ? "" : label;
+}
+
+// The first of `files` that is there; empty where none is.
+fs::path FirstThere(const fs::path& folder, std::initializer_list<const char*> files) {
+  for (const char* file : files) {
+    if (fs::is_regular_file(folder / file)) return folder / file;
+  }
+  return {};
+}
+
+std::string CategoryIn(const fs::path& folder, core::Findings* findings) {
+  for (const auto& [file, key] :
+       {std::pair{"asset.json", "category"}, {"meta.json", "model_cat"}}) {
+    const fs::path path = FirstThere(folder, {file});
+    if (path.empty()) continue;
+    const auto json = nlohmann::json::parse(core::ReadFile(path, kMostBytes), nullptr, false);
+    if (json.is_object() && json.contains(key) && json.at(key).is_string()) {
+      std::string category = json.at(key).get<std::string>();
+      std::transform(category.begin(), category.end(), category.begin(), ::tolower);
+      return category;
+    }
+    findings->push_back({"semantics-category", core::Severity::kWarning, path.string(),
+                         std::string("names no category under '") + key + "'", 0.0});
+  }
+  return "";
+}
+
+void ReadSemantics(const fs::path& file, SemanticModel* model) {
+  static const std::set<std::string> kKinds{"hinge", "slider", "slider+", "free",
+                                            "heavy", "static", "fixed"};
+  std::set<std::string> links;
+  for (const UrdfLink& link : model->model.links) links.insert(link.name);
+  std::istringstream lines(core::ReadFile(file, kMostBytes));
+  int number = 0;
+  const auto warn = [&](const std::string& sentence) {
+    model->model.findings.push_back({"semantics-line", core::Severity::kWarning,
+                                     file.string() + ":" + std::to_string(number), sentence,
+                                     static_cast<double>(number)});
+  };
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    std::istringstream words(line);
+    const std::vector<std::string> word{std::istream_iterator<std::string>(words), {}};
+    if (word.empty()) continue;
+    if (word.size() != 3) {
+      warn("has " + std::to_string(word.size()) + " words: LINK JOINT LABEL are three");
+    } else if (!links.contains(word[0])) {
+      warn("names the link '" + word[0] + "', which the URDF has not");
+    } else if (!kKinds.contains(word[1])) {
+      warn("'" + word[1] + "' is no kind of joint");
+    } else if (!model->semantics.emplace(word[0], LinkSemantics{word[1], word[2]}).second) {
+      warn("tells of the link '" + word[0] + "' again");
+    }
+  }
+}
+
+// What the file leaves open: the kind from the joint, the label from the link's name.
+void FillFromNames(SemanticModel* model) {
+  for (size_t i = 0; i < model->model.links.size(); ++i) {
+    const std::string& name = model->model.links[i].name;
+    if (model->semantics.contains(name)) continue;
+    const std::string label = LabelFromName(name);
+    if (label.empty()) continue;
+    model->semantics[name] = {i == 0 ? "" : SemanticsKind(model->model.joints[i - 1].type), label};
+  }
+}
+
+}  // namespace
+
+fs::path UrdfIn(const fs::path& folder) {
+  const fs::path own = folder / (fs::weakly_canonical(folder).filename().string() + ".urdf");
+  if (fs::is_regular_file(own)) return own;
+  const fs::path known =
+      FirstThere(folder, {"mobility.urdf", "mobility_annotation_gapartnet.urdf"});
+  if (!known.empty()) return known;
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".urdf") found.push_back(entry.path());
+  }
+  if (found.size() == 1) return found.front();
+  throw core::Error(found.empty() ? "holds no URDF" : "holds several URDFs", folder.string(),
+                    "name the .urdf file itself");
+}
+
+SemanticModel ReadSemanticModel(const fs::path& path) {
+  if (!fs::exists(path)) throw core::Error("no such file or folder", path.string());
+  SemanticModel model;
+  const bool is_folder = fs::is_directory(path);
+  model.urdf = is_folder ? UrdfIn(path) : path;
+  const fs::path folder = is_folder ? path : fs::absolute(path).parent_path();
+  const bool asset = !FirstThere(folder, {"asset.json", "meta.json"}).empty();
+  model.name =
+      is_folder || asset ? fs::weakly_canonical(folder).filename().string() : path.stem().string();
+  model.model = ReadUrdf(model.urdf);
+  model.category = CategoryIn(folder, &model.model.findings);
+  const fs::path semantics = FirstThere(folder, {"semantics.txt", "semantics_gapartnet.txt"});
+  if (!semantics.empty()) ReadSemantics(semantics, &model);
+  FillFromNames(&model);
+  return model;
+}
+
+}  // namespace simwright::assets

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "assets/urdf_reader.h"
+#include "sim/rigid_body.h"
+
+namespace simwright::sim {
+
+// What a physics engine needs of a jointed thing. Constant; shared by any number of worlds.
+struct ArticulatedBody {
+  std::string name;
+  std::vector<RigidBody> links;           // the root first, each in its own frame
+  std::vector<assets::UrdfJoint> joints;  // joints[i] leads to links[i + 1]
+  std::vector<int> parents;               // link that joints[i] hangs on
+
+  // Joints that move, as indices into `joints`, in order.
+  std::vector<int> MovingJoints() const;
+  // Index of a joint or link by name. Throws core::Error for an unknown one.
+  int JointIndex(const std::string& joint) const;
+  int LinkIndex(const std::string& link) const;
+};
+
+// Any URDF whose moving links have inertials; collision meshes are taken as convex. A link without
+// an inertial is allowed as the root of a fixed body, and on a fixed joint (a tool's frame).
+// Throws core::Error, naming the link, where a moving one has none, and for floating or planar
+// joints.
+ArticulatedBody ArticulatedBodyFrom(const assets::UrdfModel& model);
+
+// A single rigid body, as one without joints.
+ArticulatedBody ArticulatedBodyFrom(const RigidBody& body);
+
+// What hangs on a joint, all joints at zero but for the given one: what has to be moved, held, and
+// what it weighs against. `position` in rad or m.
+struct JointLoad {
+  double mass = 0.0;     // kg, of all links that the joint carries
+  double inertia = 0.0;  // kg m^2 about the axis, or kg along it
+  double gravity = 0.0;  // N m or N, by which gravity drives the joint up (+) or down (-)
+};
+JointLoad LoadOn(const ArticulatedBody& body, int joint, double position,
+                 const Eigen::Isometry3d& world_from_root = Eigen::Isometry3d::Identity());
+
+}  // namespace simwright::sim

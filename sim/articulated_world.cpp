@@ -1,0 +1,384 @@
+#include "sim/articulated_world.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+#include <btBulletDynamicsCommon.h>
+
+#include "core/error.h"
+#include "sim/bullet_shape.h"
+
+namespace simwright::sim {
+namespace {
+
+constexpr int kFloorUserIndex = -1;  // Bullet's own default for bodies that nobody numbered
+
+// A velocity wished for one joint, within bounds of force: a motor, dry friction (wish 0, bounds
+// +-friction) or a damper (wish 0, no bounds, compliant). Implicit, and solved along with the
+// contacts. Bullet's own joint motor has neither uneven bounds nor compliance.
+class JointVelocityRow : public btMultiBodyConstraint {
+ public:
+  JointVelocityRow(btMultiBody* body, int link)
+      : btMultiBodyConstraint(body, body, link, body->getLink(link).m_parent, 1, true,
+                              MULTIBODY_CONSTRAINT_1DOF_JOINT_MOTOR) {}
+
+  void Wish(double velocity, double lowest_force, double highest_force) {
+    velocity_ = velocity;
+    lowest_ = lowest_force;
+    highest_ = highest_force;
+  }
+  void Damp(double damping) {
+    damping_ = damping;
+    lowest_ = -std::numeric_limits<float>::max();
+    highest_ = std::numeric_limits<float>::max();
+  }
+
+  void finalizeMultiDof() override {
+    allocateJacobiansMultiDof();
+    jacobianA(0)[6 + m_bodyA->getLink(m_linkA).m_dofOffset] = 1;
+    m_numDofsFinalized = m_jacSizeBoth;
+  }
+  int getIslandIdA() const override { return IslandOf(m_linkA); }
+  int getIslandIdB() const override { return IslandOf(m_linkB); }
+
+  void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                            const btContactSolverInfo& info) override {
+    if (m_numDofsFinalized != m_jacSizeBoth) finalizeMultiDof();
+    if (lowest_ == 0.0 && highest_ == 0.0) return;
+    const btVector3 none(0, 0, 0);
+    btMultiBodySolverConstraint& row = rows.expandNonInitializing();
+    fillMultiBodyConstraint(row, data, jacobianA(0), nullptr, none, none, none, none, 0.0, info,
+                            lowest_ * info.m_timeStep, highest_ * info.m_timeStep, false, 1.0,
+                            false, velocity_);
+    row.m_orgConstraint = this;
+    row.m_orgDofIndex = 0;
+    if (damping_ > 0.0) {
+      // impulse = -damping dt v, at the velocity after the step.
+      const double compliance = 1.0 / (damping_ * info.m_timeStep);
+      const double stiff = row.m_jacDiagABInv;
+      const double soft = stiff / (1.0 + stiff * compliance);
+      row.m_rhs *= soft / stiff;
+      row.m_jacDiagABInv = soft;
+      row.m_cfm = compliance * soft;
+    }
+  }
+  void debugDraw(btIDebugDraw*) override {}
+
+ private:
+  int IslandOf(int link) const {
+    const btMultiBodyLinkCollider* collider =
+        link < 0 ? m_bodyA->getBaseCollider() : m_bodyA->getLinkCollider(link);
+    return collider == nullptr ? -1 : collider->getIslandTag();
+  }
+
+  double velocity_ = 0.0;
+  double lowest_ = 0.0, highest_ = 0.0;  // N m or N
+  double damping_ = 0.0;                 // > 0: compliant
+};
+
+// What drives and limits one joint that moves.
+struct LoadedJoint {
+  double friction = 0.0;
+  std::unique_ptr<JointVelocityRow> motor;  // with the friction, so that they do not fight
+  std::unique_ptr<JointVelocityRow> damper;
+  std::unique_ptr<btMultiBodyJointLimitConstraint> limit;
+};
+
+struct LoadedBody {
+  std::vector<std::unique_ptr<BulletShape>> shapes;  // by link
+  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders;
+  std::vector<LoadedJoint> joints;
+  std::unique_ptr<btMultiBody> multi;
+
+  btMultiBodyLinkCollider& Collider(int link) { return *colliders.at(static_cast<size_t>(link)); }
+};
+
+// Link `index` >= 1 of the body, turned to its principal axes.
+void SetUpLink(const ArticulatedBody& body, int index, LoadedBody* loaded) {
+  const size_t i = static_cast<size_t>(index);
+  const assets::UrdfJoint& joint = body.joints[i - 1];
+  const int parent = body.parents[i - 1];
+  const BulletShape& shape = *loaded->shapes[i];
+  const Eigen::Isometry3d parent_from_principal =
+      loaded->shapes[static_cast<size_t>(parent)]->body_from_principal().inverse() *
+      joint.parent_from_joint;
+  const Eigen::Matrix3d principal_from_link = shape.body_from_principal().linear().transpose();
+  const Eigen::Quaterniond turn(principal_from_link * parent_from_principal.linear().transpose());
+  const btQuaternion this_from_parent(turn.x(), turn.y(), turn.z(), turn.w());
+  const btVector3 axis = ToBullet(Eigen::Vector3d(principal_from_link * joint.axis));
+  const btVector3 to_pivot = ToBullet(Eigen::Vector3d(parent_from_principal.translation()));
+  const btVector3 to_center =
+      ToBullet(Eigen::Vector3d(principal_from_link * shape.body_from_principal().translation()));
+  const double mass = body.links[i].inertial.mass;
+  const btVector3 moments = ToBullet(shape.moments());
+  btMultiBody* multi = loaded->multi.get();
+  // Bullet's root is link -1.
+  switch (joint.type) {
+    case assets::UrdfJointType::kRevolute:
+    case assets::UrdfJointType::kContinuous:
+      multi->setupRevolute(index - 1, mass, moments, parent - 1, this_from_parent, axis, to_pivot,
+                           to_center, false);
+      break;
+    case assets::UrdfJointType::kPrismatic:
+      multi->setupPrismatic(index - 1, mass, moments, parent - 1, this_from_parent, axis, to_pivot,
+                            to_center, false);
+      break;
+    default:
+      multi->setupFixed(index - 1, mass, moments, parent - 1, this_from_parent, to_pivot,
+                        to_center);
+  }
+}
+
+}  // namespace
+
+struct ArticulatedWorld::Bullet {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broadphase;
+  btMultiBodyConstraintSolver solver;
+  btMultiBodyDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+  btStaticPlaneShape floor_shape{btVector3(0, 0, 1), 0};
+  std::unique_ptr<btRigidBody> floor;
+  std::vector<std::unique_ptr<LoadedBody>> bodies;
+  btAlignedObjectArray<btQuaternion> scratch_turns;
+  btAlignedObjectArray<btVector3> scratch_origins;
+
+  ~Bullet() {
+    for (const auto& body : bodies) {
+      for (const LoadedJoint& joint : body->joints) {
+        for (btMultiBodyConstraint* row :
+             {static_cast<btMultiBodyConstraint*>(joint.motor.get()),
+              static_cast<btMultiBodyConstraint*>(joint.damper.get()),
+              static_cast<btMultiBodyConstraint*>(joint.limit.get())}) {
+          if (row != nullptr) world.removeMultiBodyConstraint(row);
+        }
+      }
+      for (const auto& collider : body->colliders) world.removeCollisionObject(collider.get());
+      world.removeMultiBody(body->multi.get());
+    }
+    world.removeRigidBody(floor.get());
+  }
+
+  LoadedBody& Body(int index) { return *bodies.at(static_cast<size_t>(index)); }
+
+  void AddColliders(const ArticulatedBody& body, bool fixed, LoadedBody* loaded);
+  void AddJoints(const ArticulatedBody& body, LoadedBody* loaded);
+  void UpdatePoses(LoadedBody* loaded) {
+    loaded->multi->forwardKinematics(scratch_turns, scratch_origins);
+    loaded->multi->updateCollisionObjectWorldTransforms(scratch_turns, scratch_origins);
+    for (const auto& collider : loaded->colliders) world.updateSingleAabb(collider.get());
+  }
+};
+
+void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, bool fixed,
+                                            LoadedBody* loaded) {
+  for (size_t i = 0; i < body.links.size(); ++i) {
+    const RigidBody& link = body.links[i];
+    // Also a link without a shape needs one, or its joint's limits and motors are passed over.
+    auto collider =
+        std::make_unique<btMultiBodyLinkCollider>(loaded->multi.get(), static_cast<int>(i) - 1);
+    collider->setCollisionShape(loaded->shapes[i]->compound());
+    collider->setFriction(link.friction);
+    collider->setRestitution(link.restitution);
+    collider->setRollingFriction(link.rolling_friction);
+    collider->setSpinningFriction(link.rolling_friction);
+    collider->setContactProcessingThreshold(1e30);
+    collider->setUserIndex(static_cast<int>(bodies.size()));
+    collider->setUserIndex2(static_cast<int>(i));
+    const bool still = fixed && i == 0;
+    if (still) collider->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
+    const int group = still ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
+    const int mask = still ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter
+                           : btBroadphaseProxy::AllFilter;
+    world.addCollisionObject(collider.get(), group, mask);
+    if (i == 0) {
+      loaded->multi->setBaseCollider(collider.get());
+    } else {
+      loaded->multi->getLink(static_cast<int>(i) - 1).m_collider = collider.get();
+    }
+    loaded->colliders.push_back(std::move(collider));
+  }
+}
+
+void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, LoadedBody* loaded) {
+  loaded->joints.resize(body.joints.size());
+  for (const int i : body.MovingJoints()) {
+    const assets::UrdfJoint& joint = body.joints[static_cast<size_t>(i)];
+    LoadedJoint& entry = loaded->joints[static_cast<size_t>(i)];
+    entry.friction = joint.friction;
+    entry.motor = std::make_unique<JointVelocityRow>(loaded->multi.get(), i);
+    entry.motor->Wish(0.0, -joint.friction, joint.friction);
+    world.addMultiBodyConstraint(entry.motor.get());
+    if (joint.damping > 0.0) {
+      entry.damper = std::make_unique<JointVelocityRow>(loaded->multi.get(), i);
+      entry.damper->Damp(joint.damping);
+      world.addMultiBodyConstraint(entry.damper.get());
+    }
+    if (joint.type == assets::UrdfJointType::kContinuous) continue;
+    entry.limit = std::make_unique<btMultiBodyJointLimitConstraint>(loaded->multi.get(), i,
+                                                                    joint.lower, joint.upper);
+    world.addMultiBodyConstraint(entry.limit.get());
+  }
+}
+
+ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
+    : bullet_(std::make_unique<Bullet>()), options_(options) {
+  if (!(options.time_step > 0.0) || options.solver_iterations < 1 || !(options.margin >= 0.0)) {
+    throw core::Error("a world needs a positive time step and at least one solver iteration");
+  }
+  bullet_->world.setGravity(btVector3(0, 0, -options.gravity));
+  btContactSolverInfo& solver = bullet_->world.getSolverInfo();
+  solver.m_numIterations = options.solver_iterations;
+  bullet_->world.getDispatchInfo().m_deterministicOverlappingPairs = true;
+  bullet_->configuration.setPlaneConvexMultipointIterations(8, 4);
+  bullet_->floor_shape.setMargin(0.0);
+  btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, &bullet_->floor_shape);
+  info.m_friction = options.floor_friction;
+  info.m_restitution = 1.0;  // multiplied with the body's own
+  bullet_->floor = std::make_unique<btRigidBody>(info);
+  bullet_->floor->setUserIndex(kFloorUserIndex);
+  bullet_->world.addRigidBody(bullet_->floor.get());
+}
+
+ArticulatedWorld::~ArticulatedWorld() = default;
+
+int ArticulatedWorld::Add(const ArticulatedBody& body, const Placement& placement) {
+  if (body.links.empty()) throw core::Error("a body needs a link", body.name);
+  for (size_t i = 0; i < body.links.size(); ++i) {
+    const bool moves = i == 0 ? !placement.fixed : body.joints[i - 1].Moves();
+    if (moves && !(body.links[i].inertial.mass > 0.0)) {
+      throw core::Error("a link that moves has no mass",
+                        body.name + " link '" + body.links[i].name + "'",
+                        "add an <inertial> element");
+    }
+  }
+  auto loaded = std::make_unique<LoadedBody>();
+  for (const RigidBody& link : body.links) {
+    loaded->shapes.push_back(std::make_unique<BulletShape>(link, options_.margin));
+  }
+  const int links = static_cast<int>(body.joints.size());
+  const BulletShape& root = *loaded->shapes[0];
+  loaded->multi = std::make_unique<btMultiBody>(links, body.links[0].inertial.mass,
+                                                ToBullet(root.moments()), placement.fixed, false);
+  loaded->multi->setBaseWorldTransform(
+      ToBullet(Eigen::Isometry3d(placement.world_from_root * root.body_from_principal())));
+  for (int i = 1; i <= links; ++i) SetUpLink(body, i, loaded.get());
+  loaded->multi->finalizeMultiDof();
+  loaded->multi->setHasSelfCollision(placement.self_contacts);
+  loaded->multi->setLinearDamping(0.0);
+  loaded->multi->setAngularDamping(0.0);
+  bullet_->world.addMultiBody(loaded->multi.get());
+  bullet_->AddColliders(body, placement.fixed, loaded.get());
+  bullet_->AddJoints(body, loaded.get());
+  bullet_->UpdatePoses(loaded.get());
+  bullet_->bodies.push_back(std::move(loaded));
+  return static_cast<int>(bullet_->bodies.size()) - 1;
+}
+
+int ArticulatedWorld::Add(const RigidBody& body, const Eigen::Isometry3d& world_from_body) {
+  return Add(ArticulatedBodyFrom(body), {world_from_body, false, false});
+}
+
+void ArticulatedWorld::SetPosition(int body, int joint, double position) {
+  LoadedBody& loaded = bullet_->Body(body);
+  loaded.multi->setJointPos(joint, position);
+  loaded.multi->setJointVel(joint, 0.0);
+  bullet_->UpdatePoses(&loaded);
+}
+
+void ArticulatedWorld::SetRootPose(int body, const Eigen::Isometry3d& world_from_root) {
+  LoadedBody& loaded = bullet_->Body(body);
+  loaded.multi->setBaseWorldTransform(
+      ToBullet(Eigen::Isometry3d(world_from_root * loaded.shapes[0]->body_from_principal())));
+  loaded.multi->setBaseVel(btVector3(0, 0, 0));
+  loaded.multi->setBaseOmega(btVector3(0, 0, 0));
+  bullet_->UpdatePoses(&loaded);
+}
+
+void ArticulatedWorld::Drive(int body, int joint, double velocity, double max_force) {
+  LoadedJoint& entry = bullet_->Body(body).joints.at(static_cast<size_t>(joint));
+  if (!entry.motor) throw core::Error("a fixed joint cannot be driven");
+  const double friction = entry.friction;
+  const double spare = max_force - friction;
+  // Friction takes its share of the force against the motion, and adds to it where it brakes.
+  if (velocity == 0.0 || spare <= 0.0) {
+    const double hold = velocity == 0.0 ? max_force + friction : friction;
+    entry.motor->Wish(0.0, -hold, hold);
+  } else if (velocity > 0.0) {
+    entry.motor->Wish(velocity, -max_force - friction, spare);
+  } else {
+    entry.motor->Wish(velocity, -spare, max_force + friction);
+  }
+}
+
+void ArticulatedWorld::LetGo(int body, int joint) {
+  LoadedJoint& entry = bullet_->Body(body).joints.at(static_cast<size_t>(joint));
+  if (entry.motor) entry.motor->Wish(0.0, -entry.friction, entry.friction);
+}
+
+void ArticulatedWorld::Push(int body, int joint, double force) {
+  bullet_->Body(body).multi->addJointTorque(joint, force);
+}
+
+void ArticulatedWorld::Step() {
+  bullet_->world.stepSimulation(options_.time_step, 0, options_.time_step);
+  time_ += options_.time_step;
+}
+
+double ArticulatedWorld::Position(int body, int joint) const {
+  return bullet_->Body(body).multi->getJointPos(joint);
+}
+
+double ArticulatedWorld::Velocity(int body, int joint) const {
+  return bullet_->Body(body).multi->getJointVel(joint);
+}
+
+Eigen::Isometry3d ArticulatedWorld::LinkPose(int body, int link) const {
+  LoadedBody& loaded = bullet_->Body(body);
+  return FromBullet(loaded.Collider(link).getWorldTransform()) *
+         loaded.shapes[static_cast<size_t>(link)]->body_from_principal().inverse();
+}
+
+std::vector<LinkContact> ArticulatedWorld::Contacts() const {
+  std::vector<LinkContact> contacts;
+  for (int i = 0; i < bullet_->dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold* manifold = bullet_->dispatcher.getManifoldByIndexInternal(i);
+    for (int k = 0; k < manifold->getNumContacts(); ++k) {
+      const btManifoldPoint& point = manifold->getContactPoint(k);
+      LinkContact contact;
+      contact.body_a = manifold->getBody0()->getUserIndex();
+      contact.body_b = manifold->getBody1()->getUserIndex();
+      contact.link_a = std::max(0, manifold->getBody0()->getUserIndex2());
+      contact.link_b = std::max(0, manifold->getBody1()->getUserIndex2());
+      contact.distance = point.getDistance();
+      contact.impulse = point.getAppliedImpulse();
+      contact.point = FromBullet(point.getPositionWorldOnB());
+      contact.normal = FromBullet(point.m_normalWorldOnB);
+      contacts.push_back(contact);
+    }
+  }
+  return contacts;
+}
+
+assets::Inertial ArticulatedWorld::LoadedInertial(int body, int link) const {
+  LoadedBody& loaded = bullet_->Body(body);
+  const btMultiBody& multi = *loaded.multi;
+  assets::Inertial inertial;
+  inertial.mass = link == 0 ? multi.getBaseMass() : multi.getLinkMass(link - 1);
+  const Eigen::Vector3d moments =
+      FromBullet(link == 0 ? multi.getBaseInertia() : multi.getLinkInertia(link - 1));
+  const Eigen::Isometry3d& principal =
+      loaded.shapes.at(static_cast<size_t>(link))->body_from_principal();
+  inertial.center_of_mass = principal.translation();
+  inertial.inertia = principal.linear() * moments.asDiagonal() * principal.linear().transpose();
+  return inertial;
+}
+
+}  // namespace simwright::sim

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "sim/articulated_body.h"
+#include "sim/world.h"
+
+namespace simwright::sim {
+
+// How a jointed thing is put into a world.
+struct Placement {
+  Eigen::Isometry3d world_from_root = Eigen::Isometry3d::Identity();
+  bool fixed = true;           // the root is held where it is; else it is free
+  bool self_contacts = false;  // links touch each other, but for those on fixed joints
+};
+
+constexpr int kFloor = -1;  // in place of a body's index
+
+// Two links that touch, or nearly do.
+struct LinkContact {
+  int body_a = kFloor, link_a = 0;
+  int body_b = kFloor, link_b = 0;
+  double distance = 0.0;                              // m; negative: depth
+  double impulse = 0.0;                               // N s over the last step, along the normal
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();    // m, on b, world
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit, from b towards a, world
+};
+
+// A Bullet world of jointed and rigid things in reduced coordinates (Featherstone), double
+// precision, over the floor z = 0. One thread a world; nothing is shared, so that any number run
+// side by side, and each is repeatable bit for bit when built and driven alike.
+//
+// Joints keep their limits. Their friction holds them against any load below it, damping acts
+// implicitly (stable at any step), and a joint that mimics another is not coupled to it.
+class ArticulatedWorld {
+ public:
+  explicit ArticulatedWorld(const WorldOptions& options = {});
+  ~ArticulatedWorld();
+  ArticulatedWorld(const ArticulatedWorld&) = delete;
+  ArticulatedWorld& operator=(const ArticulatedWorld&) = delete;
+
+  // Adds a thing with all joints at zero; returns its index. `body` is copied. Throws core::Error
+  // where a link that moves has no mass.
+  int Add(const ArticulatedBody& body, const Placement& placement = {});
+  // A free rigid body.
+  int Add(const RigidBody& body, const Eigen::Isometry3d& world_from_body);
+
+  // `joint` indexes ArticulatedBody::joints. Both leave velocities at zero.
+  void SetPosition(int body, int joint, double position);
+  void SetRootPose(int body, const Eigen::Isometry3d& world_from_root);
+
+  // A motor turns the joint at `velocity` (rad/s or m/s) with at most `max_force` (N m or N), of
+  // which the joint's friction takes its share. Velocity 0 brakes.
+  void Drive(int body, int joint, double velocity, double max_force);
+  void LetGo(int body, int joint);
+  // A force (N m or N) on the joint during the next step alone.
+  void Push(int body, int joint, double force);
+
+  void Step();
+  double time() const { return time_; }
+
+  double Position(int body, int joint) const;            // rad or m
+  double Velocity(int body, int joint) const;            // rad/s or m/s
+  Eigen::Isometry3d LinkPose(int body, int link) const;  // world_from_link
+  // All pairs within Bullet's reach of each other after the last step.
+  std::vector<LinkContact> Contacts() const;
+
+  // The inertial as the engine holds it, back in the link's frame.
+  assets::Inertial LoadedInertial(int body, int link) const;
+
+ private:
+  struct Bullet;
+  std::unique_ptr<Bullet> bullet_;
+  WorldOptions options_;
+  double time_ = 0.0;
+};
+
+}  // namespace simwright::sim

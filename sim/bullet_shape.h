@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "sim/rigid_body.h"
+
+class btCompoundShape;
+class btConvexHullShape;
+class btTransform;
+class btVector3;
+
+namespace simwright::sim {
+
+btVector3 ToBullet(const Eigen::Vector3d& v);
+btTransform ToBullet(const Eigen::Isometry3d& pose);
+Eigen::Vector3d FromBullet(const btVector3& v);
+Eigen::Isometry3d FromBullet(const btTransform& transform);
+
+// A rigid body's parts as Bullet wants them: the centre of mass at the origin and the inertia
+// diagonal, so the body's frame is turned to the principal axes. A body without a mass keeps its
+// own frame. Throws core::Error for parts of fewer than four vertices.
+class BulletShape {
+ public:
+  BulletShape(const RigidBody& body, double margin);
+  ~BulletShape();
+  BulletShape(const BulletShape&) = delete;
+  BulletShape& operator=(const BulletShape&) = delete;
+
+  btCompoundShape* compound() const { return compound_.get(); }  // may be empty
+  const Eigen::Isometry3d& body_from_principal() const { return body_from_principal_; }
+  const Eigen::Vector3d& moments() const { return moments_; }  // kg m^2, principal
+
+ private:
+  std::vector<std::unique_ptr<btConvexHullShape>> hulls_;
+  std::unique_ptr<btCompoundShape> compound_;
+  Eigen::Isometry3d body_from_principal_ = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d moments_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace simwright::sim

@@ -1,0 +1,135 @@
+#include "sim/joint_experiments.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/progress.h"
+
+namespace simwright::sim {
+namespace {
+
+constexpr double kSweepSeconds = 4.0;  // each way; a drive takes a little over one
+constexpr int kLoadSamples = 16;       // over the range, for the greatest weight
+
+const assets::UrdfJoint& JointOf(const ArticulatedBody& body, int joint) {
+  return body.joints.at(static_cast<size_t>(joint));
+}
+
+// A joint without limits goes round once.
+double RangeOf(const assets::UrdfJoint& joint) {
+  return joint.type == assets::UrdfJointType::kContinuous ? 2.0 * M_PI : joint.upper - joint.lower;
+}
+
+double LowerOf(const assets::UrdfJoint& joint) {
+  return joint.type == assets::UrdfJointType::kContinuous ? 0.0 : joint.lower;
+}
+
+void StandAtZero(const ArticulatedBody& body, JointRig* rig) {
+  for (const int i : body.MovingJoints()) {
+    rig->LetGo(i);
+    rig->SetPosition(i, std::max(0.0, LowerOf(JointOf(body, i))));
+  }
+}
+
+}  // namespace
+
+double GreatestLoad(const ArticulatedBody& body, int joint) {
+  const assets::UrdfJoint& j = JointOf(body, joint);
+  double greatest = 0.0;
+  for (int i = 0; i <= kLoadSamples; ++i) {
+    const double position = LowerOf(j) + RangeOf(j) * i / kLoadSamples;
+    greatest = std::max(greatest, std::abs(LoadOn(body, joint, position).gravity));
+  }
+  return greatest;
+}
+
+JointDrive DriveFor(const ArticulatedBody& body, int joint, double strongest_torque,
+                    double strongest_force) {
+  const assets::UrdfJoint& j = JointOf(body, joint);
+  JointDrive drive;
+  drive.velocity = RangeOf(j);
+  const double to_speed = LoadOn(body, joint, LowerOf(j)).inertia * drive.velocity / 0.25;
+  // A quarter more than is lost to friction and weight: the drive slows down under load.
+  drive.max_force =
+      1.25 * (j.friction + GreatestLoad(body, joint)) + j.damping * drive.velocity + 2.0 * to_speed;
+  const bool slides = j.type == assets::UrdfJointType::kPrismatic;
+  drive.max_force = std::min(drive.max_force, slides ? strongest_force : strongest_torque);
+  return drive;
+}
+
+SweepResult SweepJoint(const ArticulatedBody& body, int joint, JointRig* rig) {
+  const assets::UrdfJoint& j = JointOf(body, joint);
+  const JointDrive drive = DriveFor(body, joint);
+  StandAtZero(body, rig);
+  rig->SetPosition(joint, LowerOf(j));
+  SweepResult result;
+  result.lowest = result.highest = LowerOf(j);
+  const double close = 0.002 * RangeOf(j);
+  for (const double way : {1.0, -1.0}) {
+    rig->Drive(joint, way * drive.velocity, drive.max_force);
+    const double target = way > 0.0 ? LowerOf(j) + RangeOf(j) : LowerOf(j);
+    double reached = rig->Position(joint);
+    for (const double start = rig->time(); rig->time() - start < kSweepSeconds;) {
+      rig->Step();
+      reached = rig->Position(joint);
+      if (way > 0.0) result.highest = std::max(result.highest, reached);
+      result.touching.merge(rig->Touching());
+      if (way * (target - reached) < close) break;
+    }
+    if (way < 0.0) result.lowest = reached;
+    core::CheckCancelled();
+  }
+  rig->LetGo(joint);
+  return result;
+}
+
+double DriftWhenLetGo(const ArticulatedBody& body, int joint, double position, double seconds,
+                      JointRig* rig) {
+  StandAtZero(body, rig);
+  rig->SetPosition(joint, position);
+  double drift = 0.0;
+  for (const double start = rig->time(); rig->time() - start < seconds;) {
+    rig->Step();
+    drift = std::max(drift, std::abs(rig->Position(joint) - position));
+  }
+  core::CheckCancelled();
+  return drift;
+}
+
+double TiltWhenOpened(const ArticulatedBody& body, int joint, JointRig* rig) {
+  const assets::UrdfJoint& j = JointOf(body, joint);
+  const JointDrive drive = DriveFor(body, joint);
+  StandAtZero(body, rig);
+  rig->SetRootPose(Eigen::Isometry3d::Identity());
+  const Eigen::Isometry3d start = rig->LinkPose(0);
+  double tilt = 0.0;
+  const auto run = [&](double seconds, bool until_open) {
+    for (const double begin = rig->time(); rig->time() - begin < seconds;) {
+      rig->Step();
+      tilt = std::max(tilt, TiltBetween(start, rig->LinkPose(0)));
+      if (until_open && rig->Position(joint) > j.upper - 0.01 * RangeOf(j)) break;
+    }
+  };
+  run(0.25, false);  // settles
+  rig->Drive(joint, drive.velocity, drive.max_force);
+  run(kSweepSeconds, true);
+  rig->LetGo(joint);
+  run(1.0, false);
+  core::CheckCancelled();
+  return tilt;
+}
+
+DropResult DropRig(const RigidBody& whole, const DropOptions& options, JointRig* rig) {
+  const Eigen::Isometry3d start = StartPose(whole, options);
+  rig->SetRootPose(start);
+  DropWatch watch(whole, options, start);
+  for (const double begin = rig->time();
+       rig->time() - begin < options.settle_time + options.watch_time - 1e-9;) {
+    rig->Step();
+    watch.Observe(rig->time() - begin, rig->LinkPose(0));
+  }
+  core::CheckCancelled();
+  return watch.Finish();
+}
+
+}  // namespace simwright::sim

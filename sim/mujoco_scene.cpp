@@ -1,0 +1,95 @@
+#include "sim/mujoco_scene.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <mutex>
+
+#include <mujoco/mujoco.h>
+#include <unistd.h>
+
+#include "core/error.h"
+
+namespace simwright::sim {
+namespace fs = std::filesystem;
+namespace {
+
+// MuJoCo reports through one global callback; the world whose call is running listens.
+thread_local std::vector<std::string>* listening = nullptr;
+
+void Hear(const char* text) {
+  if (listening != nullptr) listening->push_back(text);
+}
+
+class Listen {
+ public:
+  explicit Listen(std::vector<std::string>* messages) {
+    mju_user_warning = Hear;
+    listening = messages;
+  }
+  ~Listen() { listening = nullptr; }
+};
+
+// The asset is included in a scene with a floor. A temporary file, since MuJoCo 2.2 reads files.
+class SceneFile {
+ public:
+  SceneFile(const fs::path& mjcf, const std::vector<double>& balls) {
+    const fs::path folder = fs::absolute(mjcf).parent_path();
+    std::string pattern = (fs::temp_directory_path() / "simwright_scene_XXXXXX.xml").string();
+    const int file = mkstemps(pattern.data(), 4);
+    if (file < 0) throw core::Error("cannot write a temporary file", pattern);
+    close(file);
+    path_ = pattern;
+    std::ofstream out(path_);
+    out << "<mujoco><compiler angle=\"radian\" meshdir=\"" << folder.string() << "\" texturedir=\""
+        << folder.string()
+        << "\"/><include file=\""
+        // MuJoCo 2.2 puts the scene's folder before any include, also before an absolute one.
+        << fs::relative(fs::canonical(mjcf), fs::canonical(path_.parent_path())).string()
+        << "\"/><worldbody>"
+        << "<geom name=\"floor\" type=\"plane\" size=\"0 0 1\" condim=\"6\" friction=\"0.01 1e-5 "
+           "1e-5\"/>";
+    for (size_t i = 0; i < balls.size(); ++i) {
+      out << "<body name=\"ball_" << i << "\"><freejoint/><geom type=\"sphere\" size=\"" << balls[i]
+          << "\" condim=\"4\" solref=\"0.005 1\"/></body>";
+    }
+    out << "</worldbody></mujoco>\n";
+  }
+  ~SceneFile() {
+    std::error_code code;
+    fs::remove(path_, code);
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+}  // namespace
+
+MujocoScene::MujocoScene(const fs::path& mjcf, const std::vector<double>& balls) {
+  if (!fs::exists(mjcf)) throw core::Error("no such file", mjcf.string());
+  const SceneFile scene(mjcf, balls);
+  char message[1000] = "";
+  {
+    // The XML compiler keeps global state (locale, last model).
+    static std::mutex compiler_mutex;
+    const std::lock_guard lock(compiler_mutex);
+    const Listen listen(&warnings_);
+    model_ = mj_loadXML(scene.path().c_str(), nullptr, message, sizeof(message));
+  }
+  if (model_ == nullptr) throw core::Error(message, mjcf.string());
+  if (message[0] != '\0') warnings_.emplace_back(message);
+  data_ = mj_makeData(model_);
+}
+
+MujocoScene::~MujocoScene() {
+  if (data_ != nullptr) mj_deleteData(data_);
+  if (model_ != nullptr) mj_deleteModel(model_);
+}
+
+void MujocoScene::Step() {
+  const Listen listen(&warnings_);
+  mj_step(model_, data_);
+}
+
+}  // namespace simwright::sim

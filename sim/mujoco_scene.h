@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+struct mjModel_;
+struct mjData_;
+
+namespace simwright::sim {
+
+// An MJCF file of an asset over the floor z = 0, beside any number of probe balls, compiled. One
+// thread a scene. MuJoCo's body 0 is the world, 1 is the asset's root.
+class MujocoScene {
+ public:
+  // `balls` are radii (m) of free spheres of 1000 kg/m^3. Throws core::Error with MuJoCo's own
+  // words where the file does not compile.
+  explicit MujocoScene(const std::filesystem::path& mjcf, const std::vector<double>& balls = {});
+  ~MujocoScene();
+  MujocoScene(const MujocoScene&) = delete;
+  MujocoScene& operator=(const MujocoScene&) = delete;
+
+  mjModel_* model() const { return model_; }
+  mjData_* data() const { return data_; }
+  // What MuJoCo warned of while loading and stepping, in its own words.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  void Step();
+
+ private:
+  mjModel_* model_ = nullptr;
+  mjData_* data_ = nullptr;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace simwright::sim
