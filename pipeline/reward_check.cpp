@@ -5,12 +5,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "assets/semantic_model.h"
-#include "assets/urdf_reader.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "pipeline/task_assets.h"
 #include "tasks/reward/reward_program.h"
-#include "tasks/reward_names.h"
+#include "tasks/scene_state.h"
+#include "tasks/verification/subtask_verifier.h"
 
 namespace simwright::pipeline {
 namespace {
@@ -19,51 +19,6 @@ namespace fs = std::filesystem;
 
 // A reward function is a page; the compiler's own bound is far below this.
 constexpr std::uint64_t kLargestProgram = 16u << 20;
-
-struct NamedAsset {
-  std::string name;
-  fs::path urdf;
-};
-
-NamedAsset Located(const std::string& argument) {
-  NamedAsset asset;
-  std::string place = argument;
-  // A path that exists may hold an equals sign itself.
-  const std::size_t equals = argument.find('=');
-  if (equals != std::string::npos && !fs::exists(argument)) {
-    asset.name = argument.substr(0, equals);
-    place = argument.substr(equals + 1);
-  }
-  if (!fs::exists(place)) throw core::Error("no such asset", place, "give a folder or a .urdf");
-  const bool folder = fs::is_directory(place);
-  asset.urdf = folder ? assets::UrdfIn(place) : fs::path(place);
-  if (asset.name.empty()) {
-    const fs::path whole = fs::weakly_canonical(place);
-    asset.name = folder ? whole.filename().string() : whole.stem().string();
-  }
-  return asset;
-}
-
-// The assets' names; what their files lack is reported beside.
-tasks::RewardScene SceneOf(const std::vector<std::string>& arguments, core::Findings* findings) {
-  tasks::RewardScene scene;
-  for (const std::string& argument : arguments) {
-    const NamedAsset asset = Located(argument);
-    const bool taken = std::any_of(scene.assets.begin(), scene.assets.end(),
-                                   [&](const auto& other) { return other.name == asset.name; });
-    if (taken) {
-      throw core::Error("two assets are called '" + asset.name + "'", argument,
-                        "give one another name: NAME=PATH");
-    }
-    const assets::UrdfModel model = assets::ReadUrdf(asset.urdf);
-    for (core::Finding finding : model.findings) {
-      finding.place = asset.urdf.string() + (finding.place.empty() ? "" : ", " + finding.place);
-      findings->push_back(finding);
-    }
-    scene.assets.push_back(tasks::NamesOf(asset.name, model));
-  }
-  return scene;
-}
 
 const char* SeverityName(core::Severity severity) {
   switch (severity) {
@@ -96,6 +51,20 @@ int Count(const core::Findings& findings, core::Severity severity) {
                     [&](const core::Finding& finding) { return finding.severity == severity; }));
 }
 
+// What the program does there (docs/rewards.md, "On a scene"); its title is the file's name.
+core::Findings OnScene(const tasks::SceneModel& scene, const RewardCheckRequest& request,
+                       const std::string& source) {
+  tasks::VerificationOptions options;
+  options.needs_success = false;
+  options.entry = request.entry;
+  tasks::SubtaskVerifier verifier(scene, options);
+  tasks::Task task;
+  tasks::Subtask subtask;
+  subtask.name = request.program.stem().string();
+  subtask.program = source;
+  return verifier.Verify(task, &subtask);
+}
+
 }  // namespace
 
 RewardCheckReport CheckReward(const RewardCheckRequest& request) {
@@ -106,12 +75,20 @@ RewardCheckReport CheckReward(const RewardCheckRequest& request) {
   RewardCheckReport report;
   report.subject = request.program.string();
   report.source = core::ReadFile(request.program, kLargestProgram);
-  const tasks::RewardScene scene = SceneOf(request.assets, &report.findings);
+  tasks::SceneModel scene;
+  if (request.scene) {
+    const TaskAssets assets = ReadTaskAssets(request.assets);
+    report.findings = assets.findings;
+    scene = tasks::MakeSceneModel(assets.models);
+  }
   tasks::RewardOptions options;
   options.entry = request.entry;
   const tasks::CompileOutcome outcome =
-      tasks::CompileReward(report.source, request.scene ? &scene : nullptr, options);
-  report.findings.insert(report.findings.end(), outcome.findings.begin(), outcome.findings.end());
+      tasks::CompileReward(report.source, request.scene ? &scene.names : nullptr, options);
+  core::Findings found = outcome.findings;
+  if (request.scene && outcome.program) found = OnScene(scene, request, report.source);
+  report.findings.insert(report.findings.end(), found.begin(), found.end());
+  report.sound = Count(found, core::Severity::kError) == 0;
   if (!outcome.program) return report;
   report.compiles = true;
   report.entry = outcome.program->entry();

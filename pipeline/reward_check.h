@@ -32,10 +32,13 @@ struct RewardCheckReport {
   bool has_success = false;
   int operations = 0;  // an environment
 
-  bool passed() const { return compiles; }
+  bool sound = false;  // no finding in the program is an error
+
+  bool passed() const { return sound; }
 };
 
-// Reads and compiles the program against the assets' names. Throws core::Error where a file cannot
+// Reads and compiles the program against the assets' names, and with a scene looks at what it does
+// there (tasks/verification). Throws core::Error where a file cannot
 // be read, a folder holds no URDF, two assets bear one name, or there is neither an asset nor
 // `scene` unset.
 RewardCheckReport CheckReward(const RewardCheckRequest& request);

@@ -93,11 +93,31 @@ CompileOutcome CompileReward(std::string_view source, const RewardScene* scene,
   }
 }
 
+namespace {
+
+// A source may hold what would move a terminal's cursor or change its colours: both bytes of the
+// control characters U+0080 to U+009F, and those below a blank except the tab.
+std::string Harmless(std::string_view text) {
+  std::string shown(text);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(shown[i]);
+    if ((byte < 0x20 && byte != '\t') || byte == 0x7F) shown[i] = '?';
+    const bool second = i > 0 && static_cast<unsigned char>(shown[i - 1]) == 0xC2 && byte < 0xA0;
+    if (second && byte >= 0x80) {
+      shown[i - 1] = '?';
+      shown.erase(i--, 1);
+    }
+  }
+  return shown;
+}
+
+}  // namespace
+
 std::string RenderFinding(const core::Finding& finding, std::string_view source) {
   const char* severity = finding.severity == core::Severity::kError     ? "error"
                          : finding.severity == core::Severity::kWarning ? "warning"
                                                                         : "note";
-  std::string text = finding.place + ": " + severity + ": " + finding.sentence + "\n";
+  std::string text = finding.place + ": " + severity + ": " + Harmless(finding.sentence) + "\n";
   int line = 0, column = 0;
   if (std::sscanf(finding.place.c_str(), "%d:%d", &line, &column) != 2 || line < 1) return text;
   for (int i = 1; i < line; ++i) {
@@ -117,7 +137,7 @@ std::string RenderFinding(const core::Finding& finding, std::string_view source)
     caret += c == '\t' ? '\t' : ' ';
     ++at;
   }
-  return text + "    " + std::string(shown) + "\n    " + caret + "^\n";
+  return text + "    " + Harmless(shown) + "\n    " + caret + "^\n";
 }
 
 }  // namespace simwright::tasks

@@ -76,8 +76,10 @@ std::string FileName(std::string text) {
   return text;
 }
 
-// The share of its way that the joint has gone, as an expression of `state` and `limits`.
+// The share of its way that the joint has gone, as an expression of `state` and `limits`; of half
+// a turn where it turns without end.
 std::string ShareText(const ThingJoint& joint) {
+  if (joint.type == RewardJointType::kContinuous) return "state / " + Number(joint.far());
   const bool up = joint.far() == joint.upper;
   const std::string far = up ? "limits[\"upper\"]" : "limits[\"lower\"]";
   const std::string near = up ? "limits[\"lower\"]" : "limits[\"upper\"]";
@@ -106,9 +108,11 @@ Step JointStep(const SceneModel& model, const Operator& one) {
                ")");
   AddReach("handle", &program);
   const std::string names = Quoted(thing.name) + ", " + Quoted(joint.name);
-  program.Line("state = env.get_state_by_joint_name(" + names + ")")
-      .Line("limits = env.get_limits_by_joint_name(" + names + ")")
-      .Line("moved = " + ShareText(joint));
+  program.Line("state = env.get_state_by_joint_name(" + names + ")");
+  if (joint.type != RewardJointType::kContinuous) {
+    program.Line("limits = env.get_limits_by_joint_name(" + names + ")");
+  }
+  program.Line("moved = " + ShareText(joint));
   if (away) {
     program.Line("reward = 2.0 * torch.clamp(moved, max=1.0) - reach")
         .Line("success = moved >= " + Number(kAway));

@@ -276,6 +276,11 @@ bool ReadsGoal(const RewardProgram& program) {
   });
 }
 
+bool TakesParameters(const RewardProgram& program) {
+  return std::any_of(program.slots().begin(), program.slots().end(),
+                     [](const RewardSlot& slot) { return slot.input == RewardInput::kParameter; });
+}
+
 // The title that says what a joint shall do: the subtask's own words first.
 std::string TitleOf(const Task& task, const Subtask& subtask) {
   const std::string own = subtask.name + " . " + subtask.description;
@@ -320,11 +325,22 @@ std::optional<InitialState> SubtaskVerifier::EndBefore(const Task& task, const S
 }
 
 core::Findings SubtaskVerifier::Verify(const Task& task, Subtask* subtask) {
-  CompileOutcome outcome = CompileReward(subtask->program, &model_.names);
+  RewardOptions compile_options;
+  compile_options.entry = options_.entry;
+  CompileOutcome outcome = CompileReward(subtask->program, &model_.names, compile_options);
   core::Findings findings = std::move(outcome.findings);
   Sharpen(&findings);
   if (subtask->success.empty()) subtask->success = SuccessWords(subtask->program);
   if (!outcome.program || HasError(findings)) return findings;
+  if (TakesParameters(*outcome.program)) {
+    if (options_.needs_success) {
+      findings.push_back({"free-parameter", Severity::kError, "",
+                          "the function takes parameters that nothing gives it: ask the "
+                          "environment, compute_reward(env)",
+                          0.0});
+    }
+    return findings;
+  }
   const std::string title = TitleOf(task, *subtask);
   if (subtask->start.placements.empty()) {
     std::optional<InitialState> planned = EndBefore(task, *subtask, *outcome.program);

@@ -21,6 +21,7 @@ struct VerificationOptions {
   int random_states = 128;  // in which reward and success are looked at beside the paths
   // A program of the command line may be without success: Eureka's have none.
   bool needs_success = true;
+  std::string entry;  // the function that gives the reward; empty: found by its name
   std::uint64_t seed = 1;
 
   bool IsValid(std::string* error) const;

@@ -326,5 +326,13 @@ TEST(RewardOptions, OutOfRangeIsRefused) {
   EXPECT_THROW(CompileReward("", nullptr, options), core::Error);
 }
 
+TEST(RewardFindings, AShownLineCannotReachIntoTheTerminal) {
+  const std::string source =
+      "def compute_reward(env):\n    x = 1 # \x1b[2J\xc2\x9b\n    return y\n";
+  const core::Finding finding{"x", core::Severity::kError, "2:5", "a \x1b]0;name", 0.0};
+  const std::string text = RenderFinding(finding, source);
+  EXPECT_EQ(text, "2:5: error: a ?]0;name\n        x = 1 # ?[2J?\n        ^\n");
+}
+
 }  // namespace
 }  // namespace simwright::tasks
