@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include "cli/command.h"
 #include "core/error.h"
@@ -49,9 +50,12 @@ int Main(int argc, char** argv) {
 }
 
 // libtorch's threads wait for each other by spinning, unless told otherwise before its OpenMP
-// starts: beside other work a network then runs several times slower. Told by starting once more.
-void WaitWithoutSpinning(char** argv) {
+// starts: beside other work a network then runs several times slower. Told by starting once more,
+// which takes a second that only those who run networks should wait.
+void WaitWithoutSpinning(int argc, char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
+  const std::string_view command = argc > 1 ? argv[1] : "";
+  if (command != "lift" && command != "prior") return;
   setenv("OMP_WAIT_POLICY", "passive", 1);
   execv("/proc/self/exe", argv);  // where that fails the program goes on as it is
 }
@@ -66,7 +70,7 @@ void KeepFreedMemory() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  WaitWithoutSpinning(argv);
+  WaitWithoutSpinning(argc, argv);
   KeepFreedMemory();
   try {
     return Main(argc, argv);
