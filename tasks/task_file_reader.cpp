@@ -124,8 +124,8 @@ core::Findings FindingsFrom(const Value& value) {
     core::Finding finding;
     finding.code = entry["code"].Text();
     const std::string severity = entry["severity"].Text();
-    const auto* found = std::find(std::begin(task_file::kSeverities),
-                                  std::end(task_file::kSeverities), severity);
+    const auto* found =
+        std::find(std::begin(task_file::kSeverities), std::end(task_file::kSeverities), severity);
     if (found == std::end(task_file::kSeverities)) {
       entry["severity"].Fail("should be info, warning or error");
     }
@@ -172,8 +172,8 @@ class TaskReader {
   }
 
   Subtask SubtaskFrom(const Value& value) const {
-    value.RequireMembers({"name", "description", "program", "success", "start", "goal", "findings",
-                          "attempts"});
+    value.RequireMembers(
+        {"name", "description", "program", "success", "start", "goal", "findings", "attempts"});
     Subtask subtask;
     subtask.name = value["name"].Text();
     if (subtask.name.empty()) value["name"].Fail("is empty");

@@ -37,10 +37,10 @@ Eigen::Quaterniond SettledRotation(const Eigen::Isometry3d& pose) {
 
 Json PoseJson(const Eigen::Isometry3d& pose, const std::string& place) {
   const Eigen::Quaterniond q = SettledRotation(pose);
-  return {{"position", ToJson(Eigen::Vector3d(pose.translation()), place)},
-          {"quaternion_wxyz",
-           {Finite(q.w(), place), Finite(q.x(), place), Finite(q.y(), place),
-            Finite(q.z(), place)}}};
+  return {
+      {"position", ToJson(Eigen::Vector3d(pose.translation()), place)},
+      {"quaternion_wxyz",
+       {Finite(q.w(), place), Finite(q.x(), place), Finite(q.y(), place), Finite(q.z(), place)}}};
 }
 
 // A program as its lines; joined by line breaks they give it back.
@@ -107,15 +107,11 @@ Json ToJson(const Subtask& subtask, const std::string& place) {
 Json ToJson(const Task& task, const std::string& place) {
   Json subtasks = Json::array();
   for (std::size_t i = 0; i < task.subtasks.size(); ++i) {
-    subtasks.push_back(
-        ToJson(task.subtasks[i], place + ".subtasks[" + std::to_string(i) + "]"));
+    subtasks.push_back(ToJson(task.subtasks[i], place + ".subtasks[" + std::to_string(i) + "]"));
   }
-  return {{"name", task.name},
-          {"description", task.description},
-          {"source", task.source},
-          {"assets", task.assets},
-          {"subtasks", subtasks},
-          {"findings", ToJson(task.findings, place + ".findings")}};
+  return {{"name", task.name},     {"description", task.description},
+          {"source", task.source}, {"assets", task.assets},
+          {"subtasks", subtasks},  {"findings", ToJson(task.findings, place + ".findings")}};
 }
 
 // Relative to `folder` for what lies below it or beside it, so that both can be moved together.

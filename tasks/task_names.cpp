@@ -37,8 +37,8 @@ bool IsForeignLetter(std::uint32_t c) {
   if (c < 0xC0) return c == 0xAA || c == 0xB5 || c == 0xBA;
   const bool sign = (c >= 0x2000 && c <= 0x2BFF) || (c >= 0x3000 && c <= 0x3004) ||
                     (c >= 0x3007 && c <= 0x3030) || (c >= 0xD800 && c <= 0xF8FF) ||
-                    (c >= 0xFE00 && c <= 0xFE6F) || (c >= 0xFF00 && c <= 0xFF20) ||
-                    (c >= 0xFFE0) || c == 0xFEFF || c == 0x061C;
+                    (c >= 0xFE00 && c <= 0xFE6F) || (c >= 0xFF00 && c <= 0xFF20) || (c >= 0xFFE0) ||
+                    c == 0xFEFF || c == 0x061C;
   return !sign;
 }
 
@@ -84,9 +84,8 @@ std::string UniqueName(const std::string& name, std::set<std::string>* taken) {
 
 bool IsAssetName(std::string_view name) {
   return !name.empty() && name.size() <= kLongest && IsAsciiLetter(name[0]) &&
-         std::all_of(name.begin(), name.end(), [](char c) {
-           return IsAsciiLetter(c) || IsDigit(c) || c == '_' || c == '-';
-         });
+         std::all_of(name.begin(), name.end(),
+                     [](char c) { return IsAsciiLetter(c) || IsDigit(c) || c == '_' || c == '-'; });
 }
 
 }  // namespace simwright::tasks
