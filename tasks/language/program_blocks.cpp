@@ -8,7 +8,9 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr std::size_t kLongestTitle = 80;  // bytes; what is longer explains
+constexpr std::size_t kLongestTitle = 80;          // bytes; what is longer explains
+constexpr std::size_t kMostFunctions = 200;        // of a block; the rest stays with the last
+constexpr std::size_t kLongestProgram = 64 << 10;  // bytes; the compiler takes no longer one
 
 bool IsNameByte(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -63,7 +65,8 @@ Cut CutIntoFunctions(const std::vector<std::string>& lines) {
   };
   for (const std::string& line : lines) {
     const bool outer = Indentation(line) == 0 && !line.empty();
-    const std::string name = outer ? DefinedName(line) : "";
+    const bool room = cut.chunks.size() < kMostFunctions;
+    const std::string name = outer && room ? DefinedName(line) : "";
     if (!name.empty()) {
       Chunk chunk{TitleIn(comments), name, ""};
       flush(&chunk.text);
@@ -184,6 +187,7 @@ std::string WithHelpers(const std::string& program,
   for (bool again = true; again;) {  // what helpers call is needed as well
     again = false;
     for (const auto& [name, text] : helpers) {
+      if (whole.size() + text.size() > kLongestProgram) continue;
       if (added.contains(name) || !Calls(whole, name)) continue;
       if (whole.find("def " + name + "(") != std::string::npos) continue;
       whole = text + "\n" + whole;

@@ -57,7 +57,8 @@ std::string RenderedFindings(const core::Findings& findings, const std::string& 
   std::string text;
   for (const core::Finding& finding : findings) {
     if (finding.place.empty()) {
-      text += "error: " + finding.sentence + "\n";
+      const bool error = finding.severity == core::Severity::kError;
+      text += (error ? "error: " : "warning: ") + finding.sentence + "\n";
     } else {
       text += RenderFinding(finding, program);
     }
