@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -103,8 +104,22 @@ Subtask SubtaskOf(const Json& object, const std::string& title) {
   return subtask;
 }
 
+// The members of `object` in the order of their keys in the answer, which JSON's reader forgets.
+std::vector<std::pair<std::string, const Json*>> InOrder(const Json& object,
+                                                         std::string_view answer) {
+  std::vector<std::pair<std::size_t, std::pair<std::string, const Json*>>> placed;
+  for (const auto& [key, value] : object.items()) {
+    placed.push_back({answer.find('"' + key + '"'), {key, &value}});
+  }
+  std::stable_sort(placed.begin(), placed.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::pair<std::string, const Json*>> members;
+  for (auto& [place, member] : placed) members.push_back(std::move(member));
+  return members;
+}
+
 // Subtasks as objects, as titles alone, or as a map from title to object or program.
-std::vector<Subtask> SubtasksOf(const Json& json) {
+std::vector<Subtask> SubtasksOf(const Json& json, std::string_view answer) {
   std::vector<Subtask> subtasks;
   const auto add = [&](const std::string& key, const Json& value) {
     if (value.is_object()) {
@@ -124,9 +139,8 @@ std::vector<Subtask> SubtasksOf(const Json& json) {
   } else if (json.is_object()) {
     const bool single = ProgramMember(json) != nullptr;
     if (single) add("", json);
-    for (const auto& [key, value] : json.items()) {
-      if (!single) add(key, value);
-    }
+    if (single) return subtasks;
+    for (const auto& [key, value] : InOrder(json, answer)) add(key, *value);
   }
   return subtasks;
 }
@@ -158,13 +172,13 @@ bool IsTask(const Json& json) {
   return subtasks != nullptr && (subtasks->is_array() || subtasks->is_object());
 }
 
-Task TaskOf(const Json& json, const std::string& title) {
+Task TaskOf(const Json& json, const std::string& title, std::string_view answer) {
   Task task;
   task.name = TitleMember(json);
   if (task.name.empty()) task.name = title;
   task.description = TextOf(Member(json, {"taskdescription", "description"}));
   if (const Json* subtasks = SubtasksMember(json)) {
-    task.subtasks = SubtasksOf(*subtasks);
+    task.subtasks = SubtasksOf(*subtasks, answer);
     AddProgramsBeside(json, &task.subtasks);
   }
   if (task.subtasks.empty()) {
@@ -175,15 +189,16 @@ Task TaskOf(const Json& json, const std::string& title) {
 }
 
 // Goes down to the objects that are tasks; `key` is what the present one is called.
-void Collect(const Json& json, const std::string& key, int depth, std::vector<Task>* tasks) {
+void Collect(const Json& json, const std::string& key, std::string_view answer, int depth,
+             std::vector<Task>* tasks) {
   if (depth > kDeepest) return;
   if (IsTask(json)) {
-    tasks->push_back(TaskOf(json, key));
+    tasks->push_back(TaskOf(json, key, answer));
   } else if (json.is_array()) {
-    for (const Json& element : json) Collect(element, "", depth + 1, tasks);
+    for (const Json& element : json) Collect(element, "", answer, depth + 1, tasks);
   } else if (json.is_object()) {
-    for (const auto& [name, value] : json.items()) {
-      if (!value.is_primitive()) Collect(value, name, depth + 1, tasks);
+    for (const auto& [name, value] : InOrder(json, answer)) {
+      if (!value->is_primitive()) Collect(*value, name, answer, depth + 1, tasks);
     }
   }
 }
@@ -217,7 +232,7 @@ std::string Mended(std::string_view text) {
 
 std::vector<Task> TasksInText(std::string_view text) {
   std::vector<Task> tasks;
-  for (const Json& json : llm::JsonInText(text)) Collect(json, "", 0, &tasks);
+  for (const Json& json : llm::JsonInText(text)) Collect(json, "", text, 0, &tasks);
   return tasks;
 }
 

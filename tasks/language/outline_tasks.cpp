@@ -240,10 +240,9 @@ class TaskAssembler {
       open->name = line.text;
     } else if (!tasks_.empty() && tasks_.back().name.empty() && tasks_.back().subtasks.empty()) {
       tasks_.back().name = line.text;
-    } else if (line.item && !tasks_.empty() && in_plan_ && line.level > task_level_) {
-      LabelledLine subtask = line;
-      BeginSubtask(subtask);
-      in_plan_ = true;
+    } else if (line.item && !tasks_.empty() && labelled_ && task_level_ > 0 &&
+               line.level > task_level_) {
+      BeginSubtask(line);
     } else {
       BeginTask(line.text, line.item ? line.level : 0);
     }

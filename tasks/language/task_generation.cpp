@@ -1,6 +1,7 @@
 #include "tasks/language/task_generation.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "core/error.h"
@@ -13,18 +14,16 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr std::size_t kLongestKeptAnswer = 64u << 10;  // bytes of an answer without a program
+// Bytes of an answer that are said back to the model, and kept where it holds no program.
+constexpr std::size_t kLongestKeptAnswer = 64u << 10;
 
-bool HasError(const core::Findings& findings) {
-  return std::any_of(findings.begin(), findings.end(), [](const core::Finding& finding) {
-    return finding.severity == core::Severity::kError;
-  });
-}
-
-int Errors(const core::Findings& findings) {
-  return static_cast<int>(std::count_if(
-      findings.begin(), findings.end(),
-      [](const core::Finding& finding) { return finding.severity == core::Severity::kError; }));
+// Those that keep a program from being trained on.
+core::Findings ErrorsOf(const core::Findings& findings) {
+  core::Findings errors;
+  for (const core::Finding& finding : findings) {
+    if (finding.severity == core::Severity::kError) errors.push_back(finding);
+  }
+  return errors;
 }
 
 void RequireNames(std::span<const NamedModel> scene) {
@@ -105,7 +104,8 @@ class TaskGeneration {
         Report("llm-answer-cut", core::Severity::kWarning, request->task,
                "the server ended the answer before it was whole", 0.0);
       }
-      request->messages.push_back({llm::Role::kAssistant, answer.text, {}});
+      request->messages.push_back(
+          {llm::Role::kAssistant, answer.text.substr(0, kLongestKeptAnswer), {}});
       return answer.text;
     } catch (const core::Error& error) {
       if (result_.tasks.empty() && !proposed_) throw;
@@ -126,6 +126,9 @@ class TaskGeneration {
       const std::optional<std::string> text = Ask(&request);
       if (!text) break;
       TaskAnswer answer = ReadTaskAnswer(*text);
+      for (core::Finding& finding : answer.findings) {  // an answer without tasks is no end
+        finding.severity = std::min(finding.severity, core::Severity::kWarning);
+      }
       Report(answer.findings, request.task);
       if (answer.has_program()) {
         named_only = std::move(answer.tasks);
@@ -184,13 +187,24 @@ class TaskGeneration {
         result_.repaired += sound ? 0 : 1;
         continue;
       }
-      const int errors = Errors(subtask.findings);
-      Report("llm-gave-up", core::Severity::kError, task->name + "/" + subtask.name,
-             "has " + std::to_string(errors) + (errors == 1 ? " error" : " errors") + " after " +
-                 std::to_string(subtask.attempts.size()) +
-                 " repairs: " + subtask.findings.front().sentence,
-             static_cast<double>(errors));
+      GiveUp(task, subtask);
     }
+  }
+
+  // The task keeps what it has, and says why it cannot be trained.
+  void GiveUp(Task* task, const Subtask& subtask) {
+    const core::Findings errors = ErrorsOf(subtask.findings);
+    const std::string count = std::to_string(errors.size());
+    const std::size_t repairs = subtask.attempts.size();
+    const core::Finding finding{"llm-gave-up", core::Severity::kError, subtask.name,
+                                "has " + count + (errors.size() == 1 ? " error" : " errors") +
+                                    " after " + std::to_string(repairs) +
+                                    (repairs == 1 ? " repair" : " repairs") +
+                                    (errors.empty() ? "" : ", first: " + errors.front().sentence),
+                                static_cast<double>(errors.size())};
+    task->findings.push_back(finding);
+    result_.findings.push_back(finding);
+    result_.findings.back().place = task->name + "/" + subtask.name;
   }
 
   void Repair(Task* task, Subtask* subtask) {
