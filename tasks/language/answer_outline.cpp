@@ -52,9 +52,11 @@ bool LooksLikeStatement(std::string_view line) {
   return end > 0 && words <= 4 && rest.starts_with('=') && !rest.starts_with("==");
 }
 
-// A sentence behind a fence that was never closed.
+// Text behind a fence that was never closed: a sentence, a point of a list, bold words.
 bool LooksLikeProse(std::string_view line) {
   const std::string_view text = Trimmed(line);
+  const LabelledLine labelled = ReadLabel(line);
+  if ((labelled.item && labelled.number > 0) || text.starts_with("**")) return true;
   return std::count(text.begin(), text.end(), ' ') >= 3 &&
          text.find_first_of("=([{") == std::string_view::npos;
 }
@@ -202,8 +204,21 @@ class OutlineReader {
       block.push_back(Dedented(line, base));
       ++at_;
     }
+    if (fenced_ && at_ < lines_.size() && !FenceInfo(lines_[at_]).value_or("").empty()) {
+      GiveBackHeadings(&block);
+    }
     while (!block.empty() && IsBlank(block.back())) block.pop_back();
     AddPrograms(block);
+  }
+
+  // Another fence opens where this one was not closed: what looks like comments right above it was
+  // text.
+  void GiveBackHeadings(std::vector<std::string>* block) {
+    while (block->size() > 1 && (IsBlank(block->back()) || block->back().starts_with("#"))) {
+      block->pop_back();
+      --at_;
+    }
+    fenced_ = false;
   }
 
   void AddPrograms(const std::vector<std::string>& block) {
