@@ -236,6 +236,7 @@ Json Parsed(std::string_view text, const std::string& where) {
   try {
     json = Json::parse(text, bounded);
   } catch (const Json::parse_error& error) {
+    if (too_deep) throw core::Error("is nested too deeply for tasks", where);
     const std::size_t end = std::min<std::size_t>(error.byte, text.size());
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(end), '\n');
     throw core::Error("is no JSON from line " + std::to_string(line) + " on", where);

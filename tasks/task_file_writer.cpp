@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -22,13 +23,18 @@ Json ToJson(const Eigen::Vector3d& v, const std::string& place) {
   return {Finite(v.x(), place), Finite(v.y(), place), Finite(v.z(), place)};
 }
 
-// The quaternion that reading turns into a rotation which is written as the same quaternion again:
-// going back and forth settles after a few steps of rounding.
+// The rotation as a quaternion of 12 decimals that reading and writing turn into itself: rounding
+// and going to a matrix and back settle within a few steps.
 Eigen::Quaterniond SettledRotation(const Eigen::Isometry3d& pose) {
-  constexpr int kSteps = 20;
-  Eigen::Quaterniond q(pose.linear());
+  constexpr int kSteps = 50;
+  constexpr double kDecimals = 1e12;
+  const auto rounded = [](Eigen::Quaterniond q) {
+    for (double& c : q.coeffs()) c = std::round(c * kDecimals) / kDecimals + 0.0;  // no -0
+    return q;
+  };
+  Eigen::Quaterniond q = rounded(Eigen::Quaterniond(pose.linear()));
   for (int step = 0; step < kSteps; ++step) {
-    const Eigen::Quaterniond next(q.normalized().toRotationMatrix());
+    const Eigen::Quaterniond next = rounded(Eigen::Quaterniond(q.normalized().toRotationMatrix()));
     if (next.coeffs() == q.coeffs()) break;
     q = next;
   }
@@ -124,6 +130,30 @@ std::string StoredPath(const std::string& path, const fs::path& folder) {
   return relative.empty() || up > 1 ? whole.string() : relative.string();
 }
 
+// As Json::dump, but numbers that belong together stand in one line.
+void AppendIndented(const Json& json, std::size_t indentation, std::string* text) {
+  const auto leaf = [](const Json& value) { return !value.is_structured() || value.empty(); };
+  const bool numbers = json.is_array() && std::all_of(json.begin(), json.end(),
+                                                      [](const Json& n) { return n.is_number(); });
+  if (leaf(json) || numbers) {
+    std::string line = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    for (std::size_t i = 0; numbers && i < line.size(); ++i) {
+      if (line[i] == ',') line.insert(++i, " ");
+    }
+    *text += line;
+    return;
+  }
+  *text += json.is_array() ? "[" : "{";
+  bool first = true;
+  for (const auto& [key, value] : json.items()) {
+    *text += (first ? "\n" : ",\n") + std::string(indentation + 2, ' ');
+    if (json.is_object()) *text += '"' + key + "\": ";  // keys are the format's own words
+    AppendIndented(value, indentation + 2, text);
+    first = false;
+  }
+  *text += "\n" + std::string(indentation, ' ') + (json.is_array() ? "]" : "}");
+}
+
 }  // namespace
 
 std::string TaskFileText(const TaskSet& set, const fs::path& folder) {
@@ -138,7 +168,9 @@ std::string TaskFileText(const TaskSet& set, const fs::path& folder) {
     tasks.push_back(ToJson(set.tasks[i], "tasks[" + std::to_string(i) + "]"));
   }
   const Json json = {{"format", task_file::kFormat}, {"assets", assets}, {"tasks", tasks}};
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  std::string text;
+  AppendIndented(json, 0, &text);
+  return text + "\n";
 }
 
 void WriteTaskFile(const TaskSet& set, const fs::path& file) {
