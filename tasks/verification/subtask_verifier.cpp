@@ -276,6 +276,17 @@ bool ReadsGoal(const RewardProgram& program) {
   });
 }
 
+// Whether there is a place for something, and for all that the program looks at.
+bool Places(const InitialState& start, const RewardProgram& program) {
+  const auto& placed = start.placements;
+  return !placed.empty() &&
+         std::all_of(program.slots().begin(), program.slots().end(), [&](const RewardSlot& slot) {
+           return slot.asset.empty() ||
+                  std::any_of(placed.begin(), placed.end(),
+                              [&](const AssetPlacement& one) { return one.asset == slot.asset; });
+         });
+}
+
 bool TakesParameters(const RewardProgram& program) {
   return std::any_of(program.slots().begin(), program.slots().end(),
                      [](const RewardSlot& slot) { return slot.input == RewardInput::kParameter; });
@@ -313,14 +324,7 @@ std::optional<InitialState> SubtaskVerifier::EndBefore(const Task& task, const S
   if (self == task.subtasks.begin() || self == task.subtasks.end()) return std::nullopt;
   const auto end = ends_.find({task.name, std::prev(self)->name});
   if (end == ends_.end()) return std::nullopt;
-  for (const RewardSlot& slot : program.slots()) {
-    const auto& placed = end->second.placements;
-    const bool there = slot.asset.empty() ||
-                       std::any_of(placed.begin(), placed.end(), [&](const AssetPlacement& one) {
-                         return one.asset == slot.asset;
-                       });
-    if (!there) return std::nullopt;
-  }
+  if (!Places(end->second, program)) return std::nullopt;
   return end->second;
 }
 
@@ -342,7 +346,7 @@ core::Findings SubtaskVerifier::Verify(const Task& task, Subtask* subtask) {
     return findings;
   }
   const std::string title = TitleOf(task, *subtask);
-  if (subtask->start.placements.empty()) {
+  if (!Places(subtask->start, *outcome.program)) {
     std::optional<InitialState> planned = EndBefore(task, *subtask, *outcome.program);
     if (!planned) {
       core::Rng rng = core::StreamRng(options_.seed, 0);

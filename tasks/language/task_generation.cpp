@@ -1,0 +1,272 @@
+#include "tasks/language/task_generation.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "core/error.h"
+#include "tasks/language/answer_text.h"
+#include "tasks/language/program_blocks.h"
+#include "tasks/language/task_answer.h"
+#include "tasks/language/task_question.h"
+#include "tasks/task_names.h"
+
+namespace simwright::tasks {
+namespace {
+
+// Bytes of an answer that are said back to the model, and kept where it holds no program.
+constexpr std::size_t kLongestKeptAnswer = 64u << 10;
+
+// Those that keep a program from being trained on.
+core::Findings ErrorsOf(const core::Findings& findings) {
+  core::Findings errors;
+  for (const core::Finding& finding : findings) {
+    if (finding.severity == core::Severity::kError) errors.push_back(finding);
+  }
+  return errors;
+}
+
+void RequireNames(std::span<const NamedModel> scene) {
+  if (scene.empty()) throw core::Error("there is no asset", "tasks", "give at least one");
+  std::set<std::string> names;
+  for (const NamedModel& asset : scene) {
+    if (!IsAssetName(asset.name)) {
+      throw core::Error("programs cannot call an asset so", asset.name,
+                        "a letter, then letters, digits, '_', '-'");
+    }
+    if (!names.insert(asset.name).second) {
+      throw core::Error("two assets are called so", asset.name, "give one another name");
+    }
+  }
+}
+
+// One run: the model, what was asked of it, and what came of it.
+class TaskGeneration {
+ public:
+  TaskGeneration(std::span<const NamedModel> scene, const TaskGenerationOptions& options,
+                 llm::ChatModel* model, const VerifySubtask& verify, core::Progress* progress)
+      : scene_(scene), options_(options), model_(*model), verify_(verify), progress_(progress) {
+    SceneDescription description = DescribeScene(scene, options.bounds);
+    description_ = std::move(description.text);
+    Report(description.findings);
+  }
+
+  GeneratedTasks Run() {
+    while (missing() > 0 && !failed_) {
+      std::vector<Task> proposed = Propose(std::min(missing(), options_.most_in_a_question));
+      asked_ += std::min(missing(), options_.most_in_a_question);
+      for (Task& task : proposed) {
+        core::CheckCancelled();
+        Complete(&task);
+        result_.tasks.push_back(std::move(task));
+      }
+    }
+    if (result_.tasks.empty()) {
+      Report("llm-no-tasks", core::Severity::kError, "",
+             Source() + " gave no task with a reward function", 0.0);
+    } else if (static_cast<int>(result_.tasks.size()) < options_.count && !failed_) {
+      Report("llm-fewer-tasks", core::Severity::kInfo, "",
+             Source() + " gave " + std::to_string(result_.tasks.size()) + " of " +
+                 std::to_string(options_.count) + " tasks",
+             static_cast<double>(result_.tasks.size()));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  int missing() const { return options_.count - asked_; }
+
+  std::string Source() const {
+    return model_.name().empty() ? "the language model" : "the language model " + model_.name();
+  }
+
+  void Report(const core::Findings& findings, const std::string& place = "") {
+    for (core::Finding finding : findings) {
+      if (finding.place.empty()) finding.place = place;
+      result_.findings.push_back(std::move(finding));
+    }
+  }
+
+  void Report(const std::string& code, core::Severity severity, const std::string& place,
+              const std::string& sentence, double figure) {
+    result_.findings.push_back({code, severity, place, sentence, figure});
+  }
+
+  // The answer's text; unset where the model failed and tasks are there to be kept.
+  std::optional<std::string> Ask(llm::ChatRequest* request) {
+    request->temperature = options_.temperature;
+    request->seed = options_.seed;
+    try {
+      const llm::ChatAnswer answer = model_.Ask(*request, progress_);
+      ++result_.questions;
+      Report(model_.TakeFindings(), request->task);
+      if (answer.finish_reason == "length") {
+        Report("llm-answer-cut", core::Severity::kWarning, request->task,
+               "the server ended the answer before it was whole", 0.0);
+      }
+      request->messages.push_back(
+          {llm::Role::kAssistant, answer.text.substr(0, kLongestKeptAnswer), {}});
+      return answer.text;
+    } catch (const core::Error& error) {
+      if (result_.tasks.empty() && !proposed_) throw;
+      failed_ = true;
+      Report(model_.TakeFindings(), request->task);
+      Report("llm-failed", core::Severity::kError, request->task, error.what(), 0.0);
+      return std::nullopt;
+    }
+  }
+
+  // Tasks of one question, asked twice where the first answer holds no program.
+  std::vector<Task> Propose(int count) {
+    std::vector<std::string> have;
+    for (const Task& task : result_.tasks) have.push_back(task.name);
+    llm::ChatRequest request = TaskQuestion(description_, count, have);
+    std::vector<Task> named_only;  // what an answer without programs proposed
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      const std::optional<std::string> text = Ask(&request);
+      if (!text) break;
+      TaskAnswer answer = ReadTaskAnswer(*text);
+      for (core::Finding& finding : answer.findings) {  // an answer without tasks is no end
+        finding.severity = std::min(finding.severity, core::Severity::kWarning);
+      }
+      Report(answer.findings, request.task);
+      if (answer.has_program()) {
+        named_only = std::move(answer.tasks);
+        break;
+      }
+      if (!answer.tasks.empty()) named_only = std::move(answer.tasks);
+      request.messages.push_back({llm::Role::kUser, AskForTasksAgain(), {}});
+    }
+    proposed_ = proposed_ || !named_only.empty();
+    return New(std::move(named_only));
+  }
+
+  // Under names that are unlike those of the tasks before.
+  std::vector<Task> New(std::vector<Task> tasks) {
+    for (Task& task : tasks) {
+      const std::string unique = UniqueName(task.name, &names_);
+      if (unique != task.name) {
+        Report("task-renamed", core::Severity::kWarning, unique,
+               "another task is called " + task.name + " already", 0.0);
+      }
+      task.name = unique;
+      task.source = model_.name().empty() ? "language model" : model_.name();
+    }
+    return tasks;
+  }
+
+  // The assets that its programs name, in the scene's order.
+  void NameAssets(Task* task) const {
+    task->assets.clear();
+    for (const NamedModel& asset : scene_) {
+      const bool named =
+          std::any_of(task->subtasks.begin(), task->subtasks.end(), [&](const Subtask& subtask) {
+            return subtask.program.find("\"" + asset.name + "\"") != std::string::npos ||
+                   subtask.program.find("'" + asset.name + "'") != std::string::npos;
+          });
+      if (named) task->assets.push_back(asset.name);
+    }
+  }
+
+  void Verify(Task* task, Subtask* subtask) {
+    NameAssets(task);
+    if (subtask->program.empty()) {
+      subtask->findings = {{"program-missing", core::Severity::kError, "",
+                            "the language model gave no reward function", 0.0}};
+    } else {
+      subtask->findings = verify_(*task, subtask);
+    }
+  }
+
+  void Complete(Task* task) {
+    for (Subtask& subtask : task->subtasks) {
+      Verify(task, &subtask);
+      const bool sound = subtask.sound();
+      if (!sound && !failed_) Repair(task, &subtask);
+      if (subtask.sound()) {
+        result_.repaired += sound ? 0 : 1;
+        continue;
+      }
+      GiveUp(task, subtask);
+    }
+  }
+
+  // The task keeps what it has, and says why it cannot be trained.
+  void GiveUp(Task* task, const Subtask& subtask) {
+    const core::Findings errors = ErrorsOf(subtask.findings);
+    const std::string count = std::to_string(errors.size());
+    const std::size_t repairs = subtask.attempts.size();
+    const core::Finding finding{"llm-gave-up", core::Severity::kError, subtask.name,
+                                "has " + count + (errors.size() == 1 ? " error" : " errors") +
+                                    " after " + std::to_string(repairs) +
+                                    (repairs == 1 ? " repair" : " repairs") +
+                                    (errors.empty() ? "" : ", first: " + errors.front().sentence),
+                                static_cast<double>(errors.size())};
+    task->findings.push_back(finding);
+    result_.findings.push_back(finding);
+    result_.findings.back().place = task->name + "/" + subtask.name;
+  }
+
+  void Repair(Task* task, Subtask* subtask) {
+    llm::ChatRequest request = RepairQuestion(description_, *task, *subtask, subtask->findings);
+    for (int repair = 0; repair < options_.repairs && !subtask->sound(); ++repair) {
+      const std::optional<std::string> text = Ask(&request);
+      if (!text) return;
+      const std::string program = ReadProgramAnswer(*text);
+      const std::string before = subtask->program;
+      if (program.empty()) {
+        core::Findings why = {{"answer-no-program", core::Severity::kError, "",
+                               "no reward function was found in the answer", 0.0}};
+        core::Findings ignored;
+        subtask->attempts.push_back(
+            {PlainAnswer(std::string_view(*text).substr(0, kLongestKeptAnswer), &ignored), why});
+      } else {
+        subtask->attempts.push_back({before, subtask->findings});
+        subtask->program = program;
+        const std::string success = SuccessOf(program);
+        if (!success.empty()) subtask->success = success;
+        Verify(task, subtask);
+      }
+      request.messages.push_back(
+          {llm::Role::kUser, RepairAgain(program, before, subtask->findings), {}});
+    }
+  }
+
+  std::span<const NamedModel> scene_;
+  const TaskGenerationOptions& options_;
+  llm::ChatModel& model_;
+  const VerifySubtask& verify_;
+  core::Progress* progress_;
+  std::string description_;
+  GeneratedTasks result_;
+  std::set<std::string> names_;
+  int asked_ = 0;          // tasks
+  bool proposed_ = false;  // there is a task that must not be lost
+  bool failed_ = false;    // the model; it is not asked again
+};
+
+}  // namespace
+
+bool TaskGenerationOptions::IsValid(std::string* error) const {
+  const auto refuse = [error](const char* why) {
+    if (error != nullptr) *error = why;
+    return false;
+  };
+  if (count < 1 || count > 200) return refuse("1 to 200 tasks can be asked for");
+  if (most_in_a_question < 1 || most_in_a_question > 100) {
+    return refuse("a question asks for 1 to 100 tasks");
+  }
+  if (repairs < 0 || repairs > 10) return refuse("0 to 10 repairs are made");
+  return true;
+}
+
+GeneratedTasks GenerateTasksByModel(std::span<const NamedModel> scene,
+                                    const TaskGenerationOptions& options, llm::ChatModel* model,
+                                    const VerifySubtask& verify, core::Progress* progress) {
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error(error, "tasks");
+  RequireNames(scene);
+  return TaskGeneration(scene, options, model, verify, progress).Run();
+}
+
+}  // namespace simwright::tasks

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstdint>
+
+// What the writer and the reader of tasks.json share.
+namespace simwright::tasks::task_file {
+
+inline constexpr int kFormat = 1;
+inline constexpr std::uint64_t kLargest = 64u << 20;                        // bytes
+inline constexpr const char* kSeverities[] = {"info", "warning", "error"};  // core::Severity
+
+}  // namespace simwright::tasks::task_file

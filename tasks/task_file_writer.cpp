@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "tasks/task_file.h"
+#include "tasks/task_file_format.h"
+
+namespace simwright::tasks {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+double Finite(double value, const std::string& place) {
+  if (!std::isfinite(value)) throw core::Error("the number is not finite", "tasks.json: " + place);
+  return value;
+}
+
+Json ToJson(const Eigen::Vector3d& v, const std::string& place) {
+  return {Finite(v.x(), place), Finite(v.y(), place), Finite(v.z(), place)};
+}
+
+// The rotation as a quaternion of 12 decimals that reading and writing turn into itself: rounding
+// and going to a matrix and back settle within a few steps.
+Eigen::Quaterniond SettledRotation(const Eigen::Isometry3d& pose) {
+  constexpr int kSteps = 50;
+  constexpr double kDecimals = 1e12;
+  const auto rounded = [](Eigen::Quaterniond q) {
+    for (double& c : q.coeffs()) c = std::round(c * kDecimals) / kDecimals + 0.0;  // no -0
+    return q;
+  };
+  Eigen::Quaterniond q = rounded(Eigen::Quaterniond(pose.linear()));
+  for (int step = 0; step < kSteps; ++step) {
+    const Eigen::Quaterniond next = rounded(Eigen::Quaterniond(q.normalized().toRotationMatrix()));
+    if (next.coeffs() == q.coeffs()) break;
+    q = next;
+  }
+  return q;
+}
+
+Json PoseJson(const Eigen::Isometry3d& pose, const std::string& place) {
+  const Eigen::Quaterniond q = SettledRotation(pose);
+  return {
+      {"position", ToJson(Eigen::Vector3d(pose.translation()), place)},
+      {"quaternion_wxyz",
+       {Finite(q.w(), place), Finite(q.x(), place), Finite(q.y(), place), Finite(q.z(), place)}}};
+}
+
+// A program as its lines; joined by line breaks they give it back.
+Json LinesJson(std::string_view text) {
+  Json lines = Json::array();
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    lines.push_back(std::string(text.substr(0, end)));
+    if (end == std::string_view::npos) break;
+    text.remove_prefix(end + 1);
+    if (text.empty()) lines.push_back("");
+  }
+  return lines;
+}
+
+Json ToJson(const core::Findings& findings, const std::string& place) {
+  Json list = Json::array();
+  for (const core::Finding& f : findings) {
+    list.push_back({{"code", f.code},
+                    {"severity", task_file::kSeverities[static_cast<std::size_t>(f.severity)]},
+                    {"place", f.place},
+                    {"sentence", f.sentence},
+                    {"figure", Finite(f.figure, place + ".figure")}});
+  }
+  return list;
+}
+
+Json ToJson(const InitialState& start, const std::string& place) {
+  Json placements = Json::array();
+  for (const AssetPlacement& placement : start.placements) {
+    Json entry = {{"asset", placement.asset}};
+    entry.update(PoseJson(placement.world_from_asset, place + ".placements"));
+    entry["fixed"] = placement.fixed;
+    placements.push_back(entry);
+  }
+  Json joints = Json::array();
+  for (const JointCondition& joint : start.joints) {
+    joints.push_back({{"asset", joint.asset},
+                      {"joint", joint.joint},
+                      {"position", Finite(joint.position, place + ".joints")}});
+  }
+  return {{"robot", PoseJson(start.world_from_robot, place + ".robot")},
+          {"placements", placements},
+          {"joints", joints},
+          {"held", start.held}};
+}
+
+Json ToJson(const Subtask& subtask, const std::string& place) {
+  Json attempts = Json::array();
+  for (const Attempt& attempt : subtask.attempts) {
+    attempts.push_back({{"program", LinesJson(attempt.program)},
+                        {"findings", ToJson(attempt.findings, place + ".attempts")}});
+  }
+  return {{"name", subtask.name},
+          {"description", subtask.description},
+          {"program", LinesJson(subtask.program)},
+          {"success", subtask.success},
+          {"start", ToJson(subtask.start, place + ".start")},
+          {"goal", subtask.goal ? ToJson(*subtask.goal, place + ".goal") : Json(nullptr)},
+          {"findings", ToJson(subtask.findings, place + ".findings")},
+          {"attempts", attempts}};
+}
+
+Json ToJson(const Task& task, const std::string& place) {
+  Json subtasks = Json::array();
+  for (std::size_t i = 0; i < task.subtasks.size(); ++i) {
+    subtasks.push_back(ToJson(task.subtasks[i], place + ".subtasks[" + std::to_string(i) + "]"));
+  }
+  return {{"name", task.name},     {"description", task.description},
+          {"source", task.source}, {"assets", task.assets},
+          {"subtasks", subtasks},  {"findings", ToJson(task.findings, place + ".findings")}};
+}
+
+// Relative to `folder` for what lies below it or beside it, so that both can be moved together.
+std::string StoredPath(const std::string& path, const fs::path& folder) {
+  if (path.empty()) return path;
+  const fs::path whole = fs::absolute(path).lexically_normal();
+  const fs::path relative = whole.lexically_relative(fs::absolute(folder / "").lexically_normal());
+  int up = 0;
+  for (const fs::path& step : relative) up += step == ".." ? 1 : 0;
+  return relative.empty() || up > 1 ? whole.string() : relative.string();
+}
+
+// As Json::dump, but numbers that belong together stand in one line.
+void AppendIndented(const Json& json, std::size_t indentation, std::string* text) {
+  const auto leaf = [](const Json& value) { return !value.is_structured() || value.empty(); };
+  const bool numbers = json.is_array() && std::all_of(json.begin(), json.end(),
+                                                      [](const Json& n) { return n.is_number(); });
+  if (leaf(json) || numbers) {
+    std::string line = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    for (std::size_t i = 0; numbers && i < line.size(); ++i) {
+      if (line[i] == ',') line.insert(++i, " ");
+    }
+    *text += line;
+    return;
+  }
+  *text += json.is_array() ? "[" : "{";
+  bool first = true;
+  for (const auto& [key, value] : json.items()) {
+    *text += (first ? "\n" : ",\n") + std::string(indentation + 2, ' ');
+    if (json.is_object()) *text += '"' + key + "\": ";  // keys are the format's own words
+    AppendIndented(value, indentation + 2, text);
+    first = false;
+  }
+  *text += "\n" + std::string(indentation, ' ') + (json.is_array() ? "]" : "}");
+}
+
+}  // namespace
+
+std::string TaskFileText(const TaskSet& set, const fs::path& folder) {
+  Json assets = Json::array();
+  for (const TaskAsset& asset : set.assets) {
+    assets.push_back({{"name", asset.name},
+                      {"path", StoredPath(asset.path, folder)},
+                      {"category", asset.category}});
+  }
+  Json tasks = Json::array();
+  for (std::size_t i = 0; i < set.tasks.size(); ++i) {
+    tasks.push_back(ToJson(set.tasks[i], "tasks[" + std::to_string(i) + "]"));
+  }
+  const Json json = {{"format", task_file::kFormat}, {"assets", assets}, {"tasks", tasks}};
+  std::string text;
+  AppendIndented(json, 0, &text);
+  return text + "\n";
+}
+
+void WriteTaskFile(const TaskSet& set, const fs::path& file) {
+  core::WriteFile(file, TaskFileText(set, file.parent_path()));
+}
+
+}  // namespace simwright::tasks

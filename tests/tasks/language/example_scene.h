@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tasks/language/scene_description.h"
+#include "tasks/reward/reward_program.h"
+#include "tasks/reward_names.h"
+#include "tasks/subtask_verification.h"
+
+namespace simwright::tasks {
+
+// What programs may name of a scene.
+inline RewardScene NamesOfScene(const std::vector<NamedModel>& scene) {
+  RewardScene names;
+  for (const NamedModel& asset : scene) {
+    names.assets.push_back(NamesOf(asset.name, asset.model->model));
+  }
+  return names;
+}
+
+// Finds what the compiler finds, and places each asset at the origin.
+inline VerifySubtask CompilingVerification(const RewardScene& scene) {
+  return [scene](const Task& task, Subtask* subtask) {
+    for (const std::string& asset : task.assets) {
+      subtask->start.placements.push_back({asset, Eigen::Isometry3d::Identity(), false});
+    }
+    return CompileReward(subtask->program, &scene).findings;
+  };
+}
+
+}  // namespace simwright::tasks
