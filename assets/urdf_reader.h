@@ -49,7 +49,7 @@ struct UrdfJoint {
   double friction = 0.0;  // <dynamics>, N m or N: below it a loaded joint holds still
   double effort = 0.0;    // <limit>, N m or N; 0 where the file gives none
   double velocity = 0.0;  // <limit>, rad/s or m/s; 0 where the file gives none
-  std::optional<UrdfMimic> mimic;
+  std::optional<UrdfMimic> mimic = std::nullopt;
 
   bool Moves() const { return type != UrdfJointType::kFixed; }
 };

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "assets/joint_poses.h"
 #include "core/error.h"
 #include "core/mesh.h"
 
