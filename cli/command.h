@@ -35,6 +35,7 @@ void AddImport(CLI::App* app, CommonOptions* common, Run* run);
 void AddPhysics(CLI::App* app, CommonOptions* common, Run* run);
 void AddCheck(CLI::App* app, CommonOptions* common, Run* run);
 void AddPrior(CLI::App* app, CommonOptions* common, Run* run);
+void AddTasks(CLI::App* app, CommonOptions* common, Run* run);
 void AddReward(CLI::App* app, CommonOptions* common, Run* run);
 void AddDoctor(CLI::App* app, CommonOptions* common, Run* run);
 void AddVersion(CLI::App* app, Run* run);

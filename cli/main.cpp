@@ -35,6 +35,7 @@ int Main(int argc, char** argv) {
   cli::AddPhysics(&app, &common, &run);
   cli::AddCheck(&app, &common, &run);
   cli::AddPrior(&app, &common, &run);
+  cli::AddTasks(&app, &common, &run);
   cli::AddReward(&app, &common, &run);
   cli::AddDoctor(&app, &common, &run);
   cli::AddVersion(&app, &run);

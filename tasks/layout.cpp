@@ -31,7 +31,11 @@ double TurnToFront(const Thing& thing) {
   for (const ThingJoint& joint : thing.joints) {
     const auto grip = static_cast<std::size_t>(joint.grip);
     const Eigen::Vector3d point = poses[grip] * thing.links[grip].middle;
-    front += (point.head<2>() - middle).cwiseQuotient(thing.box.sizes().head<2>().cwiseMax(1e-6));
+    // The side that the handle lies on, or stands out of.
+    const Eigen::Vector2d out =
+        (point.head<2>() - middle).cwiseQuotient(thing.box.sizes().head<2>().cwiseMax(1e-6));
+    const int axis = std::abs(out.x()) >= std::abs(out.y()) ? 0 : 1;
+    front[axis] += out[axis] > 0.0 ? 1.0 : -1.0;
   }
   for (const Cavity& cavity : thing.cavities) {
     front += (poses[static_cast<std::size_t>(cavity.link)].linear() * cavity.opening).head<2>();
@@ -130,14 +134,16 @@ class Planner {
       turned.extend(turn * known.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
     }
     const std::vector<Eigen::Vector3d> grips = GripPoints(thing);
-    for (double distance : {0.45, 0.35, 0.55, 0.65, 0.75}) {
-      for (double aside : {0.0, 0.2, -0.2, 0.4, -0.4}) {
+    for (double distance : {0.45, 0.35, 0.55, 0.65, 0.75, 0.9, 1.05}) {
+      for (double aside : {0.0, 0.2, -0.2, 0.4, -0.4, 0.6, -0.6, 0.8, -0.8}) {
         const Eigen::Vector3d shift(distance - turned.min().x(), aside - turned.center().y(),
                                     -turned.min().z());
         const Pose pose = Turned(direction) * Eigen::Translation3d(shift) * turn;
         const bool reached =
             std::all_of(grips.begin(), grips.end(), [&](const Eigen::Vector3d& point) {
-              return Reaches(start_.world_from_robot, pose * point);
+              // What swings must not swing into the robot's base.
+              return (pose * point).head<2>().norm() > kRobotRadius + 0.05 &&
+                     Reaches(start_.world_from_robot, pose * point);
             });
         if (!reached || !IsFree(pose, known.box)) continue;
         Add(thing, pose);

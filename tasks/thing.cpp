@@ -60,14 +60,14 @@ bool IsHandle(const std::string& label) {
   return label == "handle" || label == "knob" || label == "lever" || label == "pull";
 }
 
-// The handle that is fixed to what the joint moves, directly or through fixed links; else the link
-// itself.
+// The handle that goes with what the joint moves, the first one, whether it turns itself or not;
+// else the link itself.
 int GripOf(const Thing& thing, int moved) {
   std::vector<char> carried(thing.links.size(), 0);
   carried[static_cast<std::size_t>(moved)] = 1;
   for (std::size_t i = static_cast<std::size_t>(moved) + 1; i < thing.links.size(); ++i) {
     const ThingLink& link = thing.links[i];
-    if (link.joint >= 0 || !carried[static_cast<std::size_t>(link.parent)]) continue;
+    if (!carried[static_cast<std::size_t>(link.parent)]) continue;
     carried[i] = 1;
     if (IsHandle(link.label) && !link.outline.empty()) return static_cast<int>(i);
   }

@@ -69,6 +69,11 @@ JointUse UseOf(const Thing& thing, const ThingJoint& joint) {
     return JointUse::kOpen;
   }
   if (Holds(name, std::array{"button", "key", "pedal"})) return JointUse::kPress;
+  const int parent = thing.links[static_cast<std::size_t>(joint.link)].parent;
+  const bool on_a_door = parent > 0 && thing.links[static_cast<std::size_t>(parent)].joint >= 0;
+  if (on_a_door && !slides && Holds(name, std::array{"knob", "lever", "handle"})) {
+    return JointUse::kLatch;
+  }
   if (Holds(name, std::array{"knob", "dial", "valve", "tap", "faucet", "wheel"})) {
     return JointUse::kTurn;
   }

@@ -10,6 +10,7 @@ enum class JointUse {
   kOpen,    // open / close: doors, drawers, lids, sashes, screens
   kTurn,    // turn on / turn off: knobs, taps, valves
   kSwitch,  // switch on / switch off
+  kLatch,   // turn / turn back: a door's own handle
   kPress,   // press: buttons, keys, a toaster's lever
 };
 

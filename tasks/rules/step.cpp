@@ -61,6 +61,8 @@ Verbs VerbsOf(JointUse use) {
   switch (use) {
     case JointUse::kTurn:
       return {"Turn on", "turn_on", "Turn off", "turn_off"};
+    case JointUse::kLatch:
+      return {"Turn", "turn", "Turn back", "turn_back"};
     case JointUse::kSwitch:
       return {"Switch on", "switch_on", "Switch off", "switch_off"};
     case JointUse::kPress:

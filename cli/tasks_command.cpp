@@ -1,0 +1,64 @@
+#include <cstdio>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/language_model_options.h"
+#include "pipeline/task_making.h"
+
+namespace simwright::cli {
+namespace {
+
+struct Flags {
+  pipeline::TasksRequest request;
+  LanguageModelOptions language;
+};
+
+int Tasks(const Flags& flags, const CommonOptions& common) {
+  pipeline::TasksRequest request = flags.request;
+  request.seed = common.seed;
+  request.force = common.force;
+  std::unique_ptr<llm::ChatModel> model;
+  if (flags.language.given()) model = MakeLanguageModel(flags.language, common);
+  request.model = model.get();
+  core::Progress progress(common.ProgressStyle());
+  const pipeline::TasksReport report = pipeline::MakeTasks(request, &progress);
+  progress.Finish();
+  if (common.json) {
+    std::fputs(pipeline::TasksJson(report).c_str(), stdout);
+    return report.passed() ? 0 : 1;
+  }
+  if (!common.quiet) std::fputs(pipeline::TasksTable(report).c_str(), stdout);
+  if (model != nullptr && !common.quiet) std::printf("%s\n", UsageLine(model->usage()).c_str());
+  std::printf("%zu tasks: %s\npage: %s\n", report.set.tasks.size(), report.file.c_str(),
+              report.page.c_str());
+  return report.passed() ? 0 : 1;
+}
+
+}  // namespace
+
+void AddTasks(CLI::App* app, CommonOptions* common, Run* run) {
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command =
+      app->add_subcommand("tasks", "Tasks, subtasks and verified reward programs for assets");
+  command->footer(
+      "Examples:\n  simwright tasks microwave mug plate -o tasks.json\n"
+      "  simwright tasks kitchen --llm http://localhost:8080/v1 --count 12 -o tasks.json\n"
+      "A folder of asset folders stands for all of them. Everything is written, sound or not; "
+      "exit\n"
+      "code 1 where a task is not sound, or there is none. docs/tasks.md says more.");
+  command
+      ->add_option("assets", flags->request.assets,
+                   "Asset folders, URDFs, or folders of them, each as PATH or NAME=PATH")
+      ->required();
+  command->add_option("-o,--output", flags->request.output, "The file, tasks.json")->required();
+  command
+      ->add_option("--count", flags->request.count,
+                   "Tasks to make; default: five an asset by rules, 8 of a language model")
+      ->check(CLI::Range(0, 100000));
+  AddLanguageModel(command, &flags->language);
+  AddCommon(command, common);
+  AddForce(command, common);
+  command->callback([flags, common, run] { *run = [=] { return Tasks(*flags, *common); }; });
+}
+
+}  // namespace simwright::cli
