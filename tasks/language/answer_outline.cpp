@@ -226,10 +226,11 @@ class OutlineReader {
     for (ProgramPiece& piece : programs.programs) {
       entries_.push_back({{}, std::move(piece.text), piece.function, piece.title});
     }
-    helpers_.merge(programs.helpers);
+    if (helpers_.size() < kMostHelpers) helpers_.merge(programs.helpers);
   }
 
   static constexpr std::size_t kFarthest = 40;  // lines of preamble before a function
+  static constexpr std::size_t kMostHelpers = 200;
 
   std::vector<std::string> lines_;
   std::size_t at_ = 0;

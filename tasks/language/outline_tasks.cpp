@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::size_t kLongestTitle = 100;  // bytes; what is longer describes
 constexpr std::size_t kMostPlanned = 30;
+// Beyond these nothing more is taken: far more than is kept of an answer.
+constexpr std::size_t kMostTasks = 300, kMostSubtasks = 3000;
 constexpr int kCommentLevel = 9;  // below every heading, above every list
 
 // A heading that names a section of the answer, not a task.
@@ -64,6 +66,8 @@ struct Heading {
 
 class TaskAssembler {
  public:
+  bool full() const { return tasks_.size() >= kMostTasks || subtasks_ >= kMostSubtasks; }
+
   void Take(const OutlineEntry& entry) {
     if (!entry.program.empty()) {
       TakeProgram(entry);
@@ -142,6 +146,7 @@ class TaskAssembler {
   Subtask* AddSubtask(Task* task, const std::string& title) {
     Subtask subtask;
     subtask.name = title;
+    ++subtasks_;
     task->subtasks.push_back(std::move(subtask));
     return &task->subtasks.back();
   }
@@ -420,6 +425,7 @@ class TaskAssembler {
   }
 
   std::vector<Task> tasks_;
+  std::size_t subtasks_ = 0;                     // of all tasks
   std::vector<std::vector<std::string>> plans_;  // of each task: subtasks named in a list
   bool labelled_ = false;                        // the last task was named by its label
   int task_level_ = 0;                           // of its heading; 0: none
@@ -443,7 +449,9 @@ class TaskAssembler {
 
 std::vector<Task> TasksOf(const std::vector<OutlineEntry>& outline) {
   TaskAssembler assembler;
-  for (const OutlineEntry& entry : outline) assembler.Take(entry);
+  for (const OutlineEntry& entry : outline) {
+    if (!assembler.full()) assembler.Take(entry);
+  }
   return assembler.Finish();
 }
 

@@ -465,6 +465,17 @@ TEST(TaskAnswer, EverythingIsBounded) {
   std::string functions;
   for (int i = 0; i < 20000; ++i) functions += "def f" + std::to_string(i) + "(env): return 1, 1\n";
   EXPECT_LE(ReadTaskAnswer(functions).tasks.size(), 100u);
+  // Nothing takes more than its length allows: a thousand times longer would not end.
+  for (const std::string piece :
+       {"Task: a\n", "Subtask: b\n", "1. c\n", "# d\n", "```\n", "```python\nreward = 1\n",
+        "{\"task\": [", "def f(e):\n g(e)\ndef g(e):\n f(e)\n", "import x\n", "# y\n```py\n",
+        "def compute_reward(e):\n return s, s\n", "Task: a\n\n```\ndef r(e): return 1, 1\n```\n",
+        "{\"name\": \"n\", \"reward\": \"return\"}", "    s = s = s return s, s\n"}) {
+    std::string long_one;
+    while (long_one.size() < (1u << 20)) long_one += piece;
+    EXPECT_LE(ReadTaskAnswer(long_one).tasks.size(), 100u);
+    EXPECT_LE(ReadTaskAnswer("Task: t\n" + Function("door") + long_one).tasks.size(), 100u);
+  }
   const TaskAnswer broken = ReadTaskAnswer("Task: \xFF\xFEx\xC3\n" + Function("door"));
   EXPECT_EQ(broken.tasks.at(0).name, "x");
 }
