@@ -153,7 +153,7 @@ std::string TakeMarkdown(std::string_view line, LabelledLine* labelled) {
     labelled->item = true;
     labelled->level = kListLevel + std::min(indentation, 200);
   }
-  std::string plain(Trimmed(text));
+  const std::string plain(Trimmed(text));
   std::string_view end = plain;
   while (end.ends_with(':') || end.ends_with('.')) end.remove_suffix(1);
   const bool bold = end.size() > 4 && ((end.starts_with("**") && end.ends_with("**")) ||
@@ -162,10 +162,15 @@ std::string TakeMarkdown(std::string_view line, LabelledLine* labelled) {
     labelled->heading = true;
     labelled->level = item ? labelled->level : kBoldLevel;
   }
-  for (std::size_t at = plain.find("**"); at != std::string::npos; at = plain.find("**")) {
-    plain.erase(at, 2);
+  std::string without_bold;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    if (plain.compare(i, 2, "**") == 0) {
+      ++i;
+    } else {
+      without_bold += plain[i];
+    }
   }
-  return std::string(Trimmed(plain));
+  return std::string(Trimmed(without_bold));
 }
 
 struct Separated {
