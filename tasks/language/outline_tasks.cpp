@@ -61,6 +61,7 @@ std::string TitlePart(const std::string& text) {
 struct Heading {
   std::string title;
   int level = 0;
+  bool item = false;         // a plain one of a list, that may as well be a reason
   std::ptrdiff_t task = -1;  // the one made of it
 };
 
@@ -196,6 +197,7 @@ class TaskAssembler {
       BeginTask("", 0);
     }
     if (first_number_ == 0) first_number_ = line.number;
+    description_.clear();
     AddSubtask(&tasks_.back(), line.text);
     subtask_open_ = true;
     labelled_ = true;
@@ -219,11 +221,11 @@ class TaskAssembler {
   }
 
   void TakePlan(const LabelledLine& line) {
-    in_plan_ = true;
     if (headings_since_ && (tasks_.empty() || HasProgram(tasks_.back()))) {
       BeginTask(headings_.back().title, headings_.back().level);
-      in_plan_ = true;
     }
+    in_plan_ = labelled_;  // else the list that follows is one like others
+    if (!in_plan_) return;
     std::string_view rest = line.text;
     while (!rest.empty()) {
       const std::size_t end = rest.find_first_of(",;");
@@ -254,8 +256,10 @@ class TaskAssembler {
   }
 
   void TakeHeading(const std::string& title, int level) {
+    const bool section = IsSectionTitle(title) || title.empty() || title.size() > kLongestTitle;
+    if (section && headings_since_) return;  // "### Code" below "### Open the door"
     while (!headings_.empty() && headings_.back().level >= level) headings_.pop_back();
-    if (IsSectionTitle(title) || title.empty() || title.size() > kLongestTitle) return;
+    if (section) return;
     headings_.push_back({title, level});
     headings_since_ = true;
     description_.clear();
@@ -277,7 +281,8 @@ class TaskAssembler {
         outer_item_.reset();
     }
     const std::string title = TitlePart(line.text);
-    if (!title.empty() && title.size() <= kLongestTitle) items_.push_back({title, line.level});
+    if (!title.empty() && title.size() <= kLongestTitle)
+      items_.push_back({title, line.level, true});
   }
 
   void TakePlain(const LabelledLine& line) {
@@ -365,7 +370,7 @@ class TaskAssembler {
       return;
     }
     const std::size_t number = task->subtasks.size();
-    std::string title = above && !(number == 0 && above->level > kCommentLevel) ? above->title : "";
+    std::string title = above && !(number == 0 && above->item) ? above->title : "";
     if (title.empty() && number < plans_.back().size()) title = plans_.back()[number];
     if (title.empty()) title = TitleOfFunction(entry.function);
     if (number == 0 && (title.empty() || !above)) {
@@ -434,7 +439,7 @@ class TaskAssembler {
   bool in_plan_ = false;
   bool listed_programs_ = false;
   std::vector<Heading> headings_;  // that enclose the present line, the outermost first
-  bool headings_since_ = false;    // the last of them stands behind the last program
+  bool headings_since_ = false;    // there is one, and the last stands behind the last program
   std::vector<Heading> items_;     // of the last list, behind the last program
   std::optional<Heading> outer_item_;
   std::deque<Heading> queue_;  // of a list before programs that nothing names
