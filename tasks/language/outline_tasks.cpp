@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tasks/language/answer_text.h"
+#include "tasks/language/answer_titles.h"
 #include "tasks/language/program_blocks.h"
 #include "tasks/language/stated_goal.h"
 
@@ -19,44 +20,6 @@ constexpr std::size_t kMostPlanned = 30;
 // Beyond these nothing more is taken: far more than is kept of an answer.
 constexpr std::size_t kMostTasks = 300, kMostSubtasks = 3000;
 constexpr int kCommentLevel = 9;  // below every heading, above every list
-
-// A heading that names a section of the answer, not a task.
-bool IsSectionTitle(const std::string& title) {
-  const std::string lower = Lower(title);
-  for (const char* word : {"tasks", "reward", "answer", "solution", "python", "output", "overview",
-                           "explanation", "notes", "summary", "assets", "environment",
-                           "instructions", "example", "question", "decomposition", "description"}) {
-    if (lower == word || lower.find(std::string(word) + " function") != std::string::npos) {
-      return true;
-    }
-  }
-  return lower.ends_with(" tasks") || lower.find(" tasks ") != std::string::npos ||
-         lower.starts_with("tasks ") || lower == "code" || lower.ends_with(" code") ||
-         lower == "task" || lower == "reward functions";
-}
-
-// "compute_reward_open_door" says what it is for; "compute_reward_v5" does not.
-std::string TitleOfFunction(std::string name) {
-  for (const std::string_view part :
-       {"compute_reward_for_", "compute_reward_", "reward_for_", "reward_function_", "get_reward_",
-        "calculate_reward_", "reward_", "compute_"}) {
-    if (name.starts_with(part)) {
-      name.erase(0, part.size());
-      break;
-    }
-  }
-  for (const std::string_view part : {"_reward_function", "_reward", "_function"}) {
-    if (name.ends_with(part)) name.erase(name.size() - part.size());
-  }
-  const bool version = name.size() <= 3 && name.find_first_of("0123456789") != std::string::npos;
-  return version || name == "compute_reward" || name == "reward" || name == "compute" ? "" : name;
-}
-
-// "Open the door: pull its handle" -> "Open the door".
-std::string TitlePart(const std::string& text) {
-  const std::size_t colon = text.find(": ");
-  return Unquoted(std::string_view(text).substr(0, colon));
-}
 
 struct Heading {
   std::string title;
@@ -89,10 +52,7 @@ class TaskAssembler {
         TakeDescription(line);
         break;
       case Label::kSuccess:
-        if (Subtask* open = Named())
-          open->success = line.text;
-        else
-          success_ = line.text;
+        *(Named() != nullptr ? &Named()->success : &success_) = line.text;
         break;
       case Label::kGoal:
         goal_ = StatedGoal(line.text);
@@ -275,10 +235,8 @@ class TaskAssembler {
     if (!items_.empty() && items_.back().level != line.level) {
       const Heading enclosing = items_.back();
       items_.clear();
-      if (enclosing.level < line.level)
-        outer_item_ = enclosing;
-      else
-        outer_item_.reset();
+      outer_item_.reset();
+      if (enclosing.level < line.level) outer_item_ = enclosing;
     }
     const std::string title = TitlePart(line.text);
     if (!title.empty() && title.size() <= kLongestTitle)

@@ -7,60 +7,10 @@
 #include <algorithm>
 #include <string>
 
-#include "tasks/reward/reward_program.h"
+#include "tests/tasks/language/answer_shape.h"
 
 namespace simwright::tasks {
 namespace {
-
-// A reward function of `joint`, told from others by it.
-std::string Function(const std::string& joint, const std::string& name = "compute_reward",
-                     const std::string& indent = "") {
-  const std::string lines[] = {
-      "def " + name + "(env):",
-      "    # how far it has come",
-      "    state = env.get_state_by_joint_name(\"oven\", \"" + joint + "\")",
-      "",
-      "    reward = state - torch.norm(",
-      "        env.get_robot_gripper_pose(), dim=-1",
-      "    )",
-      "    success = state > 0.5",
-      "    return reward, success"};
-  std::string text;
-  for (const std::string& line : lines) text += (line.empty() ? "" : indent + line) + "\n";
-  return text;
-}
-
-std::string Fenced(const std::string& code, const std::string& language = "python") {
-  return "```" + language + "\n" + code + "```\n";
-}
-
-// "task(subtask:joint subtask:joint) task(...)"; a program that does not compile has the joint '!',
-// one that is not there '-'.
-std::string Shape(const TaskAnswer& answer) {
-  std::string shape;
-  for (const Task& task : answer.tasks) {
-    shape += (shape.empty() ? "" : " ") + task.name + "(";
-    for (const Subtask& subtask : task.subtasks) {
-      std::string joint = "-";
-      if (!subtask.program.empty()) {
-        const CompileOutcome outcome = CompileReward(subtask.program, nullptr);
-        joint = "!";
-        if (outcome.program) {
-          for (const RewardSlot& slot : outcome.program->slots()) {
-            if (slot.input == RewardInput::kJointState) joint = slot.part;
-          }
-        }
-      }
-      shape += (shape.ends_with('(') ? "" : " ") + subtask.name + ":" + joint;
-    }
-    shape += ")";
-  }
-  return shape;
-}
-
-std::string ShapeOf(const std::string& text) {
-  return Shape(ReadTaskAnswer(text));
-}
 
 bool Has(const core::Findings& findings, const std::string& code) {
   return std::any_of(findings.begin(), findings.end(),
@@ -222,58 +172,6 @@ TEST(TaskAnswer, CodeInsideABulletOfReasons) {
                     "- distance of gripper and handle\n- the angle of the door\n" +
                     Fenced(Function("door"))),
             "OpenDoor(OpenDoor:door)");
-}
-
-TEST(TaskAnswer, Json) {
-  const std::string text =
-      R"json(Here you are: {"tasks": [{"task_name": "Bake bread", "Task Description": "Bake.",
-      "subtasks": [
-        {"name": "open", "description": "Open.", "success": "it is open",
-         "reward_function":
-  "def compute_reward(env):\n    s = env.get_joint_state('oven', 'door')\n    return s, s > 1"},
-        {"subtask": "turn", "code": ["def compute_reward(env):",
-         "    s = env.get_joint_state('oven', 'knob')", "    return s, s > 1"]}]}]} Enjoy.)json";
-  const TaskAnswer answer = ReadTaskAnswer(text);
-  EXPECT_EQ(Shape(answer), "Bake_bread(open:door turn:knob)");
-  EXPECT_EQ(answer.tasks[0].subtasks[0].success, "it is open");
-  EXPECT_EQ(answer.tasks[0].subtasks[1].success, "s > 1");
-  EXPECT_EQ(answer.tasks[0].description, "Bake.");
-}
-
-TEST(TaskAnswer, JsonOfManyShapes) {
-  const std::string program =
-      "def compute_reward(env):\\n    s = env.get_state_by_joint_name("
-      "'oven', 'door')\\n    return s, s > 1";
-  EXPECT_EQ(ShapeOf("```json\n[{\"name\": \"a\", \"reward\": \"" + program +
-                    "\"}, {\"name\": "
-                    "\"b\", \"program\": \"" +
-                    program + "\"}]\n```"),
-            "a(a:door) b(b:door)");
-  EXPECT_EQ(ShapeOf("{\"zeta\": {\"code\": \"" + program +
-                    "\"}, \"alpha\": {\"subtasks\": "
-                    "{\"two\": \"" +
-                    program + "\", \"one\": \"" + program + "\"}}}"),
-            "zeta(zeta:door) alpha(two:door one:door)");
-  EXPECT_EQ(ShapeOf("{\"task\": \"t\", \"subtasks\": [\"x\", \"y\"], \"reward_functions\": [\"" +
-                    program + "\", {\"code\": \"" + program + "\"}]}"),
-            "t(x:door y:door)");
-  EXPECT_EQ(ShapeOf("{\"task\": \"t\", \"reward\": \"```python\\n" + program + "\\n```\",}"),
-            "t(t:door)");
-}
-
-TEST(TaskAnswer, JsonWithLineBreaksAndTripleQuotes) {
-  EXPECT_EQ(ShapeOf("{\"task\": \"t\", \"reward\": \"def compute_reward(env):\n    s = "
-                    "env.get_state_by_joint_name('oven', 'door')\n    return s, s > 1\n\"}"),
-            "t(t:door)");
-  EXPECT_EQ(ShapeOf("{\"task\": \"t\", \"reward\": \"\"\"\n" + Function("door") + "\"\"\"}"),
-            "t(t:door)");
-}
-
-TEST(TaskAnswer, APlanInJsonAndTheFunctionsBelowIt) {
-  EXPECT_EQ(ShapeOf("```json\n[{\"task\": \"bake\", \"subtasks\": [\"open\", {\"name\": "
-                    "\"turn\"}]}]\n```\nThe functions:\n" +
-                    Fenced(Function("door")) + Fenced(Function("knob"))),
-            "bake(open:door turn:knob)");
 }
 
 TEST(TaskAnswer, ListsInBoldUnderAPlan) {
