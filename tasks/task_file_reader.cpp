@@ -33,7 +33,8 @@ class Value {
   // Throws unless this is an object of exactly these members.
   void RequireMembers(std::initializer_list<const char*> names) const {
     if (!json_.is_object()) Fail("should be an object");
-    for (const auto& [key, value] : json_.items()) {
+    for (const auto& member : json_.items()) {
+      const std::string& key = member.key();
       const bool known =
           std::any_of(names.begin(), names.end(), [&](const char* name) { return key == name; });
       if (!known) Fail("'" + key.substr(0, 40) + "' is no member that is known here");

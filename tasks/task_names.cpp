@@ -49,6 +49,13 @@ std::string Folded(std::string text) {
   return text;
 }
 
+// The start of `text`, at most `bytes` long, no character cut.
+std::string WholeCharacters(const std::string& text, std::size_t bytes) {
+  if (text.size() <= bytes) return text;
+  while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0) == 0x80) --bytes;
+  return text.substr(0, bytes);
+}
+
 }  // namespace
 
 std::string SafeName(std::string_view title) {
@@ -77,7 +84,8 @@ std::string SafeName(std::string_view title) {
 std::string UniqueName(const std::string& name, std::set<std::string>* taken) {
   std::string unique = name;
   for (int i = 2; !taken->insert(Folded(unique)).second; ++i) {
-    unique = name + "_" + std::to_string(i);
+    const std::string suffix = "_" + std::to_string(i);
+    unique = WholeCharacters(name, kLongest - suffix.size()) + suffix;
   }
   return unique;
 }

@@ -11,7 +11,8 @@ namespace simwright::tasks {
 // 64 bytes of whole characters, begins with a letter or digit; empty where nothing is left.
 std::string SafeName(std::string_view title);
 
-// `name`, or `name_2`, `name_3` ... where that is taken; what it returns is added to `taken`.
+// `name`, or `name_2`, `name_3` ... where that is taken, within 64 bytes; what it returns is added
+// to `taken`.
 // Names that differ in the case of ASCII letters alone count as one: some file systems hold only
 // one of them.
 std::string UniqueName(const std::string& name, std::set<std::string>* taken);

@@ -153,7 +153,7 @@ std::string TakeMarkdown(std::string_view line, LabelledLine* labelled) {
     labelled->item = true;
     labelled->level = kListLevel + std::min(indentation, 200);
   }
-  std::string plain(Trimmed(text));
+  const std::string plain(Trimmed(text));
   std::string_view end = plain;
   while (end.ends_with(':') || end.ends_with('.')) end.remove_suffix(1);
   const bool bold = end.size() > 4 && ((end.starts_with("**") && end.ends_with("**")) ||
@@ -162,10 +162,15 @@ std::string TakeMarkdown(std::string_view line, LabelledLine* labelled) {
     labelled->heading = true;
     labelled->level = item ? labelled->level : kBoldLevel;
   }
-  for (std::size_t at = plain.find("**"); at != std::string::npos; at = plain.find("**")) {
-    plain.erase(at, 2);
+  std::string without_bold;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    if (plain.compare(i, 2, "**") == 0) {
+      ++i;
+    } else {
+      without_bold += plain[i];
+    }
   }
-  return std::string(Trimmed(plain));
+  return std::string(Trimmed(without_bold));
 }
 
 struct Separated {
@@ -183,8 +188,9 @@ Separated TakeSeparator(std::string_view* text) {
   return {};
 }
 
-// The number of "Task #2", "Task 2.1" (its last part), and Chinese ones up to ten.
-int TakeLabelNumber(std::string_view* text) {
+// The number of "Task #2", "Task 2.1" (its last part; `parts` says how many), and Chinese ones up
+// to ten.
+int TakeLabelNumber(std::string_view* text, int* parts) {
   *text = Trimmed(*text);
   Skip("#", text);
   constexpr std::array<std::string_view, 10> kChinese = {"一", "二", "三", "四", "五",
@@ -193,7 +199,7 @@ int TakeLabelNumber(std::string_view* text) {
     if (Skip(kChinese[i], text)) return static_cast<int>(i) + 1;
   }
   int number = TakeNumber(text);
-  while (text->size() > 1 && ((*text)[0] == '.' || (*text)[0] == '-') && IsDigit((*text)[1])) {
+  for (*parts = 1; text->size() > 1 && (*text)[0] == '.' && IsDigit((*text)[1]); ++*parts) {
     text->remove_prefix(1);
     number = TakeNumber(text);
   }
@@ -202,11 +208,11 @@ int TakeLabelNumber(std::string_view* text) {
 
 // Reads what stands behind the label's word; false where the word begins a mere sentence.
 bool ReadBehind(Label label, std::string_view rest, LabelledLine* line) {
-  const bool numbered = label == Label::kTask || label == Label::kSubtask;
-  const int number = numbered || label == Label::kSuccess || label == Label::kDescription ||
-                             label == Label::kTaskDescription || label == Label::kSubtaskDescription
-                         ? TakeLabelNumber(&rest)
-                         : 0;
+  line->label = label;
+  int parts = 1;
+  const bool numbered = label != Label::kGoal && label != Label::kCode;
+  const int number = numbered ? TakeLabelNumber(&rest, &parts) : 0;
+  if (label == Label::kTask && parts > 1) line->label = Label::kSubtask;  // "Task 2.1"
   if (label == Label::kCode) {
     std::string_view of = Trimmed(rest);
     if (Skip("for ", &of) || Skip("of ", &of)) {
@@ -245,10 +251,8 @@ LabelledLine ReadLabel(std::string_view line) {
     if (!lower.starts_with(word.text)) continue;
     const std::string_view rest = std::string_view(plain).substr(word.text.size());
     if (!rest.empty() && ((rest[0] >= 'a' && rest[0] <= 'z') || rest[0] == '_')) continue;
-    if (ReadBehind(word.label, rest, &labelled)) {
-      labelled.label = word.label;
-      return labelled;
-    }
+    if (ReadBehind(word.label, rest, &labelled)) return labelled;
+    labelled.label = Label::kNone;
   }
   std::string_view text = plain;
   if (labelled.heading || labelled.item) {  // "Step 2: ..." is numbered, no more

@@ -161,9 +161,11 @@ class OutlineReader {
     for (std::size_t next = at_ + 1; next < lines_.size(); ++next) {
       const std::string& follows = lines_[next];
       if (BeginsFunction(follows)) return true;
-      const bool part = IsBlank(follows) || IsImport(follows) || follows.starts_with("#") ||
-                        IsConstant(follows) || (fenced_ && Indentation(follows) > 0);
-      if (!part || IsMark(ReadLabel(follows).label) || next > at_ + kFarthest) return false;
+      if (next > at_ + kFarthest) return false;
+      if (IsBlank(follows) || IsImport(follows)) continue;
+      const bool part =
+          follows.starts_with("#") || IsConstant(follows) || (fenced_ && Indentation(follows) > 0);
+      if (!part || IsMark(ReadLabel(follows).label)) return false;
     }
     return false;
   }
@@ -226,10 +228,11 @@ class OutlineReader {
     for (ProgramPiece& piece : programs.programs) {
       entries_.push_back({{}, std::move(piece.text), piece.function, piece.title});
     }
-    helpers_.merge(programs.helpers);
+    if (helpers_.size() < kMostHelpers) helpers_.merge(programs.helpers);
   }
 
-  static constexpr std::size_t kFarthest = 40;  // lines of preamble before a function
+  static constexpr std::size_t kFarthest = 20;  // lines of preamble before a function
+  static constexpr std::size_t kMostHelpers = 200;
 
   std::vector<std::string> lines_;
   std::size_t at_ = 0;

@@ -151,7 +151,9 @@ void AddProgramsBeside(const Json& object, std::vector<Subtask>* subtasks) {
       object, {"rewardfunctions", "rewards", "programs", "functions", "rewardfunction", "reward"});
   if (beside == nullptr || !(beside->is_array() || beside->is_object())) return;
   std::size_t next = 0;
-  for (const auto& [key, value] : beside->items()) {
+  for (const auto& member : beside->items()) {
+    const std::string& key = member.key();
+    const Json& value = member.value();
     const auto named = std::find_if(subtasks->begin(), subtasks->end(), [&](const Subtask& s) {
       return beside->is_object() && Lower(s.name) == Lower(key);
     });

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tasks/language/answer_text.h"
+#include "tasks/language/answer_titles.h"
 #include "tasks/language/program_blocks.h"
 #include "tasks/language/stated_goal.h"
 
@@ -16,54 +17,21 @@ namespace {
 
 constexpr std::size_t kLongestTitle = 100;  // bytes; what is longer describes
 constexpr std::size_t kMostPlanned = 30;
+// Beyond these nothing more is taken: far more than is kept of an answer.
+constexpr std::size_t kMostTasks = 300, kMostSubtasks = 3000;
 constexpr int kCommentLevel = 9;  // below every heading, above every list
-
-// A heading that names a section of the answer, not a task.
-bool IsSectionTitle(const std::string& title) {
-  const std::string lower = Lower(title);
-  for (const char* word : {"tasks", "reward", "answer", "solution", "python", "output", "overview",
-                           "explanation", "notes", "summary", "assets", "environment",
-                           "instructions", "example", "question", "decomposition", "description"}) {
-    if (lower == word || lower.find(std::string(word) + " function") != std::string::npos) {
-      return true;
-    }
-  }
-  return lower.ends_with(" tasks") || lower.find(" tasks ") != std::string::npos ||
-         lower.starts_with("tasks ") || lower == "code" || lower.ends_with(" code") ||
-         lower == "task" || lower == "reward functions";
-}
-
-// "compute_reward_open_door" says what it is for; "compute_reward_v5" does not.
-std::string TitleOfFunction(std::string name) {
-  for (const std::string_view part :
-       {"compute_reward_for_", "compute_reward_", "reward_for_", "reward_function_", "get_reward_",
-        "calculate_reward_", "reward_", "compute_"}) {
-    if (name.starts_with(part)) {
-      name.erase(0, part.size());
-      break;
-    }
-  }
-  for (const std::string_view part : {"_reward_function", "_reward", "_function"}) {
-    if (name.ends_with(part)) name.erase(name.size() - part.size());
-  }
-  const bool version = name.size() <= 3 && name.find_first_of("0123456789") != std::string::npos;
-  return version || name == "compute_reward" || name == "reward" || name == "compute" ? "" : name;
-}
-
-// "Open the door: pull its handle" -> "Open the door".
-std::string TitlePart(const std::string& text) {
-  const std::size_t colon = text.find(": ");
-  return Unquoted(std::string_view(text).substr(0, colon));
-}
 
 struct Heading {
   std::string title;
   int level = 0;
+  bool item = false;         // a plain one of a list, that may as well be a reason
   std::ptrdiff_t task = -1;  // the one made of it
 };
 
 class TaskAssembler {
  public:
+  bool full() const { return tasks_.size() >= kMostTasks || subtasks_ >= kMostSubtasks; }
+
   void Take(const OutlineEntry& entry) {
     if (!entry.program.empty()) {
       TakeProgram(entry);
@@ -84,10 +52,7 @@ class TaskAssembler {
         TakeDescription(line);
         break;
       case Label::kSuccess:
-        if (Subtask* open = Named())
-          open->success = line.text;
-        else
-          success_ = line.text;
+        *(Named() != nullptr ? &Named()->success : &success_) = line.text;
         break;
       case Label::kGoal:
         goal_ = StatedGoal(line.text);
@@ -142,6 +107,7 @@ class TaskAssembler {
   Subtask* AddSubtask(Task* task, const std::string& title) {
     Subtask subtask;
     subtask.name = title;
+    ++subtasks_;
     task->subtasks.push_back(std::move(subtask));
     return &task->subtasks.back();
   }
@@ -191,6 +157,7 @@ class TaskAssembler {
       BeginTask("", 0);
     }
     if (first_number_ == 0) first_number_ = line.number;
+    description_.clear();
     AddSubtask(&tasks_.back(), line.text);
     subtask_open_ = true;
     labelled_ = true;
@@ -214,11 +181,11 @@ class TaskAssembler {
   }
 
   void TakePlan(const LabelledLine& line) {
-    in_plan_ = true;
     if (headings_since_ && (tasks_.empty() || HasProgram(tasks_.back()))) {
       BeginTask(headings_.back().title, headings_.back().level);
-      in_plan_ = true;
     }
+    in_plan_ = labelled_;  // else the list that follows is one like others
+    if (!in_plan_) return;
     std::string_view rest = line.text;
     while (!rest.empty()) {
       const std::size_t end = rest.find_first_of(",;");
@@ -249,8 +216,10 @@ class TaskAssembler {
   }
 
   void TakeHeading(const std::string& title, int level) {
+    const bool section = IsSectionTitle(title) || title.empty() || title.size() > kLongestTitle;
+    if (section && headings_since_) return;  // "### Code" below "### Open the door"
     while (!headings_.empty() && headings_.back().level >= level) headings_.pop_back();
-    if (IsSectionTitle(title) || title.empty() || title.size() > kLongestTitle) return;
+    if (section) return;
     headings_.push_back({title, level});
     headings_since_ = true;
     description_.clear();
@@ -266,13 +235,12 @@ class TaskAssembler {
     if (!items_.empty() && items_.back().level != line.level) {
       const Heading enclosing = items_.back();
       items_.clear();
-      if (enclosing.level < line.level)
-        outer_item_ = enclosing;
-      else
-        outer_item_.reset();
+      outer_item_.reset();
+      if (enclosing.level < line.level) outer_item_ = enclosing;
     }
     const std::string title = TitlePart(line.text);
-    if (!title.empty() && title.size() <= kLongestTitle) items_.push_back({title, line.level});
+    if (!title.empty() && title.size() <= kLongestTitle)
+      items_.push_back({title, line.level, true});
   }
 
   void TakePlain(const LabelledLine& line) {
@@ -360,7 +328,7 @@ class TaskAssembler {
       return;
     }
     const std::size_t number = task->subtasks.size();
-    std::string title = above && !(number == 0 && above->level > kCommentLevel) ? above->title : "";
+    std::string title = above && !(number == 0 && above->item) ? above->title : "";
     if (title.empty() && number < plans_.back().size()) title = plans_.back()[number];
     if (title.empty()) title = TitleOfFunction(entry.function);
     if (number == 0 && (title.empty() || !above)) {
@@ -420,6 +388,7 @@ class TaskAssembler {
   }
 
   std::vector<Task> tasks_;
+  std::size_t subtasks_ = 0;                     // of all tasks
   std::vector<std::vector<std::string>> plans_;  // of each task: subtasks named in a list
   bool labelled_ = false;                        // the last task was named by its label
   int task_level_ = 0;                           // of its heading; 0: none
@@ -428,7 +397,7 @@ class TaskAssembler {
   bool in_plan_ = false;
   bool listed_programs_ = false;
   std::vector<Heading> headings_;  // that enclose the present line, the outermost first
-  bool headings_since_ = false;    // the last of them stands behind the last program
+  bool headings_since_ = false;    // there is one, and the last stands behind the last program
   std::vector<Heading> items_;     // of the last list, behind the last program
   std::optional<Heading> outer_item_;
   std::deque<Heading> queue_;  // of a list before programs that nothing names
@@ -443,7 +412,9 @@ class TaskAssembler {
 
 std::vector<Task> TasksOf(const std::vector<OutlineEntry>& outline) {
   TaskAssembler assembler;
-  for (const OutlineEntry& entry : outline) assembler.Take(entry);
+  for (const OutlineEntry& entry : outline) {
+    if (!assembler.full()) assembler.Take(entry);
+  }
   return assembler.Finish();
 }
 

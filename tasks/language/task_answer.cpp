@@ -7,6 +7,7 @@
 #include "tasks/language/answer_text.h"
 #include "tasks/language/json_tasks.h"
 #include "tasks/language/outline_tasks.h"
+#include "tasks/language/program_blocks.h"
 #include "tasks/task_names.h"
 
 namespace simwright::tasks {
@@ -21,6 +22,26 @@ std::size_t ProgramsOf(const std::vector<Task>& tasks) {
     for (const Subtask& subtask : task.subtasks) programs += subtask.program.empty() ? 0 : 1;
   }
   return programs;
+}
+
+// The programs of `from` in order to the subtasks of `tasks`, where they are as many: some plan in
+// JSON and write the functions below it.
+void FillInOrder(const std::vector<Task>& from, std::vector<Task>* tasks) {
+  std::vector<std::string> programs;
+  for (const Task& task : from) {
+    for (const Subtask& subtask : task.subtasks) {
+      if (!subtask.program.empty()) programs.push_back(subtask.program);
+    }
+  }
+  std::vector<Subtask*> subtasks;
+  for (Task& task : *tasks) {
+    for (Subtask& subtask : task.subtasks) subtasks.push_back(&subtask);
+  }
+  if (programs.size() != subtasks.size() || ProgramsOf(*tasks) > 0) return;
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    subtasks[i]->program = programs[i];
+    if (subtasks[i]->success.empty()) subtasks[i]->success = SuccessOf(programs[i]);
+  }
 }
 
 // Whole characters of `text` within the bound.
@@ -109,6 +130,7 @@ TaskAnswer ReadTaskAnswer(std::string_view answer) {
   }
   read.tasks = TasksOf(OutlineOf(plain));
   std::vector<Task> in_json = TasksInJson(plain);
+  FillInOrder(read.tasks, &in_json);
   if (!in_json.empty() && ProgramsOf(in_json) >= ProgramsOf(read.tasks)) {
     read.tasks = std::move(in_json);
   }

@@ -121,7 +121,7 @@ class TaskGeneration {
     std::vector<std::string> have;
     for (const Task& task : result_.tasks) have.push_back(task.name);
     llm::ChatRequest request = TaskQuestion(description_, count, have);
-    std::vector<Task> named_only;  // what an answer without programs proposed
+    std::vector<Task> proposed;
     for (int attempt = 0; attempt < 2; ++attempt) {
       const std::optional<std::string> text = Ask(&request);
       if (!text) break;
@@ -131,14 +131,15 @@ class TaskGeneration {
       }
       Report(answer.findings, request.task);
       if (answer.has_program()) {
-        named_only = std::move(answer.tasks);
+        proposed = std::move(answer.tasks);
         break;
       }
-      if (!answer.tasks.empty()) named_only = std::move(answer.tasks);
+      if (!answer.tasks.empty()) proposed = std::move(answer.tasks);
+      proposed_ = proposed_ || !proposed.empty();
       request.messages.push_back({llm::Role::kUser, AskForTasksAgain(), {}});
     }
-    proposed_ = proposed_ || !named_only.empty();
-    return New(std::move(named_only));
+    proposed_ = proposed_ || !proposed.empty();
+    return New(std::move(proposed));
   }
 
   // Under names that are unlike those of the tasks before.

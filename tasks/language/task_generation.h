@@ -47,7 +47,7 @@ struct GeneratedTasks {
 //
 // Throws core::Error where the options are not valid, an asset's name cannot be one, or the model
 // fails before there is a task; core::Cancelled after Ctrl-C at any time: a transcript holds the
-// answers so far.
+// answers so far; and what `verify` throws.
 GeneratedTasks GenerateTasksByModel(std::span<const NamedModel> scene,
                                     const TaskGenerationOptions& options, llm::ChatModel* model,
                                     const VerifySubtask& verify,

@@ -33,6 +33,9 @@ TEST(TaskNames, AreMadeUnique) {
   EXPECT_EQ(UniqueName("Open", &taken), "Open_2");
   EXPECT_EQ(UniqueName("open", &taken), "open_3");
   EXPECT_EQ(UniqueName("open_2", &taken), "open_2_2");
+  const std::string longest(64, 'a');
+  EXPECT_EQ(UniqueName(longest, &taken), longest);
+  EXPECT_EQ(UniqueName(longest, &taken), std::string(62, 'a') + "_2");
 }
 
 TEST(TaskNames, OfAssets) {

@@ -115,7 +115,7 @@ TEST(SceneDescription, FiveHundredJointsAreCutToTheMovableOnes) {
   const SceneDescription description = DescribeScene(scene);
   EXPECT_EQ(Count(description.text, "link_name:"), 200);
   EXPECT_EQ(Count(description.text, "\"flap_"), 188 + 5);  // links; joints are "to_flap_"
-  EXPECT_EQ(Count(description.text, "\"trim_"), 5);                // the small one is whole
+  EXPECT_EQ(Count(description.text, "\"trim_"), 5);        // the small one is whole
   ASSERT_EQ(description.findings.size(), 1u);
   EXPECT_EQ(description.findings[0].place, "large");
   EXPECT_EQ(description.findings[0].figure, 501 - 189);

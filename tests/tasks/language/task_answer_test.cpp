@@ -7,60 +7,10 @@
 #include <algorithm>
 #include <string>
 
-#include "tasks/reward/reward_program.h"
+#include "tests/tasks/language/answer_shape.h"
 
 namespace simwright::tasks {
 namespace {
-
-// A reward function of `joint`, told from others by it.
-std::string Function(const std::string& joint, const std::string& name = "compute_reward",
-                     const std::string& indent = "") {
-  const std::string lines[] = {
-      "def " + name + "(env):",
-      "    # how far it has come",
-      "    state = env.get_state_by_joint_name(\"oven\", \"" + joint + "\")",
-      "",
-      "    reward = state - torch.norm(",
-      "        env.get_robot_gripper_pose(), dim=-1",
-      "    )",
-      "    success = state > 0.5",
-      "    return reward, success"};
-  std::string text;
-  for (const std::string& line : lines) text += (line.empty() ? "" : indent + line) + "\n";
-  return text;
-}
-
-std::string Fenced(const std::string& code, const std::string& language = "python") {
-  return "```" + language + "\n" + code + "```\n";
-}
-
-// "task(subtask:joint subtask:joint) task(...)"; a program that does not compile has the joint '!',
-// one that is not there '-'.
-std::string Shape(const TaskAnswer& answer) {
-  std::string shape;
-  for (const Task& task : answer.tasks) {
-    shape += (shape.empty() ? "" : " ") + task.name + "(";
-    for (const Subtask& subtask : task.subtasks) {
-      std::string joint = "-";
-      if (!subtask.program.empty()) {
-        const CompileOutcome outcome = CompileReward(subtask.program, nullptr);
-        joint = "!";
-        if (outcome.program) {
-          for (const RewardSlot& slot : outcome.program->slots()) {
-            if (slot.input == RewardInput::kJointState) joint = slot.part;
-          }
-        }
-      }
-      shape += (shape.ends_with('(') ? "" : " ") + subtask.name + ":" + joint;
-    }
-    shape += ")";
-  }
-  return shape;
-}
-
-std::string ShapeOf(const std::string& text) {
-  return Shape(ReadTaskAnswer(text));
-}
 
 bool Has(const core::Findings& findings, const std::string& code) {
   return std::any_of(findings.begin(), findings.end(),
@@ -121,6 +71,13 @@ TEST(TaskAnswer, HeadingsWithoutLabels) {
                     Fenced(Function("door")) + "### Turn the knob\n" + Fenced(Function("knob")) +
                     "## Pull the rack\n" + Fenced(Function("rack"))),
             "Bake_bread(Open_the_door:door Turn_the_knob:knob) Pull_the_rack(Pull_the_rack:rack)");
+}
+
+TEST(TaskAnswer, SectionsOfATaskAreNoTasks) {
+  EXPECT_EQ(
+      ShapeOf("## Open the door\n## Reward function\n" + Fenced(Function("door")) +
+              "# Tasks\n### Subtasks:\n- Turn the knob\n### Code\n" + Fenced(Function("knob"))),
+      "Open_the_door(Open_the_door:door) Turn_the_knob(Turn_the_knob:knob)");
 }
 
 TEST(TaskAnswer, BoldHeadings) {
@@ -217,49 +174,35 @@ TEST(TaskAnswer, CodeInsideABulletOfReasons) {
             "OpenDoor(OpenDoor:door)");
 }
 
-TEST(TaskAnswer, Json) {
-  const std::string text =
-      R"json(Here you are: {"tasks": [{"task_name": "Bake bread", "Task Description": "Bake.",
-      "subtasks": [
-        {"name": "open", "description": "Open.", "success": "it is open",
-         "reward_function":
-  "def compute_reward(env):\n    s = env.get_joint_state('oven', 'door')\n    return s, s > 1"},
-        {"subtask": "turn", "code": ["def compute_reward(env):",
-         "    s = env.get_joint_state('oven', 'knob')", "    return s, s > 1"]}]}]} Enjoy.)json";
-  const TaskAnswer answer = ReadTaskAnswer(text);
-  EXPECT_EQ(Shape(answer), "Bake_bread(open:door turn:knob)");
-  EXPECT_EQ(answer.tasks[0].subtasks[0].success, "it is open");
-  EXPECT_EQ(answer.tasks[0].subtasks[1].success, "s > 1");
-  EXPECT_EQ(answer.tasks[0].description, "Bake.");
+TEST(TaskAnswer, ListsInBoldUnderAPlan) {
+  const TaskAnswer answer = ReadTaskAnswer(
+      "### Task 1: Bake bread\n**Task Description:** Bake.\n\n**Subtask Decomposition:**\n\n1. "
+      "**Open the door**\n   - Description: Pull.\n   - Reward function:\n   ```python\n" +
+      Function("door", "compute_reward", "   ") +
+      "   ```\n   This pulls it open.\n2. **Turn the "
+      "knob**\n   - Reward function:\n   ```python\n" +
+      Function("knob", "compute_reward", "   ") + "   ```\n");
+  EXPECT_EQ(Shape(answer), "Bake_bread(Open_the_door:door Turn_the_knob:knob)");
+  EXPECT_EQ(answer.tasks[0].subtasks[0].description, "Pull.");
+  EXPECT_EQ(answer.tasks[0].subtasks[1].description, "Turn the knob");
 }
 
-TEST(TaskAnswer, JsonOfManyShapes) {
-  const std::string program =
-      "def compute_reward(env):\\n    s = env.get_state_by_joint_name("
-      "'oven', 'door')\\n    return s, s > 1";
-  EXPECT_EQ(ShapeOf("```json\n[{\"name\": \"a\", \"reward\": \"" + program +
-                    "\"}, {\"name\": "
-                    "\"b\", \"program\": \"" +
-                    program + "\"}]\n```"),
-            "a(a:door) b(b:door)");
-  EXPECT_EQ(ShapeOf("{\"zeta\": {\"code\": \"" + program +
-                    "\"}, \"alpha\": {\"subtasks\": "
-                    "{\"two\": \"" +
-                    program + "\", \"one\": \"" + program + "\"}}}"),
-            "zeta(zeta:door) alpha(two:door one:door)");
-  EXPECT_EQ(ShapeOf("{\"task\": \"t\", \"subtasks\": [\"x\", \"y\"], \"reward_functions\": [\"" +
-                    program + "\", {\"code\": \"" + program + "\"}]}"),
-            "t(x:door y:door)");
-  EXPECT_EQ(ShapeOf("{\"task\": \"t\", \"reward\": \"```python\\n" + program + "\\n```\",}"),
-            "t(t:door)");
+TEST(TaskAnswer, NumbersOfTwoParts) {
+  const TaskAnswer answer = ReadTaskAnswer(
+      "Task 1: Bake\nTask 1.1: Open\n" + Fenced(Function("door")) + "It pulls.\nTask 1.2: Turn\n" +
+      Fenced(Function("knob")) + "Task 2: Pull\nTask 2.1: Pull it\n" + Fenced(Function("rack")));
+  EXPECT_EQ(Shape(answer), "Bake(Open:door Turn:knob) Pull(Pull_it:rack)");
+  EXPECT_EQ(answer.tasks[0].subtasks[1].description, "Turn");
 }
 
-TEST(TaskAnswer, JsonWithLineBreaksAndTripleQuotes) {
-  EXPECT_EQ(ShapeOf("{\"task\": \"t\", \"reward\": \"def compute_reward(env):\n    s = "
-                    "env.get_state_by_joint_name('oven', 'door')\n    return s, s > 1\n\"}"),
-            "t(t:door)");
-  EXPECT_EQ(ShapeOf("{\"task\": \"t\", \"reward\": \"\"\"\n" + Function("door") + "\"\"\"}"),
-            "t(t:door)");
+// As the paper's listing: an overview with a composed task, then each step with its function.
+TEST(TaskAnswer, AnOverviewWithADecomposition) {
+  EXPECT_EQ(ShapeOf("The following tasks can be done here:\n1. Open the Oven\n2. Bake Bread\n   - "
+                    "This task needs sub-tasks:\n   - Open the Oven\n   - Turn the Knob\n\nTask: "
+                    "OpenOven\nTask Description: open the oven\n" +
+                    Function("door") + "\nTask: TurnKnob\nTask Description: turn the knob\n" +
+                    Function("knob")),
+            "OpenOven(OpenOven:door) TurnKnob(TurnKnob:knob)");
 }
 
 TEST(TaskAnswer, WindowsLineEndsAndQuotedMail) {
@@ -465,6 +408,16 @@ TEST(TaskAnswer, EverythingIsBounded) {
   std::string functions;
   for (int i = 0; i < 20000; ++i) functions += "def f" + std::to_string(i) + "(env): return 1, 1\n";
   EXPECT_LE(ReadTaskAnswer(functions).tasks.size(), 100u);
+  // Nothing takes more than its length allows: a thousand times longer would not end.
+  for (const std::string piece :
+       {"Task: a\n", "Subtask: b\n", "1. c\n", "# d\n", "```\n", "```python\nreward = 1\n",
+        "{\"task\": [", "def f(e):\n g(e)\ndef g(e):\n f(e)\n", "import x\n", "# y\n```py\n",
+        "def compute_reward(e):\n return s, s\n", "Task: a\n\n```\ndef r(e): return 1, 1\n```\n",
+        "{\"name\": \"n\", \"reward\": \"return\"}", "    s = s = s return s, s\n"}) {
+    std::string long_one;
+    while (long_one.size() < (1u << 20)) long_one += piece;
+    EXPECT_LE(ReadTaskAnswer(long_one).tasks.size(), 100u);
+  }
   const TaskAnswer broken = ReadTaskAnswer("Task: \xFF\xFEx\xC3\n" + Function("door"));
   EXPECT_EQ(broken.tasks.at(0).name, "x");
 }

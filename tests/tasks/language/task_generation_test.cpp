@@ -201,6 +201,20 @@ TEST_F(TaskGeneration, AServerThatFailsLaterLosesNothing) {
   EXPECT_EQ(server.bodies().size(), 3u);
 }
 
+TEST_F(TaskGeneration, TasksThatWereOnlyNamedOutliveTheServer) {
+  llm::ChatServer server([](int number, const httplib::Request&, httplib::Response& response) {
+    response.status = number == 0 ? 200 : 403;
+    response.set_content(number == 0 ? llm::GoodBody("Task: open\nSubtasks: pull, turn\n") : "{}",
+                         "application/json");
+  });
+  const GeneratedTasks made = GenerateFrom(&server);
+  ASSERT_EQ(made.tasks.size(), 1u);
+  EXPECT_EQ(made.tasks[0].subtasks.size(), 2u);
+  EXPECT_FALSE(made.tasks[0].sound());
+  EXPECT_EQ(CountOf(made.findings, "llm-failed"), 1);
+  EXPECT_EQ(CountOf(made.findings, "llm-gave-up"), 2);
+}
+
 TEST_F(TaskGeneration, AServerThatFailsAtOnceIsAnError) {
   llm::ChatServer server([](int, const httplib::Request&, httplib::Response& response) {
     response.status = 403;

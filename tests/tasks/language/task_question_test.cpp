@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tasks/language/api_listing.h"
 #include "tasks/language/task_answer.h"
@@ -47,6 +50,53 @@ TEST(WorkedExample, IsReadAndCompilesWithoutAFinding) {
     EXPECT_TRUE(outcome.program->has_success());
     EXPECT_FALSE(subtask.description.empty());
     EXPECT_FALSE(subtask.success.empty());
+  }
+}
+
+// Reward and success of a program where each input of a kind has the given numbers.
+std::pair<float, bool> RunOn(const std::string& source,
+                             const std::map<RewardInput, std::vector<float>>& numbers) {
+  const RewardScene scene = NamesOfScene(ExampleScene());
+  const CompileOutcome outcome = CompileReward(source, &scene);
+  std::vector<RewardBinding> bindings;
+  for (const RewardSlot& slot : outcome.program->slots()) {
+    bindings.push_back({numbers.at(slot.input).data()});
+  }
+  RewardWorkspace workspace(*outcome.program, 1);
+  float reward = 0.0f;
+  std::uint8_t success = 2;
+  outcome.program->Run(bindings, 1, &workspace, &reward, &success);
+  return {reward, success == 1};
+}
+
+// From start to success each function of the example only rises, by what can be told on paper.
+TEST(WorkedExample, RewardsRiseToSuccess) {
+  using enum RewardInput;
+  const Task task = ReadTaskAnswer(ExampleAnswer()).tasks.at(0);
+  for (int step = 0; step <= 20; ++step) {
+    const float t = static_cast<float>(step) / 20.0f;
+    const auto [open, opened] =
+        RunOn(task.subtasks[0].program, {{kLinkPosition, {0.2f + 0.3f * t, 0.0f, 0.28f}},
+                                         {kGripperPosition, {0.2f + 0.3f * t, 0.1f, 0.28f}},
+                                         {kJointState, {0.3f * t}}});
+    EXPECT_NEAR(open, 2.0f * t - 0.1f, 1e-5f);
+    EXPECT_EQ(opened, step > 18);
+    const float bottom = 0.14f * t;
+    const auto [pick, picked] =
+        RunOn(task.subtasks[1].program,
+              {{kAssetPosition, {0.0f, 0.0f, bottom}},
+               {kGripperPosition, {0.0f, 0.0f, bottom + 0.025f}},
+               {kGrasped, {1.0f}},
+               {kAssetBoundingBox, {-0.1f, -0.1f, bottom, 0.1f, 0.1f, bottom + 0.05f}}});
+    EXPECT_NEAR(pick, -0.025f + 0.5f + 5.0f * bottom, 1e-5f);
+    EXPECT_EQ(picked, bottom > 0.1f);
+    const bool last = step == 20;  // it lets go in the middle of the drawer
+    const auto [place, placed] =
+        RunOn(task.subtasks[2].program, {{kLinkBoundingBox, {0.1f, -0.2f, 0.2f, 0.5f, 0.2f, 0.3f}},
+                                         {kAssetPosition, {0.3f, 0.0f, 1.25f - t}},
+                                         {kGrasped, {last ? 0.0f : 1.0f}}});
+    EXPECT_NEAR(place, -(1.0f - t) + (last ? 1.0f : 0.0f), 1e-5f);
+    EXPECT_EQ(placed, last);
   }
 }
 
