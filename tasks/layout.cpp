@@ -27,13 +27,14 @@ Pose Turned(double angle) {
 double TurnToFront(const Thing& thing) {
   const std::vector<Pose> poses = LinkPosesOf(thing, RestPositions(thing));
   Eigen::Vector2d front = Eigen::Vector2d::Zero();
-  const Eigen::Vector2d middle = thing.box.center().head<2>();
+  const Eigen::AlignedBox3d& body = thing.links[0].outline.empty() ? thing.box : thing.links[0].box;
+  const Eigen::Vector2d middle = body.center().head<2>();
   for (const ThingJoint& joint : thing.joints) {
     const auto grip = static_cast<std::size_t>(joint.grip);
     const Eigen::Vector3d point = poses[grip] * thing.links[grip].middle;
     // The side that the handle lies on, or stands out of.
     const Eigen::Vector2d out =
-        (point.head<2>() - middle).cwiseQuotient(thing.box.sizes().head<2>().cwiseMax(1e-6));
+        (point.head<2>() - middle).cwiseQuotient(body.sizes().head<2>().cwiseMax(1e-6));
     const int axis = std::abs(out.x()) >= std::abs(out.y()) ? 0 : 1;
     front[axis] += out[axis] > 0.0 ? 1.0 : -1.0;
   }

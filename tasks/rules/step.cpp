@@ -1,6 +1,7 @@
 #include "tasks/rules/step.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 
@@ -103,8 +104,10 @@ Step JointStep(const SceneModel& model, const Operator& one) {
   Step step;
   step.name = FileName(std::string(away ? verbs.away_name : verbs.back_name) + "_" + thing.name +
                        "_" + part);
-  step.description = std::string(away ? verbs.away : verbs.back) + " the " + part + " of the " +
-                     SpokenName(thing) + ".";
+  const bool numbered = std::isdigit(static_cast<unsigned char>(part.back())) != 0;
+  const bool itself = thing.category == part;  // the door of a door
+  step.description = std::string(away ? verbs.away : verbs.back) + (numbered ? " " : " the ") +
+                     (itself ? SpokenName(thing) : part + " of the " + SpokenName(thing)) + ".";
   Program program("Reach for the " + grip + ", then move the joint.");
   program.Line("handle = env.get_pose_by_link_name(" + Quoted(thing.name) + ", " + Quoted(grip) +
                ")");

@@ -6,6 +6,8 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "tasks/language/task_answer.h"
+#include "tasks/language/worked_example.h"
 #include "tasks/layout.h"
 #include "tasks/scene_signals.h"
 #include "tasks/verification/motion.h"
@@ -268,6 +270,19 @@ TEST(LayOut, KeepsThingsApart) {
     const Eigen::AlignedBox3d box = WorldBox(model, state, a);
     EXPECT_NEAR(box.min().z(), 0.0, 1e-9);
     for (int b = a + 1; b < 4; ++b) EXPECT_FALSE(box.intersects(WorldBox(model, state, b)));
+  }
+}
+
+// What a language model is shown as an example would pass.
+TEST(SubtaskVerifier, TheWorkedExampleIsSound) {
+  const SceneModel model = MakeSceneModel(ExampleModels());
+  SubtaskVerifier verifier(model);
+  for (Task& task : ReadTaskAnswer(ExampleAnswer()).tasks) {
+    task.assets = {"chest", "block"};
+    for (Subtask& subtask : task.subtasks) {
+      const core::Findings findings = verifier.Verify(task, &subtask);
+      EXPECT_TRUE(findings.empty()) << subtask.name << ": " << findings[0].sentence;
+    }
   }
 }
 
