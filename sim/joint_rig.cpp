@@ -10,7 +10,8 @@ namespace {
 class RigInBullet : public JointRig {
  public:
   RigInBullet(const ArticulatedBody& body, const RigOptions& options) : body_(body) {
-    index_ = world_.Add(body_, {Eigen::Isometry3d::Identity(), options.hold_root, true});
+    index_ = world_.Add(body_,
+                        {Eigen::Isometry3d::Identity(), options.hold_root, options.self_contacts});
   }
   void SetPosition(int joint, double position) override {
     world_.SetPosition(index_, joint, position);

@@ -13,7 +13,8 @@
 namespace simwright::sim {
 
 struct RigOptions {
-  bool hold_root = true;  // else the root stands on the floor z = 0 as it would
+  bool hold_root = true;      // else the root stands on the floor z = 0 as it would
+  bool self_contacts = true;  // links of the thing touch each other; in Bullet alone
 };
 
 // One jointed thing over the floor, in some engine: what an experiment on its joints needs. Links
