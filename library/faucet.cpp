@@ -99,7 +99,8 @@ assets::ArticulatedAsset MakeFaucet(const Options& options) {
   if (swivel) {
     plan.type = assets::UrdfJointType::kRevolute;
     plan.upper = a.Draw(0.8, 1.2);
-    plan.lower = -plan.upper;
+    // Away from a lever, which lifts into the other half.
+    plan.lower = single ? 0.0 : -plan.upper;
     plan.feel = DrawFeel(a.rng(), t.reach);
   }
   const int spout = a.AddLink("spout", "spout", body, plan);

@@ -27,6 +27,7 @@ core::Image View(const core::TexturedMesh& mesh, double azimuth, int size) {
   options.views = 1;
   options.size = size;
   options.first_azimuth = azimuth;
+  options.samples_per_side = 2;
   return render::Turntable(mesh, options).front();
 }
 
