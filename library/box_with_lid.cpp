@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "library/carcass.h"
 #include "library/convex_shapes.h"
 #include "library/kinds.h"
@@ -13,10 +11,12 @@ constexpr double kLidGap = 0.002;  // m, between the lid and the rim
 
 assets::ArticulatedAsset MakeBoxWithLid(const Options& options) {
   Assembly a("box_with_lid", "box", options);
-  // A chest for a table, out of the row's boxes of all sizes.
-  const double across = std::clamp(a.parameters().length.sample, 0.22, 0.48);
-  const double deep = std::clamp(a.parameters().width.sample, 0.16, 0.34);
-  const double high = std::clamp(a.parameters().height.sample, 0.12, 0.30);
+  // A chest for a table: the row spans boxes from 14 to 110 cm.
+  const double across = a.Draw(0.22, 0.48), deep = a.Draw(0.6, 0.8) * across;
+  const double high = a.Draw(0.45, 0.75) * deep + 0.04;
+  a.parameters().length.sample = across;
+  a.parameters().width.sample = deep;
+  a.parameters().height.sample = high;
   const double wall = a.Draw(0.007, 0.010), lid_high = a.Draw(0.022, 0.034);
   const double rim = high - lid_high;
   const bool wooden = a.Chance(0.6);

@@ -41,15 +41,20 @@ void AddPlate(Assembly* a, int body, double across, double high, int gangs, doub
               double tall, const Matter& plate) {
   const double x0 = -0.5 * kPlate, x1 = 0.5 * kPlate, y = 0.5 * across;
   const double low = 0.5 * (high - tall), top = 0.5 * (high + tall);
-  a->Add(body, plate, Box({x0, -y, 0.0}, {x1, y, low}, 0.002));
-  a->Add(body, plate, Box({x0, -y, top}, {x1, y, high}, 0.002));
+  a->Add(body, plate, Box({x0, -y, 0.0}, {x1, y, low}, 0.001));
+  a->Add(body, plate, Box({x0, -y, top}, {x1, y, high}, 0.001));
+  // The back, behind whatever tilts.
+  a->Add(body, BlackPlastic(), Box({x1 + 0.003, -y, 0.0}, {x1 + 0.005, y, high}, 0.0));
+  for (const double s : {-1.0, 1.0}) {
+    a->Add(body, plate, Box({x1, s * y, 0.0}, {x1 + 0.003, s * (y - 0.002), high}, 0.0));
+  }
   double from = -y;
   for (int i = 0; i < gangs; ++i) {
     const double middle = across * ((i + 0.5) / gangs - 0.5);
-    a->Add(body, plate, Box({x0, from, low}, {x1, middle - 0.5 * wide, top}, 0.001));
+    a->Add(body, plate, Box({x0, from, low}, {x1, middle - 0.5 * wide, top}, 0.0004));
     from = middle + 0.5 * wide;
   }
-  a->Add(body, plate, Box({x0, from, low}, {x1, y, top}, 0.001));
+  a->Add(body, plate, Box({x0, from, low}, {x1, y, top}, 0.0004));
 }
 
 // Tilted about y by `angle`, about the middle of the opening.

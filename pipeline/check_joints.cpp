@@ -14,6 +14,7 @@ namespace simwright::pipeline {
 namespace {
 
 constexpr double kHoldSeconds = 1.0;
+constexpr double kTippingShare = 0.01;  // of the whole's mass: less, a button, tips nothing
 
 double RangeOf(const assets::UrdfJoint& joint) {
   return joint.type == assets::UrdfJointType::kContinuous ? 2.0 * M_PI : joint.upper - joint.lower;
@@ -73,13 +74,15 @@ double GreatestDrift(const sim::ArticulatedBody& body, int joint, sim::JointRig*
 void AddEngineRows(const sim::ArticulatedBody& body, const std::string& engine,
                    const CheckLimits& limits, sim::JointRig* held, sim::JointRig* free,
                    CheckRows* rows) {
+  double whole = 0.0;
+  for (const sim::RigidBody& link : body.links) whole += link.inertial.mass;
   for (const int joint : body.MovingJoints()) {
     const assets::UrdfJoint& j = body.joints[static_cast<size_t>(joint)];
     if (!CanBeTried(j)) continue;
     AddSwingRow(body, joint, engine, true, limits, held, rows);
     rows->AtMost("holds-" + engine + "-" + j.name, GreatestDrift(body, joint, held),
                  limits.joint_drift, "of its range in 1 s, let go at both ends and in the middle");
-    if (free == nullptr) continue;
+    if (free == nullptr || sim::LoadOn(body, joint, 0.0).mass < kTippingShare * whole) continue;
     rows->AtMost("tips-" + engine + "-" + j.name, sim::TiltWhenOpened(body, joint, free) * kDegrees,
                  limits.tilt, "degrees that the whole tilts while it is opened");
   }

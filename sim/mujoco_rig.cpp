@@ -11,9 +11,9 @@
 namespace simwright::sim {
 namespace {
 
-// kg and kg m^2 on a free root's own motions: it then stays where it is to 1e-8 m/s^2, while its
-// links still feel their weight.
-constexpr double kHeldInertia = 1e9;
+// kg and kg m^2 on a free root's own motions: 40 kg then fall by 0.4 mm/s^2, while its links still
+// feel their weight. A thousand times more, and the solver lost a button's friction in rounding.
+constexpr double kHeldInertia = 1e6;
 
 class RigInMujoco : public JointRig {
  public:
@@ -59,7 +59,7 @@ class RigInMujoco : public JointRig {
   }
   void Drive(int joint, double velocity, double max_force) override {
     LetGo(joint);
-    motors_[joint] = {velocity, max_force};
+    motors_[joint] = {velocity, max_force, true};
   }
   void LetGo(int joint) override {
     motors_.erase(joint);
@@ -68,7 +68,7 @@ class RigInMujoco : public JointRig {
     data_->qfrc_applied[dof] = 0.0;
   }
   void Step() override {
-    for (const auto& [joint, motor] : motors_) Apply(Dof(joint), motor);
+    for (auto& [joint, motor] : motors_) Apply(Dof(joint), &motor);
     scene_.Step();
   }
   double time() const override { return data_->time; }
@@ -118,15 +118,20 @@ class RigInMujoco : public JointRig {
  private:
   struct Motor {
     double velocity = 0.0, max_force = 0.0;
+    bool starts = true;
   };
-  // Below its wish the motor gives what it has; near it and beyond, force = gain (wish - v) goes
-  // into MuJoCo's damping, which is implicit: stable for any inertia.
-  void Apply(int dof, const Motor& motor) {
-    const double gain = 10.0 * motor.max_force / std::max(std::abs(motor.velocity), 1e-6);
-    const double force = gain * (motor.velocity - data_->qvel[dof]);
-    const bool all = std::abs(force) > motor.max_force && force * motor.velocity > 0.0;
+  // Near its wish and beyond the motor is force = gain (wish - v), put into MuJoCo's damping, which
+  // is implicit: stable for any inertia. Below the wish it gives what it has, but for the first
+  // step: a light joint is at its wish after that, where the full force would throw it.
+  void Apply(int dof, Motor* motor) {
+    const double gain = 10.0 * motor->max_force / std::max(std::abs(motor->velocity), 1e-6);
+    const double force = gain * (motor->velocity - data_->qvel[dof]);
+    const bool all =
+        !motor->starts && std::abs(force) > motor->max_force && force * motor->velocity > 0.0;
     model_->dof_damping[dof] = damping_[static_cast<size_t>(dof)] + (all ? 0.0 : gain);
-    data_->qfrc_applied[dof] = all ? std::copysign(motor.max_force, force) : gain * motor.velocity;
+    data_->qfrc_applied[dof] =
+        all ? std::copysign(motor->max_force, force) : gain * motor->velocity;
+    motor->starts = false;
   }
   int Find(int type, const std::string& name, const std::filesystem::path& mjcf) const {
     const int id = mj_name2id(model_, type, name.c_str());
