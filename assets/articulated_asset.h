@@ -18,7 +18,8 @@ struct ArticulatedLink {
   std::string name;           // "door", "handle_0": letters, digits, '_'
   std::string label;          // what it is: "door", "handle" (docs/formats.md lists them)
   core::TexturedMesh visual;  // colours by material, no textures
-  std::vector<core::TriangleMesh> parts;  // closed, convex, outward
+  std::vector<core::TriangleMesh> parts;  // closed, convex, outward, without overlap
+  std::vector<double> densities;          // kg/m^3, a part each; they give the inertial
   Inertial inertial;
   double volume = 0.0;   // m^3, of its matter
   std::string material;  // that most of its mass is made of

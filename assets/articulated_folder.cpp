@@ -23,6 +23,7 @@ Json LinkJson(const ArticulatedLink& link) {
   json.update(ToJson(link.inertial));
   json["volume_m3"] = link.volume;
   json["parts"] = link.parts.size();
+  json["densities_kg_m3"] = link.densities;
   json["visuals"] = Json::array();
   for (const ColoredPiece& piece : ColoredPieces(link)) {
     json["visuals"].push_back(piece.stem + ".obj");
@@ -112,6 +113,11 @@ ArticulatedLink LinkFrom(const Json& json, const fs::path& folder) {
   const int parts = json.at("parts");
   if (FileSafeName(link.name) != link.name || parts < 0 || parts > kMostParts) {
     throw core::Error("names a link that cannot be", (folder / "asset.json").string(),
+                      "make the asset again");
+  }
+  link.densities = json.at("densities_kg_m3").get<std::vector<double>>();
+  if (link.densities.size() != static_cast<size_t>(parts)) {
+    throw core::Error("has not a density a part", (folder / "asset.json").string(),
                       "make the asset again");
   }
   for (int i = 0; i < parts; ++i) {

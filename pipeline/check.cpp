@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <cstdio>
 
+#include "assets/articulated_folder.h"
 #include "assets/asset_folder.h"
 #include "assets/urdf_reader.h"
 #include "core/error.h"
@@ -11,7 +12,9 @@
 #include "geometry/mass_properties.h"
 #include "geometry/soundness.h"
 #include "geometry/surface_distance.h"
-#include "pipeline/check_rows.h"
+#include "pipeline/check_articulated.h"
+#include "pipeline/check_joints.h"
+#include "pipeline/shared_rows.h"
 #include "sim/drop_test.h"
 #include "sim/mujoco.h"
 #include "sim/world.h"
@@ -19,16 +22,6 @@
 namespace simwright::pipeline {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-// Largest relative difference of mass, centre (against the body's size) and inertia.
-double InertialDifference(const assets::Inertial& a, const assets::Inertial& b, double size) {
-  const double mass = std::abs(a.mass - b.mass) / b.mass;
-  const double center = (a.center_of_mass - b.center_of_mass).norm() / size;
-  const double inertia = (a.inertia - b.inertia).norm() / b.inertia.norm();
-  return std::max({mass, center, inertia});
-}
 
 void CheckSolid(const assets::Asset& asset, const CheckLimits& limits, CheckRows* rows) {
   const geometry::Soundness s = geometry::Examine(asset.solid);
@@ -79,16 +72,6 @@ void CheckInertia(const assets::Asset& asset, const CheckLimits& limits, CheckRo
                 "largest principal moment over the sum of the others");
 }
 
-// Runs one reader; whatever it throws is the row's failure.
-template <typename Load>
-void CheckReader(const std::string& code, CheckRows* rows, const Load& load) {
-  try {
-    load();
-  } catch (const core::Error& error) {
-    rows->Fail(code, error.what());
-  }
-}
-
 void CheckReaders(const assets::Asset& asset, const fs::path& folder, const CheckLimits& limits,
                   CheckRows* rows) {
   const double size = core::Bounds(asset.solid).diagonal().norm();
@@ -101,37 +84,24 @@ void CheckReaders(const assets::Asset& asset, const fs::path& folder, const Chec
     rows->AtMost(code, InertialDifference(inertial, asset.inertial, size), limits.reader_tolerance,
                  "mass, centre and inertia against asset.json, relative");
   };
-  CheckReader("loads-urdfdom", rows, [&] {
+  RowOrFailure("loads-urdfdom", rows, [&] {
     const assets::UrdfModel model = assets::ReadUrdf(folder / (asset.name + ".urdf"));
     const std::string warning = model.findings.empty() ? "" : model.findings[0].sentence;
     if (!model.links[0].inertial) throw core::Error("the URDF has no inertial");
     compare("loads-urdfdom", *model.links[0].inertial, warning);
   });
-  CheckReader("loads-bullet", rows, [&] {
+  RowOrFailure("loads-bullet", rows, [&] {
     sim::World world;
     const sim::RigidBody body =
         sim::BodyFromUrdf(assets::ReadUrdf(folder / (asset.name + ".urdf")));
     world.Add(body, Eigen::Isometry3d::Identity());
     compare("loads-bullet", world.LoadedInertial(0), "");
   });
-  CheckReader("loads-mujoco", rows, [&] {
+  RowOrFailure("loads-mujoco", rows, [&] {
     const sim::MujocoWorld world(folder / (asset.name + ".xml"));
     compare("loads-mujoco", world.LoadedInertial(0),
             world.warnings().empty() ? "" : world.warnings()[0]);
   });
-}
-
-void CheckRest(const sim::DropResult& drop, const std::string& engine, bool rolls,
-               const CheckLimits& limits, CheckRows* rows) {
-  if (rolls) {
-    rows->Report("settles-" + engine, drop.rest_time, "s; it rolls and is judged by its drift");
-  } else {
-    rows->Require("settles-" + engine, drop.rests && drop.rest_time <= limits.rest_time,
-                  drop.rest_time, "s until it rests, limit 2");
-    rows->AtMost("rest-pose-" + engine, drop.tilt * kDegrees, limits.tilt,
-                 "degrees from its rest pose");
-  }
-  rows->AtMost("drift-" + engine, drop.drift * 1e3, limits.drift * 1e3, "mm in 2 s at rest");
 }
 
 void CheckDynamics(const assets::Asset& asset, const fs::path& folder, const CheckLimits& limits,
@@ -139,12 +109,12 @@ void CheckDynamics(const assets::Asset& asset, const fs::path& folder, const Che
   const sim::RigidBody body = sim::BodyFromAsset(asset);
   sim::DropOptions options;
   const sim::DropResult bullet = sim::DropInBullet(body, options);
-  CheckRest(bullet, "bullet", asset.rolls, limits, rows);
-  CheckReader("settles-mujoco", rows, [&] {
+  AddRestRows(bullet, "bullet", asset.rolls, limits, rows);
+  RowOrFailure("settles-mujoco", rows, [&] {
     std::vector<std::string> warnings;
     const sim::DropResult mujoco =
         sim::DropInMujoco(body, folder / (asset.name + ".xml"), options, &warnings);
-    CheckRest(mujoco, "mujoco", asset.rolls, limits, rows);
+    AddRestRows(mujoco, "mujoco", asset.rolls, limits, rows);
     if (!warnings.empty()) rows->Fail("mujoco-warnings", warnings[0]);
     if (asset.rolls) return;
     const Eigen::Vector3d com = asset.inertial.center_of_mass;
@@ -165,7 +135,20 @@ bool CheckReport::passed() const {
   });
 }
 
+void RequirePassed(const CheckReport& report, const std::string& name) {
+  if (report.passed()) return;
+  std::string failures;
+  for (const core::Finding& row : report.rows) {
+    if (row.severity != core::Severity::kError) continue;
+    char figure[40];
+    std::snprintf(figure, sizeof(figure), " %.4g ", row.figure);
+    failures += (failures.empty() ? "" : "; ") + row.code + figure + row.sentence;
+  }
+  throw core::Error("fails its check: " + failures, name, "--no-check writes it all the same");
+}
+
 CheckReport CheckAsset(const fs::path& folder, const CheckLimits& limits) {
+  if (assets::IsArticulatedAssetFolder(folder)) return CheckArticulatedAsset(folder, limits);
   const assets::Asset asset = assets::ReadAsset(folder);
   CheckRows rows(folder.filename().string());
   CheckSolid(asset, limits, &rows);
@@ -195,8 +178,9 @@ CheckReport CheckUrdf(const fs::path& urdf, const fs::path& root, const CheckLim
   if (shapes > 0 && bodies > 0) {
     const sim::RigidBody body = sim::BodyFromUrdf(model);
     sim::DropOptions options;
-    CheckRest(sim::DropInBullet(body, options), "bullet", false, limits, &rows);
+    AddRestRows(sim::DropInBullet(body, options), "bullet", false, limits, &rows);
   }
+  RowOrFailure("joints", &rows, [&] { AddJointRowsOfUrdf(model, &rows); });
   return {urdf.string(), rows.Take()};
 }
 

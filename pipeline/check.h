@@ -26,16 +26,22 @@ struct CheckLimits {
   double drift = 1e-3;             // m in 2 s
   double engines_distance = 1e-3;  // m, Bullet against MuJoCo at rest
   double engines_tilt = 2.0;       // degrees
+  double joint_reach = 0.99;       // of its range, driven by a hand's force
+  double joint_drift = 0.02;       // of its range in a second, let go
 };
 
-// Checks an asset folder, with its files as they are on disk. Throws core::Error when the folder
-// cannot be read at all; whatever else is wrong is a failed row.
+// Checks an asset folder, rigid or articulated, with its files as they are on disk. Throws
+// core::Error when the folder cannot be read at all; whatever else is wrong is a failed row.
 CheckReport CheckAsset(const std::filesystem::path& folder, const CheckLimits& limits = {});
 
 // Checks a URDF of any origin: collision shapes, inertials, drop in Bullet, all joints held at
-// zero. `root`: no mesh is read from outside it; empty for the default of ReadUrdf.
+// zero; where every link has an inertial, also that each joint swings through its range. `root`: no
+// mesh is read from outside it; empty for the default of ReadUrdf.
 CheckReport CheckUrdf(const std::filesystem::path& urdf, const std::filesystem::path& root,
                       const CheckLimits& limits = {});
+
+// Throws core::Error, naming each row that failed, where the report did not pass.
+void RequirePassed(const CheckReport& report, const std::string& name);
 
 // A table for a terminal, a row a property.
 std::string CheckTable(const CheckReport& report);

@@ -59,18 +59,6 @@ physics_params::Resolution CategoryOf(const std::string& wanted, const std::stri
   return found;
 }
 
-void RequirePassed(const CheckReport& report, const std::string& name) {
-  if (report.passed()) return;
-  std::string failures;
-  for (const core::Finding& row : report.rows) {
-    if (row.severity != core::Severity::kError) continue;
-    char figure[40];
-    std::snprintf(figure, sizeof(figure), " %.4g ", row.figure);
-    failures += (failures.empty() ? "" : "; ") + row.code + figure + row.sentence;
-  }
-  throw core::Error("fails its check: " + failures, name, "--no-check writes it all the same");
-}
-
 class Importer {
  public:
   Importer(const fs::path& output, const ImportOptions& options)

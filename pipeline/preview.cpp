@@ -19,10 +19,10 @@ Eigen::Vector4f PartColor(int part) {
 
 }  // namespace
 
-core::TexturedMesh PartsInColor(const assets::Asset& asset) {
+core::TexturedMesh PartsInColor(const std::vector<core::TriangleMesh>& parts) {
   core::TexturedMesh mesh;
-  for (size_t i = 0; i < asset.parts.size(); ++i) {
-    core::Append(asset.parts[i], &mesh.mesh);
+  for (size_t i = 0; i < parts.size(); ++i) {
+    core::Append(parts[i], &mesh.mesh);
     const int index = static_cast<int>(i);
     mesh.triangle_material.resize(mesh.mesh.triangles.size(), index);
     mesh.materials.push_back({"part_" + std::to_string(i), PartColor(index), -1});
@@ -34,7 +34,7 @@ core::Image AssetPreview(const assets::Asset& asset) {
   render::TurntableOptions options;
   std::vector<core::Image> pictures = render::Turntable(asset.visual, options);
   if (!asset.parts.empty()) {
-    const core::TexturedMesh parts = PartsInColor(asset);
+    const core::TexturedMesh parts = PartsInColor(asset.parts);
     options.samples_per_side = 2;
     const std::vector<core::Image> below = render::Turntable(parts, options);
     pictures.insert(pictures.end(), below.begin(), below.end());

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <vector>
+
 #include "assets/asset.h"
 #include "core/image.h"
+#include "core/mesh.h"
 
 namespace simwright::pipeline {
 
@@ -10,6 +13,6 @@ namespace simwright::pipeline {
 core::Image AssetPreview(const assets::Asset& asset);
 
 // The collision parts as one mesh, a material a part.
-core::TexturedMesh PartsInColor(const assets::Asset& asset);
+core::TexturedMesh PartsInColor(const std::vector<core::TriangleMesh>& parts);
 
 }  // namespace simwright::pipeline

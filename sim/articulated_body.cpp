@@ -8,8 +8,6 @@
 namespace simwright::sim {
 namespace {
 
-constexpr double kGravity = 9.81;  // m/s^2
-
 template <typename Items>
 int IndexByName(const Items& items, const std::string& name, const std::string& body,
                 const char* what) {
@@ -74,42 +72,10 @@ ArticulatedBody ArticulatedBodyFrom(const RigidBody& body) {
   return single;
 }
 
-JointLoad LoadOn(const ArticulatedBody& body, int joint, double position,
-                 const Eigen::Isometry3d& world_from_root) {
-  std::vector<Eigen::Isometry3d> poses(body.links.size(), world_from_root);
-  std::vector<bool> carried(body.links.size(), false);
-  JointLoad load;
-  Eigen::Vector3d pivot = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::Zero();
-  const bool slides =
-      body.joints.at(static_cast<size_t>(joint)).type == assets::UrdfJointType::kPrismatic;
-  for (size_t i = 0; i < body.joints.size(); ++i) {
-    const size_t parent = static_cast<size_t>(body.parents[i]);
-    const bool self = static_cast<int>(i) == joint;
-    poses[i + 1] = poses[parent] * body.joints[i].parent_from_joint *
-                   assets::JointMotion(body.joints[i], self ? position : 0.0);
-    carried[i + 1] = self || carried[parent];
-    if (self) {
-      pivot = poses[i + 1].translation();
-      axis = poses[i + 1].linear() * body.joints[i].axis;
-    }
-  }
-  for (size_t i = 0; i < body.links.size(); ++i) {
-    if (!carried[i]) continue;
-    const assets::Inertial& inertial = body.links[i].inertial;
-    const Eigen::Vector3d lever = poses[i] * inertial.center_of_mass - pivot;
-    const Eigen::Vector3d weight(0.0, 0.0, -kGravity * inertial.mass);
-    load.mass += inertial.mass;
-    if (slides) {
-      load.inertia += inertial.mass;
-      load.gravity += weight.dot(axis);
-    } else {
-      const Eigen::Matrix3d turned =
-          poses[i].linear() * inertial.inertia * poses[i].linear().transpose();
-      load.inertia += axis.dot(turned * axis) + inertial.mass * lever.cross(axis).squaredNorm();
-      load.gravity += lever.cross(weight).dot(axis);
-    }
-  }
-  return load;
+assets::JointLoad LoadOn(const ArticulatedBody& body, int joint, double position) {
+  std::vector<assets::Inertial> inertials;
+  for (const RigidBody& link : body.links) inertials.push_back(link.inertial);
+  return assets::LoadOn(inertials, body.joints, body.parents, joint, position);
 }
 
 }  // namespace simwright::sim

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/joint_load.h"
 #include "assets/urdf_reader.h"
 #include "sim/rigid_body.h"
 
@@ -31,14 +32,7 @@ ArticulatedBody ArticulatedBodyFrom(const assets::UrdfModel& model);
 // A single rigid body, as one without joints.
 ArticulatedBody ArticulatedBodyFrom(const RigidBody& body);
 
-// What hangs on a joint, all joints at zero but for the given one: what has to be moved, held, and
-// what it weighs against. `position` in rad or m.
-struct JointLoad {
-  double mass = 0.0;     // kg, of all links that the joint carries
-  double inertia = 0.0;  // kg m^2 about the axis, or kg along it
-  double gravity = 0.0;  // N m or N, by which gravity drives the joint up (+) or down (-)
-};
-JointLoad LoadOn(const ArticulatedBody& body, int joint, double position,
-                 const Eigen::Isometry3d& world_from_root = Eigen::Isometry3d::Identity());
+// assets::LoadOn for a body that stands upright.
+assets::JointLoad LoadOn(const ArticulatedBody& body, int joint, double position);
 
 }  // namespace simwright::sim

@@ -20,24 +20,21 @@ namespace {
 
 constexpr int kFloorUserIndex = -1;  // Bullet's own default for bodies that nobody numbered
 
-// A velocity wished for one joint, within bounds of force: a motor, dry friction (wish 0, bounds
-// +-friction) or a damper (wish 0, no bounds, compliant). Implicit, and solved along with the
-// contacts. Bullet's own joint motor has neither uneven bounds nor compliance.
+// All that resists or drives one joint, as one row: a velocity wished for within bounds of force (a
+// motor, or dry friction: wish 0 within +-friction), and a damper. Implicit, and solved along with
+// the contacts. As rows of their own, damper and friction of a light link fight each other for
+// hundreds of iterations.
 class JointVelocityRow : public btMultiBodyConstraint {
  public:
-  JointVelocityRow(btMultiBody* body, int link)
+  JointVelocityRow(btMultiBody* body, int link, double damping)
       : btMultiBodyConstraint(body, body, link, body->getLink(link).m_parent, 1, true,
-                              MULTIBODY_CONSTRAINT_1DOF_JOINT_MOTOR) {}
+                              MULTIBODY_CONSTRAINT_1DOF_JOINT_MOTOR),
+        damping_(damping) {}
 
   void Wish(double velocity, double lowest_force, double highest_force) {
     velocity_ = velocity;
     lowest_ = lowest_force;
     highest_ = highest_force;
-  }
-  void Damp(double damping) {
-    damping_ = damping;
-    lowest_ = -std::numeric_limits<float>::max();
-    highest_ = std::numeric_limits<float>::max();
   }
 
   void finalizeMultiDof() override {
@@ -51,27 +48,41 @@ class JointVelocityRow : public btMultiBodyConstraint {
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                             const btContactSolverInfo& info) override {
     if (m_numDofsFinalized != m_jacSizeBoth) finalizeMultiDof();
-    if (lowest_ == 0.0 && highest_ == 0.0) return;
+    if (lowest_ == 0.0 && highest_ == 0.0 && damping_ == 0.0) return;
+    const double dt = info.m_timeStep;
     const btVector3 none(0, 0, 0);
     btMultiBodySolverConstraint& row = rows.expandNonInitializing();
     fillMultiBodyConstraint(row, data, jacobianA(0), nullptr, none, none, none, none, 0.0, info,
-                            lowest_ * info.m_timeStep, highest_ * info.m_timeStep, false, 1.0,
-                            false, velocity_);
+                            lowest_ * dt, highest_ * dt, false, 1.0, false, velocity_);
     row.m_orgConstraint = this;
     row.m_orgDofIndex = 0;
-    if (damping_ > 0.0) {
-      // impulse = -damping dt v, at the velocity after the step.
-      const double compliance = 1.0 / (damping_ * info.m_timeStep);
-      const double stiff = row.m_jacDiagABInv;
-      const double soft = stiff / (1.0 + stiff * compliance);
-      row.m_rhs *= soft / stiff;
-      row.m_jacDiagABInv = soft;
-      row.m_cfm = compliance * soft;
-    }
+    if (damping_ > 0.0) AddDamping(dt, &row);
   }
   void debugDraw(btIDebugDraw*) override {}
 
  private:
+  // With a damper the impulse is force dt - damping dt v, v after the step. Either the wish is met
+  // (a hard row whose bounds give the damper its share), or the force is at a bound (a compliant
+  // row); which, is told from the velocity without this row.
+  void AddDamping(double dt, btMultiBodySolverConstraint* row) const {
+    const double inertia = row->m_jacDiagABInv;  // felt at the joint
+    const double without = velocity_ - row->m_rhs / inertia;
+    const double share = damping_ * dt * velocity_;
+    const double needed = inertia * (velocity_ - without) + share;
+    if (needed >= lowest_ * dt && needed <= highest_ * dt) {
+      row->m_lowerLimit = lowest_ * dt - share;
+      row->m_upperLimit = highest_ * dt - share;
+      return;
+    }
+    const double bound = (needed > 0.0 ? highest_ : lowest_) * dt;
+    const double compliance = 1.0 / (damping_ * dt);
+    const double soft = inertia / (1.0 + inertia * compliance);
+    row->m_rhs = (bound * compliance - without) * soft;
+    row->m_jacDiagABInv = soft;
+    row->m_cfm = compliance * soft;
+    row->m_lowerLimit = -std::numeric_limits<float>::max();
+    row->m_upperLimit = std::numeric_limits<float>::max();
+  }
   int IslandOf(int link) const {
     const btMultiBodyLinkCollider* collider =
         link < 0 ? m_bodyA->getBaseCollider() : m_bodyA->getLinkCollider(link);
@@ -80,14 +91,13 @@ class JointVelocityRow : public btMultiBodyConstraint {
 
   double velocity_ = 0.0;
   double lowest_ = 0.0, highest_ = 0.0;  // N m or N
-  double damping_ = 0.0;                 // > 0: compliant
+  double damping_ = 0.0;                 // N m s/rad or N s/m
 };
 
 // What drives and limits one joint that moves.
 struct LoadedJoint {
   double friction = 0.0;
-  std::unique_ptr<JointVelocityRow> motor;  // with the friction, so that they do not fight
-  std::unique_ptr<JointVelocityRow> damper;
+  std::unique_ptr<JointVelocityRow> motor;  // with friction and damping
   std::unique_ptr<btMultiBodyJointLimitConstraint> limit;
 };
 
@@ -153,12 +163,8 @@ struct ArticulatedWorld::Bullet {
   ~Bullet() {
     for (const auto& body : bodies) {
       for (const LoadedJoint& joint : body->joints) {
-        for (btMultiBodyConstraint* row :
-             {static_cast<btMultiBodyConstraint*>(joint.motor.get()),
-              static_cast<btMultiBodyConstraint*>(joint.damper.get()),
-              static_cast<btMultiBodyConstraint*>(joint.limit.get())}) {
-          if (row != nullptr) world.removeMultiBodyConstraint(row);
-        }
+        if (joint.motor) world.removeMultiBodyConstraint(joint.motor.get());
+        if (joint.limit) world.removeMultiBodyConstraint(joint.limit.get());
       }
       for (const auto& collider : body->colliders) world.removeCollisionObject(collider.get());
       world.removeMultiBody(body->multi.get());
@@ -213,14 +219,9 @@ void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, LoadedBody
     const assets::UrdfJoint& joint = body.joints[static_cast<size_t>(i)];
     LoadedJoint& entry = loaded->joints[static_cast<size_t>(i)];
     entry.friction = joint.friction;
-    entry.motor = std::make_unique<JointVelocityRow>(loaded->multi.get(), i);
+    entry.motor = std::make_unique<JointVelocityRow>(loaded->multi.get(), i, joint.damping);
     entry.motor->Wish(0.0, -joint.friction, joint.friction);
     world.addMultiBodyConstraint(entry.motor.get());
-    if (joint.damping > 0.0) {
-      entry.damper = std::make_unique<JointVelocityRow>(loaded->multi.get(), i);
-      entry.damper->Damp(joint.damping);
-      world.addMultiBodyConstraint(entry.damper.get());
-    }
     if (joint.type == assets::UrdfJointType::kContinuous) continue;
     entry.limit = std::make_unique<btMultiBodyJointLimitConstraint>(loaded->multi.get(), i,
                                                                     joint.lower, joint.upper);

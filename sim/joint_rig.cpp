@@ -10,7 +10,9 @@ namespace {
 class RigInBullet : public JointRig {
  public:
   RigInBullet(const ArticulatedBody& body, const RigOptions& options) : body_(body) {
-    index_ = world_.Add(body_, {Eigen::Isometry3d::Identity(), options.hold_root, true});
+    const double height = options.hold_root ? kHeldHeight : 0.0;
+    index_ = world_.Add(body_, {Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, height)),
+                                options.hold_root, options.self_contacts});
   }
   void SetPosition(int joint, double position) override {
     world_.SetPosition(index_, joint, position);

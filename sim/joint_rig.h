@@ -12,8 +12,11 @@
 
 namespace simwright::sim {
 
+constexpr double kHeldHeight = 1.0;  // m above the floor, of a root that is held
+
 struct RigOptions {
-  bool hold_root = true;  // else the root stands on the floor z = 0 as it would
+  bool hold_root = true;      // at kHeldHeight; else it stands free on the floor z = 0
+  bool self_contacts = true;  // links of the thing touch each other; in Bullet alone
 };
 
 // One jointed thing over the floor, in some engine: what an experiment on its joints needs. Links

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 #include <mujoco/mujoco.h>
 
 #include "core/error.h"
@@ -7,9 +11,9 @@
 namespace simwright::sim {
 namespace {
 
-// kg and kg m^2 on a free root's own motions: it then stays where it is to 1e-8 m/s^2, while its
-// links still feel their weight.
-constexpr double kHeldInertia = 1e9;
+// kg and kg m^2 on a free root's own motions: 40 kg then fall by 0.4 mm/s^2, while its links still
+// feel their weight. A thousand times more, and the solver lost a button's friction in rounding.
+constexpr double kHeldInertia = 1e6;
 
 class RigInMujoco : public JointRig {
  public:
@@ -22,6 +26,11 @@ class RigInMujoco : public JointRig {
     }
     const int first = model_->body_jntadr[bodies_[0]];
     free_ = model_->body_jntnum[bodies_[0]] == 1 && model_->jnt_type[first] == mjJNT_FREE;
+    if (options.hold_root) {
+      double* height = free_ ? data_->qpos + model_->jnt_qposadr[first] + 2
+                             : model_->body_pos + 3 * bodies_[0] + 2;
+      *height += kHeldHeight;
+    }
     if (free_ && options.hold_root) {
       for (int i = 0; i < 6; ++i)
         model_->dof_armature[model_->jnt_dofadr[first] + i] = kHeldInertia;
@@ -49,18 +58,19 @@ class RigInMujoco : public JointRig {
     Settle();
   }
   void Drive(int joint, double velocity, double max_force) override {
-    // force = gain (velocity - v), in MuJoCo's implicit damping: stable for any inertia.
-    const int dof = Dof(joint);
-    const double gain = max_force / std::max(std::abs(velocity), 1e-9);
-    model_->dof_damping[dof] = damping_[static_cast<size_t>(dof)] + gain;
-    data_->qfrc_applied[dof] = gain * velocity;
+    LetGo(joint);
+    motors_[joint] = {velocity, max_force, true};
   }
   void LetGo(int joint) override {
+    motors_.erase(joint);
     const int dof = Dof(joint);
     model_->dof_damping[dof] = damping_[static_cast<size_t>(dof)];
     data_->qfrc_applied[dof] = 0.0;
   }
-  void Step() override { scene_.Step(); }
+  void Step() override {
+    for (auto& [joint, motor] : motors_) Apply(Dof(joint), &motor);
+    scene_.Step();
+  }
   double time() const override { return data_->time; }
   double Position(int joint) const override {
     return data_->qpos[model_->jnt_qposadr[Joint(joint)]];
@@ -106,6 +116,23 @@ class RigInMujoco : public JointRig {
   std::vector<std::string> Warnings() const override { return scene_.warnings(); }
 
  private:
+  struct Motor {
+    double velocity = 0.0, max_force = 0.0;
+    bool starts = true;
+  };
+  // Near its wish and beyond the motor is force = gain (wish - v), put into MuJoCo's damping, which
+  // is implicit: stable for any inertia. Below the wish it gives what it has, but for the first
+  // step: a light joint is at its wish after that, where the full force would throw it.
+  void Apply(int dof, Motor* motor) {
+    const double gain = 10.0 * motor->max_force / std::max(std::abs(motor->velocity), 1e-6);
+    const double force = gain * (motor->velocity - data_->qvel[dof]);
+    const bool all =
+        !motor->starts && std::abs(force) > motor->max_force && force * motor->velocity > 0.0;
+    model_->dof_damping[dof] = damping_[static_cast<size_t>(dof)] + (all ? 0.0 : gain);
+    data_->qfrc_applied[dof] =
+        all ? std::copysign(motor->max_force, force) : gain * motor->velocity;
+    motor->starts = false;
+  }
   int Find(int type, const std::string& name, const std::filesystem::path& mjcf) const {
     const int id = mj_name2id(model_, type, name.c_str());
     if (id < 0) throw core::Error("has no '" + name + "'", mjcf.string(), "write it anew");
@@ -134,9 +161,10 @@ class RigInMujoco : public JointRig {
   MujocoScene scene_;
   mjModel* model_;
   mjData* data_;
-  std::vector<int> bodies_;  // by link
-  std::vector<int> joints_;  // by joint; -1 where it is fixed
-  std::vector<double> damping_;
+  std::vector<int> bodies_;      // by link
+  std::vector<int> joints_;      // by joint; -1 where it is fixed
+  std::vector<double> damping_;  // as the file has it, by degree of freedom
+  std::map<int, Motor> motors_;  // by joint
   bool free_ = false;
 };
 

@@ -1,0 +1,112 @@
+#include <cstdio>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "core/error.h"
+#include "core/image.h"
+#include "library/kinds.h"
+#include "pipeline/library.h"
+
+namespace simwright::cli {
+namespace {
+
+struct Flags {
+  pipeline::LibraryOptions options;
+  std::filesystem::path output, sheet;
+  bool list = false, no_check = false;
+};
+
+int List(bool as_json) {
+  nlohmann::ordered_json kinds = nlohmann::ordered_json::array();
+  for (const library::Kind& kind : library::Kinds()) {
+    if (as_json) {
+      kinds.push_back({{"kind", kind.name}, {"what", kind.what}});
+    } else {
+      std::printf("%-14s %s\n", kind.name.c_str(), kind.what.c_str());
+    }
+  }
+  if (as_json) std::printf("%s\n", kinds.dump(2).c_str());
+  return 0;
+}
+
+nlohmann::ordered_json ToJson(const pipeline::LibraryOutcome& outcome) {
+  nlohmann::ordered_json json;
+  json["name"] = outcome.name;
+  json["kind"] = outcome.kind;
+  json["folder"] = outcome.folder.string();
+  if (!outcome.refusal.empty()) json["refused"] = outcome.refusal;
+  if (outcome.check) json["passed"] = outcome.check->passed();
+  json["links"] = outcome.links;
+  json["joints"] = outcome.joints;
+  json["mass_kg"] = outcome.mass;
+  json["seconds"] = outcome.seconds;
+  return json;
+}
+
+void PrintLine(const pipeline::LibraryOutcome& outcome) {
+  if (!outcome.refusal.empty()) {
+    std::printf("refused  %s: %s\n", outcome.name.c_str(), outcome.refusal.c_str());
+    return;
+  }
+  std::printf("%s  %s  %d links, %d joints, %.2f kg  (%.1f s)\n",
+              outcome.check ? "passes " : "written", outcome.folder.c_str(), outcome.links,
+              outcome.joints, outcome.mass, outcome.seconds);
+}
+
+int Library(Flags flags, const CommonOptions& common) {
+  if (flags.list) return List(common.json);
+  if (flags.output.empty()) {
+    throw core::Error("no place is given for the assets", "", "-o FOLDER, or --list");
+  }
+  flags.options.seed = common.seed;
+  flags.options.force = common.force;
+  flags.options.check = !flags.no_check;
+  core::Progress progress(common.ProgressStyle());
+  const std::vector<pipeline::LibraryOutcome> outcomes =
+      pipeline::MakeLibrary(flags.options, flags.output, &progress);
+  int refused = 0;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const pipeline::LibraryOutcome& outcome : outcomes) {
+    refused += !outcome.refusal.empty();
+    if (common.json) {
+      list.push_back(ToJson(outcome));
+    } else {
+      PrintLine(outcome);
+    }
+  }
+  if (common.json) {
+    std::printf("%s\n", list.dump(2).c_str());
+  } else if (outcomes.size() > 1) {
+    std::printf("%zu made, %d refused\n", outcomes.size() - refused, refused);
+  }
+  if (!flags.sheet.empty()) core::WritePng(flags.sheet, pipeline::LibrarySheet(outcomes));
+  return refused > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+void AddLibrary(CLI::App* app, CommonOptions* common, Run* run) {
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command =
+      app->add_subcommand("library", "Articulated household assets, made to measure");
+  command->footer(
+      "Example:\n  simwright library --kind microwave --count 10 -o kitchen\n"
+      "  simwright library --kind all -o library --sheet library.png\n"
+      "Each asset is checked before it is kept. Exit code 1 when one was refused.");
+  command->add_option("--kind", flags->options.kind, "What to make, or all (see --list)")
+      ->capture_default_str();
+  command->add_option("--count", flags->options.count, "So many of each kind, seeds in a row")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_option("-o,--output", flags->output, "Folder for the assets, one folder each");
+  command->add_option("--sheet", flags->sheet, "Also a picture of all, closed and open");
+  command->add_flag("--list", flags->list, "Say what kinds there are");
+  command->add_flag("--no-check", flags->no_check, "Write assets unchecked, good or not");
+  AddCommon(command, common);
+  AddForce(command, common);
+  command->callback([flags, common, run] { *run = [=] { return Library(*flags, *common); }; });
+}
+
+}  // namespace simwright::cli

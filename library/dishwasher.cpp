@@ -1,0 +1,67 @@
+#include <string>
+
+#include "library/carcass.h"
+#include "library/convex_shapes.h"
+#include "library/kinds.h"
+
+namespace simwright::library {
+namespace {
+
+constexpr double kDoor = 0.045;   // m, thickness
+constexpr double kWall = 0.025;   // m
+constexpr double kPlinth = 0.14;  // m: the open door and its handle stay above the floor
+constexpr double kPanel = 0.075;  // m, height of the control panel
+
+}  // namespace
+
+assets::ArticulatedAsset MakeDishwasher(const Options& options) {
+  Assembly a("dishwasher", "dishwasher", options);
+  const double across = a.parameters().length.sample, deep = a.parameters().width.sample;
+  const double high = a.parameters().height.sample;
+  const double front = -0.5 * deep, rear = 0.5 * deep, inner = front + kDoor + kGap;
+  const Matter casing = Casing(a.rng());
+  const int body = a.AddRoot("body", "body");
+  // The pump and the counterweight lie in the plinth.
+  a.Add(body, BlackPlastic(),
+        Box({inner + 0.04, -0.48 * across, 0.0}, {inner + 0.05, 0.48 * across, kPlinth}, 0.0));
+  a.Add(body, casing, Box({inner + 0.05, -0.5 * across, 0.0}, {rear, 0.5 * across, kPlinth}));
+  const double shell_top = high - kPanel;
+  a.Add(body, casing,
+        CarcassPanels(Bounds(inner, rear, -0.5 * across, 0.5 * across, kPlinth, shell_top), kWall));
+  a.Add(body, casing, Box({front, -0.5 * across, shell_top}, {rear, 0.5 * across, high}));
+  // Two baskets of wire, as trays.
+  for (const double share : {0.12, 0.55}) {
+    const double z = kPlinth + kWall + share * (shell_top - kPlinth - 2 * kWall);
+    a.Add(body, BrushedSteel(),
+          Box({inner + 0.03, -0.5 * across + kWall, z},
+              {rear - kWall, 0.5 * across - kWall, z + 0.002}, 0.0));
+  }
+  a.Paint(body, DarkGlass(),
+          Box({front - 0.0008, 0.10 * across, high - 0.75 * kPanel},
+              {front + 0.001, 0.32 * across, high - 0.3 * kPanel}, 0.0));
+
+  const double top = shell_top - kGap;
+  const int door = a.AddLink(
+      "door", "door", body,
+      BottomHinge(front + kDoor, kPlinth, a.Draw(1.45, 1.55), DrawFeel(a.rng(), top - kPlinth)));
+  a.Add(door, casing, Box({front, -0.5 * across, kPlinth}, {front + kDoor, 0.5 * across, top}));
+  const HandleKind kind = DrawHandle(a.rng(), {HandleKind::kBar, HandleKind::kBow});
+  a.Note("handle", HandleName(kind));
+  HandlePlace place;
+  place.mount = {front, 0.0, top - 0.05};
+  place.out = -Eigen::Vector3d::UnitX();
+  place.along = Eigen::Vector3d::UnitY();
+  place.length = a.Draw(0.45, 0.8) * across;
+  place.standoff = a.Draw(0.036, 0.044);
+  a.AddHandle("handle_0", door, kind, place, BrushedSteel());
+
+  const int buttons = 2 + static_cast<int>(a.Draw(0.0, 2.999));
+  for (int i = 0; i < buttons; ++i) {
+    AddButton(&a, "button_" + std::to_string(i), body,
+              {front, (-0.40 + 0.12 * i) * across, high - 0.5 * kPanel}, 0.05, 0.02,
+              BlackPlastic());
+  }
+  return a.Finish("appliance");
+}
+
+}  // namespace simwright::library

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "core/random.h"
+
+namespace simwright::library {
+
+// What a piece is made of and how it looks.
+struct Matter {
+  std::string look;      // name of its colour in files, e.g. "white_enamel"
+  std::string material;  // of the knowledge base: density, friction, restitution
+  double density = 0.0;  // kg/m^3
+  Eigen::Vector4f color{0.8f, 0.8f, 0.8f, 1.0f};
+};
+
+// A knowledge base material at the middle of its densities. Throws core::Error for an unknown one.
+Matter MatterOf(const std::string& material, const std::string& look, float r, float g, float b);
+
+// Looks that recur. Casing is "appliance": its density is fitted to the appliance's mass.
+Matter Casing(core::Rng& rng);  // white, cream, black or grey
+Matter BrushedSteel();
+Matter BlackPlastic();
+Matter DarkGlass();                     // of an oven's door
+Matter ClearGlass();                    // pale blue
+Matter Board(core::Rng& rng);           // plywood: oak, walnut, white, grey or green
+Matter FurnitureMetal(core::Rng& rng);  // steel or brass, for handles
+
+}  // namespace simwright::library

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <string>
+
+#include "library/carcass.h"
+#include "library/convex_shapes.h"
+#include "library/kinds.h"
+
+namespace simwright::library {
+namespace {
+
+constexpr double kFoot = 0.012;  // m, height of the feet
+constexpr double kDoor = 0.030;  // m, thickness
+constexpr double kWall = 0.022;  // m
+
+struct Plan {
+  double deep, across, high;  // m
+  double side;                // +1: the hinge is at +y, the panel at -y; -1: the other way
+  double panel;               // m, width of the panel
+  double split;               // |y| where door and panel meet, on the panel's side
+};
+
+void AddFeet(Assembly* a, int body, const Plan& p) {
+  for (const double x : {-0.38, 0.38}) {
+    for (const double y : {-0.42, 0.42}) {
+      const Eigen::Vector3d foot(x * p.deep, y * p.across, 0.0);
+      a->Add(body, BlackPlastic(), Rod(foot, foot + Eigen::Vector3d(0, 0, kFoot), 0.014, 12));
+    }
+  }
+}
+
+void AddBody(Assembly* a, int body, const Plan& p, const Matter& casing) {
+  const double front = -0.5 * p.deep, rear = 0.5 * p.deep, inner = front + kDoor + kGap;
+  const double y_panel = -p.side * 0.5 * p.across, y_split = -p.side * p.split;
+  // The panel's side is full of electronics and reaches to the front.
+  a->Add(body, casing, Box({front, y_panel, kFoot}, {rear, y_split, p.high}));
+  const double y0 = std::min(y_split, p.side * 0.5 * p.across);
+  const double y1 = std::max(y_split, p.side * 0.5 * p.across);
+  a->Add(body, casing, CarcassPanels(Bounds(inner, rear, y0, y1, kFoot, p.high), kWall));
+  AddFeet(a, body, p);
+  const Eigen::Vector3d plate(0.5 * (inner + rear), 0.5 * (y0 + y1), kFoot + kWall);
+  const double radius = 0.38 * std::min(rear - inner, y1 - y0);
+  a->Add(body, ClearGlass(), Rod(plate, plate + Eigen::Vector3d(0, 0, 0.008), radius, 28));
+  const double display = 0.5 * (y_panel + y_split);
+  a->Paint(body, DarkGlass(),
+           Box({front - 0.0008, display - 0.36 * p.panel, 0.80 * p.high},
+               {front + 0.001, display + 0.36 * p.panel, 0.92 * p.high}, 0.0));
+}
+
+void AddControls(Assembly* a, int body, const Plan& p) {
+  const double front = -0.5 * p.deep;
+  const double middle = -p.side * 0.5 * (p.split + 0.5 * p.across);
+  const Matter look = a->Chance(0.5) ? BlackPlastic() : BrushedSteel();
+  if (a->Chance(0.5)) {
+    a->Note("controls", "dials");
+    for (int i = 0; i < 2; ++i) {
+      AddDial(a, "knob_" + std::to_string(i), body, {front, middle, (0.60 - 0.30 * i) * p.high},
+              0.22 * p.panel, 0.022, look);
+    }
+    return;
+  }
+  a->Note("controls", "buttons");
+  for (int i = 0; i < 6; ++i) {
+    AddButton(a, "button_" + std::to_string(i), body,
+              {front, middle + (i % 2 - 0.5) * 0.40 * p.panel, (0.66 - 0.19 * (i / 2)) * p.high},
+              0.28 * p.panel, 0.10 * p.high, look);
+  }
+}
+
+}  // namespace
+
+assets::ArticulatedAsset MakeMicrowave(const Options& options) {
+  Assembly a("microwave", "microwave", options);
+  Plan p;
+  p.across = a.parameters().length.sample;
+  p.deep = a.parameters().width.sample;
+  p.high = a.parameters().height.sample;
+  p.side = a.Chance(0.85) ? 1.0 : -1.0;
+  p.panel = a.Draw(0.20, 0.26) * p.across;
+  p.split = 0.5 * p.across - p.panel;
+  a.Note("hinge", p.side > 0.0 ? "left" : "right");
+  const Matter casing = Casing(a.rng());
+  const int body = a.AddRoot("body", "body");
+  AddBody(&a, body, p, casing);
+
+  const double front = -0.5 * p.deep, hinge_y = p.side * 0.5 * p.across;
+  const double free_y = -p.side * (p.split - kGap);
+  const double width = std::abs(hinge_y - free_y);
+  const int door = a.AddLink(
+      "door", "door", body,
+      SideHinge(front + kDoor, hinge_y, 0.5 * p.high, a.Draw(1.6, 2.0), DrawFeel(a.rng(), width)));
+  const Eigen::AlignedBox3d slab = Bounds(front, front + kDoor, std::min(hinge_y, free_y),
+                                          std::max(hinge_y, free_y), kFoot, p.high);
+  const double border = 0.16 * p.high;
+  a.Add(door, casing, FrameBars(slab, border));
+  a.Add(door, DarkGlass(), Pane(slab, border, 0.010));
+
+  const HandleKind kind = DrawHandle(a.rng(), {HandleKind::kBar, HandleKind::kBow});
+  a.Note("handle", HandleName(kind));
+  HandlePlace place;
+  place.mount = {front, free_y + p.side * 0.022, 0.5 * (p.high + kFoot)};
+  place.out = -Eigen::Vector3d::UnitX();
+  place.along = Eigen::Vector3d::UnitZ();
+  place.length = a.Draw(0.55, 0.8) * p.high;
+  place.standoff = a.Draw(0.034, 0.042);
+  a.AddHandle("handle_0", door, kind, place, BrushedSteel());
+  AddControls(&a, body, p);
+  return a.Finish("appliance");
+}
+
+}  // namespace simwright::library

@@ -1,0 +1,190 @@
+#include "pipeline/check_articulated.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "assets/articulated_folder.h"
+#include "assets/joint_poses.h"
+#include "assets/semantic_model.h"
+#include "core/error.h"
+#include "geometry/mass_properties.h"
+#include "geometry/soundness.h"
+#include "physics_params/knowledge_base.h"
+#include "pipeline/check_joints.h"
+#include "pipeline/check_rows.h"
+#include "pipeline/grasp_search.h"
+#include "pipeline/shared_rows.h"
+#include "sim/joint_experiments.h"
+
+namespace simwright::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+using assets::ArticulatedAsset;
+using assets::ArticulatedLink;
+
+constexpr size_t kMostVertices = 64;
+
+void CheckParts(const ArticulatedAsset& asset, CheckRows* rows) {
+  int parts = 0, bad = 0;
+  for (const ArticulatedLink& link : asset.links) {
+    for (const core::TriangleMesh& part : link.parts) {
+      ++parts;
+      const geometry::Soundness s = geometry::Examine(part);
+      bad += !s.closed || !(s.signed_volume > 0.0) || part.vertices.size() > kMostVertices;
+    }
+  }
+  rows->Report("links", static_cast<double>(asset.links.size()), "links");
+  rows->Require("parts-closed", parts > 0 && bad == 0, bad, "parts open or above 64 vertices");
+}
+
+double SizeOf(const ArticulatedLink& link) {
+  Eigen::AlignedBox3d box;
+  for (const core::TriangleMesh& part : link.parts) box.extend(core::Bounds(part));
+  return box.diagonal().norm();
+}
+
+void CheckInertials(const ArticulatedAsset& asset, const CheckLimits& limits, CheckRows* rows) {
+  double exact = 0.0, flattest = 0.0, mass = 0.0;
+  bool possible = true;
+  for (const ArticulatedLink& link : asset.links) {
+    geometry::MassProperties total;
+    for (size_t i = 0; i < link.parts.size(); ++i) {
+      const auto one = geometry::SolidMassProperties(link.parts[i], link.densities[i]);
+      total = total.mass > 0.0 ? geometry::Combined(total, one) : one;
+    }
+    exact = std::max(
+        exact, InertialDifference(link.inertial, {total.mass, total.center_of_mass, total.inertia},
+                                  SizeOf(link)));
+    const Eigen::Vector3d m = geometry::PrincipalInertiaOf(link.inertial.inertia).moments;
+    possible = possible && geometry::SatisfiesTriangleInequality(m);
+    flattest = std::max(flattest, m[2] / (m[0] + m[1]));
+    mass += link.inertial.mass;
+  }
+  rows->AtMost("inertia-exact", exact, limits.reader_tolerance,
+               "from the integrals over the parts, relative, the worst link");
+  rows->Require("inertia-possible", possible, flattest,
+                "largest principal moment over the sum of the others, the worst link");
+  const physics_params::Category* row =
+      physics_params::KnowledgeBase::Shipped().FindCategory(asset.parameters.category);
+  const double low = row ? row->mass.min : asset.parameters.mass.min;
+  const double high = row ? row->mass.max : asset.parameters.mass.max;
+  rows->Require("mass-plausible", mass >= 0.5 * low && mass <= 2.0 * high, mass,
+                "kg, within twice of what its kind weighs");
+}
+
+// Compares a reader's inertials with asset.json's, link by link.
+template <typename InertialOf>
+void CompareLinks(const ArticulatedAsset& asset, const std::string& code, const CheckLimits& limits,
+                  CheckRows* rows, const InertialOf& inertial_of) {
+  double worst = 0.0;
+  for (size_t i = 0; i < asset.links.size(); ++i) {
+    worst = std::max(
+        worst, InertialDifference(inertial_of(i), asset.links[i].inertial, SizeOf(asset.links[i])));
+  }
+  rows->AtMost(code, worst, limits.reader_tolerance,
+               "mass, centre and inertia of every link against asset.json, relative");
+}
+
+void CheckReaders(const ArticulatedAsset& asset, const assets::UrdfModel& model,
+                  const fs::path& mjcf, const CheckLimits& limits, CheckRows* rows) {
+  RowOrFailure("loads-urdfdom", rows, [&] {
+    if (!model.findings.empty()) throw core::Error(model.findings[0].sentence);
+    std::map<std::string, assets::Inertial> by_name;
+    for (const assets::UrdfLink& link : model.links) {
+      if (link.inertial) by_name[link.name] = *link.inertial;
+    }
+    CompareLinks(asset, "loads-urdfdom", limits, rows, [&](size_t i) {
+      const auto found = by_name.find(asset.links[i].name);
+      if (found == by_name.end()) {
+        throw core::Error("the URDF has no inertial for '" + asset.links[i].name + "'");
+      }
+      return found->second;
+    });
+  });
+  const auto compare = [&](const std::string& code, const sim::ArticulatedBody& body,
+                           const sim::JointRig& rig) {
+    CompareLinks(asset, code, limits, rows,
+                 [&](size_t i) { return rig.LoadedInertial(body.LinkIndex(asset.links[i].name)); });
+  };
+  RowOrFailure("loads-bullet", rows, [&] {
+    const sim::ArticulatedBody body = sim::ArticulatedBodyFrom(model);
+    compare("loads-bullet", body, *sim::BulletRig(body));
+  });
+  RowOrFailure("loads-mujoco", rows, [&] {
+    const sim::ArticulatedBody body = sim::ArticulatedBodyFrom(model);
+    const auto rig = sim::MujocoRig(body, mjcf);
+    if (!rig->Warnings().empty()) throw core::Error(rig->Warnings()[0]);
+    compare("loads-mujoco", body, *rig);
+  });
+}
+
+void CheckSemantics(const ArticulatedAsset& asset, const fs::path& folder, CheckRows* rows) {
+  RowOrFailure("semantics", rows, [&] {
+    const assets::SemanticModel model = assets::ReadSemanticModel(folder / (asset.name + ".urdf"));
+    int wrong = static_cast<int>(model.model.findings.size());
+    for (const ArticulatedLink& link : asset.links) {
+      const auto found = model.semantics.find(link.name);
+      wrong += found == model.semantics.end() || found->second.label != link.label;
+    }
+    rows->Require("semantics", wrong == 0, wrong, "links or lines of semantics.txt that are wrong");
+  });
+}
+
+void CheckGrasps(const ArticulatedAsset& asset, const assets::UrdfModel& model, CheckRows* rows) {
+  const std::vector<Eigen::Isometry3d> poses = assets::LinkPosesAtZero(model);
+  std::map<std::string, std::vector<core::TriangleMesh>> parts;
+  for (size_t i = 0; i < model.links.size(); ++i) {
+    for (const assets::UrdfShape& shape : model.links[i].collisions) {
+      core::TriangleMesh part = shape.mesh;
+      core::Transform(Eigen::Affine3d(poses[i]), &part);
+      parts[model.links[i].name].push_back(std::move(part));
+    }
+  }
+  for (const ArticulatedLink& link : asset.links) {
+    if (link.label != "handle" && link.label != "lever") continue;
+    std::vector<core::TriangleMesh> others;
+    for (const auto& [name, meshes] : parts) {
+      if (name != link.name) others.insert(others.end(), meshes.begin(), meshes.end());
+    }
+    const GraspSearch search = SearchGrasps(parts[link.name], others);
+    rows->Require("grasp-" + link.name, search.found > 0, search.found,
+                  "of " + std::to_string(search.tried) +
+                      " directions from which a gripper 8 cm wide takes hold, at least 1");
+  }
+}
+
+void CheckRest(const assets::UrdfModel& model, const fs::path& mjcf, const CheckLimits& limits,
+               CheckRows* rows) {
+  const sim::ArticulatedBody body = sim::ArticulatedBodyFrom(model);
+  const sim::RigidBody whole = sim::BodyFromUrdf(model);
+  const sim::DropOptions options;
+  const auto bullet = sim::BulletRig(body, {.hold_root = false});
+  AddRestRows(sim::DropRig(whole, options, bullet.get()), "bullet", false, limits, rows);
+  RowOrFailure("settles-mujoco", rows, [&] {
+    const auto mujoco = sim::MujocoRig(body, mjcf, {.hold_root = false});
+    AddRestRows(sim::DropRig(whole, options, mujoco.get()), "mujoco", false, limits, rows);
+  });
+}
+
+}  // namespace
+
+CheckReport CheckArticulatedAsset(const fs::path& folder, const CheckLimits& limits) {
+  const ArticulatedAsset asset = assets::ReadArticulatedAsset(folder);
+  CheckRows rows(folder.filename().string());
+  CheckParts(asset, &rows);
+  CheckInertials(asset, limits, &rows);
+  RowOrFailure("loads-urdfdom", &rows, [&] {
+    const assets::UrdfModel model = assets::ReadUrdf(folder / (asset.name + ".urdf"));
+    const fs::path mjcf = folder / (asset.name + ".xml");
+    CheckReaders(asset, model, mjcf, limits, &rows);
+    CheckSemantics(asset, folder, &rows);
+    CheckGrasps(asset, model, &rows);
+    if (!asset.fixed) CheckRest(model, mjcf, limits, &rows);
+    AddJointRows(model, mjcf, asset.fixed, limits, &rows);
+  });
+  return {folder.string(), rows.Take()};
+}
+
+}  // namespace simwright::pipeline

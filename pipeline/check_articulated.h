@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+
+#include "pipeline/check.h"
+
+namespace simwright::pipeline {
+
+// CheckAsset for a folder whose asset.json says `articulated`.
+CheckReport CheckArticulatedAsset(const std::filesystem::path& folder, const CheckLimits& limits);
+
+}  // namespace simwright::pipeline
