@@ -140,6 +140,15 @@ class Sampler {
     if (!holder.articulated()) {
       Carry(ActionKind::kTilt, thing, on_top + Eigen::Vector3d(0, 0, 0.1), kTurnOver);
     }
+    // On and in the parts that the program names.
+    for (const auto& [owner, link] : links_) {
+      if (owner != other || holder.links[static_cast<std::size_t>(link)].outline.empty()) continue;
+      const Eigen::AlignedBox3d part = WorldBox(model_, start_, other, link);
+      Carry(ActionKind::kPlace, thing, part.center());
+      Eigen::Vector3d above = part.center();
+      above.z() = part.max().z() + half + 1e-3;
+      if (link > 0) Carry(ActionKind::kPlace, thing, above);
+    }
     const std::vector<Eigen::Isometry3d> poses = LinkPosesOf(holder, start_.joints[o]);
     int cavities = 0;
     for (const Cavity& cavity : holder.cavities) {
