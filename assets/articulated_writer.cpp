@@ -124,10 +124,10 @@ void MjcfJoint(Printer* printer, const UrdfJoint& joint) {
       .Set("range", Numbers({joint.lower, joint.upper}))
       .Set("damping", Number(joint.damping))
       .Set("frictionloss", Number(joint.friction))
-      // MuJoCo's friction is a soft constraint: as it comes a lid that it holds creeps by 0.02
-      // rad/s. The stiffest impedance it allows makes that 1e-4.
+      // MuJoCo's friction is a soft constraint: with the default impedance of 0.9 and 0.02 s a lid
+      // of g / l = 40 / s^2 creeps by 0.04 rad/s. The stiffest that it allows make that 1e-5.
       .Set("solreffriction", "0.004 1")
-      .Set("solimpfriction", "0.999 0.9999 0.001 0.5 2");
+      .Set("solimpfriction", "0.9999 0.9999 0.001 0.5 2");
 }
 
 void MjcfBodies(Printer* printer, const ArticulatedAsset& asset, size_t link) {

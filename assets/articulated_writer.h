@@ -22,7 +22,8 @@ std::string LinkCollisionFileName(const std::string& link, int part);
 
 // The asset as a tree of links, with the same numbers in both formats. Mesh files are named
 // relative to the model. In MJCF a link on a fixed joint stays a body of its own, so that its pose
-// can be asked for; `multiccd` is on; joint friction holds to a creep of about 1e-4 rad/s.
+// can be asked for; `multiccd` is on; joint friction holds what is below it to less than 1e-4
+// rad/s.
 std::string ArticulatedUrdfText(const ArticulatedAsset& asset);
 std::string ArticulatedMjcfText(const ArticulatedAsset& asset);
 

@@ -35,7 +35,7 @@ assets::ArticulatedAsset MakeBoxWithLid(const Options& options) {
   plan.type = assets::UrdfJointType::kRevolute;
   plan.origin = {x, 0.0, rim};
   plan.axis = Eigen::Vector3d::UnitY();
-  plan.upper = a.Draw(1.5, 1.9);
+  plan.upper = a.Draw(1.4, 1.75);
   plan.feel = DrawFeel(a.rng(), deep);
   const int lid = a.AddLink("lid", "lid", body, plan);
   a.Add(lid, side, Box({-x, -y, high - wall}, {x, y, high}));

@@ -98,7 +98,8 @@ double DriftWhenLetGo(const ArticulatedBody& body, int joint, double position, d
 
 double TiltWhenOpened(const ArticulatedBody& body, int joint, JointRig* rig) {
   const assets::UrdfJoint& j = JointOf(body, joint);
-  const JointDrive drive = DriveFor(body, joint);
+  JointDrive drive = DriveFor(body, joint);
+  drive.velocity *= 0.5;  // with care: what stops at its limit jerks the whole
   StandAtZero(body, rig);
   rig->SetRootPose(Eigen::Isometry3d::Identity());
   const Eigen::Isometry3d start = rig->LinkPose(0);

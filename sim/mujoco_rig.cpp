@@ -15,6 +15,8 @@ namespace {
 // feel their weight. A thousand times more, and the solver lost a button's friction in rounding.
 constexpr double kHeldInertia = 1e6;
 
+constexpr double kMotorRise = 0.1;  // s, until a motor wishes for its whole speed
+
 class RigInMujoco : public JointRig {
  public:
   RigInMujoco(const ArticulatedBody& body, const std::filesystem::path& mjcf,
@@ -59,7 +61,7 @@ class RigInMujoco : public JointRig {
   }
   void Drive(int joint, double velocity, double max_force) override {
     LetGo(joint);
-    motors_[joint] = {velocity, max_force, true};
+    motors_[joint] = {velocity, max_force, data_->time};
   }
   void LetGo(int joint) override {
     motors_.erase(joint);
@@ -68,7 +70,7 @@ class RigInMujoco : public JointRig {
     data_->qfrc_applied[dof] = 0.0;
   }
   void Step() override {
-    for (auto& [joint, motor] : motors_) Apply(Dof(joint), &motor);
+    for (const auto& [joint, motor] : motors_) Apply(Dof(joint), motor);
     scene_.Step();
   }
   double time() const override { return data_->time; }
@@ -118,20 +120,20 @@ class RigInMujoco : public JointRig {
  private:
   struct Motor {
     double velocity = 0.0, max_force = 0.0;
-    bool starts = true;
+    double start = 0.0;  // s
   };
   // Near its wish and beyond the motor is force = gain (wish - v), put into MuJoCo's damping, which
-  // is implicit: stable for any inertia. Below the wish it gives what it has, but for the first
-  // step: a light joint is at its wish after that, where the full force would throw it.
-  void Apply(int dof, Motor* motor) {
-    const double gain = 10.0 * motor->max_force / std::max(std::abs(motor->velocity), 1e-6);
-    const double force = gain * (motor->velocity - data_->qvel[dof]);
-    const bool all =
-        !motor->starts && std::abs(force) > motor->max_force && force * motor->velocity > 0.0;
+  // is implicit: stable for any inertia. Further below the wish it gives what it has. The wish
+  // rises from zero, so that a light joint follows it and is not thrown by the full force.
+  void Apply(int dof, const Motor& motor) {
+    const double rise =
+        std::min(1.0, (data_->time - motor.start + model_->opt.timestep) / kMotorRise);
+    const double gain = 10.0 * motor.max_force / std::max(std::abs(motor.velocity), 1e-6);
+    const double wish = rise * motor.velocity;
+    const double force = gain * (wish - data_->qvel[dof]);
+    const bool all = std::abs(force) > motor.max_force && force * motor.velocity > 0.0;
     model_->dof_damping[dof] = damping_[static_cast<size_t>(dof)] + (all ? 0.0 : gain);
-    data_->qfrc_applied[dof] =
-        all ? std::copysign(motor->max_force, force) : gain * motor->velocity;
-    motor->starts = false;
+    data_->qfrc_applied[dof] = all ? std::copysign(motor.max_force, force) : gain * wish;
   }
   int Find(int type, const std::string& name, const std::filesystem::path& mjcf) const {
     const int id = mj_name2id(model_, type, name.c_str());

@@ -127,7 +127,7 @@ TEST(Articulated, FrictionHoldsBelowItselfAndNotAbove) {
     for (JointRig* rig : {rigs.bullet.get(), rigs.mujoco.get()}) {
       const double drift = DriftWhenLetGo(rigs.body, 0, 0.5 * M_PI, 1.0, rig);
       if (share > 1.0) {
-        EXPECT_LT(drift, 1e-3);
+        EXPECT_LT(drift, 1e-4);
       } else {
         EXPECT_GT(drift, 0.05);
       }
@@ -158,7 +158,7 @@ TEST(Articulated, MotorsHoldTheirSpeedAndStopAtLimits) {
     rig->SetPosition(0, -1.0);
     rig->Drive(0, 0.5, 60.0);
     for (const double start = rig->time(); rig->time() - start < 2.0;) rig->Step();
-    EXPECT_NEAR(rig->Position(0), 0.0, 0.02);  // 2 s at 0.5 m/s
+    EXPECT_NEAR(rig->Position(0), 0.0, 0.03);  // 2 s at 0.5 m/s, less MuJoCo's soft start
     rig->LetGo(0);
     rig->SetPosition(0, 2.95);
     rig->Drive(0, 0.5, 60.0);
