@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "tasks/task_names.h"
 
 namespace simwright::pipeline {
 namespace {
@@ -61,6 +62,11 @@ TaskAssets ReadTaskAssets(const std::vector<std::string>& arguments) {
     for (const Located& located : Expanded(argument)) {
       assets::SemanticModel model = assets::ReadSemanticModel(located.path);
       if (!located.name.empty()) model.name = located.name;
+      if (!tasks::IsAssetName(model.name)) {
+        throw core::Error("programs cannot call an asset '" + model.name + "'",
+                          located.path.string(),
+                          "give it a name of letters, digits, '_' and '-': NAME=PATH");
+      }
       if (!names.insert(model.name).second) {
         throw core::Error("two assets are called '" + model.name + "'", located.path.string(),
                           "give one another name: NAME=PATH");

@@ -19,7 +19,7 @@ struct TaskAssets {
 // Reads `arguments`, each PATH or NAME=PATH: an asset's folder (ours, or PartNet-Mobility's), a
 // URDF, or a folder of such folders, which are taken in order of their names. Without a name a
 // folder's is taken, a URDF's file's. Throws core::Error where there is nothing at a path, two
-// assets bear one name, or a URDF cannot be read.
+// assets bear one name, programs cannot call one by its name, or a URDF cannot be read.
 TaskAssets ReadTaskAssets(const std::vector<std::string>& arguments);
 
 }  // namespace simwright::pipeline

@@ -15,6 +15,8 @@ constexpr double kGap = 0.02;         // m between things
 constexpr double kRobotRadius = 0.2;  // m, what its base needs of the floor
 // Heights of the robot's base that are tried: on the floor first, else on a pedestal.
 constexpr std::array<double, 6> kBaseHeights = {0.0, 0.2, 0.4, 0.6, 0.8, 1.0};
+// Of a joint's way that the arm shall follow: all of it where that can be.
+constexpr std::array<double, 2> kWorkedShares = {1.0, 0.8};
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 using Pose = Eigen::Isometry3d;
@@ -54,13 +56,17 @@ class Planner {
       : model_(model), request_(request), rng_(rng) {}
 
   std::optional<InitialState> Plan() {
-    for (double height : kBaseHeights) {
-      start_ = InitialState{};
-      start_.joints = request_.joints;
-      start_.world_from_robot = Eigen::Translation3d(0, 0, height) * Pose::Identity();
-      taken_ = {Eigen::AlignedBox2d(Eigen::Vector2d::Constant(-kRobotRadius),
-                                    Eigen::Vector2d::Constant(kRobotRadius))};
-      if (PlaceAll()) return start_;
+    for (double share : kWorkedShares) {
+      worked_share_ = share;
+      for (double height : kBaseHeights) {
+        start_ = InitialState{};
+        start_.joints = request_.joints;
+        start_.world_from_robot = Eigen::Translation3d(0, 0, height) * Pose::Identity();
+        taken_ = {Eigen::AlignedBox2d(Eigen::Vector2d::Constant(-kRobotRadius),
+                                      Eigen::Vector2d::Constant(kRobotRadius))};
+        if (PlaceAll()) return start_;
+      }
+      if (request_.worked.empty()) break;
     }
     return std::nullopt;
   }
@@ -109,9 +115,9 @@ class Planner {
       if (owner != thing) continue;
       const ThingJoint& joint = known.joints[static_cast<std::size_t>(j)];
       const auto grip = static_cast<std::size_t>(joint.grip);
-      for (double share : {0.0, 0.4, 0.8}) {
+      for (double share : {0.0, 0.5, 1.0}) {
         positions[static_cast<std::size_t>(j)] =
-            joint.rest() + share * (joint.far() - joint.rest());
+            joint.rest() + share * worked_share_ * (joint.far() - joint.rest());
         points.push_back(LinkPosesOf(known, positions)[grip] * known.links[grip].middle);
       }
       positions[static_cast<std::size_t>(j)] = joint.rest();
@@ -241,6 +247,7 @@ class Planner {
   const SceneModel& model_;
   const LayoutRequest& request_;
   core::Rng& rng_;
+  double worked_share_ = 1.0;
   InitialState start_;
   std::vector<Eigen::AlignedBox2d> taken_;
 };

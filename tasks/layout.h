@@ -27,8 +27,8 @@ struct LayoutRequest {
 
 // Places things in front of the robot: what is articulated stands before it, held to the world and
 // facing it, at a distance, to a side and against a height of the robot's base that let it reach
-// the handles along their whole way; what is not stands beside, within reach, or where `resting`
-// says. Nothing overlaps. Empty where no such place is found.
+// the handles along their whole way (or at least 0.8 of it); what is not stands beside, within
+// reach, or where `resting` says. Nothing overlaps. Empty where no such place is found.
 std::optional<InitialState> LayOut(const SceneModel& model, const LayoutRequest& request,
                                    core::Rng& rng);
 

@@ -170,12 +170,16 @@ class SlotWriter {
   void WriteJoint(const RewardSlot& slot, const Place& place, std::vector<float>* row) {
     const auto j = static_cast<std::size_t>(place.joint);
     const ThingJoint& joint = model_.things[place.thing].joints[j];
-    const double q = now_.state().joints[place.thing][j];
+    const Thing& thing = model_.things[place.thing];
+    const double q = JointPosition(thing, now_.state().joints[place.thing], j);
     double value = q;
     if (slot.input == RewardInput::kJointLower) value = joint.lower;
     if (slot.input == RewardInput::kJointUpper) value = joint.upper;
     if (slot.input == RewardInput::kJointVelocity) {
-      value = before_ == nullptr ? 0.0 : (q - before_->state().joints[place.thing][j]) / time_step_;
+      value =
+          before_ == nullptr
+              ? 0.0
+              : (q - JointPosition(thing, before_->state().joints[place.thing], j)) / time_step_;
     }
     (*row)[0] = static_cast<float>(value);
   }

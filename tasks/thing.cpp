@@ -138,6 +138,14 @@ Thing ThingOf(const std::string& name, const assets::SemanticModel& model) {
     thing.mass += link.mass;
     thing.links.push_back(std::move(link));
   }
+  for (const assets::UrdfJoint& source : model.model.joints) {
+    const int follower = thing.FindJoint(source.name);
+    if (follower < 0 || !source.mimic) continue;
+    ThingJoint& joint = thing.joints[static_cast<std::size_t>(follower)];
+    joint.leader = thing.FindJoint(source.mimic->joint);
+    joint.multiplier = source.mimic->multiplier;
+    joint.offset = source.mimic->offset;
+  }
   for (ThingJoint& joint : thing.joints) joint.grip = GripOf(thing, joint.link);
   const std::vector<Eigen::Isometry3d> poses = LinkPosesOf(thing, RestPositions(thing));
   for (std::size_t i = 0; i < thing.links.size(); ++i) {
@@ -146,6 +154,13 @@ Thing ThingOf(const std::string& name, const assets::SemanticModel& model) {
   if (thing.box.isEmpty()) thing.box.extend(Eigen::Vector3d::Zero());
   AddCavities(model, &thing);
   return thing;
+}
+
+double JointPosition(const Thing& thing, const std::vector<double>& positions, std::size_t index) {
+  const ThingJoint& joint = thing.joints[index];
+  if (joint.leader < 0) return positions[index];
+  // One that follows a follower counts from that one's own position: chains are not followed.
+  return joint.multiplier * positions[static_cast<std::size_t>(joint.leader)] + joint.offset;
 }
 
 std::vector<Eigen::Isometry3d> LinkPosesOf(const Thing& thing,
@@ -161,7 +176,7 @@ std::vector<Eigen::Isometry3d> LinkPosesOf(const Thing& thing,
     poses[i] = poses[static_cast<std::size_t>(link.parent)] * link.parent_from_link;
     if (link.joint < 0) continue;
     const ThingJoint& joint = thing.joints[static_cast<std::size_t>(link.joint)];
-    const double q = positions[static_cast<std::size_t>(link.joint)];
+    const double q = JointPosition(thing, positions, static_cast<std::size_t>(link.joint));
     if (joint.type == RewardJointType::kPrismatic) {
       poses[i].translate(q * joint.axis);
     } else {

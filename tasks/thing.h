@@ -31,6 +31,9 @@ struct ThingJoint {
   int grip = -1;  // the link that a hand takes: its handle, or itself
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // frame of its link, unit
   double lower = 0.0, upper = 0.0;                  // rad or m
+  // A joint that follows another: position = multiplier * leader's + offset.
+  int leader = -1;  // into Thing::joints; -1: it moves by itself
+  double multiplier = 1.0, offset = 0.0;
   // The position nearest zero within the limits: closed, off, released.
   double rest() const { return lower > 0.0 ? lower : upper < 0.0 ? upper : 0.0; }
   // The limit farther from rest(): open, on, pressed.
@@ -63,6 +66,9 @@ struct Thing {
 // What is known of `model`, called `name`. Shapes are the collision shapes, where there are none
 // the visual ones. Floating and planar joints count as fixed.
 Thing ThingOf(const std::string& name, const assets::SemanticModel& model);
+
+// Where joint `index` stands: its own position, or what its leader's makes of it.
+double JointPosition(const Thing& thing, const std::vector<double>& positions, std::size_t index);
 
 // Poses of the links in the root's frame, `positions` by joint. Throws core::Error for another
 // length.

@@ -63,7 +63,7 @@ JointUse UseOf(const Thing& thing, const ThingJoint& joint) {
   const std::string name = Called(thing, joint);
   const bool slides = joint.type == RewardJointType::kPrismatic;
   const double range = joint.upper - joint.lower;
-  if (range < (slides ? kLeastPress : 0.1)) return JointUse::kNone;
+  if (joint.leader >= 0 || range < (slides ? kLeastPress : 0.1)) return JointUse::kNone;
   if (Holds(name, std::array{"door", "lid", "drawer", "window", "sash", "cover", "flap", "shutter",
                              "screen", "tray", "rack"})) {
     return JointUse::kOpen;

@@ -6,7 +6,7 @@ namespace simwright::tasks {
 
 // What moving a joint is called.
 enum class JointUse {
-  kNone,    // not for a hand: too small a range
+  kNone,    // not for a hand: too small a range, or it follows another
   kOpen,    // open / close: doors, drawers, lids, sashes, screens
   kTurn,    // turn on / turn off: knobs, taps, valves
   kSwitch,  // switch on / switch off

@@ -171,12 +171,40 @@ TEST_F(TasksCommand, AHopelessOneStaysInTheFileAndFailsTheRun) {
   EXPECT_NE(core::ReadFile(Path("t.html")).find("not sound"), std::string::npos);
 }
 
+// Five hundred drawers, one of them led by another, and a part that floats.
+TEST_F(TasksCommand, AThingOfFiveHundredJointsIsDoneInSeconds) {
+  std::string urdf =
+      "<robot name=\"rack\"><link name=\"body\">"
+      "<collision><geometry><box size=\"0.2 0.2 0.2\"/></geometry></collision></link>";
+  for (int i = 0; i < 500; ++i) {
+    const std::string n = std::to_string(i);
+    urdf += "<link name=\"drawer_" + n +
+            "\"><collision><geometry><box size=\"0.1 0.1 0.01\"/></geometry></collision></link>"
+            "<joint name=\"slide_" +
+            n + "\" type=\"" + (i == 499 ? "floating" : "prismatic") +
+            "\"><parent link=\"body\"/><child link=\"drawer_" + n +
+            "\"/><axis xyz=\"-1 0 0\"/><limit lower=\"0\" upper=\"0.1\" effort=\"1\" "
+            "velocity=\"1\"/>" +
+            (i == 7 ? "<mimic joint=\"slide_6\"/>" : "") + "</joint>";
+  }
+  fs::create_directories(folder_.path() / "rack");
+  core::WriteFile(folder_.path() / "rack/rack.urdf", urdf + "</robot>");
+  const Outcome outcome =
+      RunProgram("tasks " + Path("rack") + " --count 20 --json -o " + Path("t.json"));
+  EXPECT_EQ(outcome.code, 0) << outcome.text.substr(0, 2000);
+  EXPECT_EQ(Read("t.json").tasks.size(), 20u);
+  const Outcome none = RunProgram("tasks far=" + Path("assets/tin/tin.urdf") +
+                                  " --count 3 --json -o " + Path("n.json"));
+  EXPECT_EQ(none.code, 0) << none.text;
+}
+
 TEST_F(TasksCommand, WhatCannotBeReadIsSaidInOneLine) {
   core::WriteFile(folder_.path() / "empty.jsonl", "");
-  for (const std::string& arguments :
-       {"tasks --quiet " + Path("nowhere") + " -o " + Path("x.json"),
-        "tasks --quiet " + Path("assets/tin") + " tin=" + Path("assets/chest") + " -o " + Path("x.json"),
-        "tasks --quiet " + Assets() + " --replay " + Path("empty.jsonl") + " -o " + Path("x.json")}) {
+  for (const std::string& arguments : {"tasks --quiet " + Path("nowhere") + " -o " + Path("x.json"),
+                                       "tasks --quiet " + Path("assets/tin") +
+                                           " tin=" + Path("assets/chest") + " -o " + Path("x.json"),
+                                       "tasks --quiet " + Assets() + " --replay " +
+                                           Path("empty.jsonl") + " -o " + Path("x.json")}) {
     const Outcome outcome = RunProgram(arguments);
     EXPECT_EQ(outcome.code, 1) << outcome.text;
     EXPECT_EQ(outcome.text.rfind("error: ", 0), 0u) << outcome.text;

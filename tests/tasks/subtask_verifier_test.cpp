@@ -9,6 +9,7 @@
 #include "tasks/language/task_answer.h"
 #include "tasks/language/worked_example.h"
 #include "tasks/layout.h"
+#include "tasks/rules/affordances.h"
 #include "tasks/scene_signals.h"
 #include "tasks/verification/motion.h"
 #include "tasks/verification/rank_correlation.h"
@@ -233,6 +234,27 @@ TEST(SceneSignals, FollowTheJoints) {
   EXPECT_NEAR(values[2][0], 0.2, 1e-6);
   slots[0].part = "lid";
   EXPECT_THROW(SlotValues(model, state, nullptr, 0.5, slots, &values), core::Error);
+}
+
+// A second door that follows the first one, half as far and the other way.
+TEST(SceneSignals, AMimicJointFollowsItsLeader) {
+  assets::SemanticModel model = Microwave();
+  assets::UrdfLink twin = MakeLink("twin", 1.0);
+  twin.collisions = {Block({0.02, 0.4, 0.2}, {0.0, -0.2, 0.0})};
+  model.model.links.push_back(twin);
+  model.model.joints.push_back(MakeJoint("twin_joint", "body", "twin",
+                                         assets::UrdfJointType::kRevolute, {0.3, 0, 0.1}, {0, 0, 1},
+                                         -2.0, 2.0));
+  model.model.joints.back().mimic = assets::UrdfMimic{"door_joint", -0.5, 0.1};
+  const Thing thing = ThingOf("microwave", model);
+  std::vector<double> positions = RestPositions(thing);
+  positions[static_cast<std::size_t>(thing.FindJoint("door_joint"))] = 1.2;
+  const Eigen::Isometry3d pose =
+      LinkPosesOf(thing, positions)[static_cast<std::size_t>(thing.FindLink("twin"))];
+  const Eigen::AngleAxisd expected(-0.5 * 1.2 + 0.1, Eigen::Vector3d::UnitZ());
+  EXPECT_LT((pose.linear() - expected.toRotationMatrix()).norm(), 1e-12);
+  EXPECT_EQ(UseOf(thing, thing.joints[static_cast<std::size_t>(thing.FindJoint("twin_joint"))]),
+            JointUse::kNone);
 }
 
 // A cup in a drawer travels with it.
