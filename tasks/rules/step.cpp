@@ -236,6 +236,28 @@ Step PlaceOnStep(const SceneModel& model, const SceneState& state, const Operato
   return step;
 }
 
+// Where the thing's middle goes in a room (world frame): its middle, or else aside, where nothing
+// else stands already.
+Eigen::Vector3d FreeSpot(const SceneModel& model, const SceneState& state, int thing,
+                         const Eigen::AlignedBox3d& room) {
+  const Eigen::Vector3d size = model.things[static_cast<std::size_t>(thing)].box.sizes();
+  Eigen::Vector3d middle = room.center();
+  middle.z() = room.min().z() + 0.5 * size.z() + 1e-3;
+  const Eigen::Vector3d spare = (0.5 * (room.sizes() - size)).cwiseMax(0.0);
+  for (const auto& [x, y] :
+       {std::pair{0.0, 0.0}, {0.0, 0.9}, {0.0, -0.9}, {0.9, 0.0}, {-0.9, 0.0}}) {
+    const Eigen::Vector3d spot = middle + Eigen::Vector3d(x * spare.x(), y * spare.y(), 0.0);
+    const Eigen::AlignedBox3d taken(spot - 0.5 * size, spot + 0.5 * size);
+    bool is_free = true;
+    for (std::size_t other = 0; other < model.things.size(); ++other) {
+      if (static_cast<int>(other) == thing || model.things[other].articulated()) continue;
+      is_free = is_free && !taken.intersects(WorldBox(model, state, static_cast<int>(other)));
+    }
+    if (is_free) return spot;
+  }
+  return middle;
+}
+
 Step PutIntoStep(const SceneModel& model, const SceneState& state, const Operator& one) {
   const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
   const Thing& holder = model.things[static_cast<std::size_t>(one.other)];
@@ -251,8 +273,7 @@ Step PutIntoStep(const SceneModel& model, const SceneState& state, const Operato
   }
   const Eigen::AlignedBox3d box = WorldBox(model, state, one.other, cavity.link);
   const Eigen::Vector3d size = box.sizes().cwiseMax(1e-6);
-  Eigen::Vector3d target = room.center();
-  target.z() = room.min().z() + 0.5 * thing.height() + 1e-3;
+  const Eigen::Vector3d target = FreeSpot(model, state, one.thing, room);
   // What stands out of a cup has its middle above the cup's room.
   const double lift = std::max(0.0, target.z() + 0.02 - room.max().z());
   const Eigen::Vector3d low = (room.min() - box.min()).cwiseQuotient(size);

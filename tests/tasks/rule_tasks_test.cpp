@@ -111,6 +111,28 @@ TEST(RuleTasks, AreSoundAndOfEveryKind) {
   }
 }
 
+// Two things stored in one room do not stand in each other.
+TEST(RuleTasks, StoredThingsStandApart) {
+  const SceneModel model = Kitchen();
+  const RuleTasks result = GenerateTasksByRules(model, {60, 1});
+  int stored = 0;
+  for (const Task& task : result.tasks) {
+    if (task.name.rfind("store_", 0) != 0) continue;
+    ++stored;
+    const SceneState state = StateOf(model, task.subtasks.back().start);  // before it is closed
+    std::vector<int> things;
+    for (const std::string& name : task.assets) {
+      if (!model.things[static_cast<std::size_t>(model.Find(name))].articulated()) {
+        things.push_back(model.Find(name));
+      }
+    }
+    ASSERT_EQ(things.size(), 2u);
+    EXPECT_FALSE(WorldBox(model, state, things[0]).intersects(WorldBox(model, state, things[1])))
+        << task.name;
+  }
+  EXPECT_GE(stored, 2);
+}
+
 TEST(RuleTasks, AreTheSameForASeed) {
   const SceneModel model = Kitchen();
   const RuleTasks a = GenerateTasksByRules(model, {12, 5});
