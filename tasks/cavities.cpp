@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kResolution = 40;
 constexpr int kShieldedSides = 5;
+constexpr double kLargest = 1000.0;  // m: what is larger has no rooms for a hand
 
 using Cell = Eigen::Vector3i;
 
@@ -182,6 +183,10 @@ std::vector<Cavity> FindCavities(int link, const std::vector<core::TriangleMesh>
                                  double least) {
   std::vector<Cavity> cavities;
   if (parts.empty()) return cavities;
+  Eigen::AlignedBox3d whole;
+  for (const core::TriangleMesh& part : parts) whole.extend(core::Bounds(part));
+  const double longest = whole.sizes().maxCoeff();
+  if (!(longest >= least && longest <= kLargest)) return cavities;
   const Grid grid(parts);
   const std::vector<unsigned char> shields = Shields(grid);
   std::vector<char> seen(shields.size(), 0);

@@ -262,6 +262,7 @@ std::optional<InitialState> LayOut(const SceneModel& model, const LayoutRequest&
 bool Reaches(const Eigen::Isometry3d& world_from_robot, const Eigen::Vector3d& point,
              const std::optional<Eigen::Vector3d>& approach) {
   const Pose robot_from_world = world_from_robot.inverse();
+  if (!point.allFinite()) return false;
   robot::ToolTarget target;
   target.position = robot_from_world * point;
   if (approach) target.approach = robot_from_world.linear() * *approach;
