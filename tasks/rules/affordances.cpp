@@ -64,6 +64,9 @@ JointUse UseOf(const Thing& thing, const ThingJoint& joint) {
   const bool slides = joint.type == RewardJointType::kPrismatic;
   const double range = joint.upper - joint.lower;
   if (joint.leader >= 0 || range < (slides ? kLeastPress : 0.1)) return JointUse::kNone;
+  if (slides && Holds(name, std::array{"door", "window", "sash", "shutter", "screen"})) {
+    return JointUse::kSlide;
+  }
   if (Holds(name, std::array{"door", "lid", "drawer", "window", "sash", "cover", "flap", "shutter",
                              "screen", "tray", "rack"})) {
     return JointUse::kOpen;

@@ -8,6 +8,7 @@ namespace simwright::tasks {
 enum class JointUse {
   kNone,    // not for a hand: too small a range, or it follows another
   kOpen,    // open / close: doors, drawers, lids, sashes, screens
+  kSlide,   // slide open / slide closed: sashes, sliding doors
   kTurn,    // turn on / turn off: knobs, taps, valves
   kSwitch,  // switch on / switch off
   kLatch,   // turn / turn back: a door's own handle

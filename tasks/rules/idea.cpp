@@ -68,7 +68,7 @@ class Thinker {
         idea.layout.worked = {{t, joint}};
         idea.goals = {{FactKind::kJointAway, t, -1, joint}};
         away.push_back(idea);
-        if (use == JointUse::kOpen) open.push_back(idea.goals[0]);
+        if (use == JointUse::kOpen || use == JointUse::kSlide) open.push_back(idea.goals[0]);
         if (use == JointUse::kPress) continue;
         idea.goals = {{FactKind::kJointAtRest, t, -1, joint}};
         idea.layout.joints = {{thing.name, thing.joints[j].name, thing.joints[j].far()}};

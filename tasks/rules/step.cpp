@@ -60,6 +60,8 @@ struct Verbs {
 
 Verbs VerbsOf(JointUse use) {
   switch (use) {
+    case JointUse::kSlide:
+      return {"Slide open", "slide_open", "Slide closed", "slide_closed"};
     case JointUse::kTurn:
       return {"Turn on", "turn_on", "Turn off", "turn_off"};
     case JointUse::kLatch:

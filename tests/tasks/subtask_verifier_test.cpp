@@ -202,6 +202,8 @@ TEST(TitleDirection, IsTheFirstVerbs) {
   EXPECT_EQ(DirectionOfTitle("Turn the faucet on"), TitleDirection::kAway);
   EXPECT_EQ(DirectionOfTitle("turn off the stove"), TitleDirection::kBack);
   EXPECT_EQ(DirectionOfTitle("Pull the drawer out"), TitleDirection::kAway);
+  EXPECT_EQ(DirectionOfTitle("Slide open the window"), TitleDirection::kAway);
+  EXPECT_EQ(DirectionOfTitle("slide_closed_window_2_window"), TitleDirection::kBack);
   EXPECT_EQ(DirectionOfTitle("Put the cup in the open drawer"), TitleDirection::kNone);
   EXPECT_EQ(DirectionOfTitle("Push the cup in the box"), TitleDirection::kNone);
   EXPECT_EQ(DirectionOfTitle("Put the cup on the closed box"), TitleDirection::kNone);
