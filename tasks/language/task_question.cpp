@@ -28,7 +28,8 @@ std::string InstructionSection() {
       "- success is false at the beginning of the subtask, can be reached within the joints' "
       "limits, and says what the subtask's name says.\n"
       "- Only these functions of the environment exist. Metres, radians, seconds; the world's z "
-      "points up, the floor is z = 0; quaternions are x, y, z, w.\n\n";
+      "points up, the floor is z = 0; the robot stands at the origin and looks along x to the "
+      "assets, its arm reaches 0.8 m; quaternions are x, y, z, w.\n\n";
   text += ApiListing();
   text += "\n- Of torch, among others, these work on x [N, 3] and a, b [N]:\n\n";
   for (const char* expression : TensorExpressions()) text += std::string(expression) + "\n";
