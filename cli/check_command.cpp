@@ -41,7 +41,8 @@ int Check(const Flags& flags, const CommonOptions& common) {
 
 void AddCheck(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
-  CLI::App* command = app->add_subcommand("check", "Geometry, inertia, readers and a drop test");
+  CLI::App* command =
+      app->add_subcommand("check", "Geometry, inertia, readers, a drop test, and how joints swing");
   command->footer(
       "Example:\n  simwright check apple\n"
       "Exit code 1 when a property fails.");

@@ -89,7 +89,7 @@ assets::ArticulatedAsset MakeMicrowave(const Options& options) {
       "door", "door", body,
       SideHinge(front + kDoor, hinge_y, 0.5 * p.high, a.Draw(1.6, 2.0), DrawFeel(a.rng(), width)));
   const Eigen::AlignedBox3d slab = Bounds(front, front + kDoor, std::min(hinge_y, free_y),
-                                          std::max(hinge_y, free_y), kFoot, p.high);
+                                          std::max(hinge_y, free_y), kFoot + kGap, p.high);
   const double border = 0.16 * p.high;
   a.Add(door, casing, FrameBars(slab, border));
   a.Add(door, DarkGlass(), Pane(slab, border, 0.010));

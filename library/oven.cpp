@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 
 #include "library/carcass.h"
@@ -7,9 +8,10 @@
 namespace simwright::library {
 namespace {
 
-constexpr double kDoor = 0.034;   // m, thickness
-constexpr double kWall = 0.045;   // m, with its insulation
-constexpr double kPlinth = 0.13;  // m: the open door and its handle stay above the floor
+constexpr double kDoor = 0.034;        // m, thickness
+constexpr double kWall = 0.045;        // m, with its insulation
+constexpr double kTallestDoor = 0.46;  // m: taller ones are too heavy for a hand
+constexpr double kPlinth = 0.13;       // m: the open door and its handle stay above the floor
 
 void AddRack(Assembly* a, int body, const Eigen::AlignedBox3d& cavity, double z) {
   constexpr int kWires = 7;
@@ -38,17 +40,18 @@ assets::ArticulatedAsset MakeOven(const Options& options) {
   const double high = a.parameters().height.sample;
   const double front = -0.5 * deep, rear = 0.5 * deep, inner = front + kDoor + kGap;
   const double panel = a.Draw(0.10, 0.12);  // height of the control panel
+  const double plinth = std::max(kPlinth, high - panel - kTallestDoor);  // a warming drawer
   const Matter casing = Casing(a.rng());
   const int body = a.AddRoot("body", "body");
-  a.Add(body, casing, Box({inner + 0.02, -0.5 * across, 0.0}, {rear, 0.5 * across, kPlinth}));
+  a.Add(body, casing, Box({inner + 0.02, -0.5 * across, 0.0}, {rear, 0.5 * across, plinth}));
   const double shell_top = high - panel;
   const Eigen::AlignedBox3d shell =
-      Bounds(inner, rear, -0.5 * across, 0.5 * across, kPlinth, shell_top);
+      Bounds(inner, rear, -0.5 * across, 0.5 * across, plinth, shell_top);
   a.Add(body, casing, CarcassPanels(shell, kWall));
   a.Add(body, casing, Box({front, -0.5 * across, shell_top}, {rear, 0.5 * across, high}));
   const Eigen::AlignedBox3d cavity =
-      Bounds(inner, rear - kWall, -0.5 * across + kWall, 0.5 * across - kWall, kPlinth, shell_top);
-  AddRack(&a, body, cavity, kPlinth + 0.4 * (shell_top - kPlinth));
+      Bounds(inner, rear - kWall, -0.5 * across + kWall, 0.5 * across - kWall, plinth, shell_top);
+  AddRack(&a, body, cavity, plinth + 0.4 * (shell_top - plinth));
   const bool stove = high > 0.75;
   if (stove) AddBurners(&a, body, deep, across, high);
   a.Note("cooktop", stove ? "four burners" : "none");
@@ -59,12 +62,12 @@ assets::ArticulatedAsset MakeOven(const Options& options) {
   const double top = shell_top - kGap;
   const int door = a.AddLink(
       "door", "door", body,
-      BottomHinge(front + kDoor, kPlinth, a.Draw(1.4, 1.55), DrawFeel(a.rng(), top - kPlinth)));
+      BottomHinge(front + kDoor, plinth, a.Draw(1.4, 1.55), DrawFeel(a.rng(), top - plinth)));
   const Eigen::AlignedBox3d slab =
-      Bounds(front, front + kDoor, -0.5 * across, 0.5 * across, kPlinth, top);
+      Bounds(front, front + kDoor, -0.5 * across, 0.5 * across, plinth, top);
   const double border = 0.09;
   a.Add(door, casing, FrameBars(slab, border));
-  a.Add(door, DarkGlass(), Pane(slab, border, 0.008));
+  a.Add(door, DarkGlass(), Pane(slab, border, 0.006));
   const HandleKind kind = DrawHandle(a.rng(), {HandleKind::kBar, HandleKind::kBow});
   a.Note("handle", HandleName(kind));
   HandlePlace place;

@@ -13,6 +13,7 @@
 namespace simwright::pipeline {
 namespace {
 
+constexpr double kLeastClearance = 1e-4;  // m: both hulls' margins in Bullet
 constexpr double kHoldSeconds = 1.0;
 constexpr double kTippingShare = 0.01;  // of the whole's mass: less, a button, tips nothing
 
@@ -28,8 +29,8 @@ void AddClearanceRow(const assets::UrdfModel& model, int joint, bool fixed, Chec
   const std::string& name = model.joints[static_cast<size_t>(joint)].name;
   const Clearance least = SweptClearance(model, joint);
   if (std::isfinite(least.distance)) {
-    rows->Require("clearance-" + name, least.distance > 0.0, least.distance * 1e3,
-                  "mm between " + least.pair + ", nearest over the range, above 0");
+    rows->Require("clearance-" + name, least.distance >= kLeastClearance, least.distance * 1e3,
+                  "mm between " + least.pair + ", nearest over the range, at least 0.1");
   } else {
     rows->Report("clearance-" + name, 0.0, "nothing is near");
   }

@@ -125,5 +125,36 @@ TEST_F(Urdf, PlacesLinksByTheirJoints) {
   EXPECT_EQ(model.joints[0].upper, 2.0);
 }
 
+TEST_F(Urdf, ReadsDynamicsAndMimics) {
+  const auto joint = [](const std::string& name, const std::string& child,
+                        const std::string& more) {
+    return "<joint name=\"" + name + "\" type=\"prismatic\"><parent link=\"a\"/><child link=\"" +
+           child +
+           "\"/><axis xyz=\"0 1 0\"/><limit lower=\"0\" upper=\"0.04\" effort=\"20\" "
+           "velocity=\"0.2\"/>" +
+           more + "</joint>";
+  };
+  const std::string links = Link("a", "../meshes/box.obj") + Link("b", "../meshes/box.obj") +
+                            Link("c", "../meshes/box.obj");
+  const UrdfModel model = ReadUrdf(
+      Write(links + joint("left", "b", "<dynamics damping=\"1.5\" friction=\"0.25\"/>") +
+            joint("right", "c", "<mimic joint=\"left\" multiplier=\"-1\" offset=\"0.01\"/>")));
+  ASSERT_EQ(model.joints.size(), 2u);
+  EXPECT_EQ(model.joints[0].damping, 1.5);
+  EXPECT_EQ(model.joints[0].friction, 0.25);
+  EXPECT_EQ(model.joints[0].effort, 20.0);
+  EXPECT_EQ(model.joints[0].velocity, 0.2);
+  EXPECT_FALSE(model.joints[0].mimic);
+  ASSERT_TRUE(model.joints[1].mimic);
+  EXPECT_EQ(model.joints[1].mimic->joint, "left");
+  EXPECT_EQ(model.joints[1].mimic->multiplier, -1.0);
+  EXPECT_EQ(model.joints[1].mimic->offset, 0.01);
+  ASSERT_EQ(model.findings.size(), 1u);
+  EXPECT_EQ(model.findings[0].code, "urdf-mimic");
+  EXPECT_NE(ErrorOf(Write(links + joint("left", "b", "<dynamics damping=\"-1\"/>") +
+                          joint("right", "c", ""))),
+            "");
+}
+
 }  // namespace
 }  // namespace simwright::assets

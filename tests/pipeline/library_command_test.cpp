@@ -107,6 +107,23 @@ TEST(ArticulatedCheck, AForgedInertialFails) {
   EXPECT_TRUE(Holds(Failures(asset), "inertia-exact"));
 }
 
+// A URDF alone, of any origin: its joints swing too, and a jammed one fails.
+TEST(ArticulatedCheck, AUrdfWithJointsIsSwung) {
+  ArticulatedAsset asset = library::KindNamed("laptop").make({4, ""});
+  for (const bool jammed : {false, true}) {
+    if (jammed) asset.joints[IndexOf(asset, "lid_joint")].friction = 1000.0;
+    const core::TemporaryFolder folder;
+    assets::WriteArticulatedAsset(asset, folder.path());
+    const CheckReport report = CheckUrdf(folder.path() / "laptop.urdf", {});
+    const auto row = std::find_if(report.rows.begin(), report.rows.end(), [](const auto& finding) {
+      return finding.code == "swings-bullet-lid_joint";
+    });
+    ASSERT_NE(row, report.rows.end());
+    EXPECT_EQ(row->severity == core::Severity::kError, jammed);
+    EXPECT_EQ(report.passed(), !jammed);
+  }
+}
+
 // A bar 2 cm before a wall can be held from the front; in a slot 4 cm wide it cannot.
 TEST(GraspSearch, FindsTheBarAndNotTheSlot) {
   const auto box = [](const Eigen::Vector3d& size, const Eigen::Vector3d& at) {
