@@ -10,7 +10,8 @@ namespace {
 
 constexpr int kResolution = 40;
 constexpr int kShieldedSides = 5;
-constexpr double kLargest = 1000.0;  // m: what is larger has no rooms for a hand
+constexpr double kShallowest = 0.08;  // m: a niche less deep, such as a window's, holds nothing
+constexpr double kLargest = 1000.0;   // m: what is larger has no rooms for a hand
 
 using Cell = Eigen::Vector3i;
 
@@ -212,8 +213,10 @@ std::vector<Cavity> FindCavities(int link, const std::vector<core::TriangleMesh>
         Cavity cavity;
         cavity.link = link;
         cavity.box = FreeBox(room, grid);
-        if (cavity.box.sizes().minCoeff() < least) continue;
         cavity.opening = Side(OpenSide(room, grid, shields)).cast<double>();
+        const double depth = std::abs(cavity.box.sizes().dot(cavity.opening));
+        const bool niche = std::abs(cavity.opening.z()) < 0.5 && depth < kShallowest;
+        if (niche || cavity.box.sizes().minCoeff() < least) continue;
         cavities.push_back(cavity);
       }
     }
@@ -267,14 +270,15 @@ void FindDoors(Thing* thing) {
   const std::vector<Eigen::Isometry3d> poses = LinkPosesOf(*thing, RestPositions(*thing));
   const int links = static_cast<int>(thing->links.size());
   const auto is_filled = [&](const Cavity& cavity) {
+    double filled = 0.0;
     for (int other = 0; other < links; ++other) {
       if (other == cavity.link || MovedBy(*thing, other) == MovedBy(*thing, cavity.link)) continue;
       if (MovedBy(*thing, other) < 0) continue;  // the body about a drawer is not in it
       const Eigen::AlignedBox3d box = BoxSeenFrom(*thing, poses, cavity.link, other);
       if (box.isEmpty() || !box.intersects(cavity.box)) continue;
-      if (box.intersection(cavity.box).volume() > kFilled * cavity.box.volume()) return true;
+      filled += box.intersection(cavity.box).volume();
     }
-    return false;
+    return filled > kFilled * cavity.box.volume();
   };
   std::erase_if(thing->cavities, is_filled);
   for (Cavity& cavity : thing->cavities) {
@@ -292,8 +296,10 @@ void FindDoors(Thing* thing) {
           Covered(BoxSeenFrom(*thing, poses, cavity.link, other), slab, cavity.opening);
       if (share <= most) continue;
       most = share;
-      // A drawer is closed by what it slides under: its own joint opens it.
-      cavity.door = moved_by >= 0 && moved_by != own ? moved_by : own;
+      // A drawer is closed by what it slides under, another drawer say: its own joint opens it.
+      const bool slides = own >= 0 && thing->joints[static_cast<std::size_t>(own)].type ==
+                                          RewardJointType::kPrismatic;
+      cavity.door = slides || moved_by < 0 || moved_by == own ? own : moved_by;
     }
   }
 }

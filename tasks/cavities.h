@@ -10,7 +10,8 @@ namespace simwright::tasks {
 // The rooms inside a link made of convex `parts` (link frame, m): connected points that the link
 // itself shields in at least five of the six directions along its axes; each with the largest box
 // about its middle that is free. A cup's is open above, a cupboard's to the front. Rooms smaller
-// than `least` (m, in any direction) are left out. Resolution: 1/40 of the longest side.
+// than `least` (m, in any direction), or open to a side and less than 8 cm deep, are left out.
+// Resolution: 1/40 of the longest side.
 std::vector<Cavity> FindCavities(int link, const std::vector<core::TriangleMesh>& parts,
                                  double least = 0.02);
 

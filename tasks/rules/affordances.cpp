@@ -136,8 +136,8 @@ bool FitsInto(const Thing& thing, const Thing& holder, int cavity) {
   const Eigen::Vector3d space = (pose.linear() * room.box.sizes()).cwiseAbs();
   const Eigen::Vector3d size = thing.box.sizes();
   const bool upwards = opening.z() > 0.7;
-  // What opens above may be stood out of: a spoon in a cup.
-  const double height = upwards ? 2.0 * space.z() : space.z() - kSpare;
+  // What opens above may be stood out of: a spoon in a cup; not where it is shut again.
+  const double height = upwards && room.door < 0 ? 2.0 * space.z() : space.z() - kSpare;
   return size.x() + kSpare <= space.x() && size.y() + kSpare <= space.y() && size.z() <= height;
 }
 

@@ -51,6 +51,29 @@ TEST(Cavities, ADrawersRoomIsOpenedByTheDrawer) {
   EXPECT_EQ(thing.cavities[0].opening, Eigen::Vector3d::UnitZ());
 }
 
+// Two drawers, one above the other: each is opened by itself, though the upper one covers the
+// lower.
+TEST(Cavities, DrawersAboveEachOtherAreOpenedEachByItself) {
+  assets::SemanticModel chest = DrawerUnit();
+  for (core::TriangleMesh* mesh :
+       {&chest.model.links[1].collisions[1].mesh, &chest.model.links[1].collisions[2].mesh,
+        &chest.model.links[1].collisions[3].mesh, &chest.model.links[1].collisions[4].mesh}) {
+    core::Transform(
+        Eigen::Affine3d(Eigen::Translation3d(0, 0, -0.06) * Eigen::Scaling(1.0, 1.0, 0.45)), mesh);
+  }
+  assets::UrdfLink upper = chest.model.links[1];
+  upper.name = "drawer_1";
+  chest.model.links.push_back(upper);
+  chest.model.joints.push_back(MakeJoint("upper_joint", "body", "drawer_1",
+                                         assets::UrdfJointType::kPrismatic, {-0.02, 0, 0.27},
+                                         {-1, 0, 0}, 0.0, 0.25));
+  const Thing thing = ThingOf("chest", chest);
+  ASSERT_EQ(thing.cavities.size(), 2u);
+  for (const Cavity& cavity : thing.cavities) {
+    EXPECT_EQ(thing.joints[static_cast<std::size_t>(cavity.door)].link, cavity.link);
+  }
+}
+
 TEST(Affordances, FollowFromLabelsAndSizes) {
   const SceneModel model = Kitchen();
   const Thing& microwave = model.things[0];
