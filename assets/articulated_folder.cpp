@@ -1,5 +1,6 @@
 #include "assets/articulated_folder.h"
 
+#include "assets/articulated_sdf.h"
 #include "assets/articulated_writer.h"
 #include "assets/asset_json.h"
 #include "assets/mesh_import.h"
@@ -154,6 +155,7 @@ void WriteArticulatedAsset(const ArticulatedAsset& asset, const fs::path& folder
   }
   core::WriteFile(folder / (asset.name + ".urdf"), ArticulatedUrdfText(asset));
   core::WriteFile(folder / (asset.name + ".xml"), ArticulatedMjcfText(asset));
+  core::WriteFile(folder / (asset.name + ".sdf"), ArticulatedSdfText(asset));
   core::WriteFile(folder / "semantics.txt", SemanticsText(asset));
   core::WriteFile(folder / "asset.json", AssetJson(asset).dump(2) + "\n");
 }

@@ -12,27 +12,6 @@
 namespace simwright::assets {
 namespace {
 
-void SdfMesh(tinyxml2::XMLPrinter* printer, const char* role, const std::string& name,
-             const std::string& file, const Asset* surface_of) {
-  Element owner(printer, role);
-  owner.Set("name", name);
-  {
-    Element geometry(printer, "geometry");
-    Element mesh(printer, "mesh");
-    Leaf(printer, "uri", file);
-  }
-  if (surface_of == nullptr) return;
-  Element surface(printer, "surface");
-  {
-    Element friction(printer, "friction");
-    Element ode(printer, "ode");
-    Leaf(printer, "mu", Number(surface_of->friction));
-    Leaf(printer, "mu2", Number(surface_of->friction));
-  }
-  Element bounce(printer, "bounce");
-  Leaf(printer, "restitution_coefficient", Number(surface_of->restitution));
-}
-
 void MjcfAssets(tinyxml2::XMLPrinter* printer, const Asset& asset, bool textured) {
   Element assets(printer, "asset");
   if (textured) {
@@ -136,24 +115,12 @@ std::string SdfText(const Asset& asset) {
     model.Set("name", asset.name);
     Element link(&printer, "link");
     link.Set("name", asset.name);
-    {
-      Element inertial(&printer, "inertial");
-      const Eigen::Vector3d& c = asset.inertial.center_of_mass;
-      Leaf(&printer, "pose", Numbers({c.x(), c.y(), c.z(), 0, 0, 0}));
-      Leaf(&printer, "mass", Number(asset.inertial.mass));
-      Element inertia(&printer, "inertia");
-      const Eigen::Matrix3d& I = asset.inertial.inertia;
-      Leaf(&printer, "ixx", Number(I(0, 0)));
-      Leaf(&printer, "ixy", Number(I(0, 1)));
-      Leaf(&printer, "ixz", Number(I(0, 2)));
-      Leaf(&printer, "iyy", Number(I(1, 1)));
-      Leaf(&printer, "iyz", Number(I(1, 2)));
-      Leaf(&printer, "izz", Number(I(2, 2)));
-    }
-    SdfMesh(&printer, "visual", "visual", "visual.obj", nullptr);
+    SdfInertial(&printer, asset.inertial);
+    SdfVisual(&printer, "visual", "visual.obj");
     for (size_t i = 0; i < asset.parts.size(); ++i) {
       const std::string file = CollisionFileName(static_cast<int>(i));
-      SdfMesh(&printer, "collision", file.substr(0, file.find('.')), file, &asset);
+      SdfCollision(&printer, file.substr(0, file.find('.')), file, asset.friction,
+                   asset.restitution);
     }
   }
   return printer.CStr();

@@ -76,6 +76,53 @@ void UrdfContact(tinyxml2::XMLPrinter* printer, double friction, double rolling_
   Element(printer, "restitution").Set("value", Number(restitution));
 }
 
+void SdfInertial(tinyxml2::XMLPrinter* printer, const Inertial& source) {
+  Element inertial(printer, "inertial");
+  const Eigen::Vector3d& c = source.center_of_mass;
+  Leaf(printer, "pose", Numbers({c.x(), c.y(), c.z(), 0, 0, 0}));
+  Leaf(printer, "mass", Number(source.mass));
+  Element inertia(printer, "inertia");
+  const Eigen::Matrix3d& I = source.inertia;
+  Leaf(printer, "ixx", Number(I(0, 0)));
+  Leaf(printer, "ixy", Number(I(0, 1)));
+  Leaf(printer, "ixz", Number(I(0, 2)));
+  Leaf(printer, "iyy", Number(I(1, 1)));
+  Leaf(printer, "iyz", Number(I(1, 2)));
+  Leaf(printer, "izz", Number(I(2, 2)));
+}
+
+namespace {
+
+void SdfGeometry(tinyxml2::XMLPrinter* printer, const std::string& file) {
+  Element geometry(printer, "geometry");
+  Element mesh(printer, "mesh");
+  Leaf(printer, "uri", file);
+}
+
+}  // namespace
+
+void SdfVisual(tinyxml2::XMLPrinter* printer, const std::string& name, const std::string& file) {
+  Element visual(printer, "visual");
+  visual.Set("name", name);
+  SdfGeometry(printer, file);
+}
+
+void SdfCollision(tinyxml2::XMLPrinter* printer, const std::string& name, const std::string& file,
+                  double friction, double restitution) {
+  Element collision(printer, "collision");
+  collision.Set("name", name);
+  SdfGeometry(printer, file);
+  Element surface(printer, "surface");
+  {
+    Element coulomb(printer, "friction");
+    Element ode(printer, "ode");
+    Leaf(printer, "mu", Number(friction));
+    Leaf(printer, "mu2", Number(friction));
+  }
+  Element bounce(printer, "bounce");
+  Leaf(printer, "restitution_coefficient", Number(restitution));
+}
+
 void MjcfOption(tinyxml2::XMLPrinter* printer) {
   Element option(printer, "option");
   // The default tolerance lets light things with many contacts tremble; at 1e-14 a cup of a

@@ -42,6 +42,11 @@ void UrdfInertial(tinyxml2::XMLPrinter* printer, const Inertial& inertial);
 void UrdfContact(tinyxml2::XMLPrinter* printer, double friction, double rolling_friction,
                  double restitution);
 
+void SdfInertial(tinyxml2::XMLPrinter* printer, const Inertial& inertial);
+void SdfVisual(tinyxml2::XMLPrinter* printer, const std::string& name, const std::string& file);
+void SdfCollision(tinyxml2::XMLPrinter* printer, const std::string& name, const std::string& file,
+                  double friction, double restitution);
+
 // <option>: the solver's settings, `multiccd` on.
 void MjcfOption(tinyxml2::XMLPrinter* printer);
 // <inertial> on principal axes.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <sdf/sdf.hh>
 
 #include "assets/articulated_writer.h"
 #include "assets/asset_folder.h"
@@ -49,6 +50,33 @@ TEST_F(ArticulatedFolder, ReadsBackWhatItWrote) {
   EXPECT_TRUE(a.parent_from_joint.isApprox(b.parent_from_joint, 1e-15));
 }
 
+TEST_F(ArticulatedFolder, LibsdformatReadsItsJointsPosesAndInertials) {
+  const ArticulatedAsset asset = SampleArticulated();
+  sdf::Root root;
+  const sdf::Errors errors = root.Load((folder_.path() / "sample_chest.sdf").string());
+  for (const auto& error : errors) ADD_FAILURE() << error.Message();
+  ASSERT_NE(root.Model(), nullptr);
+  EXPECT_EQ(root.Model()->LinkCount(), 3u);
+  const sdf::Joint* hinge = root.Model()->JointByName("door_joint");
+  ASSERT_NE(hinge, nullptr);
+  EXPECT_EQ(hinge->Type(), sdf::JointType::REVOLUTE);
+  EXPECT_EQ(hinge->Axis()->Lower(), 0.0);
+  EXPECT_EQ(hinge->Axis()->Upper(), 1.7);
+  EXPECT_EQ(hinge->Axis()->Damping(), 0.12);
+  EXPECT_EQ(hinge->Axis()->Friction(), 0.34);
+  EXPECT_EQ(hinge->Axis()->Xyz().Z(), -1.0);
+  const std::vector<Eigen::Isometry3d> poses = LinkPosesAtZero(ModelOf(asset));
+  for (size_t i = 0; i < asset.links.size(); ++i) {
+    const sdf::Link* link = root.Model()->LinkByName(asset.links[i].name);
+    ASSERT_NE(link, nullptr);
+    EXPECT_NEAR(link->Inertial().MassMatrix().Mass(), asset.links[i].inertial.mass, 1e-9);
+    ignition::math::Pose3d pose;
+    ASSERT_TRUE(link->SemanticPose().Resolve(pose, "__model__").empty());
+    const Eigen::Vector3d at(pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z());
+    EXPECT_LT((at - poses[i].translation()).norm(), 1e-9) << asset.links[i].name;
+  }
+}
+
 TEST_F(ArticulatedFolder, UrdfdomReadsItsJointsAndInertials) {
   const ArticulatedAsset asset = SampleArticulated();
   const UrdfModel model = ReadUrdf(folder_.path() / "sample_chest.urdf");
@@ -84,7 +112,7 @@ TEST_F(ArticulatedFolder, SameAssetSameBytes) {
     EXPECT_EQ(core::ReadFile(entry.path()), core::ReadFile(other.path() / entry.path().filename()))
         << entry.path();
   }
-  EXPECT_EQ(files, 3 * (1 + 2 * 2) + 4);  // parts, two colours with their .mtl; models and texts
+  EXPECT_EQ(files, 3 * (1 + 2 * 2) + 5);  // parts, two colours with their .mtl; models and texts
 }
 
 TEST_F(ArticulatedFolder, DamagedDescriptionsAreOneError) {
