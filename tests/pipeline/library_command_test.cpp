@@ -135,8 +135,7 @@ TEST(SweptClearance, TellsGoodHingesFromBad) {
   const Clearance good = SweptClearance(assets::ModelOf(asset), static_cast<int>(joint));
   EXPECT_NEAR(good.distance, 0.003, 2e-4);
   // Half as thick again forward, half the thickness behind: the axis then lies inside the leaf.
-  Eigen::Vector3d& origin = asset.joints[joint].parent_from_joint.translation();
-  origin.x() -= 0.009;
+  asset.joints[joint].parent_from_joint.translation().x() -= 0.009;
   for (core::TriangleMesh& part : asset.links[joint + 1].parts) {
     core::Transform(Eigen::Affine3d(Eigen::Translation3d(0.009, 0, 0)), &part);
   }
