@@ -150,7 +150,7 @@ void MakeParts(bool fixed, core::Progress* progress, UrdfModel* model) {
   progress->Finish();
   ClearingOptions clearing;
   clearing.most = std::min(clearing.most, kSloppyShare * whole);
-  clearing.gap = std::min(clearing.gap, 0.2 * clearing.most);
+  clearing.gap = std::min(clearing.gap, 0.6 * clearing.most);
   clearing.on_floor = !fixed;
   const core::Findings findings = ClearMovingParts(clearing, model);
   model->findings.insert(model->findings.end(), findings.begin(), findings.end());

@@ -9,7 +9,9 @@ struct ClearingOptions {
   // Overlap that is taken for a file's sloppiness and trimmed away, m: models of furniture are
   // drawn to a few millimetres.
   double most = 0.005;
-  double gap = 0.001;     // m, what is left between parts that were trimmed
+  // m, what is left between parts that were trimmed, as between fitted doors: with 1 mm a joint
+  // that is held at its limit touches when another one swings.
+  double gap = 0.003;
   bool on_floor = false;  // also lifts what moves off the floor, where the root stands on it
 };
 

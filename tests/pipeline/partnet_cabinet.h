@@ -35,10 +35,10 @@ class PartnetCabinet {
     std::string door =
         Box("d0", {-.5, -.54, .398}, {.49, .09, .44}, hinge) + Visual("not_there", hinge);
     if (!gapartnet) door += handle;
-    const std::string drawer = Box("w0", {-.49, .12, .403}, {.49, .55, .44}, slide) +
-                               Box("w1", {-.44, .16, -.3}, {.44, .18, .403}, slide) +
-                               Box("w2", {-.44, .18, -.3}, {-.42, .45, .403}, slide) +
-                               Box("w3", {.42, .18, -.3}, {.44, .45, .403}, slide) +
+    const std::string drawer = Box("w0", {-.49, .12, .41}, {.49, .55, .44}, slide) +
+                               Box("w1", {-.44, .16, -.3}, {.44, .18, .41}, slide) +
+                               Box("w2", {-.44, .18, -.3}, {-.42, .45, .41}, slide) +
+                               Box("w3", {.42, .18, -.3}, {.44, .45, .41}, slide) +
                                Box("w4", {-.42, .18, -.3}, {.42, .45, -.28}, slide) +
                                Box("w5", {-.1, .33, .47}, {.1, .35, .49}, slide) +
                                Box("w6", {-.1, .33, .44}, {-.08, .35, .47}, slide) +
