@@ -97,8 +97,7 @@ void FillFromNames(SemanticModel* model) {
 fs::path UrdfIn(const fs::path& folder) {
   const fs::path own = folder / (fs::weakly_canonical(folder).filename().string() + ".urdf");
   if (fs::is_regular_file(own)) return own;
-  const fs::path known =
-      FirstThere(folder, {"mobility.urdf", "mobility_annotation_gapartnet.urdf"});
+  const fs::path known = FirstThere(folder, {"mobility.urdf", kGapartnetUrdf});
   if (!known.empty()) return known;
   std::vector<fs::path> found;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -120,7 +119,12 @@ SemanticModel ReadSemanticModel(const fs::path& path) {
       is_folder || asset ? fs::weakly_canonical(folder).filename().string() : path.stem().string();
   model.model = ReadUrdf(model.urdf);
   model.category = CategoryIn(folder, &model.model.findings);
-  const fs::path semantics = FirstThere(folder, {"semantics.txt", "semantics_gapartnet.txt"});
+  // GAPartNet keeps its own beside PartNet-Mobility's: each tells of its own URDF's links.
+  const char* const own = "semantics.txt";
+  const char* const gapartnet = "semantics_gapartnet.txt";
+  const bool annotated = model.urdf.filename() == kGapartnetUrdf;
+  const fs::path semantics =
+      annotated ? FirstThere(folder, {gapartnet, own}) : FirstThere(folder, {own, gapartnet});
   if (!semantics.empty()) ReadSemantics(semantics, &model);
   FillFromNames(&model);
   return model;

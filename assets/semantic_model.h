@@ -8,6 +8,9 @@
 
 namespace simwright::assets {
 
+// GAPartNet's URDF, in which handles are links of their own.
+constexpr const char* kGapartnetUrdf = "mobility_annotation_gapartnet.urdf";
+
 // What a link is, as PartNet-Mobility's semantics.txt says it.
 struct LinkSemantics {
   std::string joint;  // hinge, slider, slider+, free, heavy, static, fixed; may be empty
@@ -29,9 +32,9 @@ struct SemanticModel {
 std::filesystem::path UrdfIn(const std::filesystem::path& folder);
 
 // Reads a folder or a URDF, and beside it asset.json or meta.json, semantics.txt or
-// semantics_gapartnet.txt, where they are there. Labels that no file gives come from the names of
-// links (docs/formats.md). Lines of the semantics that cannot be read, or name no link, are
-// reported in model.findings. Throws what ReadUrdf throws.
+// semantics_gapartnet.txt (the latter first for GAPartNet's URDF), where they are there. Labels
+// that no file gives come from the names of links (docs/formats.md). Lines of the semantics that
+// cannot be read, or name no link, are reported in model.findings. Throws what ReadUrdf throws.
 SemanticModel ReadSemanticModel(const std::filesystem::path& path);
 
 }  // namespace simwright::assets

@@ -46,6 +46,29 @@ class UrdfdomMessages : public console_bridge::OutputHandler {
   console_bridge::OutputHandler* previous_;
 };
 
+// urdfdom refuses a <limit> without effort or velocity, which PartNet-Mobility leaves out: they are
+// given as 0, "none". The text as it is where nothing is missing.
+std::string WithWholeLimits(const std::string& text) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) return text;
+  bool changed = false;
+  auto* robot = document.FirstChildElement("robot");
+  for (auto* joint = robot ? robot->FirstChildElement("joint") : nullptr; joint != nullptr;
+       joint = joint->NextSiblingElement("joint")) {
+    auto* limit = joint->FirstChildElement("limit");
+    if (limit == nullptr) continue;
+    for (const char* name : {"effort", "velocity"}) {
+      if (limit->Attribute(name) != nullptr) continue;
+      limit->SetAttribute(name, "0");
+      changed = true;
+    }
+  }
+  if (!changed) return text;
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  return printer.CStr();
+}
+
 class Reader {
  public:
   Reader(const fs::path& path, const UrdfReadOptions& options)
@@ -61,7 +84,7 @@ class Reader {
   void AddLink(const urdf::Link& link, const std::string& text);
   void AddJoint(const urdf::Joint& joint);
   void AddShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
-                std::vector<UrdfShape>* shapes);
+                const urdf::MaterialSharedPtr& material, std::vector<UrdfShape>* shapes);
   std::optional<fs::path> FindMesh(const std::string& name);
   void ReadContacts(const std::string& text);
 
@@ -96,8 +119,13 @@ std::optional<fs::path> Reader::FindMesh(const std::string& name) {
 }
 
 void Reader::AddShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
-                      std::vector<UrdfShape>* shapes) {
+                      const urdf::MaterialSharedPtr& material, std::vector<UrdfShape>* shapes) {
   UrdfShape shape;
+  if (material && material->texture_filename.empty()) {
+    const urdf::Color& c = material->color;
+    shape.color = Eigen::Vector4f(c.r, c.g, c.b, c.a);
+  }
+  shape.link_from_file = Eigen::Affine3d(ToIsometry(origin));
   switch (geometry.type) {
     case urdf::Geometry::BOX: {
       const auto& dim = static_cast<const urdf::Box&>(geometry).dim;
@@ -127,11 +155,12 @@ void Reader::AddShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
       }
       shape.file = file->string();
       const Eigen::Vector3d scale(mesh.scale.x, mesh.scale.y, mesh.scale.z);
-      core::Transform(Eigen::Affine3d(Eigen::Scaling(scale)), &shape.mesh);
+      shape.link_from_file.scale(scale);
       break;
     }
   }
-  core::Transform(Eigen::Affine3d(ToIsometry(origin)), &shape.mesh);
+  core::Transform(shape.link_from_file, &shape.mesh);
+  if (shape.file.empty()) shape.link_from_file.setIdentity();
   core::RequireValid(shape.mesh, path_.string());
   shapes->push_back(std::move(shape));
 }
@@ -155,11 +184,12 @@ void Reader::AddLink(const urdf::Link& source, const std::string& where) {
     Warn("urdf-no-inertial", "link '" + source.name + "' has no inertial");
   }
   for (const auto& visual : source.visual_array) {
-    if (visual && visual->geometry) AddShape(*visual->geometry, visual->origin, &link.visuals);
+    if (!visual || !visual->geometry) continue;
+    AddShape(*visual->geometry, visual->origin, visual->material, &link.visuals);
   }
   for (const auto& collision : source.collision_array) {
     if (collision && collision->geometry) {
-      AddShape(*collision->geometry, collision->origin, &link.collisions);
+      AddShape(*collision->geometry, collision->origin, nullptr, &link.collisions);
     }
   }
   model_.links.push_back(std::move(link));
@@ -249,7 +279,7 @@ UrdfModel Reader::Read() {
   urdf::ModelInterfaceSharedPtr parsed;
   {
     UrdfdomMessages heard;
-    parsed = urdf::parseURDF(text);
+    parsed = urdf::parseURDF(WithWholeLimits(text));
     if (!parsed || !parsed->getRoot()) {
       throw core::Error("this is not a valid URDF" +
                             (heard.messages.empty() ? "" : ": " + heard.messages.front()),

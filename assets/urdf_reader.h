@@ -18,6 +18,9 @@ namespace simwright::assets {
 struct UrdfShape {
   core::TriangleMesh mesh;  // metres, scale and origin applied
   std::string file;         // the mesh file, absolute; empty for a primitive
+  // What the file's vertices went through, scale and origin; identity for a primitive.
+  Eigen::Affine3d link_from_file = Eigen::Affine3d::Identity();
+  std::optional<Eigen::Vector4f> color = std::nullopt;  // RGBA of a visual's <material>
 };
 
 struct UrdfLink {
@@ -70,7 +73,8 @@ struct UrdfReadOptions {
 // Reads a URDF with urdfdom. Mesh names may be relative, "file://", "../meshes/x" inside the root,
 // or "package://NAME/x": x is then looked for in the root, the URDF's folder and the folders above
 // it inside the root. A mesh that is missing or cannot be read is left out with a warning, a
-// missing inertial and a joint that mimics another are reported.
+// missing inertial and a joint that mimics another are reported. A <limit> may lack its effort and
+// velocity, as PartNet-Mobility's do.
 // Throws core::Error: no XML or no URDF, larger than 16 MiB, a DOCTYPE or entity, a loop, a joint
 // to a missing link, no root, a mass that is not positive, an inertia that no body can have, joint
 // damping, friction or limits that are not finite, negative damping or friction, a mesh path that

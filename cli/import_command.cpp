@@ -90,19 +90,23 @@ int Import(Flags flags, const CommonOptions& common) {
 
 void AddImport(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
-  CLI::App* command = app->add_subcommand("import", "Meshes and catalogues become assets");
+  CLI::App* command = app->add_subcommand("import", "Meshes, URDFs and catalogues become assets");
   command->footer(
       "Example:\n  simwright import chair.glb --category chair -o assets\n"
       "  simwright import BlendSwap-CC-0.sh3f --only cup -o cups\n"
+      "  simwright import partnet/45267 --height 0.8 -o cabinets\n"
+      "PartNet-Mobility's and GAPartNet's folders, and other URDFs with joints, become "
+      "articulated\n"
+      "assets; without --height the former are scaled by their category.\n"
       "A mesh whose asset would fail its check is refused. Exit code 1 when any was.");
   command
       ->add_option("inputs", flags->inputs,
-                   "OBJ, PLY, STL, glTF, GLB, DAE, folders of them, or .sh3f catalogues")
+                   "OBJ, PLY, STL, glTF, GLB, DAE, URDF, folders of them, or .sh3f catalogues")
       ->required();
   command->add_option("-o,--output", flags->output, "Folder for the assets, one folder each")
       ->required();
   command->add_option("--category", flags->options.category,
-                      "What it is; default: by the file's name");
+                      "What it is; default: by meta.json or the file's name");
   command->add_option("--up", flags->up, "Axis that points up in the file")
       ->check(CLI::IsMember({"x", "y", "z"}));
   command->add_option("--unit", flags->unit, "Unit of the file's coordinates")

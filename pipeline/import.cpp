@@ -3,16 +3,22 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <set>
 
+#include "assets/articulated_folder.h"
 #include "assets/asset_folder.h"
 #include "assets/furniture_catalogue.h"
 #include "assets/mesh_import.h"
+#include "assets/semantic_model.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
+#include "pipeline/articulated_import.h"
+#include "pipeline/articulated_preview.h"
 #include "pipeline/catalogue_meshes.h"
+#include "pipeline/import_category.h"
 #include "pipeline/preview.h"
 
 namespace simwright::pipeline {
@@ -23,6 +29,10 @@ constexpr const char* kStopped = "stopped before it was done";
 
 bool IsCatalogue(const fs::path& path) {
   return path.extension() == ".sh3f";
+}
+
+bool IsUrdf(const fs::path& path) {
+  return path.extension() == ".urdf";
 }
 
 char UpOf(const fs::path& mesh, char wanted) {
@@ -46,17 +56,50 @@ std::string Unique(std::string name, std::set<std::string>* taken) {
   return name;
 }
 
-// What the file's name says of it, else the catch-all.
-physics_params::Resolution CategoryOf(const std::string& wanted, const std::string& name) {
-  if (!wanted.empty()) return physics_params::RequireCategory(wanted);
-  const auto& base = physics_params::KnowledgeBase::Shipped();
-  physics_params::Resolution found =
-      physics_params::ResolveCategory(name, base, physics_params::WordNet::Installed());
-  if (found.category == nullptr) {
-    found.category = base.FindCategory("object");
-    found.sentence += "; taken for a plastic or wooden object: give --category for a better mass";
+// A thing's name by its file; PartNet-Mobility's URDFs have all one name, so by their folder.
+std::string NameOfFile(const fs::path& file) {
+  const bool partnet =
+      file.filename() == "mobility.urdf" || file.filename() == assets::kGapartnetUrdf;
+  const fs::path named = partnet ? fs::absolute(file).parent_path().filename() : file.stem();
+  return assets::FileSafeName(named.string());
+}
+
+// The folder's own URDF, or its meshes and what the folders in it hold, by name.
+void ListFolder(const fs::path& folder, std::vector<ImportItem>* items,
+                std::set<std::string>* taken) {
+  const fs::path urdf = ArticulatedUrdfIn(folder);
+  if (!urdf.empty()) {
+    const std::string name = fs::weakly_canonical(folder).filename().string();
+    items->push_back({urdf, -1, Unique(assets::FileSafeName(name), taken)});
+    return;
   }
-  return found;
+  std::vector<fs::path> entries;
+  for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
+  std::sort(entries.begin(), entries.end());
+  for (const fs::path& entry : entries) {
+    if (fs::is_directory(entry) && !fs::is_symlink(entry)) {
+      ListFolder(entry, items, taken);
+    } else if (fs::is_regular_file(entry) && (assets::HasMeshEnding(entry) || IsUrdf(entry))) {
+      items->push_back({entry, -1, Unique(NameOfFile(entry), taken)});
+    }
+  }
+}
+
+void ListCatalogue(const fs::path& input, const ImportOptions& options,
+                   std::vector<ImportItem>* items, std::set<std::string>* taken) {
+  const assets::FurnitureCatalogue catalogue(input);
+  int found = 0;
+  for (size_t i = 0; i < catalogue.pieces().size(); ++i) {
+    const assets::CataloguePiece& piece = catalogue.pieces()[i];
+    const bool wanted = options.only.empty() ||
+                        piece.name.find(options.only) != std::string::npos ||
+                        piece.id.find(options.only) != std::string::npos;
+    if (!wanted || (options.limit > 0 && found >= options.limit)) continue;
+    ++found;
+    const std::string tail = piece.id.substr(piece.id.find('#') + 1);
+    items->push_back({input, static_cast<int>(i), Unique(assets::FileSafeName(tail), taken)});
+  }
+  if (found == 0) throw core::Error("holds no such piece", input.string());
 }
 
 class Importer {
@@ -64,9 +107,34 @@ class Importer {
   Importer(const fs::path& output, const ImportOptions& options)
       : output_(output), options_(options) {}
 
-  // Throws core::Error where the mesh cannot become an asset.
+  // Throws core::Error where the mesh or URDF cannot become an asset.
   void Import(const ImportItem& item, const assets::FurnitureCatalogue* catalogue,
               core::Progress* progress, ImportOutcome* outcome) const {
+    if (IsUrdf(item.mesh)) {
+      ImportJointed(item, progress, outcome);
+    } else {
+      ImportRigid(item, catalogue, progress, outcome);
+    }
+  }
+
+ private:
+  void ImportJointed(const ImportItem& item, core::Progress* progress,
+                     ImportOutcome* outcome) const {
+    ArticulatedImportOptions options;
+    options.name = item.name;
+    options.category = options_.category;
+    options.height = options_.height;
+    options.unit = options_.unit;
+    options.seed = options_.seed;
+    const assets::ArticulatedAsset asset = ImportArticulated(item.mesh, options, progress);
+    Keep(item, outcome, [&](const fs::path& folder) {
+      assets::WriteArticulatedAsset(asset, folder);
+      core::WritePng(folder / "preview.png", ArticulatedPreview(asset));
+    });
+  }
+
+  void ImportRigid(const ImportItem& item, const assets::FurnitureCatalogue* catalogue,
+                   core::Progress* progress, ImportOutcome* outcome) const {
     BuildRequest request;
     request.name = item.name;
     request.seed = options_.seed;
@@ -76,28 +144,35 @@ class Importer {
       const assets::CataloguePiece& piece = catalogue->pieces()[static_cast<size_t>(item.piece)];
       visual = ReadCataloguePiece(*catalogue, piece, &findings);
       request.source = item.mesh.filename().string() + ":" + piece.id;
-      request.category = CategoryOf(options_.category, piece.name);
+      request.category = ImportCategory(options_.category, piece.name);
     } else {
       visual = ReadInWorld(item.mesh, options_, &findings);
       request.source = item.mesh.filename().string();
-      request.category = CategoryOf(options_.category, item.mesh.stem().string());
+      request.category = ImportCategory(options_.category, item.mesh.stem().string());
     }
     BuiltAsset built = BuildAsset(visual, request, progress);
     built.asset.findings.insert(built.asset.findings.begin(), findings.begin(), findings.end());
+    outcome->seconds = built.seconds;
+    Keep(item, outcome, [&](const fs::path& folder) {
+      assets::WriteAsset(built.asset, folder);
+      core::WritePng(folder / "preview.png", AssetPreview(built.asset));
+    });
+  }
+
+  // Writes the asset and keeps it where it passes its check.
+  void Keep(const ImportItem& item, ImportOutcome* outcome,
+            const std::function<void(const fs::path&)>& write) const {
     const fs::path target = output_ / item.name;
     core::StagedFolder staged(target, options_.force);
-    assets::WriteAsset(built.asset, staged.staging());
-    core::WritePng(staged.staging() / "preview.png", AssetPreview(built.asset));
+    write(staged.staging());
     if (options_.check) {
       outcome->check = CheckAsset(staged.staging());
       RequirePassed(*outcome->check, item.name);
     }
     staged.Commit();
     outcome->folder = target;
-    outcome->seconds = built.seconds;
   }
 
- private:
   const fs::path output_;
   const ImportOptions& options_;
 };
@@ -138,33 +213,13 @@ std::vector<ImportItem> ListImports(const std::vector<fs::path>& inputs,
   for (const fs::path& input : inputs) {
     if (!fs::exists(input)) throw core::Error("no such file or folder", input.string());
     if (fs::is_directory(input)) {
-      std::vector<fs::path> meshes;
-      for (const auto& entry : fs::recursive_directory_iterator(input)) {
-        if (entry.is_regular_file() && assets::HasMeshEnding(entry.path())) {
-          meshes.push_back(entry.path());
-        }
-      }
-      if (meshes.empty()) throw core::Error("holds no meshes", input.string());
-      std::sort(meshes.begin(), meshes.end());
-      for (const fs::path& mesh : meshes) {
-        items.push_back({mesh, -1, Unique(assets::FileSafeName(mesh.stem().string()), &taken)});
-      }
+      const size_t before = items.size();
+      ListFolder(input, &items, &taken);
+      if (items.size() == before) throw core::Error("holds no meshes and no URDF", input.string());
     } else if (IsCatalogue(input)) {
-      const assets::FurnitureCatalogue catalogue(input);
-      int found = 0;
-      for (size_t i = 0; i < catalogue.pieces().size(); ++i) {
-        const assets::CataloguePiece& piece = catalogue.pieces()[i];
-        const bool wanted = options.only.empty() ||
-                            piece.name.find(options.only) != std::string::npos ||
-                            piece.id.find(options.only) != std::string::npos;
-        if (!wanted || (options.limit > 0 && found >= options.limit)) continue;
-        ++found;
-        const std::string tail = piece.id.substr(piece.id.find('#') + 1);
-        items.push_back({input, static_cast<int>(i), Unique(assets::FileSafeName(tail), &taken)});
-      }
-      if (found == 0) throw core::Error("holds no such piece", input.string());
+      ListCatalogue(input, options, &items, &taken);
     } else {
-      items.push_back({input, -1, Unique(assets::FileSafeName(input.stem().string()), &taken)});
+      items.push_back({input, -1, Unique(NameOfFile(input), &taken)});
     }
   }
   return items;

@@ -13,9 +13,10 @@ namespace simwright::pipeline {
 
 struct ImportOptions {
   std::string category;  // empty: from the file's name, else the catch-all "object"
-  char up = 0;           // 'x', 'y', 'z', or 0: y for OBJ, glTF and DAE, z for STL and PLY
-  double unit = 1.0;     // metres a file unit; 1: the file is in metres (as glTF and DAE are)
-  double height = 0.0;   // m, > 0: scale to this height instead
+  // 'x', 'y', 'z', or 0: y for OBJ, glTF and DAE, z for STL and PLY. URDFs have z up.
+  char up = 0;
+  double unit = 1.0;    // metres a file unit; 1: the file is in metres (as glTF and DAE are)
+  double height = 0.0;  // m, > 0: scale to this height instead (of a URDF: joints at zero)
   std::uint64_t seed = 1;
   bool force = false;   // replace outputs that exist
   bool resume = false;  // keep outputs that exist, and import the others
@@ -24,9 +25,9 @@ struct ImportOptions {
   int limit = 0;        // catalogues: at most so many pieces; 0: all
 };
 
-// One thing to import: a mesh file, or a piece of a catalogue.
+// One thing to import: a mesh file, a piece of a catalogue, or a URDF with joints.
 struct ImportItem {
-  std::filesystem::path mesh;  // file; for a catalogue piece the .sh3f
+  std::filesystem::path mesh;  // file; for a catalogue piece the .sh3f; or the .urdf
   int piece = -1;              // index into the catalogue's pieces, or -1
   std::string name;            // of the asset's folder
 };
@@ -40,7 +41,9 @@ struct ImportOutcome {
   std::optional<CheckReport> check;
 };
 
-// Meshes, folders of meshes (searched through) and catalogues, as a list with distinct names.
+// Meshes, URDFs, folders of them (searched through) and catalogues, as a list with distinct names.
+// A folder with one URDF, or PartNet-Mobility's or GAPartNet's, is one thing, named like the
+// folder: its meshes are not listed.
 // Throws core::Error for an input that does not exist or holds nothing to import.
 std::vector<ImportItem> ListImports(const std::vector<std::filesystem::path>& inputs,
                                     const ImportOptions& options);

@@ -1,0 +1,46 @@
+#include "pipeline/import_category.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace simwright::pipeline {
+namespace {
+
+// Names of PartNet-Mobility's categories (Xiang et al. 2020, "SAPIEN", table of categories) that
+// are written without their blanks or mean something else here.
+constexpr struct {
+  const char* partnet;
+  const char* category;
+} kPartnetNames[] = {{"coffeemachine", "coffee maker"},
+                     {"dispenser", "soap dispenser"},
+                     {"display", "monitor"},
+                     {"eyeglasses", "glasses"},
+                     {"foldingchair", "folding chair"},
+                     {"kitchenpot", "pot"},
+                     {"mouse", "computer mouse"},
+                     {"remote", "remote control"},
+                     {"storagefurniture", "cabinet"},
+                     {"trashcan", "trash can"},
+                     {"washingmachine", "washing machine"}};
+
+}  // namespace
+
+physics_params::Resolution ImportCategory(const std::string& wanted, const std::string& name) {
+  if (!wanted.empty()) return physics_params::RequireCategory(wanted);
+  std::string known = name;
+  std::transform(known.begin(), known.end(), known.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const auto& row : kPartnetNames) {
+    if (known == row.partnet) known = row.category;
+  }
+  const auto& base = physics_params::KnowledgeBase::Shipped();
+  physics_params::Resolution found =
+      physics_params::ResolveCategory(known, base, physics_params::WordNet::Installed());
+  if (found.category == nullptr) {
+    found.category = base.FindCategory("object");
+    found.sentence += "; taken for a plastic or wooden object: give --category for a better mass";
+  }
+  return found;
+}
+
+}  // namespace simwright::pipeline

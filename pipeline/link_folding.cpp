@@ -1,0 +1,240 @@
+#include "pipeline/link_folding.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "assets/joint_poses.h"
+#include "core/error.h"
+
+namespace simwright::pipeline {
+namespace {
+
+using assets::UrdfJoint;
+using assets::UrdfJointType;
+using assets::UrdfLink;
+using assets::UrdfModel;
+using assets::UrdfShape;
+
+bool HasShapes(const UrdfLink& link) {
+  return !link.visuals.empty() || !link.collisions.empty();
+}
+
+void TransformShapes(const Eigen::Affine3d& map, UrdfLink* link) {
+  for (std::vector<UrdfShape>* shapes : {&link->visuals, &link->collisions}) {
+    for (UrdfShape& shape : *shapes) {
+      core::Transform(map, &shape.mesh);
+      shape.link_from_file = map * shape.link_from_file;
+    }
+  }
+}
+
+void TransformInertial(const Eigen::Isometry3d& map, double scale, UrdfLink* link) {
+  if (!link->inertial) return;
+  assets::Inertial& inertial = *link->inertial;
+  inertial.center_of_mass = map * (scale * inertial.center_of_mass);
+  inertial.inertia =
+      (scale * scale * map.linear() * inertial.inertia * map.linear().transpose()).eval();
+}
+
+// The tree while it is folded: links with the joint that leads to each.
+class Folding {
+ public:
+  explicit Folding(UrdfModel* model) : model_(model) {
+    const std::vector<int> parents = assets::ParentLinks(*model);
+    nodes_.resize(model->links.size());
+    for (size_t i = 0; i < nodes_.size(); ++i) {
+      nodes_[i].link = std::move(model->links[i]);
+      if (i == 0) continue;
+      nodes_[i].joint = std::move(model->joints[i - 1]);
+      nodes_[i].parent = parents[i - 1];
+      nodes_[static_cast<size_t>(parents[i - 1])].children.push_back(i);
+    }
+  }
+
+  void Fold() {
+    for (size_t i = nodes_.size(); i-- > 0;) {
+      if (HasShapes(nodes_[i].link)) continue;
+      if (!TakeUpFixedChild(i) && i > 0 && !nodes_[i].joint.Moves()) HandUpChildren(i);
+    }
+  }
+
+  void WriteBack() {
+    model_->links.clear();
+    model_->joints.clear();
+    for (Node& node : nodes_) {
+      if (node.gone) continue;
+      if (!HasShapes(node.link)) {
+        throw core::Error("link '" + node.link.name + "' has no shape" +
+                              (node.parent < 0 ? ", and it is the root" : ", and it moves"),
+                          model_->name, "give it a mesh, or mend the file names of those it has");
+      }
+      if (node.parent >= 0) {
+        node.joint.parent = nodes_[static_cast<size_t>(node.parent)].link.name;
+        node.joint.child = node.link.name;
+        model_->joints.push_back(node.joint);
+      }
+      model_->links.push_back(node.link);
+    }
+  }
+
+ private:
+  struct Node {
+    UrdfLink link;
+    UrdfJoint joint;  // that leads to it
+    int parent = -1;
+    std::vector<size_t> children;
+    bool gone = false;
+  };
+
+  void Adopt(size_t parent, size_t child, const Eigen::Isometry3d& parent_from_old) {
+    Node& node = nodes_[child];
+    node.parent = static_cast<int>(parent);
+    node.joint.parent_from_joint = parent_from_old * node.joint.parent_from_joint;
+    nodes_[parent].children.push_back(child);
+  }
+
+  bool TakeUpFixedChild(size_t index) {
+    std::vector<size_t>& children = nodes_[index].children;
+    const auto found = std::find_if(children.begin(), children.end(), [&](size_t c) {
+      return !nodes_[c].joint.Moves() && HasShapes(nodes_[c].link);
+    });
+    if (found == children.end()) return false;
+    Node& child = nodes_[*found];
+    child.gone = true;
+    children.erase(found);
+    const Eigen::Isometry3d index_from_child = child.joint.parent_from_joint;
+    for (const size_t grandchild : child.children) Adopt(index, grandchild, index_from_child);
+    nodes_[index].link = std::move(child.link);
+    TransformShapes(Eigen::Affine3d(index_from_child), &nodes_[index].link);
+    TransformInertial(index_from_child, 1.0, &nodes_[index].link);
+    return true;
+  }
+
+  void HandUpChildren(size_t index) {
+    Node& node = nodes_[index];
+    const size_t parent = static_cast<size_t>(node.parent);
+    std::erase(nodes_[parent].children, index);
+    for (const size_t child : node.children) Adopt(parent, child, node.joint.parent_from_joint);
+    node.gone = true;
+  }
+
+  UrdfModel* model_;
+  std::vector<Node> nodes_;  // a parent stands before its children
+};
+
+void Warn(const UrdfJoint& joint, const std::string& code, core::Severity severity,
+          const std::string& sentence, double figure, UrdfModel* model) {
+  model->findings.push_back({code, severity, joint.name, sentence, figure});
+}
+
+void FixWithoutRange(UrdfJoint* joint, UrdfModel* model) {
+  Warn(*joint, "joint-no-range", core::Severity::kWarning,
+       "its limits leave it no range to move in: it is taken as fixed", joint->upper - joint->lower,
+       model);
+  joint->type = UrdfJointType::kFixed;
+  joint->lower = joint->upper = 0.0;
+}
+
+// Zero becomes the nearest limit where it lies beyond both.
+void BringZeroWithin(UrdfJoint* joint, UrdfModel* model) {
+  const double shift = std::clamp(0.0, joint->lower, joint->upper);
+  if (shift == 0.0) return;
+  Warn(*joint, "joint-zero", core::Severity::kWarning,
+       "zero lies outside its limits: the nearest limit became zero", shift, model);
+  joint->parent_from_joint = joint->parent_from_joint * assets::JointMotion(*joint, shift);
+  joint->lower -= shift;
+  joint->upper -= shift;
+}
+
+void OpenUpwards(UrdfJoint* joint, UrdfModel* model) {
+  if (-joint->lower <= joint->upper) return;
+  Warn(*joint, "joint-turned", core::Severity::kInfo,
+       "it opened downwards: its axis was turned round, its limits with it", joint->lower, model);
+  joint->axis = -joint->axis;
+  joint->lower = -std::exchange(joint->upper, -joint->lower);
+}
+
+}  // namespace
+
+void FoldEmptyLinks(UrdfModel* model) {
+  Folding folding(model);
+  folding.Fold();
+  folding.WriteBack();
+}
+
+void NormaliseJoints(UrdfModel* model) {
+  for (UrdfJoint& joint : model->joints) {
+    if (joint.type == UrdfJointType::kFloating || joint.type == UrdfJointType::kPlanar) {
+      throw core::Error("joint '" + joint.name + "' is floating or planar", model->name,
+                        "an asset has hinges and slides alone: make it one of those, or fixed");
+    }
+    if (!joint.Moves()) continue;
+    if (joint.mimic) {
+      Warn(joint, "joint-mimic", core::Severity::kWarning,
+           "it follows '" + joint.mimic->joint + "' in the file and moves on its own here",
+           joint.mimic->multiplier, model);
+      joint.mimic.reset();
+    }
+    if (joint.type == UrdfJointType::kContinuous) {
+      joint.lower = joint.upper = 0.0;
+    } else if (!(joint.upper > joint.lower)) {
+      FixWithoutRange(&joint, model);
+    } else {
+      BringZeroWithin(&joint, model);
+      OpenUpwards(&joint, model);
+    }
+  }
+}
+
+Eigen::AlignedBox3d BoundsAtZero(const UrdfModel& model) {
+  const std::vector<Eigen::Isometry3d> poses = assets::LinkPosesAtZero(model);
+  Eigen::AlignedBox3d box;
+  for (size_t i = 0; i < model.links.size(); ++i) {
+    const UrdfLink& link = model.links[i];
+    for (const UrdfShape& shape : link.visuals.empty() ? link.collisions : link.visuals) {
+      for (const Eigen::Vector3d& v : shape.mesh.vertices) box.extend(poses[i] * v);
+    }
+  }
+  return box;
+}
+
+void StandOnOrigin(double scale, UrdfModel* model) {
+  const Eigen::AlignedBox3d box = BoundsAtZero(*model);
+  const Eigen::Vector3d base(box.center().x(), box.center().y(), box.min().z());
+  const std::vector<Eigen::Isometry3d> old_poses = assets::LinkPosesAtZero(*model);
+  const std::vector<int> parents = assets::ParentLinks(*model);
+  std::vector<Eigen::Vector3d> origins;  // of the new frames, metres, in the new root's
+  for (size_t i = 0; i < model->links.size(); ++i) {
+    UrdfLink& link = model->links[i];
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    if (i > 0 && model->joints[i - 1].Moves()) {
+      origin = scale * (old_poses[i].translation() - base);
+    } else if (i > 0) {
+      Eigen::AlignedBox3d own;
+      for (const UrdfShape& shape : link.visuals.empty() ? link.collisions : link.visuals) {
+        for (const Eigen::Vector3d& v : shape.mesh.vertices) own.extend(old_poses[i] * v);
+      }
+      origin = scale * (own.center() - base);
+    }
+    origins.push_back(origin);
+    Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();  // after scaling
+    moved.linear() = old_poses[i].rotation();
+    moved.translation() = scale * (old_poses[i].translation() - base) - origin;
+    TransformShapes(Eigen::Affine3d(moved) * Eigen::Scaling(scale), &link);
+    TransformInertial(moved, scale, &link);
+  }
+  for (size_t i = 0; i < model->joints.size(); ++i) {
+    UrdfJoint& joint = model->joints[i];
+    joint.axis = (old_poses[i + 1].rotation() * joint.axis).normalized();
+    joint.parent_from_joint = Eigen::Isometry3d(
+        Eigen::Translation3d(origins[i + 1] - origins[static_cast<size_t>(parents[i])]));
+    if (joint.type == UrdfJointType::kPrismatic) {
+      joint.lower *= scale;
+      joint.upper *= scale;
+      joint.velocity *= scale;
+    }
+  }
+}
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,209 @@
+#include "pipeline/link_shapes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include <Eigen/Eigenvalues>
+
+#include "assets/mesh_import.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "geometry/convex_decomposition.h"
+#include "geometry/convex_hull.h"
+#include "geometry/solid.h"
+#include "geometry/soundness.h"
+#include "geometry/weld.h"
+
+namespace simwright::pipeline {
+namespace {
+
+using assets::UrdfLink;
+using assets::UrdfShape;
+
+constexpr int kMostVertices = 64;      // of a part
+constexpr size_t kMostParts = 256;     // of a link
+constexpr double kSheet = 2e-3;        // m, what a flat piece is thickened to
+constexpr double kSmall = 0.02;        // of the whole's diagonal: shorter pieces are hulls
+constexpr double kConvexShare = 0.97;  // of its hull's volume that a convex piece fills
+constexpr double kWeld = 1e-6;         // of a mesh's diagonal
+
+const std::vector<UrdfShape>& ShapesOf(const UrdfLink& link) {
+  return link.visuals.empty() ? link.collisions : link.visuals;
+}
+
+Eigen::Vector4f MeanColor(const core::Image& image) {
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  const int count = image.width * image.height;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* pixel = image.At(x, y);
+      for (int c = 0; c < 3; ++c) sum[c] += pixel[image.channels >= 3 ? c : 0];
+    }
+  }
+  Eigen::Vector4f mean = (sum / (255.0 * std::max(count, 1))).cast<float>();
+  mean.w() = 1.0f;
+  return mean;
+}
+
+Eigen::Vector4f ColorOf(const core::TexturedMesh& mesh, size_t triangle) {
+  if (mesh.triangle_material.empty() || mesh.materials.empty()) return core::Material{}.base_color;
+  const core::Material& material =
+      mesh.materials[static_cast<size_t>(mesh.triangle_material[triangle])];
+  return material.base_color;
+}
+
+// Appends triangles by colour.
+class Painter {
+ public:
+  void Add(const core::TriangleMesh& mesh, const std::vector<Eigen::Vector4f>& colors) {
+    core::Append(mesh, &visual_.mesh);
+    for (const Eigen::Vector4f& color : colors) visual_.triangle_material.push_back(Index(color));
+  }
+  core::TexturedMesh Take() { return std::move(visual_); }
+
+ private:
+  int Index(const Eigen::Vector4f& color) {
+    std::array<int, 4> key;
+    for (int c = 0; c < 4; ++c) key[c] = static_cast<int>(std::lround(255.0f * color[c]));
+    const auto [found, is_new] = index_of_.emplace(key, visual_.materials.size());
+    if (is_new) {
+      visual_.materials.push_back({"color_" + std::to_string(found->second), color, -1});
+    }
+    return static_cast<int>(found->second);
+  }
+  core::TexturedMesh visual_;
+  std::map<std::array<int, 4>, size_t> index_of_;
+};
+
+// The connected pieces of a welded mesh.
+std::vector<core::TriangleMesh> ConnectedPieces(const core::TriangleMesh& mesh) {
+  int count = 0;
+  const std::vector<int> piece_of = geometry::EdgeComponents(mesh, &count);
+  std::vector<core::TriangleMesh> pieces(static_cast<size_t>(count));
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    pieces[static_cast<size_t>(piece_of[t])].triangles.push_back(mesh.triangles[t]);
+  }
+  for (core::TriangleMesh& piece : pieces) {
+    piece.vertices = mesh.vertices;
+    piece = geometry::WithoutUnusedVertices(piece);
+  }
+  return pieces;
+}
+
+// Whether a piece is flat, so that no hull of it has a volume to speak of.
+bool IsFlat(const core::TriangleMesh& piece) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& v : piece.vertices) mean += v;
+  mean /= static_cast<double>(piece.vertices.size());
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& v : piece.vertices) scatter += (v - mean) * (v - mean).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+  const Eigen::Vector3d thinnest = solver.eigenvectors().col(0);
+  double low = 0.0, high = 0.0;
+  for (const Eigen::Vector3d& v : piece.vertices) {
+    low = std::min(low, thinnest.dot(v - mean));
+    high = std::max(high, thinnest.dot(v - mean));
+  }
+  return high - low < 0.5 * kSheet;
+}
+
+bool FillsItsHull(core::TriangleMesh piece, const core::TriangleMesh& hull) {
+  if (!geometry::OrientConsistently(&piece) || !geometry::Examine(piece, 1).closed) return false;
+  return std::abs(geometry::SignedVolume(piece)) > kConvexShare * geometry::SignedVolume(hull);
+}
+
+std::vector<core::TriangleMesh> PartsOfPiece(const core::TriangleMesh& piece, double whole) {
+  if (IsFlat(piece)) {
+    return {geometry::ThickenedConvexHull(piece.vertices, kSheet, kMostVertices)};
+  }
+  const core::TriangleMesh hull = geometry::ConvexHull(piece.vertices);
+  const double size = core::Bounds(piece).diagonal().norm();
+  if (size < kSmall * whole || FillsItsHull(piece, hull)) {
+    return {geometry::ConvexHull(piece.vertices, kMostVertices)};
+  }
+  return geometry::Hulls(geometry::Decompose(geometry::MakeSolid(piece).mesh));
+}
+
+bool LiesInside(const core::TriangleMesh& inner, const core::TriangleMesh& outer) {
+  const double tolerance = 1e-6 * core::Bounds(outer).diagonal().norm();
+  for (size_t t = 0; t < outer.triangles.size(); ++t) {
+    const Eigen::Vector3d normal =
+        core::TriangleAreaVector(outer, static_cast<int>(t)).normalized();
+    const Eigen::Vector3d& corner = outer.vertices[static_cast<size_t>(outer.triangles[t][0])];
+    for (const Eigen::Vector3d& v : inner.vertices) {
+      if (normal.dot(v - corner) > tolerance) return false;
+    }
+  }
+  return true;
+}
+
+// Largest first; what lies inside a larger one goes.
+void KeepOutermost(std::vector<core::TriangleMesh>* parts) {
+  std::stable_sort(parts->begin(), parts->end(), [](const auto& a, const auto& b) {
+    return geometry::SignedVolume(a) > geometry::SignedVolume(b);
+  });
+  std::vector<core::TriangleMesh> kept;
+  for (core::TriangleMesh& part : *parts) {
+    const Eigen::AlignedBox3d box = core::Bounds(part);
+    const bool inside = std::any_of(kept.begin(), kept.end(), [&](const auto& larger) {
+      return core::Bounds(larger).intersects(box) && LiesInside(part, larger);
+    });
+    if (!inside) kept.push_back(std::move(part));
+  }
+  *parts = std::move(kept);
+}
+
+}  // namespace
+
+core::TexturedMesh ColoredVisual(const UrdfLink& link) {
+  Painter painter;
+  for (const UrdfShape& shape : ShapesOf(link)) {
+    const Eigen::Vector4f plain = shape.color.value_or(core::Material{}.base_color);
+    if (shape.color || shape.file.empty()) {
+      painter.Add(shape.mesh, std::vector(shape.mesh.triangles.size(), plain));
+      continue;
+    }
+    core::TexturedMesh file = assets::ReadMesh(shape.file);
+    for (core::Material& material : file.materials) {
+      if (material.texture < 0) continue;
+      material.base_color = material.base_color.cwiseProduct(
+          MeanColor(file.textures[static_cast<size_t>(material.texture)]));
+    }
+    core::Transform(shape.link_from_file, &file.mesh);
+    std::vector<Eigen::Vector4f> colors;
+    for (size_t t = 0; t < file.mesh.triangles.size(); ++t) colors.push_back(ColorOf(file, t));
+    painter.Add(file.mesh, colors);
+  }
+  return painter.Take();
+}
+
+std::vector<core::TriangleMesh> ConvexPartsOf(const UrdfLink& link, double whole,
+                                              core::Findings* findings) {
+  std::vector<core::TriangleMesh> pieces;
+  for (const UrdfShape& shape : ShapesOf(link)) {
+    const double size = core::Bounds(shape.mesh).diagonal().norm();
+    for (core::TriangleMesh& piece : ConnectedPieces(geometry::Weld(shape.mesh, kWeld * size))) {
+      if (core::Bounds(piece).diagonal().norm() > 0.0) pieces.push_back(std::move(piece));
+    }
+  }
+  std::vector<std::vector<core::TriangleMesh>> found(pieces.size());
+  core::ParallelFor(static_cast<int>(pieces.size()), [&](int i) {
+    found[static_cast<size_t>(i)] = PartsOfPiece(pieces[static_cast<size_t>(i)], whole);
+  });
+  std::vector<core::TriangleMesh> parts;
+  for (std::vector<core::TriangleMesh>& some : found) {
+    parts.insert(parts.end(), some.begin(), some.end());
+  }
+  KeepOutermost(&parts);
+  if (parts.size() > kMostParts) {
+    findings->push_back({"parts-left-out", core::Severity::kWarning, link.name,
+                         "of its collision parts the smallest were left out",
+                         static_cast<double>(parts.size() - kMostParts)});
+    parts.resize(kMostParts);
+  }
+  return parts;
+}
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "assets/urdf_reader.h"
+#include "core/finding.h"
+#include "core/mesh.h"
+
+namespace simwright::pipeline {
+
+// What is seen of a link in its frame: its visuals, or what collides where it has none. A colour is
+// the visual's own in the URDF, else its file's material, a texture taken at its mean colour; equal
+// colours are one material. The files are read again for their materials.
+core::TexturedMesh ColoredVisual(const assets::UrdfLink& link);
+
+// Convex, closed, outward parts of at most 64 vertices for the link's matter, in its frame: each
+// connected piece of what is seen (or collides, where nothing is seen) that is convex is its own
+// hull; a flat one is given 2 mm; any other becomes a solid and is decomposed, so that hollows stay
+// open. Pieces shorter than a fiftieth of `whole` (m, the asset's diagonal) are hulls, those inside
+// another part go, and of more than 256 parts the largest are kept; that is reported.
+std::vector<core::TriangleMesh> ConvexPartsOf(const assets::UrdfLink& link, double whole,
+                                              core::Findings* findings);
+
+}  // namespace simwright::pipeline
