@@ -84,17 +84,8 @@ core::TexturedMesh ChocolateBar(RigidDraft* d) {
   return Plain(d, Look("wrapper", .36f, .20f, .14f), 0.2);
 }
 
-// Rounded like a pillow.
 core::TexturedMesh Soap(RigidDraft* d) {
-  std::vector<Ring> rings{{0, 0, -0.5}};
-  for (int k = -6; k <= 6; ++k) {
-    const double angle = 0.5 * M_PI * k / 6.5;
-    const double half = 0.72 + 0.28 * std::cos(angle);
-    rings.push_back({half * d->size.x(), half * d->size.y(), 0.5 * std::sin(angle)});
-  }
-  rings.front().z = rings[1].z;
-  rings.push_back({0, 0, rings.back().z});
-  return Loft(rings, RoundedSquareOutline(0.55, 8), {Look("soap", .90f, .84f, .78f)});
+  return Plain(d, Look("soap", .90f, .84f, .78f), 0.24);
 }
 
 // Open above: walls and a floor of `wall` (m), sides leaning out by `lean` of the half width.
@@ -142,7 +133,7 @@ std::vector<RigidKind> BoxKinds() {
           {"tissue_box", "tissue box", "printed", S::kFree, TissueBox},
           {"milk_carton", "milk carton", "with a gable", S::kFree, MilkCarton},
           {"brick", "brick", "of clay", S::kFree, Brick},
-          {"soap", "soap", "a rounded bar", S::kFree, Soap},
+          {"soap", "soap", "a bar with rounded edges", S::kFree, Soap},
           {"toy_block", "toy block", "coloured", S::kFree, ToyBlock},
           {"die", "die", "a cube", S::kBall, Die},
           {"butter", "butter", "a block", S::kFree, Butter},

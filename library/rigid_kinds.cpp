@@ -9,7 +9,7 @@ namespace simwright::library {
 namespace {
 
 constexpr double kLeastHandle = 0.025;  // m: two fingers
-constexpr std::uint64_t kStream = 20;   // of the seed, for shapes and colours
+constexpr std::uint64_t kStream = 20;   // where the streams of shapes and colours begin
 
 // What a material usually looks like; glazes and plastics come in several colours.
 core::Material LookOf(const std::string& material, core::Rng& rng) {
@@ -51,6 +51,10 @@ Eigen::Vector3d SizeOf(RigidSides sides, const physics_params::PhysicalParameter
     case RigidSides::kRound: {
       const double across = Shared(w, {&p.length, &p.width});
       return {across, across, h};
+    }
+    case RigidSides::kSquat: {
+      const double across = Shared(std::max(w, h), {&p.length, &p.width});
+      return {across, across, std::clamp(0.92 * across, p.height.min, p.height.max)};
     }
     case RigidSides::kBall: {
       const double across = Shared(l, {&p.length, &p.width, &p.height});
@@ -99,7 +103,9 @@ RigidThing MakeRigidThing(const RigidKind& kind, std::uint64_t seed) {
   RigidThing thing;
   thing.parameters = physics_params::SampleParameters(*row, base, seed);
   RigidDraft draft;
-  draft.rng = core::StreamRng(seed, kStream);
+  std::uint64_t stream = kStream;  // of the kind: things of one seed differ in colour
+  for (const char c : kind.name) stream = 31 * stream + static_cast<unsigned char>(c);
+  draft.rng = core::StreamRng(seed, stream);
   draft.look = LookOf(thing.parameters.material, draft.rng);
   draft.size = thing.size = SizeOf(kind.sides, thing.parameters);
   thing.visual = kind.make(&draft);

@@ -31,6 +31,7 @@ struct RigidDraft {
 enum class RigidSides {
   kFree,    // each as sampled
   kRound,   // about z: length and width are one
+  kSquat,   // the same, and not as high as wide
   kBall,    // all three are one
   kLying,   // about x: width and height are one
   kHandled  // round about z, but longer along x by a handle, at least 25 mm

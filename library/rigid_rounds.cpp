@@ -3,7 +3,7 @@
 #include "library/rigid_kinds.h"
 #include "library/rigid_shapes.h"
 
-// Fruit, eggs and balls.
+// Fruit, eggs and balls. Fruit is flat where it lies, as it is a little soft: else it would roll.
 namespace simwright::library {
 namespace {
 
@@ -22,6 +22,12 @@ core::TexturedMesh Bent(const core::Material& look, Eigen::Vector2d (*bend)(doub
   return Revolved(profile, {look});
 }
 
+// As it lies on its lower pole, or on its side.
+core::TexturedMesh Fruit(core::TexturedMesh mesh) {
+  Flatten(0.02, &mesh);
+  return mesh;
+}
+
 Eigen::Vector2d Ball(double) {
   return {1.0, 0.0};
 }
@@ -30,7 +36,7 @@ Eigen::Vector2d Ball(double) {
 Eigen::Vector2d Dimpled(double angle) {
   const double top = std::exp(-std::pow((M_PI - angle) / 0.42, 2));
   const double bottom = std::exp(-std::pow(angle / 0.35, 2));
-  return {1.0, -0.22 * top + 0.12 * bottom};
+  return {1.0, -0.36 * top + 0.14 * bottom};
 }
 
 // Slimmer towards one end.
@@ -47,36 +53,37 @@ Eigen::Vector2d Pear(double angle) {
 // Drawn out at both ends.
 Eigen::Vector2d Lemon(double angle) {
   const double up = -std::cos(angle);
-  return {1.0 - 0.25 * std::pow(std::abs(up), 3), 0.16 * std::pow(up, 7)};
+  return {1.0 - 0.16 * std::pow(up, 4), 0.18 * std::pow(up, 9)};
 }
 
 core::TexturedMesh Apple(RigidDraft* d) {
-  return Bent(d->Draw(0, 1) < 0.5 ? Look("red", .70f, .14f, .13f) : Look("green", .55f, .68f, .22f),
-              Dimpled);
+  return Fruit(
+      Bent(d->Draw(0, 1) < 0.5 ? Look("red", .70f, .14f, .13f) : Look("green", .55f, .68f, .22f),
+           Dimpled));
 }
 core::TexturedMesh Tomato(RigidDraft*) {
-  return Bent(Look("tomato", .82f, .18f, .12f), Dimpled);
+  return Fruit(Bent(Look("tomato", .82f, .18f, .12f), Dimpled));
 }
 core::TexturedMesh Orange(RigidDraft*) {
-  return Bent(Look("orange", .93f, .54f, .13f), Ball);
+  return Fruit(Bent(Look("orange", .93f, .54f, .13f), Ball));
 }
 core::TexturedMesh Peach(RigidDraft*) {
-  return Bent(Look("peach", .93f, .62f, .42f), Dimpled);
+  return Fruit(Bent(Look("peach", .93f, .62f, .42f), Dimpled));
 }
 core::TexturedMesh PearShape(RigidDraft*) {
-  return Bent(Look("pear", .74f, .74f, .30f), Pear);
+  return Fruit(Bent(Look("pear", .74f, .74f, .30f), Pear));
 }
 core::TexturedMesh LemonShape(RigidDraft*) {
-  return AlongX(Bent(Look("lemon", .95f, .84f, .22f), Lemon));
+  return Fruit(AlongX(Bent(Look("lemon", .95f, .84f, .22f), Lemon)));
 }
 core::TexturedMesh Lime(RigidDraft*) {
-  return AlongX(Bent(Look("lime", .42f, .62f, .20f), Lemon));
+  return Fruit(AlongX(Bent(Look("lime", .42f, .62f, .20f), Lemon)));
 }
 core::TexturedMesh EggShape(RigidDraft*) {
-  return AlongX(Bent(Look("shell", .90f, .78f, .64f), Egg));
+  return Fruit(AlongX(Bent(Look("shell", .90f, .78f, .64f), Egg)));
 }
 core::TexturedMesh Potato(RigidDraft*) {
-  return AlongX(Bent(Look("potato", .70f, .56f, .36f), Egg));
+  return Fruit(AlongX(Bent(Look("potato", .70f, .56f, .36f), Egg)));
 }
 core::TexturedMesh TennisBall(RigidDraft*) {
   return Bent(Look("felt", .80f, .88f, .24f), Ball);
@@ -95,13 +102,13 @@ core::TexturedMesh PlayBall(RigidDraft* d) {
 
 std::vector<RigidKind> RoundKinds() {
   using S = RigidSides;
-  return {{"apple", "apple", "dimpled, red or green", S::kRound, Apple},
-          {"orange", "orange", "round", S::kRound, Orange},
-          {"peach", "peach", "dimpled", S::kRound, Peach},
+  return {{"apple", "apple", "dimpled, red or green", S::kSquat, Apple},
+          {"orange", "orange", "round", S::kSquat, Orange},
+          {"peach", "peach", "dimpled", S::kSquat, Peach},
           {"pear", "pear", "with a neck", S::kRound, PearShape},
           {"lemon", "lemon", "drawn out at both ends", S::kLying, LemonShape},
           {"lime", "lime", "drawn out at both ends", S::kLying, Lime},
-          {"tomato", "tomato", "dimpled", S::kRound, Tomato},
+          {"tomato", "tomato", "dimpled", S::kSquat, Tomato},
           {"potato", "potato", "longish", S::kFree, Potato},
           {"egg", "egg", "lying", S::kLying, EggShape},
           {"ball", "ball", "to play with", S::kBall, PlayBall},

@@ -218,6 +218,12 @@ void Move(const Eigen::Vector3d& by, core::TexturedMesh* mesh) {
   for (Eigen::Vector3d& v : mesh->mesh.vertices) v += by;
 }
 
+void Flatten(double share, core::TexturedMesh* mesh) {
+  const Eigen::AlignedBox3d box = core::Bounds(mesh->mesh);
+  const double foot = box.min().z() + share * box.sizes().z();
+  for (Eigen::Vector3d& v : mesh->mesh.vertices) v.z() = std::max(v.z(), foot);
+}
+
 void FitTo(const Eigen::Vector3d& size, core::TexturedMesh* mesh) {
   const Eigen::AlignedBox3d box = core::Bounds(mesh->mesh);
   const Eigen::Vector3d scale = size.cwiseQuotient(box.sizes());

@@ -67,6 +67,9 @@ core::TexturedMesh PaintedBox(const Eigen::Vector3d& size, double bevel,
 void Join(const core::TexturedMesh& addition, core::TexturedMesh* mesh);
 void Move(const Eigen::Vector3d& by, core::TexturedMesh* mesh);
 
+// Presses what lies in the lowest `share` of the height flat, so that round things have a foot.
+void Flatten(double share, core::TexturedMesh* mesh);
+
 // Stretches the mesh to this size, standing on z = 0 about the z axis.
 void FitTo(const Eigen::Vector3d& size, core::TexturedMesh* mesh);
 

@@ -13,7 +13,9 @@ const core::Material kDark{"dark", {.14f, .14f, .15f, 1.0f}, -1};
 
 core::TexturedMesh Turned(const std::vector<ProfilePoint>& profile,
                           const std::vector<core::Material>& looks) {
-  return AlongX(Revolved(profile, looks));
+  core::TexturedMesh mesh = AlongX(Revolved(profile, looks));
+  Flatten(0.02, &mesh);  // else it would roll
+  return mesh;
 }
 
 // A spoon's bowl at x = 0.72 ... 1 of its length, hollow above; drawn in metres.
@@ -40,17 +42,18 @@ core::TexturedMesh WoodenSpoon(RigidDraft* d) {
   return SpoonOf(d, 0.006, kWood);
 }
 
+// Bent a little, as knives are: it rests on its handle and near its tip.
 core::TexturedMesh TableKnife(RigidDraft* d) {
-  const double l = d->size.x(), w = 0.5 * d->size.y();
-  return Sheet({{0, 0.55 * w, 0},
-                {0.02 * l, 0.8 * w, 0},
-                {0.42 * l, 0.6 * w, 0},
-                {0.48 * l, 0.75 * w, 0},
-                {0.60 * l, w, 0},
+  const double l = d->size.x(), w = 0.5 * d->size.y(), t = 0.7 * d->size.z(), up = 0.2 * t;
+  return Sheet({{0, 0.55 * w, up},
+                {0.03 * l, 0.8 * w, 0},
+                {0.42 * l, 0.6 * w, up},
+                {0.48 * l, 0.75 * w, up},
+                {0.60 * l, w, up},
                 {0.90 * l, w, 0},
-                {0.97 * l, 0.7 * w, 0},
-                {l, 0.2 * w, 0}},
-               d->size.z(), {kSteel});
+                {0.97 * l, 0.7 * w, up},
+                {l, 0.2 * w, 2 * up}},
+               t, {kSteel});
 }
 
 core::TexturedMesh Ruler(RigidDraft* d) {
@@ -141,18 +144,19 @@ core::TexturedMesh Hammer(RigidDraft* d) {
   return mesh;
 }
 
-// A handle and a block of bristles below its end.
+// A handle and a block of bristles on its end; it rests on both ends of the handle.
 core::TexturedMesh BrushOf(RigidDraft* d, double head_share, double handle_share,
                            const core::Material& handle, const core::Material& bristles) {
   const double l = d->size.x(), w = d->size.y(), h = d->size.z(), thick = 0.4 * h;
   const double head = head_share * l, grip = 0.5 * handle_share * w;
-  core::TexturedMesh mesh = Sheet({{0, 0.7 * grip, 0},
+  const double up = 0.1 * thick;
+  core::TexturedMesh mesh = Sheet({{0, 0.7 * grip, up},
                                    {0.04 * l, grip, 0},
-                                   {0.3 * l, grip, 0},
-                                   {l - head - 0.03 * l, 0.7 * grip, 0},
-                                   {l - head, 0.5 * w, 0},
+                                   {0.3 * l, grip, up},
+                                   {l - head - 0.03 * l, 0.7 * grip, up},
+                                   {l - head, 0.5 * w, up},
                                    {l - 0.02 * l, 0.5 * w, 0},
-                                   {l, 0.42 * w, 0}},
+                                   {l, 0.42 * w, up}},
                                   thick, {handle});
   const Eigen::Vector3d block(0.9 * head, 0.86 * w, h - 0.5 * thick);
   core::TexturedMesh tuft = PaintedBox(block, 0.05 * block.minCoeff(), {bristles},
@@ -190,14 +194,16 @@ core::TexturedMesh RollingPin(RigidDraft* d) {
 core::TexturedMesh Battery(RigidDraft* d) {
   const double l = d->size.x(), r = 0.5 * d->size.y();
   const std::vector<core::Material> looks{kDark, Look("copper", .76f, .48f, .26f), kSteel};
-  return Turned({{0, 0, 2},
-                 {r, 0, 2},
-                 {r, 0.66 * l},
-                 {r, 0.97 * l, 1},
-                 {0.4 * r, 0.97 * l, 2},
-                 {0.4 * r, l, 2},
-                 {0, l, 2}},
-                looks);
+  core::TexturedMesh mesh = Turned({{0, 0, 2},
+                                    {r, 0, 2},
+                                    {r, 0.66 * l},
+                                    {r, 0.97 * l, 1},
+                                    {0.4 * r, 0.97 * l, 2},
+                                    {0.4 * r, l, 2},
+                                    {0, l, 2}},
+                                   looks);
+  Flatten(0.04, &mesh);
+  return mesh;
 }
 
 core::TexturedMesh Flashlight(RigidDraft* d) {

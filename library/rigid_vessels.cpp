@@ -72,11 +72,6 @@ core::TexturedMesh Bucket(RigidDraft* d) {
   return Vessel(d, {{0.72 * r, 0}, {0.96 * r, 0.93 * h}, {r, 0.935 * h}, {r, h}}, 0.006, 0.006);
 }
 
-core::TexturedMesh Ramekin(RigidDraft* d) {
-  const double r = Radius(*d), h = d->size.z();
-  return Vessel(d, {{0.92 * r, 0}, {0.96 * r, 0.1 * h}, {r, 0.8 * h}, {r, h}}, 0.005, 0.006);
-}
-
 core::TexturedMesh Goblet(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z();
   const std::vector<ProfilePoint> bowl =
@@ -131,7 +126,7 @@ core::TexturedMesh Can(RigidDraft* d) {
   const std::vector<core::Material> looks{Look("tin", .76f, .77f, .79f), d->look,
                                           Look("label", .74f, .22f, .18f)};
   return Revolved({{0, 0},
-                   {r, 0},
+                   {0.93 * r, 0},
                    {r, 0.03 * h},
                    {0.97 * r, 0.05 * h},
                    {0.97 * r, 0.95 * h, 2},
@@ -183,12 +178,6 @@ core::TexturedMesh Saucepan(RigidDraft* d) {
   return Pan(d, 0.97, 0.8);
 }
 
-core::TexturedMesh Coaster(RigidDraft* d) {
-  const double r = Radius(*d), h = d->size.z(), edge = 0.2 * h;
-  return Revolved({{0, 0}, {r - edge, 0}, {r, edge}, {r, h - edge}, {r - edge, h}, {0, h}},
-                  {d->look});
-}
-
 core::TexturedMesh PepperMill(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z();
   std::vector<ProfilePoint> profile{{0, 0}};
@@ -218,15 +207,13 @@ std::vector<RigidKind> VesselKinds() {
           {"saucer", "saucer", "a small plate", S::kRound, Plate},
           {"vase", "vase", "bellied, with a neck", S::kRound, Vase},
           {"bucket", "bucket", "conic, with a rim", S::kRound, Bucket},
-          {"ramekin", "ramekin", "low, with thick walls", S::kRound, Ramekin},
           {"goblet", "goblet", "a bowl on a stem", S::kRound, Goblet},
           {"bottle", "bottle", "with a neck, a label and a cap", S::kRound, Bottle},
           {"jar", "jar", "with a lid", S::kRound, Jar},
-          {"can", "tin can", "with rims and a label", S::kRound, Can},
+          {"can", "can", "with rims and a label", S::kRound, Can},
           {"frying_pan", "frying pan", "low, with a long handle", S::kHandled, FryingPan},
           {"saucepan", "saucepan", "deep, with a long handle", S::kHandled, Saucepan},
           {"candle", "candle", "with a wick", S::kRound, Candle},
-          {"coaster", "coaster", "a disc", S::kRound, Coaster},
           {"pepper_mill", "pepper mill", "turned", S::kRound, PepperMill},
           {"toilet_paper", "toilet paper", "a roll with its hole", S::kRound, ToiletPaper}};
 }
