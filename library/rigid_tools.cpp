@@ -42,20 +42,6 @@ core::TexturedMesh WoodenSpoon(RigidDraft* d) {
   return SpoonOf(d, 0.006, kWood);
 }
 
-// Bent a little, as knives are: it rests on its handle and near its tip.
-core::TexturedMesh TableKnife(RigidDraft* d) {
-  const double l = d->size.x(), w = 0.5 * d->size.y(), t = 0.7 * d->size.z(), up = 0.2 * t;
-  return Sheet({{0, 0.55 * w, up},
-                {0.03 * l, 0.8 * w, 0},
-                {0.42 * l, 0.6 * w, up},
-                {0.48 * l, 0.75 * w, up},
-                {0.60 * l, w, up},
-                {0.90 * l, w, 0},
-                {0.97 * l, 0.7 * w, up},
-                {l, 0.2 * w, 2 * up}},
-               t, {kSteel});
-}
-
 core::TexturedMesh Ruler(RigidDraft* d) {
   return PaintedBox(d->size, 0.1 * d->size.z(), {Look("ruler", .88f, .76f, .40f)},
                     [](const Eigen::Vector3d&) { return 0; });
@@ -145,11 +131,9 @@ core::TexturedMesh Hammer(RigidDraft* d) {
 }
 
 // A handle and a block of bristles on its end; it rests on both ends of the handle.
-core::TexturedMesh BrushOf(RigidDraft* d, double head_share, double handle_share,
-                           const core::Material& handle, const core::Material& bristles) {
+core::TexturedMesh Brush(RigidDraft* d) {
   const double l = d->size.x(), w = d->size.y(), h = d->size.z(), thick = 0.4 * h;
-  const double head = head_share * l, grip = 0.5 * handle_share * w;
-  const double up = 0.1 * thick;
+  const double head = 0.42 * l, grip = 0.22 * w, up = 0.1 * thick;
   core::TexturedMesh mesh = Sheet({{0, 0.7 * grip, up},
                                    {0.04 * l, grip, 0},
                                    {0.3 * l, grip, up},
@@ -157,21 +141,14 @@ core::TexturedMesh BrushOf(RigidDraft* d, double head_share, double handle_share
                                    {l - head, 0.5 * w, up},
                                    {l - 0.02 * l, 0.5 * w, 0},
                                    {l, 0.42 * w, up}},
-                                  thick, {handle});
+                                  thick, {kWood});
   const Eigen::Vector3d block(0.9 * head, 0.86 * w, h - 0.5 * thick);
-  core::TexturedMesh tuft = PaintedBox(block, 0.05 * block.minCoeff(), {bristles},
-                                       [](const Eigen::Vector3d&) { return 0; });
+  core::TexturedMesh tuft =
+      PaintedBox(block, 0.05 * block.minCoeff(), {Look("bristles", .86f, .80f, .64f)},
+                 [](const Eigen::Vector3d&) { return 0; });
   Move({l - 0.5 * head, 0, h - 0.5 * block.z()}, &tuft);
   Join(tuft, &mesh);
   return mesh;
-}
-
-core::TexturedMesh Brush(RigidDraft* d) {
-  return BrushOf(d, 0.42, 0.45, kWood, Look("bristles", .86f, .80f, .64f));
-}
-
-core::TexturedMesh Toothbrush(RigidDraft* d) {
-  return BrushOf(d, 0.15, 0.9, d->look, Look("bristles", .93f, .95f, .97f));
 }
 
 core::TexturedMesh RollingPin(RigidDraft* d) {
@@ -242,7 +219,6 @@ std::vector<RigidKind> LongKinds() {
   using S = RigidSides;
   return {{"spoon", "spoon", "with a hollow bowl", S::kFree, Spoon},
           {"wooden_spoon", "wooden spoon", "with a hollow bowl", S::kFree, WoodenSpoon},
-          {"table_knife", "table knife", "flat, of steel", S::kFree, TableKnife},
           {"ruler", "ruler", "flat", S::kFree, Ruler},
           {"pen", "pen", "turned, with a tip", S::kLying, Pen},
           {"pencil", "pencil", "sharpened", S::kLying, Pencil},
@@ -250,7 +226,6 @@ std::vector<RigidKind> LongKinds() {
           {"screwdriver", "screwdriver", "a grip and a blade", S::kLying, Screwdriver},
           {"hammer", "hammer", "a head across its handle", S::kFree, Hammer},
           {"brush", "brush", "a handle and bristles", S::kFree, Brush},
-          {"toothbrush", "toothbrush", "a handle and bristles", S::kFree, Toothbrush},
           {"rolling_pin", "rolling pin", "turned", S::kLying, RollingPin},
           {"battery", "battery", "with its pole", S::kLying, Battery},
           {"flashlight", "flashlight", "with a wide head", S::kLying, Flashlight},
