@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "library/kinds.h"
+#include "library/rigid_kinds.h"
 #include "pipeline/library.h"
 
 namespace simwright::cli {
@@ -18,15 +19,22 @@ struct Flags {
   bool list = false, no_check = false;
 };
 
-int List(bool as_json) {
-  nlohmann::ordered_json kinds = nlohmann::ordered_json::array();
-  for (const library::Kind& kind : library::Kinds()) {
+template <typename Kinds>
+void ListKinds(const Kinds& kinds, bool rigid, bool as_json, nlohmann::ordered_json* json) {
+  if (!as_json) std::printf(rigid ? "\nrigid:\n" : "articulated:\n");
+  for (const auto& kind : kinds) {
     if (as_json) {
-      kinds.push_back({{"kind", kind.name}, {"what", kind.what}});
+      json->push_back({{"kind", kind.name}, {"what", kind.what}, {"rigid", rigid}});
     } else {
-      std::printf("%-14s %s\n", kind.name.c_str(), kind.what.c_str());
+      std::printf("  %-14s %s\n", kind.name.c_str(), kind.what.c_str());
     }
   }
+}
+
+int List(bool as_json) {
+  nlohmann::ordered_json kinds = nlohmann::ordered_json::array();
+  ListKinds(library::Kinds(), false, as_json, &kinds);
+  ListKinds(library::RigidKinds(), true, as_json, &kinds);
   if (as_json) std::printf("%s\n", kinds.dump(2).c_str());
   return 0;
 }
@@ -50,9 +58,14 @@ void PrintLine(const pipeline::LibraryOutcome& outcome) {
     std::printf("refused  %s: %s\n", outcome.name.c_str(), outcome.refusal.c_str());
     return;
   }
-  std::printf("%s  %s  %d links, %d joints, %.2f kg  (%.1f s)\n",
-              outcome.check ? "passes " : "written", outcome.folder.c_str(), outcome.links,
-              outcome.joints, outcome.mass, outcome.seconds);
+  const char* const state = outcome.check ? "passes " : "written";
+  if (outcome.joints == 0) {
+    std::printf("%s  %s  %.3f kg  (%.1f s)\n", state, outcome.folder.c_str(), outcome.mass,
+                outcome.seconds);
+    return;
+  }
+  std::printf("%s  %s  %d links, %d joints, %.2f kg  (%.1f s)\n", state, outcome.folder.c_str(),
+              outcome.links, outcome.joints, outcome.mass, outcome.seconds);
 }
 
 int Library(Flags flags, const CommonOptions& common) {
@@ -90,18 +103,23 @@ int Library(Flags flags, const CommonOptions& common) {
 void AddLibrary(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
   CLI::App* command =
-      app->add_subcommand("library", "Articulated household assets, made to measure");
+      app->add_subcommand("library", "Household assets, articulated and rigid, made to measure");
   command->footer(
       "Example:\n  simwright library --kind microwave --count 10 -o kitchen\n"
       "  simwright library --kind all -o library --sheet library.png\n"
+      "  simwright library --kind mug --count 5 -o mugs\n"
       "Each asset is checked before it is kept. Exit code 1 when one was refused.");
-  command->add_option("--kind", flags->options.kind, "What to make, or all (see --list)")
+  command
+      ->add_option("--kind", flags->options.kind,
+                   "What to make (see --list); all: what has joints, rigid: what has none, "
+                   "everything: both")
       ->capture_default_str();
   command->add_option("--count", flags->options.count, "So many of each kind, seeds in a row")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   command->add_option("-o,--output", flags->output, "Folder for the assets, one folder each");
-  command->add_option("--sheet", flags->sheet, "Also a picture of all, closed and open");
+  command->add_option("--sheet", flags->sheet,
+                      "Also a picture of all, what has joints closed and open");
   command->add_flag("--list", flags->list, "Say what kinds there are");
   command->add_flag("--no-check", flags->no_check, "Write assets unchecked, good or not");
   AddCommon(command, common);

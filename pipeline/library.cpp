@@ -4,51 +4,92 @@
 #include <chrono>
 
 #include "assets/articulated_folder.h"
+#include "assets/asset_folder.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
 #include "library/kinds.h"
+#include "library/rigid_kinds.h"
 #include "pipeline/articulated_preview.h"
+#include "pipeline/asset_builder.h"
+#include "pipeline/preview.h"
 
 namespace simwright::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr int kSheetSize = 210;  // pixels
+
+// One of either sort.
 struct Item {
-  const library::Kind* kind;
+  const library::Kind* jointed = nullptr;
+  const library::RigidKind* rigid = nullptr;
   library::Options options;
 };
 
+std::vector<Item> KindsOf(const std::string& kind) {
+  std::vector<Item> items;
+  if (kind == "all" || kind == "everything") {
+    for (const library::Kind& one : library::Kinds()) items.push_back({&one, nullptr, {}});
+  }
+  if (kind == "rigid" || kind == "everything") {
+    for (const library::RigidKind& one : library::RigidKinds()) {
+      items.push_back({nullptr, &one, {}});
+    }
+  }
+  if (!items.empty()) return items;
+  if (const library::RigidKind* rigid = library::FindRigidKind(kind)) return {{nullptr, rigid, {}}};
+  return {{&library::KindNamed(kind), nullptr, {}}};
+}
+
+std::string NameOf(const Item& item) {
+  return item.rigid != nullptr ? item.rigid->name : item.jointed->name;
+}
+
 std::vector<Item> ItemsOf(const LibraryOptions& options) {
   if (options.count < 1) throw core::Error("a library needs a count of at least 1");
-  std::vector<const library::Kind*> kinds;
-  if (options.kind == "all") {
-    for (const library::Kind& kind : library::Kinds()) kinds.push_back(&kind);
-  } else {
-    kinds.push_back(&library::KindNamed(options.kind));
-  }
   std::vector<Item> items;
-  for (const library::Kind* kind : kinds) {
+  for (Item item : KindsOf(options.kind)) {
     for (int i = 0; i < options.count; ++i) {
       const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
-      items.push_back({kind, {seed, kind->name + "_" + std::to_string(seed)}});
+      item.options = {seed, NameOf(item) + "_" + std::to_string(seed)};
+      items.push_back(item);
     }
   }
   return items;
 }
 
-void Make(const Item& item, const fs::path& target, const LibraryOptions& options,
-          LibraryOutcome* outcome) {
-  const assets::ArticulatedAsset asset = item.kind->make(item.options);
+void WriteJointed(const Item& item, const fs::path& folder, LibraryOutcome* outcome) {
+  const assets::ArticulatedAsset asset = item.jointed->make(item.options);
   outcome->links = static_cast<int>(asset.links.size());
   for (const assets::UrdfJoint& joint : asset.joints) outcome->joints += joint.Moves();
   for (const assets::ArticulatedLink& link : asset.links) outcome->mass += link.inertial.mass;
+  assets::WriteArticulatedAsset(asset, folder);
+  core::WritePng(folder / "preview.png", ArticulatedPreview(asset));
+}
+
+void WriteRigid(const Item& item, const fs::path& folder, LibraryOutcome* outcome) {
+  const library::RigidThing thing = library::MakeRigidThing(*item.rigid, item.options.seed);
+  BuildRequest request;
+  request.name = item.options.name;
+  request.source = "library/" + item.rigid->name;
+  request.category = physics_params::RequireCategory(item.rigid->category);
+  request.seed = item.options.seed;
+  core::Progress silent;
+  const assets::Asset asset = BuildAsset(thing.visual, request, &silent).asset;
+  outcome->links = 1;
+  outcome->mass = asset.inertial.mass;
+  assets::WriteAsset(asset, folder);
+  core::WritePng(folder / "preview.png", AssetPreview(asset));
+}
+
+void Make(const Item& item, const fs::path& target, const LibraryOptions& options,
+          LibraryOutcome* outcome) {
   core::StagedFolder staged(target, options.force);
-  assets::WriteArticulatedAsset(asset, staged.staging());
-  core::WritePng(staged.staging() / "preview.png", ArticulatedPreview(asset));
+  (item.rigid != nullptr ? WriteRigid : WriteJointed)(item, staged.staging(), outcome);
   if (options.check) {
     outcome->check = CheckAsset(staged.staging());
-    RequirePassed(*outcome->check, asset.name);
+    RequirePassed(*outcome->check, item.options.name);
   }
   staged.Commit();
   outcome->folder = target;
@@ -72,7 +113,7 @@ std::vector<LibraryOutcome> MakeLibrary(const LibraryOptions& options, const fs:
     const Item& item = items[static_cast<size_t>(i)];
     LibraryOutcome& outcome = outcomes[static_cast<size_t>(i)];
     outcome.name = item.options.name;
-    outcome.kind = item.kind->name;
+    outcome.kind = NameOf(item);
     const auto start = std::chrono::steady_clock::now();
     try {
       core::CheckCancelled();
@@ -94,9 +135,13 @@ core::Image LibrarySheet(const std::vector<LibraryOutcome>& outcomes) {
   std::vector<core::Image> pictures;
   for (const LibraryOutcome& outcome : outcomes) {
     if (outcome.folder.empty()) continue;
+    if (!assets::IsArticulatedAssetFolder(outcome.folder)) {
+      pictures.push_back(RigidView(assets::ReadAsset(outcome.folder), kSheetSize));
+      continue;
+    }
     const assets::ArticulatedAsset asset = assets::ReadArticulatedAsset(outcome.folder);
     for (const bool open : {false, true}) {
-      pictures.push_back(ArticulatedView(asset, open ? 0.85 : 0.0, 210));
+      pictures.push_back(ArticulatedView(asset, open ? 0.85 : 0.0, kSheetSize));
     }
   }
   if (pictures.empty()) throw core::Error("there is no asset to draw");

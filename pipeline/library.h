@@ -13,31 +13,34 @@
 namespace simwright::pipeline {
 
 struct LibraryOptions {
-  std::string kind = "all";  // of library::Kinds(), or "all"
-  int count = 1;             // of each kind
-  std::uint64_t seed = 1;    // of the first; the others follow
-  bool force = false;        // replace outputs that exist
-  bool check = true;         // check each asset; one that fails is refused
+  // Of library::Kinds() or library::RigidKinds(), or all of the former ("all"), of the latter
+  // ("rigid"), or of both ("everything").
+  std::string kind = "all";
+  int count = 1;           // of each kind
+  std::uint64_t seed = 1;  // of the first; the others follow
+  bool force = false;      // replace outputs that exist
+  bool check = true;       // check each asset; one that fails is refused
 };
 
 struct LibraryOutcome {
   std::string name, kind;
   std::filesystem::path folder;  // where the asset is; empty when refused
   std::string refusal;           // the reason, when refused
-  int links = 0, joints = 0;     // joints that move
+  int links = 0, joints = 0;     // joints that move; a rigid thing has one link and none
   double mass = 0.0;             // kg
   double seconds = 0.0;
   std::optional<CheckReport> check;
 };
 
-// Makes articulated assets in parallel, each into output/KIND_SEED. One that fails its check is
+// Makes assets in parallel, each into output/KIND_SEED. One that fails its check is
 // refused with its reason and does not stop the others. Throws core::Error for an unknown kind, a
 // count below 1, or an output that exists where `force` is not set.
 std::vector<LibraryOutcome> MakeLibrary(const LibraryOptions& options,
                                         const std::filesystem::path& output,
                                         core::Progress* progress);
 
-// A sheet of what is in the folders of `outcomes`, each closed and open beside each other.
+// A sheet of what is in the folders of `outcomes`, what has joints closed and open beside each
+// other.
 core::Image LibrarySheet(const std::vector<LibraryOutcome>& outcomes);
 
 }  // namespace simwright::pipeline

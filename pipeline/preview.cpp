@@ -30,6 +30,13 @@ core::TexturedMesh PartsInColor(const std::vector<core::TriangleMesh>& parts) {
   return mesh;
 }
 
+core::Image RigidView(const assets::Asset& asset, int size) {
+  render::TurntableOptions options;
+  options.views = 1;
+  options.size = size;
+  return render::Turntable(asset.visual, options).front();
+}
+
 core::Image AssetPreview(const assets::Asset& asset) {
   render::TurntableOptions options;
   std::vector<core::Image> pictures = render::Turntable(asset.visual, options);

@@ -12,6 +12,9 @@ namespace simwright::pipeline {
 // colour of its own.
 core::Image AssetPreview(const assets::Asset& asset);
 
+// The asset as it is seen, from a side and above. `size` pixels a side.
+core::Image RigidView(const assets::Asset& asset, int size);
+
 // The collision parts as one mesh, a material a part.
 core::TexturedMesh PartsInColor(const std::vector<core::TriangleMesh>& parts);
 

@@ -1,0 +1,116 @@
+#include "library/rigid_kinds.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "library/rigid_shapes.h"
+
+namespace simwright::library {
+namespace {
+
+constexpr double kLeastHandle = 0.025;  // m: two fingers
+constexpr std::uint64_t kStream = 20;   // where the streams of shapes and colours begin
+
+// What a material usually looks like; glazes and plastics come in several colours.
+core::Material LookOf(const std::string& material, core::Rng& rng) {
+  struct Paint {
+    const char* material;
+    float r, g, b;
+  };
+  constexpr Paint kPaints[] = {{"glass", .72f, .84f, .88f},       {"steel", .72f, .73f, .75f},
+                               {"aluminium", .78f, .79f, .81f},   {"cast iron", .17f, .17f, .18f},
+                               {"brass", .78f, .63f, .30f},       {"silver", .82f, .82f, .84f},
+                               {"copper", .72f, .45f, .30f},      {"wood", .68f, .49f, .30f},
+                               {"plywood", .76f, .60f, .40f},     {"bamboo", .80f, .68f, .44f},
+                               {"cardboard", .72f, .56f, .38f},   {"cork", .70f, .52f, .34f},
+                               {"earthenware", .66f, .32f, .22f}, {"rubber", .25f, .25f, .27f},
+                               {"leather", .93f, .91f, .86f},     {"paper", .93f, .93f, .90f}};
+  for (const Paint& p : kPaints) {
+    if (material == p.material) return Look(material, p.r, p.g, p.b);
+  }
+  constexpr Paint kGlazes[] = {{"white", .93f, .93f, .91f}, {"cream", .90f, .84f, .70f},
+                               {"blue", .24f, .40f, .62f},  {"green", .36f, .56f, .42f},
+                               {"red", .72f, .22f, .20f},   {"grey", .55f, .57f, .60f}};
+  const Paint& p = kGlazes[core::UniformIndex(rng, std::size(kGlazes))];
+  return Look(p.material, p.r, p.g, p.b);
+}
+
+// `value` in what all the ranges share, or as near as can be.
+double Shared(double value, std::initializer_list<const physics_params::Estimate*> ranges) {
+  double low = 0.0, high = 1e9;
+  for (const physics_params::Estimate* range : ranges) {
+    low = std::max(low, range->min);
+    high = std::min(high, range->max);
+  }
+  return std::clamp(value, std::min(low, high), high);
+}
+
+Eigen::Vector3d SizeOf(RigidSides sides, const physics_params::PhysicalParameters& p) {
+  const double l = p.length.sample, w = p.width.sample, h = p.height.sample;
+  switch (sides) {
+    case RigidSides::kRound: {
+      const double across = Shared(w, {&p.length, &p.width});
+      return {across, across, h};
+    }
+    case RigidSides::kSquat: {
+      const double across = Shared(std::max(w, h), {&p.length, &p.width});
+      return {across, across, std::clamp(0.92 * across, p.height.min, p.height.max)};
+    }
+    case RigidSides::kBall: {
+      const double across = Shared(l, {&p.length, &p.width, &p.height});
+      return {across, across, across};
+    }
+    case RigidSides::kLying: {
+      const double across = Shared(w, {&p.width, &p.height});
+      return {l, across, across};
+    }
+    case RigidSides::kHandled:
+      return {std::max(l, w + kLeastHandle), w, h};
+    case RigidSides::kFree:
+      break;
+  }
+  return {l, w, h};
+}
+
+}  // namespace
+
+core::Material Look(const std::string& name, float r, float g, float b) {
+  return {name, {r, g, b, 1.0f}, -1};
+}
+
+const std::vector<RigidKind>& RigidKinds() {
+  static const std::vector<RigidKind> kKinds = [] {
+    std::vector<RigidKind> all;
+    for (const auto& family : {VesselKinds(), BoxKinds(), RoundKinds(), LongKinds()}) {
+      all.insert(all.end(), family.begin(), family.end());
+    }
+    return all;
+  }();
+  return kKinds;
+}
+
+const RigidKind* FindRigidKind(const std::string& name) {
+  for (const RigidKind& kind : RigidKinds()) {
+    if (kind.name == name) return &kind;
+  }
+  return nullptr;
+}
+
+RigidThing MakeRigidThing(const RigidKind& kind, std::uint64_t seed) {
+  const auto& base = physics_params::KnowledgeBase::Shipped();
+  const physics_params::Category* row = base.FindCategory(kind.category);
+  if (row == nullptr) throw core::Error("no such category in the knowledge base", kind.category);
+  RigidThing thing;
+  thing.parameters = physics_params::SampleParameters(*row, base, seed);
+  RigidDraft draft;
+  std::uint64_t stream = kStream;  // of the kind: things of one seed differ in colour
+  for (const char c : kind.name) stream = 31 * stream + static_cast<unsigned char>(c);
+  draft.rng = core::StreamRng(seed, stream);
+  draft.look = LookOf(thing.parameters.material, draft.rng);
+  draft.size = thing.size = SizeOf(kind.sides, thing.parameters);
+  thing.visual = kind.make(&draft);
+  FitTo(thing.size, &thing.visual);
+  return thing;
+}
+
+}  // namespace simwright::library

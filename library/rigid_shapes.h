@@ -1,0 +1,76 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/mesh.h"
+
+namespace simwright::library {
+
+// Closed, outward surfaces that rigid things are made of. Metres or any unit: FitTo gives the size.
+
+// A cross-section of a loft: its outline stretched to x and y, at height z. `look` indexes the
+// colour of the band that leads to it from the ring before.
+struct Ring {
+  double x = 0.0, y = 0.0, z = 0.0;
+  int look = 0;
+};
+
+// Outlines in [-1, 1]^2, counter-clockwise, touching each side of the square.
+std::vector<Eigen::Vector2d> CircleOutline(int points = 48);  // a multiple of 4
+// A square whose corners are rounded by `corner` (of its half side, in (0, 1]).
+std::vector<Eigen::Vector2d> RoundedSquareOutline(double corner, int points_a_corner = 5);
+
+// The surface through the rings. It starts and ends in a point (a ring of x = y = 0), or else the
+// last ring joins the first. Seen from above, rings that go up lie outside.
+core::TexturedMesh Loft(const std::vector<Ring>& rings, const std::vector<Eigen::Vector2d>& outline,
+                        const std::vector<core::Material>& looks);
+
+// A profile (r, z) about the z axis.
+struct ProfilePoint {
+  double r = 0.0, z = 0.0;
+  int look = 0;
+};
+core::TexturedMesh Revolved(const std::vector<ProfilePoint>& profile,
+                            const std::vector<core::Material>& looks);
+// A curve through the points, `steps` a piece (Catmull and Rom 1974); r stays at or above 0.
+std::vector<ProfilePoint> Smooth(const std::vector<ProfilePoint>& points, int steps = 6);
+// A vessel's profile: the outer wall (from its foot's edge to its rim), a wall of `thickness`
+// measured level, and the inside down to the floor, which is `floor` thick.
+std::vector<ProfilePoint> VesselProfile(const std::vector<ProfilePoint>& outer, double thickness,
+                                        double floor);
+
+// The same, its axis along x.
+core::TexturedMesh AlongX(core::TexturedMesh mesh);
+
+// A bent sheet along x: at each station half as wide as `half_width`, its middle at z, its edges
+// `dish` higher than its middle.
+struct Station {
+  double x = 0.0, half_width = 0.0, z = 0.0, dish = 0.0;
+  int look = 0;
+};
+core::TexturedMesh Sheet(const std::vector<Station>& stations, double thickness,
+                         const std::vector<core::Material>& looks);
+
+// A bar of elliptic section along a path in the plane y = 0, with flat ends.
+core::TexturedMesh Tube(const std::vector<Eigen::Vector2d>& path_xz, double half_across,
+                        double half_thick, const core::Material& look);
+
+// A box about the origin, its edges chamfered; `look_of` gives a colour by a face's normal.
+core::TexturedMesh PaintedBox(const Eigen::Vector3d& size, double bevel,
+                              const std::vector<core::Material>& looks,
+                              const std::function<int(const Eigen::Vector3d&)>& look_of);
+
+// `addition` as another closed surface of the same thing; the two may cross.
+void Join(const core::TexturedMesh& addition, core::TexturedMesh* mesh);
+void Move(const Eigen::Vector3d& by, core::TexturedMesh* mesh);
+
+// Presses what lies in the lowest `share` of the height flat, so that round things have a foot.
+void Flatten(double share, core::TexturedMesh* mesh);
+
+// Stretches the mesh to this size, standing on z = 0 about the z axis.
+void FitTo(const Eigen::Vector3d& size, core::TexturedMesh* mesh);
+
+}  // namespace simwright::library
