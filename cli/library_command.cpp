@@ -112,7 +112,7 @@ void AddLibrary(CLI::App* app, CommonOptions* common, Run* run) {
   command
       ->add_option("--kind", flags->options.kind,
                    "What to make (see --list); all: what has joints, rigid: what has none, "
-                   "everything: both")
+                   "everything: both; several with commas, mug,book")
       ->capture_default_str();
   command->add_option("--count", flags->options.count, "So many of each kind, seeds in a row")
       ->capture_default_str()

@@ -1,7 +1,9 @@
 #include "pipeline/library.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <sstream>
 
 #include "assets/articulated_folder.h"
 #include "assets/asset_folder.h"
@@ -27,19 +29,34 @@ struct Item {
   library::Options options;
 };
 
-std::vector<Item> KindsOf(const std::string& kind) {
-  std::vector<Item> items;
+void AddKind(const std::string& kind, std::vector<Item>* items) {
   if (kind == "all" || kind == "everything") {
-    for (const library::Kind& one : library::Kinds()) items.push_back({&one, nullptr, {}});
+    for (const library::Kind& one : library::Kinds()) items->push_back({&one, nullptr, {}});
   }
   if (kind == "rigid" || kind == "everything") {
     for (const library::RigidKind& one : library::RigidKinds()) {
-      items.push_back({nullptr, &one, {}});
+      items->push_back({nullptr, &one, {}});
     }
   }
-  if (!items.empty()) return items;
-  if (const library::RigidKind* rigid = library::FindRigidKind(kind)) return {{nullptr, rigid, {}}};
-  return {{&library::KindNamed(kind), nullptr, {}}};
+  if (kind == "all" || kind == "rigid" || kind == "everything") return;
+  const library::RigidKind* rigid = library::FindRigidKind(kind);
+  items->push_back(rigid != nullptr ? Item{nullptr, rigid, {}}
+                                    : Item{&library::KindNamed(kind), nullptr, {}});
+}
+
+// Those of a list with commas, each once.
+std::vector<Item> KindsOf(const std::string& kinds) {
+  std::vector<Item> named, items;
+  std::istringstream list(kinds);
+  for (std::string kind; std::getline(list, kind, ',');) AddKind(kind, &named);
+  for (const Item& item : named) {
+    const bool known = std::any_of(items.begin(), items.end(), [&](const Item& other) {
+      return other.jointed == item.jointed && other.rigid == item.rigid;
+    });
+    if (!known) items.push_back(item);
+  }
+  if (items.empty()) throw core::Error("no kind is named", kinds, "see --list");
+  return items;
 }
 
 std::string NameOf(const Item& item) {

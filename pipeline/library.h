@@ -14,7 +14,7 @@ namespace simwright::pipeline {
 
 struct LibraryOptions {
   // Of library::Kinds() or library::RigidKinds(), or all of the former ("all"), of the latter
-  // ("rigid"), or of both ("everything").
+  // ("rigid"), or of both ("everything"); several with commas, "mug,book".
   std::string kind = "all";
   int count = 1;           // of each kind
   std::uint64_t seed = 1;  // of the first; the others follow
