@@ -184,11 +184,12 @@ void GiveMass(const UrdfModel& model, bool metric, const physics_params::Categor
     asset->findings.push_back(
         {"unusual-size", core::Severity::kWarning, asset->name, unusual, 0.0});
   }
+  // Of a mere object no mass is known: its material's density is drawn.
+  const double common = category.name == "object" ? p.density.sample : p.mass.sample / volume;
   double mass = 0.0, densest = 0.0;
   for (size_t i = 0; i < asset->links.size(); ++i) {
     ArticulatedLink& link = asset->links[i];
-    const double density =
-        given ? model.links[i].inertial->mass / link.volume : p.mass.sample / volume;
+    const double density = given ? model.links[i].inertial->mass / link.volume : common;
     link.densities.assign(link.parts.size(), density);
     const geometry::MassProperties total = Weighed(link);
     link.inertial = {total.mass, total.center_of_mass, total.inertia};
