@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "assets/joint_poses.h"
 #include "assets/semantic_model.h"
@@ -217,11 +218,12 @@ ArticulatedAsset AssetFrom(const SemanticModel& source) {
     link.visual = ColoredVisual(from);
     for (const assets::UrdfShape& shape : from.collisions) link.parts.push_back(shape.mesh);
   }
-  for (const core::Finding& finding : source.model.findings) {
-    // Every inertial is made anew.
-    if (finding.code != "urdf-no-inertial" && finding.code != "urdf-mimic") {
-      asset.findings.push_back(finding);
-    }
+  std::set<std::pair<std::string, std::string>> told;  // of visuals, and again of collisions
+  for (core::Finding finding : source.model.findings) {
+    // Every inertial is made anew, and what mimics is told of where it is changed.
+    if (finding.code == "urdf-no-inertial" || finding.code == "urdf-mimic") continue;
+    if (finding.place == source.urdf.string()) finding.place = source.urdf.filename().string();
+    if (told.emplace(finding.place, finding.sentence).second) asset.findings.push_back(finding);
   }
   return asset;
 }

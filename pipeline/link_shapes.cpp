@@ -92,6 +92,27 @@ std::vector<core::TriangleMesh> ConnectedPieces(const core::TriangleMesh& mesh) 
   return pieces;
 }
 
+// A shape's connected pieces. Boards that touch share corners once they are welded: what is closed
+// by the file's own vertices stays a piece of its own, and only the rest is welded.
+std::vector<core::TriangleMesh> PiecesOf(const core::TriangleMesh& shape) {
+  const double tolerance = kWeld * core::Bounds(shape).diagonal().norm();
+  std::vector<core::TriangleMesh> pieces;
+  core::TriangleMesh rest;
+  for (const core::TriangleMesh& piece : ConnectedPieces(shape)) {
+    const core::TriangleMesh welded = geometry::Weld(piece, tolerance);
+    if (!welded.empty() && geometry::Examine(welded, 1).closed) {
+      pieces.push_back(welded);
+    } else {
+      core::Append(piece, &rest);
+    }
+  }
+  if (rest.empty()) return pieces;
+  for (core::TriangleMesh& piece : ConnectedPieces(geometry::Weld(rest, tolerance))) {
+    if (core::Bounds(piece).diagonal().norm() > 0.0) pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
 // Whether a piece is flat, so that no hull of it has a volume to speak of.
 bool IsFlat(const core::TriangleMesh& piece) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -183,10 +204,8 @@ std::vector<core::TriangleMesh> ConvexPartsOf(const UrdfLink& link, double whole
                                               core::Findings* findings) {
   std::vector<core::TriangleMesh> pieces;
   for (const UrdfShape& shape : ShapesOf(link)) {
-    const double size = core::Bounds(shape.mesh).diagonal().norm();
-    for (core::TriangleMesh& piece : ConnectedPieces(geometry::Weld(shape.mesh, kWeld * size))) {
-      if (core::Bounds(piece).diagonal().norm() > 0.0) pieces.push_back(std::move(piece));
-    }
+    const std::vector<core::TriangleMesh> some = PiecesOf(shape.mesh);
+    pieces.insert(pieces.end(), some.begin(), some.end());
   }
   std::vector<std::vector<core::TriangleMesh>> found(pieces.size());
   core::ParallelFor(static_cast<int>(pieces.size()), [&](int i) {
