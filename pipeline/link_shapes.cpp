@@ -77,17 +77,22 @@ class Painter {
   std::map<std::array<int, 4>, size_t> index_of_;
 };
 
-// The connected pieces of a welded mesh.
+// Pieces connected by edges, each with vertices of its own.
 std::vector<core::TriangleMesh> ConnectedPieces(const core::TriangleMesh& mesh) {
   int count = 0;
   const std::vector<int> piece_of = geometry::EdgeComponents(mesh, &count);
   std::vector<core::TriangleMesh> pieces(static_cast<size_t>(count));
+  std::vector<std::map<int, int>> index_of(pieces.size());
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    pieces[static_cast<size_t>(piece_of[t])].triangles.push_back(mesh.triangles[t]);
-  }
-  for (core::TriangleMesh& piece : pieces) {
-    piece.vertices = mesh.vertices;
-    piece = geometry::WithoutUnusedVertices(piece);
+    const size_t at = static_cast<size_t>(piece_of[t]);
+    Eigen::Vector3i triangle = mesh.triangles[t];
+    for (int& corner : triangle) {
+      const auto [found, is_new] =
+          index_of[at].emplace(corner, static_cast<int>(pieces[at].vertices.size()));
+      if (is_new) pieces[at].vertices.push_back(mesh.vertices[static_cast<size_t>(corner)]);
+      corner = found->second;
+    }
+    pieces[at].triangles.push_back(triangle);
   }
   return pieces;
 }
