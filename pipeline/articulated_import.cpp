@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "assets/joint_poses.h"
 #include "assets/semantic_model.h"
@@ -184,11 +185,12 @@ void GiveMass(const UrdfModel& model, bool metric, const physics_params::Categor
     asset->findings.push_back(
         {"unusual-size", core::Severity::kWarning, asset->name, unusual, 0.0});
   }
+  // Of a mere object no mass is known: its material's density is drawn.
+  const double common = category.name == "object" ? p.density.sample : p.mass.sample / volume;
   double mass = 0.0, densest = 0.0;
   for (size_t i = 0; i < asset->links.size(); ++i) {
     ArticulatedLink& link = asset->links[i];
-    const double density =
-        given ? model.links[i].inertial->mass / link.volume : p.mass.sample / volume;
+    const double density = given ? model.links[i].inertial->mass / link.volume : common;
     link.densities.assign(link.parts.size(), density);
     const geometry::MassProperties total = Weighed(link);
     link.inertial = {total.mass, total.center_of_mass, total.inertia};
@@ -216,11 +218,12 @@ ArticulatedAsset AssetFrom(const SemanticModel& source) {
     link.visual = ColoredVisual(from);
     for (const assets::UrdfShape& shape : from.collisions) link.parts.push_back(shape.mesh);
   }
-  for (const core::Finding& finding : source.model.findings) {
-    // Every inertial is made anew.
-    if (finding.code != "urdf-no-inertial" && finding.code != "urdf-mimic") {
-      asset.findings.push_back(finding);
-    }
+  std::set<std::pair<std::string, std::string>> told;  // of visuals, and again of collisions
+  for (core::Finding finding : source.model.findings) {
+    // Every inertial is made anew, and what mimics is told of where it is changed.
+    if (finding.code == "urdf-no-inertial" || finding.code == "urdf-mimic") continue;
+    if (finding.place == source.urdf.string()) finding.place = source.urdf.filename().string();
+    if (told.emplace(finding.place, finding.sentence).second) asset.findings.push_back(finding);
   }
   return asset;
 }

@@ -1,6 +1,7 @@
 #include "pipeline/link_folding.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,8 @@ using assets::UrdfJointType;
 using assets::UrdfLink;
 using assets::UrdfModel;
 using assets::UrdfShape;
+
+constexpr double kRounding = 1e-12;  // of an axis, what turning by 1.5708 leaves
 
 bool HasShapes(const UrdfLink& link) {
   return !link.visuals.empty() || !link.collisions.empty();
@@ -226,7 +229,9 @@ void StandOnOrigin(double scale, UrdfModel* model) {
   }
   for (size_t i = 0; i < model->joints.size(); ++i) {
     UrdfJoint& joint = model->joints[i];
-    joint.axis = (old_poses[i + 1].rotation() * joint.axis).normalized();
+    joint.axis = old_poses[i + 1].rotation() * joint.axis;
+    for (double& along : joint.axis) along = std::abs(along) < kRounding ? 0.0 : along;
+    joint.axis.normalize();
     joint.parent_from_joint = Eigen::Isometry3d(
         Eigen::Translation3d(origins[i + 1] - origins[static_cast<size_t>(parents[i])]));
     if (joint.type == UrdfJointType::kPrismatic) {

@@ -77,17 +77,43 @@ class Painter {
   std::map<std::array<int, 4>, size_t> index_of_;
 };
 
-// The connected pieces of a welded mesh.
+// Pieces connected by edges, each with vertices of its own.
 std::vector<core::TriangleMesh> ConnectedPieces(const core::TriangleMesh& mesh) {
   int count = 0;
   const std::vector<int> piece_of = geometry::EdgeComponents(mesh, &count);
   std::vector<core::TriangleMesh> pieces(static_cast<size_t>(count));
+  std::vector<std::map<int, int>> index_of(pieces.size());
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    pieces[static_cast<size_t>(piece_of[t])].triangles.push_back(mesh.triangles[t]);
+    const size_t at = static_cast<size_t>(piece_of[t]);
+    Eigen::Vector3i triangle = mesh.triangles[t];
+    for (int& corner : triangle) {
+      const auto [found, is_new] =
+          index_of[at].emplace(corner, static_cast<int>(pieces[at].vertices.size()));
+      if (is_new) pieces[at].vertices.push_back(mesh.vertices[static_cast<size_t>(corner)]);
+      corner = found->second;
+    }
+    pieces[at].triangles.push_back(triangle);
   }
-  for (core::TriangleMesh& piece : pieces) {
-    piece.vertices = mesh.vertices;
-    piece = geometry::WithoutUnusedVertices(piece);
+  return pieces;
+}
+
+// A shape's connected pieces. Boards that touch share corners once they are welded: what is closed
+// by the file's own vertices stays a piece of its own, and only the rest is welded.
+std::vector<core::TriangleMesh> PiecesOf(const core::TriangleMesh& shape) {
+  const double tolerance = kWeld * core::Bounds(shape).diagonal().norm();
+  std::vector<core::TriangleMesh> pieces;
+  core::TriangleMesh rest;
+  for (const core::TriangleMesh& piece : ConnectedPieces(shape)) {
+    const core::TriangleMesh welded = geometry::Weld(piece, tolerance);
+    if (!welded.empty() && geometry::Examine(welded, 1).closed) {
+      pieces.push_back(welded);
+    } else {
+      core::Append(piece, &rest);
+    }
+  }
+  if (rest.empty()) return pieces;
+  for (core::TriangleMesh& piece : ConnectedPieces(geometry::Weld(rest, tolerance))) {
+    if (core::Bounds(piece).diagonal().norm() > 0.0) pieces.push_back(std::move(piece));
   }
   return pieces;
 }
@@ -183,10 +209,8 @@ std::vector<core::TriangleMesh> ConvexPartsOf(const UrdfLink& link, double whole
                                               core::Findings* findings) {
   std::vector<core::TriangleMesh> pieces;
   for (const UrdfShape& shape : ShapesOf(link)) {
-    const double size = core::Bounds(shape.mesh).diagonal().norm();
-    for (core::TriangleMesh& piece : ConnectedPieces(geometry::Weld(shape.mesh, kWeld * size))) {
-      if (core::Bounds(piece).diagonal().norm() > 0.0) pieces.push_back(std::move(piece));
-    }
+    const std::vector<core::TriangleMesh> some = PiecesOf(shape.mesh);
+    pieces.insert(pieces.end(), some.begin(), some.end());
   }
   std::vector<std::vector<core::TriangleMesh>> found(pieces.size());
   core::ParallelFor(static_cast<int>(pieces.size()), [&](int i) {

@@ -10,6 +10,7 @@
 
 #include "assets/joint_poses.h"
 #include "core/error.h"
+#include "core/progress.h"
 #include "geometry/convex_hull.h"
 #include "geometry/distance.h"
 #include "geometry/weld.h"
@@ -82,6 +83,7 @@ class Clearing {
   core::Findings Clear() {
     for (size_t joint = 0; joint < model_->joints.size(); ++joint) {
       if (!model_->joints[joint].Moves()) continue;
+      core::CheckCancelled();
       Sweep(joint);
       Trim();
     }

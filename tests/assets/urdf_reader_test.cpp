@@ -156,5 +156,35 @@ TEST_F(Urdf, ReadsDynamicsAndMimics) {
             "");
 }
 
+// PartNet-Mobility's limits have neither; urdfdom alone would refuse them.
+TEST_F(Urdf, ALimitMayLackEffortAndVelocity) {
+  const UrdfModel model =
+      ReadUrdf(Write(Link("a", "../meshes/box.obj") + Link("b", "../meshes/box.obj") +
+                     "<joint name=\"j\" type=\"prismatic\"><parent link=\"a\"/><child link=\"b\"/>"
+                     "<limit lower=\"-0.25\" upper=\"0.5\"/></joint>"));
+  EXPECT_EQ(model.joints[0].lower, -0.25);
+  EXPECT_EQ(model.joints[0].upper, 0.5);
+  EXPECT_EQ(model.joints[0].effort, 0.0);
+  EXPECT_EQ(model.joints[0].velocity, 0.0);
+}
+
+TEST_F(Urdf, SaysWhereAVisualCameFromAndItsColour) {
+  const UrdfModel model = ReadUrdf(
+      Write("<link name=\"a\"><visual><origin xyz=\"1 2 3\" rpy=\"0 0 1.5707963267948966\"/>"
+            "<geometry><mesh filename=\"../meshes/box.obj\" scale=\"2 4 6\"/></geometry>"
+            "<material name=\"m\"><color rgba=\"0.25 0.5 0.75 1\"/></material></visual></link>"));
+  ASSERT_EQ(model.links[0].visuals.size(), 1u);
+  const UrdfShape& shape = model.links[0].visuals[0];
+  EXPECT_TRUE(shape.color->isApprox(Eigen::Vector4f(0.25f, 0.5f, 0.75f, 1.0f)));
+  // A corner of the file's unit cube: stretched, then turned by a quarter, then moved.
+  const Eigen::Vector3d corner(0.5, 0.5, 0.5), wanted(1.0 - 2.0, 2.0 + 1.0, 3.0 + 3.0);
+  EXPECT_LT((shape.link_from_file * corner - wanted).norm(), 1e-12);
+  double nearest = 1.0;
+  for (const Eigen::Vector3d& v : shape.mesh.vertices) {
+    nearest = std::min(nearest, (v - wanted).norm());
+  }
+  EXPECT_LT(nearest, 1e-9);
+}
+
 }  // namespace
 }  // namespace simwright::assets

@@ -15,6 +15,7 @@
 #include "assets/semantic_model.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "library/kinds.h"
 #include "partnet_cabinet.h"
 #include "pipeline/joint_clearance.h"
 #include "pipeline/link_folding.h"
@@ -133,7 +134,7 @@ TEST_F(ImportedCabinet, WeighsWhatItsKindDoesAndKeepsItsMeaning) {
     EXPECT_GT(joint.friction, 0.0);
     EXPECT_GT(joint.damping, 0.0);
   }
-  EXPECT_EQ(Count(asset.findings, "urdf-missing-mesh"), 2);  // as visual and as collision
+  EXPECT_EQ(Count(asset.findings, "urdf-missing-mesh"), 1);
   // The door's rear face lay 0.002 units in the body: it was trimmed to a gap of 3 mm.
   EXPECT_EQ(Count(asset.findings, "trimmed"), 1);
   const double deepest =
@@ -169,9 +170,12 @@ TEST_F(ImportedCabinet, TakesItsCategorysSizeWhereNoHeightIsGiven) {
   PartnetCabinet(source).Write(false);
   const fs::path urdf = ArticulatedUrdfIn(source);
   core::Progress progress;
-  const ArticulatedAsset a = ImportArticulated(urdf, {.name = "a", .category = "", .seed = 3}, &progress);
-  const ArticulatedAsset b = ImportArticulated(urdf, {.name = "a", .category = "", .seed = 3}, &progress);
-  const ArticulatedAsset c = ImportArticulated(urdf, {.name = "a", .category = "", .seed = 4}, &progress);
+  const ArticulatedAsset a =
+      ImportArticulated(urdf, {.name = "a", .category = "", .seed = 3}, &progress);
+  const ArticulatedAsset b =
+      ImportArticulated(urdf, {.name = "a", .category = "", .seed = 3}, &progress);
+  const ArticulatedAsset c =
+      ImportArticulated(urdf, {.name = "a", .category = "", .seed = 4}, &progress);
   const Eigen::Vector3d size = assets::BoundsAtZero(a).sizes();
   const double box = std::cbrt(size.prod());
   EXPECT_GT(box, std::cbrt(0.28 * 0.28 * 0.42));  // the row's least and greatest boxes
@@ -310,6 +314,27 @@ TEST_F(BoxUrdf, MassesOfTheFileCountAndWeightIsHeld) {
   const double most = 3.0 * 9.81 * 0.051 * std::sin(1.5);
   EXPECT_NEAR(asset.joints[0].friction, std::max(1.3 * most, asset.joints[0].friction), 1e-9);
   EXPECT_GE(asset.joints[0].friction, 1.3 * most * 0.999);
+}
+
+// The library's own drawer unit, taken as a foreign URDF: boards that touch along their edges,
+// frames and masses come back as they were.
+TEST(ImportedLibrary, ADrawerUnitComesBack) {
+  const core::TemporaryFolder folder;
+  const ArticulatedAsset before = library::KindNamed("drawer_unit").make({1, "unit"});
+  assets::WriteArticulatedAsset(before, folder.path());
+  core::Progress progress;
+  const ArticulatedAsset after =
+      ImportArticulated(folder.path() / "unit.urdf", {.name = "unit", .category = ""}, &progress);
+  ASSERT_EQ(after.links.size(), before.links.size());
+  for (const assets::ArticulatedLink& link : before.links) {
+    const size_t i = LinkIndex(after, link.name), k = LinkIndex(before, link.name);
+    EXPECT_NEAR(after.links[i].inertial.mass, link.inertial.mass, 1e-6) << link.name;
+    EXPECT_EQ(after.links[i].label, link.label);
+    if (k == 0 || !before.joints[k - 1].Moves()) continue;
+    EXPECT_LT((after.joints[i - 1].axis - before.joints[k - 1].axis).norm(), 1e-9);
+    EXPECT_NEAR(after.joints[i - 1].upper, before.joints[k - 1].upper, 1e-9);
+    EXPECT_GT(SweptClearance(assets::ModelOf(after), static_cast<int>(i) - 1).distance, 2e-3);
+  }
 }
 
 // A slab 3 mm deep in the body is trimmed, one 20 mm deep is not.
