@@ -115,6 +115,9 @@ Value Elaborator::TensorAttribute(const Value& value, const std::string& name, P
     return TensorValue(math_.Permute(tensor, order));
   }
   const LibraryFunction* function = FindLibraryFunction("Tensor." + name);
+  if (function == nullptr && name.size() > 1 && name.back() == '_') {  // x.add_(y)
+    function = FindLibraryFunction("Tensor." + name.substr(0, name.size() - 1));
+  }
   if (function == nullptr) {
     if (name == "backward" || name == "grad") {
       Fail("undefined", position, "a reward has no gradients: '." + name + "' is not offered");
@@ -157,6 +160,7 @@ Value Elaborator::EvaluateAttribute(const Expression& expression) {
   const char* prefix = base.Is(ValueKind::kList)   ? "List."
                        : base.Is(ValueKind::kDict) ? "Dict."
                        : base.IsNumber()           ? "Number."
+                       : base.Is(ValueKind::kString) ? "String."
                                                    : "Tuple.";
   if (const LibraryFunction* function = FindLibraryFunction(prefix + name)) {
     Value method = LibraryValue(*function, "." + name);

@@ -11,7 +11,8 @@ namespace {
 bool Same(const Value& a, const Value& b, int* budget) {
   if (--*budget < 0) return false;
   if (a.kind != b.kind || a.integer != b.integer || a.number != b.number || a.text != b.text ||
-      a.object != b.object || a.function != b.function || a.library != b.library) {
+      a.object != b.object || a.function != b.function || a.library != b.library ||
+      a.closure != b.closure) {
     return false;
   }
   if (a.Is(ValueKind::kTensor)) {

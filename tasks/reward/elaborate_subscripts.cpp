@@ -20,6 +20,14 @@ bool IsWhole(const Value& slice) {
   return from_start && to_end && each;
 }
 
+// Where a key stands; the number of keys where it does not.
+std::size_t PlaceOfKey(const std::vector<Value>& keys, const Value& key) {
+  const auto same = [&](const Value& other) {
+    return other.kind == key.kind && other.text == key.text && other.integer == key.integer;
+  };
+  return static_cast<std::size_t>(std::find_if(keys.begin(), keys.end(), same) - keys.begin());
+}
+
 struct Bounds {
   std::int64_t start, stop, step;
 };
@@ -263,32 +271,60 @@ void Elaborator::AssignInTensor(const Tensor& tensor, const Value& index, const 
 
 void Elaborator::AssignInContainer(const Value& base, const Value& index, const Value& value,
                                    Position position) {
+  if (base.Is(ValueKind::kDict)) {
+    SetKey(base, index, value, position);
+    return;
+  }
   Object fresh = heap_[base.object];
   std::vector<Value> items = *fresh.items;
-  if (base.Is(ValueKind::kList)) {
-    SubscriptItems(base, items, index, position);  // checks the index
-    if (!index.Is(ValueKind::kInteger)) Fail("index", position, "a list is changed one by one");
-    const auto size = static_cast<std::int64_t>(items.size());
-    items[index.integer < 0 ? index.integer + size : index.integer] = value;
-  } else {
-    if (!index.Is(ValueKind::kString) && !index.Is(ValueKind::kInteger)) {
-      Fail("bad-key", position, "a key is a string or a whole number, this is " + Describe(index));
-    }
-    std::vector<Value> keys = *fresh.keys;
-    std::size_t at = 0;
-    while (at < keys.size() && (keys[at].kind != index.kind || keys[at].text != index.text ||
-                                keys[at].integer != index.integer)) {
-      ++at;
-    }
-    if (at == keys.size()) {
-      keys.push_back(index);
-      items.push_back(value);
-    }
-    items[at] = value;
-    fresh.keys = std::make_shared<const std::vector<Value>>(std::move(keys));
-  }
+  SubscriptItems(base, items, index, position);  // checks the index
+  if (!index.Is(ValueKind::kInteger)) Fail("index", position, "a list is changed one by one");
+  const auto size = static_cast<std::int64_t>(items.size());
+  items[index.integer < 0 ? index.integer + size : index.integer] = value;
   fresh.items = std::make_shared<const std::vector<Value>>(std::move(items));
   heap_.Set(base.object, std::move(fresh));
+}
+
+void Elaborator::SetKey(const Value& dict, const Value& key, const Value& value,
+                        Position position) {
+  if (!key.Is(ValueKind::kString) && !key.Is(ValueKind::kInteger)) {
+    Fail("bad-key", position, "a key is a string or a whole number, this is " + Describe(key));
+  }
+  std::vector<Value> keys = *heap_[dict.object].keys, items = *heap_[dict.object].items;
+  const std::size_t at = PlaceOfKey(keys, key);
+  if (at == keys.size()) {
+    keys.push_back(key);
+    items.push_back(value);
+  }
+  items[at] = value;
+  Object fresh;
+  fresh.keys = std::make_shared<const std::vector<Value>>(std::move(keys));
+  fresh.items = std::make_shared<const std::vector<Value>>(std::move(items));
+  heap_.Set(dict.object, std::move(fresh));
+}
+
+void Elaborator::Update(const Value& dict, const Value& other, Position position) {
+  if (!other.Is(ValueKind::kDict)) {
+    Fail("type", position, "a dictionary is wanted here, this is " + Describe(other));
+  }
+  const Object contents = heap_[other.object];
+  for (std::size_t i = 0; i < contents.keys->size(); ++i) {
+    Step(position);
+    SetKey(dict, (*contents.keys)[i], (*contents.items)[i], position);
+  }
+}
+
+Value Elaborator::RemoveKey(const Value& dict, const Value& key, Position position) {
+  const Value removed = Subscript(dict, key, position);  // names what is missing
+  std::vector<Value> keys = *heap_[dict.object].keys, items = *heap_[dict.object].items;
+  const auto at = static_cast<std::ptrdiff_t>(PlaceOfKey(keys, key));
+  keys.erase(keys.begin() + at);
+  items.erase(items.begin() + at);
+  Object fresh;
+  fresh.keys = std::make_shared<const std::vector<Value>>(std::move(keys));
+  fresh.items = std::make_shared<const std::vector<Value>>(std::move(items));
+  heap_.Set(dict.object, std::move(fresh));
+  return removed;
 }
 
 // t[mask] += x with a number x.

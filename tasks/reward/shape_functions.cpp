@@ -20,6 +20,14 @@ std::vector<Tensor> TensorList(Elaborator& elaborator, const Arguments& argument
   return tensors;
 }
 
+// The same call with a second argument, the dimension.
+Arguments WithDimension(Arguments arguments, std::int64_t dimension) {
+  arguments.values.push_back(IntegerValue(dimension));
+  arguments.places.push_back(arguments.position);
+  arguments.given.push_back(true);
+  return arguments;
+}
+
 Value Stack(Elaborator& elaborator, const Arguments& arguments) {
   std::vector<Tensor> tensors = TensorList(elaborator, arguments);
   const std::int64_t at = IntegerArgument(elaborator, arguments, 1);
@@ -89,6 +97,41 @@ Value Reshape(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
   const std::vector<std::int64_t> sizes = Sizes(elaborator, arguments[1], arguments.Place(1));
   return TensorValue(elaborator.math().Reshape(tensor, sizes, arguments.position));
+}
+
+Value ReshapeAs(Elaborator& elaborator, const Arguments& arguments) {
+  const Tensor tensor = TensorArgument(elaborator, arguments, 0);
+  std::vector<std::int64_t> sizes;
+  for (const int size : TensorArgument(elaborator, arguments, 1).shape) {
+    sizes.push_back(size == kBatch ? TensorMath::kKnownBatch : size);
+  }
+  return TensorValue(elaborator.math().Reshape(tensor, sizes, arguments.position));
+}
+
+Value SwapTwo(Elaborator& elaborator, const Arguments& arguments) {
+  const Tensor tensor = TensorArgument(elaborator, arguments, 0);
+  if (tensor.shape.size() < 2) return TensorValue(tensor);
+  if (tensor.shape.size() > 2) {
+    Fail("dimension", arguments.position,
+         "'" + arguments.called + "' turns a table, this is " + ShapeText(tensor.shape) +
+             "; use .transpose(1, 2)");
+  }
+  return TensorValue(elaborator.math().Permute(tensor, {1, 0}));
+}
+
+// Side by side along the last of one or two dimensions.
+Value Columns(Elaborator& elaborator, const Arguments& arguments) {
+  const std::vector<Tensor> tensors = TensorList(elaborator, arguments);
+  const int dimension = tensors[0].shape.size() < 2 ? 0 : 1;
+  if (tensors[0].shape.empty()) return Stack(elaborator, WithDimension(arguments, 0));
+  return TensorValue(elaborator.math().Concatenate(tensors, dimension, arguments.position));
+}
+
+// One above the other; vectors become rows.
+Value Rows(Elaborator& elaborator, const Arguments& arguments) {
+  const std::vector<Tensor> tensors = TensorList(elaborator, arguments);
+  if (tensors[0].shape.size() < 2) return Stack(elaborator, WithDimension(arguments, 0));
+  return TensorValue(elaborator.math().Concatenate(tensors, 0, arguments.position));
 }
 
 Value Flatten(Elaborator& elaborator, const Arguments& arguments) {
@@ -257,9 +300,13 @@ constexpr LibraryFunction kFunctions[] = {
     {"torch.cat torch.concat torch.concatenate np.concatenate", "tensors dim=0", Concatenate},
     {"torch.unsqueeze Tensor.unsqueeze np.expand_dims", "input dim", Unsqueeze},
     {"torch.squeeze Tensor.squeeze np.squeeze", "input dim=None", Squeeze},
-    {"torch.transpose Tensor.transpose torch.swapaxes", "input dim0 dim1", Transpose},
+    {"torch.transpose Tensor.transpose torch.swapaxes Tensor.swapaxes", "input dim0 dim1", Transpose},
     {"torch.permute Tensor.permute np.transpose", "input *dims", Permute},
     {"torch.reshape Tensor.reshape Tensor.view np.reshape", "input *shape", Reshape},
+    {"Tensor.view_as Tensor.reshape_as", "input other", ReshapeAs},
+    {"torch.t Tensor.t", "input", SwapTwo},
+    {"torch.vstack np.vstack", "tensors", Rows},
+    {"torch.hstack np.hstack", "tensors", Columns},
     {"torch.flatten Tensor.flatten Tensor.ravel np.ravel", "input start_dim=0 end_dim=-1", Flatten},
     {"Tensor.expand torch.broadcast_to np.broadcast_to", "input *size", Expand},
     {"Tensor.expand_as", "input other", ExpandAs},

@@ -61,6 +61,14 @@ enum class ValueKind {
   kUndefined,    // text: why it cannot be used; empty where reported already
 };
 
+struct Value;
+
+// What a function that was defined inside another carries with it.
+struct Closure {
+  int frame = 0;                // the number of the call that it was defined in
+  std::vector<Value> initials;  // of its parameters
+};
+
 struct Value {
   ValueKind kind = ValueKind::kNone;
   std::int64_t integer = 0;
@@ -71,6 +79,7 @@ struct Value {
   int object = -1;
   const Function* function = nullptr;
   const LibraryFunction* library = nullptr;
+  std::shared_ptr<const Closure> closure;  // of a function inside another
   // An index along a dimension that is not offered is named only where it is used: the second of
   // (values, indices) carries its names.
   std::shared_ptr<const std::vector<std::string>> field_names;
