@@ -182,7 +182,7 @@ Value Clone(Elaborator& elaborator, const Arguments& arguments) {
 // x.item(): one number, which may differ between environments of a program for one of them.
 Value Item(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
-  if (tensor.lanes.size() != 1 || BatchDimension(tensor.shape) >= 0) {
+  if (tensor.lanes.size() != 1 || BatchDimension(tensor.shape) >= 0 || HoldsPicked(tensor.shape)) {
     Fail("type", arguments.position,
          "'" + arguments.called + "' takes the one number of a scalar, this is a tensor " +
              ShapeText(tensor.shape) + "; work on all environments at once");

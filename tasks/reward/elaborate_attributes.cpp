@@ -96,13 +96,18 @@ Value Elaborator::EnvironmentAttribute(const Value& environment, const std::stri
   Fail("undefined", position, "the environment has no '" + name + "'" + Suggestion(name, known));
 }
 
+Value Elaborator::SizeValue(int size) {
+  if (size == kBatch) return PlainValue(ValueKind::kBatchSize);
+  if (!IsPicked(size)) return IntegerValue(size);
+  const NodeId count = graph_.Apply(ScalarOperation::kBatchSum, PickingFlag(size));
+  return TensorValue(math_.Scalar(DataType::kInteger, count));
+}
+
 Value Elaborator::TensorAttribute(const Value& value, const std::string& name, Position position) {
   const Tensor& tensor = *value.tensor;
   if (name == "shape") {
     std::vector<Value> sizes;
-    for (const int size : tensor.shape) {
-      sizes.push_back(size == kBatch ? PlainValue(ValueKind::kBatchSize) : IntegerValue(size));
-    }
+    for (const int size : tensor.shape) sizes.push_back(SizeValue(size));
     return TupleValue(std::move(sizes));
   }
   if (name == "ndim") return IntegerValue(static_cast<std::int64_t>(tensor.shape.size()));

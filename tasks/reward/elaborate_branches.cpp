@@ -65,7 +65,7 @@ int Elaborator::Truth(const Value& value, Tensor* flag, Position position) {
     default:
       math_.FromValue(value, position);  // throws, with the right sentence
   }
-  if (value.tensor->lanes.size() != 1) {
+  if (value.tensor->lanes.size() != 1 || HoldsPicked(value.tensor->shape)) {
     Fail("condition", position,
          "a condition wants one flag an environment, this is " + Describe(value) +
              "; reduce it with .all(dim=-1) or .any(dim=-1)");

@@ -371,7 +371,7 @@ std::vector<Value> Elaborator::Items(const Value& value, Position position) {
       Fail("loop", position, "this cannot be gone through: " + Describe(value));
   }
   if (value.Is(ValueKind::kBatchSize) || value.tensor->shape.empty() ||
-      value.tensor->shape[0] == kBatch) {
+      RunsOverEnvironments(value.tensor->shape[0])) {
     Fail("loop", position,
          value.Is(ValueKind::kTensor) && value.tensor->shape.empty()
              ? "a scalar has no elements to go through"

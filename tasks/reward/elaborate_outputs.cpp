@@ -62,6 +62,11 @@ void Elaborator::Components(const Value& value, Position position, ElaboratedOut
       Fail("bad-component", position,
            "the component '" + key.text + "' has to be numbers, this is " + Describe(item));
     }
+    if (item.Is(ValueKind::kTensor) && HoldsPicked(item.tensor->shape)) {
+      Fail("bad-component", position,
+           "the component '" + key.text + "' is " + Describe(item) +
+               ", what a mask picks; use torch.where(mask, a, b), or reduce it");
+    }
     outputs->components.push_back({key.text, math_.Nodes(math_.FromValue(item, position))});
   }
 }

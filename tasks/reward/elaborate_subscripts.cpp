@@ -44,13 +44,37 @@ Bounds Clip(const Value& slice, std::int64_t size, Position position) {
     given[i] = part.integer;
   }
   if (given[2] < 1) {
-    Fail("index", position, "a slice goes forward here; use .flip(dim) to turn the order round");
+    Fail("index", position, "a slice of a tensor goes forward, as torch wants it; use .flip(dim) to turn the order round");
   }
   for (int i = 0; i < 2; ++i) {
     if (given[i] < 0) given[i] = std::max<std::int64_t>(0, given[i] + size);
     given[i] = std::min(given[i], size);
   }
   return {given[0], std::max(given[0], given[1]), std::min<std::int64_t>(given[2], size + 1)};
+}
+
+// The elements that a slice of a list names, backwards where its step is negative.
+std::vector<std::int64_t> Indices(const Value& slice, std::int64_t size, Position position) {
+  const Value& step = (*slice.items)[2];
+  std::vector<std::int64_t> indices;
+  if (!step.Is(ValueKind::kInteger) || step.integer >= 0) {
+    const Bounds bounds = Clip(slice, size, position);
+    for (std::int64_t i = bounds.start; i < bounds.stop; i += bounds.step) indices.push_back(i);
+    return indices;
+  }
+  std::int64_t ends[2] = {size - 1, -1};
+  for (int i = 0; i < 2; ++i) {
+    const Value& part = (*slice.items)[i];
+    if (part.Is(ValueKind::kNone)) continue;
+    if (!part.Is(ValueKind::kInteger)) {
+      Fail("index", position, "a slice wants whole numbers, this is " + Describe(part));
+    }
+    const std::int64_t at = part.integer < 0 ? part.integer + size : part.integer;
+    ends[i] = std::clamp<std::int64_t>(at, -1, size - 1);
+  }
+  const std::int64_t back = std::max(step.integer, -size - 1);
+  for (std::int64_t i = ends[0]; i > ends[1]; i += back) indices.push_back(i);
+  return indices;
 }
 
 }  // namespace
@@ -62,7 +86,7 @@ bool Elaborator::IsMask(const Value& index) const {
 Tensor Elaborator::SliceTensor(const Tensor& tensor, int dimension, const Value& slice,
                                Position position) {
   if (IsWhole(slice)) return tensor;
-  if (tensor.shape[dimension] == kBatch) {
+  if (RunsOverEnvironments(tensor.shape[dimension])) {
     Fail("index", position,
          "a part of the environments cannot be taken: every environment gets its own reward");
   }
@@ -71,6 +95,21 @@ Tensor Elaborator::SliceTensor(const Tensor& tensor, int dimension, const Value&
 }
 
 // Applies one part of an index to dimension *dimension, and moves on to the next.
+// x[mask]: what is reduced over the environments later skips those that were not picked.
+Tensor Elaborator::Picked(const Tensor& tensor, const Tensor& mask, int dimension,
+                          Position position) {
+  if (mask.shape != Shape{kBatch} || tensor.shape[dimension] != kBatch) {
+    Fail("index", position,
+         "a mask " + ShapeText(mask.shape) + " does not pick environments of a tensor " +
+             ShapeText(tensor.shape) +
+             ", and how many single numbers it picks is not known before; use torch.where(mask, "
+             "a, b)");
+  }
+  Tensor picked = math_.Copy(tensor, position);
+  picked.shape[dimension] = PickedBy(math_.At(mask, 0));
+  return picked;
+}
+
 Tensor Elaborator::ApplyIndex(const Tensor& tensor, const Value& index, int* dimension,
                               Position position) {
   if (index.Is(ValueKind::kNone)) return math_.Unsqueeze(tensor, (*dimension)++);
@@ -97,10 +136,7 @@ Tensor Elaborator::ApplyIndex(const Tensor& tensor, const Value& index, int* dim
       index.tensor->shape.empty() && graph_.IsConstant(math_.At(*index.tensor, 0), &known)) {
     return math_.Take(tensor, *dimension, static_cast<std::int64_t>(known), position);
   }
-  if (IsMask(index)) {
-    Fail("index", position,
-         "how many numbers a mask picks is not known before; use torch.where(mask, a, b)");
-  }
+  if (IsMask(index)) return Picked(tensor, *index.tensor, (*dimension)++, position);
   Fail("index", position,
        "an index is a whole number, a slice, None or '...'; this is " + Describe(index));
 }
@@ -130,11 +166,8 @@ Value Elaborator::SubscriptItems(const Value& base, const std::vector<Value>& it
                                  const Value& index, Position position) {
   const auto size = static_cast<std::int64_t>(items.size());
   if (index.Is(ValueKind::kSlice)) {
-    const Bounds bounds = Clip(index, size, position);
     std::vector<Value> taken;
-    for (std::int64_t i = bounds.start; i < bounds.stop; i += bounds.step) {
-      taken.push_back(items[i]);
-    }
+    for (const std::int64_t i : Indices(index, size, position)) taken.push_back(items[i]);
     return base.Is(ValueKind::kList) ? NewList(std::move(taken)) : TupleValue(std::move(taken));
   }
   if (index.Is(ValueKind::kString) && base.field_names != nullptr) {
@@ -256,10 +289,7 @@ void Elaborator::AssignInTensor(const Tensor& tensor, const Value& index, const 
     fresh = math_.Cast(fresh, view.type, position);
   }
   if (IsMask(key)) {
-    if (!fresh.shape.empty()) {
-      Fail("index", position,
-           "only a number can be put where a mask picks; use torch.where(mask, a, b)");
-    }
+    fresh = OfAllEnvironments(fresh, *key.tensor, position);
     fresh = math_.Select(MaskFor(view, key, position), fresh, view, position);
   }
   // A leading 1 of what is put in may be dropped, as torch does.
@@ -267,6 +297,23 @@ void Elaborator::AssignInTensor(const Tensor& tensor, const Value& index, const 
     fresh = math_.Squeeze(fresh, 0);
   }
   math_.Write(view, math_.Nodes(math_.Expand(fresh, view.shape, position)));
+}
+
+// What may be put where a mask picks, with a row for each environment: a number, what all of them
+// share, or what the same mask picked.
+Tensor Elaborator::OfAllEnvironments(const Tensor& value, const Tensor& mask, Position position) {
+  Tensor all = value;
+  const bool rows = mask.shape == Shape{kBatch} && !all.shape.empty();
+  if (rows && all.shape[0] == PickedBy(math_.At(mask, 0))) {
+    all.shape[0] = kBatch;
+    return all;
+  }
+  if (HoldsPicked(all.shape) || BatchDimension(all.shape) >= 0 || (!rows && !all.shape.empty())) {
+    Fail("index", position,
+         "a mask takes a number here or what the same mask picks, a[mask] = b[mask], this is " +
+             Describe(TensorValue(value)) + "; use torch.where(mask, a, b)");
+  }
+  return all;
 }
 
 void Elaborator::AssignInContainer(const Value& base, const Value& index, const Value& value,
@@ -327,27 +374,32 @@ Value Elaborator::RemoveKey(const Value& dict, const Value& key, Position positi
   return removed;
 }
 
-// t[mask] += x with a number x.
+// t[mask] += x, t[mask, 2] += x.
 bool Elaborator::AugmentMasked(const Statement& statement) {
   const Expression& target = *statement.targets[0];
+  const Position position = statement.position;
   const Value base = Evaluate(*target.children[0]);
   if (!base.Is(ValueKind::kTensor)) return false;
   const Value index = Evaluate(*target.children[1]);
-  if (!IsMask(index)) return false;
-  const Tensor mask = MaskFor(*base.tensor, index, target.position);
+  const bool first = index.Is(ValueKind::kTuple) && !index.items->empty() &&
+                     IsMask((*index.items)[0]) && (*index.items)[0].tensor->shape.size() == 1;
+  if (!IsMask(index) && !first) return false;
   const Value operand = Evaluate(*statement.value);
-  const Tensor number = math_.FromValue(operand, statement.position);
-  if (!number.shape.empty()) {
+  const bool rows = first || index.tensor->shape.size() == 1;
+  const Value old = rows ? Subscript(base, index, target.position) : base;
+  const Value fresh = Binary(statement.operation, old, operand, position);
+  CheckFits(*old.tensor, *fresh.tensor, position);
+  if (rows) {
+    AssignInTensor(*base.tensor, index, fresh, target.position);
+    return true;
+  }
+  const Tensor mask = MaskFor(*base.tensor, index, target.position);
+  if (!math_.FromValue(operand, position).shape.empty()) {
     Fail("index", target.position,
-         "only a number can be put where a mask picks; use torch.where(mask, a, b)");
+         "only a number can be put where a mask picks single numbers; use torch.where(mask, a, b)");
   }
-  const Value changed = Binary(statement.operation, base, operand, statement.position);
-  const Tensor fresh = math_.Select(mask, *changed.tensor, *base.tensor, statement.position);
-  if (fresh.type > base.tensor->type) {
-    Fail("type", statement.position,
-         "the result is " + Describe(changed) + ", which " + Describe(base) + " cannot hold");
-  }
-  math_.Write(*base.tensor, math_.Nodes(fresh));
+  math_.Write(*base.tensor,
+              math_.Nodes(math_.Select(mask, *fresh.tensor, *base.tensor, position)));
   return true;
 }
 

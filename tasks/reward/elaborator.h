@@ -64,6 +64,8 @@ class Elaborator {
   // Takes over what another dictionary holds.
   void Update(const Value& dict, const Value& other, Position position);
   Value NewList(std::vector<Value> items);
+  // The size of a dimension as a program sees it.
+  Value SizeValue(int size);
   Value NewDict(std::vector<Value> keys, std::vector<Value> items);
   // True or false where it is known, else -1 and the flag of each environment in `flag`.
   int Truth(const Value& value, Tensor* flag, Position position);
@@ -195,6 +197,8 @@ class Elaborator {
                        Position position);
   Value SubscriptDict(const Value& base, const Value& index, Position position);
   bool IsMask(const Value& index) const;
+  Tensor Picked(const Tensor& tensor, const Tensor& mask, int dimension, Position position);
+  Tensor OfAllEnvironments(const Tensor& value, const Tensor& mask, Position position);
   Tensor MaskFor(const Tensor& tensor, const Value& index, Position position);
 
   // elaborate_environment.cpp

@@ -14,8 +14,8 @@ Value Length(Elaborator& elaborator, const Arguments& arguments) {
     return IntegerValue(static_cast<std::int64_t>(value.text.size()));
   }
   if (value.Is(ValueKind::kTensor) && !value.tensor->shape.empty() &&
-      value.tensor->shape[0] == kBatch) {
-    return PlainValue(ValueKind::kBatchSize);
+      RunsOverEnvironments(value.tensor->shape[0])) {
+    return elaborator.SizeValue(value.tensor->shape[0]);
   }
   return IntegerValue(
       static_cast<std::int64_t>(elaborator.Items(value, arguments.Place(0)).size()));
@@ -65,7 +65,7 @@ Value Extreme(Elaborator& elaborator, const Arguments& arguments) {
 Value Sum(Elaborator& elaborator, const Arguments& arguments) {
   const Value& value = arguments[0];
   if (value.Is(ValueKind::kTensor) && !value.tensor->shape.empty() &&
-      value.tensor->shape[0] == kBatch) {
+      RunsOverEnvironments(value.tensor->shape[0])) {
     return TensorValue(
         elaborator.math().Reduce(Reduction::kSum, *value.tensor, {0}, false, arguments.position));
   }

@@ -75,7 +75,7 @@ Value Norm(Elaborator& elaborator, const Arguments& arguments) {
   const std::vector<int> dimensions = Dimensions(elaborator, arguments, 2, tensor);
   const bool keep = FlagArgument(arguments, 3);
   if (std::any_of(dimensions.begin(), dimensions.end(),
-                  [&](int dimension) { return tensor.shape[dimension] == kBatch; })) {
+                  [&](int dimension) { return RunsOverEnvironments(tensor.shape[dimension]); })) {
     elaborator.Report("norm-over-environments", core::Severity::kWarning, position,
                       "this is one length over all environments; name the dimension, dim=-1");
   }
@@ -124,7 +124,7 @@ Tensor PlaceOfExtreme(Elaborator& elaborator, const Tensor& tensor, int dimensio
 // Everywhere where it is of any use: a place among the environments is not offered.
 Value PlaceValue(Elaborator& elaborator, const Tensor& tensor, int dimension, bool keep,
                  bool largest, Position position) {
-  if (tensor.shape[dimension] == kBatch) {
+  if (RunsOverEnvironments(tensor.shape[dimension])) {
     return PlainValue(ValueKind::kUndefined,
                       "which environment is the best one is not offered; name another dimension "
                       "with dim=");

@@ -194,7 +194,7 @@ Value Repeat(Elaborator& elaborator, const Arguments& arguments) {
       shape[d] = kBatch;
       tensor = math.Expand(tensor, shape, arguments.position);
     } else if (times[d] >= 1 && times[d] <= elaborator.options().max_lanes &&
-               tensor.shape[d] != kBatch) {
+               !RunsOverEnvironments(tensor.shape[d])) {
       const std::vector<Tensor> copies(static_cast<std::size_t>(times[d]), tensor);
       tensor = math.Concatenate(copies, static_cast<int>(d), arguments.position);
     } else {
@@ -218,6 +218,9 @@ Value Flip(Elaborator& elaborator, const Arguments& arguments) {
       Fail("arguments", arguments.Place(1), "a dimension is a whole number");
     }
     const int dimension = math.Dimension(one.integer, tensor.shape.size(), arguments.Place(1));
+    if (IsPicked(tensor.shape[dimension])) {
+      Fail("index", arguments.position, "what a mask picks has no order here");
+    }
     if (tensor.shape[dimension] == kBatch) {
       tensor = math.Map(ScalarOperation::kBatchFlip, tensor, tensor.type, arguments.position);
       continue;
@@ -235,7 +238,7 @@ Value Flip(Elaborator& elaborator, const Arguments& arguments) {
 // torch.unbind, torch.split and torch.chunk, by the size of the pieces.
 Value Pieces(Elaborator& elaborator, const Tensor& tensor, int dimension, std::int64_t size,
              bool drop, Position position) {
-  if (tensor.shape[dimension] == kBatch) {
+  if (RunsOverEnvironments(tensor.shape[dimension])) {
     Fail("shape", position, "the environments cannot be parted; name another dimension with dim=");
   }
   std::vector<Value> pieces;
@@ -262,7 +265,7 @@ Value Split(Elaborator& elaborator, const Arguments& arguments) {
                                                     tensor.shape.size(), arguments.Place(2));
   std::int64_t size = IntegerArgument(elaborator, arguments, 1);
   if (size < 1) Fail("arguments", arguments.Place(1), "the pieces have to be at least 1 wide");
-  if (arguments.function->variant == 1 && tensor.shape[dimension] != kBatch) {
+  if (arguments.function->variant == 1 && !RunsOverEnvironments(tensor.shape[dimension])) {
     size = std::max<std::int64_t>(1, (tensor.shape[dimension] + size - 1) / size);
   }
   return Pieces(elaborator, tensor, dimension, size, false, arguments.position);
@@ -271,9 +274,7 @@ Value Split(Elaborator& elaborator, const Arguments& arguments) {
 Value Size(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
   std::vector<Value> sizes;
-  for (const int size : tensor.shape) {
-    sizes.push_back(size == kBatch ? PlainValue(ValueKind::kBatchSize) : IntegerValue(size));
-  }
+  for (const int size : tensor.shape) sizes.push_back(elaborator.SizeValue(size));
   if (arguments[1].Is(ValueKind::kNone)) return TupleValue(std::move(sizes));
   return sizes[elaborator.math().Dimension(IntegerArgument(elaborator, arguments, 1), sizes.size(),
                                            arguments.Place(1))];
@@ -287,10 +288,11 @@ Value Rank(Elaborator& elaborator, const Arguments& arguments) {
 Value ElementCount(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
   const std::int64_t lanes = LaneCount(tensor.shape);
-  if (BatchDimension(tensor.shape) < 0) return IntegerValue(lanes);
-  if (lanes == 1) return PlainValue(ValueKind::kBatchSize);
-  return elaborator.Binary(Operator::kMultiply, IntegerValue(lanes),
-                           PlainValue(ValueKind::kBatchSize), arguments.position);
+  const auto over = std::find_if(tensor.shape.begin(), tensor.shape.end(), RunsOverEnvironments);
+  if (over == tensor.shape.end()) return IntegerValue(lanes);
+  const Value rows = elaborator.SizeValue(*over);
+  if (lanes == 1) return rows;
+  return elaborator.Binary(Operator::kMultiply, IntegerValue(lanes), rows, arguments.position);
 }
 
 constexpr ScalarOperation kNothing = ScalarOperation::kConstant;

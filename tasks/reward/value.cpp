@@ -9,7 +9,7 @@ std::string ShapeText(const Shape& shape) {
   std::string text = "[";
   for (const int size : shape) {
     if (text.size() > 1) text += ", ";
-    text += size == kBatch ? "N" : std::to_string(size);
+    text += size == kBatch ? "N" : IsPicked(size) ? "M" : std::to_string(size);
   }
   return text + "]";
 }
@@ -18,9 +18,13 @@ std::int64_t LaneCount(const Shape& shape) {
   std::int64_t count = 1;
   for (const int size : shape) {
     // Far beyond every bound, and far from the end of 64 bits.
-    if (size != kBatch) count = std::min<std::int64_t>(count * size, std::int64_t{1} << 31);
+    if (!RunsOverEnvironments(size)) count = std::min<std::int64_t>(count * size, std::int64_t{1} << 31);
   }
   return count;
+}
+
+bool HoldsPicked(const Shape& shape) {
+  return std::any_of(shape.begin(), shape.end(), IsPicked);
 }
 
 int BatchDimension(const Shape& shape) {

@@ -19,7 +19,24 @@ enum class DataType { kBool, kInteger, kFloat };
 constexpr int kBatch = -1;
 using Shape = std::vector<int>;
 
-// "[N, 3]"; a scalar is "a scalar".
+// The size of a dimension that runs over the environments where a flag is set, x[mask]: equal flags
+// give equal sizes, so that only what was picked alike fits together.
+constexpr int PickedBy(NodeId flag) {
+  return kBatch - 1 - flag;
+}
+constexpr bool IsPicked(int size) {
+  return size < kBatch;
+}
+constexpr NodeId PickingFlag(int size) {
+  return kBatch - 1 - size;
+}
+// All environments, or those that are picked.
+constexpr bool RunsOverEnvironments(int size) {
+  return size <= kBatch;
+}
+bool HoldsPicked(const Shape& shape);
+
+// "[N, 3]"; a scalar is "a scalar", M stands for the environments that a mask picks.
 std::string ShapeText(const Shape& shape);
 
 // Numbers an environment of a tensor of this shape: the product of its sizes, N left out.

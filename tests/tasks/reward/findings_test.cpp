@@ -48,8 +48,6 @@ const Case kSyntax[] = {
     {"Try", BODY "    try:\n        pass\n", "no-exceptions", "2:5", "try"},
     {"Global", BODY "    global x\n", "no-global", "2:5", "pass values"},
     {"Walrus", BODY "    if (x := 1):\n        pass\n", "no-walrus", "2:11", "':='"},
-    {"Nested", BODY "    def f():\n        return 1\n    return f()\n", "nested-function", "2:5",
-     "top level"},
     {"Decorator", "@cached\n" BODY "    return 0\n", "bad-decorator", "1:1", "@cached"},
     {"Star", "def compute_reward(*args):\n    return 0\n", "syntax", "1:20", "'*'"},
     {"OpenBracket", BODY "    x = (1 + 2\n    return x\n", "open-bracket", "2:9", "'('"},
