@@ -57,9 +57,9 @@ Value Activate(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor zero = shaper.Number(0.0);
   switch (arguments.function->variant) {
     case kLeakyRelu:
-      return TensorValue(shaper.Do(
-          kAdd, shaper.Do(kMaximum, x, zero),
-          shaper.Do(kMultiply, shaper.Do(kMinimum, x, zero), shaper.Parameter(1))));
+      return TensorValue(
+          shaper.Do(kAdd, shaper.Do(kMaximum, x, zero),
+                    shaper.Do(kMultiply, shaper.Do(kMinimum, x, zero), shaper.Parameter(1))));
     case kElu: {
       const Tensor below = shaper.Do(kExponentialMinusOne, shaper.Do(kMinimum, x, zero));
       return TensorValue(shaper.Do(kAdd, shaper.Do(kMaximum, x, zero),
@@ -67,8 +67,7 @@ Value Activate(Elaborator& elaborator, const Arguments& arguments) {
     }
     case kSoftplus: {
       const Tensor beta = shaper.Parameter(1);
-      return TensorValue(
-          shaper.Do(kDivide, shaper.Softplus(shaper.Do(kMultiply, x, beta)), beta));
+      return TensorValue(shaper.Do(kDivide, shaper.Softplus(shaper.Do(kMultiply, x, beta)), beta));
     }
     case kSilu:
       return TensorValue(shaper.Do(kMultiply, x, shaper.Do(kSigmoid, x)));
@@ -79,8 +78,8 @@ Value Activate(Elaborator& elaborator, const Arguments& arguments) {
     case kRelu6:
       return TensorValue(shaper.Clamp(x, zero, shaper.Number(6.0)));
     default:  // kSoftsign
-      return TensorValue(shaper.Do(
-          kDivide, x, shaper.Do(kAdd, shaper.Number(1.0), shaper.Do(kAbsolute, x))));
+      return TensorValue(
+          shaper.Do(kDivide, x, shaper.Do(kAdd, shaper.Number(1.0), shaper.Do(kAbsolute, x))));
   }
 }
 
@@ -106,8 +105,7 @@ Value NanToNumber(Elaborator& elaborator, const Arguments& arguments) {
   const auto equals = [&](double value) {
     return math.Map(kEqual, x, shaper.Number(value), DataType::kBool, arguments.position);
   };
-  Tensor number =
-      replace(x, math.Map(kIsNan, x, DataType::kBool, arguments.position), 1, 0.0);
+  Tensor number = replace(x, math.Map(kIsNan, x, DataType::kBool, arguments.position), 1, 0.0);
   number = replace(number, equals(HUGE_VAL), 2, kLargest);
   return TensorValue(replace(number, equals(-HUGE_VAL), 3, -kLargest));
 }

@@ -66,8 +66,7 @@ core::Finding FindingOf(const Fault& fault) {
 core::Finding AssumedWidth(const reward::Parameter& parameter, const RewardOptions& shaped) {
   const int width = shaped.parameter_shapes.at(parameter.name)[0];
   return {"assumed-width", core::Severity::kInfo,
-          std::to_string(parameter.position.line) + ":" +
-              std::to_string(parameter.position.column),
+          std::to_string(parameter.position.line) + ":" + std::to_string(parameter.position.column),
           "nothing here says how wide '" + parameter.name + "' is: [N, " + std::to_string(width) +
               "] is assumed; give its shape where it is another",
           static_cast<double>(width)};

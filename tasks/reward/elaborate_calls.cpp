@@ -176,7 +176,8 @@ Value Elaborator::CallValue(const Value& callee, std::vector<Value> values,
   if (!callee.Is(ValueKind::kLibrary)) {
     Fail("not-a-function", position, "this is no function but " + Describe(callee));
   }
-  if (callee.text == "dict" && callee.items == nullptr) return NamedDict(values, keywords, position);
+  if (callee.text == "dict" && callee.items == nullptr)
+    return NamedDict(values, keywords, position);
   Binder binder(*callee.library, callee.text, position);
   if (callee.items != nullptr) binder.Positional((*callee.items)[0], position);
   for (std::size_t i = 0; i < values.size(); ++i) {

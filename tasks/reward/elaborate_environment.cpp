@@ -327,7 +327,7 @@ Value Elaborator::ParameterValue(const Parameter& parameter) {
     shape.insert(shape.end(), given->second.begin(), given->second.end());
   }
   const bool flags = type == "BoolTensor" || options_.flag_parameters.contains(parameter.name);
-  const DataType held = flags                                        ? DataType::kBool
+  const DataType held = flags                                         ? DataType::kBool
                         : type == "LongTensor" || type == "IntTensor" ? DataType::kInteger
                                                                       : DataType::kFloat;
   return SlotValue(RewardInput::kParameter, "", parameter.name, shape, held, false,

@@ -143,8 +143,8 @@ void Elaborator::BindParameters(const Function& function, const std::vector<Valu
       Fail("arguments", position,
            "'" + function.name + "' lacks its argument '" + parameter.name + "'");
     }
-    frame->names[parameter.name] = frame->closure != nullptr ? frame->closure->initials[i]
-                                                             : GlobalValue(*parameter.initial);
+    frame->names[parameter.name] =
+        frame->closure != nullptr ? frame->closure->initials[i] : GlobalValue(*parameter.initial);
   }
 }
 

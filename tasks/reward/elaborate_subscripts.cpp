@@ -44,7 +44,9 @@ Bounds Clip(const Value& slice, std::int64_t size, Position position) {
     given[i] = part.integer;
   }
   if (given[2] < 1) {
-    Fail("index", position, "a slice of a tensor goes forward, as torch wants it; use .flip(dim) to turn the order round");
+    Fail("index", position,
+         "a slice of a tensor goes forward, as torch wants it; use .flip(dim) to turn the order "
+         "round");
   }
   for (int i = 0; i < 2; ++i) {
     if (given[i] < 0) given[i] = std::max<std::int64_t>(0, given[i] + size);
@@ -398,8 +400,7 @@ bool Elaborator::AugmentMasked(const Statement& statement) {
     Fail("index", target.position,
          "only a number can be put where a mask picks single numbers; use torch.where(mask, a, b)");
   }
-  math_.Write(*base.tensor,
-              math_.Nodes(math_.Select(mask, *fresh.tensor, *base.tensor, position)));
+  math_.Write(*base.tensor, math_.Nodes(math_.Select(mask, *fresh.tensor, *base.tensor, position)));
   return true;
 }
 

@@ -59,7 +59,8 @@ Format ReadFormat(const std::string& text, Position position) {
     format.precision = TakeNumber(text, &at);
   }
   if (at < text.size()) format.kind = text[at++];
-  const bool known = format.kind == '\0' || std::string("dfFeEgG%s").find(format.kind) != std::string::npos;
+  const bool known =
+      format.kind == '\0' || std::string("dfFeEgG%s").find(format.kind) != std::string::npos;
   if (at != text.size() || !known || format.width > kWidest || format.precision > kWidest) {
     Fail("bad-string", position,
          "the format ':" + text.substr(0, 40) +

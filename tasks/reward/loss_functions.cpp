@@ -20,8 +20,7 @@ Tensor Bent(TensorMath& math, const Tensor& size, double delta, bool huber, Posi
     return math.Map(kMultiply, tensor, number(factor), DataType::kFloat, position);
   };
   const Tensor squares = math.Map(kMultiply, size, size, DataType::kFloat, position);
-  const Tensor line =
-      math.Map(kSubtract, size, number(0.5 * delta), DataType::kFloat, position);
+  const Tensor line = math.Map(kSubtract, size, number(0.5 * delta), DataType::kFloat, position);
   const Tensor inside = math.Map(kLess, size, number(delta), DataType::kBool, position);
   return math.Select(inside, times(squares, huber ? 0.5 : 0.5 / delta),
                      huber ? times(line, delta) : line, position);
@@ -46,7 +45,8 @@ Value LossOf(Elaborator& elaborator, const Arguments& arguments) {
   if (reduction == "none") return TensorValue(each);
   std::vector<int> all(each.shape.size());
   std::iota(all.begin(), all.end(), 0);
-  if (reduction == "sum") return TensorValue(math.Reduce(Reduction::kSum, each, all, false, position));
+  if (reduction == "sum")
+    return TensorValue(math.Reduce(Reduction::kSum, each, all, false, position));
   if (reduction == "mean") return TensorValue(math.Mean(each, all, false, position));
   Fail("arguments", arguments.Place(2), "the reduction is 'none', 'mean' or 'sum'");
 }
@@ -55,9 +55,9 @@ Value LossOf(Elaborator& elaborator, const Arguments& arguments) {
 Value Distance(Elaborator& elaborator, const Arguments& arguments) {
   Arguments norm = arguments;
   norm.function = FindLibraryFunction("torch.norm");
-  norm.values = {elaborator.Binary(Operator::kSubtract, arguments[0], arguments[1],
-                                   arguments.position),
-                 arguments[2], Value{}, BoolValue(false)};
+  norm.values = {
+      elaborator.Binary(Operator::kSubtract, arguments[0], arguments[1], arguments.position),
+      arguments[2], Value{}, BoolValue(false)};
   norm.places.assign(4, arguments.position);
   norm.given.assign(4, true);
   return norm.function->handler(elaborator, norm);

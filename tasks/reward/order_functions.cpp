@@ -144,7 +144,8 @@ Value Roll(Elaborator& elaborator, const Arguments& arguments) {
     dimension = dimension.items->front();
   }
   if (!dimension.Is(ValueKind::kInteger)) {
-    Fail("arguments", arguments.Place(2), "'" + arguments.called + "' wants one dimension, dims=-1");
+    Fail("arguments", arguments.Place(2),
+         "'" + arguments.called + "' wants one dimension, dims=-1");
   }
   Slices slices(elaborator, arguments, tensor, dimension.integer, arguments.Place(2));
   const std::int64_t size = std::max(1, slices.size());
@@ -157,8 +158,8 @@ Value Roll(Elaborator& elaborator, const Arguments& arguments) {
 // The element of `slices` that a whole number of each environment names.
 Tensor Chosen(TensorMath& math, const std::vector<Tensor>& slices, const Tensor& index,
               Position position) {
-  Tensor chosen = math.Expand(slices[0], math.Broadcast(slices[0].shape, index.shape, position),
-                              position);
+  Tensor chosen =
+      math.Expand(slices[0], math.Broadcast(slices[0].shape, index.shape, position), position);
   for (std::size_t i = 1; i < slices.size(); ++i) {
     const Tensor number =
         math.Scalar(DataType::kInteger, math.graph().Constant(static_cast<double>(i)));
@@ -193,7 +194,8 @@ Value Gather(Elaborator& elaborator, const Arguments& arguments) {
   std::vector<Tensor> parts;
   for (int i = 0; i < index.shape[dimension]; ++i) {
     const Tensor one = math.Take(index, dimension, i, arguments.position);
-    parts.push_back(math.Unsqueeze(Chosen(math, slices.parts(), one, arguments.position), dimension));
+    parts.push_back(
+        math.Unsqueeze(Chosen(math, slices.parts(), one, arguments.position), dimension));
   }
   if (parts.empty()) Fail("shape", arguments.Place(2), "the index is empty");
   return TensorValue(math.Concatenate(parts, dimension, arguments.position));
@@ -214,9 +216,9 @@ Value IndexSelect(Elaborator& elaborator, const Arguments& arguments) {
       Fail("index", arguments.Place(2),
            "these indices differ between environments; use torch.gather");
     }
-    parts.push_back(math.Unsqueeze(math.Take(tensor, dimension, static_cast<std::int64_t>(known),
-                                             arguments.position),
-                                   dimension));
+    parts.push_back(math.Unsqueeze(
+        math.Take(tensor, dimension, static_cast<std::int64_t>(known), arguments.position),
+        dimension));
   }
   if (parts.empty()) Fail("shape", arguments.Place(2), "the index is empty");
   return TensorValue(math.Concatenate(parts, dimension, arguments.position));
@@ -238,8 +240,7 @@ Value OneHot(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor numbers = math.Make(DataType::kInteger, {static_cast<int>(classes)},
                                    std::move(nodes), arguments.position);
   const Tensor column = math.Unsqueeze(index, static_cast<int>(index.shape.size()));
-  return TensorValue(
-      math.Map(kEqual, column, numbers, DataType::kInteger, arguments.position));
+  return TensorValue(math.Map(kEqual, column, numbers, DataType::kInteger, arguments.position));
 }
 
 Value MaskedFill(Elaborator& elaborator, const Arguments& arguments) {

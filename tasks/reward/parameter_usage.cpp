@@ -105,8 +105,8 @@ std::set<int> ListLengths(const Module& module) {
     if (!list || expression.children.size() < 2 || expression.children.size() > kLongest) return;
     const bool numbers = std::all_of(
         expression.children.begin(), expression.children.end(), [](const ExpressionPtr& child) {
-          return child->kind == ExpressionKind::kInteger ||
-                 child->kind == ExpressionKind::kFloat || child->kind == ExpressionKind::kUnary;
+          return child->kind == ExpressionKind::kInteger || child->kind == ExpressionKind::kFloat ||
+                 child->kind == ExpressionKind::kUnary;
         });
     if (numbers) lengths.insert(static_cast<int>(expression.children.size()));
   };
@@ -116,8 +116,7 @@ std::set<int> ListLengths(const Module& module) {
 }
 
 std::string AnnotatedType(const Parameter& parameter) {
-  const std::string type =
-      parameter.annotation == nullptr ? "" : TypeName(*parameter.annotation);
+  const std::string type = parameter.annotation == nullptr ? "" : TypeName(*parameter.annotation);
   return type.empty() ? "Tensor" : type;
 }
 

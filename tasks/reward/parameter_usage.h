@@ -21,8 +21,8 @@ std::set<std::string> CalledNames(const Module& module);
 // Adds what the indices in `body` say to the usages of the names that are there.
 void NoteUsages(const Block& body, std::map<std::string, Usage>* usages);
 
-// The lengths of the lists of plain numbers in a program, [0.1, 0.2, 0.3]: widths that something may
-// have to fit.
+// The lengths of the lists of plain numbers in a program, [0.1, 0.2, 0.3]: widths that something
+// may have to fit.
 std::set<int> ListLengths(const Module& module);
 
 // The name that a parameter's annotation comes down to: "Tensor", "float"; of Optional[Tensor] and

@@ -65,8 +65,7 @@ Value Replace(Elaborator&, const Arguments& arguments) {
   if (old.empty()) Fail("arguments", arguments.Place(1), "what is to be replaced is empty");
   std::string result;
   std::size_t at = 0;
-  for (std::size_t next; (next = text.find(old, at)) != std::string::npos;
-       at = next + old.size()) {
+  for (std::size_t next; (next = text.find(old, at)) != std::string::npos; at = next + old.size()) {
     result += text.substr(at, next - at) + fresh;
     if (result.size() > kLongestText) break;  // refused below
   }
@@ -137,7 +136,8 @@ Value FormatTemplate(Elaborator&, const Arguments& arguments) {
     const std::string inside = text.substr(at + 1, end - at - 1);
     const std::size_t colon = std::min(inside.find(':'), inside.size());
     const std::string name = inside.substr(0, colon);
-    const bool number = name.size() < 4 && name.find_first_not_of("0123456789") == std::string::npos;
+    const bool number =
+        name.size() < 4 && name.find_first_not_of("0123456789") == std::string::npos;
     const std::size_t which = name.empty() ? next++ : number ? std::stoul(name) : values.size();
     if (which >= values.size()) {
       Fail("bad-string", arguments.Place(0),

@@ -54,17 +54,17 @@ enum class ExpressionKind {
   kName,          // text
   kTuple,
   kList,
-  kDict,               // children: key, value, key, value ...; no key: all of a dictionary
-  kStarred,            // *children[0], in a target or a list
-  kUnary,              // operation, children[0]
-  kBinary,             // operation, children[0..1]
-  kCompare,            // children[0] operations[0] children[1] operations[1] ...
-  kBoolean,            // operation, children
-  kConditional,        // children: condition, then, otherwise
-  kCall,               // children[0]: callee; then arguments, named by keywords ("", "*", "**": none)
-  kAttribute,          // children[0].text
-  kSubscript,          // children[0][children[1]]
-  kSlice,              // children: start, stop, step; each may be null
+  kDict,         // children: key, value, key, value ...; no key: all of a dictionary
+  kStarred,      // *children[0], in a target or a list
+  kUnary,        // operation, children[0]
+  kBinary,       // operation, children[0..1]
+  kCompare,      // children[0] operations[0] children[1] operations[1] ...
+  kBoolean,      // operation, children
+  kConditional,  // children: condition, then, otherwise
+  kCall,         // children[0]: callee; then arguments, named by keywords ("", "*", "**": none)
+  kAttribute,    // children[0].text
+  kSubscript,    // children[0][children[1]]
+  kSlice,        // children: start, stop, step; each may be null
   kListComprehension,  // children: element, target, iterable, condition or null
   kDictComprehension,  // children: key, target, iterable, condition or null, value
 };

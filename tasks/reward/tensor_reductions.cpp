@@ -102,9 +102,8 @@ Tensor TensorMath::Reduce(Reduction reduction, const Tensor& tensor,
     NodeId& node = nodes[targets[lane]];
     node = node < 0 ? At(operand, lane) : Combine(reduction, node, At(operand, lane));
   }
-  const auto over =
-      std::find_if(dimensions.begin(), dimensions.end(),
-                   [&](int d) { return RunsOverEnvironments(operand.shape[d]); });
+  const auto over = std::find_if(dimensions.begin(), dimensions.end(),
+                                 [&](int d) { return RunsOverEnvironments(operand.shape[d]); });
   for (NodeId& node : nodes) {
     if (node < 0) {  // over nothing
       if (reduction == Reduction::kMinimum || reduction == Reduction::kMaximum) {

@@ -18,7 +18,8 @@ std::int64_t LaneCount(const Shape& shape) {
   std::int64_t count = 1;
   for (const int size : shape) {
     // Far beyond every bound, and far from the end of 64 bits.
-    if (!RunsOverEnvironments(size)) count = std::min<std::int64_t>(count * size, std::int64_t{1} << 31);
+    if (!RunsOverEnvironments(size))
+      count = std::min<std::int64_t>(count * size, std::int64_t{1} << 31);
   }
   return count;
 }

@@ -2,6 +2,7 @@
 // same random states.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -79,7 +80,10 @@ void WriteManifest(const std::vector<CorpusRun>& runs, const fs::path& path) {
       const RewardSlot& slot = run.program.slots()[i];
       out << "slot " << RewardInputName(slot.input) << ' ' << word(slot.asset) << ' '
           << word(slot.part) << ' '
-          << (slot.uniform ? "shared" : slot.flags ? "flags" : "numbers") << ' ' << TrailingSizes(slot.shape);
+          << (slot.uniform ? "shared"
+              : slot.flags ? "flags"
+                           : "numbers")
+          << ' ' << TrailingSizes(slot.shape);
       for (const float value : run.inputs[i]) out << ' ' << value;
       out << '\n';
     }
@@ -150,8 +154,9 @@ Results RunHere(const CorpusRun& run, bool columns) {
   results["reward"].assign(reward.begin(), reward.end());
   if (run.program.has_success()) results["success"].assign(success.begin(), success.end());
   for (std::size_t i = 0; i < components.size(); ++i) {
-    results["component:" + run.program.components()[i].name].assign(components[i].begin(),
-                                                                    components[i].end());
+    std::string name = "component:" + run.program.components()[i].name;
+    std::replace(name.begin(), name.end(), ' ', '~');  // results.txt is parted by blanks
+    results[name].assign(components[i].begin(), components[i].end());
   }
   return results;
 }

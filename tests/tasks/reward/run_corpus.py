@@ -258,6 +258,7 @@ def run(program, out):
     out.write(f"program {program['file']}\nreward {numbers(reward, count)}\n")
     if isinstance(extra, dict):
         for key, value in extra.items():
+            key = key.replace(" ", "~")
             out.write(f"component:{key} {numbers(value, count)}\n")
     elif extra is not None:
         out.write(f"success {numbers(extra, count)}\n")
