@@ -98,6 +98,7 @@ Value LogicalNot(Elaborator& elaborator, const Arguments& arguments) {
 enum Formula {
   kSquare,
   kReciprocal,
+  kPowerOfTwo,
   kRootReciprocal,
   kLogarithm2,
   kLogarithm10,
@@ -146,6 +147,8 @@ Tensor Formulas::Of(int formula, const Tensor& x) {
       return Do(kDivide, Number(1.0), x);
     case kRootReciprocal:
       return Do(kDivide, Number(1.0), Do(kSquareRoot, x));
+    case kPowerOfTwo:
+      return Do(kPower, Number(2.0), x);
     case kLogarithm2:
       return Do(kMultiply, Do(kLogarithm, x), Number(1.44269504088896341));
     case kLogarithm10:
@@ -316,6 +319,14 @@ Value Lerp(Elaborator& elaborator, const Arguments& arguments) {
   return elaborator.Binary(Operator::kAdd, arguments[0], way, position);
 }
 
+// input + value * a * b.
+Value AddProduct(Elaborator& elaborator, const Arguments& arguments) {
+  const Position position = arguments.position;
+  Value product = elaborator.Binary(Operator::kMultiply, arguments[1], arguments[2], position);
+  product = elaborator.Binary(Operator::kMultiply, product, arguments[3], position);
+  return elaborator.Binary(Operator::kAdd, arguments[0], product, position);
+}
+
 Value IsClose(Elaborator& elaborator, const Arguments& arguments) {
   Formulas formulas(elaborator, arguments.position);
   const Tensor a = FloatArgument(elaborator, arguments, 0);
@@ -369,6 +380,7 @@ constexpr LibraryFunction kFunctions[] = {
     {"torch.reciprocal Tensor.reciprocal np.reciprocal", "input", ByFormula, kConstant,
      kReciprocal},
     {"torch.rsqrt Tensor.rsqrt", "input", ByFormula, kConstant, kRootReciprocal},
+    {"torch.exp2 Tensor.exp2 np.exp2", "input", ByFormula, kConstant, kPowerOfTwo},
     {"torch.log2 Tensor.log2 np.log2 math.log2", "input", ByFormula, kConstant, kLogarithm2},
     {"torch.log10 Tensor.log10 np.log10 math.log10", "input", ByFormula, kConstant, kLogarithm10},
     {"torch.sinh np.sinh math.sinh Tensor.sinh", "input", ByFormula, kConstant, kHyperbolicSine},
@@ -426,6 +438,7 @@ constexpr LibraryFunction kFunctions[] = {
     {"torch.where np.where", "condition input=None other=None", Where},
     {"torch.clamp_min Tensor.clamp_min", "input min max=None", Clamp},
     {"torch.clamp_max Tensor.clamp_max", "input max", ClampMax},
+    {"torch.addcmul Tensor.addcmul", "input tensor1 tensor2 value=1", AddProduct},
     {"torch.lerp Tensor.lerp", "input end weight", Lerp},
     {"torch.isclose np.isclose", "input other rtol=1e-5 atol=1e-8", IsClose},
 };

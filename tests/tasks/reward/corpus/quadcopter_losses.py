@@ -21,8 +21,9 @@ def compute_reward(root_positions: torch.Tensor, target_root_positions: torch.Te
     bounded = torch.clip(planar, 0.0, 1.0).lerp(torch.tanh(planar), 0.25)
     angle = torch.rad2deg(torch.atan2(gap[:, 1], gap[:, 0])).div(180.0)
     selu = F.silu(gap[:, 2]) + F.hardtanh(gap[:, 0] * 3) + F.logsigmoid(gap[:, 1]) + F.softsign(gap[:, 2])
+    soft = torch.logsumexp(gap, dim=-1) + torch.exp2(gap[:, 0]) + torch.addcmul(planar, gap[:, 0], gap[:, 1], value=0.5)
     pos_reward = 1.0 / (1.0 + huber)
     reward = pos_reward + pos_reward * (up_reward + spin_reward) - 0.1 * smooth - 0.01 * squared
-    reward = reward + 0.05 * cosine + 0.01 * hover - 0.1 * bounded + 0.01 * angle + 0.01 * selu
+    reward = reward + 0.05 * cosine + 0.01 * hover - 0.1 * bounded + 0.01 * angle + 0.01 * selu + 0.01 * soft
     reward = torch.nan_to_num(reward, nan=0.0, posinf=10.0, neginf=-10.0)
     return reward, {"pos": pos_reward, "up": up_reward, "spin": spin_reward, "cosine": cosine}
