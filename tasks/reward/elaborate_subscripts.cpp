@@ -259,7 +259,7 @@ void Elaborator::AssignSubscript(const Expression& target, const Value& value) {
     Fail("bad-target", target.position, Describe(base) + " cannot be changed");
   }
   // So that nothing ever holds itself.
-  if (value.Is(ValueKind::kList) || value.Is(ValueKind::kDict)) {
+  if (HoldsContainer(value)) {
     Fail("type", target.position, "a list or dictionary inside another cannot be set here");
   }
   AssignInContainer(base, index, value, target.position);

@@ -21,9 +21,6 @@ void AddNames(const Block& block, std::set<std::string>* names) {
       for (const ExpressionPtr& target : statement->targets) AddTarget(*target, names);
     }
     if (statement->function != nullptr) names->insert(statement->function->name);
-    for (const Import& import : statement->imports) {
-      if (!import.alias.empty()) names->insert(import.alias);
-    }
     for (const Block& inner : statement->blocks) AddNames(inner, names);
   }
 }

@@ -184,6 +184,13 @@ Value MakeDict(Elaborator& elaborator, const Arguments& arguments) {
 }
 
 Value DictUpdate(Elaborator& elaborator, const Arguments& arguments) {
+  if (arguments[1].Is(ValueKind::kDict)) {
+    const Object other = elaborator.math().heap()[arguments[1].object];
+    if (std::any_of(other.items->begin(), other.items->end(),
+                    [](const Value& value) { return HoldsContainer(value); })) {
+      Fail("type", arguments.Place(1), "a list or dictionary inside another cannot be set here");
+    }
+  }
   elaborator.Update(arguments[0], arguments[1], arguments.Place(1));
   return Value{};
 }
@@ -272,7 +279,9 @@ Value Append(Elaborator& elaborator, const Arguments& arguments) {
   std::vector<Value> added = {arguments[1]};
   if (arguments.function->variant == 1) {
     added = elaborator.Items(arguments[1], arguments.Place(1));
-  } else if (arguments[1].Is(ValueKind::kList) || arguments[1].Is(ValueKind::kDict)) {
+  }
+  if (std::any_of(added.begin(), added.end(),
+                  [](const Value& value) { return HoldsContainer(value); })) {
     Fail("type", arguments.Place(1), "a list or dictionary inside another cannot be appended");
   }
   for (Value& value : added) items.push_back(std::move(value));

@@ -80,6 +80,23 @@ Value TupleValue(std::vector<Value> items) {
   return value;
 }
 
+namespace {
+
+// True as well where there is too much to look through.
+bool HoldsContainer(const Value& value, int* budget) {
+  if (--*budget < 0 || value.Is(ValueKind::kList) || value.Is(ValueKind::kDict)) return true;
+  return value.items != nullptr &&
+         std::any_of(value.items->begin(), value.items->end(),
+                     [&](const Value& item) { return HoldsContainer(item, budget); });
+}
+
+}  // namespace
+
+bool HoldsContainer(const Value& value) {
+  int budget = 1000;
+  return HoldsContainer(value, &budget);
+}
+
 std::string Describe(const Value& value) {
   switch (value.kind) {
     case ValueKind::kNone:

@@ -120,6 +120,10 @@ Value TensorValue(Tensor tensor);
 Value TupleValue(std::vector<Value> items);
 Value PlainValue(ValueKind kind, std::string text = "");
 
+// A list or dictionary, or a tuple with one in it. What is changed later may take none of these, so
+// that nothing ever holds itself.
+bool HoldsContainer(const Value& value);
+
 // "a tensor [N, 3]", "a string", for sentences.
 std::string Describe(const Value& value);
 
