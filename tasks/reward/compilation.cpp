@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "tasks/reward/code_generation.h"
 #include "tasks/reward/parameter_shapes.h"
+#include "tasks/reward/parameter_usage.h"
 #include "tasks/reward/parser.h"
 #include "tasks/reward/reward_program.h"
 #include "tasks/reward/spelling.h"
@@ -61,16 +62,30 @@ core::Finding FindingOf(const Fault& fault) {
           fault.sentence, 0.0};
 }
 
+// Any width would do: a sum over a row says nothing of how long it is.
+core::Finding AssumedWidth(const reward::Parameter& parameter, const RewardOptions& shaped) {
+  const int width = shaped.parameter_shapes.at(parameter.name)[0];
+  return {"assumed-width", core::Severity::kInfo,
+          std::to_string(parameter.position.line) + ":" + std::to_string(parameter.position.column),
+          "nothing here says how wide '" + parameter.name + "' is: [N, " + std::to_string(width) +
+              "] is assumed; give its shape where it is another",
+          static_cast<double>(width)};
+}
+
 CompileOutcome Compile(std::string_view source, const RewardScene* scene,
                        const RewardOptions& options) {
   CompileOutcome outcome;
   const Module module = reward::Parse(source, options);
   const Function& entry = FindEntry(module, options);
   RewardOptions shaped = options;
-  reward::InferParameterShapes(module, entry, scene, &shaped);
+  const std::vector<const reward::Parameter*> assumed =
+      reward::InferParameterShapes(module, entry, scene, &shaped);
   reward::Elaborator elaborator(module, scene, shaped);
   const reward::ElaboratedOutputs outputs = elaborator.Run(entry);
   outcome.findings = elaborator.findings();
+  for (const reward::Parameter* parameter : assumed) {
+    outcome.findings.push_back(AssumedWidth(*parameter, shaped));
+  }
   if (HasError(outcome.findings)) return outcome;
   reward::Code code = reward::GenerateCode(elaborator, outputs, shaped);
   code.entry = entry.name;

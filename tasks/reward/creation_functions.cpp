@@ -182,13 +182,48 @@ Value Clone(Elaborator& elaborator, const Arguments& arguments) {
 // x.item(): one number, which may differ between environments of a program for one of them.
 Value Item(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
-  if (tensor.lanes.size() != 1 || BatchDimension(tensor.shape) >= 0) {
+  if (tensor.lanes.size() != 1 || BatchDimension(tensor.shape) >= 0 || HoldsPicked(tensor.shape)) {
     Fail("type", arguments.position,
          "'" + arguments.called + "' takes the one number of a scalar, this is a tensor " +
              ShapeText(tensor.shape) + "; work on all environments at once");
   }
   return TensorValue(
       elaborator.math().Make(tensor.type, {}, elaborator.math().Nodes(tensor), arguments.position));
+}
+
+// x.fill_(number) and x.zero_().
+Value FillInPlace(Elaborator& elaborator, const Arguments& arguments) {
+  TensorMath& math = elaborator.math();
+  const Tensor tensor = TensorArgument(elaborator, arguments, 0);
+  Tensor value = math.Scalar(tensor.type, math.graph().Constant(0.0));
+  if (arguments.values.size() > 1) {
+    value = math.Cast(NumberOrTensor(elaborator, arguments, 1), tensor.type, arguments.Place(1));
+  }
+  if (!value.shape.empty()) {
+    Fail("shape", arguments.Place(1), "the value to fill with is one number");
+  }
+  math.Write(tensor, std::vector<NodeId>(tensor.lanes.size(), math.At(value, 0)));
+  return arguments[0];
+}
+
+Value NewFull(Elaborator& elaborator, const Arguments& arguments) {
+  TensorMath& math = elaborator.math();
+  const Tensor like = TensorArgument(elaborator, arguments, 0);
+  const Shape shape =
+      ShapeFrom(Sizes(elaborator, arguments[1], arguments.Place(1)), arguments.Place(1));
+  const Tensor value =
+      math.Cast(NumberOrTensor(elaborator, arguments, 2), like.type, arguments.Place(2));
+  if (!value.shape.empty()) {
+    Fail("shape", arguments.Place(2), "the value to fill with is one number");
+  }
+  return TensorValue(math.Full(like.type, shape, math.At(value, 0), arguments.position));
+}
+
+Value NewTensor(Elaborator& elaborator, const Arguments& arguments) {
+  const Tensor like = TensorArgument(elaborator, arguments, 0);
+  const Tensor data = ArrayFrom(elaborator, arguments[1], arguments.Place(1));
+  return TensorValue(elaborator.math().Copy(
+      elaborator.math().Cast(data, like.type, arguments.position), arguments.position));
 }
 
 constexpr int Type(DataType type) {
@@ -221,6 +256,10 @@ constexpr LibraryFunction kFunctions[] = {
      "input", Same},
     {"torch.clone Tensor.clone Tensor.copy np.copy", "input", Clone},
     {"Tensor.item Tensor.tolist", "input", Item},
+    {"Tensor.fill_", "input value", FillInPlace},
+    {"Tensor.zero_", "input", FillInPlace},
+    {"Tensor.new_full", "input size fill_value", NewFull},
+    {"Tensor.new_tensor", "input data", NewTensor},
 };
 
 }  // namespace

@@ -21,27 +21,51 @@ ExpressionPtr ExpressionParser::ParseStrings() {
   return joined;
 }
 
+// {expression!r:format}; what stands in brackets or quotes belongs to the expression.
 ExpressionPtr ExpressionParser::ParseReplacement(const Token& token, std::size_t* at) {
   const std::string& text = token.text;
   const std::size_t begin = *at;
   int open = 0;
-  while (*at < text.size() && (open > 0 || (text[*at] != '}' && text[*at] != ':'))) {
-    if (text[*at] == '[' || text[*at] == '(' || text[*at] == '{') ++open;
-    if (text[*at] == ']' || text[*at] == ')' || text[*at] == '}') --open;
-    ++*at;
+  char quote = '\0';
+  for (; *at < text.size(); ++*at) {
+    const char c = text[*at];
+    const bool unequal = c == '!' && *at + 1 < text.size() && text[*at + 1] == '=';
+    if (quote == '\0' && open == 0 && (c == '}' || c == ':' || (c == '!' && !unequal))) break;
+    if (quote != '\0') {
+      if (c == quote) quote = '\0';
+    } else if (c == '\'' || c == '"') {
+      quote = c;
+    } else if (c == '[' || c == '(' || c == '{') {
+      ++open;
+    } else if (c == ']' || c == ')' || c == '}') {
+      --open;
+    }
   }
-  if (*at >= text.size()) Fail("bad-string", token.position, "a '{' of this string is not closed");
-  if (text[*at] == ':') {
-    Fail("bad-string", token.position,
-         "formats after ':' are not part of the language; write {name} alone");
+  const std::string inside = text.substr(begin, *at - begin);
+  ExpressionPtr formatted = Make(ExpressionKind::kFormatted, token.position);
+  if (*at + 1 < text.size() && text[*at] == '!') {
+    formatted->integer = text[*at + 1];
+    *at += 2;
   }
+  if (*at < text.size() && text[*at] == ':') {
+    const std::size_t end = std::min(text.find('}', *at), text.size());
+    formatted->text = text.substr(*at + 1, end - *at - 1);
+    *at = end;
+    if (formatted->text.find('{') != std::string::npos) {
+      Fail("bad-string", token.position,
+           "a format that holds a '{' itself is not part of the language; write it out");
+    }
+  }
+  if (*at >= text.size() || text[*at] != '}') {
+    Fail("bad-string", token.position, "a '{' of this string is not closed");
+  }
+  ++*at;
   const Nesting nesting(this);
   RewardOptions inner = options_;
   inner.max_depth = std::max(1, options_.max_depth - nesting_);
-  ExpressionParser parser(
-      TokeniseExpression(text.substr(begin, *at - begin), token.position, inner), inner);
-  ++*at;
-  return parser.Only();
+  ExpressionParser parser(TokeniseExpression(inside, token.position, inner), inner);
+  Add(formatted.get(), parser.Only());
+  return formatted;
 }
 
 ExpressionPtr ExpressionParser::ParseFormatString(const Token& token) {
@@ -85,7 +109,7 @@ ExpressionPtr ExpressionParser::ParseParenthesised() {
 ExpressionPtr ExpressionParser::ParseListDisplay() {
   ExpressionPtr list = Make(ExpressionKind::kList, Take().position);
   while (!At("]")) {
-    ExpressionPtr item = ParseExpression();
+    ExpressionPtr item = ParseItem();
     if (At("for") && list->children.empty()) {
       list = ParseComprehension(ExpressionKind::kListComprehension, std::move(item), nullptr);
       break;
@@ -100,8 +124,11 @@ ExpressionPtr ExpressionParser::ParseListDisplay() {
 ExpressionPtr ExpressionParser::ParseDictDisplay() {
   ExpressionPtr dict = Make(ExpressionKind::kDict, Take().position);
   while (!At("}")) {
-    if (At("**")) {
-      Fail("syntax", Peek().position, "'**' in a dictionary is not part of the language");
+    if (Accept("**")) {
+      Add(dict.get(), nullptr);
+      Add(dict.get(), ParseBinary(0));
+      if (!Accept(",")) break;
+      continue;
     }
     ExpressionPtr key = ParseExpression();
     Expect(":", "after the key (sets are not part of the language)");

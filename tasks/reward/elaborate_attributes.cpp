@@ -34,6 +34,33 @@ Value TypeValue(DataType type, const std::string& name) {
   return value;
 }
 
+// What torch and numpy have and a reward has not, with what does instead.
+struct Missing {
+  std::string_view names;  // each between blanks
+  const char* sentence;
+};
+
+constexpr Missing kMissing[] = {
+    {" nonzero argwhere masked_select unique take ",
+     "how many there are differs from state to state; use torch.where(mask, a, b), or reduce "
+     "x[mask] with .mean(), .sum(), .max()"},
+    {" quantile nanquantile percentile ",
+     "order the row with torch.sort(x, dim=-1) and take the element wanted"},
+    {" gelu erf erfc ", "a smooth step of the same shape is x * torch.sigmoid(1.702 * x)"},
+    {" argsort lexsort searchsorted ", "the sorted numbers are: torch.sort(x, dim=-1).values"},
+    {" vmap map_ apply_ vectorize ", "every operation works on all environments at once"},
+    {" no_grad inference_mode ", "write it as 'with torch.no_grad():', it changes nothing"},
+};
+
+std::string Instead(const std::string& name) {
+  for (const Missing& missing : kMissing) {
+    if (missing.names.find(" " + name + " ") != std::string_view::npos) {
+      return std::string("; ") + missing.sentence;
+    }
+  }
+  return "";
+}
+
 std::string TypeName(DataType type) {
   return type == DataType::kFloat ? "float32" : type == DataType::kBool ? "bool" : "int64";
 }
@@ -65,8 +92,10 @@ Value Elaborator::ModuleAttribute(const std::string& module, const std::string& 
   if (name.find("rand") != std::string::npos) {
     Fail("random", position, "a reward has no chance in it: '" + full + "' is not offered");
   }
+  const std::string instead = Instead(name);
   Fail("undefined", position,
-       "'" + full + "' is not offered" + Suggestion(name, LibraryNames(module + ".")));
+       "'" + full + "' is not offered" +
+           (instead.empty() ? Suggestion(name, LibraryNames(module + ".")) : instead));
 }
 
 Value Elaborator::EnvironmentAttribute(const Value& environment, const std::string& name,
@@ -96,13 +125,18 @@ Value Elaborator::EnvironmentAttribute(const Value& environment, const std::stri
   Fail("undefined", position, "the environment has no '" + name + "'" + Suggestion(name, known));
 }
 
+Value Elaborator::SizeValue(int size) {
+  if (size == kBatch) return PlainValue(ValueKind::kBatchSize);
+  if (!IsPicked(size)) return IntegerValue(size);
+  const NodeId count = graph_.Apply(ScalarOperation::kBatchSum, PickingFlag(size));
+  return TensorValue(math_.Scalar(DataType::kInteger, count));
+}
+
 Value Elaborator::TensorAttribute(const Value& value, const std::string& name, Position position) {
   const Tensor& tensor = *value.tensor;
   if (name == "shape") {
     std::vector<Value> sizes;
-    for (const int size : tensor.shape) {
-      sizes.push_back(size == kBatch ? PlainValue(ValueKind::kBatchSize) : IntegerValue(size));
-    }
+    for (const int size : tensor.shape) sizes.push_back(SizeValue(size));
     return TupleValue(std::move(sizes));
   }
   if (name == "ndim") return IntegerValue(static_cast<std::int64_t>(tensor.shape.size()));
@@ -115,12 +149,18 @@ Value Elaborator::TensorAttribute(const Value& value, const std::string& name, P
     return TensorValue(math_.Permute(tensor, order));
   }
   const LibraryFunction* function = FindLibraryFunction("Tensor." + name);
+  if (function == nullptr && name.size() > 1 && name.back() == '_') {  // x.add_(y)
+    function = FindLibraryFunction("Tensor." + name.substr(0, name.size() - 1));
+  }
   if (function == nullptr) {
     if (name == "backward" || name == "grad") {
       Fail("undefined", position, "a reward has no gradients: '." + name + "' is not offered");
     }
+    const std::string instead = Instead(name);
     Fail("undefined", position,
-         "a tensor has no '." + name + "'" + Suggestion(name, LibraryNames("Tensor.")));
+         instead.empty()
+             ? "a tensor has no '." + name + "'" + Suggestion(name, LibraryNames("Tensor."))
+             : "'." + name + "' is not offered" + instead);
   }
   Value method = LibraryValue(*function, "." + name);
   method.items = std::make_shared<const std::vector<Value>>(1, value);
@@ -154,10 +194,11 @@ Value Elaborator::EvaluateAttribute(const Expression& expression) {
     default:
       break;
   }
-  const char* prefix = base.Is(ValueKind::kList)   ? "List."
-                       : base.Is(ValueKind::kDict) ? "Dict."
-                       : base.IsNumber()           ? "Number."
-                                                   : "Tuple.";
+  const char* prefix = base.Is(ValueKind::kList)     ? "List."
+                       : base.Is(ValueKind::kDict)   ? "Dict."
+                       : base.IsNumber()             ? "Number."
+                       : base.Is(ValueKind::kString) ? "String."
+                                                     : "Tuple.";
   if (const LibraryFunction* function = FindLibraryFunction(prefix + name)) {
     Value method = LibraryValue(*function, "." + name);
     method.items = std::make_shared<const std::vector<Value>>(1, base);

@@ -11,7 +11,8 @@ namespace {
 bool Same(const Value& a, const Value& b, int* budget) {
   if (--*budget < 0) return false;
   if (a.kind != b.kind || a.integer != b.integer || a.number != b.number || a.text != b.text ||
-      a.object != b.object || a.function != b.function || a.library != b.library) {
+      a.object != b.object || a.function != b.function || a.library != b.library ||
+      a.closure != b.closure) {
     return false;
   }
   if (a.Is(ValueKind::kTensor)) {
@@ -64,7 +65,7 @@ int Elaborator::Truth(const Value& value, Tensor* flag, Position position) {
     default:
       math_.FromValue(value, position);  // throws, with the right sentence
   }
-  if (value.tensor->lanes.size() != 1) {
+  if (value.tensor->lanes.size() != 1 || HoldsPicked(value.tensor->shape)) {
     Fail("condition", position,
          "a condition wants one flag an environment, this is " + Describe(value) +
              "; reduce it with .all(dim=-1) or .any(dim=-1)");

@@ -161,7 +161,7 @@ Value Elaborator::CallValue(const Value& callee, std::vector<Value> values,
       values.insert(values.begin(), callee.items->begin(), callee.items->end());
       keywords.insert(keywords.begin(), callee.items->size(), "");
     }
-    return Call(*callee.function, values, keywords, position);
+    return Call(*callee.function, callee.closure, values, keywords, position);
   }
   if (callee.Is(ValueKind::kType) && values.size() == 1) {  // np.float32(x)
     const Tensor tensor = math_.FromValue(values[0], places[0]);
@@ -176,6 +176,8 @@ Value Elaborator::CallValue(const Value& callee, std::vector<Value> values,
   if (!callee.Is(ValueKind::kLibrary)) {
     Fail("not-a-function", position, "this is no function but " + Describe(callee));
   }
+  if (callee.text == "dict" && callee.items == nullptr)
+    return NamedDict(values, keywords, position);
   Binder binder(*callee.library, callee.text, position);
   if (callee.items != nullptr) binder.Positional((*callee.items)[0], position);
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -184,7 +186,36 @@ Value Elaborator::CallValue(const Value& callee, std::vector<Value> values,
     else
       binder.Keyword(keywords[i], values[i], places[i]);
   }
-  return callee.library->handler(*this, binder.Finish());
+  const Value result = callee.library->handler(*this, binder.Finish());
+  const bool in_place = callee.items != nullptr && callee.text.ends_with('_') &&
+                        (*callee.items)[0].Is(ValueKind::kTensor) &&
+                        !std::string_view(callee.library->names).ends_with('_');
+  return in_place ? WriteInPlace((*callee.items)[0], result, position) : result;
+}
+
+// x.add_(y): what x.add(y) gives goes into x.
+Value Elaborator::WriteInPlace(const Value& target, const Value& result, Position position) {
+  if (!result.Is(ValueKind::kTensor)) {
+    Fail("type", position, "this changes no tensor in place: it gives " + Describe(result));
+  }
+  CheckFits(*target.tensor, *result.tensor, position);
+  math_.Write(*target.tensor, math_.Nodes(*result.tensor));
+  return target;
+}
+
+// dict(other, name=value, ...)
+Value Elaborator::NamedDict(const std::vector<Value>& values,
+                            const std::vector<std::string>& keywords, Position position) {
+  const LibraryFunction& function = *FindLibraryFunction("dict");
+  Binder binder(function, "dict", position);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (keywords[i].empty()) binder.Positional(values[i], position);
+  }
+  const Value dict = function.handler(*this, binder.Finish());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!keywords[i].empty()) SetKey(dict, StringValue(keywords[i]), values[i], position);
+  }
+  return dict;
 }
 
 }  // namespace simwright::tasks::reward

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "tasks/reward/elaborator.h"
+#include "tasks/reward/parameter_usage.h"
 #include "tasks/reward/spelling.h"
 
 namespace simwright::tasks::reward {
@@ -186,6 +187,8 @@ Value Elaborator::SlotValue(RewardInput input, const std::string& asset, const s
   slot.part = part;
   slot.width = static_cast<int>(LaneCount(shape));
   slot.shape = ShapeText(shape);
+  slot.flags = input == RewardInput::kParameter && type == DataType::kBool;
+  if (slot.flags && !uniform) slot.shape += " flags";
   slot.uniform = uniform;
   const int index = AddSlot(std::move(slot));
   std::vector<NodeId> nodes;
@@ -215,7 +218,7 @@ Value Elaborator::ApiGeometry(const ApiFunction& function, const ApiArguments& a
   std::vector<Tensor> points;
   for (const auto& [value, place] : arguments.tensors) {
     const Tensor point = math_.FromValue(value, place);
-    if (point.shape.empty() || point.shape.back() == kBatch) {
+    if (point.shape.empty() || RunsOverEnvironments(point.shape.back())) {
       Fail("shape", place, "a point [N, 3] is wanted here, this is " + Describe(value));
     }
     points.push_back(point);
@@ -304,8 +307,8 @@ Value Elaborator::ParameterValue(const Parameter& parameter) {
   if (IsEnvironmentName(parameter.name)) {
     return PlainValue(ValueKind::kEnvironment, parameter.name);
   }
-  std::string type = "Tensor";
-  if (parameter.annotation != nullptr) type = parameter.annotation->text;
+  if (parameter.initial != nullptr) return GlobalValue(*parameter.initial);
+  const std::string type = AnnotatedType(parameter);
   if (type == "float" || type == "int" || type == "bool") {
     const DataType number = type == "float" ? DataType::kFloat
                             : type == "int" ? DataType::kInteger
@@ -313,8 +316,7 @@ Value Elaborator::ParameterValue(const Parameter& parameter) {
     return SlotValue(RewardInput::kParameter, "", parameter.name, {}, number, true,
                      parameter.position);
   }
-  const bool array = type == "Tensor" || type == "ndarray" || type == "FloatTensor" || type.empty();
-  if (!array) {
+  if (!IsTensorType(type)) {
     Fail("bad-parameter", parameter.position,
          "the parameter '" + parameter.name + "' is annotated '" + type +
              "'; a reward is handed the environment, tensors, and numbers (float, int, bool)");
@@ -324,7 +326,11 @@ Value Elaborator::ParameterValue(const Parameter& parameter) {
   if (given != options_.parameter_shapes.end()) {
     shape.insert(shape.end(), given->second.begin(), given->second.end());
   }
-  return SlotValue(RewardInput::kParameter, "", parameter.name, shape, DataType::kFloat, false,
+  const bool flags = type == "BoolTensor" || options_.flag_parameters.contains(parameter.name);
+  const DataType held = flags                                         ? DataType::kBool
+                        : type == "LongTensor" || type == "IntTensor" ? DataType::kInteger
+                                                                      : DataType::kFloat;
+  return SlotValue(RewardInput::kParameter, "", parameter.name, shape, held, false,
                    parameter.position);
 }
 

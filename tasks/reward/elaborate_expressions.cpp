@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "tasks/reward/elaborator.h"
+#include "tasks/reward/format_text.h"
 #include "tasks/reward/spelling.h"
 
 namespace simwright::tasks::reward {
@@ -64,15 +65,16 @@ Value Elaborator::EvaluateKind(const Expression& expression) {
       return StringValue(expression.text);
     case ExpressionKind::kFormatString:
       return EvaluateFormat(expression);
+    case ExpressionKind::kFormatted:
+      return StringValue(FormatValue(Evaluate(*expression.children[0]), expression.text,
+                                     static_cast<char>(expression.integer), expression.position));
+    case ExpressionKind::kStarred:
+      Fail("syntax", expression.position, "'*' has no meaning here");
     case ExpressionKind::kName:
       return EvaluateName(expression);
     case ExpressionKind::kTuple:
-    case ExpressionKind::kList: {
-      std::vector<Value> items;
-      for (const ExpressionPtr& child : expression.children) items.push_back(Evaluate(*child));
-      return expression.kind == ExpressionKind::kList ? NewList(std::move(items))
-                                                      : TupleValue(std::move(items));
-    }
+    case ExpressionKind::kList:
+      return EvaluateDisplay(expression);
     case ExpressionKind::kDict:
       return EvaluateDict(expression);
     case ExpressionKind::kUnary:
@@ -125,6 +127,17 @@ Value Elaborator::EvaluateName(const Expression& expression) {
       }
       return local->second;
     }
+    if (frame_->function != nullptr && frame_->function->locals.contains(name)) {
+      Fail("undefined", expression.position,
+           "'" + name + "' is read before it is set: '" + frame_->function->name +
+               "' sets it, so it is its own there");
+    }
+    if (const Value* outer = EnclosingValue(name, expression.position)) {
+      if (outer->Is(ValueKind::kUndefined)) {
+        Fail(outer->text.empty() ? "" : "undefined", expression.position, outer->text);
+      }
+      return *outer;
+    }
   }
   const auto global = globals_.find(name);
   if (global != globals_.end()) {
@@ -148,20 +161,29 @@ Value Elaborator::EvaluateName(const Expression& expression) {
        "nothing is called '" + name + "' here" + Suggestion(name, known));
 }
 
+Value Elaborator::EvaluateDisplay(const Expression& expression) {
+  std::vector<Value> items;
+  for (const ExpressionPtr& child : expression.children) {
+    if (child->kind != ExpressionKind::kStarred) {
+      items.push_back(Evaluate(*child));
+      continue;
+    }
+    for (Value& item : Items(Evaluate(*child->children[0]), child->position)) {
+      items.push_back(std::move(item));
+    }
+    if (static_cast<int>(items.size()) > options_.max_lanes) {
+      Fail("too-large", child->position, "this grows too long");
+    }
+  }
+  return expression.kind == ExpressionKind::kList ? NewList(std::move(items))
+                                                  : TupleValue(std::move(items));
+}
+
 Value Elaborator::EvaluateFormat(const Expression& expression) {
   std::string text;
   for (const ExpressionPtr& child : expression.children) {
     const Value value = Evaluate(*child);
-    if (value.Is(ValueKind::kString)) {
-      text += value.text;
-    } else if (value.Is(ValueKind::kInteger)) {
-      text += std::to_string(value.integer);
-    } else if (value.Is(ValueKind::kBool)) {
-      text += value.integer != 0 ? "True" : "False";
-    } else {
-      Fail("bad-string", child->position,
-           "a string is made of strings and whole numbers; this is " + Describe(value));
-    }
+    text += FormatValue(value, "", '\0', child->position);
     if (text.size() > kLongestText) {
       Fail("too-large", expression.position, "the string is longer than 4096 characters");
     }
@@ -172,26 +194,14 @@ Value Elaborator::EvaluateFormat(const Expression& expression) {
 Value Elaborator::EvaluateDict(const Expression& expression) {
   const Value dict = NewDict({}, {});
   for (std::size_t i = 0; i + 1 < expression.children.size(); i += 2) {
-    const Value key = Evaluate(*expression.children[i]);
-    const Value item = Evaluate(*expression.children[i + 1]);
-    if (!key.Is(ValueKind::kString) && !key.Is(ValueKind::kInteger)) {
-      Fail("bad-key", expression.children[i]->position,
-           "a key is a string or a whole number, this is " + Describe(key));
+    const Expression* key = expression.children[i].get();
+    const Expression& item = *expression.children[i + 1];
+    if (key == nullptr) {
+      Update(dict, Evaluate(item), item.position);
+      continue;
     }
-    std::vector<Value> keys = *heap_[dict.object].keys, items = *heap_[dict.object].items;
-    const auto known = std::find_if(keys.begin(), keys.end(), [&](const Value& other) {
-      return other.kind == key.kind && other.text == key.text && other.integer == key.integer;
-    });
-    if (known != keys.end()) {
-      items[known - keys.begin()] = item;
-    } else {
-      keys.push_back(key);
-      items.push_back(item);
-    }
-    Object contents;
-    contents.keys = std::make_shared<const std::vector<Value>>(std::move(keys));
-    contents.items = std::make_shared<const std::vector<Value>>(std::move(items));
-    heap_.Set(dict.object, std::move(contents));
+    const Value name = Evaluate(*key);
+    SetKey(dict, name, Evaluate(item), key->position);
   }
   return dict;
 }
@@ -301,6 +311,21 @@ Value Elaborator::EvaluateSlice(const Expression& expression) {
   return slice;
 }
 
+// The arguments that f(**dict) gives.
+void Elaborator::AddNamed(const Value& dict, Position position, std::vector<Value>* values,
+                          std::vector<std::string>* keywords) {
+  if (!dict.Is(ValueKind::kDict)) {
+    Fail("type", position, "a dictionary is wanted after '**', this is " + Describe(dict));
+  }
+  const Object contents = heap_[dict.object];
+  for (std::size_t i = 0; i < contents.keys->size(); ++i) {
+    const Value& key = (*contents.keys)[i];
+    if (!key.Is(ValueKind::kString)) Fail("type", position, "arguments are named by strings");
+    values->push_back((*contents.items)[i]);
+    keywords->push_back(key.text);
+  }
+}
+
 Value Elaborator::EvaluateCall(const Expression& expression) {
   const Expression& called = *expression.children[0];
   if (called.kind == ExpressionKind::kName && called.text == "print") return Value{};
@@ -311,6 +336,11 @@ Value Elaborator::EvaluateCall(const Expression& expression) {
   for (std::size_t i = 0; i < expression.keywords.size(); ++i) {
     const Expression& argument = *expression.children[i + 1];
     const Value value = Evaluate(argument);
+    if (expression.keywords[i] == "**") {
+      AddNamed(value, argument.position, &values, &keywords);
+      places.resize(values.size(), argument.position);
+      continue;
+    }
     if (expression.keywords[i] != "*") {
       values.push_back(value);
       keywords.push_back(expression.keywords[i]);
@@ -341,7 +371,7 @@ std::vector<Value> Elaborator::Items(const Value& value, Position position) {
       Fail("loop", position, "this cannot be gone through: " + Describe(value));
   }
   if (value.Is(ValueKind::kBatchSize) || value.tensor->shape.empty() ||
-      value.tensor->shape[0] == kBatch) {
+      RunsOverEnvironments(value.tensor->shape[0])) {
     Fail("loop", position,
          value.Is(ValueKind::kTensor) && value.tensor->shape.empty()
              ? "a scalar has no elements to go through"

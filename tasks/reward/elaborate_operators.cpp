@@ -260,9 +260,10 @@ Value Elaborator::Binary(Operator operation, const Value& a, const Value& b, Pos
     const Value list = NewList(std::move(items));
     return a.Is(ValueKind::kList) ? list : TupleValue(*heap_[list.object].items);
   }
+  const bool formats = operation == Operator::kRemainder && a.Is(ValueKind::kString);
   Fail("type", position,
        "'" + std::string(Sign(operation)) + "' has no meaning between " + Describe(a) + " and " +
-           Describe(b));
+           Describe(b) + (formats ? "; write an f-string, f\"{name:.2f}\"" : ""));
 }
 
 Value Elaborator::Compare(Operator operation, const Value& a, const Value& b, Position position) {

@@ -3,6 +3,17 @@
 #include "tasks/reward/elaborator.h"
 
 namespace simwright::tasks::reward {
+namespace {
+
+void WantAllEnvironments(const Tensor& tensor, const char* code, const std::string& what,
+                         Position position) {
+  if (!HoldsPicked(tensor.shape)) return;
+  Fail(code, position,
+       what + " is " + ShapeText(tensor.shape) +
+           ", what a mask picks, and not every environment has one; use torch.where(mask, a, b)");
+}
+
+}  // namespace
 
 NodeId Elaborator::RewardNode(const Value& value, Position position) {
   if (!value.IsNumber() && !value.Is(ValueKind::kTensor)) {
@@ -13,6 +24,7 @@ NodeId Elaborator::RewardNode(const Value& value, Position position) {
   const Tensor tensor = math_.FromValue(value, position);
   if (tensor.shape != Shape{kBatch} && !tensor.shape.empty()) {
     const bool column = tensor.lanes.size() == 1;
+    WantAllEnvironments(tensor, "bad-reward", "the reward", position);
     Fail("bad-reward", position,
          "the reward has to be one number an environment, [N]; this is " + ShapeText(tensor.shape) +
              (column ? "; use .squeeze(-1)" : "; sum it with .sum(dim=-1)"));
@@ -36,6 +48,7 @@ NodeId Elaborator::SuccessNode(const Value& value, Position position) {
          "success has to be true or false an environment, this is " + Describe(value));
   }
   const Tensor flag = math_.Cast(math_.FromValue(value, position), DataType::kBool, position);
+  WantAllEnvironments(flag, "bad-success", "success", position);
   if (flag.shape != Shape{kBatch} && !flag.shape.empty()) {
     Fail("bad-success", position,
          "success has to be one flag an environment, [N]; this is " + ShapeText(flag.shape) +
@@ -61,6 +74,10 @@ void Elaborator::Components(const Value& value, Position position, ElaboratedOut
     if (!item.IsNumber() && !item.Is(ValueKind::kTensor) && !item.Is(ValueKind::kBatchSize)) {
       Fail("bad-component", position,
            "the component '" + key.text + "' has to be numbers, this is " + Describe(item));
+    }
+    if (item.Is(ValueKind::kTensor)) {
+      WantAllEnvironments(*item.tensor, "bad-component", "the component '" + key.text + "'",
+                          position);
     }
     outputs->components.push_back({key.text, math_.Nodes(math_.FromValue(item, position))});
   }

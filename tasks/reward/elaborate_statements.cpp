@@ -144,7 +144,7 @@ ElaboratedOutputs Elaborator::Run(const Function& entry) {
     for (const Parameter& parameter : entry.parameters) values.push_back(ParameterValue(parameter));
     returned_at_ = entry.position;
     const Value result =
-        Call(entry, values, std::vector<std::string>(values.size()), entry.position);
+        Call(entry, nullptr, values, std::vector<std::string>(values.size()), entry.position);
     if (errors_ == 0) outputs = Outputs(result, returned_at_);
   } catch (const Fault& fault) {
     if (!fault.code.empty() || errors_ == 0) {
@@ -171,6 +171,9 @@ Elaborator::Flow Elaborator::Execute(const Block& block) {
       }
       if (errors_ >= options_.max_findings || fault.code == "too-large") throw Fault{};
       for (const ExpressionPtr& target : statement->targets) Poison(*target);
+      if (statement->function != nullptr) {
+        frame_->names[statement->function->name] = PlainValue(ValueKind::kUndefined);
+      }
       if (statement->kind == StatementKind::kReturn) {
         frame_->result = PlainValue(ValueKind::kUndefined);
         return Flow::kReturn;
@@ -185,7 +188,8 @@ void Elaborator::Poison(const Expression& target) {
   if (target.kind == ExpressionKind::kName) {
     frame_->names[target.text] = PlainValue(ValueKind::kUndefined);
   }
-  if (target.kind == ExpressionKind::kTuple || target.kind == ExpressionKind::kList) {
+  if (target.kind == ExpressionKind::kTuple || target.kind == ExpressionKind::kList ||
+      target.kind == ExpressionKind::kStarred) {
     for (const ExpressionPtr& child : target.children) Poison(*child);
   }
 }
@@ -214,6 +218,12 @@ Elaborator::Flow Elaborator::Execute(const Statement& statement) {
       return ExecuteFor(statement);
     case StatementKind::kBlock:
       return Execute(statement.blocks[0]);
+    case StatementKind::kFunction:
+      DefineInside(statement);
+      return Flow::kNext;
+    case StatementKind::kDelete:
+      for (const ExpressionPtr& target : statement.targets) Delete(*target);
+      return Flow::kNext;
     case StatementKind::kImport:
       for (const Import& import : statement.imports) DoImport(import);
       return Flow::kNext;
@@ -279,14 +289,34 @@ void Elaborator::Assign(const Expression& target, const Value& value) {
   }
 }
 
+// a, b = values; of one starred name the value is a list of what the others leave.
 void Elaborator::Unpack(const Expression& target, const Value& value) {
   const std::vector<Value> items = Items(value, target.position);
-  if (items.size() != target.children.size()) {
-    Fail("unpack", target.position,
-         std::to_string(target.children.size()) + " names stand here for " +
-             std::to_string(items.size()) + " values");
+  const std::size_t names = target.children.size();
+  std::size_t starred = names;
+  for (std::size_t i = 0; i < names; ++i) {
+    if (target.children[i]->kind != ExpressionKind::kStarred) continue;
+    if (starred != names) {
+      Fail("unpack", target.children[i]->position, "one name alone may have a '*'");
+    }
+    starred = i;
   }
-  for (std::size_t i = 0; i < items.size(); ++i) Assign(*target.children[i], items[i]);
+  const bool fits = starred == names ? items.size() == names : items.size() + 1 >= names;
+  if (!fits) {
+    Fail("unpack", target.position,
+         std::to_string(names) + " names stand here for " + std::to_string(items.size()) +
+             " values");
+  }
+  const std::size_t more = items.size() - names;  // wraps round where the starred one gets none
+  for (std::size_t i = 0; i < names; ++i) {
+    if (i != starred) {
+      Assign(*target.children[i], items[i < starred ? i : i + more]);
+      continue;
+    }
+    const auto first = items.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto count = static_cast<std::ptrdiff_t>(items.size() - (names - 1));
+    Assign(*target.children[i]->children[0], NewList({first, first + count}));
+  }
 }
 
 // t += x changes the tensor that t names, as in torch; numbers and all else are computed anew.
@@ -304,104 +334,22 @@ void Elaborator::Augment(const Statement& statement) {
     Assign(target, fresh);
     return;
   }
-  const Tensor& before = *old.tensor;
-  const Tensor& after = *fresh.tensor;
+  CheckFits(*old.tensor, *fresh.tensor, statement.position);
+  math_.Write(*old.tensor, math_.Nodes(*fresh.tensor));
+}
+
+void Elaborator::CheckFits(const Tensor& before, const Tensor& after, Position position) const {
   if (after.type > before.type) {
-    Fail("type", statement.position,
-         "the result is " + Describe(fresh) + ", which " + Describe(old) +
+    Fail("type", position,
+         "the result is " + Describe(TensorValue(after)) + ", which " +
+             Describe(TensorValue(before)) +
              " cannot hold; write x = x + y, or make the tensor .float() first");
   }
   if (after.shape != before.shape) {
-    Fail("shape", statement.position,
+    Fail("shape", position,
          "the result " + ShapeText(after.shape) + " does not fit into the tensor " +
              ShapeText(before.shape) + " in place; write x = x + y");
   }
-  math_.Write(before, math_.Nodes(after));
-}
-
-Value Elaborator::Call(const Function& function, const std::vector<Value>& values,
-                       const std::vector<std::string>& keywords, Position position) {
-  if (std::find(calls_.begin(), calls_.end(), &function) != calls_.end()) {
-    Fail("recursion", position,
-         "'" + function.name + "' calls itself; recursion is not part of the language");
-  }
-  if (static_cast<int>(calls_.size()) >= options_.max_call_depth) {
-    Fail("too-deep", position,
-         "functions call each other deeper than " + std::to_string(options_.max_call_depth));
-  }
-  Frame frame;
-  frame.function = &function;
-  BindParameters(function, values, keywords, position, &frame);
-  Frame* const caller = frame_;
-  const Position returned_at = returned_at_;
-  frame_ = &frame;
-  calls_.push_back(&function);
-  const auto leave = [&] {
-    calls_.pop_back();
-    frame_ = caller;
-  };
-  Value result;
-  try {
-    const Flow flow = Execute(function.body);
-    result = Finish(&frame, flow, function.position);
-  } catch (const Fault&) {
-    leave();
-    throw;
-  }
-  leave();
-  if (caller != nullptr) returned_at_ = returned_at;
-  return result;
-}
-
-void Elaborator::BindParameters(const Function& function, const std::vector<Value>& values,
-                                const std::vector<std::string>& keywords, Position position,
-                                Frame* frame) {
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    std::string name = keywords[i];
-    if (name.empty()) {
-      if (next >= function.parameters.size()) {
-        Fail("arguments", position,
-             "'" + function.name + "' takes " + std::to_string(function.parameters.size()) +
-                 " arguments, more are given");
-      }
-      name = function.parameters[next++].name;
-    }
-    const bool known =
-        std::any_of(function.parameters.begin(), function.parameters.end(),
-                    [&](const Parameter& parameter) { return parameter.name == name; });
-    if (!known || frame->names.contains(name)) {
-      Fail("arguments", position,
-           "'" + function.name + "' " +
-               (known ? "is given '" + name + "' twice" : "has no parameter '" + name + "'"));
-    }
-    frame->names[name] = values[i];
-  }
-  for (const Parameter& parameter : function.parameters) {
-    if (frame->names.contains(parameter.name)) continue;
-    if (parameter.initial == nullptr) {
-      Fail("arguments", position,
-           "'" + function.name + "' lacks its argument '" + parameter.name + "'");
-    }
-    frame->names[parameter.name] = Evaluate(*parameter.initial);
-  }
-}
-
-// The value of a function whose environments may have returned at different places.
-Value Elaborator::Finish(Frame* frame, Flow flow, Position position) {
-  if (flow == Flow::kBreak || flow == Flow::kContinue) {
-    Fail("syntax", position, "'break' or 'continue' stands outside a loop");
-  }
-  if (flow != Flow::kReturn && !frame->early.empty()) {
-    Fail("no-return", position,
-         "'" + frame->function->name + "' returns in some environments only; end it with a return");
-  }
-  if (flow != Flow::kReturn) return Value{};
-  Value result = frame->result;
-  for (std::size_t i = frame->early.size(); i-- > 0;) {
-    result = Choose(frame->early[i].flag, frame->early[i].value, result, returned_at_);
-  }
-  return result;
 }
 
 }  // namespace simwright::tasks::reward

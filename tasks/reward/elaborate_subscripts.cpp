@@ -20,6 +20,14 @@ bool IsWhole(const Value& slice) {
   return from_start && to_end && each;
 }
 
+// Where a key stands; the number of keys where it does not.
+std::size_t PlaceOfKey(const std::vector<Value>& keys, const Value& key) {
+  const auto same = [&](const Value& other) {
+    return other.kind == key.kind && other.text == key.text && other.integer == key.integer;
+  };
+  return static_cast<std::size_t>(std::find_if(keys.begin(), keys.end(), same) - keys.begin());
+}
+
 struct Bounds {
   std::int64_t start, stop, step;
 };
@@ -36,13 +44,39 @@ Bounds Clip(const Value& slice, std::int64_t size, Position position) {
     given[i] = part.integer;
   }
   if (given[2] < 1) {
-    Fail("index", position, "a slice goes forward here; use .flip(dim) to turn the order round");
+    Fail("index", position,
+         "a slice of a tensor goes forward, as torch wants it; use .flip(dim) to turn the order "
+         "round");
   }
   for (int i = 0; i < 2; ++i) {
     if (given[i] < 0) given[i] = std::max<std::int64_t>(0, given[i] + size);
     given[i] = std::min(given[i], size);
   }
   return {given[0], std::max(given[0], given[1]), std::min<std::int64_t>(given[2], size + 1)};
+}
+
+// The elements that a slice of a list names, backwards where its step is negative.
+std::vector<std::int64_t> Indices(const Value& slice, std::int64_t size, Position position) {
+  const Value& step = (*slice.items)[2];
+  std::vector<std::int64_t> indices;
+  if (!step.Is(ValueKind::kInteger) || step.integer >= 0) {
+    const Bounds bounds = Clip(slice, size, position);
+    for (std::int64_t i = bounds.start; i < bounds.stop; i += bounds.step) indices.push_back(i);
+    return indices;
+  }
+  std::int64_t ends[2] = {size - 1, -1};
+  for (int i = 0; i < 2; ++i) {
+    const Value& part = (*slice.items)[i];
+    if (part.Is(ValueKind::kNone)) continue;
+    if (!part.Is(ValueKind::kInteger)) {
+      Fail("index", position, "a slice wants whole numbers, this is " + Describe(part));
+    }
+    const std::int64_t at = part.integer < 0 ? part.integer + size : part.integer;
+    ends[i] = std::clamp<std::int64_t>(at, -1, size - 1);
+  }
+  const std::int64_t back = std::max(step.integer, -size - 1);
+  for (std::int64_t i = ends[0]; i > ends[1]; i += back) indices.push_back(i);
+  return indices;
 }
 
 }  // namespace
@@ -54,7 +88,7 @@ bool Elaborator::IsMask(const Value& index) const {
 Tensor Elaborator::SliceTensor(const Tensor& tensor, int dimension, const Value& slice,
                                Position position) {
   if (IsWhole(slice)) return tensor;
-  if (tensor.shape[dimension] == kBatch) {
+  if (RunsOverEnvironments(tensor.shape[dimension])) {
     Fail("index", position,
          "a part of the environments cannot be taken: every environment gets its own reward");
   }
@@ -63,6 +97,21 @@ Tensor Elaborator::SliceTensor(const Tensor& tensor, int dimension, const Value&
 }
 
 // Applies one part of an index to dimension *dimension, and moves on to the next.
+// x[mask]: what is reduced over the environments later skips those that were not picked.
+Tensor Elaborator::Picked(const Tensor& tensor, const Tensor& mask, int dimension,
+                          Position position) {
+  if (mask.shape != Shape{kBatch} || tensor.shape[dimension] != kBatch) {
+    Fail("index", position,
+         "a mask " + ShapeText(mask.shape) + " does not pick environments of a tensor " +
+             ShapeText(tensor.shape) +
+             ", and how many single numbers it picks is not known before; use torch.where(mask, "
+             "a, b)");
+  }
+  Tensor picked = math_.Copy(tensor, position);
+  picked.shape[dimension] = PickedBy(math_.At(mask, 0));
+  return picked;
+}
+
 Tensor Elaborator::ApplyIndex(const Tensor& tensor, const Value& index, int* dimension,
                               Position position) {
   if (index.Is(ValueKind::kNone)) return math_.Unsqueeze(tensor, (*dimension)++);
@@ -89,10 +138,7 @@ Tensor Elaborator::ApplyIndex(const Tensor& tensor, const Value& index, int* dim
       index.tensor->shape.empty() && graph_.IsConstant(math_.At(*index.tensor, 0), &known)) {
     return math_.Take(tensor, *dimension, static_cast<std::int64_t>(known), position);
   }
-  if (IsMask(index)) {
-    Fail("index", position,
-         "how many numbers a mask picks is not known before; use torch.where(mask, a, b)");
-  }
+  if (IsMask(index)) return Picked(tensor, *index.tensor, (*dimension)++, position);
   Fail("index", position,
        "an index is a whole number, a slice, None or '...'; this is " + Describe(index));
 }
@@ -122,11 +168,8 @@ Value Elaborator::SubscriptItems(const Value& base, const std::vector<Value>& it
                                  const Value& index, Position position) {
   const auto size = static_cast<std::int64_t>(items.size());
   if (index.Is(ValueKind::kSlice)) {
-    const Bounds bounds = Clip(index, size, position);
     std::vector<Value> taken;
-    for (std::int64_t i = bounds.start; i < bounds.stop; i += bounds.step) {
-      taken.push_back(items[i]);
-    }
+    for (const std::int64_t i : Indices(index, size, position)) taken.push_back(items[i]);
     return base.Is(ValueKind::kList) ? NewList(std::move(taken)) : TupleValue(std::move(taken));
   }
   if (index.Is(ValueKind::kString) && base.field_names != nullptr) {
@@ -216,7 +259,7 @@ void Elaborator::AssignSubscript(const Expression& target, const Value& value) {
     Fail("bad-target", target.position, Describe(base) + " cannot be changed");
   }
   // So that nothing ever holds itself.
-  if (value.Is(ValueKind::kList) || value.Is(ValueKind::kDict)) {
+  if (HoldsContainer(value)) {
     Fail("type", target.position, "a list or dictionary inside another cannot be set here");
   }
   AssignInContainer(base, index, value, target.position);
@@ -248,10 +291,7 @@ void Elaborator::AssignInTensor(const Tensor& tensor, const Value& index, const 
     fresh = math_.Cast(fresh, view.type, position);
   }
   if (IsMask(key)) {
-    if (!fresh.shape.empty()) {
-      Fail("index", position,
-           "only a number can be put where a mask picks; use torch.where(mask, a, b)");
-    }
+    fresh = OfAllEnvironments(fresh, *key.tensor, position);
     fresh = math_.Select(MaskFor(view, key, position), fresh, view, position);
   }
   // A leading 1 of what is put in may be dropped, as torch does.
@@ -261,57 +301,106 @@ void Elaborator::AssignInTensor(const Tensor& tensor, const Value& index, const 
   math_.Write(view, math_.Nodes(math_.Expand(fresh, view.shape, position)));
 }
 
+// What may be put where a mask picks, with a row for each environment: a number, what all of them
+// share, or what the same mask picked.
+Tensor Elaborator::OfAllEnvironments(const Tensor& value, const Tensor& mask, Position position) {
+  Tensor all = value;
+  const bool rows = mask.shape == Shape{kBatch} && !all.shape.empty();
+  if (rows && all.shape[0] == PickedBy(math_.At(mask, 0))) {
+    all.shape[0] = kBatch;
+    return all;
+  }
+  if (HoldsPicked(all.shape) || BatchDimension(all.shape) >= 0 || (!rows && !all.shape.empty())) {
+    Fail("index", position,
+         "a mask takes a number here or what the same mask picks, a[mask] = b[mask], this is " +
+             Describe(TensorValue(value)) + "; use torch.where(mask, a, b)");
+  }
+  return all;
+}
+
 void Elaborator::AssignInContainer(const Value& base, const Value& index, const Value& value,
                                    Position position) {
+  if (base.Is(ValueKind::kDict)) {
+    SetKey(base, index, value, position);
+    return;
+  }
   Object fresh = heap_[base.object];
   std::vector<Value> items = *fresh.items;
-  if (base.Is(ValueKind::kList)) {
-    SubscriptItems(base, items, index, position);  // checks the index
-    if (!index.Is(ValueKind::kInteger)) Fail("index", position, "a list is changed one by one");
-    const auto size = static_cast<std::int64_t>(items.size());
-    items[index.integer < 0 ? index.integer + size : index.integer] = value;
-  } else {
-    if (!index.Is(ValueKind::kString) && !index.Is(ValueKind::kInteger)) {
-      Fail("bad-key", position, "a key is a string or a whole number, this is " + Describe(index));
-    }
-    std::vector<Value> keys = *fresh.keys;
-    std::size_t at = 0;
-    while (at < keys.size() && (keys[at].kind != index.kind || keys[at].text != index.text ||
-                                keys[at].integer != index.integer)) {
-      ++at;
-    }
-    if (at == keys.size()) {
-      keys.push_back(index);
-      items.push_back(value);
-    }
-    items[at] = value;
-    fresh.keys = std::make_shared<const std::vector<Value>>(std::move(keys));
-  }
+  SubscriptItems(base, items, index, position);  // checks the index
+  if (!index.Is(ValueKind::kInteger)) Fail("index", position, "a list is changed one by one");
+  const auto size = static_cast<std::int64_t>(items.size());
+  items[index.integer < 0 ? index.integer + size : index.integer] = value;
   fresh.items = std::make_shared<const std::vector<Value>>(std::move(items));
   heap_.Set(base.object, std::move(fresh));
 }
 
-// t[mask] += x with a number x.
+void Elaborator::SetKey(const Value& dict, const Value& key, const Value& value,
+                        Position position) {
+  if (!key.Is(ValueKind::kString) && !key.Is(ValueKind::kInteger)) {
+    Fail("bad-key", position, "a key is a string or a whole number, this is " + Describe(key));
+  }
+  std::vector<Value> keys = *heap_[dict.object].keys, items = *heap_[dict.object].items;
+  const std::size_t at = PlaceOfKey(keys, key);
+  if (at == keys.size()) {
+    keys.push_back(key);
+    items.push_back(value);
+  }
+  items[at] = value;
+  Object fresh;
+  fresh.keys = std::make_shared<const std::vector<Value>>(std::move(keys));
+  fresh.items = std::make_shared<const std::vector<Value>>(std::move(items));
+  heap_.Set(dict.object, std::move(fresh));
+}
+
+void Elaborator::Update(const Value& dict, const Value& other, Position position) {
+  if (!other.Is(ValueKind::kDict)) {
+    Fail("type", position, "a dictionary is wanted here, this is " + Describe(other));
+  }
+  const Object contents = heap_[other.object];
+  for (std::size_t i = 0; i < contents.keys->size(); ++i) {
+    Step(position);
+    SetKey(dict, (*contents.keys)[i], (*contents.items)[i], position);
+  }
+}
+
+Value Elaborator::RemoveKey(const Value& dict, const Value& key, Position position) {
+  const Value removed = Subscript(dict, key, position);  // names what is missing
+  std::vector<Value> keys = *heap_[dict.object].keys, items = *heap_[dict.object].items;
+  const auto at = static_cast<std::ptrdiff_t>(PlaceOfKey(keys, key));
+  keys.erase(keys.begin() + at);
+  items.erase(items.begin() + at);
+  Object fresh;
+  fresh.keys = std::make_shared<const std::vector<Value>>(std::move(keys));
+  fresh.items = std::make_shared<const std::vector<Value>>(std::move(items));
+  heap_.Set(dict.object, std::move(fresh));
+  return removed;
+}
+
+// t[mask] += x, t[mask, 2] += x.
 bool Elaborator::AugmentMasked(const Statement& statement) {
   const Expression& target = *statement.targets[0];
+  const Position position = statement.position;
   const Value base = Evaluate(*target.children[0]);
   if (!base.Is(ValueKind::kTensor)) return false;
   const Value index = Evaluate(*target.children[1]);
-  if (!IsMask(index)) return false;
-  const Tensor mask = MaskFor(*base.tensor, index, target.position);
+  const bool first = index.Is(ValueKind::kTuple) && !index.items->empty() &&
+                     IsMask((*index.items)[0]) && (*index.items)[0].tensor->shape.size() == 1;
+  if (!IsMask(index) && !first) return false;
   const Value operand = Evaluate(*statement.value);
-  const Tensor number = math_.FromValue(operand, statement.position);
-  if (!number.shape.empty()) {
+  const bool rows = first || index.tensor->shape.size() == 1;
+  const Value old = rows ? Subscript(base, index, target.position) : base;
+  const Value fresh = Binary(statement.operation, old, operand, position);
+  CheckFits(*old.tensor, *fresh.tensor, position);
+  if (rows) {
+    AssignInTensor(*base.tensor, index, fresh, target.position);
+    return true;
+  }
+  const Tensor mask = MaskFor(*base.tensor, index, target.position);
+  if (!math_.FromValue(operand, position).shape.empty()) {
     Fail("index", target.position,
-         "only a number can be put where a mask picks; use torch.where(mask, a, b)");
+         "only a number can be put where a mask picks single numbers; use torch.where(mask, a, b)");
   }
-  const Value changed = Binary(statement.operation, base, operand, statement.position);
-  const Tensor fresh = math_.Select(mask, *changed.tensor, *base.tensor, statement.position);
-  if (fresh.type > base.tensor->type) {
-    Fail("type", statement.position,
-         "the result is " + Describe(changed) + ", which " + Describe(base) + " cannot hold");
-  }
-  math_.Write(*base.tensor, math_.Nodes(fresh));
+  math_.Write(*base.tensor, math_.Nodes(math_.Select(mask, *fresh.tensor, *base.tensor, position)));
   return true;
 }
 

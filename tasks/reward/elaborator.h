@@ -58,7 +58,14 @@ class Elaborator {
   Value Binary(Operator operation, const Value& a, const Value& b, Position position);
   Value Compare(Operator operation, const Value& a, const Value& b, Position position);
   Value Subscript(const Value& base, const Value& index, Position position);
+  // Of a dictionary; gives what was there.
+  Value RemoveKey(const Value& dict, const Value& key, Position position);
+  void SetKey(const Value& dict, const Value& key, const Value& value, Position position);
+  // Takes over what another dictionary holds.
+  void Update(const Value& dict, const Value& other, Position position);
   Value NewList(std::vector<Value> items);
+  // The size of a dimension as a program sees it.
+  Value SizeValue(int size);
   Value NewDict(std::vector<Value> keys, std::vector<Value> items);
   // True or false where it is known, else -1 and the flag of each environment in `flag`.
   int Truth(const Value& value, Tensor* flag, Position position);
@@ -73,6 +80,9 @@ class Elaborator {
   struct Frame {
     std::map<std::string, Value> names;
     const Function* function = nullptr;
+    int number = 0;  // of the call
+    const Frame* caller = nullptr;
+    std::shared_ptr<const Closure> closure;
     std::vector<EarlyReturn> early;
     Value result;
   };
@@ -111,9 +121,18 @@ class Elaborator {
   void Unpack(const Expression& target, const Value& value);
   void Augment(const Statement& statement);
   bool AugmentMasked(const Statement& statement);
+  // Whether the tensor can hold the result of an operation on it in place.
+  void CheckFits(const Tensor& before, const Tensor& after, Position position) const;
   void Poison(const Expression& target);
-  Value Call(const Function& function, const std::vector<Value>& values,
-             const std::vector<std::string>& keywords, Position position);
+
+  // elaborate_functions.cpp
+  void DefineInside(const Statement& statement);
+  const Value* EnclosingValue(const std::string& name, Position position) const;
+  Value GlobalValue(const Expression& expression);
+  void Delete(const Expression& target);
+  Value Call(const Function& function, const std::shared_ptr<const Closure>& closure,
+             const std::vector<Value>& values, const std::vector<std::string>& keywords,
+             Position position);
   void BindParameters(const Function& function, const std::vector<Value>& values,
                       const std::vector<std::string>& keywords, Position position, Frame* frame);
   Value Finish(Frame* frame, Flow flow, Position position);
@@ -137,6 +156,7 @@ class Elaborator {
   Value Evaluate(const Expression& expression);
   Value EvaluateKind(const Expression& expression);
   Value EvaluateName(const Expression& expression);
+  Value EvaluateDisplay(const Expression& expression);
   Value EvaluateFormat(const Expression& expression);
   Value EvaluateDict(const Expression& expression);
   Value EvaluateUnary(const Expression& expression);
@@ -146,9 +166,16 @@ class Elaborator {
   Value EvaluateComprehension(const Expression& expression);
   Value EvaluateSlice(const Expression& expression);
   Value EvaluateCall(const Expression& expression);
+  void AddNamed(const Value& dict, Position position, std::vector<Value>* values,
+                std::vector<std::string>* keywords);
   Value CallValue(const Value& callee, std::vector<Value> values, std::vector<std::string> keywords,
                   const std::vector<Position>& places, Position position);
   std::vector<std::string> VisibleNames() const;
+
+  // elaborate_calls.cpp
+  Value NamedDict(const std::vector<Value>& values, const std::vector<std::string>& keywords,
+                  Position position);
+  Value WriteInPlace(const Value& target, const Value& result, Position position);
 
   // elaborate_attributes.cpp
   Value EvaluateAttribute(const Expression& expression);
@@ -170,6 +197,8 @@ class Elaborator {
                        Position position);
   Value SubscriptDict(const Value& base, const Value& index, Position position);
   bool IsMask(const Value& index) const;
+  Tensor Picked(const Tensor& tensor, const Tensor& mask, int dimension, Position position);
+  Tensor OfAllEnvironments(const Tensor& value, const Tensor& mask, Position position);
   Tensor MaskFor(const Tensor& tensor, const Value& index, Position position);
 
   // elaborate_environment.cpp
@@ -215,6 +244,7 @@ class Elaborator {
   Position returned_at_;
   int steps_ = 0;
   int depth_ = 0;
+  int frames_ = 0;
 };
 
 }  // namespace simwright::tasks::reward

@@ -98,20 +98,16 @@ Value LogicalNot(Elaborator& elaborator, const Arguments& arguments) {
 enum Formula {
   kSquare,
   kReciprocal,
+  kPowerOfTwo,
   kRootReciprocal,
-  kRelu,
   kLogarithm2,
   kLogarithm10,
   kHyperbolicSine,
   kHyperbolicCosine,
-  kSoftplus,
   kRadians,
   kDegrees,
   kIsInfinite,
   kIsFinite,
-  kNanToNumber,
-  kLeakyRelu,
-  kElu,
 };
 
 class Formulas {
@@ -151,8 +147,8 @@ Tensor Formulas::Of(int formula, const Tensor& x) {
       return Do(kDivide, Number(1.0), x);
     case kRootReciprocal:
       return Do(kDivide, Number(1.0), Do(kSquareRoot, x));
-    case kRelu:
-      return Do(kMaximum, x, math_.Scalar(x.type, math_.graph().Constant(0.0)));
+    case kPowerOfTwo:
+      return Do(kPower, Number(2.0), x);
     case kLogarithm2:
       return Do(kMultiply, Do(kLogarithm, x), Number(1.44269504088896341));
     case kLogarithm10:
@@ -161,39 +157,23 @@ Tensor Formulas::Of(int formula, const Tensor& x) {
       return HalfOf(kSubtract, x);
     case kHyperbolicCosine:
       return HalfOf(kAdd, x);
-    // max(x, 0) + log(1 + e^-|x|), which does not overflow.
-    case kSoftplus:
-      return Do(kAdd, Do(kMaximum, x, Number(0.0)),
-                Do(kLogarithmOfOnePlus, Do(kExponential, Do(kNegate, Do(kAbsolute, x)))));
     case kRadians:
       return Do(kMultiply, x, Number(0.017453292519943295));
     case kDegrees:
       return Do(kMultiply, x, Number(57.295779513082321));
     case kIsInfinite:
       return Infinite(x);
-    case kIsFinite: {
+    default: {  // kIsFinite
       const Tensor nan = math_.Map(kIsNan, x, DataType::kBool, position_);
       return Do(kNot, Do(kOr, nan, Infinite(x)));
     }
-    case kNanToNumber: {
-      const Tensor nan = math_.Map(kIsNan, x, DataType::kBool, position_);
-      const Tensor number = math_.Select(nan, Number(0.0), x, position_);
-      return Do(kMinimum, Do(kMaximum, number, Number(-3.4028234663852886e38)),
-                Number(3.4028234663852886e38));
-    }
-    case kLeakyRelu:
-      return Do(kAdd, Do(kMaximum, x, Number(0.0)),
-                Do(kMultiply, Do(kMinimum, x, Number(0.0)), Number(0.01)));
-    default:  // kElu
-      return Do(kAdd, Do(kMaximum, x, Number(0.0)),
-                Do(kExponentialMinusOne, Do(kMinimum, x, Number(0.0))));
   }
 }
 
 Value ByFormula(Elaborator& elaborator, const Arguments& arguments) {
   const int formula = arguments.function->variant;
   const Value& value = arguments[0];
-  const bool keeps = formula == kSquare || formula == kRelu;
+  const bool keeps = formula == kSquare;
   if (value.IsNumber() && !WantsTensors(arguments)) {
     const double x = value.Number();
     switch (formula) {
@@ -306,6 +286,13 @@ Value Clamp(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(tensor);
 }
 
+Value ClampMax(Elaborator& elaborator, const Arguments& arguments) {
+  const Tensor tensor = TensorArgument(elaborator, arguments, 0);
+  const Tensor bound = NumberOrTensor(elaborator, arguments, 1);
+  return TensorValue(elaborator.math().Map(kMinimum, tensor, bound,
+                                           Promote(tensor.type, bound.type), arguments.position));
+}
+
 Value Where(Elaborator& elaborator, const Arguments& arguments) {
   if (!arguments.given[1] || !arguments.given[2]) {
     Fail("arguments", arguments.position,
@@ -330,6 +317,14 @@ Value Lerp(Elaborator& elaborator, const Arguments& arguments) {
   const Value span = elaborator.Binary(Operator::kSubtract, arguments[1], arguments[0], position);
   const Value way = elaborator.Binary(Operator::kMultiply, span, arguments[2], position);
   return elaborator.Binary(Operator::kAdd, arguments[0], way, position);
+}
+
+// input + value * a * b.
+Value AddProduct(Elaborator& elaborator, const Arguments& arguments) {
+  const Position position = arguments.position;
+  Value product = elaborator.Binary(Operator::kMultiply, arguments[1], arguments[2], position);
+  product = elaborator.Binary(Operator::kMultiply, product, arguments[3], position);
+  return elaborator.Binary(Operator::kAdd, arguments[0], product, position);
 }
 
 Value IsClose(Elaborator& elaborator, const Arguments& arguments) {
@@ -369,12 +364,12 @@ constexpr LibraryFunction kFunctions[] = {
     {"torch.sin Tensor.sin np.sin math.sin", "input", Unary, kSine, kMakesFloat},
     {"torch.cos Tensor.cos np.cos math.cos", "input", Unary, kCosine, kMakesFloat},
     {"torch.tan Tensor.tan np.tan math.tan", "input", Unary, kTangent, kMakesFloat},
-    {"torch.asin torch.arcsin Tensor.asin np.arcsin math.asin", "input", Unary, kArcSine,
-     kMakesFloat},
+    {"torch.asin torch.arcsin Tensor.asin Tensor.arcsin np.arcsin math.asin", "input", Unary,
+     kArcSine, kMakesFloat},
     {"torch.acos torch.arccos Tensor.acos Tensor.arccos np.arccos math.acos", "input", Unary,
      kArcCosine, kMakesFloat},
-    {"torch.atan torch.arctan Tensor.atan np.arctan math.atan", "input", Unary, kArcTangent,
-     kMakesFloat},
+    {"torch.atan torch.arctan Tensor.atan Tensor.arctan np.arctan math.atan", "input", Unary,
+     kArcTangent, kMakesFloat},
     {"torch.tanh Tensor.tanh np.tanh math.tanh torch.nn.functional.tanh", "input", Unary,
      kHyperbolicTangent, kMakesFloat},
     {"torch.sigmoid Tensor.sigmoid torch.nn.functional.sigmoid torch.special.expit", "input", Unary,
@@ -385,30 +380,27 @@ constexpr LibraryFunction kFunctions[] = {
     {"torch.reciprocal Tensor.reciprocal np.reciprocal", "input", ByFormula, kConstant,
      kReciprocal},
     {"torch.rsqrt Tensor.rsqrt", "input", ByFormula, kConstant, kRootReciprocal},
-    {"torch.relu Tensor.relu torch.nn.functional.relu", "input", ByFormula, kConstant, kRelu},
-    {"torch.nn.functional.leaky_relu", "input", ByFormula, kConstant, kLeakyRelu},
-    {"torch.nn.functional.elu", "input", ByFormula, kConstant, kElu},
+    {"torch.exp2 Tensor.exp2 np.exp2", "input", ByFormula, kConstant, kPowerOfTwo},
     {"torch.log2 Tensor.log2 np.log2 math.log2", "input", ByFormula, kConstant, kLogarithm2},
     {"torch.log10 Tensor.log10 np.log10 math.log10", "input", ByFormula, kConstant, kLogarithm10},
-    {"torch.sinh np.sinh", "input", ByFormula, kConstant, kHyperbolicSine},
-    {"torch.cosh np.cosh", "input", ByFormula, kConstant, kHyperbolicCosine},
-    {"torch.nn.functional.softplus", "input", ByFormula, kConstant, kSoftplus},
-    {"torch.deg2rad np.deg2rad np.radians math.radians", "input", ByFormula, kConstant, kRadians},
-    {"torch.rad2deg np.rad2deg np.degrees math.degrees", "input", ByFormula, kConstant, kDegrees},
+    {"torch.sinh np.sinh math.sinh Tensor.sinh", "input", ByFormula, kConstant, kHyperbolicSine},
+    {"torch.cosh np.cosh math.cosh Tensor.cosh", "input", ByFormula, kConstant, kHyperbolicCosine},
+    {"torch.deg2rad Tensor.deg2rad np.deg2rad np.radians math.radians", "input", ByFormula,
+     kConstant, kRadians},
+    {"torch.rad2deg Tensor.rad2deg np.rad2deg np.degrees math.degrees", "input", ByFormula,
+     kConstant, kDegrees},
     {"torch.isinf np.isinf math.isinf Tensor.isinf", "input", ByFormula, kConstant, kIsInfinite},
     {"torch.isfinite np.isfinite math.isfinite Tensor.isfinite", "input", ByFormula, kConstant,
      kIsFinite},
-    {"torch.nan_to_num Tensor.nan_to_num np.nan_to_num", "input", ByFormula, kConstant,
-     kNanToNumber},
     {"torch.add Tensor.add np.add", "input other alpha=1", AsOperator, kConstant,
      As(Operator::kAdd)},
     {"torch.sub torch.subtract Tensor.sub np.subtract", "input other alpha=1", AsOperator,
      kConstant, As(Operator::kSubtract)},
-    {"torch.mul torch.multiply Tensor.mul np.multiply", "input other", AsOperator, kConstant,
-     As(Operator::kMultiply)},
-    {"torch.div torch.divide torch.true_divide Tensor.div np.divide", "input other", AsOperator,
-     kConstant, As(Operator::kDivide)},
-    {"torch.floor_divide np.floor_divide", "input other", AsOperator, kConstant,
+    {"torch.mul torch.multiply Tensor.mul Tensor.multiply np.multiply", "input other", AsOperator,
+     kConstant, As(Operator::kMultiply)},
+    {"torch.div torch.divide torch.true_divide Tensor.div Tensor.true_divide np.divide",
+     "input other", AsOperator, kConstant, As(Operator::kDivide)},
+    {"torch.floor_divide Tensor.floor_divide np.floor_divide", "input other", AsOperator, kConstant,
      As(Operator::kFloorDivide)},
     {"torch.remainder np.mod np.remainder Tensor.remainder", "input other", AsOperator, kConstant,
      As(Operator::kRemainder)},
@@ -425,8 +417,10 @@ constexpr LibraryFunction kFunctions[] = {
      As(Operator::kGreater)},
     {"torch.ge torch.greater_equal Tensor.ge np.greater_equal", "input other", AsOperator,
      kConstant, As(Operator::kGreaterEqual)},
-    {"torch.bitwise_and np.bitwise_and", "input other", AsOperator, kConstant, As(Operator::kAnd)},
-    {"torch.bitwise_or np.bitwise_or", "input other", AsOperator, kConstant, As(Operator::kOr)},
+    {"torch.bitwise_and np.bitwise_and Tensor.bitwise_and", "input other", AsOperator, kConstant,
+     As(Operator::kAnd)},
+    {"torch.bitwise_or np.bitwise_or Tensor.bitwise_or", "input other", AsOperator, kConstant,
+     As(Operator::kOr)},
     {"torch.logical_and Tensor.logical_and np.logical_and", "input other", Pair, kAnd, kMakesFlag},
     {"torch.logical_or Tensor.logical_or np.logical_or", "input other", Pair, kOr, kMakesFlag},
     {"torch.logical_xor Tensor.logical_xor np.logical_xor", "input other", Pair, kNotEqual,
@@ -437,11 +431,14 @@ constexpr LibraryFunction kFunctions[] = {
      kKeepsType},
     {"torch.fmod np.fmod math.fmod Tensor.fmod", "input other", Pair, kTruncatedRemainder,
      kKeepsType},
-    {"torch.atan2 torch.arctan2 Tensor.atan2 np.arctan2 math.atan2", "input other", Pair,
-     kArcTangent2, kMakesFloat},
-    {"torch.hypot np.hypot math.hypot", "input other", Hypotenuse},
+    {"torch.atan2 torch.arctan2 Tensor.atan2 Tensor.arctan2 np.arctan2 math.atan2", "input other",
+     Pair, kArcTangent2, kMakesFloat},
+    {"torch.hypot Tensor.hypot np.hypot math.hypot", "input other", Hypotenuse},
     {"torch.clamp torch.clip Tensor.clamp Tensor.clip np.clip", "input min=None max=None", Clamp},
     {"torch.where np.where", "condition input=None other=None", Where},
+    {"torch.clamp_min Tensor.clamp_min", "input min max=None", Clamp},
+    {"torch.clamp_max Tensor.clamp_max", "input max", ClampMax},
+    {"torch.addcmul Tensor.addcmul", "input tensor1 tensor2 value=1", AddProduct},
     {"torch.lerp Tensor.lerp", "input end weight", Lerp},
     {"torch.isclose np.isclose", "input other rtol=1e-5 atol=1e-8", IsClose},
 };

@@ -134,15 +134,22 @@ bool ExpressionParser::AtExpressionEnd() const {
 
 ExpressionPtr ExpressionParser::ParseExpressionList() {
   const Position start = Peek().position;
-  ExpressionPtr first = ParseExpression();
+  ExpressionPtr first = ParseItem();
   if (!At(",")) return first;
   ExpressionPtr tuple = Make(ExpressionKind::kTuple, start);
   Add(tuple.get(), std::move(first));
   while (Accept(",")) {
     if (AtExpressionEnd()) break;
-    Add(tuple.get(), ParseExpression());
+    Add(tuple.get(), ParseItem());
   }
   return tuple;
+}
+
+ExpressionPtr ExpressionParser::ParseItem() {
+  if (!At("*")) return ParseExpression();
+  ExpressionPtr starred = Make(ExpressionKind::kStarred, Take().position);
+  Add(starred.get(), ParseBinary(0));
+  return starred;
 }
 
 ExpressionPtr ExpressionParser::ParseTarget() {
@@ -316,13 +323,10 @@ ExpressionPtr ExpressionParser::ParseCall(ExpressionPtr callee) {
 }
 
 void ExpressionParser::ParseArgument(Expression* call) {
-  if (At("**")) {
-    Fail("syntax", Peek().position, "'**' in arguments is not part of the language; name each one");
-  }
   std::string keyword;
   const Position position = Peek().position;
-  if (Accept("*")) {
-    keyword = "*";
+  if (At("*") || At("**")) {
+    keyword = Take().text;
   } else if (AtKind(TokenKind::kName) && Peek(1).kind == TokenKind::kOperator &&
              Peek(1).text == "=") {
     keyword = TakeName("the argument's name");
@@ -333,7 +337,7 @@ void ExpressionParser::ParseArgument(Expression* call) {
       }
     }
   } else if (!call->keywords.empty() && !call->keywords.back().empty() &&
-             call->keywords.back() != "*") {
+             call->keywords.back() != "*" && call->keywords.back() != "**") {
     Fail("syntax", position, "an argument without a name follows one with a name");
   }
   ExpressionPtr value = ParseExpression();

@@ -31,7 +31,8 @@ const Index& TheIndex() {
     auto* made = new Index;
     for (const LibraryPart& part :
          {ElementwiseFunctions(), ReductionFunctions(), CreationFunctions(), ShapeFunctions(),
-          ProductFunctions(), RotationFunctions(), PythonFunctions()}) {
+          ProductFunctions(), RotationFunctions(), PythonFunctions(), StringFunctions(),
+          OrderFunctions(), ActivationFunctions(), LossFunctions()}) {
       for (std::size_t i = 0; i < part.count; ++i) AddNames(part.functions[i], made);
     }
     made->modules.insert({"torch.jit", "typing", "numpy.typing"});

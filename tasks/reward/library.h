@@ -48,6 +48,10 @@ LibraryPart ShapeFunctions();
 LibraryPart ProductFunctions();
 LibraryPart RotationFunctions();
 LibraryPart PythonFunctions();
+LibraryPart StringFunctions();
+LibraryPart OrderFunctions();
+LibraryPart ActivationFunctions();
+LibraryPart LossFunctions();
 
 // Null where there is none of this name.
 const LibraryFunction* FindLibraryFunction(const std::string& name);

@@ -1,80 +1,29 @@
 #include "tasks/reward/parameter_shapes.h"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 
 #include "tasks/reward/elaborator.h"
+#include "tasks/reward/parameter_usage.h"
 
 namespace simwright::tasks::reward {
 namespace {
-
-using Shapes = std::map<std::string, std::vector<int>>;
-
-void EachExpression(const Expression& expression,
-                    const std::function<void(const Expression&)>& visit) {
-  visit(expression);
-  for (const ExpressionPtr& child : expression.children) {
-    if (child != nullptr) EachExpression(*child, visit);
-  }
-}
-
-void EachExpression(const Block& block, const std::function<void(const Expression&)>& visit) {
-  for (const auto& statement : block) {
-    for (const ExpressionPtr& target : statement->targets) EachExpression(*target, visit);
-    if (statement->value != nullptr) EachExpression(*statement->value, visit);
-    for (const Block& inner : statement->blocks) EachExpression(inner, visit);
-  }
-}
-
-// What the indices of x[...] say: the least width that the last dimension has to have.
-struct Usage {
-  int width = 0;  // 0: unknown
-  bool exact = false;
-  int rank = 0;  // trailing dimensions seen in an index
-};
-
-void NoteIndex(const Expression& index, Usage* usage) {
-  std::vector<const Expression*> parts;
-  if (index.kind == ExpressionKind::kTuple) {
-    for (const ExpressionPtr& child : index.children) parts.push_back(child.get());
-  } else {
-    parts.push_back(&index);
-  }
-  if (parts.size() < 2) return;
-  const bool ellipsis = parts[0]->kind == ExpressionKind::kEllipsis;
-  int named = 0;
-  for (const Expression* part : parts) {
-    if (part->kind != ExpressionKind::kNone && part->kind != ExpressionKind::kEllipsis) ++named;
-  }
-  usage->rank = std::max(usage->rank, ellipsis ? 1 : named - 1);
-  const Expression& last = *parts.back();
-  int width = 0;
-  if (last.kind == ExpressionKind::kInteger) {
-    width = static_cast<int>(std::min<std::int64_t>(last.integer, 1024)) + 1;
-  }
-  if (last.kind == ExpressionKind::kSlice && last.children[1] != nullptr &&
-      last.children[1]->kind == ExpressionKind::kInteger) {
-    width = static_cast<int>(std::min<std::int64_t>(last.children[1]->integer, 1024));
-  }
-  if (last.kind == ExpressionKind::kList) {
-    for (const ExpressionPtr& child : last.children) {
-      if (child->kind != ExpressionKind::kInteger) continue;
-      width = std::max(width, static_cast<int>(std::min<std::int64_t>(child->integer, 1024)) + 1);
-    }
-  }
-  if (width > 0 && width < 1024) usage->width = std::max(usage->width, width);
-}
 
 bool Contains(const std::string& name, std::initializer_list<const char*> parts) {
   return std::any_of(parts.begin(), parts.end(),
                      [&](const char* part) { return name.find(part) != std::string::npos; });
 }
 
+// As many as the robot has joints or a policy actions: no name says how many.
+bool OfJoints(const std::string& name) {
+  return Contains(name, {"dof", "joint", "action", "torque"});
+}
+
 std::vector<int> GuessByName(const std::string& name) {
+  if (Contains(name, {"cart_", "pole_", "height", "dist", "speed", "angle_"})) return {};
   if (Contains(name, {"quat", "_rot", "orient", "rotation"})) return {4};
   if (Contains(name, {"root_state"})) return {13};
-  if (Contains(name, {"dof", "joint", "action", "torque"})) return {8};
+  if (OfJoints(name)) return {8};
   if (Contains(name, {"pos", "vel", "vec", "axis", "up", "heading", "target", "point", "goal"})) {
     return {3};
   }
@@ -93,6 +42,7 @@ std::vector<int> FirstGuess(const std::string& name, const Usage& usage) {
 struct Reach {
   bool whole = false;
   bool by_shape = false;  // another shape may mend what is wrong
+  bool by_type = false;   // flags may
   Position position;
   bool operator>(const Reach& other) const {
     if (whole != other.whole) return whole;
@@ -106,92 +56,191 @@ constexpr std::string_view kShapeFaults[] = {
     "loop",  "bad-reward", "bad-success", "condition",   "shared-reward", "too-large"};
 
 // What a program may cost to guess at, in attempts.
-constexpr int kMostAttempts = 150;
+constexpr int kMostAttempts = 200;
 
-Reach Try(const Module& module, const Function& entry, const RewardScene* scene,
-          const RewardOptions& options) {
-  RewardOptions until_first = options;
-  until_first.max_findings = 1;
-  Elaborator elaborator(module, scene, until_first);
-  elaborator.Run(entry);
-  Reach reach;
-  reach.position = elaborator.first_error();
-  reach.whole = elaborator.first_code().empty();
-  reach.by_shape = std::find(std::begin(kShapeFaults), std::end(kShapeFaults),
-                             elaborator.first_code()) != std::end(kShapeFaults);
-  return reach;
+// Looks for shapes by trying.
+class Search {
+ public:
+  Search(const Module& module, const Function& entry, const RewardScene* scene,
+         const RewardOptions& start)
+      : module_(module), entry_(entry), scene_(scene), options_(start), best_(Try(start)) {}
+
+  const RewardOptions& options() const { return options_; }
+  bool Done() const {
+    return best_.whole || !(best_.by_shape || best_.by_type) || attempts_ >= kMostAttempts;
+  }
+  bool by_shape() const { return best_.by_shape; }
+  bool by_type() const { return best_.by_type; }
+  bool whole() const { return best_.whole; }
+
+  Reach Try(const RewardOptions& options) {
+    ++attempts_;
+    RewardOptions until_first = options;
+    until_first.max_findings = 1;
+    Elaborator elaborator(module_, scene_, until_first);
+    elaborator.Run(entry_);
+    const std::string& code = elaborator.first_code();
+    Reach reach;
+    reach.position = elaborator.first_error();
+    reach.whole = code.empty();
+    reach.by_shape =
+        std::find(std::begin(kShapeFaults), std::end(kShapeFaults), code) != std::end(kShapeFaults);
+    reach.by_type = code == "type" || code == "index";
+    return reach;
+  }
+
+  // Keeps `changed` where it gets further.
+  bool Improve(const RewardOptions& changed) {
+    if (Done()) return false;
+    const Reach reach = Try(changed);
+    if (!(reach > best_)) return false;
+    best_ = reach;
+    options_ = changed;
+    return true;
+  }
+
+ private:
+  const Module& module_;
+  const Function& entry_;
+  const RewardScene* scene_;
+  RewardOptions options_;
+  int attempts_ = 0;
+  Reach best_;
+};
+
+bool TryFlags(const std::vector<std::string>& open, Search* search) {
+  bool better = false;
+  for (const std::string& name : open) {
+    RewardOptions changed = search->options();
+    if (!search->by_type() || !changed.flag_parameters.insert(name).second) continue;
+    if (search->Improve(changed)) {
+      better = true;
+      continue;
+    }
+    changed.parameter_shapes[name] = {};
+    better = search->Improve(changed) || better;
+  }
+  return better;
 }
 
-bool IsTensor(const Parameter& parameter) {
-  if (parameter.annotation == nullptr) return true;
-  const std::string& type = parameter.annotation->text;
-  return type == "Tensor" || type == "ndarray" || type == "FloatTensor" || type.empty();
+bool TryShapes(const std::vector<std::string>& open,
+               const std::vector<std::vector<int>>& candidates,
+               std::map<std::string, Usage>* usages, Search* search) {
+  bool better = false;
+  for (const std::string& name : open) {
+    std::vector<std::vector<int>> own = candidates;
+    if ((*usages)[name].width > 0) own.push_back({(*usages)[name].width});
+    for (const std::vector<int>& candidate : own) {
+      if (!search->by_shape()) return better;
+      RewardOptions changed = search->options();
+      changed.parameter_shapes[name] = candidate;
+      better = search->Improve(changed) || better;
+    }
+  }
+  return better;
+}
+
+// What belongs to the joints has one width: all of it changes together.
+bool TryWidthOfJoints(const std::vector<std::string>& open, const std::set<int>& widths,
+                      Search* search) {
+  bool better = false;
+  for (const int width : widths) {
+    RewardOptions changed = search->options();
+    for (const std::string& name : open) {
+      std::vector<int>& shape = changed.parameter_shapes[name];
+      if (OfJoints(name) && shape.size() == 1) shape = {width};
+    }
+    better = (search->by_shape() && search->Improve(changed)) || better;
+  }
+  return better;
+}
+
+// All that have one shape become one number an environment together: cart_pos, cart_vel.
+bool TryNumbers(const std::vector<std::string>& open, Search* search) {
+  bool better = false;
+  std::set<std::vector<int>> shapes;
+  for (const std::string& name : open) shapes.insert(search->options().parameter_shapes.at(name));
+  for (const std::vector<int>& shape : shapes) {
+    RewardOptions changed = search->options();
+    for (const std::string& name : open) {
+      if (changed.parameter_shapes[name] == shape) changed.parameter_shapes[name] = {};
+    }
+    better = (!shape.empty() && search->by_shape() && search->Improve(changed)) || better;
+  }
+  return better;
+}
+
+// Those that a joint's width was guessed for where one more would do as well, alone or together.
+std::vector<std::string> Assumed(const std::vector<std::string>& open, Search* search) {
+  std::vector<std::string> assumed;
+  RewardOptions together = search->options();
+  for (const std::string& name : open) {
+    std::vector<int>& shape = together.parameter_shapes[name];
+    if (!OfJoints(name) || shape.size() != 1) continue;
+    ++shape[0];
+    RewardOptions changed = search->options();
+    ++changed.parameter_shapes[name][0];
+    if (search->Try(changed).whole) assumed.push_back(name);
+  }
+  if (!search->Try(together).whole) return assumed;
+  assumed.clear();
+  for (const std::string& name : open) {
+    if (together.parameter_shapes[name] != search->options().parameter_shapes.at(name)) {
+      assumed.push_back(name);
+    }
+  }
+  return assumed;
+}
+
+std::vector<std::string> OpenParameters(const Function& entry, const RewardOptions& options) {
+  std::vector<std::string> open;
+  for (const Parameter& parameter : entry.parameters) {
+    const std::string& name = parameter.name;
+    if (name == "env" || name == "self" || name == "envs" || name == "simulator") continue;
+    const bool tensor = parameter.initial == nullptr && IsTensorType(AnnotatedType(parameter));
+    if (tensor && !options.parameter_shapes.contains(name)) open.push_back(name);
+  }
+  return open;
 }
 
 }  // namespace
 
-std::set<std::string> CalledNames(const Module& module) {
-  std::set<std::string> names;
-  for (const auto& function : module.functions) {
-    EachExpression(function->body, [&](const Expression& expression) {
-      if (expression.kind == ExpressionKind::kCall && !expression.children[0]->text.empty() &&
-          expression.children[0]->text != function->name) {
-        names.insert(expression.children[0]->text);
-      }
-    });
-  }
-  return names;
-}
-
-void InferParameterShapes(const Module& module, const Function& entry, const RewardScene* scene,
-                          RewardOptions* options) {
-  std::vector<std::string> open;
+std::vector<const Parameter*> InferParameterShapes(const Module& module, const Function& entry,
+                                                   const RewardScene* scene,
+                                                   RewardOptions* options) {
+  std::vector<std::string> open = OpenParameters(entry, *options);
+  if (open.empty()) return {};
   std::map<std::string, Usage> usages;
-  for (const Parameter& parameter : entry.parameters) {
-    const std::string& name = parameter.name;
-    if (name == "env" || name == "self" || name == "envs" || name == "simulator") continue;
-    if (!IsTensor(parameter) || options->parameter_shapes.contains(name)) continue;
-    open.push_back(name);
-    usages[name];
-  }
-  if (open.empty()) return;
-  EachExpression(entry.body, [&](const Expression& expression) {
-    if (expression.kind != ExpressionKind::kSubscript ||
-        expression.children[0]->kind != ExpressionKind::kName) {
-      return;
-    }
-    const auto found = usages.find(expression.children[0]->text);
-    if (found != usages.end()) NoteIndex(*expression.children[1], &found->second);
-  });
+  for (const std::string& name : open) usages[name];
+  NoteUsages(entry.body, &usages);
   for (const std::string& name : open) {
     options->parameter_shapes[name] = FirstGuess(name, usages[name]);
   }
   // First those of which the name says nothing.
   std::stable_partition(open.begin(), open.end(),
                         [](const std::string& name) { return GuessByName(name).empty(); });
-  Reach best = Try(module, entry, scene, *options);
-  int attempts = 0;
+  const std::set<int> lengths = ListLengths(module);
+  std::vector<std::vector<int>> candidates = {{3}, {4}, {}, {1}, {7}, {13}, {8}, {6}, {4, 3}};
+  for (const int length : lengths) candidates.push_back({length});
+  Search search(module, entry, scene, *options);
   // One parameter at a time, as long as something gets further.
-  for (int round = 0; round < 4 && !best.whole && best.by_shape; ++round) {
-    bool better = false;
-    for (const std::string& name : open) {
-      const std::vector<std::vector<int>> candidates = {
-          {3}, {4}, {}, {1}, {7}, {13}, {8}, {6}, {4, 3}, {usages[name].width}};
-      for (const std::vector<int>& candidate : candidates) {
-        if (candidate == std::vector<int>{0}) continue;
-        if (!best.by_shape || ++attempts > kMostAttempts) return;
-        RewardOptions changed = *options;
-        changed.parameter_shapes[name] = candidate;
-        const Reach reach = Try(module, entry, scene, changed);
-        if (!(reach > best)) continue;
-        best = reach;
-        options->parameter_shapes = changed.parameter_shapes;
-        better = true;
-        if (best.whole) return;
-      }
-    }
-    if (!better) return;
+  for (int round = 0; round < 4 && !search.Done(); ++round) {
+    bool better = TryFlags(open, &search);
+    better = TryWidthOfJoints(open, lengths, &search) || better;
+    better = TryNumbers(open, &search) || better;
+    better = TryShapes(open, candidates, &usages, &search) || better;
+    if (!better) break;
   }
+  *options = search.options();
+  std::vector<const Parameter*> assumed;
+  if (!search.whole()) return assumed;
+  const std::vector<std::string> names = Assumed(open, &search);
+  for (const Parameter& parameter : entry.parameters) {
+    if (std::find(names.begin(), names.end(), parameter.name) != names.end()) {
+      assumed.push_back(&parameter);
+    }
+  }
+  return assumed;
 }
 
 }  // namespace simwright::tasks::reward

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tasks/reward/local_names.h"
+
 namespace simwright::tasks::reward {
 namespace {
 
@@ -22,7 +24,6 @@ constexpr Refusal kRefused[] = {
     {"try", "no-exceptions", "try is not part of the language; nothing here raises"},
     {"raise", "no-exceptions", "raise is not part of the language; return a reward instead"},
     {"yield", "syntax", "yield is not part of the language; return the reward"},
-    {"del", "syntax", "del is not part of the language; the line can be left out"},
     {"lambda", "no-lambda", "lambda is not part of the language; write a named function with def"},
 };
 
@@ -55,6 +56,8 @@ class StatementParser : public ExpressionParser {
   Line ParseIf();
   Line ParseFor();
   Line ParseWith();
+  Line ParseNestedFunction();
+  Line ParseDelete();
   Line ParseAssert();
   Line ParseAssignment();
   std::string ParseModuleName();
@@ -118,15 +121,22 @@ std::unique_ptr<Function> StatementParser::ParseFunction() {
   ParseParameters(function.get());
   if (Accept("->")) ParseExpression();
   function->body = ParseBlock();
+  function->locals = LocalNames(function->body);
   return function;
 }
 
 void StatementParser::ParseParameters(Function* function) {
   Expect("(", "after the function's name");
   while (!At(")")) {
-    if (At("*") || At("**") || At("/")) {
+    const bool separator = At("*") && Peek(1).kind == TokenKind::kOperator && Peek(1).text == ",";
+    if ((At("*") && !separator) || At("**") || At("/")) {
       Fail("syntax", Peek().position,
            "parameters with '*' or '/' are not part of the language; name each one");
+    }
+    if (separator) {  // those after it are given by name
+      Take();
+      Take();
+      continue;
     }
     Parameter parameter;
     parameter.position = Peek().position;
@@ -148,6 +158,9 @@ Block StatementParser::ParseBlock() {
   Expect(":", "before the block");
   Block block;
   if (!AtKind(TokenKind::kNewline)) {
+    for (const std::string_view word : {"if", "for", "with", "def", "@"}) {
+      if (At(word)) Unexpected("a simple statement, or a new line,");
+    }
     ParseLine(&block);
     return block;
   }
@@ -155,10 +168,6 @@ Block StatementParser::ParseBlock() {
   if (!AtKind(TokenKind::kIndent)) Unexpected("an indented block");
   Take();
   while (!AtKind(TokenKind::kDedent) && !AtKind(TokenKind::kEnd)) {
-    if (At("def")) {
-      Fail("nested-function", Peek().position,
-           "a function inside a function is not part of the language; move it to the top level");
-    }
     ParseLine(&block);
   }
   if (AtKind(TokenKind::kDedent)) Take();
@@ -167,7 +176,8 @@ Block StatementParser::ParseBlock() {
 
 void StatementParser::ParseLine(Block* block) {
   RefuseIfUnknown();
-  if (At("if") || At("for") || At("with")) {
+  while (At("@")) SkipDecorator();
+  if (At("if") || At("for") || At("with") || At("def")) {
     block->push_back(ParseStatement());
     return;
   }
@@ -190,6 +200,7 @@ void StatementParser::EndOfLine() {
 
 StatementParser::Line StatementParser::ParseStatement() {
   if (At("if")) return ParseIf();
+  if (At("def")) return ParseNestedFunction();
   return At("for") ? ParseFor() : ParseWith();
 }
 
@@ -199,6 +210,7 @@ StatementParser::Line StatementParser::ParseSimple() {
   if (At("from")) return ParseFromImport();
   if (At("return")) return ParseReturn();
   if (At("assert")) return ParseAssert();
+  if (At("del")) return ParseDelete();
   static constexpr std::pair<std::string_view, StatementKind> kWords[] = {
       {"pass", StatementKind::kPass},
       {"break", StatementKind::kBreak},
@@ -297,6 +309,21 @@ StatementParser::Line StatementParser::ParseWith() {
     Fail("syntax", position, "'with' is read for torch.no_grad() alone");
   }
   statement->blocks.push_back(ParseBlock());
+  return statement;
+}
+
+StatementParser::Line StatementParser::ParseNestedFunction() {
+  Line statement = New(StatementKind::kFunction);
+  statement->function = ParseFunction();
+  return statement;
+}
+
+StatementParser::Line StatementParser::ParseDelete() {
+  Line statement = New(StatementKind::kDelete);
+  Take();
+  do {
+    statement->targets.push_back(ParseBinary(0));
+  } while (Accept(","));
   return statement;
 }
 

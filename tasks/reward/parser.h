@@ -38,6 +38,7 @@ class ExpressionParser {
 
   ExpressionPtr ParseExpression();      // no bare tuple
   ExpressionPtr ParseExpressionList();  // a tuple where there is a comma
+  ExpressionPtr ParseItem();            // of a list: an expression, or *expression
   ExpressionPtr ParseTarget();          // of a loop
   ExpressionPtr ParseBinary(int level);
 

@@ -262,21 +262,18 @@ Value PairwiseDistance(Elaborator& elaborator, const Arguments& arguments) {
       Length(math, math.Map(kAdd, gap, eps, DataType::kFloat, position), -1, false, position));
 }
 
-// The mean squared or absolute (variant 1) difference, a scalar unless reduction="none".
-Value Loss(Elaborator& elaborator, const Arguments& arguments) {
+// a_i b_j of two vectors.
+Value Outer(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
-  const Position position = arguments.position;
-  const Tensor gap = math.Map(kSubtract, FloatArgument(elaborator, arguments, 0),
-                              FloatArgument(elaborator, arguments, 1), DataType::kFloat, position);
-  const Tensor each = arguments.function->variant == 1
-                          ? math.Map(kAbsolute, gap, DataType::kFloat, position)
-                          : math.Map(kMultiply, gap, gap, DataType::kFloat, position);
-  const std::string reduction = arguments[2].Is(ValueKind::kString) ? arguments[2].text : "mean";
-  if (reduction == "none") return TensorValue(each);
-  std::vector<int> all;
-  for (std::size_t d = 0; d < each.shape.size(); ++d) all.push_back(static_cast<int>(d));
-  return TensorValue(reduction == "sum" ? math.Reduce(Reduction::kSum, each, all, false, position)
-                                        : math.Mean(each, all, false, position));
+  const Tensor a = TensorArgument(elaborator, arguments, 0);
+  const Tensor b = TensorArgument(elaborator, arguments, 1);
+  if (a.shape.size() != 1 || b.shape.size() != 1) {
+    Fail("shape", arguments.position,
+         "an outer product is of two vectors, these are " + ShapeText(a.shape) + " and " +
+             ShapeText(b.shape));
+  }
+  return TensorValue(math.Map(kMultiply, math.Unsqueeze(a, 1), math.Unsqueeze(b, 0),
+                              Promote(a.type, b.type), arguments.position));
 }
 
 constexpr LibraryFunction kFunctions[] = {
@@ -291,8 +288,7 @@ constexpr LibraryFunction kFunctions[] = {
      CosineSimilarity},
     {"torch.cdist cdist", "x1 x2", Cdist},
     {"torch.nn.functional.pairwise_distance torch.pairwise_distance", "x1 x2", PairwiseDistance},
-    {"torch.nn.functional.mse_loss", "input target reduction=None", Loss, kConstant, 0},
-    {"torch.nn.functional.l1_loss", "input target reduction=None", Loss, kConstant, 1},
+    {"torch.outer torch.ger np.outer", "input vec2", Outer},
 };
 
 }  // namespace

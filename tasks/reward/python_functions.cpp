@@ -1,4 +1,5 @@
 // Python's own functions, and the methods of lists, dictionaries and numbers.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -13,8 +14,8 @@ Value Length(Elaborator& elaborator, const Arguments& arguments) {
     return IntegerValue(static_cast<std::int64_t>(value.text.size()));
   }
   if (value.Is(ValueKind::kTensor) && !value.tensor->shape.empty() &&
-      value.tensor->shape[0] == kBatch) {
-    return PlainValue(ValueKind::kBatchSize);
+      RunsOverEnvironments(value.tensor->shape[0])) {
+    return elaborator.SizeValue(value.tensor->shape[0]);
   }
   return IntegerValue(
       static_cast<std::int64_t>(elaborator.Items(value, arguments.Place(0)).size()));
@@ -64,7 +65,7 @@ Value Extreme(Elaborator& elaborator, const Arguments& arguments) {
 Value Sum(Elaborator& elaborator, const Arguments& arguments) {
   const Value& value = arguments[0];
   if (value.Is(ValueKind::kTensor) && !value.tensor->shape.empty() &&
-      value.tensor->shape[0] == kBatch) {
+      RunsOverEnvironments(value.tensor->shape[0])) {
     return TensorValue(
         elaborator.math().Reduce(Reduction::kSum, *value.tensor, {0}, false, arguments.position));
   }
@@ -164,8 +165,111 @@ Value MakeList(Elaborator& elaborator, const Arguments& arguments) {
                                           : elaborator.NewList(std::move(items));
 }
 
-Value EmptyDict(Elaborator& elaborator, const Arguments&) {
-  return elaborator.NewDict({}, {});
+// dict(), dict(other); dict(name=value) is made where calls are (elaborate_calls.cpp).
+Value MakeDict(Elaborator& elaborator, const Arguments& arguments) {
+  const Value dict = elaborator.NewDict({}, {});
+  if (!arguments.given[0]) return dict;
+  if (arguments[0].Is(ValueKind::kDict)) {
+    elaborator.Update(dict, arguments[0], arguments.Place(0));
+    return dict;
+  }
+  for (const Value& pair : elaborator.Items(arguments[0], arguments.Place(0))) {
+    const std::vector<Value> both = elaborator.Items(pair, arguments.Place(0));
+    if (both.size() != 2) {
+      Fail("arguments", arguments.Place(0), "'dict' is made of pairs, a key and a value each");
+    }
+    elaborator.SetKey(dict, both[0], both[1], arguments.Place(0));
+  }
+  return dict;
+}
+
+Value DictUpdate(Elaborator& elaborator, const Arguments& arguments) {
+  if (arguments[1].Is(ValueKind::kDict)) {
+    const Object other = elaborator.math().heap()[arguments[1].object];
+    if (std::any_of(other.items->begin(), other.items->end(),
+                    [](const Value& value) { return HoldsContainer(value); })) {
+      Fail("type", arguments.Place(1), "a list or dictionary inside another cannot be set here");
+    }
+  }
+  elaborator.Update(arguments[0], arguments[1], arguments.Place(1));
+  return Value{};
+}
+
+Value DictPop(Elaborator& elaborator, const Arguments& arguments) {
+  const Object dict = elaborator.math().heap()[arguments[0].object];
+  for (const Value& key : *dict.keys) {
+    if (key.kind == arguments[1].kind && key.text == arguments[1].text &&
+        key.integer == arguments[1].integer) {
+      return elaborator.RemoveKey(arguments[0], arguments[1], arguments.position);
+    }
+  }
+  if (!arguments.given[2]) elaborator.Subscript(arguments[0], arguments[1], arguments.position);
+  return arguments[2];
+}
+
+// dict.copy and list.copy.
+Value CopyObject(Elaborator& elaborator, const Arguments& arguments) {
+  const Object object = elaborator.math().heap()[arguments[0].object];
+  return arguments[0].Is(ValueKind::kDict) ? elaborator.NewDict(*object.keys, *object.items)
+                                           : elaborator.NewList(*object.items);
+}
+
+Value Reversed(Elaborator& elaborator, const Arguments& arguments) {
+  std::vector<Value> items = elaborator.Items(arguments[0], arguments.Place(0));
+  std::reverse(items.begin(), items.end());
+  return TupleValue(std::move(items));
+}
+
+// Of strings or of numbers that are known; what differs between environments is torch.sort's.
+Value Sorted(Elaborator& elaborator, const Arguments& arguments) {
+  std::vector<Value> items = elaborator.Items(arguments[0], arguments.Place(0));
+  const bool texts = !items.empty() && items[0].Is(ValueKind::kString);
+  for (const Value& item : items) {
+    if (texts ? item.Is(ValueKind::kString) : item.IsNumber()) continue;
+    Fail("type", arguments.Place(0),
+         "strings or numbers are sorted here, one of these is " + Describe(item) +
+             "; of tensors use torch.sort");
+  }
+  std::stable_sort(items.begin(), items.end(), [&](const Value& a, const Value& b) {
+    return texts ? a.text < b.text : a.Number() < b.Number();
+  });
+  if (FlagArgument(arguments, 1)) std::reverse(items.begin(), items.end());
+  return elaborator.NewList(std::move(items));
+}
+
+bool IsInstanceOf(const Value& value, const Value& type, const Arguments& arguments) {
+  const std::string& name = type.text;
+  const bool tensor = value.Is(ValueKind::kTensor);
+  if (type.Is(ValueKind::kOpaque) && (name == "Tensor" || name == "ndarray")) return tensor;
+  if (type.Is(ValueKind::kLibrary)) {
+    if (name == "float") return value.Is(ValueKind::kFloat);
+    if (name == "int") return value.Is(ValueKind::kInteger) || value.Is(ValueKind::kBool);
+    if (name == "bool") return value.Is(ValueKind::kBool);
+    if (name == "str") return value.Is(ValueKind::kString);
+    if (name == "list") return value.Is(ValueKind::kList);
+    if (name == "tuple") return value.Is(ValueKind::kTuple);
+    if (name == "dict") return value.Is(ValueKind::kDict);
+  }
+  Fail("arguments", arguments.Place(1),
+       "'isinstance' knows torch.Tensor, float, int, bool, str, list, tuple and dict, this is " +
+           Describe(type));
+}
+
+Value IsInstance(Elaborator& elaborator, const Arguments& arguments) {
+  std::vector<Value> types = {arguments[1]};
+  if (arguments[1].Is(ValueKind::kTuple)) {
+    types = elaborator.Items(arguments[1], arguments.Place(1));
+  }
+  if (arguments[0].Is(ValueKind::kUndefined)) {
+    elaborator.math().FromValue(arguments[0], arguments.Place(0));
+  }
+  bool found = false;
+  for (const Value& type : types) found = IsInstanceOf(arguments[0], type, arguments) || found;
+  return BoolValue(found);
+}
+
+Value IsTensor(Elaborator&, const Arguments& arguments) {
+  return BoolValue(arguments[0].Is(ValueKind::kTensor));
 }
 
 // list.append and list.extend (variant 1).
@@ -175,7 +279,9 @@ Value Append(Elaborator& elaborator, const Arguments& arguments) {
   std::vector<Value> added = {arguments[1]};
   if (arguments.function->variant == 1) {
     added = elaborator.Items(arguments[1], arguments.Place(1));
-  } else if (arguments[1].Is(ValueKind::kList) || arguments[1].Is(ValueKind::kDict)) {
+  }
+  if (std::any_of(added.begin(), added.end(),
+                  [](const Value& value) { return HoldsContainer(value); })) {
     Fail("type", arguments.Place(1), "a list or dictionary inside another cannot be appended");
   }
   for (Value& value : added) items.push_back(std::move(value));
@@ -237,7 +343,14 @@ constexpr LibraryFunction kFunctions[] = {
     {"zip", "*values", Zip},
     {"list", "values=None", MakeList, kNothing, 0},
     {"tuple", "values=None", MakeList, kNothing, 1},
-    {"dict", "", EmptyDict},
+    {"dict", "values=None", MakeDict},
+    {"reversed", "values", Reversed},
+    {"sorted", "values reverse=False", Sorted},
+    {"isinstance", "value type", IsInstance},
+    {"torch.is_tensor", "value", IsTensor},
+    {"Dict.update", "dict other", DictUpdate},
+    {"Dict.pop", "dict key default=None", DictPop},
+    {"Dict.copy List.copy", "object", CopyObject},
     {"List.append", "list value", Append, kNothing, 0},
     {"List.extend", "list values", Append, kNothing, 1},
     {"Dict.keys", "dict", DictView, kNothing, 0},

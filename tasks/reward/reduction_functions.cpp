@@ -75,7 +75,7 @@ Value Norm(Elaborator& elaborator, const Arguments& arguments) {
   const std::vector<int> dimensions = Dimensions(elaborator, arguments, 2, tensor);
   const bool keep = FlagArgument(arguments, 3);
   if (std::any_of(dimensions.begin(), dimensions.end(),
-                  [&](int dimension) { return tensor.shape[dimension] == kBatch; })) {
+                  [&](int dimension) { return RunsOverEnvironments(tensor.shape[dimension]); })) {
     elaborator.Report("norm-over-environments", core::Severity::kWarning, position,
                       "this is one length over all environments; name the dimension, dim=-1");
   }
@@ -124,7 +124,7 @@ Tensor PlaceOfExtreme(Elaborator& elaborator, const Tensor& tensor, int dimensio
 // Everywhere where it is of any use: a place among the environments is not offered.
 Value PlaceValue(Elaborator& elaborator, const Tensor& tensor, int dimension, bool keep,
                  bool largest, Position position) {
-  if (tensor.shape[dimension] == kBatch) {
+  if (RunsOverEnvironments(tensor.shape[dimension])) {
     return PlainValue(ValueKind::kUndefined,
                       "which environment is the best one is not offered; name another dimension "
                       "with dim=");
@@ -195,6 +195,23 @@ Value Softmax(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(math.Map(kDivide, power, sum, DataType::kFloat, position));
 }
 
+// log of the sum of e^x along dimensions, the largest taken out first.
+Value LogSumExp(Elaborator& elaborator, const Arguments& arguments) {
+  TensorMath& math = elaborator.math();
+  const Position position = arguments.position;
+  const Tensor tensor = FloatArgument(elaborator, arguments, 0);
+  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
+  const bool keep = FlagArgument(arguments, 2);
+  const Tensor most = math.Reduce(Reduction::kMaximum, tensor, dimensions, true, position);
+  const Tensor power =
+      math.Map(kExponential, math.Map(kSubtract, tensor, most, DataType::kFloat, position),
+               DataType::kFloat, position);
+  const Tensor sum = math.Reduce(Reduction::kSum, power, dimensions, keep, position);
+  const Tensor added = math.Reduce(Reduction::kMaximum, tensor, dimensions, keep, position);
+  return TensorValue(math.Map(kAdd, math.Map(kLogarithm, sum, DataType::kFloat, position), added,
+                              DataType::kFloat, position));
+}
+
 constexpr int Variant(Reduction reduction) {
   return static_cast<int>(reduction);
 }
@@ -224,6 +241,7 @@ constexpr LibraryFunction kFunctions[] = {
     {"torch.argmin Tensor.argmin np.argmin", "input dim=None keepdim=False", PlaceOf, kConstant, 0},
     {"torch.argmax Tensor.argmax np.argmax", "input dim=None keepdim=False", PlaceOf, kConstant, 1},
     {"torch.count_nonzero np.count_nonzero", "input dim=None", CountNonzero},
+    {"torch.logsumexp Tensor.logsumexp", "input dim keepdim=False", LogSumExp},
     {"torch.softmax Tensor.softmax torch.nn.functional.softmax", "input dim", Softmax},
 };
 

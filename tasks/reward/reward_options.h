@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct RewardOptions {
   // Trailing shapes of tensor parameters, e.g. {"object_pos", {3}} for [N, 3], {} for [N]. Those
   // not named are inferred from how they are used.
   std::map<std::string, std::vector<int>> parameter_shapes;
+  // Tensor parameters that hold flags, 0 or 1. Those not named are inferred as well.
+  std::set<std::string> flag_parameters;
 
   // False where a bound is out of its own range; says which in `error` unless null.
   bool IsValid(std::string* error) const;

@@ -20,6 +20,14 @@ std::vector<Tensor> TensorList(Elaborator& elaborator, const Arguments& argument
   return tensors;
 }
 
+// The same call with a second argument, the dimension.
+Arguments WithDimension(Arguments arguments, std::int64_t dimension) {
+  arguments.values.push_back(IntegerValue(dimension));
+  arguments.places.push_back(arguments.position);
+  arguments.given.push_back(true);
+  return arguments;
+}
+
 Value Stack(Elaborator& elaborator, const Arguments& arguments) {
   std::vector<Tensor> tensors = TensorList(elaborator, arguments);
   const std::int64_t at = IntegerArgument(elaborator, arguments, 1);
@@ -91,6 +99,41 @@ Value Reshape(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(elaborator.math().Reshape(tensor, sizes, arguments.position));
 }
 
+Value ReshapeAs(Elaborator& elaborator, const Arguments& arguments) {
+  const Tensor tensor = TensorArgument(elaborator, arguments, 0);
+  std::vector<std::int64_t> sizes;
+  for (const int size : TensorArgument(elaborator, arguments, 1).shape) {
+    sizes.push_back(size == kBatch ? TensorMath::kKnownBatch : size);
+  }
+  return TensorValue(elaborator.math().Reshape(tensor, sizes, arguments.position));
+}
+
+Value SwapTwo(Elaborator& elaborator, const Arguments& arguments) {
+  const Tensor tensor = TensorArgument(elaborator, arguments, 0);
+  if (tensor.shape.size() < 2) return TensorValue(tensor);
+  if (tensor.shape.size() > 2) {
+    Fail("dimension", arguments.position,
+         "'" + arguments.called + "' turns a table, this is " + ShapeText(tensor.shape) +
+             "; use .transpose(1, 2)");
+  }
+  return TensorValue(elaborator.math().Permute(tensor, {1, 0}));
+}
+
+// Side by side along the last of one or two dimensions.
+Value Columns(Elaborator& elaborator, const Arguments& arguments) {
+  const std::vector<Tensor> tensors = TensorList(elaborator, arguments);
+  const int dimension = tensors[0].shape.size() < 2 ? 0 : 1;
+  if (tensors[0].shape.empty()) return Stack(elaborator, WithDimension(arguments, 0));
+  return TensorValue(elaborator.math().Concatenate(tensors, dimension, arguments.position));
+}
+
+// One above the other; vectors become rows.
+Value Rows(Elaborator& elaborator, const Arguments& arguments) {
+  const std::vector<Tensor> tensors = TensorList(elaborator, arguments);
+  if (tensors[0].shape.size() < 2) return Stack(elaborator, WithDimension(arguments, 0));
+  return TensorValue(elaborator.math().Concatenate(tensors, 0, arguments.position));
+}
+
 Value Flatten(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
   const std::size_t rank = tensor.shape.size();
@@ -151,7 +194,7 @@ Value Repeat(Elaborator& elaborator, const Arguments& arguments) {
       shape[d] = kBatch;
       tensor = math.Expand(tensor, shape, arguments.position);
     } else if (times[d] >= 1 && times[d] <= elaborator.options().max_lanes &&
-               tensor.shape[d] != kBatch) {
+               !RunsOverEnvironments(tensor.shape[d])) {
       const std::vector<Tensor> copies(static_cast<std::size_t>(times[d]), tensor);
       tensor = math.Concatenate(copies, static_cast<int>(d), arguments.position);
     } else {
@@ -175,6 +218,9 @@ Value Flip(Elaborator& elaborator, const Arguments& arguments) {
       Fail("arguments", arguments.Place(1), "a dimension is a whole number");
     }
     const int dimension = math.Dimension(one.integer, tensor.shape.size(), arguments.Place(1));
+    if (IsPicked(tensor.shape[dimension])) {
+      Fail("index", arguments.position, "what a mask picks has no order here");
+    }
     if (tensor.shape[dimension] == kBatch) {
       tensor = math.Map(ScalarOperation::kBatchFlip, tensor, tensor.type, arguments.position);
       continue;
@@ -192,7 +238,7 @@ Value Flip(Elaborator& elaborator, const Arguments& arguments) {
 // torch.unbind, torch.split and torch.chunk, by the size of the pieces.
 Value Pieces(Elaborator& elaborator, const Tensor& tensor, int dimension, std::int64_t size,
              bool drop, Position position) {
-  if (tensor.shape[dimension] == kBatch) {
+  if (RunsOverEnvironments(tensor.shape[dimension])) {
     Fail("shape", position, "the environments cannot be parted; name another dimension with dim=");
   }
   std::vector<Value> pieces;
@@ -219,7 +265,7 @@ Value Split(Elaborator& elaborator, const Arguments& arguments) {
                                                     tensor.shape.size(), arguments.Place(2));
   std::int64_t size = IntegerArgument(elaborator, arguments, 1);
   if (size < 1) Fail("arguments", arguments.Place(1), "the pieces have to be at least 1 wide");
-  if (arguments.function->variant == 1 && tensor.shape[dimension] != kBatch) {
+  if (arguments.function->variant == 1 && !RunsOverEnvironments(tensor.shape[dimension])) {
     size = std::max<std::int64_t>(1, (tensor.shape[dimension] + size - 1) / size);
   }
   return Pieces(elaborator, tensor, dimension, size, false, arguments.position);
@@ -228,9 +274,7 @@ Value Split(Elaborator& elaborator, const Arguments& arguments) {
 Value Size(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
   std::vector<Value> sizes;
-  for (const int size : tensor.shape) {
-    sizes.push_back(size == kBatch ? PlainValue(ValueKind::kBatchSize) : IntegerValue(size));
-  }
+  for (const int size : tensor.shape) sizes.push_back(elaborator.SizeValue(size));
   if (arguments[1].Is(ValueKind::kNone)) return TupleValue(std::move(sizes));
   return sizes[elaborator.math().Dimension(IntegerArgument(elaborator, arguments, 1), sizes.size(),
                                            arguments.Place(1))];
@@ -244,10 +288,11 @@ Value Rank(Elaborator& elaborator, const Arguments& arguments) {
 Value ElementCount(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
   const std::int64_t lanes = LaneCount(tensor.shape);
-  if (BatchDimension(tensor.shape) < 0) return IntegerValue(lanes);
-  if (lanes == 1) return PlainValue(ValueKind::kBatchSize);
-  return elaborator.Binary(Operator::kMultiply, IntegerValue(lanes),
-                           PlainValue(ValueKind::kBatchSize), arguments.position);
+  const auto over = std::find_if(tensor.shape.begin(), tensor.shape.end(), RunsOverEnvironments);
+  if (over == tensor.shape.end()) return IntegerValue(lanes);
+  const Value rows = elaborator.SizeValue(*over);
+  if (lanes == 1) return rows;
+  return elaborator.Binary(Operator::kMultiply, IntegerValue(lanes), rows, arguments.position);
 }
 
 constexpr ScalarOperation kNothing = ScalarOperation::kConstant;
@@ -257,9 +302,14 @@ constexpr LibraryFunction kFunctions[] = {
     {"torch.cat torch.concat torch.concatenate np.concatenate", "tensors dim=0", Concatenate},
     {"torch.unsqueeze Tensor.unsqueeze np.expand_dims", "input dim", Unsqueeze},
     {"torch.squeeze Tensor.squeeze np.squeeze", "input dim=None", Squeeze},
-    {"torch.transpose Tensor.transpose torch.swapaxes", "input dim0 dim1", Transpose},
+    {"torch.transpose Tensor.transpose torch.swapaxes Tensor.swapaxes", "input dim0 dim1",
+     Transpose},
     {"torch.permute Tensor.permute np.transpose", "input *dims", Permute},
     {"torch.reshape Tensor.reshape Tensor.view np.reshape", "input *shape", Reshape},
+    {"Tensor.view_as Tensor.reshape_as", "input other", ReshapeAs},
+    {"torch.t Tensor.t", "input", SwapTwo},
+    {"torch.vstack np.vstack", "tensors", Rows},
+    {"torch.hstack np.hstack", "tensors", Columns},
     {"torch.flatten Tensor.flatten Tensor.ravel np.ravel", "input start_dim=0 end_dim=-1", Flatten},
     {"Tensor.expand torch.broadcast_to np.broadcast_to", "input *size", Expand},
     {"Tensor.expand_as", "input other", ExpandAs},

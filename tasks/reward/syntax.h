@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -49,19 +50,21 @@ enum class ExpressionKind {
   kFloat,
   kString,
   kFormatString,  // children: the parts, joined
+  kFormatted,     // children[0] as text; text: what follows ':'; integer: the letter after '!'
   kName,          // text
   kTuple,
   kList,
-  kDict,               // children: key, value, key, value ...
-  kUnary,              // operation, children[0]
-  kBinary,             // operation, children[0..1]
-  kCompare,            // children[0] operations[0] children[1] operations[1] ...
-  kBoolean,            // operation, children
-  kConditional,        // children: condition, then, otherwise
-  kCall,               // children[0]: callee; then arguments, named by keywords ("" or "*": none)
-  kAttribute,          // children[0].text
-  kSubscript,          // children[0][children[1]]
-  kSlice,              // children: start, stop, step; each may be null
+  kDict,         // children: key, value, key, value ...; no key: all of a dictionary
+  kStarred,      // *children[0], in a target or a list
+  kUnary,        // operation, children[0]
+  kBinary,       // operation, children[0..1]
+  kCompare,      // children[0] operations[0] children[1] operations[1] ...
+  kBoolean,      // operation, children
+  kConditional,  // children: condition, then, otherwise
+  kCall,         // children[0]: callee; then arguments, named by keywords ("", "*", "**": none)
+  kAttribute,    // children[0].text
+  kSubscript,    // children[0][children[1]]
+  kSlice,        // children: start, stop, step; each may be null
   kListComprehension,  // children: element, target, iterable, condition or null
   kDictComprehension,  // children: key, target, iterable, condition or null, value
 };
@@ -90,12 +93,15 @@ enum class StatementKind {
   kIf,          // targets: conditions; blocks: one each, and a last one for else
   kFor,         // targets[0] in value: blocks[0]
   kBlock,       // blocks[0], of a harmless `with`
+  kFunction,    // function, defined inside another
+  kDelete,      // targets
   kImport,      // imports
   kPass,
   kBreak,
   kContinue,
 };
 
+struct Function;
 struct Statement;
 using Block = std::vector<std::unique_ptr<Statement>>;
 
@@ -114,6 +120,7 @@ struct Statement {
   ExpressionPtr value;
   std::vector<Block> blocks;
   std::vector<Import> imports;
+  std::shared_ptr<const Function> function;
 };
 
 struct Parameter {
@@ -128,6 +135,7 @@ struct Function {
   Position position;
   std::vector<Parameter> parameters;
   Block body;
+  std::set<std::string> locals;  // names that the body sets: they are its own
 };
 
 struct Module {

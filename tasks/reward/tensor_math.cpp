@@ -7,7 +7,7 @@ namespace simwright::tasks::reward {
 namespace {
 
 int LaneSize(int size) {
-  return size == kBatch ? 1 : size;
+  return RunsOverEnvironments(size) ? 1 : size;
 }
 
 // How far a step along each dimension goes through the lanes.
@@ -53,7 +53,7 @@ DataType Promote(DataType a, DataType b) {
 }
 
 Tensor TensorMath::Make(DataType type, Shape shape, std::vector<NodeId> nodes, Position position) {
-  if (std::count(shape.begin(), shape.end(), kBatch) > 1) {
+  if (std::count_if(shape.begin(), shape.end(), RunsOverEnvironments) > 1) {
     Fail("two-batches", position,
          "this would make " + ShapeText(shape) +
              ", every environment against every other; keep one dimension of environments");
@@ -162,7 +162,9 @@ Shape TensorMath::Broadcast(const Shape& a, const Shape& b, Position position) c
     const int right = d + b.size() < rank ? 1 : b[d + b.size() - rank];
     if (left != right && left != 1 && right != 1) {
       std::string hint;
-      if (a.size() != b.size() && (left == kBatch || right == kBatch)) {
+      if (IsPicked(left) || IsPicked(right)) {
+        hint = "; M are the environments that a mask picks: use torch.where(mask, a, b)";
+      } else if (a.size() != b.size() && (left == kBatch || right == kBatch)) {
         hint = "; a row of environments needs .unsqueeze(-1) to meet a table of them";
       }
       Fail("shape", position,
@@ -170,7 +172,7 @@ Shape TensorMath::Broadcast(const Shape& a, const Shape& b, Position position) c
     }
     shape[d] = left == 1 ? right : left;
   }
-  if (std::count(shape.begin(), shape.end(), kBatch) > 1) {
+  if (std::count_if(shape.begin(), shape.end(), RunsOverEnvironments) > 1) {
     Fail("two-batches", position,
          "shapes " + ShapeText(a) + " and " + ShapeText(b) + " would make " + ShapeText(shape) +
              ", every environment against every other; give both the same dimensions "
@@ -214,6 +216,11 @@ Tensor TensorMath::Take(const Tensor& tensor, int dimension, std::int64_t index,
   const int size = tensor.shape[dimension];
   Shape shape = tensor.shape;
   shape.erase(shape.begin() + dimension);
+  if (IsPicked(size)) {
+    Fail("index", position,
+         "which environments a mask picks is not known before, so none of them can be taken; "
+         "reduce them with .mean(), .sum(), .max()");
+  }
   if (size == kBatch) {  // one environment's numbers, for all
     std::vector<NodeId> nodes = Nodes(tensor);
     if (index < -1'000'000 || index > 1'000'000) {
@@ -269,6 +276,9 @@ Tensor TensorMath::Permute(const Tensor& tensor, const std::vector<int>& order) 
 
 Tensor TensorMath::Reshape(const Tensor& tensor, const std::vector<std::int64_t>& sizes,
                            Position position) {
+  if (HoldsPicked(tensor.shape)) {
+    Fail("shape", position, "what a mask picks keeps its shape " + ShapeText(tensor.shape));
+  }
   const int batch = BatchDimension(tensor.shape);
   const std::int64_t lanes = LaneCount(tensor.shape);
   std::int64_t product = 1;
@@ -326,7 +336,7 @@ Tensor TensorMath::Concatenate(const std::vector<Tensor>& tensors, int dimension
            "shapes " + ShapeText(shape) + " and " + ShapeText(tensor.shape) +
                " cannot be joined along dimension " + std::to_string(dimension));
     }
-    if (tensor.shape[dimension] == kBatch) {
+    if (RunsOverEnvironments(tensor.shape[dimension])) {
       Fail("shape", position,
            "joining along the environments would change their number; join along the last "
            "dimension (dim=-1)");

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "tasks/reward/tensor_math.h"
 
@@ -14,7 +15,7 @@ std::vector<int> Targets(const Shape& shape, const std::vector<int>& dimensions)
   std::vector<int> sizes(shape.size()), strides(shape.size(), 0);
   int stride = 1;
   for (std::size_t d = shape.size(); d-- > 0;) {
-    sizes[d] = shape[d] == kBatch ? 1 : shape[d];
+    sizes[d] = RunsOverEnvironments(shape[d]) ? 1 : shape[d];
     if (Contains(dimensions, static_cast<int>(d))) continue;
     strides[d] = stride;
     stride *= sizes[d];
@@ -28,6 +29,21 @@ std::vector<int> Targets(const Shape& shape, const std::vector<int>& dimensions)
     }
   }
   return targets;
+}
+
+// What changes nothing in a reduction: the value of those that a mask leaves out.
+double Neutral(Reduction reduction) {
+  switch (reduction) {
+    case Reduction::kMinimum:
+      return HUGE_VAL;
+    case Reduction::kMaximum:
+      return -HUGE_VAL;
+    case Reduction::kProduct:
+    case Reduction::kAll:
+      return 1.0;
+    default:
+      return 0.0;
+  }
 }
 
 }  // namespace
@@ -86,7 +102,8 @@ Tensor TensorMath::Reduce(Reduction reduction, const Tensor& tensor,
     NodeId& node = nodes[targets[lane]];
     node = node < 0 ? At(operand, lane) : Combine(reduction, node, At(operand, lane));
   }
-  const bool over_batch = Contains(dimensions, BatchDimension(operand.shape));
+  const auto over = std::find_if(dimensions.begin(), dimensions.end(),
+                                 [&](int d) { return RunsOverEnvironments(operand.shape[d]); });
   for (NodeId& node : nodes) {
     if (node < 0) {  // over nothing
       if (reduction == Reduction::kMinimum || reduction == Reduction::kMaximum) {
@@ -95,7 +112,13 @@ Tensor TensorMath::Reduce(Reduction reduction, const Tensor& tensor,
       const bool one = reduction == Reduction::kProduct || reduction == Reduction::kAll;
       node = graph_.Constant(one ? 1.0 : 0.0);
     }
-    if (over_batch) node = OverBatch(reduction, node, position);
+    if (over == dimensions.end()) continue;
+    const int size = operand.shape[*over];
+    if (IsPicked(size)) {
+      node = graph_.Apply(ScalarOperation::kSelect, PickingFlag(size), node,
+                          graph_.Constant(Neutral(reduction)));
+    }
+    node = OverBatch(reduction, node, position);
   }
   DataType type = flags ? DataType::kBool : tensor.type;
   const bool adds = reduction == Reduction::kSum || reduction == Reduction::kProduct;
@@ -105,15 +128,18 @@ Tensor TensorMath::Reduce(Reduction reduction, const Tensor& tensor,
 
 NodeId TensorMath::CountOver(const Tensor& tensor, const std::vector<int>& dimensions) {
   double count = 1.0;
-  bool batch = false;
+  NodeId rows = -1;
   for (const int d : dimensions) {
-    if (tensor.shape[d] == kBatch)
-      batch = true;
-    else
+    if (!RunsOverEnvironments(tensor.shape[d])) {
       count *= tensor.shape[d];
+      continue;
+    }
+    rows = IsPicked(tensor.shape[d])
+               ? graph_.Apply(ScalarOperation::kBatchSum, PickingFlag(tensor.shape[d]))
+               : graph_.BatchSize();
   }
   const NodeId lanes = graph_.Constant(count);
-  return batch ? graph_.Apply(ScalarOperation::kMultiply, lanes, graph_.BatchSize()) : lanes;
+  return rows < 0 ? lanes : graph_.Apply(ScalarOperation::kMultiply, lanes, rows);
 }
 
 Tensor TensorMath::Mean(const Tensor& tensor, const std::vector<int>& dimensions, bool keep,

@@ -9,7 +9,7 @@ std::string ShapeText(const Shape& shape) {
   std::string text = "[";
   for (const int size : shape) {
     if (text.size() > 1) text += ", ";
-    text += size == kBatch ? "N" : std::to_string(size);
+    text += size == kBatch ? "N" : IsPicked(size) ? "M" : std::to_string(size);
   }
   return text + "]";
 }
@@ -18,9 +18,14 @@ std::int64_t LaneCount(const Shape& shape) {
   std::int64_t count = 1;
   for (const int size : shape) {
     // Far beyond every bound, and far from the end of 64 bits.
-    if (size != kBatch) count = std::min<std::int64_t>(count * size, std::int64_t{1} << 31);
+    if (!RunsOverEnvironments(size))
+      count = std::min<std::int64_t>(count * size, std::int64_t{1} << 31);
   }
   return count;
+}
+
+bool HoldsPicked(const Shape& shape) {
+  return std::any_of(shape.begin(), shape.end(), IsPicked);
 }
 
 int BatchDimension(const Shape& shape) {
@@ -73,6 +78,23 @@ Value TupleValue(std::vector<Value> items) {
   Value value = PlainValue(ValueKind::kTuple);
   value.items = std::make_shared<const std::vector<Value>>(std::move(items));
   return value;
+}
+
+namespace {
+
+// True as well where there is too much to look through.
+bool HoldsContainer(const Value& value, int* budget) {
+  if (--*budget < 0 || value.Is(ValueKind::kList) || value.Is(ValueKind::kDict)) return true;
+  return value.items != nullptr &&
+         std::any_of(value.items->begin(), value.items->end(),
+                     [&](const Value& item) { return HoldsContainer(item, budget); });
+}
+
+}  // namespace
+
+bool HoldsContainer(const Value& value) {
+  int budget = 1000;
+  return HoldsContainer(value, &budget);
 }
 
 std::string Describe(const Value& value) {

@@ -19,7 +19,24 @@ enum class DataType { kBool, kInteger, kFloat };
 constexpr int kBatch = -1;
 using Shape = std::vector<int>;
 
-// "[N, 3]"; a scalar is "a scalar".
+// The size of a dimension that runs over the environments where a flag is set, x[mask]: equal flags
+// give equal sizes, so that only what was picked alike fits together.
+constexpr int PickedBy(NodeId flag) {
+  return kBatch - 1 - flag;
+}
+constexpr bool IsPicked(int size) {
+  return size < kBatch;
+}
+constexpr NodeId PickingFlag(int size) {
+  return kBatch - 1 - size;
+}
+// All environments, or those that are picked.
+constexpr bool RunsOverEnvironments(int size) {
+  return size <= kBatch;
+}
+bool HoldsPicked(const Shape& shape);
+
+// "[N, 3]"; a scalar is "a scalar", M stands for the environments that a mask picks.
 std::string ShapeText(const Shape& shape);
 
 // Numbers an environment of a tensor of this shape: the product of its sizes, N left out.
@@ -61,6 +78,14 @@ enum class ValueKind {
   kUndefined,    // text: why it cannot be used; empty where reported already
 };
 
+struct Value;
+
+// What a function that was defined inside another carries with it.
+struct Closure {
+  int frame = 0;                // the number of the call that it was defined in
+  std::vector<Value> initials;  // of its parameters
+};
+
 struct Value {
   ValueKind kind = ValueKind::kNone;
   std::int64_t integer = 0;
@@ -71,6 +96,7 @@ struct Value {
   int object = -1;
   const Function* function = nullptr;
   const LibraryFunction* library = nullptr;
+  std::shared_ptr<const Closure> closure;  // of a function inside another
   // An index along a dimension that is not offered is named only where it is used: the second of
   // (values, indices) carries its names.
   std::shared_ptr<const std::vector<std::string>> field_names;
@@ -93,6 +119,10 @@ Value StringValue(std::string text);
 Value TensorValue(Tensor tensor);
 Value TupleValue(std::vector<Value> items);
 Value PlainValue(ValueKind kind, std::string text = "");
+
+// A list or dictionary, or a tuple with one in it. What is changed later may take none of these, so
+// that nothing ever holds itself.
+bool HoldsContainer(const Value& value);
 
 // "a tensor [N, 3]", "a string", for sentences.
 std::string Describe(const Value& value);

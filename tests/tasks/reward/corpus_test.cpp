@@ -2,6 +2,7 @@
 // same random states.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -31,6 +32,7 @@ struct CorpusRun {
 
 bool IsQuaternion(const RewardSlot& slot) {
   return slot.width == 4 && (slot.part.find("rot") != std::string::npos ||
+                             slot.part.find("quat") != std::string::npos ||
                              RewardInputName(slot.input).find("orient") != std::string::npos);
 }
 
@@ -40,11 +42,11 @@ std::vector<float> RandomInput(const RewardSlot& slot, std::mt19937* generator) 
   if (slot.uniform) return {static_cast<float>(2 + (*generator)() % 4)};
   std::vector<float> values(static_cast<std::size_t>(kEnvironments) * slot.width);
   for (float& value : values) value = uniform(*generator);
-  const bool flag =
-      slot.input == RewardInput::kGripperContact || slot.input == RewardInput::kGrasped;
+  const bool flag = slot.flags || slot.input == RewardInput::kGripperContact ||
+                    slot.input == RewardInput::kGrasped;
   for (int i = 0; i < kEnvironments; ++i) {
     float* row = &values[static_cast<std::size_t>(i) * slot.width];
-    if (flag) row[0] = row[0] > 0.0f ? 1.0f : 0.0f;
+    for (int k = 0; flag && k < slot.width; ++k) row[k] = row[k] > 0.0f ? 1.0f : 0.0f;
     if (slot.width == 6) {
       for (int k = 0; k < 3; ++k) row[3 + k] = row[k] + std::fabs(row[3 + k]) * 1.5f;
     }
@@ -77,7 +79,11 @@ void WriteManifest(const std::vector<CorpusRun>& runs, const fs::path& path) {
     for (std::size_t i = 0; i < run.inputs.size(); ++i) {
       const RewardSlot& slot = run.program.slots()[i];
       out << "slot " << RewardInputName(slot.input) << ' ' << word(slot.asset) << ' '
-          << word(slot.part) << ' ' << (slot.uniform ? 1 : 0) << ' ' << TrailingSizes(slot.shape);
+          << word(slot.part) << ' '
+          << (slot.uniform ? "shared"
+              : slot.flags ? "flags"
+                           : "numbers")
+          << ' ' << TrailingSizes(slot.shape);
       for (const float value : run.inputs[i]) out << ' ' << value;
       out << '\n';
     }
@@ -148,8 +154,9 @@ Results RunHere(const CorpusRun& run, bool columns) {
   results["reward"].assign(reward.begin(), reward.end());
   if (run.program.has_success()) results["success"].assign(success.begin(), success.end());
   for (std::size_t i = 0; i < components.size(); ++i) {
-    results["component:" + run.program.components()[i].name].assign(components[i].begin(),
-                                                                    components[i].end());
+    std::string name = "component:" + run.program.components()[i].name;
+    std::replace(name.begin(), name.end(), ' ', '~');  // results.txt is parted by blanks
+    results[name].assign(components[i].begin(), components[i].end());
   }
   return results;
 }
@@ -162,9 +169,9 @@ std::vector<CorpusRun> Programs() {
   }
   std::sort(files.begin(), files.end());
   const RewardScene scene = SampleScene();
-  std::mt19937 generator(7);
   std::vector<CorpusRun> runs;
   for (const fs::path& file : files) {
+    std::mt19937 generator(7);  // so that no program's numbers hang on the others
     const std::string source = core::ReadFile(file);
     const CompileOutcome outcome = CompileReward(source, &scene);
     for (const core::Finding& finding : outcome.findings) {
@@ -178,7 +185,7 @@ std::vector<CorpusRun> Programs() {
     }
   }
   EXPECT_EQ(runs.size(), files.size());
-  EXPECT_GE(runs.size(), 10u);
+  EXPECT_GE(runs.size(), 34u);
   return runs;
 }
 

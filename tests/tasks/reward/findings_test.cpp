@@ -48,9 +48,8 @@ const Case kSyntax[] = {
     {"Try", BODY "    try:\n        pass\n", "no-exceptions", "2:5", "try"},
     {"Global", BODY "    global x\n", "no-global", "2:5", "pass values"},
     {"Walrus", BODY "    if (x := 1):\n        pass\n", "no-walrus", "2:11", "':='"},
-    {"Nested", BODY "    def f():\n        return 1\n    return f()\n", "nested-function", "2:5",
-     "top level"},
     {"Decorator", "@cached\n" BODY "    return 0\n", "bad-decorator", "1:1", "@cached"},
+    {"BlockOnLine", BODY "    if 1: if 2: return 1\n", "syntax", "2:11", "simple statement"},
     {"Star", "def compute_reward(*args):\n    return 0\n", "syntax", "1:20", "'*'"},
     {"OpenBracket", BODY "    x = (1 + 2\n    return x\n", "open-bracket", "2:9", "'('"},
     {"CloseBracket", BODY "    x = 1)\n", "open-bracket", "2:10", "')'"},
@@ -111,6 +110,37 @@ const Case kNames[] = {
      "itself"},
     {"BranchOnly", GRIPPER "    if g[:, 0] > 0:\n        r = g[:, 1]\n    return r\n", "undefined",
      "5:12", "'r' is set only"},
+    {"OwnName", "x = 1\n" GRIPPER "    y = x\n    x = 2\n    return g[:, 0] + y\n", "undefined",
+     "4:9", "before it is set"},
+    {"EndedFunction",
+     "def f(a):\n    b = a + 1\n    def g():\n        return b\n    return g\n" GRIPPER
+     "    return g[:, 0] + f(1)()\n",
+     "nested-function", "4:16", "has ended"},
+    {"InnerRecursion", GRIPPER "    def f(x):\n        return f(x)\n    return f(g)\n", "recursion",
+     "4:16", "itself"},
+    {"Deleted", GRIPPER "    r = g[:, 0]\n    del r\n    return r\n", "undefined", "5:12",
+     "deleted in line 4"},
+    {"DeletedPart", GRIPPER "    del g[0]\n    return g[:, 0]\n", "bad-target", "3:10", "names"},
+    {"FormatOfTensor", GRIPPER "    k = f'{g[:, 0]:.2f}'\n    return g[:, 0]\n", "bad-string",
+     "3:9", "are known"},
+    {"UnknownFormat", GRIPPER "    k = f'{1.5:.2q}'\n    return g[:, 0]\n", "bad-string", "3:9",
+     ":.2f"},
+    {"FormatInFormat", GRIPPER "    k = f'{1.5:{2}}'\n    return g[:, 0]\n", "bad-string", "3:9",
+     "holds a '{'"},
+    {"OldFormat", GRIPPER "    k = 'a%d' % 1\n    return g[:, 0]\n", "type", "3:15", "f-string"},
+    {"StarTwice", GRIPPER "    *a, *b = [1, 2]\n    return g[:, 0]\n", "unpack", "3:9", "one name"},
+    {"StarTooFew", GRIPPER "    a, b, *c = [1]\n    return g[:, 0]\n", "unpack", "3:5", "3 names"},
+    {"HoldsItself", GRIPPER "    d = {}\n    d['a'] = (d,)\n    return g[:, 0]\n", "type", "4:6",
+     "inside another"},
+    {"AppendsItself", GRIPPER "    d = []\n    d.append((1, d))\n    return g[:, 0]\n", "type",
+     "4:15", "inside another"},
+    {"UpdatesItself", GRIPPER "    d = {}\n    d.update({'a': d})\n    return g[:, 0]\n", "type",
+     "4:14", "inside another"},
+    {"NotADict", GRIPPER "    d = {**g}\n    return g[:, 0]\n", "type", "3:12", "dictionary"},
+    {"InstanceOf", GRIPPER "    a = isinstance(g, env)\n    return g[:, 0]\n", "arguments", "3:23",
+     "torch.Tensor"},
+    {"SortedTensors", GRIPPER "    a = sorted([g[:, 0], g[:, 1]])\n    return a[0]\n", "type",
+     "3:16", "torch.sort"},
     {"DictKey", GRIPPER "    parts = {'reach': g[:, 0]}\n    return parts['raech']\n", "bad-key",
      "4:17", "'reach'"},
 };
@@ -139,7 +169,39 @@ const Case kTensors[] = {
      "3:21", "brackets"},
     {"TensorOfTensors", GRIPPER "    return torch.tensor([g[:, 0], g[:, 1]]).sum(0)\n", "type",
      "3:25", "torch.stack"},
-    {"MaskIndex", GRIPPER "    return g[g[:, 0] > 0]\n", "index", "3:13", "torch.where"},
+    {"MaskIndex", GRIPPER "    return g[g[:, 0] > 0]\n", "bad-reward", "3:13", "torch.where"},
+    {"MaskOfNumbers", GRIPPER "    return g[:, 0] + g[g > 0].mean()\n", "index", "3:23",
+     "single numbers"},
+    {"MaskMeetsAll", GRIPPER "    return g[:, 0] + g[:, 1][g[:, 0] > 0]\n", "shape", "3:20",
+     "M are the environments"},
+    {"MaskMeetsMask", GRIPPER "    return g[:, 1][g[:, 0] > 0] + g[:, 1][g[:, 0] < 0]\n", "shape",
+     "3:33", "[M] and [M]"},
+    {"MaskFromOther",
+     GRIPPER "    r = g[:, 1]\n    r[g[:, 0] > 0] = r[g[:, 0] < 0]\n    return r\n", "index", "4:6",
+     "same mask"},
+    {"MaskFromAll", GRIPPER "    r = g[:, 1] * 2\n    r[g[:, 0] > 0] += g[:, 2]\n    return r\n",
+     "shape", "4:20", "torch.where"},
+    {"MaskFirst", GRIPPER "    return g[:, 1] + g[g[:, 0] > 0][0, 1]\n", "index", "3:36", "reduce"},
+    {"MaskView", GRIPPER "    return g[:, 1] + g[g[:, 0] > 0].view(-1).mean()\n", "shape", "3:37",
+     "[M, 3]"},
+    {"MaskCondition",
+     GRIPPER "    if g[:, 1][g[:, 0] > 0] > 0:\n        return g[:, 1]\n    return g[:, 2]\n",
+     "condition", "3:29", "one flag"},
+    {"Nonzero", GRIPPER "    return g[:, 0] + (g[:, 1] > 0).nonzero()\n", "undefined", "3:36",
+     "torch.where"},
+    {"Quantile", GRIPPER "    return torch.quantile(g, 0.5, dim=-1)\n", "undefined", "3:18",
+     "torch.sort"},
+    {"SortedOver", GRIPPER "    return torch.sort(g[:, 0], dim=0).values\n", "shape", "3:36",
+     "environments"},
+    {"SortedPlaces", GRIPPER "    return torch.sort(g, dim=1).indices[:, 0].float()\n", "undefined",
+     "3:40", ".values"},
+    {"MethodInPlaceShape", GRIPPER "    g.unsqueeze_(1)\n    return g[:, 0]\n", "shape", "3:7",
+     "in place"},
+    {"MethodInPlaceType", GRIPPER "    f = g[:, 0] > 0\n    f.add_(0.5)\n    return g[:, 0]\n",
+     "type", "4:7", "cannot hold"},
+    {"OneHotClasses", GRIPPER "    return torch.nn.functional.one_hot(g.argmax(dim=-1))[:, 0]\n",
+     "arguments", "3:32", "number of classes"},
+    {"TensorStep", GRIPPER "    return g[:, ::-1][:, 0]\n", "index", "3:13", ".flip"},
     {"Condition", GRIPPER "    if g > 0:\n        return g[:, 0]\n    return g[:, 1]\n",
      "condition", "3:10", "all(dim=-1)"},
     {"LoopOverBatch",
@@ -273,21 +335,6 @@ TEST(RewardFinding, WarningsCrowdOutNoError) {
   const CompileOutcome outcome = CompileReward(source, &scene, options);
   EXPECT_FALSE(outcome.program.has_value());
   EXPECT_EQ(outcome.findings.back().code, "undefined");
-}
-
-TEST(RewardParameters, ShapesAreInferredOrGiven) {
-  const std::string source =
-      "def compute_reward(tips: torch.Tensor, weight: torch.Tensor, gain: float):\n"
-      "    n, k, d = tips.shape\n    near = torch.norm(tips - weight.unsqueeze(1), dim=-1)\n"
-      "    return near.sum(dim=1) * gain\n";
-  RewardOptions options;
-  options.parameter_shapes["tips"] = {5, 3};
-  const CompileOutcome given = CompileReward(source, nullptr, options);
-  ASSERT_TRUE(given.program.has_value()) << RenderFinding(given.findings[0], source);
-  EXPECT_EQ(given.program->slots()[0].shape, "[N, 5, 3]");
-  EXPECT_EQ(given.program->slots()[1].shape, "[N, 3]");
-  EXPECT_TRUE(given.program->slots()[2].uniform);
-  EXPECT_TRUE(CompileReward(source, nullptr).program.has_value());
 }
 
 TEST(RewardProgram, RefusesWhatDoesNotFit) {

@@ -187,8 +187,8 @@ def namespace():
 
 
 def read_programs(path):
-    """Blocks of the manifest: 'program FILE ENTRY MODE N', then 'slot KIND ASSET PART UNIFORM
-    SHAPE NUMBERS' with '-' for what is empty and 1 for the shape of a scalar."""
+    """Blocks of the manifest: 'program FILE ENTRY MODE N', then 'slot KIND ASSET PART
+    shared|flags|numbers SHAPE NUMBERS' with '-' for what is empty; what is shared is one number."""
     programs = []
     for line in open(path):
         words = line.split()
@@ -199,11 +199,12 @@ def read_programs(path):
         program = programs[-1]
         kind, asset, part = (word if word != "-" else "" for word in words[1:4])
         values = torch.tensor([float(w) for w in words[6:]], dtype=torch.float32)
-        if words[4] == "1":
+        if words[4] == "shared":
             value = values[0].item()
         else:
             sizes = [int(s) for s in words[5].split(",")] if words[5] != "-" else []
             value = values.reshape(program["count"], *sizes)
+            value = value > 0.5 if words[4] == "flags" else value
         if kind == "parameter":
             program["parameters"][part] = value
         else:
@@ -224,8 +225,12 @@ def call(program, function, row=None):
     for name, parameter in inspect.signature(function).parameters.items():
         if name in ("env", "self"):
             arguments.append(environment)
+        elif name not in program["parameters"]:
+            break  # it and those after it have defaults
         else:
             value = program["parameters"][name]
+            if row is not None and torch.is_tensor(value):
+                value = value[row].numpy()
             value = value.clone() if torch.is_tensor(value) else value
             arguments.append(int(value) if parameter.annotation is int else value)
     return function(*arguments)
@@ -253,6 +258,7 @@ def run(program, out):
     out.write(f"program {program['file']}\nreward {numbers(reward, count)}\n")
     if isinstance(extra, dict):
         for key, value in extra.items():
+            key = key.replace(" ", "~")
             out.write(f"component:{key} {numbers(value, count)}\n")
     elif extra is not None:
         out.write(f"success {numbers(extra, count)}\n")
