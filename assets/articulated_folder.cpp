@@ -92,8 +92,7 @@ UrdfJoint JointFrom(const Json& json) {
 core::TexturedMesh VisualFrom(const Json& files, const fs::path& folder) {
   core::TexturedMesh visual;
   for (const Json& file : files) {
-    const core::TexturedMesh piece =
-        ReadMesh(core::ResolveInside(folder, folder / file.get<std::string>()));
+    const core::TexturedMesh piece = ReadMesh(core::ResolveInside(folder, file.get<std::string>()));
     core::Append(piece.mesh, &visual.mesh);
     const int index = static_cast<int>(visual.materials.size());
     visual.triangle_material.resize(visual.mesh.triangles.size(), index);

@@ -50,6 +50,15 @@ TEST_F(ArticulatedFolder, ReadsBackWhatItWrote) {
   EXPECT_TRUE(a.parent_from_joint.isApprox(b.parent_from_joint, 1e-15));
 }
 
+// As on a command line: from the folder above.
+TEST_F(ArticulatedFolder, ReadsBackByARelativePath) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_.path().parent_path());
+  EXPECT_NO_THROW(ReadArticulatedAsset(folder_.path().filename()));
+  EXPECT_NO_THROW(ReadUrdf(folder_.path().filename() / "sample_chest.urdf"));
+  fs::current_path(before);
+}
+
 TEST_F(ArticulatedFolder, LibsdformatReadsItsJointsPosesAndInertials) {
   const ArticulatedAsset asset = SampleArticulated();
   sdf::Root root;
