@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "pipeline/severity_name.h"
 #include "pipeline/task_assets.h"
 #include "tasks/reward/reward_program.h"
 #include "tasks/scene_state.h"
@@ -19,17 +20,6 @@ namespace fs = std::filesystem;
 
 // A reward function is a page; the compiler's own bound is far below this.
 constexpr std::uint64_t kLargestProgram = 16u << 20;
-
-const char* SeverityName(core::Severity severity) {
-  switch (severity) {
-    case core::Severity::kError:
-      return "error";
-    case core::Severity::kWarning:
-      return "warning";
-    default:
-      return "note";
-  }
-}
 
 // "link_position of microwave, handle_0"
 std::string ReadName(const tasks::RewardSlot& slot) {

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "pipeline/severity_name.h"
 #include "pipeline/task_assets.h"
 #include "pipeline/task_page.h"
 #include "tasks/language/task_generation.h"
@@ -63,12 +64,6 @@ int Repairs(const tasks::Task& task) {
   return static_cast<int>(count);
 }
 
-const char* SeverityWord(core::Severity severity) {
-  return severity == core::Severity::kError     ? "error"
-         : severity == core::Severity::kWarning ? "warning"
-                                                : "note";
-}
-
 }  // namespace
 
 bool TasksReport::passed() const {
@@ -116,13 +111,13 @@ std::string TasksTable(const TasksReport& report) {
     table += row(task.name, figures + std::string(task.sound() ? "" : "  not sound"));
     for (const tasks::Subtask& subtask : task.subtasks) {
       for (const core::Finding& finding : subtask.findings) {
-        table += "    " + subtask.name + ": " + SeverityWord(finding.severity) + ": " +
+        table += "    " + subtask.name + ": " + SeverityName(finding.severity) + ": " +
                  finding.sentence + "\n";
       }
     }
   }
   for (const core::Finding& finding : report.findings) {
-    table += finding.place + (finding.place.empty() ? "" : ": ") + SeverityWord(finding.severity) +
+    table += finding.place + (finding.place.empty() ? "" : ": ") + SeverityName(finding.severity) +
              ": " + finding.sentence + "\n";
   }
   return table;
@@ -146,7 +141,7 @@ std::string TasksJson(const TasksReport& report) {
   json["findings"] = nlohmann::ordered_json::array();
   for (const core::Finding& finding : report.findings) {
     json["findings"].push_back({{"code", finding.code},
-                                {"severity", SeverityWord(finding.severity)},
+                                {"severity", SeverityName(finding.severity)},
                                 {"place", finding.place},
                                 {"sentence", finding.sentence}});
   }

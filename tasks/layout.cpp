@@ -90,7 +90,7 @@ class Planner {
     }
     for (int thing : request_.things) {
       if (model_.things[static_cast<std::size_t>(thing)].articulated() || Rests(thing)) continue;
-      if (thing == request_.held ? !PlaceHeld(thing) : !PlaceBeside(thing)) return false;
+      if (!PlaceBeside(thing)) return false;
     }
     for (const Resting& resting : request_.resting) {
       if (!PlaceResting(resting)) return false;
@@ -205,18 +205,6 @@ class Planner {
       }
     }
     return false;
-  }
-
-  bool PlaceHeld(int thing) {
-    const Eigen::Vector3d hand =
-        (start_.world_from_robot *
-         robot::ForwardKinematics(robot::PandaArm(), robot::PandaArm().ready))
-            .translation();
-    Add(thing,
-        Eigen::Translation3d(hand - model_.things[static_cast<std::size_t>(thing)].box.center()) *
-            Pose::Identity());
-    start_.held = model_.things[static_cast<std::size_t>(thing)].name;
-    return true;
   }
 
   bool PlaceResting(const Resting& resting) {

@@ -22,7 +22,6 @@ struct LayoutRequest {
   std::vector<std::pair<int, int>> worked;
   // Joints that do not stand at rest.
   std::vector<JointCondition> joints;
-  int held = -1;  // in the gripper
 };
 
 // Places things in front of the robot: what is articulated stands before it, held to the world and

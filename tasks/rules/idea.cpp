@@ -19,12 +19,6 @@ void Shuffle(std::vector<T>* items, core::Rng& rng) {
   }
 }
 
-std::string Joined(std::string text) {
-  std::replace(text.begin(), text.end(), ' ', '_');
-  std::replace(text.begin(), text.end(), '-', '_');
-  return text;
-}
-
 // Collects the ideas of each kind.
 class Thinker {
  public:
@@ -83,7 +77,7 @@ class Thinker {
 
   Idea OpenAll(int thing, std::vector<Fact> open) {
     Idea idea;
-    idea.name = Joined("open_all_of_" + Known(thing).name);
+    idea.name = NameFrom("open_all_of_" + Known(thing).name);
     idea.description = "Open everything that opens on the " + Say(thing) + ".";
     idea.layout.things = {thing};
     if (open.size() > 4) open.resize(4);
@@ -100,7 +94,7 @@ class Thinker {
       if (CanBeLifted(Known(t))) {
         idea.goals = {{FactKind::kHolding, t}};
         picked.push_back(idea);
-        idea.name = Joined("move_" + Known(t).name);
+        idea.name = NameFrom("move_" + Known(t).name);
         idea.description = "Take the " + Say(t) + " and put it down at the goal.";
         idea.goals = {{FactKind::kAtGoal, t}};
         moved.push_back(idea);
@@ -137,7 +131,7 @@ class Thinker {
     EachPair(lifted_, order_, [&](int thing, int holder) {
       if (!StandsOn(Known(thing), Known(holder)) || Known(holder).height() > 0.6) return;
       Idea idea;
-      idea.name = Joined("place_" + Known(thing).name + "_on_" + Known(holder).name);
+      idea.name = NameFrom("place_" + Known(thing).name + "_on_" + Known(holder).name);
       idea.description = "Pick up the " + Say(thing) + " and stand it on the " + Say(holder) + ".";
       idea.layout.things = {thing, holder};
       idea.goals = {{FactKind::kOn, thing, holder}};
@@ -181,7 +175,7 @@ class Thinker {
   Idea PutIdea(int thing, int holder, int cavity) {
     const int door = Known(holder).cavities[static_cast<std::size_t>(cavity)].door;
     Idea idea;
-    idea.name = Joined("put_" + Known(thing).name + "_into_" + Known(holder).name);
+    idea.name = NameFrom("put_" + Known(thing).name + "_into_" + Known(holder).name);
     idea.description = "Put the " + Say(thing) + " into the " + Say(holder);
     idea.layout.things = {holder, thing};
     idea.goals = {{FactKind::kIn, thing, holder, cavity}};
@@ -198,7 +192,7 @@ class Thinker {
   Idea TakeIdea(int thing, int holder, int cavity) {
     const int door = Known(holder).cavities[static_cast<std::size_t>(cavity)].door;
     Idea idea;
-    idea.name = Joined("take_" + Known(thing).name + "_out_of_" + Known(holder).name);
+    idea.name = NameFrom("take_" + Known(thing).name + "_out_of_" + Known(holder).name);
     idea.description = "Take the " + Say(thing) + " out of the " + Say(holder) + ".";
     idea.layout.things = {holder, thing};
     idea.layout.resting = {{thing, holder, cavity}};
@@ -212,7 +206,7 @@ class Thinker {
     const ThingJoint& joint = known.joints[static_cast<std::size_t>(control)];
     const bool press = UseOf(known, joint) == JointUse::kPress;
     put.name +=
-        Joined(std::string(press ? "_and_press_" : "_and_turn_on_") + PartName(known, joint));
+        NameFrom(std::string(press ? "_and_press_" : "_and_turn_on_") + PartName(known, joint));
     put.description.back() = ',';
     put.description += std::string(press ? " then press" : " then turn on") + " the " +
                        PartName(known, joint) + ".";
@@ -226,7 +220,7 @@ class Thinker {
     EachPair(lifted_, lifted_, [&](int thing, int other) {
       if (!CanPour(Known(thing)) || !CanPour(Known(other))) return;
       Idea idea;
-      idea.name = Joined("pour_from_" + Known(thing).name + "_into_" + Known(other).name);
+      idea.name = NameFrom("pour_from_" + Known(thing).name + "_into_" + Known(other).name);
       idea.description =
           "Pick up the " + Say(thing) + " and pour from it into the " + Say(other) + ".";
       idea.layout.things = {thing, other};
@@ -244,8 +238,8 @@ class Thinker {
         const bool apart = base != top && base != middle && !Known(base).articulated();
         if (!apart || !StandsOn(Known(middle), Known(base)) || Known(base).height() > 0.4) continue;
         Idea idea;
-        idea.name =
-            Joined("stack_" + Known(top).name + "_" + Known(middle).name + "_" + Known(base).name);
+        idea.name = NameFrom("stack_" + Known(top).name + "_" + Known(middle).name + "_" +
+                             Known(base).name);
         idea.description = "Stack the " + Say(middle) + " on the " + Say(base) + " and the " +
                            Say(top) + " on top.";
         idea.layout.things = {top, middle, base};
@@ -267,8 +261,8 @@ class Thinker {
         if (holder == first || holder == second || known.cavities[0].door < 0) continue;
         if (!FitsInto(Known(first), known, 0) || !FitsInto(Known(second), known, 0)) continue;
         Idea idea = PutIdea(first, holder, 0);
-        idea.name = Joined("store_" + Known(first).name + "_and_" + Known(second).name + "_in_" +
-                           known.name);
+        idea.name = NameFrom("store_" + Known(first).name + "_and_" + Known(second).name + "_in_" +
+                             known.name);
         idea.description = "Put the " + Say(first) + " and the " + Say(second) + " into the " +
                            Say(holder) + " and close it.";
         idea.layout.things.push_back(second);

@@ -9,6 +9,7 @@
 #include "tasks/layout.h"
 #include "tasks/rules/idea.h"
 #include "tasks/rules/step.h"
+#include "tasks/task_names.h"
 #include "tasks/verification/start_planning.h"
 #include "tasks/verification/subtask_verifier.h"
 
@@ -50,15 +51,6 @@ struct Worked {
   std::string dropped;
 };
 
-// Names within a task are unique: what is done twice is numbered.
-std::string UniqueName(const std::string& name, const Task& task) {
-  int same = 1;
-  for (const Subtask& other : task.subtasks) {
-    if (other.name == name || other.name.rfind(name + "_", 0) == 0) ++same;
-  }
-  return same == 1 ? name : name + "_" + std::to_string(same);
-}
-
 Worked WorkOut(const SceneModel& model, const Idea& idea, std::uint64_t seed, std::uint64_t index) {
   core::Rng rng = core::StreamRng(seed, index);
   const std::optional<InitialState> start = LayOut(model, idea.layout, rng);
@@ -75,10 +67,11 @@ Worked WorkOut(const SceneModel& model, const Idea& idea, std::uint64_t seed, st
   }
   SubtaskVerifier verifier(model);
   InitialState now = *start;
+  std::set<std::string> names;  // what is done twice is numbered
   for (const Operator& one : plan) {
     const Step step = StepOf(model, state, one);
     Subtask subtask;
-    subtask.name = UniqueName(step.name, task);
+    subtask.name = UniqueName(step.name, &names);
     subtask.description = step.description;
     subtask.program = step.program;
     subtask.success = step.success;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tasks/language/scene_description.h"
 #include "tasks/rules/affordances.h"
 
 namespace simwright::tasks {
@@ -30,14 +31,15 @@ std::string Triple(const Eigen::Vector3d& v) {
          "], device=env.device)";
 }
 
-std::string Quoted(const std::string& name) {
-  return "\"" + name + "\"";
-}
-
 // A function line by line.
 class Program {
  public:
-  explicit Program(const std::string& comment) { Line("# " + comment); }
+  explicit Program(std::string comment) {
+    // A link's name may hold a line break, which would end the comment.
+    std::replace_if(
+        comment.begin(), comment.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+    Line("# " + comment);
+  }
   Program& Line(const std::string& line) {
     text_ += "    " + line + "\n";
     return *this;
@@ -75,12 +77,6 @@ Verbs VerbsOf(JointUse use) {
   }
 }
 
-std::string FileName(std::string text) {
-  std::replace(text.begin(), text.end(), ' ', '_');
-  std::replace(text.begin(), text.end(), '-', '_');
-  return text;
-}
-
 // The share of its way that the joint has gone, as an expression of `state` and `limits`; of half
 // a turn where it turns without end.
 std::string ShareText(const ThingJoint& joint) {
@@ -104,7 +100,7 @@ Step JointStep(const SceneModel& model, const Operator& one) {
   const std::string part = PartName(thing, joint);
   const std::string grip = thing.links[static_cast<std::size_t>(joint.grip)].name;
   Step step;
-  step.name = FileName(std::string(away ? verbs.away_name : verbs.back_name) + "_" + thing.name +
+  step.name = NameFrom(std::string(away ? verbs.away_name : verbs.back_name) + "_" + thing.name +
                        "_" + part);
   const bool numbered = std::isdigit(static_cast<unsigned char>(part.back())) != 0;
   const bool itself = thing.category == part;  // the door of a door
@@ -142,14 +138,14 @@ Step PickStep(const SceneModel& model, const SceneState& state, const Operator& 
   const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
   const std::string spoken = SpokenName(thing), name = Quoted(thing.name);
   Step step;
-  step.name = FileName("pick_up_" + thing.name);
+  step.name = NameFrom("pick_up_" + thing.name);
   step.description = "Pick up the " + spoken + ".";
   const Eigen::Vector3d middle = LinkPoint(model, state, one.thing, 0);
   Eigen::Vector3d raised = middle + Eigen::Vector3d(0, 0, kLift);
   if (one.part >= 0) {
     // Out through the opening first, then up.
     const Thing& holder = model.things[static_cast<std::size_t>(one.other)];
-    step.name += FileName("_from_" + holder.name);
+    step.name += NameFrom("_from_" + holder.name);
     step.description = "Take the " + spoken + " out of the " + SpokenName(holder) + ".";
     const Cavity& cavity = holder.cavities[static_cast<std::size_t>(one.part)];
     const auto h = static_cast<std::size_t>(one.other);
@@ -160,7 +156,7 @@ Step PickStep(const SceneModel& model, const SceneState& state, const Operator& 
     const double depth = std::abs(cavity.box.sizes().dot(cavity.opening));
     raised = middle + (0.6 * depth + 0.5 * thing.box.sizes().maxCoeff() + 0.05) * out;
   } else if (one.other >= 0) {
-    step.name += FileName("_from_" + model.things[static_cast<std::size_t>(one.other)].name);
+    step.name += NameFrom("_from_" + model.things[static_cast<std::size_t>(one.other)].name);
   }
   step.goal = raised;
   Program program("Grasp the " + spoken + " and bring it to the goal.");
@@ -190,7 +186,7 @@ Step PutDownStep(const SceneModel& model, const SceneState& state, const Operato
   const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
   const std::string name = Quoted(thing.name);
   Step step;
-  step.name = FileName("put_down_" + thing.name);
+  step.name = NameFrom("put_down_" + thing.name);
   step.description = "Put the " + SpokenName(thing) + " down at the goal.";
   step.goal = BesideOf(model, state, one.thing);
   Program program("Bring the " + SpokenName(thing) + " to the goal and let go of it.");
@@ -211,7 +207,7 @@ Step PlaceOnStep(const SceneModel& model, const SceneState& state, const Operato
   const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
   const Thing& holder = model.things[static_cast<std::size_t>(one.other)];
   Step step;
-  step.name = FileName("place_" + thing.name + "_on_" + holder.name);
+  step.name = NameFrom("place_" + thing.name + "_on_" + holder.name);
   step.description = "Place the " + SpokenName(thing) + " on the " + SpokenName(holder) + ".";
   Program program("Stand the " + SpokenName(thing) + " on top and let go of it.");
   program
@@ -283,7 +279,7 @@ Step PutIntoStep(const SceneModel& model, const SceneState& state, const Operato
       (room.max() + Eigen::Vector3d(0, 0, lift) - box.min()).cwiseQuotient(size);
   const Eigen::Vector3d wanted = (target - box.min()).cwiseQuotient(size);
   Step step;
-  step.name = FileName("put_" + thing.name + "_into_" + holder.name);
+  step.name = NameFrom("put_" + thing.name + "_into_" + holder.name);
   step.description = "Put the " + SpokenName(thing) + " into the " + SpokenName(holder) + ".";
   Program program("Bring the " + SpokenName(thing) + " inside and let go of it.");
   program.Line("thing = env.get_position(" + Quoted(thing.name) + ")")
@@ -307,7 +303,7 @@ Step PutIntoStep(const SceneModel& model, const SceneState& state, const Operato
 Step PushStep(const SceneModel& model, const SceneState& state, const Operator& one) {
   const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
   Step step;
-  step.name = FileName("push_" + thing.name);
+  step.name = NameFrom("push_" + thing.name);
   step.description = "Push the " + SpokenName(thing) + " along the floor to the goal.";
   Eigen::Vector3d goal = LinkPoint(model, state, one.thing, 0);
   goal.y() += goal.y() > 0.0 ? -kSide : kSide;
@@ -330,7 +326,7 @@ Step PourStep(const SceneModel& model, const SceneState& state, const Operator& 
   const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
   const Thing& holder = model.things[static_cast<std::size_t>(one.other)];
   Step step;
-  step.name = FileName("pour_" + thing.name + "_over_" + holder.name);
+  step.name = NameFrom("pour_" + thing.name + "_over_" + holder.name);
   step.description = "Hold the " + SpokenName(thing) + " over the " + SpokenName(holder) +
                      " and tilt it as if to pour.";
   const Eigen::AlignedBox3d box = WorldBox(model, state, one.other);
@@ -355,6 +351,12 @@ Step PourStep(const SceneModel& model, const SceneState& state, const Operator& 
 }
 
 }  // namespace
+
+std::string NameFrom(std::string text) {
+  const auto other = [](unsigned char c) { return c < 0x80 && std::isalnum(c) == 0; };
+  std::replace_if(text.begin(), text.end(), other, '_');
+  return text;
+}
 
 std::string SpokenName(const Thing& thing) {
   std::string name = thing.name;

@@ -26,4 +26,7 @@ Step StepOf(const SceneModel& model, const SceneState& state, const Operator& on
 // "the red_mug" -> how a sentence names the thing: its name with blanks.
 std::string SpokenName(const Thing& thing);
 
+// `text` as the name of a task or subtask: ASCII that is no letter or digit becomes '_'.
+std::string NameFrom(std::string text);
+
 }  // namespace simwright::tasks

@@ -47,13 +47,13 @@ std::vector<std::size_t> PartEnds(const Motion& motion, std::span<const double> 
   return ends;
 }
 
-// Fills agreement and whole.
+// Fills agreement.
 void Judge(const std::vector<float>& rewards, SuccessPath* path) {
   const std::vector<double> values(rewards.begin(),
                                    rewards.begin() + static_cast<std::ptrdiff_t>(path->first) + 1);
   const std::span<const double> reward(values);
   const double spread = Spread(reward);
-  path->whole = path->agreement = Agreement(reward);
+  path->agreement = Agreement(reward);
   std::size_t begin = 0;
   for (std::size_t end : PartEnds(path->motion, reward, spread)) {
     const std::span<const double> part = reward.subspan(begin, end - begin);

@@ -17,7 +17,6 @@ struct SuccessPath {
   // (the hand comes; moves; turns over; between two steps of the reward); the least of those in
   // which the reward changes.
   double agreement = 0.0;
-  double whole = 0.0;
 };
 
 // What was seen while searching.

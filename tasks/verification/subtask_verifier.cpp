@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "tasks/language/program_blocks.h"
 #include "tasks/reward/reward_program.h"
 #include "tasks/verification/action_sampling.h"
 #include "tasks/verification/path_search.h"
@@ -30,22 +31,6 @@ std::string LastReturn(const std::string& source) {
     place = std::to_string(number) + ":" + std::to_string(at + 1);
   }
   return place;
-}
-
-// What the program calls success, in its own words: the right side of the last assignment to it,
-// or what stands second behind the last return.
-std::string SuccessWords(const std::string& source) {
-  std::istringstream lines(source);
-  std::string words;
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t at = line.find_first_not_of(" \t");
-    if (at == std::string::npos) continue;
-    const std::string text = line.substr(at);
-    for (const char* name : {"success = ", "is_success = ", "done = "}) {
-      if (text.rfind(name, 0) == 0) words = text.substr(std::string(name).size());
-    }
-  }
-  return words;
 }
 
 std::string Rounded(double value) {
@@ -334,7 +319,7 @@ core::Findings SubtaskVerifier::Verify(const Task& task, Subtask* subtask) {
   CompileOutcome outcome = CompileReward(subtask->program, &model_.names, compile_options);
   core::Findings findings = std::move(outcome.findings);
   Sharpen(&findings);
-  if (subtask->success.empty()) subtask->success = SuccessWords(subtask->program);
+  if (subtask->success.empty()) subtask->success = SuccessOf(subtask->program);
   if (!outcome.program || HasError(findings)) return findings;
   if (TakesParameters(*outcome.program)) {
     if (options_.needs_success) {

@@ -14,8 +14,9 @@
 namespace simwright::tasks {
 
 struct VerificationOptions {
-  // Rank correlation of reward and progress along a path to success. Of 30 published reward
-  // functions 8 lie near -1, the sound ones above 0.5; between these two bounds it is a warning.
+  // Rank correlation of reward and progress along a path to success. Planted sign faults fall below
+  // the first bound, sound programs lie above the second (docs/rewards.md, "Planted faults");
+  // between them it is a warning.
   double against = -0.2;
   double unclear = 0.2;
   int random_states = 128;  // in which reward and success are looked at beside the paths
