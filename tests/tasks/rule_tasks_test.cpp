@@ -134,6 +134,21 @@ TEST(RuleTasks, AreSoundAndOfEveryKind) {
   }
 }
 
+// Names out of a URDF are text: quotes and line breaks in them end nothing.
+TEST(RuleTasks, NamesWithQuotesAndLineBreaksStayNames) {
+  assets::SemanticModel model = Microwave();
+  model.model.joints[1].name = "door\"joint\\";
+  model.model.links[3].name = "han\ndle 'x'";
+  model.model.joints[2].child = model.model.links[3].name;
+  model.semantics[model.model.links[3].name] = {"fixed", "handle"};
+  const RuleTasks result = GenerateTasksByRules(MakeSceneModel({model}), {3, 1});
+  std::set<std::string> names;
+  for (const Task& task : result.tasks) names.insert(task.name);
+  EXPECT_TRUE(names.contains("open_microwave_door"));
+  EXPECT_TRUE(names.contains("close_microwave_door"));
+  EXPECT_TRUE(result.dropped.empty());
+}
+
 // Two things stored in one room do not stand in each other.
 TEST(RuleTasks, StoredThingsStandApart) {
   const SceneModel model = Kitchen();
