@@ -1,7 +1,9 @@
 #include "assets/primitive_meshes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "core/error.h"
 
@@ -41,32 +43,67 @@ core::TriangleMesh CylinderMesh(double radius, double length, int segments) {
   return mesh;
 }
 
-core::TriangleMesh SphereMesh(double radius, int segments) {
-  if (!(radius > 0.0) || segments < 3) throw core::Error("a sphere needs a positive radius");
+namespace {
+
+struct Ring {
+  double radius, z;
+};
+
+// The rings from top to bottom, closed by a point above the first and one below the last.
+core::TriangleMesh RoundMesh(double top, const std::vector<Ring>& rings, double bottom,
+                             int segments) {
   core::TriangleMesh mesh;
-  const int rings = std::max(2, segments / 2);
-  mesh.vertices.emplace_back(0, 0, radius);
-  for (int ring = 1; ring < rings; ++ring) {
-    const double polar = std::numbers::pi * ring / rings;
+  mesh.vertices.emplace_back(0, 0, top);
+  for (const Ring& ring : rings) {
     for (int i = 0; i < segments; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / segments;
-      mesh.vertices.emplace_back(radius * std::sin(polar) * std::cos(angle),
-                                 radius * std::sin(polar) * std::sin(angle),
-                                 radius * std::cos(polar));
+      mesh.vertices.emplace_back(ring.radius * std::cos(angle), ring.radius * std::sin(angle),
+                                 ring.z);
     }
   }
-  mesh.vertices.emplace_back(0, 0, -radius);
-  const int bottom = static_cast<int>(mesh.vertices.size()) - 1;
-  const auto at = [&](int ring, int i) { return 1 + (ring - 1) * segments + i % segments; };
+  mesh.vertices.emplace_back(0, 0, bottom);
+  const int last = static_cast<int>(mesh.vertices.size()) - 1;
+  const int count = static_cast<int>(rings.size());
+  const auto at = [&](int ring, int i) { return 1 + ring * segments + i % segments; };
   for (int i = 0; i < segments; ++i) {
-    mesh.triangles.emplace_back(0, at(1, i), at(1, i + 1));
-    for (int ring = 1; ring + 1 < rings; ++ring) {
+    mesh.triangles.emplace_back(0, at(0, i), at(0, i + 1));
+    for (int ring = 0; ring + 1 < count; ++ring) {
       mesh.triangles.emplace_back(at(ring, i), at(ring + 1, i), at(ring + 1, i + 1));
       mesh.triangles.emplace_back(at(ring, i), at(ring + 1, i + 1), at(ring, i + 1));
     }
-    mesh.triangles.emplace_back(bottom, at(rings - 1, i + 1), at(rings - 1, i));
+    mesh.triangles.emplace_back(last, at(count - 1, i + 1), at(count - 1, i));
   }
   return mesh;
+}
+
+}  // namespace
+
+core::TriangleMesh SphereMesh(double radius, int segments) {
+  if (!(radius > 0.0) || segments < 3) throw core::Error("a sphere needs a positive radius");
+  const int parts = std::max(2, segments / 2);
+  std::vector<Ring> rings;
+  for (int ring = 1; ring < parts; ++ring) {
+    const double polar = std::numbers::pi * ring / parts;
+    rings.push_back({radius * std::sin(polar), radius * std::cos(polar)});
+  }
+  return RoundMesh(radius, rings, -radius, segments);
+}
+
+core::TriangleMesh CapsuleMesh(double radius, double length, int segments) {
+  if (!(radius > 0.0) || !(length > 0.0) || segments < 3) {
+    throw core::Error("a capsule needs a positive radius and length");
+  }
+  const int parts = std::max(1, segments / 4);  // of a quarter turn
+  std::vector<Ring> rings;
+  for (int ring = 1; ring <= parts; ++ring) {
+    const double polar = 0.5 * std::numbers::pi * ring / parts;
+    rings.push_back({radius * std::sin(polar), 0.5 * length + radius * std::cos(polar)});
+  }
+  for (int ring = parts; ring >= 1; --ring) {
+    rings.push_back({rings[static_cast<size_t>(ring - 1)].radius,
+                     -rings[static_cast<size_t>(ring - 1)].z});
+  }
+  return RoundMesh(0.5 * length + radius, rings, -0.5 * length - radius, segments);
 }
 
 }  // namespace simwright::assets

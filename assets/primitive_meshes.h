@@ -11,5 +11,7 @@ namespace simwright::assets {
 core::TriangleMesh BoxMesh(const Eigen::Vector3d& size);
 core::TriangleMesh CylinderMesh(double radius, double length, int segments = 48);  // along z
 core::TriangleMesh SphereMesh(double radius, int segments = 32);
+// All points within `radius` of a segment of `length` along z.
+core::TriangleMesh CapsuleMesh(double radius, double length, int segments = 32);
 
 }  // namespace simwright::assets

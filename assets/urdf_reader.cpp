@@ -125,20 +125,27 @@ void Reader::AddShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
     const urdf::Color& c = material->color;
     shape.color = Eigen::Vector4f(c.r, c.g, c.b, c.a);
   }
-  shape.link_from_file = Eigen::Affine3d(ToIsometry(origin));
+  shape.link_from_primitive = ToIsometry(origin);
+  shape.link_from_file = Eigen::Affine3d(shape.link_from_primitive);
   switch (geometry.type) {
     case urdf::Geometry::BOX: {
       const auto& dim = static_cast<const urdf::Box&>(geometry).dim;
       shape.mesh = BoxMesh({dim.x, dim.y, dim.z});
+      shape.geometry = UrdfGeometry::kBox;
       break;
     }
     case urdf::Geometry::CYLINDER: {
       const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
       shape.mesh = CylinderMesh(cylinder.radius, cylinder.length);
+      shape.geometry = UrdfGeometry::kCylinder;
+      shape.radius = cylinder.radius;
+      shape.length = cylinder.length;
       break;
     }
     case urdf::Geometry::SPHERE:
-      shape.mesh = SphereMesh(static_cast<const urdf::Sphere&>(geometry).radius);
+      shape.radius = static_cast<const urdf::Sphere&>(geometry).radius;
+      shape.mesh = SphereMesh(shape.radius);
+      shape.geometry = UrdfGeometry::kSphere;
       break;
     case urdf::Geometry::MESH: {
       const auto& mesh = static_cast<const urdf::Mesh&>(geometry);

@@ -14,6 +14,8 @@
 
 namespace simwright::assets {
 
+enum class UrdfGeometry { kMesh, kBox, kCylinder, kSphere };
+
 // A shape of a link, as a mesh in the link's frame. Boxes, cylinders and spheres are meshed.
 struct UrdfShape {
   core::TriangleMesh mesh;  // metres, scale and origin applied
@@ -21,6 +23,10 @@ struct UrdfShape {
   // What the file's vertices went through, scale and origin; identity for a primitive.
   Eigen::Affine3d link_from_file = Eigen::Affine3d::Identity();
   std::optional<Eigen::Vector4f> color = std::nullopt;  // RGBA of a visual's <material>
+  // What the file says of a primitive, for engines that know it exactly.
+  UrdfGeometry geometry = UrdfGeometry::kMesh;
+  double radius = 0.0, length = 0.0;  // m, of a cylinder (along z) or sphere
+  Eigen::Isometry3d link_from_primitive = Eigen::Isometry3d::Identity();
 };
 
 struct UrdfLink {

@@ -4,6 +4,7 @@
 
 #include "assets/joint_poses.h"
 #include "core/error.h"
+#include "sim/capsule_folding.h"
 
 namespace simwright::sim {
 namespace {
@@ -47,7 +48,7 @@ ArticulatedBody ArticulatedBodyFrom(const assets::UrdfModel& model) {
     copy.friction = link.friction;
     copy.restitution = link.restitution;
     copy.rolling_friction = link.rolling_friction;
-    for (const assets::UrdfShape& shape : link.collisions) copy.parts.push_back(shape.mesh);
+    AddShapes(link.collisions, &copy);
     if (link.inertial) {
       copy.inertial = *link.inertial;
     } else if (i > 0 && model.joints[i - 1].Moves()) {

@@ -8,12 +8,14 @@
 #include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyGearConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <btBulletDynamicsCommon.h>
 
 #include "core/error.h"
 #include "sim/bullet_shape.h"
+#include "sim/floor_contact.h"
 
 namespace simwright::sim {
 namespace {
@@ -23,6 +25,9 @@ constexpr int kFloorUserIndex = -1;  // Bullet's own default for bodies that nob
 // m: Bullet keeps a contact point while its bodies slide past each other by less than this. With
 // the default of 2 cm an oven's closing door was stopped by a point it had passed long before.
 constexpr double kContactReach = 0.002;
+
+// Share of a gear's error that one step takes away. Without it a hand's fingers drift as a pair.
+constexpr double kGearRecovery = 0.2;
 
 // All that resists or drives one joint, as one row: a velocity wished for within bounds of force (a
 // motor, or dry friction: wish 0 within +-friction), and a damper. Implicit, and solved along with
@@ -103,6 +108,7 @@ struct LoadedJoint {
   double friction = 0.0;
   std::unique_ptr<JointVelocityRow> motor;  // with friction and damping
   std::unique_ptr<btMultiBodyJointLimitConstraint> limit;
+  std::unique_ptr<btMultiBodyGearConstraint> gear;  // to the joint that it mimics
 };
 
 struct LoadedBody {
@@ -150,6 +156,20 @@ void SetUpLink(const ArticulatedBody& body, int index, LoadedBody* loaded) {
   }
 }
 
+// Joint `follower` keeps to multiplier * leader + offset.
+std::unique_ptr<btMultiBodyGearConstraint> GearTo(const assets::UrdfMimic& mimic, int leader,
+                                                  int follower, LoadedBody* loaded) {
+  const btVector3 zero(0, 0, 0);
+  const btMatrix3x3 unturned = btMatrix3x3::getIdentity();
+  auto gear = std::make_unique<btMultiBodyGearConstraint>(
+      loaded->multi.get(), follower, loaded->multi.get(), leader, zero, zero, unturned, unturned);
+  gear->setGearRatio(-mimic.multiplier);
+  gear->setRelativePositionTarget(mimic.offset);
+  gear->setErp(kGearRecovery);
+  gear->setMaxAppliedImpulse(std::numeric_limits<float>::max());
+  return gear;
+}
+
 }  // namespace
 
 struct ArticulatedWorld::Bullet {
@@ -169,6 +189,7 @@ struct ArticulatedWorld::Bullet {
       for (const LoadedJoint& joint : body->joints) {
         if (joint.motor) world.removeMultiBodyConstraint(joint.motor.get());
         if (joint.limit) world.removeMultiBodyConstraint(joint.limit.get());
+        if (joint.gear) world.removeMultiBodyConstraint(joint.gear.get());
       }
       for (const auto& collider : body->colliders) world.removeCollisionObject(collider.get());
       world.removeMultiBody(body->multi.get());
@@ -178,7 +199,7 @@ struct ArticulatedWorld::Bullet {
 
   LoadedBody& Body(int index) { return *bodies.at(static_cast<size_t>(index)); }
 
-  void AddColliders(const ArticulatedBody& body, bool fixed, LoadedBody* loaded);
+  void AddColliders(const ArticulatedBody& body, const Placement& placement, LoadedBody* loaded);
   void AddJoints(const ArticulatedBody& body, LoadedBody* loaded);
   void UpdatePoses(LoadedBody* loaded) {
     loaded->multi->forwardKinematics(scratch_turns, scratch_origins);
@@ -187,8 +208,8 @@ struct ArticulatedWorld::Bullet {
   }
 };
 
-void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, bool fixed,
-                                            LoadedBody* loaded) {
+void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body,
+                                            const Placement& placement, LoadedBody* loaded) {
   for (size_t i = 0; i < body.links.size(); ++i) {
     const RigidBody& link = body.links[i];
     // Also a link without a shape needs one, or its joint's limits and motors are passed over.
@@ -202,12 +223,12 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, bool fi
     collider->setContactProcessingThreshold(1e30);
     collider->setUserIndex(static_cast<int>(bodies.size()));
     collider->setUserIndex2(static_cast<int>(i));
-    const bool still = fixed && i == 0;
+    const bool still = placement.fixed && i == 0;
     if (still) collider->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
     const int group = still ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
     const int mask = still ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter
                            : btBroadphaseProxy::AllFilter;
-    world.addCollisionObject(collider.get(), group, mask);
+    world.addCollisionObject(collider.get(), group, placement.contacts ? mask : 0);
     if (i == 0) {
       loaded->multi->setBaseCollider(collider.get());
     } else {
@@ -226,6 +247,10 @@ void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, LoadedBody
     entry.motor = std::make_unique<JointVelocityRow>(loaded->multi.get(), i, joint.damping);
     entry.motor->Wish(0.0, -joint.friction, joint.friction);
     world.addMultiBodyConstraint(entry.motor.get());
+    if (joint.mimic) {
+      entry.gear = GearTo(*joint.mimic, body.JointIndex(joint.mimic->joint), i, loaded);
+      world.addMultiBodyConstraint(entry.gear.get());
+    }
     if (joint.type == assets::UrdfJointType::kContinuous) continue;
     entry.limit = std::make_unique<btMultiBodyJointLimitConstraint>(loaded->multi.get(), i,
                                                                     joint.lower, joint.upper);
@@ -242,7 +267,7 @@ ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
   btContactSolverInfo& solver = bullet_->world.getSolverInfo();
   solver.m_numIterations = options.solver_iterations;
   bullet_->world.getDispatchInfo().m_deterministicOverlappingPairs = true;
-  bullet_->configuration.setPlaneConvexMultipointIterations(8, 4);
+  CollideShapesWithFloor(&bullet_->dispatcher);
   bullet_->floor_shape.setMargin(0.0);
   btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, &bullet_->floor_shape);
   info.m_friction = options.floor_friction;
@@ -280,7 +305,7 @@ int ArticulatedWorld::Add(const ArticulatedBody& body, const Placement& placemen
   loaded->multi->setLinearDamping(0.0);
   loaded->multi->setAngularDamping(0.0);
   bullet_->world.addMultiBody(loaded->multi.get());
-  bullet_->AddColliders(body, placement.fixed, loaded.get());
+  bullet_->AddColliders(body, placement, loaded.get());
   bullet_->AddJoints(body, loaded.get());
   bullet_->UpdatePoses(loaded.get());
   bullet_->bodies.push_back(std::move(loaded));
@@ -332,6 +357,15 @@ void ArticulatedWorld::Push(int body, int joint, double force) {
   bullet_->Body(body).multi->addJointTorque(joint, force);
 }
 
+void ArticulatedWorld::PushRoot(int body, const Eigen::Vector3d& force) {
+  bullet_->Body(body).multi->addBaseForce(ToBullet(force));
+}
+
+void ArticulatedWorld::SetIterations(int iterations) {
+  if (iterations < 1) throw core::Error("a world needs at least one solver iteration");
+  bullet_->world.getSolverInfo().m_numIterations = iterations;
+}
+
 void ArticulatedWorld::Step() {
   bullet_->world.stepSimulation(options_.time_step, 0, options_.time_step);
   for (int i = 0; i < bullet_->dispatcher.getNumManifolds(); ++i) {
@@ -356,6 +390,12 @@ Eigen::Isometry3d ArticulatedWorld::LinkPose(int body, int link) const {
 
 std::vector<LinkContact> ArticulatedWorld::Contacts() const {
   std::vector<LinkContact> contacts;
+  Contacts(&contacts);
+  return contacts;
+}
+
+void ArticulatedWorld::Contacts(std::vector<LinkContact>* contacts) const {
+  contacts->clear();
   for (int i = 0; i < bullet_->dispatcher.getNumManifolds(); ++i) {
     const btPersistentManifold* manifold = bullet_->dispatcher.getManifoldByIndexInternal(i);
     for (int k = 0; k < manifold->getNumContacts(); ++k) {
@@ -369,10 +409,9 @@ std::vector<LinkContact> ArticulatedWorld::Contacts() const {
       contact.impulse = point.getAppliedImpulse();
       contact.point = FromBullet(point.getPositionWorldOnB());
       contact.normal = FromBullet(point.m_normalWorldOnB);
-      contacts.push_back(contact);
+      contacts->push_back(contact);
     }
   }
-  return contacts;
 }
 
 assets::Inertial ArticulatedWorld::LoadedInertial(int body, int link) const {

@@ -16,6 +16,7 @@ struct Placement {
   Eigen::Isometry3d world_from_root = Eigen::Isometry3d::Identity();
   bool fixed = true;           // the root is held where it is; else it is free
   bool self_contacts = false;  // links touch each other, but for those on fixed joints
+  bool contacts = true;        // false: nothing touches it at all
 };
 
 constexpr int kFloor = -1;  // in place of a body's index
@@ -35,7 +36,7 @@ struct LinkContact {
 // side by side, and each is repeatable bit for bit when built and driven alike.
 //
 // Joints keep their limits. Their friction holds them against any load below it, damping acts
-// implicitly (stable at any step), and a joint that mimics another is not coupled to it.
+// implicitly (stable at any step), and a joint that mimics another is geared to it.
 class ArticulatedWorld {
  public:
   explicit ArticulatedWorld(const WorldOptions& options = {});
@@ -60,6 +61,13 @@ class ArticulatedWorld {
   // A force (N m or N) on the joint during the next step alone.
   void Push(int body, int joint, double force);
 
+  // A force (N, world) on the root's centre of mass during the next step alone.
+  void PushRoot(int body, const Eigen::Vector3d& force);
+
+  // What WorldOptions::solver_iterations says, for the steps that follow: few do where nothing
+  // touches. Throws core::Error below 1.
+  void SetIterations(int iterations);
+
   void Step();
   double time() const { return time_; }
 
@@ -68,6 +76,8 @@ class ArticulatedWorld {
   Eigen::Isometry3d LinkPose(int body, int link) const;  // world_from_link
   // All pairs within Bullet's reach of each other after the last step.
   std::vector<LinkContact> Contacts() const;
+  // The same into `contacts`, whose memory is used again.
+  void Contacts(std::vector<LinkContact>* contacts) const;
 
   // The inertial as the engine holds it, back in the link's frame.
   assets::Inertial LoadedInertial(int body, int link) const;

@@ -3,6 +3,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "core/error.h"
+#include "geometry/convex_hull.h"
 #include "geometry/mass_properties.h"
 
 namespace simwright::sim {
@@ -39,20 +40,68 @@ BulletShape::BulletShape(const RigidBody& body, double margin) {
   }
   const Eigen::Isometry3d principal_from_body = body_from_principal_.inverse();
   compound_ = std::make_unique<btCompoundShape>(true, static_cast<int>(body.parts.size()));
-  for (const core::TriangleMesh& part : body.parts) {
-    if (part.vertices.size() < 4) {
-      throw core::Error("a collision part has fewer than four vertices", body.name);
+  for (size_t i = 0; i < body.parts.size(); ++i) {
+    if (i < body.capsules.size() && body.capsules[i]) {
+      AddCapsule(*body.capsules[i], principal_from_body);
+    } else {
+      AddHull(body.parts[i], principal_from_body, body.name, margin);
     }
-    auto hull = std::make_unique<btConvexHullShape>();
-    for (const Eigen::Vector3d& vertex : part.vertices) {
-      hull->addPoint(ToBullet(Eigen::Vector3d(principal_from_body * vertex)), false);
-    }
-    hull->setMargin(margin);
-    hull->recalcLocalAabb();
-    compound_->addChildShape(btTransform::getIdentity(), hull.get());
-    hulls_.push_back(std::move(hull));
   }
   compound_->setMargin(margin);
+  compound_->setUserPointer(this);
+  AddFloorPoints(body, principal_from_body, margin);
+}
+
+void BulletShape::AddCapsule(const Capsule& capsule, const Eigen::Isometry3d& principal_from_body) {
+  const Eigen::Vector3d along = capsule.b - capsule.a;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = 0.5 * (capsule.a + capsule.b);
+  if (along.norm() > 0.0) {
+    pose.linear() =
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), along).toRotationMatrix();
+    convex_.push_back(std::make_unique<btCapsuleShapeZ>(capsule.radius, along.norm()));
+  } else {
+    convex_.push_back(std::make_unique<btSphereShape>(capsule.radius));
+  }
+  // Both are their own margin: setting one would change their size.
+  compound_->addChildShape(ToBullet(Eigen::Isometry3d(principal_from_body * pose)),
+                           convex_.back().get());
+}
+
+void BulletShape::AddHull(const core::TriangleMesh& part,
+                          const Eigen::Isometry3d& principal_from_body, const std::string& name,
+                          double margin) {
+  if (part.vertices.size() < 4) {
+    throw core::Error("a collision part has fewer than four vertices", name);
+  }
+  auto hull = std::make_unique<btConvexHullShape>();
+  for (const Eigen::Vector3d& vertex : part.vertices) {
+    hull->addPoint(ToBullet(Eigen::Vector3d(principal_from_body * vertex)), false);
+  }
+  hull->setMargin(margin);
+  hull->recalcLocalAabb();
+  compound_->addChildShape(btTransform::getIdentity(), hull.get());
+  convex_.push_back(std::move(hull));
+}
+
+void BulletShape::AddFloorPoints(const RigidBody& body,
+                                 const Eigen::Isometry3d& principal_from_body, double margin) {
+  std::vector<Eigen::Vector3d> corners;
+  for (size_t i = 0; i < body.parts.size(); ++i) {
+    if (i < body.capsules.size() && body.capsules[i]) {
+      const Capsule& capsule = *body.capsules[i];
+      floor_points_.push_back({principal_from_body * capsule.a, capsule.radius});
+      if (capsule.a != capsule.b) {
+        floor_points_.push_back({principal_from_body * capsule.b, capsule.radius});
+      }
+    } else {
+      corners.insert(corners.end(), body.parts[i].vertices.begin(), body.parts[i].vertices.end());
+    }
+  }
+  if (corners.empty()) return;
+  for (const Eigen::Vector3d& corner : geometry::ConvexHull(corners).vertices) {
+    floor_points_.push_back({principal_from_body * corner, margin});
+  }
 }
 
 BulletShape::~BulletShape() = default;

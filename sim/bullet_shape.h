@@ -9,7 +9,7 @@
 #include "sim/rigid_body.h"
 
 class btCompoundShape;
-class btConvexHullShape;
+class btConvexShape;
 class btTransform;
 class btVector3;
 
@@ -19,6 +19,12 @@ btVector3 ToBullet(const Eigen::Vector3d& v);
 btTransform ToBullet(const Eigen::Isometry3d& pose);
 Eigen::Vector3d FromBullet(const btVector3& v);
 Eigen::Isometry3d FromBullet(const btTransform& transform);
+
+// A point of a shape that can be the first to touch a plane: the lowest of a ball about it.
+struct FloorPoint {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // m, principal frame
+  double radius = 0.0;                               // m
+};
 
 // A rigid body's parts as Bullet wants them: the centre of mass at the origin and the inertia
 // diagonal, so the body's frame is turned to the principal axes. A body without a mass keeps its
@@ -33,10 +39,19 @@ class BulletShape {
   btCompoundShape* compound() const { return compound_.get(); }  // may be empty
   const Eigen::Isometry3d& body_from_principal() const { return body_from_principal_; }
   const Eigen::Vector3d& moments() const { return moments_; }  // kg m^2, principal
+  // The corners of the parts' common hull, and the ends of its capsules.
+  const std::vector<FloorPoint>& floor_points() const { return floor_points_; }
 
  private:
-  std::vector<std::unique_ptr<btConvexHullShape>> hulls_;
+  void AddCapsule(const Capsule& capsule, const Eigen::Isometry3d& principal_from_body);
+  void AddHull(const core::TriangleMesh& part, const Eigen::Isometry3d& principal_from_body,
+               const std::string& name, double margin);
+  void AddFloorPoints(const RigidBody& body, const Eigen::Isometry3d& principal_from_body,
+                      double margin);
+
+  std::vector<std::unique_ptr<btConvexShape>> convex_;
   std::unique_ptr<btCompoundShape> compound_;
+  std::vector<FloorPoint> floor_points_;
   Eigen::Isometry3d body_from_principal_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d moments_ = Eigen::Vector3d::Zero();
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,12 @@
 
 namespace simwright::sim {
 
+// All points within `radius` of the segment from a to b, m, in the body's frame.
+struct Capsule {
+  Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = Eigen::Vector3d::Zero();
+  double radius = 0.0;
+};
+
 // What a physics engine needs of one rigid thing. Constant; shared by any number of worlds.
 struct RigidBody {
   std::string name;
@@ -20,6 +27,8 @@ struct RigidBody {
   double friction = 0.5;
   double restitution = 0.0;
   double rolling_friction = 0.0;  // m: the lever of the normal force that resists rolling
+  // Of parts[i], where it truly is a capsule: cheaper to collide, and round. May be shorter.
+  std::vector<std::optional<Capsule>> capsules = {};
 };
 
 RigidBody BodyFromAsset(const assets::Asset& asset);

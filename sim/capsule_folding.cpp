@@ -1,0 +1,68 @@
+#include "sim/capsule_folding.h"
+
+#include <cmath>
+
+#include "assets/primitive_meshes.h"
+
+namespace simwright::sim {
+namespace {
+
+using assets::UrdfGeometry;
+using assets::UrdfShape;
+
+constexpr double kSame = 1e-6;  // m: what files round to
+
+// The sphere of `radius` about `center` that is not taken yet; -1: none.
+int SphereAt(const std::vector<UrdfShape>& shapes, const std::vector<bool>& taken,
+             const Eigen::Vector3d& center, double radius) {
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    const UrdfShape& shape = shapes[i];
+    if (taken[i] || shape.geometry != UrdfGeometry::kSphere) continue;
+    if (std::abs(shape.radius - radius) > kSame) continue;
+    if ((shape.link_from_primitive.translation() - center).norm() < kSame) {
+      return static_cast<int>(i);
+    }
+  }
+  return -1;
+}
+
+void Add(const core::TriangleMesh& mesh, const std::optional<Capsule>& capsule, RigidBody* body) {
+  body->capsules.resize(body->parts.size());
+  body->parts.push_back(mesh);
+  body->capsules.push_back(capsule);
+}
+
+}  // namespace
+
+void AddShapes(const std::vector<UrdfShape>& shapes, RigidBody* body) {
+  std::vector<bool> taken(shapes.size(), false);
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    const UrdfShape& shape = shapes[i];
+    if (shape.geometry != UrdfGeometry::kCylinder) continue;
+    const Eigen::Vector3d half = 0.5 * shape.length * Eigen::Vector3d::UnitZ();
+    const Capsule capsule{shape.link_from_primitive * half,
+                          shape.link_from_primitive * Eigen::Vector3d(-half), shape.radius};
+    const int upper = SphereAt(shapes, taken, capsule.a, capsule.radius);
+    if (upper < 0) continue;
+    taken[static_cast<size_t>(upper)] = true;
+    const int lower = SphereAt(shapes, taken, capsule.b, capsule.radius);
+    taken[static_cast<size_t>(upper)] = lower >= 0;
+    if (lower < 0) continue;
+    taken[i] = taken[static_cast<size_t>(lower)] = true;
+    core::TriangleMesh mesh = assets::CapsuleMesh(shape.radius, shape.length);
+    core::Transform(Eigen::Affine3d(shape.link_from_primitive), &mesh);
+    Add(mesh, capsule, body);
+  }
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    if (taken[i]) continue;
+    const UrdfShape& shape = shapes[i];
+    std::optional<Capsule> capsule;
+    if (shape.geometry == UrdfGeometry::kSphere) {
+      const Eigen::Vector3d center = shape.link_from_primitive.translation();
+      capsule = Capsule{center, center, shape.radius};
+    }
+    Add(shape.mesh, capsule, body);
+  }
+}
+
+}  // namespace simwright::sim
