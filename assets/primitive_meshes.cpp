@@ -100,8 +100,8 @@ core::TriangleMesh CapsuleMesh(double radius, double length, int segments) {
     rings.push_back({radius * std::sin(polar), 0.5 * length + radius * std::cos(polar)});
   }
   for (int ring = parts; ring >= 1; --ring) {
-    rings.push_back({rings[static_cast<size_t>(ring - 1)].radius,
-                     -rings[static_cast<size_t>(ring - 1)].z});
+    rings.push_back(
+        {rings[static_cast<size_t>(ring - 1)].radius, -rings[static_cast<size_t>(ring - 1)].z});
   }
   return RoundMesh(0.5 * length + radius, rings, -0.5 * length - radius, segments);
 }

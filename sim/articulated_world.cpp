@@ -112,23 +112,26 @@ struct LoadedJoint {
 };
 
 struct LoadedBody {
-  std::vector<std::unique_ptr<BulletShape>> shapes;  // by link
+  std::shared_ptr<const PreparedBody> prepared;
+  const std::vector<std::unique_ptr<BulletShape>>* shapes_by_link = nullptr;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders;
   std::vector<LoadedJoint> joints;
   std::unique_ptr<btMultiBody> multi;
 
+  const BulletShape& Shape(int link) const {
+    return *shapes_by_link->at(static_cast<size_t>(link));
+  }
   btMultiBodyLinkCollider& Collider(int link) { return *colliders.at(static_cast<size_t>(link)); }
 };
 
 // Link `index` >= 1 of the body, turned to its principal axes.
-void SetUpLink(const ArticulatedBody& body, int index, LoadedBody* loaded) {
+void SetUpLink(const ArticulatedBody& body, int index, double mass_scale, LoadedBody* loaded) {
   const size_t i = static_cast<size_t>(index);
   const assets::UrdfJoint& joint = body.joints[i - 1];
   const int parent = body.parents[i - 1];
-  const BulletShape& shape = *loaded->shapes[i];
+  const BulletShape& shape = loaded->Shape(index);
   const Eigen::Isometry3d parent_from_principal =
-      loaded->shapes[static_cast<size_t>(parent)]->body_from_principal().inverse() *
-      joint.parent_from_joint;
+      loaded->Shape(parent).body_from_principal().inverse() * joint.parent_from_joint;
   const Eigen::Matrix3d principal_from_link = shape.body_from_principal().linear().transpose();
   const Eigen::Quaterniond turn(principal_from_link * parent_from_principal.linear().transpose());
   const btQuaternion this_from_parent(turn.x(), turn.y(), turn.z(), turn.w());
@@ -136,8 +139,8 @@ void SetUpLink(const ArticulatedBody& body, int index, LoadedBody* loaded) {
   const btVector3 to_pivot = ToBullet(Eigen::Vector3d(parent_from_principal.translation()));
   const btVector3 to_center =
       ToBullet(Eigen::Vector3d(principal_from_link * shape.body_from_principal().translation()));
-  const double mass = body.links[i].inertial.mass;
-  const btVector3 moments = ToBullet(shape.moments());
+  const double mass = mass_scale * body.links[i].inertial.mass;
+  const btVector3 moments = mass_scale * ToBullet(shape.moments());
   btMultiBody* multi = loaded->multi.get();
   // Bullet's root is link -1.
   switch (joint.type) {
@@ -153,6 +156,17 @@ void SetUpLink(const ArticulatedBody& body, int index, LoadedBody* loaded) {
     default:
       multi->setupFixed(index - 1, mass, moments, parent - 1, this_from_parent, to_pivot,
                         to_center);
+  }
+}
+
+void RequireMass(const ArticulatedBody& body, bool fixed) {
+  for (size_t i = 0; i < body.links.size(); ++i) {
+    const bool moves = i == 0 ? !fixed : body.joints[i - 1].Moves();
+    if (moves && !(body.links[i].inertial.mass > 0.0)) {
+      throw core::Error("a link that moves has no mass",
+                        body.name + " link '" + body.links[i].name + "'",
+                        "add an <inertial> element");
+    }
   }
 }
 
@@ -200,7 +214,7 @@ struct ArticulatedWorld::Bullet {
   LoadedBody& Body(int index) { return *bodies.at(static_cast<size_t>(index)); }
 
   void AddColliders(const ArticulatedBody& body, const Placement& placement, LoadedBody* loaded);
-  void AddJoints(const ArticulatedBody& body, LoadedBody* loaded);
+  void AddJoints(const ArticulatedBody& body, double scale, LoadedBody* loaded);
   void UpdatePoses(LoadedBody* loaded) {
     loaded->multi->forwardKinematics(scratch_turns, scratch_origins);
     loaded->multi->updateCollisionObjectWorldTransforms(scratch_turns, scratch_origins);
@@ -208,15 +222,15 @@ struct ArticulatedWorld::Bullet {
   }
 };
 
-void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body,
-                                            const Placement& placement, LoadedBody* loaded) {
+void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const Placement& placement,
+                                            LoadedBody* loaded) {
   for (size_t i = 0; i < body.links.size(); ++i) {
     const RigidBody& link = body.links[i];
     // Also a link without a shape needs one, or its joint's limits and motors are passed over.
     auto collider =
         std::make_unique<btMultiBodyLinkCollider>(loaded->multi.get(), static_cast<int>(i) - 1);
-    collider->setCollisionShape(loaded->shapes[i]->compound());
-    collider->setFriction(link.friction);
+    collider->setCollisionShape(loaded->Shape(static_cast<int>(i)).compound());
+    collider->setFriction(placement.friction_scale * link.friction);
     collider->setRestitution(link.restitution);
     collider->setRollingFriction(link.rolling_friction);
     collider->setSpinningFriction(link.rolling_friction);
@@ -238,14 +252,15 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body,
   }
 }
 
-void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, LoadedBody* loaded) {
+void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double scale,
+                                         LoadedBody* loaded) {
   loaded->joints.resize(body.joints.size());
   for (const int i : body.MovingJoints()) {
     const assets::UrdfJoint& joint = body.joints[static_cast<size_t>(i)];
     LoadedJoint& entry = loaded->joints[static_cast<size_t>(i)];
-    entry.friction = joint.friction;
-    entry.motor = std::make_unique<JointVelocityRow>(loaded->multi.get(), i, joint.damping);
-    entry.motor->Wish(0.0, -joint.friction, joint.friction);
+    entry.friction = scale * joint.friction;
+    entry.motor = std::make_unique<JointVelocityRow>(loaded->multi.get(), i, scale * joint.damping);
+    entry.motor->Wish(0.0, -entry.friction, entry.friction);
     world.addMultiBodyConstraint(entry.motor.get());
     if (joint.mimic) {
       entry.gear = GearTo(*joint.mimic, body.JointIndex(joint.mimic->joint), i, loaded);
@@ -279,34 +294,42 @@ ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
 
 ArticulatedWorld::~ArticulatedWorld() = default;
 
+PreparedBody::PreparedBody(ArticulatedBody body, double margin) : body_(std::move(body)) {
+  if (body_.links.empty()) throw core::Error("a body needs a link", body_.name);
+  for (const RigidBody& link : body_.links) {
+    shapes_.push_back(std::make_unique<BulletShape>(link, margin));
+  }
+}
+
+PreparedBody::~PreparedBody() = default;
+
 int ArticulatedWorld::Add(const ArticulatedBody& body, const Placement& placement) {
-  if (body.links.empty()) throw core::Error("a body needs a link", body.name);
-  for (size_t i = 0; i < body.links.size(); ++i) {
-    const bool moves = i == 0 ? !placement.fixed : body.joints[i - 1].Moves();
-    if (moves && !(body.links[i].inertial.mass > 0.0)) {
-      throw core::Error("a link that moves has no mass",
-                        body.name + " link '" + body.links[i].name + "'",
-                        "add an <inertial> element");
-    }
-  }
+  return Add(std::make_shared<PreparedBody>(body, options_.margin), placement);
+}
+
+int ArticulatedWorld::Add(std::shared_ptr<const PreparedBody> prepared,
+                          const Placement& placement) {
+  const ArticulatedBody& body = prepared->body();
+  RequireMass(body, placement.fixed);
   auto loaded = std::make_unique<LoadedBody>();
-  for (const RigidBody& link : body.links) {
-    loaded->shapes.push_back(std::make_unique<BulletShape>(link, options_.margin));
-  }
+  loaded->shapes_by_link = &prepared->shapes_;
+  loaded->prepared = std::move(prepared);
   const int links = static_cast<int>(body.joints.size());
-  const BulletShape& root = *loaded->shapes[0];
-  loaded->multi = std::make_unique<btMultiBody>(links, body.links[0].inertial.mass,
-                                                ToBullet(root.moments()), placement.fixed, false);
+  const BulletShape& root = loaded->Shape(0);
+  const double mass_scale = placement.mass_scale;
+  loaded->multi =
+      std::make_unique<btMultiBody>(links, mass_scale * body.links[0].inertial.mass,
+                                    mass_scale * ToBullet(root.moments()), placement.fixed, false);
   loaded->multi->setBaseWorldTransform(
       ToBullet(Eigen::Isometry3d(placement.world_from_root * root.body_from_principal())));
-  for (int i = 1; i <= links; ++i) SetUpLink(body, i, loaded.get());
+  for (int i = 1; i <= links; ++i) SetUpLink(body, i, mass_scale, loaded.get());
   loaded->multi->finalizeMultiDof();
   loaded->multi->setHasSelfCollision(placement.self_contacts);
   loaded->multi->setLinearDamping(0.0);
   loaded->multi->setAngularDamping(0.0);
   bullet_->world.addMultiBody(loaded->multi.get());
   bullet_->AddColliders(body, placement, loaded.get());
-  bullet_->AddJoints(body, loaded.get());
+  bullet_->AddJoints(body, placement.joint_scale, loaded.get());
   bullet_->UpdatePoses(loaded.get());
   bullet_->bodies.push_back(std::move(loaded));
   return static_cast<int>(bullet_->bodies.size()) - 1;
@@ -326,7 +349,7 @@ void ArticulatedWorld::SetPosition(int body, int joint, double position) {
 void ArticulatedWorld::SetRootPose(int body, const Eigen::Isometry3d& world_from_root) {
   LoadedBody& loaded = bullet_->Body(body);
   loaded.multi->setBaseWorldTransform(
-      ToBullet(Eigen::Isometry3d(world_from_root * loaded.shapes[0]->body_from_principal())));
+      ToBullet(Eigen::Isometry3d(world_from_root * loaded.Shape(0).body_from_principal())));
   loaded.multi->setBaseVel(btVector3(0, 0, 0));
   loaded.multi->setBaseOmega(btVector3(0, 0, 0));
   bullet_->UpdatePoses(&loaded);
@@ -385,7 +408,7 @@ double ArticulatedWorld::Velocity(int body, int joint) const {
 Eigen::Isometry3d ArticulatedWorld::LinkPose(int body, int link) const {
   LoadedBody& loaded = bullet_->Body(body);
   return FromBullet(loaded.Collider(link).getWorldTransform()) *
-         loaded.shapes[static_cast<size_t>(link)]->body_from_principal().inverse();
+         loaded.Shape(link).body_from_principal().inverse();
 }
 
 std::vector<LinkContact> ArticulatedWorld::Contacts() const {
@@ -421,8 +444,7 @@ assets::Inertial ArticulatedWorld::LoadedInertial(int body, int link) const {
   inertial.mass = link == 0 ? multi.getBaseMass() : multi.getLinkMass(link - 1);
   const Eigen::Vector3d moments =
       FromBullet(link == 0 ? multi.getBaseInertia() : multi.getLinkInertia(link - 1));
-  const Eigen::Isometry3d& principal =
-      loaded.shapes.at(static_cast<size_t>(link))->body_from_principal();
+  const Eigen::Isometry3d& principal = loaded.Shape(link).body_from_principal();
   inertial.center_of_mass = principal.translation();
   inertial.inertia = principal.linear() * moments.asDiagonal() * principal.linear().transpose();
   return inertial;

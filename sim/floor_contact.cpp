@@ -87,8 +87,7 @@ void ShapeOnPlane::processCollision(const btCollisionObjectWrapper* first,
   const btCollisionObjectWrapper* floor = swapped_ ? first : second;
   const auto& plane_shape = static_cast<const btStaticPlaneShape&>(*floor->getCollisionShape());
   const btTransform& world_from_shape = object->getWorldTransform();
-  const SeenPlane plane =
-      PlaneSeenFrom(world_from_shape, plane_shape, floor->getWorldTransform());
+  const SeenPlane plane = PlaneSeenFrom(world_from_shape, plane_shape, floor->getWorldTransform());
   const auto& shape =
       *static_cast<const BulletShape*>(object->getCollisionShape()->getUserPointer());
   result->setPersistentManifold(manifold_);
