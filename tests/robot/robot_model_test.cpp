@@ -77,7 +77,7 @@ TEST(PandaModel, MeetsPublishedPosesOfFlangeAndTool) {
       {{0, 0, 0, -1.57079, 0, 1.57079, -0.7853},
        {0.554499478, 0, 0.624502429},
        {0.554499478, 0, 0.521102429},
-       {0, 0, 0.707141486, 0.707072074}},
+       {0, 0.707141486, 0.707072074, 0}},
       {{0.1, -0.2, 0.3, -1.5, 0.5, 1.2, -0.7},
        {0.374855281, 0.249967747, 0.733339483},
        {0.346015617, 0.282112390, 0.639389732},
@@ -216,8 +216,7 @@ TEST_P(EveryRobot, OpeningIsTheRoomBetweenThePads) {
       const Eigen::Isometry3d pose = tool_from_root * poses[link];
       double least = 1.0, most = -1.0;
       for (const auto& shape : model.urdf.links[link].collisions) {
-        for (Eigen::Index v = 0; v < shape.mesh.vertices.rows(); ++v) {
-          const Eigen::Vector3d point = shape.mesh.vertices.row(v).transpose().cast<double>();
+        for (const Eigen::Vector3d& point : shape.mesh.vertices) {
           const double y = (pose * point).y();
           least = std::min(least, y);
           most = std::max(most, y);
