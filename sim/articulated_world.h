@@ -34,9 +34,10 @@ class PreparedBody {
 // How a jointed thing is put into a world.
 struct Placement {
   Eigen::Isometry3d world_from_root = Eigen::Isometry3d::Identity();
-  bool fixed = true;           // the root is held where it is; else it is free
-  bool self_contacts = false;  // links touch each other, but for those on fixed joints
-  bool contacts = true;        // false: nothing touches it at all
+  bool fixed = true;                    // the root is held where it is; else it is free
+  bool self_contacts = false;           // links touch each other, but for those on fixed joints
+  bool contacts = true;                 // false: nothing touches it at all
+  std::vector<int> through_floor = {};  // links that the floor does not touch
   // What this world's copy has of the body's own: mass (with inertia), friction of its surfaces,
   // friction and damping of its joints. Positive.
   double mass_scale = 1.0, friction_scale = 1.0, joint_scale = 1.0;
@@ -95,6 +96,7 @@ class ArticulatedWorld {
 
   void Step();
   double time() const { return time_; }
+  double time_step() const { return options_.time_step; }
 
   double Position(int body, int joint) const;            // rad or m
   double Velocity(int body, int joint) const;            // rad/s or m/s

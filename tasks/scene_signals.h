@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "tasks/reward/reward_slot.h"
@@ -7,10 +9,37 @@
 
 namespace simwright::tasks {
 
-// What the slots of a reward program hold in `state`: for each slot its numbers, as RewardInput
-// says. Velocities are differences to `previous`, `time_step` (s) earlier; zero where it is null.
-// `values` is resized to the slots, and each to its width. Parameters hold zeros. Throws
-// core::Error for a slot of an asset, link or joint that the model does not have.
+// Reads what the slots of a reward program hold, one state after the other: what names mean is
+// looked up once, memory is used again. One thread a reader.
+class SignalReader {
+ public:
+  // `model` must outlive the reader. Throws core::Error for a slot of an asset or link that the
+  // model does not have.
+  SignalReader(const SceneModel& model, const std::vector<RewardSlot>& slots);
+  ~SignalReader();
+  SignalReader(const SignalReader&) = delete;
+  SignalReader& operator=(const SignalReader&) = delete;
+
+  // For each slot its numbers, as RewardInput says. Velocities are differences to `previous`,
+  // `time_step` (s) earlier; zero where it is null. `values` is resized to the slots, and each to
+  // its width. Parameters hold zeros. Allocates nothing after the first call.
+  void Read(const SceneState& state, const SceneState* previous, double time_step,
+            std::vector<std::vector<float>>* values);
+
+ private:
+  class Moment;
+  struct Place;
+  void Write(std::size_t slot, double time_step, std::vector<float>* row);
+  void WriteGripper(std::size_t slot, double time_step, std::vector<float>* row);
+  void WriteJoint(std::size_t slot, double time_step, std::vector<float>* row);
+
+  const SceneModel& model_;
+  std::vector<RewardSlot> slots_;
+  std::vector<Place> places_;
+  std::unique_ptr<Moment> now_, before_;
+};
+
+// One state, read once. Throws as SignalReader does.
 void SlotValues(const SceneModel& model, const SceneState& state, const SceneState* previous,
                 double time_step, const std::vector<RewardSlot>& slots,
                 std::vector<std::vector<float>>* values);

@@ -165,12 +165,20 @@ double JointPosition(const Thing& thing, const std::vector<double>& positions, s
 
 std::vector<Eigen::Isometry3d> LinkPosesOf(const Thing& thing,
                                            const std::vector<double>& positions) {
+  std::vector<Eigen::Isometry3d> poses;
+  LinkPosesOf(thing, positions, &poses);
+  return poses;
+}
+
+void LinkPosesOf(const Thing& thing, const std::vector<double>& positions,
+                 std::vector<Eigen::Isometry3d>* result) {
   if (positions.size() != thing.joints.size()) {
     throw core::Error("got " + std::to_string(positions.size()) + " joint positions, there are " +
                           std::to_string(thing.joints.size()) + " joints",
                       thing.name);
   }
-  std::vector<Eigen::Isometry3d> poses(thing.links.size(), Eigen::Isometry3d::Identity());
+  std::vector<Eigen::Isometry3d>& poses = *result;
+  poses.assign(thing.links.size(), Eigen::Isometry3d::Identity());
   for (std::size_t i = 1; i < thing.links.size(); ++i) {
     const ThingLink& link = thing.links[i];
     poses[i] = poses[static_cast<std::size_t>(link.parent)] * link.parent_from_link;
@@ -183,7 +191,6 @@ std::vector<Eigen::Isometry3d> LinkPosesOf(const Thing& thing,
       poses[i].rotate(Eigen::AngleAxisd(q, joint.axis));
     }
   }
-  return poses;
 }
 
 std::vector<double> RestPositions(const Thing& thing) {

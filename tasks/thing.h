@@ -74,6 +74,9 @@ double JointPosition(const Thing& thing, const std::vector<double>& positions, s
 // length.
 std::vector<Eigen::Isometry3d> LinkPosesOf(const Thing& thing,
                                            const std::vector<double>& positions);
+// The same into `poses`, whose memory is used again.
+void LinkPosesOf(const Thing& thing, const std::vector<double>& positions,
+                 std::vector<Eigen::Isometry3d>* poses);
 
 // The joints' rest positions.
 std::vector<double> RestPositions(const Thing& thing);
