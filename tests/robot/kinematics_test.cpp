@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "robot/inverse_kinematics.h"
 #include "robot/panda.h"
+#include "tests/robot/random_posture.h"
 
 namespace simwright::robot {
 namespace {
@@ -12,14 +13,6 @@ namespace {
 Eigen::VectorXd Posture(std::initializer_list<double> values) {
   Eigen::VectorXd q(values.size());
   std::copy(values.begin(), values.end(), q.data());
-  return q;
-}
-
-Eigen::VectorXd RandomPosture(const Arm& arm, core::Rng& rng) {
-  Eigen::VectorXd q(arm.size());
-  for (int j = 0; j < arm.size(); ++j) {
-    q[j] = core::Uniform(rng, arm.joints[j].lower, arm.joints[j].upper);
-  }
   return q;
 }
 

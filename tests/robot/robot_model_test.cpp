@@ -6,21 +6,13 @@
 
 #include "assets/joint_poses.h"
 #include "core/files.h"
-#include "core/random.h"
 #include "geometry/mass_properties.h"
 #include "robot/panda.h"
 #include "robot/panda_model.h"
+#include "tests/robot/random_posture.h"
 
 namespace simwright::robot {
 namespace {
-
-Eigen::VectorXd RandomPosture(const Arm& arm, core::Rng& rng) {
-  Eigen::VectorXd q(arm.size());
-  for (int j = 0; j < arm.size(); ++j) {
-    q[j] = core::Uniform(rng, arm.joints[j].lower, arm.joints[j].upper);
-  }
-  return q;
-}
 
 // Each link's pose by the URDF's own tree, which knows nothing of `Arm`.
 Eigen::Isometry3d LinkPose(const RobotModel& model, const Eigen::VectorXd& q,
