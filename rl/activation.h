@@ -1,0 +1,9 @@
+#pragma once
+
+namespace simwright::rl {
+
+// Between a network's layers. ELU (Clevert et al. 2016) does not saturate on inputs far from 0 and
+// costs no more than tanh.
+enum class Activation { kElu, kTanh };
+
+}  // namespace simwright::rl

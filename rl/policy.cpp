@@ -1,0 +1,23 @@
+#include "rl/policy.h"
+
+#include "core/error.h"
+
+namespace simwright::rl {
+
+Policy::Policy(const ObservationScale& scale, const Mlp& actor, const Eigen::RowVectorXf& std,
+               const Facts& facts)
+    : scale_(scale), actor_(actor), std_(std), facts_(facts) {
+  if (scale.mean().size() != actor.input_size() || scale.factor().size() != actor.input_size() ||
+      std.size() != actor.output_size()) {
+    throw core::Error("its sizes do not fit each other", "policy");
+  }
+}
+
+void Policy::Act(const Rows& observations, Rows* actions) const {
+  Rows scaled;
+  scale_.Apply(observations, &scaled);
+  actor_.Forward(scaled, actions);
+  *actions = actions->array().max(-1.0f).min(1.0f);
+}
+
+}  // namespace simwright::rl

@@ -1,0 +1,64 @@
+#include "rl/ppo.h"
+
+#include "core/error.h"
+#include "nn/compute.h"
+#include "rl/ppo_learner.h"
+
+namespace simwright::rl {
+namespace {
+
+const PpoOptions& Checked(const PpoOptions& options, const VectorEnvironment& environment) {
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error(error, "training options");
+  if (environment.size() < 1 || environment.observation_size() < 1 ||
+      environment.action_size() < 1) {
+    throw core::Error("is empty: it needs an environment, an observation and an action",
+                      "training environment");
+  }
+  nn::UseThreads();
+  return options;
+}
+
+}  // namespace
+
+struct Ppo::Learner : PpoLearner {
+  using PpoLearner::PpoLearner;
+};
+
+Ppo::Ppo(VectorEnvironment* environment, const PpoOptions& options)
+    : options_(Checked(options, *environment)),
+      collector_(environment, options),
+      learner_(std::make_unique<Learner>(
+          ActorCriticSizes{environment->observation_size(), environment->action_size(),
+                           options.hidden, options.activation},
+          options)) {}
+
+Ppo::~Ppo() = default;
+
+void Ppo::Collect(std::vector<Outcome>* outcomes) {
+  const ActorCritic& networks = learner_->networks();
+  collector_.Collect(networks.Actor(), networks.Std(), &rollout_, outcomes);
+}
+
+UpdateReport Ppo::Update() {
+  return learner_->Update(rollout_);
+}
+
+Policy Ppo::CurrentPolicy() const {
+  const ActorCritic& networks = learner_->networks();
+  const ObservationScale scale = options_.normalize_observations
+                                     ? collector_.normalizer().scale()
+                                     : ObservationScale(networks.sizes().observations);
+  return Policy(scale, networks.Actor(), networks.Std());
+}
+
+LearnerState Ppo::LearnerPart() const {
+  return learner_->SaveState();
+}
+
+void Ppo::Restore(const CollectorState& collector, const LearnerState& learner) {
+  learner_->RestoreState(learner);
+  collector_.RestoreState(collector);
+}
+
+}  // namespace simwright::rl

@@ -1,0 +1,196 @@
+#include "rl/ppo_learner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+#include "core/error.h"
+#include "nn/compute.h"
+#include "rl/generalized_advantage.h"
+
+namespace simwright::rl {
+namespace {
+
+constexpr std::uint64_t kWeightStream = 0, kShuffleStream = 2;  // 1 draws actions
+constexpr std::int64_t kRowsAtOnce = 8192;  // that the critic evaluates: bounds its memory
+
+core::Rng WeightRng(std::uint64_t seed) {
+  return core::StreamRng(seed, kWeightStream);
+}
+
+// Share of the variance of `returns` that `values` foresaw: 1 where they agree, 0 for a constant.
+double ExplainedVariance(const Samples& samples) {
+  const double variance = samples.returns.var(false).item<double>();
+  if (variance == 0.0) return 0.0;
+  return 1.0 - (samples.returns - samples.values).var(false).item<double>() / variance;
+}
+
+void AddMeans(const PpoLoss& loss, UpdateReport* report) {
+  report->kl += loss.kl.item<double>();
+  report->policy_loss += loss.policy.item<double>();
+  report->value_loss += loss.value.item<double>();
+  report->entropy += loss.entropy.item<double>();
+  report->clipped_share += loss.clipped_share.item<double>();
+}
+
+void Divide(double count, UpdateReport* report) {
+  for (double* sum : {&report->kl, &report->policy_loss, &report->value_loss, &report->entropy,
+                      &report->clipped_share, &report->gradient_norm}) {
+    *sum /= count;
+  }
+}
+
+}  // namespace
+
+PpoLearner::PpoLearner(const ActorCriticSizes& sizes, const PpoOptions& options)
+    : options_(options),
+      device_(options.cuda ? nn::BestDevice() : torch::Device(torch::kCPU)),
+      rng_(core::StreamRng(options.seed, kShuffleStream)),
+      networks_([&] {
+        core::Rng rng = WeightRng(options.seed);
+        return ActorCritic(sizes, options.initial_std, rng, device_);
+      }()),
+      adam_(networks_.parameters().values().numel(), options.adam_epsilon, device_),
+      learning_rate_(options.learning_rate) {}
+
+torch::Tensor PpoLearner::OnDevice(const Rows& rows) const {
+  // from_blob wants what it may write to; it is copied at once.
+  return torch::from_blob(const_cast<float*>(rows.data()), {rows.rows(), rows.cols()})
+      .to(device_, torch::kFloat, /*non_blocking=*/false, /*copy=*/true);
+}
+
+torch::Tensor PpoLearner::OnDevice(const std::vector<float>& numbers) const {
+  return torch::from_blob(const_cast<float*>(numbers.data()),
+                          {static_cast<std::int64_t>(numbers.size())})
+      .to(device_, torch::kFloat, /*non_blocking=*/false, /*copy=*/true);
+}
+
+std::vector<float> PpoLearner::ValuesOf(const Rows& observations) const {
+  const torch::NoGradGuard no_grad;
+  std::vector<float> values;
+  const torch::Tensor all = OnDevice(observations);
+  for (std::int64_t first = 0; first < all.size(0); first += kRowsAtOnce) {
+    const std::int64_t count = std::min(kRowsAtOnce, all.size(0) - first);
+    const torch::Tensor part = networks_.Values(all.narrow(0, first, count)).cpu().contiguous();
+    values.insert(values.end(), part.data_ptr<float>(), part.data_ptr<float>() + count);
+  }
+  return values;
+}
+
+Samples PpoLearner::Evaluate(const Rollout& rollout) const {
+  RewardSequence sequence;
+  sequence.steps = rollout.steps;
+  sequence.environments = rollout.environments;
+  sequence.rewards = rollout.rewards;
+  sequence.terminated = rollout.terminated;
+  sequence.truncated = rollout.truncated;
+  sequence.dropped = rollout.dropped;
+  sequence.values = ValuesOf(rollout.observations);
+  const std::vector<float> values = sequence.values;
+  const std::vector<float> next_values = ValuesOf(rollout.next_observations);
+  sequence.values.insert(sequence.values.end(), next_values.begin(), next_values.end());
+  sequence.last_values.assign(rollout.rewards.size(), 0.0f);
+  const std::vector<float> last_values = ValuesOf(rollout.last_observations);
+  for (std::size_t k = 0; k < last_values.size(); ++k) {
+    sequence.last_values[rollout.last_rows[k]] = last_values[k];
+  }
+  const Advantages result = GeneralizedAdvantages(sequence, options_.discount, options_.lambda);
+  return {OnDevice(rollout.observations),  OnDevice(rollout.actions), OnDevice(rollout.means),
+          OnDevice(rollout.log_densities), OnDevice(values),          OnDevice(result.advantages),
+          OnDevice(result.returns)};
+}
+
+void PpoLearner::Shuffle(std::vector<std::int64_t>* rows) {
+  for (std::size_t i = rows->size(); i > 1; --i) {
+    const auto other = core::UniformIndex(rng_, static_cast<std::int64_t>(i));
+    std::swap((*rows)[i - 1], (*rows)[static_cast<std::size_t>(other)]);
+  }
+}
+
+UpdateReport PpoLearner::Update(const Rollout& rollout) {
+  const Samples samples = Evaluate(rollout);
+  const torch::Tensor old_log_std = networks_.log_std().detach().clone();
+  std::vector<std::int64_t> rows;
+  for (std::size_t i = 0; i < rollout.dropped.size(); ++i) {
+    if (!rollout.dropped[i]) rows.push_back(static_cast<std::int64_t>(i));
+  }
+  const auto count = static_cast<std::int64_t>(rows.size());
+  // Parts of about equal size: a small rest would have advantages of its own scale.
+  const std::int64_t parts =
+      std::max<std::int64_t>(1, (count + options_.minibatch / 2) / options_.minibatch);
+  UpdateReport report;
+  report.explained_variance = ExplainedVariance(samples);
+  for (int epoch = 0; epoch < options_.epochs; ++epoch) {
+    Shuffle(&rows);
+    const torch::Tensor shuffled =
+        torch::from_blob(rows.data(), {count}, torch::kInt64).to(device_);
+    for (std::int64_t part = 0; part < parts; ++part) {
+      const std::int64_t first = count * part / parts, last = count * (part + 1) / parts;
+      const PpoLoss loss =
+          ComputePpoLoss(networks_, samples.Select(shuffled.narrow(0, first, last - first)),
+                         old_log_std, options_);
+      AddMeans(loss, &report);
+      AdaptRate(loss.kl.item<double>());
+      Descend(loss.total, &report);
+    }
+  }
+  Divide(static_cast<double>(options_.epochs * parts), &report);
+  report.learning_rate = learning_rate_;
+  report.std = networks_.Std().mean();
+  return report;
+}
+
+void PpoLearner::AdaptRate(double kl) {
+  if (options_.target_kl == 0.0) return;
+  if (kl > 2.0 * options_.target_kl) {
+    learning_rate_ = std::max(options_.smallest_rate, learning_rate_ / 1.5);
+  } else if (kl < 0.5 * options_.target_kl) {
+    learning_rate_ = std::min(options_.largest_rate, learning_rate_ * 1.5);
+  }
+}
+
+void PpoLearner::Descend(const torch::Tensor& loss, UpdateReport* report) {
+  const FlatParameters& parameters = networks_.parameters();
+  torch::Tensor gradients = parameters.gradients();
+  gradients.zero_();
+  loss.backward();
+  // All gradients stand in one row here: training on many machines sums that row over them.
+  const double norm = gradients.norm().item<double>();
+  if (!std::isfinite(norm)) {
+    ++report->skipped;
+    return;
+  }
+  report->gradient_norm += norm;
+  if (norm > options_.gradient_norm) gradients.mul_(options_.gradient_norm / norm);
+  adam_.Step(gradients, learning_rate_, parameters.values());
+  networks_.ClampStd(options_.smallest_std, options_.largest_std);
+}
+
+LearnerState PpoLearner::SaveState() const {
+  std::ostringstream generator;
+  generator << rng_;
+  return {networks_.parameters().values().cpu().clone(),
+          adam_.means().cpu().clone(),
+          adam_.squares().cpu().clone(),
+          adam_.steps(),
+          learning_rate_,
+          generator.str()};
+}
+
+void PpoLearner::RestoreState(const LearnerState& state) {
+  torch::Tensor values = networks_.parameters().values();
+  for (const torch::Tensor& tensor :
+       {state.parameters, state.gradient_means, state.gradient_squares}) {
+    if (!tensor.defined() || !tensor.sizes().equals(values.sizes())) {
+      throw core::Error("holds parameters of another network");
+    }
+  }
+  std::istringstream generator(state.generator);
+  if (!(generator >> rng_)) throw core::Error("holds no random generator");
+  values.copy_(state.parameters);
+  adam_.Restore(state.gradient_means, state.gradient_squares, state.descents);
+  learning_rate_ = state.learning_rate;
+}
+
+}  // namespace simwright::rl

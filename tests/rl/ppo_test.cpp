@@ -1,0 +1,151 @@
+// Learning on points that are to be driven to 0, where the best policy is known.
+#include "rl/ppo.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "tests/rl/reach_environment.h"
+
+namespace simwright::rl {
+namespace {
+
+PpoOptions SmallOptions() {
+  PpoOptions options;
+  options.hidden = {32, 32};
+  options.horizon = 32;
+  options.minibatch = 256;
+  return options;
+}
+
+// Mean reward a step over `steps` steps.
+double MeanReward(const std::function<void(const Rows&, Rows*)>& act, int steps) {
+  ReachEnvironment environment(200);
+  Rows observations, actions;
+  environment.Reset(99, &observations);
+  StepBatch batch;
+  double sum = 0.0;
+  for (int step = 0; step < steps; ++step) {
+    act(observations, &actions);
+    environment.Step(actions, &batch);
+    for (const float reward : batch.rewards) sum += reward;
+    observations = batch.observations;
+  }
+  return sum / (200.0 * steps);
+}
+
+// Gain K of the best policy u = -K x, by iterating Riccati's equation.
+Eigen::RowVector2d BestGain(double discount) {
+  using Reach = ReachEnvironment;
+  const Eigen::Matrix2d a{{1.0, Reach::kTimeStep}, {0.0, 1.0}};
+  const Eigen::Vector2d b(0.0, Reach::kTimeStep);
+  const Eigen::Matrix2d q = Eigen::Vector2d(1.0, Reach::kSpeedCost).asDiagonal();
+  Eigen::Matrix2d p = q;
+  Eigen::RowVector2d gain;
+  for (int i = 0; i < 2000; ++i) {
+    gain = discount * (b.transpose() * p * a) / (Reach::kPushCost + discount * b.dot(p * b));
+    p = q + discount * a.transpose() * p * (a - b * gain);
+  }
+  return gain;
+}
+
+TEST(Ppo, ComesWithinAFewPercentOfTheBestPolicy) {
+  core::SetThreadCount(2);
+  ReachEnvironment environment(32);
+  Ppo ppo(&environment, SmallOptions());
+  std::vector<Outcome> outcomes;
+  const auto learnt = [&](const Rows& x, Rows* actions) { ppo.CurrentPolicy().Act(x, actions); };
+  const double before = MeanReward(learnt, 60);
+  UpdateReport report;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    ppo.Collect(&outcomes);
+    report = ppo.Update();
+  }
+  EXPECT_EQ(ppo.samples(), 60 * 32 * 32);
+  const Eigen::RowVector2f gain = BestGain(0.99).cast<float>() / ReachEnvironment::kPush;
+  const double best =
+      MeanReward([&](const Rows& x, Rows* actions) { *actions = -x * gain.transpose(); }, 240);
+  const double found = MeanReward(learnt, 240);
+  EXPECT_LT(before, 3.0 * best);  // rewards are negative
+  EXPECT_GT(found, 1.05 * best) << "best " << best;
+  EXPECT_GT(report.explained_variance, 0.8);
+  EXPECT_LT(report.std, 0.5);
+  // Later episodes end where they should.
+  double successes = 0.0;
+  for (std::size_t i = outcomes.size() - 200; i < outcomes.size(); ++i) {
+    successes += outcomes[i].success;
+    EXPECT_EQ(outcomes[i].steps, 60.0);
+  }
+  EXPECT_GT(successes, 120.0);
+  core::SetThreadCount(0);
+}
+
+TEST(Ppo, TheSameSeedGivesTheSamePolicyBitForBitAndAnotherDoesNot) {
+  core::SetThreadCount(2);
+  const auto weights = [](std::uint64_t seed) {
+    ReachEnvironment environment(16);
+    PpoOptions options = SmallOptions();
+    options.seed = seed;
+    Ppo ppo(&environment, options);
+    std::vector<Outcome> outcomes;
+    for (int iteration = 0; iteration < 4; ++iteration) {
+      ppo.Collect(&outcomes);
+      ppo.Update();
+    }
+    return ppo.CurrentPolicy().actor().layers()[1].weights;
+  };
+  const Eigen::MatrixXf first = weights(1);
+  EXPECT_TRUE((first.array() == weights(1).array()).all());
+  EXPECT_FALSE((first.array() == weights(2).array()).all());
+  core::SetThreadCount(0);
+}
+
+TEST(Ppo, ARewardThatIsNoNumberIsDroppedAndManyFailTheRunNamingItsSeed) {
+  ReachEnvironment environment(16);
+  PpoOptions options = SmallOptions();
+  options.seed = 77;
+  Ppo ppo(&environment, options);
+  std::vector<Outcome> outcomes;
+  environment.Spoil(3);
+  ppo.Collect(&outcomes);
+  EXPECT_EQ(ppo.dropped(), 1);
+  const UpdateReport report = ppo.Update();
+  EXPECT_EQ(report.skipped, 0);
+  EXPECT_TRUE(std::isfinite(report.kl));
+  environment.Spoil(2);
+  try {
+    ppo.Collect(&outcomes);
+    FAIL() << "two in a thousand passed";
+  } catch (const core::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("seed 77"), std::string::npos);
+  }
+}
+
+TEST(PpoOptions, ValuesThatNoTrainingCanHaveAreRefusedWithAReason) {
+  std::string error;
+  EXPECT_TRUE(PpoOptions().IsValid(&error));
+  EXPECT_EQ(error, "");
+  const auto refused = [&](auto change) {
+    PpoOptions options;
+    change(&options);
+    return !options.IsValid(&error) && !error.empty();
+  };
+  EXPECT_TRUE(refused([](PpoOptions* o) { o->discount = 1.0; }));
+  EXPECT_TRUE(refused([](PpoOptions* o) { o->lambda = std::nan(""); }));
+  EXPECT_TRUE(refused([](PpoOptions* o) { o->hidden = {}; }));
+  EXPECT_TRUE(refused([](PpoOptions* o) { o->hidden = {0}; }));
+  EXPECT_TRUE(refused([](PpoOptions* o) { o->clip = 0.0; }));
+  EXPECT_TRUE(refused([](PpoOptions* o) { o->learning_rate = 1.0; }));
+  EXPECT_TRUE(refused([](PpoOptions* o) { o->initial_std = 9.0; }));
+  EXPECT_TRUE(refused([](PpoOptions* o) { o->horizon = 0; }));
+  ReachEnvironment environment(2);
+  PpoOptions options;
+  options.epochs = 0;
+  EXPECT_THROW(Ppo(&environment, options), core::Error);
+}
+
+}  // namespace
+}  // namespace simwright::rl
