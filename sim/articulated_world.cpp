@@ -292,6 +292,7 @@ ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
   // light link's contact each iteration moves the impulse by a share only: cold, a hand of 20 N
   // gripped with 12 after 50 iterations.
   solver.m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
+
   bullet_->world.getDispatchInfo().m_deterministicOverlappingPairs = true;
   CollideShapesWithFloor(&bullet_->dispatcher);
   bullet_->floor_shape.setMargin(0.0);

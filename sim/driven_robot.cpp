@@ -8,7 +8,8 @@
 namespace simwright::sim {
 namespace {
 
-constexpr double kInFloor = 1e-3;  // m
+constexpr double kInFloor = 1e-3;     // m
+constexpr double kFingerLead = 0.01;  // m
 
 // Links that stand in the floor however the robot moves its arm: published shapes are generous, and
 // the floor would brake the first joint.
@@ -47,6 +48,7 @@ void DrivenRobot::Place(const Eigen::VectorXd& arm, double leader) {
     world_.SetPosition(body_, model_.arm_joints[j], arm[static_cast<Eigen::Index>(j)]);
   }
   for (const int joint : model_.gripper.joints) world_.SetPosition(body_, joint, leader);
+  finger_set_point_ = leader;
   Command(arm, leader);
 }
 
@@ -68,8 +70,23 @@ void DrivenRobot::Drive() {
     const double effort = model_.limits[static_cast<size_t>(joint)].effort;
     DriveJoint(joint, arm_command_[static_cast<Eigen::Index>(j)], effort);
   }
+  DriveFingers();
+}
+
+// The fingers follow a set point that moves at their speed. Where a thing stops them it runs ahead,
+// by so much that the motors ask for far more speed than fingers have: the solver then comes to
+// the whole grip force in a few iterations, where a wish of the fingers' own speed adds a
+// hundredth of it in each.
+void DrivenRobot::DriveFingers() {
+  const int leader = model_.gripper.joints.front();
+  const double now = world_.Position(body_, leader);
+  const double step = model_.limits[static_cast<size_t>(leader)].velocity * world_.time_step();
+  if ((leader_command_ - now) * (finger_set_point_ - now) < 0.0) finger_set_point_ = now;
+  finger_set_point_ += std::clamp(leader_command_ - finger_set_point_, -step, step);
+  finger_set_point_ = std::clamp(finger_set_point_, now - kFingerLead, now + kFingerLead);
   for (const int joint : model_.gripper.joints) {
-    DriveJoint(joint, leader_command_, model_.gripper.grip_force);
+    const double error = finger_set_point_ - world_.Position(body_, joint);
+    world_.Drive(body_, joint, gain_ * error, model_.gripper.grip_force);
   }
 }
 

@@ -44,13 +44,14 @@ class DrivenRobot {
 
  private:
   void DriveJoint(int joint, double target, double force);
+  void DriveFingers();
 
   const robot::RobotModel& model_;
   ArticulatedWorld& world_;
   int body_ = -1;
   double gain_ = 0.0;  // 1/s
   Eigen::VectorXd arm_command_;
-  double leader_command_ = 0.0;
+  double leader_command_ = 0.0, finger_set_point_ = 0.0;
 };
 
 // What DrivenRobot puts into worlds. Throws core::Error where the URDF cannot be simulated.

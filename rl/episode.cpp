@@ -1,0 +1,135 @@
+#include "rl/episode.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace simwright::rl {
+
+// The reward of one variant, with the memory that it runs in.
+struct Episode::Program {
+  Program(const Skill& skill, const SkillVariant& variant)
+      : observer(skill, variant),
+        program(*variant.program),
+        workspace(program, 1),
+        reader(variant.model, program.slots()) {
+    for (const tasks::RewardSlot& slot : program.slots()) {
+      values.emplace_back(static_cast<size_t>(slot.width));
+    }
+    bindings.resize(values.size());
+  }
+
+  Observer observer;
+  tasks::RewardProgram program;
+  tasks::RewardWorkspace workspace;
+  tasks::SignalReader reader;
+  std::vector<std::vector<float>> values;
+  std::vector<tasks::RewardBinding> bindings;
+};
+
+Episode::Episode(const Skill& skill)
+    : skill_(skill),
+      programs_(skill.variants.size()),
+      action_(static_cast<size_t>(ActionSize(skill))) {}
+
+Episode::~Episode() = default;
+
+void Episode::Begin(const EpisodeStart& start) {
+  start_ = start;
+  const auto variant = static_cast<size_t>(start.variant);
+  if (!programs_[variant]) {
+    programs_[variant] = std::make_unique<Program>(skill_, skill_.variants[variant]);
+  }
+  world_ = std::make_unique<SkillWorld>(skill_, start_);
+  state_ = start.state;
+  world_->Read(&state_);
+  previous_ = state_;
+  frame_ = std::make_unique<FocusFrame>(skill_.variants[variant], state_, start.pitch);
+  command_.sent = world_->robot().command();
+  command_.goal = start.at_work;
+  command_.leader = world_->robot().leader_command();
+  world_->robot().Positions(&positions_);
+  arm_ = positions_;
+  velocities_ = robot::Posture::Zero(arm_.size());
+  target_.base_from_tool =
+      skill_.variants[variant].subtask.start.world_from_robot.inverse() * state_.gripper;
+  target_.joints = command_.sent;
+  target_.leader = command_.leader;
+  std::fill(action_.begin(), action_.end(), 0.0f);
+  decisions_ = held_ = 0;
+}
+
+void Episode::Act(const ToolTarget& target) {
+  for (int step = 0; step < skill_.options.control_steps; ++step) {
+    if (step >= start_.delay) target_ = target;
+    Approach(skill_, target_, arm_, &command_);
+    world_->robot().Command(command_.sent, command_.leader);
+    world_->Advance();
+    world_->robot().Positions(&positions_);
+    arm_ = positions_;
+  }
+  world_->robot().Velocities(&positions_);
+  velocities_ = positions_;
+}
+
+float Episode::Reward(bool* success) {
+  Program& program = *programs_[static_cast<size_t>(start_.variant)];
+  program.reader.Read(state_, &previous_, skill_.options.decision_seconds(), &program.values);
+  for (size_t i = 0; i < program.values.size(); ++i) {
+    program.bindings[i].data = program.values[i].data();
+  }
+  float reward = 0.0f;
+  std::uint8_t done = 0;
+  program.program.Run(program.bindings, 1, &program.workspace, &reward, &done);
+  *success = done != 0;
+  return reward + (*success ? static_cast<float>(skill_.options.success_bonus) : 0.0f);
+}
+
+Decision Episode::Step(const float* action) {
+  for (size_t a = 0; a < action_.size(); ++a) action_[a] = std::clamp(action[a], -1.0f, 1.0f);
+  const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
+  const Eigen::Isometry3d base_from_focus =
+      variant.subtask.start.world_from_robot.inverse() * frame_->world_from_focus();
+  Act(TargetOf(skill_, action_.data(), base_from_focus, command_.sent));
+  std::swap(previous_, state_);
+  state_ = previous_;
+  world_->Read(&state_);
+  ++decisions_;
+  Decision decision;
+  if (!world_->IsSound() || !command_.sent.allFinite()) {
+    state_ = previous_;
+    decision.failed = decision.truncated = true;
+    return decision;
+  }
+  frame_->Update(state_);
+  decision.reward = Reward(&decision.success);
+  if (!std::isfinite(decision.reward)) {
+    decision.reward = 0.0f;
+    decision.failed = decision.truncated = true;
+    return decision;
+  }
+  held_ = decision.success ? held_ + 1 : 0;
+  const SkillOptions& options = skill_.options;
+  const int hold =
+      std::max(1, static_cast<int>(std::ceil(options.hold_seconds / options.decision_seconds())));
+  decision.terminated = held_ >= hold;
+  decision.truncated = !decision.terminated && decisions_ >= options.decisions();
+  // Success that ends the episode counts as if it went on for ever: else a policy would gain by
+  // staying just short of it.
+  if (decision.terminated) {
+    decision.reward *= static_cast<float>(1.0 / (1.0 - options.discount));
+  }
+  return decision;
+}
+
+void Episode::Observe(float* row) const {
+  Senses senses;
+  senses.arm = &arm_;
+  senses.velocities = &velocities_;
+  senses.leader_command = command_.leader;
+  senses.last_action = action_.data();
+  senses.world_from_focus = frame_->world_from_focus();
+  senses.at_destination = frame_->at_destination();
+  programs_[static_cast<size_t>(start_.variant)]->observer.Write(state_, &previous_, senses, row);
+}
+
+}  // namespace simwright::rl

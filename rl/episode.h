@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "rl/episode_start.h"
+#include "rl/focus_frame.h"
+#include "rl/observation.h"
+#include "rl/skill_world.h"
+#include "tasks/scene_signals.h"
+
+namespace simwright::rl {
+
+// What one decision led to.
+struct Decision {
+  float reward = 0.0f;
+  bool success = false;     // now
+  bool terminated = false;  // success has held for options.hold_seconds
+  bool truncated = false;   // time is out, or the physics has failed
+  bool failed = false;      // the physics has
+};
+
+// One episode of a skill: a world, and what goes between it and a policy. Mutable; one thread at a
+// time. Repeats itself bit for bit from the same start and actions.
+class Episode {
+ public:
+  // `skill` must outlive the episode.
+  explicit Episode(const Skill& skill);
+  ~Episode();
+
+  void Begin(const EpisodeStart& start);
+  // `action` (A), clamped to [-1, 1].
+  Decision Step(const float* action);
+  // Into `row`, as Observer says.
+  void Observe(float* row) const;
+
+  const EpisodeStart& start() const { return start_; }
+  const tasks::SceneState& state() const { return state_; }
+  const SkillWorld& world() const { return *world_; }
+  int decisions() const { return decisions_; }  // since Begin
+
+ private:
+  struct Program;
+  void Act(const ToolTarget& target);
+  float Reward(bool* success);
+
+  const Skill& skill_;
+  std::vector<std::unique_ptr<Program>> programs_;  // by variant, made when first used
+  EpisodeStart start_;
+  std::unique_ptr<SkillWorld> world_;
+  std::unique_ptr<FocusFrame> frame_;
+  tasks::SceneState state_, previous_;
+  robot::Posture arm_, velocities_;
+  ArmCommand command_;
+  Eigen::VectorXd positions_;
+  ToolTarget target_;
+  std::vector<float> action_;
+  int decisions_ = 0;
+  int held_ = 0;  // decisions in a row with success
+};
+
+}  // namespace simwright::rl

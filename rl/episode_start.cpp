@@ -1,0 +1,124 @@
+#include "rl/episode_start.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rl/reach_plan.h"
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr int kTries = 60;
+constexpr double kApart = 0.005;    // m between boxes of things
+constexpr double kFromRobot = 0.2;  // m from the robot's axis to a thing's box
+
+double Draw(const FactorRange& range, core::Rng& rng) {
+  return std::exp(core::Uniform(rng, std::log(range.low), std::log(range.high)));
+}
+
+Isometry3d Moved(const Isometry3d& pose, const Vector3d& pivot, const Vector3d& shift, double yaw) {
+  return Eigen::Translation3d(pivot + shift) * Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) *
+         Eigen::Translation3d(-pivot) * pose;
+}
+
+// Moves and turns every thing; what stands in another goes with it and turns where it stands.
+void Scatter(const SkillVariant& variant, const SkillOptions& options, core::Rng& rng,
+             tasks::SceneState* state) {
+  for (int pass = 0; pass < 2; ++pass) {  // carriers first
+    for (const int thing : variant.placed) {
+      const auto t = static_cast<size_t>(thing);
+      const int carrier = variant.carried_by[t];
+      if ((carrier >= 0) != (pass == 1)) continue;
+      Isometry3d& root = state->roots[t];
+      const bool fixed = variant.fixed[t];
+      const double yaw_range = fixed ? options.furniture_yaw : options.any_yaw ? M_PI : 0.0;
+      const double yaw = core::Uniform(rng, -yaw_range, yaw_range);
+      Vector3d shift = Vector3d::Zero();
+      if (carrier < 0) {
+        const double range = options.position_range;
+        shift = {core::Uniform(rng, -range, range), core::Uniform(rng, -range, range), 0.0};
+      } else {
+        const auto c = static_cast<size_t>(carrier);
+        root = state->roots[c] * variant.start.roots[c].inverse() * root;
+      }
+      root = Moved(root, tasks::LinkPoint(variant.model, *state, thing, 0), shift, yaw);
+    }
+  }
+}
+
+bool Overlap(const SkillVariant& variant, const tasks::SceneState& state) {
+  const Vector3d robot = variant.subtask.start.world_from_robot.translation();
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const int thing : variant.placed) {
+    boxes.push_back(tasks::WorldBox(variant.model, state, thing));
+    if (Eigen::AlignedBox2d(boxes.back().min().head<2>(), boxes.back().max().head<2>())
+            .exteriorDistance(Eigen::Vector2d(robot.head<2>())) < kFromRobot) {
+      return true;
+    }
+  }
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      const int a = variant.placed[i], b = variant.placed[j];
+      if (variant.carried_by[static_cast<size_t>(a)] == b) continue;
+      if (variant.carried_by[static_cast<size_t>(b)] == a) continue;
+      if (boxes[i].exteriorDistance(boxes[j]) < kApart) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
+  const SkillOptions& options = skill.options;
+  EpisodeStart start;
+  start.variant =
+      static_cast<int>(core::UniformIndex(rng, static_cast<std::int64_t>(skill.variants.size())));
+  const SkillVariant& variant = skill.variants[static_cast<size_t>(start.variant)];
+  const robot::Posture home = skill.robot->home();
+  start.at_work = home;
+  for (int attempt = 0; attempt < kTries; ++attempt) {
+    start.state = variant.start;
+    Scatter(variant, options, rng, &start.state);
+    if (Overlap(variant, start.state)) continue;
+    if (!variant.focus) break;
+    if (const auto plan = PlanReach(skill, variant, start.state, home, rng)) {
+      start.pitch = plan->pitch;
+      start.at_work = plan->at_work;
+      break;
+    }
+    start.state = variant.start;
+  }
+  const double lot = core::Uniform(rng);
+  const bool at_focus = lot < options.at_focus_share;
+  const bool part_way = !at_focus && lot < options.at_focus_share + options.part_way_share;
+  if (part_way && variant.focus && variant.focus->joint >= 0) {
+    const auto thing = static_cast<size_t>(variant.focus->thing);
+    const auto joint = static_cast<size_t>(variant.focus->joint);
+    const tasks::ThingJoint& moved = variant.model.things[thing].joints[joint];
+    start.state.joints[thing][joint] = core::Uniform(rng, moved.lower, moved.upper);
+  }
+  start.arm = home;
+  for (Eigen::Index j = 0; j < home.size(); ++j) {
+    const robot::ArmJoint& joint = skill.robot->arm.joints[static_cast<size_t>(j)];
+    const double range = joint.prismatic ? 0.0 : options.posture_range;
+    start.arm[j] =
+        std::clamp(home[j] + core::Uniform(rng, -range, range), joint.lower, joint.upper);
+  }
+  start.leader = skill.robot->gripper.open;
+  const bool grasps = variant.focus && variant.focus->joint < 0 && variant.asks_for_grasp;
+  start.take = variant.starts_held || (part_way && grasps);
+  if (at_focus || start.take) start.arm = start.at_work;
+  for (size_t i = 0; i < variant.model.things.size(); ++i) {
+    start.mass.push_back(Draw(options.mass, rng));
+    start.friction.push_back(Draw(options.friction, rng));
+    start.joint.push_back(Draw(options.joint, rng));
+  }
+  start.delay = static_cast<int>(core::UniformIndex(rng, options.longest_delay + 1));
+  return start;
+}
+
+}  // namespace simwright::rl

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/random.h"
+#include "rl/skill.h"
+
+namespace simwright::rl {
+
+// How an episode begins.
+struct EpisodeStart {
+  int variant = 0;
+  tasks::SceneState state;  // things and joints; the gripper's part is not used
+  robot::Posture arm;       // (J)
+  double leader = 0.0;      // of the gripper's first joint
+  double pitch = 0.0;       // of the hand at work, and the arm's posture there (PlanReach)
+  robot::Posture at_work;
+  // The hand closes on the focus before the episode begins.
+  bool take = false;
+  std::vector<double> mass;  // factors, by thing
+  std::vector<double> friction;
+  std::vector<double> joint;  // of friction and damping of joints
+  int delay = 0;              // control steps
+};
+
+// Draws a start of the skill: one of its variants, its things moved and turned within the options'
+// ranges such that nothing overlaps and the arm can do its work there (PlanReach), joints and hand
+// as the shares of easier starts say. Falls back on the start as described where no such place is
+// found in 60 tries.
+EpisodeStart DrawStart(const Skill& skill, core::Rng& rng);
+
+}  // namespace simwright::rl

@@ -1,0 +1,194 @@
+#include "rl/focus.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Vector3d;
+using tasks::RewardInput;
+using tasks::RewardSlot;
+using tasks::SceneModel;
+using tasks::SceneState;
+using tasks::Thing;
+
+constexpr double kPalm = 0.02;  // m from the fingertips to the palm, less what has to stay free
+
+bool IsPlace(RewardInput input) {
+  return input == RewardInput::kLinkPosition || input == RewardInput::kAssetPosition ||
+         input == RewardInput::kLinkBoundingBox || input == RewardInput::kAssetBoundingBox;
+}
+
+const RewardSlot* FirstSlot(const std::vector<RewardSlot>& slots, bool (*wanted)(RewardInput)) {
+  for (const RewardSlot& slot : slots) {
+    if (wanted(slot.input) && !slot.asset.empty()) return &slot;
+  }
+  return nullptr;
+}
+
+// Which way the joint carries the point `on_link` (world), unit; zero where it only turns it.
+Vector3d Tangent(const tasks::ThingJoint& joint, const Eigen::Isometry3d& world_from_link,
+                 const Vector3d& point) {
+  const Vector3d axis = world_from_link.linear() * joint.axis;
+  if (joint.type == tasks::RewardJointType::kPrismatic) return axis;
+  const Vector3d arm = point - world_from_link.translation();
+  const Vector3d tangent = axis.cross(arm);
+  return tangent.norm() > 0.02 ? tangent.normalized() : Vector3d::Zero();
+}
+
+// The side of the thing on which the point lies, along `line`: +1 or -1.
+double Outward(const Eigen::AlignedBox3d& box, const Vector3d& point, const Vector3d& line) {
+  return (point - box.center()).dot(line) >= 0.0 ? 1.0 : -1.0;
+}
+
+// The direction, perpendicular to `approach`, in which the link's outline is the thinnest.
+Vector3d ThinAcross(const tasks::ThingLink& link, const Vector3d& approach) {
+  const Vector3d first = approach.unitOrthogonal(), second = approach.cross(first);
+  Vector3d best = first;
+  double thinnest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 36; ++i) {
+    const double angle = std::numbers::pi * i / 36;
+    const Vector3d across = std::cos(angle) * first + std::sin(angle) * second;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Vector3d& point : link.outline) {
+      low = std::min(low, point.dot(across));
+      high = std::max(high, point.dot(across));
+    }
+    if (high - low < thinnest - 1e-4) {
+      thinnest = high - low;
+      best = across;
+    }
+  }
+  return best;
+}
+
+// The tool's pose at a part that a joint moves, in the link's frame. The hand comes from where the
+// part can be reached: from outside along the part's own way, or along the axis of what turns in
+// place.
+Eigen::Isometry3d ToolOnPart(const SceneModel& model, const SceneState& start, const Focus& focus) {
+  const Thing& thing = model.things[static_cast<size_t>(focus.thing)];
+  const tasks::ThingJoint& joint = thing.joints[static_cast<size_t>(focus.joint)];
+  SceneState rest = start;
+  rest.joints[static_cast<size_t>(focus.thing)] = tasks::RestPositions(thing);
+  const std::vector<Eigen::Isometry3d> poses =
+      tasks::LinkPosesOf(thing, rest.joints[static_cast<size_t>(focus.thing)]);
+  const Eigen::Isometry3d& root = rest.roots[static_cast<size_t>(focus.thing)];
+  const Eigen::Isometry3d world_from_link = root * poses[static_cast<size_t>(focus.link)];
+  const Eigen::Isometry3d world_from_moved = root * poses[static_cast<size_t>(joint.link)];
+  const tasks::ThingLink& link = thing.links[static_cast<size_t>(focus.link)];
+  const Vector3d point = world_from_link * link.middle;
+  Vector3d line = Tangent(joint, world_from_moved, point);
+  if (line.isZero()) line = world_from_moved.linear() * joint.axis;
+  const Vector3d outward = Outward(tasks::WorldBox(model, rest, focus.thing), point, line) * line;
+  const Vector3d approach = world_from_link.linear().transpose() * -outward;
+  const Vector3d across = ThinAcross(link, approach);
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() << across.cross(approach), across, approach;
+  pose.translation() = link.middle;
+  return pose;
+}
+
+// Of a thing that is taken from above: its middle, or as deep below its top as the palm lets.
+Vector3d GraspPoint(const Thing& thing) {
+  Vector3d point = thing.box.center();
+  point.z() = std::max(point.z(), thing.box.max().z() - kPalm);
+  return point;
+}
+
+}  // namespace
+
+std::optional<Focus> FocusOf(const SceneModel& model, const SceneState& start,
+                             const std::vector<RewardSlot>& slots) {
+  const auto of_joint = [](RewardInput input) { return input == RewardInput::kJointState; };
+  const auto of_grasp = [](RewardInput input) { return input == RewardInput::kGrasped; };
+  Focus focus;
+  if (const RewardSlot* slot = FirstSlot(slots, of_joint)) {
+    focus.thing = model.Find(slot->asset);
+    const Thing& thing = model.things[static_cast<size_t>(focus.thing)];
+    focus.joint = thing.FindJoint(slot->part);
+    if (focus.joint >= 0) {
+      focus.link = thing.joints[static_cast<size_t>(focus.joint)].grip;
+      focus.link_from_tool = ToolOnPart(model, start, focus);
+      return focus;
+    }
+  }
+  const RewardSlot* slot = FirstSlot(slots, of_grasp);
+  if (slot == nullptr) slot = FirstSlot(slots, IsPlace);
+  if (slot == nullptr) return std::nullopt;
+  focus.thing = model.Find(slot->asset);
+  focus.link = 0;
+  focus.link_from_tool.translation() = GraspPoint(model.things[static_cast<size_t>(focus.thing)]);
+  return focus;
+}
+
+std::optional<Destination> DestinationOf(const SceneModel& model, const Focus& focus,
+                                         const std::vector<RewardSlot>& slots) {
+  Destination destination;
+  for (const RewardSlot& slot : slots) {
+    if (slot.input == RewardInput::kGoalPosition) {
+      destination.goal = true;
+      return destination;
+    }
+  }
+  if (focus.joint >= 0) return std::nullopt;
+  for (const RewardSlot& slot : slots) {
+    const int thing = slot.asset.empty() ? -1 : model.Find(slot.asset);
+    if (!IsPlace(slot.input) || thing < 0 || thing == focus.thing) continue;
+    const Thing& holder = model.things[static_cast<size_t>(thing)];
+    destination.thing = thing;
+    destination.link = slot.part.empty() ? 0 : holder.FindLink(slot.part);
+    const Eigen::AlignedBox3d& box = holder.links[static_cast<size_t>(destination.link)].box;
+    destination.point = {box.center().x(), box.center().y(), box.max().z()};
+    for (const tasks::Cavity& cavity : holder.cavities) {
+      if (cavity.link != destination.link) continue;
+      destination.point = cavity.box.center();
+      break;
+    }
+    return destination;
+  }
+  return std::nullopt;
+}
+
+Eigen::Isometry3d ToolAtJoint(const SceneModel& model, const SceneState& state,
+                              const Focus& focus) {
+  const auto thing = static_cast<size_t>(focus.thing);
+  const std::vector<Eigen::Isometry3d> poses =
+      tasks::LinkPosesOf(model.things[thing], state.joints[thing]);
+  return state.roots[thing] * poses[static_cast<size_t>(focus.link)] * focus.link_from_tool;
+}
+
+double ThinDirection(const Thing& thing, const Eigen::Isometry3d& world_from_thing, double wished) {
+  constexpr int kDirections = 36;
+  constexpr double kAlike = 0.002;  // m
+  double widths[kDirections];
+  double thinnest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = std::numbers::pi * i / kDirections;
+    const Vector3d across(std::cos(angle), std::sin(angle), 0.0);
+    const Vector3d local = world_from_thing.linear().transpose() * across;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const tasks::ThingLink& link : thing.links) {
+      for (const Vector3d& point : link.outline) {
+        low = std::min(low, point.dot(local));
+        high = std::max(high, point.dot(local));
+      }
+    }
+    widths[i] = high - low;
+    thinnest = std::min(thinnest, widths[i]);
+  }
+  double best = 0.0, nearest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kDirections; ++i) {
+    if (widths[i] > thinnest + kAlike) continue;
+    // Both senses of a direction are one: the difference lies in [-pi/2, pi/2].
+    const double off =
+        std::remainder(std::numbers::pi * i / kDirections - wished, std::numbers::pi);
+    if (std::abs(off) >= nearest) continue;
+    nearest = std::abs(off);
+    best = wished + off;
+  }
+  return best;
+}
+
+}  // namespace simwright::rl

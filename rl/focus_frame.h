@@ -1,0 +1,31 @@
+#pragma once
+
+#include "rl/skill.h"
+
+namespace simwright::rl {
+
+// The frame that a policy sees and acts from, followed through an episode. Its origin and axes are
+// where the tool works: at the part or thing, and once a thing is held, where the tool is when the
+// thing has come to its destination. An action of zero so always means "get there".
+class FocusFrame {
+ public:
+  // `state` at the start of the episode, `pitch` (rad) as PlanReach gives it.
+  FocusFrame(const SkillVariant& variant, const tasks::SceneState& state, double pitch);
+
+  // Follows what has moved since.
+  void Update(const tasks::SceneState& state);
+
+  const Eigen::Isometry3d& world_from_focus() const { return world_from_focus_; }
+  bool at_destination() const { return at_destination_; }
+
+ private:
+  void Switch(const tasks::SceneState& state);
+
+  const SkillVariant& variant_;
+  Eigen::Isometry3d world_from_focus_ = Eigen::Isometry3d::Identity();
+  double tool_yaw_ = 0.0, pitch_ = 0.0;
+  bool at_destination_ = false;
+  int held_ = 0;  // updates in a row with the thing in both fingers
+};
+
+}  // namespace simwright::rl

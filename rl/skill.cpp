@@ -1,0 +1,159 @@
+#include "rl/skill.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "geometry/convex_hull.h"
+#include "sim/driven_robot.h"
+
+namespace simwright::rl {
+namespace {
+
+using tasks::RewardInput;
+
+// The parts of a rigid thing as one convex part.
+void TakeHull(sim::ArticulatedBody* body) {
+  sim::RigidBody& link = body->links.front();
+  std::vector<Eigen::Vector3d> points;
+  for (const core::TriangleMesh& part : link.parts) {
+    points.insert(points.end(), part.vertices.begin(), part.vertices.end());
+  }
+  link.parts = {geometry::ConvexHull(points, 64)};
+  link.capsules.clear();
+}
+
+// What `thing` stands in or on at the start: the thing whose box reaches below it and holds its
+// middle.
+int CarrierOf(const tasks::SceneModel& model, const tasks::SceneState& start, int thing,
+              const std::vector<int>& placed) {
+  constexpr double kOnFloor = 0.005;  // m
+  const Eigen::AlignedBox3d box = tasks::WorldBox(model, start, thing);
+  if (box.min().z() < kOnFloor) return -1;
+  for (const int other : placed) {
+    if (other == thing) continue;
+    const Eigen::AlignedBox3d holder = tasks::WorldBox(model, start, other);
+    const Eigen::Vector3d middle = box.center();
+    const bool over = (middle.head<2>().array() >= holder.min().head<2>().array()).all() &&
+                      (middle.head<2>().array() <= holder.max().head<2>().array()).all();
+    if (over && holder.min().z() < box.min().z() - kOnFloor) return other;
+  }
+  return -1;
+}
+
+void Place(SkillVariant* variant) {
+  const tasks::InitialState& start = variant->subtask.start;
+  variant->fixed.assign(variant->model.things.size(), false);
+  variant->carried_by.assign(variant->model.things.size(), -1);
+  for (const tasks::AssetPlacement& placement : start.placements) {
+    const int thing = variant->model.Find(placement.asset);
+    variant->placed.push_back(thing);
+    variant->fixed[static_cast<size_t>(thing)] = placement.fixed;
+  }
+  variant->starts_held = !start.held.empty();
+  for (const int thing : variant->placed) {
+    const bool held = variant->starts_held && thing == variant->model.Find(start.held);
+    if (variant->fixed[static_cast<size_t>(thing)] || held) continue;
+    variant->carried_by[static_cast<size_t>(thing)] =
+        CarrierOf(variant->model, variant->start, thing, variant->placed);
+  }
+}
+
+void CompileProgram(const SkillOptions&, SkillVariant* variant) {
+  const tasks::Subtask& subtask = variant->subtask;
+  const tasks::CompileOutcome outcome =
+      tasks::CompileReward(subtask.program, &variant->model.names);
+  if (!outcome.program) {
+    std::string why = "the program does not compile";
+    for (const core::Finding& finding : outcome.findings) {
+      if (finding.severity != core::Severity::kError) continue;
+      why = finding.sentence + " (" + finding.place + ")";
+      break;
+    }
+    throw core::Error(why, "subtask " + subtask.name, "see `simwright reward`");
+  }
+  if (!outcome.program->has_success()) {
+    throw core::Error("the program says nothing of success", "subtask " + subtask.name,
+                      "return reward, success");
+  }
+  variant->program = outcome.program;
+}
+
+void FindFocus(SkillVariant* variant) {
+  const std::vector<tasks::RewardSlot>& slots = variant->program->slots();
+  variant->focus = FocusOf(variant->model, variant->start, slots);
+  if (variant->focus) {
+    variant->destination = DestinationOf(variant->model, *variant->focus, slots);
+  }
+  for (const tasks::RewardSlot& slot : slots) {
+    if (slot.input == RewardInput::kGrasped) variant->asks_for_grasp = true;
+  }
+}
+
+void PrepareBodies(const std::vector<assets::SemanticModel>& models, const SkillOptions& options,
+                   SkillVariant* variant) {
+  for (size_t i = 0; i < models.size(); ++i) {
+    sim::ArticulatedBody body = sim::ArticulatedBodyFrom(models[i].model);
+    const bool worked = variant->focus && variant->focus->thing == static_cast<int>(i);
+    const bool only_moved = worked && body.joints.empty();
+    if (options.hulls && only_moved && !body.links.front().parts.empty()) TakeHull(&body);
+    std::vector<int> joints;
+    for (const tasks::ThingJoint& joint : variant->model.things[i].joints) {
+      joints.push_back(body.JointIndex(joint.name));
+    }
+    variant->body_joints.push_back(std::move(joints));
+    variant->bodies.push_back(std::make_shared<sim::PreparedBody>(std::move(body)));
+  }
+}
+
+SkillVariant MakeVariant(const SkillSubtask& source, const SkillOptions& options) {
+  SkillVariant variant;
+  variant.model = tasks::MakeSceneModel(source.assets);
+  variant.subtask = source.subtask;
+  variant.start = tasks::StateOf(variant.model, source.subtask.start, source.subtask.goal);
+  Place(&variant);
+  CompileProgram(options, &variant);
+  FindFocus(&variant);
+  PrepareBodies(source.assets, options, &variant);
+  return variant;
+}
+
+// Two programs look at the world alike: what a policy sees of one it can see of the other.
+bool Alike(const SkillVariant& a, const SkillVariant& b) {
+  const auto kinds = [](const SkillVariant& variant) {
+    std::vector<int> inputs;
+    for (const tasks::RewardSlot& slot : variant.program->slots()) {
+      inputs.push_back(static_cast<int>(slot.input));
+    }
+    return inputs;
+  };
+  return kinds(a) == kinds(b) && a.focus.has_value() == b.focus.has_value() &&
+         (!a.focus || (a.focus->joint >= 0) == (b.focus->joint >= 0)) &&
+         a.destination.has_value() == b.destination.has_value();
+}
+
+}  // namespace
+
+std::shared_ptr<const Skill> MakeSkill(const robot::RobotModel& robot,
+                                       const std::vector<SkillSubtask>& subtasks,
+                                       const SkillOptions& options) {
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error(error, "skill options");
+  if (subtasks.empty()) throw core::Error("a skill needs a subtask");
+  auto skill = std::make_shared<Skill>();
+  skill->robot = &robot;
+  skill->robot_body = sim::RobotBody(robot);
+  skill->kinematics = std::make_shared<robot::PoseInverseKinematics>(robot.arm);
+  skill->chain = std::make_shared<robot::ChainKinematics>(robot.arm);
+  skill->options = options;
+  for (const SkillSubtask& subtask : subtasks) {
+    skill->variants.push_back(MakeVariant(subtask, options));
+    if (!Alike(skill->variants.front(), skill->variants.back())) {
+      throw core::Error("its program reads other things than that of '" +
+                            subtasks.front().subtask.name + "': one policy cannot learn both",
+                        "subtask " + subtask.subtask.name);
+    }
+  }
+  return skill;
+}
+
+}  // namespace simwright::rl

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rl/episode.h"
+#include "rl/vector_environment.h"
+
+namespace simwright::rl {
+
+class StartSource;
+
+// N episodes of a skill side by side, a world each. Each environment always runs on the same of
+// core::ThreadCount() threads.
+class SkillEnvironment : public VectorEnvironment {
+ public:
+  // Throws core::Error for count < 1.
+  SkillEnvironment(std::shared_ptr<const Skill> skill, int count);
+  ~SkillEnvironment() override;
+
+  int size() const override { return static_cast<int>(slots_.size()); }
+  int observation_size() const override { return observation_size_; }
+  int action_size() const override { return action_size_; }
+  void Reset(std::uint64_t seed, Rows* observations) override;
+  void Step(const Rows& actions, StepBatch* batch) override;
+  std::string SaveState() const override;
+  void RestoreState(std::string_view state, Rows* observations) override;
+
+  // Decisions after which the physics gave no numbers any more, and the seed of the last one's
+  // episode.
+  std::int64_t failures() const;
+  std::uint64_t failed_seed() const { return failed_seed_; }
+  const Skill& skill() const { return *skill_; }
+
+ private:
+  // One environment. Its state is the number of its episode and what was done in it so far: both
+  // repeat it bit for bit.
+  struct Slot {
+    std::unique_ptr<Episode> episode;
+    std::uint64_t number = 0;
+    std::vector<float> actions;
+    std::int64_t failures = 0;
+  };
+  std::uint64_t EpisodeSeed(size_t slot) const;
+  void Begin(size_t slot);
+  void StepOne(size_t slot, const Rows& actions, StepBatch* batch);
+  template <typename Body>
+  void ForEach(const Body& body);
+
+  std::shared_ptr<const Skill> skill_;
+  std::vector<Slot> slots_;
+  int observation_size_ = 0, action_size_ = 0;
+  std::uint64_t seed_ = 0, failed_seed_ = 0;
+};
+
+}  // namespace simwright::rl

@@ -1,0 +1,130 @@
+#include "rl/skill_world.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Isometry3d;
+
+constexpr double kTouches = 5e-4;    // m
+constexpr double kGraspForce = 1.0;  // N of each finger
+constexpr double kClosing = 0.6;     // s, until a hand has closed on what it shall hold
+constexpr double kFarthest = 20.0;   // m from the robot: farther, the physics has failed
+
+sim::WorldOptions WorldOptionsOf(const SkillOptions& options) {
+  sim::WorldOptions world;
+  world.time_step = 1.0 / (options.control_rate * options.substeps);
+  world.solver_iterations = options.contact_iterations;
+  return world;
+}
+
+}  // namespace
+
+SkillWorld::SkillWorld(const Skill& skill, const EpisodeStart& start)
+    : skill_(skill),
+      variant_(skill.variants[static_cast<size_t>(start.variant)]),
+      world_(WorldOptionsOf(skill.options)),
+      bodies_(variant_.model.things.size(), -1) {
+  for (const int thing : variant_.placed) {
+    const auto t = static_cast<size_t>(thing);
+    sim::Placement placement;
+    placement.world_from_root = start.state.roots[t];
+    placement.fixed = variant_.fixed[t];
+    placement.mass_scale = start.mass[t];
+    placement.friction_scale = start.friction[t];
+    placement.joint_scale = start.joint[t];
+    bodies_[t] = world_.Add(variant_.bodies[t], placement);
+    thing_of_.push_back(thing);
+    for (size_t j = 0; j < variant_.body_joints[t].size(); ++j) {
+      world_.SetPosition(bodies_[t], variant_.body_joints[t][j], start.state.joints[t][j]);
+    }
+  }
+  robot_ = std::make_unique<sim::DrivenRobot>(*skill.robot, skill.robot_body,
+                                              variant_.subtask.start.world_from_robot, &world_);
+  thing_of_.push_back(-1);
+  for (auto& pressed : pressed_) pressed.assign(variant_.model.things.size(), 0.0);
+  robot_->Place(start.arm, start.leader);
+  if (start.take) HoldThing(kClosing);
+}
+
+// The thing stays where it is while the hand closes, as if it stood on something.
+void SkillWorld::HoldThing(double seconds) {
+  const auto thing = static_cast<size_t>(variant_.focus->thing);
+  const int body = bodies_[thing];
+  const Isometry3d pose = world_.LinkPose(body, 0);
+  robot_->Command(robot_->command(), skill_.robot->gripper.closed);
+  const int steps = static_cast<int>(seconds / world_.time_step());
+  for (int step = 0; step < steps; ++step) {
+    robot_->Drive();
+    world_.Step();
+    if (step + 24 < steps) world_.SetRootPose(body, pose);
+  }
+  ReadContacts();
+}
+
+void SkillWorld::Advance() {
+  world_.SetIterations(touching_ ? skill_.options.contact_iterations
+                                 : skill_.options.free_iterations);
+  for (int step = 0; step < skill_.options.substeps; ++step) {
+    robot_->Drive();
+    world_.Step();
+  }
+  ReadContacts();
+}
+
+void SkillWorld::ReadContacts() {
+  world_.Contacts(&contacts_);
+  for (auto& pressed : pressed_) std::fill(pressed.begin(), pressed.end(), 0.0);
+  const std::vector<int>& fingers = skill_.robot->gripper.links;
+  touching_ = false;
+  touched_ = touched_link_ = -1;
+  double hardest = -1.0;
+  for (const sim::LinkContact& contact : contacts_) {
+    if (contact.distance > kTouches) continue;
+    const bool robot_first = contact.body_a == robot_->body();
+    if (!robot_first && contact.body_b != robot_->body()) continue;
+    touching_ = true;
+    const int finger_link = robot_first ? contact.link_a : contact.link_b;
+    const int other = robot_first ? contact.body_b : contact.body_a;
+    if (other == sim::kFloor) continue;
+    const auto finger = std::find(fingers.begin(), fingers.end(), finger_link) - fingers.begin();
+    if (finger >= 2) continue;
+    const int thing = thing_of_[static_cast<size_t>(other)];
+    pressed_[finger][static_cast<size_t>(thing)] += contact.impulse;
+    if (contact.impulse <= hardest) continue;
+    hardest = contact.impulse;
+    touched_ = thing;
+    touched_link_ = robot_first ? contact.link_b : contact.link_a;
+  }
+  const double least = kGraspForce * world_.time_step();
+  grasped_ = touched_ >= 0 && pressed_[0][static_cast<size_t>(touched_)] > least &&
+             pressed_[1][static_cast<size_t>(touched_)] > least;
+}
+
+void SkillWorld::Read(tasks::SceneState* state) const {
+  for (size_t t = 0; t < bodies_.size(); ++t) {
+    if (bodies_[t] < 0) continue;
+    state->roots[t] = world_.LinkPose(bodies_[t], 0);
+    for (size_t j = 0; j < variant_.body_joints[t].size(); ++j) {
+      state->joints[t][j] = world_.Position(bodies_[t], variant_.body_joints[t][j]);
+    }
+  }
+  state->gripper = robot_->Tool();
+  state->opening = robot_->Opening();
+  state->touched = touched_;
+  state->touched_link = touched_link_;
+  state->grasped = grasped_;
+}
+
+bool SkillWorld::IsSound() const {
+  for (const int body : bodies_) {
+    if (body < 0) continue;
+    const Isometry3d pose = world_.LinkPose(body, 0);
+    if (!(pose.translation().norm() < kFarthest) || !pose.matrix().allFinite()) return false;
+  }
+  return robot_->Tool().matrix().allFinite();
+}
+
+}  // namespace simwright::rl

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "rl/skill.h"
+#include "robot/robot_model.h"
+
+namespace simwright::rl {
+
+// What the hand was asked for by the last action.
+struct ToolTarget {
+  Eigen::Isometry3d base_from_tool = Eigen::Isometry3d::Identity();
+  robot::Posture joints;  // (J), with ActionSpace::kJoints
+  double leader = 0.0;    // the gripper's first joint
+};
+
+// How many numbers an action has: 7, or one more than the arm's joints.
+int ActionSize(const Skill& skill);
+
+// What `action` (A, in [-1, 1]) asks for. `base_from_focus`: the frame of ActionSpace::kFocus, its
+// axes the tool's at work. `command`: the posture that the arm was sent to last.
+ToolTarget TargetOf(const Skill& skill, const float* action,
+                    const Eigen::Isometry3d& base_from_focus, const robot::Posture& command);
+
+// Where the arm is sent. Mutable, one an episode.
+struct ArmCommand {
+  robot::Posture goal;  // (J) the posture in which the tool is where the action wants it
+  robot::Posture sent;  // (J) what the motors hold now: on its way to `goal`
+  double leader = 0.0;  // the gripper's first joint
+};
+
+// Moves the command towards the target by one control step, within the speeds of options and
+// joints, and no farther than options.longest_lead from the joints' positions `actual`. The goal
+// follows the target from posture to posture, the arm follows the goal joint by joint: it never
+// gets stuck at a limit between two ways of reaching one place.
+void Approach(const Skill& skill, const ToolTarget& target, const robot::Posture& actual,
+              ArmCommand* command);
+
+}  // namespace simwright::rl
