@@ -154,9 +154,10 @@ TrainingResult TrainPolicy(VectorEnvironment* environment, const TrainingOptions
   while (!end) {
     const TrainingRecord record = training.Iterate();
     end = training.End();
-    if (end || training.SaveDue() || core::CancelRequested()) training.Save();
     if (report) report(record);
-    core::CheckCancelled();
+    const bool cancelled = core::CancelRequested();  // once: it may come at any time
+    if (end || cancelled || training.SaveDue()) training.Save();
+    if (cancelled) throw core::Cancelled();
   }
   return {*end, training.LastRecord()};
 }

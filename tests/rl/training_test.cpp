@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "rl/event_file.h"
 #include "rl/policy_file.h"
 #include "rl/training_log.h"
@@ -54,7 +57,8 @@ void ExpectSameTraining(const fs::path& a, const fs::path& b) {
           << name << " of iteration " << i + 1 << ": " << x << " and " << y;
     }
   }
-  EXPECT_EQ(core::ReadFile(a / kPolicyFile), core::ReadFile(b / kPolicyFile));
+  // No EXPECT_EQ: it would print both.
+  EXPECT_TRUE(core::ReadFile(a / kPolicyFile) == core::ReadFile(b / kPolicyFile));
 }
 
 class TrainingTest : public testing::Test {
@@ -163,6 +167,24 @@ TEST(Training, EndsWhenTheSuccessIntervalsLowerEndHasReachedTheTarget) {
   const Policy policy = ReadPolicy(folder.path() / "run" / kPolicyFile);
   EXPECT_EQ(policy.facts().at("task"), "reach");
   EXPECT_GT(fs::file_size(folder.path() / "run" / kCurvesFile), 2000u);
+}
+
+// Ctrl-C cannot be taken back, so that a process of its own is asked to stop.
+TEST(TrainingDeathTest, CtrlCEndsAfterTheIterationWithACheckpoint) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const core::TemporaryFolder folder;
+  const auto stop = [&] {
+    try {
+      Train(SmallTraining(8), folder.path(), false, [](const TrainingRecord& record) {
+        if (record.iteration == 1) core::RequestCancel();
+      });
+    } catch (const core::Cancelled&) {
+      const bool kept = fs::exists(folder.path() / kCheckpointFile);
+      _exit(kept ? 5 : 6);
+    }
+    _exit(7);
+  };
+  EXPECT_EXIT(stop(), testing::ExitedWithCode(5), "");
 }
 
 TEST(Training, OptionsThatNoTrainingCanHaveLeaveNoFolder) {
