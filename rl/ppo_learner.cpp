@@ -123,6 +123,7 @@ UpdateReport PpoLearner::Update(const Rollout& rollout) {
   report.explained_variance = ExplainedVariance(samples);
   for (int epoch = 0; epoch < options_.epochs; ++epoch) {
     Shuffle(&rows);
+    double kl = 0.0;
     const torch::Tensor shuffled =
         torch::from_blob(rows.data(), {count}, torch::kInt64).to(device_);
     for (std::int64_t part = 0; part < parts; ++part) {
@@ -131,9 +132,10 @@ UpdateReport PpoLearner::Update(const Rollout& rollout) {
           ComputePpoLoss(networks_, samples.Select(shuffled.narrow(0, first, last - first)),
                          old_log_std, options_);
       AddMeans(loss, &report);
-      AdaptRate(loss.kl.item<double>());
+      kl += loss.kl.item<double>() / static_cast<double>(parts);
       Descend(loss.total, &report);
     }
+    AdaptRate(kl, /*last=*/epoch + 1 == options_.epochs);
   }
   Divide(static_cast<double>(options_.epochs * parts), &report);
   report.learning_rate = learning_rate_;
@@ -141,11 +143,11 @@ UpdateReport PpoLearner::Update(const Rollout& rollout) {
   return report;
 }
 
-void PpoLearner::AdaptRate(double kl) {
+void PpoLearner::AdaptRate(double kl, bool last) {
   if (options_.target_kl == 0.0) return;
   if (kl > 2.0 * options_.target_kl) {
     learning_rate_ = std::max(options_.smallest_rate, learning_rate_ / 1.5);
-  } else if (kl < 0.5 * options_.target_kl) {
+  } else if (last && kl < 0.5 * options_.target_kl) {
     learning_rate_ = std::min(options_.largest_rate, learning_rate_ * 1.5);
   }
 }

@@ -45,7 +45,9 @@ class PpoLearner {
   Samples Evaluate(const Rollout& rollout) const;
   // Fisher and Yates.
   void Shuffle(std::vector<std::int64_t>* rows);
-  void AdaptRate(double kl);
+  // After an epoch of mean divergence `kl`. Up only after the `last` one: the first ones are always
+  // close to the policy that acted.
+  void AdaptRate(double kl, bool last);
   void Descend(const torch::Tensor& loss, UpdateReport* report);
 
   PpoOptions options_;

@@ -51,6 +51,7 @@ void ReachEnvironment::Step(const Rows& actions, StepBatch* batch) {
     ++point.steps;
     batch->terminated[i] = std::abs(point.x) > 3.0;
     batch->truncated[i] = !batch->terminated[i] && point.steps >= episode_steps_;
+    if (batch->terminated[i]) batch->rewards[i] -= static_cast<float>(kLeavingCost);
     if (!batch->terminated[i] && !batch->truncated[i]) continue;
     batch->success[i] = std::abs(point.x) < 0.05;
     batch->last_observations.row(row) << static_cast<float>(point.x), static_cast<float>(point.v);

@@ -1,0 +1,165 @@
+#include "rl/training.h"
+
+#include <chrono>
+#include <optional>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/progress.h"
+#include "rl/policy_file.h"
+#include "rl/ppo.h"
+#include "rl/training_checkpoint.h"
+#include "rl/training_curves.h"
+#include "rl/training_log.h"
+
+namespace simwright::rl {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+const TrainingOptions& Checked(const TrainingOptions& options) {
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error(error, "training options");
+  return options;
+}
+
+// Whether there is a checkpoint to go on from. Makes the folder.
+bool Prepare(const std::filesystem::path& folder, bool resume) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  if (code) {
+    throw core::Error("cannot create the folder: " + code.message(), folder.string(),
+                      "check that the place exists and may be written");
+  }
+  const bool found = std::filesystem::exists(folder / kCheckpointFile);
+  if (found && !resume) {
+    throw core::Error("holds a training already", folder.string(),
+                      "go on with it by --resume, or choose another folder");
+  }
+  return found;
+}
+
+// One training from its folder's point of view.
+class Training {
+ public:
+  Training(VectorEnvironment* environment, const TrainingOptions& options,
+           const std::filesystem::path& folder, bool go_on)
+      : options_(Checked(options)),
+        folder_(folder),
+        ppo_(environment, options.ppo),
+        recent_(options.success_window) {
+    if (go_on) {
+      progress_ = ReadCheckpoint(folder / kCheckpointFile, options.facts, &ppo_, &recent_);
+    }
+    log_.emplace(folder, progress_.iteration);
+  }
+
+  // Collects, learns and writes down.
+  TrainingRecord Iterate();
+  // Why the training is over, if it is.
+  std::optional<TrainingEnd> End() const;
+  bool SaveDue() const { return progress_.iteration % options_.checkpoint_every == 0; }
+  void Save() const;
+  TrainingRecord LastRecord() const {
+    return log_->records().empty() ? TrainingRecord() : log_->records().back();
+  }
+
+ private:
+  TrainingRecord RecordOf(const UpdateReport& update) const;
+
+  TrainingOptions options_;
+  std::filesystem::path folder_;
+  Ppo ppo_;
+  RecentOutcomes recent_;
+  TrainingProgress progress_;
+  std::optional<TrainingLog> log_;
+};
+
+TrainingRecord Training::Iterate() {
+  const Clock::time_point start = Clock::now();
+  const std::int64_t samples = ppo_.samples();
+  std::vector<Outcome> outcomes;
+  ppo_.Collect(&outcomes);
+  const double collected = SecondsSince(start);
+  const UpdateReport update = ppo_.Update();
+  const double seconds = SecondsSince(start);
+  for (const Outcome& outcome : outcomes) recent_.Add(outcome);
+  ++progress_.iteration;
+  progress_.episodes += static_cast<std::int64_t>(outcomes.size());
+  progress_.seconds += seconds;
+  TrainingRecord record = RecordOf(update);
+  record.samples_per_second = static_cast<double>(ppo_.samples() - samples) / seconds;
+  record.learner_share = (seconds - collected) / seconds;
+  log_->Append(record);
+  return record;
+}
+
+TrainingRecord Training::RecordOf(const UpdateReport& update) const {
+  TrainingRecord record;
+  record.iteration = static_cast<double>(progress_.iteration);
+  record.samples = static_cast<double>(ppo_.samples());
+  record.seconds = progress_.seconds;
+  record.episodes = static_cast<double>(progress_.episodes);
+  record.mean_return = recent_.MeanReward();
+  record.mean_steps = recent_.MeanSteps();
+  record.success = recent_.SuccessRate();
+  const Interval interval = recent_.SuccessInterval();
+  record.success_low = interval.low;
+  record.success_high = interval.high;
+  record.kl = update.kl;
+  record.learning_rate = update.learning_rate;
+  record.policy_loss = update.policy_loss;
+  record.value_loss = update.value_loss;
+  record.entropy = update.entropy;
+  record.std = update.std;
+  record.clipped_share = update.clipped_share;
+  record.gradient_norm = update.gradient_norm;
+  record.explained_variance = update.explained_variance;
+  record.dropped = static_cast<double>(ppo_.dropped());
+  return record;
+}
+
+std::optional<TrainingEnd> Training::End() const {
+  if (options_.success_target > 0.0 && recent_.full() &&
+      recent_.SuccessInterval().low >= options_.success_target) {
+    return TrainingEnd::kSuccess;
+  }
+  if (ppo_.samples() >= options_.max_samples) return TrainingEnd::kSamples;
+  if (options_.max_seconds > 0.0 && progress_.seconds >= options_.max_seconds) {
+    return TrainingEnd::kSeconds;
+  }
+  return std::nullopt;
+}
+
+void Training::Save() const {
+  WriteCheckpoint(ppo_, progress_, recent_, options_.facts, folder_ / kCheckpointFile);
+  const Policy policy = ppo_.CurrentPolicy();
+  WritePolicy(Policy(policy.scale(), policy.actor(), policy.std(), options_.facts),
+              folder_ / kPolicyFile);
+  core::WriteFile(folder_ / kCurvesFile, TrainingCurves(options_.title, log_->records()));
+}
+
+}  // namespace
+
+TrainingResult TrainPolicy(VectorEnvironment* environment, const TrainingOptions& options,
+                           const std::filesystem::path& folder, bool resume,
+                           const TrainingListener& report) {
+  Checked(options);
+  Training training(environment, options, folder, Prepare(folder, resume));
+  std::optional<TrainingEnd> end = training.End();
+  while (!end) {
+    const TrainingRecord record = training.Iterate();
+    end = training.End();
+    if (report) report(record);
+    const bool cancelled = core::CancelRequested();  // once: it may come at any time
+    if (end || cancelled || training.SaveDue()) training.Save();
+    if (cancelled) throw core::Cancelled();
+  }
+  return {*end, training.LastRecord()};
+}
+
+}  // namespace simwright::rl

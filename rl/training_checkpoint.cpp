@@ -1,0 +1,180 @@
+#include "rl/training_checkpoint.h"
+
+#include <span>
+#include <sstream>
+
+#include "core/error.h"
+#include "nn/tensor_file.h"
+#include "rl/fact_tensor.h"
+#include "rl/ppo_learner.h"
+
+namespace simwright::rl {
+namespace {
+
+constexpr char kKind[] = "simwright training";
+constexpr char kVersion[] = "1";
+
+torch::Tensor PackDoubles(std::span<const double> numbers) {
+  torch::Tensor tensor = torch::empty({static_cast<std::int64_t>(numbers.size())},
+                                      torch::TensorOptions(torch::kDouble));
+  std::copy(numbers.begin(), numbers.end(), tensor.data_ptr<double>());
+  return tensor;
+}
+
+std::vector<double> Doubles(const nn::NamedTensors& tensors, const std::string& name) {
+  const torch::Tensor tensor = TakeTensor(tensors, name, torch::kDouble, 1);
+  const double* first = tensor.data_ptr<double>();
+  return {first, first + tensor.numel()};
+}
+
+// Doubles, of which there are `count`.
+std::vector<double> Doubles(const nn::NamedTensors& tensors, const std::string& name,
+                            std::size_t count) {
+  std::vector<double> numbers = Doubles(tensors, name);
+  if (numbers.size() != count) throw core::Error("has a '" + name + "' of another length");
+  return numbers;
+}
+
+std::string Bytes(const nn::NamedTensors& tensors, const std::string& name) {
+  return UnpackBytes(TakeTensor(tensors, name, torch::kUInt8, 1));
+}
+
+void PackMoments(const RunningMoments& moments, const std::string& name,
+                 nn::NamedTensors* tensors) {
+  (*tensors)[name + ".count"] = PackDoubles({&moments.count, 1});
+  (*tensors)[name + ".mean"] =
+      PackDoubles({moments.mean.data(), moments.mean.data() + moments.mean.size()});
+  (*tensors)[name + ".squares"] =
+      PackDoubles({moments.squares.data(), moments.squares.data() + moments.squares.size()});
+}
+
+RunningMoments Moments(const nn::NamedTensors& tensors, const std::string& name) {
+  const std::vector<double> mean = Doubles(tensors, name + ".mean");
+  const std::vector<double> squares = Doubles(tensors, name + ".squares", mean.size());
+  RunningMoments moments(static_cast<int>(mean.size()));
+  moments.count = Doubles(tensors, name + ".count", 1)[0];
+  std::copy(mean.begin(), mean.end(), moments.mean.begin());
+  std::copy(squares.begin(), squares.end(), moments.squares.begin());
+  return moments;
+}
+
+void PackCollector(const CollectorState& state, nn::NamedTensors* tensors) {
+  PackMoments(state.observations, "observations", tensors);
+  PackMoments(state.returns, "returns", tensors);
+  (*tensors)["discounted_returns"] = PackDoubles(state.discounted_returns);
+  (*tensors)["episode_rewards"] = PackDoubles(state.episode_rewards);
+  (*tensors)["episode_steps"] = PackDoubles(state.episode_steps);
+  // Doubles count to 9e15 exactly.
+  const double counts[] = {static_cast<double>(state.samples), static_cast<double>(state.dropped)};
+  (*tensors)["samples"] = PackDoubles(counts);
+  (*tensors)["collector_generator"] = PackBytes(state.generator);
+  (*tensors)["environment"] = PackBytes(state.environment);
+}
+
+CollectorState Collector(const nn::NamedTensors& tensors) {
+  const std::vector<double> counts = Doubles(tensors, "samples", 2);
+  return {Moments(tensors, "observations"),       Moments(tensors, "returns"),
+          Doubles(tensors, "discounted_returns"), Doubles(tensors, "episode_rewards"),
+          Doubles(tensors, "episode_steps"),      static_cast<std::int64_t>(counts[0]),
+          static_cast<std::int64_t>(counts[1]),   Bytes(tensors, "collector_generator"),
+          Bytes(tensors, "environment")};
+}
+
+void PackLearner(const LearnerState& state, nn::NamedTensors* tensors) {
+  (*tensors)["parameters"] = state.parameters;
+  (*tensors)["adam.means"] = state.gradient_means;
+  (*tensors)["adam.squares"] = state.gradient_squares;
+  const double numbers[] = {static_cast<double>(state.descents), state.learning_rate};
+  (*tensors)["adam.steps_and_rate"] = PackDoubles(numbers);
+  (*tensors)["learner_generator"] = PackBytes(state.generator);
+}
+
+LearnerState Learner(const nn::NamedTensors& tensors) {
+  const std::vector<double> numbers = Doubles(tensors, "adam.steps_and_rate", 2);
+  return {TakeTensor(tensors, "parameters", torch::kFloat, 1),
+          TakeTensor(tensors, "adam.means", torch::kFloat, 1),
+          TakeTensor(tensors, "adam.squares", torch::kFloat, 1),
+          static_cast<std::int64_t>(numbers[0]),
+          numbers[1],
+          Bytes(tensors, "learner_generator")};
+}
+
+void PackOutcomes(const RecentOutcomes& recent, nn::NamedTensors* tensors) {
+  std::vector<double> numbers;
+  for (const Outcome& outcome : recent.outcomes()) {
+    numbers.insert(numbers.end(),
+                   {outcome.total_reward, outcome.steps, outcome.success ? 1.0 : 0.0});
+  }
+  (*tensors)["outcomes"] = PackDoubles(numbers);
+}
+
+void AddOutcomes(const nn::NamedTensors& tensors, RecentOutcomes* recent) {
+  const std::vector<double> numbers = Doubles(tensors, "outcomes");
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) {
+    recent->Add({numbers[i], numbers[i + 1], numbers[i + 2] != 0.0});
+  }
+}
+
+// What must be the same for a training to go on.
+Facts NetworkFacts(const Ppo& ppo) {
+  const Policy policy = ppo.CurrentPolicy();
+  std::ostringstream hidden;
+  for (const int size : ppo.options().hidden) hidden << (hidden.tellp() > 0 ? "-" : "") << size;
+  return {{"kind", kKind},
+          {"version", kVersion},
+          {"observations", std::to_string(policy.observation_size())},
+          {"actions", std::to_string(policy.action_size())},
+          {"hidden", hidden.str()},
+          {"activation", ppo.options().activation == Activation::kTanh ? "tanh" : "elu"}};
+}
+
+void CheckFacts(const Facts& wanted, const Facts& found) {
+  for (const auto& [key, value] : wanted) {
+    const auto other = found.find(key);
+    const std::string has = other == found.end() ? "none" : "'" + other->second + "'";
+    if (has == "'" + value + "'") continue;
+    throw core::Error("is of another training: its " + key + " is " + has + ", wanted is '" +
+                      value + "'");
+  }
+}
+
+TrainingProgress Restore(const nn::NamedTensors& tensors, const Facts& facts, Ppo* ppo,
+                         RecentOutcomes* recent) {
+  const Facts found = UnpackFacts(TakeTensor(tensors, "facts", torch::kUInt8, 1));
+  CheckFacts(NetworkFacts(*ppo), found);
+  CheckFacts(facts, found);
+  const std::vector<double> progress = Doubles(tensors, "progress", 3);
+  ppo->Restore(Collector(tensors), Learner(tensors));
+  AddOutcomes(tensors, recent);
+  return {static_cast<std::int64_t>(progress[0]), static_cast<std::int64_t>(progress[1]),
+          progress[2]};
+}
+
+}  // namespace
+
+void WriteCheckpoint(const Ppo& ppo, const TrainingProgress& progress, const RecentOutcomes& recent,
+                     const Facts& facts, const std::filesystem::path& path) {
+  nn::NamedTensors tensors;
+  PackCollector(ppo.CollectorPart(), &tensors);
+  PackLearner(ppo.LearnerPart(), &tensors);
+  PackOutcomes(recent, &tensors);
+  const double numbers[] = {static_cast<double>(progress.iteration),
+                            static_cast<double>(progress.episodes), progress.seconds};
+  tensors["progress"] = PackDoubles(numbers);
+  Facts all = facts;
+  all.merge(NetworkFacts(ppo));
+  tensors["facts"] = PackFacts(all);
+  nn::WriteTensors(tensors, path);
+}
+
+TrainingProgress ReadCheckpoint(const std::filesystem::path& path, const Facts& facts, Ppo* ppo,
+                                RecentOutcomes* recent) {
+  const nn::NamedTensors tensors = nn::ReadTensors(path);
+  try {
+    return Restore(tensors, facts, ppo, recent);
+  } catch (const core::Error& error) {
+    throw core::Error(error.what(), path.string(), "train in another folder");
+  }
+}
+
+}  // namespace simwright::rl

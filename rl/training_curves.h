@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rl/training_record.h"
+
+namespace simwright::rl {
+
+// A picture (SVG) of a training: success with its 95 % interval, and the mean return, over samples.
+std::string TrainingCurves(const std::string& title, const std::vector<TrainingRecord>& records);
+
+}  // namespace simwright::rl

@@ -1,0 +1,21 @@
+#include "rl/training_options.h"
+
+namespace simwright::rl {
+
+bool TrainingOptions::IsValid(std::string* error) const {
+  const auto fail = [&](const char* why) {
+    if (error != nullptr) *error = why;
+    return false;
+  };
+  if (max_samples < 1) return fail("a training takes at least one sample");
+  if (!(max_seconds >= 0.0)) return fail("the time limit is not negative");
+  if (!(success_target >= 0.0 && success_target < 1.0)) {
+    return fail("the success target lies in [0, 1): an interval's lower end never reaches 1");
+  }
+  if (success_window < 1 || checkpoint_every < 1) {
+    return fail("the success window and the checkpoints' distance are at least 1");
+  }
+  return ppo.IsValid(error);
+}
+
+}  // namespace simwright::rl

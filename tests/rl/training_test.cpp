@@ -1,0 +1,199 @@
+// A training as a whole: stopped, resumed, failing.
+#include "rl/training.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "rl/event_file.h"
+#include "rl/policy_file.h"
+#include "rl/training_log.h"
+#include "tests/rl/reach_environment.h"
+
+namespace simwright::rl {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr int kEnvironments = 16;
+constexpr std::int64_t kIteration = kEnvironments * 32;  // samples
+
+TrainingOptions SmallTraining(int iterations) {
+  TrainingOptions options;
+  options.ppo.hidden = {16, 16};
+  options.ppo.horizon = 32;
+  options.ppo.minibatch = 128;
+  options.max_samples = iterations * kIteration;
+  options.success_window = 20;
+  options.checkpoint_every = 3;
+  options.facts = {{"task", "reach"}};
+  return options;
+}
+
+TrainingResult Train(const TrainingOptions& options, const fs::path& folder, bool resume,
+                     const TrainingListener& report = {}) {
+  core::SetThreadCount(2);
+  ReachEnvironment environment(kEnvironments);
+  return TrainPolicy(&environment, options, folder, resume, report);
+}
+
+// All that does not depend on the clock is the same, bit for bit.
+void ExpectSameTraining(const fs::path& a, const fs::path& b) {
+  const auto first = ReadTrainingTable(a / "training.csv", 1000);
+  const auto second = ReadTrainingTable(b / "training.csv", 1000);
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    for (const TrainingColumn& column : kTrainingColumns) {
+      const std::string name = column.name;
+      if (name == "seconds" || name == "samples_per_second" || name == "learner_share") continue;
+      const double x = first[i].*column.value, y = second[i].*column.value;
+      EXPECT_TRUE(x == y || (std::isnan(x) && std::isnan(y)))
+          << name << " of iteration " << i + 1 << ": " << x << " and " << y;
+    }
+  }
+  // No EXPECT_EQ: it would print both.
+  EXPECT_TRUE(core::ReadFile(a / kPolicyFile) == core::ReadFile(b / kPolicyFile));
+}
+
+class TrainingTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    Train(SmallTraining(8), whole_, false);
+    ASSERT_EQ(ReadTrainingTable(whole_ / "training.csv", 1000).size(), 8u);
+  }
+  core::TemporaryFolder folder_;
+  fs::path whole_ = folder_.path() / "whole", part_ = folder_.path() / "part";
+};
+
+TEST_F(TrainingTest, OneThatWasStoppedGoesOnAsIfItHadNotBeen) {
+  EXPECT_EQ(Train(SmallTraining(5), part_, false).end, TrainingEnd::kSamples);
+  EXPECT_THROW(Train(SmallTraining(8), part_, false), core::Error);  // would be overwritten
+  const TrainingResult result = Train(SmallTraining(8), part_, true);
+  EXPECT_EQ(result.last.iteration, 8.0);
+  EXPECT_EQ(result.last.samples, 8.0 * kIteration);
+  ExpectSameTraining(whole_, part_);
+}
+
+// Killed after iteration 5, it has rows that its last checkpoint, after iteration 3, does not know.
+TEST_F(TrainingTest, OneThatWasKilledRepeatsWhatItsCheckpointDoesNotKnow) {
+  struct Killed {};
+  EXPECT_THROW(Train(SmallTraining(8), part_, false,
+                     [](const TrainingRecord& record) {
+                       if (record.iteration == 5) throw Killed();
+                     }),
+               Killed);
+  ASSERT_EQ(ReadTrainingTable(part_ / "training.csv", 1000).size(), 5u);
+  Train(SmallTraining(8), part_, true);
+  ExpectSameTraining(whole_, part_);
+  const std::string events = core::ReadFile(part_ / "events.out.tfevents.0.simwright");
+  EXPECT_EQ(EventsUpTo(events, 8), events.size());
+  EXPECT_EQ(events.size(), core::ReadFile(whole_ / "events.out.tfevents.0.simwright").size());
+}
+
+TEST_F(TrainingTest, AFullDiskKeepsTheLastCheckpoint) {
+  Train(SmallTraining(5), part_, false);
+  const std::string checkpoint = core::ReadFile(part_ / kCheckpointFile);
+  rlimit limit{}, old{};
+  getrlimit(RLIMIT_FSIZE, &old);
+  limit = old;
+  limit.rlim_cur = checkpoint.size() - 1;
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &limit);
+  EXPECT_THROW(Train(SmallTraining(8), part_, true), core::Error);
+  setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(core::ReadFile(part_ / kCheckpointFile), checkpoint);
+  int files = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(part_)) ++files;
+  EXPECT_EQ(files, 5);  // nothing half-written beside the five that there are
+  Train(SmallTraining(8), part_, true);
+  ExpectSameTraining(whole_, part_);
+}
+
+TEST_F(TrainingTest, ACheckpointOfAnotherTrainingIsRefusedSayingWhatDiffers) {
+  const auto refusal = [&](auto change) -> std::string {
+    TrainingOptions options = SmallTraining(9);
+    change(&options);
+    try {
+      Train(options, whole_, true);
+    } catch (const core::Error& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_NE(refusal([](TrainingOptions* o) {
+              o->facts["task"] = "open";
+            }).find("its task is 'reach', wanted is 'open'"),
+            std::string::npos);
+  EXPECT_NE(refusal([](TrainingOptions* o) {
+              o->ppo.hidden = {16, 8};
+            }).find("its hidden is '16-16', wanted is '16-8'"),
+            std::string::npos);
+  ReachEnvironment more(kEnvironments + 1);
+  EXPECT_THROW(TrainPolicy(&more, SmallTraining(9), whole_, true), core::Error);
+  const std::string bytes = core::ReadFile(whole_ / kCheckpointFile);
+  std::string newer = bytes;
+  const std::size_t at = newer.find("version=1");
+  ASSERT_NE(at, std::string::npos);
+  newer[at + 8] = '2';
+  core::WriteFile(whole_ / kCheckpointFile, newer);
+  EXPECT_NE(refusal([](TrainingOptions*) {}).find("its version is '2', wanted is '1'"),
+            std::string::npos);
+  for (const double share : {0.0, 0.1, 0.5, 0.9, 0.999}) {
+    const auto length = static_cast<std::size_t>(share * static_cast<double>(bytes.size()));
+    core::WriteFile(whole_ / kCheckpointFile, bytes.substr(0, length));
+    EXPECT_NE(refusal([](TrainingOptions*) {}).find(kCheckpointFile), std::string::npos) << share;
+  }
+}
+
+TEST(Training, EndsWhenTheSuccessIntervalsLowerEndHasReachedTheTarget) {
+  const core::TemporaryFolder folder;
+  TrainingOptions options = SmallTraining(200);
+  options.success_window = 100;
+  options.success_target = 0.7;
+  const TrainingResult result = Train(options, folder.path() / "run", false);
+  EXPECT_EQ(result.end, TrainingEnd::kSuccess);
+  EXPECT_GE(result.last.success_low, 0.7);
+  EXPECT_GT(result.last.success, 0.78);  // of 100 episodes, 79 give a lower end of 0.70
+  const auto records = ReadTrainingTable(folder.path() / "run/training.csv", 1000);
+  EXPECT_LT(records[records.size() - 2].success_low, 0.7);
+
+  const Policy policy = ReadPolicy(folder.path() / "run" / kPolicyFile);
+  EXPECT_EQ(policy.facts().at("task"), "reach");
+  EXPECT_GT(fs::file_size(folder.path() / "run" / kCurvesFile), 2000u);
+}
+
+// Ctrl-C cannot be taken back, so that a process of its own is asked to stop.
+TEST(TrainingDeathTest, CtrlCEndsAfterTheIterationWithACheckpoint) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const core::TemporaryFolder folder;
+  const auto stop = [&] {
+    try {
+      Train(SmallTraining(8), folder.path(), false, [](const TrainingRecord& record) {
+        if (record.iteration == 1) core::RequestCancel();
+      });
+    } catch (const core::Cancelled&) {
+      const bool kept = fs::exists(folder.path() / kCheckpointFile);
+      _exit(kept ? 5 : 6);
+    }
+    _exit(7);
+  };
+  EXPECT_EXIT(stop(), testing::ExitedWithCode(5), "");
+}
+
+TEST(Training, OptionsThatNoTrainingCanHaveLeaveNoFolder) {
+  const core::TemporaryFolder folder;
+  TrainingOptions options = SmallTraining(3);
+  options.success_target = 1.0;
+  EXPECT_THROW(Train(options, folder.path() / "run", false), core::Error);
+  EXPECT_FALSE(fs::exists(folder.path() / "run"));
+}
+
+}  // namespace
+}  // namespace simwright::rl
