@@ -20,6 +20,7 @@ constexpr double kMostUneven = 3.0;  // a step over the mean of all
 constexpr double kGrid = 0.002;      // s, on which the law of time is sought
 constexpr double kShare = 0.998;     // of the limits that is used: peaks lie between grid points
 constexpr int kRefinements = 12;
+constexpr double kLeastShare = 0.02;  // of a joint's deviation that is left to it for the tool's
 constexpr int kFinest = 4;  // knots of the smooth curve for each recorded position, at most
 
 std::string Shown(double value) {
@@ -151,8 +152,9 @@ class Retiming {
  private:
   void FindArm();
   Eigen::VectorXd ArmPosture(const Eigen::RowVectorXd& row) const;
-  Eigen::MatrixXd Controls(double share, int fineness, Eigen::Index* failed) const;
-  QuinticSpline Fit(double share) const;
+  double Allowed(Eigen::Index joint) const;
+  Eigen::MatrixXd Controls(const Eigen::VectorXd& shares, int fineness, Eigen::Index* failed) const;
+  QuinticSpline Fit(const Eigen::VectorXd& shares) const;
   QuinticSpline FitPath(Retimed* result) const;
   void Measure(const QuinticSpline& curve, Retimed* result) const;
   PathDerivatives Derivatives(const QuinticSpline& curve, const RestToRest& ends) const;
@@ -184,20 +186,21 @@ Eigen::VectorXd Retiming::ArmPosture(const Eigen::RowVectorXd& row) const {
   return q;
 }
 
+double Retiming::Allowed(Eigen::Index joint) const {
+  return sliding_[static_cast<std::size_t>(joint)] ? options_.sliding_deviation
+                                                   : options_.turning_deviation;
+}
+
 // The control points of a smooth curve for each joint, with `fineness` knots a recorded position,
-// within what it may deviate: of a joint that moves the tool only `share` of that. Empty, and the
-// joint in `failed`, where there is none.
-Eigen::MatrixXd Retiming::Controls(double share, int fineness, Eigen::Index* failed) const {
+// within its share (J) of what it may deviate. Empty, and the joint in `failed`, where there is
+// none.
+Eigen::MatrixXd Retiming::Controls(const Eigen::VectorXd& shares, int fineness,
+                                   Eigen::Index* failed) const {
   const double spacing = parameters_.back() / static_cast<double>(parameters_.size() - 1);
   Eigen::MatrixXd controls;
   for (Eigen::Index j = 0; j < path_.positions.cols(); ++j) {
-    const auto index = static_cast<std::size_t>(j);
-    const bool moves_tool =
-        std::find(arm_channels_.begin(), arm_channels_.end(), j) != arm_channels_.end();
-    const double allowed =
-        sliding_[index] ? options_.sliding_deviation : options_.turning_deviation;
-    const Tube tube{moves_tool ? share * allowed : allowed, limits_[index].lower,
-                    limits_[index].upper};
+    const JointLimits& limits = limits_[static_cast<std::size_t>(j)];
+    const Tube tube{shares[j] * Allowed(j), limits.lower, limits.upper};
     const Eigen::VectorXd fitted =
         FitInTube(parameters_, path_.positions.col(j), spacing / fineness, tube);
     *failed = j;
@@ -208,14 +211,13 @@ Eigen::MatrixXd Retiming::Controls(double share, int fineness, Eigen::Index* fai
   return controls;
 }
 
-QuinticSpline Retiming::Fit(double share) const {
+QuinticSpline Retiming::Fit(const Eigen::VectorXd& shares) const {
   Eigen::Index failed = 0;
   for (int fineness = 1; fineness <= kFinest; fineness *= 2) {
-    Eigen::MatrixXd controls = Controls(share, fineness, &failed);
+    Eigen::MatrixXd controls = Controls(shares, fineness, &failed);
     if (controls.size() == 0) continue;
-    return QuinticSpline(
-        parameters_.back() / static_cast<double>((parameters_.size() - 1) * fineness),
-        std::move(controls));
+    const auto intervals = static_cast<double>(parameters_.size() - 1) * fineness;
+    return QuinticSpline(parameters_.back() / intervals, std::move(controls));
   }
   Fail("joint '" + path_.joints[static_cast<std::size_t>(failed)] +
            "' has no smooth motion that stays as close to its recording as asked",
@@ -236,14 +238,19 @@ void Retiming::Measure(const QuinticSpline& curve, Retimed* result) const {
   }
 }
 
-// Narrower until the tool keeps to its deviation too.
+// Closer to the recording, in each joint that moves the tool, until the tool keeps to its deviation
+// too.
 QuinticSpline Retiming::FitPath(Retimed* result) const {
-  double share = 1.0;
+  Eigen::VectorXd shares = Eigen::VectorXd::Ones(path_.positions.cols());
   for (int i = 0; i < kRefinements; ++i) {
-    const QuinticSpline curve = Fit(share);
+    const QuinticSpline curve = Fit(shares);
     Measure(curve, result);
     if (result->tool_deviation <= options_.tool_deviation) return curve;
-    share *= std::max(0.3, 0.95 * options_.tool_deviation / result->tool_deviation);
+    const double factor = std::max(0.3, 0.9 * options_.tool_deviation / result->tool_deviation);
+    for (const Eigen::Index j : arm_channels_) {
+      const double used = result->deviations[j] / Allowed(j);
+      shares[j] = std::max(kLeastShare, factor * std::min(shares[j], used));
+    }
   }
   Fail("the tool strays " + Shown(result->tool_deviation) + " m from the recording, more than " +
            Shown(options_.tool_deviation),
