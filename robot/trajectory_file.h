@@ -17,7 +17,7 @@ TrajectoryFormat TrajectoryFormatOf(const std::filesystem::path& path);
 // The file's text. Numbers are the shortest that read back as the same; times are rounded to
 // nanoseconds in ROS's forms. Notes stand in comments, which JSON has not. Throws core::Error where
 // the trajectory is not whole, the name of a joint or note is more than letters, digits, '_', '-',
-// '.', '/', or a note more than a line.
+// '.', '/', a note more than a line, or a time one that ROS's forms cannot tell from another.
 std::string TrajectoryText(const JointTrajectory& trajectory, TrajectoryFormat format);
 
 // Reads what TrajectoryText writes, and ROS's YAML with lists of one entry a line. Throws

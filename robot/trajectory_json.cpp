@@ -21,6 +21,7 @@ void AppendRow(const char* name, const Eigen::MatrixXd& matrix, Eigen::Index row
 }  // namespace
 
 std::string RosJsonText(const JointTrajectory& trajectory) {
+  RequireRosTimes(trajectory);
   std::string text =
       "{\n  \"header\": {\"stamp\": {\"sec\": 0, \"nanosec\": 0}, \"frame_id\": \"\"},\n"
       "  \"joint_names\": [";

@@ -9,7 +9,8 @@ namespace simwright::robot {
 namespace {
 
 constexpr std::int64_t kNanoseconds = 1000000000;
-constexpr std::int64_t kMostSeconds = std::int64_t{1} << 31;  // ROS's Duration has 32 bits
+// 46 days: so far a double tells every nanosecond.
+constexpr std::int64_t kMostSeconds = 4000000;
 
 }  // namespace
 
@@ -19,6 +20,22 @@ TrajectoryPoint PointAt(double seconds) {
   point.sec = all / kNanoseconds;
   point.nanosec = all % kNanoseconds;
   return point;
+}
+
+void RequireRosTimes(const JointTrajectory& trajectory) {
+  std::int64_t before = -1;
+  for (const double time : trajectory.times) {
+    if (!(time < static_cast<double>(kMostSeconds))) {
+      throw core::Error("the trajectory is longer than " + std::to_string(kMostSeconds) + " s",
+                        "trajectory");
+    }
+    const TrajectoryPoint point = PointAt(time);
+    const std::int64_t rounded = point.sec * kNanoseconds + point.nanosec;
+    if (rounded <= before) {
+      throw core::Error("two samples are less than a nanosecond apart", "trajectory");
+    }
+    before = rounded;
+  }
 }
 
 TrajectoryPoints::TrajectoryPoints(std::vector<std::string> joints, const std::string& where)
@@ -55,7 +72,7 @@ void TrajectoryPoints::Add(const TrajectoryPoint& point, const std::string& plac
   if (point.sec < 0 || point.sec >= kMostSeconds || point.nanosec < 0 ||
       point.nanosec >= kNanoseconds) {
     throw core::Error("its time_from_start is no time", where_ + ": " + place,
-                      "sec is in [0, 2^31), nanosec in [0, 10^9)");
+                      "sec is in [0, 4000000), nanosec in [0, 10^9)");
   }
   // A quotient of whole numbers: the same number as was rounded to nanoseconds.
   const double time = static_cast<double>(point.sec * kNanoseconds + point.nanosec) /

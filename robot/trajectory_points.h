@@ -17,8 +17,12 @@ struct TrajectoryPoint {
   std::int64_t sec = 0, nanosec = 0;  // time_from_start
 };
 
-// A time in whole nanoseconds, as ROS splits it. Requires seconds in [0, 2^31).
+// A time in whole nanoseconds, as ROS splits it. Requires what RequireRosTimes does.
 TrajectoryPoint PointAt(double seconds);
+
+// Throws core::Error where a time is above 4,000,000 s or falls on the one before when both are
+// rounded to nanoseconds.
+void RequireRosTimes(const JointTrajectory& trajectory);
 
 // Gathers points and makes a trajectory of them. `place` of a point is what an error names.
 class TrajectoryPoints {

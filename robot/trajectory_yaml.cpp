@@ -232,6 +232,7 @@ JointTrajectory YamlReader::Read(std::string_view text) {
 }  // namespace
 
 std::string RosYamlText(const JointTrajectory& trajectory) {
+  RequireRosTimes(trajectory);
   std::string text;
   for (const auto& [key, value] : trajectory.notes) text += "# " + key + ": " + value + "\n";
   text += "header:\n  stamp:\n    sec: 0\n    nanosec: 0\n  frame_id: ''\njoint_names:\n";

@@ -215,6 +215,13 @@ TEST(TrajectoryFile, RefusesToWriteWhatItCouldNotRead) {
     wrong.velocities(1, 1) = std::nan("");
     EXPECT_THROW(TrajectoryText(wrong, format), core::Error);
   }
+  for (const double time : {1e-12, 1e12}) {
+    JointTrajectory wrong = Sample(2);
+    wrong.times[1] = time;  // ROS counts nanoseconds, in 32 bits of seconds
+    EXPECT_THROW(TrajectoryText(wrong, TrajectoryFormat::kRosYaml), core::Error);
+    EXPECT_THROW(TrajectoryText(wrong, TrajectoryFormat::kRosJson), core::Error);
+    EXPECT_NO_THROW(TrajectoryText(wrong, TrajectoryFormat::kCsv));
+  }
   JointTrajectory gap = whole;
   gap.velocities.resize(0, 0);
   EXPECT_THROW(TrajectoryText(gap, TrajectoryFormat::kCsv), core::Error);
