@@ -10,13 +10,13 @@ packages=(
   libeigen3-dev libassimp-dev libcgal-dev libembree-dev libopencv-dev libopencv-contrib-dev
   libbullet-dev libbullet-extras-dev liburdfdom-dev libmujoco-dev nlohmann-json3-dev
   libcli11-dev libcurl4-openssl-dev libtinyxml2-dev libzip-dev libexif-dev libgif-dev libwebp-dev
-  libconsole-bridge-dev
+  libconsole-bridge-dev libhdf5-dev
   wordnet-base libtorch-dev libopenblas0-pthread libgtest-dev
   libbenchmark-dev libsdformat-dev libcpp-httplib-dev
 )
 for wanted in "$@"; do
   case $wanted in
-    --tests) packages+=(python3-torch python3-numpy) ;;
+    --tests) packages+=(python3-torch python3-numpy python3-h5py python3-yaml) ;;
     --catalogue) packages+=(sweethome3d-furniture python3-skimage) ;;
     --fuzz) packages+=(clang-14 libclang-rt-14-dev) ;;
     *) echo "error: $wanted is not known (use --tests, --catalogue or --fuzz)" >&2; exit 2 ;;

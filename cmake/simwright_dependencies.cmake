@@ -22,6 +22,7 @@ pkg_check_modules(tinyxml2 REQUIRED IMPORTED_TARGET tinyxml2)
 pkg_check_modules(exif REQUIRED IMPORTED_TARGET libexif)
 pkg_check_modules(webpdemux REQUIRED IMPORTED_TARGET libwebpdemux libwebp)
 find_package(GIF REQUIRED)
+pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
 # Debian's Torch config knows the headers and libraries; its old-style variables become one target.
 find_package(Torch REQUIRED)

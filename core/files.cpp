@@ -96,6 +96,18 @@ void WriteFile(const fs::path& path, std::string_view bytes) {
   }
 }
 
+StagedFile::StagedFile(const fs::path& target)
+    : target_(Normalised(target)), staging_(SiblingName(target_, "part")) {}
+
+StagedFile::~StagedFile() {
+  std::error_code code;
+  fs::remove(staging_, code);
+}
+
+void StagedFile::Commit() {
+  if (rename(staging_.c_str(), target_.c_str()) != 0) ThrowErrno("cannot write", target_);
+}
+
 fs::path ResolveInside(const fs::path& root, const fs::path& relative) {
   const fs::path real_root = fs::weakly_canonical(root);
   const fs::path resolved = fs::weakly_canonical(real_root / relative);

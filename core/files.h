@@ -14,6 +14,23 @@ std::string ReadFile(const std::filesystem::path& path, std::uint64_t limit = 2u
 // before. Throws core::Error (a full disk, a folder that is missing or not writable).
 void WriteFile(const std::filesystem::path& path, std::string_view bytes);
 
+// An output file that a library writes by its name. It is written at `staging()`, a hidden sibling;
+// `Commit` renames it into place. Destroyed before that, nothing is left behind.
+class StagedFile {
+ public:
+  explicit StagedFile(const std::filesystem::path& target);
+  ~StagedFile();
+  StagedFile(const StagedFile&) = delete;
+  StagedFile& operator=(const StagedFile&) = delete;
+
+  const std::filesystem::path& staging() const { return staging_; }
+  // Throws core::Error where the file cannot be moved. The library must have closed it.
+  void Commit();
+
+ private:
+  std::filesystem::path target_, staging_;
+};
+
 // `relative` below `root`, following links. Throws core::Error when it leads outside `root`.
 // The file need not exist.
 std::filesystem::path ResolveInside(const std::filesystem::path& root,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdio>
 #include <memory>
 #include <vector>
 
@@ -27,13 +26,6 @@ class SkillWorld {
   void Read(tasks::SceneState* state) const;
   // Whether each number of the state is finite and no thing is faster or farther than things get.
   bool IsSound() const;
-  void Print() const {
-    for (auto& k : contacts_)
-      if (k.distance < 1e-3)
-        printf("     %d/%d %d/%d %.4f imp %.3f n %.2f %.2f %.2f p %.3f %.3f %.3f\n", k.body_a,
-               k.link_a, k.body_b, k.link_b, k.distance, k.impulse, k.normal.x(), k.normal.y(),
-               k.normal.z(), k.point.x(), k.point.y(), k.point.z());
-  }
   bool touching() const { return touching_; }
 
  private:

@@ -94,9 +94,18 @@ std::int64_t JsonField::Integer() const {
   return json_.get<std::int64_t>();
 }
 
+// Places are made where something is wrong: a trajectory holds millions of numbers.
 std::vector<double> JsonField::Numbers() const {
+  if (!json_.is_array()) Fail("should be an array");
   std::vector<double> numbers;
-  for (const JsonField& element : Elements()) numbers.push_back(element.Number());
+  numbers.reserve(json_.size());
+  for (std::size_t i = 0; i < json_.size(); ++i) {
+    const double number = json_[i].is_number() ? json_[i].get<double>() : std::nan("");
+    numbers.push_back(
+        std::isfinite(number)
+            ? number
+            : JsonField(json_[i], place_ + "[" + std::to_string(i) + "]", file_).Number());
+  }
   return numbers;
 }
 

@@ -37,6 +37,7 @@ const std::vector<Door> kDoors = {
     {std::regex("^(torch|ATen)/"), {"nn"}},
     {std::regex("^CLI/"), {"cli"}},
     {std::regex("^zip\\.h"), {"assets"}},
+    {std::regex("^(hdf5|H5[A-Za-z]*)(_hl)?\\.h"), {"core/hdf5"}},
     {std::regex("^tinyxml2\\.h"), {"assets"}},
 };
 

@@ -10,7 +10,7 @@ cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
   -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DSIMWRIGHT_FUZZ=ON \
   -DSIMWRIGHT_TESTS=OFF -DSIMWRIGHT_BENCH=OFF -DSIMWRIGHT_SANITIZE=OFF > /dev/null
 targets="image_fuzz mesh_fuzz urdf_fuzz catalogue_fuzz chat_fuzz physics_answer_fuzz reward_fuzz
-  task_answer_fuzz"
+  task_answer_fuzz robot_side_file_fuzz trajectory_fuzz"
 ninja -C "$build" $targets
 mkdir -p "$build/found"
 # Small files of each kind, made here so that no binary is kept.

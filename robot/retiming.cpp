@@ -1,0 +1,368 @@
+#include "robot/retiming.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "core/error.h"
+#include "robot/limit_check.h"
+#include "robot/quintic_spline.h"
+#include "robot/time_law.h"
+#include "robot/tube_fit.h"
+
+namespace simwright::robot {
+namespace {
+
+constexpr Eigen::Index kLeastPositions = 4;
+constexpr Eigen::Index kMostPositions = 500000;
+constexpr double kMostUneven = 3.0;  // a step over the mean of all
+constexpr double kGrid = 0.002;      // s, on which the law of time is sought
+constexpr double kShare = 0.998;     // of the limits that is used: peaks lie between grid points
+constexpr int kRefinements = 12;
+constexpr double kLeastShare = 0.02;  // of a joint's deviation that is left to it for the tool's
+constexpr int kFinest = 4;  // knots of the smooth curve for each recorded position, at most
+
+std::string Shown(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+[[noreturn]] void Fail(const std::string& what, const std::string& remedy = "") {
+  throw core::Error(what, "retiming", remedy);
+}
+
+std::string At(const RecordedPath& path, Eigen::Index j, Eigen::Index k) {
+  return "joint '" + path.joints[static_cast<std::size_t>(j)] + "' at " +
+         Shown(path.times[static_cast<std::size_t>(k)]) + " s";
+}
+
+void RequireShape(const RecordedPath& path, const std::vector<JointLimits>& limits,
+                  const std::vector<bool>& sliding) {
+  const auto joints = static_cast<Eigen::Index>(path.joints.size());
+  const auto count = static_cast<Eigen::Index>(path.times.size());
+  if (joints == 0 || path.positions.cols() != joints || path.positions.rows() != count ||
+      limits.size() != path.joints.size() || sliding.size() != path.joints.size()) {
+    Fail("names, times, positions and limits are not of one size");
+  }
+  if (count < kLeastPositions || count > kMostPositions) {
+    Fail("the recording has " + std::to_string(count) + " positions",
+         "give " + std::to_string(kLeastPositions) + " to " + std::to_string(kMostPositions));
+  }
+  for (std::size_t j = 0; j < limits.size(); ++j) {
+    const JointLimits& limit = limits[j];
+    if (limit.lower < limit.upper && limit.velocity > 0.0 && limit.acceleration > 0.0 &&
+        limit.jerk > 0.0) {
+      continue;
+    }
+    Fail("the limits of joint '" + path.joints[j] + "' leave it no motion");
+  }
+}
+
+void RequireEvenTimes(const RecordedPath& path) {
+  const double mean =
+      (path.times.back() - path.times.front()) / static_cast<double>(path.times.size() - 1);
+  for (std::size_t k = 0; k < path.times.size(); ++k) {
+    const double step = k == 0 ? mean : path.times[k] - path.times[k - 1];
+    if (std::isfinite(path.times[k]) && step > 0.0 && step <= kMostUneven * mean) continue;
+    Fail("the time of position " + std::to_string(k) + ", " + Shown(path.times[k]) +
+             " s, does not follow evenly on the one before",
+         "record at a constant rate");
+  }
+}
+
+void RequirePossible(const RecordedPath& path, const std::vector<JointLimits>& limits,
+                     const std::vector<bool>& sliding, const RetimingOptions& options) {
+  for (Eigen::Index j = 0; j < path.positions.cols(); ++j) {
+    const bool slides = sliding[static_cast<std::size_t>(j)];
+    const JointLimits& limit = limits[static_cast<std::size_t>(j)];
+    const double room = slides ? options.sliding_deviation : options.turning_deviation;
+    const double longest = slides ? options.longest_slide : options.longest_turn;
+    for (Eigen::Index k = 0; k < path.positions.rows(); ++k) {
+      const double q = path.positions(k, j);
+      if (!std::isfinite(q)) Fail(At(path, j, k) + " is not finite");
+      if (q < limit.lower - room || q > limit.upper + room) {
+        Fail(At(path, j, k) + " stands at " + Shown(q) + ", outside its limits " +
+                 Shown(limit.lower) + " to " + Shown(limit.upper),
+             "record a motion within them");
+      }
+      const double step = k == 0 ? 0.0 : std::abs(q - path.positions(k - 1, j));
+      if (step > longest) {
+        Fail(At(path, j, k) + " jumps by " + Shown(step) + ", more than " + Shown(longest),
+             "record it as one motion, without resets inside");
+      }
+    }
+  }
+}
+
+// Starts and ends a curve of length L at rest: u(w) rises from 0 to L over w in [0, L + ramp], with
+// u' = 0 at the ends and 1 between the ramps; u' follows x^3 (10 - 15 x + 6 x^2), so that u is
+// three times continuously differentiable.
+class RestToRest {
+ public:
+  RestToRest(double length, double ramp) : length_(length), ramp_(std::min(ramp, length)) {}
+
+  double length() const { return length_ + ramp_; }
+  // u and its first three derivatives at w.
+  Eigen::Vector4d At(double w) const {
+    if (w > 0.5 * length()) {
+      const Eigen::Vector4d mirrored = Start(length() - w);
+      return {length_ - mirrored[0], mirrored[1], -mirrored[2], mirrored[3]};
+    }
+    return Start(w);
+  }
+  double Parameter(double u) const {
+    if (u > 0.5 * length_) return length() - StartParameter(length_ - u);
+    return StartParameter(u);
+  }
+
+ private:
+  Eigen::Vector4d Start(double w) const {
+    if (w >= ramp_) return {w - 0.5 * ramp_, 1.0, 0.0, 0.0};
+    const double x = std::max(0.0, w) / ramp_;
+    return {ramp_ * x * x * x * x * (2.5 + x * (x - 3.0)),
+            x * x * x * (10.0 + x * (6.0 * x - 15.0)), 30.0 * x * x * (1.0 + x * (x - 2.0)) / ramp_,
+            60.0 * x * (1.0 + x * (2.0 * x - 3.0)) / (ramp_ * ramp_)};
+  }
+  double StartParameter(double u) const {
+    if (u >= 0.5 * ramp_) return u + 0.5 * ramp_;
+    double low = 0.0, high = ramp_;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      (Start(middle)[0] < u ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  }
+
+  double length_, ramp_;
+};
+
+// What one motion is made of.
+class Retiming {
+ public:
+  Retiming(const RecordedPath& path, const std::vector<JointLimits>& limits,
+           const std::vector<bool>& sliding, const Arm* arm, const RetimingOptions& options)
+      : path_(path), limits_(limits), sliding_(sliding), arm_(arm), options_(options) {
+    for (const double time : path.times) parameters_.push_back(time - path.times.front());
+    if (arm_ != nullptr) FindArm();
+  }
+  Retimed Run();
+
+ private:
+  void FindArm();
+  Eigen::VectorXd ArmPosture(const Eigen::RowVectorXd& row) const;
+  double Allowed(Eigen::Index joint) const;
+  Eigen::MatrixXd Controls(const Eigen::VectorXd& shares, int fineness, Eigen::Index* failed) const;
+  QuinticSpline Fit(const Eigen::VectorXd& shares) const;
+  QuinticSpline FitPath(Retimed* result) const;
+  void Measure(const QuinticSpline& curve, Retimed* result) const;
+  PathDerivatives Derivatives(const QuinticSpline& curve, const RestToRest& ends) const;
+  JointTrajectory Sample(const QuinticSpline& curve, const RestToRest& ends, TimeLaw* law) const;
+  [[noreturn]] void FailLimits(const std::string& joint, double recorded_time) const;
+
+  const RecordedPath& path_;
+  const std::vector<JointLimits>& limits_;
+  const std::vector<bool>& sliding_;
+  const Arm* arm_;
+  const RetimingOptions& options_;
+  std::vector<double> parameters_;          // (K) s since the first position
+  std::vector<Eigen::Index> arm_channels_;  // the arm's joints in the path
+};
+
+void Retiming::FindArm() {
+  for (const ArmJoint& joint : arm_->joints) {
+    const auto found = std::find(path_.joints.begin(), path_.joints.end(), joint.name);
+    if (found == path_.joints.end())
+      Fail("the recording lacks the arm's joint '" + joint.name + "'");
+    arm_channels_.push_back(found - path_.joints.begin());
+  }
+}
+
+Eigen::VectorXd Retiming::ArmPosture(const Eigen::RowVectorXd& row) const {
+  Eigen::VectorXd q(static_cast<Eigen::Index>(arm_channels_.size()));
+  for (Eigen::Index j = 0; j < q.size(); ++j)
+    q[j] = row[arm_channels_[static_cast<std::size_t>(j)]];
+  return q;
+}
+
+double Retiming::Allowed(Eigen::Index joint) const {
+  return sliding_[static_cast<std::size_t>(joint)] ? options_.sliding_deviation
+                                                   : options_.turning_deviation;
+}
+
+// The control points of a smooth curve for each joint, with `fineness` knots a recorded position,
+// within its share (J) of what it may deviate. Empty, and the joint in `failed`, where there is
+// none.
+Eigen::MatrixXd Retiming::Controls(const Eigen::VectorXd& shares, int fineness,
+                                   Eigen::Index* failed) const {
+  const double spacing = parameters_.back() / static_cast<double>(parameters_.size() - 1);
+  Eigen::MatrixXd controls;
+  for (Eigen::Index j = 0; j < path_.positions.cols(); ++j) {
+    const JointLimits& limits = limits_[static_cast<std::size_t>(j)];
+    const Tube tube{shares[j] * Allowed(j), limits.lower, limits.upper};
+    const Eigen::VectorXd fitted =
+        FitInTube(parameters_, path_.positions.col(j), spacing / fineness, tube);
+    *failed = j;
+    if (fitted.size() == 0) return {};
+    if (j == 0) controls.resize(fitted.size(), path_.positions.cols());
+    controls.col(j) = fitted;
+  }
+  return controls;
+}
+
+QuinticSpline Retiming::Fit(const Eigen::VectorXd& shares) const {
+  Eigen::Index failed = 0;
+  for (int fineness = 1; fineness <= kFinest; fineness *= 2) {
+    Eigen::MatrixXd controls = Controls(shares, fineness, &failed);
+    if (controls.size() == 0) continue;
+    const auto intervals = static_cast<double>(parameters_.size() - 1) * fineness;
+    return QuinticSpline(parameters_.back() / intervals, std::move(controls));
+  }
+  Fail("joint '" + path_.joints[static_cast<std::size_t>(failed)] +
+           "' has no smooth motion that stays as close to its recording as asked",
+       "allow more deviation");
+}
+
+void Retiming::Measure(const QuinticSpline& curve, Retimed* result) const {
+  result->deviations = Eigen::VectorXd::Zero(path_.positions.cols());
+  result->tool_deviation = 0.0;
+  for (Eigen::Index k = 0; k < path_.positions.rows(); ++k) {
+    const Eigen::RowVectorXd value = curve.Value(parameters_[static_cast<std::size_t>(k)]);
+    const Eigen::RowVectorXd recorded = path_.positions.row(k);
+    result->deviations = result->deviations.cwiseMax((value - recorded).cwiseAbs().transpose());
+    if (arm_ == nullptr) continue;
+    const Eigen::Vector3d way = ForwardKinematics(*arm_, ArmPosture(value)).translation() -
+                                ForwardKinematics(*arm_, ArmPosture(recorded)).translation();
+    result->tool_deviation = std::max(result->tool_deviation, way.norm());
+  }
+}
+
+// Closer to the recording, in each joint that moves the tool, until the tool keeps to its deviation
+// too.
+QuinticSpline Retiming::FitPath(Retimed* result) const {
+  Eigen::VectorXd shares = Eigen::VectorXd::Ones(path_.positions.cols());
+  for (int i = 0; i < kRefinements; ++i) {
+    const QuinticSpline curve = Fit(shares);
+    Measure(curve, result);
+    if (result->tool_deviation <= options_.tool_deviation) return curve;
+    const double factor = std::max(0.3, 0.9 * options_.tool_deviation / result->tool_deviation);
+    for (const Eigen::Index j : arm_channels_) {
+      const double used = result->deviations[j] / Allowed(j);
+      shares[j] = std::max(kLeastShare, factor * std::min(shares[j], used));
+    }
+  }
+  Fail("the tool strays " + Shown(result->tool_deviation) + " m from the recording, more than " +
+           Shown(options_.tool_deviation),
+       "allow more deviation, or record a motion within the joints' limits");
+}
+
+PathDerivatives Retiming::Derivatives(const QuinticSpline& curve, const RestToRest& ends) const {
+  const auto points = static_cast<Eigen::Index>(std::ceil(ends.length() / kGrid)) + 1;
+  PathDerivatives path;
+  path.step = ends.length() / static_cast<double>(points - 1);
+  for (Eigen::MatrixXd* matrix : {&path.first, &path.second, &path.third}) {
+    matrix->resize(curve.joints(), points);
+  }
+  for (Eigen::Index i = 0; i < points; ++i) {
+    const Eigen::Vector4d u = ends.At(path.step * static_cast<double>(i));
+    const Eigen::RowVectorXd d1 = curve.Value(u[0], 1), d2 = curve.Value(u[0], 2),
+                             d3 = curve.Value(u[0], 3);
+    path.first.col(i) = d1.transpose() * u[1];
+    path.second.col(i) = (d2 * u[1] * u[1] + d1 * u[2]).transpose();
+    path.third.col(i) = (d3 * u[1] * u[1] * u[1] + 3.0 * d2 * u[1] * u[2] + d1 * u[3]).transpose();
+  }
+  return path;
+}
+
+// At the rate asked for; the law is slowed by less than a sample, so that the last one falls on the
+// end.
+JointTrajectory Retiming::Sample(const QuinticSpline& curve, const RestToRest& ends,
+                                 TimeLaw* law) const {
+  const double exact = TimeTable(*law).duration() * options_.rate;
+  const auto steps = static_cast<Eigen::Index>(std::ceil(exact - 1e-9));
+  for (double& c : law->coefficients()) c *= static_cast<double>(steps) / exact;
+  const TimeTable table(*law);
+  JointTrajectory trajectory;
+  trajectory.joints = path_.joints;
+  for (Eigen::MatrixXd* matrix :
+       {&trajectory.positions, &trajectory.velocities, &trajectory.accelerations}) {
+    matrix->resize(steps + 1, curve.joints());
+  }
+  for (Eigen::Index i = 0; i <= steps; ++i) {
+    const double time = static_cast<double>(i) / options_.rate;
+    const double w = i == steps ? ends.length() : table.Parameter(time);
+    const Eigen::Vector4d u = ends.At(w);
+    const Eigen::Vector3d rate = law->Rates(w);
+    const double first = u[1] * rate[0];
+    const double second = u[2] * rate[0] * rate[0] + u[1] * rate[1];
+    const Eigen::RowVectorXd d1 = curve.Value(u[0], 1);
+    trajectory.times.push_back(time);
+    trajectory.positions.row(i) = curve.Value(u[0]);
+    trajectory.velocities.row(i) = d1 * first;
+    trajectory.accelerations.row(i) = curve.Value(u[0], 2) * first * first + d1 * second;
+  }
+  return trajectory;
+}
+
+void Retiming::FailLimits(const std::string& joint, double recorded_time) const {
+  Fail("joint '" + joint + "' cannot keep its limits near " + Shown(recorded_time) +
+           " s of the recording within " + Shown(options_.most_stretch) + " times its length",
+       "allow more deviation or a longer stretch");
+}
+
+Retimed Retiming::Run() {
+  Retimed result;
+  const QuinticSpline curve = FitPath(&result);
+  const RestToRest ends(curve.length(), options_.ramp);
+  const PathDerivatives derivatives = Derivatives(curve, ends);
+  result.recorded = parameters_.back();
+  double share = kShare;
+  for (int i = 0; i < kRefinements; ++i, share *= 0.995) {
+    TimeLawFit fit = FitTimeLaw(derivatives, ends.length(), limits_, share);
+    const double start = path_.times.front();
+    if (!fit.found) {
+      FailLimits(path_.joints[static_cast<std::size_t>(fit.joint)],
+                 start + ends.At(fit.parameter)[0]);
+    }
+    result.stretch = TimeTable(fit.law).duration() / result.recorded;
+    if (result.stretch > options_.most_stretch) FailLimits(path_.joints.front(), start);
+    result.trajectory = Sample(curve, ends, &fit.law);
+    if (!CheckLimits(result.trajectory, limits_).accepted()) continue;
+    const TimeTable table(fit.law);
+    result.stretch = table.duration() / result.recorded;
+    for (const double u : parameters_) {
+      result.waypoint_times.push_back(table.Time(ends.Parameter(u)));
+    }
+    return result;
+  }
+  Fail(CheckLimits(result.trajectory, limits_).findings.front().sentence + " after " +
+       std::to_string(kRefinements) + " refinements");
+}
+
+}  // namespace
+
+bool RetimingOptions::IsValid(std::string* error) const {
+  const char* wrong = nullptr;
+  if (!(rate >= 10.0 && rate <= 1e4)) wrong = "rate must be in [10, 10000]";
+  if (!(turning_deviation > 0.0 && sliding_deviation > 0.0 && tool_deviation > 0.0)) {
+    wrong = "deviations must be above 0";
+  }
+  if (!(longest_turn > 0.0 && longest_slide > 0.0)) wrong = "longest steps must be above 0";
+  if (!(ramp >= 0.01 && ramp <= 10.0)) wrong = "ramp must be in [0.01, 10]";
+  if (!(most_stretch >= 1.0)) wrong = "most_stretch must be at least 1";
+  if (wrong != nullptr && error != nullptr) *error = wrong;
+  return wrong == nullptr;
+}
+
+Retimed Retime(const RecordedPath& path, const std::vector<JointLimits>& limits,
+               const std::vector<bool>& sliding, const Arm* arm, const RetimingOptions& options) {
+  std::string wrong;
+  if (!options.IsValid(&wrong)) Fail(wrong);
+  RequireShape(path, limits, sliding);
+  RequireEvenTimes(path);
+  RequirePossible(path, limits, sliding, options);
+  return Retiming(path, limits, sliding, arm, options).Run();
+}
+
+}  // namespace simwright::robot

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "robot/joint_limits.h"
+
+namespace simwright::robot {
+
+// How slowly a path is run: time t as a function of its parameter w, dt/dw = slowness(w) >= 1, a
+// cubic B-spline on uniform knots over [0, length]. Where slowness is 1 the path runs as it was
+// recorded.
+class TimeLaw {
+ public:
+  static constexpr int kSupport = 4;  // coefficients that shape one interval
+
+  // Slowness 1 everywhere, on intervals of about `spacing` s.
+  TimeLaw(double length, double spacing);
+
+  double length() const { return length_; }
+  double spacing() const { return spacing_; }
+  std::vector<double>& coefficients() { return coefficients_; }  // (intervals + 3), each >= 1
+  const std::vector<double>& coefficients() const { return coefficients_; }
+
+  struct Slowness {
+    double value = 1.0, first = 0.0, second = 0.0;  // and its derivatives by w
+  };
+  Slowness At(double w) const;
+  // The parameter's first three derivatives by t, at `w`.
+  Eigen::Vector3d Rates(double w) const;
+
+ private:
+  double length_, spacing_;
+  std::vector<double> coefficients_;
+};
+
+// A law ready to be asked for times, as it stands now.
+class TimeTable {
+ public:
+  explicit TimeTable(const TimeLaw& law);
+
+  double duration() const { return knot_times_.back(); }  // s
+  double Time(double w) const;                            // from 0 at w = 0
+  double Parameter(double t) const;                       // the inverse
+
+ private:
+  TimeLaw law_;
+  std::vector<double> knot_times_;
+};
+
+// Derivatives of J joints by the parameter w on a fine, uniform grid over [0, length].
+struct PathDerivatives {
+  double step = 0.0;                     // of the grid
+  Eigen::MatrixXd first, second, third;  // (J x points)
+};
+
+struct TimeLawFit {
+  TimeLaw law;
+  // Where no law was found: the joint and parameter at which the limits stay out of reach.
+  bool found = false;
+  Eigen::Index joint = 0;
+  double parameter = 0.0;
+};
+
+// A law that keeps velocity, acceleration and jerk on the grid within `share` of the limits, and
+// slows down no more than local search can tell: raised where a limit is exceeded, then lowered in
+// stretches of decreasing length as far as all limits hold.
+TimeLawFit FitTimeLaw(const PathDerivatives& path, double length,
+                      const std::vector<JointLimits>& limits, double share);
+
+}  // namespace simwright::robot

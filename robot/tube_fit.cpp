@@ -1,0 +1,176 @@
+#include "robot/tube_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include "robot/quintic_spline.h"
+
+namespace simwright::robot {
+namespace {
+
+constexpr int kBand = QuinticSpline::kSupport - 1;  // control points that meet are so far apart
+// Weight of the third differences against a sample's, with a knot at each: halves what swings at
+// 2.5 Hz in samples at 60 Hz (1 + kStiffness * (2 sin(pi f / 60))^6 = 2).
+constexpr double kStiffness = 3000.0;
+constexpr double kEndWeight = 1e10;   // of the first and the last sample: met to rounding
+constexpr double kMostWeight = 1e12;  // of any sample
+constexpr int kRounds = 80;
+constexpr double kAim = 0.9;  // of the radius: from where on a sample counts more
+
+// The same penalty on the third derivative's square, integrated, for `fineness` knots a sample.
+double StiffnessFor(double fineness) {
+  return kStiffness * std::pow(fineness, 5);
+}
+
+class TubeFit {
+ public:
+  TubeFit(const std::vector<double>& times, const Eigen::VectorXd& values, double spacing,
+          const Tube& tube)
+      : values_(values),
+        aims_(values.cwiseMax(tube.lower).cwiseMin(tube.upper)),
+        tube_(tube),
+        intervals_(std::llround(times.back() / spacing)),
+        count_(intervals_ + kBand),
+        stiffness_(
+            StiffnessFor(static_cast<double>(intervals_) / static_cast<double>(values.size() - 1))),
+        weights_(Eigen::VectorXd::Ones(values.size())),
+        held_(static_cast<std::size_t>(count_), 0) {
+    for (const double time : times) {
+      bases_.push_back(QuinticSpline::At(time, spacing, intervals_, 0));
+    }
+    weights_[0] = weights_[weights_.size() - 1] = kEndWeight;
+  }
+
+  Eigen::VectorXd Run();
+
+ private:
+  void Assemble();
+  void Solve();
+  bool HoldAtLimits();
+  bool RaiseWeights();
+
+  Eigen::VectorXd values_, aims_;  // (K) as given, and the nearest within the limits
+  Tube tube_;
+  Eigen::Index intervals_, count_;
+  double stiffness_;
+  Eigen::VectorXd weights_;
+  std::vector<int> held_;  // (count) -1 or 1: the control point stands at its lower or upper limit
+  std::vector<QuinticSpline::Basis> bases_;
+  Eigen::MatrixXd band_;  // (kBand + 1 x count): row k, column i is the element (i + k, i)
+  Eigen::VectorXd right_, controls_;
+};
+
+void TubeFit::Assemble() {
+  band_ = Eigen::MatrixXd::Zero(kBand + 1, count_);
+  right_ = Eigen::VectorXd::Zero(count_);
+  constexpr double kThird[4] = {-1.0, 3.0, -3.0, 1.0};
+  for (Eigen::Index i = 0; i + 3 < count_; ++i) {
+    for (int a = 0; a < 4; ++a) {
+      for (int b = 0; b <= a; ++b) band_(a - b, i + b) += stiffness_ * kThird[a] * kThird[b];
+    }
+  }
+  for (std::size_t s = 0; s < bases_.size(); ++s) {
+    const auto& [first, basis] = bases_[s];
+    const double weight = weights_[static_cast<Eigen::Index>(s)];
+    for (int a = 0; a <= kBand; ++a) {
+      const double weighted = weight * basis[static_cast<std::size_t>(a)];
+      right_[first + a] += weighted * aims_[static_cast<Eigen::Index>(s)];
+      for (int b = 0; b <= a; ++b) {
+        band_(a - b, first + b) += weighted * basis[static_cast<std::size_t>(b)];
+      }
+    }
+  }
+}
+
+// Control points that are held become known: their rows and columns leave the system.
+void TubeFit::Solve() {
+  const auto limit = [&](Eigen::Index i) {
+    return held_[static_cast<std::size_t>(i)] > 0 ? tube_.upper : tube_.lower;
+  };
+  const auto is_held = [&](Eigen::Index i) { return held_[static_cast<std::size_t>(i)] != 0; };
+  Eigen::SparseMatrix<double> matrix(count_, count_);
+  matrix.reserve(Eigen::VectorXi::Constant(count_, kBand + 1));
+  Eigen::VectorXd right = right_;
+  for (Eigen::Index i = 0; i < count_; ++i) {
+    matrix.insert(i, i) = is_held(i) ? 1.0 : band_(0, i);
+    for (Eigen::Index k = 1; k <= kBand && i + k < count_; ++k) {
+      const double element = band_(k, i);
+      const bool column = is_held(i), row = is_held(i + k);
+      matrix.insert(i + k, i) = column || row ? 0.0 : element;
+      if (column) right[i + k] -= element * limit(i);
+      if (row) right[i] -= element * limit(i + k);
+    }
+  }
+  for (Eigen::Index i = 0; i < count_; ++i) {
+    if (is_held(i)) right[i] = limit(i);
+  }
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower,
+                              Eigen::NaturalOrdering<int>>
+      factors(matrix);
+  controls_ = factors.solve(right);
+}
+
+// Holds control points that left the limits, lets go those that the fit would pull inside. True
+// where that changed anything.
+bool TubeFit::HoldAtLimits() {
+  Eigen::VectorXd pull = right_;  // minus half the gradient
+  for (Eigen::Index i = 0; i < count_; ++i) {
+    pull[i] -= band_(0, i) * controls_[i];
+    for (Eigen::Index k = 1; k <= kBand && i + k < count_; ++k) {
+      pull[i + k] -= band_(k, i) * controls_[i];
+      pull[i] -= band_(k, i) * controls_[i + k];
+    }
+  }
+  bool changed = false;
+  for (Eigen::Index i = 0; i < count_; ++i) {
+    int& held = held_[static_cast<std::size_t>(i)];
+    const int before = held;
+    if (held != 0 && held * pull[i] < 0.0) held = 0;
+    if (before == 0 && controls_[i] > tube_.upper) held = 1;
+    if (before == 0 && controls_[i] < tube_.lower) held = -1;
+    changed = changed || held != before;
+  }
+  controls_ = controls_.cwiseMax(tube_.lower).cwiseMin(tube_.upper);
+  return changed;
+}
+
+// Samples near the tube's wall or outside count more. True where one lies outside.
+bool TubeFit::RaiseWeights() {
+  bool outside = false;
+  for (std::size_t s = 0; s < bases_.size(); ++s) {
+    double miss = -values_[static_cast<Eigen::Index>(s)];
+    for (int k = 0; k <= kBand; ++k) {
+      miss += bases_[s].weights[static_cast<std::size_t>(k)] * controls_[bases_[s].first + k];
+    }
+    const double ratio = std::abs(miss) / tube_.radius;
+    outside = outside || ratio > 1.0;
+    if (ratio <= kAim) continue;
+    double& weight = weights_[static_cast<Eigen::Index>(s)];
+    weight = std::min(kMostWeight, weight * std::pow(ratio / kAim, 2) * 1.2);
+  }
+  return outside;
+}
+
+Eigen::VectorXd TubeFit::Run() {
+  for (int round = 0; round < kRounds; ++round) {
+    Assemble();
+    for (int i = 0; i < 8; ++i) {
+      Solve();
+      if (!HoldAtLimits()) break;
+    }
+    if (!RaiseWeights()) return controls_;
+  }
+  return {};
+}
+
+}  // namespace
+
+Eigen::VectorXd FitInTube(const std::vector<double>& times, const Eigen::VectorXd& values,
+                          double spacing, const Tube& tube) {
+  return TubeFit(times, values, spacing, tube).Run();
+}
+
+}  // namespace simwright::robot
