@@ -66,6 +66,7 @@ void Episode::Act(const ToolTarget& target) {
     world_->Advance();
     world_->robot().Positions(&positions_);
     arm_ = positions_;
+    if (watch_) watch_(*this);
   }
   world_->robot().Velocities(&positions_);
   velocities_ = positions_;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "rl/episode_start.h"
@@ -31,13 +33,16 @@ class Episode {
   void Begin(const EpisodeStart& start);
   // `action` (A), clamped to [-1, 1].
   Decision Step(const float* action);
+  // Called after each control step from then on; may be empty.
+  void Watch(std::function<void(const Episode&)> watch) { watch_ = std::move(watch); }
   // Into `row`, as Observer says.
   void Observe(float* row) const;
 
   const EpisodeStart& start() const { return start_; }
   const tasks::SceneState& state() const { return state_; }
   const SkillWorld& world() const { return *world_; }
-  int decisions() const { return decisions_; }  // since Begin
+  const Skill& skill() const { return skill_; }
+  double seconds() const { return decisions_ * skill_.options.decision_seconds(); }  // since Begin
 
  private:
   struct Program;
@@ -55,6 +60,7 @@ class Episode {
   Eigen::VectorXd positions_;
   ToolTarget target_;
   std::vector<float> action_;
+  std::function<void(const Episode&)> watch_;
   int decisions_ = 0;
   int held_ = 0;  // decisions in a row with success
 };

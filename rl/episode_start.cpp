@@ -12,6 +12,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kTries = 60;
+constexpr double kShake = 0.03;     // rad, of an arm that begins where another skill ended
 constexpr double kApart = 0.005;    // m between boxes of things
 constexpr double kFromRobot = 0.2;  // m from the robot's axis to a thing's box
 
@@ -70,6 +71,28 @@ bool Overlap(const SkillVariant& variant, const tasks::SceneState& state) {
   return false;
 }
 
+// Moves each joint that turns by up to `range` rad, within its limits.
+void Shake(const Skill& skill, double range, core::Rng& rng, robot::Posture* arm) {
+  for (Eigen::Index j = 0; j < arm->size(); ++j) {
+    const robot::ArmJoint& joint = skill.robot->arm.joints[static_cast<size_t>(j)];
+    if (joint.prismatic) continue;
+    (*arm)[j] = std::clamp((*arm)[j] + core::Uniform(rng, -range, range), joint.lower, joint.upper);
+  }
+}
+
+void DrawBodies(const SkillVariant& variant, const SkillOptions& options, core::Rng& rng,
+                EpisodeStart* start) {
+  start->mass.clear();
+  start->friction.clear();
+  start->joint.clear();
+  for (size_t i = 0; i < variant.model.things.size(); ++i) {
+    start->mass.push_back(Draw(options.mass, rng));
+    start->friction.push_back(Draw(options.friction, rng));
+    start->joint.push_back(Draw(options.joint, rng));
+  }
+  start->delay = static_cast<int>(core::UniformIndex(rng, options.longest_delay + 1));
+}
+
 }  // namespace
 
 EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
@@ -102,22 +125,31 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
     start.state.joints[thing][joint] = core::Uniform(rng, moved.lower, moved.upper);
   }
   start.arm = home;
-  for (Eigen::Index j = 0; j < home.size(); ++j) {
-    const robot::ArmJoint& joint = skill.robot->arm.joints[static_cast<size_t>(j)];
-    const double range = joint.prismatic ? 0.0 : options.posture_range;
-    start.arm[j] =
-        std::clamp(home[j] + core::Uniform(rng, -range, range), joint.lower, joint.upper);
-  }
+  Shake(skill, options.posture_range, rng, &start.arm);
   start.leader = skill.robot->gripper.open;
   const bool grasps = variant.focus && variant.focus->joint < 0 && variant.asks_for_grasp;
   start.take = variant.starts_held || (part_way && grasps);
   if (at_focus || start.take) start.arm = start.at_work;
-  for (size_t i = 0; i < variant.model.things.size(); ++i) {
-    start.mass.push_back(Draw(options.mass, rng));
-    start.friction.push_back(Draw(options.friction, rng));
-    start.joint.push_back(Draw(options.joint, rng));
+  DrawBodies(variant, options, rng, &start);
+  return start;
+}
+
+EpisodeStart Varied(const Skill& skill, const EpisodeStart& from, core::Rng& rng,
+                    VariedParts parts) {
+  const SkillVariant& variant = skill.variants[static_cast<size_t>(from.variant)];
+  EpisodeStart start = from;
+  start.state.goal = variant.start.goal;
+  const bool everything = parts == VariedParts::kEverything;
+  if (everything && !start.take) Shake(skill, kShake, rng, &start.arm);
+  start.at_work = start.arm;
+  start.pitch = 0.0;
+  if (variant.focus && !start.take) {
+    if (const auto plan = PlanReach(skill, variant, start.state, start.arm, rng)) {
+      start.pitch = plan->pitch;
+      start.at_work = plan->at_work;
+    }
   }
-  start.delay = static_cast<int>(core::UniformIndex(rng, options.longest_delay + 1));
+  if (everything) DrawBodies(variant, skill.options, rng, &start);
   return start;
 }
 

@@ -31,4 +31,14 @@ struct EpisodeStart {
 // found in 60 tries.
 EpisodeStart DrawStart(const Skill& skill, core::Rng& rng);
 
+enum class VariedParts {
+  kEverything,  // masses, frictions and delay drawn again, the arm moved a little if it is empty
+  kNothing,     // only the work is planned anew
+};
+
+// `start` as one of this skill: it may be where another skill of the same scene has ended. The work
+// is planned from there.
+EpisodeStart Varied(const Skill& skill, const EpisodeStart& start, core::Rng& rng,
+                    VariedParts parts = VariedParts::kEverything);
+
 }  // namespace simwright::rl

@@ -30,8 +30,9 @@ Number Take(std::string_view* bytes) {
 
 }  // namespace
 
-SkillEnvironment::SkillEnvironment(std::shared_ptr<const Skill> skill, int count)
-    : skill_(std::move(skill)) {
+SkillEnvironment::SkillEnvironment(std::shared_ptr<const Skill> skill, int count,
+                                   std::vector<EpisodeStart> pool)
+    : skill_(std::move(skill)), pool_(std::move(pool)) {
   if (count < 1) throw core::Error("a training needs at least one environment");
   observation_size_ = Observer(*skill_, skill_->variants.front()).size();
   action_size_ = ActionSize(*skill_);
@@ -64,7 +65,15 @@ void SkillEnvironment::Begin(size_t index) {
   Slot& slot = slots_[index];
   core::Rng rng = core::StreamRng(seed_, EpisodeSeed(index));
   slot.actions.clear();
-  slot.episode->Begin(DrawStart(*skill_, rng));
+  slot.episode->Begin(NextStart(rng));
+}
+
+EpisodeStart SkillEnvironment::NextStart(core::Rng& rng) const {
+  if (pool_.empty() || core::Uniform(rng) >= skill_->options.pool_share) {
+    return DrawStart(*skill_, rng);
+  }
+  const auto index = core::UniformIndex(rng, static_cast<std::int64_t>(pool_.size()));
+  return Varied(*skill_, pool_[static_cast<size_t>(index)], rng);
 }
 
 void SkillEnvironment::Reset(std::uint64_t seed, Rows* observations) {

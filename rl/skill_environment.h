@@ -10,14 +10,14 @@
 
 namespace simwright::rl {
 
-class StartSource;
-
 // N episodes of a skill side by side, a world each. Each environment always runs on the same of
 // core::ThreadCount() threads.
 class SkillEnvironment : public VectorEnvironment {
  public:
-  // Throws core::Error for count < 1.
-  SkillEnvironment(std::shared_ptr<const Skill> skill, int count);
+  // `pool`: starts that a share of the episodes begin from instead of drawing their own; none where
+  // it is empty. Throws core::Error for count < 1.
+  SkillEnvironment(std::shared_ptr<const Skill> skill, int count,
+                   std::vector<EpisodeStart> pool = {});
   ~SkillEnvironment() override;
 
   int size() const override { return static_cast<int>(slots_.size()); }
@@ -49,7 +49,10 @@ class SkillEnvironment : public VectorEnvironment {
   template <typename Body>
   void ForEach(const Body& body);
 
+  EpisodeStart NextStart(core::Rng& rng) const;
+
   std::shared_ptr<const Skill> skill_;
+  std::vector<EpisodeStart> pool_;
   std::vector<Slot> slots_;
   int observation_size_ = 0, action_size_ = 0;
   std::uint64_t seed_ = 0, failed_seed_ = 0;

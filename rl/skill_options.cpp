@@ -58,6 +58,7 @@ bool SkillOptions::IsValid(std::string* error) const {
       at_focus_share + part_way_share > 1.0) {
     return fail("at_focus_share and part_way_share must be shares of one whole");
   }
+  if (!IsShare(pool_share)) return fail("pool_share must be a share");
   if (!(discount > 0.0) || !(discount < 1.0)) return fail("discount must be between 0 and 1");
   return true;
 }

@@ -58,6 +58,8 @@ struct SkillOptions {
   // Easier starts, as shares of the episodes; none in an evaluation.
   double at_focus_share = 0.2;  // the hand is where it works
   double part_way_share = 0.3;  // the joint has gone part of its way, the thing is held
+  // Share of episodes that begin where the skill before has ended, where there is one (T-STAR's).
+  double pool_share = 0.7;
 
   // Reward.
   double success_bonus = 1.0;  // a decision, beside the program's reward

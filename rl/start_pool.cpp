@@ -1,0 +1,143 @@
+#include "rl/start_pool.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+
+namespace simwright::rl {
+namespace {
+
+using nlohmann::json;
+
+constexpr size_t kMostStarts = 100000;
+
+json PoseJson(const Eigen::Isometry3d& pose) {
+  json numbers = json::array();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) numbers.push_back(pose.matrix()(row, column));
+  }
+  return numbers;
+}
+
+std::vector<double> Numbers(const json& list, size_t count) {
+  const auto numbers = list.get<std::vector<double>>();
+  if (numbers.size() != count) throw std::invalid_argument("a list of another length");
+  for (const double number : numbers) {
+    if (!std::isfinite(number)) throw std::invalid_argument("a number that is not finite");
+  }
+  return numbers;
+}
+
+Eigen::Isometry3d PoseFrom(const json& list) {
+  const std::vector<double> numbers = Numbers(list, 12);
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      pose.matrix()(row, column) = numbers[static_cast<size_t>(4 * row + column)];
+    }
+  }
+  const Eigen::Matrix3d rotation = pose.linear();
+  if (!(rotation.transpose() * rotation).isIdentity(1e-6)) {
+    throw std::invalid_argument("a rotation that is none");
+  }
+  return pose;
+}
+
+std::vector<double> List(const robot::Posture& posture) {
+  return {posture.data(), posture.data() + posture.size()};
+}
+
+robot::Posture PostureFrom(const json& list, int size) {
+  const std::vector<double> numbers = Numbers(list, static_cast<size_t>(size));
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), size);
+}
+
+EpisodeStart StartFrom(const json& text, const Skill& skill) {
+  EpisodeStart start;
+  start.variant = text.at("variant").get<int>();
+  if (start.variant < 0 || start.variant >= static_cast<int>(skill.variants.size())) {
+    throw std::invalid_argument("a scene that the skill does not have");
+  }
+  const SkillVariant& variant = skill.variants[static_cast<size_t>(start.variant)];
+  const size_t things = variant.model.things.size();
+  start.state = variant.start;
+  const json& roots = text.at("roots");
+  const json& joints = text.at("joints");
+  if (roots.size() != things || joints.size() != things) {
+    throw std::invalid_argument("another number of things");
+  }
+  for (size_t i = 0; i < things; ++i) {
+    start.state.roots[i] = PoseFrom(roots[i]);
+    start.state.joints[i] = Numbers(joints[i], variant.model.things[i].joints.size());
+  }
+  const std::vector<double> goal = Numbers(text.at("goal"), 3);
+  start.state.goal = Eigen::Vector3d(goal[0], goal[1], goal[2]);
+  start.arm = PostureFrom(text.at("arm"), skill.robot->arm.size());
+  start.at_work = PostureFrom(text.at("at_work"), skill.robot->arm.size());
+  start.leader = text.at("leader").get<double>();
+  start.pitch = text.at("pitch").get<double>();
+  start.take = text.at("take").get<bool>();
+  start.mass = Numbers(text.at("mass"), things);
+  start.friction = Numbers(text.at("friction"), things);
+  start.joint = Numbers(text.at("joint"), things);
+  start.delay = text.at("delay").get<int>();
+  if (start.delay < 0 || start.delay > 1000 || !std::isfinite(start.leader + start.pitch)) {
+    throw std::invalid_argument("a delay or position that cannot be");
+  }
+  return start;
+}
+
+}  // namespace
+
+std::string StartText(const EpisodeStart& start) {
+  json text;
+  text["variant"] = start.variant;
+  for (const Eigen::Isometry3d& root : start.state.roots) text["roots"].push_back(PoseJson(root));
+  text["joints"] = start.state.joints;
+  text["goal"] = {start.state.goal.x(), start.state.goal.y(), start.state.goal.z()};
+  text["arm"] = List(start.arm);
+  text["at_work"] = List(start.at_work);
+  text["leader"] = start.leader;
+  text["pitch"] = start.pitch;
+  text["take"] = start.take;
+  text["mass"] = start.mass;
+  text["friction"] = start.friction;
+  text["joint"] = start.joint;
+  text["delay"] = start.delay;
+  return text.dump();
+}
+
+EpisodeStart ParseStart(std::string_view text, const Skill& skill, const std::string& where) {
+  try {
+    return StartFrom(json::parse(text), skill);
+  } catch (const json::exception&) {
+    throw core::Error("is no start of an episode", where, "let the training write it anew");
+  } catch (const std::invalid_argument& error) {
+    throw core::Error(std::string("a start holds ") + error.what(), where,
+                      "let the training write it anew");
+  }
+}
+
+void WriteStarts(const std::vector<EpisodeStart>& starts, const std::filesystem::path& file) {
+  std::string text;
+  for (const EpisodeStart& start : starts) text += StartText(start) + "\n";
+  core::WriteFile(file, text);
+}
+
+std::vector<EpisodeStart> ReadStarts(const std::filesystem::path& file, const Skill& skill) {
+  const std::string text = core::ReadFile(file, 1ull << 30);
+  std::vector<EpisodeStart> starts;
+  size_t begin = 0;
+  while (begin < text.size() && starts.size() < kMostStarts) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    starts.push_back(ParseStart(std::string_view(text).substr(begin, end - begin), skill,
+                                file.string() + ":" + std::to_string(starts.size() + 1)));
+    begin = end + 1;
+  }
+  return starts;
+}
+
+}  // namespace simwright::rl
