@@ -38,6 +38,8 @@ void AddLibrary(CLI::App* app, CommonOptions* common, Run* run);
 void AddPrior(CLI::App* app, CommonOptions* common, Run* run);
 void AddTasks(CLI::App* app, CommonOptions* common, Run* run);
 void AddReward(CLI::App* app, CommonOptions* common, Run* run);
+void AddTrain(CLI::App* app, CommonOptions* common, Run* run);
+void AddRollout(CLI::App* app, CommonOptions* common, Run* run);
 void AddDoctor(CLI::App* app, CommonOptions* common, Run* run);
 void AddVersion(CLI::App* app, Run* run);
 

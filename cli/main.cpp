@@ -38,6 +38,8 @@ int Main(int argc, char** argv) {
   cli::AddPrior(&app, &common, &run);
   cli::AddTasks(&app, &common, &run);
   cli::AddReward(&app, &common, &run);
+  cli::AddTrain(&app, &common, &run);
+  cli::AddRollout(&app, &common, &run);
   cli::AddDoctor(&app, &common, &run);
   cli::AddVersion(&app, &run);
   try {
@@ -52,13 +54,21 @@ int Main(int argc, char** argv) {
 }
 
 // libtorch's threads wait for each other by spinning, unless told otherwise before its OpenMP
-// starts: beside other work a network then runs several times slower. Told by starting once more,
-// which takes a second that only those who run networks should wait.
-void WaitWithoutSpinning(int argc, char** argv) {
+// starts: beside other work a network then runs several times slower. And OpenBLAS 0.3.21 takes
+// processors that are newer than itself for ones of 2004, four times slower than their AVX-512.
+// Both are told by starting once more, which takes a second that only those who run networks should
+// wait.
+void StartWithThreadsAndKernels(int argc, char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
   const std::string_view command = argc > 1 ? argv[1] : "";
-  if (command != "lift" && command != "prior") return;
+  if (command != "lift" && command != "prior" && command != "train") return;
   setenv("OMP_WAIT_POLICY", "passive", 1);
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) {
+    setenv("OPENBLAS_CORETYPE", "SkylakeX", 0);
+  }
+#endif
   execv("/proc/self/exe", argv);  // where that fails the program goes on as it is
 }
 
@@ -72,7 +82,7 @@ void KeepFreedMemory() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  WaitWithoutSpinning(argc, argv);
+  StartWithThreadsAndKernels(argc, argv);
   KeepFreedMemory();
   try {
     return Main(argc, argv);

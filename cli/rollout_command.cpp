@@ -1,0 +1,36 @@
+#include <cstdio>
+#include <memory>
+
+#include "cli/command.h"
+#include "pipeline/skill_rollout.h"
+
+namespace simwright::cli {
+namespace {
+
+int Rollout(const pipeline::RolloutRequest& given, const CommonOptions& common) {
+  pipeline::RolloutRequest request = given;
+  request.seed = common.seed;
+  core::Progress progress(common.ProgressStyle());
+  const pipeline::RolloutReport report = pipeline::Rollout(request, &progress);
+  progress.Finish();
+  std::fputs((common.json ? pipeline::RolloutJson(report) : pipeline::RolloutTable(report)).c_str(),
+             stdout);
+  return 0;
+}
+
+}  // namespace
+
+void AddRollout(CLI::App* app, CommonOptions* common, Run* run) {
+  auto request = std::make_shared<pipeline::RolloutRequest>();
+  CLI::App* command =
+      app->add_subcommand("rollout", "How often a trained task succeeds, with its 95 % interval");
+  command->footer("Example:\n  simwright rollout open --episodes 200");
+  command->add_option("run", request->run, "The folder of `simwright train`")->required();
+  command->add_option("--episodes", request->episodes, "Episodes to run")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  AddCommon(command, common);
+  command->callback([request, common, run] { *run = [=] { return Rollout(*request, *common); }; });
+}
+
+}  // namespace simwright::cli

@@ -1,0 +1,67 @@
+#include <cstdio>
+#include <memory>
+
+#include "cli/command.h"
+#include "pipeline/skill_training.h"
+
+namespace simwright::cli {
+namespace {
+
+int Train(const pipeline::TrainRequest& given, const CommonOptions& common) {
+  pipeline::TrainRequest request = given;
+  request.seed = common.seed;
+  core::Progress progress(common.ProgressStyle());
+  const pipeline::TrainReport report = pipeline::TrainTask(request, &progress);
+  progress.Finish();
+  if (common.json) {
+    std::fputs(pipeline::TrainJson(report).c_str(), stdout);
+    return 0;
+  }
+  if (!common.quiet) std::fputs(pipeline::TrainTable(report).c_str(), stdout);
+  std::printf("%.0f %% success: %s\n", 100.0 * report.success(), report.folder.c_str());
+  return 0;
+}
+
+}  // namespace
+
+void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
+  auto request = std::make_shared<pipeline::TrainRequest>();
+  CLI::App* command =
+      app->add_subcommand("train", "A policy for each subtask of a task, by PPO in Bullet");
+  command->footer(
+      "Examples:\n  simwright train tasks.json --task open_microwave_1_door -o open\n"
+      "  simwright train tasks.json --task 'open_microwave_*_door' -o open_any\n"
+      "Subtasks are learnt in order, each mostly from where the one before ended. Ctrl-C or a crash\n"
+      "loses half a minute at most: --resume goes on. docs/skills.md says more.");
+  command->add_option("tasks", request->task_file, "The file that `simwright tasks` wrote")
+      ->required();
+  command
+      ->add_option("--task", request->tasks,
+                   "Task to learn, '*' for any letters; several are learnt by one policy")
+      ->required();
+  command->add_option("-o,--output", request->output, "The run's folder")->required();
+  command->add_option("--robot", request->robot,
+                      "panda, panda_on_base, or a URDF with a side file (docs/robots.md)")
+      ->capture_default_str();
+  command->add_option("--envs", request->environments, "Environments side by side")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  command->add_option("--steps", request->samples, "Decisions to learn from at most, a subtask")
+      ->check(CLI::Range(1000, 2000000000))
+      ->capture_default_str();
+  command->add_option("--minutes", request->minutes, "Time at most, a subtask; 0: no end")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command->add_option("--target", request->target,
+                      "Learnt once the lower end of the success rate's 95 % interval is above this")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--episodes", request->episodes, "Episodes of each evaluation")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_flag("--resume", request->resume, "Go on with a run that was stopped");
+  AddCommon(command, common);
+  command->callback([request, common, run] { *run = [=] { return Train(*request, *common); }; });
+}
+
+}  // namespace simwright::cli

@@ -1,0 +1,75 @@
+#include "pipeline/skill_rollout.h"
+
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "rl/policy_file.h"
+#include "rl/training.h"
+
+namespace simwright::pipeline {
+
+TrainedTask::TrainedTask(const std::filesystem::path& folder)
+    : run_(ReadRun(folder)), skills_(PrepareSkills(run_)) {
+  policies_.reserve(skills_.size());
+  for (const RunSkill& skill : skills_) {
+    const std::filesystem::path file = skill.folder / rl::kPolicyFile;
+    if (!std::filesystem::exists(file)) {
+      throw core::Error("the subtask '" + skill.name + "' has no policy yet", file.string(),
+                        "go on with `simwright train ... --resume`");
+    }
+    policies_.push_back(rl::ReadPolicy(file));
+    links_.push_back({skill.evaluated.get(), &policies_.back()});
+  }
+}
+
+RolloutReport Rollout(const RolloutRequest& request, core::Progress* progress) {
+  const TrainedTask task(request.run);
+  RolloutReport report;
+  for (const RunSkill& skill : task.skills()) report.subtasks.push_back(skill.name);
+  progress->Stage("roll out");
+  report.chain = rl::EvaluateChain(task.links(), request.episodes, request.seed);
+  for (const rl::ChainOutcome& outcome : report.chain.outcomes) {
+    if (!outcome.success) continue;
+    for (const rl::EvaluatedEpisode& link : outcome.links) report.seconds += link.seconds;
+  }
+  if (report.chain.successes > 0) report.seconds /= report.chain.successes;
+  return report;
+}
+
+std::string RolloutTable(const RolloutReport& report) {
+  std::string table;
+  char line[192];
+  if (report.subtasks.size() > 1) {
+    for (size_t k = 0; k < report.subtasks.size(); ++k) {
+      std::snprintf(line, sizeof(line), "%-40.40s %4d of %4d\n", report.subtasks[k].c_str(),
+                    report.chain.succeeded[k], report.chain.tried[k]);
+      table += line;
+    }
+  }
+  const auto episodes = report.chain.outcomes.size();
+  std::snprintf(line, sizeof(line),
+                "success: %d of %zu, %.1f %% (95 %%: %.1f to %.1f), %.1f s on average\n",
+                report.chain.successes, episodes,
+                100.0 * report.chain.successes / static_cast<double>(episodes),
+                100.0 * report.chain.interval.low, 100.0 * report.chain.interval.high,
+                report.seconds);
+  return table + line;
+}
+
+std::string RolloutJson(const RolloutReport& report) {
+  nlohmann::json text = {{"episodes", report.chain.outcomes.size()},
+                         {"successes", report.chain.successes},
+                         {"low", report.chain.interval.low},
+                         {"high", report.chain.interval.high},
+                         {"mean_seconds", report.seconds}};
+  for (size_t k = 0; k < report.subtasks.size(); ++k) {
+    text["subtasks"].push_back({{"name", report.subtasks[k]},
+                                {"tried", report.chain.tried[k]},
+                                {"succeeded", report.chain.succeeded[k]}});
+  }
+  return text.dump(2) + "\n";
+}
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "pipeline/skill_run.h"
+#include "rl/chain.h"
+#include "rl/policy.h"
+
+namespace simwright::pipeline {
+
+struct RolloutRequest {
+  std::filesystem::path run;  // a folder that TrainTask wrote
+  int episodes = 100;
+  std::uint64_t seed = 1;
+};
+
+struct RolloutReport {
+  std::vector<std::string> subtasks;
+  rl::ChainEvaluation chain;  // of one link where the task has one subtask
+  double seconds = 0.0;       // mean of those that succeeded
+};
+
+// A run's skills and policies, ready to act. Not copied or moved: links point into it.
+class TrainedTask {
+ public:
+  // Throws core::Error where the folder holds no run, its assets have changed, or a subtask has no
+  // policy, naming it.
+  explicit TrainedTask(const std::filesystem::path& run);
+  TrainedTask(const TrainedTask&) = delete;
+  TrainedTask& operator=(const TrainedTask&) = delete;
+
+  const SkillRun& run() const { return run_; }
+  const std::vector<RunSkill>& skills() const { return skills_; }
+  const std::vector<rl::ChainLink>& links() const { return links_; }
+
+ private:
+  SkillRun run_;
+  std::vector<RunSkill> skills_;
+  std::vector<rl::Policy> policies_;
+  std::vector<rl::ChainLink> links_;
+};
+
+// Runs the whole task from starts of its own, drawn by the seed. Success: every subtask's has held
+// for half a second at its end.
+RolloutReport Rollout(const RolloutRequest& request, core::Progress* progress);
+
+std::string RolloutTable(const RolloutReport& report);
+std::string RolloutJson(const RolloutReport& report);
+
+}  // namespace simwright::pipeline

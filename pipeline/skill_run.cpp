@@ -1,0 +1,187 @@
+#include "pipeline/skill_run.h"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "assets/semantic_model.h"
+#include "core/content_hash.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "robot/panda_model.h"
+#include "tasks/task_file.h"
+
+namespace simwright::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+constexpr int kFormat = 1;
+constexpr const char* kRunFile = "run.json";
+constexpr const char* kTasksFile = "tasks.json";
+
+// Whether `name` is what `pattern` says, '*' standing for any letters.
+bool Matches(std::string_view pattern, std::string_view name) {
+  if (pattern.empty()) return name.empty();
+  if (pattern.front() != '*') {
+    return !name.empty() && name.front() == pattern.front() &&
+           Matches(pattern.substr(1), name.substr(1));
+  }
+  for (size_t skipped = 0; skipped <= name.size(); ++skipped) {
+    if (Matches(pattern.substr(1), name.substr(skipped))) return true;
+  }
+  return false;
+}
+
+std::string SomeNames(const tasks::TaskSet& set) {
+  std::string names;
+  for (size_t i = 0; i < set.tasks.size() && i < 8; ++i) {
+    names += (i > 0 ? ", " : "") + set.tasks[i].name;
+  }
+  return set.tasks.size() > 8 ? names + " ..." : names;
+}
+
+json RunJson(const SkillRun& run) {
+  json text;
+  text["format"] = kFormat;
+  text["robot"] = run.robot;
+  text["environments"] = run.environments;
+  text["seed"] = run.seed;
+  for (const std::string& hash : run.hashes) text["asset_hashes"].push_back(hash);
+  text["episode_seconds"] = run.options.episode_seconds;
+  text["discount"] = run.options.discount;
+  return text;
+}
+
+std::vector<std::string> HashesOf(const tasks::TaskSet& set) {
+  std::vector<std::string> hashes;
+  for (const tasks::TaskAsset& asset : set.assets) {
+    if (!fs::exists(asset.path)) {
+      throw core::Error("the asset '" + asset.name + "' is not there any more", asset.path,
+                        "put it back, or train anew");
+    }
+    hashes.push_back(core::ContentHashOf(asset.path));
+  }
+  return hashes;
+}
+
+}  // namespace
+
+tasks::TaskSet ChooseTasks(const tasks::TaskSet& set, const std::vector<std::string>& patterns,
+                           const std::string& file) {
+  tasks::TaskSet chosen;
+  std::set<std::string> used;
+  for (const std::string& pattern : patterns) {
+    bool any = false;
+    for (const tasks::Task& task : set.tasks) {
+      if (!Matches(pattern, task.name)) continue;
+      any = true;
+      chosen.tasks.push_back(task);
+      used.insert(task.assets.begin(), task.assets.end());
+    }
+    if (!any) {
+      throw core::Error("there is no task '" + pattern + "'", file,
+                        "it holds " + SomeNames(set));
+    }
+  }
+  for (const tasks::TaskAsset& asset : set.assets) {
+    if (used.contains(asset.name)) chosen.assets.push_back(asset);
+  }
+  for (const tasks::Task& task : chosen.tasks) {
+    if (task.subtasks.size() == chosen.tasks.front().subtasks.size()) continue;
+    throw core::Error("'" + task.name + "' has another number of subtasks than '" +
+                          chosen.tasks.front().name + "'",
+                      file, "train them one by one");
+  }
+  return chosen;
+}
+
+void WriteRun(const SkillRun& given) {
+  SkillRun run = given;
+  run.hashes = HashesOf(run.set);
+  const fs::path file = run.folder / kRunFile;
+  const std::string text = RunJson(run).dump(2) + "\n";
+  if (fs::exists(file)) {
+    if (core::ReadFile(file) != text) {
+      throw core::Error("the folder holds a run of other tasks, assets or options",
+                        run.folder.string(), "give another folder");
+    }
+    return;
+  }
+  fs::create_directories(run.folder);
+  tasks::WriteTaskFile(run.set, run.folder / kTasksFile);
+  core::WriteFile(file, text);
+}
+
+SkillRun ReadRun(const fs::path& folder) {
+  const fs::path file = folder / kRunFile;
+  if (!fs::exists(file)) {
+    throw core::Error("is no folder of a training", folder.string(), "see `simwright train`");
+  }
+  SkillRun run;
+  run.folder = folder;
+  try {
+    const json text = json::parse(core::ReadFile(file, 1 << 24));
+    if (text.at("format").get<int>() != kFormat) {
+      throw core::Error("was written by another version", file.string(), "train anew");
+    }
+    run.robot = text.at("robot").get<std::string>();
+    run.environments = text.at("environments").get<int>();
+    run.seed = text.at("seed").get<std::uint64_t>();
+    run.hashes = text.at("asset_hashes").get<std::vector<std::string>>();
+    run.options.episode_seconds = text.at("episode_seconds").get<double>();
+    run.options.discount = text.at("discount").get<double>();
+  } catch (const json::exception&) {
+    throw core::Error("is damaged", file.string(), "train anew");
+  }
+  run.set = tasks::ReadTaskFile(folder / kTasksFile);
+  const std::vector<std::string> now = HashesOf(run.set);
+  for (size_t i = 0; i < now.size(); ++i) {
+    if (i < run.hashes.size() && now[i] == run.hashes[i]) continue;
+    throw core::Error("the asset '" + run.set.assets[i].name + "' has changed since the training",
+                      run.set.assets[i].path, "put the old one back, or train anew");
+  }
+  return run;
+}
+
+const robot::RobotModel& RobotOf(const std::string& name) {
+  if (name == "panda") return robot::Panda(false);
+  if (name == "panda_on_base") return robot::Panda(true);
+  static std::mutex mutex;
+  static std::map<std::string, std::unique_ptr<robot::RobotModel>> known;
+  const std::lock_guard lock(mutex);
+  std::unique_ptr<robot::RobotModel>& model = known[name];
+  if (!model) model = std::make_unique<robot::RobotModel>(robot::ReadRobot(name));
+  return *model;
+}
+
+std::vector<RunSkill> PrepareSkills(const SkillRun& run) {
+  std::map<std::string, assets::SemanticModel> models;
+  for (const tasks::TaskAsset& asset : run.set.assets) {
+    assets::SemanticModel model = assets::ReadSemanticModel(asset.path);
+    model.name = asset.name;
+    models.emplace(asset.name, std::move(model));
+  }
+  const robot::RobotModel& robot = RobotOf(run.robot);
+  std::vector<RunSkill> skills;
+  for (size_t k = 0; k < run.set.tasks.front().subtasks.size(); ++k) {
+    std::vector<rl::SkillSubtask> subtasks;
+    for (const tasks::Task& task : run.set.tasks) {
+      rl::SkillSubtask& one = subtasks.emplace_back();
+      one.subtask = task.subtasks[k];
+      for (const std::string& name : task.assets) one.assets.push_back(models.at(name));
+    }
+    RunSkill& skill = skills.emplace_back();
+    skill.name = run.set.tasks.front().subtasks[k].name;
+    skill.folder = run.folder / (std::to_string(k + 1) + "_" + skill.name);
+    skill.skill = rl::MakeSkill(robot, subtasks, run.options);
+    skill.evaluated = rl::MakeSkill(robot, subtasks, run.options.ForEvaluation());
+  }
+  return skills;
+}
+
+}  // namespace simwright::pipeline

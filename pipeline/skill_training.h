@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "pipeline/skill_run.h"
+#include "rl/chain.h"
+
+namespace simwright::pipeline {
+
+struct TrainRequest {
+  std::filesystem::path task_file;
+  std::vector<std::string> tasks;  // names or patterns (ChooseTasks)
+  std::filesystem::path output;
+  std::string robot = "panda";
+  int environments = 64;
+  std::int64_t samples = 2'000'000;  // of one subtask, at most
+  double minutes = 30.0;             // of one subtask, at most; 0: no end
+  // A subtask is learnt once the lower end of its success rate's 95 % interval is above this.
+  double target = 0.92;
+  int episodes = 200;  // of each evaluation
+  std::uint64_t seed = 1;
+  bool resume = false;
+};
+
+// What came of one subtask.
+struct TrainedSkill {
+  std::string name;
+  std::filesystem::path folder;
+  std::int64_t samples = 0;
+  double seconds = 0.0;
+  rl::SkillEvaluation own;       // from its own starts
+  rl::SkillEvaluation handover;  // from where the subtask before ended; empty for the first
+  // What is lost by starting there: own rate less handover rate.
+  double HandoverLoss() const { return own.rate() - handover.rate(); }
+};
+
+struct TrainReport {
+  std::filesystem::path folder;
+  std::vector<TrainedSkill> skills;
+  rl::ChainEvaluation chain;  // of the whole task; empty where it has one subtask
+
+  double success() const;  // of the whole
+};
+
+// Trains a task's subtasks in order into request.output: each by PPO until it is learnt or its time
+// is over, the later ones mostly from where the one before ended well, then evaluates them, alone
+// and as a chain. A subtask that has been trained before is taken as it is; with `resume` one that
+// was stopped goes on. Throws core::Error (ChooseTasks, WriteRun, MakeSkill, TrainPolicy) and
+// core::Cancelled, with all that was trained kept.
+TrainReport TrainTask(const TrainRequest& request, core::Progress* progress);
+
+// For a terminal; for machines; and report.json in the run's folder holds the latter.
+std::string TrainTable(const TrainReport& report);
+std::string TrainJson(const TrainReport& report);
+
+}  // namespace simwright::pipeline
