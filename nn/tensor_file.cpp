@@ -1,5 +1,7 @@
 #include "nn/tensor_file.h"
 
+#include <stdexcept>
+
 #include "core/error.h"
 #include "core/files.h"
 
@@ -10,6 +12,14 @@ template <typename Visit>
 void ForEachTensor(const torch::nn::Module& module, const Visit& visit) {
   for (const auto& item : module.named_parameters()) visit(item.key(), item.value());
   for (const auto& item : module.named_buffers()) visit(item.key(), item.value());
+}
+
+// Whether a zip archive's last record, of 22 bytes without a comment, stands at the end: libtorch
+// reads past the end of a file that was cut within it.
+bool EndsWhole(const std::string& archive) {
+  constexpr std::size_t kEndRecord = 22;
+  return archive.size() >= kEndRecord &&
+         archive.compare(archive.size() - kEndRecord, 4, "PK\5\6") == 0;
 }
 
 }  // namespace
@@ -27,6 +37,7 @@ NamedTensors ReadTensors(const std::filesystem::path& path) {
   const std::string bytes = core::ReadFile(path, 1ull << 34);
   NamedTensors tensors;
   try {
+    if (!EndsWhole(bytes)) throw std::runtime_error("cut short");
     const c10::IValue value = torch::pickle_load(std::vector<char>(bytes.begin(), bytes.end()));
     for (const auto& entry : value.toGenericDict()) {
       tensors[entry.key().toStringRef()] = entry.value().toTensor();

@@ -176,6 +176,10 @@ TEST(PolicyFile, WhatIsNoPolicyIsRefusedInOneLine) {
     core::WriteFile(path, bytes.substr(0, length));
     ASSERT_THROW(ReadPolicy(path), core::Error) << length;
   }
+  for (std::size_t missing = 1; missing < 30; ++missing) {
+    core::WriteFile(path, bytes.substr(0, bytes.size() - missing));
+    ASSERT_THROW(ReadPolicy(path), core::Error) << missing;
+  }
   core::WriteFile(path, bytes);
   std::string other = bytes;
   const std::string kind = "simwright policy 1";
