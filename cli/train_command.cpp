@@ -31,7 +31,8 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
   command->footer(
       "Examples:\n  simwright train tasks.json --task open_microwave_1_door -o open\n"
       "  simwright train tasks.json --task 'open_microwave_*_door' -o open_any\n"
-      "Subtasks are learnt in order, each mostly from where the one before ended. Ctrl-C or a crash\n"
+      "Subtasks are learnt in order, each mostly from where the one before ended. Ctrl-C or a "
+      "crash\n"
       "loses half a minute at most: --resume goes on. docs/skills.md says more.");
   command->add_option("tasks", request->task_file, "The file that `simwright tasks` wrote")
       ->required();
@@ -40,8 +41,9 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
                    "Task to learn, '*' for any letters; several are learnt by one policy")
       ->required();
   command->add_option("-o,--output", request->output, "The run's folder")->required();
-  command->add_option("--robot", request->robot,
-                      "panda, panda_on_base, or a URDF with a side file (docs/robots.md)")
+  command
+      ->add_option("--robot", request->robot,
+                   "panda, panda_on_base, or a URDF with a side file (docs/robots.md)")
       ->capture_default_str();
   command->add_option("--envs", request->environments, "Environments side by side")
       ->check(CLI::Range(1, 4096))
@@ -52,8 +54,9 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_option("--minutes", request->minutes, "Time at most, a subtask; 0: no end")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
-  command->add_option("--target", request->target,
-                      "Learnt once the lower end of the success rate's 95 % interval is above this")
+  command
+      ->add_option("--target", request->target,
+                   "Learnt once the lower end of the success rate's 95 % interval is above this")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--episodes", request->episodes, "Episodes of each evaluation")

@@ -49,12 +49,11 @@ std::string RolloutTable(const RolloutReport& report) {
     }
   }
   const auto episodes = report.chain.outcomes.size();
-  std::snprintf(line, sizeof(line),
-                "success: %d of %zu, %.1f %% (95 %%: %.1f to %.1f), %.1f s on average\n",
-                report.chain.successes, episodes,
-                100.0 * report.chain.successes / static_cast<double>(episodes),
-                100.0 * report.chain.interval.low, 100.0 * report.chain.interval.high,
-                report.seconds);
+  std::snprintf(
+      line, sizeof(line), "success: %d of %zu, %.1f %% (95 %%: %.1f to %.1f), %.1f s on average\n",
+      report.chain.successes, episodes,
+      100.0 * report.chain.successes / static_cast<double>(episodes),
+      100.0 * report.chain.interval.low, 100.0 * report.chain.interval.high, report.seconds);
   return table + line;
 }
 

@@ -84,8 +84,7 @@ tasks::TaskSet ChooseTasks(const tasks::TaskSet& set, const std::vector<std::str
       used.insert(task.assets.begin(), task.assets.end());
     }
     if (!any) {
-      throw core::Error("there is no task '" + pattern + "'", file,
-                        "it holds " + SomeNames(set));
+      throw core::Error("there is no task '" + pattern + "'", file, "it holds " + SomeNames(set));
     }
   }
   for (const tasks::TaskAsset& asset : set.assets) {

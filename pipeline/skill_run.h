@@ -28,7 +28,7 @@ struct SkillRun {
 struct RunSkill {
   std::string name;
   std::filesystem::path folder;
-  std::shared_ptr<const rl::Skill> skill;    // as it is trained
+  std::shared_ptr<const rl::Skill> skill;      // as it is trained
   std::shared_ptr<const rl::Skill> evaluated;  // without easier starts
 };
 

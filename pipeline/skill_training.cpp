@@ -34,8 +34,8 @@ rl::TrainingOptions OptionsFor(const TrainRequest& request, const SkillRun& run,
   options.max_samples = request.samples;
   options.max_seconds = 60.0 * request.minutes;
   options.success_target = request.target;
-  options.facts = {{"task", run.set.tasks.front().name}, {"subtask", skill.name},
-                   {"robot", run.robot}};
+  options.facts = {
+      {"task", run.set.tasks.front().name}, {"subtask", skill.name}, {"robot", run.robot}};
   options.title = skill.name;
   return options;
 }
@@ -137,7 +137,9 @@ TrainReport TrainTask(const TrainRequest& request, core::Progress* progress) {
   std::vector<rl::ChainLink> links;
   policies.reserve(skills.size());
   for (const RunSkill& skill : skills) {
-    TrainedSkill trained{.name = skill.name, .folder = skill.folder};
+    TrainedSkill trained;
+    trained.name = skill.name;
+    trained.folder = skill.folder;
     const Trained numbers = TrainOne(request, run, skill, ends, progress);
     trained.samples = numbers.samples;
     trained.seconds = numbers.seconds;
@@ -167,7 +169,9 @@ TrainReport TrainTask(const TrainRequest& request, core::Progress* progress) {
 }
 
 std::string TrainTable(const TrainReport& report) {
-  std::string table = "subtask                            samples  minutes  own starts       after the one before\n";
+  std::string table =
+      "subtask                            samples  minutes  own starts       after the one "
+      "before\n";
   for (const TrainedSkill& skill : report.skills) {
     char line[256];
     std::snprintf(line, sizeof(line), "%-34.34s %8lld %8.1f  %-16s %s\n", skill.name.c_str(),
