@@ -159,7 +159,7 @@ class Retiming {
   void Measure(const QuinticSpline& curve, Retimed* result) const;
   PathDerivatives Derivatives(const QuinticSpline& curve, const RestToRest& ends) const;
   JointTrajectory Sample(const QuinticSpline& curve, const RestToRest& ends, TimeLaw* law) const;
-  [[noreturn]] void FailLimits(const std::string& joint, double recorded_time) const;
+  [[noreturn]] void FailLimits(const PathDerivatives& derivatives, const RestToRest& ends) const;
 
   const RecordedPath& path_;
   const std::vector<JointLimits>& limits_;
@@ -305,9 +305,30 @@ JointTrajectory Retiming::Sample(const QuinticSpline& curve, const RestToRest& e
   return trajectory;
 }
 
-void Retiming::FailLimits(const std::string& joint, double recorded_time) const {
-  Fail("joint '" + joint + "' cannot keep its limits near " + Shown(recorded_time) +
-           " s of the recording within " + Shown(options_.most_stretch) + " times its length",
+// Names what asks most for slowing down: velocity falls with the slowness, acceleration with its
+// square, jerk with its cube.
+void Retiming::FailLimits(const PathDerivatives& derivatives, const RestToRest& ends) const {
+  double most = 0.0;
+  std::string worst;
+  for (Eigen::Index i = 0; i < derivatives.first.cols(); ++i) {
+    const double recorded =
+        path_.times.front() + ends.At(derivatives.step * static_cast<double>(i))[0];
+    for (Eigen::Index j = 0; j < derivatives.first.rows(); ++j) {
+      const JointLimits& limit = limits_[static_cast<std::size_t>(j)];
+      const auto consider = [&](const char* quantity, double value, double bound, int order) {
+        const double slowness = std::pow(std::abs(value) / bound, 1.0 / order);
+        if (slowness <= most) return;
+        most = slowness;
+        worst = "joint '" + path_.joints[static_cast<std::size_t>(j)] + "' at " + Shown(recorded) +
+                " s asks for " + quantity + " " + Shown(value) + ", the limit is " + Shown(bound);
+      };
+      consider("velocity", derivatives.first(j, i), limit.velocity, 1);
+      consider("acceleration", derivatives.second(j, i), limit.acceleration, 2);
+      consider("jerk", derivatives.third(j, i), limit.jerk, 3);
+    }
+  }
+  Fail("the motion would take more than " + Shown(options_.most_stretch) +
+           " times as long as its recording: " + worst,
        "allow more deviation or a longer stretch");
 }
 
@@ -320,13 +341,8 @@ Retimed Retiming::Run() {
   double share = kShare;
   for (int i = 0; i < kRefinements; ++i, share *= 0.995) {
     TimeLawFit fit = FitTimeLaw(derivatives, ends.length(), limits_, share);
-    const double start = path_.times.front();
-    if (!fit.found) {
-      FailLimits(path_.joints[static_cast<std::size_t>(fit.joint)],
-                 start + ends.At(fit.parameter)[0]);
-    }
     result.stretch = TimeTable(fit.law).duration() / result.recorded;
-    if (result.stretch > options_.most_stretch) FailLimits(path_.joints.front(), start);
+    if (!fit.found || result.stretch > options_.most_stretch) FailLimits(derivatives, ends);
     result.trajectory = Sample(curve, ends, &fit.law);
     if (!CheckLimits(result.trajectory, limits_).accepted()) continue;
     const TimeTable table(fit.law);

@@ -117,11 +117,9 @@ class Search {
   }
 
   TimeLawFit Run() {
-    TimeLawFit fit{law_, false, 0, 0.0};
-    fit.found = Raise(&fit);
-    if (fit.found) Lower();
-    fit.law = law_;
-    return fit;
+    const bool found = Raise();
+    if (found) Lower();
+    return {law_, found};
   }
 
  private:
@@ -129,9 +127,9 @@ class Search {
   double ParameterAt(Eigen::Index point) const {
     return std::min(path_.step * static_cast<double>(point), law_.length());
   }
-  double Excess(Eigen::Index point, Eigen::Index* joint) const;
+  double Excess(Eigen::Index point) const;
   bool HoldsBetween(double from, double to) const;
-  bool Raise(TimeLawFit* fit);
+  bool Raise();
   void Lower();
   bool TryLower(std::size_t first, std::size_t count, double factor);
 
@@ -142,7 +140,7 @@ class Search {
 
 // By how much the path would have to be slower at `point`, were the slowness the same all round:
 // velocity falls with it, acceleration with its square, jerk with its cube.
-double Search::Excess(Eigen::Index point, Eigen::Index* joint) const {
+double Search::Excess(Eigen::Index point) const {
   const Eigen::Vector3d rate = law_.Rates(ParameterAt(point));
   double most = 0.0;
   for (Eigen::Index j = 0; j < path_.first.rows(); ++j) {
@@ -157,9 +155,7 @@ double Search::Excess(Eigen::Index point, Eigen::Index* joint) const {
     // The roots only where they matter: below 1 the largest ratio tells enough.
     double excess = std::max({velocity, acceleration, jerk});
     if (excess > 1.0) excess = std::max({velocity, std::sqrt(acceleration), std::cbrt(jerk)});
-    if (excess <= most) continue;
-    most = excess;
-    if (joint != nullptr) *joint = j;
+    most = std::max(most, excess);
   }
   return most;
 }
@@ -170,26 +166,21 @@ bool Search::HoldsBetween(double from, double to) const {
   const Eigen::Index last =
       std::min(points() - 1, static_cast<Eigen::Index>(std::ceil(to / path_.step)));
   for (Eigen::Index point = first; point <= last; ++point) {
-    if (Excess(point, nullptr) > 1.0) return false;
+    if (Excess(point) > 1.0) return false;
   }
   return true;
 }
 
-bool Search::Raise(TimeLawFit* fit) {
+bool Search::Raise() {
   std::vector<double>& c = law_.coefficients();
   for (int round = 0; round < kRaisingRounds; ++round) {
     std::vector<double> factor(c.size(), 1.0);
     double worst = 1.0;
     for (Eigen::Index point = 0; point < points(); ++point) {
-      Eigen::Index joint = 0;
-      const double excess = Excess(point, &joint);
+      const double excess = Excess(point);
       if (excess <= 1.0) continue;
+      worst = std::max(worst, excess);
       const double w = ParameterAt(point);
-      if (excess > worst) {
-        worst = excess;
-        fit->joint = joint;
-        fit->parameter = w;
-      }
       // A hair more, or the last of it takes for ever.
       const double raise = std::min(kLargestRaise, 1.002 * excess);
       const std::size_t first =

@@ -56,11 +56,8 @@ struct PathDerivatives {
 };
 
 struct TimeLawFit {
-  TimeLaw law;
-  // Where no law was found: the joint and parameter at which the limits stay out of reach.
-  bool found = false;
-  Eigen::Index joint = 0;
-  double parameter = 0.0;
+  TimeLaw law;         // the slowest that was tried where none was found
+  bool found = false;  // it keeps all limits
 };
 
 // A law that keeps velocity, acceleration and jerk on the grid within `share` of the limits, and

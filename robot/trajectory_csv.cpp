@@ -134,6 +134,7 @@ JointTrajectory CsvReader::Read(std::string_view text) {
     }
   }
   if (columns_ == 0) throw core::Error("the table has no header", where_);
+  if (trajectory_.times.empty()) throw core::Error("the table has no row", where_);
   if (announced_ >= 0 && announced_ != trajectory_.size()) {
     throw core::Error("the table announces " + std::to_string(announced_) + " samples and has " +
                           std::to_string(trajectory_.size()),

@@ -220,7 +220,8 @@ TEST(Retiming, RefusesWhatCannotBeMade) {
   ExpectRefused(path, {}, {"one size"});
   RetimingOptions options;
   options.most_stretch = 1.0;
-  ExpectRefused(Cosine(1.5, 0.4), options, {"'joint'", "cannot keep its limits", "1 times"});
+  ExpectRefused(Cosine(1.5, 0.4), options,
+                {"'joint' at 0.2 s", "velocity 5.8", "limit is 2", "than 1 times"});
   options = {};
   options.ramp = 0.0;
   ExpectRefused(whole, options, {"ramp"});

@@ -20,7 +20,7 @@ constexpr const char* kPython = "/usr/bin/python3";
 constexpr TrajectoryFormat kFormats[] = {TrajectoryFormat::kRosYaml, TrajectoryFormat::kRosJson,
                                          TrajectoryFormat::kCsv};
 
-// Numbers of all sizes and signs, at 1 kHz.
+// Numbers of all sizes and signs, at 1 kHz; at least 5 samples.
 JointTrajectory Sample(Eigen::Index samples = 50, bool efforts = true) {
   core::Rng rng(8);
   JointTrajectory trajectory;
@@ -201,7 +201,7 @@ TEST(TrajectoryFile, RefusesWhatIsNoTrajectory) {
 }
 
 TEST(TrajectoryFile, RefusesToWriteWhatItCouldNotRead) {
-  const JointTrajectory whole = Sample(3);
+  const JointTrajectory whole = Sample(5);
   const core::TemporaryFolder folder;
   EXPECT_THROW(WriteTrajectory(folder.path() / "a.txt", whole), core::Error);
   for (const TrajectoryFormat format : kFormats) {
@@ -215,9 +215,11 @@ TEST(TrajectoryFile, RefusesToWriteWhatItCouldNotRead) {
     wrong.velocities(1, 1) = std::nan("");
     EXPECT_THROW(TrajectoryText(wrong, format), core::Error);
   }
-  for (const double time : {1e-12, 1e12}) {
-    JointTrajectory wrong = Sample(2);
-    wrong.times[1] = time;  // ROS counts nanoseconds, in 32 bits of seconds
+  // ROS counts nanoseconds, in 32 bits of seconds.
+  JointTrajectory dense = whole, late = whole;
+  dense.times[1] = 1e-12;
+  late.times.back() = 1e12;
+  for (const JointTrajectory& wrong : {dense, late}) {
     EXPECT_THROW(TrajectoryText(wrong, TrajectoryFormat::kRosYaml), core::Error);
     EXPECT_THROW(TrajectoryText(wrong, TrajectoryFormat::kRosJson), core::Error);
     EXPECT_NO_THROW(TrajectoryText(wrong, TrajectoryFormat::kCsv));
