@@ -1,0 +1,227 @@
+// A subtask as an environment: what the hand works on, how episodes begin, go and end.
+#include "rl/skill.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "rl/skill_environment.h"
+#include "rl/skill_evaluation.h"
+#include "rl/start_pool.h"
+#include "tests/rl/skill_scene.h"
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Vector3d;
+
+std::shared_ptr<const Skill> Make(const std::vector<SkillSubtask>& subtasks,
+                                  const SkillOptions& options = SkillOptions().ForEvaluation()) {
+  return MakeSkill(robot::Panda(false), subtasks, options);
+}
+
+TEST(Focus, OfADoorIsItsHandleFromTheFront) {
+  const auto skill = Make({OpenDoor()});
+  const SkillVariant& variant = skill->variants.front();
+  ASSERT_TRUE(variant.focus);
+  EXPECT_EQ(variant.model.things[0].links[static_cast<size_t>(variant.focus->link)].name, "handle");
+  EXPECT_FALSE(variant.destination);
+  const Eigen::Isometry3d tool = ToolAtFocus(variant, variant.start, 0.0, 0.0);
+  // The front looks to -x, the handle stands upright at (0.75 - 0.26, 0.15 + 0.25 - 0.45, 0.15).
+  EXPECT_LT((tool.translation() - Vector3d(0.49, -0.05, 0.15)).norm(), 1e-9);
+  EXPECT_LT((tool.linear().col(2) - Vector3d::UnitX()).norm(), 0.15);  // along the door's way
+  EXPECT_LT(std::abs(tool.linear().col(1).z()), 0.05);                 // across the bar
+  // With the door open by a quarter turn the hand comes from where the front looks now.
+  tasks::SceneState open = variant.start;
+  open.joints[0][static_cast<size_t>(variant.focus->joint)] = M_PI / 2;
+  const Eigen::Isometry3d turned = ToolAtFocus(variant, open, 0.0, 0.0);
+  const Eigen::Matrix3d turn = turned.linear() * tool.linear().transpose();
+  EXPECT_NEAR(std::abs(Eigen::AngleAxisd(turn).angle()), M_PI / 2, 1e-9);
+}
+
+TEST(Focus, OfAThingIsTakenFromAboveAcrossItsThinSide) {
+  SkillSubtask scene = PickUpCup();
+  scene.assets = {WithInertia(tasks::Box("cup", {0.2, 0.04, 0.06}, 0.3))};
+  const auto skill = Make({scene});
+  const SkillVariant& variant = skill->variants.front();
+  ASSERT_TRUE(variant.destination);
+  EXPECT_TRUE(variant.destination->goal);
+  tasks::SceneState state = variant.start;
+  state.roots[0].rotate(Eigen::AngleAxisd(0.6, Vector3d::UnitZ()));
+  const Eigen::Isometry3d tool = ToolAtFocus(variant, state, 0.0, 0.0);
+  EXPECT_LT((tool.linear().col(2) + Vector3d::UnitZ()).norm(), 1e-9);
+  const Vector3d thin = state.roots[0].linear().col(1);
+  EXPECT_GT(std::abs(tool.linear().col(1).dot(thin)), std::cos(0.05));
+  // 2 cm below the top: the palm is that far from the fingertips.
+  EXPECT_NEAR(tool.translation().z(), 0.04, 1e-9);
+}
+
+TEST(Focus, OfARoundThingStaysNearTheHand) {
+  const auto skill = Make({PickUpCup()});
+  const SkillVariant& variant = skill->variants.front();
+  for (const double yaw : {-1.2, -0.3, 0.0, 0.8, 1.5}) {
+    // The cup is an octagon: one of its four pairs of sides is within a sixteenth of a turn.
+    EXPECT_NEAR(ToolYaw(ToolAtFocus(variant, variant.start, yaw, 0.0)), yaw, M_PI / 8 + 0.01);
+  }
+}
+
+TEST(DrawStart, KeepsItsRangesAndCanBeWorkedAt) {
+  const auto skill = Make({OpenDoor()});
+  const SkillVariant& variant = skill->variants.front();
+  for (const EpisodeStart& start : DrawStarts(*skill, 60, 4)) {
+    const Eigen::Isometry3d moved = variant.start.roots[0].inverse() * start.state.roots[0];
+    EXPECT_LE(Eigen::AngleAxisd(moved.linear()).angle(), skill->options.furniture_yaw + 1e-9);
+    const Vector3d shift = tasks::LinkPoint(variant.model, start.state, 0, 0) -
+                           tasks::LinkPoint(variant.model, variant.start, 0, 0);
+    EXPECT_LE(shift.cwiseAbs().maxCoeff(), skill->options.position_range + 1e-9);
+    const Eigen::Isometry3d wanted = ToolAtFocus(variant, start.state, M_PI / 2, start.pitch);
+    const Eigen::Isometry3d reached =
+        robot::ForwardKinematics(skill->robot->arm, Eigen::VectorXd(start.at_work));
+    EXPECT_LT((wanted.translation() - reached.translation()).norm(), 2e-3);
+    EXPECT_GE(start.mass[0], skill->options.mass.low);
+    EXPECT_LE(start.mass[0], skill->options.mass.high);
+  }
+}
+
+// A hand that goes to zero and closes lifts the cup: by contact, from anywhere.
+TEST(Episode, AScriptedHandPicksUpTheCup) {
+  const auto skill = Make({PickUpCup()});
+  Episode episode(*skill);
+  int successes = 0;
+  const auto starts = DrawStarts(*skill, 12, 11);
+  for (const EpisodeStart& start : starts) {
+    episode.Begin(start);
+    ScriptedPick hand;
+    Decision decision;
+    float action[7];
+    int held = 0;
+    while (!decision.terminated && !decision.truncated) {
+      hand.Act(episode, action);
+      decision = episode.Step(action);
+      held = decision.success ? held + 1 : 0;
+    }
+    EXPECT_FALSE(decision.failed);
+    successes += decision.terminated;
+    if (!decision.terminated) continue;
+    EXPECT_EQ(held, 10);  // 0.5 s at 20 Hz
+    EXPECT_NEAR(tasks::LinkPoint(skill->variants[0].model, episode.state(), 0, 0).z(), 0.2, 0.03);
+    EXPECT_TRUE(episode.state().grasped);
+  }
+  EXPECT_GE(successes, 11);
+}
+
+// An end by success is worth as much as success for ever: r / (1 - discount).
+TEST(Episode, SuccessIsPaidAsIfItWentOn) {
+  SkillOptions options = SkillOptions().ForEvaluation();
+  options.hold_seconds = 0.0;
+  SkillSubtask scene = PickUpCup();
+  scene.subtask.program =
+      "def compute_reward(env):\n"
+      "    thing = env.get_position(\"cup\")\n"
+      "    return thing[:, 2] * 0.0 + 0.25, thing[:, 2] < 10.0\n";
+  const auto skill = Make({scene}, options);
+  Episode episode(*skill);
+  episode.Begin(DrawStarts(*skill, 1, 1).front());
+  const float still[7] = {};
+  const Decision decision = episode.Step(still);
+  EXPECT_TRUE(decision.terminated);
+  EXPECT_NEAR(decision.reward, (0.25 + options.success_bonus) / (1.0 - options.discount), 1e-4);
+}
+
+TEST(Episode, TimeEndsItAsTruncated) {
+  SkillOptions options = SkillOptions().ForEvaluation();
+  options.episode_seconds = 0.5;
+  const auto skill = Make({PickUpCup()}, options);
+  Episode episode(*skill);
+  episode.Begin(DrawStarts(*skill, 1, 1).front());
+  const float still[7] = {};
+  for (int i = 1; i <= 10; ++i) {
+    const Decision decision = episode.Step(still);
+    EXPECT_FALSE(decision.terminated);
+    EXPECT_EQ(decision.truncated, i == 10);
+  }
+}
+
+void RandomActions(core::Rng& rng, Rows* actions) {
+  for (Eigen::Index i = 0; i < actions->size(); ++i) {
+    actions->data()[i] = static_cast<float>(core::Uniform(rng, -1.0, 1.0));
+  }
+}
+
+// The same bytes on one thread and on two, and from a saved state on.
+TEST(SkillEnvironment, RepeatsItselfBitForBit) {
+  SkillOptions options;
+  options.episode_seconds = 0.8;  // so that episodes end meanwhile
+  const auto skill = Make({PickUpCup(), PickUpCup("beaker", 0.025)}, options);
+  const int threads = core::ThreadCount();
+  std::vector<Rows> seen;
+  std::string saved;
+  for (int run = 0; run < 3; ++run) {
+    core::SetThreadCount(run == 1 ? 1 : 2);
+    SkillEnvironment environment(skill, 4);
+    Rows observations, actions(4, environment.action_size());
+    StepBatch batch;
+    core::Rng rng(3);
+    environment.Reset(9, &observations);
+    for (int step = 0; step < 24; ++step) {
+      RandomActions(rng, &actions);
+      if (run == 2 && step == 10) environment.RestoreState(saved, &observations);
+      environment.Step(actions, &batch);
+      if (run == 0) seen.push_back(batch.observations);
+      if (run == 0 && step == 9) saved = environment.SaveState();
+      if (run == 2 && step < 10) continue;
+      ASSERT_EQ(seen[static_cast<size_t>(step)], batch.observations) << run << " " << step;
+    }
+    EXPECT_TRUE(batch.observations.allFinite());
+    EXPECT_EQ(environment.failures(), 0);
+  }
+  core::SetThreadCount(threads);
+  SkillEnvironment other(skill, 3);
+  Rows observations;
+  EXPECT_THROW(other.RestoreState(saved, &observations), core::Error);
+  SkillEnvironment same(skill, 4);
+  EXPECT_THROW(same.RestoreState(saved.substr(0, saved.size() / 2), &observations), core::Error);
+}
+
+TEST(StartPool, ReadsWhatItWrites) {
+  const auto skill = Make({OpenDoor()});
+  const EpisodeStart start = DrawStarts(*skill, 3, 8).back();
+  const EpisodeStart read = ParseStart(StartText(start), *skill, "test");
+  EXPECT_EQ(StartText(read), StartText(start));
+  // It is the same start to the last bit: both episodes go the same way.
+  Episode a(*skill), b(*skill);
+  a.Begin(start);
+  b.Begin(read);
+  const float action[7] = {0.1f, -0.2f, 0.0f, 0.0f, 0.3f, 0.0f, 1.0f};
+  for (int step = 0; step < 5; ++step) EXPECT_EQ(a.Step(action).reward, b.Step(action).reward);
+  const std::string text = StartText(start);
+  for (const std::string& bad :
+       {std::string(), std::string("{}"), text.substr(0, text.size() / 2), std::string("[1]")}) {
+    EXPECT_THROW(ParseStart(bad, *skill, "test"), core::Error);
+  }
+}
+
+std::string ErrorOf(const std::vector<SkillSubtask>& subtasks) {
+  try {
+    Make(subtasks);
+  } catch (const core::Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(MakeSkill, RefusesWhatCannotBeLearnt) {
+  SkillSubtask silent = PickUpCup();
+  silent.subtask.program = "def compute_reward(env):\n    return env.get_position(\"cup\")[:, 2]\n";
+  EXPECT_NE(ErrorOf({silent}).find("nothing of success"), std::string::npos);
+  SkillSubtask wrong = PickUpCup();
+  wrong.subtask.program = "def compute_reward(env):\n    return env.get_position(\"cub\")[:, 2]\n";
+  EXPECT_NE(ErrorOf({wrong}).find("pick_up_cup"), std::string::npos);
+  EXPECT_NE(ErrorOf({PickUpCup(), OpenDoor()}).find("other things"), std::string::npos);
+  SkillOptions options;
+  options.substeps = 0;
+  EXPECT_THROW(Make({PickUpCup()}, options), core::Error);
+}
+
+}  // namespace
+}  // namespace simwright::rl
