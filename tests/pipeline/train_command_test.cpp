@@ -1,0 +1,95 @@
+// `train` and `rollout` as a user calls them, with trainings too short to learn much: what is
+// written, gone on with, re-used and refused.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "core/files.h"
+#include "program.h"
+
+namespace simwright {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr const char* kTin = R"(<robot name="tin"><link name="base">
+  <contact><lateral_friction value="0.6"/></contact>
+  <collision><origin xyz="0 0 0.04"/><geometry><box size="0.05 0.05 0.08"/></geometry></collision>
+  <inertial><origin xyz="0 0 0.04"/><mass value="0.2"/>
+    <inertia ixx="1.5e-4" iyy="1.5e-4" izz="8e-5" ixy="0" ixz="0" iyz="0"/></inertial>
+</link></robot>
+)";
+
+class TrainCommand : public testing::Test {
+ protected:
+  TrainCommand() {
+    fs::create_directories(folder_.path() / "tin");
+    core::WriteFile(folder_.path() / "tin" / "tin.urdf", kTin);
+    const Outcome made = RunProgram("tasks " + Path("tin") + " -o " + Path("tasks.json"));
+    EXPECT_EQ(made.code, 0) << made.text;
+  }
+  std::string Path(const std::string& name) const { return (folder_.path() / name).string(); }
+  Outcome Train(const std::string& task, const std::string& more) const {
+    return RunProgram("train " + Path("tasks.json") + " --task " + task + " -o " + Path("run") +
+                      " --envs 8 --steps 2048 --episodes 6 " + more);
+  }
+
+  core::TemporaryFolder folder_;
+};
+
+TEST_F(TrainCommand, WritesARunThatRolloutsReadAndResumeKeeps) {
+  const Outcome trained = Train("pick_up_tin", "--json");
+  ASSERT_EQ(trained.code, 0) << trained.text;
+  const auto report = nlohmann::json::parse(core::ReadFile(Path("run/report.json")));
+  ASSERT_EQ(report.at("subtasks").size(), 1u);
+  EXPECT_EQ(report["subtasks"][0].at("name"), "pick_up_tin");
+  EXPECT_EQ(report["subtasks"][0].at("samples"), 2048);
+  EXPECT_EQ(report["subtasks"][0]["own_starts"].at("episodes"), 6);
+  for (const char* file : {"policy.pt", "checkpoint.pt", "curves.svg"}) {
+    EXPECT_TRUE(fs::exists(Path("run/1_pick_up_tin/") + file)) << file;
+  }
+  const std::string policy = core::ReadFile(Path("run/1_pick_up_tin/policy.pt"));
+
+  const Outcome again = Train("pick_up_tin", "");
+  EXPECT_EQ(again.code, 1);
+  EXPECT_NE(again.text.find("--resume"), std::string::npos) << again.text;
+  const Outcome resumed = Train("pick_up_tin", "--resume");
+  EXPECT_EQ(resumed.code, 0) << resumed.text;
+  EXPECT_EQ(core::ReadFile(Path("run/1_pick_up_tin/policy.pt")), policy);  // nothing was retrained
+
+  const Outcome first = RunProgram("rollout " + Path("run") + " --episodes 6 --json");
+  const Outcome second = RunProgram("rollout " + Path("run") + " --episodes 6 --json --threads 1");
+  ASSERT_EQ(first.code, 0) << first.text;
+  EXPECT_EQ(first.text, second.text);  // for any number of threads
+  EXPECT_EQ(nlohmann::json::parse(first.text).at("episodes"), 6);
+
+  core::WriteFile(folder_.path() / "tin" / "tin.urdf", std::string(kTin) + "<!-- new -->\n");
+  const Outcome changed = RunProgram("rollout " + Path("run"));
+  EXPECT_EQ(changed.code, 1);
+  EXPECT_NE(changed.text.find("'tin' has changed"), std::string::npos) << changed.text;
+  fs::remove_all(folder_.path() / "tin");
+  const Outcome gone = RunProgram("rollout " + Path("run"));
+  EXPECT_EQ(gone.code, 1);
+  EXPECT_NE(gone.text.find("'tin' is not there"), std::string::npos) << gone.text;
+}
+
+TEST_F(TrainCommand, RefusesWithOneLine) {
+  const Outcome unknown = Train("pick_up_pan", "");
+  EXPECT_EQ(unknown.code, 1);
+  EXPECT_NE(unknown.text.find("pick_up_tin"), std::string::npos) << unknown.text;
+  EXPECT_FALSE(fs::exists(Path("run")));
+  const Outcome mixed = Train("'*'", "");
+  EXPECT_EQ(mixed.code, 1);
+  EXPECT_NE(mixed.text.find("number of subtasks"), std::string::npos) << mixed.text;
+  const Outcome robot = Train("pick_up_tin", "--robot " + Path("tin/tin.urdf"));
+  EXPECT_EQ(robot.code, 1);
+  EXPECT_NE(robot.text.find("tin.json"), std::string::npos) << robot.text;
+  const Outcome nothing = RunProgram("rollout " + Path("tin"));
+  EXPECT_EQ(nothing.code, 1);
+  EXPECT_NE(nothing.text.find("no folder of a training"), std::string::npos) << nothing.text;
+}
+
+}  // namespace
+}  // namespace simwright
