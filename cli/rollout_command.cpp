@@ -24,7 +24,7 @@ void AddRollout(CLI::App* app, CommonOptions* common, Run* run) {
   auto request = std::make_shared<pipeline::RolloutRequest>();
   CLI::App* command =
       app->add_subcommand("rollout", "How often a trained task succeeds, with its 95 % interval");
-  command->footer("Example:\n  simwright rollout open --episodes 200");
+  command->footer("Example:\n  simwright rollout pick --episodes 200");
   command->add_option("run", request->run, "The folder of `simwright train`")->required();
   command->add_option("--episodes", request->episodes, "Episodes to run")
       ->check(CLI::Range(1, 1000000))

@@ -29,8 +29,8 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
   CLI::App* command =
       app->add_subcommand("train", "A policy for each subtask of a task, by PPO in Bullet");
   command->footer(
-      "Examples:\n  simwright train tasks.json --task open_microwave_1_door -o open\n"
-      "  simwright train tasks.json --task 'open_microwave_*_door' -o open_any\n"
+      "Examples:\n  simwright train tasks.json --task pick_up_cup_1 -o pick\n"
+      "  simwright train tasks.json --task 'pick_up_cup_*' -o pick_any\n"
       "Subtasks are learnt in order, each mostly from where the one before ended. Ctrl-C or a "
       "crash\n"
       "loses half a minute at most: --resume goes on. docs/skills.md says more.");

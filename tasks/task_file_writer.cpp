@@ -124,7 +124,9 @@ Json ToJson(const Task& task, const std::string& place) {
 std::string StoredPath(const std::string& path, const fs::path& folder) {
   if (path.empty()) return path;
   const fs::path whole = fs::absolute(path).lexically_normal();
-  const fs::path relative = whole.lexically_relative(fs::absolute(folder / "").lexically_normal());
+  // A file without a folder lies in the current one, which has no relative name.
+  const fs::path here = folder.empty() ? fs::current_path() : fs::absolute(folder);
+  const fs::path relative = whole.lexically_relative((here / "").lexically_normal());
   int up = 0;
   for (const fs::path& step : relative) up += step == ".." ? 1 : 0;
   return relative.empty() || up > 1 ? whole.string() : relative.string();

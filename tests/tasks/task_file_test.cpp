@@ -118,6 +118,12 @@ TEST(TaskFile, PathsMoveWithTheFile) {
   EXPECT_EQ(here.assets[0].path, "assets/oven");
 }
 
+TEST(TaskFile, AFileWithoutAFolderLiesInTheCurrentOne) {
+  TaskSet set;
+  set.assets = {{"cup", "kitchen/cup", "cup"}};
+  EXPECT_EQ(TaskFileText(set, ""), TaskFileText(set, std::filesystem::current_path()));
+}
+
 TEST(TaskFile, ProgramsAreLines) {
   const Json json = Json::parse(TaskFileText(SampleSet("/d"), "/d"));
   EXPECT_EQ(json["tasks"][0]["subtasks"][0]["program"],
