@@ -56,6 +56,17 @@ Trained ReadTrained(const fs::path& file) {
   }
 }
 
+// One failure may happen to anybody; more than one in 100,000 decisions is a broken scene.
+void RequireSoundPhysics(const rl::SkillEnvironment& environment, const std::string& subtask,
+                         double samples) {
+  const std::int64_t failures = environment.failures();
+  if (failures <= 1 || static_cast<double>(failures) <= 1e-5 * samples) return;
+  throw core::Error("the physics failed in " + std::to_string(failures) + " of " +
+                        std::to_string(static_cast<std::int64_t>(samples)) +
+                        " decisions, the last in " + environment.LastFailure(),
+                    "subtask " + subtask, "check its assets with `simwright check`");
+}
+
 Trained TrainOne(const TrainRequest& request, const SkillRun& run, const RunSkill& skill,
                  const std::vector<rl::EpisodeStart>& pool, core::Progress* progress) {
   const fs::path done = skill.folder / kDoneFile;
@@ -65,9 +76,11 @@ Trained TrainOne(const TrainRequest& request, const SkillRun& run, const RunSkil
   const int iterations =
       static_cast<int>(request.samples / (options.ppo.horizon * run.environments));
   progress->Stage("train " + skill.name, iterations);
-  const rl::TrainingResult result =
-      rl::TrainPolicy(&environment, options, skill.folder, request.resume,
-                      [&](const rl::TrainingRecord&) { progress->Advance(); });
+  const rl::TrainingResult result = rl::TrainPolicy(
+      &environment, options, skill.folder, request.resume, [&](const rl::TrainingRecord& record) {
+        RequireSoundPhysics(environment, skill.name, record.samples);
+        progress->Advance();
+      });
   const Trained trained{static_cast<std::int64_t>(result.last.samples), result.last.seconds};
   json text = {{"samples", trained.samples},
                {"seconds", trained.seconds},

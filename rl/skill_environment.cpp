@@ -99,7 +99,7 @@ void SkillEnvironment::StepOne(size_t index, const Rows& actions, StepBatch* bat
   batch->success[index] = decision.success;
   if (decision.failed) {
     ++slot.failures;
-    failed_seed_ = EpisodeSeed(index);
+    slot.failed = slot.number;
   }
   if (decision.terminated || decision.truncated) {
     slot.episode->Observe(batch->last_observations.row(row).data());
@@ -164,6 +164,16 @@ std::int64_t SkillEnvironment::failures() const {
   std::int64_t failures = 0;
   for (const Slot& slot : slots_) failures += slot.failures;
   return failures;
+}
+
+std::string SkillEnvironment::LastFailure() const {
+  std::string text;
+  for (size_t i = 0; i < slots_.size(); ++i) {
+    if (slots_[i].failures == 0) continue;
+    text = "environment " + std::to_string(i) + ", episode " + std::to_string(slots_[i].failed) +
+           ", seed " + std::to_string(seed_);
+  }
+  return text;
 }
 
 }  // namespace simwright::rl

@@ -28,10 +28,10 @@ class SkillEnvironment : public VectorEnvironment {
   std::string SaveState() const override;
   void RestoreState(std::string_view state, Rows* observations) override;
 
-  // Decisions after which the physics gave no numbers any more, and the seed of the last one's
-  // episode.
+  // Decisions after which the physics gave no numbers any more; the episode then ends.
   std::int64_t failures() const;
-  std::uint64_t failed_seed() const { return failed_seed_; }
+  // What repeats the last of them: "environment 3, episode 17, seed 5"; empty without any.
+  std::string LastFailure() const;
   const Skill& skill() const { return *skill_; }
 
  private:
@@ -42,6 +42,7 @@ class SkillEnvironment : public VectorEnvironment {
     std::uint64_t number = 0;
     std::vector<float> actions;
     std::int64_t failures = 0;
+    std::uint64_t failed = 0;  // number of the episode
   };
   std::uint64_t EpisodeSeed(size_t slot) const;
   void Begin(size_t slot);
@@ -55,7 +56,7 @@ class SkillEnvironment : public VectorEnvironment {
   std::vector<EpisodeStart> pool_;
   std::vector<Slot> slots_;
   int observation_size_ = 0, action_size_ = 0;
-  std::uint64_t seed_ = 0, failed_seed_ = 0;
+  std::uint64_t seed_ = 0;
 };
 
 }  // namespace simwright::rl

@@ -174,6 +174,7 @@ TEST(SkillEnvironment, RepeatsItselfBitForBit) {
     }
     EXPECT_TRUE(batch.observations.allFinite());
     EXPECT_EQ(environment.failures(), 0);
+    EXPECT_EQ(environment.LastFailure(), "");
   }
   core::SetThreadCount(threads);
   SkillEnvironment other(skill, 3);
