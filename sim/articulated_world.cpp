@@ -5,7 +5,6 @@
 #include <memory>
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyGearConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
@@ -14,6 +13,7 @@
 
 #include "core/error.h"
 #include "sim/bullet_shape.h"
+#include "sim/compact_solver.h"
 #include "sim/floor_contact.h"
 #include "sim/joint_velocity_row.h"
 
@@ -118,7 +118,7 @@ struct ArticulatedWorld::Bullet {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
-  btMultiBodyConstraintSolver solver;
+  CompactSolver solver;
   btMultiBodyDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
   btStaticPlaneShape floor_shape{btVector3(0, 0, 1), 0};
   std::unique_ptr<btRigidBody> floor;
@@ -217,6 +217,8 @@ ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
   // light link's contact each iteration moves the impulse by a share only: cold, a hand of 20 N
   // gripped with 12 after 50 iterations.
   solver.m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
+  // CompactSolver takes frictions in pairs.
+  solver.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
 
   bullet_->world.getDispatchInfo().m_deterministicOverlappingPairs = true;
   CollideShapesWithFloor(&bullet_->dispatcher);
