@@ -5,8 +5,6 @@
 #include <memory>
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
-#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyGearConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
@@ -15,7 +13,9 @@
 
 #include "core/error.h"
 #include "sim/bullet_shape.h"
+#include "sim/compact_solver.h"
 #include "sim/floor_contact.h"
+#include "sim/joint_velocity_row.h"
 
 namespace simwright::sim {
 namespace {
@@ -30,81 +30,6 @@ constexpr double kContactReach = 0.002;
 // Of a gear's error one step takes away this times the world's own share (Bullet multiplies the
 // two). Without it a hand's fingers drift as a pair.
 constexpr double kGearRecovery = 1.0;
-
-// All that resists or drives one joint, as one row: a velocity wished for within bounds of force (a
-// motor, or dry friction: wish 0 within +-friction), and a damper. Implicit, and solved along with
-// the contacts. As rows of their own, damper and friction of a light link fight each other for
-// hundreds of iterations.
-class JointVelocityRow : public btMultiBodyConstraint {
- public:
-  JointVelocityRow(btMultiBody* body, int link, double damping)
-      : btMultiBodyConstraint(body, body, link, body->getLink(link).m_parent, 1, true,
-                              MULTIBODY_CONSTRAINT_1DOF_JOINT_MOTOR),
-        damping_(damping) {}
-
-  void Wish(double velocity, double lowest_force, double highest_force) {
-    velocity_ = velocity;
-    lowest_ = lowest_force;
-    highest_ = highest_force;
-  }
-
-  void finalizeMultiDof() override {
-    allocateJacobiansMultiDof();
-    jacobianA(0)[6 + m_bodyA->getLink(m_linkA).m_dofOffset] = 1;
-    m_numDofsFinalized = m_jacSizeBoth;
-    internalSetAppliedImpulse(0, 0.0);
-  }
-  int getIslandIdA() const override { return IslandOf(m_linkA); }
-  int getIslandIdB() const override { return IslandOf(m_linkB); }
-
-  void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
-                            const btContactSolverInfo& info) override {
-    if (m_numDofsFinalized != m_jacSizeBoth) finalizeMultiDof();
-    if (lowest_ == 0.0 && highest_ == 0.0 && damping_ == 0.0) return;
-    const double dt = info.m_timeStep;
-    const btVector3 none(0, 0, 0);
-    btMultiBodySolverConstraint& row = rows.expandNonInitializing();
-    fillMultiBodyConstraint(row, data, jacobianA(0), nullptr, none, none, none, none, 0.0, info,
-                            lowest_ * dt, highest_ * dt, false, 1.0, false, velocity_);
-    row.m_orgConstraint = this;
-    row.m_orgDofIndex = 0;
-    if (damping_ > 0.0) AddDamping(dt, &row);
-  }
-  void debugDraw(btIDebugDraw*) override {}
-
- private:
-  // With a damper the impulse is force dt - damping dt v, v after the step. Either the wish is met
-  // (a hard row whose bounds give the damper its share), or the force is at a bound (a compliant
-  // row); which, is told from the velocity without this row.
-  void AddDamping(double dt, btMultiBodySolverConstraint* row) const {
-    const double inertia = row->m_jacDiagABInv;  // felt at the joint
-    const double without = velocity_ - row->m_rhs / inertia;
-    const double share = damping_ * dt * velocity_;
-    const double needed = inertia * (velocity_ - without) + share;
-    if (needed >= lowest_ * dt && needed <= highest_ * dt) {
-      row->m_lowerLimit = lowest_ * dt - share;
-      row->m_upperLimit = highest_ * dt - share;
-      return;
-    }
-    const double bound = (needed > 0.0 ? highest_ : lowest_) * dt;
-    const double compliance = 1.0 / (damping_ * dt);
-    const double soft = inertia / (1.0 + inertia * compliance);
-    row->m_rhs = (bound * compliance - without) * soft;
-    row->m_jacDiagABInv = soft;
-    row->m_cfm = compliance * soft;
-    row->m_lowerLimit = -std::numeric_limits<float>::max();
-    row->m_upperLimit = std::numeric_limits<float>::max();
-  }
-  int IslandOf(int link) const {
-    const btMultiBodyLinkCollider* collider =
-        link < 0 ? m_bodyA->getBaseCollider() : m_bodyA->getLinkCollider(link);
-    return collider == nullptr ? -1 : collider->getIslandTag();
-  }
-
-  double velocity_ = 0.0;
-  double lowest_ = 0.0, highest_ = 0.0;  // N m or N
-  double damping_ = 0.0;                 // N m s/rad or N s/m
-};
 
 // What drives and limits one joint that moves.
 struct LoadedJoint {
@@ -193,7 +118,7 @@ struct ArticulatedWorld::Bullet {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
-  btMultiBodyConstraintSolver solver;
+  CompactSolver solver;
   btMultiBodyDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
   btStaticPlaneShape floor_shape{btVector3(0, 0, 1), 0};
   std::unique_ptr<btRigidBody> floor;
@@ -292,6 +217,8 @@ ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
   // light link's contact each iteration moves the impulse by a share only: cold, a hand of 20 N
   // gripped with 12 after 50 iterations.
   solver.m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
+  // CompactSolver takes frictions in pairs.
+  solver.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
 
   bullet_->world.getDispatchInfo().m_deterministicOverlappingPairs = true;
   CollideShapesWithFloor(&bullet_->dispatcher);

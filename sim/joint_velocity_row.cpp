@@ -1,0 +1,105 @@
+#include "sim/joint_velocity_row.h"
+
+#include <limits>
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+namespace simwright::sim {
+namespace {
+
+constexpr int kBase = 6;  // numbers of the base that stand before the joints' in Bullet's vectors
+
+// Where the body's share of the solver's change of velocities begins.
+int VelocityIndex(btMultiBody* body, int numbers, btMultiBodyJacobianData* data) {
+  if (body->getCompanionId() < 0) {
+    body->setCompanionId(data->m_deltaVelocities.size());
+    data->m_deltaVelocities.resize(data->m_deltaVelocities.size() + numbers, 0.0);
+  }
+  return body->getCompanionId();
+}
+
+}  // namespace
+
+JointVelocityRow::JointVelocityRow(btMultiBody* body, int link, double damping)
+    : btMultiBodyConstraint(body, nullptr, link, body->getLink(link).m_parent, 1, true,
+                            MULTIBODY_CONSTRAINT_1DOF_JOINT_MOTOR),
+      damping_(damping) {}
+
+void JointVelocityRow::finalizeMultiDof() {
+  allocateJacobiansMultiDof();
+  m_numDofsFinalized = m_jacSizeBoth;
+  internalSetAppliedImpulse(0, 0.0);
+}
+
+void JointVelocityRow::createConstraintRows(btMultiBodyConstraintArray& rows,
+                                            btMultiBodyJacobianData& data,
+                                            const btContactSolverInfo& info) {
+  if (m_numDofsFinalized != m_jacSizeBoth) finalizeMultiDof();
+  if (lowest_ == 0.0 && highest_ == 0.0 && damping_ == 0.0) return;
+  btMultiBodySolverConstraint& row = rows.expandNonInitializing();
+  Fill(info.m_timeStep, &data, &row);
+  if (damping_ > 0.0) AddDamping(info.m_timeStep, &row);
+}
+
+// What btMultiBodyConstraint::fillMultiBodyConstraint does, but with one side. Bullet's own motors
+// name their body twice; the second side is all zeros, and took as long to fill and to solve.
+void JointVelocityRow::Fill(double dt, btMultiBodyJacobianData* data,
+                            btMultiBodySolverConstraint* row) const {
+  const int numbers = kBase + m_bodyA->getNumDofs();
+  const int own = kBase + m_bodyA->getLink(m_linkA).m_dofOffset;
+  *row = btMultiBodySolverConstraint();
+  row->m_multiBodyA = m_bodyA;
+  row->m_linkA = m_linkA;
+  row->m_deltaVelAindex = VelocityIndex(m_bodyA, numbers, data);
+  row->m_jacAindex = data->m_jacobians.size();
+  data->m_jacobians.resize(row->m_jacAindex + numbers, 0.0);
+  data->m_deltaVelocitiesUnitImpulse.resize(row->m_jacAindex + numbers, 0.0);
+  data->m_jacobians[row->m_jacAindex + own] = 1.0;
+  btScalar* response = &data->m_deltaVelocitiesUnitImpulse[row->m_jacAindex];
+  m_bodyA->calcAccelerationDeltasMultiDof(&data->m_jacobians[row->m_jacAindex], response,
+                                          data->scratch_r, data->scratch_v);
+  const double inertia = response[own] > SIMD_EPSILON ? 1.0 / response[own] : 0.0;
+  row->m_jacDiagABInv = inertia;
+  row->m_rhs = (velocity_ - m_bodyA->getVelocityVector()[own]) * inertia;
+  row->m_cfm = row->m_rhsPenetration = row->m_friction = 0.0;
+  row->m_appliedImpulse = row->m_appliedPushImpulse = 0.0;
+  row->m_lowerLimit = lowest_ * dt;
+  row->m_upperLimit = highest_ * dt;
+  const btVector3 none(0, 0, 0);
+  row->m_contactNormal1 = row->m_contactNormal2 = none;
+  row->m_relpos1CrossNormal = row->m_relpos2CrossNormal = none;
+  row->m_orgConstraint = const_cast<JointVelocityRow*>(this);  // Bullet writes the impulse back
+  row->m_orgDofIndex = 0;
+}
+
+// With a damper the impulse is force dt - damping dt v, v after the step. Either the wish is met (a
+// hard row whose bounds give the damper its share), or the force is at a bound (a compliant row);
+// which, is told from the velocity without this row.
+void JointVelocityRow::AddDamping(double dt, btMultiBodySolverConstraint* row) const {
+  const double inertia = row->m_jacDiagABInv;  // felt at the joint
+  const double without = velocity_ - row->m_rhs / inertia;
+  const double share = damping_ * dt * velocity_;
+  const double needed = inertia * (velocity_ - without) + share;
+  if (needed >= lowest_ * dt && needed <= highest_ * dt) {
+    row->m_lowerLimit = lowest_ * dt - share;
+    row->m_upperLimit = highest_ * dt - share;
+    return;
+  }
+  const double bound = (needed > 0.0 ? highest_ : lowest_) * dt;
+  const double compliance = 1.0 / (damping_ * dt);
+  const double soft = inertia / (1.0 + inertia * compliance);
+  row->m_rhs = (bound * compliance - without) * soft;
+  row->m_jacDiagABInv = soft;
+  row->m_cfm = compliance * soft;
+  row->m_lowerLimit = -std::numeric_limits<float>::max();
+  row->m_upperLimit = std::numeric_limits<float>::max();
+}
+
+int JointVelocityRow::IslandOf(int link) const {
+  const btMultiBodyLinkCollider* collider =
+      link < 0 ? m_bodyA->getBaseCollider() : m_bodyA->getLinkCollider(link);
+  return collider == nullptr ? -1 : collider->getIslandTag();
+}
+
+}  // namespace simwright::sim
