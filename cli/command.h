@@ -40,6 +40,8 @@ void AddTasks(CLI::App* app, CommonOptions* common, Run* run);
 void AddReward(CLI::App* app, CommonOptions* common, Run* run);
 void AddTrain(CLI::App* app, CommonOptions* common, Run* run);
 void AddRollout(CLI::App* app, CommonOptions* common, Run* run);
+void AddExport(CLI::App* app, CommonOptions* common, Run* run);
+void AddReplay(CLI::App* app, CommonOptions* common, Run* run);
 void AddDoctor(CLI::App* app, CommonOptions* common, Run* run);
 void AddVersion(CLI::App* app, Run* run);
 

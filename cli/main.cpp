@@ -40,6 +40,8 @@ int Main(int argc, char** argv) {
   cli::AddReward(&app, &common, &run);
   cli::AddTrain(&app, &common, &run);
   cli::AddRollout(&app, &common, &run);
+  cli::AddExport(&app, &common, &run);
+  cli::AddReplay(&app, &common, &run);
   cli::AddDoctor(&app, &common, &run);
   cli::AddVersion(&app, &run);
   try {

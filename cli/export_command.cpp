@@ -1,0 +1,60 @@
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include "cli/command.h"
+#include "pipeline/skill_export.h"
+
+namespace simwright::cli {
+namespace {
+
+int Export(const pipeline::ExportRequest& given, const CommonOptions& common) {
+  pipeline::ExportRequest request = given;
+  request.seed = common.seed;
+  request.force = common.force;
+  core::Progress progress(common.ProgressStyle());
+  const pipeline::ExportReport report = pipeline::Export(request, &progress);
+  progress.Finish();
+  if (common.json) {
+    std::fputs(pipeline::ExportJson(report).c_str(), stdout);
+    return 0;
+  }
+  if (!common.quiet) std::fputs(pipeline::ExportTable(report).c_str(), stdout);
+  std::printf("%s\n", report.output.c_str());
+  return 0;
+}
+
+}  // namespace
+
+void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
+  using pipeline::ExportFormat;
+  const std::map<std::string, ExportFormat> formats = {{"ros2", ExportFormat::kRos2},
+                                                       {"csv", ExportFormat::kCsv},
+                                                       {"robomimic", ExportFormat::kRobomimic}};
+  auto request = std::make_shared<pipeline::ExportRequest>();
+  CLI::App* command =
+      app->add_subcommand("export", "Trained skills as a robot's trajectories or demonstrations");
+  command->footer(
+      "Examples:\n  simwright export open --format ros2 -o open.yaml\n"
+      "  simwright export open --format robomimic --episodes 50 -o open.hdf5\n"
+      "Trajectories keep the robot's limits at 1 kHz from rest to rest. `simwright replay` proves\n"
+      "them. docs/export.md says more.");
+  command->add_option("run", request->run, "The folder of `simwright train`")->required();
+  command
+      ->add_option("--format", request->format,
+                   "ros2 (YAML, or JSON by the ending), csv, robomimic")
+      ->required()
+      ->transform(CLI::CheckedTransformer(formats));
+  command
+      ->add_option("-o,--output", request->output,
+                   "The file; of several trajectories a folder of them")
+      ->required();
+  command->add_option("--episodes", request->episodes, "Episodes that succeed")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  AddCommon(command, common);
+  AddForce(command, common);
+  command->callback([request, common, run] { *run = [=] { return Export(*request, *common); }; });
+}
+
+}  // namespace simwright::cli

@@ -1,0 +1,262 @@
+#include "pipeline/skill_demonstrations.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "rl/start_pool.h"
+
+namespace simwright::pipeline {
+namespace {
+
+using nlohmann::json;
+
+constexpr size_t kValidEvery = 10;
+constexpr const char* kRemedy = "give a file of `simwright export --format robomimic`";
+
+// Rows of one width.
+template <typename T>
+core::Hdf5Array<T> Array(const std::vector<std::vector<T>>& rows) {
+  core::Hdf5Array<T> array{{rows.size(), rows.front().size()}, {}};
+  for (const std::vector<T>& row : rows) {
+    array.values.insert(array.values.end(), row.begin(), row.end());
+  }
+  return array;
+}
+
+template <typename T>
+void Append(const Eigen::Isometry3d& pose, std::vector<T>* row) {
+  const Eigen::Quaterniond turn(pose.linear());
+  for (int i = 0; i < 3; ++i) row->push_back(static_cast<T>(pose.translation()[i]));
+  for (const double number : {turn.x(), turn.y(), turn.z(), turn.w()}) {
+    row->push_back(static_cast<T>(number));
+  }
+}
+
+template <typename T>
+void Append(const Eigen::VectorXd& numbers, std::vector<T>* row) {
+  for (const double number : numbers) row->push_back(static_cast<T>(number));
+}
+
+// What is seen at one moment, by key; `policy` and `object` are as long as the longest there are.
+using Sight = std::map<std::string, std::vector<float>>;
+
+// Writes what was seen in the rollouts of one run.
+class SightWriter {
+ public:
+  SightWriter(const std::vector<RunSkill>& skills, const std::vector<ChainRecording>& recordings)
+      : skills_(skills) {
+    for (const ChainRecording& recording : recordings) {
+      for (size_t k = 0; k < recording.subtasks.size(); ++k) {
+        const RecordedSubtask& subtask = recording.subtasks[k];
+        policy_ = std::max(policy_, subtask.decisions.front().observation.size());
+        object_ = std::max(object_, Object(VariantOf(k, subtask), subtask.moments.front()).size());
+      }
+    }
+  }
+
+  Sight At(size_t k, const RecordedSubtask& subtask, size_t moment,
+           const std::vector<float>& observation) const {
+    const rl::SkillVariant& variant = VariantOf(k, subtask);
+    const RecordedMoment& now = subtask.moments[moment];
+    Sight sight;
+    Append(now.arm, &sight["robot0_joint_pos"]);
+    std::vector<float> tool;
+    Append(variant.subtask.start.world_from_robot.inverse() * now.state.gripper, &tool);
+    sight["robot0_eef_pos"].assign(tool.begin(), tool.begin() + 3);
+    sight["robot0_eef_quat"].assign(tool.begin() + 3, tool.end());
+    sight["robot0_gripper_qpos"] = {static_cast<float>(now.leader),
+                                    static_cast<float>(now.leader_command)};
+    sight["object"] = Object(variant, now);
+    sight["object"].resize(object_, 0.0f);
+    sight["subtask"].assign(skills_.size(), 0.0f);
+    sight["subtask"][k] = 1.0f;
+    sight["policy"] = observation;
+    sight["policy"].resize(policy_, 0.0f);
+    return sight;
+  }
+
+  // What the simulation is restored from: things, joints, arm, fingers, subtask.
+  std::vector<double> State(size_t k, const RecordedSubtask& subtask, size_t moment) const {
+    const rl::SkillVariant& variant = VariantOf(k, subtask);
+    const RecordedMoment& now = subtask.moments[moment];
+    std::vector<double> state{static_cast<double>(k)};
+    Append(now.arm, &state);
+    Append(now.arm_command, &state);
+    state.insert(state.end(), {now.leader, now.leader_command});
+    for (const int thing : variant.placed) {
+      const auto t = static_cast<size_t>(thing);
+      Append(now.state.roots[t], &state);
+      state.insert(state.end(), now.state.joints[t].begin(), now.state.joints[t].end());
+    }
+    return state;
+  }
+
+ private:
+  const rl::SkillVariant& VariantOf(size_t k, const RecordedSubtask& subtask) const {
+    return skills_[k].evaluated->variants[static_cast<size_t>(subtask.start.variant)];
+  }
+  // Each thing's pose as the robot sees it, then its joints.
+  static std::vector<float> Object(const rl::SkillVariant& variant, const RecordedMoment& now) {
+    const Eigen::Isometry3d base_from_world = variant.subtask.start.world_from_robot.inverse();
+    std::vector<float> object;
+    for (const int thing : variant.placed) {
+      const auto t = static_cast<size_t>(thing);
+      Append(Eigen::Isometry3d(base_from_world * now.state.roots[t]), &object);
+      for (const double joint : now.state.joints[t]) object.push_back(static_cast<float>(joint));
+    }
+    return object;
+  }
+
+  const std::vector<RunSkill>& skills_;
+  size_t policy_ = 0, object_ = 0;
+};
+
+robot::StepObservations Stacked(const std::vector<Sight>& sights) {
+  robot::StepObservations stacked;
+  for (const auto& [key, first] : sights.front()) {
+    std::vector<std::vector<float>> rows;
+    for (const Sight& sight : sights) rows.push_back(sight.at(key));
+    stacked.numbers[key] = Array(rows);
+  }
+  return stacked;
+}
+
+robot::Demonstration DemonstrationOf(const SightWriter& writer, const ChainRecording& recording,
+                                     const std::vector<RunSkill>& skills) {
+  robot::Demonstration demonstration;
+  std::vector<std::vector<double>> actions, states;
+  std::vector<Sight> seen, seen_next;
+  for (size_t k = 0; k < recording.subtasks.size(); ++k) {
+    const RecordedSubtask& subtask = recording.subtasks[k];
+    const auto stride = static_cast<size_t>(skills[k].evaluated->options.control_steps);
+    for (size_t d = 0; d < subtask.decisions.size(); ++d) {
+      const RecordedDecision& decision = subtask.decisions[d];
+      actions.emplace_back(decision.action.begin(), decision.action.end());
+      states.push_back(writer.State(k, subtask, d * stride));
+      demonstration.rewards.push_back(decision.reward);
+      demonstration.dones.push_back(0);
+      seen.push_back(writer.At(k, subtask, d * stride, decision.observation));
+      seen_next.push_back(writer.At(k, subtask, (d + 1) * stride, decision.next_observation));
+    }
+  }
+  demonstration.dones.back() = 1;
+  demonstration.actions = Array(actions);
+  demonstration.states = Array(states);
+  demonstration.observations = Stacked(seen);
+  demonstration.next_observations = Stacked(seen_next);
+  return demonstration;
+}
+
+json PlanJson(const SkillNotes& notes, const ChainRecording& recording) {
+  json plan = {{"episode", notes.episode}, {"task", notes.task}};
+  for (const RecordedSubtask& subtask : recording.subtasks) {
+    plan["starts"].push_back(rl::StartText(subtask.start));
+    plan["steps"].push_back(subtask.decisions.size());
+  }
+  return plan;
+}
+
+// Where the next subtask begins: where the replay has come to, with the file's plan of the work.
+rl::EpisodeStart Continued(const rl::EpisodeStart& end, const rl::EpisodeStart& planned) {
+  rl::EpisodeStart start = end;
+  start.pitch = planned.pitch;
+  start.at_work = planned.at_work;
+  start.state.goal = planned.state.goal;
+  return start;
+}
+
+}  // namespace
+
+robot::DemonstrationSet DemonstrationsOf(const SkillRun& run, const std::vector<RunSkill>& skills,
+                                         const std::vector<ChainRecording>& recordings,
+                                         std::uint64_t seed) {
+  const SightWriter writer(skills, recordings);
+  robot::DemonstrationSet set;
+  const SkillNotes notes = NotesOf(run, skills, recordings.front(), seed);
+  json kwargs = {{"robot", notes.robot},
+                 {"run", notes.run},
+                 {"assets", notes.assets},
+                 {"seed", seed},
+                 {"subtasks", notes.subtasks},
+                 {"decision_seconds", skills.front().evaluated->options.decision_seconds()}};
+  int horizon = 0;
+  for (const RunSkill& skill : skills) horizon += skill.evaluated->options.decisions();
+  kwargs["horizon"] = horizon;
+  for (size_t i = 0; i < recordings.size(); ++i) {
+    kwargs["episodes"].push_back(
+        PlanJson(NotesOf(run, skills, recordings[i], seed), recordings[i]));
+    set.demonstrations.push_back(DemonstrationOf(writer, recordings[i], skills));
+    const bool valid =
+        i % kValidEvery == kValidEvery - 1 ||
+        (recordings.size() > 1 && recordings.size() < kValidEvery && i + 1 == recordings.size());
+    set.filters[valid ? "valid" : "train"].push_back(i);
+  }
+  set.env_name = "simwright/" + notes.task;
+  set.env_kwargs = kwargs.dump();
+  return set;
+}
+
+std::vector<DemonstrationPlan> PlansOf(const robot::DemonstrationSet& set,
+                                       const std::string& where) {
+  std::vector<DemonstrationPlan> plans;
+  try {
+    const json kwargs = json::parse(set.env_kwargs);
+    SkillNotes notes;
+    notes.robot = kwargs.at("robot").get<std::string>();
+    notes.run = kwargs.at("run").get<std::string>();
+    notes.assets = kwargs.at("assets").get<std::vector<std::string>>();
+    notes.seed = kwargs.at("seed").get<std::uint64_t>();
+    notes.subtasks = kwargs.at("subtasks").get<std::vector<std::string>>();
+    for (const json& one : kwargs.at("episodes")) {
+      DemonstrationPlan& plan = plans.emplace_back();
+      plan.notes = notes;
+      plan.notes.episode = one.at("episode").get<std::uint64_t>();
+      plan.notes.task = one.at("task").get<std::string>();
+      plan.starts = one.at("starts").get<std::vector<std::string>>();
+      plan.steps = one.at("steps").get<std::vector<int>>();
+    }
+  } catch (const json::exception&) {
+    throw core::Error("env_args do not say how its episodes begin", where, kRemedy);
+  }
+  if (plans.size() != set.demonstrations.size()) {
+    throw core::Error("env_args speak of " + std::to_string(plans.size()) +
+                          " episodes, there are " + std::to_string(set.demonstrations.size()),
+                      where, kRemedy);
+  }
+  return plans;
+}
+
+std::vector<bool> ReplayDemonstration(const std::vector<RunSkill>& skills,
+                                      const robot::Demonstration& demonstration,
+                                      const DemonstrationPlan& plan, const std::string& where) {
+  const auto width = static_cast<size_t>(rl::ActionSize(*skills.front().evaluated));
+  size_t steps = 0;
+  for (const int count : plan.steps) steps += static_cast<size_t>(std::max(count, 0));
+  if (plan.starts.size() != skills.size() || plan.steps.size() != skills.size() ||
+      steps != demonstration.size() || demonstration.actions.shape.at(1) != width) {
+    throw core::Error("its actions are not those of the run's subtasks", where, kRemedy);
+  }
+  std::vector<bool> successes;
+  const double* row = demonstration.actions.values.data();
+  rl::EpisodeStart start;
+  for (size_t k = 0; k < skills.size(); ++k) {
+    const rl::Skill& skill = *skills[k].evaluated;
+    const rl::EpisodeStart planned = rl::ParseStart(plan.starts[k], skill, where);
+    rl::Episode episode(skill);
+    episode.Begin(k == 0 ? planned : Continued(start, planned));
+    rl::Decision decision;
+    std::vector<float> action(width);
+    for (int i = 0; i < plan.steps[k]; ++i, row += width) {
+      std::copy(row, row + width, action.begin());
+      if (!decision.terminated && !decision.failed) decision = episode.Step(action.data());
+    }
+    successes.push_back(decision.terminated);
+    if (!decision.terminated) break;
+    start = rl::EndOf(episode);
+  }
+  return successes;
+}
+
+}  // namespace simwright::pipeline

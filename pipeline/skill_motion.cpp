@@ -1,0 +1,117 @@
+#include "pipeline/skill_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace simwright::pipeline {
+namespace {
+
+// What a command moves at most in one step from one subtask to the next; fingers at their speed.
+constexpr double kBridgeStep = 0.01;  // rad or m
+
+// A path that grows by one command a control step.
+class CommandPath {
+ public:
+  CommandPath(const rl::Skill& skill, const MotionJoints& joints)
+      : rate_(skill.options.control_rate), steps_(Eigen::VectorXd::Constant(Joints(joints), 0.0)) {
+    for (Eigen::Index j = 0; j < steps_.size(); ++j) {
+      const robot::JointLimits& limits = joints.limits[static_cast<size_t>(j)];
+      steps_[j] = std::min(kBridgeStep, 0.5 * limits.velocity / rate_);
+    }
+  }
+
+  size_t size() const { return commands_.size(); }
+  void Add(const RecordedMoment& moment) {
+    Eigen::VectorXd command(steps_.size());
+    command << moment.arm_command, moment.leader_command;
+    commands_.push_back(command);
+  }
+  void Rest(double seconds) {
+    commands_.insert(commands_.end(), static_cast<size_t>(std::ceil(seconds * rate_)),
+                     Eigen::VectorXd(commands_.back()));
+  }
+  // Goes to where `moment` begins.
+  void Bridge(const RecordedMoment& moment) {
+    const Eigen::VectorXd from = commands_.back();
+    Add(moment);
+    const Eigen::VectorXd way = commands_.back() - from;
+    commands_.pop_back();
+    const auto count =
+        static_cast<int>(std::ceil((way.cwiseAbs().cwiseQuotient(steps_)).maxCoeff()));
+    for (int i = 1; i < count; ++i) commands_.push_back(from + way * i / count);
+  }
+
+  robot::RecordedPath Path(const MotionJoints& joints) const {
+    robot::RecordedPath path;
+    path.joints = joints.names;
+    path.positions.resize(static_cast<Eigen::Index>(commands_.size()), steps_.size());
+    for (size_t k = 0; k < commands_.size(); ++k) {
+      path.times.push_back(static_cast<double>(k) / rate_);
+      path.positions.row(static_cast<Eigen::Index>(k)) = commands_[k].transpose();
+    }
+    return path;
+  }
+
+ private:
+  static Eigen::Index Joints(const MotionJoints& joints) {
+    return static_cast<Eigen::Index>(joints.names.size());
+  }
+
+  double rate_;
+  Eigen::VectorXd steps_;  // of a bridge, by joint
+  std::vector<Eigen::VectorXd> commands_;
+};
+
+void RequireAccepted(const robot::LimitReport& report) {
+  if (report.accepted()) return;
+  const core::Finding& finding = report.findings.front();
+  throw core::Error(finding.sentence, finding.place, "the robot would refuse it");
+}
+
+}  // namespace
+
+MotionJoints MotionJointsOf(const robot::RobotModel& robot) {
+  MotionJoints joints;
+  for (int j = 0; j < robot.arm.size(); ++j) {
+    const robot::ArmJoint& joint = robot.arm.joints[static_cast<size_t>(j)];
+    joints.names.push_back(joint.name);
+    joints.sliding.push_back(joint.prismatic);
+    joints.limits.push_back(
+        robot.limits[static_cast<size_t>(robot.arm_joints[static_cast<size_t>(j)])]);
+  }
+  const auto leader = static_cast<size_t>(robot.gripper.joints.front());
+  joints.names.push_back(robot.urdf.joints[leader].name);
+  joints.sliding.push_back(robot.urdf.joints[leader].type == assets::UrdfJointType::kPrismatic);
+  joints.limits.push_back(robot.limits[leader]);
+  for (robot::JointLimits& limits : joints.limits) {
+    limits = robot::CommandLimits(limits, robot.margin);
+  }
+  return joints;
+}
+
+SkillMotion MotionOf(const ChainRecording& recording, const rl::Skill& skill) {
+  const MotionJoints joints = MotionJointsOf(*skill.robot);
+  CommandPath commands(skill, joints);
+  std::vector<std::pair<size_t, size_t>> spans;  // places in the path
+  for (const RecordedSubtask& subtask : recording.subtasks) {
+    if (commands.size() > 0) commands.Bridge(subtask.moments.front());
+    const size_t begin = commands.size();
+    for (const RecordedMoment& moment : subtask.moments) commands.Add(moment);
+    commands.Rest(skill.options.hold_seconds);
+    spans.emplace_back(begin, commands.size() - 1);
+  }
+  SkillMotion motion;
+  motion.retimed =
+      robot::Retime(commands.Path(joints), joints.limits, joints.sliding, &skill.robot->arm);
+  motion.limits = robot::CheckLimits(motion.retimed.trajectory, joints.limits);
+  RequireAccepted(motion.limits);
+  for (const auto& [begin, end] : spans) {
+    motion.subtasks.push_back(
+        {motion.retimed.waypoint_times[begin], motion.retimed.waypoint_times[end]});
+  }
+  return motion;
+}
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/skill_recording.h"
+#include "robot/limit_check.h"
+#include "robot/retiming.h"
+
+namespace simwright::pipeline {
+
+// When a subtask begins and ends in a motion, s.
+struct SubtaskTimes {
+  double begin = 0.0, end = 0.0;
+};
+
+// What a controller tracks so that a rollout happens again.
+struct SkillMotion {
+  robot::Retimed retimed;  // the arm's joints and the gripper's first one
+  robot::LimitReport limits;
+  std::vector<SubtaskTimes> subtasks;  // in the motion's own time
+};
+
+// The joints of a motion of `robot`, their limits as a controller checks them, and which slide: the
+// arm's, then the gripper's first joint.
+struct MotionJoints {
+  std::vector<std::string> names;
+  std::vector<robot::JointLimits> limits;
+  std::vector<bool> sliding;
+};
+MotionJoints MotionJointsOf(const robot::RobotModel& robot);
+
+// The motion of a recorded chain: the COMMANDS of arm and fingers, not where they came to. A real
+// arm that tracks them pushes and pulls as the simulated one did, and fingers that are sent to
+// where a thing does not let them go press on it: that is what a grasp is. After each subtask the
+// command rests for the skill's hold_seconds, which its success has to outlast, and then goes in
+// small steps to where the next one begins. Retimed to the robot's limits and checked against them.
+// Throws core::Error, naming joint, time and value, where limits cannot be met.
+SkillMotion MotionOf(const ChainRecording& recording, const rl::Skill& skill);
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/random.h"
+#include "rl/chain.h"
+
+namespace simwright::pipeline {
+
+// One moment of a rollout: where everything was, and what the robot was told.
+struct RecordedMoment {
+  tasks::SceneState state;      // things, joints, tool and fingers
+  Eigen::VectorXd arm;          // (J) rad or m, where the joints were
+  double leader = 0.0;          // the same of the gripper's first joint
+  Eigen::VectorXd arm_command;  // (J) where they were sent
+  double leader_command = 0.0;
+};
+
+// One decision of a policy.
+struct RecordedDecision {
+  std::vector<float> observation, next_observation;  // (O)
+  std::vector<float> action;                         // (A), in [-1, 1]
+  float reward = 0.0f;
+  bool done = false;  // the subtask was over with it
+};
+
+struct RecordedSubtask {
+  rl::EpisodeStart start;
+  std::vector<RecordedMoment> moments;  // at the start, then after each control step
+  std::vector<RecordedDecision> decisions;
+  bool success = false;
+};
+
+struct ChainRecording {
+  std::uint64_t episode = 0;  // its number among those of its seed
+  std::vector<RecordedSubtask> subtasks;
+  bool success = false;  // of all of them
+};
+
+// Runs the links one after the other as rl::RunChain does, with the same outcome, and keeps all
+// that was seen and sent.
+ChainRecording RecordChain(const std::vector<rl::ChainLink>& links, const rl::EpisodeStart& start,
+                           core::Rng& rng);
+
+// The first `count` of the seed's episodes in which the whole task succeeds, in the order and with
+// the starts of rl::EvaluateChain; `tried` says how many it took. Throws core::Error where they are
+// fewer than one in twenty.
+std::vector<ChainRecording> RecordSuccesses(const std::vector<rl::ChainLink>& links, int count,
+                                            std::uint64_t seed, int* tried);
+
+}  // namespace simwright::pipeline
