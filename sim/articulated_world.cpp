@@ -112,14 +112,33 @@ std::unique_ptr<btMultiBodyGearConstraint> GearTo(const assets::UrdfMimic& mimic
   return gear;
 }
 
+// Bullet sets 4096 of each aside, 7 MB a world, and writes to all of them when a world is made.
+// Where these do not do it takes more from the heap.
+btDefaultCollisionConstructionInfo Pools() {
+  btDefaultCollisionConstructionInfo info;
+  info.m_defaultMaxPersistentManifoldPoolSize = 64;
+  info.m_defaultMaxCollisionAlgorithmPoolSize = 256;
+  return info;
+}
+
 }  // namespace
 
 struct ArticulatedWorld::Bullet {
-  btDefaultCollisionConfiguration configuration;
+  explicit Bullet(bool compact) {
+    if (compact) {
+      solver = std::make_unique<CompactSolver>();
+    } else {
+      solver = std::make_unique<btMultiBodyConstraintSolver>();
+    }
+    world = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher, &broadphase, solver.get(),
+                                                       &configuration);
+  }
+
+  btDefaultCollisionConfiguration configuration{Pools()};
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
-  CompactSolver solver;
-  btMultiBodyDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+  std::unique_ptr<btMultiBodyConstraintSolver> solver;
+  std::unique_ptr<btMultiBodyDynamicsWorld> world;
   btStaticPlaneShape floor_shape{btVector3(0, 0, 1), 0};
   std::unique_ptr<btRigidBody> floor;
   std::vector<std::unique_ptr<LoadedBody>> bodies;
@@ -129,14 +148,14 @@ struct ArticulatedWorld::Bullet {
   ~Bullet() {
     for (const auto& body : bodies) {
       for (const LoadedJoint& joint : body->joints) {
-        if (joint.motor) world.removeMultiBodyConstraint(joint.motor.get());
-        if (joint.limit) world.removeMultiBodyConstraint(joint.limit.get());
-        if (joint.gear) world.removeMultiBodyConstraint(joint.gear.get());
+        if (joint.motor) world->removeMultiBodyConstraint(joint.motor.get());
+        if (joint.limit) world->removeMultiBodyConstraint(joint.limit.get());
+        if (joint.gear) world->removeMultiBodyConstraint(joint.gear.get());
       }
-      for (const auto& collider : body->colliders) world.removeCollisionObject(collider.get());
-      world.removeMultiBody(body->multi.get());
+      for (const auto& collider : body->colliders) world->removeCollisionObject(collider.get());
+      world->removeMultiBody(body->multi.get());
     }
-    world.removeRigidBody(floor.get());
+    world->removeRigidBody(floor.get());
   }
 
   LoadedBody& Body(int index) { return *bodies.at(static_cast<size_t>(index)); }
@@ -146,7 +165,7 @@ struct ArticulatedWorld::Bullet {
   void UpdatePoses(LoadedBody* loaded) {
     loaded->multi->forwardKinematics(scratch_turns, scratch_origins);
     loaded->multi->updateCollisionObjectWorldTransforms(scratch_turns, scratch_origins);
-    for (const auto& collider : loaded->colliders) world.updateSingleAabb(collider.get());
+    for (const auto& collider : loaded->colliders) world->updateSingleAabb(collider.get());
   }
 };
 
@@ -174,7 +193,7 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const P
     const bool no_floor =
         std::find(through.begin(), through.end(), static_cast<int>(i)) != through.end();
     if (still || no_floor) mask &= ~kFloorGroup;
-    world.addCollisionObject(collider.get(), group, placement.contacts ? mask : 0);
+    world->addCollisionObject(collider.get(), group, placement.contacts ? mask : 0);
     if (i == 0) {
       loaded->multi->setBaseCollider(collider.get());
     } else {
@@ -193,25 +212,25 @@ void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double sca
     entry.friction = scale * joint.friction;
     entry.motor = std::make_unique<JointVelocityRow>(loaded->multi.get(), i, scale * joint.damping);
     entry.motor->Wish(0.0, -entry.friction, entry.friction);
-    world.addMultiBodyConstraint(entry.motor.get());
+    world->addMultiBodyConstraint(entry.motor.get());
     if (joint.mimic) {
       entry.gear = GearTo(*joint.mimic, body.JointIndex(joint.mimic->joint), i, loaded);
-      world.addMultiBodyConstraint(entry.gear.get());
+      world->addMultiBodyConstraint(entry.gear.get());
     }
     if (joint.type == assets::UrdfJointType::kContinuous) continue;
     entry.limit = std::make_unique<btMultiBodyJointLimitConstraint>(loaded->multi.get(), i,
                                                                     joint.lower, joint.upper);
-    world.addMultiBodyConstraint(entry.limit.get());
+    world->addMultiBodyConstraint(entry.limit.get());
   }
 }
 
 ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
-    : bullet_(std::make_unique<Bullet>()), options_(options) {
+    : bullet_(std::make_unique<Bullet>(options.compact_solver)), options_(options) {
   if (!(options.time_step > 0.0) || options.solver_iterations < 1 || !(options.margin >= 0.0)) {
     throw core::Error("a world needs a positive time step and at least one solver iteration");
   }
-  bullet_->world.setGravity(btVector3(0, 0, -options.gravity));
-  btContactSolverInfo& solver = bullet_->world.getSolverInfo();
+  bullet_->world->setGravity(btVector3(0, 0, -options.gravity));
+  btContactSolverInfo& solver = bullet_->world->getSolverInfo();
   solver.m_numIterations = options.solver_iterations;
   // Begins with the last step's impulses, which Bullet leaves off for jointed bodies. Against a
   // light link's contact each iteration moves the impulse by a share only: cold, a hand of 20 N
@@ -220,7 +239,7 @@ ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
   // CompactSolver takes frictions in pairs.
   solver.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
 
-  bullet_->world.getDispatchInfo().m_deterministicOverlappingPairs = true;
+  bullet_->world->getDispatchInfo().m_deterministicOverlappingPairs = true;
   CollideShapesWithFloor(&bullet_->dispatcher);
   bullet_->floor_shape.setMargin(0.0);
   btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, &bullet_->floor_shape);
@@ -228,7 +247,7 @@ ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
   info.m_restitution = 1.0;  // multiplied with the body's own
   bullet_->floor = std::make_unique<btRigidBody>(info);
   bullet_->floor->setUserIndex(kFloorUserIndex);
-  bullet_->world.addRigidBody(bullet_->floor.get(), kFloorGroup, btBroadphaseProxy::AllFilter);
+  bullet_->world->addRigidBody(bullet_->floor.get(), kFloorGroup, btBroadphaseProxy::AllFilter);
 }
 
 ArticulatedWorld::~ArticulatedWorld() = default;
@@ -266,7 +285,7 @@ int ArticulatedWorld::Add(std::shared_ptr<const PreparedBody> prepared,
   loaded->multi->setHasSelfCollision(placement.self_contacts);
   loaded->multi->setLinearDamping(0.0);
   loaded->multi->setAngularDamping(0.0);
-  bullet_->world.addMultiBody(loaded->multi.get());
+  bullet_->world->addMultiBody(loaded->multi.get());
   bullet_->AddColliders(body, placement, loaded.get());
   bullet_->AddJoints(body, placement.joint_scale, loaded.get());
   bullet_->UpdatePoses(loaded.get());
@@ -325,11 +344,11 @@ void ArticulatedWorld::PushRoot(int body, const Eigen::Vector3d& force) {
 
 void ArticulatedWorld::SetIterations(int iterations) {
   if (iterations < 1) throw core::Error("a world needs at least one solver iteration");
-  bullet_->world.getSolverInfo().m_numIterations = iterations;
+  bullet_->world->getSolverInfo().m_numIterations = iterations;
 }
 
 void ArticulatedWorld::Step() {
-  bullet_->world.stepSimulation(options_.time_step, 0, options_.time_step);
+  bullet_->world->stepSimulation(options_.time_step, 0, options_.time_step);
   for (int i = 0; i < bullet_->dispatcher.getNumManifolds(); ++i) {
     bullet_->dispatcher.getManifoldByIndexInternal(i)->setContactBreakingThreshold(kContactReach);
   }

@@ -134,12 +134,13 @@ double CompactSolver::SolveSpins() {
 }
 
 // Two rows across each other, whose impulses together stay within the contact's cone.
-double CompactSolver::SolveCones(std::vector<Row>* rows) {
+double CompactSolver::SolveCones(bool pressed_only, std::vector<Row>* rows) {
   double change = 0.0;
   for (size_t i = 0; i + 1 < rows->size(); i += 2) {
     Row& first = (*rows)[i];
     Row& second = (*rows)[i + 1];
     const double pressed = std::max(0.0, normals_[static_cast<size_t>(first.normal)].impulse);
+    if (pressed_only && pressed == 0.0) continue;
     const double a = first.impulse + Wanted(first);
     const double b = second.impulse + Wanted(second);
     const double length = std::sqrt(a * a + b * b), bound = first.friction * pressed;
@@ -160,8 +161,8 @@ btScalar CompactSolver::solveSingleIteration(int iteration, btCollisionObject**,
   }
   for (Row& row : normals_) change += Solve(&row);
   change += SolveSpins();
-  change += SolveCones(&rollings_);
-  change += SolveCones(&frictions_);
+  change += SolveCones(true, &rollings_);
+  change += SolveCones(false, &frictions_);
   return change;
 }
 

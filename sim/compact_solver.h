@@ -54,7 +54,8 @@ class CompactSolver : public btMultiBodyConstraintSolver {
   static double Change(double change, Row* row);
   static double Solve(Row* row);
   double SolveSpins();
-  double SolveCones(std::vector<Row>* rows);
+  // `pressed_only`: as Bullet, a rolling friction keeps its impulse while nothing presses.
+  double SolveCones(bool pressed_only, std::vector<Row>* rows);
 
   std::vector<Row> joints_, normals_, frictions_, rollings_, spins_;
   std::vector<Moved> moved_;

@@ -16,6 +16,9 @@ struct WorldOptions {
   double gravity = 9.81;           // m/s^2, along -z
   double margin = 5e-5;            // m, of each hull: 0.05 mm is stable and leaves no visible gap
   double floor_friction = 1.0;     // Bullet multiplies both sides': the body's own then counts
+  // Of ArticulatedWorld: the iterations by CompactSolver; else by Bullet, which it is tested
+  // against and compared with.
+  bool compact_solver = true;
 };
 
 // A Bullet world in double precision with the floor z = 0. One thread a world; nothing is shared,
