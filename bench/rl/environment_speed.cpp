@@ -5,6 +5,7 @@
 // and the default networks; what each setting gives; resident memory; and physics steps (240 Hz)
 // a second of the same scene in Bullet as it is trained in, in Bullet without each of our measures,
 // and in MuJoCo. Each figure is the best of the repeats, variants taking turns.
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -112,6 +113,7 @@ void MeasureEnvironments(const rl::SkillSubtask& scene, int repeats) {
 
 void MeasureMemory(const rl::SkillSubtask& scene) {
   const auto skill = rl::MakeSkill(robot::Panda(false), {scene});
+  malloc_trim(0);  // or they go into what making the assets has left
   const double before = ResidentMiB();
   rl::SkillEnvironment environment(skill, kEnvironments);
   rl::Rows observations;
@@ -270,7 +272,7 @@ int main(int argc, char** argv) {
   }
   const simwright::rl::SkillSubtask scene = simwright::MicrowaveAndCup();
   simwright::MeasureMemory(scene);
+  simwright::MeasurePhysics(scene, repeats);
   simwright::MeasureEnvironments(scene, repeats);
   simwright::MeasurePpo(scene, repeats);
-  simwright::MeasurePhysics(scene, repeats);
 }
