@@ -5,6 +5,7 @@
 #include <memory>
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyGearConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
@@ -126,7 +127,7 @@ btDefaultCollisionConstructionInfo Pools() {
 struct ArticulatedWorld::Bullet {
   explicit Bullet(bool compact) {
     if (compact) {
-      solver = std::make_unique<CompactSolver>();
+      solver = MakeCompactSolver();
     } else {
       solver = std::make_unique<btMultiBodyConstraintSolver>();
     }
@@ -148,7 +149,7 @@ struct ArticulatedWorld::Bullet {
   ~Bullet() {
     for (const auto& body : bodies) {
       for (const LoadedJoint& joint : body->joints) {
-        if (joint.motor) world->removeMultiBodyConstraint(joint.motor.get());
+        if (joint.motor) world->removeMultiBodyConstraint(joint.motor->constraint());
         if (joint.limit) world->removeMultiBodyConstraint(joint.limit.get());
         if (joint.gear) world->removeMultiBodyConstraint(joint.gear.get());
       }
@@ -212,7 +213,7 @@ void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double sca
     entry.friction = scale * joint.friction;
     entry.motor = std::make_unique<JointVelocityRow>(loaded->multi.get(), i, scale * joint.damping);
     entry.motor->Wish(0.0, -entry.friction, entry.friction);
-    world->addMultiBodyConstraint(entry.motor.get());
+    world->addMultiBodyConstraint(entry.motor->constraint());
     if (joint.mimic) {
       entry.gear = GearTo(*joint.mimic, body.JointIndex(joint.mimic->joint), i, loaded);
       world->addMultiBodyConstraint(entry.gear.get());
