@@ -5,6 +5,7 @@
 #include <memory>
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyGearConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
@@ -39,8 +40,17 @@ struct LoadedJoint {
   std::unique_ptr<btMultiBodyGearConstraint> gear;  // to the joint that it mimics
 };
 
+// A collider that stands off its Bullet link's own frame.
+struct Offset {
+  btMultiBodyLinkCollider* collider = nullptr;
+  int carrier = 0;
+  btTransform carrier_from_collider;
+};
+
 struct LoadedBody {
   std::shared_ptr<const PreparedBody> prepared;
+  const LinkTree* tree = nullptr;
+  std::vector<Offset> offsets;  // carriers' own colliders after those of what they carry
   const std::vector<std::unique_ptr<BulletShape>>* shapes_by_link = nullptr;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders;
   std::vector<LoadedJoint> joints;
@@ -49,41 +59,53 @@ struct LoadedBody {
   const BulletShape& Shape(int link) const {
     return *shapes_by_link->at(static_cast<size_t>(link));
   }
-  btMultiBodyLinkCollider& Collider(int link) { return *colliders.at(static_cast<size_t>(link)); }
+  btMultiBodyLinkCollider* Collider(int link) const {
+    return colliders.at(static_cast<size_t>(link)).get();
+  }
+  // Bullet's index of the link that joint `joint` leads to.
+  int Joint(int joint) const { return tree->links.at(static_cast<size_t>(joint) + 1).bullet; }
+  // Bullet moves a link's collider to the link's frame.
+  void PlaceColliders() {
+    for (const Offset& offset : offsets) {
+      const btTransform& carrier = Collider(offset.carrier)->getWorldTransform();
+      offset.collider->setWorldTransform(carrier * offset.carrier_from_collider);
+    }
+  }
 };
 
 // Link `index` >= 1 of the body, turned to its principal axes.
 void SetUpLink(const ArticulatedBody& body, int index, double mass_scale, LoadedBody* loaded) {
   const size_t i = static_cast<size_t>(index);
   const assets::UrdfJoint& joint = body.joints[i - 1];
-  const int parent = body.parents[i - 1];
-  const BulletShape& shape = loaded->Shape(index);
+  const TreeLink& link = loaded->tree->links[i];
+  const TreeLink& hung_on = loaded->tree->links[static_cast<size_t>(body.parents[i - 1])];
+  const TreeLink& carrier = loaded->tree->links[static_cast<size_t>(hung_on.carrier)];
   const Eigen::Isometry3d parent_from_principal =
-      loaded->Shape(parent).body_from_principal().inverse() * joint.parent_from_joint;
-  const Eigen::Matrix3d principal_from_link = shape.body_from_principal().linear().transpose();
+      carrier.link_from_principal.inverse() * hung_on.carrier_from_link * joint.parent_from_joint;
+  const Eigen::Matrix3d principal_from_link = link.link_from_principal.linear().transpose();
   const Eigen::Quaterniond turn(principal_from_link * parent_from_principal.linear().transpose());
   const btQuaternion this_from_parent(turn.x(), turn.y(), turn.z(), turn.w());
   const btVector3 axis = ToBullet(Eigen::Vector3d(principal_from_link * joint.axis));
   const btVector3 to_pivot = ToBullet(Eigen::Vector3d(parent_from_principal.translation()));
   const btVector3 to_center =
-      ToBullet(Eigen::Vector3d(principal_from_link * shape.body_from_principal().translation()));
-  const double mass = mass_scale * body.links[i].inertial.mass;
-  const btVector3 moments = mass_scale * ToBullet(shape.moments());
+      ToBullet(Eigen::Vector3d(principal_from_link * link.link_from_principal.translation()));
+  const double mass = mass_scale * link.mass;
+  const btVector3 moments = mass_scale * ToBullet(link.moments);
+  const int parent = carrier.bullet;
   btMultiBody* multi = loaded->multi.get();
   // Bullet's root is link -1.
   switch (joint.type) {
     case assets::UrdfJointType::kRevolute:
     case assets::UrdfJointType::kContinuous:
-      multi->setupRevolute(index - 1, mass, moments, parent - 1, this_from_parent, axis, to_pivot,
+      multi->setupRevolute(link.bullet, mass, moments, parent, this_from_parent, axis, to_pivot,
                            to_center, false);
       break;
     case assets::UrdfJointType::kPrismatic:
-      multi->setupPrismatic(index - 1, mass, moments, parent - 1, this_from_parent, axis, to_pivot,
+      multi->setupPrismatic(link.bullet, mass, moments, parent, this_from_parent, axis, to_pivot,
                             to_center, false);
       break;
     default:
-      multi->setupFixed(index - 1, mass, moments, parent - 1, this_from_parent, to_pivot,
-                        to_center);
+      multi->setupFixed(link.bullet, mass, moments, parent, this_from_parent, to_pivot, to_center);
   }
 }
 
@@ -112,6 +134,17 @@ std::unique_ptr<btMultiBodyGearConstraint> GearTo(const assets::UrdfMimic& mimic
   return gear;
 }
 
+void AddOffsets(LoadedBody* loaded) {
+  for (const bool own : {false, true}) {
+    for (size_t i = 0; i < loaded->colliders.size(); ++i) {
+      const int link = static_cast<int>(i);
+      const TreeLink& place = loaded->tree->links[i];
+      if (!place.offset || !loaded->Collider(link) || (place.carrier == link) != own) continue;
+      loaded->offsets.push_back({loaded->Collider(link), place.carrier, ToBullet(*place.offset)});
+    }
+  }
+}
+
 // Bullet sets 4096 of each aside, 7 MB a world, and writes to all of them when a world is made.
 // Where these do not do it takes more from the heap.
 btDefaultCollisionConstructionInfo Pools() {
@@ -126,7 +159,7 @@ btDefaultCollisionConstructionInfo Pools() {
 struct ArticulatedWorld::Bullet {
   explicit Bullet(bool compact) {
     if (compact) {
-      solver = std::make_unique<CompactSolver>();
+      solver = MakeCompactSolver();
     } else {
       solver = std::make_unique<btMultiBodyConstraintSolver>();
     }
@@ -148,11 +181,13 @@ struct ArticulatedWorld::Bullet {
   ~Bullet() {
     for (const auto& body : bodies) {
       for (const LoadedJoint& joint : body->joints) {
-        if (joint.motor) world->removeMultiBodyConstraint(joint.motor.get());
+        if (joint.motor) world->removeMultiBodyConstraint(joint.motor->constraint());
         if (joint.limit) world->removeMultiBodyConstraint(joint.limit.get());
         if (joint.gear) world->removeMultiBodyConstraint(joint.gear.get());
       }
-      for (const auto& collider : body->colliders) world->removeCollisionObject(collider.get());
+      for (const auto& collider : body->colliders) {
+        if (collider) world->removeCollisionObject(collider.get());
+      }
       world->removeMultiBody(body->multi.get());
     }
     world->removeRigidBody(floor.get());
@@ -165,7 +200,10 @@ struct ArticulatedWorld::Bullet {
   void UpdatePoses(LoadedBody* loaded) {
     loaded->multi->forwardKinematics(scratch_turns, scratch_origins);
     loaded->multi->updateCollisionObjectWorldTransforms(scratch_turns, scratch_origins);
-    for (const auto& collider : loaded->colliders) world->updateSingleAabb(collider.get());
+    loaded->PlaceColliders();
+    for (const auto& collider : loaded->colliders) {
+      if (collider) world->updateSingleAabb(collider.get());
+    }
   }
 };
 
@@ -173,9 +211,12 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const P
                                             LoadedBody* loaded) {
   for (size_t i = 0; i < body.links.size(); ++i) {
     const RigidBody& link = body.links[i];
-    // Also a link without a shape needs one, or its joint's limits and motors are passed over.
-    auto collider =
-        std::make_unique<btMultiBodyLinkCollider>(loaded->multi.get(), static_cast<int>(i) - 1);
+    const TreeLink& place = loaded->tree->links[i];
+    const bool carries = place.carrier == static_cast<int>(i);
+    loaded->colliders.emplace_back();
+    // Also a carrier without a shape needs one, or its joint's limits and motors are passed over.
+    if (!carries && link.parts.empty()) continue;
+    auto collider = std::make_unique<btMultiBodyLinkCollider>(loaded->multi.get(), place.bullet);
     collider->setCollisionShape(loaded->Shape(static_cast<int>(i)).compound());
     collider->setFriction(placement.friction_scale * link.friction);
     collider->setRestitution(link.restitution);
@@ -184,7 +225,7 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const P
     collider->setContactProcessingThreshold(1e30);
     collider->setUserIndex(static_cast<int>(bodies.size()));
     collider->setUserIndex2(static_cast<int>(i));
-    const bool still = placement.fixed && i == 0;
+    const bool still = placement.fixed && place.carrier == 0;
     if (still) collider->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
     const int group = still ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
     int mask = btBroadphaseProxy::AllFilter;
@@ -196,11 +237,12 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const P
     world->addCollisionObject(collider.get(), group, placement.contacts ? mask : 0);
     if (i == 0) {
       loaded->multi->setBaseCollider(collider.get());
-    } else {
-      loaded->multi->getLink(static_cast<int>(i) - 1).m_collider = collider.get();
+    } else if (carries) {
+      loaded->multi->getLink(place.bullet).m_collider = collider.get();
     }
-    loaded->colliders.push_back(std::move(collider));
+    loaded->colliders.back() = std::move(collider);
   }
+  AddOffsets(loaded);
 }
 
 void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double scale,
@@ -209,16 +251,19 @@ void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double sca
   for (const int i : body.MovingJoints()) {
     const assets::UrdfJoint& joint = body.joints[static_cast<size_t>(i)];
     LoadedJoint& entry = loaded->joints[static_cast<size_t>(i)];
+    const int link = loaded->Joint(i);
     entry.friction = scale * joint.friction;
-    entry.motor = std::make_unique<JointVelocityRow>(loaded->multi.get(), i, scale * joint.damping);
+    entry.motor =
+        std::make_unique<JointVelocityRow>(loaded->multi.get(), link, scale * joint.damping);
     entry.motor->Wish(0.0, -entry.friction, entry.friction);
-    world->addMultiBodyConstraint(entry.motor.get());
+    world->addMultiBodyConstraint(entry.motor->constraint());
     if (joint.mimic) {
-      entry.gear = GearTo(*joint.mimic, body.JointIndex(joint.mimic->joint), i, loaded);
+      entry.gear =
+          GearTo(*joint.mimic, loaded->Joint(body.JointIndex(joint.mimic->joint)), link, loaded);
       world->addMultiBodyConstraint(entry.gear.get());
     }
     if (joint.type == assets::UrdfJointType::kContinuous) continue;
-    entry.limit = std::make_unique<btMultiBodyJointLimitConstraint>(loaded->multi.get(), i,
+    entry.limit = std::make_unique<btMultiBodyJointLimitConstraint>(loaded->multi.get(), link,
                                                                     joint.lower, joint.upper);
     world->addMultiBodyConstraint(entry.limit.get());
   }
@@ -257,6 +302,8 @@ PreparedBody::PreparedBody(ArticulatedBody body, double margin) : body_(std::mov
   for (const RigidBody& link : body_.links) {
     shapes_.push_back(std::make_unique<BulletShape>(link, margin));
   }
+  whole_ = WholeTree(body_, shapes_);
+  folded_ = FoldedTree(body_, shapes_);
 }
 
 PreparedBody::~PreparedBody() = default;
@@ -271,16 +318,20 @@ int ArticulatedWorld::Add(std::shared_ptr<const PreparedBody> prepared,
   RequireMass(body, placement.fixed);
   auto loaded = std::make_unique<LoadedBody>();
   loaded->shapes_by_link = &prepared->shapes_;
+  // Links that may touch each other stay apart: fixed to one carrier, they would not be told so.
+  loaded->tree = placement.self_contacts ? &prepared->whole_ : &prepared->folded_;
   loaded->prepared = std::move(prepared);
-  const int links = static_cast<int>(body.joints.size());
-  const BulletShape& root = loaded->Shape(0);
+  const TreeLink& root = loaded->tree->links[0];
   const double mass_scale = placement.mass_scale;
   loaded->multi =
-      std::make_unique<btMultiBody>(links, mass_scale * body.links[0].inertial.mass,
-                                    mass_scale * ToBullet(root.moments()), placement.fixed, false);
+      std::make_unique<btMultiBody>(loaded->tree->joint_count, mass_scale * root.mass,
+                                    mass_scale * ToBullet(root.moments), placement.fixed, false);
   loaded->multi->setBaseWorldTransform(
-      ToBullet(Eigen::Isometry3d(placement.world_from_root * root.body_from_principal())));
-  for (int i = 1; i <= links; ++i) SetUpLink(body, i, mass_scale, loaded.get());
+      ToBullet(Eigen::Isometry3d(placement.world_from_root * root.link_from_principal)));
+  for (size_t i = 1; i < body.links.size(); ++i) {
+    if (loaded->tree->links[i].carrier != static_cast<int>(i)) continue;
+    SetUpLink(body, static_cast<int>(i), mass_scale, loaded.get());
+  }
   loaded->multi->finalizeMultiDof();
   loaded->multi->setHasSelfCollision(placement.self_contacts);
   loaded->multi->setLinearDamping(0.0);
@@ -299,15 +350,15 @@ int ArticulatedWorld::Add(const RigidBody& body, const Eigen::Isometry3d& world_
 
 void ArticulatedWorld::SetPosition(int body, int joint, double position) {
   LoadedBody& loaded = bullet_->Body(body);
-  loaded.multi->setJointPos(joint, position);
-  loaded.multi->setJointVel(joint, 0.0);
+  loaded.multi->setJointPos(loaded.Joint(joint), position);
+  loaded.multi->setJointVel(loaded.Joint(joint), 0.0);
   bullet_->UpdatePoses(&loaded);
 }
 
 void ArticulatedWorld::SetRootPose(int body, const Eigen::Isometry3d& world_from_root) {
   LoadedBody& loaded = bullet_->Body(body);
   loaded.multi->setBaseWorldTransform(
-      ToBullet(Eigen::Isometry3d(world_from_root * loaded.Shape(0).body_from_principal())));
+      ToBullet(Eigen::Isometry3d(world_from_root * loaded.tree->links[0].link_from_principal)));
   loaded.multi->setBaseVel(btVector3(0, 0, 0));
   loaded.multi->setBaseOmega(btVector3(0, 0, 0));
   bullet_->UpdatePoses(&loaded);
@@ -335,7 +386,8 @@ void ArticulatedWorld::LetGo(int body, int joint) {
 }
 
 void ArticulatedWorld::Push(int body, int joint, double force) {
-  bullet_->Body(body).multi->addJointTorque(joint, force);
+  LoadedBody& loaded = bullet_->Body(body);
+  loaded.multi->addJointTorque(loaded.Joint(joint), force);
 }
 
 void ArticulatedWorld::PushRoot(int body, const Eigen::Vector3d& force) {
@@ -352,21 +404,29 @@ void ArticulatedWorld::Step() {
   for (int i = 0; i < bullet_->dispatcher.getNumManifolds(); ++i) {
     bullet_->dispatcher.getManifoldByIndexInternal(i)->setContactBreakingThreshold(kContactReach);
   }
+  for (const auto& body : bullet_->bodies) body->PlaceColliders();
   time_ += options_.time_step;
 }
 
 double ArticulatedWorld::Position(int body, int joint) const {
-  return bullet_->Body(body).multi->getJointPos(joint);
+  const LoadedBody& loaded = bullet_->Body(body);
+  return loaded.multi->getJointPos(loaded.Joint(joint));
 }
 
 double ArticulatedWorld::Velocity(int body, int joint) const {
-  return bullet_->Body(body).multi->getJointVel(joint);
+  const LoadedBody& loaded = bullet_->Body(body);
+  return loaded.multi->getJointVel(loaded.Joint(joint));
 }
 
 Eigen::Isometry3d ArticulatedWorld::LinkPose(int body, int link) const {
-  LoadedBody& loaded = bullet_->Body(body);
-  return FromBullet(loaded.Collider(link).getWorldTransform()) *
-         loaded.Shape(link).body_from_principal().inverse();
+  const LoadedBody& loaded = bullet_->Body(body);
+  const auto pose = [&](int i) -> Eigen::Isometry3d {
+    return FromBullet(loaded.Collider(i)->getWorldTransform()) *
+           loaded.Shape(i).body_from_principal().inverse();
+  };
+  if (loaded.Collider(link) != nullptr) return pose(link);
+  const TreeLink& place = loaded.tree->links[static_cast<size_t>(link)];
+  return pose(place.carrier) * place.carrier_from_link;
 }
 
 std::vector<LinkContact> ArticulatedWorld::Contacts() const {
@@ -396,13 +456,16 @@ void ArticulatedWorld::Contacts(std::vector<LinkContact>* contacts) const {
 }
 
 assets::Inertial ArticulatedWorld::LoadedInertial(int body, int link) const {
-  LoadedBody& loaded = bullet_->Body(body);
+  const LoadedBody& loaded = bullet_->Body(body);
   const btMultiBody& multi = *loaded.multi;
+  const TreeLink& place = loaded.tree->links.at(static_cast<size_t>(link));
   assets::Inertial inertial;
-  inertial.mass = link == 0 ? multi.getBaseMass() : multi.getLinkMass(link - 1);
+  if (place.carrier != link) return inertial;
+  const bool root = place.bullet < 0;
+  inertial.mass = root ? multi.getBaseMass() : multi.getLinkMass(place.bullet);
   const Eigen::Vector3d moments =
-      FromBullet(link == 0 ? multi.getBaseInertia() : multi.getLinkInertia(link - 1));
-  const Eigen::Isometry3d& principal = loaded.Shape(link).body_from_principal();
+      FromBullet(root ? multi.getBaseInertia() : multi.getLinkInertia(place.bullet));
+  const Eigen::Isometry3d& principal = place.link_from_principal;
   inertial.center_of_mass = principal.translation();
   inertial.inertia = principal.linear() * moments.asDiagonal() * principal.linear().transpose();
   return inertial;

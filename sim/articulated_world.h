@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "sim/articulated_body.h"
+#include "sim/link_tree.h"
 #include "sim/world.h"
 
 namespace simwright::sim {
@@ -29,6 +30,7 @@ class PreparedBody {
   friend class ArticulatedWorld;
   ArticulatedBody body_;
   std::vector<std::unique_ptr<BulletShape>> shapes_;  // by link
+  LinkTree whole_, folded_;
 };
 
 // How a jointed thing is put into a world.
@@ -106,7 +108,8 @@ class ArticulatedWorld {
   // The same into `contacts`, whose memory is used again.
   void Contacts(std::vector<LinkContact>* contacts) const;
 
-  // The inertial as the engine holds it, back in the link's frame.
+  // The inertial as the engine holds it, back in the link's frame. Without self_contacts links on
+  // fixed joints are part of what they are fixed to: it has their mass, they have none.
   assets::Inertial LoadedInertial(int body, int link) const;
 
  private:

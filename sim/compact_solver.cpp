@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 
 namespace simwright::sim {
 namespace {
@@ -36,7 +38,56 @@ void Add(const double* response, double impulse, int count, double* changed) {
   for (int i = 0; i < count; ++i) changed[i] += response[i] * impulse;
 }
 
-}  // namespace
+class CompactSolver : public btMultiBodyConstraintSolver {
+ public:
+  btScalar solveGroupCacheFriendlySetup(btCollisionObject** bodies, int body_count,
+                                        btPersistentManifold** manifolds, int manifold_count,
+                                        btTypedConstraint** constraints, int constraint_count,
+                                        const btContactSolverInfo& info,
+                                        btIDebugDraw* drawer) override;
+  // Returns the sum of squares of the changes of impulses, (N s)^2 or (N m s)^2.
+  btScalar solveSingleIteration(int iteration, btCollisionObject** bodies, int body_count,
+                                btPersistentManifold** manifolds, int manifold_count,
+                                btTypedConstraint** constraints, int constraint_count,
+                                const btContactSolverInfo& info, btIDebugDraw* drawer) override;
+  btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
+                                         const btContactSolverInfo& info) override;
+
+ private:
+  // What a row reads and changes of one body: `count` numbers from the first that is not zero on.
+  struct Side {
+    const double* jacobian = nullptr;
+    const double* velocity = nullptr;  // changes of velocity that the jacobian reads
+    const double* response = nullptr;  // to an impulse of 1
+    double* changed = nullptr;         // the velocities that it changes
+    int jacobian_count = 0, response_count = 0;
+  };
+  struct Row {
+    Side a, b;
+    double rhs = 0.0, inertia = 0.0, compliance = 0.0;  // as btMultiBodySolverConstraint's
+    double lower = 0.0, upper = 0.0, impulse = 0.0;
+    double friction = 0.0;
+    int normal = -1;  // of a friction's contact, in normals_
+  };
+  struct Moved {
+    btMultiBody* body = nullptr;
+    int first = 0;  // in m_data.m_deltaVelocities
+  };
+
+  void Pack(const btMultiBodyConstraintArray& source, std::vector<Row>* rows);
+  Side PackSide(btMultiBody* body, int jacobian, int velocity);
+  static void WriteBack(const std::vector<Row>& rows, btMultiBodyConstraintArray* target);
+  static double Wanted(const Row& row);
+  static double Change(double change, Row* row);
+  static double Solve(Row* row);
+  double SolveSpins();
+  // `pressed_only`: as Bullet, a rolling friction keeps its impulse while nothing presses.
+  double SolveCones(bool pressed_only, std::vector<Row>* rows);
+
+  std::vector<Row> joints_, normals_, frictions_, rollings_, spins_;
+  std::vector<Moved> moved_;
+  std::vector<double> before_;  // m_data.m_deltaVelocities before the first iteration
+};
 
 CompactSolver::Side CompactSolver::PackSide(btMultiBody* body, int jacobian, int velocity) {
   Side side;
@@ -181,6 +232,12 @@ btScalar CompactSolver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies
     moved.body->setPosUpdated(false);
   }
   return btMultiBodyConstraintSolver::solveGroupCacheFriendlyFinish(bodies, body_count, info);
+}
+
+}  // namespace
+
+std::unique_ptr<btMultiBodyConstraintSolver> MakeCompactSolver() {
+  return std::make_unique<CompactSolver>();
 }
 
 }  // namespace simwright::sim

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 namespace simwright::sim {
@@ -21,20 +22,47 @@ int VelocityIndex(btMultiBody* body, int numbers, btMultiBodyJacobianData* data)
 
 }  // namespace
 
-JointVelocityRow::JointVelocityRow(btMultiBody* body, int link, double damping)
+class JointVelocityRow::Row : public btMultiBodyConstraint {
+ public:
+  Row(btMultiBody* body, int link, double damping);
+
+  void Wish(double velocity, double lowest_force, double highest_force) {
+    velocity_ = velocity;
+    lowest_ = lowest_force;
+    highest_ = highest_force;
+  }
+
+  void finalizeMultiDof() override;
+  int getIslandIdA() const override { return IslandOf(m_linkA); }
+  int getIslandIdB() const override { return IslandOf(m_linkB); }
+  void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                            const btContactSolverInfo& info) override;
+  void debugDraw(btIDebugDraw*) override {}
+
+ private:
+  void Fill(double dt, btMultiBodyJacobianData* data, btMultiBodySolverConstraint* row) const;
+  void AddDamping(double dt, btMultiBodySolverConstraint* row) const;
+  int IslandOf(int link) const;
+
+  double velocity_ = 0.0;
+  double lowest_ = 0.0, highest_ = 0.0;  // N m or N
+  double damping_ = 0.0;                 // N m s/rad or N s/m
+};
+
+JointVelocityRow::Row::Row(btMultiBody* body, int link, double damping)
     : btMultiBodyConstraint(body, nullptr, link, body->getLink(link).m_parent, 1, true,
                             MULTIBODY_CONSTRAINT_1DOF_JOINT_MOTOR),
       damping_(damping) {}
 
-void JointVelocityRow::finalizeMultiDof() {
+void JointVelocityRow::Row::finalizeMultiDof() {
   allocateJacobiansMultiDof();
   m_numDofsFinalized = m_jacSizeBoth;
   internalSetAppliedImpulse(0, 0.0);
 }
 
-void JointVelocityRow::createConstraintRows(btMultiBodyConstraintArray& rows,
-                                            btMultiBodyJacobianData& data,
-                                            const btContactSolverInfo& info) {
+void JointVelocityRow::Row::createConstraintRows(btMultiBodyConstraintArray& rows,
+                                                 btMultiBodyJacobianData& data,
+                                                 const btContactSolverInfo& info) {
   if (m_numDofsFinalized != m_jacSizeBoth) finalizeMultiDof();
   if (lowest_ == 0.0 && highest_ == 0.0 && damping_ == 0.0) return;
   btMultiBodySolverConstraint& row = rows.expandNonInitializing();
@@ -44,8 +72,8 @@ void JointVelocityRow::createConstraintRows(btMultiBodyConstraintArray& rows,
 
 // What btMultiBodyConstraint::fillMultiBodyConstraint does, but with one side. Bullet's own motors
 // name their body twice; the second side is all zeros, and took as long to fill and to solve.
-void JointVelocityRow::Fill(double dt, btMultiBodyJacobianData* data,
-                            btMultiBodySolverConstraint* row) const {
+void JointVelocityRow::Row::Fill(double dt, btMultiBodyJacobianData* data,
+                                 btMultiBodySolverConstraint* row) const {
   const int numbers = kBase + m_bodyA->getNumDofs();
   const int own = kBase + m_bodyA->getLink(m_linkA).m_dofOffset;
   *row = btMultiBodySolverConstraint();
@@ -69,14 +97,14 @@ void JointVelocityRow::Fill(double dt, btMultiBodyJacobianData* data,
   const btVector3 none(0, 0, 0);
   row->m_contactNormal1 = row->m_contactNormal2 = none;
   row->m_relpos1CrossNormal = row->m_relpos2CrossNormal = none;
-  row->m_orgConstraint = const_cast<JointVelocityRow*>(this);  // Bullet writes the impulse back
+  row->m_orgConstraint = const_cast<Row*>(this);  // Bullet writes the impulse back
   row->m_orgDofIndex = 0;
 }
 
 // With a damper the impulse is force dt - damping dt v, v after the step. Either the wish is met (a
 // hard row whose bounds give the damper its share), or the force is at a bound (a compliant row);
 // which, is told from the velocity without this row.
-void JointVelocityRow::AddDamping(double dt, btMultiBodySolverConstraint* row) const {
+void JointVelocityRow::Row::AddDamping(double dt, btMultiBodySolverConstraint* row) const {
   const double inertia = row->m_jacDiagABInv;  // felt at the joint
   const double without = velocity_ - row->m_rhs / inertia;
   const double share = damping_ * dt * velocity_;
@@ -96,10 +124,23 @@ void JointVelocityRow::AddDamping(double dt, btMultiBodySolverConstraint* row) c
   row->m_upperLimit = std::numeric_limits<float>::max();
 }
 
-int JointVelocityRow::IslandOf(int link) const {
+int JointVelocityRow::Row::IslandOf(int link) const {
   const btMultiBodyLinkCollider* collider =
       link < 0 ? m_bodyA->getBaseCollider() : m_bodyA->getLinkCollider(link);
   return collider == nullptr ? -1 : collider->getIslandTag();
+}
+
+JointVelocityRow::JointVelocityRow(btMultiBody* body, int link, double damping)
+    : row_(std::make_unique<Row>(body, link, damping)) {}
+
+JointVelocityRow::~JointVelocityRow() = default;
+
+void JointVelocityRow::Wish(double velocity, double lowest_force, double highest_force) {
+  row_->Wish(velocity, lowest_force, highest_force);
+}
+
+btMultiBodyConstraint* JointVelocityRow::constraint() const {
+  return row_.get();
 }
 
 }  // namespace simwright::sim

@@ -1,6 +1,9 @@
 #pragma once
 
-#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
+#include <memory>
+
+class btMultiBody;
+class btMultiBodyConstraint;
 
 namespace simwright::sim {
 
@@ -8,33 +11,21 @@ namespace simwright::sim {
 // motor, or dry friction: wish 0 within +-friction), and a damper. Implicit, and solved along with
 // the contacts. As rows of their own, damper and friction of a light link fight each other for
 // hundreds of iterations.
-class JointVelocityRow : public btMultiBodyConstraint {
+class JointVelocityRow {
  public:
   // Of the joint that leads to `link`, Bullet's index. `damping`: N m s/rad or N s/m.
   JointVelocityRow(btMultiBody* body, int link, double damping);
+  ~JointVelocityRow();
+  JointVelocityRow(const JointVelocityRow&) = delete;
+  JointVelocityRow& operator=(const JointVelocityRow&) = delete;
 
   // rad/s or m/s; N m or N, the lowest negative.
-  void Wish(double velocity, double lowest_force, double highest_force) {
-    velocity_ = velocity;
-    lowest_ = lowest_force;
-    highest_ = highest_force;
-  }
-
-  void finalizeMultiDof() override;
-  int getIslandIdA() const override { return IslandOf(m_linkA); }
-  int getIslandIdB() const override { return IslandOf(m_linkB); }
-  void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
-                            const btContactSolverInfo& info) override;
-  void debugDraw(btIDebugDraw*) override {}
+  void Wish(double velocity, double lowest_force, double highest_force);
+  btMultiBodyConstraint* constraint() const;
 
  private:
-  void Fill(double dt, btMultiBodyJacobianData* data, btMultiBodySolverConstraint* row) const;
-  void AddDamping(double dt, btMultiBodySolverConstraint* row) const;
-  int IslandOf(int link) const;
-
-  double velocity_ = 0.0;
-  double lowest_ = 0.0, highest_ = 0.0;  // N m or N
-  double damping_ = 0.0;                 // N m s/rad or N s/m
+  class Row;
+  std::unique_ptr<Row> row_;
 };
 
 }  // namespace simwright::sim

@@ -1,0 +1,278 @@
+// How fast training worlds are: the Panda, a microwave with its door and knobs, a cup.
+//   bench_environment_speed [--repeats N]
+// Control steps (60 Hz, 4 substeps) a second of 64 environments on one and two threads, with random
+// actions as an untrained policy draws them, and with the hand held at the door's handle; with PPO
+// and the default networks; what each setting gives; resident memory; and physics steps (240 Hz)
+// a second of the same scene in Bullet as it is trained in, in Bullet without each of our measures,
+// and in MuJoCo. Each figure is the best of the repeats, variants taking turns.
+#include <malloc.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/rl/training_scene.h"
+#include "core/parallel.h"
+#include "core/random.h"
+#include "geometry/convex_hull.h"
+#include "rl/ppo.h"
+#include "rl/skill_environment.h"
+#include "robot/panda_model.h"
+#include "sim/driven_robot.h"
+#include "sim/mujoco_bodies.h"
+
+namespace simwright {
+namespace {
+
+constexpr int kEnvironments = 64, kDecisions = 20;  // the latter a repeat
+constexpr int kSettle = 120, kPhysicsSteps = 1200;
+
+double Now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double ResidentMiB() {
+  long pages = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
+enum class Acting { kRandom, kAtHandle };
+
+// Environments of one variant, kept from repeat to repeat.
+class Variant {
+ public:
+  Variant(std::string name, const rl::SkillSubtask& scene, const rl::SkillOptions& options,
+          Acting acting, int threads)
+      : name_(std::move(name)),
+        environment_(rl::MakeSkill(robot::Panda(false), {scene}, options), kEnvironments),
+        acting_(acting),
+        threads_(threads),
+        rng_(3) {
+    environment_.Reset(1, &observations_);
+  }
+
+  void Repeat() {
+    core::SetThreadCount(threads_);
+    const double start = Now();
+    rl::Rows actions(kEnvironments, environment_.action_size());
+    rl::StepBatch batch;
+    for (int step = 0; step < kDecisions; ++step) {
+      if (acting_ == Acting::kRandom) {
+        for (Eigen::Index i = 0; i < actions.size(); ++i) {
+          actions.data()[i] = 0.6f * static_cast<float>(core::Normal(rng_));
+        }
+      } else {
+        actions.setZero();
+        actions.rightCols(1).setConstant(-1.0f);
+      }
+      environment_.Step(actions, &batch);
+    }
+    const int control = environment_.skill().options.control_steps * kDecisions * kEnvironments;
+    best_ = std::max(best_, control / (Now() - start));
+  }
+  void Print() const { std::printf("| %s | %d | %.0f |\n", name_.c_str(), threads_, best_); }
+
+ private:
+  std::string name_;
+  rl::SkillEnvironment environment_;
+  rl::Rows observations_;
+  Acting acting_;
+  int threads_;
+  core::Rng rng_;
+  double best_ = 0.0;
+};
+
+void MeasureEnvironments(const rl::SkillSubtask& scene, int repeats) {
+  rl::SkillOptions plain, all_iterations;
+  all_iterations.free_iterations = all_iterations.contact_iterations;
+  std::vector<std::unique_ptr<Variant>> variants;
+  const auto add = [&](const char* name, const rl::SkillOptions& options, Acting acting,
+                       int threads) {
+    variants.push_back(std::make_unique<Variant>(name, scene, options, acting, threads));
+  };
+  add("random actions", plain, Acting::kRandom, 1);
+  add("random actions", plain, Acting::kRandom, 2);
+  add("hand closed on the handle", plain, Acting::kAtHandle, 1);
+  add("hand closed on the handle", plain, Acting::kAtHandle, 2);
+  add("random, 20 iterations always", all_iterations, Acting::kRandom, 2);
+  for (int i = 0; i < repeats; ++i) {
+    for (const auto& variant : variants) variant->Repeat();
+  }
+  std::printf("| environment alone | threads | control steps/s |\n|---|---|---|\n");
+  for (const auto& variant : variants) variant->Print();
+}
+
+void MeasureMemory(const rl::SkillSubtask& scene) {
+  const auto skill = rl::MakeSkill(robot::Panda(false), {scene});
+  malloc_trim(0);  // or they go into what making the assets has left
+  const double before = ResidentMiB();
+  rl::SkillEnvironment environment(skill, kEnvironments);
+  rl::Rows observations;
+  environment.Reset(1, &observations);
+  const rl::Rows actions = rl::Rows::Zero(kEnvironments, environment.action_size());
+  rl::StepBatch batch;
+  for (int step = 0; step < kDecisions; ++step) environment.Step(actions, &batch);
+  std::printf("\n%d environments: %.1f MiB, the whole process %.0f MiB\n", kEnvironments,
+              ResidentMiB() - before, ResidentMiB());
+}
+
+void MeasurePpo(const rl::SkillSubtask& scene, int repeats) {
+  core::SetThreadCount(2);
+  rl::SkillEnvironment environment(rl::MakeSkill(robot::Panda(false), {scene}), kEnvironments);
+  const rl::PpoOptions options;
+  rl::Ppo ppo(&environment, options);
+  std::vector<rl::Outcome> outcomes;
+  double collect = 1e9, update = 1e9;
+  for (int i = 0; i < repeats; ++i) {
+    const double start = Now();
+    ppo.Collect(&outcomes);
+    const double middle = Now();
+    ppo.Update();
+    collect = std::min(collect, middle - start);
+    update = std::min(update, Now() - middle);
+  }
+  const int control = environment.skill().options.control_steps * options.horizon * kEnvironments;
+  std::printf(
+      "\nwith PPO (256-128-64, %d epochs), 2 threads: %.0f control steps/s, of which the "
+      "learner takes %.0f %%\n",
+      options.epochs, control / (collect + update), 100.0 * update / (collect + update));
+}
+
+// The scene's bodies as a training prepares them.
+struct Bodies {
+  sim::ArticulatedBody robot, microwave, cup;
+  Eigen::Isometry3d world_from_microwave, world_from_cup;
+};
+
+Bodies BodiesOf(const rl::SkillSubtask& scene, bool capsules, bool hull) {
+  Bodies bodies;
+  bodies.robot = sim::ArticulatedBodyFrom(robot::Panda(false).urdf);
+  bodies.microwave = sim::ArticulatedBodyFrom(scene.assets[0].model);
+  bodies.cup = sim::ArticulatedBodyFrom(scene.assets[1].model);
+  if (!capsules) {
+    for (sim::RigidBody& link : bodies.robot.links) link.capsules.clear();
+  }
+  if (hull) {
+    std::vector<Eigen::Vector3d> points;
+    for (const core::TriangleMesh& part : bodies.cup.links[0].parts) {
+      points.insert(points.end(), part.vertices.begin(), part.vertices.end());
+    }
+    bodies.cup.links[0].parts = {geometry::ConvexHull(points, 64)};
+    bodies.cup.links[0].capsules.clear();
+  }
+  bodies.world_from_microwave = scene.subtask.start.placements[0].world_from_asset;
+  bodies.world_from_cup = scene.subtask.start.placements[1].world_from_asset;
+  return bodies;
+}
+
+// The arm sways; the same in both engines.
+Eigen::VectorXd Sway(double time) {
+  Eigen::VectorXd goal = robot::Panda(false).home();
+  for (Eigen::Index j = 0; j < goal.size(); ++j) {
+    goal[j] += 0.2 * std::sin((2.0 + 0.3 * static_cast<double>(j)) * time);
+  }
+  return goal;
+}
+
+struct PhysicsVariant {
+  std::string name;
+  std::function<void(double)> step;  // to this time, s
+  double time = 0.0, best = 0.0;     // steps/s
+};
+
+PhysicsVariant InBullet(const std::string& name, const Bodies& bodies, int iterations,
+                        bool compact) {
+  sim::WorldOptions options;
+  options.solver_iterations = iterations;
+  options.compact_solver = compact;
+  auto world = std::make_shared<sim::ArticulatedWorld>(options);
+  sim::Placement standing, loose;
+  standing.world_from_root = bodies.world_from_microwave;
+  loose.world_from_root = bodies.world_from_cup;
+  loose.fixed = false;
+  world->Add(bodies.microwave, standing);
+  world->Add(bodies.cup, loose);
+  auto robot = std::make_shared<sim::DrivenRobot>(robot::Panda(false),
+                                                  std::make_shared<sim::PreparedBody>(bodies.robot),
+                                                  Eigen::Isometry3d::Identity(), world.get());
+  return {name, [world, robot](double time) {
+            robot->Command(Sway(time), robot::Panda(false).gripper.open);
+            robot->Drive();
+            world->Step();
+          }};
+}
+
+PhysicsVariant InMujoco(const Bodies& bodies, double time_step) {
+  const robot::RobotModel& panda = robot::Panda(false);
+  sim::MujocoPlacement robot{&bodies.robot}, microwave{&bodies.microwave}, cup{&bodies.cup};
+  for (const auto& limits : panda.limits) robot.motor_forces.push_back(limits.effort);
+  microwave.world_from_root = bodies.world_from_microwave;
+  cup.world_from_root = bodies.world_from_cup;
+  cup.fixed = false;
+  auto world = std::make_shared<sim::MujocoBodies>(
+      std::vector<sim::MujocoPlacement>{robot, microwave, cup}, time_step);
+  for (size_t j = 0; j < panda.arm_joints.size(); ++j) {
+    world->SetPosition(0, panda.arm_joints[j], panda.home()[static_cast<Eigen::Index>(j)]);
+  }
+  return {"MuJoCo 2.2.2", [world, &panda](double time) {
+            const Eigen::VectorXd goal = Sway(time);
+            for (size_t j = 0; j < panda.arm_joints.size(); ++j) {
+              world->Hold(0, panda.arm_joints[j], goal[static_cast<Eigen::Index>(j)]);
+            }
+            for (const int joint : panda.gripper.joints) world->Hold(0, joint, panda.gripper.open);
+            world->Step();
+          }};
+}
+
+void MeasurePhysics(const rl::SkillSubtask& scene, int repeats) {
+  const Bodies bodies = BodiesOf(scene, true, true);
+  const Bodies without_capsules = BodiesOf(scene, false, true);
+  const Bodies in_parts = BodiesOf(scene, true, false);
+  const double time_step = sim::WorldOptions().time_step;
+  std::vector<PhysicsVariant> variants = {
+      InBullet("Bullet, 4 iterations (nothing touched)", bodies, 4, true),
+      InBullet("Bullet, 20 iterations", bodies, 20, true),
+      InBullet("20, Bullet's own iterations", bodies, 20, false),
+      InBullet("20, arm of hulls instead of capsules", without_capsules, 20, true),
+      InBullet("20, cup of parts instead of its hull", in_parts, 20, true),
+      InBullet("50 iterations, Bullet's own, hulls, parts", BodiesOf(scene, false, false), 50,
+               false),
+      InMujoco(bodies, time_step)};
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    for (PhysicsVariant& variant : variants) {
+      const int settle = repeat == 0 ? kSettle : 0;
+      for (int i = 0; i < settle; ++i) variant.step(variant.time += time_step);
+      const double start = Now();
+      for (int i = 0; i < kPhysicsSteps; ++i) variant.step(variant.time += time_step);
+      variant.best = std::max(variant.best, kPhysicsSteps / (Now() - start));
+    }
+  }
+  std::printf("\n| physics alone, one thread | steps/s of 240 Hz |\n|---|---|\n");
+  for (const PhysicsVariant& variant : variants) {
+    std::printf("| %s | %.0f |\n", variant.name.c_str(), variant.best);
+  }
+}
+
+}  // namespace
+}  // namespace simwright
+
+int main(int argc, char** argv) {
+  int repeats = 5;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    if (std::string(argv[i]) == "--repeats") repeats = std::atoi(argv[i + 1]);
+  }
+  const simwright::rl::SkillSubtask scene = simwright::MicrowaveAndCup();
+  simwright::MeasureMemory(scene);
+  simwright::MeasurePhysics(scene, repeats);
+  simwright::MeasureEnvironments(scene, repeats);
+  simwright::MeasurePpo(scene, repeats);
+}

@@ -1,0 +1,130 @@
+// Links on fixed joints that are folded into what they are fixed to: the same motion as unfolded,
+// and each still has its own place, shape and name in contacts.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "assets/primitive_meshes.h"
+#include "robot/panda_model.h"
+#include "sim/driven_robot.h"
+
+namespace simwright::sim {
+namespace {
+
+using Eigen::Vector3d;
+
+RigidBody Box(const std::string& name, const Vector3d& size, double mass) {
+  RigidBody body;
+  body.name = name;
+  body.parts = {assets::BoxMesh(size)};
+  const Vector3d s = size.cwiseProduct(size);
+  body.inertial.mass = mass;
+  body.inertial.inertia =
+      Vector3d(s.y() + s.z(), s.x() + s.z(), s.x() + s.y()).asDiagonal() * (mass / 12.0);
+  return body;
+}
+
+assets::UrdfJoint Joint(assets::UrdfJointType type, const Vector3d& origin, double turn) {
+  assets::UrdfJoint joint;
+  joint.type = type;
+  joint.axis = Vector3d::UnitY();
+  joint.lower = -3.0;
+  joint.upper = 3.0;
+  joint.parent_from_joint.translation() = origin;
+  joint.parent_from_joint.linear() = Eigen::AngleAxisd(turn, Vector3d::UnitX()).toRotationMatrix();
+  return joint;
+}
+
+// A rod on a hinge, a plate fixed to its end at an angle, a frame without mass or shape fixed to
+// that, and a second rod on a hinge from the frame.
+ArticulatedBody Chain() {
+  ArticulatedBody body;
+  body.name = "chain";
+  RigidBody frame;
+  frame.name = "frame";
+  body.links = {Box("base", {0.1, 0.1, 0.1}, 1.0), Box("rod", {0.3, 0.04, 0.04}, 0.7),
+                Box("plate", {0.1, 0.1, 0.01}, 0.4), frame, Box("end", {0.2, 0.02, 0.02}, 0.2)};
+  using Type = assets::UrdfJointType;
+  body.joints = {
+      Joint(Type::kRevolute, {0.2, 0.0, 0.0}, 0.0), Joint(Type::kFixed, {0.2, 0.03, 0.02}, 0.5),
+      Joint(Type::kFixed, {0.05, 0.0, 0.01}, -0.2), Joint(Type::kRevolute, {0.15, 0.0, 0.0}, 0.3)};
+  body.parents = {0, 1, 2, 3};
+  for (size_t i = 0; i < body.joints.size(); ++i) {
+    body.joints[i].name = "joint_" + std::to_string(i);
+  }
+  return body;
+}
+
+TEST(LinkTree, FoldedLinksMoveAsTheyDoApart) {
+  const ArticulatedBody chain = Chain();
+  ArticulatedWorld folded, apart;
+  Placement placement;
+  placement.contacts = false;
+  folded.Add(chain, placement);
+  placement.self_contacts = true;
+  apart.Add(chain, placement);
+  EXPECT_NEAR(folded.LoadedInertial(0, 1).mass, 1.1, 1e-12);
+  EXPECT_EQ(folded.LoadedInertial(0, 2).mass, 0.0);
+  EXPECT_NEAR(apart.LoadedInertial(0, 1).mass, 0.7, 1e-12);
+  double moved = 0.0;
+  for (int step = 0; step < 240; ++step) {
+    for (ArticulatedWorld* world : {&folded, &apart}) {
+      world->Push(0, 3, 0.05);
+      world->Step();
+    }
+    for (int link = 0; link < 5; ++link) {
+      const Eigen::Matrix4d a = folded.LinkPose(0, link).matrix();
+      const Eigen::Matrix4d b = apart.LinkPose(0, link).matrix();
+      ASSERT_LT((a - b).norm(), 1e-9) << step << ' ' << link;
+    }
+    EXPECT_NEAR(folded.Velocity(0, 3), apart.Velocity(0, 3), 1e-8);
+    moved = std::max(moved, std::abs(folded.Position(0, 0)));
+  }
+  EXPECT_GT(moved, 0.1);
+}
+
+// A plate fixed beside a heavy base: what lies on it touches the plate, at the plate's height and
+// with the plate's friction.
+TEST(LinkTree, ContactsNameTheFoldedLink) {
+  ArticulatedBody shelf;
+  shelf.name = "shelf";
+  shelf.links = {Box("base", {0.1, 0.1, 0.4}, 5.0), Box("plate", {0.3, 0.3, 0.02}, 1.0)};
+  shelf.joints = {Joint(assets::UrdfJointType::kFixed, {0.4, 0.0, 0.1}, 0.0)};
+  shelf.parents = {0};
+  ArticulatedWorld world;
+  Placement placement;
+  placement.world_from_root.translation() = Vector3d(0.0, 0.0, 0.2);
+  world.Add(shelf, placement);
+  const int box = world.Add(Box("box", {0.1, 0.1, 0.1}, 0.5),
+                            Eigen::Isometry3d(Eigen::Translation3d(0.4, 0.0, 0.362)));
+  while (world.time() < 1.0) world.Step();
+  EXPECT_NEAR(world.LinkPose(box, 0).translation().z(), 0.3 + 0.01 + 0.05, 3e-4);
+  EXPECT_LT((world.LinkPose(0, 1).translation() - Vector3d(0.4, 0.0, 0.3)).norm(), 1e-9);
+  double impulse = 0.0;
+  for (const LinkContact& contact : world.Contacts()) {
+    const bool shelf_first = contact.body_a == 0;
+    EXPECT_EQ(shelf_first ? contact.link_a : contact.link_b, 1);
+    impulse += contact.impulse;
+  }
+  EXPECT_NEAR(impulse, 0.5 * 9.81 / 240.0, 1e-4);
+}
+
+// The hand, its tool frame and the flange are where the arm's kinematics say.
+TEST(LinkTree, ThePandasToolIsWhereItsKinematicsSay) {
+  const robot::RobotModel& panda = robot::Panda(false);
+  ArticulatedWorld world;
+  DrivenRobot robot(panda, RobotBody(panda), Eigen::Isometry3d::Identity(), &world);
+  Eigen::VectorXd goal = panda.home(), now;
+  goal.array() += 0.2;
+  robot.Command(goal, panda.gripper.open);
+  for (int step = 0; step < 60; ++step) {
+    robot.Drive();
+    world.Step();
+    robot.Positions(&now);
+    const Eigen::Isometry3d tool = robot::ForwardKinematics(panda.arm, now);
+    ASSERT_LT((tool.matrix() - robot.Tool().matrix()).norm(), 1e-9) << step;
+  }
+}
+
+}  // namespace
+}  // namespace simwright::sim
