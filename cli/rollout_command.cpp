@@ -24,11 +24,15 @@ void AddRollout(CLI::App* app, CommonOptions* common, Run* run) {
   auto request = std::make_shared<pipeline::RolloutRequest>();
   CLI::App* command =
       app->add_subcommand("rollout", "How often a trained task succeeds, with its 95 % interval");
-  command->footer("Example:\n  simwright rollout pick --episodes 200");
+  command->footer("Example:\n  simwright rollout pick --episodes 200 --pictures open.png");
   command->add_option("run", request->run, "The folder of `simwright train`")->required();
   command->add_option("--episodes", request->episodes, "Episodes to run")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
+  command->add_option("--pictures", request->pictures,
+                      "A strip of pictures of one episode that succeeds, PNG");
+  command->add_option("--poses", request->poses,
+                      "The same episode as poses at 60 Hz, lines of JSON");
   AddCommon(command, common);
   command->callback([request, common, run] { *run = [=] { return Rollout(*request, *common); }; });
 }

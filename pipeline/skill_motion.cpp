@@ -108,8 +108,8 @@ SkillMotion MotionOf(const ChainRecording& recording, const rl::Skill& skill) {
   motion.limits = robot::CheckLimits(motion.retimed.trajectory, joints.limits);
   RequireAccepted(motion.limits);
   for (const auto& [begin, end] : spans) {
-    motion.subtasks.push_back(
-        {motion.retimed.waypoint_times[begin], motion.retimed.waypoint_times[end]});
+    motion.subtasks.push_back({begin == 0 ? 0.0 : motion.retimed.waypoint_times[begin],
+                               motion.retimed.waypoint_times[end]});
   }
   return motion;
 }

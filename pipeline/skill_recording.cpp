@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "core/random.h"
 
 namespace simwright::pipeline {
 namespace {
@@ -56,10 +57,12 @@ RecordedSubtask RecordSubtask(const rl::ChainLink& link, const rl::EpisodeStart&
 
 }  // namespace
 
-ChainRecording RecordChain(const std::vector<rl::ChainLink>& links, const rl::EpisodeStart& start,
-                           core::Rng& rng) {
+ChainRecording RecordEpisode(const std::vector<rl::ChainLink>& links, std::uint64_t seed,
+                             std::uint64_t number) {
+  core::Rng rng = core::StreamRng(seed, number);
   ChainRecording recording;
-  rl::EpisodeStart next = start;
+  recording.episode = number;
+  rl::EpisodeStart next = rl::DrawStart(*links.front().skill, rng);
   for (size_t i = 0; i < links.size(); ++i) {
     if (i > 0) next = rl::Varied(*links[i].skill, next, rng, rl::VariedParts::kNothing);
     rl::Episode episode(*links[i].skill);
@@ -87,12 +90,8 @@ std::vector<ChainRecording> RecordSuccesses(const std::vector<rl::ChainLink>& li
     }
     std::vector<ChainRecording> recordings(static_cast<size_t>(batch));
     core::ParallelFor(batch, [&](int i) {
-      const auto episode = static_cast<std::uint64_t>(*tried + i);
-      core::Rng rng = core::StreamRng(seed, episode);
-      const rl::EpisodeStart start = rl::DrawStart(*links.front().skill, rng);
-      ChainRecording& recording = recordings[static_cast<size_t>(i)];
-      recording = RecordChain(links, start, rng);
-      recording.episode = episode;
+      recordings[static_cast<size_t>(i)] =
+          RecordEpisode(links, seed, static_cast<std::uint64_t>(*tried + i));
     });
     for (ChainRecording& recording : recordings) {
       if (static_cast<int>(successes.size()) == count) break;

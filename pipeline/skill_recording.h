@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 
-#include "core/random.h"
 #include "rl/chain.h"
 
 namespace simwright::pipeline {
@@ -40,14 +39,13 @@ struct ChainRecording {
   bool success = false;  // of all of them
 };
 
-// Runs the links one after the other as rl::RunChain does, with the same outcome, and keeps all
-// that was seen and sent.
-ChainRecording RecordChain(const std::vector<rl::ChainLink>& links, const rl::EpisodeStart& start,
-                           core::Rng& rng);
+// Runs an episode as rl::EvaluateChain runs that of the same seed and number, with the same
+// outcome, and keeps all that was seen and sent. Requires a link.
+ChainRecording RecordEpisode(const std::vector<rl::ChainLink>& links, std::uint64_t seed,
+                             std::uint64_t episode);
 
-// The first `count` of the seed's episodes in which the whole task succeeds, in the order and with
-// the starts of rl::EvaluateChain; `tried` says how many it took. Throws core::Error where they are
-// fewer than one in twenty.
+// The first `count` of the seed's episodes in which the whole task succeeds; `tried` says how many
+// it took. Throws core::Error where they are fewer than one in twenty.
 std::vector<ChainRecording> RecordSuccesses(const std::vector<rl::ChainLink>& links, int count,
                                             std::uint64_t seed, int* tried);
 

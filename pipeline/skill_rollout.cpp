@@ -1,14 +1,37 @@
 #include "pipeline/skill_rollout.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/files.h"
+#include "core/image.h"
+#include "pipeline/rollout_pictures.h"
+#include "pipeline/skill_recording.h"
 #include "rl/policy_file.h"
 #include "rl/training.h"
 
 namespace simwright::pipeline {
+namespace {
+
+void Show(const TrainedTask& task, const RolloutRequest& request,
+          const rl::ChainEvaluation& chain) {
+  const auto good = std::find_if(chain.outcomes.begin(), chain.outcomes.end(),
+                                 [](const rl::ChainOutcome& outcome) { return outcome.success; });
+  const auto episode =
+      static_cast<std::uint64_t>(good == chain.outcomes.end() ? 0 : good - chain.outcomes.begin());
+  const ChainRecording recording = RecordEpisode(task.links(), request.seed, episode);
+  if (!request.poses.empty()) {
+    core::WriteFile(request.poses, RolloutPoses(task.run(), task.skills(), recording));
+  }
+  if (!request.pictures.empty()) {
+    core::WritePng(request.pictures, RolloutStrip(task.run(), task.skills(), recording));
+  }
+}
+
+}  // namespace
 
 TrainedTask::TrainedTask(const std::filesystem::path& folder)
     : run_(ReadRun(folder)), skills_(PrepareSkills(run_)) {
@@ -35,6 +58,10 @@ RolloutReport Rollout(const RolloutRequest& request, core::Progress* progress) {
     for (const rl::EvaluatedEpisode& link : outcome.links) report.seconds += link.seconds;
   }
   if (report.chain.successes > 0) report.seconds /= report.chain.successes;
+  if (!request.pictures.empty() || !request.poses.empty()) {
+    progress->Stage("draw");
+    Show(task, request, report.chain);
+  }
   return report;
 }
 

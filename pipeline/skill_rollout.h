@@ -16,6 +16,9 @@ struct RolloutRequest {
   std::filesystem::path run;  // a folder that TrainTask wrote
   int episodes = 100;
   std::uint64_t seed = 1;
+  // Of the first episode that succeeds, else of the first: pictures (PNG) and poses (JSON lines;
+  // rollout_pictures.h). Empty: none.
+  std::filesystem::path pictures, poses;
 };
 
 struct RolloutReport {

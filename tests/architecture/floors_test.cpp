@@ -105,8 +105,6 @@ TEST(Architecture, LargeLibrariesStayOutOfHeaders) {
     if (include.module == "asset_lift" && include.target.starts_with("opencv2/core")) continue;
     // libtorch's one header, and those of nn/ that declare network modules through it.
     if (include.stem == "nn/torch" || include.stem == "nn/script") continue;
-    // Bullet's own classes taken further, in headers that only sim/'s sources read.
-    if (include.stem == "sim/compact_solver" || include.stem == "sim/joint_velocity_row") continue;
     // CGAL's types are geometry's, in headers named as such.
     if (include.module == "geometry" && include.stem.find("cgal") != std::string::npos) continue;
     for (const Door& door : kDoors) {

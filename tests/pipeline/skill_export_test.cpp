@@ -46,9 +46,7 @@ TEST_F(SkillExport, ARecordingHasTheEvaluationsOutcomes) {
   const rl::ChainEvaluation evaluation = rl::EvaluateChain(task.links(), 10, 5);
   EXPECT_GE(evaluation.successes, 8);  // the script is good at it
   for (int i = 0; i < 10; ++i) {
-    core::Rng rng = core::StreamRng(5, static_cast<std::uint64_t>(i));
-    const rl::EpisodeStart start = rl::DrawStart(*task.links().front().skill, rng);
-    const ChainRecording recording = RecordChain(task.links(), start, rng);
+    const ChainRecording recording = RecordEpisode(task.links(), 5, static_cast<std::uint64_t>(i));
     const rl::ChainOutcome& outcome = evaluation.outcomes[static_cast<size_t>(i)];
     EXPECT_EQ(recording.success, outcome.success);
     ASSERT_EQ(recording.subtasks.size(), outcome.links.size());
