@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -39,6 +40,13 @@ double Now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+// s of processor time, of all threads: what a step costs where other work shares the cores.
+double ProcessorSeconds() {
+  timespec time;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 double ResidentMiB() {
   long pages = 0, resident = 0;
   std::ifstream("/proc/self/statm") >> pages >> resident;
@@ -62,7 +70,7 @@ class Variant {
 
   void Repeat() {
     core::SetThreadCount(threads_);
-    const double start = Now();
+    const double start = Now(), processor_start = ProcessorSeconds();
     rl::Rows actions(kEnvironments, environment_.action_size());
     rl::StepBatch batch;
     for (int step = 0; step < kDecisions; ++step) {
@@ -78,8 +86,11 @@ class Variant {
     }
     const int control = environment_.skill().options.control_steps * kDecisions * kEnvironments;
     best_ = std::max(best_, control / (Now() - start));
+    cheapest_ = std::min(cheapest_, 1e6 * (ProcessorSeconds() - processor_start) / control);
   }
-  void Print() const { std::printf("| %s | %d | %.0f |\n", name_.c_str(), threads_, best_); }
+  void Print() const {
+    std::printf("| %s | %d | %.0f | %.0f |\n", name_.c_str(), threads_, best_, cheapest_);
+  }
 
  private:
   std::string name_;
@@ -88,7 +99,8 @@ class Variant {
   Acting acting_;
   int threads_;
   core::Rng rng_;
-  double best_ = 0.0;
+  double best_ = 0.0;      // control steps/s
+  double cheapest_ = 1e9;  // us of processor time a control step
 };
 
 void MeasureEnvironments(const rl::SkillSubtask& scene, int repeats) {
@@ -107,7 +119,8 @@ void MeasureEnvironments(const rl::SkillSubtask& scene, int repeats) {
   for (int i = 0; i < repeats; ++i) {
     for (const auto& variant : variants) variant->Repeat();
   }
-  std::printf("| environment alone | threads | control steps/s |\n|---|---|---|\n");
+  std::printf("\n| environment alone | threads | control steps/s | us of a core a step |\n");
+  std::printf("|---|---|---|---|\n");
   for (const auto& variant : variants) variant->Print();
 }
 
