@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -117,5 +119,23 @@ inline std::filesystem::path WriteScriptedRun(const std::filesystem::path& folde
   }
   return run.folder;
 }
+
+// A run that picks the block up, one that also puts it down elsewhere, and a folder a test.
+class ScriptedRuns : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = new core::TemporaryFolder;
+    WriteScriptedRun(shared_->path(), "pick_up_block");
+    WriteScriptedRun(shared_->path(), "move_block");
+  }
+  static void TearDownTestSuite() { delete shared_; }
+
+  static std::string Pick() { return (shared_->path() / "pick_up_block").string(); }
+  static std::string Move() { return (shared_->path() / "move_block").string(); }
+  std::string Path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  inline static core::TemporaryFolder* shared_ = nullptr;
+  core::TemporaryFolder folder_;
+};
 
 }  // namespace simwright::pipeline
