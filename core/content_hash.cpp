@@ -1,7 +1,7 @@
 #include "core/content_hash.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <cstdint>
 #include <vector>
 
 #include "core/error.h"
@@ -11,43 +11,57 @@ namespace simwright::core {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uint64_t kBasis = 14695981039346656037ull;
-constexpr std::uint64_t kPrime = 1099511628211ull;
+// 128 bits as two words: the multiplication needs no compiler extension.
+struct Wide {
+  std::uint64_t high, low;
+};
 
-std::uint64_t Fold(std::string_view bytes, std::uint64_t hash) {
-  for (const char byte : bytes) {
-    hash = (hash ^ static_cast<unsigned char>(byte)) * kPrime;
-  }
-  return hash;
+// The FNV prime of 128 bits is 2^88 + 0x13b.
+Wide TimesPrime(Wide value) {
+  constexpr std::uint64_t kSmall = 0x13b;
+  const std::uint64_t low_half = (value.low & 0xffffffffu) * kSmall;
+  const std::uint64_t high_half = (value.low >> 32) * kSmall + (low_half >> 32);
+  Wide product;
+  product.low = (high_half << 32) | (low_half & 0xffffffffu);
+  product.high = value.high * kSmall + (high_half >> 32) + (value.low << 24);
+  return product;
 }
 
-std::string Digits(std::uint64_t hash) {
-  char text[17];
-  std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
-  return text;
+std::vector<fs::path> FilesIn(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code code;
+  for (fs::recursive_directory_iterator entry(folder, code), end; !code && entry != end;
+       entry.increment(code)) {
+    if (entry->is_regular_file()) files.push_back(entry->path());
+  }
+  if (code) throw Error("cannot list the folder", folder.string(), "check its permissions");
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 }  // namespace
 
 std::string ContentHash(std::string_view bytes) {
-  return Digits(Fold(bytes, kBasis));
+  Wide hash{0x6c62272e07bb0142u, 0x62b821756295c58du};  // the offset basis of 128 bits
+  for (const char c : bytes) {
+    hash.low ^= static_cast<unsigned char>(c);
+    hash = TimesPrime(hash);
+  }
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (const std::uint64_t word : {hash.high, hash.low}) {
+    for (int shift = 60; shift >= 0; shift -= 4) text += kDigits[word >> shift & 15u];
+  }
+  return text;
 }
 
 std::string ContentHashOf(const fs::path& path) {
   if (!fs::is_directory(path)) return ContentHash(ReadFile(path));
-  std::vector<fs::path> files;
-  std::error_code code;
-  for (const auto& entry : fs::directory_iterator(path, code)) {
-    if (entry.is_regular_file(code)) files.push_back(entry.path());
+  std::string listing;
+  for (const fs::path& file : FilesIn(path)) {
+    listing += ContentHash(ReadFile(file)) + " " + file.lexically_relative(path).string() + "\n";
   }
-  if (code) throw Error("cannot list the folder", path.string(), "check its permissions");
-  std::sort(files.begin(), files.end());
-  std::uint64_t hash = kBasis;
-  for (const fs::path& file : files) {
-    hash = Fold(file.filename().string(), hash);
-    hash = Fold(ReadFile(file), hash);
-  }
-  return Digits(hash);
+  return ContentHash(listing);
 }
 
 }  // namespace simwright::core

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/content_hash.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "llm/answer_json.h"
@@ -36,7 +37,7 @@ ChatAnswer CachingChatModel::Ask(const ChatRequest& request, core::Progress* pro
   const Json content = {
       {"model", inner_->name()}, {"server", identity_}, {"request", CanonicalRequest(request)}};
   const std::string text = content.dump(-1, ' ', false, Json::error_handler_t::replace);
-  const fs::path file = folder_ / (ContentHash(text) + ".json");
+  const fs::path file = folder_ / (core::ContentHash(text) + ".json");
   ChatAnswer answer;
   if (Read(file, text, &answer)) {
     ++hits_;

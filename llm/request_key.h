@@ -11,10 +11,6 @@ namespace simwright::llm {
 // text. A picture is there as its type, size and hash. Holds no address and no key.
 std::string CanonicalRequest(const ChatRequest& request);
 
-// 32 hexadecimal digits: FNV-1a, 128 bits. Not proof against forgery, so what is found by it is
-// compared in full where that matters.
-std::string ContentHash(std::string_view bytes);
-
 // The first words of the last user message, at most 60 bytes on one line: how a person knows a
 // request again.
 std::string FirstWords(const ChatRequest& request);

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/content_hash.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "llm/answer_json.h"
@@ -58,7 +59,7 @@ TranscriptEntry ReadEntry(const Json& json, const std::string& where) {
   }
   entry.request = Dump(*request);
   const auto hash = json.find("hash");  // a transcript written by hand need not have it
-  if (hash != json.end() && *hash != ContentHash(entry.request)) {
+  if (hash != json.end() && *hash != core::ContentHash(entry.request)) {
     throw core::Error("the request was changed after it was recorded", where,
                       "take its hash out if that was meant");
   }
@@ -113,7 +114,7 @@ std::string TranscriptHead() {
 }
 
 std::string TranscriptLine(const TranscriptEntry& entry) {
-  const nlohmann::ordered_json json = {{"hash", ContentHash(entry.request)},
+  const nlohmann::ordered_json json = {{"hash", core::ContentHash(entry.request)},
                                        {"task", entry.task},
                                        {"model", entry.model},
                                        {"request", Json::parse(entry.request)},
@@ -178,7 +179,7 @@ ChatAnswer ReplayChatModel::Ask(const ChatRequest& request, core::Progress* prog
   const std::string key = CanonicalRequest(request);
   const std::string asked = (request.task.empty() ? "" : request.task + ", ") + "'" +
                             FirstWords(request) + "', request " +
-                            ContentHash(key).substr(0, kShortHash);
+                            core::ContentHash(key).substr(0, kShortHash);
   const auto found = of_request_.find(key);
   if (found == of_request_.end()) {
     throw core::Error("holds no answer to " + asked + "; " + Nearest(request), file_.string(),
@@ -213,7 +214,7 @@ std::string ReplayChatModel::Nearest(const ChatRequest& request) const {
   }
   if (nearest == nullptr) return "it holds no answer at all";
   return "the nearest recorded is line " + std::to_string(nearest->line) + " (" + nearest->task +
-         ", request " + ContentHash(nearest->request).substr(0, kShortHash) +
+         ", request " + core::ContentHash(nearest->request).substr(0, kShortHash) +
          "): " + Parting(asked, text);
 }
 

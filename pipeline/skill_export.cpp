@@ -128,6 +128,10 @@ fs::path NotesBeside(const fs::path& trajectory) {
 
 ExportReport Export(const ExportRequest& request, core::Progress* progress) {
   RequireEnding(request);
+  if (WritesFolder(request) && fs::exists(request.output) && !request.force) {
+    throw core::Error("the output exists already", request.output.string(),
+                      "choose another folder, or use --force");
+  }
   const TrainedTask task(request.run);
   ExportReport report;
   report.output = request.output;

@@ -1,5 +1,7 @@
 #include "pipeline/skill_run.h"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <map>
 #include <mutex>
@@ -23,19 +25,6 @@ using nlohmann::json;
 constexpr int kFormat = 1;
 constexpr const char* kRunFile = "run.json";
 constexpr const char* kTasksFile = "tasks.json";
-
-// Whether `name` is what `pattern` says, '*' standing for any letters.
-bool Matches(std::string_view pattern, std::string_view name) {
-  if (pattern.empty()) return name.empty();
-  if (pattern.front() != '*') {
-    return !name.empty() && name.front() == pattern.front() &&
-           Matches(pattern.substr(1), name.substr(1));
-  }
-  for (size_t skipped = 0; skipped <= name.size(); ++skipped) {
-    if (Matches(pattern.substr(1), name.substr(skipped))) return true;
-  }
-  return false;
-}
 
 std::string SomeNames(const tasks::TaskSet& set) {
   std::string names;
@@ -74,12 +63,13 @@ std::vector<std::string> HashesOf(const tasks::TaskSet& set) {
 tasks::TaskSet ChooseTasks(const tasks::TaskSet& set, const std::vector<std::string>& patterns,
                            const std::string& file) {
   tasks::TaskSet chosen;
-  std::set<std::string> used;
+  std::set<std::string> names, used;
   for (const std::string& pattern : patterns) {
     bool any = false;
     for (const tasks::Task& task : set.tasks) {
-      if (!Matches(pattern, task.name)) continue;
+      if (fnmatch(pattern.c_str(), task.name.c_str(), 0) != 0) continue;
       any = true;
+      if (!names.insert(task.name).second) continue;
       chosen.tasks.push_back(task);
       used.insert(task.assets.begin(), task.assets.end());
     }

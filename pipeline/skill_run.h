@@ -32,7 +32,8 @@ struct RunSkill {
   std::shared_ptr<const rl::Skill> evaluated;  // without easier starts
 };
 
-// The tasks of `file` whose names match one of `patterns` ('*' stands for any letters). Throws
+// The tasks of `set`, read from `file`, whose names match one of `patterns` ('*' stands for any
+// letters, as in a shell), each once. Throws
 // core::Error, naming those that are there, where a pattern matches none, or where the tasks have
 // different numbers of subtasks.
 tasks::TaskSet ChooseTasks(const tasks::TaskSet& set, const std::vector<std::string>& patterns,

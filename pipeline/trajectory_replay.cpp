@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "pipeline/success_watch.h"
 #include "rl/skill_world.h"
 #include "rl/start_pool.h"
+#include "rl/variant_reward.h"
 
 namespace simwright::pipeline {
 namespace {
@@ -66,7 +66,7 @@ class Stretch {
         variant_(skill.variants[static_cast<size_t>(start.variant)]),
         start_(start),
         world_(skill, start),
-        success_(variant_, options_.decision_seconds()) {
+        reward_(variant_) {
     start_.state.goal = variant_.start.goal;
     world_.Read(&start_.state);
     previous_ = start_.state;
@@ -77,7 +77,7 @@ class Stretch {
     world_.Advance();
     if (++steps_ % options_.control_steps != 0) return;
     world_.Read(&start_.state);
-    held_ = world_.IsSound() && success_.Holds(start_.state, previous_) ? held_ + 1 : 0;
+    held_ = world_.IsSound() && IsDone() ? held_ + 1 : 0;
     previous_ = start_.state;
   }
 
@@ -93,16 +93,22 @@ class Stretch {
     world_.robot().Positions(&arm);
     start_.arm = start_.at_work = arm;
     start_.leader = world_.robot().Leader();
-    start_.take = start_.state.grasped;
+    start_.held = rl::HeldThing(variant_, start_.state);
     return start_;
   }
 
  private:
+  bool IsDone() {
+    bool done = false;
+    reward_.Run(start_.state, previous_, options_.decision_seconds(), &done);
+    return done;
+  }
+
   const rl::SkillOptions& options_;
   const rl::SkillVariant& variant_;
   rl::EpisodeStart start_;  // its state is that of now
   rl::SkillWorld world_;
-  SuccessWatch success_;
+  rl::VariantReward reward_;
   tasks::SceneState previous_;  // one decision before
   int steps_ = 0, held_ = 0;
 };

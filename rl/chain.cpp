@@ -8,14 +8,13 @@
 namespace simwright::rl {
 
 ChainOutcome RunChain(const std::vector<ChainLink>& links, const EpisodeStart& start,
-                      core::Rng& rng, const std::function<void(const Episode&)>& watch) {
+                      core::Rng& rng) {
   ChainOutcome outcome;
   EpisodeStart next = start;
   for (size_t i = 0; i < links.size(); ++i) {
     const ChainLink& link = links[i];
     if (i > 0) next = Varied(*link.skill, next, rng, VariedParts::kNothing);
     Episode episode(*link.skill);
-    episode.Watch(watch);
     outcome.links.push_back(RunEpisode(*link.policy, next, &episode));
     if (!outcome.links.back().success) return outcome;
     next = outcome.links.back().end;

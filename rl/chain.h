@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "rl/skill_evaluation.h"
@@ -28,10 +27,9 @@ struct ChainEvaluation {
 };
 
 // Runs the links one after the other from `start`, each from where the one before ended, things and
-// arm at rest. `watch`, unless empty, gets the episode after each control step. `rng` draws what
-// Varied draws.
+// arm at rest. `rng` draws what Varied draws.
 ChainOutcome RunChain(const std::vector<ChainLink>& links, const EpisodeStart& start,
-                      core::Rng& rng, const std::function<void(const Episode&)>& watch = {});
+                      core::Rng& rng);
 
 // `count` chains from starts of the first link, drawn by `seed`.
 ChainEvaluation EvaluateChain(const std::vector<ChainLink>& links, int count, std::uint64_t seed);

@@ -5,25 +5,13 @@
 
 namespace simwright::rl {
 
-// The reward of one variant, with the memory that it runs in.
+// What is run for one variant, with its memory.
 struct Episode::Program {
   Program(const Skill& skill, const SkillVariant& variant)
-      : observer(skill, variant),
-        program(*variant.program),
-        workspace(program, 1),
-        reader(variant.model, program.slots()) {
-    for (const tasks::RewardSlot& slot : program.slots()) {
-      values.emplace_back(static_cast<size_t>(slot.width));
-    }
-    bindings.resize(values.size());
-  }
+      : observer(skill, variant), reward(variant) {}
 
   Observer observer;
-  tasks::RewardProgram program;
-  tasks::RewardWorkspace workspace;
-  tasks::SignalReader reader;
-  std::vector<std::vector<float>> values;
-  std::vector<tasks::RewardBinding> bindings;
+  VariantReward reward;
 };
 
 Episode::Episode(const Skill& skill)
@@ -74,14 +62,8 @@ void Episode::Act(const ToolTarget& target) {
 
 float Episode::Reward(bool* success) {
   Program& program = *programs_[static_cast<size_t>(start_.variant)];
-  program.reader.Read(state_, &previous_, skill_.options.decision_seconds(), &program.values);
-  for (size_t i = 0; i < program.values.size(); ++i) {
-    program.bindings[i].data = program.values[i].data();
-  }
-  float reward = 0.0f;
-  std::uint8_t done = 0;
-  program.program.Run(program.bindings, 1, &program.workspace, &reward, &done);
-  *success = done != 0;
+  const float reward =
+      program.reward.Run(state_, previous_, skill_.options.decision_seconds(), success);
   return reward + (*success ? static_cast<float>(skill_.options.success_bonus) : 0.0f);
 }
 

@@ -9,7 +9,7 @@
 #include "rl/focus_frame.h"
 #include "rl/observation.h"
 #include "rl/skill_world.h"
-#include "tasks/scene_signals.h"
+#include "rl/variant_reward.h"
 
 namespace simwright::rl {
 

@@ -128,10 +128,15 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
   Shake(skill, options.posture_range, rng, &start.arm);
   start.leader = skill.robot->gripper.open;
   const bool grasps = variant.focus && variant.focus->joint < 0 && variant.asks_for_grasp;
-  start.take = variant.starts_held || (part_way && grasps);
-  if (at_focus || start.take) start.arm = start.at_work;
+  if (grasps && (part_way || variant.starts_held)) start.held = variant.focus->thing;
+  if (at_focus || start.held >= 0) start.arm = start.at_work;
   DrawBodies(variant, options, rng, &start);
   return start;
+}
+
+int HeldThing(const SkillVariant& variant, const tasks::SceneState& state) {
+  if (!state.grasped || variant.fixed[static_cast<size_t>(state.touched)]) return -1;
+  return state.touched;
 }
 
 EpisodeStart Varied(const Skill& skill, const EpisodeStart& from, core::Rng& rng,
@@ -140,10 +145,10 @@ EpisodeStart Varied(const Skill& skill, const EpisodeStart& from, core::Rng& rng
   EpisodeStart start = from;
   start.state.goal = variant.start.goal;
   const bool everything = parts == VariedParts::kEverything;
-  if (everything && !start.take) Shake(skill, kShake, rng, &start.arm);
+  if (everything && start.held < 0) Shake(skill, kShake, rng, &start.arm);
   start.at_work = start.arm;
   start.pitch = 0.0;
-  if (variant.focus && !start.take) {
+  if (variant.focus && start.held < 0) {
     if (const auto plan = PlanReach(skill, variant, start.state, start.arm, rng)) {
       start.pitch = plan->pitch;
       start.at_work = plan->at_work;

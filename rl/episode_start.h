@@ -17,8 +17,7 @@ struct EpisodeStart {
   double leader = 0.0;      // of the gripper's first joint
   double pitch = 0.0;       // of the hand at work, and the arm's posture there (PlanReach)
   robot::Posture at_work;
-  // The hand closes on the focus before the episode begins.
-  bool take = false;
+  int held = -1;  // the thing that the hand closes on before the episode begins; -1: none
   std::vector<double> mass;  // factors, by thing
   std::vector<double> friction;
   std::vector<double> joint;  // of friction and damping of joints
@@ -30,6 +29,9 @@ struct EpisodeStart {
 // as the shares of easier starts say. Falls back on the start as described where no such place is
 // found in 60 tries.
 EpisodeStart DrawStart(const Skill& skill, core::Rng& rng);
+
+// The thing that both fingers hold and that moves with them: no furniture. -1: none.
+int HeldThing(const SkillVariant& variant, const tasks::SceneState& state);
 
 enum class VariedParts {
   kEverything,  // masses, frictions and delay drawn again, the arm moved a little if it is empty

@@ -26,12 +26,12 @@ class Follower {
       : skill_(skill),
         base_from_world_(variant.subtask.start.world_from_robot.inverse()),
         step_(robot::Posture::Constant(from.size(), kJointStep)),
-        posture(from) {}
+        posture_(from) {}
 
   // Whether the tool gets to `world_from_tool`.
   bool Goes(const Isometry3d& world_from_tool) {
     const Isometry3d target = base_from_world_ * world_from_tool;
-    const Isometry3d now = robot::ForwardKinematics(skill_.robot->arm, posture);
+    const Isometry3d now = robot::ForwardKinematics(skill_.robot->arm, posture_);
     const Eigen::Quaterniond a(now.linear()), b(target.linear());
     const double way = (target.translation() - now.translation()).norm();
     const int strides = 1 + static_cast<int>(std::max(way / kStride, a.angularDistance(b) / kTurn));
@@ -41,7 +41,7 @@ class Follower {
       Isometry3d next = Isometry3d::Identity();
       next.translation() = now.translation() + share * (target.translation() - now.translation());
       next.linear() = a.slerp(share, b).toRotationMatrix();
-      error = skill_.kinematics->Track(next, step_, &posture);
+      error = skill_.kinematics->Track(next, step_, &posture_);
     }
     return error.position < kPosition && error.angle < kAngle;
   }
@@ -50,9 +50,7 @@ class Follower {
   const Skill& skill_;
   Isometry3d base_from_world_;
   robot::Posture step_;
-
- public:
-  robot::Posture posture;
+  robot::Posture posture_;
 };
 
 // From where the joint stands, to the end of its way that is farther, as far as it has to go.

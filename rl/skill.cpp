@@ -58,7 +58,7 @@ void Place(SkillVariant* variant) {
   }
 }
 
-void CompileProgram(const SkillOptions&, SkillVariant* variant) {
+void CompileProgram(SkillVariant* variant) {
   const tasks::Subtask& subtask = variant->subtask;
   const tasks::CompileOutcome outcome =
       tasks::CompileReward(subtask.program, &variant->model.names);
@@ -111,7 +111,7 @@ SkillVariant MakeVariant(const SkillSubtask& source, const SkillOptions& options
   variant.subtask = source.subtask;
   variant.start = tasks::StateOf(variant.model, source.subtask.start, source.subtask.goal);
   Place(&variant);
-  CompileProgram(options, &variant);
+  CompileProgram(&variant);
   FindFocus(&variant);
   PrepareBodies(source.assets, options, &variant);
   return variant;

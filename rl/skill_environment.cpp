@@ -96,7 +96,7 @@ void SkillEnvironment::StepOne(size_t index, const Rows& actions, StepBatch* bat
   batch->rewards[index] = decision.reward;
   batch->terminated[index] = decision.terminated;
   batch->truncated[index] = decision.truncated;
-  batch->success[index] = decision.success;
+  batch->success[index] = decision.terminated;  // held, not only reached
   if (decision.failed) {
     ++slot.failures;
     slot.failed = slot.number;
@@ -143,9 +143,11 @@ void SkillEnvironment::RestoreState(std::string_view state, Rows* observations) 
     slot.number = Take<std::uint64_t>(&state);
     slot.failures = Take<std::int64_t>(&state);
     slot.actions.clear();
-    std::vector<float> actions(Take<std::uint64_t>(&state) % (1u << 20));
-    for (float& action : actions) action = Take<float>(&state);
-    slot.actions = actions;
+    const auto count = Take<std::uint64_t>(&state);
+    if (count > state.size() / sizeof(float)) {
+      throw core::Error("the environments' state is cut off", "checkpoint");
+    }
+    for (std::uint64_t i = 0; i < count; ++i) slot.actions.push_back(Take<float>(&state));
   }
   observations->resize(size(), observation_size_);
   ForEach([&](size_t i) {

@@ -34,12 +34,11 @@ EpisodeStart EndOf(const Episode& episode) {
   end.arm = arm;
   end.at_work = arm;
   end.leader = episode.world().robot().Leader();
-  end.take = episode.state().grasped;
+  end.held = HeldThing(episode.skill().variants[static_cast<size_t>(end.variant)], end.state);
   return end;
 }
 
-EvaluatedEpisode RunEpisode(const Policy& policy, const EpisodeStart& start, Episode* episode,
-                            const std::function<void()>& watch) {
+EvaluatedEpisode RunEpisode(const Policy& policy, const EpisodeStart& start, Episode* episode) {
   Rows observation(1, policy.observation_size()), action;
   EvaluatedEpisode result;
   result.start = start;
@@ -49,7 +48,6 @@ EvaluatedEpisode RunEpisode(const Policy& policy, const EpisodeStart& start, Epi
     episode->Observe(observation.data());
     policy.Act(observation, &action);
     decision = episode->Step(action.data());
-    if (watch) watch();
   }
   result.success = decision.terminated;
   result.seconds = episode->seconds();

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "rl/episode.h"
@@ -37,9 +36,8 @@ SkillEvaluation Evaluate(const Skill& skill, const Policy& policy,
 // `count` starts of the skill, drawn by `seed`.
 std::vector<EpisodeStart> DrawStarts(const Skill& skill, int count, std::uint64_t seed);
 
-// One episode to its end. `watch`, unless empty, is called after each decision.
-EvaluatedEpisode RunEpisode(const Policy& policy, const EpisodeStart& start, Episode* episode,
-                            const std::function<void()>& watch = {});
+// One episode to its end.
+EvaluatedEpisode RunEpisode(const Policy& policy, const EpisodeStart& start, Episode* episode);
 
 // What the episode has come to, as a start: things and arm where they are, at rest.
 EpisodeStart EndOf(const Episode& episode);

@@ -10,7 +10,8 @@ using Eigen::Isometry3d;
 
 constexpr double kTouches = 5e-4;    // m
 constexpr double kGraspForce = 1.0;  // N of each finger
-constexpr double kClosing = 0.6;     // s, until a hand has closed on what it shall hold
+constexpr double kClosing = 0.6;     // s, until a hand has closed on what it shall hold ...
+constexpr double kSettling = 0.1;    // ... of which the last bear the thing's weight
 constexpr double kFarthest = 20.0;   // m from the robot: farther, the physics has failed
 
 sim::WorldOptions WorldOptionsOf(const SkillOptions& options) {
@@ -46,20 +47,21 @@ SkillWorld::SkillWorld(const Skill& skill, const EpisodeStart& start)
   thing_of_.push_back(-1);
   for (auto& pressed : pressed_) pressed.assign(variant_.model.things.size(), 0.0);
   robot_->Place(start.arm, start.leader);
-  if (start.take) HoldThing(kClosing);
+  if (start.held >= 0) CloseOn(start.held);
 }
 
 // The thing stays where it is while the hand closes, as if it stood on something.
-void SkillWorld::HoldThing(double seconds) {
-  const auto thing = static_cast<size_t>(variant_.focus->thing);
-  const int body = bodies_[thing];
+void SkillWorld::CloseOn(int thing) {
+  const int body = bodies_[static_cast<size_t>(thing)];
+  if (body < 0) return;
   const Isometry3d pose = world_.LinkPose(body, 0);
   robot_->Command(robot_->command(), skill_.robot->gripper.closed);
-  const int steps = static_cast<int>(seconds / world_.time_step());
+  const int steps = static_cast<int>(kClosing / world_.time_step());
+  const int free = static_cast<int>(std::lround(kSettling / world_.time_step()));
   for (int step = 0; step < steps; ++step) {
     robot_->Drive();
     world_.Step();
-    if (step + 24 < steps) world_.SetRootPose(body, pose);
+    if (step + free < steps) world_.SetRootPose(body, pose);
   }
   ReadContacts();
 }

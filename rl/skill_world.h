@@ -29,7 +29,7 @@ class SkillWorld {
   bool touching() const { return touching_; }
 
  private:
-  void HoldThing(double seconds);
+  void CloseOn(int thing);
   void ReadContacts();
 
   const Skill& skill_;

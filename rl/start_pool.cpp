@@ -79,7 +79,11 @@ EpisodeStart StartFrom(const json& text, const Skill& skill) {
   start.at_work = PostureFrom(text.at("at_work"), skill.robot->arm.size());
   start.leader = text.at("leader").get<double>();
   start.pitch = text.at("pitch").get<double>();
-  start.take = text.at("take").get<bool>();
+  start.held = text.at("held").get<int>();
+  if (start.held < -1 || start.held >= static_cast<int>(things) ||
+      (start.held >= 0 && variant.fixed[static_cast<size_t>(start.held)])) {
+    throw std::invalid_argument("a thing in the hand that it cannot hold");
+  }
   start.mass = Numbers(text.at("mass"), things);
   start.friction = Numbers(text.at("friction"), things);
   start.joint = Numbers(text.at("joint"), things);
@@ -102,7 +106,7 @@ std::string StartText(const EpisodeStart& start) {
   text["at_work"] = List(start.at_work);
   text["leader"] = start.leader;
   text["pitch"] = start.pitch;
-  text["take"] = start.take;
+  text["held"] = start.held;
   text["mass"] = start.mass;
   text["friction"] = start.friction;
   text["joint"] = start.joint;

@@ -283,7 +283,6 @@ ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
   solver.m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
   // CompactSolver takes frictions in pairs.
   solver.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
-
   bullet_->world->getDispatchInfo().m_deterministicOverlappingPairs = true;
   CollideShapesWithFloor(&bullet_->dispatcher);
   bullet_->floor_shape.setMargin(0.0);

@@ -184,6 +184,24 @@ TEST(SkillEnvironment, RepeatsItselfBitForBit) {
   EXPECT_THROW(same.RestoreState(saved.substr(0, saved.size() / 2), &observations), core::Error);
 }
 
+// A hand on a door's handle holds nothing that the next skill could begin with in its hand.
+TEST(HeldThing, IsNoFurniture) {
+  for (const auto& [scene, held] : {std::pair{OpenDoor(), -1}, {PickUpCup(), 0}}) {
+    const auto skill = Make({scene});
+    const SkillVariant& variant = skill->variants.front();
+    tasks::SceneState state = variant.start;
+    state.touched = 0;
+    EXPECT_EQ(HeldThing(variant, state), -1);
+    state.grasped = true;
+    EXPECT_EQ(HeldThing(variant, state), held);
+    EpisodeStart start = DrawStarts(*skill, 1, 2).front();
+    start.held = 0;
+    if (held < 0) {
+      EXPECT_THROW(ParseStart(StartText(start), *skill, "test"), core::Error);
+    }
+  }
+}
+
 TEST(StartPool, ReadsWhatItWrites) {
   const auto skill = Make({OpenDoor()});
   const EpisodeStart start = DrawStarts(*skill, 3, 8).back();

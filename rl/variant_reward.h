@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "rl/skill.h"
+#include "tasks/scene_signals.h"
+
+namespace simwright::rl {
+
+// The reward program of one variant, with the memory that it runs in. One thread at a time.
+class VariantReward {
+ public:
+  // `variant` must outlive it.
+  explicit VariantReward(const SkillVariant& variant);
+
+  // The program's reward of `state`, `previous` being `time_step` (s) before it, and whether the
+  // subtask is done in it. Allocates nothing after the first call.
+  float Run(const tasks::SceneState& state, const tasks::SceneState& previous, double time_step,
+            bool* success);
+
+ private:
+  tasks::RewardProgram program_;
+  tasks::RewardWorkspace workspace_;
+  tasks::SignalReader reader_;
+  std::vector<std::vector<float>> values_;
+  std::vector<tasks::RewardBinding> bindings_;
+};
+
+}  // namespace simwright::rl
