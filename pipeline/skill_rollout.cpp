@@ -11,7 +11,9 @@
 #include "pipeline/rollout_pictures.h"
 #include "pipeline/skill_recording.h"
 #include "rl/policy_file.h"
+#include "rl/skill_evaluation.h"
 #include "rl/training.h"
+#include "tasks/task_file.h"
 
 namespace simwright::pipeline {
 namespace {
@@ -33,8 +35,10 @@ void Show(const TrainedTask& task, const RolloutRequest& request,
 
 }  // namespace
 
-TrainedTask::TrainedTask(const std::filesystem::path& folder)
-    : run_(ReadRun(folder)), skills_(PrepareSkills(run_)) {
+TrainedTask::TrainedTask(const std::filesystem::path& folder,
+                         const std::optional<tasks::TaskSet>& on)
+    : run_(ReadRun(folder)), skills_(PrepareSkillsOn(on.value_or(run_.set), run_)) {
+  if (on) run_.set = *on;
   policies_.reserve(skills_.size());
   for (const RunSkill& skill : skills_) {
     const std::filesystem::path file = skill.folder / rl::kPolicyFile;
@@ -43,12 +47,17 @@ TrainedTask::TrainedTask(const std::filesystem::path& folder)
                         "go on with `simwright train ... --resume`");
     }
     policies_.push_back(rl::ReadPolicy(file));
+    rl::RequireFits(policies_.back(), *skill.evaluated);
     links_.push_back({skill.evaluated.get(), &policies_.back()});
   }
 }
 
 RolloutReport Rollout(const RolloutRequest& request, core::Progress* progress) {
-  const TrainedTask task(request.run);
+  std::optional<tasks::TaskSet> on;
+  if (!request.on.empty()) {
+    on = ChooseTasks(tasks::ReadTaskFile(request.on), request.tasks, request.on.string());
+  }
+  const TrainedTask task(request.run, on);
   RolloutReport report;
   for (const RunSkill& skill : task.skills()) report.subtasks.push_back(skill.name);
   progress->Stage("roll out");

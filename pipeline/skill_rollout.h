@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ struct RolloutRequest {
   std::filesystem::path run;  // a folder that TrainTask wrote
   int episodes = 100;
   std::uint64_t seed = 1;
+  // Other tasks alike, to see what was learnt on assets that the training has not seen: a file and
+  // names or patterns in it (ChooseTasks). Empty: the run's own.
+  std::filesystem::path on;
+  std::vector<std::string> tasks;
   // Of the first episode that succeeds, else of the first: pictures (PNG) and poses (JSON lines;
   // rollout_pictures.h). Empty: none.
   std::filesystem::path pictures, poses;
@@ -30,9 +35,10 @@ struct RolloutReport {
 // A run's skills and policies, ready to act. Not copied or moved: links point into it.
 class TrainedTask {
  public:
-  // Throws core::Error where the folder holds no run, its assets have changed, or a subtask has no
-  // policy, naming it.
-  explicit TrainedTask(const std::filesystem::path& run);
+  // `on`: other tasks to act in than the run's own. Throws core::Error where the folder holds no
+  // run, its assets have changed, a subtask has no policy, naming it, or `on` does not fit.
+  explicit TrainedTask(const std::filesystem::path& run,
+                       const std::optional<tasks::TaskSet>& on = std::nullopt);
   TrainedTask(const TrainedTask&) = delete;
   TrainedTask& operator=(const TrainedTask&) = delete;
 

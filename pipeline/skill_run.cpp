@@ -149,23 +149,32 @@ const robot::RobotModel& RobotOf(const std::string& name) {
 }
 
 std::vector<RunSkill> PrepareSkills(const SkillRun& run) {
+  return PrepareSkillsOn(run.set, run);
+}
+
+std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun& run) {
+  const std::vector<tasks::Subtask>& named = run.set.tasks.front().subtasks;
+  if (set.tasks.front().subtasks.size() != named.size()) {
+    throw core::Error("has another number of subtasks than '" + run.set.tasks.front().name + "'",
+                      set.tasks.front().name, "choose a task of the same steps");
+  }
   std::map<std::string, assets::SemanticModel> models;
-  for (const tasks::TaskAsset& asset : run.set.assets) {
+  for (const tasks::TaskAsset& asset : set.assets) {
     assets::SemanticModel model = assets::ReadSemanticModel(asset.path);
     model.name = asset.name;
     models.emplace(asset.name, std::move(model));
   }
   const robot::RobotModel& robot = RobotOf(run.robot);
   std::vector<RunSkill> skills;
-  for (size_t k = 0; k < run.set.tasks.front().subtasks.size(); ++k) {
+  for (size_t k = 0; k < named.size(); ++k) {
     std::vector<rl::SkillSubtask> subtasks;
-    for (const tasks::Task& task : run.set.tasks) {
+    for (const tasks::Task& task : set.tasks) {
       rl::SkillSubtask& one = subtasks.emplace_back();
       one.subtask = task.subtasks[k];
       for (const std::string& name : task.assets) one.assets.push_back(models.at(name));
     }
     RunSkill& skill = skills.emplace_back();
-    skill.name = run.set.tasks.front().subtasks[k].name;
+    skill.name = named[k].name;
     skill.folder = run.folder / (std::to_string(k + 1) + "_" + skill.name);
     skill.skill = rl::MakeSkill(robot, subtasks, run.options);
     skill.evaluated = rl::MakeSkill(robot, subtasks, run.options.ForEvaluation());

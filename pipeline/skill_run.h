@@ -53,4 +53,8 @@ const robot::RobotModel& RobotOf(const std::string& name);
 // Reads the assets and prepares each subtask.
 std::vector<RunSkill> PrepareSkills(const SkillRun& run);
 
+// The run's subtasks in the scenes of other tasks alike: what was learnt on some assets, on others.
+// Throws core::Error where those have another number of subtasks.
+std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun& run);
+
 }  // namespace simwright::pipeline

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rl/reach_plan.h"
+
 namespace simwright::rl {
 
 // What is run for one variant, with its memory.
@@ -31,10 +33,16 @@ void Episode::Begin(const EpisodeStart& start) {
   state_ = start.state;
   world_->Read(&state_);
   previous_ = state_;
-  frame_ = std::make_unique<FocusFrame>(skill_.variants[variant], state_, start.pitch);
+  const Eigen::Isometry3d at_work = robot::ForwardKinematics(skill_.robot->arm, start.at_work);
+  frame_ = std::make_unique<FocusFrame>(
+      skill_.variants[variant], state_,
+      skill_.variants[variant].subtask.start.world_from_robot.linear() * at_work.linear().col(1),
+      start.pitch);
   command_.sent = world_->robot().command();
   command_.goal = start.at_work;
   command_.leader = world_->robot().leader_command();
+  command_.rate = robot::Posture::Zero(command_.sent.size());
+  command_.leader_rate = 0.0;
   world_->robot().Positions(&positions_);
   arm_ = positions_;
   velocities_ = robot::Posture::Zero(arm_.size());
@@ -72,7 +80,7 @@ Decision Episode::Step(const float* action) {
   const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
   const Eigen::Isometry3d base_from_focus =
       variant.subtask.start.world_from_robot.inverse() * frame_->world_from_focus();
-  Act(TargetOf(skill_, action_.data(), base_from_focus, command_.sent));
+  Act(TargetOf(skill_, action_.data(), base_from_focus, Pushes(variant), command_.sent));
   std::swap(previous_, state_);
   state_ = previous_;
   world_->Read(&state_);

@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 constexpr int kTries = 60;
 constexpr double kShake = 0.03;     // rad, of an arm that begins where another skill ended
 constexpr double kApart = 0.005;    // m between boxes of things
+constexpr double kOnPart = 0.5;     // share of joints part of their way that the hand begins at
 constexpr double kFromRobot = 0.2;  // m from the robot's axis to a thing's box
 
 double Draw(const FactorRange& range, core::Rng& rng) {
@@ -116,20 +117,30 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
     start.state = variant.start;
   }
   const double lot = core::Uniform(rng);
-  const bool at_focus = lot < options.at_focus_share;
-  const bool part_way = !at_focus && lot < options.at_focus_share + options.part_way_share;
+  bool at_work = lot < options.at_focus_share;
+  const bool part_way = !at_work && lot < options.at_focus_share + options.part_way_share;
   if (part_way && variant.focus && variant.focus->joint >= 0) {
     const auto thing = static_cast<size_t>(variant.focus->thing);
     const auto joint = static_cast<size_t>(variant.focus->joint);
     const tasks::ThingJoint& moved = variant.model.things[thing].joints[joint];
     start.state.joints[thing][joint] = core::Uniform(rng, moved.lower, moved.upper);
+    if (const auto plan = PlanReach(skill, variant, start.state, home, rng)) {
+      start.pitch = plan->pitch;
+      start.at_work = plan->at_work;
+      at_work = core::Uniform(rng) < kOnPart;
+    }
   }
   start.arm = home;
   Shake(skill, options.posture_range, rng, &start.arm);
   start.leader = skill.robot->gripper.open;
   const bool grasps = variant.focus && variant.focus->joint < 0 && variant.asks_for_grasp;
   if (grasps && (part_way || variant.starts_held)) start.held = variant.focus->thing;
-  if (at_focus || start.held >= 0) start.arm = start.at_work;
+  if (at_work || start.held >= 0) start.arm = start.at_work;
+  const robot::Gripper& gripper = skill.robot->gripper;
+  if (at_work && start.held < 0) {
+    start.closed_to = core::Uniform(rng, std::min(gripper.closed, gripper.open),
+                                    std::max(gripper.closed, gripper.open));
+  }
   DrawBodies(variant, options, rng, &start);
   return start;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -18,6 +19,9 @@ struct EpisodeStart {
   double pitch = 0.0;       // of the hand at work, and the arm's posture there (PlanReach)
   robot::Posture at_work;
   int held = -1;  // the thing that the hand closes on before the episode begins; -1: none
+  // How far the hand, at work, closes before the episode begins: the gripper's first joint, where
+  // nothing between the fingers stops it. Easier starts have it.
+  std::optional<double> closed_to;
   std::vector<double> mass;  // factors, by thing
   std::vector<double> friction;
   std::vector<double> joint;  // of friction and damping of joints

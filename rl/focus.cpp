@@ -1,5 +1,6 @@
 #include "rl/focus.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,6 +16,12 @@ using tasks::SceneState;
 using tasks::Thing;
 
 constexpr double kPalm = 0.02;  // m from the fingertips to the palm, less what has to stay free
+// m from a handle's outermost point to the fingertips' middle, at most. So deep the pads close
+// behind a bar of a centimetre or two and hook it: of 40 scripted pulls at drawers 37 succeeded,
+// with 0.8 cm, where the pads only rub on the bar, 5.
+constexpr double kPadDepth = 0.02;
+constexpr double kSpare = 0.01;      // m that the hand opens wider than what it spans
+constexpr double kHalfWall = 0.003;  // m: cups' walls are 3 to 8 mm thick
 
 bool IsPlace(RewardInput input) {
   return input == RewardInput::kLinkPosition || input == RewardInput::kAssetPosition ||
@@ -64,6 +71,17 @@ Vector3d ThinAcross(const tasks::ThingLink& link, const Vector3d& approach) {
   return best;
 }
 
+// Where the fingertips' middle goes in a part that is reached along `approach`: the middle of its
+// outline, but no deeper below its outermost point than it takes to hook a bar.
+Vector3d GripPoint(const tasks::ThingLink& link, const Vector3d& approach) {
+  double outermost = std::numeric_limits<double>::infinity();
+  for (const Vector3d& point : link.outline) {
+    outermost = std::min(outermost, approach.dot(point - link.middle));
+  }
+  const double deeper = std::min(0.0, outermost + kPadDepth);
+  return link.middle + deeper * approach;
+}
+
 // The tool's pose at a part that a joint moves, in the link's frame. The hand comes from where the
 // part can be reached: from outside along the part's own way, or along the axis of what turns in
 // place.
@@ -86,7 +104,7 @@ Eigen::Isometry3d ToolOnPart(const SceneModel& model, const SceneState& start, c
   const Vector3d across = ThinAcross(link, approach);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() << across.cross(approach), across, approach;
-  pose.translation() = link.middle;
+  pose.translation() = GripPoint(link, approach);
   return pose;
 }
 
@@ -97,10 +115,21 @@ Vector3d GraspPoint(const Thing& thing) {
   return point;
 }
 
+// How far from the middle a vessel is taken that the hand cannot span.
+double RimOf(const Thing& thing, const Eigen::Isometry3d& world_from_thing, double opening) {
+  const bool vessel =
+      std::any_of(thing.cavities.begin(), thing.cavities.end(), [](const tasks::Cavity& cavity) {
+        return cavity.link == 0 && cavity.door < 0 && cavity.opening.z() > 0.9;
+      });
+  const double yaw = ThinDirection(thing, world_from_thing, 0.0);
+  const double width = WidthAlong(thing, world_from_thing, {std::cos(yaw), std::sin(yaw), 0.0});
+  return vessel && width > opening - kSpare ? 0.5 * width - kHalfWall : 0.0;
+}
+
 }  // namespace
 
 std::optional<Focus> FocusOf(const SceneModel& model, const SceneState& start,
-                             const std::vector<RewardSlot>& slots) {
+                             const std::vector<RewardSlot>& slots, double opening) {
   const auto of_joint = [](RewardInput input) { return input == RewardInput::kJointState; };
   const auto of_grasp = [](RewardInput input) { return input == RewardInput::kGrasped; };
   Focus focus;
@@ -115,10 +144,15 @@ std::optional<Focus> FocusOf(const SceneModel& model, const SceneState& start,
     }
   }
   const RewardSlot* slot = FirstSlot(slots, of_grasp);
-  if (slot == nullptr) slot = FirstSlot(slots, IsPlace);
+  const bool grasps = slot != nullptr;
+  if (!grasps) slot = FirstSlot(slots, IsPlace);
   if (slot == nullptr) return std::nullopt;
   focus.thing = model.Find(slot->asset);
   focus.link = 0;
+  if (grasps) {
+    focus.rim = RimOf(model.things[static_cast<size_t>(focus.thing)],
+                      start.roots[static_cast<size_t>(focus.thing)], opening);
+  }
   focus.link_from_tool.translation() = GraspPoint(model.things[static_cast<size_t>(focus.thing)]);
   return focus;
 }
@@ -159,6 +193,19 @@ Eigen::Isometry3d ToolAtJoint(const SceneModel& model, const SceneState& state,
   return state.roots[thing] * poses[static_cast<size_t>(focus.link)] * focus.link_from_tool;
 }
 
+double WidthAlong(const Thing& thing, const Eigen::Isometry3d& world_from_thing,
+                  const Vector3d& across) {
+  const Vector3d local = world_from_thing.linear().transpose() * across;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const tasks::ThingLink& link : thing.links) {
+    for (const Vector3d& point : link.outline) {
+      low = std::min(low, point.dot(local));
+      high = std::max(high, point.dot(local));
+    }
+  }
+  return high - low;
+}
+
 double ThinDirection(const Thing& thing, const Eigen::Isometry3d& world_from_thing, double wished) {
   constexpr int kDirections = 36;
   constexpr double kAlike = 0.002;  // m
@@ -166,16 +213,7 @@ double ThinDirection(const Thing& thing, const Eigen::Isometry3d& world_from_thi
   double thinnest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kDirections; ++i) {
     const double angle = std::numbers::pi * i / kDirections;
-    const Vector3d across(std::cos(angle), std::sin(angle), 0.0);
-    const Vector3d local = world_from_thing.linear().transpose() * across;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const tasks::ThingLink& link : thing.links) {
-      for (const Vector3d& point : link.outline) {
-        low = std::min(low, point.dot(local));
-        high = std::max(high, point.dot(local));
-      }
-    }
-    widths[i] = high - low;
+    widths[i] = WidthAlong(thing, world_from_thing, {std::cos(angle), std::sin(angle), 0.0});
     thinnest = std::min(thinnest, widths[i]);
   }
   double best = 0.0, nearest = std::numeric_limits<double>::infinity();

@@ -19,6 +19,9 @@ struct Focus {
   // The tool's place at work: its z towards the link, its y across the link's thin side. Of a
   // thing without a joint only the origin counts; it is taken from above, wherever it is turned.
   Eigen::Isometry3d link_from_tool = Eigen::Isometry3d::Identity();
+  // m from that origin to where a vessel that is too wide for the hand is taken: by its wall, on
+  // the side that the tool's y points to. 0: in the middle.
+  double rim = 0.0;
 };
 
 // Where the thing shall go, if the program says.
@@ -30,9 +33,9 @@ struct Destination {
 
 // What the program of a subtask works on, from what it reads: the joint whose state it takes, the
 // thing whose grasp it asks for, else the thing or link whose place it takes. None where it names
-// nothing.
+// nothing. `opening`: m, how wide the hand opens.
 std::optional<Focus> FocusOf(const tasks::SceneModel& model, const tasks::SceneState& start,
-                             const std::vector<tasks::RewardSlot>& slots);
+                             const std::vector<tasks::RewardSlot>& slots, double opening);
 
 std::optional<Destination> DestinationOf(const tasks::SceneModel& model, const Focus& focus,
                                          const std::vector<tasks::RewardSlot>& slots);
@@ -46,5 +49,9 @@ Eigen::Isometry3d ToolAtJoint(const tasks::SceneModel& model, const tasks::Scene
 // to `wished`: how a round thing is taken, does not matter.
 double ThinDirection(const tasks::Thing& thing, const Eigen::Isometry3d& world_from_thing,
                      double wished);
+
+// m, how wide `thing` is along `across` (unit, world).
+double WidthAlong(const tasks::Thing& thing, const Eigen::Isometry3d& world_from_thing,
+                  const Eigen::Vector3d& across);
 
 }  // namespace simwright::rl

@@ -6,11 +6,14 @@ namespace simwright::rl {
 
 // The frame that a policy sees and acts from, followed through an episode. Its origin and axes are
 // where the tool works: at the part or thing, and once a thing is held, where the tool is when the
-// thing has come to its destination. An action of zero so always means "get there".
+// thing has come to its destination; what is pushed is worked at from behind, as seen from where it
+// shall go. An action of zero so always means "get there".
 class FocusFrame {
  public:
-  // `state` at the start of the episode, `pitch` (rad) as PlanReach gives it.
-  FocusFrame(const SkillVariant& variant, const tasks::SceneState& state, double pitch);
+  // `state` at the start of the episode, `across` (unit, world) the tool's y axis at work and
+  // `pitch` (rad) as PlanReach gives them.
+  FocusFrame(const SkillVariant& variant, const tasks::SceneState& state,
+             const Eigen::Vector3d& across, double pitch);
 
   // Follows what has moved since.
   void Update(const tasks::SceneState& state);
@@ -23,7 +26,9 @@ class FocusFrame {
 
   const SkillVariant& variant_;
   Eigen::Isometry3d world_from_focus_ = Eigen::Isometry3d::Identity();
-  double tool_yaw_ = 0.0, pitch_ = 0.0;
+  Eigen::Vector3d across_;  // unit, world: the tool's y axis at work
+  double pitch_ = 0.0;
+  Eigen::Vector3d grip_ = Eigen::Vector3d::Zero();  // m, the thing's frame: where it is taken
   bool at_destination_ = false;
   int held_ = 0;  // updates in a row with the thing in both fingers
 };

@@ -16,8 +16,10 @@ constexpr double kPosition = 0.01, kAngle = 0.15;  // m, rad: what is off at mos
 constexpr double kStride = 0.03;                   // m of the tool between two looks
 constexpr double kTurn = 0.12;                     // rad
 constexpr double kJointStep = 0.1;                 // rad or m of any joint in one look
+constexpr double kFinger = 0.012;  // m from a finger's middle to its side, with room
+constexpr double kThere = 0.01;    // m: what is so near its goal is pushed on as before
 constexpr double kPitches[] = {0.0, 0.35, -0.35, 0.7, -0.7};
-constexpr int kPostures = 4;  // that are tried with each
+constexpr int kPostures = 8;  // that are tried with each, for either side of the hand
 
 // Follows poses with the tracker that training uses.
 class Follower {
@@ -73,51 +75,99 @@ bool Works(const Skill& skill, const SkillVariant& variant, tasks::SceneState st
     return follower.Goes(there);
   }
   const auto thing = static_cast<size_t>(focus.thing), j = static_cast<size_t>(focus.joint);
-  double yaw = ToolYaw(tool);
+  Vector3d across = tool.linear().col(1);
   for (const double position :
        JointWay(variant.model.things[thing].joints[j], state.joints[thing][j])) {
     state.joints[thing][j] = position;
-    const Isometry3d next = ToolAtFocus(variant, state, yaw, pitch);
-    yaw = ToolYaw(next);
+    const Isometry3d next = ToolAtFocus(variant, state, across, pitch);
+    across = next.linear().col(1);
     if (!follower.Goes(next)) return false;
   }
   return true;
 }
 
-robot::Posture RandomPosture(const robot::Arm& arm, core::Rng& rng) {
-  robot::Posture posture(arm.size());
+// Somewhere about `from`, a share of each joint's range to either side.
+robot::Posture PostureAbout(const robot::Posture& from, double share, const robot::Arm& arm,
+                            core::Rng& rng) {
+  robot::Posture posture = from;
   for (Eigen::Index j = 0; j < posture.size(); ++j) {
     const robot::ArmJoint& joint = arm.joints[static_cast<size_t>(j)];
-    posture[j] = core::Uniform(rng, joint.lower, joint.upper);
+    const double range = share * (joint.upper - joint.lower);
+    posture[j] = std::clamp(from[j] + core::Uniform(rng, -range, range), joint.lower, joint.upper);
   }
   return posture;
 }
 
-}  // namespace
+// A posture in which the tool is at work.
+struct Candidate {
+  Isometry3d tool;  // world_from_tool
+  robot::Posture posture;
+  double seconds = 0.0;  // to get there, every joint at its highest speed
+};
 
-double ToolYaw(const Isometry3d& world_from_tool) {
-  const Vector3d across = world_from_tool.linear().col(1);
-  return std::atan2(across.y(), across.x());
+double TravelTime(const robot::RobotModel& robot, const robot::Posture& way) {
+  double seconds = 0.0;
+  for (Eigen::Index j = 0; j < way.size(); ++j) {
+    const auto joint = static_cast<size_t>(robot.arm_joints[static_cast<size_t>(j)]);
+    seconds = std::max(seconds, std::abs(way[j]) / robot.limits[joint].velocity);
+  }
+  return seconds;
 }
 
-Isometry3d ToolAtFocus(const SkillVariant& variant, const tasks::SceneState& state, double tool_yaw,
-                       double pitch) {
+void AddCandidates(const Skill& skill, const SkillVariant& variant, const Isometry3d& tool,
+                   const robot::Posture& from, core::Rng& rng, std::vector<Candidate>* candidates) {
+  const Isometry3d target = variant.subtask.start.world_from_robot.inverse() * tool;
+  robot::Posture start = from;
+  for (int i = 0; i < kPostures; ++i) {
+    const robot::PoseSolution found = skill.kinematics->Solve(target, start, rng);
+    if (!found.reached) {
+      if (i == 0) return;  // out of reach, as a rule
+      continue;
+    }
+    candidates->push_back({tool, found.q, TravelTime(*skill.robot, found.q - from)});
+    const double share = static_cast<double>(i + 1) / kPostures;
+    start = PostureAbout(from, share, skill.robot->arm, rng);
+  }
+}
+
+// x along the way that the thing shall go, z down, the origin behind the thing.
+Isometry3d ToolBehind(const SkillVariant& variant, const tasks::SceneState& state,
+                      const Vector3d& across) {
+  const auto thing = static_cast<size_t>(variant.focus->thing);
+  const Vector3d down = -Vector3d::UnitZ();
+  Vector3d way = WayToDestination(variant, state);
+  way.z() = 0.0;
+  const Vector3d along = way.norm() > kThere ? way.normalized() : across.cross(down).normalized();
+  const double width = WidthAlong(variant.model.things[thing], state.roots[thing], along);
+  Isometry3d tool = Isometry3d::Identity();
+  tool.linear() << along, down.cross(along), down;
+  tool.translation() = state.roots[thing] * variant.focus->link_from_tool.translation() -
+                       (0.5 * width + kFinger) * along;
+  return tool;
+}
+
+}  // namespace
+
+bool Pushes(const SkillVariant& variant) {
+  return variant.focus && variant.focus->joint < 0 && variant.destination &&
+         !variant.asks_for_grasp;
+}
+
+Isometry3d ToolAtFocus(const SkillVariant& variant, const tasks::SceneState& state,
+                       const Vector3d& across, double pitch) {
   const Focus& focus = *variant.focus;
   Isometry3d tool = Isometry3d::Identity();
+  if (Pushes(variant)) return ToolBehind(variant, state, across);
   if (focus.joint >= 0) {
     tool = ToolAtJoint(variant.model, state, focus);
-    // The hand is the same turned by half about its own axis: the nearer one.
-    const Vector3d across = tool.linear().col(1);
-    if (across.x() * std::cos(tool_yaw) + across.y() * std::sin(tool_yaw) < 0.0) {
-      tool.linear().leftCols<2>() *= -1.0;
-    }
+    if (across.dot(tool.linear().col(1)) < 0.0) tool.linear().leftCols<2>() *= -1.0;
   } else {
     const Isometry3d& root = state.roots[static_cast<size_t>(focus.thing)];
-    const double yaw =
-        ThinDirection(variant.model.things[static_cast<size_t>(focus.thing)], root, tool_yaw);
-    const Vector3d across(std::cos(yaw), std::sin(yaw), 0.0), down(0.0, 0.0, -1.0);
-    tool.linear() << across.cross(down), across, down;
-    tool.translation() = root * focus.link_from_tool.translation();
+    const double yaw = ThinDirection(variant.model.things[static_cast<size_t>(focus.thing)], root,
+                                     std::atan2(across.y(), across.x()));
+    const Vector3d thin(std::cos(yaw), std::sin(yaw), 0.0), down(0.0, 0.0, -1.0);
+    tool.linear() << thin.cross(down), thin, down;
+    tool.translation() = root * focus.link_from_tool.translation() + focus.rim * thin;
   }
   tool.rotate(Eigen::AngleAxisd(pitch, Vector3d::UnitY()));
   return tool;
@@ -127,16 +177,21 @@ std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& varia
                                    const tasks::SceneState& state, const robot::Posture& from,
                                    core::Rng& rng) {
   const Isometry3d& world_from_base = variant.subtask.start.world_from_robot;
-  const double yaw = ToolYaw(world_from_base * robot::ForwardKinematics(skill.robot->arm, from));
+  const Isometry3d tool_now = world_from_base * robot::ForwardKinematics(skill.robot->arm, from);
+  const Vector3d across = tool_now.linear().col(1);
+  std::vector<Candidate> candidates;
   for (const double pitch : kPitches) {
-    const Isometry3d tool = ToolAtFocus(variant, state, yaw, pitch);
-    robot::Posture start = from;
-    for (int i = 0; i < kPostures; ++i) {
-      const robot::PoseSolution found =
-          skill.kinematics->Solve(world_from_base.inverse() * tool, start, rng);
-      if (!found.reached) break;
-      if (Works(skill, variant, state, tool, pitch, found.q)) return ReachPlan{pitch, found.q};
-      start = RandomPosture(skill.robot->arm, rng);
+    candidates.clear();
+    for (const double side : {1.0, -1.0}) {
+      AddCandidates(skill, variant, ToolAtFocus(variant, state, side * across, pitch), from, rng,
+                    &candidates);
+    }
+    std::sort(candidates.begin(), candidates.end(),
+              [](const Candidate& a, const Candidate& b) { return a.seconds < b.seconds; });
+    for (const Candidate& candidate : candidates) {
+      if (Works(skill, variant, state, candidate.tool, pitch, candidate.posture)) {
+        return ReachPlan{pitch, candidate.posture};
+      }
     }
   }
   return std::nullopt;

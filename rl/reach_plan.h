@@ -6,14 +6,16 @@
 
 namespace simwright::rl {
 
-// world_from_tool at work: on the focus. `tool_yaw` (rad): the yaw of the tool's y axis now, to
-// which the hand stays near where its sides are alike. `pitch` (rad): the hand leans by so much
-// about its own y axis, the line from finger to finger, about which a bar may be taken anyhow.
-Eigen::Isometry3d ToolAtFocus(const SkillVariant& variant, const tasks::SceneState& state,
-                              double tool_yaw, double pitch);
+// Whether the thing is brought to its destination without being grasped.
+bool Pushes(const SkillVariant& variant);
 
-// The yaw, about the world's z, of the tool's y axis.
-double ToolYaw(const Eigen::Isometry3d& world_from_tool);
+// world_from_tool at work: on the focus, or where it is pushed, behind it as seen from its
+// destination. `across` (unit, world): the tool's y axis, the line from
+// finger to finger, as it is now; the hand is the same turned by half about its own axis, and stays
+// near it. `pitch` (rad): the hand leans by so much about that line, about which a bar may be taken
+// anyhow.
+Eigen::Isometry3d ToolAtFocus(const SkillVariant& variant, const tasks::SceneState& state,
+                              const Eigen::Vector3d& across, double pitch);
 
 // How an arm does its work.
 struct ReachPlan {
@@ -21,10 +23,11 @@ struct ReachPlan {
   robot::Posture at_work;  // (J) with the tool at the focus
 };
 
-// The least pitch, and a posture, from which the tool goes along most of the joint's way, or with
-// the thing to its destination, off by no more than a centimetre and 0.15 rad. None where no pitch
-// does. Postures are sought from `from`, then at random: a tool that only ever goes straight at its
-// target ends at some joint's limit every other time.
+// The least pitch, and of some postures the one soonest reached from `from`, from which the tool
+// goes along most of the joint's way, or with the thing to its destination, off by no more than a
+// centimetre and 0.15 rad. None where no pitch does. Postures are sought for both sides of the
+// hand, from `from` and from random ones: a tool that only ever goes straight at its target ends at
+// some joint's limit every other time.
 std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& variant,
                                    const tasks::SceneState& state, const robot::Posture& from,
                                    core::Rng& rng);

@@ -78,9 +78,9 @@ void CompileProgram(SkillVariant* variant) {
   variant->program = outcome.program;
 }
 
-void FindFocus(SkillVariant* variant) {
+void FindFocus(double opening, SkillVariant* variant) {
   const std::vector<tasks::RewardSlot>& slots = variant->program->slots();
-  variant->focus = FocusOf(variant->model, variant->start, slots);
+  variant->focus = FocusOf(variant->model, variant->start, slots, opening);
   if (variant->focus) {
     variant->destination = DestinationOf(variant->model, *variant->focus, slots);
   }
@@ -94,7 +94,8 @@ void PrepareBodies(const std::vector<assets::SemanticModel>& models, const Skill
   for (size_t i = 0; i < models.size(); ++i) {
     sim::ArticulatedBody body = sim::ArticulatedBodyFrom(models[i].model);
     const bool worked = variant->focus && variant->focus->thing == static_cast<int>(i);
-    const bool only_moved = worked && body.joints.empty();
+    // A hull has no wall to take.
+    const bool only_moved = worked && body.joints.empty() && variant->focus->rim == 0.0;
     if (options.hulls && only_moved && !body.links.front().parts.empty()) TakeHull(&body);
     std::vector<int> joints;
     for (const tasks::ThingJoint& joint : variant->model.things[i].joints) {
@@ -105,14 +106,15 @@ void PrepareBodies(const std::vector<assets::SemanticModel>& models, const Skill
   }
 }
 
-SkillVariant MakeVariant(const SkillSubtask& source, const SkillOptions& options) {
+SkillVariant MakeVariant(const SkillSubtask& source, const robot::Gripper& gripper,
+                         const SkillOptions& options) {
   SkillVariant variant;
   variant.model = tasks::MakeSceneModel(source.assets);
   variant.subtask = source.subtask;
   variant.start = tasks::StateOf(variant.model, source.subtask.start, source.subtask.goal);
   Place(&variant);
   CompileProgram(&variant);
-  FindFocus(&variant);
+  FindFocus(gripper.Opening(gripper.open), &variant);
   PrepareBodies(source.assets, options, &variant);
   return variant;
 }
@@ -146,7 +148,7 @@ std::shared_ptr<const Skill> MakeSkill(const robot::RobotModel& robot,
   skill->chain = std::make_shared<robot::ChainKinematics>(robot.arm);
   skill->options = options;
   for (const SkillSubtask& subtask : subtasks) {
-    skill->variants.push_back(MakeVariant(subtask, options));
+    skill->variants.push_back(MakeVariant(subtask, robot.gripper, options));
     if (!Alike(skill->variants.front(), skill->variants.back())) {
       throw core::Error("its program reads other things than that of '" +
                             subtasks.front().subtask.name + "': one policy cannot learn both",

@@ -34,6 +34,7 @@ EpisodeStart EndOf(const Episode& episode) {
   end.arm = arm;
   end.at_work = arm;
   end.leader = episode.world().robot().Leader();
+  end.closed_to.reset();
   end.held = HeldThing(episode.skill().variants[static_cast<size_t>(end.variant)], end.state);
   return end;
 }

@@ -27,7 +27,7 @@ struct SkillOptions {
   double control_rate = 60.0;  // Hz: how often the arm gets a new command
   int substeps = 4;            // of the physics in one of them: 240 Hz, Bullet's own rate
   int control_steps = 3;       // in one decision of the policy: 20 Hz, as most manipulation work
-  double episode_seconds = 6.0;
+  double episode_seconds = 8.0;
   double hold_seconds = 0.5;  // success that lasts so long ends the episode
 
   // Physics. A grasp holds 20 N without slip from 20 iterations on (tests/sim/driven_robot_test).
@@ -41,7 +41,10 @@ struct SkillOptions {
   // 0.35). With 0.12 and a deviation of 0.6 a policy took an apple in a quarter of the episodes
   // after 276k decisions, so in 86 % after 72k.
   double reach = 0.08;
-  double turn = 0.8;           // rad, of a turn of 1
+  double turn = 0.8;  // rad, of a turn of 1
+  // m that the hand with kFocus stays back along its own axis while it is off to a side of what it
+  // works on: it comes from above or from in front, not across what it shall take. 0: as it asks.
+  double standoff = 0.12;
   double delta_share = 0.25;   // of reach and turn: one decision's step with kDelta and kJoints
   double tool_speed = 0.5;     // m/s: a real arm's 1.7 leaves no time to see
   double turn_speed = 2.0;     // rad/s
@@ -59,8 +62,8 @@ struct SkillOptions {
   int longest_delay = 1;              // control steps that a command comes late, 0 to this
 
   // Easier starts, as shares of the episodes; none in an evaluation.
-  double at_focus_share = 0.2;  // the hand is where it works
-  double part_way_share = 0.3;  // the joint has gone part of its way, the thing is held
+  double at_focus_share = 0.35;  // the hand is where it works
+  double part_way_share = 0.3;   // the joint has gone part of its way, the thing is held
   // Share of episodes that begin where the skill before has ended, where there is one (T-STAR's).
   double pool_share = 0.7;
 

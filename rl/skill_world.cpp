@@ -10,7 +10,7 @@ using Eigen::Isometry3d;
 
 constexpr double kTouches = 5e-4;    // m
 constexpr double kGraspForce = 1.0;  // N of each finger
-constexpr double kClosing = 0.6;     // s, until a hand has closed on what it shall hold ...
+constexpr double kClosing = 1.0;     // s, until a hand has closed on what it shall hold ...
 constexpr double kSettling = 0.1;    // ... of which the last bear the thing's weight
 constexpr double kFarthest = 20.0;   // m from the robot: farther, the physics has failed
 
@@ -47,21 +47,28 @@ SkillWorld::SkillWorld(const Skill& skill, const EpisodeStart& start)
   thing_of_.push_back(-1);
   for (auto& pressed : pressed_) pressed.assign(variant_.model.things.size(), 0.0);
   robot_->Place(start.arm, start.leader);
-  if (start.held >= 0) CloseOn(start.held);
+  if (start.held >= 0) {
+    CloseOn(start.held, skill.robot->gripper.closed);
+  } else if (start.closed_to && variant_.focus) {
+    CloseOn(variant_.focus->thing, *start.closed_to);
+  }
 }
 
-// The thing stays where it is while the hand closes, as if it stood on something.
-void SkillWorld::CloseOn(int thing) {
+// The thing stays where it is while the hand closes as far as `leader`, as if it stood on
+// something.
+void SkillWorld::CloseOn(int thing, double leader) {
   const int body = bodies_[static_cast<size_t>(thing)];
   if (body < 0) return;
   const Isometry3d pose = world_.LinkPose(body, 0);
-  robot_->Command(robot_->command(), skill_.robot->gripper.closed);
+  robot_->Command(robot_->command(), leader);
   const int steps = static_cast<int>(kClosing / world_.time_step());
   const int free = static_cast<int>(std::lround(kSettling / world_.time_step()));
   for (int step = 0; step < steps; ++step) {
     robot_->Drive();
     world_.Step();
-    if (step + free < steps) world_.SetRootPose(body, pose);
+    if (step + free < steps && !variant_.fixed[static_cast<size_t>(thing)]) {
+      world_.SetRootPose(body, pose);
+    }
   }
   ReadContacts();
 }

@@ -29,7 +29,7 @@ class SkillWorld {
   bool touching() const { return touching_; }
 
  private:
-  void CloseOn(int thing);
+  void CloseOn(int thing, double leader);
   void ReadContacts();
 
   const Skill& skill_;

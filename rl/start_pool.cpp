@@ -78,6 +78,7 @@ EpisodeStart StartFrom(const json& text, const Skill& skill) {
   start.arm = PostureFrom(text.at("arm"), skill.robot->arm.size());
   start.at_work = PostureFrom(text.at("at_work"), skill.robot->arm.size());
   start.leader = text.at("leader").get<double>();
+  if (text.contains("closed_to")) start.closed_to = text["closed_to"].get<double>();
   start.pitch = text.at("pitch").get<double>();
   start.held = text.at("held").get<int>();
   if (start.held < -1 || start.held >= static_cast<int>(things) ||
@@ -105,6 +106,7 @@ std::string StartText(const EpisodeStart& start) {
   text["arm"] = List(start.arm);
   text["at_work"] = List(start.at_work);
   text["leader"] = start.leader;
+  if (start.closed_to) text["closed_to"] = *start.closed_to;
   text["pitch"] = start.pitch;
   text["held"] = start.held;
   text["mass"] = start.mass;

@@ -18,7 +18,13 @@ Isometry3d InFront() {
 }
 constexpr double kWorkspace = 0.5;  // m, of an offset of 1 with kAbsolute
 constexpr double kOfSpeed = 0.9;    // of a joint's highest speed
-constexpr double kGoalJump = 0.1;   // rad or m that any joint of the goal moves in a control step
+// Of a joint's highest acceleration. The rest is for what smooths the corners between control steps
+// (robot/retiming.h).
+constexpr double kOfAcceleration = 0.7;
+// How the standoff grows: a cone about the focus' axis, wide enough for what exploration asks for.
+constexpr double kBeside = 0.025, kSlope = 2.0;   // m off the axis that are free; m a m
+constexpr double kTurned = 0.4, kPerTurn = 0.15;  // rad that are free; m a rad
+constexpr double kGoalJump = 0.1;  // rad or m that any joint of the goal moves in a control step
 
 Isometry3d Offset(const float* action, double reach, double turn) {
   const Vector3d shift(action[0], action[1], action[2]), spin(action[3], action[4], action[5]);
@@ -29,6 +35,19 @@ Isometry3d Offset(const float* action, double reach, double turn) {
   return offset;
 }
 
+// m that the tool stays back: more, the farther it is off the focus' axis and the more it is
+// turned.
+double Standoff(const Skill& skill, const Isometry3d& base_from_focus, bool along_x,
+                const robot::Posture& command) {
+  if (skill.options.standoff == 0.0) return 0.0;
+  const Isometry3d off =
+      base_from_focus.inverse() * robot::ForwardKinematics(skill.robot->arm, command);
+  const double x = along_x ? std::max(0.0, off.translation().x()) : off.translation().x();
+  const double aside = std::max(0.0, std::hypot(x, off.translation().y()) - kBeside);
+  const double turned = std::max(0.0, Eigen::AngleAxisd(off.linear()).angle() - kTurned);
+  return std::min(skill.options.standoff, kSlope * aside + kPerTurn * turned);
+}
+
 // Wide open from -1/6 up, shut at -1: a policy that has learnt nothing yet does not knock its
 // fingers against what it shall take.
 double LeaderOf(const robot::Gripper& gripper, double action) {
@@ -36,27 +55,72 @@ double LeaderOf(const robot::Gripper& gripper, double action) {
   return gripper.closed + share * (gripper.open - gripper.closed);
 }
 
-// The share of `way` (J) that an arm at `posture` goes in `seconds`.
-double ShareOf(const Skill& skill, const robot::Posture& posture, const robot::Posture& way,
-               double seconds) {
+// The highest speed from which a command that is slowed down by `acceleration` in steps of `dt`
+// still stops within `distance`: v dt + (v - a dt) dt + ... = v^2 / 2 a + v dt / 2.
+double StoppingSpeed(double distance, double acceleration, double dt) {
+  const double step = acceleration * dt;
+  return 0.5 * (std::sqrt(step * step + 8.0 * acceleration * distance) - step);
+}
+
+// The speed (J) that goes straight along `way` (J), as fast as options, joints and the stop at its
+// end allow.
+robot::Posture WantedRate(const Skill& skill, const robot::Posture& posture,
+                          const robot::Posture& way) {
   const robot::RobotModel& robot = *skill.robot;
-  double share = 1.0;
+  const double dt = 1.0 / skill.options.control_rate;
+  double rate = skill.options.control_rate;  // of the way, 1/s: no farther than its end
   for (Eigen::Index j = 0; j < way.size(); ++j) {
-    const auto joint = static_cast<size_t>(robot.arm_joints[static_cast<size_t>(j)]);
-    const double most = kOfSpeed * seconds * robot.limits[joint].velocity;
-    if (std::abs(way[j]) * share > most) share = most / std::abs(way[j]);
+    const double length = std::abs(way[j]);
+    if (length == 0.0) continue;
+    const robot::JointLimits& limits =
+        robot.limits[static_cast<size_t>(robot.arm_joints[static_cast<size_t>(j)])];
+    const double most = std::min(kOfSpeed * limits.velocity,
+                                 StoppingSpeed(length, kOfAcceleration * limits.acceleration, dt));
+    rate = std::min(rate, most / length);
   }
   robot::ToolJacobian jacobian;
   skill.chain->Tool(posture, &jacobian);
   const Eigen::Matrix<double, 6, 1> tool = jacobian * way;
   const double shift = tool.head<3>().norm(), turn = tool.tail<3>().norm();
-  if (shift * share > skill.options.tool_speed * seconds) {
-    share = skill.options.tool_speed * seconds / shift;
+  if (shift * rate > skill.options.tool_speed) rate = skill.options.tool_speed / shift;
+  if (turn * rate > skill.options.turn_speed) rate = skill.options.turn_speed / turn;
+  return rate * way;
+}
+
+// `rate` after one step towards `wanted`.
+double Accelerated(double rate, double wanted, const robot::JointLimits& limits, double dt) {
+  const double most = kOfAcceleration * limits.acceleration * dt;
+  return rate + std::clamp(wanted - rate, -most, most);
+}
+
+void MoveArm(const Skill& skill, const robot::Posture& actual, ArmCommand* command) {
+  const double dt = 1.0 / skill.options.control_rate, lead = skill.options.longest_lead;
+  const robot::Posture wanted = WantedRate(skill, command->sent, command->goal - command->sent);
+  for (Eigen::Index j = 0; j < actual.size(); ++j) {
+    const robot::ArmJoint& joint = skill.robot->arm.joints[static_cast<size_t>(j)];
+    const auto index = static_cast<size_t>(skill.robot->arm_joints[static_cast<size_t>(j)]);
+    const double ahead = command->sent[j] - actual[j];
+    const double held = std::clamp(wanted[j], std::min(0.0, (-lead - ahead) / dt),
+                                   std::max(0.0, (lead - ahead) / dt));
+    double& rate = command->rate[j];
+    rate = Accelerated(rate, held, skill.robot->limits[index], dt);
+    const double from = command->sent[j];
+    command->sent[j] = std::clamp(from + dt * rate, joint.lower, joint.upper);
+    rate = (command->sent[j] - from) / dt;
   }
-  if (turn * share > skill.options.turn_speed * seconds) {
-    share = skill.options.turn_speed * seconds / turn;
-  }
-  return share;
+}
+
+void MoveFingers(const Skill& skill, double target, ArmCommand* command) {
+  const double dt = 1.0 / skill.options.control_rate;
+  const robot::RobotModel& robot = *skill.robot;
+  const robot::JointLimits& limits =
+      robot.limits[static_cast<size_t>(robot.gripper.joints.front())];
+  const double way = target - command->leader;
+  const double most =
+      std::min({limits.velocity, std::abs(way) / dt,
+                StoppingSpeed(std::abs(way), kOfAcceleration * limits.acceleration, dt)});
+  command->leader_rate = Accelerated(command->leader_rate, std::copysign(most, way), limits, dt);
+  command->leader += dt * command->leader_rate;
 }
 
 }  // namespace
@@ -66,13 +130,15 @@ int ActionSize(const Skill& skill) {
 }
 
 ToolTarget TargetOf(const Skill& skill, const float* action, const Isometry3d& base_from_focus,
-                    const robot::Posture& command) {
+                    bool along_x, const robot::Posture& command) {
   const SkillOptions& options = skill.options;
   ToolTarget target;
   target.leader = LeaderOf(skill.robot->gripper, action[ActionSize(skill) - 1]);
   switch (options.action) {
     case ActionSpace::kFocus:
       target.base_from_tool = base_from_focus * Offset(action, options.reach, options.turn);
+      target.base_from_tool.translation() -=
+          Standoff(skill, base_from_focus, along_x, command) * base_from_focus.linear().col(2);
       break;
     case ActionSpace::kAbsolute:
       target.base_from_tool = InFront() * Offset(action, kWorkspace, M_PI);
@@ -100,24 +166,14 @@ ToolTarget TargetOf(const Skill& skill, const float* action, const Isometry3d& b
 
 void Approach(const Skill& skill, const ToolTarget& target, const robot::Posture& actual,
               ArmCommand* command) {
-  const SkillOptions& options = skill.options;
-  const double dt = 1.0 / options.control_rate;
-  if (options.action == ActionSpace::kJoints) {
+  if (skill.options.action == ActionSpace::kJoints) {
     command->goal = target.joints;
   } else {
     const robot::Posture jump = robot::Posture::Constant(actual.size(), kGoalJump);
     skill.kinematics->Track(target.base_from_tool, jump, &command->goal);
   }
-  const robot::Posture way = command->goal - command->sent;
-  command->sent += ShareOf(skill, command->sent, way, dt) * way;
-  for (Eigen::Index j = 0; j < actual.size(); ++j) {
-    command->sent[j] = std::clamp(command->sent[j], actual[j] - options.longest_lead,
-                                  actual[j] + options.longest_lead);
-  }
-  const robot::RobotModel& robot = *skill.robot;
-  const auto first = static_cast<size_t>(robot.gripper.joints.front());
-  const double finger = dt * robot.limits[first].velocity;
-  command->leader += std::clamp(target.leader - command->leader, -finger, finger);
+  MoveArm(skill, actual, command);
+  MoveFingers(skill, target.leader, command);
 }
 
 }  // namespace simwright::rl

@@ -19,21 +19,27 @@ struct ToolTarget {
 int ActionSize(const Skill& skill);
 
 // What `action` (A, in [-1, 1]) asks for. `base_from_focus`: the frame of ActionSpace::kFocus, its
-// axes the tool's at work. `command`: the posture that the arm was sent to last.
+// axes the tool's at work. `along_x`: x is the way that a thing is pushed, on which being behind is
+// not being off. `command`: the posture that the arm was sent to last.
 ToolTarget TargetOf(const Skill& skill, const float* action,
-                    const Eigen::Isometry3d& base_from_focus, const robot::Posture& command);
+                    const Eigen::Isometry3d& base_from_focus, bool along_x,
+                    const robot::Posture& command);
 
 // Where the arm is sent. Mutable, one an episode.
 struct ArmCommand {
   robot::Posture goal;  // (J) the posture in which the tool is where the action wants it
   robot::Posture sent;  // (J) what the motors hold now: on its way to `goal`
+  robot::Posture rate;  // (J) per s: how fast `sent` moves
   double leader = 0.0;  // the gripper's first joint
+  double leader_rate = 0.0;
 };
 
 // Moves the command towards the target by one control step, within the speeds of options and
-// joints, and no farther than options.longest_lead from the joints' positions `actual`. The goal
-// follows the target from posture to posture, the arm follows the goal joint by joint: it never
-// gets stuck at a limit between two ways of reaching one place.
+// joints, within the joints' accelerations, so that it can stop at its goal, and no farther than
+// options.longest_lead from the joints' positions `actual` where it can still stop. What is learnt
+// so is what a real arm's controller lets through. The goal follows the target from posture to
+// posture, the arm follows the goal joint by joint: it never gets stuck at a limit between two ways
+// of reaching one place.
 void Approach(const Skill& skill, const ToolTarget& target, const robot::Posture& actual,
               ArmCommand* command);
 

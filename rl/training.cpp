@@ -1,6 +1,8 @@
 #include "rl/training.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 
 #include "core/error.h"
@@ -11,6 +13,7 @@
 #include "rl/training_checkpoint.h"
 #include "rl/training_curves.h"
 #include "rl/training_log.h"
+#include "rl/wilson_interval.h"
 
 namespace simwright::rl {
 namespace {
@@ -47,9 +50,10 @@ bool Prepare(const std::filesystem::path& folder, bool resume) {
 class Training {
  public:
   Training(VectorEnvironment* environment, const TrainingOptions& options,
-           const std::filesystem::path& folder, bool go_on)
+           const std::filesystem::path& folder, bool go_on, const Examiner& examine)
       : options_(Checked(options)),
         folder_(folder),
+        examine_(examine),
         ppo_(environment, options.ppo),
         recent_(options.success_window) {
     if (go_on) {
@@ -58,7 +62,7 @@ class Training {
     log_.emplace(folder, progress_.iteration);
   }
 
-  // Collects, learns and writes down.
+  // Collects, learns, examines where it is time, and writes down.
   TrainingRecord Iterate();
   // Why the training is over, if it is.
   std::optional<TrainingEnd> End() const;
@@ -70,9 +74,19 @@ class Training {
 
  private:
   TrainingRecord RecordOf(const UpdateReport& update) const;
+  bool OutOfBudget() const { return BudgetEnd().has_value(); }
+  std::optional<TrainingEnd> BudgetEnd() const;
+  bool ExaminationDue() const;
+  // The rate; keeps the policy where it is the best so far.
+  double Examine();
+  Policy CurrentPolicy() const {
+    const Policy policy = ppo_.CurrentPolicy();
+    return Policy(policy.scale(), policy.actor(), policy.std(), options_.facts);
+  }
 
   TrainingOptions options_;
   std::filesystem::path folder_;
+  Examiner examine_;
   Ppo ppo_;
   RecentOutcomes recent_;
   TrainingProgress progress_;
@@ -92,6 +106,8 @@ TrainingRecord Training::Iterate() {
   progress_.episodes += static_cast<std::int64_t>(outcomes.size());
   progress_.seconds += seconds;
   TrainingRecord record = RecordOf(update);
+  record.examined = ExaminationDue() ? Examine() : std::nan("");
+  progress_.seconds += SecondsSince(start) - seconds;
   record.samples_per_second = static_cast<double>(ppo_.samples() - samples) / seconds;
   record.learner_share = (seconds - collected) / seconds;
   log_->Append(record);
@@ -123,11 +139,34 @@ TrainingRecord Training::RecordOf(const UpdateReport& update) const {
   return record;
 }
 
-std::optional<TrainingEnd> Training::End() const {
-  if (options_.success_target > 0.0 && recent_.full() &&
-      recent_.SuccessInterval().low >= options_.success_target) {
-    return TrainingEnd::kSuccess;
+bool Training::ExaminationDue() const {
+  if (!examine_) return false;
+  if (OutOfBudget()) return true;
+  return progress_.iteration % options_.examine_every == 0 && recent_.full() &&
+         recent_.SuccessRate() >= options_.examine_from;
+}
+
+double Training::Examine() {
+  const Policy policy = CurrentPolicy();
+  const Examination found = examine_(policy);
+  const double rate = static_cast<double>(found.successes) / std::max(1, found.episodes);
+  if (rate >= progress_.best) {
+    progress_.best = rate;
+    WritePolicy(policy, folder_ / kPolicyFile);
   }
+  progress_.learnt = options_.success_target > 0.0 &&
+                     WilsonInterval(found.successes, found.episodes).low >= options_.success_target;
+  return rate;
+}
+
+std::optional<TrainingEnd> Training::End() const {
+  const bool learnt = examine_ ? progress_.learnt
+                               : options_.success_target > 0.0 && recent_.full() &&
+                                     recent_.SuccessInterval().low >= options_.success_target;
+  return learnt ? TrainingEnd::kSuccess : BudgetEnd();
+}
+
+std::optional<TrainingEnd> Training::BudgetEnd() const {
   if (ppo_.samples() >= options_.max_samples) return TrainingEnd::kSamples;
   if (options_.max_seconds > 0.0 && progress_.seconds >= options_.max_seconds) {
     return TrainingEnd::kSeconds;
@@ -137,9 +176,7 @@ std::optional<TrainingEnd> Training::End() const {
 
 void Training::Save() const {
   WriteCheckpoint(ppo_, progress_, recent_, options_.facts, folder_ / kCheckpointFile);
-  const Policy policy = ppo_.CurrentPolicy();
-  WritePolicy(Policy(policy.scale(), policy.actor(), policy.std(), options_.facts),
-              folder_ / kPolicyFile);
+  if (progress_.best < 0.0) WritePolicy(CurrentPolicy(), folder_ / kPolicyFile);
   core::WriteFile(folder_ / kCurvesFile, TrainingCurves(options_.title, log_->records()));
 }
 
@@ -147,9 +184,9 @@ void Training::Save() const {
 
 TrainingResult TrainPolicy(VectorEnvironment* environment, const TrainingOptions& options,
                            const std::filesystem::path& folder, bool resume,
-                           const TrainingListener& report) {
+                           const TrainingListener& report, const Examiner& examine) {
   Checked(options);
-  Training training(environment, options, folder, Prepare(folder, resume));
+  Training training(environment, options, folder, Prepare(folder, resume), examine);
   std::optional<TrainingEnd> end = training.End();
   while (!end) {
     const TrainingRecord record = training.Iterate();

@@ -12,7 +12,7 @@ namespace simwright::rl {
 namespace {
 
 constexpr char kKind[] = "simwright training";
-constexpr char kVersion[] = "1";
+constexpr char kVersion[] = "2";
 
 torch::Tensor PackDoubles(std::span<const double> numbers) {
   torch::Tensor tensor = torch::empty({static_cast<std::int64_t>(numbers.size())},
@@ -143,11 +143,11 @@ TrainingProgress Restore(const nn::NamedTensors& tensors, const Facts& facts, Pp
   const Facts found = UnpackFacts(TakeTensor(tensors, "facts", torch::kUInt8, 1));
   CheckFacts(NetworkFacts(*ppo), found);
   CheckFacts(facts, found);
-  const std::vector<double> progress = Doubles(tensors, "progress", 3);
+  const std::vector<double> progress = Doubles(tensors, "progress", 5);
   ppo->Restore(Collector(tensors), Learner(tensors));
   AddOutcomes(tensors, recent);
   return {static_cast<std::int64_t>(progress[0]), static_cast<std::int64_t>(progress[1]),
-          progress[2]};
+          progress[2], progress[3], progress[4] != 0.0};
 }
 
 }  // namespace
@@ -159,7 +159,8 @@ void WriteCheckpoint(const Ppo& ppo, const TrainingProgress& progress, const Rec
   PackLearner(ppo.LearnerPart(), &tensors);
   PackOutcomes(recent, &tensors);
   const double numbers[] = {static_cast<double>(progress.iteration),
-                            static_cast<double>(progress.episodes), progress.seconds};
+                            static_cast<double>(progress.episodes), progress.seconds, progress.best,
+                            progress.learnt ? 1.0 : 0.0};
   tensors["progress"] = PackDoubles(numbers);
   Facts all = facts;
   all.merge(NetworkFacts(ppo));

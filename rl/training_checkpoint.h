@@ -14,6 +14,8 @@ struct TrainingProgress {
   std::int64_t iteration = 0;
   std::int64_t episodes = 0;
   double seconds = 0.0;  // spent training, over all runs
+  double best = -1.0;    // highest success rate that an examination has seen; -1: none yet
+  bool learnt = false;   // the last examination has reached the target
 };
 
 // Writes all that the rest of a training depends on into one file: networks, optimiser,

@@ -97,6 +97,17 @@ std::string Curve(const Panel& panel, const std::vector<TrainingRecord>& records
   return "<polyline class=\"curve\" points=\"" + Points(panel, records, value) + "\"/>\n";
 }
 
+// The examinations, as dots.
+std::string Dots(const Panel& panel, const std::vector<TrainingRecord>& records) {
+  std::string out;
+  for (const TrainingRecord& record : records) {
+    if (!std::isfinite(record.examined)) continue;
+    out += Format("<circle class=\"dot\" cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/>\n",
+                  panel.X(record.samples), panel.Y(record.examined));
+  }
+  return out;
+}
+
 std::string Band(const Panel& panel, const std::vector<TrainingRecord>& records, Value low,
                  Value high) {
   const std::vector<TrainingRecord> back(records.rbegin(), records.rend());
@@ -144,13 +155,14 @@ std::string TrainingCurves(const std::string& title, const std::vector<TrainingR
              kHeight) +
       "font-family=\"sans-serif\" font-size=\"12\" fill=\"#333\">\n"
       "<style>.grid{stroke:#ddd;fill:none}.curve{stroke:#1f5fa8;stroke-width:1.8;fill:none}"
-      ".band{fill:#1f5fa8;fill-opacity:.2}</style>\n"
+      ".band{fill:#1f5fa8;fill-opacity:.2}.dot{fill:#c2571a}</style>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
   out += "<g font-size=\"15\">" + Text(0.5 * (kLeft + kRight), 32.0, "middle", Escaped(title)) +
          "</g>\n";
   out += Axes(success, "success rate, 95 % interval");
   out += Band(success, shown, &TrainingRecord::success_low, &TrainingRecord::success_high);
   out += Curve(success, shown, &TrainingRecord::success);
+  out += Dots(success, records);
   out += Axes(rewards, "mean return of an episode");
   out += Curve(rewards, shown, &TrainingRecord::mean_return);
   out += Text(0.5 * (kLeft + kRight), rewards.bottom + 42.0, "middle", "samples");

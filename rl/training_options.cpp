@@ -12,8 +12,9 @@ bool TrainingOptions::IsValid(std::string* error) const {
   if (!(success_target >= 0.0 && success_target < 1.0)) {
     return fail("the success target lies in [0, 1): an interval's lower end never reaches 1");
   }
-  if (success_window < 1 || checkpoint_every < 1) {
-    return fail("the success window and the checkpoints' distance are at least 1");
+  if (success_window < 1 || checkpoint_every < 1 || examine_every < 1) {
+    return fail(
+        "the success window and the distances of checkpoints and examinations are at least 1");
   }
   return ppo.IsValid(error);
 }

@@ -12,6 +12,7 @@ struct TrainingRecord {
   // Over the last so many episodes (TrainingOptions::success_window).
   double mean_return = 0, mean_steps = 0;
   double success = 0, success_low = 0, success_high = 0;  // rate, and its 95 % interval
+  double examined = 0;  // success rate of an examination after this iteration, else NaN
   // UpdateReport's.
   double kl = 0, learning_rate = 0, policy_loss = 0, value_loss = 0, entropy = 0, std = 0;
   double clipped_share = 0, gradient_norm = 0, explained_variance = 0;
@@ -26,7 +27,7 @@ struct TrainingColumn {
 };
 
 // In the order of the log's columns.
-constexpr std::array<TrainingColumn, 21> kTrainingColumns = {{
+constexpr std::array<TrainingColumn, 22> kTrainingColumns = {{
     {"iteration", &TrainingRecord::iteration},
     {"samples", &TrainingRecord::samples},
     {"seconds", &TrainingRecord::seconds},
@@ -36,6 +37,7 @@ constexpr std::array<TrainingColumn, 21> kTrainingColumns = {{
     {"success", &TrainingRecord::success},
     {"success_low", &TrainingRecord::success_low},
     {"success_high", &TrainingRecord::success_high},
+    {"examined", &TrainingRecord::examined},
     {"kl", &TrainingRecord::kl},
     {"learning_rate", &TrainingRecord::learning_rate},
     {"policy_loss", &TrainingRecord::policy_loss},

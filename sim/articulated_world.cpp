@@ -384,6 +384,12 @@ void ArticulatedWorld::LetGo(int body, int joint) {
   if (entry.motor) entry.motor->Wish(0.0, -entry.friction, entry.friction);
 }
 
+void ArticulatedWorld::LimitMimic(int body, int joint, double max_force) {
+  LoadedJoint& entry =
+      bullet_->bodies[static_cast<size_t>(body)]->joints[static_cast<size_t>(joint)];
+  if (entry.gear) entry.gear->setMaxAppliedImpulse(max_force * options_.time_step);
+}
+
 void ArticulatedWorld::Push(int body, int joint, double force) {
   LoadedBody& loaded = bullet_->Body(body);
   loaded.multi->addJointTorque(loaded.Joint(joint), force);

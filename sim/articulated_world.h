@@ -86,6 +86,9 @@ class ArticulatedWorld {
   // which the joint's friction takes its share. Velocity 0 brakes.
   void Drive(int body, int joint, double velocity, double max_force);
   void LetGo(int body, int joint);
+  // The most force (N m or N) by which a joint that mimics another is kept to it; without, any.
+  // Nothing for a joint that mimics none.
+  void LimitMimic(int body, int joint, double max_force);
   // A force (N m or N) on the joint during the next step alone.
   void Push(int body, int joint, double force);
 

@@ -40,6 +40,9 @@ DrivenRobot::DrivenRobot(const robot::RobotModel& model, std::shared_ptr<const P
   placement.world_from_root = world_from_robot;
   placement.through_floor = LinksInFloor(body->body(), model, world_from_robot);
   body_ = world_.Add(std::move(body), placement);
+  for (const int joint : model.gripper.joints) {
+    world_.LimitMimic(body_, joint, options.centring * model.gripper.grip_force);
+  }
   Place(model.home(), model.gripper.open);
 }
 

@@ -85,7 +85,8 @@ class ScriptedPick {
         episode.skill().variants[static_cast<size_t>(episode.start().variant)];
     const tasks::SceneState& state = episode.state();
     const Eigen::Vector3d off =
-        ToolAtFocus(variant, state, ToolYaw(state.gripper), episode.start().pitch).inverse() *
+        ToolAtFocus(variant, state, state.gripper.linear().col(1), episode.start().pitch)
+            .inverse() *
         state.gripper.translation();
     std::fill(action, action + 6, 0.0f);
     if (!closing_ && off.head<2>().norm() > 0.02) action[2] = -0.9f;

@@ -37,10 +37,10 @@ TrainingOptions SmallTraining(int iterations) {
 }
 
 TrainingResult Train(const TrainingOptions& options, const fs::path& folder, bool resume,
-                     const TrainingListener& report = {}) {
+                     const TrainingListener& report = {}, const Examiner& examine = {}) {
   core::SetThreadCount(2);
   ReachEnvironment environment(kEnvironments);
-  return TrainPolicy(&environment, options, folder, resume, report);
+  return TrainPolicy(&environment, options, folder, resume, report, examine);
 }
 
 // All that does not depend on the clock is the same, bit for bit.
@@ -139,11 +139,11 @@ TEST_F(TrainingTest, ACheckpointOfAnotherTrainingIsRefusedSayingWhatDiffers) {
   EXPECT_THROW(TrainPolicy(&more, SmallTraining(9), whole_, true), core::Error);
   const std::string bytes = core::ReadFile(whole_ / kCheckpointFile);
   std::string newer = bytes;
-  const std::size_t at = newer.find("version=1");
+  const std::size_t at = newer.find("version=2");
   ASSERT_NE(at, std::string::npos);
-  newer[at + 8] = '2';
+  newer[at + 8] = '3';
   core::WriteFile(whole_ / kCheckpointFile, newer);
-  EXPECT_NE(refusal([](TrainingOptions*) {}).find("its version is '2', wanted is '1'"),
+  EXPECT_NE(refusal([](TrainingOptions*) {}).find("its version is '3', wanted is '2'"),
             std::string::npos);
   for (const double share : {0.0, 0.1, 0.5, 0.9, 0.999}) {
     const auto length = static_cast<std::size_t>(share * static_cast<double>(bytes.size()));
@@ -167,6 +167,62 @@ TEST(Training, EndsWhenTheSuccessIntervalsLowerEndHasReachedTheTarget) {
   const Policy policy = ReadPolicy(folder.path() / "run" / kPolicyFile);
   EXPECT_EQ(policy.facts().at("task"), "reach");
   EXPECT_GT(fs::file_size(folder.path() / "run" / kCurvesFile), 2000u);
+}
+
+// An examiner that has its own mind: the rates in turn, of 100 episodes.
+class Examinations {
+ public:
+  explicit Examinations(std::vector<int> successes) : successes_(std::move(successes)) {}
+  Examination operator()(const Policy& policy) {
+    policies_.push_back(PolicyBytes(policy));
+    return {successes_.at(policies_.size() - 1), 100};
+  }
+  const std::vector<std::string>& policies() const { return policies_; }
+  static std::string PolicyBytes(const Policy& policy) {
+    const core::TemporaryFolder folder;
+    WritePolicy(policy, folder.path() / "p.pt");
+    return core::ReadFile(folder.path() / "p.pt");
+  }
+
+ private:
+  std::vector<int> successes_;
+  std::vector<std::string> policies_;
+};
+
+TrainingOptions ExaminedTraining(int iterations) {
+  TrainingOptions options = SmallTraining(iterations);
+  options.examine_every = 2;
+  options.examine_from = 0.0;
+  options.success_target = 0.9;  // of 100, 96 give a lower end of 0.902, 95 one of 0.888
+  return options;
+}
+
+TEST(Training, KeepsTheBestPolicyThatWasExamined) {
+  const core::TemporaryFolder folder;
+  Examinations examinations({10, 60, 30, 20, 15, 5});
+  const TrainingResult result =
+      Train(ExaminedTraining(9), folder.path() / "run", false, {}, std::ref(examinations));
+  EXPECT_EQ(result.end, TrainingEnd::kSamples);
+  EXPECT_EQ(result.last.examined, examinations.policies().size() == 4 ? 0.20 : 0.15);
+  const Policy kept = ReadPolicy(folder.path() / "run" / kPolicyFile);
+  EXPECT_TRUE(Examinations::PolicyBytes(kept) == examinations.policies()[1]);
+  EXPECT_FALSE(Examinations::PolicyBytes(kept) == examinations.policies().back());
+}
+
+TEST(Training, EndsWithTheExaminationThatReachesTheTarget) {
+  const core::TemporaryFolder folder;
+  Examinations examinations({95, 96, 100});
+  const TrainingResult result =
+      Train(ExaminedTraining(40), folder.path() / "run", false, {}, std::ref(examinations));
+  EXPECT_EQ(result.end, TrainingEnd::kSuccess);
+  EXPECT_EQ(examinations.policies().size(), 2u);
+  EXPECT_EQ(result.last.examined, 0.96);
+  // Gone on with, it is over at once.
+  const TrainingResult again =
+      Train(ExaminedTraining(40), folder.path() / "run", true, {}, std::ref(examinations));
+  EXPECT_EQ(again.end, TrainingEnd::kSuccess);
+  EXPECT_EQ(again.last.iteration, result.last.iteration);
+  EXPECT_EQ(examinations.policies().size(), 2u);
 }
 
 // Ctrl-C cannot be taken back, so that a process of its own is asked to stop.

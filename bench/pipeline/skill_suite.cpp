@@ -1,0 +1,182 @@
+// What training is worth, skill by skill: each cell of the suite (pipeline/skill_suite.h) is
+// trained on instances of the library and evaluated, from full starts, on others.
+//   bench_skill_suite                                the shipped policies, a minute
+//   bench_skill_suite --cell NAME --train [--ship]   trains a cell (all: one after the other)
+// A training that was stopped goes on; a cell that is done is not done again: remove its folder.
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "pipeline/skill_rollout.h"
+#include "pipeline/skill_suite.h"
+#include "pipeline/skill_training.h"
+#include "rl/policy_file.h"
+#include "rl/skill_evaluation.h"
+#include "rl/training.h"
+#include "tasks/task_file.h"
+
+namespace simwright {
+namespace {
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string cell = "all";
+  bool train = false, ship = false, by_task = false;
+  double minutes = 0.0;  // 0: the cell's own
+  int instances = 4, episodes = 300;
+  std::uint64_t seed = 1;
+  fs::path output = "out/skill_suite";
+  fs::path models = fs::path(SIMWRIGHT_SOURCE_DIR) / "models";
+};
+
+struct CellResult {
+  std::string name;
+  double samples = 0.0, minutes = 0.0;
+  rl::SkillEvaluation unseen;
+};
+
+fs::path Photo() {
+  return fs::path(SIMWRIGHT_SOURCE_DIR) / "examples" / "coffee.png";
+}
+
+pipeline::SkillRun UnseenRun(const pipeline::SuiteCell& cell, const Arguments& arguments,
+                             core::Progress* progress) {
+  // What was lifted from the one photo is the one thing to pick.
+  const bool photo = cell.kind == "photo";
+  pipeline::SkillRun run;
+  run.folder = arguments.output / (photo ? "seen" : "unseen") / cell.name;
+  run.set =
+      tasks::ReadTaskFile(MakeCellTasks(cell, photo ? pipeline::kSeenSeed : pipeline::kUnseenSeed,
+                                        arguments.instances, Photo(), run.folder, progress));
+  return run;
+}
+
+void PrintByTask(const rl::Skill& skill, const rl::SkillEvaluation& evaluation) {
+  std::vector<int> tried(skill.variants.size()), good(skill.variants.size());
+  for (const rl::EvaluatedEpisode& episode : evaluation.episodes) {
+    ++tried[static_cast<size_t>(episode.start.variant)];
+    good[static_cast<size_t>(episode.start.variant)] += episode.success;
+  }
+  for (size_t v = 0; v < tried.size(); ++v) {
+    std::printf("  %-40s %3d of %3d\n", skill.variants[v].subtask.name.c_str(), good[v], tried[v]);
+  }
+}
+
+rl::SkillEvaluation EvaluateUnseen(const pipeline::SuiteCell& cell, const fs::path& policy,
+                                   const Arguments& arguments, core::Progress* progress) {
+  const auto skills = PrepareSkills(UnseenRun(cell, arguments, progress));
+  const rl::Skill& skill = *skills.front().evaluated;
+  progress->Stage("evaluate " + cell.name);
+  const rl::SkillEvaluation evaluation =
+      rl::Evaluate(skill, rl::ReadPolicy(policy),
+                   rl::DrawStarts(skill, arguments.episodes, 7000 + arguments.seed));
+  if (arguments.by_task) PrintByTask(skill, evaluation);
+  return evaluation;
+}
+
+std::string Row(const CellResult& result) {
+  char line[160];
+  const rl::SkillEvaluation& unseen = result.unseen;
+  std::snprintf(line, sizeof(line),
+                "| %-21s | %5.0fk | %5.1f | %3d of %3zu | %5.1f %% (%.1f-%.1f) | %.1f s |\n",
+                result.name.c_str(), 1e-3 * result.samples, result.minutes, unseen.successes,
+                unseen.episodes.size(), 100.0 * unseen.rate(), 100.0 * unseen.interval.low,
+                100.0 * unseen.interval.high, unseen.seconds);
+  return line;
+}
+
+// What somebody who finds the file wants to know.
+std::string Card(const pipeline::SuiteCell& cell, const Arguments& arguments,
+                 const CellResult& result) {
+  std::string card = "# " + cell.name + "\n\n";
+  card += "Policy of the skill suite: robot panda, kind `" + cell.kind + "`, tasks `" +
+          cell.pattern + "`, seed " + std::to_string(arguments.seed) +
+          ". Made and evaluated by\n\n";
+  card += "    build/bin/bench_skill_suite --cell " + cell.name + " --train --ship --seed " +
+          std::to_string(arguments.seed) + "\n\n";
+  card +=
+      "| skill | samples | minutes | successes | rate (95 %) | mean time "
+      "|\n|---|---|---|---|---|---|\n";
+  card += Row(result);
+  card += "\nTrained on " + std::to_string(arguments.instances) +
+          " instances, evaluated on as many others, from full starts (docs/skills.md).\n";
+  return card;
+}
+
+CellResult Train(const pipeline::SuiteCell& cell, const Arguments& arguments,
+                 core::Progress* progress) {
+  pipeline::TrainRequest request;
+  const fs::path seen = arguments.output / "seen" / cell.name;
+  request.task_file =
+      MakeCellTasks(cell, pipeline::kSeenSeed, arguments.instances, Photo(), seen, progress);
+  request.tasks = {"*"};
+  request.output = arguments.output / ("run_" + cell.name + "_" + std::to_string(arguments.seed));
+  request.minutes = arguments.minutes > 0.0 ? arguments.minutes : cell.minutes;
+  request.samples = 1'000'000'000;
+  request.seed = arguments.seed;
+  request.resume = true;
+  const pipeline::TrainReport report = pipeline::TrainTask(request, progress);
+  CellResult result;
+  result.name = cell.name;
+  result.samples = static_cast<double>(report.skills.front().samples);
+  result.minutes = report.skills.front().seconds / 60.0;
+  const fs::path policy = report.skills.front().folder / rl::kPolicyFile;
+  result.unseen = EvaluateUnseen(cell, policy, arguments, progress);
+  if (arguments.ship) {
+    const fs::path shipped = pipeline::ShippedPolicy(arguments.models, cell.name);
+    fs::create_directories(shipped.parent_path());
+    rl::WritePolicy(rl::ReadPolicy(policy), shipped, rl::Precision::kHalf);
+    core::WriteFile(fs::path(shipped).replace_extension(".md"), Card(cell, arguments, result));
+  }
+  return result;
+}
+
+void Run(const Arguments& arguments) {
+  core::Progress progress(core::Progress::StyleForStderr());
+  for (const pipeline::SuiteCell& cell : pipeline::SkillSuite()) {
+    if (arguments.cell != "all" && arguments.cell != cell.name) continue;
+    CellResult result;
+    const fs::path shipped = pipeline::ShippedPolicy(arguments.models, cell.name);
+    if (arguments.train) {
+      result = Train(cell, arguments, &progress);
+    } else if (fs::exists(shipped)) {
+      result.name = cell.name;
+      result.unseen = EvaluateUnseen(cell, shipped, arguments, &progress);
+    } else {
+      continue;
+    }
+    progress.Finish();
+    std::fputs(Row(result).c_str(), stdout);
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+}  // namespace simwright
+
+int main(int argc, char** argv) {
+  CLI::App app("Success of trained skills on assets that they have not seen");
+  simwright::Arguments arguments;
+  app.add_option("--cell", arguments.cell, "One cell, or all")->capture_default_str();
+  app.add_flag("--train", arguments.train, "Train it; else the shipped policy is evaluated");
+  app.add_flag("--ship", arguments.ship, "Write policy and card into models/skills");
+  app.add_flag("--by-task", arguments.by_task, "Also say how often each task succeeds");
+  app.add_option("--minutes", arguments.minutes, "Of training; 0: the cell's own");
+  app.add_option("--instances", arguments.instances, "Of the kind, to train on and to evaluate on");
+  app.add_option("--episodes", arguments.episodes, "Of the evaluation")->capture_default_str();
+  app.add_option("--seed", arguments.seed, "Of the training")->capture_default_str();
+  app.add_option("-o", arguments.output, "Where assets and trainings are kept")
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    if (arguments.cell != "all") simwright::pipeline::CellOf(arguments.cell);
+    simwright::core::SetThreadCount(0);
+    simwright::Run(arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+}

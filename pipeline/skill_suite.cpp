@@ -1,0 +1,100 @@
+#include "pipeline/skill_suite.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "pipeline/library.h"
+#include "pipeline/lift.h"
+#include "pipeline/skill_run.h"
+#include "pipeline/task_making.h"
+#include "tasks/task_file.h"
+
+namespace simwright::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kPhoto = "photo";
+constexpr const char* kPhotoCategory = "coffee cup";
+// Enough that every joint of every instance has its tasks.
+constexpr int kTasksPerInstance = 60;
+
+void MakeInstances(const SuiteCell& cell, std::uint64_t seed, int count, const fs::path& photo,
+                   const fs::path& folder, core::Progress* progress) {
+  if (cell.kind == kPhoto) {
+    LiftRequest request;
+    request.photo = photo;
+    request.category = kPhotoCategory;
+    request.effort = asset_lift::LiftEffort::kFast;
+    request.output = folder / "photo_cup";
+    LiftToFolder(request, progress);
+    return;
+  }
+  LibraryOptions options;
+  options.kind = cell.kind;
+  options.count = count;
+  options.seed = seed;
+  options.check = false;  // the library's own tests check every kind
+  MakeLibrary(options, folder, progress);
+}
+
+}  // namespace
+
+const std::vector<SuiteCell>& SkillSuite() {
+  static const std::vector<SuiteCell> suite = {
+      {"open_microwave_door", "microwave", "open_microwave_*_door"},
+      {"close_microwave_door", "microwave", "close_microwave_*_door"},
+      {"open_drawer", "drawer_unit", "open_drawer_unit_*_drawer_*", 0, 30},
+      {"close_drawer", "drawer_unit", "close_drawer_unit_*_drawer_*"},
+      {"open_cabinet_door", "cabinet", "open_cabinet_*_door_*", 0, 30},
+      {"close_cabinet_door", "cabinet", "close_cabinet_*_door_*"},
+      {"turn_on_faucet", "faucet", "turn_on_faucet_*", 0, 30},
+      {"press_toaster_lever", "toaster", "press_toaster_*_lever"},
+      {"lift_lid", "box_with_lid", "open_box_with_lid_*_lid"},
+      {"push_cup", "cup", "push_cup_*"},
+      {"pick_up_cup", "cup", "pick_up_cup_*"},
+      {"put_down_cup", "cup", "move_cup_*", 1},
+      {"pick_up_photo", kPhoto, "pick_up_photo_cup"},
+  };
+  return suite;
+}
+
+const SuiteCell& CellOf(const std::string& name) {
+  std::string names;
+  for (const SuiteCell& cell : SkillSuite()) {
+    if (cell.name == name) return cell;
+    names += (names.empty() ? "" : ", ") + cell.name;
+  }
+  throw core::Error("there is no cell '" + name + "'", "the suite", "it has " + names);
+}
+
+fs::path ShippedPolicy(const fs::path& models, const std::string& cell) {
+  return models / "skills" / (cell + ".pt");
+}
+
+fs::path MakeCellTasks(const SuiteCell& cell, std::uint64_t seed, int count, const fs::path& photo,
+                       const fs::path& folder, core::Progress* progress) {
+  const fs::path file = folder / "tasks.json";
+  if (fs::exists(file)) return file;
+  fs::create_directories(folder);
+  const fs::path assets = folder / "assets";
+  fs::remove_all(assets);  // a run that was stopped has left some
+  MakeInstances(cell, seed, count, photo, assets, progress);
+  TasksRequest request;
+  request.assets = {assets.string()};
+  request.output = folder / "all_tasks.json";
+  request.count = kTasksPerInstance * count;
+  request.force = true;
+  tasks::TaskSet set =
+      ChooseTasks(MakeTasks(request, progress).set, {cell.pattern}, request.output.string());
+  for (tasks::Task& task : set.tasks) {
+    const auto index = static_cast<size_t>(cell.subtask);
+    if (index >= task.subtasks.size()) {
+      throw core::Error("has no subtask " + std::to_string(index + 1), task.name);
+    }
+    task.subtasks = {task.subtasks[index]};
+  }
+  tasks::WriteTaskFile(set, file);
+  return file;
+}
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "tasks/task.h"
+
+namespace simwright::pipeline {
+
+// One skill of the suite that shows what training is worth: a subtask, on kinds of the library.
+struct SuiteCell {
+  std::string name;     // open_microwave_door
+  std::string kind;     // of the library; "photo": the cup lifted from the example photo
+  std::string pattern;  // of the tasks that it is taken from (ChooseTasks)
+  int subtask = 0;      // which of their subtasks
+  double minutes = 10;  // of training on two cores, at most
+};
+
+// Training and evaluation see other instances of the kind: seeds from 1 on and from 101 on.
+constexpr std::uint64_t kSeenSeed = 1, kUnseenSeed = 101;
+
+const std::vector<SuiteCell>& SkillSuite();
+
+// Throws core::Error, listing those that are there.
+const SuiteCell& CellOf(const std::string& name);
+
+// Where a cell's policy is shipped.
+std::filesystem::path ShippedPolicy(const std::filesystem::path& models, const std::string& cell);
+
+// Makes `count` instances of the cell's kind from `seed` on into folder/assets, unless they are
+// there, and folder/tasks.json with a task of the cell's one subtask for each way to do it. Returns
+// that file. `photo`: for the kind "photo", what is lifted. Throws core::Error.
+std::filesystem::path MakeCellTasks(const SuiteCell& cell, std::uint64_t seed, int count,
+                                    const std::filesystem::path& photo,
+                                    const std::filesystem::path& folder, core::Progress* progress);
+
+}  // namespace simwright::pipeline
