@@ -30,11 +30,13 @@ constexpr const char* kStyle =
     "h2{margin:2.5em 0 .4em;border-top:1px solid var(--line);padding-top:1em}"
     ".soft,figcaption{color:var(--soft)}figcaption,.soft{font-size:.88rem}figure{margin:1rem 0}"
     "img{display:block;max-width:100%;height:auto;border-radius:6px;background:#fff}"
-    ".wide{overflow-x:auto}.wide img,.wide table{min-width:44rem}.wide img{width:100%}"
+    ".wide{overflow-x:auto}.wide img,.wide table{min-width:44rem}.full img,.wide img{width:100%}"
     "table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}"
-    "td,th{padding:.3rem .8rem .3rem 0;text-align:left;border-bottom:1px solid "
+    "td,th{overflow-wrap:anywhere;padding:.3rem .8rem .3rem 0;text-align:left;border-bottom:1px "
+    "solid "
     "var(--line);vertical-align:top}th{font-weight:600;font-size:.88rem;color:var(--soft)}"
-    ".n{text-align:right}.tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(9.5rem,"
+    ".n{text-align:right;white-space:nowrap}.tiles{display:grid;grid-template-columns:repeat(auto-"
+    "fit,minmax(9.5rem,"
     "1fr));gap:.75rem;margin:1.5rem 0}.tile{background:var(--panel);padding:.8rem "
     "1rem;border-radius:8px;font-size:.88rem}.tile b{display:block;font-size:1.55rem;"
     "line-height:1.3}.bar{display:block;min-width:6rem;height:.7rem;margin-top:.45rem;"
@@ -86,10 +88,11 @@ std::string Section(const std::string& title) {
   return "<h2>" + title + "</h2>\n";
 }
 
-std::string Figure(const fs::path& file, const std::string& description,
-                   const std::string& caption) {
+// `fit`: "full", as wide as the page; "wide", never too small to be read, to be moved sideways.
+std::string Figure(const fs::path& file, const std::string& description, const std::string& caption,
+                   const std::string& fit = "full") {
   const std::string type = file.extension() == ".svg" ? "image/svg+xml" : "image/png";
-  return "<figure><div class=\"wide\">" +
+  return "<figure><div class=\"" + fit + "\">" +
          InlinePicture(core::ReadFile(file, 1 << 28), type, description) + "</div><figcaption>" +
          caption + "</figcaption></figure>\n";
 }
@@ -165,14 +168,14 @@ std::string CheckTable(const Json& check) {
       Format("%.0f of %.0f", static_cast<double>(rows.size()) - failed,
              static_cast<double>(rows.size())) +
       " properties pass</span>: geometry, inertia, three readers, a drop test in two "
-      "engines</summary><div class=\"wide\"><table>\n" +
+      "engines</summary><table>\n" +
       Head("property", {"figure"});
   for (const Json& row : rows) {
     html += "<tr><td>" + Text(row.at("property")) + "<br/><span class=\"soft\">" +
             Text(row.at("sentence")) + "</span></td><td class=\"n\">" +
             Format("%.4g", row.at("figure").get<double>()) + "</td></tr>\n";
   }
-  return html + "</table></div></details>\n";
+  return html + "</table></details>\n";
 }
 
 std::string AssetPart(const PhotoRunFolder& folder, const Json& report) {
@@ -201,7 +204,7 @@ std::string DrawnTask(const PhotoRunFolder& folder, const tasks::Task& task, con
 std::string TaskPart(const PhotoRunFolder& folder, const tasks::Task& task, const Json& report) {
   const Json& scene = report.at("scene");
   const std::string name = scene.at("furniture");
-  std::string html = Section("The task") + "<figure><div class=\"wide\">" +
+  std::string html = Section("The task") + "<figure><div>" +
                      InlinePicture(DrawnTask(folder, task, scene), "image/svg+xml",
                                    "The scene from above, and the subtasks") +
                      "</div><figcaption>" + Text(report.at("task").at("name")) +
@@ -246,7 +249,7 @@ std::string SuccessRow(const std::string& name, const Json& counts, const char* 
 
 std::string SuccessPart(const PhotoRunFolder& folder, const Json& report) {
   const Json& success = report.at("success");
-  std::string html = Section("How often it succeeds") + "<div class=\"wide\"><table>\n" +
+  std::string html = Section("How often it succeeds") + "<table>\n" +
                      Head("", {"successes", "rate", "95 % interval"});
   for (const Json& subtask : success.at("subtasks")) {
     html += SuccessRow(Text(subtask.at("name")), subtask, "succeeded", "tried");
@@ -255,12 +258,12 @@ std::string SuccessPart(const PhotoRunFolder& folder, const Json& report) {
     html += SuccessRow("<b>the whole task</b>", success, "successes", "episodes");
   }
   return html +
-         "</table></div>\n<p class=\"soft\">Starts are drawn anew: places within 15 cm, masses and "
+         "</table>\n<p class=\"soft\">Starts are drawn anew: places within 15 cm, masses and "
          "frictions. A subtask is tried where the ones before it succeeded. Success has to hold at "
          "the episode's end.</p>\n" +
          Section("In motion") +
          Figure(folder.Strip(), "The robot at work, twelve moments of each subtask",
-                "One episode, from left to right: twelve moments of each subtask.");
+                "One episode, from left to right: twelve moments of each subtask.", "wide");
 }
 
 std::string JointRow(const Json& joint) {
