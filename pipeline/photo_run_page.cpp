@@ -240,6 +240,7 @@ std::string TrainingPart(const PhotoRunFolder& folder, const Json& report) {
 
 std::string SuccessRow(const std::string& name, const Json& counts, const char* successes,
                        const char* tries) {
+  if (counts.at(tries).get<int>() == 0) return Row(name, {"not reached", "", ""});
   const double low = counts.at("low"), high = counts.at("high");
   return Row(name, {Format("%.0f of %.0f", counts.at(successes).get<double>(),
                            counts.at(tries).get<double>()),

@@ -44,7 +44,7 @@ bool BoundsTraining(const std::string& input) {
 std::string Difference(const std::string& input, const std::string& old, const std::string& now) {
   if (!input.starts_with("--")) return "another " + input;  // known by its hash
   if (input == "--mask")
-    return old.empty() || now.empty() ? "and without a --mask" : "another --mask";
+    return old.empty() ? "no --mask" : now.empty() ? "a --mask" : "another --mask";
   const auto shown = [](const std::string& value) { return value.empty() ? "none" : value; };
   return input + " " + shown(old) + ", not " + shown(now);
 }
