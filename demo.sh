@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# The main job in one command: a photo becomes an asset that holds in simulation.
+# The main job in one command: a photo becomes an asset, a task, a skill that a robot has learnt, and
+# a trajectory for it. A small form of `simwright run`: at most six minutes of training.
 set -euo pipefail
 cd "$(dirname "$0")"
 ./setup.sh
 cmake --preset release >/dev/null
 cmake --build --preset release --target simwright
-out=${1:-out/coffee_cup}
-build/bin/simwright lift examples/coffee.png --mask examples/coffee_mask.png \
-  --category "coffee cup" -o "$out" --force
-build/bin/simwright check "$out"
+out=${1:-out/apple_run}
+build/bin/simwright run examples/apple.jpg --category apple \
+  --minutes 6 --episodes 100 -o "$out" --force
 echo
-echo "Look at $out/preview.png: the cup from four sides, and its collision parts."
+echo "Open $out/index.html in a browser: every step with its picture and figures."
+echo "$out/rollout.png shows the robot at work; $out/trajectory.yaml is for a Franka Panda."
+echo "More: --task 'put_*_and_close_it' for a longer task, docs/run.md for the rest."

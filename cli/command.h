@@ -11,6 +11,8 @@
 
 namespace simwright::cli {
 
+constexpr int kInterrupted = 130;  // the exit code, as a shell reports Ctrl-C
+
 // Flags that mean the same everywhere.
 struct CommonOptions {
   std::uint64_t seed = 1;
@@ -42,6 +44,7 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run);
 void AddRollout(CLI::App* app, CommonOptions* common, Run* run);
 void AddExport(CLI::App* app, CommonOptions* common, Run* run);
 void AddReplay(CLI::App* app, CommonOptions* common, Run* run);
+void AddRun(CLI::App* app, CommonOptions* common, Run* run);
 void AddDoctor(CLI::App* app, CommonOptions* common, Run* run);
 void AddVersion(CLI::App* app, Run* run);
 

@@ -15,7 +15,6 @@
 namespace {
 
 constexpr int kWrongUsage = 2;
-constexpr int kInterrupted = 130;  // as a shell reports Ctrl-C
 
 int Main(int argc, char** argv) {
   using namespace simwright;
@@ -42,6 +41,7 @@ int Main(int argc, char** argv) {
   cli::AddRollout(&app, &common, &run);
   cli::AddExport(&app, &common, &run);
   cli::AddReplay(&app, &common, &run);
+  cli::AddRun(&app, &common, &run);
   cli::AddDoctor(&app, &common, &run);
   cli::AddVersion(&app, &run);
   try {
@@ -63,7 +63,7 @@ int Main(int argc, char** argv) {
 void StartWithThreadsAndKernels(int argc, char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
   const std::string_view command = argc > 1 ? argv[1] : "";
-  if (command != "lift" && command != "prior" && command != "train") return;
+  if (command != "lift" && command != "prior" && command != "train" && command != "run") return;
   setenv("OMP_WAIT_POLICY", "passive", 1);
 #if defined(__x86_64__)
   __builtin_cpu_init();
@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
     return Main(argc, argv);
   } catch (const simwright::core::Cancelled&) {
     std::fprintf(stderr, "error: stopped; nothing was written\n");
-    return kInterrupted;
+    return simwright::cli::kInterrupted;
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "error: out of memory (close other programs, or use a smaller input)\n");
   } catch (const std::exception& error) {

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <vector>
 
 #include "core/error.h"
 
@@ -178,6 +179,19 @@ void StagedFolder::Commit() {
   }
   committed_ = true;
   if (!old.empty()) fs::remove_all(old, code);
+}
+
+void RemoveHalfWritten(const fs::path& folder) {
+  std::vector<fs::path> left;
+  std::error_code code;
+  for (fs::recursive_directory_iterator at(folder, code), end; !code && at != end;
+       at.increment(code)) {
+    const std::string name = at->path().filename().string();
+    if (name.front() != '.' || name.find(".part-") == std::string::npos) continue;
+    left.push_back(at->path());
+    at.disable_recursion_pending();
+  }
+  for (const fs::path& path : left) fs::remove_all(path, code);
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -59,6 +59,10 @@ class StagedFolder {
   bool committed_ = false;
 };
 
+// Removes what writers above left in `folder` and below when the program was killed. Nobody else
+// may be writing there.
+void RemoveHalfWritten(const std::filesystem::path& folder);
+
 // A new folder below the system's temporary one that is gone when this is.
 class TemporaryFolder {
  public:

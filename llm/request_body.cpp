@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base64.h"
+
 namespace simwright::llm {
 namespace {
 
@@ -19,7 +21,7 @@ Json MessageJson(const ChatMessage& message) {
   Json parts = Json::array();
   if (!message.text.empty()) parts.push_back({{"type", "text"}, {"text", message.text}});
   for (const ChatImage& image : message.images) {
-    const std::string url = "data:" + image.mime_type + ";base64," + Base64(image.bytes);
+    const std::string url = "data:" + image.mime_type + ";base64," + core::Base64(image.bytes);
     parts.push_back({{"type", "image_url"}, {"image_url", {{"url", url}}}});
   }
   json["content"] = std::move(parts);
@@ -74,23 +76,6 @@ std::string Narrow(const std::string& message, const ChatRequest& request, Diale
     return "the server takes no seed: its answers cannot be repeated";
   }
   return "";
-}
-
-std::string Base64(std::string_view bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned bits = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      bits = bits << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= count ? kDigits[bits >> (18 - 6 * k) & 63u] : '=';
-    }
-  }
-  return text;
 }
 
 }  // namespace simwright::llm

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "llm/chat_model.h"
 
@@ -23,8 +22,5 @@ std::string RequestBody(const ChatRequest& request, const std::string& model,
 // optional fields that `request` used. Returns a sentence about what was given up; empty: nothing,
 // the request itself is at fault.
 std::string Narrow(const std::string& message, const ChatRequest& request, Dialect* dialect);
-
-// RFC 4648 with padding.
-std::string Base64(std::string_view bytes);
 
 }  // namespace simwright::llm

@@ -135,8 +135,7 @@ bool CheckReport::passed() const {
   });
 }
 
-void RequirePassed(const CheckReport& report, const std::string& name) {
-  if (report.passed()) return;
+std::string FailedRows(const CheckReport& report) {
   std::string failures;
   for (const core::Finding& row : report.rows) {
     if (row.severity != core::Severity::kError) continue;
@@ -144,7 +143,13 @@ void RequirePassed(const CheckReport& report, const std::string& name) {
     std::snprintf(figure, sizeof(figure), " %.4g ", row.figure);
     failures += (failures.empty() ? "" : "; ") + row.code + figure + row.sentence;
   }
-  throw core::Error("fails its check: " + failures, name, "--no-check writes it all the same");
+  return failures;
+}
+
+void RequirePassed(const CheckReport& report, const std::string& name) {
+  if (report.passed()) return;
+  throw core::Error("fails its check: " + FailedRows(report), name,
+                    "--no-check writes it all the same");
 }
 
 CheckReport CheckAsset(const fs::path& folder, const CheckLimits& limits) {

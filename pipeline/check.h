@@ -40,7 +40,10 @@ CheckReport CheckAsset(const std::filesystem::path& folder, const CheckLimits& l
 CheckReport CheckUrdf(const std::filesystem::path& urdf, const std::filesystem::path& root,
                       const CheckLimits& limits = {});
 
-// Throws core::Error, naming each row that failed, where the report did not pass.
+// Each row that failed, with its figure and limit; empty where the report passed.
+std::string FailedRows(const CheckReport& report);
+
+// Throws core::Error with them where the report did not pass.
 void RequirePassed(const CheckReport& report, const std::string& name);
 
 // A table for a terminal, a row a property.

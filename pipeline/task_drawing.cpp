@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/plane_hull.h"
+#include "pipeline/page_markup.h"
 
 namespace simwright::pipeline {
 namespace {
@@ -132,32 +133,6 @@ std::string DrawSubtask(const tasks::Subtask& subtask, int number, double x, dou
 
 }  // namespace
 
-std::string MarkupSafe(const std::string& text) {
-  std::string safe;
-  for (char c : text) {
-    switch (c) {
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '&':
-        safe += "&amp;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      case '\'':
-        safe += "&#39;";
-        break;
-      default:
-        if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') safe += c;
-    }
-  }
-  return safe;
-}
-
 std::string TaskDrawing(const tasks::Task& task, const tasks::SceneModel& model) {
   constexpr int kInARow = 3;
   const int count = static_cast<int>(task.subtasks.size());
@@ -165,7 +140,8 @@ std::string TaskDrawing(const tasks::Task& task, const tasks::SceneModel& model)
   const double width = kPlan + columns * (kBoxWidth + kGap) + 4.0;
   const double height = std::max(kPlan, rows * (kBoxHeight + 16.0)) + 4.0;
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + Number(width) +
-                    "\" height=\"" + Number(height) +
+                    "\" height=\"" + Number(height) + "\" viewBox=\"0 0 " + Number(width) + " " +
+                    Number(height) +
                     "\"><style>text{font-family:sans-serif;fill:#222}.title{font-size:12px;"
                     "font-weight:bold}.small{font-size:10px;fill:#555}.thing{font-size:9px;"
                     "text-anchor:middle}</style>" +

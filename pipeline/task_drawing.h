@@ -12,7 +12,4 @@ namespace simwright::pipeline {
 // red where one is not sound. Things that `model` does not have are left out.
 std::string TaskDrawing(const tasks::Task& task, const tasks::SceneModel& model);
 
-// `text` with what HTML and SVG would read as marks replaced.
-std::string MarkupSafe(const std::string& text);
-
 }  // namespace simwright::pipeline

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pipeline/page_markup.h"
 #include "pipeline/task_drawing.h"
 #include "tasks/reward/reward_program.h"
 
@@ -45,10 +46,8 @@ std::string SubtaskText(const tasks::Subtask& subtask) {
 
 std::string TaskPage(const tasks::TaskSet& set, const tasks::SceneModel& model) {
   std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Tasks</title>"
-      "<style>" +
-      std::string(kStyle) + "</style></head><body>\n<h1>Tasks</h1>\n<p>" +
-      std::to_string(set.tasks.size()) + " tasks on " + std::to_string(set.assets.size()) +
+      PageStart("Tasks", kStyle) + "<p>" + std::to_string(set.tasks.size()) + " tasks on " +
+      std::to_string(set.assets.size()) +
       " assets.</p>\n<table><tr><th>task</th><th>subtasks</th><th>from</th><th></th></tr>\n";
   for (std::size_t i = 0; i < set.tasks.size(); ++i) {
     const tasks::Task& task = set.tasks[i];
@@ -64,7 +63,7 @@ std::string TaskPage(const tasks::TaskSet& set, const tasks::SceneModel& model) 
             FindingsText(task.findings, "");
     for (const tasks::Subtask& subtask : task.subtasks) html += SubtaskText(subtask);
   }
-  return html + "</body></html>\n";
+  return html + PageEnd();
 }
 
 }  // namespace simwright::pipeline

@@ -8,15 +8,13 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr double kHandOpening = 0.075;  // m, of 8 cm
-constexpr double kPayload = 2.5;        // kg; the Panda's is 3
-constexpr double kPushable = 8.0;       // kg
-constexpr double kRimHeight = 0.3;      // m: what is higher is not taken by its rim
-constexpr double kLongest = 0.5;        // m, of what one hand carries
-constexpr double kSpare = 0.01;         // m
-constexpr double kLeastTurn = 0.6;      // rad that make a door
-constexpr double kLeastSlide = 0.06;    // m that make a drawer
-constexpr double kLeastPress = 0.002;   // m
+constexpr double kPushable = 8.0;      // kg
+constexpr double kRimHeight = 0.3;     // m: what is higher is not taken by its rim
+constexpr double kLongest = 0.5;       // m, of what one hand carries
+constexpr double kSpare = 0.01;        // m
+constexpr double kLeastTurn = 0.6;     // rad that make a door
+constexpr double kLeastSlide = 0.06;   // m that make a drawer
+constexpr double kLeastPress = 0.002;  // m
 
 template <std::size_t N>
 bool Holds(const std::string& text, const std::array<const char*, N>& words) {

@@ -23,8 +23,12 @@ JointUse UseOf(const Thing& thing, const ThingJoint& joint);
 // "door", "drawer 2", "lid": what a person would call what the joint moves.
 std::string PartName(const Thing& thing, const ThingJoint& joint);
 
-// Whether one hand of 8 cm opening and 2.5 kg lifts it: narrow enough somewhere, or with a rim to
-// take.
+// What one hand takes: a Panda's, whose fingers open by 8 cm and whose payload is 3 kg, with some
+// to spare.
+constexpr double kHandOpening = 0.075;  // m
+constexpr double kPayload = 2.5;        // kg
+
+// Whether one hand lifts it: narrow enough somewhere, or with a rim to take.
 bool CanBeLifted(const Thing& thing);
 
 // Whether a hand can push it along the floor: rigid, higher than 2 cm, at most 8 kg.

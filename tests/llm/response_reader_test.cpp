@@ -59,17 +59,6 @@ TEST(ResponseReader, ReasoningIsNoPartOfTheAnswer) {
   EXPECT_EQ(WithoutReasoning("<think></think>"), "");
 }
 
-// RFC 4648, section 10.
-TEST(RequestBody, Base64) {
-  EXPECT_EQ(Base64(""), "");
-  EXPECT_EQ(Base64("f"), "Zg==");
-  EXPECT_EQ(Base64("fo"), "Zm8=");
-  EXPECT_EQ(Base64("foo"), "Zm9v");
-  EXPECT_EQ(Base64("foob"), "Zm9vYg==");
-  EXPECT_EQ(Base64("fooba"), "Zm9vYmE=");
-  EXPECT_EQ(Base64("foobar"), "Zm9vYmFy");
-}
-
 TEST(RequestBody, TextThatIsNoUtf8IsSentAsReplacements) {
   const nlohmann::json json = nlohmann::json::parse(RequestBody(Question("a\xff"
                                                                          "b"),

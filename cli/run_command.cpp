@@ -1,0 +1,100 @@
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include "cli/command.h"
+#include "core/error.h"
+#include "pipeline/photo_run.h"
+
+namespace simwright::cli {
+namespace {
+
+struct Flags {
+  std::filesystem::path mask;
+  pipeline::PhotoRunRequest request;
+};
+
+int RunOnPhoto(const Flags& flags, const CommonOptions& common) {
+  pipeline::PhotoRunRequest request = flags.request;
+  if (!flags.mask.empty()) request.mask = flags.mask;
+  request.seed = common.seed;
+  request.force = common.force;
+  core::Progress progress(common.ProgressStyle());
+  try {
+    const pipeline::PhotoRunOutcome outcome = pipeline::RunPhoto(request, &progress);
+    std::fputs((common.json ? outcome.json : pipeline::PhotoRunTable(outcome)).c_str(), stdout);
+  } catch (const core::Cancelled&) {
+    if (!std::filesystem::exists(request.output)) throw;
+    std::fprintf(stderr,
+                 "error: stopped; what was done is kept in %s, the same command with --resume goes "
+                 "on\n",
+                 request.output.c_str());
+    return kInterrupted;
+  }
+  return 0;
+}
+
+void AddTraining(CLI::App* command, pipeline::PhotoRunRequest* request) {
+  command->add_option("--envs", request->environments, "Environments side by side")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  command->add_option("--steps", request->samples, "Decisions to learn from at most, a subtask")
+      ->check(CLI::Range(1000, 2000000000))
+      ->capture_default_str();
+  command->add_option("--minutes", request->minutes, "Training time at most, a subtask; 0: no end")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command
+      ->add_option("--target", request->target,
+                   "Learnt once the lower end of the success rate's 95 % interval is above this")
+      ->check(CLI::Range(0.0, 0.99))
+      ->capture_default_str();
+  command->add_option("--episodes", request->episodes, "Episodes of each evaluation")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void AddRun(CLI::App* app, CommonOptions* common, Run* run) {
+  using asset_lift::LiftEffort;
+  const std::map<std::string, LiftEffort> efforts = {
+      {"outline", LiftEffort::kOutline}, {"fast", LiftEffort::kFast}, {"full", LiftEffort::kFull}};
+  auto flags = std::make_shared<Flags>();
+  pipeline::PhotoRunRequest* request = &flags->request;
+  CLI::App* command = app->add_subcommand(
+      "run", "A photo becomes an asset, a task, a trained skill and a trajectory, with one page");
+  command->footer(
+      "Examples:\n  simwright run examples/apple.jpg --category apple -o apple_run\n"
+      "  simwright run mug.png --category mug --task 'put_mug_into_*_and_close_it' -o mug_run\n"
+      "Ctrl-C or a crash loses half a minute at most: the same command with --resume goes on.\n"
+      "docs/run.md says more.");
+  command->add_option("photo", request->photo, "PNG, JPEG, WebP, TIFF, GIF ... of one thing")
+      ->required();
+  command->add_option("--category", request->category, "What it is, e.g. apple")->required();
+  command->add_option("-o,--output", request->output,
+                      "The folder; default: the photo's name and _run, here");
+  command->add_option("--task", request->task,
+                      "Which of the tasks that are made, '*' for any letters; default: pick it up");
+  command->add_option("--mask", flags->mask, "Picture that is bright where the object is");
+  command->add_option("--height", request->height, "Its true height, m; default: drawn")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--lift", request->effort, "outline, fast, or full (docs/lift.md)")
+      ->transform(CLI::CheckedTransformer(efforts))
+      ->default_str("fast");
+  command->add_option("--furniture", request->furniture, "drawer_unit, microwave, or any that fits")
+      ->check(CLI::IsMember({"any", "drawer_unit", "microwave"}))
+      ->capture_default_str();
+  AddTraining(command, request);
+  command->add_flag("--resume", request->resume, "Go on with a run that was stopped");
+  AddCommon(command, common);
+  AddForce(command, common);
+  command->callback([flags, common, run] {
+    if (flags->request.output.empty()) {
+      flags->request.output = flags->request.photo.stem().string() + "_run";
+    }
+    *run = [=] { return RunOnPhoto(*flags, *common); };
+  });
+}
+
+}  // namespace simwright::cli

@@ -1,0 +1,289 @@
+#include "pipeline/photo_run.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/image.h"
+#include "pipeline/check.h"
+#include "pipeline/lift.h"
+#include "pipeline/photo_run_folder.h"
+#include "pipeline/photo_run_page.h"
+#include "pipeline/photo_run_record.h"
+#include "pipeline/photo_run_report.h"
+#include "pipeline/photo_run_scene.h"
+#include "pipeline/skill_export.h"
+#include "pipeline/skill_replay.h"
+#include "pipeline/skill_rollout.h"
+#include "pipeline/skill_training.h"
+#include "pipeline/task_making.h"
+#include "tasks/task_file.h"
+
+namespace simwright::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kTasks = 20;  // that are made: with one asset and one piece of furniture, every kind
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// The asset is called as what the category is known by: of any name that a user gives, that is a
+// name that programs can use.
+PhotoRunFolder FolderOf(const PhotoRunRequest& request) {
+  const physics_params::Resolution category = physics_params::RequireCategory(request.category);
+  return {request.output, assets::FileSafeName(category.category->name)};
+}
+
+// Bad input is refused before anything is written.
+void RequireReadable(const PhotoRunRequest& request) {
+  core::ReadImage(request.photo);
+  if (request.mask) core::ReadImage(*request.mask);
+}
+
+void Lift(const PhotoRunRequest& request, const PhotoRunFolder& folder, core::Progress* progress) {
+  LiftRequest lift;
+  lift.photo = request.photo;
+  lift.category = request.category;
+  lift.mask = request.mask;
+  lift.height = request.height;
+  lift.effort = request.effort;
+  lift.seed = request.seed;
+  lift.output = folder.Asset();
+  lift.force = true;  // of a run that was stopped before it was noted as done
+  LiftToFolder(lift, progress);
+}
+
+void Check(const PhotoRunFolder& folder, core::Progress* progress) {
+  progress->Stage("check");
+  const CheckReport report = CheckAsset(folder.Asset());
+  core::WriteFile(folder.Check(), CheckJson(report));
+  if (report.passed()) return;
+  throw core::Error("the lifted asset fails its check: " + FailedRows(report),
+                    folder.Asset().string(),
+                    "look at its preview.png; a --mask or another photo may help");
+}
+
+void Furnish(const PhotoRunRequest& request, const PhotoRunFolder& folder,
+             core::Progress* progress) {
+  if (request.task.empty()) RequireLiftable(folder.Asset());
+  const Furniture made =
+      MakeFurniture(folder.Asset(), request.furniture, request.seed, folder.Furniture(), progress);
+  const Json scene = {{"furniture", made.name}, {"kind", made.kind}, {"holds_it", made.holds}};
+  core::WriteFile(folder.Scene(), scene.dump(2) + "\n");
+}
+
+// The one task that is asked for, of those that were made.
+tasks::Task ChosenTask(const PhotoRunRequest& request, const PhotoRunFolder& folder) {
+  const std::string pattern = request.task.empty() ? "pick_up_" + folder.asset_name : request.task;
+  std::vector<tasks::Task> matching;
+  std::string all, matches;
+  for (const tasks::Task& task : tasks::ReadTaskFile(folder.Tasks()).tasks) {
+    all += (all.empty() ? "" : ", ") + task.name;
+    if (fnmatch(pattern.c_str(), task.name.c_str(), 0) != 0) continue;
+    matches += (matches.empty() ? "" : ", ") + task.name;
+    matching.push_back(task);
+  }
+  if (matching.empty()) {
+    throw core::Error("there is no task '" + pattern + "'", folder.Tasks().string(),
+                      "there are " + all);
+  }
+  if (matching.size() > 1) {
+    throw core::Error("'" + pattern + "' stands for several tasks", folder.Tasks().string(),
+                      "choose one of " + matches);
+  }
+  return matching.front();
+}
+
+void MakeTaskFile(const PhotoRunRequest& request, const PhotoRunFolder& folder,
+                  core::Progress* progress) {
+  const Json scene = Json::parse(core::ReadFile(folder.Scene(), 1 << 16));
+  TasksRequest tasks;
+  tasks.assets = {folder.Asset().string(),
+                  (folder.Furniture() / scene.at("furniture").get<std::string>()).string()};
+  tasks.output = folder.Tasks();
+  tasks.count = kTasks;
+  tasks.seed = request.seed;
+  tasks.force = true;  // of a run that was stopped
+  MakeTasks(tasks, progress);
+  ChosenTask(request, folder);
+}
+
+// Returns the seconds that its subtasks took, over all runs.
+double Train(const PhotoRunRequest& request, const PhotoRunFolder& folder,
+             core::Progress* progress) {
+  TrainRequest train;
+  train.task_file = folder.Tasks();
+  train.tasks = {ChosenTask(request, folder).name};
+  train.output = folder.Skill();
+  train.environments = request.environments;
+  train.samples = request.samples;
+  train.minutes = request.minutes;
+  train.target = request.target;
+  train.episodes = request.episodes;
+  train.seed = request.seed;
+  train.resume = true;  // where there is something to go on with
+  double seconds = 0.0;
+  for (const TrainedSkill& skill : TrainTask(train, progress).skills) seconds += skill.seconds;
+  return seconds;
+}
+
+void Evaluate(const PhotoRunRequest& request, const PhotoRunFolder& folder,
+              core::Progress* progress) {
+  const RolloutReport report = Rollout({.run = folder.Skill(),
+                                        .episodes = request.episodes,
+                                        .seed = request.seed,
+                                        .pictures = folder.Strip(),
+                                        .poses = folder.Poses()},
+                                       progress);
+  core::WriteFile(folder.Rollout(), RolloutJson(report));
+}
+
+// The first episode of the evaluation that succeeds, which its pictures show, and its proof.
+void ExportFirst(const PhotoRunRequest& request, const PhotoRunFolder& folder,
+                 core::Progress* progress) {
+  ExportRequest wanted;
+  wanted.run = folder.Skill();
+  wanted.output = folder.Trajectory();
+  wanted.seed = request.seed;
+  const ExportReport report = Export(wanted, progress);
+  core::WriteFile(folder.Export(), ExportJson(report));
+  progress->Stage("replay");
+  const ReplayReport replay = Replay({{folder.Trajectory()}, folder.Skill()}, progress);
+  core::WriteFile(folder.Replay(), ReplayJson(replay));
+}
+
+// What an error says, without the place that it is about: pages and reports are handed on.
+std::string WithoutPlace(const core::Error& error) {
+  const std::string what = error.what(), place = error.where() + ": ";
+  return what.starts_with(place) ? what.substr(place.size()) : what;
+}
+
+PhotoRunOutcome OutcomeOf(const PhotoRunFolder& folder, const Json& report) {
+  PhotoRunOutcome outcome;
+  outcome.task = report.at("task").at("name");
+  const Json& success = report.at("success");
+  outcome.episodes = success.at("episodes");
+  outcome.successes = success.at("successes");
+  outcome.interval = {success.at("low"), success.at("high")};
+  outcome.replayed = report.at("trajectory").value("replayed", false);
+  outcome.seconds = report.at("seconds");
+  outcome.folder = folder.root;
+  outcome.page = folder.Page();
+  outcome.picture = folder.Strip();
+  outcome.trajectory = folder.Trajectory();
+  outcome.json = report.dump(2) + "\n";
+  return outcome;
+}
+
+// Does the stages that are not done yet, and keeps their times.
+class StageRunner {
+ public:
+  explicit StageRunner(PhotoRunRecord* record) : record_(record) {}
+
+  // `work` returns the seconds that its own files tell of, which a run that was killed adds to.
+  void Run(const std::string& name, const std::function<double()>& work) {
+    if (record_->Done(name)) return;
+    const Clock::time_point start = Clock::now();
+    double told = 0.0;
+    try {
+      told = work();
+    } catch (...) {
+      Note(name, SecondsSince(start));
+      throw;
+    }
+    const double spent = SecondsSince(start);
+    record_->Spend(name, std::max(spent, told - record_->SecondsOf(name)), true);
+  }
+
+ private:
+  // A full disk must not hide what went wrong first.
+  void Note(const std::string& name, double seconds) {
+    try {
+      record_->Spend(name, seconds, false);
+    } catch (const core::Error&) {
+    }
+  }
+
+  PhotoRunRecord* record_;
+};
+
+void RunStages(const PhotoRunRequest& request, const PhotoRunFolder& folder, PhotoRunRecord* record,
+               core::Progress* progress) {
+  StageRunner runner(record);
+  const auto run = [&](const std::string& name, const std::function<void()>& work) {
+    runner.Run(name, [&] {
+      work();
+      return 0.0;
+    });
+  };
+  run("lift", [&] { Lift(request, folder, progress); });
+  run("check", [&] { Check(folder, progress); });
+  run("scene", [&] { Furnish(request, folder, progress); });
+  run("tasks", [&] { MakeTaskFile(request, folder, progress); });
+  try {
+    runner.Run("train", [&] { return Train(request, folder, progress); });
+    run("evaluate", [&] { Evaluate(request, folder, progress); });
+  } catch (const core::Error& error) {
+    throw core::Error(std::string(error.what()) + "; what was done is kept, --resume goes on");
+  }
+}
+
+}  // namespace
+
+PhotoRunOutcome RunPhoto(const PhotoRunRequest& request, core::Progress* progress) {
+  const PhotoRunFolder folder = FolderOf(request);
+  RequireReadable(request);
+  PhotoRunRecord record(request);
+  try {
+    RunStages(request, folder, &record, progress);
+  } catch (...) {
+    record.RemoveIfNothingIsDone();
+    throw;
+  }
+  std::string refusal;
+  try {
+    StageRunner(&record).Run("export", [&] {
+      ExportFirst(request, folder, progress);
+      return 0.0;
+    });
+  } catch (const core::Error& error) {
+    refusal = WithoutPlace(error);
+  }
+  progress->Stage("page");
+  const tasks::Task task = ChosenTask(request, folder);
+  const Json report = PhotoRunReport(request, folder, task, record.stages(), refusal);
+  core::WriteFile(folder.Report(), report.dump(2) + "\n");
+  core::WriteFile(folder.Page(), PhotoRunPage(folder, task, report));
+  progress->Finish();
+  if (refusal.empty()) return OutcomeOf(folder, report);
+  throw core::Error("there is no trajectory: " + refusal + "; " + folder.Page().string() +
+                    " shows how far it came");
+}
+
+std::string PhotoRunTable(const PhotoRunOutcome& outcome) {
+  char line[160];
+  std::snprintf(
+      line, sizeof(line), "success: %d of %d, %.1f %% (95 %%: %.1f to %.1f), in %.1f minutes\n",
+      outcome.successes, outcome.episodes,
+      100.0 * outcome.successes / std::max(1, outcome.episodes), 100.0 * outcome.interval.low,
+      100.0 * outcome.interval.high, outcome.seconds / 60.0);
+  return outcome.task + "\n" + line + "trajectory: " + outcome.trajectory.string() +
+         (outcome.replayed ? ", succeeds when replayed from its file alone\n"
+                           : ", FAILS when it is replayed from its file\n") +
+         "picture:    " + outcome.picture.string() + "\npage:       " + outcome.page.string() +
+         "\n";
+}
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,125 @@
+#include "pipeline/photo_run_scene.h"
+
+#include <cstdio>
+#include <vector>
+
+#include "assets/articulated_folder.h"
+#include "assets/semantic_model.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "library/kinds.h"
+#include "pipeline/library.h"
+#include "robot/panda_model.h"
+#include "tasks/rules/affordances.h"
+#include "tasks/thing.h"
+
+namespace simwright::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kTries = 4;  // sizes of each kind
+
+tasks::Thing ThingIn(const fs::path& folder) {
+  return tasks::ThingOf(folder.filename().string(), assets::ReadSemanticModel(folder));
+}
+
+struct Candidate {
+  const library::Kind* kind = nullptr;
+  std::uint64_t seed = 1;
+  std::string Name() const { return kind->name + "_" + std::to_string(seed); }
+};
+
+std::vector<Candidate> CandidatesOf(const std::string& kind, std::uint64_t seed) {
+  const std::vector<std::string> kinds = kind == "any"
+                                             ? std::vector<std::string>{"drawer_unit", "microwave"}
+                                             : std::vector<std::string>{kind};
+  std::vector<Candidate> candidates;
+  for (const std::string& name : kinds) {
+    for (int i = 0; i < kTries; ++i) {
+      candidates.push_back({&library::KindNamed(name), seed + static_cast<std::uint64_t>(i)});
+    }
+  }
+  return candidates;
+}
+
+// Whether `thing` goes into a room that can be shut.
+bool Holds(const Candidate& candidate, const tasks::Thing& thing) {
+  const core::TemporaryFolder temporary;
+  const fs::path folder = temporary.path() / candidate.Name();
+  fs::create_directories(folder);
+  assets::WriteArticulatedAsset(candidate.kind->make({candidate.seed, candidate.Name()}), folder);
+  const tasks::Thing furniture = ThingIn(folder);
+  for (size_t c = 0; c < furniture.cavities.size(); ++c) {
+    if (furniture.cavities[c].door < 0) continue;
+    if (tasks::FitsInto(thing, furniture, static_cast<int>(c))) return true;
+  }
+  return false;
+}
+
+// False, with the reason in `refusal`, where it fails its check.
+bool Make(const Candidate& candidate, const fs::path& output, core::Progress* progress,
+          std::string* refusal) {
+  LibraryOptions options;
+  options.kind = candidate.kind->name;
+  options.seed = candidate.seed;
+  options.force = true;  // of a run that was stopped
+  const LibraryOutcome made = MakeLibrary(options, output, progress).front();
+  core::CheckCancelled();
+  *refusal = made.refusal;
+  return made.refusal.empty();
+}
+
+}  // namespace
+
+void RequireLiftable(const fs::path& folder) {
+  const tasks::Thing thing = ThingIn(folder);
+  if (tasks::CanBeLifted(thing)) return;
+  const double width = thing.box.sizes().head<2>().minCoeff();
+  char what[160], remedy[80];
+  if (width > tasks::kHandOpening) {
+    std::snprintf(what, sizeof(what),
+                  "cannot be picked up: it is %.1f cm wide, and the gripper opens by %.1f cm and "
+                  "takes up to %.1f cm",
+                  100.0 * width, 100.0 * robot::Panda(false).gripper.MaxOpening(),
+                  100.0 * tasks::kHandOpening);
+    // Two millimetres less than what is just taken.
+    std::snprintf(remedy, sizeof(remedy), "--force --height %.3f makes a smaller one",
+                  thing.height() * (tasks::kHandOpening - 0.002) / width);
+  } else if (thing.mass > tasks::kPayload) {
+    std::snprintf(what, sizeof(what),
+                  "cannot be picked up: it weighs %.1f kg, a hand lifts %.1f kg", thing.mass,
+                  tasks::kPayload);
+    std::snprintf(remedy, sizeof(remedy), "--force and a smaller --height than %.3f",
+                  thing.height());
+  } else {
+    const Eigen::Vector3d size = 100.0 * thing.box.sizes();
+    std::snprintf(
+        what, sizeof(what),
+        "cannot be picked up: it is %.1f x %.1f x %.1f cm, too long or too flat for a hand",
+        size.x(), size.y(), size.z());
+    std::snprintf(remedy, sizeof(remedy), "choose another --task, or another --height than %.3f",
+                  thing.height());
+  }
+  throw core::Error(what, folder.string(), remedy);
+}
+
+Furniture MakeFurniture(const fs::path& folder, const std::string& kind, std::uint64_t seed,
+                        const fs::path& output, core::Progress* progress) {
+  const tasks::Thing thing = ThingIn(folder);
+  const std::vector<Candidate> candidates = CandidatesOf(kind, seed);
+  std::string refusal;
+  progress->Stage("furniture");
+  for (const Candidate& candidate : candidates) {
+    core::CheckCancelled();
+    if (!Holds(candidate, thing) || !Make(candidate, output, progress, &refusal)) continue;
+    return {candidate.Name(), candidate.kind->name, true};
+  }
+  for (const Candidate& candidate : candidates) {
+    if (!Make(candidate, output, progress, &refusal)) continue;
+    return {candidate.Name(), candidate.kind->name, false};
+  }
+  throw core::Error("no furniture could be made: " + refusal, output.string(),
+                    "try another --seed");
+}
+
+}  // namespace simwright::pipeline
