@@ -141,12 +141,13 @@ double Train(const PhotoRunRequest& request, const PhotoRunFolder& folder,
 
 void Evaluate(const PhotoRunRequest& request, const PhotoRunFolder& folder,
               core::Progress* progress) {
-  const RolloutReport report = Rollout({.run = folder.Skill(),
-                                        .episodes = request.episodes,
-                                        .seed = request.seed,
-                                        .pictures = folder.Strip(),
-                                        .poses = folder.Poses()},
-                                       progress);
+  RolloutRequest rollout;
+  rollout.run = folder.Skill();
+  rollout.episodes = request.episodes;
+  rollout.seed = request.seed;
+  rollout.pictures = folder.Strip();
+  rollout.poses = folder.Poses();
+  const RolloutReport report = Rollout(rollout, progress);
   core::WriteFile(folder.Rollout(), RolloutJson(report));
 }
 

@@ -30,9 +30,12 @@ rl::TrainingOptions OptionsFor(const TrainRequest& request, const SkillRun& run,
                                const RunSkill& skill) {
   rl::TrainingOptions options;
   options.ppo.discount = run.options.discount;
-  options.ppo.horizon = 32;
+  // Opening drawers that it had not seen, a policy succeeded in 88 % of the episodes after 233k
+  // decisions; with a horizon of 32 and minibatches of 512 in 59 %, and with 128 and 2048 a
+  // microwave's door was opened in 55 % after 205k where these gave 95 %.
+  options.ppo.horizon = 64;
   options.ppo.epochs = 5;
-  options.ppo.minibatch = 512;
+  options.ppo.minibatch = 1024;
   options.ppo.target_kl = 0.02;
   options.ppo.initial_std = 0.35;
   options.ppo.seed = request.seed;
@@ -48,12 +51,14 @@ rl::TrainingOptions OptionsFor(const TrainRequest& request, const SkillRun& run,
 struct Trained {
   std::int64_t samples = 0;
   double seconds = 0.0;
+  bool learnt = false;  // the target was reached, not only the time or samples used up
 };
 
 Trained ReadTrained(const fs::path& file) {
   try {
     const json text = json::parse(core::ReadFile(file, 1 << 20));
-    return {text.at("samples").get<std::int64_t>(), text.at("seconds").get<double>()};
+    return {text.at("samples").get<std::int64_t>(), text.at("seconds").get<double>(),
+            text.at("learnt").get<bool>()};
   } catch (const json::exception&) {
     throw core::Error("is damaged", file.string(), "remove it: the training then goes on");
   }
@@ -68,6 +73,12 @@ void RequireSoundPhysics(const rl::SkillEnvironment& environment, const std::str
                         std::to_string(static_cast<std::int64_t>(samples)) +
                         " decisions, the last in " + environment.LastFailure(),
                     "subtask " + subtask, "check its assets with `simwright check`");
+}
+
+// A subtask that has used up what it was given goes on where it is given more.
+bool HasBudget(const TrainRequest& request, const Trained& before) {
+  return before.samples < request.samples &&
+         (request.minutes == 0.0 || before.seconds < 60.0 * request.minutes);
 }
 
 // What a policy is examined from while it learns: as its episodes begin, but none of them easier.
@@ -86,9 +97,15 @@ std::vector<rl::EpisodeStart> ExaminedStarts(const rl::Skill& skill,
 }
 
 Trained TrainOne(const TrainRequest& request, const SkillRun& run, const RunSkill& skill,
-                 const std::vector<rl::EpisodeStart>& pool, core::Progress* progress) {
+                 const std::vector<rl::EpisodeStart>& pool, bool successor_begun,
+                 core::Progress* progress) {
   const fs::path done = skill.folder / kDoneFile;
-  if (fs::exists(done) && fs::exists(skill.folder / rl::kPolicyFile)) return ReadTrained(done);
+  bool go_on = request.resume;
+  if (fs::exists(done) && fs::exists(skill.folder / rl::kPolicyFile)) {
+    const Trained before = ReadTrained(done);
+    if (before.learnt || successor_begun || !HasBudget(request, before)) return before;
+    go_on = true;
+  }
   rl::SkillEnvironment environment(skill.skill, run.environments, pool);
   const std::vector<rl::EpisodeStart> starts = ExaminedStarts(*skill.evaluated, pool, request.seed);
   const rl::TrainingOptions options = OptionsFor(request, run, skill);
@@ -96,7 +113,7 @@ Trained TrainOne(const TrainRequest& request, const SkillRun& run, const RunSkil
       static_cast<int>(request.samples / (options.ppo.horizon * run.environments));
   progress->Stage("train " + skill.name, iterations);
   const rl::TrainingResult result = rl::TrainPolicy(
-      &environment, options, skill.folder, request.resume,
+      &environment, options, skill.folder, go_on,
       [&](const rl::TrainingRecord& record) {
         RequireSoundPhysics(environment, skill.name, record.samples);
         progress->Advance();
@@ -105,9 +122,11 @@ Trained TrainOne(const TrainRequest& request, const SkillRun& run, const RunSkil
         const rl::SkillEvaluation found = rl::Evaluate(*skill.evaluated, policy, starts);
         return rl::Examination{found.successes, kExamined};
       });
-  const Trained trained{static_cast<std::int64_t>(result.last.samples), result.last.seconds};
+  const Trained trained{static_cast<std::int64_t>(result.last.samples), result.last.seconds,
+                        result.end == rl::TrainingEnd::kSuccess};
   json text = {{"samples", trained.samples},
                {"seconds", trained.seconds},
+               {"learnt", trained.learnt},
                {"physics_failures", environment.failures()}};
   core::WriteFile(done, text.dump(2) + "\n");
   return trained;
@@ -176,10 +195,14 @@ TrainReport TrainTask(const TrainRequest& request, core::Progress* progress) {
   std::vector<rl::ChainLink> links;
   policies.reserve(skills.size());
   for (const RunSkill& skill : skills) {
+    // A successor that has begun to learn began where this one's episodes ended.
+    const auto next = static_cast<size_t>(&skill - skills.data()) + 1;
+    const bool successor_begun =
+        next < skills.size() && fs::exists(skills[next].folder / rl::kCheckpointFile);
     TrainedSkill trained;
     trained.name = skill.name;
     trained.folder = skill.folder;
-    const Trained numbers = TrainOne(request, run, skill, ends, progress);
+    const Trained numbers = TrainOne(request, run, skill, ends, successor_begun, progress);
     trained.samples = numbers.samples;
     trained.seconds = numbers.seconds;
     policies.push_back(rl::ReadPolicy(skill.folder / rl::kPolicyFile));

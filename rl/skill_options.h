@@ -69,7 +69,7 @@ struct SkillOptions {
 
   // Reward.
   double success_bonus = 1.0;  // a decision, beside the program's reward
-  double discount = 0.97;      // a decision: what the success that ends an episode is worth
+  double discount = 0.98;      // a decision: what the success that ends an episode is worth
 
   double decision_seconds() const { return control_steps / control_rate; }
   int decisions() const;  // of an episode

@@ -24,6 +24,7 @@ constexpr double kOfAcceleration = 0.7;
 // How the standoff grows: a cone about the focus' axis, wide enough for what exploration asks for.
 constexpr double kBeside = 0.025, kSlope = 2.0;   // m off the axis that are free; m a m
 constexpr double kTurned = 0.4, kPerTurn = 0.15;  // rad that are free; m a rad
+constexpr double kDecided = 0.15;  // of an action: less leaves the fingers as they are
 constexpr double kGoalJump = 0.1;  // rad or m that any joint of the goal moves in a control step
 
 Isometry3d Offset(const float* action, double reach, double turn) {
@@ -48,11 +49,13 @@ double Standoff(const Skill& skill, const Isometry3d& base_from_focus, bool alon
   return std::min(skill.options.standoff, kSlope * aside + kPerTurn * turned);
 }
 
-// Wide open from -1/6 up, shut at -1: a policy that has learnt nothing yet does not knock its
-// fingers against what it shall take.
-double LeaderOf(const robot::Gripper& gripper, double action) {
-  const double share = std::clamp(1.2 + 1.2 * action, 0.0, 1.0);
-  return gripper.closed + share * (gripper.open - gripper.closed);
+// The hand opens, closes, or stays as it is. Were the action an opening, with zero wide open, a
+// policy that has learnt nothing would let go of whatever it holds, and would never close on a thin
+// wall: that asked for -0.9, so that no cup was taken by its rim in 170k decisions.
+double LeaderOf(const robot::Gripper& gripper, double action, double now) {
+  if (action > kDecided) return gripper.open;
+  if (action < -kDecided) return gripper.closed;
+  return now;
 }
 
 // The highest speed from which a command that is slowed down by `acceleration` in steps of `dt`
@@ -130,15 +133,15 @@ int ActionSize(const Skill& skill) {
 }
 
 ToolTarget TargetOf(const Skill& skill, const float* action, const Isometry3d& base_from_focus,
-                    bool along_x, const robot::Posture& command) {
+                    bool along_x, const ArmCommand& command) {
   const SkillOptions& options = skill.options;
   ToolTarget target;
-  target.leader = LeaderOf(skill.robot->gripper, action[ActionSize(skill) - 1]);
+  target.leader = LeaderOf(skill.robot->gripper, action[ActionSize(skill) - 1], command.leader);
   switch (options.action) {
     case ActionSpace::kFocus:
       target.base_from_tool = base_from_focus * Offset(action, options.reach, options.turn);
       target.base_from_tool.translation() -=
-          Standoff(skill, base_from_focus, along_x, command) * base_from_focus.linear().col(2);
+          Standoff(skill, base_from_focus, along_x, command.sent) * base_from_focus.linear().col(2);
       break;
     case ActionSpace::kAbsolute:
       target.base_from_tool = InFront() * Offset(action, kWorkspace, M_PI);
@@ -146,18 +149,18 @@ ToolTarget TargetOf(const Skill& skill, const float* action, const Isometry3d& b
     case ActionSpace::kDelta: {
       const double share = options.delta_share;
       const Isometry3d offset = Offset(action, share * options.reach, share * options.turn);
-      const Isometry3d now = robot::ForwardKinematics(skill.robot->arm, command);
+      const Isometry3d now = robot::ForwardKinematics(skill.robot->arm, command.sent);
       target.base_from_tool.translation() = now.translation() + offset.translation();
       target.base_from_tool.linear() = offset.linear() * now.linear();
       break;
     }
     case ActionSpace::kJoints:
-      target.joints = command;
-      for (Eigen::Index j = 0; j < command.size(); ++j) {
+      target.joints = command.sent;
+      for (Eigen::Index j = 0; j < target.joints.size(); ++j) {
         const robot::ArmJoint& joint = skill.robot->arm.joints[static_cast<size_t>(j)];
         const double step =
             options.delta_share * (joint.prismatic ? options.reach : 0.5 * options.turn);
-        target.joints[j] = std::clamp(command[j] + step * action[j], joint.lower, joint.upper);
+        target.joints[j] = std::clamp(command.sent[j] + step * action[j], joint.lower, joint.upper);
       }
       break;
   }

@@ -18,13 +18,6 @@ struct ToolTarget {
 // How many numbers an action has: 7, or one more than the arm's joints.
 int ActionSize(const Skill& skill);
 
-// What `action` (A, in [-1, 1]) asks for. `base_from_focus`: the frame of ActionSpace::kFocus, its
-// axes the tool's at work. `along_x`: x is the way that a thing is pushed, on which being behind is
-// not being off. `command`: the posture that the arm was sent to last.
-ToolTarget TargetOf(const Skill& skill, const float* action,
-                    const Eigen::Isometry3d& base_from_focus, bool along_x,
-                    const robot::Posture& command);
-
 // Where the arm is sent. Mutable, one an episode.
 struct ArmCommand {
   robot::Posture goal;  // (J) the posture in which the tool is where the action wants it
@@ -33,6 +26,13 @@ struct ArmCommand {
   double leader = 0.0;  // the gripper's first joint
   double leader_rate = 0.0;
 };
+
+// What `action` (A, in [-1, 1]) asks for. `base_from_focus`: the frame of ActionSpace::kFocus, its
+// axes the tool's at work. `along_x`: x is the way that a thing is pushed, on which being behind is
+// not being off. `command`: where arm and fingers were sent last.
+ToolTarget TargetOf(const Skill& skill, const float* action,
+                    const Eigen::Isometry3d& base_from_focus, bool along_x,
+                    const ArmCommand& command);
 
 // Moves the command towards the target by one control step, within the speeds of options and
 // joints, within the joints' accelerations, so that it can stop at its goal, and no farther than
