@@ -1,0 +1,136 @@
+#include "rl/tool_command.h"
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "robot/panda_model.h"
+#include "tests/rl/skill_scene.h"
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+std::shared_ptr<const Skill> OfPanda() {
+  return MakeSkill(robot::Panda(false), {PickUpCup()});
+}
+
+ArmCommand AtHome(const Skill& skill) {
+  ArmCommand command;
+  command.goal = command.sent = skill.robot->home();
+  command.rate = robot::Posture::Zero(command.sent.size());
+  command.leader = skill.robot->gripper.open;
+  return command;
+}
+
+const robot::JointLimits& LimitsOf(const Skill& skill, Eigen::Index j) {
+  return skill.robot->limits[static_cast<size_t>(skill.robot->arm_joints[static_cast<size_t>(j)])];
+}
+
+// A target that jumps three times a second, as a policy that explores asks for.
+TEST(Approach, KeepsTheJointsSpeedsAndAccelerationsWhateverIsAskedFor) {
+  const auto skill = OfPanda();
+  const double dt = 1.0 / skill->options.control_rate;
+  ArmCommand command = AtHome(*skill);
+  core::Rng rng(3);
+  ToolTarget target;
+  target.base_from_tool = robot::ForwardKinematics(skill->robot->arm, command.sent);
+  robot::Posture before = command.sent, rate = command.rate;
+  double leader = command.leader, leader_rate = 0.0, fastest = 0.0, hardest = 0.0;
+  for (int step = 0; step < 1200; ++step) {
+    if (step % 20 == 0) {
+      target.base_from_tool.translation() =
+          Vector3d(core::Uniform(rng, 0.35, 0.6), core::Uniform(rng, -0.3, 0.3),
+                   core::Uniform(rng, 0.2, 0.6));
+      target.leader = core::Uniform(rng) < 0.5 ? skill->robot->gripper.open : 0.0;
+    }
+    Approach(*skill, target, command.sent, &command);
+    for (Eigen::Index j = 0; j < before.size(); ++j) {
+      const robot::JointLimits& limits = LimitsOf(*skill, j);
+      const double speed = (command.sent[j] - before[j]) / dt;
+      const double acceleration = (speed - rate[j]) / dt;
+      ASSERT_LE(std::abs(speed), limits.velocity) << "joint " << j << ", step " << step;
+      ASSERT_LE(std::abs(acceleration), 0.7 * limits.acceleration + 1e-6)
+          << "joint " << j << ", step " << step;
+      fastest = std::max(fastest, std::abs(speed) / limits.velocity);
+      hardest = std::max(hardest, std::abs(acceleration) / limits.acceleration);
+      rate[j] = speed;
+    }
+    const robot::JointLimits& finger =
+        skill->robot->limits[static_cast<size_t>(skill->robot->gripper.joints.front())];
+    const double speed = (command.leader - leader) / dt;
+    ASSERT_LE(std::abs(speed), finger.velocity + 1e-9) << step;
+    ASSERT_LE(std::abs(speed - leader_rate) / dt, 0.7 * finger.acceleration + 1e-6) << step;
+    before = command.sent;
+    leader = command.leader;
+    leader_rate = speed;
+  }
+  // The limits are used, not only kept.
+  EXPECT_GT(fastest, 0.5);
+  EXPECT_NEAR(hardest, 0.7, 1e-6);
+}
+
+TEST(Approach, StopsAtItsGoalWithoutGoingPastIt) {
+  const auto skill = OfPanda();
+  ArmCommand command = AtHome(*skill);
+  ToolTarget target;
+  target.base_from_tool = robot::ForwardKinematics(skill->robot->arm, command.sent);
+  target.base_from_tool.translation() += Vector3d(0.05, 0.12, -0.1);
+  target.leader = skill->robot->gripper.closed;
+  double past = 0.0;
+  for (int step = 0; step < 180; ++step) {
+    const robot::Posture from = command.sent;
+    Approach(*skill, target, from, &command);
+    // Once the goal stands still, no joint comes to its other side.
+    if (step < 30) continue;
+    const robot::Posture way = command.goal - from, left = command.goal - command.sent;
+    for (Eigen::Index j = 0; j < way.size(); ++j) {
+      if (way[j] * left[j] < 0.0) past = std::max(past, std::abs(left[j]));
+    }
+  }
+  const Isometry3d reached = robot::ForwardKinematics(skill->robot->arm, command.sent);
+  EXPECT_LT((reached.translation() - target.base_from_tool.translation()).norm(), 1e-3);
+  EXPECT_LT(command.rate.cwiseAbs().maxCoeff(), 1e-3);
+  EXPECT_LT(past, 1e-4);
+  EXPECT_NEAR(command.leader, skill->robot->gripper.closed, 1e-6);
+  EXPECT_NEAR(command.leader_rate, 0.0, 1e-3);
+}
+
+TEST(TargetOf, TheHandOpensClosesOrStays) {
+  const auto skill = OfPanda();
+  ArmCommand command = AtHome(*skill);
+  command.leader = 0.013;
+  const auto leader = [&](float action) {
+    const float all[7] = {0, 0, 0, 0, 0, 0, action};
+    return TargetOf(*skill, all, Isometry3d::Identity(), false, command).leader;
+  };
+  EXPECT_EQ(leader(0.2f), skill->robot->gripper.open);
+  EXPECT_EQ(leader(-0.2f), skill->robot->gripper.closed);
+  EXPECT_EQ(leader(0.1f), 0.013);
+  EXPECT_EQ(leader(-0.1f), 0.013);
+}
+
+TEST(TargetOf, StaysBackAlongItsAxisWhileItIsOffToASide) {
+  const auto skill = OfPanda();
+  const ArmCommand command = AtHome(*skill);
+  const Isometry3d tool = robot::ForwardKinematics(skill->robot->arm, command.sent);
+  const float nothing[7] = {0, 0, 0, 0, 0, 0, 0};
+  // How far above the focus the tool is sent, with the focus so far to the tool's (x, y).
+  const auto back = [&](double x, double y, bool along_x) {
+    const Isometry3d focus = tool * Eigen::Translation3d(x, y, 0.2);
+    const Isometry3d target = TargetOf(*skill, nothing, focus, along_x, command).base_from_tool;
+    EXPECT_LT((focus.inverse() * target.translation()).head<2>().norm(), 1e-12);
+    return -(focus.inverse() * target.translation()).z();
+  };
+  EXPECT_NEAR(back(0.0, 0.0, false), 0.0, 1e-12);
+  EXPECT_NEAR(back(0.02, 0.0, false), 0.0, 1e-12);
+  EXPECT_NEAR(back(0.0, 0.045, false), 0.04, 1e-9);  // 2 cm more than are free, twice that back
+  EXPECT_NEAR(back(0.3, 0.0, false), skill->options.standoff, 1e-12);
+  // Behind what is pushed is where a hand has to be; in front of it, it goes over it.
+  EXPECT_NEAR(back(0.3, 0.0, true), 0.0, 1e-12);
+  EXPECT_NEAR(back(-0.3, 0.0, true), skill->options.standoff, 1e-12);
+}
+
+}  // namespace
+}  // namespace simwright::rl
