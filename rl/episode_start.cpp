@@ -15,6 +15,7 @@ constexpr int kTries = 60;
 constexpr double kShake = 0.03;     // rad, of an arm that begins where another skill ended
 constexpr double kApart = 0.005;    // m between boxes of things
 constexpr double kOnPart = 0.5;     // share of joints part of their way that the hand begins at
+constexpr double kNearWall = 0.3;   // of the opening
 constexpr double kFromRobot = 0.2;  // m from the robot's axis to a thing's box
 
 double Draw(const FactorRange& range, core::Rng& rng) {
@@ -137,6 +138,10 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
   if (grasps && (part_way || variant.starts_held)) start.held = variant.focus->thing;
   if (at_work || start.held >= 0) start.arm = start.at_work;
   const robot::Gripper& gripper = skill.robot->gripper;
+  // A wall is thin: fingers that begin near it are closed sooner.
+  if (start.held >= 0 && variant.focus->rim > 0.0) {
+    start.leader = gripper.closed + kNearWall * (gripper.open - gripper.closed);
+  }
   if (at_work && start.held < 0) {
     start.closed_to = core::Uniform(rng, std::min(gripper.closed, gripper.open),
                                     std::max(gripper.closed, gripper.open));

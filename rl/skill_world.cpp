@@ -8,11 +8,13 @@ namespace {
 
 using Eigen::Isometry3d;
 
-constexpr double kTouches = 5e-4;    // m
-constexpr double kGraspForce = 1.0;  // N of each finger
-constexpr double kClosing = 1.0;     // s, until a hand has closed on what it shall hold ...
-constexpr double kSettling = 0.1;    // ... of which the last bear the thing's weight
-constexpr double kFarthest = 20.0;   // m from the robot: farther, the physics has failed
+constexpr double kTouches = 5e-4;     // m
+constexpr double kGraspForce = 1.0;   // N of each finger
+constexpr double kClosing = 1.0;      // s at most, until a hand has closed on what it shall hold
+constexpr double kStill = 0.05;       // s that its fingers then stand still ...
+constexpr double kStillSpeed = 2e-3;  // ... that is, move slower, m/s or rad/s
+constexpr double kSettling = 0.1;     // s more, in which it bears the thing's weight
+constexpr double kFarthest = 20.0;    // m from the robot: farther, the physics has failed
 
 sim::WorldOptions WorldOptionsOf(const SkillOptions& options) {
   sim::WorldOptions world;
@@ -61,14 +63,21 @@ void SkillWorld::CloseOn(int thing, double leader) {
   if (body < 0) return;
   const Isometry3d pose = world_.LinkPose(body, 0);
   robot_->Command(robot_->command(), leader);
-  const int steps = static_cast<int>(kClosing / world_.time_step());
-  const int free = static_cast<int>(std::lround(kSettling / world_.time_step()));
-  for (int step = 0; step < steps; ++step) {
+  const bool free = !variant_.fixed[static_cast<size_t>(thing)];
+  const auto steps = [&](double seconds) {
+    return static_cast<int>(std::lround(seconds / world_.time_step()));
+  };
+  int still = 0;
+  for (int step = 0; step < steps(kClosing) && still < steps(kStill); ++step) {
+    const double before = robot_->Leader();
     robot_->Drive();
     world_.Step();
-    if (step + free < steps && !variant_.fixed[static_cast<size_t>(thing)]) {
-      world_.SetRootPose(body, pose);
-    }
+    if (free) world_.SetRootPose(body, pose);
+    still = std::abs(robot_->Leader() - before) < kStillSpeed * world_.time_step() ? still + 1 : 0;
+  }
+  for (int step = 0; step < steps(kSettling); ++step) {
+    robot_->Drive();
+    world_.Step();
   }
   ReadContacts();
 }
