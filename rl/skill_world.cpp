@@ -11,7 +11,7 @@ using Eigen::Isometry3d;
 constexpr double kTouches = 5e-4;     // m
 constexpr double kGraspForce = 1.0;   // N of each finger
 constexpr double kClosing = 1.0;      // s at most, until a hand has closed on what it shall hold
-constexpr double kStill = 0.05;       // s that its fingers then stand still ...
+constexpr double kStill = 0.1;        // s that its fingers then stand still ...
 constexpr double kStillSpeed = 2e-3;  // ... that is, move slower, m/s or rad/s
 constexpr double kSettling = 0.1;     // s more, in which it bears the thing's weight
 constexpr double kFarthest = 20.0;    // m from the robot: farther, the physics has failed

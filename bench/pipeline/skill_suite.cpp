@@ -88,6 +88,13 @@ std::string Row(const CellResult& result) {
   return line;
 }
 
+std::string Minutes(const Arguments& arguments) {
+  if (arguments.minutes == 0.0) return "";
+  char text[48];
+  std::snprintf(text, sizeof(text), " --minutes %g", arguments.minutes);
+  return text;
+}
+
 // What somebody who finds the file wants to know.
 std::string Card(const pipeline::SuiteCell& cell, const Arguments& arguments,
                  const CellResult& result) {
@@ -96,7 +103,7 @@ std::string Card(const pipeline::SuiteCell& cell, const Arguments& arguments,
           cell.pattern + "`, seed " + std::to_string(arguments.seed) +
           ". Made and evaluated by\n\n";
   card += "    build/bin/bench_skill_suite --cell " + cell.name + " --train --ship --seed " +
-          std::to_string(arguments.seed) + "\n\n";
+          std::to_string(arguments.seed) + Minutes(arguments) + "\n\n";
   card +=
       "| skill | samples | minutes | successes | rate (95 %) | mean time "
       "|\n|---|---|---|---|---|---|\n";

@@ -223,12 +223,12 @@ TEST_F(RunCommand, StoppedAndKilledInTrainingItGoesOnWhereItWas) {
   EXPECT_TRUE(WIFSIGNALED(killed));
   fs::create_directories(Path("out/.apple.part-1-0/half"));  // as a killed lift leaves it
 
-  // 80 updates of 2 environments and 32 decisions.
+  // 40 updates of 2 environments and 64 decisions.
   const Outcome ended = RunProgram(with("--steps 5120 --resume"));
   ASSERT_EQ(ended.code, 0) << ended.text;
   EXPECT_FALSE(fs::exists(Path("out/.apple.part-1-0")));
   const std::vector<std::string> log = Lines(table);
-  ASSERT_EQ(log.size(), 81u);
+  ASSERT_EQ(log.size(), 41u);
   for (size_t i = 1; i < log.size(); ++i) {
     EXPECT_EQ(log[i].substr(0, log[i].find(',')), std::to_string(i));
   }
