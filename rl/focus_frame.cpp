@@ -12,6 +12,7 @@ using Eigen::Vector3d;
 
 constexpr int kSurelyHeld = 3;  // updates
 constexpr double kLost = 0.06;  // m between the tool and the grasp point: no longer in the hand
+
 }  // namespace
 
 FocusFrame::FocusFrame(const SkillVariant& variant, const tasks::SceneState& state,

@@ -89,7 +89,8 @@ EpisodeStart StartFrom(const json& text, const Skill& skill) {
   start.friction = Numbers(text.at("friction"), things);
   start.joint = Numbers(text.at("joint"), things);
   start.delay = text.at("delay").get<int>();
-  if (start.delay < 0 || start.delay > 1000 || !std::isfinite(start.leader + start.pitch)) {
+  if (start.delay < 0 || start.delay > 1000 ||
+      !std::isfinite(start.leader + start.pitch + start.closed_to.value_or(0.0))) {
     throw std::invalid_argument("a delay or position that cannot be");
   }
   return start;
