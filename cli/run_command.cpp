@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/training_options.h"
 #include "core/error.h"
 #include "pipeline/photo_run.h"
 
@@ -32,26 +33,6 @@ int RunOnPhoto(const Flags& flags, const CommonOptions& common) {
     return kInterrupted;
   }
   return 0;
-}
-
-void AddTraining(CLI::App* command, pipeline::PhotoRunRequest* request) {
-  command->add_option("--envs", request->environments, "Environments side by side")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
-  command->add_option("--steps", request->samples, "Decisions to learn from at most, a subtask")
-      ->check(CLI::Range(1000, 2000000000))
-      ->capture_default_str();
-  command->add_option("--minutes", request->minutes, "Training time at most, a subtask; 0: no end")
-      ->check(CLI::Range(0.0, 1e6))
-      ->capture_default_str();
-  command
-      ->add_option("--target", request->target,
-                   "Learnt once the lower end of the success rate's 95 % interval is above this")
-      ->check(CLI::Range(0.0, 0.99))
-      ->capture_default_str();
-  command->add_option("--episodes", request->episodes, "Episodes of each evaluation")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
 }
 
 }  // namespace
@@ -85,7 +66,8 @@ void AddRun(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_option("--furniture", request->furniture, "drawer_unit, microwave, or any that fits")
       ->check(CLI::IsMember({"any", "drawer_unit", "microwave"}))
       ->capture_default_str();
-  AddTraining(command, request);
+  AddTrainingOptions(command, &request->environments, &request->samples, &request->minutes,
+                     &request->target, &request->episodes);
   command->add_flag("--resume", request->resume, "Go on with a run that was stopped");
   AddCommon(command, common);
   AddForce(command, common);

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/training_options.h"
 #include "pipeline/skill_training.h"
 
 namespace simwright::cli {
@@ -45,23 +46,8 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
       ->add_option("--robot", request->robot,
                    "panda, panda_on_base, or a URDF with a side file (docs/robots.md)")
       ->capture_default_str();
-  command->add_option("--envs", request->environments, "Environments side by side")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
-  command->add_option("--steps", request->samples, "Decisions to learn from at most, a subtask")
-      ->check(CLI::Range(1000, 2000000000))
-      ->capture_default_str();
-  command->add_option("--minutes", request->minutes, "Time at most, a subtask; 0: no end")
-      ->check(CLI::Range(0.0, 1e6))
-      ->capture_default_str();
-  command
-      ->add_option("--target", request->target,
-                   "Learnt once the lower end of the success rate's 95 % interval is above this")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command->add_option("--episodes", request->episodes, "Episodes of each evaluation")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
+  AddTrainingOptions(command, &request->environments, &request->samples, &request->minutes,
+                     &request->target, &request->episodes);
   command->add_flag("--resume", request->resume, "Go on with a run that was stopped");
   AddCommon(command, common);
   command->callback([request, common, run] { *run = [=] { return Train(*request, *common); }; });

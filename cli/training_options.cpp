@@ -1,0 +1,26 @@
+#include "cli/training_options.h"
+
+namespace simwright::cli {
+
+void AddTrainingOptions(CLI::App* command, int* environments, std::int64_t* samples,
+                        double* minutes, double* target, int* episodes) {
+  command->add_option("--envs", *environments, "Environments side by side")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  command->add_option("--steps", *samples, "Decisions to learn from at most, a subtask")
+      ->check(CLI::Range(1000, 2000000000))
+      ->capture_default_str();
+  command->add_option("--minutes", *minutes, "Training time at most, a subtask; 0: no end")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command
+      ->add_option("--target", *target,
+                   "Learnt once the lower end of the success rate's 95 % interval is above this")
+      ->check(CLI::Range(0.0, 0.99))
+      ->capture_default_str();
+  command->add_option("--episodes", *episodes, "Episodes of each evaluation")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+}
+
+}  // namespace simwright::cli

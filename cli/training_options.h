@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+
+#include "cli/command.h"
+
+namespace simwright::cli {
+
+// Flags of every command that trains: --envs, --steps, --minutes, --target, --episodes. Each of the
+// numbers is its own default, and must outlive `command`.
+void AddTrainingOptions(CLI::App* command, int* environments, std::int64_t* samples,
+                        double* minutes, double* target, int* episodes);
+
+}  // namespace simwright::cli
