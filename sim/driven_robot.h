@@ -16,7 +16,7 @@ struct MotorOptions {
   // Share of the grip force that keeps the fingers alike. A real arm gives way until both fingers
   // press on what is between them; this one is stiff, so that the hand gives way: with 1 or more
   // one finger alone presses on a handle that is a millimetre off the middle, and slides off it.
-  double centring = 0.5;
+  double centring = 0.9;
 };
 
 // A robot in a world, each joint held at its commanded position by a motor within the joint's

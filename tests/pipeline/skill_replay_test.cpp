@@ -54,7 +54,7 @@ TEST_F(SkillReplay, EachFormatDoesTheTaskAgain) {
 TEST_F(SkillReplay, AChainOfSubtasksDoesToo) {
   // Nothing corrects where a block is let go that has slipped a little on its longer way: the
   // trajectory rests between the subtasks, the rollout does not.
-  ExpectRepeated(Move(), "csv", "move", 6, 1);
+  ExpectRepeated(Move(), "csv", "move", 6);
   ExpectRepeated(Move(), "robomimic", "move.hdf5", 6);
 }
 
