@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "rl/focus_geometry.h"
+
 namespace simwright::rl {
 namespace {
 
@@ -17,6 +19,8 @@ constexpr int kHand = 3 + 6 + 4;            // place, turn; opening, its command
 constexpr int kFrame = 3 + 6 + 1;           // place, turn; whether at the destination
 constexpr int kJoint = 2;                   // where, how fast
 constexpr int kFocusThing = 3 + 3 + 3 + 3;  // place, upright, speed, size
+constexpr int kFocusSize = 3;               // as the hand sees it
+constexpr int kFocusPart = 3 + 3 + 3;       // middle, way, hinge: of what a joint moves
 constexpr int kThing = 3 + 3 + 3;           // place, upright, size
 constexpr int kDestination = 3;
 
@@ -60,7 +64,8 @@ Observer::Observer(const Skill& skill, const SkillVariant& variant)
 int Observer::size() const {
   int size = 2 * skill_.robot->arm.size() + kHand + kFrame + ActionSize(skill_);
   size += kJoint * static_cast<int>(joints_.size());
-  if (variant_.focus) size += kFocusThing;
+  if (variant_.focus) size += kFocusThing + kFocusSize;
+  if (variant_.focus && variant_.focus->joint >= 0) size += kFocusPart;
   size += kThing * static_cast<int>(things_.size());
   return variant_.destination ? size + kDestination : size;
 }
@@ -113,6 +118,17 @@ void Observer::AddFocusThing(const tasks::SceneState& state, const tasks::SceneS
   row->Add(Vector3d(variant_.model.things[t].box.sizes()), kNear);
 }
 
+void Observer::AddFocusGeometry(const tasks::SceneState& state, const Isometry3d& world_from_focus,
+                                Row* row) const {
+  const FocusGeometry geometry =
+      GeometryOf(variant_.model, state, *variant_.focus, world_from_focus);
+  row->Add(geometry.size, kNear);
+  if (variant_.focus->joint < 0) return;
+  row->Add(geometry.middle, kNear);
+  row->Add(geometry.way, 1.0);
+  row->Add(geometry.hinge, kRoom);
+}
+
 void Observer::AddThings(const tasks::SceneState& state, const Eigen::Matrix3d& focus_from_world,
                          Row* row) const {
   for (const int thing : things_) {
@@ -136,7 +152,10 @@ void Observer::Write(const tasks::SceneState& state, const tasks::SceneState* pr
   row.Add(senses.at_destination ? 1.0 : 0.0);
   AddJoints(state, previous, &row);
   const Eigen::Matrix3d focus_from_world = senses.world_from_focus.linear().transpose();
-  if (variant_.focus) AddFocusThing(state, previous, focus_from_world, &row);
+  if (variant_.focus) {
+    AddFocusThing(state, previous, focus_from_world, &row);
+    AddFocusGeometry(state, senses.world_from_focus, &row);
+  }
   AddThings(state, focus_from_world, &row);
   if (variant_.destination) {
     row.Add(Vector3d(focus_from_world * WayToDestination(variant_, state)), kNear);

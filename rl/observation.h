@@ -28,7 +28,8 @@ class Observer {
   int size() const;
   // Into `row`, size() numbers of about unit size: joints and speeds of the arm, the hand as the
   // focus frame sees it, that frame as the robot sees it, the joints and things that the program
-  // reads, the way to the destination, the last action (docs/skills.md). `previous`: the state one
+  // reads, how large what the hand works on is and where it can go (FocusGeometry), the way to the
+  // destination, the last action (docs/skills.md). `previous`: the state one
   // decision before, or null.
   void Write(const tasks::SceneState& state, const tasks::SceneState* previous,
              const Senses& senses, float* row) const;
@@ -40,6 +41,8 @@ class Observer {
   void AddJoints(const tasks::SceneState& state, const tasks::SceneState* previous, Row* row) const;
   void AddFocusThing(const tasks::SceneState& state, const tasks::SceneState* previous,
                      const Eigen::Matrix3d& focus_from_world, Row* row) const;
+  void AddFocusGeometry(const tasks::SceneState& state, const Eigen::Isometry3d& world_from_focus,
+                        Row* row) const;
   void AddThings(const tasks::SceneState& state, const Eigen::Matrix3d& focus_from_world,
                  Row* row) const;
 

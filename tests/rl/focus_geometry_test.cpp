@@ -1,0 +1,99 @@
+// What a policy is told of the part that the hand works on, against differences of the joint's own
+// motion and the shapes that the scenes are built of.
+#include "rl/focus_geometry.h"
+
+#include <gtest/gtest.h>
+
+#include "rl/skill_environment.h"
+#include "tests/rl/skill_scene.h"
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Vector3d;
+
+SkillSubtask OpenDrawer() {
+  SkillSubtask scene = OpenDoor("unit");
+  scene.assets = {WithInertia(tasks::DrawerUnit("unit"))};
+  const std::string joint = scene.assets.front().model.joints.front().name;
+  scene.subtask.program =
+      "def compute_reward(env):\n    moved = env.get_state_by_joint_name(\"unit\", \"" + joint +
+      "\")\n    return moved, moved >= 0.2\n";
+  return scene;
+}
+
+std::shared_ptr<const Skill> Make(const SkillSubtask& scene) {
+  return MakeSkill(robot::Panda(false), {scene}, SkillOptions().ForEvaluation());
+}
+
+// The frame at the part, and where its origin is once the joint has moved by `step`.
+void ExpectWayOfDifferences(const SkillVariant& variant, double position) {
+  tasks::SceneState state = variant.start;
+  double& joint = state.joints[0][static_cast<size_t>(variant.focus->joint)];
+  joint = position;
+  const Eigen::Isometry3d frame = ToolAtJoint(variant.model, state, *variant.focus);
+  const FocusGeometry geometry = GeometryOf(variant.model, state, *variant.focus, frame);
+  const double step = 1e-6;
+  joint = position + step;
+  const Eigen::Isometry3d after = ToolAtJoint(variant.model, state, *variant.focus);
+  const Vector3d moved = frame.linear().transpose() * (after.translation() - frame.translation());
+  EXPECT_LT((geometry.way - moved.normalized()).norm(), 1e-5);
+  if (geometry.hinge.isZero()) {
+    EXPECT_NEAR(moved.norm() / step, 1.0, 1e-5);  // slides: a metre a metre
+  } else {
+    EXPECT_NEAR(moved.norm() / step, geometry.hinge.norm(), 1e-5);  // turns: radius a radian
+    EXPECT_NEAR(geometry.hinge.dot(moved.normalized()), 0.0, 1e-5);
+    // The axis' point stays where it is.
+    const Vector3d axis_point = frame * geometry.hinge;
+    EXPECT_LT((after * (frame.inverse() * axis_point) - axis_point).norm(), 2e-6);
+  }
+}
+
+TEST(FocusGeometry, OfADoorAgreesWithItsMotion) {
+  const auto skill = Make(OpenDoor());
+  for (const double position : {0.0, 0.4, 1.3}) {
+    ExpectWayOfDifferences(skill->variants.front(), position);
+  }
+}
+
+TEST(FocusGeometry, OfADrawerAgreesWithItsMotion) {
+  const auto skill = Make(OpenDrawer());
+  ASSERT_GE(skill->variants.front().focus->joint, 0);
+  for (const double position : {0.0, 0.15}) {
+    ExpectWayOfDifferences(skill->variants.front(), position);
+  }
+}
+
+TEST(FocusGeometry, SizeIsTheHandlesAsTheHandSeesIt) {
+  const auto skill = Make(OpenDoor());
+  const SkillVariant& variant = skill->variants.front();
+  const Eigen::Isometry3d frame = ToolAtJoint(variant.model, variant.start, *variant.focus);
+  const FocusGeometry geometry = GeometryOf(variant.model, variant.start, *variant.focus, frame);
+  // A bar of 2 x 2 x 20 cm, upright, 6 cm before the hinge and 45 cm beside it: the door carries it
+  // at a right angle to the line to the hinge, where the frame's z points.
+  const double turn = std::atan2(0.06, 0.45), side = 0.02 * (std::cos(turn) + std::sin(turn));
+  EXPECT_LT((geometry.size - Vector3d(0.2, side, side)).norm(), 1e-9);
+  EXPECT_NEAR(geometry.hinge.norm(), std::hypot(0.06, 0.45), 1e-9);
+  EXPECT_LT((geometry.way + Vector3d::UnitZ()).norm(), 1e-9);
+  EXPECT_NEAR(geometry.middle.x(), 0.0, 1e-9);
+  EXPECT_NEAR(geometry.middle.y(), 0.0, 1e-9);
+}
+
+TEST(FocusGeometry, OfAFreeThingIsItsOutlineTurned) {
+  SkillSubtask scene = PickUpCup();
+  scene.assets = {WithInertia(tasks::Box("cup", {0.2, 0.04, 0.06}, 0.3))};
+  const auto skill = Make(scene);
+  const SkillVariant& variant = skill->variants.front();
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  frame.translation() = variant.start.roots[0].translation() + Vector3d(0.0, 0.0, 0.05);
+  frame.rotate(Eigen::AngleAxisd(M_PI / 6, Vector3d::UnitZ()));
+  const FocusGeometry geometry = GeometryOf(variant.model, variant.start, *variant.focus, frame);
+  const double c = std::cos(M_PI / 6), s = std::sin(M_PI / 6);
+  EXPECT_LT((geometry.size - Vector3d(0.2 * c + 0.04 * s, 0.2 * s + 0.04 * c, 0.06)).norm(), 1e-9);
+  EXPECT_LT((geometry.middle - Vector3d(0.0, 0.0, -0.02)).norm(), 1e-9);
+  EXPECT_TRUE(geometry.way.isZero());
+  EXPECT_TRUE(geometry.hinge.isZero());
+}
+
+}  // namespace
+}  // namespace simwright::rl
