@@ -17,6 +17,8 @@ struct SuiteCell {
   std::string pattern;  // of the tasks that it is taken from (ChooseTasks)
   int subtask = 0;      // which of their subtasks
   double minutes = 10;  // of training on two cores, at most
+  // Cabinets are as high as the robot and their open doors stand beside it: that takes a base.
+  std::string robot = "panda";
 };
 
 // Training and evaluation see other instances of the kind: seeds from 1 on and from 101 on.

@@ -20,8 +20,13 @@ constexpr double kPalm = 0.02;  // m from the fingertips to the palm, less what 
 // behind a bar of a centimetre or two and hook it: of 40 scripted pulls at drawers 37 succeeded,
 // with 0.8 cm, where the pads only rub on the bar, 5.
 constexpr double kPadDepth = 0.02;
-constexpr double kSpare = 0.01;      // m that the hand opens wider than what it spans
-constexpr double kHalfWall = 0.003;  // m: cups' walls are 3 to 8 mm thick
+constexpr double kFingerLength = 0.035;  // m from the fingertips to the hand that holds them
+constexpr double kPushHeight = 0.4;      // share of a thing's height
+constexpr double kLowestPush = 0.025;    // m above the floor: fingertips have some thickness
+constexpr double kSpare = 0.01;          // m that the hand opens wider than what it spans
+constexpr double kFromBelow = 0.5;       // of a direction's rise: more comes from below
+constexpr double kAlike = 0.002;         // m: widths that count as one
+constexpr double kHalfWall = 0.003;      // m: cups' walls are 3 to 8 mm thick
 
 bool IsPlace(RewardInput input) {
   return input == RewardInput::kLinkPosition || input == RewardInput::kAssetPosition ||
@@ -50,23 +55,38 @@ double Outward(const Eigen::AlignedBox3d& box, const Vector3d& point, const Vect
   return (point - box.center()).dot(line) >= 0.0 ? 1.0 : -1.0;
 }
 
-// The direction, perpendicular to `approach`, in which the link's outline is the thinnest.
-Vector3d ThinAcross(const tasks::ThingLink& link, const Vector3d& approach) {
+// m, how wide the link's outline is along `across` (unit, link frame).
+double OutlineWidth(const tasks::ThingLink& link, const Vector3d& across) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vector3d& point : link.outline) {
+    low = std::min(low, point.dot(across));
+    high = std::max(high, point.dot(across));
+  }
+  return high - low;
+}
+
+// The direction, perpendicular to `approach`, in which the link's outline is the thinnest. Of those
+// within 2 mm of it, as round knobs have many, the one nearest to `wished`.
+Vector3d ThinAcross(const tasks::ThingLink& link, const Vector3d& approach,
+                    const Vector3d& wished) {
+  constexpr int kDirections = 36;
   const Vector3d first = approach.unitOrthogonal(), second = approach.cross(first);
-  Vector3d best = first;
+  Vector3d directions[kDirections];
+  double widths[kDirections];
   double thinnest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 36; ++i) {
-    const double angle = std::numbers::pi * i / 36;
-    const Vector3d across = std::cos(angle) * first + std::sin(angle) * second;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Vector3d& point : link.outline) {
-      low = std::min(low, point.dot(across));
-      high = std::max(high, point.dot(across));
-    }
-    if (high - low < thinnest - 1e-4) {
-      thinnest = high - low;
-      best = across;
-    }
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = std::numbers::pi * i / kDirections;
+    directions[i] = std::cos(angle) * first + std::sin(angle) * second;
+    widths[i] = OutlineWidth(link, directions[i]);
+    thinnest = std::min(thinnest, widths[i]);
+  }
+  Vector3d best = first;
+  double nearest = -1.0;
+  for (int i = 0; i < kDirections; ++i) {
+    const double along = std::abs(directions[i].dot(wished));
+    if (widths[i] > thinnest + kAlike || along <= nearest) continue;
+    nearest = along;
+    best = directions[i];
   }
   return best;
 }
@@ -82,10 +102,41 @@ Vector3d GripPoint(const tasks::ThingLink& link, const Vector3d& approach) {
   return link.middle + deeper * approach;
 }
 
-// The tool's pose at a part that a joint moves, in the link's frame. The hand comes from where the
-// part can be reached: from outside along the part's own way, or along the axis of what turns in
-// place.
-Eigen::Isometry3d ToolOnPart(const SceneModel& model, const SceneState& start, const Focus& focus) {
+Eigen::Isometry3d ToolAcross(const tasks::ThingLink& link, const Vector3d& approach,
+                             const Vector3d& across) {
+  Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();
+  tool.linear() << across.cross(approach), across, approach;
+  tool.translation() = GripPoint(link, approach);
+  return tool;
+}
+
+// Directions (unit, world) that a hand may come along to a part, the most natural first: from
+// outside along the part's own way, or along the axis of what turns in place; from the side of the
+// thing that the part is on; from above. Never from below: things stand on something.
+std::vector<Vector3d> ApproachDirections(const Eigen::AlignedBox3d& box, const Vector3d& point,
+                                         const Vector3d& way, const Vector3d& axis) {
+  std::vector<Vector3d> directions;
+  const auto add = [&](const Vector3d& direction) {
+    if (direction.z() < kFromBelow) directions.push_back(direction);
+  };
+  const Vector3d line = way.isZero() ? axis : way;
+  const Vector3d outward = Outward(box, point, line) * line;
+  add(-outward);
+  if (way.isZero() || -outward.z() >= kFromBelow) add(outward);
+  Vector3d aside = (point - box.center()).cwiseQuotient(box.sizes());
+  aside.z() = 0.0;
+  Eigen::Index face = 0;
+  if (aside.cwiseAbs().maxCoeff(&face) > 0.0) {
+    add(std::copysign(1.0, -aside[face]) * Vector3d::Unit(face));
+  }
+  add(-Vector3d::UnitZ());
+  return directions;
+}
+
+// The tool's poses at a part that a joint moves, in the link's frame: from each direction across
+// its thin side, and across the other side where the hand spans that.
+std::vector<Eigen::Isometry3d> ToolsOnPart(const SceneModel& model, const SceneState& start,
+                                           const Focus& focus, double opening) {
   const Thing& thing = model.things[static_cast<size_t>(focus.thing)];
   const tasks::ThingJoint& joint = thing.joints[static_cast<size_t>(focus.joint)];
   SceneState rest = start;
@@ -97,21 +148,38 @@ Eigen::Isometry3d ToolOnPart(const SceneModel& model, const SceneState& start, c
   const Eigen::Isometry3d world_from_moved = root * poses[static_cast<size_t>(joint.link)];
   const tasks::ThingLink& link = thing.links[static_cast<size_t>(focus.link)];
   const Vector3d point = world_from_link * link.middle;
-  Vector3d line = Tangent(joint, world_from_moved, point);
-  if (line.isZero()) line = world_from_moved.linear() * joint.axis;
-  const Vector3d outward = Outward(tasks::WorldBox(model, rest, focus.thing), point, line) * line;
-  const Vector3d approach = world_from_link.linear().transpose() * -outward;
-  const Vector3d across = ThinAcross(link, approach);
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() << across.cross(approach), across, approach;
-  pose.translation() = GripPoint(link, approach);
-  return pose;
+  const std::vector<Vector3d> directions = ApproachDirections(
+      tasks::WorldBox(model, rest, focus.thing), point, Tangent(joint, world_from_moved, point),
+      world_from_moved.linear() * joint.axis);
+  std::vector<Eigen::Isometry3d> tools;
+  for (const Vector3d& direction : directions) {
+    const Vector3d approach = world_from_link.linear().transpose() * direction;
+    // Across in the level: hands are wide from finger to finger, and parts stand above each other.
+    const Vector3d level = direction.cross(Vector3d::UnitZ());
+    const Vector3d thin = ThinAcross(link, approach, world_from_link.linear().transpose() * level);
+    tools.push_back(ToolAcross(link, approach, thin));
+    const Vector3d other = approach.cross(thin);
+    if (OutlineWidth(link, other) < opening - kSpare) {
+      tools.push_back(ToolAcross(link, approach, other));
+    }
+  }
+  return tools;
 }
 
 // Of a thing that is taken from above: its middle, or as deep below its top as the palm lets.
 Vector3d GraspPoint(const Thing& thing) {
   Vector3d point = thing.box.center();
   point.z() = std::max(point.z(), thing.box.max().z() - kPalm);
+  return point;
+}
+
+// Where a thing is pushed: below its middle, so that it slides and does not tip, but not so deep
+// that the hand is in its way.
+Vector3d PushPoint(const Thing& thing) {
+  const Eigen::AlignedBox3d& box = thing.box;
+  Vector3d point = box.center();
+  const double low = box.min().z() + std::max(kLowestPush, kPushHeight * thing.height());
+  point.z() = std::min(std::max(low, box.max().z() - kFingerLength), GraspPoint(thing).z());
   return point;
 }
 
@@ -139,7 +207,8 @@ std::optional<Focus> FocusOf(const SceneModel& model, const SceneState& start,
     focus.joint = thing.FindJoint(slot->part);
     if (focus.joint >= 0) {
       focus.link = thing.joints[static_cast<size_t>(focus.joint)].grip;
-      focus.link_from_tool = ToolOnPart(model, start, focus);
+      focus.approaches = ToolsOnPart(model, start, focus, opening);
+      focus.link_from_tool = focus.approaches.front();
       return focus;
     }
   }
@@ -153,7 +222,8 @@ std::optional<Focus> FocusOf(const SceneModel& model, const SceneState& start,
     focus.rim = RimOf(model.things[static_cast<size_t>(focus.thing)],
                       start.roots[static_cast<size_t>(focus.thing)], opening);
   }
-  focus.link_from_tool.translation() = GraspPoint(model.things[static_cast<size_t>(focus.thing)]);
+  const Thing& thing = model.things[static_cast<size_t>(focus.thing)];
+  focus.link_from_tool.translation() = grasps ? GraspPoint(thing) : PushPoint(thing);
   return focus;
 }
 
@@ -208,7 +278,6 @@ double WidthAlong(const Thing& thing, const Eigen::Isometry3d& world_from_thing,
 
 double ThinDirection(const Thing& thing, const Eigen::Isometry3d& world_from_thing, double wished) {
   constexpr int kDirections = 36;
-  constexpr double kAlike = 0.002;  // m
   double widths[kDirections];
   double thinnest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kDirections; ++i) {

@@ -19,6 +19,8 @@ struct Focus {
   // The tool's place at work: its z towards the link, its y across the link's thin side. Of a
   // thing without a joint only the origin counts; it is taken from above, wherever it is turned.
   Eigen::Isometry3d link_from_tool = Eigen::Isometry3d::Identity();
+  // All such places at a part, the most natural first (ChooseApproach takes one).
+  std::vector<Eigen::Isometry3d> approaches;
   // m from that origin to where a vessel that is too wide for the hand is taken: by its wall, on
   // the side that the tool's y points to. 0: in the middle.
   double rim = 0.0;

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "geometry/convex_hull.h"
+#include "rl/approach_choice.h"
 #include "sim/driven_robot.h"
 
 namespace simwright::rl {
@@ -106,7 +107,7 @@ void PrepareBodies(const std::vector<assets::SemanticModel>& models, const Skill
   }
 }
 
-SkillVariant MakeVariant(const SkillSubtask& source, const robot::Gripper& gripper,
+SkillVariant MakeVariant(const SkillSubtask& source, const robot::RobotModel& robot,
                          const SkillOptions& options) {
   SkillVariant variant;
   variant.model = tasks::MakeSceneModel(source.assets);
@@ -114,8 +115,12 @@ SkillVariant MakeVariant(const SkillSubtask& source, const robot::Gripper& gripp
   variant.start = tasks::StateOf(variant.model, source.subtask.start, source.subtask.goal);
   Place(&variant);
   CompileProgram(&variant);
-  FindFocus(gripper.Opening(gripper.open), &variant);
+  FindFocus(robot.gripper.MaxOpening(), &variant);
   PrepareBodies(source.assets, options, &variant);
+  if (variant.focus && variant.focus->joint >= 0) {
+    const auto thing = static_cast<size_t>(variant.focus->thing);
+    variant.focus->link_from_tool = ChooseApproach(robot, variant, variant.bodies[thing]->body());
+  }
   return variant;
 }
 
@@ -148,7 +153,7 @@ std::shared_ptr<const Skill> MakeSkill(const robot::RobotModel& robot,
   skill->chain = std::make_shared<robot::ChainKinematics>(robot.arm);
   skill->options = options;
   for (const SkillSubtask& subtask : subtasks) {
-    skill->variants.push_back(MakeVariant(subtask, robot.gripper, options));
+    skill->variants.push_back(MakeVariant(subtask, robot, options));
     if (!Alike(skill->variants.front(), skill->variants.back())) {
       throw core::Error("its program reads other things than that of '" +
                             subtasks.front().subtask.name + "': one policy cannot learn both",

@@ -1,6 +1,5 @@
 #include "rl/skill_environment.h"
 
-#include <algorithm>
 #include <cstring>
 
 #include "core/error.h"
@@ -45,16 +44,11 @@ SkillEnvironment::SkillEnvironment(std::shared_ptr<const Skill> skill, int count
 
 SkillEnvironment::~SkillEnvironment() = default;
 
-// Body(i) for every environment, each always on the same thread.
+// Body(i) for every environment. Threads take the next one when they are done with theirs: where an
+// episode ends, its successor has to be planned, which takes as long as ten decisions.
 template <typename Body>
 void SkillEnvironment::ForEach(const Body& body) {
-  const int threads = std::min(core::ThreadCount(), size());
-  core::ParallelFor(threads, [&](int thread) {
-    for (size_t i = static_cast<size_t>(thread); i < slots_.size();
-         i += static_cast<size_t>(threads)) {
-      body(i);
-    }
-  });
+  core::ParallelFor(size(), [&](int i) { body(static_cast<size_t>(i)); });
 }
 
 std::uint64_t SkillEnvironment::EpisodeSeed(size_t slot) const {

@@ -26,7 +26,7 @@ struct Arguments {
   std::string cell = "all";
   bool train = false, ship = false, by_task = false;
   double minutes = 0.0;  // 0: the cell's own
-  int instances = 4, episodes = 300;
+  int instances = 8, episodes = 300;
   std::uint64_t seed = 1;
   fs::path output = "out/skill_suite";
   fs::path models = fs::path(SIMWRIGHT_SOURCE_DIR) / "models";
@@ -47,6 +47,7 @@ pipeline::SkillRun UnseenRun(const pipeline::SuiteCell& cell, const Arguments& a
   // What was lifted from the one photo is the one thing to pick.
   const bool photo = cell.kind == "photo";
   pipeline::SkillRun run;
+  run.robot = cell.robot;
   run.folder = arguments.output / (photo ? "seen" : "unseen") / cell.name;
   run.set =
       tasks::ReadTaskFile(MakeCellTasks(cell, photo ? pipeline::kSeenSeed : pipeline::kUnseenSeed,
@@ -99,7 +100,7 @@ std::string Minutes(const Arguments& arguments) {
 std::string Card(const pipeline::SuiteCell& cell, const Arguments& arguments,
                  const CellResult& result) {
   std::string card = "# " + cell.name + "\n\n";
-  card += "Policy of the skill suite: robot panda, kind `" + cell.kind + "`, tasks `" +
+  card += "Policy of the skill suite: robot " + cell.robot + ", kind `" + cell.kind + "`, tasks `" +
           cell.pattern + "`, seed " + std::to_string(arguments.seed) +
           ". Made and evaluated by\n\n";
   card += "    build/bin/bench_skill_suite --cell " + cell.name + " --train --ship --seed " +
@@ -124,6 +125,7 @@ CellResult Train(const pipeline::SuiteCell& cell, const Arguments& arguments,
   request.minutes = arguments.minutes > 0.0 ? arguments.minutes : cell.minutes;
   request.samples = 1'000'000'000;
   request.seed = arguments.seed;
+  request.robot = cell.robot;
   request.resume = true;
   const pipeline::TrainReport report = pipeline::TrainTask(request, progress);
   CellResult result;

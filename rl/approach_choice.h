@@ -1,0 +1,13 @@
+#pragma once
+
+#include "rl/skill.h"
+
+namespace simwright::rl {
+
+// How the hand comes to a part that a joint moves: the first of focus.approaches with which it is
+// in nothing's way from the joint's rest to the end of its work, fingers open; else the one with
+// which it is the least. `body`: of the focus' thing.
+Eigen::Isometry3d ChooseApproach(const robot::RobotModel& robot, const SkillVariant& variant,
+                                 const sim::ArticulatedBody& body);
+
+}  // namespace simwright::rl

@@ -1,0 +1,121 @@
+#include "rl/hand_clearance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "assets/joint_poses.h"
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// Whether each link is `root` or hangs on it.
+std::vector<bool> HangsOn(const assets::UrdfModel& urdf, int root) {
+  std::vector<bool> hangs(urdf.links.size(), false);
+  hangs[static_cast<size_t>(root)] = true;
+  const std::vector<int> parents = assets::ParentLinks(urdf);
+  for (size_t j = 0; j < urdf.joints.size(); ++j) {  // to links[j + 1], parents first
+    if (hangs[static_cast<size_t>(parents[j])]) hangs[j + 1] = true;
+  }
+  return hangs;
+}
+
+void AddSurface(const core::TriangleMesh& mesh, const Isometry3d& tool_from_link, double spacing,
+                std::vector<Vector3d>* points) {
+  for (const Eigen::Vector3i& triangle : mesh.triangles) {
+    const Vector3d a = tool_from_link * mesh.vertices[static_cast<size_t>(triangle[0])];
+    const Vector3d b = tool_from_link * mesh.vertices[static_cast<size_t>(triangle[1])] - a;
+    const Vector3d c = tool_from_link * mesh.vertices[static_cast<size_t>(triangle[2])] - a;
+    const double longest = std::max({b.norm(), c.norm(), (b - c).norm()});
+    const int steps = std::max(1, static_cast<int>(std::ceil(longest / spacing)));
+    for (int i = 0; i <= steps; ++i) {
+      for (int j = 0; i + j <= steps; ++j) {
+        points->push_back(a + (i * b + j * c) / steps);
+      }
+    }
+  }
+}
+
+// One point of those in each cube of side `spacing`: meshes of round shapes are much finer.
+std::vector<Vector3d> Thinned(const std::vector<Vector3d>& points, double spacing) {
+  std::set<std::array<int, 3>> cubes;
+  std::vector<Vector3d> thinned;
+  for (const Vector3d& point : points) {
+    const Eigen::Vector3i cube = (point / spacing).array().floor().cast<int>();
+    if (cubes.insert({cube.x(), cube.y(), cube.z()}).second) thinned.push_back(point);
+  }
+  return thinned;
+}
+
+// m from `point` to the nearest face of the convex mesh that holds it; 0 outside. Faces look
+// outwards.
+double DepthIn(const core::TriangleMesh& part, const Vector3d& point) {
+  double depth = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3i& triangle : part.triangles) {
+    const Vector3d& a = part.vertices[static_cast<size_t>(triangle[0])];
+    const Vector3d normal = (part.vertices[static_cast<size_t>(triangle[1])] - a)
+                                .cross(part.vertices[static_cast<size_t>(triangle[2])] - a);
+    const double length = normal.norm();
+    if (length <= 0.0) continue;
+    depth = std::min(depth, normal.dot(a - point) / length);
+    if (depth <= 0.0) return 0.0;
+  }
+  return std::isfinite(depth) ? depth : 0.0;
+}
+
+double DeepestIn(const core::TriangleMesh& part, const std::vector<Vector3d>& points,
+                 const Isometry3d& link_from_tool) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& vertex : part.vertices) box.extend(vertex);
+  double deepest = 0.0;
+  for (const Vector3d& point : points) {
+    const Vector3d local = link_from_tool * point;
+    if (box.contains(local)) deepest = std::max(deepest, DepthIn(part, local));
+  }
+  return deepest;
+}
+
+}  // namespace
+
+std::vector<Vector3d> HandSurface(const robot::RobotModel& robot, double spacing) {
+  assets::JointPositions open;
+  const assets::UrdfModel& urdf = robot.urdf;
+  if (!robot.gripper.joints.empty()) {
+    open[urdf.joints[static_cast<size_t>(robot.gripper.joints.front())].name] = robot.gripper.open;
+  }
+  const std::vector<Isometry3d> poses = assets::LinkPoses(urdf, open);
+  const Isometry3d tool_from_root = poses[static_cast<size_t>(robot.tool_link)].inverse();
+  const std::vector<bool> hand = HangsOn(urdf, robot.arm_joints.back() + 1);
+  std::vector<Vector3d> points;
+  for (size_t l = 0; l < urdf.links.size(); ++l) {
+    if (!hand[l]) continue;
+    for (const assets::UrdfShape& shape : urdf.links[l].collisions) {
+      AddSurface(shape.mesh, tool_from_root * poses[l], 0.5 * spacing, &points);
+    }
+  }
+  return Thinned(points, 0.5 * spacing);
+}
+
+double DeepestPoint(const std::vector<Vector3d>& points, const Isometry3d& world_from_tool,
+                    const sim::ArticulatedBody& body,
+                    const std::vector<Isometry3d>& world_from_links, int gripped) {
+  double deepest = 0.0;
+  for (const Vector3d& point : points) {
+    deepest = std::max(deepest, -(world_from_tool * point).z());
+  }
+  for (size_t l = 0; l < body.links.size(); ++l) {
+    if (static_cast<int>(l) == gripped) continue;
+    const Isometry3d link_from_tool = world_from_links[l].inverse() * world_from_tool;
+    for (const core::TriangleMesh& part : body.links[l].parts) {
+      deepest = std::max(deepest, DeepestIn(part, points, link_from_tool));
+    }
+  }
+  return deepest;
+}
+
+}  // namespace simwright::rl
