@@ -46,6 +46,17 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
       ->add_option("--robot", request->robot,
                    "panda, panda_on_base, or a URDF with a side file (docs/robots.md)")
       ->capture_default_str();
+  command
+      ->add_option_function<std::string>(
+          "--action",
+          [request](const std::string& name) { request->action = rl::ActionSpaceOf(name); },
+          "What an action says: the tool seen from what it works on (focus) or from the robot\n"
+          "(absolute), a step of the tool (delta) or of the joints (joints)")
+      ->check(CLI::IsMember({"focus", "absolute", "delta", "joints"}))
+      ->default_str("focus");
+  command->add_option("--seconds", request->episode_seconds, "Of an episode, at most")
+      ->check(CLI::Range(0.5, 600.0))
+      ->capture_default_str();
   AddTrainingOptions(command, &request->environments, &request->samples, &request->minutes,
                      &request->target, &request->episodes);
   command->add_flag("--resume", request->resume, "Go on with a run that was stopped");

@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 constexpr const char* kRunFile = "run.json";
 constexpr const char* kTasksFile = "tasks.json";
 
@@ -43,6 +43,7 @@ json RunJson(const SkillRun& run) {
   for (const std::string& hash : run.hashes) text["asset_hashes"].push_back(hash);
   text["episode_seconds"] = run.options.episode_seconds;
   text["discount"] = run.options.discount;
+  text["action"] = rl::NameOf(run.options.action);
   return text;
 }
 
@@ -124,6 +125,7 @@ SkillRun ReadRun(const fs::path& folder) {
     run.hashes = text.at("asset_hashes").get<std::vector<std::string>>();
     run.options.episode_seconds = text.at("episode_seconds").get<double>();
     run.options.discount = text.at("discount").get<double>();
+    run.options.action = rl::ActionSpaceOf(text.at("action").get<std::string>());
   } catch (const json::exception&) {
     throw core::Error("is damaged", file.string(), "train anew");
   }

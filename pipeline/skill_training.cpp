@@ -32,8 +32,8 @@ rl::TrainingOptions OptionsFor(const TrainRequest& request, const SkillRun& run,
   options.ppo.discount = run.options.discount;
   // Opening drawers that it had not seen, a policy succeeded in 88 % of the episodes after 233k
   // decisions; with a horizon of 32 and minibatches of 512 in 59 % (discount 0.97). With 128 and
-  // 2048, discount 0.97, a microwave's door was opened in 55 % after 205k; with these and a discount
-  // of 0.98 in 95 % after 209k.
+  // 2048, discount 0.97, a microwave's door was opened in 55 % after 205k; with these and a
+  // discount of 0.98 in 95 % after 209k.
   options.ppo.horizon = 64;
   options.ppo.epochs = 5;
   options.ppo.minibatch = 1024;
@@ -181,6 +181,8 @@ TrainReport TrainTask(const TrainRequest& request, core::Progress* progress) {
   run.set = ChooseTasks(tasks::ReadTaskFile(request.task_file), request.tasks,
                         request.task_file.string());
   run.robot = request.robot;
+  run.options.action = request.action;
+  run.options.episode_seconds = request.episode_seconds;
   run.environments = request.environments;
   run.seed = request.seed;
   if (fs::exists(run.folder) && !request.resume) {

@@ -16,6 +16,8 @@ struct TrainRequest {
   std::vector<std::string> tasks;  // names or patterns (ChooseTasks)
   std::filesystem::path output;
   std::string robot = "panda";
+  rl::ActionSpace action = rl::ActionSpace::kFocus;
+  double episode_seconds = rl::SkillOptions().episode_seconds;
   int environments = 64;
   std::int64_t samples = 2'000'000;  // of one subtask, at most
   double minutes = 30.0;             // of one subtask, at most; 0: no end

@@ -1,6 +1,9 @@
 #include "rl/skill_options.h"
 
 #include <cmath>
+#include <utility>
+
+#include "core/error.h"
 
 namespace simwright::rl {
 namespace {
@@ -13,7 +16,30 @@ bool IsShare(double share) {
   return share >= 0.0 && share <= 1.0;
 }
 
+constexpr std::pair<ActionSpace, const char*> kActionSpaces[] = {
+    {ActionSpace::kFocus, "focus"},
+    {ActionSpace::kAbsolute, "absolute"},
+    {ActionSpace::kDelta, "delta"},
+    {ActionSpace::kJoints, "joints"},
+};
+
 }  // namespace
+
+std::string NameOf(ActionSpace space) {
+  for (const auto& [known, name] : kActionSpaces) {
+    if (known == space) return name;
+  }
+  return "";
+}
+
+ActionSpace ActionSpaceOf(const std::string& name) {
+  std::string names;
+  for (const auto& [space, known] : kActionSpaces) {
+    if (name == known) return space;
+    names += (names.empty() ? "" : ", ") + std::string(known);
+  }
+  throw core::Error("there is no action space '" + name + "'", "", "it is one of " + names);
+}
 
 int SkillOptions::decisions() const {
   return static_cast<int>(std::ceil(episode_seconds / decision_seconds() - 1e-9));

@@ -16,6 +16,10 @@ enum class ActionSpace {
   kJoints,
 };
 
+// "focus", "absolute", "delta", "joints", and back. The latter throws core::Error, listing them.
+std::string NameOf(ActionSpace space);
+ActionSpace ActionSpaceOf(const std::string& name);
+
 // A range that a factor is drawn from, evenly in its logarithm.
 struct FactorRange {
   double low = 1.0, high = 1.0;

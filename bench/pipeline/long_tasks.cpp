@@ -1,0 +1,161 @@
+// What decomposing a task is worth: three long tasks (pipeline/long_tasks.h), each learnt as a
+// chain of subtasks, and undecomposed with as many samples, by the reward of what the task is for
+// and by the sum of its subtasks' rewards.
+//   bench_long_tasks --task cup_into_microwave --seed 1
+// A training that was stopped goes on; what is done is not done again: remove its folder.
+#include <algorithm>
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "pipeline/long_tasks.h"
+#include "pipeline/skill_rollout.h"
+#include "pipeline/skill_training.h"
+#include "tasks/task_file.h"
+
+namespace simwright {
+namespace {
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string task = "all", method = "all", action = "delta";
+  double minutes = 15.0;
+  int episodes = 300;
+  std::uint64_t seed = 1;
+  fs::path output = "out/long_tasks";
+};
+
+struct Learnt {
+  std::int64_t samples = 0;
+  double seconds = 0.0;
+};
+
+void PrintRow(const std::string& name, const std::string& method, const Arguments& arguments,
+              const Learnt& learnt, int successes, const rl::Interval& interval) {
+  std::printf("| %s | %s | %llu | %.0fk | %.1f | %d of %d | %.1f %% (%.1f-%.1f) |\n", name.c_str(),
+              method.c_str(), static_cast<unsigned long long>(arguments.seed),
+              1e-3 * static_cast<double>(learnt.samples), learnt.seconds / 60.0, successes,
+              arguments.episodes, 100.0 * successes / arguments.episodes, 100.0 * interval.low,
+              100.0 * interval.high);
+  std::fflush(stdout);
+}
+
+Learnt SumOf(const pipeline::TrainReport& report) {
+  Learnt sum;
+  for (const pipeline::TrainedSkill& skill : report.skills) {
+    sum.samples += skill.samples;
+    sum.seconds += skill.seconds;
+  }
+  return sum;
+}
+
+// The chain, evaluated anew from starts of its own.
+rl::ChainEvaluation Evaluated(const fs::path& run, const Arguments& arguments) {
+  const pipeline::TrainedTask trained(run);
+  return rl::EvaluateChain(trained.links(), arguments.episodes, arguments.seed + 9000);
+}
+
+void PrintHandovers(const pipeline::TrainReport& report) {
+  for (const pipeline::TrainedSkill& skill : report.skills) {
+    std::printf("    %-36s own starts %.1f %%", skill.name.c_str(), 100.0 * skill.own.rate());
+    if (!skill.handover.episodes.empty()) {
+      std::printf(", after the one before %.1f %%, lost %.1f", 100.0 * skill.handover.rate(),
+                  100.0 * skill.HandoverLoss());
+    }
+    std::printf(", %lldk samples\n", static_cast<long long>(skill.samples / 1000));
+  }
+}
+
+pipeline::TrainReport Train(const pipeline::LongTask& task, const fs::path& file,
+                            const fs::path& run, pipeline::TrainRequest request,
+                            const Arguments& arguments, core::Progress* progress) {
+  request.task_file = file;
+  request.tasks = {"*"};
+  request.output = run;
+  request.robot = task.robot;
+  request.seed = arguments.seed;
+  request.resume = true;
+  return pipeline::TrainTask(request, progress);
+}
+
+void RunUndecomposed(const pipeline::LongTask& task, const tasks::Task& source,
+                     const tasks::TaskSet& set, const std::vector<bool>& lasting, bool sum,
+                     const fs::path& folder, std::int64_t samples, const Arguments& arguments,
+                     core::Progress* progress) {
+  const std::string method = sum ? "sum" : "own";
+  tasks::WholeTaskParts parts;
+  parts.required = lasting;
+  parts.rewarded = sum ? std::vector<bool>(lasting.size(), true) : lasting;
+  tasks::TaskSet whole = set;
+  whole.tasks = {tasks::WholeTask(source, parts, "whole_" + method)};
+  const fs::path file = folder / ("tasks_" + method + ".json");
+  tasks::WriteTaskFile(whole, file);
+  pipeline::TrainRequest request;
+  request.samples = samples;
+  request.minutes = 0.0;
+  request.action = rl::ActionSpaceOf(arguments.action);
+  request.episode_seconds *= static_cast<double>(source.subtasks.size());
+  const fs::path run = folder / ("run_" + method + "_" + std::to_string(arguments.seed));
+  const pipeline::TrainReport report = Train(task, file, run, request, arguments, progress);
+  const rl::ChainEvaluation found = Evaluated(run, arguments);
+  progress->Finish();
+  PrintRow(task.name, method, arguments, SumOf(report), found.successes, found.interval);
+}
+
+void RunTask(const pipeline::LongTask& task, const Arguments& arguments) {
+  core::Progress progress(core::Progress::StyleForStderr());
+  const fs::path folder = arguments.output / task.name;
+  const fs::path file = pipeline::MakeLongTask(task, folder, &progress);
+  pipeline::TrainRequest request;
+  request.samples = 1'000'000'000;
+  request.minutes = arguments.minutes;
+  const fs::path run = folder / ("run_chain_" + std::to_string(arguments.seed));
+  const pipeline::TrainReport report = Train(task, file, run, request, arguments, &progress);
+  const rl::ChainEvaluation chain = Evaluated(run, arguments);
+  progress.Finish();
+  PrintRow(task.name, "chain", arguments, SumOf(report), chain.successes, chain.interval);
+  PrintHandovers(report);
+  const tasks::TaskSet set = tasks::ReadTaskFile(file);
+  const pipeline::TrainedTask trained(run);
+  const std::vector<bool> lasting = pipeline::LastingSubtasks(trained.skills(), chain);
+  for (const bool sum : {false, true}) {
+    if (arguments.method != "all" && arguments.method != (sum ? "sum" : "own")) continue;
+    RunUndecomposed(task, set.tasks.front(), set, lasting, sum, folder, SumOf(report).samples,
+                    arguments, &progress);
+  }
+}
+
+}  // namespace
+}  // namespace simwright
+
+int main(int argc, char** argv) {
+  CLI::App app("Long tasks: chained subtasks beside undecomposed learning");
+  simwright::Arguments arguments;
+  app.add_option("--task", arguments.task, "One of the long tasks, or all")->capture_default_str();
+  app.add_option("--method", arguments.method, "Beside the chain: own, sum, all or none")
+      ->check(CLI::IsMember({"own", "sum", "all", "none"}))
+      ->capture_default_str();
+  app.add_option("--action", arguments.action, "Action space of the undecomposed")
+      ->capture_default_str();
+  app.add_option("--minutes", arguments.minutes, "Of each subtask's training, at most")
+      ->capture_default_str();
+  app.add_option("--episodes", arguments.episodes, "Of each evaluation")->capture_default_str();
+  app.add_option("--seed", arguments.seed, "Of the training")->capture_default_str();
+  app.add_option("-o", arguments.output, "Where assets and trainings are kept")
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    if (arguments.task != "all") simwright::pipeline::LongTaskOf(arguments.task);
+    simwright::core::SetThreadCount(0);
+    for (const simwright::pipeline::LongTask& task : simwright::pipeline::LongTasks()) {
+      if (arguments.task == "all" || arguments.task == task.name) {
+        simwright::RunTask(task, arguments);
+      }
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+}
