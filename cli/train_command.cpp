@@ -54,7 +54,12 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
           "(absolute), a step of the tool (delta) or of the joints (joints)")
       ->check(CLI::IsMember({"focus", "absolute", "delta", "joints"}))
       ->default_str("focus");
-  command->add_option("--seconds", request->episode_seconds, "Of an episode, at most")
+  command->add_option("--seconds", request->episode_seconds, "Of an episode in training, at most")
+      ->check(CLI::Range(0.5, 600.0))
+      ->capture_default_str();
+  command
+      ->add_option("--evaluation-seconds", request->evaluation_seconds,
+                   "Of an episode in evaluations and rollouts, at most")
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str();
   AddTrainingOptions(command, &request->environments, &request->samples, &request->minutes,

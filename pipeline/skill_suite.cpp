@@ -47,7 +47,7 @@ const std::vector<SuiteCell>& SkillSuite() {
       {"close_drawer", "drawer_unit", "close_drawer_unit_*_drawer_*"},
       {"open_cabinet_door", "cabinet", "open_cabinet_*_door_*", 0, 30, "panda_on_base"},
       {"close_cabinet_door", "cabinet", "close_cabinet_*_door_*", 0, 30, "panda_on_base"},
-      {"turn_on_faucet", "faucet", "turn_on_faucet_*_[kl]*", 0, 30},
+      {"turn_faucet_knob", "faucet", "turn_on_faucet_*_knob_*"},
       {"press_toaster_lever", "toaster", "press_toaster_*_lever"},
       {"lift_lid", "box_with_lid", "open_box_with_lid_*_lid"},
       {"push_cup", "cup", "push_cup_*"},

@@ -183,6 +183,7 @@ TrainReport TrainTask(const TrainRequest& request, core::Progress* progress) {
   run.robot = request.robot;
   run.options.action = request.action;
   run.options.episode_seconds = request.episode_seconds;
+  run.options.evaluation_seconds = request.evaluation_seconds;
   run.environments = request.environments;
   run.seed = request.seed;
   if (fs::exists(run.folder) && !request.resume) {

@@ -17,7 +17,9 @@ struct TrainRequest {
   std::filesystem::path output;
   std::string robot = "panda";
   rl::ActionSpace action = rl::ActionSpace::kFocus;
+  // Of an episode at most, in training and in evaluations.
   double episode_seconds = rl::SkillOptions().episode_seconds;
+  double evaluation_seconds = rl::SkillOptions().evaluation_seconds;
   int environments = 64;
   std::int64_t samples = 2'000'000;  // of one subtask, at most
   double minutes = 30.0;             // of one subtask, at most; 0: no end

@@ -20,7 +20,7 @@ constexpr double kPalm = 0.02;  // m from the fingertips to the palm, less what 
 // behind a bar of a centimetre or two and hook it: of 40 scripted pulls at drawers 37 succeeded,
 // with 0.8 cm, where the pads only rub on the bar, 5.
 constexpr double kPadDepth = 0.02;
-constexpr double kFingerLength = 0.035;  // m from the fingertips to the hand that holds them
+constexpr double kFingerLength = 0.025;  // m from the fingertips to the hand, with some room
 constexpr double kPushHeight = 0.4;      // share of a thing's height
 constexpr double kLowestPush = 0.025;    // m above the floor: fingertips have some thickness
 constexpr double kSpare = 0.01;          // m that the hand opens wider than what it spans

@@ -10,8 +10,8 @@
 
 namespace simwright::rl {
 
-// N episodes of a skill side by side, a world each. Each environment always runs on the same of
-// core::ThreadCount() threads.
+// N episodes of a skill side by side, a world each. Up to core::ThreadCount() threads take them in
+// turn.
 class SkillEnvironment : public VectorEnvironment {
  public:
   // `pool`: starts that a share of the episodes begin from instead of drawing their own; none where

@@ -1,5 +1,6 @@
 #include "rl/skill_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -49,6 +50,7 @@ SkillOptions SkillOptions::ForEvaluation() const {
   SkillOptions options = *this;
   options.at_focus_share = 0.0;
   options.part_way_share = 0.0;
+  options.episode_seconds = evaluation_seconds;
   return options;
 }
 
@@ -60,8 +62,8 @@ bool SkillOptions::IsValid(std::string* error) const {
   if (!(control_rate > 0.0) || substeps < 1 || control_steps < 1) {
     return fail("control_rate, substeps and control_steps must be positive");
   }
-  if (!(episode_seconds >= decision_seconds())) {
-    return fail("episode_seconds must be at least one decision long");
+  if (!(std::min(episode_seconds, evaluation_seconds) >= decision_seconds())) {
+    return fail("episode_seconds and evaluation_seconds must be at least one decision long");
   }
   if (!(hold_seconds >= 0.0)) return fail("hold_seconds must not be negative");
   if (contact_iterations < 1 || free_iterations < 1) {

@@ -1,0 +1,115 @@
+// From where a hand comes to a part: not through the floor, not through what the part is on.
+#include "rl/approach_choice.h"
+
+#include <gtest/gtest.h>
+
+#include "rl/hand_clearance.h"
+#include "tests/rl/skill_scene.h"
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// `asset`, its joint "part_joint" to be moved, held to the floor before the robot.
+std::shared_ptr<const Skill> Moving(const assets::SemanticModel& asset) {
+  SkillSubtask scene;
+  scene.assets = {WithInertia(asset)};
+  scene.subtask.name = "move";
+  scene.subtask.program =
+      "def compute_reward(env):\n"
+      "    moved = env.get_state_by_joint_name(\"asset\", \"part_joint\")\n"
+      "    return moved, moved >= 0.05\n";
+  tasks::AssetPlacement placement;
+  placement.asset = "asset";
+  placement.fixed = true;
+  placement.world_from_asset.translation() = Vector3d(0.5, 0.0, 0.0);
+  scene.subtask.start.placements = {placement};
+  return MakeSkill(robot::Panda(false), {scene}, SkillOptions().ForEvaluation());
+}
+
+// A body of blocks with one part.
+assets::SemanticModel Asset(const std::vector<assets::UrdfShape>& body, const Vector3d& part_size,
+                            const assets::UrdfJoint& joint) {
+  assets::SemanticModel asset;
+  asset.name = "asset";
+  assets::UrdfLink base = tasks::MakeLink("body", 5.0), part = tasks::MakeLink("part", 0.1);
+  base.collisions = body;
+  part.collisions = {tasks::Block(part_size, Vector3d::Zero())};
+  asset.model.links = {base, part};
+  asset.model.joints = {joint};
+  return asset;
+}
+
+Vector3d ApproachOf(const Skill& skill) {
+  const SkillVariant& variant = skill.variants.front();
+  return ToolAtJoint(variant.model, variant.start, *variant.focus).linear().col(2);
+}
+
+TEST(ChooseApproach, AKnobBesideATallSpoutIsTakenFromAbove) {
+  // The knob stands on a deck, lower than the middle of the whole: the way out along its axis from
+  // there is down, into the deck.
+  const auto skill = Moving(Asset(
+      {tasks::Block({0.1, 0.3, 0.04}, {0, 0, 0.02}), tasks::Block({0.04, 0.04, 0.3}, {0, 0, 0.19})},
+      {0.05, 0.02, 0.03},
+      tasks::MakeJoint("part_joint", "body", "part", assets::UrdfJointType::kRevolute,
+                       {0, 0.1, 0.06}, {0, 0, 1}, 0.0, 2.0)));
+  EXPECT_LT((ApproachOf(*skill) + Vector3d::UnitZ()).norm(), 1e-9);
+}
+
+TEST(ChooseApproach, ALeverThatGoesDownIsPressedFromTheFront) {
+  // A block of 20 cm with the lever before its front: a hand from above would hit its edge.
+  const auto skill =
+      Moving(Asset({tasks::Block({0.2, 0.3, 0.2}, {0, 0, 0.1})}, {0.03, 0.04, 0.012},
+                   tasks::MakeJoint("part_joint", "body", "part", assets::UrdfJointType::kPrismatic,
+                                    {-0.115, 0, 0.16}, {0, 0, -1}, 0.0, 0.09)));
+  EXPECT_LT((ApproachOf(*skill) - Vector3d::UnitX()).norm(), 1e-9);
+}
+
+TEST(ChooseApproach, WhereAllIsFreeTheHandComesAlongThePartsWay) {
+  const auto skill = MakeSkill(robot::Panda(false), {OpenDoor()}, SkillOptions().ForEvaluation());
+  const Focus& focus = *skill->variants.front().focus;
+  EXPECT_EQ(focus.link_from_tool.matrix(), focus.approaches.front().matrix());
+}
+
+TEST(HandSurface, OfThePandaIsItsHandAndOpenFingers) {
+  const std::vector<Vector3d> points = HandSurface(robot::Panda(false), 0.01);
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& point : points) box.extend(point);
+  // Franka's hand is 20 cm wide from finger to finger and 6 to 7 cm thick, its flange 10.3 cm
+  // behind the fingertips' middle; the tips reach a centimetre beyond that.
+  EXPECT_NEAR(box.sizes().y(), 0.2, 0.03);
+  EXPECT_NEAR(box.sizes().x(), 0.065, 0.03);
+  EXPECT_NEAR(box.max().z(), 0.01, 0.006);
+  EXPECT_LT(box.min().z(), -0.1);
+  // Nothing is between the open fingers.
+  for (const Vector3d& point : points) {
+    EXPECT_FALSE(std::abs(point.y()) < 0.038 && point.z() > -0.028) << point.transpose();
+  }
+}
+
+TEST(DeepestPoint, IsTheDistanceToTheNearestFace) {
+  assets::SemanticModel asset =
+      Asset({tasks::Block({0.2, 0.2, 0.2}, {0, 0, 0.1})}, {0.02, 0.02, 0.02},
+            tasks::MakeJoint("part_joint", "body", "part", assets::UrdfJointType::kPrismatic,
+                             {-0.11, 0, 0.1}, {-1, 0, 0}, 0.0, 0.1));
+  const sim::ArticulatedBody body = sim::ArticulatedBodyFrom(WithInertia(asset).model);
+  std::vector<Isometry3d> links(2, Isometry3d::Identity());
+  links[1].translation() = Vector3d(-0.11, 0.0, 0.1);
+  const std::vector<Vector3d> point = {Vector3d(0.0, 0.0, 0.01)};
+  const auto at = [&](double x, double z, int gripped) {
+    Isometry3d tool = Isometry3d::Identity();
+    tool.translation() = Vector3d(x, 0.0, z);
+    return DeepestPoint(point, tool, body, links, gripped);
+  };
+  EXPECT_NEAR(at(-0.07, 0.1, 1), 0.03, 1e-12);   // in the body, 3 cm behind its front
+  EXPECT_NEAR(at(0.0, 0.17, 1), 0.02, 1e-12);    // 2 cm below its top
+  EXPECT_NEAR(at(-0.11, 0.09, 0), 0.01, 1e-12);  // in the part
+  EXPECT_EQ(at(-0.11, 0.09, 1), 0.0);            // which does not count once it is gripped
+  EXPECT_EQ(at(-0.3, 0.1, 1), 0.0);
+  EXPECT_NEAR(at(-0.3, -0.05, 1), 0.04, 1e-12);  // in the floor
+}
+
+}  // namespace
+}  // namespace simwright::rl
