@@ -54,16 +54,17 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
           "(absolute), a step of the tool (delta) or of the joints (joints)")
       ->check(CLI::IsMember({"focus", "absolute", "delta", "joints"}))
       ->default_str("focus");
-  command->add_option("--seconds", request->episode_seconds, "Of an episode in training, at most")
-      ->check(CLI::Range(0.5, 600.0))
-      ->capture_default_str();
-  command
-      ->add_option("--evaluation-seconds", request->evaluation_seconds,
-                   "Of an episode in evaluations and rollouts, at most")
+  command->add_option("--seconds", request->episode_seconds, "Of an episode, at most")
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str();
   AddTrainingOptions(command, &request->environments, &request->samples, &request->minutes,
                      &request->target, &request->episodes);
+  command
+      ->add_option("--backward-steps", request->backward_samples,
+                   "Decisions for which a subtask learns on to end where the next one can start,\n"
+                   "where that one loses by it; 0: none")
+      ->check(CLI::Range(0, 2000000000))
+      ->capture_default_str();
   command->add_flag("--resume", request->resume, "Go on with a run that was stopped");
   AddCommon(command, common);
   command->callback([request, common, run] { *run = [=] { return Train(*request, *common); }; });

@@ -42,7 +42,6 @@ json RunJson(const SkillRun& run) {
   text["seed"] = run.seed;
   for (const std::string& hash : run.hashes) text["asset_hashes"].push_back(hash);
   text["episode_seconds"] = run.options.episode_seconds;
-  text["evaluation_seconds"] = run.options.evaluation_seconds;
   text["discount"] = run.options.discount;
   text["action"] = rl::NameOf(run.options.action);
   return text;
@@ -125,7 +124,6 @@ SkillRun ReadRun(const fs::path& folder) {
     run.seed = text.at("seed").get<std::uint64_t>();
     run.hashes = text.at("asset_hashes").get<std::vector<std::string>>();
     run.options.episode_seconds = text.at("episode_seconds").get<double>();
-    run.options.evaluation_seconds = text.at("evaluation_seconds").get<double>();
     run.options.discount = text.at("discount").get<double>();
     run.options.action = rl::ActionSpaceOf(text.at("action").get<std::string>());
   } catch (const json::exception&) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,17 +18,27 @@ struct TrainRequest {
   std::filesystem::path output;
   std::string robot = "panda";
   rl::ActionSpace action = rl::ActionSpace::kFocus;
-  // Of an episode at most, in training and in evaluations.
   double episode_seconds = rl::SkillOptions().episode_seconds;
-  double evaluation_seconds = rl::SkillOptions().evaluation_seconds;
   int environments = 64;
   std::int64_t samples = 2'000'000;  // of one subtask, at most
   double minutes = 30.0;             // of one subtask, at most; 0: no end
   // A subtask is learnt once the lower end of its success rate's 95 % interval is above this.
   double target = 0.92;
   int episodes = 200;  // of each evaluation
+  // A subtask whose successor loses more than `largest_handover_loss` of its success by starting
+  // where it ends learns on, for so many decisions, to end better; 0: none does.
+  double largest_handover_loss = 0.05;
+  std::int64_t backward_samples = 120'000;
   std::uint64_t seed = 1;
   bool resume = false;
+};
+
+// A subtask that has learnt on to end where its successor can start.
+struct BackwardTuning {
+  std::int64_t samples = 0;
+  double seconds = 0.0;
+  double before = 0.0, after = 0.0;  // success of both, one after the other
+  bool kept = false;                 // it succeeds more often than before
 };
 
 // What came of one subtask.
@@ -36,8 +47,9 @@ struct TrainedSkill {
   std::filesystem::path folder;
   std::int64_t samples = 0;
   double seconds = 0.0;
-  rl::SkillEvaluation own;       // from its own starts
-  rl::SkillEvaluation handover;  // from where the subtask before ended; empty for the first
+  rl::SkillEvaluation own;               // from its own starts
+  rl::SkillEvaluation handover;          // from where the subtask before ended; empty for the first
+  std::optional<BackwardTuning> tuning;  // for the subtask after it
   // What is lost by starting there: own rate less handover rate.
   double HandoverLoss() const { return own.rate() - handover.rate(); }
 };

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "rl/observation.h"
+#include "rl/skill_evaluation.h"
 
 namespace simwright::rl {
 namespace {
@@ -88,6 +89,9 @@ void SkillEnvironment::StepOne(size_t index, const Rows& actions, StepBatch* bat
   slot.actions.insert(slot.actions.end(), action, action + action_size_);
   const Decision decision = slot.episode->Step(action);
   batch->rewards[index] = decision.reward;
+  if (decision.terminated && share_of_end_) {
+    batch->rewards[index] *= static_cast<float>(share_of_end_(EndOf(*slot.episode)));
+  }
   batch->terminated[index] = decision.terminated;
   batch->truncated[index] = decision.truncated;
   batch->success[index] = decision.terminated;  // held, not only reached

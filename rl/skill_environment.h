@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +24,11 @@ class SkillEnvironment : public VectorEnvironment {
   int size() const override { return static_cast<int>(slots_.size()); }
   int observation_size() const override { return observation_size_; }
   int action_size() const override { return action_size_; }
+  // What a success that ends an episode is paid, as a share of what it is paid without: `share` of
+  // where it has ended (EndOf), in [0, 1]. Called from several threads. Before the first Reset.
+  void PayEnds(std::function<double(const EpisodeStart&)> share) {
+    share_of_end_ = std::move(share);
+  }
   void Reset(std::uint64_t seed, Rows* observations) override;
   void Step(const Rows& actions, StepBatch* batch) override;
   std::string SaveState() const override;
@@ -54,6 +60,7 @@ class SkillEnvironment : public VectorEnvironment {
 
   std::shared_ptr<const Skill> skill_;
   std::vector<EpisodeStart> pool_;
+  std::function<double(const EpisodeStart&)> share_of_end_;
   std::vector<Slot> slots_;
   int observation_size_ = 0, action_size_ = 0;
   std::uint64_t seed_ = 0;

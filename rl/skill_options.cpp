@@ -50,7 +50,6 @@ SkillOptions SkillOptions::ForEvaluation() const {
   SkillOptions options = *this;
   options.at_focus_share = 0.0;
   options.part_way_share = 0.0;
-  options.episode_seconds = evaluation_seconds;
   return options;
 }
 
@@ -62,8 +61,8 @@ bool SkillOptions::IsValid(std::string* error) const {
   if (!(control_rate > 0.0) || substeps < 1 || control_steps < 1) {
     return fail("control_rate, substeps and control_steps must be positive");
   }
-  if (!(std::min(episode_seconds, evaluation_seconds) >= decision_seconds())) {
-    return fail("episode_seconds and evaluation_seconds must be at least one decision long");
+  if (!(episode_seconds >= decision_seconds())) {
+    return fail("episode_seconds must be at least one decision long");
   }
   if (!(hold_seconds >= 0.0)) return fail("hold_seconds must not be negative");
   if (contact_iterations < 1 || free_iterations < 1) {

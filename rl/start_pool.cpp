@@ -31,6 +31,14 @@ std::vector<double> Numbers(const json& list, size_t count) {
   return numbers;
 }
 
+std::vector<double> Factors(const json& list, size_t count) {
+  std::vector<double> factors = Numbers(list, count);
+  for (const double factor : factors) {
+    if (!(factor > 0.0)) throw std::invalid_argument("a factor that is not positive");
+  }
+  return factors;
+}
+
 Eigen::Isometry3d PoseFrom(const json& list) {
   const std::vector<double> numbers = Numbers(list, 12);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -85,9 +93,9 @@ EpisodeStart StartFrom(const json& text, const Skill& skill) {
       (start.held >= 0 && variant.fixed[static_cast<size_t>(start.held)])) {
     throw std::invalid_argument("a thing in the hand that it cannot hold");
   }
-  start.mass = Numbers(text.at("mass"), things);
-  start.friction = Numbers(text.at("friction"), things);
-  start.joint = Numbers(text.at("joint"), things);
+  start.mass = Factors(text.at("mass"), things);
+  start.friction = Factors(text.at("friction"), things);
+  start.joint = Factors(text.at("joint"), things);
   start.delay = text.at("delay").get<int>();
   if (start.delay < 0 || start.delay > 1000 ||
       !std::isfinite(start.leader + start.pitch + start.closed_to.value_or(0.0))) {

@@ -58,6 +58,8 @@ class Training {
         recent_(options.success_window) {
     if (go_on) {
       progress_ = ReadCheckpoint(folder / kCheckpointFile, options.facts, &ppo_, &recent_);
+    } else if (!options.begin_from.empty()) {
+      BeginFromCheckpoint(options.begin_from, &ppo_);
     }
     log_.emplace(folder, progress_.iteration);
   }

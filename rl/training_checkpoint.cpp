@@ -168,6 +168,20 @@ void WriteCheckpoint(const Ppo& ppo, const TrainingProgress& progress, const Rec
   nn::WriteTensors(tensors, path);
 }
 
+void BeginFromCheckpoint(const std::filesystem::path& path, Ppo* ppo) {
+  const nn::NamedTensors tensors = nn::ReadTensors(path);
+  try {
+    CheckFacts(NetworkFacts(*ppo), UnpackFacts(TakeTensor(tensors, "facts", torch::kUInt8, 1)));
+    const CollectorState known = Collector(tensors);
+    CollectorState state = ppo->CollectorPart();
+    state.observations = known.observations;
+    state.returns = known.returns;
+    ppo->Restore(state, Learner(tensors));
+  } catch (const core::Error& error) {
+    throw core::Error(error.what(), path.string(), "train from nothing");
+  }
+}
+
 TrainingProgress ReadCheckpoint(const std::filesystem::path& path, const Facts& facts, Ppo* ppo,
                                 RecentOutcomes* recent) {
   const nn::NamedTensors tensors = nn::ReadTensors(path);

@@ -30,4 +30,8 @@ void WriteCheckpoint(const Ppo& ppo, const TrainingProgress& progress, const Rec
 TrainingProgress ReadCheckpoint(const std::filesystem::path& path, const Facts& facts, Ppo* ppo,
                                 RecentOutcomes* recent);
 
+// Takes networks, optimiser and scales from there, and nothing else: another environment, or
+// another reward, is learnt from what is known. Throws core::Error as ReadCheckpoint does.
+void BeginFromCheckpoint(const std::filesystem::path& path, Ppo* ppo);
+
 }  // namespace simwright::rl

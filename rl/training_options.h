@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "rl/policy.h"
@@ -24,6 +25,9 @@ struct TrainingOptions {
   double examine_from = 0.5;
   // Iterations between checkpoints: about 100k samples, half a minute that a crash costs.
   int checkpoint_every = 25;
+  // Checkpoint of another training, of the same networks, whose policy, critic and scales this one
+  // begins with; its environment, its progress and its facts are its own. Empty: from nothing.
+  std::filesystem::path begin_from;
   // Written into checkpoint and policy; a training only goes on where they are the same (the task's
   // name and hash).
   Facts facts;

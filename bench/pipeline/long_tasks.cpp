@@ -97,7 +97,6 @@ void RunUndecomposed(const pipeline::LongTask& task, const tasks::Task& source,
   request.minutes = 0.0;
   request.action = rl::ActionSpaceOf(arguments.action);
   request.episode_seconds *= static_cast<double>(source.subtasks.size());
-  request.evaluation_seconds *= static_cast<double>(source.subtasks.size());
   const fs::path run = folder / ("run_" + method + "_" + std::to_string(arguments.seed));
   const pipeline::TrainReport report = Train(task, file, run, request, arguments, progress);
   const rl::ChainEvaluation found = Evaluated(run, arguments);

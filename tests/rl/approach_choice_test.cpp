@@ -85,7 +85,7 @@ TEST(HandSurface, OfThePandaIsItsHandAndOpenFingers) {
   EXPECT_LT(box.min().z(), -0.1);
   // Nothing is between the open fingers.
   for (const Vector3d& point : points) {
-    EXPECT_FALSE(std::abs(point.y()) < 0.038 && point.z() > -0.028) << point.transpose();
+    EXPECT_FALSE(std::abs(point.y()) < 0.038 && point.z() > -0.02) << point.transpose();
   }
 }
 

@@ -1,0 +1,121 @@
+#include "pipeline/backward_tuning.h"
+
+#include <atomic>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "pipeline/subtask_training.h"
+#include "rl/chain.h"
+#include "rl/policy_file.h"
+#include "rl/successor.h"
+#include "rl/training.h"
+
+namespace simwright::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kTunedFile = "backward.json";
+constexpr const char* kBeforeFile = "policy_before.pt";
+// A success whose end is of no use is still worth something: else a policy whose every end is bad
+// would forget how to succeed before it finds better ones.
+constexpr double kLeastShare = 0.2;
+
+// How many of the chains of both succeed.
+int SuccessesOfBoth(const TunedPair& pair, const rl::Policy& first, const rl::Policy& second,
+                    const std::vector<rl::EpisodeStart>& starts) {
+  const std::vector<rl::ChainLink> links = {{pair.first->evaluated.get(), &first},
+                                            {pair.second->evaluated.get(), &second}};
+  std::atomic<int> successes = 0;
+  core::ParallelFor(static_cast<int>(starts.size()), [&](int i) {
+    core::Rng rng = core::StreamRng(1, static_cast<std::uint64_t>(i));
+    successes += rl::RunChain(links, starts[static_cast<size_t>(i)], rng).success;
+  });
+  return successes;
+}
+
+json TextOf(const BackwardTuning& tuning) {
+  return {{"samples", tuning.samples},
+          {"seconds", tuning.seconds},
+          {"before", tuning.before},
+          {"after", tuning.after},
+          {"kept", tuning.kept}};
+}
+
+}  // namespace
+
+std::optional<BackwardTuning> ReadBackwardTuning(const RunSkill& first) {
+  const fs::path file = first.folder / kTunedFile;
+  if (!fs::exists(file)) return std::nullopt;
+  try {
+    const json text = json::parse(core::ReadFile(file, 1 << 20));
+    BackwardTuning tuning;
+    tuning.samples = text.at("samples").get<std::int64_t>();
+    tuning.seconds = text.at("seconds").get<double>();
+    tuning.before = text.at("before").get<double>();
+    tuning.after = text.at("after").get<double>();
+    tuning.kept = text.at("kept").get<bool>();
+    return tuning;
+  } catch (const json::exception&) {
+    throw core::Error("is damaged", file.string(), "remove it: it is then tuned again");
+  }
+}
+
+BackwardTuning TuneBackward(const TrainRequest& request, const SkillRun& run, const TunedPair& pair,
+                            core::Progress* progress) {
+  if (const auto tried = ReadBackwardTuning(*pair.first)) return *tried;
+  const RunSkill& first = *pair.first;
+  const rl::Policy before = rl::ReadPolicy(first.folder / rl::kPolicyFile);
+  const rl::Policy second = rl::ReadPolicy(pair.second->folder / rl::kPolicyFile);
+  const rl::Successor successor(pair.second->evaluated, pair.second_tried);
+  rl::SkillEnvironment environment(first.skill, run.environments, pair.pool);
+  environment.PayEnds([&](const rl::EpisodeStart& end) {
+    return kLeastShare + (1.0 - kLeastShare) * successor.Chance(end);
+  });
+  rl::TrainingOptions options = OptionsFor(request, run, first);
+  options.begin_from = first.folder / rl::kCheckpointFile;
+  options.max_samples = request.backward_samples;
+  options.max_seconds = 0.0;
+  options.examine_from = 0.0;
+  options.title = first.name + " for " + pair.second->name;
+  const auto examined = ExaminedStarts(*first.evaluated, pair.pool, request.seed + 10);
+  progress->Stage("tune " + first.name + " for " + pair.second->name,
+                  static_cast<int>(options.max_samples / (options.ppo.horizon * run.environments)));
+  const fs::path folder = first.folder / "backward";
+  const rl::TrainingResult result = rl::TrainPolicy(
+      &environment, options, folder, true,
+      [&](const rl::TrainingRecord& record) {
+        RequireSoundPhysics(environment, first.name, record.samples);
+        progress->Advance();
+      },
+      [&](const rl::Policy& policy) {
+        return rl::Examination{SuccessesOfBoth(pair, policy, second, examined),
+                               static_cast<int>(examined.size())};
+      });
+  const rl::Policy after = rl::ReadPolicy(folder / rl::kPolicyFile);
+  progress->Stage("evaluate " + first.name);
+  const auto fresh = ExaminedStarts(*first.evaluated, pair.pool, request.seed + 20);
+  const auto rate = [&](const rl::Policy& policy) {
+    return static_cast<double>(SuccessesOfBoth(pair, policy, second, fresh)) /
+           static_cast<double>(fresh.size());
+  };
+  BackwardTuning tuning;
+  tuning.samples = static_cast<std::int64_t>(result.last.samples);
+  tuning.seconds = result.last.seconds;
+  tuning.before = rate(before);
+  tuning.after = rate(after);
+  tuning.kept = tuning.after > tuning.before;
+  if (tuning.kept) {
+    fs::copy_file(first.folder / rl::kPolicyFile, first.folder / kBeforeFile,
+                  fs::copy_options::overwrite_existing);
+    rl::WritePolicy(after, first.folder / rl::kPolicyFile);
+  }
+  core::WriteFile(first.folder / kTunedFile, TextOf(tuning).dump(2) + "\n");
+  return tuning;
+}
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,37 @@
+#include "rl/successor.h"
+
+namespace simwright::rl {
+namespace {
+
+// What the skill's policy observes first from `start`. (1 x O)
+void ObserveFrom(const EpisodeStart& start, Episode* episode, float* row) {
+  episode->Begin(start);
+  episode->Observe(row);
+}
+
+InitiationSet SetOf(const Skill& skill, const std::vector<EvaluatedEpisode>& tried) {
+  Rows observations(static_cast<Eigen::Index>(tried.size()),
+                    Observer(skill, skill.variants.front()).size());
+  std::vector<bool> succeeded;
+  Episode episode(skill);
+  for (size_t i = 0; i < tried.size(); ++i) {
+    ObserveFrom(tried[i].start, &episode, observations.row(static_cast<Eigen::Index>(i)).data());
+    succeeded.push_back(tried[i].success);
+  }
+  return InitiationSet(observations, succeeded);
+}
+
+}  // namespace
+
+Successor::Successor(std::shared_ptr<const Skill> skill, const std::vector<EvaluatedEpisode>& tried)
+    : skill_(std::move(skill)), set_(SetOf(*skill_, tried)) {}
+
+double Successor::Chance(const EpisodeStart& end) const {
+  core::Rng rng = core::StreamRng(0, 0);  // the same work is planned from the same end
+  Episode episode(*skill_);
+  std::vector<float> observation(static_cast<size_t>(set_.size()));
+  ObserveFrom(Varied(*skill_, end, rng, VariedParts::kNothing), &episode, observation.data());
+  return set_.Chance(observation.data());
+}
+
+}  // namespace simwright::rl
