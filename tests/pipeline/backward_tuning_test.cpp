@@ -16,11 +16,10 @@ namespace simwright::pipeline {
 namespace {
 namespace fs = std::filesystem;
 
-class BackwardTuningTest : public ScriptedRuns {
+class BackwardTuningTest : public testing::Test {
  protected:
   BackwardTuningTest() {
-    fs::copy(Move(), Path("move"), fs::copy_options::recursive);
-    run_ = ReadRun(Path("move"));
+    run_ = ReadRun(WriteScriptedRun(folder_.path(), "move_block"));
     run_.environments = 4;
     skills_ = PrepareSkills(run_);
     request_.backward_samples = 512;
@@ -30,8 +29,8 @@ class BackwardTuningTest : public ScriptedRuns {
     rl::SkillEnvironment environment(skills_[0].skill, run_.environments);
     rl::TrainingOptions options = OptionsFor(request_, run_, skills_[0]);
     options.max_samples = 1;
-    rl::TrainPolicy(&environment, options, Path("once"), false);
-    fs::copy_file(Path("once") + "/" + rl::kCheckpointFile,
+    rl::TrainPolicy(&environment, options, folder_.path() / "once", false);
+    fs::copy_file(folder_.path() / "once" / rl::kCheckpointFile,
                   skills_[0].folder / rl::kCheckpointFile);
   }
   TunedPair Pair() {
@@ -48,6 +47,7 @@ class BackwardTuningTest : public ScriptedRuns {
                 .episodes};
   }
 
+  core::TemporaryFolder folder_;
   SkillRun run_;
   std::vector<RunSkill> skills_;
   TrainRequest request_;
