@@ -117,7 +117,10 @@ Json PhotoRunReport(const PhotoRunRequest& request, const PhotoRunFolder& folder
 
 std::string PhotoRunCommand(const PhotoRunRequest& request) {
   const PhotoRunRequest usual;
-  const auto file = [](const fs::path& path) { return Quoted(path.filename().string()); };
+  // A page that is passed on tells nothing of the folders of whoever made it.
+  const auto file = [](const fs::path& path) {
+    return Quoted(path.is_absolute() ? path.filename().string() : path.string());
+  };
   std::string command =
       "simwright run " + file(request.photo) + " --category " + Quoted(request.category);
   const auto add = [&](bool given, const std::string& flag, const std::string& value) {

@@ -10,20 +10,9 @@ namespace {
 
 using Eigen::Isometry3d;
 
-constexpr double kSpacing = 0.01;   // m between the points of the hand that are looked at
+constexpr double kSpacing = 0.01;    // m between the points of the hand that are looked at
 constexpr double kInTheWay = 0.008;  // m: what goes deeper than this does not pass
-constexpr double kWorkDone = 0.8;   // share of a joint's way by which its tasks are done
-
-// world_from_link of each of the body's links.
-std::vector<Isometry3d> PosesOfBody(const sim::ArticulatedBody& body, const tasks::Thing& thing,
-                                    const Isometry3d& root, const std::vector<double>& joints) {
-  const std::vector<Isometry3d> poses = tasks::LinkPosesOf(thing, joints);
-  std::vector<Isometry3d> of_body;
-  for (const sim::RigidBody& link : body.links) {
-    of_body.push_back(root * poses[static_cast<size_t>(thing.FindLink(link.name))]);
-  }
-  return of_body;
-}
+constexpr double kWorkDone = 0.8;    // share of a joint's way by which its tasks are done
 
 }  // namespace
 
@@ -43,7 +32,7 @@ Isometry3d ChooseApproach(const robot::RobotModel& robot, const SkillVariant& va
       joints[static_cast<size_t>(focus.joint)] =
           joint.rest() + share * (joint.far() - joint.rest());
       const std::vector<Isometry3d> poses =
-          PosesOfBody(body, thing, variant.start.roots[static_cast<size_t>(focus.thing)], joints);
+          BodyPoses(body, thing, variant.start.roots[static_cast<size_t>(focus.thing)], joints);
       const int link = body.LinkIndex(gripped);
       deepest = std::max(
           deepest,

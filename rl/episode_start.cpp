@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rl/arm_clearance.h"
 #include "rl/reach_plan.h"
 
 namespace simwright::rl {
@@ -12,6 +13,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kTries = 60;
+constexpr double kFarthest = 0.4;   // m
 constexpr double kShake = 0.03;     // rad, of an arm that begins where another skill ended
 constexpr double kApart = 0.005;    // m between boxes of things
 constexpr double kOnPart = 0.5;     // share of joints part of their way that the hand begins at
@@ -27,9 +29,18 @@ Isometry3d Moved(const Isometry3d& pose, const Vector3d& pivot, const Vector3d& 
          Eigen::Translation3d(-pivot) * pose;
 }
 
+// m that things begin farther from the robot than described, in a try of that number: a drawer that
+// stands open may leave the arm no room where the closed one does. The first third of the tries
+// keeps to the description.
+double Farther(int attempt) {
+  return kFarthest * std::max(0.0, (attempt - kTries / 3) / (kTries * 2.0 / 3.0));
+}
+
 // Moves and turns every thing; what stands in another goes with it and turns where it stands.
-void Scatter(const SkillVariant& variant, const SkillOptions& options, core::Rng& rng,
-             tasks::SceneState* state) {
+// `farther`: m away from the robot, all of them.
+void Scatter(const SkillVariant& variant, const SkillOptions& options, double farther,
+             core::Rng& rng, tasks::SceneState* state) {
+  const Vector3d robot = variant.subtask.start.world_from_robot.translation();
   for (int pass = 0; pass < 2; ++pass) {  // carriers first
     for (const int thing : variant.placed) {
       const auto t = static_cast<size_t>(thing);
@@ -43,6 +54,9 @@ void Scatter(const SkillVariant& variant, const SkillOptions& options, core::Rng
       if (carrier < 0) {
         const double range = options.position_range;
         shift = {core::Uniform(rng, -range, range), core::Uniform(rng, -range, range), 0.0};
+        Vector3d away = root.translation() - robot;
+        away.z() = 0.0;
+        shift += farther * away.normalized();
       } else {
         const auto c = static_cast<size_t>(carrier);
         root = state->roots[c] * variant.start.roots[c].inverse() * root;
@@ -107,8 +121,9 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
   start.at_work = home;
   for (int attempt = 0; attempt < kTries; ++attempt) {
     start.state = variant.start;
-    Scatter(variant, options, rng, &start.state);
+    Scatter(variant, options, Farther(attempt), rng, &start.state);
     if (Overlap(variant, start.state)) continue;
+    if (!IsArmClear(skill, variant, start.state, home)) continue;
     if (!variant.focus) break;
     if (const auto plan = PlanReach(skill, variant, start.state, home, rng)) {
       start.pitch = plan->pitch;
@@ -124,8 +139,11 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
     const auto thing = static_cast<size_t>(variant.focus->thing);
     const auto joint = static_cast<size_t>(variant.focus->joint);
     const tasks::ThingJoint& moved = variant.model.things[thing].joints[joint];
+    const double before = start.state.joints[thing][joint];
     start.state.joints[thing][joint] = core::Uniform(rng, moved.lower, moved.upper);
-    if (const auto plan = PlanReach(skill, variant, start.state, home, rng)) {
+    if (!IsArmClear(skill, variant, start.state, home)) {
+      start.state.joints[thing][joint] = before;
+    } else if (const auto plan = PlanReach(skill, variant, start.state, home, rng)) {
       start.pitch = plan->pitch;
       start.at_work = plan->at_work;
       at_work = core::Uniform(rng) < kOnPart;
@@ -133,9 +151,11 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
   }
   start.arm = home;
   Shake(skill, options.posture_range, rng, &start.arm);
+  if (!IsArmClear(skill, variant, start.state, start.arm)) start.arm = home;
   start.leader = skill.robot->gripper.open;
   const bool grasps = variant.focus && variant.focus->joint < 0 && variant.asks_for_grasp;
   if (grasps && (part_way || variant.starts_held)) start.held = variant.focus->thing;
+  at_work = at_work && IsArmClear(skill, variant, start.state, start.at_work);
   if (at_work || start.held >= 0) start.arm = start.at_work;
   const robot::Gripper& gripper = skill.robot->gripper;
   // A wall is thin: fingers that begin near it are closed sooner.

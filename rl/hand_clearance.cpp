@@ -108,6 +108,13 @@ double DeepestPoint(const std::vector<Vector3d>& points, const Isometry3d& world
   for (const Vector3d& point : points) {
     deepest = std::max(deepest, -(world_from_tool * point).z());
   }
+  return std::max(deepest, DeepestInBody(points, world_from_tool, body, world_from_links, gripped));
+}
+
+double DeepestInBody(const std::vector<Vector3d>& points, const Isometry3d& world_from_tool,
+                     const sim::ArticulatedBody& body,
+                     const std::vector<Isometry3d>& world_from_links, int gripped) {
+  double deepest = 0.0;
   for (size_t l = 0; l < body.links.size(); ++l) {
     if (static_cast<int>(l) == gripped) continue;
     const Isometry3d link_from_tool = world_from_links[l].inverse() * world_from_tool;
@@ -116,6 +123,28 @@ double DeepestPoint(const std::vector<Vector3d>& points, const Isometry3d& world
     }
   }
   return deepest;
+}
+
+std::vector<Isometry3d> BodyPoses(const sim::ArticulatedBody& body, const tasks::Thing& thing,
+                                  const Isometry3d& root, const std::vector<double>& joints) {
+  const std::vector<Isometry3d> poses = tasks::LinkPosesOf(thing, joints);
+  std::vector<Isometry3d> of_body;
+  for (const sim::RigidBody& link : body.links) {
+    of_body.push_back(root * poses[static_cast<size_t>(thing.FindLink(link.name))]);
+  }
+  return of_body;
+}
+
+std::vector<std::vector<Vector3d>> RobotSurface(const robot::RobotModel& robot, double spacing) {
+  std::vector<std::vector<Vector3d>> surface;
+  for (const assets::UrdfLink& link : robot.urdf.links) {
+    std::vector<Vector3d> points;
+    for (const assets::UrdfShape& shape : link.collisions) {
+      AddSurface(shape.mesh, Isometry3d::Identity(), 0.5 * spacing, &points);
+    }
+    surface.push_back(Thinned(points, 0.5 * spacing));
+  }
+  return surface;
 }
 
 }  // namespace simwright::rl

@@ -7,6 +7,7 @@
 
 #include "robot/robot_model.h"
 #include "sim/articulated_body.h"
+#include "tasks/thing.h"
 
 namespace simwright::rl {
 
@@ -20,5 +21,20 @@ std::vector<Eigen::Vector3d> HandSurface(const robot::RobotModel& robot, double 
 double DeepestPoint(const std::vector<Eigen::Vector3d>& points,
                     const Eigen::Isometry3d& world_from_tool, const sim::ArticulatedBody& body,
                     const std::vector<Eigen::Isometry3d>& world_from_links, int gripped);
+
+// The same without the floor.
+double DeepestInBody(const std::vector<Eigen::Vector3d>& points,
+                     const Eigen::Isometry3d& world_from_tool, const sim::ArticulatedBody& body,
+                     const std::vector<Eigen::Isometry3d>& world_from_links, int gripped = -1);
+
+// world_from_link of each of the links of `body`, which is `thing`'s, at `root`, its joints at
+// `joints`. (links)
+std::vector<Eigen::Isometry3d> BodyPoses(const sim::ArticulatedBody& body,
+                                         const tasks::Thing& thing, const Eigen::Isometry3d& root,
+                                         const std::vector<double>& joints);
+
+// Points on the surface of each of a robot's links, m, in the link's frame. (urdf.links)
+std::vector<std::vector<Eigen::Vector3d>> RobotSurface(const robot::RobotModel& robot,
+                                                       double spacing);
 
 }  // namespace simwright::rl

@@ -5,12 +5,15 @@
 #include "core/error.h"
 #include "geometry/convex_hull.h"
 #include "rl/approach_choice.h"
+#include "rl/hand_clearance.h"
 #include "sim/driven_robot.h"
 
 namespace simwright::rl {
 namespace {
 
 using tasks::RewardInput;
+
+constexpr double kSurfaceSpacing = 0.016;  // m: twice the thickness of thin boards
 
 // The parts of a rigid thing as one convex part.
 void TakeHull(sim::ArticulatedBody* body) {
@@ -149,6 +152,7 @@ std::shared_ptr<const Skill> MakeSkill(const robot::RobotModel& robot,
   auto skill = std::make_shared<Skill>();
   skill->robot = &robot;
   skill->robot_body = sim::RobotBody(robot);
+  skill->robot_surface = RobotSurface(robot, kSurfaceSpacing);
   skill->kinematics = std::make_shared<robot::PoseInverseKinematics>(robot.arm);
   skill->chain = std::make_shared<robot::ChainKinematics>(robot.arm);
   skill->options = options;

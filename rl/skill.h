@@ -46,6 +46,7 @@ struct SkillVariant {
 struct Skill {
   const robot::RobotModel* robot = nullptr;
   std::shared_ptr<const sim::PreparedBody> robot_body;
+  std::vector<std::vector<Eigen::Vector3d>> robot_surface;  // m, by link of its URDF (RobotSurface)
   std::shared_ptr<const robot::PoseInverseKinematics> kinematics;
   std::shared_ptr<const robot::ChainKinematics> chain;
   SkillOptions options;

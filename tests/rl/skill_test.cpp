@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "rl/arm_clearance.h"
 #include "rl/skill_environment.h"
 #include "rl/skill_evaluation.h"
 #include "rl/start_pool.h"
@@ -87,6 +88,31 @@ TEST(DrawStart, KeepsItsRangesAndCanBeWorkedAt) {
 }
 
 // A hand that goes to zero and closes lifts the cup: by contact, from anywhere.
+// A drawer that stands open reaches to where the arm begins: things are moved away until it is
+// free, and the hand still gets to work.
+TEST(DrawStart, LeavesTheArmRoom) {
+  SkillSubtask scene = OpenDoor("unit");
+  scene.assets = {WithInertia(tasks::DrawerUnit("unit"))};
+  scene.subtask.program =
+      "def compute_reward(env):\n"
+      "    moved = env.get_state_by_joint_name(\"unit\", \"drawer_joint\")\n"
+      "    return -moved, moved <= 0.02\n";
+  scene.subtask.start.joints = {{"unit", "drawer_joint", 0.25}};
+  scene.subtask.start.placements[0].world_from_asset.translation() =
+      Eigen::Vector3d(0.62, 0.165, 0.33);
+  const auto skill = Make({scene});
+  const SkillVariant& variant = skill->variants.front();
+  EXPECT_FALSE(IsArmClear(*skill, variant, variant.start, skill->robot->home()));
+  for (const EpisodeStart& start : DrawStarts(*skill, 40, 4)) {
+    EXPECT_TRUE(IsArmClear(*skill, variant, start.state, start.arm));
+    EXPECT_GT((start.at_work - skill->robot->home()).norm(), 1e-6);  // work was planned
+    // No contact pushes arm or drawer before anything was done.
+    Episode episode(*skill);
+    episode.Begin(start);
+    EXPECT_LT(std::abs(episode.state().joints[0][0] - 0.25), 1e-3);
+  }
+}
+
 TEST(Episode, AScriptedHandPicksUpTheCup) {
   const auto skill = Make({PickUpCup()});
   Episode episode(*skill);

@@ -71,6 +71,34 @@ class TrainingTest : public testing::Test {
   fs::path whole_ = folder_.path() / "whole", part_ = folder_.path() / "part";
 };
 
+// Begun from another training's checkpoint, a training acts at first as that one did in the end,
+// and counts from zero.
+TEST_F(TrainingTest, OneBeginsWithWhatAnotherHasLearnt) {
+  TrainingOptions options = SmallTraining(1);
+  options.ppo.learning_rate = options.ppo.smallest_rate = 1e-12;  // learns nothing more
+  options.ppo.target_kl = 0.0;
+  options.facts = {{"task", "another"}};
+  options.begin_from = whole_ / kCheckpointFile;
+  const fs::path begun = folder_.path() / "begun";
+  const TrainingResult result = Train(options, begun, false);
+  EXPECT_EQ(result.last.samples, kIteration);
+  EXPECT_EQ(result.last.iteration, 1.0);
+  const Policy known = ReadPolicy(whole_ / kPolicyFile), first = ReadPolicy(begun / kPolicyFile);
+  EXPECT_EQ(first.facts().at("task"), "another");
+  Rows observations = Rows::Random(20, known.observation_size()), a, b, fresh;
+  known.Act(observations, &a);
+  first.Act(observations, &b);
+  EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 0.02f);  // scales have seen one iteration more
+  options.begin_from.clear();
+  Train(options, folder_.path() / "fresh", false);
+  ReadPolicy(folder_.path() / "fresh" / kPolicyFile).Act(observations, &fresh);
+  EXPECT_GT((a - fresh).cwiseAbs().maxCoeff(), 0.1f);
+
+  options.begin_from = whole_ / kCheckpointFile;
+  options.ppo.hidden = {8};
+  EXPECT_THROW(Train(options, folder_.path() / "other", false), core::Error);
+}
+
 TEST_F(TrainingTest, OneThatWasStoppedGoesOnAsIfItHadNotBeen) {
   EXPECT_EQ(Train(SmallTraining(5), part_, false).end, TrainingEnd::kSamples);
   EXPECT_THROW(Train(SmallTraining(8), part_, false), core::Error);  // would be overwritten
