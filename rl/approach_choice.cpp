@@ -1,7 +1,6 @@
 #include "rl/approach_choice.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "rl/hand_clearance.h"
 
@@ -9,39 +8,67 @@ namespace simwright::rl {
 namespace {
 
 using Eigen::Isometry3d;
+using Eigen::Vector3d;
 
 constexpr double kSpacing = 0.01;    // m between the points of the hand that are looked at
 constexpr double kInTheWay = 0.008;  // m: what goes deeper than this does not pass
 constexpr double kWorkDone = 0.8;    // share of a joint's way by which its tasks are done
+constexpr double kBackwards = 0.5;   // of the tool's axis, back at the robot: no arm bends so
+constexpr double kFromBelow = 0.7;   // of the tool's axis upwards
+
+// Of a way to come to the part, over the joint's way.
+struct Fit {
+  double deepest = 0.0;  // m, the hand's points in what is in its way
+  bool bends = true;     // the hand points neither at the robot nor up
+
+  bool Passes() const { return bends && deepest < kInTheWay; }
+  bool IsBetterThan(const Fit& other) const {
+    return bends != other.bends ? bends : deepest < other.deepest;
+  }
+};
+
+// `away`: from the robot to the thing.
+bool Bends(const Isometry3d& world_from_tool, const Vector3d& away) {
+  const Vector3d axis = world_from_tool.linear().col(2);
+  return axis.z() < kFromBelow && axis.dot(away) > -kBackwards;
+}
+
+Fit FitOf(const Isometry3d& link_from_tool, const std::vector<Vector3d>& hand,
+          const SkillVariant& variant, const sim::ArticulatedBody& body) {
+  const Focus& focus = *variant.focus;
+  const tasks::Thing& thing = variant.model.things[static_cast<size_t>(focus.thing)];
+  const tasks::ThingJoint& joint = thing.joints[static_cast<size_t>(focus.joint)];
+  const int link = body.LinkIndex(thing.links[static_cast<size_t>(focus.link)].name);
+  const Isometry3d& root = variant.start.roots[static_cast<size_t>(focus.thing)];
+  Vector3d away = root.translation() - variant.subtask.start.world_from_robot.translation();
+  away.z() = 0.0;
+  away.normalize();
+  Fit fit;
+  for (const double share : {0.0, 0.5 * kWorkDone, kWorkDone}) {
+    std::vector<double> joints = tasks::RestPositions(thing);
+    joints[static_cast<size_t>(focus.joint)] = joint.rest() + share * (joint.far() - joint.rest());
+    const std::vector<Isometry3d> poses = BodyPoses(body, thing, root, joints);
+    const Isometry3d tool = poses[static_cast<size_t>(link)] * link_from_tool;
+    fit.deepest = std::max(fit.deepest, DeepestPoint(hand, tool, body, poses, link));
+    fit.bends = fit.bends && Bends(tool, away);
+  }
+  return fit;
+}
 
 }  // namespace
 
 Isometry3d ChooseApproach(const robot::RobotModel& robot, const SkillVariant& variant,
                           const sim::ArticulatedBody& body) {
-  const Focus& focus = *variant.focus;
-  const tasks::Thing& thing = variant.model.things[static_cast<size_t>(focus.thing)];
-  const tasks::ThingJoint& joint = thing.joints[static_cast<size_t>(focus.joint)];
-  const std::string& gripped = thing.links[static_cast<size_t>(focus.link)].name;
-  const std::vector<Eigen::Vector3d> hand = HandSurface(robot, kSpacing);
-  Isometry3d best = focus.approaches.front();
-  double least = std::numeric_limits<double>::infinity();
-  for (const Isometry3d& link_from_tool : focus.approaches) {
-    double deepest = 0.0;
-    for (const double share : {0.0, 0.5 * kWorkDone, kWorkDone}) {
-      std::vector<double> joints = tasks::RestPositions(thing);
-      joints[static_cast<size_t>(focus.joint)] =
-          joint.rest() + share * (joint.far() - joint.rest());
-      const std::vector<Isometry3d> poses =
-          BodyPoses(body, thing, variant.start.roots[static_cast<size_t>(focus.thing)], joints);
-      const int link = body.LinkIndex(gripped);
-      deepest = std::max(
-          deepest,
-          DeepestPoint(hand, poses[static_cast<size_t>(link)] * link_from_tool, body, poses, link));
-    }
-    if (deepest < kInTheWay) return link_from_tool;
-    if (deepest >= least) continue;
-    least = deepest;
-    best = link_from_tool;
+  const std::vector<Vector3d> hand = HandSurface(robot, kSpacing);
+  const std::vector<Isometry3d>& approaches = variant.focus->approaches;
+  Isometry3d best = approaches.front();
+  Fit best_fit;
+  for (size_t i = 0; i < approaches.size(); ++i) {
+    const Fit fit = FitOf(approaches[i], hand, variant, body);
+    if (fit.Passes()) return approaches[i];
+    if (i > 0 && !fit.IsBetterThan(best_fit)) continue;
+    best_fit = fit;
+    best = approaches[i];
   }
   return best;
 }

@@ -80,7 +80,7 @@ Decision Episode::Step(const float* action) {
   const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
   const Eigen::Isometry3d base_from_focus =
       variant.subtask.start.world_from_robot.inverse() * frame_->world_from_focus();
-  Act(TargetOf(skill_, action_.data(), base_from_focus, Pushes(variant), command_));
+  Act(TargetOf(skill_, action_.data(), base_from_focus, frame_->free_way(), command_));
   std::swap(previous_, state_);
   state_ = previous_;
   world_->Read(&state_);

@@ -111,8 +111,9 @@ Eigen::Isometry3d ToolAcross(const tasks::ThingLink& link, const Vector3d& appro
 }
 
 // Directions (unit, world) that a hand may come along to a part, the most natural first: from
-// outside along the part's own way, or along the axis of what turns in place; from the side of the
-// thing that the part is on; from above. Never from below: things stand on something.
+// outside along the part's own way, or along the axis of what turns in place; from above; from the
+// side of the thing that the part is on, rather steep, where the arm has room over the floor, than
+// level. Never from below: things stand on something.
 std::vector<Vector3d> ApproachDirections(const Eigen::AlignedBox3d& box, const Vector3d& point,
                                          const Vector3d& way, const Vector3d& axis) {
   std::vector<Vector3d> directions;
@@ -123,13 +124,17 @@ std::vector<Vector3d> ApproachDirections(const Eigen::AlignedBox3d& box, const V
   const Vector3d outward = Outward(box, point, line) * line;
   add(-outward);
   if (way.isZero() || -outward.z() >= kFromBelow) add(outward);
+  add(-Vector3d::UnitZ());
   Vector3d aside = (point - box.center()).cwiseQuotient(box.sizes());
   aside.z() = 0.0;
   Eigen::Index face = 0;
   if (aside.cwiseAbs().maxCoeff(&face) > 0.0) {
-    add(std::copysign(1.0, -aside[face]) * Vector3d::Unit(face));
+    const Vector3d inward = std::copysign(1.0, -aside[face]) * Vector3d::Unit(face);
+    for (const double down : {2.0, 1.0, 0.5, 0.0}) {
+      if (way.isZero() && down > 0.0) continue;  // what turns in place turns the hand about itself
+      add((inward - down * Vector3d::UnitZ()).normalized());
+    }
   }
-  add(-Vector3d::UnitZ());
   return directions;
 }
 

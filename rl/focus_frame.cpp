@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "rl/focus_geometry.h"
 #include "rl/observation.h"
 #include "rl/reach_plan.h"
 
@@ -10,8 +11,24 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kSurelyHeld = 3;  // updates
-constexpr double kLost = 0.06;  // m between the tool and the grasp point: no longer in the hand
+constexpr int kSurelyHeld = 3;     // updates
+constexpr double kLost = 0.06;     // m between the tool and the grasp point: no longer in the hand
+constexpr double kInPlace = 0.03;  // m from its axis: what is nearer turns in place
+
+// In the frame of `world_from_focus`.
+Vector3d FreeWay(const SkillVariant& variant, const tasks::SceneState& state,
+                 const Eigen::Isometry3d& world_from_focus) {
+  if (Pushes(variant)) return -Vector3d::UnitX();
+  const Focus& focus = *variant.focus;
+  if (focus.joint < 0) return Vector3d::Zero();
+  const auto thing = static_cast<size_t>(focus.thing), j = static_cast<size_t>(focus.joint);
+  const tasks::ThingJoint& joint = variant.model.things[thing].joints[j];
+  const FocusGeometry geometry = GeometryOf(variant.model, state, focus, world_from_focus);
+  const bool turns = joint.type != tasks::RewardJointType::kPrismatic;
+  if (turns && geometry.hinge.norm() < kInPlace) return Vector3d::Zero();
+  const double described = variant.start.joints[thing][j];
+  return WorkEnd(joint, described) > described ? geometry.way : Vector3d(-geometry.way);
+}
 
 }  // namespace
 
@@ -24,6 +41,7 @@ FocusFrame::FocusFrame(const SkillVariant& variant, const tasks::SceneState& sta
   const Eigen::Isometry3d& root = state.roots[static_cast<size_t>(variant_.focus->thing)];
   grip_ = root.inverse() * world_from_focus_.translation();
   at_destination_ = variant_.starts_held;
+  free_way_ = FreeWay(variant_, state, world_from_focus_);
   Update(state);
 }
 

@@ -55,10 +55,9 @@ class Follower {
   robot::Posture posture_;
 };
 
-// From where the joint stands, to the end of its way that is farther, as far as it has to go.
+// From where the joint stands to where it shall go.
 std::vector<double> JointWay(const tasks::ThingJoint& joint, double position) {
-  const double rest = joint.rest(), most = rest + 0.8 * (joint.far() - rest);
-  const double end = std::abs(position - rest) > std::abs(position - most) ? rest : most;
+  const double end = WorkEnd(joint, position);
   std::vector<double> way;
   for (int i = 1; i <= 6; ++i) way.push_back(position + (end - position) * i / 6.0);
   return way;
@@ -147,6 +146,11 @@ Isometry3d ToolBehind(const SkillVariant& variant, const tasks::SceneState& stat
 }
 
 }  // namespace
+
+double WorkEnd(const tasks::ThingJoint& joint, double position) {
+  const double rest = joint.rest(), most = rest + 0.8 * (joint.far() - rest);
+  return std::abs(position - rest) > std::abs(position - most) ? rest : most;
+}
 
 bool Pushes(const SkillVariant& variant) {
   return variant.focus && variant.focus->joint < 0 && variant.destination &&

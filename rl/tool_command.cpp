@@ -38,13 +38,14 @@ Isometry3d Offset(const float* action, double reach, double turn) {
 
 // m that the tool stays back: more, the farther it is off the focus' axis and the more it is
 // turned.
-double Standoff(const Skill& skill, const Isometry3d& base_from_focus, bool along_x,
+double Standoff(const Skill& skill, const Isometry3d& base_from_focus, const Vector3d& free_way,
                 const robot::Posture& command) {
   if (skill.options.standoff == 0.0) return 0.0;
   const Isometry3d off =
       base_from_focus.inverse() * robot::ForwardKinematics(skill.robot->arm, command);
-  const double x = along_x ? std::max(0.0, off.translation().x()) : off.translation().x();
-  const double aside = std::max(0.0, std::hypot(x, off.translation().y()) - kBeside);
+  const Eigen::Vector2d beside = off.translation().head<2>(), way = free_way.head<2>();
+  const double counted = (beside - std::max(0.0, beside.dot(way)) * way).norm();
+  const double aside = std::max(0.0, counted - kBeside);
   const double turned = std::max(0.0, Eigen::AngleAxisd(off.linear()).angle() - kTurned);
   return std::min(skill.options.standoff, kSlope * aside + kPerTurn * turned);
 }
@@ -133,7 +134,7 @@ int ActionSize(const Skill& skill) {
 }
 
 ToolTarget TargetOf(const Skill& skill, const float* action, const Isometry3d& base_from_focus,
-                    bool along_x, const ArmCommand& command) {
+                    const Vector3d& free_way, const ArmCommand& command) {
   const SkillOptions& options = skill.options;
   ToolTarget target;
   target.leader = LeaderOf(skill.robot->gripper, action[ActionSize(skill) - 1], command.leader);
@@ -141,7 +142,8 @@ ToolTarget TargetOf(const Skill& skill, const float* action, const Isometry3d& b
     case ActionSpace::kFocus:
       target.base_from_tool = base_from_focus * Offset(action, options.reach, options.turn);
       target.base_from_tool.translation() -=
-          Standoff(skill, base_from_focus, along_x, command.sent) * base_from_focus.linear().col(2);
+          Standoff(skill, base_from_focus, free_way, command.sent) *
+          base_from_focus.linear().col(2);
       break;
     case ActionSpace::kAbsolute:
       target.base_from_tool = InFront() * Offset(action, kWorkspace, M_PI);

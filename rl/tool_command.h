@@ -28,10 +28,11 @@ struct ArmCommand {
 };
 
 // What `action` (A, in [-1, 1]) asks for. `base_from_focus`: the frame of ActionSpace::kFocus, its
-// axes the tool's at work. `along_x`: x is the way that a thing is pushed, on which being behind is
-// not being off. `command`: where arm and fingers were sent last.
+// axes the tool's at work. `free_way`: of length 1 at most, in that frame: so much of being off
+// that way is not being off to a side (FocusFrame). `command`: where arm and fingers were sent
+// last.
 ToolTarget TargetOf(const Skill& skill, const float* action,
-                    const Eigen::Isometry3d& base_from_focus, bool along_x,
+                    const Eigen::Isometry3d& base_from_focus, const Eigen::Vector3d& free_way,
                     const ArmCommand& command);
 
 // Moves the command towards the target by one control step, within the speeds of options and

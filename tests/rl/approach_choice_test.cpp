@@ -31,12 +31,13 @@ std::shared_ptr<const Skill> Moving(const assets::SemanticModel& asset) {
 
 // A body of blocks with one part.
 assets::SemanticModel Asset(const std::vector<assets::UrdfShape>& body, const Vector3d& part_size,
-                            const assets::UrdfJoint& joint) {
+                            const assets::UrdfJoint& joint,
+                            const Vector3d& part_at = Vector3d::Zero()) {
   assets::SemanticModel asset;
   asset.name = "asset";
   assets::UrdfLink base = tasks::MakeLink("body", 5.0), part = tasks::MakeLink("part", 0.1);
   base.collisions = body;
-  part.collisions = {tasks::Block(part_size, Vector3d::Zero())};
+  part.collisions = {tasks::Block(part_size, part_at)};
   asset.model.links = {base, part};
   asset.model.joints = {joint};
   return asset;
@@ -59,12 +60,30 @@ TEST(ChooseApproach, AKnobBesideATallSpoutIsTakenFromAbove) {
 }
 
 TEST(ChooseApproach, ALeverThatGoesDownIsPressedFromTheFront) {
-  // A block of 20 cm with the lever before its front: a hand from above would hit its edge.
+  // A block of 20 cm with the lever before its front: a hand straight from above would hit its
+  // edge, a level one brings the wrist near the floor.
   const auto skill =
       Moving(Asset({tasks::Block({0.2, 0.3, 0.2}, {0, 0, 0.1})}, {0.03, 0.04, 0.012},
                    tasks::MakeJoint("part_joint", "body", "part", assets::UrdfJointType::kPrismatic,
                                     {-0.115, 0, 0.16}, {0, 0, -1}, 0.0, 0.09)));
-  EXPECT_LT((ApproachOf(*skill) - Vector3d::UnitX()).norm(), 1e-9);
+  EXPECT_LT((ApproachOf(*skill) - Vector3d(1.0, 0.0, -2.0).normalized()).norm(), 1e-9);
+}
+
+TEST(ChooseApproach, AHandThatTakesALidDoesNotEndPointingBackAtTheRobot) {
+  // The hinge is at the back; the handle, on the lid's front, goes up and over. From above is along
+  // its way and free, but the hand turns with the lid.
+  const auto skill =
+      Moving(Asset({tasks::Block({0.3, 0.3, 0.2}, {0, 0, 0.1})}, {0.03, 0.1, 0.03},
+                   tasks::MakeJoint("part_joint", "body", "part", assets::UrdfJointType::kRevolute,
+                                    {0.15, 0, 0.2}, {0, 1, 0}, 0.0, 1.5),
+                   {-0.27, 0, 0.02}));
+  const SkillVariant& variant = skill->variants.front();
+  EXPECT_LT(variant.focus->approaches.front().linear()(2, 2), -0.9);
+  const Vector3d at_first = ApproachOf(*skill);
+  const Vector3d opened = Eigen::AngleAxisd(1.2, Vector3d::UnitY()) * at_first;
+  EXPECT_GT(at_first.x(), 0.3);
+  EXPECT_GT(opened.x(), -0.5);
+  EXPECT_LT(opened.z(), 0.0);
 }
 
 TEST(ChooseApproach, WhereAllIsFreeTheHandComesAlongThePartsWay) {

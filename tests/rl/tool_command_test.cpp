@@ -103,7 +103,7 @@ TEST(TargetOf, TheHandOpensClosesOrStays) {
   command.leader = 0.013;
   const auto leader = [&](float action) {
     const float all[7] = {0, 0, 0, 0, 0, 0, action};
-    return TargetOf(*skill, all, Isometry3d::Identity(), false, command).leader;
+    return TargetOf(*skill, all, Isometry3d::Identity(), Vector3d::Zero(), command).leader;
   };
   EXPECT_EQ(leader(0.2f), skill->robot->gripper.open);
   EXPECT_EQ(leader(-0.2f), skill->robot->gripper.closed);
@@ -117,19 +117,24 @@ TEST(TargetOf, StaysBackAlongItsAxisWhileItIsOffToASide) {
   const Isometry3d tool = robot::ForwardKinematics(skill->robot->arm, command.sent);
   const float nothing[7] = {0, 0, 0, 0, 0, 0, 0};
   // How far above the focus the tool is sent, with the focus so far to the tool's (x, y).
-  const auto back = [&](double x, double y, bool along_x) {
+  const auto back = [&](double x, double y, const Vector3d& free_way) {
     const Isometry3d focus = tool * Eigen::Translation3d(x, y, 0.2);
-    const Isometry3d target = TargetOf(*skill, nothing, focus, along_x, command).base_from_tool;
+    const Isometry3d target = TargetOf(*skill, nothing, focus, free_way, command).base_from_tool;
     EXPECT_LT((focus.inverse() * target.translation()).head<2>().norm(), 1e-12);
     return -(focus.inverse() * target.translation()).z();
   };
-  EXPECT_NEAR(back(0.0, 0.0, false), 0.0, 1e-12);
-  EXPECT_NEAR(back(0.02, 0.0, false), 0.0, 1e-12);
-  EXPECT_NEAR(back(0.0, 0.045, false), 0.04, 1e-9);  // 2 cm more than are free, twice that back
-  EXPECT_NEAR(back(0.3, 0.0, false), skill->options.standoff, 1e-12);
-  // Behind what is pushed is where a hand has to be; in front of it, it goes over it.
-  EXPECT_NEAR(back(0.3, 0.0, true), 0.0, 1e-12);
-  EXPECT_NEAR(back(-0.3, 0.0, true), skill->options.standoff, 1e-12);
+  const Vector3d none = Vector3d::Zero(), ahead = -Vector3d::UnitX();
+  EXPECT_NEAR(back(0.0, 0.0, none), 0.0, 1e-12);
+  EXPECT_NEAR(back(0.02, 0.0, none), 0.0, 1e-12);
+  EXPECT_NEAR(back(0.0, 0.045, none), 0.04, 1e-9);  // 2 cm more than are free, twice that back
+  EXPECT_NEAR(back(0.3, 0.0, none), skill->options.standoff, 1e-12);
+  // On the way that is free there is nothing to stay back from; against it, and beside it, there
+  // is.
+  EXPECT_NEAR(back(0.3, 0.0, ahead), 0.0, 1e-12);
+  EXPECT_NEAR(back(-0.3, 0.0, ahead), skill->options.standoff, 1e-12);
+  EXPECT_NEAR(back(0.3, 0.045, ahead), 0.04, 1e-9);
+  // A way that goes mostly along the axis, as a door's: what is off across it counts.
+  EXPECT_NEAR(back(0.045, 0.0, Vector3d(-0.1, 0.0, -0.995)), 0.04 - 2.0 * 0.00045, 1e-9);
 }
 
 }  // namespace
