@@ -78,9 +78,10 @@ float Episode::Reward(bool* success) {
 Decision Episode::Step(const float* action) {
   for (size_t a = 0; a < action_.size(); ++a) action_[a] = std::clamp(action[a], -1.0f, 1.0f);
   const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
-  const Eigen::Isometry3d base_from_focus =
-      variant.subtask.start.world_from_robot.inverse() * frame_->world_from_focus();
-  Act(TargetOf(skill_, action_.data(), base_from_focus, frame_->free_way(), command_));
+  const WorkFrame work{
+      variant.subtask.start.world_from_robot.inverse() * frame_->world_from_focus(), frame_->lean(),
+      frame_->free_way()};
+  Act(TargetOf(skill_, action_.data(), work, command_));
   std::swap(previous_, state_);
   state_ = previous_;
   world_->Read(&state_);

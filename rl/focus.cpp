@@ -20,13 +20,12 @@ constexpr double kPalm = 0.02;  // m from the fingertips to the palm, less what 
 // behind a bar of a centimetre or two and hook it: of 40 scripted pulls at drawers 37 succeeded,
 // with 0.8 cm, where the pads only rub on the bar, 5.
 constexpr double kPadDepth = 0.02;
-constexpr double kFingerLength = 0.025;  // m from the fingertips to the hand, with some room
-constexpr double kPushHeight = 0.4;      // share of a thing's height
-constexpr double kLowestPush = 0.025;    // m above the floor: fingertips have some thickness
-constexpr double kSpare = 0.01;          // m that the hand opens wider than what it spans
-constexpr double kFromBelow = 0.5;       // of a direction's rise: more comes from below
-constexpr double kAlike = 0.002;         // m: widths that count as one
-constexpr double kHalfWall = 0.003;      // m: cups' walls are 3 to 8 mm thick
+constexpr double kPushHeight = 0.35;   // share of a thing's height
+constexpr double kLowestPush = 0.025;  // m above the floor: fingertips have some thickness
+constexpr double kSpare = 0.01;        // m that the hand opens wider than what it spans
+constexpr double kFromBelow = 0.5;     // of a direction's rise: more comes from below
+constexpr double kAlike = 0.002;       // m: widths that count as one
+constexpr double kHalfWall = 0.003;    // m: cups' walls are 3 to 8 mm thick
 
 bool IsPlace(RewardInput input) {
   return input == RewardInput::kLinkPosition || input == RewardInput::kAssetPosition ||
@@ -178,13 +177,11 @@ Vector3d GraspPoint(const Thing& thing) {
   return point;
 }
 
-// Where a thing is pushed: below its middle, so that it slides and does not tip, but not so deep
-// that the hand is in its way.
+// Where a thing is pushed: below its middle, so that it slides and does not tip.
 Vector3d PushPoint(const Thing& thing) {
-  const Eigen::AlignedBox3d& box = thing.box;
-  Vector3d point = box.center();
-  const double low = box.min().z() + std::max(kLowestPush, kPushHeight * thing.height());
-  point.z() = std::min(std::max(low, box.max().z() - kFingerLength), GraspPoint(thing).z());
+  Vector3d point = thing.box.center();
+  const double above = std::max(kLowestPush, kPushHeight * thing.height());
+  point.z() = std::min(thing.box.min().z() + above, GraspPoint(thing).z());
   return point;
 }
 

@@ -1,6 +1,7 @@
 #include "rl/focus_frame.h"
 
 #include <cmath>
+#include <utility>
 
 #include "rl/focus_geometry.h"
 #include "rl/observation.h"
@@ -36,6 +37,7 @@ FocusFrame::FocusFrame(const SkillVariant& variant, const tasks::SceneState& sta
                        const Vector3d& across, double pitch)
     : variant_(variant), across_(across), pitch_(pitch) {
   if (!variant_.focus) return;
+  if (Pushes(variant_)) std::swap(pitch_, lean_);
   world_from_focus_ = ToolAtFocus(variant_, state, across_, pitch_);
   across_ = world_from_focus_.linear().col(1);
   const Eigen::Isometry3d& root = state.roots[static_cast<size_t>(variant_.focus->thing)];

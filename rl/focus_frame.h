@@ -20,6 +20,9 @@ class FocusFrame {
 
   const Eigen::Isometry3d& world_from_focus() const { return world_from_focus_; }
   bool at_destination() const { return at_destination_; }
+  // rad that the tool leans about the frame's y axis at work. A hand that pushes leans back while
+  // the frame is level: what it is asked for is along the floor.
+  double lean() const { return lean_; }
   // The way, in the focus' frame, on which the hand may be off the focus and still at its work,
   // unit or zero: the part's, as it is worked, which the hand is ahead of while it presses a lever;
   // behind what is pushed.
@@ -31,7 +34,7 @@ class FocusFrame {
   const SkillVariant& variant_;
   Eigen::Isometry3d world_from_focus_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d across_;  // unit, world: the tool's y axis at work
-  double pitch_ = 0.0;
+  double pitch_ = 0.0, lean_ = 0.0;
   Eigen::Vector3d free_way_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d grip_ = Eigen::Vector3d::Zero();  // m, the thing's frame: where it is taken
   bool at_destination_ = false;

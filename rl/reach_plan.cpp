@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "rl/observation.h"
@@ -19,6 +20,10 @@ constexpr double kJointStep = 0.1;                 // rad or m of any joint in o
 constexpr double kFinger = 0.012;  // m from a finger's middle to its side, with room
 constexpr double kThere = 0.01;    // m: what is so near its goal is pushed on as before
 constexpr double kPitches[] = {0.0, 0.35, -0.35, 0.7, -0.7};
+// Of a hand that pushes: leaning back it has its palm behind the thing, and not on top of it, so
+// that the fingers push below the middle. Upright, they pushed tall cups over: of 40 scripted ones
+// PUSHFIG.
+constexpr double kPushPitches[] = {0.6, 0.8, 0.4};
 constexpr int kPostures = 8;  // that are tried with each, for either side of the hand
 
 // Follows poses with the tracker that training uses.
@@ -161,8 +166,9 @@ Isometry3d ToolAtFocus(const SkillVariant& variant, const tasks::SceneState& sta
                        const Vector3d& across, double pitch) {
   const Focus& focus = *variant.focus;
   Isometry3d tool = Isometry3d::Identity();
-  if (Pushes(variant)) return ToolBehind(variant, state, across);
-  if (focus.joint >= 0) {
+  if (Pushes(variant)) {
+    tool = ToolBehind(variant, state, across);
+  } else if (focus.joint >= 0) {
     tool = ToolAtJoint(variant.model, state, focus);
     if (across.dot(tool.linear().col(1)) < 0.0) tool.linear().leftCols<2>() *= -1.0;
   } else {
@@ -184,7 +190,9 @@ std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& varia
   const Isometry3d tool_now = world_from_base * robot::ForwardKinematics(skill.robot->arm, from);
   const Vector3d across = tool_now.linear().col(1);
   std::vector<Candidate> candidates;
-  for (const double pitch : kPitches) {
+  const std::span<const double> pitches =
+      Pushes(variant) ? std::span<const double>(kPushPitches) : std::span<const double>(kPitches);
+  for (const double pitch : pitches) {
     candidates.clear();
     for (const double side : {1.0, -1.0}) {
       AddCandidates(skill, variant, ToolAtFocus(variant, state, side * across, pitch), from, rng,

@@ -36,17 +36,21 @@ Isometry3d Offset(const float* action, double reach, double turn) {
   return offset;
 }
 
+Eigen::Matrix3d Leaning(double angle) {
+  return Eigen::AngleAxisd(angle, Vector3d::UnitY()).toRotationMatrix();
+}
+
 // m that the tool stays back: more, the farther it is off the focus' axis and the more it is
 // turned.
-double Standoff(const Skill& skill, const Isometry3d& base_from_focus, const Vector3d& free_way,
-                const robot::Posture& command) {
+double Standoff(const Skill& skill, const WorkFrame& frame, const robot::Posture& command) {
   if (skill.options.standoff == 0.0) return 0.0;
   const Isometry3d off =
-      base_from_focus.inverse() * robot::ForwardKinematics(skill.robot->arm, command);
-  const Eigen::Vector2d beside = off.translation().head<2>(), way = free_way.head<2>();
+      frame.base_from_focus.inverse() * robot::ForwardKinematics(skill.robot->arm, command);
+  const Eigen::Vector2d beside = off.translation().head<2>(), way = frame.free_way.head<2>();
   const double counted = (beside - std::max(0.0, beside.dot(way)) * way).norm();
   const double aside = std::max(0.0, counted - kBeside);
-  const double turned = std::max(0.0, Eigen::AngleAxisd(off.linear()).angle() - kTurned);
+  const Eigen::AngleAxisd turn(off.linear() * Leaning(-frame.lean));
+  const double turned = std::max(0.0, turn.angle() - kTurned);
   return std::min(skill.options.standoff, kSlope * aside + kPerTurn * turned);
 }
 
@@ -133,17 +137,17 @@ int ActionSize(const Skill& skill) {
   return skill.options.action == ActionSpace::kJoints ? skill.robot->arm.size() + 1 : 7;
 }
 
-ToolTarget TargetOf(const Skill& skill, const float* action, const Isometry3d& base_from_focus,
-                    const Vector3d& free_way, const ArmCommand& command) {
+ToolTarget TargetOf(const Skill& skill, const float* action, const WorkFrame& frame,
+                    const ArmCommand& command) {
   const SkillOptions& options = skill.options;
   ToolTarget target;
   target.leader = LeaderOf(skill.robot->gripper, action[ActionSize(skill) - 1], command.leader);
   switch (options.action) {
     case ActionSpace::kFocus:
-      target.base_from_tool = base_from_focus * Offset(action, options.reach, options.turn);
+      target.base_from_tool = frame.base_from_focus * Offset(action, options.reach, options.turn);
+      target.base_from_tool.rotate(Leaning(frame.lean));
       target.base_from_tool.translation() -=
-          Standoff(skill, base_from_focus, free_way, command.sent) *
-          base_from_focus.linear().col(2);
+          Standoff(skill, frame, command.sent) * frame.base_from_focus.linear().col(2);
       break;
     case ActionSpace::kAbsolute:
       target.base_from_tool = InFront() * Offset(action, kWorkspace, M_PI);

@@ -27,12 +27,17 @@ struct ArmCommand {
   double leader_rate = 0.0;
 };
 
-// What `action` (A, in [-1, 1]) asks for. `base_from_focus`: the frame of ActionSpace::kFocus, its
-// axes the tool's at work. `free_way`: of length 1 at most, in that frame: so much of being off
-// that way is not being off to a side (FocusFrame). `command`: where arm and fingers were sent
-// last.
-ToolTarget TargetOf(const Skill& skill, const float* action,
-                    const Eigen::Isometry3d& base_from_focus, const Eigen::Vector3d& free_way,
+// What ActionSpace::kFocus is seen from.
+struct WorkFrame {
+  Eigen::Isometry3d base_from_focus = Eigen::Isometry3d::Identity();
+  double lean = 0.0;  // rad about the focus' y axis, of the tool at work
+  // Of length 1 at most, in the focus' frame: so much of being off that way is not being off to a
+  // side (FocusFrame).
+  Eigen::Vector3d free_way = Eigen::Vector3d::Zero();
+};
+
+// What `action` (A, in [-1, 1]) asks for. `command`: where arm and fingers were sent last.
+ToolTarget TargetOf(const Skill& skill, const float* action, const WorkFrame& frame,
                     const ArmCommand& command);
 
 // Moves the command towards the target by one control step, within the speeds of options and

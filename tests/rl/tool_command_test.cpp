@@ -103,7 +103,7 @@ TEST(TargetOf, TheHandOpensClosesOrStays) {
   command.leader = 0.013;
   const auto leader = [&](float action) {
     const float all[7] = {0, 0, 0, 0, 0, 0, action};
-    return TargetOf(*skill, all, Isometry3d::Identity(), Vector3d::Zero(), command).leader;
+    return TargetOf(*skill, all, {}, command).leader;
   };
   EXPECT_EQ(leader(0.2f), skill->robot->gripper.open);
   EXPECT_EQ(leader(-0.2f), skill->robot->gripper.closed);
@@ -119,7 +119,8 @@ TEST(TargetOf, StaysBackAlongItsAxisWhileItIsOffToASide) {
   // How far above the focus the tool is sent, with the focus so far to the tool's (x, y).
   const auto back = [&](double x, double y, const Vector3d& free_way) {
     const Isometry3d focus = tool * Eigen::Translation3d(x, y, 0.2);
-    const Isometry3d target = TargetOf(*skill, nothing, focus, free_way, command).base_from_tool;
+    const Isometry3d target =
+        TargetOf(*skill, nothing, {focus, 0.0, free_way}, command).base_from_tool;
     EXPECT_LT((focus.inverse() * target.translation()).head<2>().norm(), 1e-12);
     return -(focus.inverse() * target.translation()).z();
   };
@@ -135,6 +136,20 @@ TEST(TargetOf, StaysBackAlongItsAxisWhileItIsOffToASide) {
   EXPECT_NEAR(back(0.3, 0.045, ahead), 0.04, 1e-9);
   // A way that goes mostly along the axis, as a door's: what is off across it counts.
   EXPECT_NEAR(back(0.045, 0.0, Vector3d(-0.1, 0.0, -0.995)), 0.04 - 2.0 * 0.00045, 1e-9);
+}
+
+TEST(TargetOf, AHandThatLeansIsMovedInTheLevelFrame) {
+  const auto skill = OfPanda();
+  const ArmCommand command = AtHome(*skill);
+  const double lean = 0.6;
+  Isometry3d focus = robot::ForwardKinematics(skill->robot->arm, command.sent);
+  focus.rotate(Eigen::AngleAxisd(-lean, Vector3d::UnitY()));  // so that the hand is at work
+  const float along[7] = {0.5f, 0, 0, 0, 0, 0, 0};
+  const Isometry3d moved =
+      focus.inverse() *
+      TargetOf(*skill, along, {focus, lean, Vector3d::Zero()}, command).base_from_tool;
+  EXPECT_LT((moved.translation() - 0.5 * skill->options.reach * Vector3d::UnitX()).norm(), 1e-7);
+  EXPECT_NEAR(Eigen::AngleAxisd(moved.linear()).angle(), lean, 1e-9);
 }
 
 }  // namespace
