@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 constexpr double kSpacing = 0.01;    // m between the points of the hand that are looked at
 constexpr double kInTheWay = 0.008;  // m: what goes deeper than this does not pass
 constexpr double kWorkDone = 0.8;    // share of a joint's way by which its tasks are done
-constexpr double kBackwards = 0.75;   // of the tool's axis, back at the robot: no arm bends so
+constexpr double kBackwards = 0.75;  // of the tool's axis, back at the robot: no arm bends so
 constexpr double kFromBelow = 0.7;   // of the tool's axis upwards
 
 // Of a way to come to the part, over the joint's way.

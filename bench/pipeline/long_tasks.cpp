@@ -47,6 +47,9 @@ Learnt SumOf(const pipeline::TrainReport& report) {
   for (const pipeline::TrainedSkill& skill : report.skills) {
     sum.samples += skill.samples;
     sum.seconds += skill.seconds;
+    if (!skill.tuning) continue;
+    sum.samples += skill.tuning->samples;
+    sum.seconds += skill.tuning->seconds;
   }
   return sum;
 }

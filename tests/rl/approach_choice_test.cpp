@@ -82,7 +82,7 @@ TEST(ChooseApproach, AHandThatTakesALidDoesNotEndPointingBackAtTheRobot) {
   const Vector3d at_first = ApproachOf(*skill);
   const Vector3d opened = Eigen::AngleAxisd(1.2, Vector3d::UnitY()) * at_first;
   EXPECT_GT(at_first.x(), 0.3);
-  EXPECT_GT(opened.x(), -0.5);
+  EXPECT_GT(opened.x(), -0.75);
   EXPECT_LT(opened.z(), 0.0);
 }
 
