@@ -17,8 +17,10 @@ constexpr double kPosition = 0.01, kAngle = 0.15;  // m, rad: what is off at mos
 constexpr double kStride = 0.03;                   // m of the tool between two looks
 constexpr double kTurn = 0.12;                     // rad
 constexpr double kJointStep = 0.1;                 // rad or m of any joint in one look
-constexpr double kFinger = 0.012;  // m from a finger's middle to its side, with room
-constexpr double kThere = 0.01;    // m: what is so near its goal is pushed on as before
+constexpr double kFinger = 0.03;  // m behind what is pushed: fingers lean, walls lean out
+// m: nearer to its goal a thing is pushed on as before. The hand would else have to go round it
+// whenever it is past its goal.
+constexpr double kThere = 0.04;
 constexpr double kPitches[] = {0.0, 0.35, -0.35, 0.7, -0.7};
 // Of a hand that pushes: leaning back it has its palm behind the thing, and not on top of it, so
 // that the fingers push below the middle. Upright, they pushed tall cups over: of 40 scripted ones
