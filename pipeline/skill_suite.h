@@ -19,10 +19,13 @@ struct SuiteCell {
   double minutes = 10;  // of training on two cores, at most
   // Cabinets are as high as the robot and their open doors stand beside it: that takes a base.
   std::string robot = "panda";
+  int instances = 8;  // of the kind, to train on; twice as many of kinds that differ much
 };
 
-// Training and evaluation see other instances of the kind: seeds from 1 on and from 301 on.
+// Training and evaluation see other instances of the kind: seeds from 1 on and from 301 on, of
+// which there are so many.
 constexpr std::uint64_t kSeenSeed = 1, kUnseenSeed = 301;
+constexpr int kUnseenInstances = 8;
 
 const std::vector<SuiteCell>& SkillSuite();
 

@@ -78,9 +78,12 @@ float Episode::Reward(bool* success) {
 Decision Episode::Step(const float* action) {
   for (size_t a = 0; a < action_.size(); ++a) action_[a] = std::clamp(action[a], -1.0f, 1.0f);
   const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
-  const WorkFrame work{
-      variant.subtask.start.world_from_robot.inverse() * frame_->world_from_focus(), frame_->lean(),
-      frame_->free_way()};
+  WorkFrame work;
+  work.base_from_focus =
+      variant.subtask.start.world_from_robot.inverse() * frame_->world_from_focus();
+  work.lean = frame_->lean();
+  work.pushes = Pushes(variant);
+  work.free_way = frame_->free_way();
   Act(TargetOf(skill_, action_.data(), work, command_));
   std::swap(previous_, state_);
   state_ = previous_;

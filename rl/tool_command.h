@@ -31,6 +31,9 @@ struct ArmCommand {
 struct WorkFrame {
   Eigen::Isometry3d base_from_focus = Eigen::Isometry3d::Identity();
   double lean = 0.0;  // rad about the focus' y axis, of the tool at work
+  // Whether x is the way that a thing in front of the focus is pushed: the hand comes down behind
+  // it before it goes forward.
+  bool pushes = false;
   // Of length 1 at most, in the focus' frame: so much of being off that way is not being off to a
   // side (FocusFrame).
   Eigen::Vector3d free_way = Eigen::Vector3d::Zero();

@@ -26,7 +26,8 @@ struct Arguments {
   std::string cell = "all";
   bool train = false, ship = false, by_task = false;
   double minutes = 0.0;  // 0: the cell's own
-  int instances = 8, episodes = 300;
+  int instances = 0;     // 0: the cell's own
+  int episodes = 300;
   std::uint64_t seed = 1;
   fs::path output = "out/skill_suite";
   fs::path models = fs::path(SIMWRIGHT_SOURCE_DIR) / "models";
@@ -42,6 +43,10 @@ fs::path Photo() {
   return fs::path(SIMWRIGHT_SOURCE_DIR) / "examples" / "coffee.png";
 }
 
+int InstancesOf(const pipeline::SuiteCell& cell, const Arguments& arguments) {
+  return arguments.instances > 0 ? arguments.instances : cell.instances;
+}
+
 pipeline::SkillRun UnseenRun(const pipeline::SuiteCell& cell, const Arguments& arguments,
                              core::Progress* progress) {
   // What was lifted from the one photo is the one thing to pick.
@@ -51,7 +56,7 @@ pipeline::SkillRun UnseenRun(const pipeline::SuiteCell& cell, const Arguments& a
   run.folder = arguments.output / (photo ? "seen" : "unseen") / cell.name;
   run.set =
       tasks::ReadTaskFile(MakeCellTasks(cell, photo ? pipeline::kSeenSeed : pipeline::kUnseenSeed,
-                                        arguments.instances, Photo(), run.folder, progress));
+                                        pipeline::kUnseenInstances, Photo(), run.folder, progress));
   return run;
 }
 
@@ -109,8 +114,9 @@ std::string Card(const pipeline::SuiteCell& cell, const Arguments& arguments,
       "| skill | samples | minutes | successes | rate (95 %) | mean time "
       "|\n|---|---|---|---|---|---|\n";
   card += Row(result);
-  card += "\nTrained on " + std::to_string(arguments.instances) +
-          " instances, evaluated on as many others, from full starts (docs/skills.md).\n";
+  card += "\nTrained on " + std::to_string(InstancesOf(cell, arguments)) +
+          " instances, evaluated on " + std::to_string(pipeline::kUnseenInstances) +
+          " others, from full starts (docs/skills.md).\n";
   return card;
 }
 
@@ -118,8 +124,8 @@ CellResult Train(const pipeline::SuiteCell& cell, const Arguments& arguments,
                  core::Progress* progress) {
   pipeline::TrainRequest request;
   const fs::path seen = arguments.output / "seen" / cell.name;
-  request.task_file =
-      MakeCellTasks(cell, pipeline::kSeenSeed, arguments.instances, Photo(), seen, progress);
+  request.task_file = MakeCellTasks(cell, pipeline::kSeenSeed, InstancesOf(cell, arguments),
+                                    Photo(), seen, progress);
   request.tasks = {"*"};
   request.output = arguments.output / ("run_" + cell.name + "_" + std::to_string(arguments.seed));
   request.minutes = arguments.minutes > 0.0 ? arguments.minutes : cell.minutes;
@@ -174,7 +180,8 @@ int main(int argc, char** argv) {
   app.add_flag("--ship", arguments.ship, "Write policy and card into models/skills");
   app.add_flag("--by-task", arguments.by_task, "Also say how often each task succeeds");
   app.add_option("--minutes", arguments.minutes, "Of training; 0: the cell's own");
-  app.add_option("--instances", arguments.instances, "Of the kind, to train on and to evaluate on");
+  app.add_option("--instances", arguments.instances,
+                 "Of the kind, to train on; 0: the cell's own number");
   app.add_option("--episodes", arguments.episodes, "Of the evaluation")->capture_default_str();
   app.add_option("--seed", arguments.seed, "Of the training")->capture_default_str();
   app.add_option("-o", arguments.output, "Where assets and trainings are kept")

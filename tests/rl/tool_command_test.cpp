@@ -120,7 +120,7 @@ TEST(TargetOf, StaysBackAlongItsAxisWhileItIsOffToASide) {
   const auto back = [&](double x, double y, const Vector3d& free_way) {
     const Isometry3d focus = tool * Eigen::Translation3d(x, y, 0.2);
     const Isometry3d target =
-        TargetOf(*skill, nothing, {focus, 0.0, free_way}, command).base_from_tool;
+        TargetOf(*skill, nothing, {focus, 0.0, false, free_way}, command).base_from_tool;
     EXPECT_LT((focus.inverse() * target.translation()).head<2>().norm(), 1e-12);
     return -(focus.inverse() * target.translation()).z();
   };
@@ -138,6 +138,23 @@ TEST(TargetOf, StaysBackAlongItsAxisWhileItIsOffToASide) {
   EXPECT_NEAR(back(0.045, 0.0, Vector3d(-0.1, 0.0, -0.995)), 0.04 - 2.0 * 0.00045, 1e-9);
 }
 
+TEST(TargetOf, AHandThatPushesComesDownBeforeItGoesForward) {
+  const auto skill = OfPanda();
+  const ArmCommand command = AtHome(*skill);
+  const Isometry3d tool = robot::ForwardKinematics(skill->robot->arm, command.sent);
+  const float forward[7] = {0.5f, 0, 0, 0, 0, 0, 0}, back[7] = {-0.5f, 0, 0, 0, 0, 0, 0};
+  const auto x = [&](const float* action, double above) {
+    const Isometry3d focus = tool * Eigen::Translation3d(0.0, 0.0, above);
+    const WorkFrame frame{focus, 0.0, true, -Vector3d::UnitX()};
+    return (focus.inverse() * TargetOf(*skill, action, frame, command).base_from_tool)
+        .translation()
+        .x();
+  };
+  EXPECT_NEAR(x(forward, 0.0), 0.5 * skill->options.reach, 1e-7);
+  EXPECT_NEAR(x(forward, 0.03), 0.0, 1e-12);
+  EXPECT_NEAR(x(back, 0.03), -0.5 * skill->options.reach, 1e-7);
+}
+
 TEST(TargetOf, AHandThatLeansIsMovedInTheLevelFrame) {
   const auto skill = OfPanda();
   const ArmCommand command = AtHome(*skill);
@@ -147,7 +164,7 @@ TEST(TargetOf, AHandThatLeansIsMovedInTheLevelFrame) {
   const float along[7] = {0.5f, 0, 0, 0, 0, 0, 0};
   const Isometry3d moved =
       focus.inverse() *
-      TargetOf(*skill, along, {focus, lean, Vector3d::Zero()}, command).base_from_tool;
+      TargetOf(*skill, along, {focus, lean, false, Vector3d::Zero()}, command).base_from_tool;
   EXPECT_LT((moved.translation() - 0.5 * skill->options.reach * Vector3d::UnitX()).norm(), 1e-7);
   EXPECT_NEAR(Eigen::AngleAxisd(moved.linear()).angle(), lean, 1e-9);
 }
