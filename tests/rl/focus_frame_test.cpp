@@ -1,0 +1,86 @@
+// The frame that a policy works in, against the motion of the parts and the ways that things go.
+#include "rl/focus_frame.h"
+
+#include <gtest/gtest.h>
+
+#include "rl/skill_environment.h"
+#include "tests/rl/skill_scene.h"
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Vector3d;
+
+std::shared_ptr<const Skill> Make(const SkillSubtask& scene) {
+  return MakeSkill(robot::Panda(false), {scene}, SkillOptions().ForEvaluation());
+}
+
+FocusFrame FrameOf(const SkillVariant& variant, const tasks::SceneState& state,
+                   double pitch = 0.0) {
+  return FocusFrame(variant, state, Vector3d::UnitY(), pitch);
+}
+
+// A cup that shall be a way along x from where it stands, without being grasped.
+SkillSubtask PushCup(double x) {
+  SkillSubtask scene = PickUpCup();
+  scene.subtask.program =
+      "def compute_reward(env):\n"
+      "    missing = torch.norm(env.get_goal_pose() - env.get_position(\"cup\"), dim=-1)\n"
+      "    return -missing, missing <= 0.03\n";
+  scene.subtask.goal = Vector3d(0.5 + x, 0.0, 0.05);
+  return scene;
+}
+
+TEST(FocusFrame, TheWayThatADoorIsPulledIsFree) {
+  const auto skill = Make(OpenDoor());
+  const SkillVariant& variant = skill->variants.front();
+  const FocusFrame frame = FrameOf(variant, variant.start);
+  EXPECT_EQ(frame.lean(), 0.0);
+  EXPECT_NEAR(frame.free_way().norm(), 1.0, 1e-9);
+  EXPECT_LT(frame.free_way().z(), -0.9);  // towards the hand
+}
+
+TEST(FocusFrame, TheWayThatADoorIsClosedIsFreeWhereverItIsMet) {
+  SkillSubtask scene = OpenDoor();
+  scene.subtask.start.joints = {{"microwave", "door_joint", 1.4}};
+  const auto skill = Make(scene);
+  const SkillVariant& variant = skill->variants.front();
+  tasks::SceneState state = variant.start;
+  for (const double position : {1.4, 0.2}) {
+    state.joints[0][static_cast<size_t>(variant.focus->joint)] = position;
+    EXPECT_GT(FrameOf(variant, state).free_way().z(), 0.9) << position;
+  }
+}
+
+TEST(FocusFrame, APushedThingIsMetFromBehindInALevelFrame) {
+  const auto skill = Make(PushCup(0.2));
+  const SkillVariant& variant = skill->variants.front();
+  ASSERT_TRUE(Pushes(variant));
+  const FocusFrame frame = FrameOf(variant, variant.start, 0.6);
+  EXPECT_EQ(frame.lean(), 0.6);
+  const Eigen::Isometry3d& focus = frame.world_from_focus();
+  EXPECT_LT((focus.linear().col(0) - Vector3d::UnitX()).norm(), 1e-9);
+  EXPECT_LT((focus.linear().col(2) + Vector3d::UnitZ()).norm(), 1e-9);
+  // Its radius and the room behind it, below its middle.
+  EXPECT_NEAR(focus.translation().x(), 0.5 - 0.03 - 0.03, 0.003);
+  EXPECT_LT(focus.translation().z(), 0.5 * variant.model.things[0].height());
+}
+
+TEST(FocusFrame, AThingThatIsALittlePastItsGoalIsStillMetFromTheSameSide) {
+  const auto skill = Make(PushCup(0.2));
+  const SkillVariant& variant = skill->variants.front();
+  tasks::SceneState state = variant.start;
+  FocusFrame frame = FrameOf(variant, state, 0.6);
+  const auto direction_at = [&](double x) {
+    state.roots[0].translation().x() = x;
+    frame.Update(state);
+    return frame.world_from_focus().linear()(0, 0);
+  };
+  const double root = variant.start.roots[0].translation().x();
+  EXPECT_NEAR(direction_at(root + 0.19), 1.0, 1e-9);
+  EXPECT_NEAR(direction_at(root + 0.23), 1.0, 1e-9);
+  EXPECT_NEAR(direction_at(root + 0.26), -1.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace simwright::rl
