@@ -26,7 +26,7 @@ constexpr double kBeside = 0.025, kSlope = 2.0;   // m off the axis that are fre
 constexpr double kTurned = 0.4, kPerTurn = 0.15;  // rad that are free; m a rad
 constexpr double kAbove = 0.015;  // m: a hand so far above its work comes down before it pushes
 // m: so far ahead of the focus a hand still pushes. Were it lifted there, it would drag the side of
-// the thing that it touches upwards: of 40 cups that a script pushed 22 fell.
+// the thing that it touches upwards, and tip it.
 constexpr double kAhead = 0.05;
 constexpr double kDecided = 0.15;  // of an action: less leaves the fingers as they are
 constexpr double kGoalJump = 0.1;  // rad or m that any joint of the goal moves in a control step
