@@ -23,8 +23,8 @@ constexpr double kFinger = 0.03;  // m behind what is pushed: fingers lean, wall
 constexpr double kThere = 0.04;
 constexpr double kPitches[] = {0.0, 0.35, -0.35, 0.7, -0.7};
 // Of a hand that pushes: leaning back it has its palm behind the thing, and not on top of it, so
-// that the fingers push below the middle. Upright, the palm comes down on whatever is taller than the
-// fingers are long.
+// that the fingers push below the middle. Upright, the palm comes down on whatever is taller than
+// the fingers are long.
 constexpr double kPushPitches[] = {0.6, 0.8, 0.4};
 constexpr int kPostures = 8;  // that are tried with each, for either side of the hand
 
