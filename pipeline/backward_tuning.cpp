@@ -69,7 +69,10 @@ BackwardTuning TuneBackward(const TrainRequest& request, const SkillRun& run, co
                             core::Progress* progress) {
   if (const auto tried = ReadBackwardTuning(*pair.first)) return *tried;
   const RunSkill& first = *pair.first;
-  const rl::Policy before = rl::ReadPolicy(first.folder / rl::kPolicyFile);
+  // Where the policy had been replaced when this was stopped, the old one lies beside it.
+  const bool replaced = fs::exists(first.folder / kBeforeFile);
+  const rl::Policy before =
+      rl::ReadPolicy(first.folder / (replaced ? kBeforeFile : rl::kPolicyFile));
   const rl::Policy second = rl::ReadPolicy(pair.second->folder / rl::kPolicyFile);
   const rl::Successor successor(pair.second->evaluated, pair.second_tried);
   rl::SkillEnvironment environment(first.skill, run.environments, pair.pool);
@@ -110,8 +113,7 @@ BackwardTuning TuneBackward(const TrainRequest& request, const SkillRun& run, co
   tuning.after = rate(after);
   tuning.kept = tuning.after > tuning.before;
   if (tuning.kept) {
-    fs::copy_file(first.folder / rl::kPolicyFile, first.folder / kBeforeFile,
-                  fs::copy_options::overwrite_existing);
+    rl::WritePolicy(before, first.folder / kBeforeFile);
     rl::WritePolicy(after, first.folder / rl::kPolicyFile);
   }
   core::WriteFile(first.folder / kTunedFile, TextOf(tuning).dump(2) + "\n");

@@ -18,17 +18,17 @@ constexpr double kFromBelow = 0.7;   // of the tool's axis upwards
 
 // Of a way to come to the part, over the joint's way.
 struct Fit {
-  double deepest = 0.0;  // m, the hand's points in what is in its way
-  bool bends = true;     // the hand points neither at the robot nor up
+  double deepest = 0.0;     // m, the hand's points in what is in its way
+  bool points_away = true;  // neither back at the robot nor up
 
-  bool Passes() const { return bends && deepest < kInTheWay; }
+  bool Passes() const { return points_away && deepest < kInTheWay; }
   bool IsBetterThan(const Fit& other) const {
-    return bends != other.bends ? bends : deepest < other.deepest;
+    return points_away != other.points_away ? points_away : deepest < other.deepest;
   }
 };
 
 // `away`: from the robot to the thing.
-bool Bends(const Isometry3d& world_from_tool, const Vector3d& away) {
+bool PointsAway(const Isometry3d& world_from_tool, const Vector3d& away) {
   const Vector3d axis = world_from_tool.linear().col(2);
   return axis.z() < kFromBelow && axis.dot(away) > -kBackwards;
 }
@@ -50,7 +50,7 @@ Fit FitOf(const Isometry3d& link_from_tool, const std::vector<Vector3d>& hand,
     const std::vector<Isometry3d> poses = BodyPoses(body, thing, root, joints);
     const Isometry3d tool = poses[static_cast<size_t>(link)] * link_from_tool;
     fit.deepest = std::max(fit.deepest, DeepestPoint(hand, tool, body, poses, link));
-    fit.bends = fit.bends && Bends(tool, away);
+    fit.points_away = fit.points_away && PointsAway(tool, away);
   }
   return fit;
 }

@@ -29,10 +29,10 @@ struct EpisodeStart {
 };
 
 // Draws a start of the skill: one of its variants, its things moved and turned within the options'
-// ranges such that nothing overlaps and the arm can do its work there (PlanReach), joints and hand
-// as the shares of easier starts say. Falls back on the start as described where no such place is
-// found in 60 tries, the later of
-// which move everything away from the robot by up to 0.4 m.
+// ranges such that nothing overlaps, the arm is in none of them and can do its work there
+// (PlanReach), joints and hand as the shares of easier starts say. Falls back on the start as
+// described where no such place is found in 60 tries, the later of which move everything away from
+// the robot by up to 0.4 m.
 EpisodeStart DrawStart(const Skill& skill, core::Rng& rng);
 
 // The thing that both fingers hold and that moves with them: no furniture. -1: none.

@@ -1,7 +1,6 @@
 #include "rl/focus_frame.h"
 
 #include <cmath>
-#include <utility>
 
 #include "rl/focus_geometry.h"
 #include "rl/observation.h"
@@ -16,10 +15,9 @@ constexpr int kSurelyHeld = 3;     // updates
 constexpr double kLost = 0.06;     // m between the tool and the grasp point: no longer in the hand
 constexpr double kInPlace = 0.03;  // m from its axis: what is nearer turns in place
 
-// In the frame of `world_from_focus`.
+// FocusFrame::free_way, with the frame at `world_from_focus`.
 Vector3d FreeWay(const SkillVariant& variant, const tasks::SceneState& state,
                  const Eigen::Isometry3d& world_from_focus) {
-  if (Pushes(variant)) return -Vector3d::UnitX();
   const Focus& focus = *variant.focus;
   if (focus.joint < 0) return Vector3d::Zero();
   const auto thing = static_cast<size_t>(focus.thing), j = static_cast<size_t>(focus.joint);
@@ -35,9 +33,9 @@ Vector3d FreeWay(const SkillVariant& variant, const tasks::SceneState& state,
 
 FocusFrame::FocusFrame(const SkillVariant& variant, const tasks::SceneState& state,
                        const Vector3d& across, double pitch)
-    : variant_(variant), across_(across), pitch_(pitch) {
+    : variant_(variant), across_(across) {
   if (!variant_.focus) return;
-  if (Pushes(variant_)) std::swap(pitch_, lean_);
+  (Pushes(variant_) ? lean_ : pitch_) = pitch;
   world_from_focus_ = ToolAtFocus(variant_, state, across_, pitch_);
   across_ = world_from_focus_.linear().col(1);
   const Eigen::Isometry3d& root = state.roots[static_cast<size_t>(variant_.focus->thing)];

@@ -23,9 +23,9 @@ class FocusFrame {
   // rad that the tool leans about the frame's y axis at work. A hand that pushes leans back while
   // the frame is level: what it is asked for is along the floor.
   double lean() const { return lean_; }
-  // The way, in the focus' frame, on which the hand may be off the focus and still at its work,
-  // unit or zero: the part's, as it is worked, which the hand is ahead of while it presses a lever;
-  // behind what is pushed.
+  // The way that a part goes as it is worked, in the focus' frame, unit; zero of what turns in
+  // place and of things. A hand that is off the focus on that way is ahead of the part, and at its
+  // work.
   const Eigen::Vector3d& free_way() const { return free_way_; }
 
  private:

@@ -26,11 +26,11 @@ struct ReachPlan {
   robot::Posture at_work;  // (J) with the tool at the focus
 };
 
-// The least pitch, and of some postures the one soonest reached from `from`, from which the tool
-// goes along most of the joint's way, or with the thing to its destination, off by no more than a
-// centimetre and 0.15 rad. None where no pitch does. Postures are sought for both sides of the
-// hand, from `from` and from random ones: a tool that only ever goes straight at its target ends at
-// some joint's limit every other time.
+// The least pitch (of a hand that pushes: about 0.6 rad), and of some postures the one soonest
+// reached from `from`, from which the tool goes along most of the joint's way, or with the thing to
+// its destination, off by no more than a centimetre and 0.15 rad. None where no pitch does.
+// Postures are sought for both sides of the hand, from `from` and from random ones: a tool that
+// only ever goes straight at its target ends at some joint's limit every other time.
 std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& variant,
                                    const tasks::SceneState& state, const robot::Posture& from,
                                    core::Rng& rng);

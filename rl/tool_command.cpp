@@ -54,7 +54,7 @@ Isometry3d InFocus(const Skill& skill, const WorkFrame& frame, const ArmCommand&
 double Standoff(const Skill& skill, const WorkFrame& frame, const Isometry3d& off) {
   Eigen::Vector2d beside = off.translation().head<2>();
   const Eigen::Vector2d way = frame.free_way.head<2>();
-  if (frame.pushes && beside.x() > 0.0) beside.x() = std::max(0.0, beside.x() - kAhead);
+  if (frame.pushes) beside.x() = std::max(0.0, beside.x() - kAhead);
   const double counted = (beside - std::max(0.0, beside.dot(way)) * way).norm();
   const double aside = std::max(0.0, counted - kBeside);
   const Eigen::AngleAxisd turn(off.linear() * Leaning(-frame.lean));
