@@ -22,7 +22,7 @@ struct TrainingOptions {
   // Iterations between examinations, which begin once this share of the window's episodes succeed:
   // before that, an examination only costs time.
   int examine_every = 10;
-  double examine_from = 0.5;
+  double examine_from = 0.35;
   // Iterations between checkpoints: about 100k samples, half a minute that a crash costs.
   int checkpoint_every = 25;
   // Checkpoint of another training, of the same networks, whose policy, critic and scales this one

@@ -38,6 +38,10 @@ struct ThingJoint {
   double rest() const { return lower > 0.0 ? lower : upper < 0.0 ? upper : 0.0; }
   // The limit farther from rest(): open, on, pressed.
   double far() const { return upper - rest() >= rest() - lower ? upper : lower; }
+  // Where a hand leaves it that works it away from rest: past the 70 % of its way that count as
+  // open, on, pressed, and short of its stop. What is closed next begins there: a door that stands
+  // open to its stop, by more than a right angle, turns its handle away from the robot.
+  double acted() const { return rest() + 0.78 * (far() - rest()); }
 };
 
 // A room inside a link: what stands around it is the link's own.

@@ -65,7 +65,7 @@ class Thinker {
         if (use == JointUse::kOpen || use == JointUse::kSlide) open.push_back(idea.goals[0]);
         if (use == JointUse::kPress) continue;
         idea.goals = {{FactKind::kJointAtRest, t, -1, joint}};
-        idea.layout.joints = {{thing.name, thing.joints[j].name, thing.joints[j].far()}};
+        idea.layout.joints = {{thing.name, thing.joints[j].name, thing.joints[j].acted()}};
         back.push_back(idea);
       }
       if (open.size() >= 2) all.push_back(OpenAll(t, open));

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kAway = 0.7;         // share of a joint's range that counts as open, on, pressed
 constexpr double kAtRest = 0.05;      // share within which it counts as closed, off
-constexpr double kActedShare = 0.78;  // to which an ideal hand goes
 constexpr double kLift = 0.15;        // m
 constexpr double kSide = 0.18;        // m, to where things are put or pushed
 constexpr double kTilt = 2.2;         // rad
@@ -128,8 +127,7 @@ Step JointStep(const SceneModel& model, const Operator& one) {
   step.success = joint.name + " of " + thing.name +
                  (away ? " past " + std::to_string(std::lround(100.0 * kAway)) + " % of its way"
                        : " within 5 % of its rest");
-  const double target =
-      away ? joint.rest() + kActedShare * (joint.far() - joint.rest()) : joint.rest();
+  const double target = away ? joint.acted() : joint.rest();
   step.action = {ActionKind::kMoveJoint, one.thing, one.part, target, Eigen::Vector3d::Zero()};
   return step;
 }

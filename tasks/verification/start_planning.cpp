@@ -79,7 +79,7 @@ std::optional<InitialState> PlanStart(const SceneModel& model, const std::vector
     const Thing& known = model.things[static_cast<std::size_t>(thing)];
     const ThingJoint& moved = known.joints[static_cast<std::size_t>(joint)];
     if (direction == TitleDirection::kBack) {
-      request.joints.push_back({known.name, moved.name, moved.far()});
+      request.joints.push_back({known.name, moved.name, moved.acted()});
     }
   }
   const std::string text = Lower(title);
