@@ -162,6 +162,7 @@ json PlanJson(const SkillNotes& notes, const ChainRecording& recording) {
 rl::EpisodeStart Continued(const rl::EpisodeStart& end, const rl::EpisodeStart& planned) {
   rl::EpisodeStart start = end;
   start.pitch = planned.pitch;
+  start.withdraw = planned.withdraw;
   start.at_work = planned.at_work;
   start.state.goal = planned.state.goal;
   return start;

@@ -173,6 +173,7 @@ std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun&
     for (const tasks::Task& task : set.tasks) {
       rl::SkillSubtask& one = subtasks.emplace_back();
       one.subtask = task.subtasks[k];
+      if (k + 1 < task.subtasks.size()) one.next = task.subtasks[k + 1];
       for (const std::string& name : task.assets) one.assets.push_back(models.at(name));
     }
     RunSkill& skill = skills.emplace_back();

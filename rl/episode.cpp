@@ -37,9 +37,9 @@ void Episode::Begin(const EpisodeStart& start) {
   frame_ = std::make_unique<FocusFrame>(
       skill_.variants[variant], state_,
       skill_.variants[variant].subtask.start.world_from_robot.linear() * at_work.linear().col(1),
-      start.pitch);
+      start.pitch, start.withdraw);
   command_.sent = world_->robot().command();
-  command_.goal = start.at_work;
+  command_.goal = frame_->withdrawing() ? start.arm : start.at_work;
   command_.leader = world_->robot().leader_command();
   command_.rate = robot::Posture::Zero(command_.sent.size());
   command_.leader_rate = 0.0;
@@ -84,6 +84,8 @@ Decision Episode::Step(const float* action) {
   work.lean = frame_->lean();
   work.pushes = Pushes(variant);
   work.free_way = frame_->free_way();
+  work.back = frame_->back();
+  work.room_depth = frame_->room_depth();
   Act(TargetOf(skill_, action_.data(), work, command_));
   std::swap(previous_, state_);
   state_ = previous_;
@@ -95,7 +97,9 @@ Decision Episode::Step(const float* action) {
     decision.failed = decision.truncated = true;
     return decision;
   }
+  const bool withdrew = frame_->withdrawing();
   frame_->Update(state_);
+  if (withdrew && !frame_->withdrawing()) command_.goal = start_.at_work;
   decision.reward = Reward(&decision.success);
   if (!std::isfinite(decision.reward)) {
     decision.reward = 0.0f;
@@ -124,6 +128,7 @@ void Episode::Observe(float* row) const {
   senses.last_action = action_.data();
   senses.world_from_focus = frame_->world_from_focus();
   senses.at_destination = frame_->at_destination();
+  senses.withdrawing = frame_->withdrawing();
   programs_[static_cast<size_t>(start_.variant)]->observer.Write(state_, &previous_, senses, row);
 }
 

@@ -13,11 +13,14 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kTries = 60;
-constexpr double kFarthest = 0.4;   // m
-constexpr double kShake = 0.03;     // rad, of an arm that begins where another skill ended
-constexpr double kApart = 0.005;    // m between boxes of things
-constexpr double kOnPart = 0.5;     // share of joints part of their way that the hand begins at
-constexpr double kNearWall = 0.3;   // of the opening
+constexpr double kFarthest = 0.4;  // m
+constexpr double kShake = 0.03;    // rad, of an arm that begins where another skill ended
+constexpr double kApart = 0.005;   // m between boxes of things
+constexpr double kOnPart = 0.5;    // share of joints part of their way that the hand begins at
+constexpr double kNearWall = 0.3;  // of the opening
+constexpr double kBackOff = 0.08;  // m that a hand gets away from what it has let go of, at least
+// Of the hand's own axis, out of a room: a hand that leans less into it leaves it level.
+constexpr double kLeansIn = 0.3;
 constexpr double kFromRobot = 0.2;  // m from the robot's axis to a thing's box
 
 double Draw(const FactorRange& range, core::Rng& rng) {
@@ -109,6 +112,22 @@ void DrawBodies(const SkillVariant& variant, const SkillOptions& options, core::
   start->delay = static_cast<int>(core::UniformIndex(rng, options.longest_delay + 1));
 }
 
+// EpisodeStart::withdraw: back along the hand's own axis, until it is out of the room that it is
+// in.
+Vector3d WayOut(const Skill& skill, const SkillVariant& variant, const EpisodeStart& start) {
+  const Isometry3d tool = variant.subtask.start.world_from_robot *
+                          robot::ForwardKinematics(skill.robot->arm, start.arm);
+  Vector3d back = -tool.linear().col(2);
+  double length = kBackOff;
+  if (const auto room = SideRoomAround(variant.model, start.state, tool.translation())) {
+    const Vector3d out = -InwardOf(*room, variant.model, start.state);
+    if (back.dot(out) < kLeansIn) back = out;
+    const double depth = DepthIn(*room, variant.model, start.state, tool.translation());
+    length = std::max(length, (depth + kBeforeOpening) / back.dot(out));
+  }
+  return length * back;
+}
+
 }  // namespace
 
 EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
@@ -184,7 +203,14 @@ EpisodeStart Varied(const Skill& skill, const EpisodeStart& from, core::Rng& rng
   if (everything && start.held < 0) Shake(skill, kShake, rng, &start.arm);
   start.at_work = start.arm;
   start.pitch = 0.0;
+  start.withdraw.setZero();
+  if (start.held >= 0 && variant.room) {
+    start.pitch = PitchAt(variant, start.state,
+                          variant.subtask.start.world_from_robot *
+                              robot::ForwardKinematics(skill.robot->arm, start.arm));
+  }
   if (variant.focus && start.held < 0) {
+    start.withdraw = WayOut(skill, variant, start);
     if (const auto plan = PlanReach(skill, variant, start.state, start.arm, rng)) {
       start.pitch = plan->pitch;
       start.at_work = plan->at_work;

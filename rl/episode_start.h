@@ -18,6 +18,9 @@ struct EpisodeStart {
   double leader = 0.0;      // of the gripper's first joint
   double pitch = 0.0;       // of the hand at work, and the arm's posture there (PlanReach)
   robot::Posture at_work;
+  // m, world: how far an empty hand gets away from where another skill has left it, before it goes
+  // to its work (FocusFrame). Zero: it does not.
+  Eigen::Vector3d withdraw = Eigen::Vector3d::Zero();
   int held = -1;  // the thing that the hand closes on before the episode begins; -1: none
   // How far the hand, at work, closes before the episode begins: the gripper's first joint, where
   // nothing between the fingers stops it. Easier starts have it.

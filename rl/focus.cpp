@@ -229,8 +229,8 @@ std::optional<Focus> FocusOf(const SceneModel& model, const SceneState& start,
   return focus;
 }
 
-std::optional<Destination> DestinationOf(const SceneModel& model, const Focus& focus,
-                                         const std::vector<RewardSlot>& slots) {
+std::optional<Destination> DestinationOf(const SceneModel& model, const SceneState& start,
+                                         const Focus& focus, const std::vector<RewardSlot>& slots) {
   Destination destination;
   for (const RewardSlot& slot : slots) {
     if (slot.input == RewardInput::kGoalPosition) {
@@ -251,6 +251,11 @@ std::optional<Destination> DestinationOf(const SceneModel& model, const Focus& f
       if (cavity.link != destination.link) continue;
       destination.point = cavity.box.center();
       break;
+    }
+    destination.room = SideRoomOf(model, start, thing, destination.link);
+    if (destination.room) {
+      destination.point = SpotBehindOpening(*destination.room, model, start,
+                                            tasks::WorldBox(model, start, focus.thing).sizes());
     }
     return destination;
   }

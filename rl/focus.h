@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "rl/side_room.h"
 #include "tasks/reward/reward_slot.h"
 #include "tasks/scene_state.h"
 #include "tasks/task.h"
@@ -31,6 +32,7 @@ struct Destination {
   bool goal = false;          // to get_goal_pose
   int thing = -1, link = -1;  // else to this link: into its room where it has one, or onto it
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  // m, the link's frame
+  std::optional<SideRoom> room;                     // that it is in, where that opens to a side
 };
 
 // What the program of a subtask works on, from what it reads: the joint whose state it takes, the
@@ -39,7 +41,8 @@ struct Destination {
 std::optional<Focus> FocusOf(const tasks::SceneModel& model, const tasks::SceneState& start,
                              const std::vector<tasks::RewardSlot>& slots, double opening);
 
-std::optional<Destination> DestinationOf(const tasks::SceneModel& model, const Focus& focus,
+std::optional<Destination> DestinationOf(const tasks::SceneModel& model,
+                                         const tasks::SceneState& start, const Focus& focus,
                                          const std::vector<tasks::RewardSlot>& slots);
 
 // world_from_tool at work on a focus with a joint.

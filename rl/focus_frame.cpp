@@ -1,5 +1,6 @@
 #include "rl/focus_frame.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "rl/focus_geometry.h"
@@ -14,6 +15,8 @@ using Eigen::Vector3d;
 constexpr int kSurelyHeld = 3;     // updates
 constexpr double kLost = 0.06;     // m between the tool and the grasp point: no longer in the hand
 constexpr double kInPlace = 0.03;  // m from its axis: what is nearer turns in place
+constexpr double kAway = 0.02;     // m from where it gets away to: the hand is away
+constexpr int kLongestWay = 30;    // updates, 1.5 s at 20 Hz: what is in the way stays there
 
 // FocusFrame::free_way, with the frame at `world_from_focus`.
 Vector3d FreeWay(const SkillVariant& variant, const tasks::SceneState& state,
@@ -32,7 +35,7 @@ Vector3d FreeWay(const SkillVariant& variant, const tasks::SceneState& state,
 }  // namespace
 
 FocusFrame::FocusFrame(const SkillVariant& variant, const tasks::SceneState& state,
-                       const Vector3d& across, double pitch)
+                       const Vector3d& across, double pitch, const Vector3d& withdraw)
     : variant_(variant), across_(across) {
   if (!variant_.focus) return;
   (Pushes(variant_) ? lean_ : pitch_) = pitch;
@@ -42,7 +45,11 @@ FocusFrame::FocusFrame(const SkillVariant& variant, const tasks::SceneState& sta
   grip_ = root.inverse() * world_from_focus_.translation();
   at_destination_ = variant_.starts_held;
   free_way_ = FreeWay(variant_, state, world_from_focus_);
+  axes_ = world_from_focus_.linear();
+  withdrawing_ = !withdraw.isZero();
+  refuge_ = Eigen::Translation3d(withdraw) * state.gripper;
   Update(state);
+  withdrawn_ = 0;
 }
 
 void FocusFrame::Switch(const tasks::SceneState& state) {
@@ -54,8 +61,43 @@ void FocusFrame::Switch(const tasks::SceneState& state) {
   if (lost && !variant_.starts_held) at_destination_ = false;
 }
 
+bool FocusFrame::Withdraws(const tasks::SceneState& state) {
+  if (!withdrawing_) return false;
+  const double missing = (refuge_.translation() - state.gripper.translation()).norm();
+  if (missing < kAway || withdrawn_++ >= kLongestWay) {
+    withdrawing_ = false;
+    world_from_focus_.linear() = axes_;
+  }
+  return withdrawing_;
+}
+
+// Into a room, and out of it, the hand goes through the opening.
+void FocusFrame::FindWayIn(const tasks::SceneState& state) {
+  back_ = -Vector3d::UnitZ();
+  room_depth_ = 0.0;
+  if (!variant_.room) return;
+  const SideRoom& room = *variant_.room;
+  const auto depth = [&](const Vector3d& point) {
+    return DepthIn(room, variant_.model, state, point);
+  };
+  const double deep = depth(world_from_focus_.translation());
+  const Vector3d thing = tasks::LinkPoint(variant_.model, state, variant_.focus->thing, 0);
+  if (deep <= 0.0 && depth(thing) <= 0.0) return;
+  back_ = -(world_from_focus_.linear().transpose() * InwardOf(room, variant_.model, state));
+  room_depth_ = std::max(0.0, deep) + kBeforeOpening;
+}
+
 void FocusFrame::Update(const tasks::SceneState& state) {
   if (!variant_.focus) return;
+  if (Withdraws(state)) {
+    world_from_focus_ = refuge_;
+    return;
+  }
+  Follow(state);
+  FindWayIn(state);
+}
+
+void FocusFrame::Follow(const tasks::SceneState& state) {
   const Focus& focus = *variant_.focus;
   if (focus.joint >= 0 || Pushes(variant_)) {
     world_from_focus_ = ToolAtFocus(variant_, state, across_, pitch_);

@@ -149,7 +149,7 @@ void Observer::Write(const tasks::SceneState& state, const tasks::SceneState* pr
       variant_.subtask.start.world_from_robot.inverse() * senses.world_from_focus;
   row.Add(Vector3d(base_from_focus.translation()), kRoom);
   row.Add(Eigen::Matrix3d(base_from_focus.linear()));
-  row.Add(senses.at_destination ? 1.0 : 0.0);
+  row.Add(senses.withdrawing ? -1.0 : senses.at_destination ? 1.0 : 0.0);
   AddJoints(state, previous, &row);
   const Eigen::Matrix3d focus_from_world = senses.world_from_focus.linear().transpose();
   if (variant_.focus) {
@@ -163,8 +163,8 @@ void Observer::Write(const tasks::SceneState& state, const tasks::SceneState* pr
   for (int a = 0; a < ActionSize(skill_); ++a) row.Add(senses.last_action[a]);
 }
 
-Vector3d WayToDestination(const SkillVariant& variant, const tasks::SceneState& state) {
-  const Destination& destination = *variant.destination;
+Vector3d WayTo(const Destination& destination, const SkillVariant& variant,
+               const tasks::SceneState& state) {
   Vector3d point = state.goal;
   if (!destination.goal) {
     const auto thing = static_cast<size_t>(destination.thing);
@@ -173,6 +173,10 @@ Vector3d WayToDestination(const SkillVariant& variant, const tasks::SceneState& 
     point = state.roots[thing] * poses[static_cast<size_t>(destination.link)] * destination.point;
   }
   return point - tasks::LinkPoint(variant.model, state, variant.focus->thing, variant.focus->link);
+}
+
+Vector3d WayToDestination(const SkillVariant& variant, const tasks::SceneState& state) {
+  return WayTo(*variant.destination, variant, state);
 }
 
 }  // namespace simwright::rl

@@ -17,6 +17,7 @@ struct Senses {
   // The frame that actions are seen from (ToolAtFocus), world_from_focus.
   Eigen::Isometry3d world_from_focus = Eigen::Isometry3d::Identity();
   bool at_destination = false;  // that frame is where a held thing goes
+  bool withdrawing = false;     // that frame is where the hand gets away to (FocusFrame)
 };
 
 // Writes what a policy sees in one variant of a skill; other variants give as many numbers.
@@ -52,7 +53,11 @@ class Observer {
   std::vector<int> things_;                  // free ones that it reads, other than the focus
 };
 
-// The way that a held thing still has to go, m, world.
+// The way that the thing at work still has to go to `destination`, m, world.
+Eigen::Vector3d WayTo(const Destination& destination, const SkillVariant& variant,
+                      const tasks::SceneState& state);
+
+// The same to its own destination.
 Eigen::Vector3d WayToDestination(const SkillVariant& variant, const tasks::SceneState& state);
 
 }  // namespace simwright::rl

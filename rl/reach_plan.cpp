@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "rl/arm_clearance.h"
 #include "rl/observation.h"
 
 namespace simwright::rl {
@@ -26,7 +27,13 @@ constexpr double kPitches[] = {0.0, 0.35, -0.35, 0.7, -0.7};
 // that the fingers push below the middle. Upright, the palm comes down on whatever is taller than
 // the fingers are long.
 constexpr double kPushPitches[] = {0.6, 0.8, 0.4};
-constexpr int kPostures = 8;  // that are tried with each, for either side of the hand
+// Of a hand that goes into a room through its side: palm and wrist stay out of it, or below its
+// ceiling. A microwave is 20 cm high inside; upright, hand and flange alone are 25.
+constexpr double kRoomPitches[] = {0.8, 1.0, 0.6, 1.2};
+constexpr double kLeaning = 0.9;  // of the lean, into the room: things with corners turn the hand
+constexpr int kRoomPostures = 6;  // that are looked at: whether an arm is clear takes a millisecond
+constexpr double kUpright = 0.8;  // of a thing's z axis
+constexpr int kPostures = 8;      // that are tried with each, for either side of the hand
 
 // Follows poses with the tracker that training uses.
 class Follower {
@@ -54,6 +61,7 @@ class Follower {
     }
     return error.position < kPosition && error.angle < kAngle;
   }
+  const robot::Posture& posture() const { return posture_; }
 
  private:
   const Skill& skill_;
@@ -70,16 +78,48 @@ std::vector<double> JointWay(const tasks::ThingJoint& joint, double position) {
   return way;
 }
 
-bool Works(const Skill& skill, const SkillVariant& variant, tasks::SceneState state,
-           const Isometry3d& tool, double pitch, const robot::Posture& at_work) {
-  Follower follower(skill, variant, at_work);
-  const Focus& focus = *variant.focus;
-  if (focus.joint < 0) {
-    if (!variant.destination) return true;
+// A way for the hand to stand at its work.
+struct Stance {
+  Vector3d across;  // unit, world: the tool's y axis
+  double pitch = 0.0;
+};
+
+// What has to be true of a plan.
+struct Demands {
+  bool looks_ahead = false;  // the thing can go on to variant.next
+  bool leans_in = false;     // the hand leans into variant.room
+};
+
+// Whether the tool goes to `there` in variant.room through its opening, the arm being in nothing.
+bool GoesIn(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
+            const Isometry3d& there, Follower* follower) {
+  const Vector3d inward = InwardOf(*variant.room, variant.model, state);
+  const double depth = DepthIn(*variant.room, variant.model, state, there.translation());
+  Isometry3d before = there;
+  before.translation() -= (std::max(0.0, depth) + kBeforeOpening) * inward;
+  return follower->Goes(before) && IsArmClear(skill, variant, state, follower->posture()) &&
+         follower->Goes(there) && IsArmClear(skill, variant, state, follower->posture());
+}
+
+// Whether a thing that is taken with the tool at `tool` can be brought where it shall go.
+bool CarriesThing(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
+                  const Isometry3d& tool, const Demands& demands, Follower* follower) {
+  const auto goes = [&](const Destination& destination) {
     Isometry3d there = tool;
-    there.translation() += WayToDestination(variant, state);
-    return follower.Goes(there);
-  }
+    there.translation() += WayTo(destination, variant, state);
+    if (destination.room) return GoesIn(skill, variant, state, there, follower);
+    return follower->Goes(there);
+  };
+  const bool inside =
+      variant.room && DepthIn(*variant.room, variant.model, state, tool.translation()) > 0.0;
+  if (inside && !GoesIn(skill, variant, state, tool, follower)) return false;
+  if (variant.destination && !goes(*variant.destination)) return false;
+  return !demands.looks_ahead || !variant.next || goes(*variant.next);
+}
+
+bool MovesJoint(const SkillVariant& variant, tasks::SceneState state, const Isometry3d& tool,
+                double pitch, Follower* follower) {
+  const Focus& focus = *variant.focus;
   const auto thing = static_cast<size_t>(focus.thing), j = static_cast<size_t>(focus.joint);
   Vector3d across = tool.linear().col(1);
   for (const double position :
@@ -87,7 +127,7 @@ bool Works(const Skill& skill, const SkillVariant& variant, tasks::SceneState st
     state.joints[thing][j] = position;
     const Isometry3d next = ToolAtFocus(variant, state, across, pitch);
     across = next.linear().col(1);
-    if (!follower.Goes(next)) return false;
+    if (!follower->Goes(next)) return false;
   }
   return true;
 }
@@ -107,6 +147,7 @@ robot::Posture PostureAbout(const robot::Posture& from, double share, const robo
 // A posture in which the tool is at work.
 struct Candidate {
   Isometry3d tool;  // world_from_tool
+  double pitch = 0.0;
   robot::Posture posture;
   double seconds = 0.0;  // to get there, every joint at its highest speed
 };
@@ -120,8 +161,10 @@ double TravelTime(const robot::RobotModel& robot, const robot::Posture& way) {
   return seconds;
 }
 
-void AddCandidates(const Skill& skill, const SkillVariant& variant, const Isometry3d& tool,
-                   const robot::Posture& from, core::Rng& rng, std::vector<Candidate>* candidates) {
+void AddCandidates(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
+                   const Stance& stance, const robot::Posture& from, core::Rng& rng,
+                   std::vector<Candidate>* candidates) {
+  const Isometry3d tool = ToolAtFocus(variant, state, stance.across, stance.pitch);
   const Isometry3d target = variant.subtask.start.world_from_robot.inverse() * tool;
   robot::Posture start = from;
   for (int i = 0; i < kPostures; ++i) {
@@ -130,7 +173,8 @@ void AddCandidates(const Skill& skill, const SkillVariant& variant, const Isomet
       if (i == 0) return;  // out of reach, as a rule
       continue;
     }
-    candidates->push_back({tool, found.q, TravelTime(*skill.robot, found.q - from)});
+    const double seconds = TravelTime(*skill.robot, found.q - from);
+    candidates->push_back({tool, stance.pitch, found.q, seconds});
     const double share = static_cast<double>(i + 1) / kPostures;
     start = PostureAbout(from, share, skill.robot->arm, rng);
   }
@@ -150,6 +194,52 @@ Isometry3d ToolBehind(const SkillVariant& variant, const tasks::SceneState& stat
   tool.translation() = state.roots[thing] * variant.focus->link_from_tool.translation() -
                        (0.5 * width + kFinger) * along;
   return tool;
+}
+
+std::span<const double> PitchesOf(const SkillVariant& variant, const Demands& demands) {
+  if (Pushes(variant)) return kPushPitches;
+  if (demands.leans_in) return kRoomPitches;
+  return kPitches;
+}
+
+// For both sides of the hand, whose y axis is `across` now.
+std::vector<Stance> StancesWith(const SkillVariant& variant, const tasks::SceneState& state,
+                                const Vector3d& across, double pitch, const Demands& demands) {
+  if (!demands.leans_in) return {{across, pitch}, {-across, pitch}};
+  const Vector3d inward = InwardOf(*variant.room, variant.model, state);
+  const Vector3d aside = (-Vector3d::UnitZ()).cross(inward).normalized();
+  std::vector<Stance> stances;
+  for (const Stance& stance : {Stance{aside, pitch}, Stance{-aside, -pitch}}) {
+    const Isometry3d tool = ToolAtFocus(variant, state, stance.across, stance.pitch);
+    const double lean = tool.linear().col(2).dot(inward);
+    if (lean >= kLeaning * std::sin(pitch)) stances.push_back(stance);
+  }
+  return stances;
+}
+
+// A plan with one of `stances`.
+std::optional<ReachPlan> PlanWith(const Skill& skill, const SkillVariant& variant,
+                                  const tasks::SceneState& state, const robot::Posture& from,
+                                  const std::vector<Stance>& stances, const Demands& demands,
+                                  core::Rng& rng) {
+  std::vector<Candidate> candidates;
+  for (const Stance& stance : stances) {
+    AddCandidates(skill, variant, state, stance, from, rng, &candidates);
+  }
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.seconds < b.seconds; });
+  if (variant.room && candidates.size() > kRoomPostures) {
+    candidates.erase(candidates.begin() + kRoomPostures, candidates.end());
+  }
+  for (const Candidate& candidate : candidates) {
+    Follower follower(skill, variant, candidate.posture);
+    const bool works =
+        variant.focus->joint >= 0
+            ? MovesJoint(variant, state, candidate.tool, candidate.pitch, &follower)
+            : CarriesThing(skill, variant, state, candidate.tool, demands, &follower);
+    if (works) return ReachPlan{candidate.pitch, candidate.posture};
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -191,24 +281,31 @@ std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& varia
   const Isometry3d& world_from_base = variant.subtask.start.world_from_robot;
   const Isometry3d tool_now = world_from_base * robot::ForwardKinematics(skill.robot->arm, from);
   const Vector3d across = tool_now.linear().col(1);
-  std::vector<Candidate> candidates;
-  const std::span<const double> pitches =
-      Pushes(variant) ? std::span<const double>(kPushPitches) : std::span<const double>(kPitches);
-  for (const double pitch : pitches) {
-    candidates.clear();
-    for (const double side : {1.0, -1.0}) {
-      AddCandidates(skill, variant, ToolAtFocus(variant, state, side * across, pitch), from, rng,
-                    &candidates);
-    }
-    std::sort(candidates.begin(), candidates.end(),
-              [](const Candidate& a, const Candidate& b) { return a.seconds < b.seconds; });
-    for (const Candidate& candidate : candidates) {
-      if (Works(skill, variant, state, candidate.tool, pitch, candidate.posture)) {
-        return ReachPlan{pitch, candidate.posture};
+  const auto plan = [&](const Demands& demands) -> std::optional<ReachPlan> {
+    for (const double pitch : PitchesOf(variant, demands)) {
+      const auto stances = StancesWith(variant, state, across, pitch, demands);
+      if (const auto found = PlanWith(skill, variant, state, from, stances, demands, rng)) {
+        return found;
       }
     }
+    return std::nullopt;
+  };
+  if (variant.room) {
+    if (const auto found = plan({.looks_ahead = true, .leans_in = true})) return found;
   }
-  return std::nullopt;
+  if (variant.next) {
+    if (const auto found = plan({.looks_ahead = true})) return found;
+  }
+  return plan({});
+}
+
+double PitchAt(const SkillVariant& variant, const tasks::SceneState& state,
+               const Isometry3d& world_from_tool) {
+  Vector3d up = state.roots[static_cast<size_t>(variant.focus->thing)].linear().col(2);
+  if (up.z() < kUpright) up = Vector3d::UnitZ();
+  const Vector3d axis = world_from_tool.linear().col(2);
+  const Vector3d ahead = world_from_tool.linear().col(1).cross(-up).normalized();
+  return std::atan2(axis.dot(ahead), -axis.dot(up));
 }
 
 }  // namespace simwright::rl

@@ -26,13 +26,20 @@ struct ReachPlan {
   robot::Posture at_work;  // (J) with the tool at the focus
 };
 
-// The least pitch (of a hand that pushes: about 0.6 rad), and of some postures the one soonest
-// reached from `from`, from which the tool goes along most of the joint's way, or with the thing to
-// its destination, off by no more than a centimetre and 0.15 rad. None where no pitch does.
-// Postures are sought for both sides of the hand, from `from` and from random ones: a tool that
-// only ever goes straight at its target ends at some joint's limit every other time.
+// The least pitch (of a hand that pushes: about 0.6 rad; of one that goes into a room through its
+// side: about 0.8, leaning into it), and of some postures the one soonest reached from `from`, from
+// which the tool goes along most of the joint's way, or with the thing to its destination, off by
+// no more than a centimetre and 0.15 rad, and the arm is in nothing in a room and before it. A
+// thing is taken so that it can go on to variant.next too, where there is a way. None where no
+// pitch does. Postures are sought for both sides of the hand, from `from` and from random ones: a
+// tool that only ever goes straight at its target ends at some joint's limit every other time.
 std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& variant,
                                    const tasks::SceneState& state, const robot::Posture& from,
                                    core::Rng& rng);
+
+// rad that the hand at `world_from_tool` leans about its own y axis, as PlanReach's pitch: against
+// the upright of the thing at work, which it may have tilted, or the world's where that lies.
+double PitchAt(const SkillVariant& variant, const tasks::SceneState& state,
+               const Eigen::Isometry3d& world_from_tool);
 
 }  // namespace simwright::rl

@@ -6,6 +6,7 @@
 #include "geometry/convex_hull.h"
 #include "rl/approach_choice.h"
 #include "rl/hand_clearance.h"
+#include "rl/reach_plan.h"
 #include "sim/driven_robot.h"
 
 namespace simwright::rl {
@@ -86,11 +87,40 @@ void FindFocus(double opening, SkillVariant* variant) {
   const std::vector<tasks::RewardSlot>& slots = variant->program->slots();
   variant->focus = FocusOf(variant->model, variant->start, slots, opening);
   if (variant->focus) {
-    variant->destination = DestinationOf(variant->model, *variant->focus, slots);
+    variant->destination = DestinationOf(variant->model, variant->start, *variant->focus, slots);
   }
   for (const tasks::RewardSlot& slot : slots) {
     if (slot.input == RewardInput::kGrasped) variant->asks_for_grasp = true;
   }
+}
+
+// SkillVariant::next.
+std::optional<Destination> NextDestination(const SkillSubtask& source, const SkillVariant& variant,
+                                           double opening) {
+  if (!source.next || !variant.focus || variant.focus->joint >= 0) return std::nullopt;
+  if (source.next->start.held.empty() ||
+      variant.model.Find(source.next->start.held) != variant.focus->thing) {
+    return std::nullopt;
+  }
+  SkillVariant next;
+  next.model = variant.model;
+  next.subtask = *source.next;
+  next.start = tasks::StateOf(next.model, source.next->start, source.next->goal);
+  CompileProgram(&next);
+  FindFocus(opening, &next);
+  const bool goes_on = next.focus && next.focus->thing == variant.focus->thing;
+  if (!goes_on || !next.destination || next.destination->goal) return std::nullopt;
+  return next.destination;
+}
+
+// SkillVariant::room.
+std::optional<SideRoom> RoomOf(const SkillVariant& variant) {
+  if (!variant.focus || variant.focus->joint >= 0 || Pushes(variant)) return std::nullopt;
+  if (variant.destination && variant.destination->room) return variant.destination->room;
+  const Eigen::Vector3d point =
+      tasks::LinkPoint(variant.model, variant.start, variant.focus->thing, 0);
+  if (const auto room = SideRoomAround(variant.model, variant.start, point)) return room;
+  return variant.next ? variant.next->room : std::nullopt;
 }
 
 void PrepareBodies(const std::vector<assets::SemanticModel>& models, const SkillOptions& options,
@@ -119,6 +149,8 @@ SkillVariant MakeVariant(const SkillSubtask& source, const robot::RobotModel& ro
   Place(&variant);
   CompileProgram(&variant);
   FindFocus(robot.gripper.MaxOpening(), &variant);
+  variant.next = NextDestination(source, variant, robot.gripper.MaxOpening());
+  variant.room = RoomOf(variant);
   PrepareBodies(source.assets, options, &variant);
   if (variant.focus && variant.focus->joint >= 0) {
     const auto thing = static_cast<size_t>(variant.focus->thing);

@@ -21,6 +21,7 @@ namespace simwright::rl {
 struct SkillSubtask {
   std::vector<assets::SemanticModel> assets;
   tasks::Subtask subtask;
+  std::optional<tasks::Subtask> next;  // what follows it in its task
 };
 
 // One scene that a skill is practised in. Constant.
@@ -37,6 +38,11 @@ struct SkillVariant {
   std::optional<tasks::RewardProgram> program;
   std::optional<Focus> focus;
   std::optional<Destination> destination;
+  // Where the subtask that follows brings the thing that this one takes: it is taken so that it can
+  // go there. None where that does not go on with it, or to a place on the way.
+  std::optional<Destination> next;
+  // The room that the hand goes into: the destination's, that of the thing at the start, or next's.
+  std::optional<SideRoom> room;
   bool asks_for_grasp = false;
   bool starts_held = false;
 };

@@ -13,6 +13,7 @@ namespace {
 using nlohmann::json;
 
 constexpr size_t kMostStarts = 100000;
+constexpr double kFarthestWay = 10.0;  // m
 
 json PoseJson(const Eigen::Isometry3d& pose) {
   json numbers = json::array();
@@ -88,6 +89,13 @@ EpisodeStart StartFrom(const json& text, const Skill& skill) {
   start.leader = text.at("leader").get<double>();
   if (text.contains("closed_to")) start.closed_to = text["closed_to"].get<double>();
   start.pitch = text.at("pitch").get<double>();
+  if (text.contains("withdraw")) {
+    const std::vector<double> way = Numbers(text["withdraw"], 3);
+    start.withdraw = Eigen::Vector3d(way[0], way[1], way[2]);
+    if (start.withdraw.norm() > kFarthestWay) {
+      throw std::invalid_argument("a way that no hand goes");
+    }
+  }
   start.held = text.at("held").get<int>();
   if (start.held < -1 || start.held >= static_cast<int>(things) ||
       (start.held >= 0 && variant.fixed[static_cast<size_t>(start.held)])) {
@@ -117,6 +125,9 @@ std::string StartText(const EpisodeStart& start) {
   text["leader"] = start.leader;
   if (start.closed_to) text["closed_to"] = *start.closed_to;
   text["pitch"] = start.pitch;
+  if (!start.withdraw.isZero()) {
+    text["withdraw"] = {start.withdraw.x(), start.withdraw.y(), start.withdraw.z()};
+  }
   text["held"] = start.held;
   text["mass"] = start.mass;
   text["friction"] = start.friction;

@@ -52,14 +52,16 @@ Isometry3d InFocus(const Skill& skill, const WorkFrame& frame, const ArmCommand&
 // m that the tool stays back: more, the farther it is off the focus' axis and the more it is
 // turned.
 double Standoff(const Skill& skill, const WorkFrame& frame, const Isometry3d& off) {
-  Eigen::Vector2d beside = off.translation().head<2>();
-  const Eigen::Vector2d way = frame.free_way.head<2>();
+  const Vector3d& back = frame.back;
+  Vector3d beside = off.translation() - off.translation().dot(back) * back;
+  const Vector3d way = frame.free_way - frame.free_way.dot(back) * back;
   if (frame.pushes) beside.x() = std::max(0.0, beside.x() - kAhead);
   const double counted = (beside - std::max(0.0, beside.dot(way)) * way).norm();
   const double aside = std::max(0.0, counted - kBeside);
   const Eigen::AngleAxisd turn(off.linear() * Leaning(-frame.lean));
   const double turned = std::max(0.0, turn.angle() - kTurned);
-  return std::min(skill.options.standoff, kSlope * aside + kPerTurn * turned);
+  return std::min(std::max(skill.options.standoff, frame.room_depth),
+                  kSlope * aside + kPerTurn * turned);
 }
 
 // The hand opens, closes, or stays as it is. Were the action an opening, with zero wide open, a
@@ -159,7 +161,7 @@ ToolTarget TargetOf(const Skill& skill, const float* action, const WorkFrame& fr
         if (frame.pushes && now.translation().z() < -kAbove) {
           offset.translation().x() = std::min(offset.translation().x(), 0.0);
         }
-        offset.translation().z() -= Standoff(skill, frame, now);
+        offset.translation() += Standoff(skill, frame, now) * frame.back;
       }
       target.base_from_tool = frame.base_from_focus * offset;
       break;

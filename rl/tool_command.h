@@ -37,6 +37,10 @@ struct WorkFrame {
   // Of length 1 at most, in the focus' frame: so much of being off that way is not being off to a
   // side (FocusFrame).
   Eigen::Vector3d free_way = Eigen::Vector3d::Zero();
+  // Where the tool stays back to while it is off to a side (unit, the focus' frame): along its own
+  // axis, or out of the room that the focus is in, as far as that is deep (m; 0: as options say).
+  Eigen::Vector3d back = -Eigen::Vector3d::UnitZ();
+  double room_depth = 0.0;
 };
 
 // What `action` (A, in [-1, 1]) asks for. `command`: where arm and fingers were sent last.

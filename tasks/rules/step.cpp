@@ -11,11 +11,11 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr double kAway = 0.7;         // share of a joint's range that counts as open, on, pressed
-constexpr double kAtRest = 0.05;      // share within which it counts as closed, off
-constexpr double kLift = 0.15;        // m
-constexpr double kSide = 0.18;        // m, to where things are put or pushed
-constexpr double kTilt = 2.2;         // rad
+constexpr double kAway = 0.7;     // share of a joint's range that counts as open, on, pressed
+constexpr double kAtRest = 0.05;  // share within which it counts as closed, off
+constexpr double kLift = 0.15;    // m
+constexpr double kSide = 0.18;    // m, to where things are put or pushed
+constexpr double kTilt = 2.2;     // rad
 
 std::string Number(double value) {
   char text[32];
@@ -254,6 +254,22 @@ Eigen::Vector3d FreeSpot(const SceneModel& model, const SceneState& state, int t
   return middle;
 }
 
+// Leaves out of a room (world frame) what a thing of `size` must not have its middle in for the
+// door to close: half of it before the opening, on the side that `opening` (unit, world) looks to.
+// `target`, which is inside, stays so.
+void KeepBehindDoor(const Eigen::Vector3d& opening, const Eigen::Vector3d& size,
+                    const Eigen::Vector3d& target, Eigen::AlignedBox3d* room) {
+  Eigen::Index side = 0;
+  opening.cwiseAbs().maxCoeff(&side);
+  const double half = 0.5 * std::max(size.x(), size.y());
+  if (side == 2) return;
+  if (opening[side] > 0.0) {
+    room->max()[side] = std::max(room->max()[side] - half, target[side]);
+  } else {
+    room->min()[side] = std::min(room->min()[side] + half, target[side]);
+  }
+}
+
 Step PutIntoStep(const SceneModel& model, const SceneState& state, const Operator& one) {
   const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
   const Thing& holder = model.things[static_cast<std::size_t>(one.other)];
@@ -272,6 +288,9 @@ Step PutIntoStep(const SceneModel& model, const SceneState& state, const Operato
   const Eigen::Vector3d target = FreeSpot(model, state, one.thing, room);
   // What stands out of a cup has its middle above the cup's room.
   const double lift = std::max(0.0, target.z() + 0.02 - room.max().z());
+  if (cavity.door >= 0) {
+    KeepBehindDoor(pose.linear() * cavity.opening, thing.box.sizes(), target, &room);
+  }
   const Eigen::Vector3d low = (room.min() - box.min()).cwiseQuotient(size);
   const Eigen::Vector3d high =
       (room.max() + Eigen::Vector3d(0, 0, lift) - box.min()).cwiseQuotient(size);

@@ -1,6 +1,7 @@
 // What can be done with things, what follows from it, and that what comes out is sound.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "tasks/rules/affordances.h"
@@ -132,6 +133,21 @@ TEST(RuleTasks, AreSoundAndOfEveryKind) {
                            "place_tin_on_book", "pour_from_jug_into_cup"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
+}
+
+// A door that stands open to its stop, 97 degrees, would turn its handle away: what is closed stands
+// as far open as what was opened, 70 % and a little more.
+TEST(RuleTasks, ClosingBeginsWhereOpeningEnds) {
+  const RuleTasks result = GenerateTasksByRules(MakeSceneModel({Microwave()}), {10, 1});
+  const auto closing =
+      std::find_if(result.tasks.begin(), result.tasks.end(),
+                   [](const Task& task) { return task.name == "close_microwave_door"; });
+  ASSERT_NE(closing, result.tasks.end());
+  const std::vector<JointCondition>& joints = closing->subtasks.front().start.joints;
+  ASSERT_EQ(joints.size(), 1u);
+  EXPECT_EQ(joints[0].joint, "door_joint");
+  EXPECT_GE(joints[0].position, 0.7 * 1.7);
+  EXPECT_LE(joints[0].position, 0.85 * 1.7);
 }
 
 // Names out of a URDF are text: quotes and line breaks in them end nothing.

@@ -1,0 +1,280 @@
+// Hands that go into rooms through their sides: what a microwave's is, where a cup goes in it, how
+// the hand takes the cup before, goes in, and gets out again. Against the microwave's own numbers.
+#include "rl/side_room.h"
+
+#include <gtest/gtest.h>
+
+#include "rl/arm_clearance.h"
+#include "rl/focus_frame.h"
+#include "rl/skill_environment.h"
+#include "rl/start_pool.h"
+#include "rl/variant_reward.h"
+#include "tasks/rules/rule_tasks.h"
+#include "tests/rl/skill_scene.h"
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// Its body is 0.4 deep, its walls are 2 cm, its opening looks to -x (tests/tasks/household.h).
+constexpr double kHalfDepth = 0.2, kFloor = 0.02, kCell = 0.5 / 40;
+
+tasks::SceneModel Kitchen() {
+  return tasks::MakeSceneModel({WithInertia(tasks::Microwave()), WithInertia(tasks::Cup()),
+                                WithInertia(tasks::DrawerUnit())});
+}
+
+tasks::SceneState At(const tasks::SceneModel& model, const Isometry3d& microwave) {
+  tasks::InitialState start;
+  start.placements = {{"microwave", microwave, true}};
+  return tasks::StateOf(model, start);
+}
+
+Isometry3d TurnedMicrowave() {
+  return Eigen::Translation3d(0.8, 0.1, 0.0) * Eigen::AngleAxisd(0.5, Vector3d::UnitZ()) *
+         Isometry3d::Identity();
+}
+
+// The rules' own task, its subtasks each with what follows: open, pick up, put into, close.
+std::vector<SkillSubtask> PutCupIntoMicrowave() {
+  const std::vector<assets::SemanticModel> assets = {WithInertia(tasks::Microwave()),
+                                                     WithInertia(tasks::Cup())};
+  tasks::RuleOptions options;
+  options.count = 20;
+  const tasks::RuleTasks made =
+      tasks::GenerateTasksByRules(tasks::MakeSceneModel(assets), options);
+  std::vector<SkillSubtask> scenes;
+  for (const tasks::Task& task : made.tasks) {
+    if (task.name != "put_cup_into_microwave_and_close_it") continue;
+    for (size_t k = 0; k < task.subtasks.size(); ++k) {
+      SkillSubtask& scene = scenes.emplace_back();
+      scene.assets = assets;
+      scene.subtask = task.subtasks[k];
+      if (k + 1 < task.subtasks.size()) scene.next = task.subtasks[k + 1];
+    }
+  }
+  return scenes;
+}
+
+std::shared_ptr<const Skill> Make(const SkillSubtask& scene) {
+  return MakeSkill(robot::Panda(true), {scene}, SkillOptions().ForEvaluation());
+}
+
+Isometry3d ToolAt(const Skill& skill, const robot::Posture& arm) {
+  return skill.variants.front().subtask.start.world_from_robot *
+         robot::ForwardKinematics(skill.robot->arm, arm);
+}
+
+TEST(SideRoom, IsWhatOpensToASide) {
+  const tasks::SceneModel model = Kitchen();
+  const Isometry3d pose = TurnedMicrowave();
+  const tasks::SceneState state = At(model, pose);
+  const auto room = SideRoomOf(model, state, 0, model.things[0].FindLink("body"));
+  ASSERT_TRUE(room);
+  EXPECT_LT((InwardOf(*room, model, state) - pose.linear().col(0)).norm(), 1e-12);
+  const Vector3d inside = pose * Vector3d(-kHalfDepth + 0.07, 0.1, 0.1);
+  EXPECT_NEAR(DepthIn(*room, model, state, inside), 0.07, kCell);
+  EXPECT_NEAR(DepthIn(*room, model, state, pose * Vector3d(-kHalfDepth - 0.1, 0.3, 0.1)), -0.1,
+              kCell);
+  const auto around = SideRoomAround(model, state, inside);
+  ASSERT_TRUE(around);
+  EXPECT_EQ(around->thing, 0);
+  EXPECT_FALSE(SideRoomAround(model, state, pose * Vector3d(0.0, 0.0, 0.4)));
+  // Cups and drawers open upwards; a microwave that lies on its back does too.
+  EXPECT_FALSE(SideRoomOf(model, state, 1, 0));
+  EXPECT_FALSE(SideRoomOf(model, state, 2, model.things[2].FindLink("drawer")));
+  Isometry3d on_its_back = pose;
+  on_its_back.rotate(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitY()));
+  EXPECT_FALSE(SideRoomOf(model, At(model, on_its_back), 0, model.things[0].FindLink("body")));
+}
+
+TEST(SideRoom, AThingGoesJustBehindTheOpening) {
+  const tasks::SceneModel model = Kitchen();
+  const Isometry3d pose = TurnedMicrowave();
+  const tasks::SceneState state = At(model, pose);
+  const auto room = SideRoomOf(model, state, 0, model.things[0].FindLink("body"));
+  ASSERT_TRUE(room);
+  const Vector3d spot = pose * SpotBehindOpening(*room, model, state, {0.08, 0.06, 0.1});
+  EXPECT_NEAR(DepthIn(*room, model, state, spot), 0.04 + 0.02, 1e-9);
+  EXPECT_NEAR((pose.inverse() * spot).y(), 0.0, kCell);
+  EXPECT_NEAR(spot.z(), kFloor + 0.05 + 0.01, 2 * kCell);
+  // What is deeper than the room is goes to its middle.
+  const Vector3d deep = pose * SpotBehindOpening(*room, model, state, {0.8, 0.06, 0.1});
+  EXPECT_NEAR((pose.inverse() * deep).x(), room->box.center().x(), 1e-9);
+}
+
+TEST(SideRoom, AThingThatGoesIntoOneIsTakenByAHandThatLeansIn) {
+  const std::vector<SkillSubtask> scenes = PutCupIntoMicrowave();
+  ASSERT_EQ(scenes.size(), 4u);
+  const auto opens = Make(scenes[0]), picks = Make(scenes[1]), puts = Make(scenes[2]);
+  EXPECT_FALSE(opens->variants[0].next || opens->variants[0].room);
+  ASSERT_TRUE(picks->variants[0].next && picks->variants[0].room);
+  ASSERT_TRUE(puts->variants[0].room && puts->variants[0].destination->room);
+  SkillSubtask alone = scenes[1];
+  alone.next.reset();
+  const auto picks_alone = Make(alone);
+  EXPECT_FALSE(picks_alone->variants[0].next || picks_alone->variants[0].room);
+  core::Rng rng = core::StreamRng(1, 0);
+  for (int i = 0; i < 8; ++i) {
+    const EpisodeStart start = DrawStart(*picks, rng);
+    const SkillVariant& variant = picks->variants[0];
+    const Vector3d inward = InwardOf(*variant.room, variant.model, start.state);
+    const Isometry3d tool = ToolAt(*picks, start.at_work);
+    EXPECT_GT(tool.linear().col(2).dot(inward), std::sin(0.5)) << i;
+    EXPECT_LT(std::abs(tool.linear().col(1).dot(inward)), 0.2) << i;  // fingers across the opening
+    EXPECT_NEAR(std::abs(PitchAt(variant, start.state, tool)), std::abs(start.pitch), 0.02);
+    EXPECT_LT(ToolAt(*picks_alone, DrawStart(*picks_alone, rng).at_work).linear().col(2).z(), -0.7);
+  }
+}
+
+TEST(SideRoom, TheHandOfAStartThatHoldsSomethingIsClearInTheRoom) {
+  const std::vector<SkillSubtask> scenes = PutCupIntoMicrowave();
+  ASSERT_EQ(scenes.size(), 4u);
+  const auto skill = Make(scenes[2]);
+  const SkillVariant& variant = skill->variants[0];
+  core::Rng rng = core::StreamRng(2, 0);
+  for (int i = 0; i < 8; ++i) {
+    const EpisodeStart start = DrawStart(*skill, rng);
+    EXPECT_EQ(start.held, variant.focus->thing);
+    Isometry3d there = ToolAt(*skill, start.at_work);
+    there.translation() += WayToDestination(variant, start.state);
+    const robot::PoseSolution found = skill->kinematics->Solve(
+        variant.subtask.start.world_from_robot.inverse() * there, start.at_work, rng);
+    ASSERT_TRUE(found.reached) << i;
+    EXPECT_TRUE(IsArmClear(*skill, variant, start.state, found.q)) << i;
+  }
+}
+
+TEST(SideRoom, InsideIsWhereTheDoorClosesBehindIt) {
+  const std::vector<SkillSubtask> scenes = PutCupIntoMicrowave();
+  ASSERT_EQ(scenes.size(), 4u);
+  const auto skill = Make(scenes[2]);
+  const SkillVariant& variant = skill->variants[0];
+  const double radius = 0.035 * 1.01;  // its octagon's is a little more
+  VariantReward reward(variant);
+  const auto succeeds = [&](double behind) {
+    tasks::SceneState state = variant.start;
+    const Vector3d inward = InwardOf(*variant.room, variant.model, state);
+    Isometry3d& cup = state.roots[static_cast<size_t>(variant.focus->thing)];
+    cup.translation() += WayToDestination(variant, state);
+    const Vector3d now = tasks::LinkPoint(variant.model, state, variant.focus->thing, 0);
+    cup.translation() += (behind - DepthIn(*variant.room, variant.model, state, now)) * inward;
+    state.grasped = false;
+    bool success = false;
+    reward.Run(state, state, 0.05, &success);
+    return success;
+  };
+  EXPECT_FALSE(succeeds(-0.05));
+  EXPECT_FALSE(succeeds(radius - 0.02));
+  EXPECT_TRUE(succeeds(radius + 0.02));  // where DestinationOf brings it
+  EXPECT_TRUE(succeeds(0.2));
+}
+
+TEST(SideRoom, AHandThatIsLeftInsideGetsOutFirst) {
+  const std::vector<SkillSubtask> scenes = PutCupIntoMicrowave();
+  ASSERT_EQ(scenes.size(), 4u);
+  const auto puts = Make(scenes[2]), closes = Make(scenes[3]);
+  const SkillVariant& variant = puts->variants[0];
+  core::Rng rng = core::StreamRng(3, 0);
+  EpisodeStart end = DrawStart(*puts, rng);
+  Isometry3d there = ToolAt(*puts, end.at_work);
+  const Vector3d way = WayToDestination(variant, end.state);
+  there.translation() += way;
+  const robot::PoseSolution found = puts->kinematics->Solve(
+      variant.subtask.start.world_from_robot.inverse() * there, end.at_work, rng);
+  ASSERT_TRUE(found.reached);
+  end.arm = found.q;
+  end.held = -1;
+  end.state.roots[static_cast<size_t>(variant.focus->thing)].translation() += way;
+  const EpisodeStart start = Varied(*closes, end, rng, VariedParts::kNothing);
+  const Vector3d refuge = there.translation() + start.withdraw;
+  EXPECT_GE(start.withdraw.norm(), 0.08 - 1e-9);
+  EXPECT_LE(DepthIn(*variant.room, variant.model, end.state, refuge), -kBeforeOpening + 2e-3);
+  EXPECT_GT(-there.linear().col(2).dot(start.withdraw.normalized()), 0.99);
+  // Doing nothing gets it there, in less time than the longest way has, and then to the handle.
+  Episode episode(*closes);
+  episode.Begin(start);
+  const float nothing[7] = {0, 0, 0, 0, 0, 0, 1.0f};
+  double nearest = 1.0;
+  for (int step = 0; step < 30; ++step) {
+    episode.Step(nothing);
+    nearest = std::min(nearest, (episode.state().gripper.translation() - refuge).norm());
+  }
+  EXPECT_LT(nearest, 0.03);
+  // The file of starts keeps the way out.
+  const EpisodeStart read = ParseStart(StartText(start), *closes, "test");
+  EXPECT_EQ(StartText(read), StartText(start));
+  EXPECT_EQ(read.withdraw, start.withdraw);
+}
+
+TEST(SideRoom, TheFrameIsTheRefugeUntilTheHandIsThere) {
+  const auto skill = MakeSkill(robot::Panda(false), {OpenDoor()}, SkillOptions().ForEvaluation());
+  const SkillVariant& variant = skill->variants.front();
+  tasks::SceneState state = variant.start;
+  const Vector3d way(0.0, 0.0, 0.1);
+  const FocusFrame at_work(variant, state, Vector3d::UnitY(), 0.0);
+  FocusFrame frame(variant, state, Vector3d::UnitY(), 0.0, way);
+  const Isometry3d refuge = Eigen::Translation3d(way) * state.gripper;
+  ASSERT_TRUE(frame.withdrawing());
+  EXPECT_TRUE(frame.free_way().isZero());
+  frame.Update(state);
+  EXPECT_TRUE(frame.world_from_focus().isApprox(refuge, 1e-12));
+  state.gripper.translation() += 0.85 * way;
+  frame.Update(state);
+  EXPECT_FALSE(frame.withdrawing());
+  EXPECT_TRUE(frame.world_from_focus().isApprox(at_work.world_from_focus(), 1e-12));
+  // A hand that is held back goes on after a second and a half.
+  state = variant.start;
+  FocusFrame stuck(variant, state, Vector3d::UnitY(), 0.0, way);
+  int updates = 0;
+  while (stuck.withdrawing() && updates < 100) {
+    stuck.Update(state);
+    ++updates;
+  }
+  EXPECT_NEAR(updates, 30, 2);
+}
+
+TEST(SideRoom, AThingInTheHandGoesInThroughTheOpening) {
+  const std::vector<SkillSubtask> scenes = PutCupIntoMicrowave();
+  ASSERT_EQ(scenes.size(), 4u);
+  const auto skill = Make(scenes[2]);
+  const SkillVariant& variant = skill->variants[0];
+  core::Rng rng = core::StreamRng(4, 0);
+  const EpisodeStart start = DrawStart(*skill, rng);
+  const Isometry3d tool = ToolAt(*skill, start.at_work);
+  tasks::SceneState state = start.state;
+  state.gripper = tool;
+  const FocusFrame frame(variant, state, tool.linear().col(1), start.pitch);
+  const Vector3d inward = InwardOf(*variant.room, variant.model, state);
+  EXPECT_LT((frame.world_from_focus().linear() * frame.back() + inward).norm(), 1e-9);
+  const double depth =
+      DepthIn(*variant.room, variant.model, state, frame.world_from_focus().translation());
+  EXPECT_NEAR(frame.room_depth(), depth + kBeforeOpening, 1e-9);
+  // Far to the side of the opening it is sent before it, right before it inside.
+  WorkFrame work;
+  work.back = frame.back();
+  work.room_depth = frame.room_depth();
+  const float nothing[7] = {0, 0, 0, 0, 0, 0, 0};
+  const auto sent_to = [&](const Vector3d& off) {
+    ArmCommand command;
+    command.sent = start.at_work;
+    const Isometry3d now = robot::ForwardKinematics(skill->robot->arm, command.sent);
+    const Isometry3d base_from_world = variant.subtask.start.world_from_robot.inverse();
+    work.base_from_focus = base_from_world * frame.world_from_focus();
+    work.base_from_focus.translation() =
+        now.translation() - base_from_world.linear() * off;  // the tool is off by so much
+    const Isometry3d target = TargetOf(*skill, nothing, work, command).base_from_tool;
+    return (base_from_world.linear().transpose() *
+            (target.translation() - work.base_from_focus.translation()))
+        .dot(inward);
+  };
+  const Vector3d aside = inward.cross(Vector3d::UnitZ());
+  EXPECT_NEAR(sent_to(-0.3 * inward), 0.0, 1e-6);
+  EXPECT_NEAR(sent_to(-0.3 * inward + 0.02 * aside), 0.0, 1e-6);
+  EXPECT_NEAR(sent_to(0.3 * aside), -frame.room_depth(), 1e-6);
+}
+
+}  // namespace
+}  // namespace simwright::rl
