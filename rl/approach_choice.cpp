@@ -33,11 +33,12 @@ bool PointsAway(const Isometry3d& world_from_tool, const Vector3d& away) {
   return axis.z() < kFromBelow && axis.dot(away) > -kBackwards;
 }
 
-Fit FitOf(const Isometry3d& link_from_tool, const std::vector<Vector3d>& hand,
-          const SkillVariant& variant, const sim::ArticulatedBody& body) {
+Fit FitOf(const Isometry3d& link_from_tool, const SurfacePoints& hand, const SkillVariant& variant,
+          const sim::ArticulatedBody& body) {
   const Focus& focus = *variant.focus;
   const tasks::Thing& thing = variant.model.things[static_cast<size_t>(focus.thing)];
   const tasks::ThingJoint& joint = thing.joints[static_cast<size_t>(focus.joint)];
+  const BodySolids& solids = variant.solids[static_cast<size_t>(focus.thing)];
   const int link = body.LinkIndex(thing.links[static_cast<size_t>(focus.link)].name);
   const Isometry3d& root = variant.start.roots[static_cast<size_t>(focus.thing)];
   Vector3d away = root.translation() - variant.subtask.start.world_from_robot.translation();
@@ -49,7 +50,7 @@ Fit FitOf(const Isometry3d& link_from_tool, const std::vector<Vector3d>& hand,
     joints[static_cast<size_t>(focus.joint)] = joint.rest() + share * (joint.far() - joint.rest());
     const std::vector<Isometry3d> poses = BodyPoses(body, thing, root, joints);
     const Isometry3d tool = poses[static_cast<size_t>(link)] * link_from_tool;
-    fit.deepest = std::max(fit.deepest, DeepestPoint(hand, tool, body, poses, link));
+    fit.deepest = std::max(fit.deepest, DeepestPoint(hand, tool, solids, poses, link));
     fit.points_away = fit.points_away && PointsAway(tool, away);
   }
   return fit;
@@ -59,7 +60,7 @@ Fit FitOf(const Isometry3d& link_from_tool, const std::vector<Vector3d>& hand,
 
 Isometry3d ChooseApproach(const robot::RobotModel& robot, const SkillVariant& variant,
                           const sim::ArticulatedBody& body) {
-  const std::vector<Vector3d> hand = HandSurface(robot, kSpacing);
+  const SurfacePoints hand = HandSurface(robot, kSpacing);
   const std::vector<Isometry3d>& approaches = variant.focus->approaches;
   Isometry3d best = approaches.front();
   Fit best_fit;

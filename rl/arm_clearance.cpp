@@ -29,16 +29,17 @@ std::vector<Eigen::Isometry3d> RobotPoses(const robot::RobotModel& robot,
 }  // namespace
 
 bool IsArmClear(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
-                const robot::Posture& arm) {
+                const robot::Posture& arm, int held) {
   const std::vector<Eigen::Isometry3d> robot =
       RobotPoses(*skill.robot, variant.subtask.start.world_from_robot, arm);
   for (const int thing : variant.placed) {
+    if (thing == held) continue;
     const auto t = static_cast<size_t>(thing);
-    const sim::ArticulatedBody& body = variant.bodies[t]->body();
-    const std::vector<Eigen::Isometry3d> poses =
-        BodyPoses(body, variant.model.things[t], state.roots[t], state.joints[t]);
+    const std::vector<Eigen::Isometry3d> poses = BodyPoses(
+        variant.bodies[t]->body(), variant.model.things[t], state.roots[t], state.joints[t]);
     for (size_t l = 0; l < robot.size(); ++l) {
-      if (DeepestInBody(skill.robot_surface[l], robot[l], body, poses) > kTouching) return false;
+      const SurfacePoints& surface = skill.robot_surface[l];
+      if (DeepestInBody(surface, robot[l], variant.solids[t], poses) > kTouching) return false;
     }
   }
   return true;

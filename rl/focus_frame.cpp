@@ -1,6 +1,5 @@
 #include "rl/focus_frame.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "rl/focus_geometry.h"
@@ -77,14 +76,13 @@ void FocusFrame::FindWayIn(const tasks::SceneState& state) {
   room_depth_ = 0.0;
   if (!variant_.room) return;
   const SideRoom& room = *variant_.room;
-  const auto depth = [&](const Vector3d& point) {
-    return DepthIn(room, variant_.model, state, point);
-  };
-  const double deep = depth(world_from_focus_.translation());
+  const Vector3d point = world_from_focus_.translation();
   const Vector3d thing = tasks::LinkPoint(variant_.model, state, variant_.focus->thing, 0);
-  if (deep <= 0.0 && depth(thing) <= 0.0) return;
+  const bool inside = IsIn(room, variant_.model, state, point);
+  if (!inside && !IsIn(room, variant_.model, state, thing)) return;
   back_ = -(world_from_focus_.linear().transpose() * InwardOf(room, variant_.model, state));
-  room_depth_ = std::max(0.0, deep) + kBeforeOpening;
+  room_depth_ = kBeforeOpening;
+  if (inside) room_depth_ += DepthIn(room, variant_.model, state, point);
 }
 
 void FocusFrame::Update(const tasks::SceneState& state) {

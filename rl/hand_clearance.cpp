@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "assets/joint_poses.h"
@@ -52,37 +51,9 @@ std::vector<Vector3d> Thinned(const std::vector<Vector3d>& points, double spacin
   return thinned;
 }
 
-// m from `point` to the nearest face of the convex mesh that holds it; 0 outside. Faces look
-// outwards.
-double DepthIn(const core::TriangleMesh& part, const Vector3d& point) {
-  double depth = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3i& triangle : part.triangles) {
-    const Vector3d& a = part.vertices[static_cast<size_t>(triangle[0])];
-    const Vector3d normal = (part.vertices[static_cast<size_t>(triangle[1])] - a)
-                                .cross(part.vertices[static_cast<size_t>(triangle[2])] - a);
-    const double length = normal.norm();
-    if (length <= 0.0) continue;
-    depth = std::min(depth, normal.dot(a - point) / length);
-    if (depth <= 0.0) return 0.0;
-  }
-  return std::isfinite(depth) ? depth : 0.0;
-}
-
-double DeepestIn(const core::TriangleMesh& part, const std::vector<Vector3d>& points,
-                 const Isometry3d& link_from_tool) {
-  Eigen::AlignedBox3d box;
-  for (const Vector3d& vertex : part.vertices) box.extend(vertex);
-  double deepest = 0.0;
-  for (const Vector3d& point : points) {
-    const Vector3d local = link_from_tool * point;
-    if (box.contains(local)) deepest = std::max(deepest, DepthIn(part, local));
-  }
-  return deepest;
-}
-
 }  // namespace
 
-std::vector<Vector3d> HandSurface(const robot::RobotModel& robot, double spacing) {
+SurfacePoints HandSurface(const robot::RobotModel& robot, double spacing) {
   assets::JointPositions open;
   const assets::UrdfModel& urdf = robot.urdf;
   if (!robot.gripper.joints.empty()) {
@@ -98,28 +69,29 @@ std::vector<Vector3d> HandSurface(const robot::RobotModel& robot, double spacing
       AddSurface(shape.mesh, tool_from_root * poses[l], 0.5 * spacing, &points);
     }
   }
-  return Thinned(points, 0.5 * spacing);
+  return SurfacePoints(Thinned(points, 0.5 * spacing));
 }
 
-double DeepestPoint(const std::vector<Vector3d>& points, const Isometry3d& world_from_tool,
-                    const sim::ArticulatedBody& body,
-                    const std::vector<Isometry3d>& world_from_links, int gripped) {
+double DeepestPoint(const SurfacePoints& surface, const Isometry3d& world_from_surface,
+                    const BodySolids& body, const std::vector<Isometry3d>& world_from_links,
+                    int gripped) {
   double deepest = 0.0;
-  for (const Vector3d& point : points) {
-    deepest = std::max(deepest, -(world_from_tool * point).z());
+  for (const Vector3d& point : surface.points) {
+    deepest = std::max(deepest, -(world_from_surface * point).z());
   }
-  return std::max(deepest, DeepestInBody(points, world_from_tool, body, world_from_links, gripped));
+  return std::max(deepest,
+                  DeepestInBody(surface, world_from_surface, body, world_from_links, gripped));
 }
 
-double DeepestInBody(const std::vector<Vector3d>& points, const Isometry3d& world_from_tool,
-                     const sim::ArticulatedBody& body,
-                     const std::vector<Isometry3d>& world_from_links, int gripped) {
+double DeepestInBody(const SurfacePoints& surface, const Isometry3d& world_from_surface,
+                     const BodySolids& body, const std::vector<Isometry3d>& world_from_links,
+                     int gripped) {
   double deepest = 0.0;
-  for (size_t l = 0; l < body.links.size(); ++l) {
+  for (size_t l = 0; l < body.size(); ++l) {
     if (static_cast<int>(l) == gripped) continue;
-    const Isometry3d link_from_tool = world_from_links[l].inverse() * world_from_tool;
-    for (const core::TriangleMesh& part : body.links[l].parts) {
-      deepest = std::max(deepest, DeepestIn(part, points, link_from_tool));
+    const Isometry3d link_from_surface = world_from_links[l].inverse() * world_from_surface;
+    for (const ConvexSolid& solid : body[l]) {
+      deepest = std::max(deepest, DeepestIn(solid, surface, link_from_surface));
     }
   }
   return deepest;
@@ -135,14 +107,14 @@ std::vector<Isometry3d> BodyPoses(const sim::ArticulatedBody& body, const tasks:
   return of_body;
 }
 
-std::vector<std::vector<Vector3d>> RobotSurface(const robot::RobotModel& robot, double spacing) {
-  std::vector<std::vector<Vector3d>> surface;
+std::vector<SurfacePoints> RobotSurface(const robot::RobotModel& robot, double spacing) {
+  std::vector<SurfacePoints> surface;
   for (const assets::UrdfLink& link : robot.urdf.links) {
     std::vector<Vector3d> points;
     for (const assets::UrdfShape& shape : link.collisions) {
       AddSurface(shape.mesh, Isometry3d::Identity(), 0.5 * spacing, &points);
     }
-    surface.push_back(Thinned(points, 0.5 * spacing));
+    surface.emplace_back(Thinned(points, 0.5 * spacing));
   }
   return surface;
 }

@@ -32,8 +32,9 @@ constexpr double kPushPitches[] = {0.6, 0.8, 0.4};
 constexpr double kRoomPitches[] = {0.8, 1.0, 0.6, 1.2};
 constexpr double kLeaning = 0.9;  // of the lean, into the room: things with corners turn the hand
 constexpr int kRoomPostures = 6;  // that are looked at: whether an arm is clear takes a millisecond
-constexpr double kUpright = 0.8;  // of a thing's z axis
-constexpr int kPostures = 8;      // that are tried with each, for either side of the hand
+constexpr double kPalmEdge = 0.04;  // m: what the edge comes down by, over 1 - cos(lean)
+constexpr double kUpright = 0.8;    // of a thing's z axis
+constexpr int kPostures = 8;        // that are tried with each, for either side of the hand
 
 // Follows poses with the tracker that training uses.
 class Follower {
@@ -97,8 +98,12 @@ bool GoesIn(const Skill& skill, const SkillVariant& variant, const tasks::SceneS
   const double depth = DepthIn(*variant.room, variant.model, state, there.translation());
   Isometry3d before = there;
   before.translation() -= (std::max(0.0, depth) + kBeforeOpening) * inward;
-  return follower->Goes(before) && IsArmClear(skill, variant, state, follower->posture()) &&
-         follower->Goes(there) && IsArmClear(skill, variant, state, follower->posture());
+  for (const Isometry3d& place : {before, there}) {
+    if (!follower->Goes(place)) return false;
+    const robot::Posture& arm = follower->posture();
+    if (!IsArmClear(skill, variant, state, arm, variant.focus->thing)) return false;
+  }
+  return true;
 }
 
 // Whether a thing that is taken with the tool at `tool` can be brought where it shall go.
@@ -110,8 +115,7 @@ bool CarriesThing(const Skill& skill, const SkillVariant& variant, const tasks::
     if (destination.room) return GoesIn(skill, variant, state, there, follower);
     return follower->Goes(there);
   };
-  const bool inside =
-      variant.room && DepthIn(*variant.room, variant.model, state, tool.translation()) > 0.0;
+  const bool inside = variant.room && IsIn(*variant.room, variant.model, state, tool.translation());
   if (inside && !GoesIn(skill, variant, state, tool, follower)) return false;
   if (variant.destination && !goes(*variant.destination)) return false;
   return !demands.looks_ahead || !variant.next || goes(*variant.next);
@@ -196,6 +200,12 @@ Isometry3d ToolBehind(const SkillVariant& variant, const tasks::SceneState& stat
   return tool;
 }
 
+// m that a hand which leans takes a thing of `height` less deep: an edge of its palm comes down on
+// it.
+double Shallower(double pitch, double height) {
+  return std::min(kPalmEdge * (1.0 - std::cos(pitch)), 0.25 * height);
+}
+
 std::span<const double> PitchesOf(const SkillVariant& variant, const Demands& demands) {
   if (Pushes(variant)) return kPushPitches;
   if (demands.leans_in) return kRoomPitches;
@@ -265,11 +275,12 @@ Isometry3d ToolAtFocus(const SkillVariant& variant, const tasks::SceneState& sta
     if (across.dot(tool.linear().col(1)) < 0.0) tool.linear().leftCols<2>() *= -1.0;
   } else {
     const Isometry3d& root = state.roots[static_cast<size_t>(focus.thing)];
-    const double yaw = ThinDirection(variant.model.things[static_cast<size_t>(focus.thing)], root,
-                                     std::atan2(across.y(), across.x()));
+    const tasks::Thing& taken = variant.model.things[static_cast<size_t>(focus.thing)];
+    const double yaw = ThinDirection(taken, root, std::atan2(across.y(), across.x()));
     const Vector3d thin(std::cos(yaw), std::sin(yaw), 0.0), down(0.0, 0.0, -1.0);
     tool.linear() << thin.cross(down), thin, down;
     tool.translation() = root * focus.link_from_tool.translation() + focus.rim * thin;
+    tool.translation().z() += Shallower(pitch, taken.height());
   }
   tool.rotate(Eigen::AngleAxisd(pitch, Vector3d::UnitY()));
   return tool;

@@ -57,6 +57,11 @@ Vector3d InwardOf(const SideRoom& room, const SceneModel& model, const SceneStat
   return WorldFromLink(model, state, room.thing, room.link).linear() * room.inward;
 }
 
+bool IsIn(const SideRoom& room, const SceneModel& model, const SceneState& state,
+          const Vector3d& point) {
+  return room.box.contains(WorldFromLink(model, state, room.thing, room.link).inverse() * point);
+}
+
 double DepthIn(const SideRoom& room, const SceneModel& model, const SceneState& state,
                const Vector3d& point) {
   const Vector3d local = WorldFromLink(model, state, room.thing, room.link).inverse() * point;

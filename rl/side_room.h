@@ -26,7 +26,7 @@ struct SideRoom {
 std::optional<SideRoom> SideRoomOf(const tasks::SceneModel& model, const tasks::SceneState& state,
                                    int thing, int link);
 
-// The room that `point` (m, world) is in.
+// Such a room that `point` (m, world) is in.
 std::optional<SideRoom> SideRoomAround(const tasks::SceneModel& model,
                                        const tasks::SceneState& state,
                                        const Eigen::Vector3d& point);
@@ -34,6 +34,9 @@ std::optional<SideRoom> SideRoomAround(const tasks::SceneModel& model,
 // SideRoom::inward as the room stands (unit, world).
 Eigen::Vector3d InwardOf(const SideRoom& room, const tasks::SceneModel& model,
                          const tasks::SceneState& state);
+
+bool IsIn(const SideRoom& room, const tasks::SceneModel& model, const tasks::SceneState& state,
+          const Eigen::Vector3d& point);
 
 // m that `point` (world) is behind the plane of the room's opening; negative before it.
 double DepthIn(const SideRoom& room, const tasks::SceneModel& model, const tasks::SceneState& state,

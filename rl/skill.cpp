@@ -136,6 +136,7 @@ void PrepareBodies(const std::vector<assets::SemanticModel>& models, const Skill
       joints.push_back(body.JointIndex(joint.name));
     }
     variant->body_joints.push_back(std::move(joints));
+    variant->solids.push_back(SolidsOf(body));
     variant->bodies.push_back(std::make_shared<sim::PreparedBody>(std::move(body)));
   }
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "assets/semantic_model.h"
+#include "rl/convex_solid.h"
 #include "rl/focus.h"
 #include "rl/skill_options.h"
 #include "robot/pose_inverse_kinematics.h"
@@ -28,6 +29,7 @@ struct SkillSubtask {
 struct SkillVariant {
   tasks::SceneModel model;
   std::vector<std::shared_ptr<const sim::PreparedBody>> bodies;  // by thing
+  std::vector<BodySolids> solids;                                // of the bodies
   // Of each of a thing's joints its place in the body's; by thing.
   std::vector<std::vector<int>> body_joints;
   tasks::Subtask subtask;
@@ -52,7 +54,7 @@ struct SkillVariant {
 struct Skill {
   const robot::RobotModel* robot = nullptr;
   std::shared_ptr<const sim::PreparedBody> robot_body;
-  std::vector<std::vector<Eigen::Vector3d>> robot_surface;  // m, by link of its URDF (RobotSurface)
+  std::vector<SurfacePoints> robot_surface;  // by link of its URDF (RobotSurface)
   std::shared_ptr<const robot::PoseInverseKinematics> kinematics;
   std::shared_ptr<const robot::ChainKinematics> chain;
   SkillOptions options;

@@ -93,7 +93,7 @@ TEST(ChooseApproach, WhereAllIsFreeTheHandComesAlongThePartsWay) {
 }
 
 TEST(HandSurface, OfThePandaIsItsHandAndOpenFingers) {
-  const std::vector<Vector3d> points = HandSurface(robot::Panda(false), 0.01);
+  const std::vector<Vector3d> points = HandSurface(robot::Panda(false), 0.01).points;
   Eigen::AlignedBox3d box;
   for (const Vector3d& point : points) box.extend(point);
   // Franka's hand is 20 cm wide from finger to finger and 6 to 7 cm thick, its flange 10.3 cm
@@ -113,10 +113,10 @@ TEST(DeepestPoint, IsTheDistanceToTheNearestFace) {
       Asset({tasks::Block({0.2, 0.2, 0.2}, {0, 0, 0.1})}, {0.02, 0.02, 0.02},
             tasks::MakeJoint("part_joint", "body", "part", assets::UrdfJointType::kPrismatic,
                              {-0.11, 0, 0.1}, {-1, 0, 0}, 0.0, 0.1));
-  const sim::ArticulatedBody body = sim::ArticulatedBodyFrom(WithInertia(asset).model);
+  const BodySolids body = SolidsOf(sim::ArticulatedBodyFrom(WithInertia(asset).model));
   std::vector<Isometry3d> links(2, Isometry3d::Identity());
   links[1].translation() = Vector3d(-0.11, 0.0, 0.1);
-  const std::vector<Vector3d> point = {Vector3d(0.0, 0.0, 0.01)};
+  const SurfacePoints point({Vector3d(0.0, 0.0, 0.01)});
   const auto at = [&](double x, double z, int gripped) {
     Isometry3d tool = Isometry3d::Identity();
     tool.translation() = Vector3d(x, 0.0, z);
@@ -128,6 +128,42 @@ TEST(DeepestPoint, IsTheDistanceToTheNearestFace) {
   EXPECT_EQ(at(-0.11, 0.09, 1), 0.0);            // which does not count once it is gripped
   EXPECT_EQ(at(-0.3, 0.1, 1), 0.0);
   EXPECT_NEAR(at(-0.3, -0.05, 1), 0.04, 1e-12);  // in the floor
+}
+
+// What its sphere tells of a surface never differs from what its points do, each looked at by the
+// planes of an octahedron's eight faces.
+TEST(DeepestIn, IsThatOfThePointsOneByOne) {
+  core::TriangleMesh octahedron;
+  for (const double side : {0.1, -0.1}) {
+    for (int axis = 0; axis < 3; ++axis) octahedron.vertices.push_back(side * Vector3d::Unit(axis));
+  }
+  octahedron.triangles = {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {4, 0, 2},
+                          {1, 0, 5}, {3, 1, 5}, {4, 3, 5}, {0, 4, 5}};
+  const ConvexSolid solid(octahedron);
+  EXPECT_EQ(solid.faces.size(), 8u);
+  core::Rng rng = core::StreamRng(6, 0);
+  const auto random = [&](double range) {
+    return Vector3d(core::Uniform(rng, -range, range), core::Uniform(rng, -range, range),
+                    core::Uniform(rng, -range, range));
+  };
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 30; ++i) points.push_back(Vector3d(0.3, 0.0, 0.0) + random(0.08));
+  const SurfacePoints surface(points);
+  int touching = 0, clear = 0;
+  for (int i = 0; i < 300; ++i) {
+    Isometry3d pose = Isometry3d::Identity();
+    pose.rotate(Eigen::AngleAxisd(core::Uniform(rng, 0.0, 3.0), random(1.0).normalized()));
+    pose.translation() = pose.linear() * Vector3d(-0.3, 0.0, 0.0) + random(0.2);
+    double deepest = 0.0;
+    for (const Vector3d& point : points) {
+      const double inside = 0.1 - (pose * point).lpNorm<1>();  // times sqrt(3) from the face
+      deepest = std::max(deepest, inside / std::sqrt(3.0));
+    }
+    EXPECT_NEAR(DeepestIn(solid, surface, pose), deepest, 1e-12);
+    ++(deepest > 0.0 ? touching : clear);
+  }
+  EXPECT_GT(touching, 20);
+  EXPECT_GT(clear, 20);
 }
 
 }  // namespace
