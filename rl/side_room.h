@@ -10,7 +10,7 @@
 namespace simwright::rl {
 
 // m before the opening of a room from where a hand goes into it, and to where it comes out.
-inline constexpr double kBeforeOpening = 0.08;
+inline constexpr double kBeforeOpening = 0.1;
 
 // A room that opens to a side, as a microwave's or a cabinet's does: a hand goes into it level or
 // leaning, through its opening, and never from above.

@@ -24,6 +24,7 @@ constexpr double kOfAcceleration = 0.7;
 // How the standoff grows: a cone about the focus' axis, wide enough for what exploration asks for.
 constexpr double kBeside = 0.025, kSlope = 2.0;   // m off the axis that are free; m a m
 constexpr double kTurned = 0.4, kPerTurn = 0.15;  // rad that are free; m a rad
+constexpr double kNearlyBack = 0.03;              // m less than it shall stay back, that is as far
 constexpr double kAbove = 0.015;  // m: a hand so far above its work comes down before it pushes
 // m: so far ahead of the focus a hand still pushes. Were it lifted there, it would drag the side of
 // the thing that it touches upwards, and tip it.
@@ -62,6 +63,14 @@ double Standoff(const Skill& skill, const WorkFrame& frame, const Isometry3d& of
   const double turned = std::max(0.0, turn.angle() - kTurned);
   return std::min(std::max(skill.options.standoff, frame.room_depth),
                   kSlope * aside + kPerTurn * turned);
+}
+
+// A tool at `now` that is not yet as far back as it shall stay goes back before it goes aside: what
+// is about a room, its walls and its open door, is between it and the opening.
+void LeaveStraight(const Vector3d& now, double standoff, const Vector3d& back, Isometry3d* offset) {
+  const double along = now.dot(back);
+  if (along > standoff - kNearlyBack) return;
+  offset->translation() = now + (offset->translation().dot(back) - along) * back;
 }
 
 // The hand opens, closes, or stays as it is. Were the action an opening, with zero wide open, a
@@ -161,7 +170,9 @@ ToolTarget TargetOf(const Skill& skill, const float* action, const WorkFrame& fr
         if (frame.pushes && now.translation().z() < -kAbove) {
           offset.translation().x() = std::min(offset.translation().x(), 0.0);
         }
-        offset.translation() += Standoff(skill, frame, now) * frame.back;
+        const double standoff = Standoff(skill, frame, now);
+        offset.translation() += standoff * frame.back;
+        if (frame.room_depth > 0.0) LeaveStraight(now.translation(), standoff, frame.back, &offset);
       }
       target.base_from_tool = frame.base_from_focus * offset;
       break;

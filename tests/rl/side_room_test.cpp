@@ -146,7 +146,7 @@ TEST(SideRoom, TheHandOfAStartThatHoldsSomethingIsClearInTheRoom) {
     const robot::PoseSolution found = skill->kinematics->Solve(
         variant.subtask.start.world_from_robot.inverse() * there, start.at_work, rng);
     ASSERT_TRUE(found.reached) << i;
-    EXPECT_TRUE(IsArmClear(*skill, variant, start.state, found.q)) << i;
+    EXPECT_TRUE(IsArmClear(*skill, variant, start.state, found.q, start.held)) << i;
   }
 }
 
