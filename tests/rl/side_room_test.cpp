@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "rl/arm_clearance.h"
 #include "rl/focus_frame.h"
+#include "rl/hand_clearance.h"
 #include "rl/skill_environment.h"
 #include "rl/start_pool.h"
 #include "rl/variant_reward.h"
@@ -132,21 +132,26 @@ TEST(SideRoom, AThingThatGoesIntoOneIsTakenByAHandThatLeansIn) {
   EXPECT_GE(leaning, 12);  // where the door leaves the arm no such way, it is at least taken
 }
 
-TEST(SideRoom, TheHandOfAStartThatHoldsSomethingIsClearInTheRoom) {
+TEST(SideRoom, AHandThatLeansIsClearInIt) {
   const std::vector<SkillSubtask> scenes = PutCupIntoMicrowave();
   ASSERT_EQ(scenes.size(), 4u);
   const auto skill = Make(scenes[2]);
   const SkillVariant& variant = skill->variants[0];
+  const SurfacePoints hand = HandSurface(*skill->robot, 0.016);
   core::Rng rng = core::StreamRng(2, 0);
   for (int i = 0; i < 8; ++i) {
     const EpisodeStart start = DrawStart(*skill, rng);
     EXPECT_EQ(start.held, variant.focus->thing);
     Isometry3d there = ToolAt(*skill, start.at_work);
     there.translation() += WayToDestination(variant, start.state);
-    const robot::PoseSolution found = skill->kinematics->Solve(
-        variant.subtask.start.world_from_robot.inverse() * there, start.at_work, rng);
-    ASSERT_TRUE(found.reached) << i;
-    EXPECT_TRUE(IsArmClear(*skill, variant, start.state, found.q, start.held)) << i;
+    const std::vector<Isometry3d> links =
+        BodyPoses(variant.bodies[0]->body(), variant.model.things[0], start.state.roots[0],
+                  start.state.joints[0]);
+    EXPECT_LT(DeepestInBody(hand, there, variant.solids[0], links), 1e-3) << i;
+    // Straight from above it would be in the ceiling.
+    there.linear() =
+        (Eigen::AngleAxisd(start.pitch, there.linear().col(1)).inverse() * there.linear()).eval();
+    EXPECT_GT(DeepestInBody(hand, there, variant.solids[0], links), 1e-3) << i;
   }
 }
 
@@ -255,28 +260,29 @@ TEST(SideRoom, AThingInTheHandGoesInThroughTheOpening) {
   const double depth =
       DepthIn(*variant.room, variant.model, state, frame.world_from_focus().translation());
   EXPECT_NEAR(frame.room_depth(), depth + kBeforeOpening, 1e-9);
-  // Far to the side of the opening it is sent before it, right before it inside.
+  // Where it is sent, as seen from where it shall come to, with the tool off that by `off`.
   WorkFrame work;
   work.back = frame.back();
   work.room_depth = frame.room_depth();
   const float nothing[7] = {0, 0, 0, 0, 0, 0, 0};
-  const auto sent_to = [&](const Vector3d& off) {
+  const Eigen::Matrix3d base_from_world =
+      variant.subtask.start.world_from_robot.linear().transpose();
+  const auto sent_to = [&](const Vector3d& off) -> Vector3d {
     ArmCommand command;
     command.sent = start.at_work;
     const Isometry3d now = robot::ForwardKinematics(skill->robot->arm, command.sent);
-    const Isometry3d base_from_world = variant.subtask.start.world_from_robot.inverse();
-    work.base_from_focus = base_from_world * frame.world_from_focus();
-    work.base_from_focus.translation() =
-        now.translation() - base_from_world.linear() * off;  // the tool is off by so much
+    work.base_from_focus.linear() = base_from_world * frame.world_from_focus().linear();
+    work.base_from_focus.translation() = now.translation() - base_from_world * off;
     const Isometry3d target = TargetOf(*skill, nothing, work, command).base_from_tool;
-    return (base_from_world.linear().transpose() *
-            (target.translation() - work.base_from_focus.translation()))
-        .dot(inward);
+    return base_from_world.transpose() *
+           (target.translation() - work.base_from_focus.translation());
   };
-  const Vector3d aside = inward.cross(Vector3d::UnitZ());
-  EXPECT_NEAR(sent_to(-0.3 * inward), 0.0, 1e-6);
-  EXPECT_NEAR(sent_to(-0.3 * inward + 0.02 * aside), 0.0, 1e-6);
-  EXPECT_NEAR(sent_to(0.3 * aside), -frame.room_depth(), 1e-6);
+  const Vector3d aside = inward.cross(Vector3d::UnitZ()), before = -frame.room_depth() * inward;
+  EXPECT_LT(sent_to(-0.3 * inward).norm(), 1e-6);
+  EXPECT_LT(sent_to(-0.3 * inward + 0.02 * aside).norm(), 1e-6);
+  // Beside the opening: before it. Beside the room: straight back first, for its wall is between.
+  EXPECT_LT((sent_to(0.3 * aside + before) - before).norm(), 1e-6);
+  EXPECT_LT((sent_to(0.3 * aside) - (0.3 * aside + before)).norm(), 1e-6);
 }
 
 }  // namespace
