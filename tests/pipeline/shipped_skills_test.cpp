@@ -35,6 +35,7 @@ TEST_P(ShippedSkill, SucceedsOnAssetsThatItHasNotSeen) {
   const core::TemporaryFolder folder;
   core::Progress progress;
   SkillRun run;
+  run.robot = cell.robot;
   run.folder = folder.path();
   run.set = tasks::ReadTaskFile(
       MakeCellTasks(cell, kUnseenSeed, 2, fs::path(SIMWRIGHT_SOURCE_DIR) / "examples/coffee.png",
