@@ -135,13 +135,13 @@ TEST(RuleTasks, AreSoundAndOfEveryKind) {
   }
 }
 
-// A door that stands open to its stop, 97 degrees, would turn its handle away: what is closed stands
-// as far open as what was opened, 70 % and a little more.
+// A door that stands open to its stop, 97 degrees, would turn its handle away: what is closed
+// stands as far open as what was opened, 70 % and a little more.
 TEST(RuleTasks, ClosingBeginsWhereOpeningEnds) {
   const RuleTasks result = GenerateTasksByRules(MakeSceneModel({Microwave()}), {10, 1});
-  const auto closing =
-      std::find_if(result.tasks.begin(), result.tasks.end(),
-                   [](const Task& task) { return task.name == "close_microwave_door"; });
+  const auto closing = std::find_if(result.tasks.begin(), result.tasks.end(), [](const Task& task) {
+    return task.name == "close_microwave_door";
+  });
   ASSERT_NE(closing, result.tasks.end());
   const std::vector<JointCondition>& joints = closing->subtasks.front().start.joints;
   ASSERT_EQ(joints.size(), 1u);
