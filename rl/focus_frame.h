@@ -51,7 +51,7 @@ class FocusFrame {
   Eigen::Vector3d back_ = -Eigen::Vector3d::UnitZ();
   double room_depth_ = 0.0;
   bool withdrawing_ = false;
-  int withdrawn_ = 0;                                         // updates since the start
+  int withdrawn_ = 0;                                         // updates that it has gone on for
   Eigen::Isometry3d refuge_ = Eigen::Isometry3d::Identity();  // world_from_tool, to get away to
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();        // of the frame at work
 };

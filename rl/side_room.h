@@ -17,8 +17,8 @@ inline constexpr double kBeforeOpening = 0.1;
 struct SideRoom {
   int thing = -1, link = -1;
   Eigen::AlignedBox3d box;  // m, the link's frame: the free box
-  Eigen::Vector3d inward =
-      -Eigen::Vector3d::UnitX();  // unit, the link's frame: through the opening
+  // Unit, the link's frame: in through the opening.
+  Eigen::Vector3d inward = -Eigen::Vector3d::UnitX();
 };
 
 // The largest such room in the link of `thing`, as it stands. None where it has no room, or one
@@ -35,6 +35,7 @@ std::optional<SideRoom> SideRoomAround(const tasks::SceneModel& model,
 Eigen::Vector3d InwardOf(const SideRoom& room, const tasks::SceneModel& model,
                          const tasks::SceneState& state);
 
+// Whether `point` (m, world) is within the free box.
 bool IsIn(const SideRoom& room, const tasks::SceneModel& model, const tasks::SceneState& state,
           const Eigen::Vector3d& point);
 

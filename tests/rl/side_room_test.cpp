@@ -32,10 +32,14 @@ tasks::SceneState At(const tasks::SceneModel& model, const Isometry3d& microwave
   return tasks::StateOf(model, start);
 }
 
-Isometry3d TurnedMicrowave() {
-  return Eigen::Translation3d(0.8, 0.1, 0.0) * Eigen::AngleAxisd(0.5, Vector3d::UnitZ()) *
-         Isometry3d::Identity();
-}
+// A microwave that stands turned, and its room.
+struct TurnedKitchen {
+  tasks::SceneModel model = Kitchen();
+  Isometry3d pose = Eigen::Translation3d(0.8, 0.1, 0.0) *
+                    Eigen::AngleAxisd(0.5, Vector3d::UnitZ()) * Isometry3d::Identity();
+  tasks::SceneState state = At(model, pose);
+  std::optional<SideRoom> room = SideRoomOf(model, state, 0, model.things[0].FindLink("body"));
+};
 
 // The rules' own task, its subtasks each with what follows: open, pick up, put into, close.
 std::vector<SkillSubtask> PutCupIntoMicrowave() {
@@ -67,10 +71,8 @@ Isometry3d ToolAt(const Skill& skill, const robot::Posture& arm) {
 }
 
 TEST(SideRoom, IsWhatOpensToASide) {
-  const tasks::SceneModel model = Kitchen();
-  const Isometry3d pose = TurnedMicrowave();
-  const tasks::SceneState state = At(model, pose);
-  const auto room = SideRoomOf(model, state, 0, model.things[0].FindLink("body"));
+  const TurnedKitchen kitchen;
+  const auto& [model, pose, state, room] = kitchen;
   ASSERT_TRUE(room);
   EXPECT_LT((InwardOf(*room, model, state) - pose.linear().col(0)).norm(), 1e-12);
   const Vector3d inside = pose * Vector3d(-kHalfDepth + 0.07, 0.1, 0.1);
@@ -90,10 +92,8 @@ TEST(SideRoom, IsWhatOpensToASide) {
 }
 
 TEST(SideRoom, AThingGoesJustBehindTheOpening) {
-  const tasks::SceneModel model = Kitchen();
-  const Isometry3d pose = TurnedMicrowave();
-  const tasks::SceneState state = At(model, pose);
-  const auto room = SideRoomOf(model, state, 0, model.things[0].FindLink("body"));
+  const TurnedKitchen kitchen;
+  const auto& [model, pose, state, room] = kitchen;
   ASSERT_TRUE(room);
   const Vector3d spot = pose * SpotBehindOpening(*room, model, state, {0.08, 0.06, 0.1});
   EXPECT_NEAR(DepthIn(*room, model, state, spot), 0.04 + 0.02, 1e-9);
