@@ -94,11 +94,16 @@ std::string Row(const CellResult& result) {
   return line;
 }
 
-std::string Minutes(const Arguments& arguments) {
-  if (arguments.minutes == 0.0) return "";
-  char text[48];
-  std::snprintf(text, sizeof(text), " --minutes %g", arguments.minutes);
-  return text;
+// What was asked for in place of the cell's own.
+std::string Settings(const Arguments& arguments) {
+  char minutes[48] = "", instances[48] = "";
+  if (arguments.minutes > 0.0) {
+    std::snprintf(minutes, sizeof(minutes), " --minutes %g", arguments.minutes);
+  }
+  if (arguments.instances > 0) {
+    std::snprintf(instances, sizeof(instances), " --instances %d", arguments.instances);
+  }
+  return std::string(minutes) + instances;
 }
 
 // What somebody who finds the file wants to know.
@@ -109,14 +114,14 @@ std::string Card(const pipeline::SuiteCell& cell, const Arguments& arguments,
           cell.pattern + "`, seed " + std::to_string(arguments.seed) +
           ". Made and evaluated by\n\n";
   card += "    build/bin/bench_skill_suite --cell " + cell.name + " --train --ship --seed " +
-          std::to_string(arguments.seed) + Minutes(arguments) + "\n\n";
+          std::to_string(arguments.seed) + Settings(arguments) + "\n\n";
   card +=
       "| skill | samples | minutes | successes | rate (95 %) | mean time "
       "|\n|---|---|---|---|---|---|\n";
   card += Row(result);
   card += "\nTrained on " + std::to_string(InstancesOf(cell, arguments)) +
           " instances, evaluated on " + std::to_string(pipeline::kUnseenInstances) +
-          " others, from full starts (docs/skills.md).\n";
+          " others, from full starts (docs/skills.md).\n\n![training](" + cell.name + ".svg)\n";
   return card;
 }
 
@@ -145,6 +150,9 @@ CellResult Train(const pipeline::SuiteCell& cell, const Arguments& arguments,
     fs::create_directories(shipped.parent_path());
     rl::WritePolicy(rl::ReadPolicy(policy), shipped, rl::Precision::kHalf);
     core::WriteFile(fs::path(shipped).replace_extension(".md"), Card(cell, arguments, result));
+    fs::copy_file(policy.parent_path() / rl::kCurvesFile,
+                  fs::path(shipped).replace_extension(".svg"),
+                  fs::copy_options::overwrite_existing);
   }
   return result;
 }
@@ -177,7 +185,7 @@ int main(int argc, char** argv) {
   simwright::Arguments arguments;
   app.add_option("--cell", arguments.cell, "One cell, or all")->capture_default_str();
   app.add_flag("--train", arguments.train, "Train it; else the shipped policy is evaluated");
-  app.add_flag("--ship", arguments.ship, "Write policy and card into models/skills");
+  app.add_flag("--ship", arguments.ship, "Write policy, card and curves into models/skills");
   app.add_flag("--by-task", arguments.by_task, "Also say how often each task succeeds");
   app.add_option("--minutes", arguments.minutes, "Of training; 0: the cell's own");
   app.add_option("--instances", arguments.instances,
