@@ -67,7 +67,7 @@ void AddRun(CLI::App* app, CommonOptions* common, Run* run) {
       ->check(CLI::IsMember({"any", "drawer_unit", "microwave"}))
       ->capture_default_str();
   AddTrainingOptions(command, &request->environments, &request->samples, &request->minutes,
-                     &request->target, &request->episodes);
+                     &request->target, &request->episodes, &request->imitated_samples);
   command->add_flag("--resume", request->resume, "Go on with a run that was stopped");
   AddCommon(command, common);
   AddForce(command, common);

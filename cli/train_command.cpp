@@ -58,7 +58,7 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str();
   AddTrainingOptions(command, &request->environments, &request->samples, &request->minutes,
-                     &request->target, &request->episodes);
+                     &request->target, &request->episodes, &request->imitated_samples);
   command
       ->add_option("--backward-steps", request->backward_samples,
                    "Decisions for which a subtask learns on to end where the next one can start,\n"

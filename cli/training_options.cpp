@@ -3,7 +3,7 @@
 namespace simwright::cli {
 
 void AddTrainingOptions(CLI::App* command, int* environments, std::int64_t* samples,
-                        double* minutes, double* target, int* episodes) {
+                        double* minutes, double* target, int* episodes, std::int64_t* imitated) {
   command->add_option("--envs", *environments, "Environments side by side")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
@@ -20,6 +20,11 @@ void AddTrainingOptions(CLI::App* command, int* environments, std::int64_t* samp
       ->capture_default_str();
   command->add_option("--episodes", *episodes, "Episodes of each evaluation")
       ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command
+      ->add_option("--imitate", *imitated,
+                   "Decisions at the beginning that imitate a script, a subtask; 0: PPO alone")
+      ->check(CLI::Range(0, 2000000000))
       ->capture_default_str();
 }
 

@@ -81,6 +81,7 @@ BackwardTuning TuneBackward(const TrainRequest& request, const SkillRun& run, co
   });
   rl::TrainingOptions options = OptionsFor(request, run, first);
   options.begin_from = first.folder / rl::kCheckpointFile;
+  options.ppo.imitated_samples = 0;
   options.max_samples = request.backward_samples;
   options.max_seconds = 0.0;
   options.examine_from = 0.0;

@@ -18,6 +18,7 @@ struct LongTask {
   std::string kinds;  // of the library, separated by commas; one instance of each
   std::string task;   // as the rules call it
   std::string robot = "panda";
+  std::uint64_t seed = 1;  // of the instances
 };
 
 const std::vector<LongTask>& LongTasks();

@@ -132,6 +132,7 @@ double Train(const PhotoRunRequest& request, const PhotoRunFolder& folder,
   train.minutes = request.minutes;
   train.target = request.target;
   train.episodes = request.episodes;
+  train.imitated_samples = request.imitated_samples;
   train.seed = request.seed;
   train.resume = true;  // where there is something to go on with
   double seconds = 0.0;

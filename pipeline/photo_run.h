@@ -7,6 +7,7 @@
 
 #include "asset_lift/lift.h"
 #include "core/progress.h"
+#include "pipeline/skill_training.h"
 #include "rl/wilson_interval.h"
 
 namespace simwright::pipeline {
@@ -24,6 +25,7 @@ struct PhotoRunRequest {
   double minutes = 20.0;             // of one subtask, at most; 0: no end
   double target = 0.92;              // a subtask is learnt above this (TrainRequest)
   int episodes = 200;                // of each evaluation
+  std::int64_t imitated_samples = TrainRequest().imitated_samples;
   std::uint64_t seed = 1;
   std::filesystem::path output;
   bool resume = false, force = false;

@@ -64,6 +64,7 @@ PhotoRunRecord::Inputs PhotoRunRecord::InputsOf(const PhotoRunRequest& request) 
           {"--target", Figure(request.target)},
           {"--episodes", std::to_string(request.episodes)},
           {"--steps", std::to_string(request.samples)},
+          {"--imitate", std::to_string(request.imitated_samples)},
           {"--minutes", Figure(request.minutes)}};
 }
 

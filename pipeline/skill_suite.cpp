@@ -23,6 +23,8 @@ void MakeInstances(const SuiteCell& cell, std::uint64_t seed, int count, const f
   if (cell.kind == kPhoto) {
     LiftRequest request;
     request.photo = photo;
+    const fs::path mask = fs::path(photo).replace_filename(photo.stem().string() + "_mask.png");
+    if (fs::exists(mask)) request.mask = mask;
     request.category = kPhotoCategory;
     request.effort = asset_lift::LiftEffort::kFast;
     request.output = folder / "photo_cup";
@@ -41,19 +43,19 @@ void MakeInstances(const SuiteCell& cell, std::uint64_t seed, int count, const f
 
 const std::vector<SuiteCell>& SkillSuite() {
   static const std::vector<SuiteCell> suite = {
-      {"open_microwave_door", "microwave", "open_microwave_*_door", 0, 30},
+      {"open_microwave_door", "microwave", "open_microwave_*_door"},
       {"close_microwave_door", "microwave", "close_microwave_*_door"},
-      {"open_drawer", "drawer_unit", "open_drawer_unit_*_drawer_*", 0, 30, "panda", 16},
+      {"open_drawer", "drawer_unit", "open_drawer_unit_*_drawer_*"},
       {"close_drawer", "drawer_unit", "close_drawer_unit_*_drawer_*"},
-      {"open_cabinet_door", "cabinet", "open_cabinet_*_door_*", 0, 30, "panda_on_base", 16},
-      {"close_cabinet_door", "cabinet", "close_cabinet_*_door_*", 0, 30, "panda_on_base", 16},
-      {"turn_faucet_knob", "faucet", "turn_on_faucet_*_knob_*", 0, 30, "panda", 16},
+      {"open_cabinet_door", "cabinet", "open_cabinet_*_door_*", 0, 30, "panda_on_base"},
+      {"close_cabinet_door", "cabinet", "close_cabinet_*_door_*", 0, 30, "panda_on_base"},
+      {"turn_faucet_knob", "faucet", "turn_on_faucet_*_knob_*"},
       {"press_toaster_lever", "toaster", "press_toaster_*_lever"},
-      {"lift_lid", "box_with_lid", "open_box_with_lid_*_lid", 0, 30, "panda", 16},
+      {"lift_lid", "box_with_lid", "open_box_with_lid_*_lid", 0, 30},
       {"push_box", "tissue_box", "push_tissue_box_*", 0, 30},
       {"pick_up_cup", "cup", "pick_up_cup_*"},
       {"put_down_cup", "cup", "move_cup_*", 1},
-      {"pick_up_photo", kPhoto, "pick_up_photo_cup", 0, 30},
+      {"pick_up_photo", kPhoto, "pick_up_photo_cup"},
   };
   return suite;
 }

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "rl/policy_file.h"
+#include "rl/scripted_hand.h"
 #include "rl/skill_environment.h"
 #include "rl/training.h"
 
@@ -49,7 +50,11 @@ rl::TrainingOptions OptionsFor(const TrainRequest& request, const SkillRun& run,
   options.ppo.epochs = 5;
   options.ppo.minibatch = 1024;
   options.ppo.target_kl = 0.02;
-  options.ppo.initial_std = 0.35;
+  // Zero is already where the hand works, and what is drawn knocks things over; more so where a
+  // script is known: with 0.35 it succeeds in a third of the episodes in which it does with 0.
+  const bool imitates = request.imitated_samples > 0 && rl::HasScript(*skill.skill);
+  options.ppo.initial_std = imitates ? 0.15 : 0.35;
+  options.ppo.imitated_samples = request.imitated_samples;
   options.ppo.seed = request.seed;
   options.max_samples = request.samples;
   options.max_seconds = 60.0 * request.minutes;

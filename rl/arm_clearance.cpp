@@ -7,6 +7,8 @@ namespace simwright::rl {
 namespace {
 
 constexpr double kTouching = 0.001;  // m; in a board no point is deeper than half of its thickness
+constexpr double kInFloor = 0.005;   // m
+constexpr double kLook = 0.25;       // rad or m of any joint from look to look
 
 // world_from_link of the robot's links. (urdf.links)
 std::vector<Eigen::Isometry3d> RobotPoses(const robot::RobotModel& robot,
@@ -26,23 +28,58 @@ std::vector<Eigen::Isometry3d> RobotPoses(const robot::RobotModel& robot,
   return poses;
 }
 
+bool IsInFloor(const SurfacePoints& surface, const Eigen::Isometry3d& world_from_surface) {
+  if ((world_from_surface * surface.center).z() > surface.radius) return false;
+  for (const Eigen::Vector3d& point : surface.points) {
+    if ((world_from_surface * point).z() < -kInFloor) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-bool IsArmClear(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
-                const robot::Posture& arm, int held) {
-  const std::vector<Eigen::Isometry3d> robot =
-      RobotPoses(*skill.robot, variant.subtask.start.world_from_robot, arm);
+ArmClearance::ArmClearance(const Skill& skill, const SkillVariant& variant,
+                           const tasks::SceneState& state, int held)
+    : skill_(skill), world_from_robot_(variant.subtask.start.world_from_robot) {
   for (const int thing : variant.placed) {
     if (thing == held) continue;
     const auto t = static_cast<size_t>(thing);
-    const std::vector<Eigen::Isometry3d> poses = BodyPoses(
-        variant.bodies[t]->body(), variant.model.things[t], state.roots[t], state.joints[t]);
-    for (size_t l = 0; l < robot.size(); ++l) {
-      const SurfacePoints& surface = skill.robot_surface[l];
-      if (DeepestInBody(surface, robot[l], variant.solids[t], poses) > kTouching) return false;
+    obstacles_.push_back(
+        {&variant.solids[t], BodyPoses(variant.bodies[t]->body(), variant.model.things[t],
+                                       state.roots[t], state.joints[t])});
+  }
+  const std::vector<Eigen::Isometry3d> home =
+      RobotPoses(*skill.robot, world_from_robot_, skill.robot->home());
+  for (size_t l = 0; l < home.size(); ++l) {
+    grounded_.push_back(IsInFloor(skill.robot_surface[l], home[l]));
+  }
+}
+
+bool ArmClearance::IsClear(const robot::Posture& arm) const {
+  const std::vector<Eigen::Isometry3d> robot = RobotPoses(*skill_.robot, world_from_robot_, arm);
+  for (size_t l = 0; l < robot.size(); ++l) {
+    const SurfacePoints& surface = skill_.robot_surface[l];
+    if (!grounded_[l] && IsInFloor(surface, robot[l])) return false;
+    for (const Obstacle& obstacle : obstacles_) {
+      if (DeepestInBody(surface, robot[l], *obstacle.solids, obstacle.poses) > kTouching) {
+        return false;
+      }
     }
   }
   return true;
+}
+
+bool ArmClearance::IsWayClear(const robot::Posture& from, const robot::Posture& to) const {
+  const int looks = 1 + static_cast<int>((to - from).lpNorm<Eigen::Infinity>() / kLook);
+  for (int i = looks; i > 0; --i) {  // what is in the way is nearer to the work, as a rule
+    if (!IsClear(from + static_cast<double>(i) / looks * (to - from))) return false;
+  }
+  return true;
+}
+
+bool IsArmClear(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
+                const robot::Posture& arm, int held) {
+  return ArmClearance(skill, variant, state, held).IsClear(arm);
 }
 
 }  // namespace simwright::rl

@@ -1,12 +1,37 @@
 #pragma once
 
+#include <vector>
+
 #include "rl/skill.h"
 
 namespace simwright::rl {
 
-// Whether the robot at `arm` (J), fingers open, is in none of the things that the variant places,
-// as far as its surface, looked at every few centimetres, can tell. The thing `held` (-1: none)
-// does not count.
+// Where the robot's links, fingers open, are in none of the things that the variant places, nor in
+// the floor, as far as its surface, looked at every few centimetres, can tell. For one state of the
+// scene; constant.
+class ArmClearance {
+ public:
+  // The thing `held` (-1: none) does not count. All must outlive this.
+  ArmClearance(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
+               int held = -1);
+
+  bool IsClear(const robot::Posture& arm) const;  // (J)
+  // Whether the arm is clear between the two postures (J), as it goes straight from joint to joint,
+  // and at the second.
+  bool IsWayClear(const robot::Posture& from, const robot::Posture& to) const;
+
+ private:
+  struct Obstacle {
+    const BodySolids* solids;
+    std::vector<Eigen::Isometry3d> poses;  // world_from_link (links)
+  };
+
+  const Skill& skill_;
+  const Eigen::Isometry3d& world_from_robot_;
+  std::vector<Obstacle> obstacles_;
+  std::vector<bool> grounded_;  // by link: is in the floor at home, as the foot of an arm may be
+};
+
 bool IsArmClear(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
                 const robot::Posture& arm, int held = -1);
 

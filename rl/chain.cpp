@@ -15,7 +15,8 @@ ChainOutcome RunChain(const std::vector<ChainLink>& links, const EpisodeStart& s
     const ChainLink& link = links[i];
     if (i > 0) next = Varied(*link.skill, next, rng, VariedParts::kNothing);
     Episode episode(*link.skill);
-    outcome.links.push_back(RunEpisode(*link.policy, next, &episode));
+    outcome.links.push_back(link.policy ? RunEpisode(*link.policy, next, &episode)
+                                        : RunScript(next, &episode));
     if (!outcome.links.back().success) return outcome;
     next = outcome.links.back().end;
   }
@@ -25,7 +26,9 @@ ChainOutcome RunChain(const std::vector<ChainLink>& links, const EpisodeStart& s
 
 ChainEvaluation EvaluateChain(const std::vector<ChainLink>& links, int count, std::uint64_t seed) {
   if (links.empty()) throw core::Error("a chain needs a link");
-  for (const ChainLink& link : links) RequireFits(*link.policy, *link.skill);
+  for (const ChainLink& link : links) {
+    if (link.policy) RequireFits(*link.policy, *link.skill);
+  }
   ChainEvaluation evaluation;
   evaluation.outcomes.resize(static_cast<size_t>(count));
   core::ParallelFor(count, [&](int i) {

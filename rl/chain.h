@@ -10,7 +10,7 @@ namespace simwright::rl {
 // One subtask of a task, with what was learnt for it.
 struct ChainLink {
   const Skill* skill = nullptr;
-  const Policy* policy = nullptr;
+  const Policy* policy = nullptr;  // none: the script (rl/scripted_hand.h)
 };
 
 struct ChainOutcome {

@@ -3,9 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rl/carry_plan.h"
 #include "rl/reach_plan.h"
 
 namespace simwright::rl {
+namespace {
+
+constexpr double kFar = 0.25;  // m: to what is nearer the tool goes straight
+
+}  // namespace
 
 // What is run for one variant, with its memory.
 struct Episode::Program {
@@ -40,6 +46,8 @@ void Episode::Begin(const EpisodeStart& start) {
       start.pitch, start.withdraw);
   command_.sent = world_->robot().command();
   command_.goal = frame_->withdrawing() ? start.arm : start.at_work;
+  command_.via = frame_->withdrawing() ? Detour() : start.via;
+  if (frame_->at_destination()) PlanArrival();
   command_.leader = world_->robot().leader_command();
   command_.rate = robot::Posture::Zero(command_.sent.size());
   command_.leader_rate = 0.0;
@@ -66,6 +74,22 @@ void Episode::Act(const ToolTarget& target) {
   }
   world_->robot().Velocities(&positions_);
   velocities_ = positions_;
+}
+
+// A destination that is far away is come to by a plan; to a near one the tool goes straight.
+void Episode::PlanArrival() {
+  const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
+  if (WayToDestination(variant, state_).norm() < kFar) return;
+  CarryTask task;
+  task.there = frame_->world_from_focus();
+  const double back = std::max(skill_.options.standoff, frame_->room_depth());
+  task.back = back * (task.there.linear() * frame_->back());
+  task.may_turn = !variant.room;
+  const auto plan = PlanCarry(skill_, variant, state_, task, command_.sent);
+  if (!plan) return;
+  if (plan->turn != 0.0) frame_->Turn(plan->turn, state_);
+  command_.goal = plan->arrival;
+  command_.via = plan->via;
 }
 
 float Episode::Reward(bool* success) {
@@ -97,9 +121,13 @@ Decision Episode::Step(const float* action) {
     decision.failed = decision.truncated = true;
     return decision;
   }
-  const bool withdrew = frame_->withdrawing();
+  const bool withdrew = frame_->withdrawing(), was_there = frame_->at_destination();
   frame_->Update(state_);
-  if (withdrew && !frame_->withdrawing()) command_.goal = start_.at_work;
+  if (frame_->at_destination() && !was_there) PlanArrival();
+  if (withdrew && !frame_->withdrawing()) {
+    command_.goal = start_.at_work;
+    command_.via = start_.via;
+  }
   decision.reward = Reward(&decision.success);
   if (!std::isfinite(decision.reward)) {
     decision.reward = 0.0f;

@@ -9,6 +9,7 @@
 #include "rl/focus_frame.h"
 #include "rl/observation.h"
 #include "rl/skill_world.h"
+#include "rl/tool_command.h"
 #include "rl/variant_reward.h"
 
 namespace simwright::rl {
@@ -41,6 +42,8 @@ class Episode {
   const EpisodeStart& start() const { return start_; }
   const tasks::SceneState& state() const { return state_; }
   const SkillWorld& world() const { return *world_; }
+  const FocusFrame& frame() const { return *frame_; }
+  const ArmCommand& command() const { return command_; }
   const Skill& skill() const { return skill_; }
   double seconds() const { return decisions_ * skill_.options.decision_seconds(); }  // since Begin
 
@@ -48,6 +51,7 @@ class Episode {
   struct Program;
   void Act(const ToolTarget& target);
   float Reward(bool* success);
+  void PlanArrival();
 
   const Skill& skill_;
   std::vector<std::unique_ptr<Program>> programs_;  // by variant, made when first used

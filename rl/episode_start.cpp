@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "rl/arm_clearance.h"
+#include "rl/open_room.h"
 #include "rl/reach_plan.h"
+#include "rl/tool_follower.h"
 
 namespace simwright::rl {
 namespace {
@@ -124,8 +126,38 @@ Vector3d WayOut(const Skill& skill, const SkillVariant& variant, const EpisodeSt
     if (back.dot(out) < kLeansIn) back = out;
     const double depth = DepthIn(*room, variant.model, start.state, tool.translation());
     length = std::max(length, (depth + kBeforeOpening) / back.dot(out));
+  } else if (const auto rim = RimAround(variant.model, start.state, tool.translation())) {
+    if (back.z() < kLeansIn) back = Vector3d::UnitZ();
+    length = std::max(length, (*rim + kOverRim - tool.translation().z()) / back.z());
   }
   return length * back;
+}
+
+// How an empty hand goes from where another skill has left it: away from there, then to its work.
+void PlanFromBefore(const Skill& skill, const SkillVariant& variant, core::Rng& rng,
+                    EpisodeStart* start) {
+  start->withdraw = WayOut(skill, variant, *start);
+  Isometry3d away = variant.subtask.start.world_from_robot *
+                    robot::ForwardKinematics(skill.robot->arm, start->arm);
+  away.translation() += start->withdraw;
+  ToolFollower follower(skill, variant, start->arm);
+  follower.Goes(away);
+  const robot::Posture from = follower.posture();
+  auto plan = PlanReach(skill, variant, start->state, from, rng);
+  const bool straight = plan && plan->clear;
+  if (!straight) {
+    const auto folded = PlanReach(skill, variant, start->state, skill.robot->home(), rng);
+    if (folded && (folded->clear || !plan)) plan = folded;
+  }
+  if (!plan) return;
+  start->pitch = plan->pitch;
+  start->at_work = plan->at_work;
+  if (straight) return;
+  const bool takes = variant.focus->joint < 0;
+  const ArmClearance clearance(skill, variant, start->state, takes ? variant.focus->thing : -1);
+  start->via =
+      PlanDetour(skill, clearance, from, BeforeWork(skill, variant, start->state, plan->at_work))
+          .value_or(Detour());
 }
 
 }  // namespace
@@ -144,7 +176,8 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
     if (Overlap(variant, start.state)) continue;
     if (!IsArmClear(skill, variant, start.state, home)) continue;
     if (!variant.focus) break;
-    if (const auto plan = PlanReach(skill, variant, start.state, home, rng)) {
+    const auto plan = PlanReach(skill, variant, start.state, home, rng);
+    if (plan && (plan->clear || attempt >= kTries / 3)) {
       start.pitch = plan->pitch;
       start.at_work = plan->at_work;
       break;
@@ -204,18 +237,13 @@ EpisodeStart Varied(const Skill& skill, const EpisodeStart& from, core::Rng& rng
   start.at_work = start.arm;
   start.pitch = 0.0;
   start.withdraw.setZero();
+  start.via.clear();
   if (start.held >= 0 && variant.room) {
     start.pitch = PitchAt(variant, start.state,
                           variant.subtask.start.world_from_robot *
                               robot::ForwardKinematics(skill.robot->arm, start.arm));
   }
-  if (variant.focus && start.held < 0) {
-    start.withdraw = WayOut(skill, variant, start);
-    if (const auto plan = PlanReach(skill, variant, start.state, start.arm, rng)) {
-      start.pitch = plan->pitch;
-      start.at_work = plan->at_work;
-    }
-  }
+  if (variant.focus && start.held < 0) PlanFromBefore(skill, variant, rng, &start);
   if (everything) DrawBodies(variant, skill.options, rng, &start);
   return start;
 }

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/random.h"
+#include "rl/detour.h"
 #include "rl/skill.h"
 
 namespace simwright::rl {
@@ -21,6 +22,8 @@ struct EpisodeStart {
   // m, world: how far an empty hand gets away from where another skill has left it, before it goes
   // to its work (FocusFrame). Zero: it does not.
   Eigen::Vector3d withdraw = Eigen::Vector3d::Zero();
+  // (J) that the arm then goes through, where the straight way to its work is not clear.
+  Detour via;
   int held = -1;  // the thing that the hand closes on before the episode begins; -1: none
   // How far the hand, at work, closes before the episode begins: the gripper's first joint, where
   // nothing between the fingers stops it. Easier starts have it.

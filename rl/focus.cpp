@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "rl/open_room.h"
+
 namespace simwright::rl {
 namespace {
 
@@ -249,7 +251,9 @@ std::optional<Destination> DestinationOf(const SceneModel& model, const SceneSta
     destination.point = {box.center().x(), box.center().y(), box.max().z()};
     for (const tasks::Cavity& cavity : holder.cavities) {
       if (cavity.link != destination.link) continue;
-      destination.point = cavity.box.center();
+      destination.in_open_room = OpensUpwards(model, start, thing, cavity);
+      destination.point = destination.in_open_room ? SpotFromAbove(model, start, thing, cavity)
+                                                   : Vector3d(cavity.box.center());
       break;
     }
     destination.room = SideRoomOf(model, start, thing, destination.link);

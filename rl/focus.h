@@ -33,6 +33,7 @@ struct Destination {
   int thing = -1, link = -1;  // else to this link: into its room where it has one, or onto it
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  // m, the link's frame
   std::optional<SideRoom> room;                     // that it is in, where that opens to a side
+  bool in_open_room = false;                        // it is in one that opens upwards
 };
 
 // What the program of a subtask works on, from what it reads: the joint whose state it takes, the

@@ -1,9 +1,11 @@
 #include "rl/focus_frame.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "rl/focus_geometry.h"
 #include "rl/observation.h"
+#include "rl/open_room.h"
 #include "rl/reach_plan.h"
 
 namespace simwright::rl {
@@ -15,6 +17,8 @@ constexpr int kSurelyHeld = 3;     // updates
 constexpr double kLost = 0.06;     // m between the tool and the grasp point: no longer in the hand
 constexpr double kInPlace = 0.03;  // m from its axis: what is nearer turns in place
 constexpr double kAway = 0.02;     // m from where it gets away to: the hand is away
+constexpr double kNearer = 0.003;  // m, of a hand that gets on
+constexpr int kStuck = 10;         // updates in which it does not: fingers open in 8 of them
 constexpr int kLongestWay = 30;    // updates, 1.5 s at 20 Hz: what is in the way stays there
 
 // FocusFrame::free_way, with the frame at `world_from_focus`.
@@ -43,6 +47,8 @@ FocusFrame::FocusFrame(const SkillVariant& variant, const tasks::SceneState& sta
   const Eigen::Isometry3d& root = state.roots[static_cast<size_t>(variant_.focus->thing)];
   grip_ = root.inverse() * world_from_focus_.translation();
   at_destination_ = variant_.starts_held;
+  below_ = tasks::LinkPoint(variant_.model, state, variant_.focus->thing, 0).z() -
+           tasks::WorldBox(variant_.model, state, variant_.focus->thing).min().z();
   free_way_ = FreeWay(variant_, state, world_from_focus_);
   axes_ = world_from_focus_.linear();
   withdrawing_ = !withdraw.isZero();
@@ -63,17 +69,38 @@ void FocusFrame::Switch(const tasks::SceneState& state) {
 bool FocusFrame::Withdraws(const tasks::SceneState& state) {
   if (!withdrawing_) return false;
   const double missing = (refuge_.translation() - state.gripper.translation()).norm();
-  if (missing < kAway || withdrawn_++ >= kLongestWay) {
+  if (missing < nearest_ - kNearer) {
+    nearest_ = missing;
+    stuck_ = 0;
+  }
+  if (missing < kAway || ++stuck_ > kStuck || withdrawn_++ >= kLongestWay) {
     withdrawing_ = false;
     world_from_focus_.linear() = axes_;
   }
   return withdrawing_;
 }
 
+void FocusFrame::Turn(double angle, const tasks::SceneState& state) {
+  const Eigen::AngleAxisd turn(angle, Vector3d::UnitZ());
+  world_from_focus_.linear() = turn * world_from_focus_.linear();
+  across_ = turn * across_;
+  axes_ = turn * axes_;
+  FindWayIn(state);
+}
+
 // Into a room, and out of it, the hand goes through the opening.
 void FocusFrame::FindWayIn(const tasks::SceneState& state) {
   back_ = -Vector3d::UnitZ();
   room_depth_ = 0.0;
+  if (at_destination_ && variant_.destination->in_open_room) {
+    const Destination& room = *variant_.destination;
+    const double rim = tasks::WorldBox(variant_.model, state, room.thing, room.link).max().z();
+    const Vector3d thing = tasks::LinkPoint(variant_.model, state, variant_.focus->thing, 0);
+    const double bottom = thing.z() + WayToDestination(variant_, state).z() - below_;
+    back_ = world_from_focus_.linear().transpose() * Vector3d::UnitZ();
+    room_depth_ = std::max(0.0, rim + kOverRim - bottom);
+    return;
+  }
   if (!variant_.room) return;
   const SideRoom& room = *variant_.room;
   const Vector3d point = world_from_focus_.translation();

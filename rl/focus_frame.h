@@ -17,6 +17,10 @@ class FocusFrame {
              const Eigen::Vector3d& across, double pitch,
              const Eigen::Vector3d& withdraw = Eigen::Vector3d::Zero());
 
+  // Turns the frame at the destination, and with it how the hand comes there, by `angle` (rad)
+  // about the upright.
+  void Turn(double angle, const tasks::SceneState& state);
+
   // Follows what has moved since.
   void Update(const tasks::SceneState& state);
 
@@ -30,7 +34,8 @@ class FocusFrame {
   // place and of things. A hand that is off the focus on that way is ahead of the part, and at its
   // work.
   Eigen::Vector3d free_way() const { return withdrawing_ ? Eigen::Vector3d::Zero() : free_way_; }
-  // WorkFrame::back and room_depth: out of the room that the frame, or the thing at work, is in.
+  // WorkFrame::back and room_depth: out of the room that the frame, or the thing at work, is in; at
+  // a destination in a room that opens upwards, over its rim.
   const Eigen::Vector3d& back() const { return back_; }
   double room_depth() const { return room_depth_; }
 
@@ -47,10 +52,13 @@ class FocusFrame {
   Eigen::Vector3d free_way_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d grip_ = Eigen::Vector3d::Zero();  // m, the thing's frame: where it is taken
   bool at_destination_ = false;
-  int held_ = 0;  // updates in a row with the thing in both fingers
+  double below_ = 0.0;  // m, how far the thing reaches below its middle
+  int held_ = 0;        // updates in a row with the thing in both fingers
   Eigen::Vector3d back_ = -Eigen::Vector3d::UnitZ();
   double room_depth_ = 0.0;
   bool withdrawing_ = false;
+  double nearest_ = 1e9;                                      // m from there, so far
+  int stuck_ = 0;                                             // updates without coming nearer
   int withdrawn_ = 0;                                         // updates that it has gone on for
   Eigen::Isometry3d refuge_ = Eigen::Isometry3d::Identity();  // world_from_tool, to get away to
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();        // of the frame at work

@@ -101,6 +101,31 @@ Samples PpoLearner::Evaluate(const Rollout& rollout) const {
           OnDevice(result.returns)};
 }
 
+void PpoLearner::Imitate(const Rollout& rollout, const Samples& samples) {
+  if (rollout.shown.rows() == 0) {
+    shown_ = {};
+    return;
+  }
+  const torch::Tensor actions = OnDevice(rollout.shown);
+  const bool first = !shown_.observations.defined();
+  shown_.observations =
+      first ? samples.observations : torch::cat({shown_.observations, samples.observations});
+  shown_.actions = first ? actions : torch::cat({shown_.actions, actions});
+  UpdateReport ignored;
+  for (int step = 0; step < options_.imitation_steps; ++step) {
+    Descend(ComputeImitationLoss(networks_, DrawShown()), &ignored);
+  }
+}
+
+Demonstrations PpoLearner::DrawShown() {
+  std::vector<std::int64_t> rows(static_cast<std::size_t>(options_.minibatch));
+  for (std::int64_t& row : rows) row = core::UniformIndex(rng_, shown_.actions.size(0));
+  const torch::Tensor drawn =
+      torch::from_blob(rows.data(), {static_cast<std::int64_t>(rows.size())}, torch::kInt64)
+          .to(device_, torch::kInt64, /*non_blocking=*/false, /*copy=*/true);
+  return {shown_.observations.index_select(0, drawn), shown_.actions.index_select(0, drawn)};
+}
+
 void PpoLearner::Shuffle(std::vector<std::int64_t>* rows) {
   for (std::size_t i = rows->size(); i > 1; --i) {
     const auto other = core::UniformIndex(rng_, static_cast<std::int64_t>(i));
@@ -111,6 +136,8 @@ void PpoLearner::Shuffle(std::vector<std::int64_t>* rows) {
 UpdateReport PpoLearner::Update(const Rollout& rollout) {
   const Samples samples = Evaluate(rollout);
   const torch::Tensor old_log_std = networks_.log_std().detach().clone();
+  const bool imitates = rollout.shown.rows() > 0;
+  Imitate(rollout, samples);
   std::vector<std::int64_t> rows;
   for (std::size_t i = 0; i < rollout.dropped.size(); ++i) {
     if (!rollout.dropped[i]) rows.push_back(static_cast<std::int64_t>(i));
@@ -128,14 +155,14 @@ UpdateReport PpoLearner::Update(const Rollout& rollout) {
         torch::from_blob(rows.data(), {count}, torch::kInt64).to(device_);
     for (std::int64_t part = 0; part < parts; ++part) {
       const std::int64_t first = count * part / parts, last = count * (part + 1) / parts;
-      const PpoLoss loss =
-          ComputePpoLoss(networks_, samples.Select(shuffled.narrow(0, first, last - first)),
-                         old_log_std, options_);
+      const Samples batch = samples.Select(shuffled.narrow(0, first, last - first));
+      const PpoLoss loss = imitates ? ComputeCriticLoss(networks_, batch, old_log_std, options_)
+                                    : ComputePpoLoss(networks_, batch, old_log_std, options_);
       AddMeans(loss, &report);
       kl += loss.kl.item<double>() / static_cast<double>(parts);
       Descend(loss.total, &report);
     }
-    AdaptRate(kl, /*last=*/epoch + 1 == options_.epochs);
+    if (!imitates) AdaptRate(kl, /*last=*/epoch + 1 == options_.epochs);
   }
   Divide(static_cast<double>(options_.epochs * parts), &report);
   report.learning_rate = learning_rate_;
@@ -177,7 +204,9 @@ LearnerState PpoLearner::SaveState() const {
           adam_.squares().cpu().clone(),
           adam_.steps(),
           learning_rate_,
-          generator.str()};
+          generator.str(),
+          {shown_.observations.defined() ? shown_.observations.cpu().clone() : torch::Tensor(),
+           shown_.actions.defined() ? shown_.actions.cpu().clone() : torch::Tensor()}};
 }
 
 void PpoLearner::RestoreState(const LearnerState& state) {
@@ -193,6 +222,9 @@ void PpoLearner::RestoreState(const LearnerState& state) {
   values.copy_(state.parameters);
   adam_.Restore(state.gradient_means, state.gradient_squares, state.descents);
   learning_rate_ = state.learning_rate;
+  shown_ = {};
+  if (!state.shown.observations.defined()) return;
+  shown_ = {state.shown.observations.to(device_), state.shown.actions.to(device_)};
 }
 
 }  // namespace simwright::rl

@@ -21,6 +21,7 @@ struct LearnerState {
   std::int64_t descents = 0;
   double learning_rate = 0.0;
   std::string generator;  // core::Rng's
+  Demonstrations shown;   // so far, while they are imitated
 };
 
 // Improves actor and critic by what was collected.
@@ -43,6 +44,11 @@ class PpoLearner {
   // Values (n) of `observations` (n x O).
   std::vector<float> ValuesOf(const Rows& observations) const;
   Samples Evaluate(const Rollout& rollout) const;
+  // Adds what the rollout shows to what was shown before, and brings the actor nearer to all of it.
+  // Forgets it where nothing is shown.
+  void Imitate(const Rollout& rollout, const Samples& samples);
+  // Some of all that was shown, with repetition.
+  Demonstrations DrawShown();
   // Fisher and Yates.
   void Shuffle(std::vector<std::int64_t>* rows);
   // After an epoch of mean divergence `kl`. Up only after the `last` one: the first ones are always
@@ -56,6 +62,7 @@ class PpoLearner {
   ActorCritic networks_;
   FlatAdam adam_;
   double learning_rate_;
+  Demonstrations shown_;
 };
 
 }  // namespace simwright::rl

@@ -15,6 +15,11 @@ torch::Tensor GaussianKl(const torch::Tensor& old_means, const torch::Tensor& ol
       .sum();
 }
 
+torch::Tensor GaussianEntropy(const torch::Tensor& log_std, std::int64_t actions) {
+  return log_std.sum() +
+         0.5 * (1.0 + std::log(2.0 * std::numbers::pi)) * static_cast<double>(actions);
+}
+
 torch::Tensor ValueLoss(const torch::Tensor& values, const Samples& batch, double clip) {
   const torch::Tensor loss = (values - batch.returns).square();
   if (clip == 0.0) return 0.5 * loss.mean();
@@ -47,8 +52,7 @@ PpoLoss ComputePpoLoss(const ActorCritic& networks, const Samples& batch,
   const torch::Tensor policy = -torch::min(ratio * advantages, clipped * advantages).mean();
   const torch::Tensor value =
       ValueLoss(networks.Values(batch.observations), batch, options.value_clip);
-  const torch::Tensor entropy =
-      log_std.sum() + 0.5 * (1.0 + std::log(2.0 * std::numbers::pi)) * actions;
+  const torch::Tensor entropy = GaussianEntropy(log_std, batch.actions.size(1));
   loss.total = policy + options.value_weight * value - options.entropy_weight * entropy;
 
   const torch::NoGradGuard no_grad;
@@ -57,6 +61,27 @@ PpoLoss ComputePpoLoss(const ActorCritic& networks, const Samples& batch,
   loss.entropy = entropy.detach();
   loss.kl = GaussianKl(batch.means, old_log_std, means, log_std);
   loss.clipped_share = (ratio != clipped).to(torch::kFloat).mean();
+  return loss;
+}
+
+torch::Tensor ComputeImitationLoss(const ActorCritic& networks, const Demonstrations& shown) {
+  const torch::Tensor std = networks.log_std().detach().exp();
+  const torch::Tensor off = (networks.Means(shown.observations) - shown.actions) / std;
+  return 0.5 * off.square().sum(1).mean();
+}
+
+PpoLoss ComputeCriticLoss(const ActorCritic& networks, const Samples& batch,
+                          const torch::Tensor& old_log_std, const PpoOptions& options) {
+  PpoLoss loss;
+  loss.total = options.value_weight *
+               ValueLoss(networks.Values(batch.observations), batch, options.value_clip);
+  const torch::NoGradGuard no_grad;
+  loss.policy = torch::zeros({}, loss.total.options());
+  loss.value = loss.total.detach() / options.value_weight;
+  loss.entropy = GaussianEntropy(networks.log_std(), batch.actions.size(1));
+  loss.kl =
+      GaussianKl(batch.means, old_log_std, networks.Means(batch.observations), networks.log_std());
+  loss.clipped_share = torch::zeros({}, loss.total.options());
   return loss;
 }
 

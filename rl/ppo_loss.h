@@ -33,4 +33,18 @@ struct PpoLoss {
 PpoLoss ComputePpoLoss(const ActorCritic& networks, const Samples& batch,
                        const torch::Tensor& old_log_std, const PpoOptions& options);
 
+// What was shown at D observations.
+struct Demonstrations {
+  torch::Tensor observations;  // (D x O); not defined where nothing is shown
+  torch::Tensor actions;       // (D x A)
+};
+
+// Half the squared distance between the actor's means and what was shown, in standard deviations:
+// what a Gaussian of fixed width makes of maximum likelihood. Scalar.
+torch::Tensor ComputeImitationLoss(const ActorCritic& networks, const Demonstrations& shown);
+
+// What is left of ComputePpoLoss where the actor learns otherwise: the critic's part.
+PpoLoss ComputeCriticLoss(const ActorCritic& networks, const Samples& batch,
+                          const torch::Tensor& old_log_std, const PpoOptions& options);
+
 }  // namespace simwright::rl

@@ -38,6 +38,15 @@ struct PpoOptions {
   // the matrix products busy; below 512 the time a sample rises.
   int minibatch = 1024;
 
+  // Samples at the beginning from which the actor learns what VectorEnvironment::Demonstrate shows
+  // at each state that it gets to by itself (DAgger, Ross et al. 2011), and the critic what its own
+  // actions are worth. Where nothing is shown, and after that, both learn by PPO.
+  std::int64_t imitated_samples = 0;
+  // Gradient steps on what was shown so far, after each `horizon`. What is shown jumps, as where
+  // fingers close: with 20, an actor succeeded in 28 % of the episodes where the script that it was
+  // shown does in 67 % (opening microwaves).
+  int imitation_steps = 200;
+
   // Of the ratio of new to old probability (the paper's).
   double clip = 0.2;
   // How far the critic may move from its old value, in values; 0: anywhere. Clipping it helped

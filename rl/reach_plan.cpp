@@ -7,6 +7,8 @@
 
 #include "rl/arm_clearance.h"
 #include "rl/observation.h"
+#include "rl/posture_search.h"
+#include "rl/tool_follower.h"
 
 namespace simwright::rl {
 namespace {
@@ -14,10 +16,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kPosition = 0.01, kAngle = 0.15;  // m, rad: what is off at most
-constexpr double kStride = 0.03;                   // m of the tool between two looks
-constexpr double kTurn = 0.12;                     // rad
-constexpr double kJointStep = 0.1;                 // rad or m of any joint in one look
 constexpr double kFinger = 0.03;  // m behind what is pushed: fingers lean, walls lean out
 // m: nearer to its goal a thing is pushed on as before. The hand would else have to go round it
 // whenever it is past its goal.
@@ -29,47 +27,13 @@ constexpr double kPitches[] = {0.0, 0.35, -0.35, 0.7, -0.7};
 constexpr double kPushPitches[] = {0.6, 0.8, 0.4};
 // Of a hand that goes into a room through its side: palm and wrist stay out of it, or below its
 // ceiling. A microwave is 20 cm high inside; upright, hand and flange alone are 25.
-constexpr double kRoomPitches[] = {0.8, 1.0, 0.6, 1.2};
+constexpr double kRoomPitches[] = {0.8, 1.0, 0.6, 1.2, 1.4};
 constexpr double kLeaning = 0.9;  // of the lean, into the room: things with corners turn the hand
 constexpr int kRoomPostures = 6;  // that are looked at: whether an arm is clear takes a millisecond
 constexpr double kPalmEdge = 0.04;  // m: what the edge comes down by, over 1 - cos(lean)
 constexpr double kUpright = 0.8;    // of a thing's z axis
-constexpr int kPostures = 8;        // that are tried with each, for either side of the hand
-
-// Follows poses with the tracker that training uses.
-class Follower {
- public:
-  Follower(const Skill& skill, const SkillVariant& variant, const robot::Posture& from)
-      : skill_(skill),
-        base_from_world_(variant.subtask.start.world_from_robot.inverse()),
-        step_(robot::Posture::Constant(from.size(), kJointStep)),
-        posture_(from) {}
-
-  // Whether the tool gets to `world_from_tool`.
-  bool Goes(const Isometry3d& world_from_tool) {
-    const Isometry3d target = base_from_world_ * world_from_tool;
-    const Isometry3d now = robot::ForwardKinematics(skill_.robot->arm, posture_);
-    const Eigen::Quaterniond a(now.linear()), b(target.linear());
-    const double way = (target.translation() - now.translation()).norm();
-    const int strides = 1 + static_cast<int>(std::max(way / kStride, a.angularDistance(b) / kTurn));
-    robot::PoseError error;
-    for (int i = 1; i <= strides + 4; ++i) {
-      const double share = std::min(1.0, static_cast<double>(i) / strides);
-      Isometry3d next = Isometry3d::Identity();
-      next.translation() = now.translation() + share * (target.translation() - now.translation());
-      next.linear() = a.slerp(share, b).toRotationMatrix();
-      error = skill_.kinematics->Track(next, step_, &posture_);
-    }
-    return error.position < kPosition && error.angle < kAngle;
-  }
-  const robot::Posture& posture() const { return posture_; }
-
- private:
-  const Skill& skill_;
-  Isometry3d base_from_world_;
-  robot::Posture step_;
-  robot::Posture posture_;
-};
+constexpr double kTurns[] = {0.25 * M_PI, 0.5 * M_PI, 0.75 * M_PI};  // of the fingers' line
+constexpr double kSameLine = 0.97;  // the cosine of about 14 degrees
 
 // From where the joint stands to where it shall go.
 std::vector<double> JointWay(const tasks::ThingJoint& joint, double position) {
@@ -89,11 +53,12 @@ struct Stance {
 struct Demands {
   bool looks_ahead = false;  // the thing can go on to variant.next
   bool leans_in = false;     // the hand leans into variant.room
+  bool clear = false;        // ReachPlan::clear
 };
 
 // Whether the tool goes to `there` in variant.room through its opening, the arm being in nothing.
 bool GoesIn(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
-            const Isometry3d& there, Follower* follower) {
+            const Isometry3d& there, ToolFollower* follower) {
   const Vector3d inward = InwardOf(*variant.room, variant.model, state);
   const double depth = DepthIn(*variant.room, variant.model, state, there.translation());
   Isometry3d before = there;
@@ -108,7 +73,7 @@ bool GoesIn(const Skill& skill, const SkillVariant& variant, const tasks::SceneS
 
 // Whether a thing that is taken with the tool at `tool` can be brought where it shall go.
 bool CarriesThing(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
-                  const Isometry3d& tool, const Demands& demands, Follower* follower) {
+                  const Isometry3d& tool, const Demands& demands, ToolFollower* follower) {
   const auto goes = [&](const Destination& destination) {
     Isometry3d there = tool;
     there.translation() += WayTo(destination, variant, state);
@@ -122,7 +87,7 @@ bool CarriesThing(const Skill& skill, const SkillVariant& variant, const tasks::
 }
 
 bool MovesJoint(const SkillVariant& variant, tasks::SceneState state, const Isometry3d& tool,
-                double pitch, Follower* follower) {
+                double pitch, ToolFollower* follower) {
   const Focus& focus = *variant.focus;
   const auto thing = static_cast<size_t>(focus.thing), j = static_cast<size_t>(focus.joint);
   Vector3d across = tool.linear().col(1);
@@ -136,18 +101,6 @@ bool MovesJoint(const SkillVariant& variant, tasks::SceneState state, const Isom
   return true;
 }
 
-// Somewhere about `from`, a share of each joint's range to either side.
-robot::Posture PostureAbout(const robot::Posture& from, double share, const robot::Arm& arm,
-                            core::Rng& rng) {
-  robot::Posture posture = from;
-  for (Eigen::Index j = 0; j < posture.size(); ++j) {
-    const robot::ArmJoint& joint = arm.joints[static_cast<size_t>(j)];
-    const double range = share * (joint.upper - joint.lower);
-    posture[j] = std::clamp(from[j] + core::Uniform(rng, -range, range), joint.lower, joint.upper);
-  }
-  return posture;
-}
-
 // A posture in which the tool is at work.
 struct Candidate {
   Isometry3d tool;  // world_from_tool
@@ -156,31 +109,12 @@ struct Candidate {
   double seconds = 0.0;  // to get there, every joint at its highest speed
 };
 
-double TravelTime(const robot::RobotModel& robot, const robot::Posture& way) {
-  double seconds = 0.0;
-  for (Eigen::Index j = 0; j < way.size(); ++j) {
-    const auto joint = static_cast<size_t>(robot.arm_joints[static_cast<size_t>(j)]);
-    seconds = std::max(seconds, std::abs(way[j]) / robot.limits[joint].velocity);
-  }
-  return seconds;
-}
-
 void AddCandidates(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
                    const Stance& stance, const robot::Posture& from, core::Rng& rng,
                    std::vector<Candidate>* candidates) {
   const Isometry3d tool = ToolAtFocus(variant, state, stance.across, stance.pitch);
-  const Isometry3d target = variant.subtask.start.world_from_robot.inverse() * tool;
-  robot::Posture start = from;
-  for (int i = 0; i < kPostures; ++i) {
-    const robot::PoseSolution found = skill.kinematics->Solve(target, start, rng);
-    if (!found.reached) {
-      if (i == 0) return;  // out of reach, as a rule
-      continue;
-    }
-    const double seconds = TravelTime(*skill.robot, found.q - from);
-    candidates->push_back({tool, stance.pitch, found.q, seconds});
-    const double share = static_cast<double>(i + 1) / kPostures;
-    start = PostureAbout(from, share, skill.robot->arm, rng);
+  for (const ReachingPosture& found : PosturesAt(skill, variant, tool, from, rng)) {
+    candidates->push_back({tool, stance.pitch, found.posture, found.seconds});
   }
 }
 
@@ -227,6 +161,36 @@ std::vector<Stance> StancesWith(const SkillVariant& variant, const tasks::SceneS
   return stances;
 }
 
+// Whether the arm gets from `from` to where the hand stays back before its work, and is in nothing
+// at the work itself. At a handle it is: the fingers are about it.
+bool GetsThere(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
+               const robot::Posture& from, const Candidate& candidate) {
+  const bool takes = variant.focus->joint < 0;
+  const ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
+  if (takes && !clearance.IsClear(candidate.posture)) return false;
+  return clearance.IsWayClear(from, BeforeWork(skill, variant, state, candidate.posture));
+}
+
+// The lines (unit, world) that the fingers may be along: `across`, and turned about the upright
+// those that take a round thing otherwise.
+std::vector<Vector3d> LinesAcross(const SkillVariant& variant, const tasks::SceneState& state,
+                                  const Vector3d& across) {
+  std::vector<Vector3d> lines = {across}, taken;
+  if (variant.focus->joint >= 0 || Pushes(variant)) return lines;
+  taken.push_back(ToolAtFocus(variant, state, across, 0.0).linear().col(1));
+  for (const double turn : kTurns) {
+    const Vector3d line = Eigen::AngleAxisd(turn, Vector3d::UnitZ()) * across;
+    const Vector3d thin = ToolAtFocus(variant, state, line, 0.0).linear().col(1);
+    const bool new_one = std::all_of(taken.begin(), taken.end(), [&](const Vector3d& other) {
+      return std::abs(other.dot(thin)) < kSameLine;
+    });
+    if (!new_one) continue;
+    taken.push_back(thin);
+    lines.push_back(line);
+  }
+  return lines;
+}
+
 // A plan with one of `stances`.
 std::optional<ReachPlan> PlanWith(const Skill& skill, const SkillVariant& variant,
                                   const tasks::SceneState& state, const robot::Posture& from,
@@ -242,12 +206,14 @@ std::optional<ReachPlan> PlanWith(const Skill& skill, const SkillVariant& varian
     candidates.erase(candidates.begin() + kRoomPostures, candidates.end());
   }
   for (const Candidate& candidate : candidates) {
-    Follower follower(skill, variant, candidate.posture);
+    ToolFollower follower(skill, variant, candidate.posture);
     const bool works =
         variant.focus->joint >= 0
             ? MovesJoint(variant, state, candidate.tool, candidate.pitch, &follower)
             : CarriesThing(skill, variant, state, candidate.tool, demands, &follower);
-    if (works) return ReachPlan{candidate.pitch, candidate.posture};
+    if (!works) continue;
+    if (demands.clear && !GetsThere(skill, variant, state, from, candidate)) continue;
+    return ReachPlan{candidate.pitch, candidate.posture, demands.clear};
   }
   return std::nullopt;
 }
@@ -291,23 +257,46 @@ std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& varia
                                    core::Rng& rng) {
   const Isometry3d& world_from_base = variant.subtask.start.world_from_robot;
   const Isometry3d tool_now = world_from_base * robot::ForwardKinematics(skill.robot->arm, from);
-  const Vector3d across = tool_now.linear().col(1);
+  const std::vector<Vector3d> lines = LinesAcross(variant, state, tool_now.linear().col(1));
   const auto plan = [&](const Demands& demands) -> std::optional<ReachPlan> {
     for (const double pitch : PitchesOf(variant, demands)) {
-      const auto stances = StancesWith(variant, state, across, pitch, demands);
-      if (const auto found = PlanWith(skill, variant, state, from, stances, demands, rng)) {
-        return found;
+      for (size_t i = 0; i < (demands.clear && !demands.leans_in ? lines.size() : 1); ++i) {
+        const auto stances = StancesWith(variant, state, lines[i], pitch, demands);
+        if (const auto found = PlanWith(skill, variant, state, from, stances, demands, rng)) {
+          return found;
+        }
       }
     }
     return std::nullopt;
   };
   if (variant.room) {
-    if (const auto found = plan({.looks_ahead = true, .leans_in = true})) return found;
+    for (const bool clear : {true, false}) {
+      const Demands demands{.looks_ahead = true, .leans_in = true, .clear = clear};
+      if (const auto found = plan(demands)) return found;
+    }
   }
-  if (variant.next) {
-    if (const auto found = plan({.looks_ahead = true})) return found;
+  for (const bool clear : {true, false}) {
+    if (variant.next) {
+      if (const auto found = plan({.looks_ahead = true, .clear = clear})) return found;
+    }
+    if (const auto found = plan({.clear = clear})) return found;
   }
-  return plan({});
+  return std::nullopt;
+}
+
+robot::Posture BeforeWork(const Skill& skill, const SkillVariant& variant,
+                          const tasks::SceneState& state, const robot::Posture& at_work) {
+  Isometry3d before =
+      variant.subtask.start.world_from_robot * robot::ForwardKinematics(skill.robot->arm, at_work);
+  Vector3d back = -skill.options.standoff * before.linear().col(2);
+  if (variant.room && IsIn(*variant.room, variant.model, state, before.translation())) {
+    const double depth = DepthIn(*variant.room, variant.model, state, before.translation());
+    back = -(depth + kBeforeOpening) * InwardOf(*variant.room, variant.model, state);
+  }
+  before.translation() += back;
+  ToolFollower follower(skill, variant, at_work);
+  follower.Goes(before);
+  return follower.posture();
 }
 
 double PitchAt(const SkillVariant& variant, const tasks::SceneState& state,

@@ -24,18 +24,24 @@ Eigen::Isometry3d ToolAtFocus(const SkillVariant& variant, const tasks::SceneSta
 struct ReachPlan {
   double pitch = 0.0;      // rad, of the hand
   robot::Posture at_work;  // (J) with the tool at the focus
+  bool clear = false;      // the arm is in nothing on its way there, straight from joint to joint
 };
 
 // The least pitch (of a hand that pushes: about 0.6 rad; of one that goes into a room through its
 // side: about 0.8, leaning into it), and of some postures the one soonest reached from `from`, from
 // which the tool goes along most of the joint's way, or with the thing to its destination, off by
-// no more than a centimetre and 0.15 rad, and the arm is in nothing in a room and before it. A
-// thing is taken so that it can go on to variant.next too, where there is a way. None where no
+// no more than a centimetre and 0.15 rad, and the arm is in nothing in a room and before it. One
+// that is clear, where there is one: round things are taken with the fingers' line any way for it.
+// A thing is taken so that it can go on to variant.next too, where there is a way. None where no
 // pitch does. Postures are sought for both sides of the hand, from `from` and from random ones: a
 // tool that only ever goes straight at its target ends at some joint's limit every other time.
 std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& variant,
                                    const tasks::SceneState& state, const robot::Posture& from,
                                    core::Rng& rng);
+
+// (J) in which the hand stays back before its work `at_work` (J).
+robot::Posture BeforeWork(const Skill& skill, const SkillVariant& variant,
+                          const tasks::SceneState& state, const robot::Posture& at_work);
 
 // rad that the hand at `world_from_tool` leans about its own y axis, as PlanReach's pitch: against
 // the upright of the thing at work, which it may have tilted, or the world's where that lies.

@@ -9,6 +9,7 @@ void Rollout::Resize(int new_steps, int new_environments, int observation_size, 
   observations.resize(all, observation_size);
   actions.resize(all, action_size);
   means.resize(all, action_size);
+  shown.resize(0, action_size);
   const auto count = static_cast<std::size_t>(all);
   log_densities.assign(count, 0.0f);
   rewards.assign(count, 0.0f);

@@ -12,13 +12,14 @@ namespace simwright::rl {
 // T steps of N environments as PPO learns from them: row t N + i for step t of environment i.
 // Observations are normalised, rewards scaled.
 struct Rollout {
-  int steps = 0;                     // T
-  int environments = 0;              // N
-  Rows observations;                 // (T N x O)
-  Rows actions, means;               // (T N x A) as drawn, and the mean that they were drawn about
-  Eigen::RowVectorXf std;            // (A) of the policy that acted
-  std::vector<float> log_densities;  // (T N)
-  std::vector<float> rewards;        // (T N)
+  int steps = 0;           // T
+  int environments = 0;    // N
+  Rows observations;       // (T N x O)
+  Rows actions, means;     // (T N x A) as drawn, and the mean that they were drawn about
+  Rows shown;              // (T N x A) demonstrated there; empty where nothing is imitated
+  Eigen::RowVectorXf std;  // (A) of the policy that acted
+  std::vector<float> log_densities;                          // (T N)
+  std::vector<float> rewards;                                // (T N)
   std::vector<std::uint8_t> terminated, truncated, dropped;  // (T N)
   Rows next_observations;                                    // (N x O) what follows the last step
   Rows last_observations;              // (K x O) before the reset, of each truncated step

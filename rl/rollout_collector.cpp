@@ -50,7 +50,8 @@ void RolloutCollector::Collect(const Mlp& actor, const Eigen::RowVectorXf& std, 
   rollout->Resize(options_.horizon, count, environment_->observation_size(),
                   environment_->action_size());
   rollout->std = std;
-  Rows normalized, means;
+  const bool imitates = samples_ < options_.imitated_samples;
+  Rows normalized, means, shown;
   for (int step = 0; step < options_.horizon; ++step) {
     const Eigen::Index first = static_cast<Eigen::Index>(step) * count;
     normalizer_.Update(batch_.observations);
@@ -62,6 +63,10 @@ void RolloutCollector::Collect(const Mlp& actor, const Eigen::RowVectorXf& std, 
     rollout->actions.middleRows(first, count) = actions_;
     Eigen::Map<Eigen::VectorXf>(rollout->log_densities.data() + first, count) =
         LogDensity(actions_, means, std);
+    if (imitates && environment_->Demonstrate(&shown)) {
+      rollout->shown.conservativeResize(rollout->actions.rows(), Eigen::NoChange);
+      rollout->shown.middleRows(first, count) = shown;
+    }
     TakeStep(step, rollout, outcomes);
   }
   Normalize(batch_.observations, &rollout->next_observations);

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "rl/observation.h"
+#include "rl/scripted_hand.h"
 #include "rl/skill_evaluation.h"
 
 namespace simwright::rl {
@@ -116,6 +117,15 @@ void SkillEnvironment::Step(const Rows& actions, StepBatch* batch) {
   batch->truncated.resize(count);
   batch->success.resize(count);
   ForEach([&](size_t i) { StepOne(i, actions, batch); });
+}
+
+bool SkillEnvironment::Demonstrate(Rows* actions) const {
+  if (!HasScript(*skill_)) return false;
+  actions->resize(size(), action_size_);
+  for (size_t i = 0; i < slots_.size(); ++i) {
+    ScriptedAction(*slots_[i].episode, actions->row(static_cast<Eigen::Index>(i)).data());
+  }
+  return true;
 }
 
 std::string SkillEnvironment::SaveState() const {

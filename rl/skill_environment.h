@@ -31,6 +31,7 @@ class SkillEnvironment : public VectorEnvironment {
   }
   void Reset(std::uint64_t seed, Rows* observations) override;
   void Step(const Rows& actions, StepBatch* batch) override;
+  bool Demonstrate(Rows* actions) const override;  // ScriptedAction
   std::string SaveState() const override;
   void RestoreState(std::string_view state, Rows* observations) override;
 

@@ -1,8 +1,12 @@
 #include "rl/skill_evaluation.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/parallel.h"
 #include "rl/observation.h"
+#include "rl/scripted_hand.h"
+#include "rl/tool_command.h"
 
 namespace simwright::rl {
 
@@ -39,15 +43,18 @@ EpisodeStart EndOf(const Episode& episode) {
   return end;
 }
 
-EvaluatedEpisode RunEpisode(const Policy& policy, const EpisodeStart& start, Episode* episode) {
-  Rows observation(1, policy.observation_size()), action;
+namespace {
+
+// `act` writes the next action into a row of ActionSize(skill).
+template <typename Act>
+EvaluatedEpisode RunBy(const Act& act, const EpisodeStart& start, Episode* episode) {
+  std::vector<float> action(static_cast<size_t>(ActionSize(episode->skill())));
   EvaluatedEpisode result;
   result.start = start;
   episode->Begin(start);
   Decision decision;
   while (!decision.terminated && !decision.truncated) {
-    episode->Observe(observation.data());
-    policy.Act(observation, &action);
+    act(*episode, action.data());
     decision = episode->Step(action.data());
   }
   result.success = decision.terminated;
@@ -56,9 +63,10 @@ EvaluatedEpisode RunEpisode(const Policy& policy, const EpisodeStart& start, Epi
   return result;
 }
 
-SkillEvaluation Evaluate(const Skill& skill, const Policy& policy,
-                         const std::vector<EpisodeStart>& starts) {
-  RequireFits(policy, skill);
+// `run` (episode, start) runs one.
+template <typename Run>
+SkillEvaluation EvaluateBy(const Skill& skill, const Run& run,
+                           const std::vector<EpisodeStart>& starts) {
   SkillEvaluation evaluation;
   evaluation.episodes.resize(starts.size());
   const int threads = core::ThreadCount();
@@ -66,7 +74,7 @@ SkillEvaluation Evaluate(const Skill& skill, const Policy& policy,
     Episode episode(skill);
     for (size_t i = static_cast<size_t>(thread); i < starts.size();
          i += static_cast<size_t>(threads)) {
-      evaluation.episodes[i] = RunEpisode(policy, starts[i], &episode);
+      evaluation.episodes[i] = run(starts[i], &episode);
     }
   });
   for (const EvaluatedEpisode& episode : evaluation.episodes) {
@@ -78,6 +86,38 @@ SkillEvaluation Evaluate(const Skill& skill, const Policy& policy,
   evaluation.interval =
       WilsonInterval(evaluation.successes, static_cast<int>(evaluation.episodes.size()));
   return evaluation;
+}
+
+}  // namespace
+
+EvaluatedEpisode RunEpisode(const Policy& policy, const EpisodeStart& start, Episode* episode) {
+  Rows observation(1, policy.observation_size()), action;
+  const auto act = [&](const Episode& now, float* next) {
+    now.Observe(observation.data());
+    policy.Act(observation, &action);
+    std::copy_n(action.data(), action.cols(), next);
+  };
+  return RunBy(act, start, episode);
+}
+
+EvaluatedEpisode RunScript(const EpisodeStart& start, Episode* episode) {
+  return RunBy(ScriptedAction, start, episode);
+}
+
+SkillEvaluation Evaluate(const Skill& skill, const Policy& policy,
+                         const std::vector<EpisodeStart>& starts) {
+  RequireFits(policy, skill);
+  return EvaluateBy(
+      skill,
+      [&](const EpisodeStart& start, Episode* episode) {
+        return RunEpisode(policy, start, episode);
+      },
+      starts);
+}
+
+SkillEvaluation EvaluateScript(const Skill& skill, const std::vector<EpisodeStart>& starts) {
+  if (!HasScript(skill)) throw core::Error("there is no script for this action space", "skill");
+  return EvaluateBy(skill, RunScript, starts);
 }
 
 }  // namespace simwright::rl

@@ -33,11 +33,17 @@ struct SkillEvaluation {
 SkillEvaluation Evaluate(const Skill& skill, const Policy& policy,
                          const std::vector<EpisodeStart>& starts);
 
+// The same of the script (ScriptedAction). Throws core::Error where there is none.
+SkillEvaluation EvaluateScript(const Skill& skill, const std::vector<EpisodeStart>& starts);
+
 // `count` starts of the skill, drawn by `seed`.
 std::vector<EpisodeStart> DrawStarts(const Skill& skill, int count, std::uint64_t seed);
 
 // One episode to its end.
 EvaluatedEpisode RunEpisode(const Policy& policy, const EpisodeStart& start, Episode* episode);
+
+// The same by the script; its skill must have one.
+EvaluatedEpisode RunScript(const EpisodeStart& start, Episode* episode);
 
 // What the episode has come to, as a start: things and arm where they are, at rest.
 EpisodeStart EndOf(const Episode& episode);

@@ -31,8 +31,8 @@ struct SkillOptions {
   double control_rate = 60.0;  // Hz: how often the arm gets a new command
   int substeps = 4;            // of the physics in one of them: 240 Hz, Bullet's own rate
   int control_steps = 3;       // in one decision of the policy: 20 Hz, as most manipulation work
-  // Doors take 4 s and more. With 5 s in training a policy opened microwaves that it had not seen in
-  // 46 % after 168k decisions, with 8 s in 67 % after 184k.
+  // Doors take 4 s and more. With 5 s in training a policy opened microwaves that it had not seen
+  // in 46 % after 168k decisions, with 8 s in 67 % after 184k.
   double episode_seconds = 8.0;
   double hold_seconds = 0.5;  // success that lasts so long ends the episode
 

@@ -13,6 +13,7 @@ namespace {
 using nlohmann::json;
 
 constexpr size_t kMostStarts = 100000;
+constexpr size_t kLongestDetour = 16;
 constexpr double kFarthestWay = 10.0;  // m
 
 json PoseJson(const Eigen::Isometry3d& pose) {
@@ -96,6 +97,15 @@ EpisodeStart StartFrom(const json& text, const Skill& skill) {
       throw std::invalid_argument("a way that no hand goes");
     }
   }
+  if (text.contains("via")) {
+    const json& via = text["via"];
+    if (!via.is_array() || via.size() > kLongestDetour) {
+      throw std::invalid_argument("a detour that no arm takes");
+    }
+    for (const json& posture : via) {
+      start.via.push_back(PostureFrom(posture, skill.robot->arm.size()));
+    }
+  }
   start.held = text.at("held").get<int>();
   if (start.held < -1 || start.held >= static_cast<int>(things) ||
       (start.held >= 0 && variant.fixed[static_cast<size_t>(start.held)])) {
@@ -128,6 +138,7 @@ std::string StartText(const EpisodeStart& start) {
   if (!start.withdraw.isZero()) {
     text["withdraw"] = {start.withdraw.x(), start.withdraw.y(), start.withdraw.z()};
   }
+  for (const robot::Posture& posture : start.via) text["via"].push_back(List(posture));
   text["held"] = start.held;
   text["mass"] = start.mass;
   text["friction"] = start.friction;

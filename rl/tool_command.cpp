@@ -30,6 +30,7 @@ constexpr double kAbove = 0.015;  // m: a hand so far above its work comes down 
 // the thing that it touches upwards, and tip it.
 constexpr double kAhead = 0.05;
 constexpr double kDecided = 0.15;  // of an action: less leaves the fingers as they are
+constexpr double kPassed = 0.1;    // rad or m of any joint: a posture on the way has been passed
 constexpr double kGoalJump = 0.1;  // rad or m that any joint of the goal moves in a control step
 
 Isometry3d Offset(const float* action, double reach, double turn) {
@@ -120,9 +121,10 @@ double Accelerated(double rate, double wanted, const robot::JointLimits& limits,
   return rate + std::clamp(wanted - rate, -most, most);
 }
 
-void MoveArm(const Skill& skill, const robot::Posture& actual, ArmCommand* command) {
+void MoveArm(const Skill& skill, const robot::Posture& goal, const robot::Posture& actual,
+             ArmCommand* command) {
   const double dt = 1.0 / skill.options.control_rate, lead = skill.options.longest_lead;
-  const robot::Posture wanted = WantedRate(skill, command->sent, command->goal - command->sent);
+  const robot::Posture wanted = WantedRate(skill, command->sent, goal - command->sent);
   for (Eigen::Index j = 0; j < actual.size(); ++j) {
     const robot::ArmJoint& joint = skill.robot->arm.joints[static_cast<size_t>(j)];
     const auto index = static_cast<size_t>(skill.robot->arm_joints[static_cast<size_t>(j)]);
@@ -209,7 +211,11 @@ void Approach(const Skill& skill, const ToolTarget& target, const robot::Posture
     const robot::Posture jump = robot::Posture::Constant(actual.size(), kGoalJump);
     skill.kinematics->Track(target.base_from_tool, jump, &command->goal);
   }
-  MoveArm(skill, actual, command);
+  std::vector<robot::Posture>& via = command->via;
+  if (!via.empty() && (via.front() - command->sent).lpNorm<Eigen::Infinity>() < kPassed) {
+    via.erase(via.begin());
+  }
+  MoveArm(skill, via.empty() ? command->goal : via.front(), actual, command);
   MoveFingers(skill, target.leader, command);
 }
 

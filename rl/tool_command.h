@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -22,6 +24,8 @@ int ActionSize(const Skill& skill);
 struct ArmCommand {
   robot::Posture goal;  // (J) the posture in which the tool is where the action wants it
   robot::Posture sent;  // (J) what the motors hold now: on its way to `goal`
+  // (J) that it goes through before, whatever the action wants meanwhile (PlanDetour).
+  std::vector<robot::Posture> via;
   robot::Posture rate;  // (J) per s: how fast `sent` moves
   double leader = 0.0;  // the gripper's first joint
   double leader_rate = 0.0;

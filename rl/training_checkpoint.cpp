@@ -87,6 +87,17 @@ void PackLearner(const LearnerState& state, nn::NamedTensors* tensors) {
   const double numbers[] = {static_cast<double>(state.descents), state.learning_rate};
   (*tensors)["adam.steps_and_rate"] = PackDoubles(numbers);
   (*tensors)["learner_generator"] = PackBytes(state.generator);
+  if (!state.shown.observations.defined()) return;
+  (*tensors)["shown.observations"] = state.shown.observations;
+  (*tensors)["shown.actions"] = state.shown.actions;
+}
+
+Demonstrations Shown(const nn::NamedTensors& tensors) {
+  if (!tensors.contains("shown.observations")) return {};
+  const Demonstrations shown = {TakeTensor(tensors, "shown.observations", torch::kFloat, 2),
+                                TakeTensor(tensors, "shown.actions", torch::kFloat, 2)};
+  if (shown.observations.size(0) == shown.actions.size(0)) return shown;
+  throw core::Error("has demonstrations of two lengths");
 }
 
 LearnerState Learner(const nn::NamedTensors& tensors) {
@@ -96,7 +107,8 @@ LearnerState Learner(const nn::NamedTensors& tensors) {
           TakeTensor(tensors, "adam.squares", torch::kFloat, 1),
           static_cast<std::int64_t>(numbers[0]),
           numbers[1],
-          Bytes(tensors, "learner_generator")};
+          Bytes(tensors, "learner_generator"),
+          Shown(tensors)};
 }
 
 void PackOutcomes(const RecentOutcomes& recent, nn::NamedTensors* tensors) {

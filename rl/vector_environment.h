@@ -40,6 +40,9 @@ class VectorEnvironment {
   // `actions` (N x A); what lies outside [-1, 1] is clamped.
   virtual void Step(const Rows& actions, StepBatch* batch) = 0;
 
+  // What somebody who knows a way would do now, `actions` (N x A). False where there is nobody.
+  virtual bool Demonstrate(Rows* /*actions*/) const { return false; }
+
   // All that Step depends on, so that a training that was stopped goes on as if it had not been.
   virtual std::string SaveState() const = 0;
   // Throws core::Error for a state of another environment.

@@ -11,6 +11,11 @@
 namespace simwright::tasks {
 namespace {
 
+// Of an opening's rise: less is to a side. What is in such a room stands in its front, where a hand
+// gets at it: a level hand is as long as a cabinet is deep.
+constexpr double kOpensAside = 0.5;
+constexpr double kBehindOpening = 0.03;  // m
+
 constexpr double kGap = 0.02;         // m between things
 constexpr double kRobotRadius = 0.2;  // m, what its base needs of the floor
 // Heights of the robot's base that are tried: on the floor first, else on a pedestal.
@@ -223,6 +228,12 @@ class Planner {
                         LinkPosesOf(holder, state.joints[h])[static_cast<std::size_t>(cavity.link)];
       base = link * floor;
       base.z() -= 0.5 * cavity.box.sizes().z();
+      const Eigen::Vector3d opening = link.linear() * cavity.opening;
+      if (std::abs(opening.z()) < kOpensAside) {
+        const double depth = std::abs(cavity.box.sizes().dot(cavity.opening));
+        const double half = 0.5 * known.box.sizes().head<2>().maxCoeff();
+        base += std::max(0.0, 0.5 * depth - half - kBehindOpening) * opening;
+      }
     }
     const Eigen::Vector3d under(known.box.center().x(), known.box.center().y(),
                                 known.box.min().z());

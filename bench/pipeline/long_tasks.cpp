@@ -19,9 +19,15 @@ namespace simwright {
 namespace {
 namespace fs = std::filesystem;
 
+// Of an episode of each subtask, at most: after another the arm comes from far, round what stands
+// open, and takes 5 s to be there.
+constexpr double kSubtaskSeconds = 12.0;
+
 struct Arguments {
   std::string task = "all", method = "all", action = "delta";
   double minutes = 15.0;
+  bool script = false;
+  std::int64_t imitated = pipeline::TrainRequest().imitated_samples;
   int episodes = 300;
   std::uint64_t seed = 1;
   fs::path output = "out/long_tasks";
@@ -99,7 +105,7 @@ void RunUndecomposed(const pipeline::LongTask& task, const tasks::Task& source,
   request.samples = samples;
   request.minutes = 0.0;
   request.action = rl::ActionSpaceOf(arguments.action);
-  request.episode_seconds *= static_cast<double>(source.subtasks.size());
+  request.episode_seconds = kSubtaskSeconds * static_cast<double>(source.subtasks.size());
   const fs::path run = folder / ("run_" + method + "_" + std::to_string(arguments.seed));
   const pipeline::TrainReport report = Train(task, file, run, request, arguments, progress);
   const rl::ChainEvaluation found = Evaluated(run, arguments);
@@ -107,13 +113,39 @@ void RunUndecomposed(const pipeline::LongTask& task, const tasks::Task& source,
   PrintRow(task.name, method, arguments, SumOf(report), found.successes, found.interval);
 }
 
+// What the script that the subtasks begin with makes of the task, and of each subtask.
+void RunScript(const pipeline::LongTask& task, const fs::path& file, const Arguments& arguments) {
+  pipeline::SkillRun run;
+  run.robot = task.robot;
+  run.options.episode_seconds = kSubtaskSeconds;
+  run.set = tasks::ReadTaskFile(file);
+  const std::vector<pipeline::RunSkill> skills = PrepareSkills(run);
+  std::vector<rl::ChainLink> links;
+  for (const pipeline::RunSkill& skill : skills) links.push_back({skill.evaluated.get(), nullptr});
+  const rl::ChainEvaluation chain =
+      rl::EvaluateChain(links, arguments.episodes, arguments.seed + 9000);
+  PrintRow(task.name, "script", arguments, {}, chain.successes, chain.interval);
+  for (size_t k = 0; k < skills.size(); ++k) {
+    const rl::Skill& skill = *skills[k].evaluated;
+    const int own =
+        rl::EvaluateScript(skill, rl::DrawStarts(skill, arguments.episodes, arguments.seed + 9000))
+            .successes;
+    std::printf("    %-36s own starts %d of %d, after the one before %d of %d\n",
+                skills[k].name.c_str(), own, arguments.episodes, chain.succeeded[k],
+                chain.tried[k]);
+  }
+}
+
 void RunTask(const pipeline::LongTask& task, const Arguments& arguments) {
   core::Progress progress(core::Progress::StyleForStderr());
   const fs::path folder = arguments.output / task.name;
   const fs::path file = pipeline::MakeLongTask(task, folder, &progress);
+  if (arguments.script) return RunScript(task, file, arguments);
   pipeline::TrainRequest request;
+  request.episode_seconds = kSubtaskSeconds;
   request.samples = 1'000'000'000;
   request.minutes = arguments.minutes;
+  request.imitated_samples = arguments.imitated;
   const fs::path run = folder / ("run_chain_" + std::to_string(arguments.seed));
   const pipeline::TrainReport report = Train(task, file, run, request, arguments, &progress);
   const rl::ChainEvaluation chain = Evaluated(run, arguments);
@@ -143,6 +175,9 @@ int main(int argc, char** argv) {
   app.add_option("--action", arguments.action, "Action space of the undecomposed")
       ->capture_default_str();
   app.add_option("--minutes", arguments.minutes, "Of each subtask's training, at most")
+      ->capture_default_str();
+  app.add_flag("--script", arguments.script, "Only evaluate the script, without training");
+  app.add_option("--imitate", arguments.imitated, "Decisions that imitate a script at first")
       ->capture_default_str();
   app.add_option("--episodes", arguments.episodes, "Of each evaluation")->capture_default_str();
   app.add_option("--seed", arguments.seed, "Of the training")->capture_default_str();

@@ -1,9 +1,11 @@
 // What training is worth, skill by skill: each cell of the suite (pipeline/skill_suite.h) is
 // trained on instances of the library and evaluated, from full starts, on others.
 //   bench_skill_suite                                the shipped policies, a minute
+//   bench_skill_suite --script                       what a script does, a minute
 //   bench_skill_suite --cell NAME --train [--ship]   trains a cell (all: one after the other)
 // A training that was stopped goes on; a cell that is done is not done again: remove its folder.
 #include <cstdio>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
@@ -24,9 +26,10 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::string cell = "all";
-  bool train = false, ship = false, by_task = false;
+  bool train = false, ship = false, script = false, by_task = false;
   double minutes = 0.0;  // 0: the cell's own
   int instances = 0;     // 0: the cell's own
+  std::int64_t imitated = pipeline::TrainRequest().imitated_samples;
   int episodes = 300;
   std::uint64_t seed = 1;
   fs::path output = "out/skill_suite";
@@ -71,14 +74,17 @@ void PrintByTask(const rl::Skill& skill, const rl::SkillEvaluation& evaluation) 
   }
 }
 
-rl::SkillEvaluation EvaluateUnseen(const pipeline::SuiteCell& cell, const fs::path& policy,
+// Of a policy's file, or of the script.
+rl::SkillEvaluation EvaluateUnseen(const pipeline::SuiteCell& cell,
+                                   const std::optional<fs::path>& policy,
                                    const Arguments& arguments, core::Progress* progress) {
   const auto skills = PrepareSkills(UnseenRun(cell, arguments, progress));
   const rl::Skill& skill = *skills.front().evaluated;
   progress->Stage("evaluate " + cell.name);
-  const rl::SkillEvaluation evaluation =
-      rl::Evaluate(skill, rl::ReadPolicy(policy),
-                   rl::DrawStarts(skill, arguments.episodes, 7000 + arguments.seed));
+  const auto starts = rl::DrawStarts(skill, arguments.episodes, 7000 + arguments.seed);
+  const rl::SkillEvaluation evaluation = policy
+                                             ? rl::Evaluate(skill, rl::ReadPolicy(*policy), starts)
+                                             : rl::EvaluateScript(skill, starts);
   if (arguments.by_task) PrintByTask(skill, evaluation);
   return evaluation;
 }
@@ -136,6 +142,7 @@ CellResult Train(const pipeline::SuiteCell& cell, const Arguments& arguments,
   request.minutes = arguments.minutes > 0.0 ? arguments.minutes : cell.minutes;
   request.samples = 1'000'000'000;
   request.seed = arguments.seed;
+  request.imitated_samples = arguments.imitated;
   request.robot = cell.robot;
   request.resume = true;
   const pipeline::TrainReport report = pipeline::TrainTask(request, progress);
@@ -165,6 +172,9 @@ void Run(const Arguments& arguments) {
     const fs::path shipped = pipeline::ShippedPolicy(arguments.models, cell.name);
     if (arguments.train) {
       result = Train(cell, arguments, &progress);
+    } else if (arguments.script) {
+      result.name = cell.name;
+      result.unseen = EvaluateUnseen(cell, std::nullopt, arguments, &progress);
     } else if (fs::exists(shipped)) {
       result.name = cell.name;
       result.unseen = EvaluateUnseen(cell, shipped, arguments, &progress);
@@ -185,6 +195,9 @@ int main(int argc, char** argv) {
   simwright::Arguments arguments;
   app.add_option("--cell", arguments.cell, "One cell, or all")->capture_default_str();
   app.add_flag("--train", arguments.train, "Train it; else the shipped policy is evaluated");
+  app.add_flag("--script", arguments.script, "Evaluate the script that training begins from");
+  app.add_option("--imitate", arguments.imitated, "Decisions that imitate the script at first")
+      ->capture_default_str();
   app.add_flag("--ship", arguments.ship, "Write policy, card and curves into models/skills");
   app.add_flag("--by-task", arguments.by_task, "Also say how often each task succeeds");
   app.add_option("--minutes", arguments.minutes, "Of training; 0: the cell's own");

@@ -83,6 +83,70 @@ TEST(Ppo, ComesWithinAFewPercentOfTheBestPolicy) {
   core::SetThreadCount(0);
 }
 
+// Shows the best policy, and pays nothing.
+class ShownReach : public ReachEnvironment {
+ public:
+  using ReachEnvironment::ReachEnvironment;
+  void Reset(std::uint64_t seed, Rows* observations) override {
+    ReachEnvironment::Reset(seed, observations);
+    now_ = *observations;
+  }
+  void Step(const Rows& actions, StepBatch* batch) override {
+    ReachEnvironment::Step(actions, batch);
+    std::fill(batch->rewards.begin(), batch->rewards.end(), 0.0f);
+    now_ = batch->observations;
+  }
+  bool Demonstrate(Rows* actions) const override {
+    const Eigen::RowVector2f gain = BestGain(0.99).cast<float>() / kPush;
+    *actions = (-now_ * gain.transpose()).cwiseMax(-1.0f).cwiseMin(1.0f);
+    return true;
+  }
+
+ private:
+  Rows now_;
+};
+
+TEST(Ppo, ImitatesWhatIsShownAndKeepsItAfterwards) {
+  core::SetThreadCount(2);
+  ShownReach environment(32);
+  PpoOptions options = SmallOptions();
+  options.imitated_samples = 30 * 32 * 32;
+  Ppo ppo(&environment, options);
+  std::vector<Outcome> outcomes;
+  const auto learnt = [&](const Rows& x, Rows* actions) { ppo.CurrentPolicy().Act(x, actions); };
+  const auto learn = [&](int iterations) {
+    for (int i = 0; i < iterations; ++i) {
+      ppo.Collect(&outcomes);
+      ppo.Update();
+    }
+    return MeanReward(learnt, 240);
+  };
+  const Eigen::RowVector2f gain = BestGain(0.99).cast<float>() / ReachEnvironment::kPush;
+  const double best =
+      MeanReward([&](const Rows& x, Rows* actions) { *actions = -x * gain.transpose(); }, 240);
+  EXPECT_GT(learn(30), 1.03 * best) << "best " << best;
+  EXPECT_EQ(ppo.CurrentPolicy().std()[0], static_cast<float>(options.initial_std));
+  // Nothing is shown any more, and nothing is gained by doing otherwise.
+  EXPECT_GT(learn(3), 1.1 * best);
+  core::SetThreadCount(0);
+}
+
+TEST(Ppo, LearnsByItselfWhereNothingIsShown) {
+  const auto weights = [](std::int64_t imitated) {
+    ReachEnvironment environment(16);
+    PpoOptions options = SmallOptions();
+    options.imitated_samples = imitated;
+    Ppo ppo(&environment, options);
+    std::vector<Outcome> outcomes;
+    for (int iteration = 0; iteration < 2; ++iteration) {
+      ppo.Collect(&outcomes);
+      ppo.Update();
+    }
+    return ppo.CurrentPolicy().actor().layers()[1].weights;
+  };
+  EXPECT_TRUE((weights(0).array() == weights(100000).array()).all());
+}
+
 TEST(Ppo, TheSameSeedGivesTheSamePolicyBitForBitAndAnotherDoesNot) {
   core::SetThreadCount(2);
   const auto weights = [](std::uint64_t seed) {

@@ -77,25 +77,4 @@ inline SkillSubtask OpenDoor(const std::string& name = "microwave") {
   return scene;
 }
 
-// What a hand that knows its way does: gets to the focus from above, closes, waits.
-class ScriptedPick {
- public:
-  void Act(const Episode& episode, float* action) {
-    const SkillVariant& variant =
-        episode.skill().variants[static_cast<size_t>(episode.start().variant)];
-    const tasks::SceneState& state = episode.state();
-    const Eigen::Vector3d off =
-        ToolAtFocus(variant, state, state.gripper.linear().col(1), episode.start().pitch)
-            .inverse() *
-        state.gripper.translation();
-    std::fill(action, action + 6, 0.0f);
-    if (!closing_ && off.head<2>().norm() > 0.02) action[2] = -0.9f;
-    closing_ = closing_ || off.norm() < 0.015;
-    action[6] = closing_ ? -1.0f : 1.0f;
-  }
-
- private:
-  bool closing_ = false;
-};
-
 }  // namespace simwright::rl

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "rl/arm_clearance.h"
+#include "rl/scripted_hand.h"
 #include "rl/skill_environment.h"
 #include "rl/skill_evaluation.h"
 #include "rl/start_pool.h"
@@ -120,12 +121,11 @@ TEST(Episode, AScriptedHandPicksUpTheCup) {
   const auto starts = DrawStarts(*skill, 12, 11);
   for (const EpisodeStart& start : starts) {
     episode.Begin(start);
-    ScriptedPick hand;
     Decision decision;
     float action[7];
     int held = 0;
     while (!decision.terminated && !decision.truncated) {
-      hand.Act(episode, action);
+      ScriptedAction(episode, action);
       decision = episode.Step(action);
       held = decision.success ? held + 1 : 0;
     }

@@ -1,0 +1,66 @@
+#include "rl/carry_plan.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "rl/arm_clearance.h"
+#include "rl/posture_search.h"
+#include "rl/tool_follower.h"
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr double kTurns[] = {0.0,         0.25 * M_PI, -0.25 * M_PI, 0.5 * M_PI,
+                             -0.5 * M_PI, 0.75 * M_PI, -0.75 * M_PI, M_PI};  // rad
+
+struct Arrival {
+  CarryPlan plan;
+  robot::Posture there;  // (J) with the tool at the destination
+};
+
+// Those with the hand turned by `turn`, the one soonest reached first.
+std::vector<Arrival> ArrivalsAt(const Skill& skill, const SkillVariant& variant,
+                                const CarryTask& task, double turn, const robot::Posture& from) {
+  core::Rng rng = core::StreamRng(0, 0);  // the same end has the same plan
+  Isometry3d there = task.there;
+  there.linear() = Eigen::AngleAxisd(turn, Vector3d::UnitZ()) * there.linear();
+  Isometry3d before = there;
+  before.translation() += task.back;
+  std::vector<ReachingPosture> postures = PosturesAt(skill, variant, before, from, rng);
+  std::sort(postures.begin(), postures.end(),
+            [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
+  std::vector<Arrival> arrivals;
+  for (const ReachingPosture& reaching : postures) {
+    ToolFollower follower(skill, variant, reaching.posture);
+    if (!follower.Goes(there)) continue;
+    arrivals.push_back({{turn, reaching.posture, {}}, follower.posture()});
+  }
+  return arrivals;
+}
+
+}  // namespace
+
+std::optional<CarryPlan> PlanCarry(const Skill& skill, const SkillVariant& variant,
+                                   const tasks::SceneState& state, const CarryTask& task,
+                                   const robot::Posture& from) {
+  const ArmClearance clearance(skill, variant, state, variant.focus->thing);
+  std::optional<CarryPlan> any, longer;
+  for (const double turn : kTurns) {
+    if (turn != 0.0 && !task.may_turn) break;
+    for (const Arrival& arrival : ArrivalsAt(skill, variant, task, turn, from)) {
+      if (!any) any = arrival.plan;
+      if (!clearance.IsClear(arrival.there)) continue;
+      const auto way = PlanDetour(skill, clearance, from, arrival.plan.arrival);
+      if (way && way->empty()) return arrival.plan;
+      if (!way || longer) continue;
+      longer = arrival.plan;
+      longer->via = *way;
+    }
+  }
+  return longer ? longer : any;
+}
+
+}  // namespace simwright::rl

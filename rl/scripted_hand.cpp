@@ -1,0 +1,155 @@
+#include "rl/scripted_hand.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rl/observation.h"
+#include "rl/reach_plan.h"
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// The hand closes where it is so near to its work, and opens again where it has lost it by more:
+// what gives way between its fingers is not lost.
+constexpr double kThere = 0.03, kLost = 0.045;    // m
+constexpr double kAligned = 0.3, kTwisted = 0.8;  // rad
+constexpr double kGripGain = 3.0;
+constexpr double kBesideFree = 0.007, kBackPerBeside = 4.0, kFarthestBack = 0.04;  // m; m a m; m
+constexpr double kClosed = 0.1;      // of the opening that is asked for
+constexpr double kAhead = 0.06;      // m that a part is pulled by ahead of it
+constexpr double kTurnAhead = 0.35;  // rad
+constexpr double kArrived = 0.025;   // m from the destination: lets go
+constexpr double kPushing = 0.02;    // m ahead of its place behind it, the hand touches the thing
+constexpr double kNearGoal = 0.01;   // m: what is so near to its goal is left there
+
+// What the script looks at.
+struct Glance {
+  const SkillVariant& variant;
+  const SkillOptions& options;
+  const FocusFrame& frame;
+  const tasks::SceneState& state;
+  Vector3d off;        // m, the tool from where it works, in the focus' frame
+  double angle = 0.0;  // rad that it is turned
+  double asked = 0.0;  // share of the opening that the fingers are sent to
+};
+
+Glance GlanceAt(const Episode& episode) {
+  const Skill& skill = episode.skill();
+  const SkillVariant& variant = skill.variants[static_cast<size_t>(episode.start().variant)];
+  const FocusFrame& frame = episode.frame();
+  const Isometry3d off = frame.world_from_focus().inverse() * episode.state().gripper;
+  const Eigen::AngleAxisd straight(-frame.lean(), Vector3d::UnitY());
+  const robot::Gripper& gripper = skill.robot->gripper;
+  return {variant,
+          skill.options,
+          frame,
+          episode.state(),
+          off.translation(),
+          Eigen::AngleAxisd(off.linear() * straight).angle(),
+          gripper.Opening(episode.command().leader) / gripper.MaxOpening()};
+}
+
+// What the fingers shall do: close, below 0, where the hand is at its work, as near as they demand
+// that are open or have closed. Without jumps, which a network learns late.
+double GripAt(const Glance& glance) {
+  const double distance = kLost + glance.asked * (kThere - kLost);
+  const double angle = kTwisted + glance.asked * (kAligned - kTwisted);
+  const double off = std::max(glance.off.norm() / distance, glance.angle / angle);
+  return std::clamp(kGripGain * (off - 1.0), -1.0, 1.0);
+}
+
+void Ask(const Vector3d& part, double unit, float* action) {
+  for (int i = 0; i < 3; ++i) {
+    action[i] = static_cast<float>(std::clamp(part[i] / unit, -1.0, 1.0));
+  }
+}
+
+// Unit, world.
+Vector3d AxisOf(const tasks::Thing& thing, const tasks::ThingJoint& joint, const Isometry3d& root,
+                const std::vector<double>& positions) {
+  const Isometry3d& link = tasks::LinkPosesOf(thing, positions)[static_cast<size_t>(joint.link)];
+  return root.linear() * link.linear() * joint.axis;
+}
+
+// An open hand that is beside its work stays farther back than it has to: were it let down a
+// fingerbreadth aside, a finger would come down on what it shall take.
+void ComeFromBehind(const Glance& glance, float* action) {
+  const Vector3d& back = glance.frame.back();
+  const double beside = (glance.off - glance.off.dot(back) * back).norm();
+  const double stay = kBackPerBeside * std::max(0.0, beside - kBesideFree);
+  Ask(std::min(stay, kFarthestBack) * back, glance.options.reach, action);
+}
+
+void WorkPart(const Glance& glance, float* action) {
+  const double grip = GripAt(glance);
+  action[6] = static_cast<float>(grip);
+  if (grip > 0.0) ComeFromBehind(glance, action);
+  const double pull = std::max(0.0, -grip) * std::max(0.0, 1.0 - glance.asked / kClosed);
+  if (pull == 0.0) return;
+  const Vector3d way = glance.frame.free_way();
+  if (!way.isZero()) {
+    Ask(pull * kAhead * way, glance.options.reach, action);
+    return;
+  }
+  const Focus& focus = *glance.variant.focus;
+  const auto thing = static_cast<size_t>(focus.thing), j = static_cast<size_t>(focus.joint);
+  const tasks::ThingJoint& joint = glance.variant.model.things[thing].joints[j];
+  const double described = glance.variant.start.joints[thing][j];
+  const double sense = WorkEnd(joint, described) > described ? 1.0 : -1.0;
+  const Vector3d axis = glance.frame.world_from_focus().linear().transpose() *
+                        AxisOf(glance.variant.model.things[thing], joint, glance.state.roots[thing],
+                               glance.state.joints[thing]);
+  Ask(pull * sense * kTurnAhead * axis, glance.options.turn, action + 3);
+}
+
+void Push(const Glance& glance, float* action) {
+  action[6] = -1.0f;
+  const bool behind = std::abs(glance.off.y()) < kLost && std::abs(glance.off.z()) < kLost &&
+                      glance.off.x() < 2.0 * kPushing;
+  if (!behind) return;
+  const double missing = WayToDestination(glance.variant, glance.state).norm();
+  Ask(Vector3d(missing + kPushing - kNearGoal, 0.0, 0.0), glance.options.reach, action);
+}
+
+void Carry(const Glance& glance, float* action) {
+  const bool putting = glance.variant.starts_held;
+  if (glance.frame.at_destination()) {
+    const double missing = WayToDestination(glance.variant, glance.state).norm();
+    const double early = putting ? kGripGain * (1.0 - missing / kArrived) : -1.0;
+    action[6] = static_cast<float>(std::clamp(early, -1.0, 1.0));
+    return;
+  }
+  const double grip = GripAt(glance);
+  action[6] = static_cast<float>(grip);
+  if (grip > 0.0) ComeFromBehind(glance, action);
+  const bool held = glance.state.grasped && glance.state.touched == glance.variant.focus->thing;
+  if (!held || glance.variant.destination) return;
+  const Vector3d up = glance.frame.world_from_focus().linear().transpose() * Vector3d::UnitZ();
+  Ask(glance.options.reach * up, glance.options.reach, action);
+}
+
+}  // namespace
+
+bool HasScript(const Skill& skill) {
+  return skill.options.action == ActionSpace::kFocus;
+}
+
+void ScriptedAction(const Episode& episode, float* action) {
+  std::fill(action, action + 7, 0.0f);
+  const Glance glance = GlanceAt(episode);
+  if (!glance.variant.focus) return;
+  if (glance.frame.withdrawing()) {
+    action[6] = 1.0f;
+  } else if (glance.variant.focus->joint >= 0) {
+    WorkPart(glance, action);
+  } else if (Pushes(glance.variant)) {
+    Push(glance, action);
+  } else {
+    Carry(glance, action);
+  }
+}
+
+}  // namespace simwright::rl

@@ -1,0 +1,41 @@
+#include "rl/tool_follower.h"
+
+#include <algorithm>
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Isometry3d;
+
+constexpr double kPosition = 0.01, kAngle = 0.15;  // m, rad: what is off at most
+constexpr double kStride = 0.03;                   // m of the tool between two looks
+constexpr double kTurn = 0.12;                     // rad
+constexpr double kJointStep = 0.1;                 // rad or m of any joint in one look
+
+}  // namespace
+
+ToolFollower::ToolFollower(const Skill& skill, const SkillVariant& variant,
+                           const robot::Posture& from)
+    : skill_(skill),
+      base_from_world_(variant.subtask.start.world_from_robot.inverse()),
+      step_(robot::Posture::Constant(from.size(), kJointStep)),
+      posture_(from) {}
+
+bool ToolFollower::Goes(const Isometry3d& world_from_tool) {
+  const Isometry3d target = base_from_world_ * world_from_tool;
+  const Isometry3d now = robot::ForwardKinematics(skill_.robot->arm, posture_);
+  const Eigen::Quaterniond a(now.linear()), b(target.linear());
+  const double way = (target.translation() - now.translation()).norm();
+  const int strides = 1 + static_cast<int>(std::max(way / kStride, a.angularDistance(b) / kTurn));
+  robot::PoseError error;
+  for (int i = 1; i <= strides + 4; ++i) {
+    const double share = std::min(1.0, static_cast<double>(i) / strides);
+    Isometry3d next = Isometry3d::Identity();
+    next.translation() = now.translation() + share * (target.translation() - now.translation());
+    next.linear() = a.slerp(share, b).toRotationMatrix();
+    error = skill_.kinematics->Track(next, step_, &posture_);
+  }
+  return error.position < kPosition && error.angle < kAngle;
+}
+
+}  // namespace simwright::rl
