@@ -50,9 +50,11 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
       ->add_option_function<std::string>(
           "--action",
           [request](const std::string& name) { request->action = rl::ActionSpaceOf(name); },
-          "What an action says: the tool seen from what it works on (focus) or from the robot\n"
-          "(absolute), a step of the tool (delta) or of the joints (joints)")
-      ->check(CLI::IsMember({"focus", "absolute", "delta", "joints"}))
+          "What an action says: the tool seen from what it works on (focus), the same beside what\n"
+          "a script does (guided), seen from the robot (absolute), a step of the tool (delta) or "
+          "of\n"
+          "the joints (joints)")
+      ->check(CLI::IsMember({"focus", "guided", "absolute", "delta", "joints"}))
       ->default_str("focus");
   command->add_option("--seconds", request->episode_seconds, "Of an episode, at most")
       ->check(CLI::Range(0.5, 600.0))

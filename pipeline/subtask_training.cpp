@@ -52,15 +52,22 @@ rl::TrainingOptions OptionsFor(const TrainRequest& request, const SkillRun& run,
   options.ppo.target_kl = 0.02;
   // Zero is already where the hand works, and what is drawn knocks things over; more so where a
   // script is known: with 0.35 it succeeds in a third of the episodes in which it does with 0.
-  const bool imitates = request.imitated_samples > 0 && rl::HasScript(*skill.skill);
-  options.ppo.initial_std = imitates ? 0.15 : 0.35;
+  const bool scripted = run.options.action == rl::ActionSpace::kGuided ||
+                        (request.imitated_samples > 0 && rl::HasScript(*skill.skill));
+  options.ppo.initial_std = scripted ? 0.15 : 0.35;
+  if (run.options.action == rl::ActionSpace::kGuided) {
+    options.ppo.critic_samples = 5 * options.ppo.horizon * run.environments;
+    options.ppo.learning_rate = 3e-4;
+  }
   options.ppo.imitated_samples = request.imitated_samples;
   options.ppo.seed = request.seed;
   options.max_samples = request.samples;
   options.max_seconds = 60.0 * request.minutes;
   options.success_target = request.target;
-  options.facts = {
-      {"task", run.set.tasks.front().name}, {"subtask", skill.name}, {"robot", run.robot}};
+  options.facts = {{"task", run.set.tasks.front().name},
+                   {"subtask", skill.name},
+                   {"robot", run.robot},
+                   {"action", rl::NameOf(run.options.action)}};
   options.title = skill.name;
   return options;
 }

@@ -32,6 +32,7 @@ class ArmClearance {
   std::vector<bool> grounded_;  // by link: is in the floor at home, as the foot of an arm may be
 };
 
+// ArmClearance::IsClear, for one posture.
 bool IsArmClear(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
                 const robot::Posture& arm, int held = -1);
 

@@ -5,10 +5,13 @@
 
 #include "rl/carry_plan.h"
 #include "rl/reach_plan.h"
+#include "rl/scripted_hand.h"
 
 namespace simwright::rl {
 namespace {
 
+// Of the fingers' part of an action: all of it has to overrule the script.
+constexpr float kOverrule = 2.0f;
 constexpr double kFar = 0.25;  // m: to what is nearer the tool goes straight
 
 }  // namespace
@@ -25,7 +28,8 @@ struct Episode::Program {
 Episode::Episode(const Skill& skill)
     : skill_(skill),
       programs_(skill.variants.size()),
-      action_(static_cast<size_t>(ActionSize(skill))) {}
+      action_(static_cast<size_t>(ActionSize(skill))),
+      guided_(action_.size()) {}
 
 Episode::~Episode() = default;
 
@@ -110,7 +114,15 @@ Decision Episode::Step(const float* action) {
   work.free_way = frame_->free_way();
   work.back = frame_->back();
   work.room_depth = frame_->room_depth();
-  Act(TargetOf(skill_, action_.data(), work, command_));
+  if (skill_.options.action == ActionSpace::kGuided) {
+    ScriptedAction(*this, guided_.data());
+    for (size_t a = 0; a < guided_.size(); ++a) {
+      const float weight = a + 1 == guided_.size() ? kOverrule : 1.0f;
+      guided_[a] = std::clamp(guided_[a] + weight * action_[a], -1.0f, 1.0f);
+    }
+  }
+  const bool guided = skill_.options.action == ActionSpace::kGuided;
+  Act(TargetOf(skill_, guided ? guided_.data() : action_.data(), work, command_));
   std::swap(previous_, state_);
   state_ = previous_;
   world_->Read(&state_);

@@ -63,7 +63,7 @@ class Episode {
   ArmCommand command_;
   Eigen::VectorXd positions_;
   ToolTarget target_;
-  std::vector<float> action_;
+  std::vector<float> action_, guided_;  // (A) the policy's, and with the script's
   std::function<void(const Episode&)> watch_;
   int decisions_ = 0;
   int held_ = 0;  // decisions in a row with success

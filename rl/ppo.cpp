@@ -41,7 +41,8 @@ void Ppo::Collect(std::vector<Outcome>* outcomes) {
 }
 
 UpdateReport Ppo::Update() {
-  return learner_->Update(rollout_);
+  const bool critic_alone = collector_.samples() <= options_.critic_samples;
+  return learner_->Update(rollout_, critic_alone);
 }
 
 Policy Ppo::CurrentPolicy() const {

@@ -133,10 +133,10 @@ void PpoLearner::Shuffle(std::vector<std::int64_t>* rows) {
   }
 }
 
-UpdateReport PpoLearner::Update(const Rollout& rollout) {
+UpdateReport PpoLearner::Update(const Rollout& rollout, bool critic_alone) {
   const Samples samples = Evaluate(rollout);
   const torch::Tensor old_log_std = networks_.log_std().detach().clone();
-  const bool imitates = rollout.shown.rows() > 0;
+  const bool by_ppo = rollout.shown.rows() == 0 && !critic_alone;
   Imitate(rollout, samples);
   std::vector<std::int64_t> rows;
   for (std::size_t i = 0; i < rollout.dropped.size(); ++i) {
@@ -156,13 +156,13 @@ UpdateReport PpoLearner::Update(const Rollout& rollout) {
     for (std::int64_t part = 0; part < parts; ++part) {
       const std::int64_t first = count * part / parts, last = count * (part + 1) / parts;
       const Samples batch = samples.Select(shuffled.narrow(0, first, last - first));
-      const PpoLoss loss = imitates ? ComputeCriticLoss(networks_, batch, old_log_std, options_)
-                                    : ComputePpoLoss(networks_, batch, old_log_std, options_);
+      const PpoLoss loss = by_ppo ? ComputePpoLoss(networks_, batch, old_log_std, options_)
+                                  : ComputeCriticLoss(networks_, batch, old_log_std, options_);
       AddMeans(loss, &report);
       kl += loss.kl.item<double>() / static_cast<double>(parts);
       Descend(loss.total, &report);
     }
-    if (!imitates) AdaptRate(kl, /*last=*/epoch + 1 == options_.epochs);
+    if (by_ppo) AdaptRate(kl, /*last=*/epoch + 1 == options_.epochs);
   }
   Divide(static_cast<double>(options_.epochs * parts), &report);
   report.learning_rate = learning_rate_;

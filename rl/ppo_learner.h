@@ -29,8 +29,9 @@ class PpoLearner {
  public:
   PpoLearner(const ActorCriticSizes& sizes, const PpoOptions& options);
 
-  // `options.epochs` passes over the rollout in shuffled minibatches.
-  UpdateReport Update(const Rollout& rollout);
+  // `options.epochs` passes over the rollout in shuffled minibatches. The actor learns unless
+  // `critic_alone`.
+  UpdateReport Update(const Rollout& rollout, bool critic_alone = false);
 
   const ActorCritic& networks() const { return networks_; }
 

@@ -27,6 +27,7 @@ std::string FaultOfSamples(const PpoOptions& options) {
   if (options.horizon < 1 || options.epochs < 1 || options.minibatch < 2) {
     return "an update takes a step, an epoch and a minibatch of 2 at least";
   }
+  if (options.critic_samples < 0) return "the number of the critic's samples is not negative";
   if (options.imitated_samples < 0 || options.imitation_steps < 1) {
     return "the number of imitated samples is not negative, imitation takes a step";
   }

@@ -38,6 +38,10 @@ struct PpoOptions {
   // the matrix products busy; below 512 the time a sample rises.
   int minibatch = 1024;
 
+  // Samples at the beginning from which only the critic learns. Where an action of zero is good
+  // already, a critic that knows nothing leads away from it: picking an apple with a guided hand,
+  // the rate of its episodes fell from 80 to 66 % in 57k samples without.
+  std::int64_t critic_samples = 0;
   // Samples at the beginning from which the actor learns what VectorEnvironment::Demonstrate shows
   // at each state that it gets to by itself (DAgger, Ross et al. 2011), and the critic what its own
   // actions are worth. Where nothing is shown, and after that, both learn by PPO.

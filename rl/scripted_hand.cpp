@@ -16,9 +16,10 @@ using Eigen::Vector3d;
 // what gives way between its fingers is not lost.
 constexpr double kThere = 0.03, kLost = 0.045;    // m
 constexpr double kAligned = 0.3, kTwisted = 0.8;  // rad
-constexpr double kGripGain = 3.0;
-constexpr double kBesideFree = 0.007, kBackPerBeside = 4.0, kFarthestBack = 0.04;  // m; m a m; m
-constexpr double kClosed = 0.1;      // of the opening that is asked for
+constexpr double kGripGain = 3.0;                 // of the action, over the share that is missing
+constexpr double kBesideFree = 0.007, kFarthestBack = 0.04;  // m
+constexpr double kBackPerBeside = 4.0;                       // m a m
+constexpr double kClosed = 0.1;                              // of the opening that is asked for
 constexpr double kAhead = 0.06;      // m that a part is pulled by ahead of it
 constexpr double kTurnAhead = 0.35;  // rad
 constexpr double kArrived = 0.025;   // m from the destination: lets go
@@ -70,8 +71,8 @@ void Ask(const Vector3d& part, double unit, float* action) {
 // Unit, world.
 Vector3d AxisOf(const tasks::Thing& thing, const tasks::ThingJoint& joint, const Isometry3d& root,
                 const std::vector<double>& positions) {
-  const Isometry3d& link = tasks::LinkPosesOf(thing, positions)[static_cast<size_t>(joint.link)];
-  return root.linear() * link.linear() * joint.axis;
+  const std::vector<Isometry3d> poses = tasks::LinkPosesOf(thing, positions);
+  return root.linear() * poses[static_cast<size_t>(joint.link)].linear() * joint.axis;
 }
 
 // An open hand that is beside its work stays farther back than it has to: were it let down a
@@ -134,7 +135,8 @@ void Carry(const Glance& glance, float* action) {
 }  // namespace
 
 bool HasScript(const Skill& skill) {
-  return skill.options.action == ActionSpace::kFocus;
+  return skill.options.action == ActionSpace::kFocus ||
+         skill.options.action == ActionSpace::kGuided;
 }
 
 void ScriptedAction(const Episode& episode, float* action) {

@@ -5,7 +5,7 @@
 namespace simwright::rl {
 
 // Whether there is a script for the skill: its actions are seen from what the hand works on
-// (ActionSpace::kFocus).
+// (ActionSpace::kFocus, kGuided).
 bool HasScript(const Skill& skill);
 
 // What a hand does that knows only where its work is (Episode::frame), into `action` (7, in

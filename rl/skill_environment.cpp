@@ -120,7 +120,7 @@ void SkillEnvironment::Step(const Rows& actions, StepBatch* batch) {
 }
 
 bool SkillEnvironment::Demonstrate(Rows* actions) const {
-  if (!HasScript(*skill_)) return false;
+  if (skill_->options.action != ActionSpace::kFocus) return false;
   actions->resize(size(), action_size_);
   for (size_t i = 0; i < slots_.size(); ++i) {
     ScriptedAction(*slots_[i].episode, actions->row(static_cast<Eigen::Index>(i)).data());

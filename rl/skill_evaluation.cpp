@@ -101,6 +101,11 @@ EvaluatedEpisode RunEpisode(const Policy& policy, const EpisodeStart& start, Epi
 }
 
 EvaluatedEpisode RunScript(const EpisodeStart& start, Episode* episode) {
+  // A guided hand follows the script where nothing else is asked for.
+  if (episode->skill().options.action == ActionSpace::kGuided) {
+    return RunBy([](const Episode&, float* action) { std::fill_n(action, 7, 0.0f); }, start,
+                 episode);
+  }
   return RunBy(ScriptedAction, start, episode);
 }
 

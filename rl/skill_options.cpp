@@ -18,9 +18,8 @@ bool IsShare(double share) {
 }
 
 constexpr std::pair<ActionSpace, const char*> kActionSpaces[] = {
-    {ActionSpace::kFocus, "focus"},
-    {ActionSpace::kAbsolute, "absolute"},
-    {ActionSpace::kDelta, "delta"},
+    {ActionSpace::kFocus, "focus"},       {ActionSpace::kGuided, "guided"},
+    {ActionSpace::kAbsolute, "absolute"}, {ActionSpace::kDelta, "delta"},
     {ActionSpace::kJoints, "joints"},
 };
 

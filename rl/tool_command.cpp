@@ -164,6 +164,7 @@ ToolTarget TargetOf(const Skill& skill, const float* action, const WorkFrame& fr
   ToolTarget target;
   target.leader = LeaderOf(skill.robot->gripper, action[ActionSize(skill) - 1], command.leader);
   switch (options.action) {
+    case ActionSpace::kGuided:
     case ActionSpace::kFocus: {
       Isometry3d offset = Offset(action, options.reach, options.turn);
       offset.rotate(Leaning(frame.lean));

@@ -25,6 +25,7 @@ constexpr double kSubtaskSeconds = 12.0;
 
 struct Arguments {
   std::string task = "all", method = "all", action = "delta";
+  std::string chain_action = rl::NameOf(pipeline::TrainRequest().action);
   double minutes = 15.0;
   bool script = false;
   std::int64_t imitated = pipeline::TrainRequest().imitated_samples;
@@ -146,6 +147,7 @@ void RunTask(const pipeline::LongTask& task, const Arguments& arguments) {
   request.samples = 1'000'000'000;
   request.minutes = arguments.minutes;
   request.imitated_samples = arguments.imitated;
+  request.action = rl::ActionSpaceOf(arguments.chain_action);
   const fs::path run = folder / ("run_chain_" + std::to_string(arguments.seed));
   const pipeline::TrainReport report = Train(task, file, run, request, arguments, &progress);
   const rl::ChainEvaluation chain = Evaluated(run, arguments);
@@ -173,6 +175,8 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"own", "sum", "all", "none"}))
       ->capture_default_str();
   app.add_option("--action", arguments.action, "Action space of the undecomposed")
+      ->capture_default_str();
+  app.add_option("--chain-action", arguments.chain_action, "Action space of the chain")
       ->capture_default_str();
   app.add_option("--minutes", arguments.minutes, "Of each subtask's training, at most")
       ->capture_default_str();

@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::string cell = "all";
+  std::string action = rl::NameOf(pipeline::TrainRequest().action);
   bool train = false, ship = false, script = false, by_task = false;
   double minutes = 0.0;  // 0: the cell's own
   int instances = 0;     // 0: the cell's own
@@ -50,12 +51,13 @@ int InstancesOf(const pipeline::SuiteCell& cell, const Arguments& arguments) {
   return arguments.instances > 0 ? arguments.instances : cell.instances;
 }
 
-pipeline::SkillRun UnseenRun(const pipeline::SuiteCell& cell, const Arguments& arguments,
-                             core::Progress* progress) {
+pipeline::SkillRun UnseenRun(const pipeline::SuiteCell& cell, rl::ActionSpace action,
+                             const Arguments& arguments, core::Progress* progress) {
   // What was lifted from the one photo is the one thing to pick.
   const bool photo = cell.kind == "photo";
   pipeline::SkillRun run;
   run.robot = cell.robot;
+  run.options.action = action;
   run.folder = arguments.output / (photo ? "seen" : "unseen") / cell.name;
   run.set =
       tasks::ReadTaskFile(MakeCellTasks(cell, photo ? pipeline::kSeenSeed : pipeline::kUnseenSeed,
@@ -78,13 +80,18 @@ void PrintByTask(const rl::Skill& skill, const rl::SkillEvaluation& evaluation) 
 rl::SkillEvaluation EvaluateUnseen(const pipeline::SuiteCell& cell,
                                    const std::optional<fs::path>& policy,
                                    const Arguments& arguments, core::Progress* progress) {
-  const auto skills = PrepareSkills(UnseenRun(cell, arguments, progress));
+  std::optional<rl::Policy> known;
+  if (policy) known = rl::ReadPolicy(*policy);
+  // Policies without that fact are from before there was more than one.
+  const bool told = known && known->facts().contains("action");
+  const rl::ActionSpace action =
+      told ? rl::ActionSpaceOf(known->facts().at("action")) : rl::ActionSpace::kFocus;
+  const auto skills = PrepareSkills(UnseenRun(cell, action, arguments, progress));
   const rl::Skill& skill = *skills.front().evaluated;
   progress->Stage("evaluate " + cell.name);
   const auto starts = rl::DrawStarts(skill, arguments.episodes, 7000 + arguments.seed);
-  const rl::SkillEvaluation evaluation = policy
-                                             ? rl::Evaluate(skill, rl::ReadPolicy(*policy), starts)
-                                             : rl::EvaluateScript(skill, starts);
+  const rl::SkillEvaluation evaluation =
+      known ? rl::Evaluate(skill, *known, starts) : rl::EvaluateScript(skill, starts);
   if (arguments.by_task) PrintByTask(skill, evaluation);
   return evaluation;
 }
@@ -143,6 +150,7 @@ CellResult Train(const pipeline::SuiteCell& cell, const Arguments& arguments,
   request.samples = 1'000'000'000;
   request.seed = arguments.seed;
   request.imitated_samples = arguments.imitated;
+  request.action = rl::ActionSpaceOf(arguments.action);
   request.robot = cell.robot;
   request.resume = true;
   const pipeline::TrainReport report = pipeline::TrainTask(request, progress);
@@ -196,6 +204,8 @@ int main(int argc, char** argv) {
   app.add_option("--cell", arguments.cell, "One cell, or all")->capture_default_str();
   app.add_flag("--train", arguments.train, "Train it; else the shipped policy is evaluated");
   app.add_flag("--script", arguments.script, "Evaluate the script that training begins from");
+  app.add_option("--action", arguments.action, "What an action says (train --help)")
+      ->capture_default_str();
   app.add_option("--imitate", arguments.imitated, "Decisions that imitate the script at first")
       ->capture_default_str();
   app.add_flag("--ship", arguments.ship, "Write policy, card and curves into models/skills");

@@ -120,6 +120,20 @@ TEST(ArmClearance, KnowsTheFloorAndWhatIsOnTheWay) {
   const auto right = PosturesAt(*skill, variant, tool, left.front().posture, rng);
   ASSERT_FALSE(right.empty());
   EXPECT_FALSE(clearance.IsWayClear(left.front().posture, right.front().posture));
+  // Folded, it gets round.
+  const auto detour = PlanDetour(*skill, clearance, left.front().posture, right.front().posture);
+  ASSERT_TRUE(detour);
+  ASSERT_FALSE(detour->empty());
+  robot::Posture at = left.front().posture;
+  for (const robot::Posture& next : *detour) {
+    EXPECT_TRUE(clearance.IsWayClear(at, next));
+    at = next;
+  }
+  EXPECT_TRUE(clearance.IsWayClear(at, right.front().posture));
+  const auto straight = PlanDetour(*skill, clearance, home, above.front().posture);
+  ASSERT_TRUE(straight);
+  EXPECT_TRUE(straight->empty());
+  EXPECT_FALSE(PlanDetour(*skill, clearance, home, below.front().posture));
 }
 
 TEST(CarryPlan, ArrivesAboveTheDrawerInNothing) {

@@ -131,6 +131,27 @@ TEST(Ppo, ImitatesWhatIsShownAndKeepsItAfterwards) {
   core::SetThreadCount(0);
 }
 
+TEST(Ppo, LetsTheCriticLearnAloneAtFirst) {
+  core::SetThreadCount(2);
+  ReachEnvironment environment(32);
+  PpoOptions options = SmallOptions();
+  options.critic_samples = 10 * 32 * 32;
+  Ppo ppo(&environment, options);
+  std::vector<Outcome> outcomes;
+  const Eigen::MatrixXf before = ppo.CurrentPolicy().actor().layers()[1].weights;
+  UpdateReport report;
+  for (int i = 0; i < 10; ++i) {
+    ppo.Collect(&outcomes);
+    report = ppo.Update();
+  }
+  EXPECT_TRUE((before.array() == ppo.CurrentPolicy().actor().layers()[1].weights.array()).all());
+  EXPECT_GT(report.explained_variance, 0.3);
+  ppo.Collect(&outcomes);
+  ppo.Update();
+  EXPECT_FALSE((before.array() == ppo.CurrentPolicy().actor().layers()[1].weights.array()).all());
+  core::SetThreadCount(0);
+}
+
 TEST(Ppo, LearnsByItselfWhereNothingIsShown) {
   const auto weights = [](std::int64_t imitated) {
     ReachEnvironment environment(16);

@@ -52,11 +52,35 @@ TEST(ScriptedHand, IsWhatAnEnvironmentShows) {
   ASSERT_TRUE(environment.Demonstrate(&shown));
   ASSERT_EQ(shown.rows(), 3);
   ASSERT_EQ(shown.cols(), 7);
-  // Far from the handle a hand is open and asks for nothing else.
+  // Far from the handle, and off its axis, a hand is open and stays back.
   for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(shown.row(i).head(6).cwiseAbs().maxCoeff(), 0.0f);
+    EXPECT_EQ(shown.row(i).head(2).cwiseAbs().maxCoeff(), 0.0f);
+    EXPECT_NEAR(shown(i, 2), -0.04 / SkillOptions().reach, 1e-6);
+    EXPECT_EQ(shown.row(i).segment(3, 3).cwiseAbs().maxCoeff(), 0.0f);
     EXPECT_EQ(shown(i, 6), 1.0f);
   }
+}
+
+TEST(ScriptedHand, IsWhatAGuidedHandDoesByItself) {
+  SkillOptions options = SkillOptions().ForEvaluation();
+  const auto focus = MakeSkill(robot::Panda(false), {OpenDoor()}, options);
+  options.action = ActionSpace::kGuided;
+  const auto guided = MakeSkill(robot::Panda(false), {OpenDoor()}, options);
+  const EpisodeStart start = DrawStarts(*focus, 1, 7).front();
+  Episode by_script(*focus), by_itself(*guided), overruled(*guided);
+  by_script.Begin(start);
+  by_itself.Begin(start);
+  overruled.Begin(start);
+  float action[7], none[7] = {}, closing[7] = {0, 0, 0, 0, 0, 0, -1};
+  for (int i = 0; i < 60; ++i) {
+    ScriptedAction(by_script, action);
+    by_script.Step(action);
+    by_itself.Step(none);
+    if (i < 8) overruled.Step(closing);
+  }
+  EXPECT_EQ(by_script.state().joints, by_itself.state().joints);
+  EXPECT_TRUE(by_script.state().gripper.matrix() == by_itself.state().gripper.matrix());
+  EXPECT_LT(overruled.state().opening, 0.02);  // the script leaves it open there
 }
 
 TEST(ScriptedHand, KnowsNothingOfOtherActionSpaces) {
