@@ -69,6 +69,11 @@ const SuiteCell& CellOf(const std::string& name) {
   throw core::Error("there is no cell '" + name + "'", "the suite", "it has " + names);
 }
 
+rl::ActionSpace ActionSpaceOf(const rl::Policy& policy) {
+  const auto fact = policy.facts().find("action");
+  return fact == policy.facts().end() ? rl::ActionSpace::kFocus : rl::ActionSpaceOf(fact->second);
+}
+
 fs::path ShippedPolicy(const fs::path& models, const std::string& cell) {
   return models / "skills" / (cell + ".pt");
 }

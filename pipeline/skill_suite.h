@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "rl/policy.h"
+#include "rl/skill_options.h"
 #include "tasks/task.h"
 
 namespace simwright::pipeline {
@@ -32,6 +34,10 @@ const std::vector<SuiteCell>& SkillSuite();
 
 // Throws core::Error, listing those that are there.
 const SuiteCell& CellOf(const std::string& name);
+
+// What the policy's actions say: its fact `action`, else "focus", as of all from before there was
+// that fact. Throws core::Error for an action space that there is not.
+rl::ActionSpace ActionSpaceOf(const rl::Policy& policy);
 
 // Where a cell's policy is shipped.
 std::filesystem::path ShippedPolicy(const std::filesystem::path& models, const std::string& cell);

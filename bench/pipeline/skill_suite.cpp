@@ -82,10 +82,8 @@ rl::SkillEvaluation EvaluateUnseen(const pipeline::SuiteCell& cell,
                                    const Arguments& arguments, core::Progress* progress) {
   std::optional<rl::Policy> known;
   if (policy) known = rl::ReadPolicy(*policy);
-  // Policies without that fact are from before there was more than one.
-  const bool told = known && known->facts().contains("action");
   const rl::ActionSpace action =
-      told ? rl::ActionSpaceOf(known->facts().at("action")) : rl::ActionSpace::kFocus;
+      known ? pipeline::ActionSpaceOf(*known) : pipeline::TrainRequest().action;
   const auto skills = PrepareSkills(UnseenRun(cell, action, arguments, progress));
   const rl::Skill& skill = *skills.front().evaluated;
   progress->Stage("evaluate " + cell.name);
@@ -116,7 +114,14 @@ std::string Settings(const Arguments& arguments) {
   if (arguments.instances > 0) {
     std::snprintf(instances, sizeof(instances), " --instances %d", arguments.instances);
   }
-  return std::string(minutes) + instances;
+  char imitated[48] = "";
+  if (arguments.imitated != pipeline::TrainRequest().imitated_samples) {
+    std::snprintf(imitated, sizeof(imitated), " --imitate %lld",
+                  static_cast<long long>(arguments.imitated));
+  }
+  const bool other = arguments.action != rl::NameOf(pipeline::TrainRequest().action);
+  return std::string(minutes) + instances + imitated +
+         (other ? " --action " + arguments.action : "");
 }
 
 // What somebody who finds the file wants to know.
@@ -132,9 +137,12 @@ std::string Card(const pipeline::SuiteCell& cell, const Arguments& arguments,
       "| skill | samples | minutes | successes | rate (95 %) | mean time "
       "|\n|---|---|---|---|---|---|\n";
   card += Row(result);
-  card += "\nTrained on " + std::to_string(InstancesOf(cell, arguments)) +
-          " instances, evaluated on " + std::to_string(pipeline::kUnseenInstances) +
-          " others, from full starts (docs/skills.md).\n\n![training](" + cell.name + ".svg)\n";
+  card += cell.kind == "photo"
+              ? "\nTrained and evaluated on the one that was lifted, from other full starts"
+              : "\nTrained on " + std::to_string(InstancesOf(cell, arguments)) +
+                    " instances, evaluated on " + std::to_string(pipeline::kUnseenInstances) +
+                    " others, from full starts";
+  card += " (docs/skills.md).\n\n![training](" + cell.name + ".svg)\n";
   return card;
 }
 

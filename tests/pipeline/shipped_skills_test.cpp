@@ -30,20 +30,21 @@ class ShippedSkill : public testing::TestWithParam<std::string> {};
 // Their cards say 85 % and more of 300 episodes; of 60 that is less than 70 % in one case of 1000.
 TEST_P(ShippedSkill, SucceedsOnAssetsThatItHasNotSeen) {
   const SuiteCell& cell = CellOf(GetParam());
-  const fs::path policy = ShippedPolicy(kModels, cell.name);
-  EXPECT_TRUE(fs::exists(fs::path(policy).replace_extension(".md"))) << "a policy without a card";
+  const fs::path file = ShippedPolicy(kModels, cell.name);
+  EXPECT_TRUE(fs::exists(fs::path(file).replace_extension(".md"))) << "a policy without a card";
+  const rl::Policy policy = rl::ReadPolicy(file);
   const core::TemporaryFolder folder;
   core::Progress progress;
   SkillRun run;
   run.robot = cell.robot;
+  run.options.action = ActionSpaceOf(policy);
   run.folder = folder.path();
   run.set = tasks::ReadTaskFile(
       MakeCellTasks(cell, kUnseenSeed, 2, fs::path(SIMWRIGHT_SOURCE_DIR) / "examples/coffee.png",
                     folder.path(), &progress));
   const auto skills = PrepareSkills(run);
   const rl::Skill& skill = *skills.front().evaluated;
-  const rl::SkillEvaluation found =
-      rl::Evaluate(skill, rl::ReadPolicy(policy), rl::DrawStarts(skill, 60, 5));
+  const rl::SkillEvaluation found = rl::Evaluate(skill, policy, rl::DrawStarts(skill, 60, 5));
   EXPECT_GE(found.successes, 42) << cell.name;
 }
 

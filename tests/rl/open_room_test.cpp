@@ -130,7 +130,9 @@ TEST(ArmClearance, KnowsTheFloorAndWhatIsOnTheWay) {
     at = next;
   }
   EXPECT_TRUE(clearance.IsWayClear(at, right.front().posture));
-  const auto straight = PlanDetour(*skill, clearance, home, above.front().posture);
+  robot::Posture turned = home;
+  turned[0] += 0.2;
+  const auto straight = PlanDetour(*skill, clearance, home, turned);
   ASSERT_TRUE(straight);
   EXPECT_TRUE(straight->empty());
   EXPECT_FALSE(PlanDetour(*skill, clearance, home, below.front().posture));

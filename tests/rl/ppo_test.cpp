@@ -139,13 +139,14 @@ TEST(Ppo, LetsTheCriticLearnAloneAtFirst) {
   Ppo ppo(&environment, options);
   std::vector<Outcome> outcomes;
   const Eigen::MatrixXf before = ppo.CurrentPolicy().actor().layers()[1].weights;
-  UpdateReport report;
+  double first = 0.0, last = 0.0;
   for (int i = 0; i < 10; ++i) {
     ppo.Collect(&outcomes);
-    report = ppo.Update();
+    last = ppo.Update().value_loss;
+    if (i == 0) first = last;
   }
   EXPECT_TRUE((before.array() == ppo.CurrentPolicy().actor().layers()[1].weights.array()).all());
-  EXPECT_GT(report.explained_variance, 0.3);
+  EXPECT_LT(last, 0.7 * first);
   ppo.Collect(&outcomes);
   ppo.Update();
   EXPECT_FALSE((before.array() == ppo.CurrentPolicy().actor().layers()[1].weights.array()).all());
