@@ -51,9 +51,8 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
           "--action",
           [request](const std::string& name) { request->action = rl::ActionSpaceOf(name); },
           "What an action says: the tool seen from what it works on (focus), the same beside what\n"
-          "a script does (guided), seen from the robot (absolute), a step of the tool (delta) or "
-          "of\n"
-          "the joints (joints)")
+          "a script does (guided), seen from the robot (absolute), a step of the tool (delta) or\n"
+          "of the joints (joints)")
       ->check(CLI::IsMember({"focus", "guided", "absolute", "delta", "joints"}))
       ->default_str("focus");
   command->add_option("--seconds", request->episode_seconds, "Of an episode, at most")

@@ -27,7 +27,11 @@ ChainOutcome RunChain(const std::vector<ChainLink>& links, const EpisodeStart& s
 ChainEvaluation EvaluateChain(const std::vector<ChainLink>& links, int count, std::uint64_t seed) {
   if (links.empty()) throw core::Error("a chain needs a link");
   for (const ChainLink& link : links) {
-    if (link.policy) RequireFits(*link.policy, *link.skill);
+    if (link.policy) {
+      RequireFits(*link.policy, *link.skill);
+    } else {
+      RequireScript(*link.skill);
+    }
   }
   ChainEvaluation evaluation;
   evaluation.outcomes.resize(static_cast<size_t>(count));

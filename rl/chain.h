@@ -31,7 +31,8 @@ struct ChainEvaluation {
 ChainOutcome RunChain(const std::vector<ChainLink>& links, const EpisodeStart& start,
                       core::Rng& rng);
 
-// `count` chains from starts of the first link, drawn by `seed`.
+// `count` chains from starts of the first link, drawn by `seed`. Throws core::Error without links,
+// or where a policy does not fit its skill or a skill without one has no script.
 ChainEvaluation EvaluateChain(const std::vector<ChainLink>& links, int count, std::uint64_t seed);
 
 }  // namespace simwright::rl

@@ -46,7 +46,7 @@ FocusFrame::FocusFrame(const SkillVariant& variant, const tasks::SceneState& sta
   across_ = world_from_focus_.linear().col(1);
   const Eigen::Isometry3d& root = state.roots[static_cast<size_t>(variant_.focus->thing)];
   grip_ = root.inverse() * world_from_focus_.translation();
-  at_destination_ = variant_.starts_held;
+  at_destination_ = variant_.starts_held && variant_.destination;
   below_ = tasks::LinkPoint(variant_.model, state, variant_.focus->thing, 0).z() -
            tasks::WorldBox(variant_.model, state, variant_.focus->thing).min().z();
   free_way_ = FreeWay(variant_, state, world_from_focus_);

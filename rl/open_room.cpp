@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rl/link_pose.h"
+
 namespace simwright::rl {
 namespace {
 
@@ -13,12 +15,6 @@ using tasks::SceneState;
 
 constexpr double kUpright = 0.5;  // of the opening's rise
 constexpr double kLevel = 0.5;    // of a joint's axis' rise: less slides out to a side
-
-Isometry3d WorldFromLink(const SceneModel& model, const SceneState& state, int thing, int link) {
-  const auto t = static_cast<size_t>(thing);
-  return state.roots[t] *
-         tasks::LinkPosesOf(model.things[t], state.joints[t])[static_cast<size_t>(link)];
-}
 
 }  // namespace
 

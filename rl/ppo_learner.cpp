@@ -66,6 +66,12 @@ torch::Tensor PpoLearner::OnDevice(const std::vector<float>& numbers) const {
       .to(device_, torch::kFloat, /*non_blocking=*/false, /*copy=*/true);
 }
 
+torch::Tensor PpoLearner::Indices(const std::vector<std::int64_t>& rows) const {
+  return torch::from_blob(const_cast<std::int64_t*>(rows.data()),
+                          {static_cast<std::int64_t>(rows.size())}, torch::kInt64)
+      .to(device_, torch::kInt64, /*non_blocking=*/false, /*copy=*/true);
+}
+
 std::vector<float> PpoLearner::ValuesOf(const Rows& observations) const {
   const torch::NoGradGuard no_grad;
   std::vector<float> values;
@@ -101,15 +107,17 @@ Samples PpoLearner::Evaluate(const Rollout& rollout) const {
           OnDevice(result.returns)};
 }
 
-void PpoLearner::Imitate(const Rollout& rollout, const Samples& samples) {
-  if (rollout.shown.rows() == 0) {
+void PpoLearner::Imitate(const Rollout& rollout, const Samples& samples,
+                         const std::vector<std::int64_t>& rows) {
+  if (rollout.shown.rows() == 0 || rows.empty()) {
     shown_ = {};
     return;
   }
-  const torch::Tensor actions = OnDevice(rollout.shown);
+  const torch::Tensor kept = Indices(rows);
+  const torch::Tensor observations = samples.observations.index_select(0, kept);
+  const torch::Tensor actions = OnDevice(rollout.shown).index_select(0, kept);
   const bool first = !shown_.observations.defined();
-  shown_.observations =
-      first ? samples.observations : torch::cat({shown_.observations, samples.observations});
+  shown_.observations = first ? observations : torch::cat({shown_.observations, observations});
   shown_.actions = first ? actions : torch::cat({shown_.actions, actions});
   UpdateReport ignored;
   for (int step = 0; step < options_.imitation_steps; ++step) {
@@ -120,9 +128,7 @@ void PpoLearner::Imitate(const Rollout& rollout, const Samples& samples) {
 Demonstrations PpoLearner::DrawShown() {
   std::vector<std::int64_t> rows(static_cast<std::size_t>(options_.minibatch));
   for (std::int64_t& row : rows) row = core::UniformIndex(rng_, shown_.actions.size(0));
-  const torch::Tensor drawn =
-      torch::from_blob(rows.data(), {static_cast<std::int64_t>(rows.size())}, torch::kInt64)
-          .to(device_, torch::kInt64, /*non_blocking=*/false, /*copy=*/true);
+  const torch::Tensor drawn = Indices(rows);
   return {shown_.observations.index_select(0, drawn), shown_.actions.index_select(0, drawn)};
 }
 
@@ -137,11 +143,11 @@ UpdateReport PpoLearner::Update(const Rollout& rollout, bool critic_alone) {
   const Samples samples = Evaluate(rollout);
   const torch::Tensor old_log_std = networks_.log_std().detach().clone();
   const bool by_ppo = rollout.shown.rows() == 0 && !critic_alone;
-  Imitate(rollout, samples);
   std::vector<std::int64_t> rows;
   for (std::size_t i = 0; i < rollout.dropped.size(); ++i) {
     if (!rollout.dropped[i]) rows.push_back(static_cast<std::int64_t>(i));
   }
+  Imitate(rollout, samples, rows);
   const auto count = static_cast<std::int64_t>(rows.size());
   // Parts of about equal size: a small rest would have advantages of its own scale.
   const std::int64_t parts =
@@ -151,8 +157,7 @@ UpdateReport PpoLearner::Update(const Rollout& rollout, bool critic_alone) {
   for (int epoch = 0; epoch < options_.epochs; ++epoch) {
     Shuffle(&rows);
     double kl = 0.0;
-    const torch::Tensor shuffled =
-        torch::from_blob(rows.data(), {count}, torch::kInt64).to(device_);
+    const torch::Tensor shuffled = Indices(rows);
     for (std::int64_t part = 0; part < parts; ++part) {
       const std::int64_t first = count * part / parts, last = count * (part + 1) / parts;
       const Samples batch = samples.Select(shuffled.narrow(0, first, last - first));
@@ -217,14 +222,22 @@ void PpoLearner::RestoreState(const LearnerState& state) {
       throw core::Error("holds parameters of another network");
     }
   }
+  const Demonstrations& shown = state.shown;
+  if (shown.observations.defined() &&
+      (shown.observations.size(0) < 1 || shown.actions.size(0) != shown.observations.size(0) ||
+       shown.observations.size(1) != networks_.sizes().observations ||
+       shown.actions.size(1) != networks_.sizes().actions)) {
+    throw core::Error("holds demonstrations of another size");
+  }
   std::istringstream generator(state.generator);
   if (!(generator >> rng_)) throw core::Error("holds no random generator");
   values.copy_(state.parameters);
   adam_.Restore(state.gradient_means, state.gradient_squares, state.descents);
   learning_rate_ = state.learning_rate;
   shown_ = {};
-  if (!state.shown.observations.defined()) return;
-  shown_ = {state.shown.observations.to(device_), state.shown.actions.to(device_)};
+  if (shown.observations.defined()) {
+    shown_ = {shown.observations.to(device_), shown.actions.to(device_)};
+  }
 }
 
 }  // namespace simwright::rl

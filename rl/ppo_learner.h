@@ -42,12 +42,14 @@ class PpoLearner {
  private:
   torch::Tensor OnDevice(const Rows& rows) const;
   torch::Tensor OnDevice(const std::vector<float>& numbers) const;
+  torch::Tensor Indices(const std::vector<std::int64_t>& rows) const;
   // Values (n) of `observations` (n x O).
   std::vector<float> ValuesOf(const Rows& observations) const;
   Samples Evaluate(const Rollout& rollout) const;
-  // Adds what the rollout shows to what was shown before, and brings the actor nearer to all of it.
-  // Forgets it where nothing is shown.
-  void Imitate(const Rollout& rollout, const Samples& samples);
+  // Adds what the rollout shows at `rows` to what was shown before, and brings the actor nearer to
+  // all of it. Forgets it where nothing is shown.
+  void Imitate(const Rollout& rollout, const Samples& samples,
+               const std::vector<std::int64_t>& rows);
   // Some of all that was shown, with repetition.
   Demonstrations DrawShown();
   // Fisher and Yates.

@@ -27,7 +27,7 @@ constexpr double kPitches[] = {0.0, 0.35, -0.35, 0.7, -0.7};
 constexpr double kPushPitches[] = {0.6, 0.8, 0.4};
 // Of a hand that goes into a room through its side: palm and wrist stay out of it, or below its
 // ceiling. A microwave is 20 cm high inside; upright, hand and flange alone are 25.
-constexpr double kRoomPitches[] = {0.8, 1.0, 0.6, 1.2, 1.4};
+constexpr double kRoomPitches[] = {0.8, 1.0, 0.6, 1.2};
 constexpr double kLeaning = 0.9;  // of the lean, into the room: things with corners turn the hand
 constexpr int kRoomPostures = 6;  // that are looked at: whether an arm is clear takes a millisecond
 constexpr double kPalmEdge = 0.04;  // m: what the edge comes down by, over 1 - cos(lean)

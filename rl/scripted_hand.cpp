@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rl/link_pose.h"
 #include "rl/observation.h"
 #include "rl/reach_plan.h"
 
@@ -68,13 +69,6 @@ void Ask(const Vector3d& part, double unit, float* action) {
   }
 }
 
-// Unit, world.
-Vector3d AxisOf(const tasks::Thing& thing, const tasks::ThingJoint& joint, const Isometry3d& root,
-                const std::vector<double>& positions) {
-  const std::vector<Isometry3d> poses = tasks::LinkPosesOf(thing, positions);
-  return root.linear() * poses[static_cast<size_t>(joint.link)].linear() * joint.axis;
-}
-
 // An open hand that is beside its work stays farther back than it has to: were it let down a
 // fingerbreadth aside, a finger would come down on what it shall take.
 void ComeFromBehind(const Glance& glance, float* action) {
@@ -100,9 +94,10 @@ void WorkPart(const Glance& glance, float* action) {
   const tasks::ThingJoint& joint = glance.variant.model.things[thing].joints[j];
   const double described = glance.variant.start.joints[thing][j];
   const double sense = WorkEnd(joint, described) > described ? 1.0 : -1.0;
-  const Vector3d axis = glance.frame.world_from_focus().linear().transpose() *
-                        AxisOf(glance.variant.model.things[thing], joint, glance.state.roots[thing],
-                               glance.state.joints[thing]);
+  const Isometry3d link =
+      WorldFromLink(glance.variant.model, glance.state, focus.thing, joint.link);
+  const Vector3d axis =
+      glance.frame.world_from_focus().linear().transpose() * link.linear() * joint.axis;
   Ask(pull * sense * kTurnAhead * axis, glance.options.turn, action + 3);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rl/link_pose.h"
+
 namespace simwright::rl {
 namespace {
 
@@ -14,12 +16,6 @@ using tasks::SceneState;
 constexpr double kLevel = 0.5;        // of the opening's rise: less is to a side
 constexpr double kBehind = 0.02;      // m between the thing and the opening's plane
 constexpr double kAboveFloor = 0.01;  // m, from where it is let go of
-
-Isometry3d WorldFromLink(const SceneModel& model, const SceneState& state, int thing, int link) {
-  const auto t = static_cast<size_t>(thing);
-  return state.roots[t] *
-         tasks::LinkPosesOf(model.things[t], state.joints[t])[static_cast<size_t>(link)];
-}
 
 // m from the room's middle to the plane of its opening.
 double HalfDepth(const SideRoom& room) {

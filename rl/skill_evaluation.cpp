@@ -21,6 +21,13 @@ void RequireFits(const Policy& policy, const Skill& skill) {
                     "train it for this task, robot and action space");
 }
 
+void RequireScript(const Skill& skill) {
+  if (HasScript(skill)) return;
+  throw core::Error(
+      "there is no script for the action space '" + NameOf(skill.options.action) + "'",
+      "subtask " + skill.variants.front().subtask.name, "take focus or guided, or a policy");
+}
+
 std::vector<EpisodeStart> DrawStarts(const Skill& skill, int count, std::uint64_t seed) {
   std::vector<EpisodeStart> starts(static_cast<size_t>(count));
   core::ParallelFor(count, [&](int i) {
@@ -121,7 +128,7 @@ SkillEvaluation Evaluate(const Skill& skill, const Policy& policy,
 }
 
 SkillEvaluation EvaluateScript(const Skill& skill, const std::vector<EpisodeStart>& starts) {
-  if (!HasScript(skill)) throw core::Error("there is no script for this action space", "skill");
+  RequireScript(skill);
   return EvaluateBy(skill, RunScript, starts);
 }
 

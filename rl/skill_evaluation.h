@@ -48,6 +48,9 @@ EvaluatedEpisode RunScript(const EpisodeStart& start, Episode* episode);
 // What the episode has come to, as a start: things and arm where they are, at rest.
 EpisodeStart EndOf(const Episode& episode);
 
+// Throws core::Error unless the skill has a script (HasScript).
+void RequireScript(const Skill& skill);
+
 // Throws core::Error unless the policy sees and does what the skill shows and takes.
 void RequireFits(const Policy& policy, const Skill& skill);
 

@@ -8,9 +8,9 @@ namespace simwright::rl {
 enum class ActionSpace {
   // Where the tool shall be as seen from what the hand works on: offset, turn, opening.
   kFocus,
-  // The same, beside what a script asks for there (ScriptedAction): zero follows the script. What
+  // The same, beside what a script asks for there (ScriptedAction): zero follows the script, what
   // is
-  // learnt is where the script is wrong (residual learning: Johannink et al. 2019).
+  // learnt is where it is wrong (residual learning: Johannink et al. 2019).
   kGuided,
   // The same as seen from the robot: an absolute pose, zero in front of it.
   kAbsolute,

@@ -94,10 +94,8 @@ void PackLearner(const LearnerState& state, nn::NamedTensors* tensors) {
 
 Demonstrations Shown(const nn::NamedTensors& tensors) {
   if (!tensors.contains("shown.observations")) return {};
-  const Demonstrations shown = {TakeTensor(tensors, "shown.observations", torch::kFloat, 2),
-                                TakeTensor(tensors, "shown.actions", torch::kFloat, 2)};
-  if (shown.observations.size(0) == shown.actions.size(0)) return shown;
-  throw core::Error("has demonstrations of two lengths");
+  return {TakeTensor(tensors, "shown.observations", torch::kFloat, 2),
+          TakeTensor(tensors, "shown.actions", torch::kFloat, 2)};
 }
 
 LearnerState Learner(const nn::NamedTensors& tensors) {

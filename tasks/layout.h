@@ -12,7 +12,7 @@ namespace simwright::tasks {
 struct Resting {
   int thing = -1;
   int holder = -1;  // the thing that it stands in or on
-  int cavity = -1;  // of the holder; -1: on top of it
+  int cavity = -1;  // of the holder: in its front, where it opens to a side; -1: on top of it
 };
 
 struct LayoutRequest {

@@ -1,7 +1,7 @@
 // What training is worth, skill by skill: each cell of the suite (pipeline/skill_suite.h) is
 // trained on instances of the library and evaluated, from full starts, on others.
 //   bench_skill_suite                                the shipped policies, a minute
-//   bench_skill_suite --script                       what a script does, a minute
+//   bench_skill_suite --script                       what a script does, 3 minutes
 //   bench_skill_suite --cell NAME --train [--ship]   trains a cell (all: one after the other)
 // A training that was stopped goes on; a cell that is done is not done again: remove its folder.
 #include <cstdio>

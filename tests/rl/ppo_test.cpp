@@ -7,7 +7,10 @@
 #include <functional>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/parallel.h"
+#include "rl/ppo_learner.h"
+#include "rl/training_checkpoint.h"
 #include "tests/rl/reach_environment.h"
 
 namespace simwright::rl {
@@ -96,6 +99,10 @@ class ShownReach : public ReachEnvironment {
     std::fill(batch->rewards.begin(), batch->rewards.end(), 0.0f);
     now_ = batch->observations;
   }
+  void RestoreState(std::string_view state, Rows* observations) override {
+    ReachEnvironment::RestoreState(state, observations);
+    now_ = *observations;
+  }
   bool Demonstrate(Rows* actions) const override {
     const Eigen::RowVector2f gain = BestGain(0.99).cast<float>() / kPush;
     *actions = (-now_ * gain.transpose()).cwiseMax(-1.0f).cwiseMin(1.0f);
@@ -153,39 +160,76 @@ TEST(Ppo, LetsTheCriticLearnAloneAtFirst) {
   core::SetThreadCount(0);
 }
 
+// Of a layer within, after some iterations.
+Eigen::MatrixXf WeightsAfter(int iterations, const PpoOptions& options) {
+  ReachEnvironment environment(16);
+  Ppo ppo(&environment, options);
+  std::vector<Outcome> outcomes;
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    ppo.Collect(&outcomes);
+    ppo.Update();
+  }
+  return ppo.CurrentPolicy().actor().layers()[1].weights;
+}
+
 TEST(Ppo, LearnsByItselfWhereNothingIsShown) {
-  const auto weights = [](std::int64_t imitated) {
-    ReachEnvironment environment(16);
-    PpoOptions options = SmallOptions();
-    options.imitated_samples = imitated;
-    Ppo ppo(&environment, options);
+  PpoOptions options = SmallOptions();
+  const Eigen::MatrixXf alone = WeightsAfter(2, options);
+  options.imitated_samples = 100000;
+  EXPECT_TRUE((alone.array() == WeightsAfter(2, options).array()).all());
+}
+
+TEST(Ppo, GoesOnWithWhatWasShownAsIfItHadNotStopped) {
+  core::SetThreadCount(2);
+  PpoOptions options = SmallOptions();
+  options.imitated_samples = 6 * 16 * 32;
+  options.imitation_steps = 20;
+  const core::TemporaryFolder folder;
+  const auto learn = [](Ppo* ppo, int iterations) {
     std::vector<Outcome> outcomes;
-    for (int iteration = 0; iteration < 2; ++iteration) {
-      ppo.Collect(&outcomes);
-      ppo.Update();
+    for (int i = 0; i < iterations; ++i) {
+      ppo->Collect(&outcomes);
+      ppo->Update();
     }
+  };
+  ShownReach environment(16), other(16);
+  Ppo whole(&environment, options), resumed(&other, options);
+  learn(&whole, 3);
+  RecentOutcomes recent(20);
+  WriteCheckpoint(whole, {}, recent, {}, folder.path() / "checkpoint.pt");
+  ReadCheckpoint(folder.path() / "checkpoint.pt", {}, &resumed, &recent);
+  learn(&whole, 5);
+  learn(&resumed, 5);
+  const auto weights = [](const Ppo& ppo) -> Eigen::MatrixXf {
     return ppo.CurrentPolicy().actor().layers()[1].weights;
   };
-  EXPECT_TRUE((weights(0).array() == weights(100000).array()).all());
+  EXPECT_TRUE((weights(whole).array() == weights(resumed).array()).all());
+  core::SetThreadCount(0);
+}
+
+TEST(PpoLearner, RefusesDemonstrationsOfAnotherSize) {
+  const PpoOptions options = SmallOptions();
+  PpoLearner learner({2, 1, options.hidden, options.activation}, options);
+  LearnerState state = learner.SaveState();
+  EXPECT_NO_THROW(learner.RestoreState(state));
+  state.shown = {torch::zeros({4, 2}), torch::zeros({4, 1})};
+  EXPECT_NO_THROW(learner.RestoreState(state));
+  state.shown = {torch::zeros({4, 3}), torch::zeros({4, 1})};
+  EXPECT_THROW(learner.RestoreState(state), core::Error);
+  state.shown = {torch::zeros({4, 2}), torch::zeros({3, 1})};
+  EXPECT_THROW(learner.RestoreState(state), core::Error);
+  state.shown = {torch::zeros({0, 2}), torch::zeros({0, 1})};
+  EXPECT_THROW(learner.RestoreState(state), core::Error);
 }
 
 TEST(Ppo, TheSameSeedGivesTheSamePolicyBitForBitAndAnotherDoesNot) {
   core::SetThreadCount(2);
-  const auto weights = [](std::uint64_t seed) {
-    ReachEnvironment environment(16);
-    PpoOptions options = SmallOptions();
-    options.seed = seed;
-    Ppo ppo(&environment, options);
-    std::vector<Outcome> outcomes;
-    for (int iteration = 0; iteration < 4; ++iteration) {
-      ppo.Collect(&outcomes);
-      ppo.Update();
-    }
-    return ppo.CurrentPolicy().actor().layers()[1].weights;
-  };
-  const Eigen::MatrixXf first = weights(1);
-  EXPECT_TRUE((first.array() == weights(1).array()).all());
-  EXPECT_FALSE((first.array() == weights(2).array()).all());
+  PpoOptions options = SmallOptions();
+  options.seed = 1;
+  const Eigen::MatrixXf first = WeightsAfter(4, options);
+  EXPECT_TRUE((first.array() == WeightsAfter(4, options).array()).all());
+  options.seed = 2;
+  EXPECT_FALSE((first.array() == WeightsAfter(4, options).array()).all());
   core::SetThreadCount(0);
 }
 

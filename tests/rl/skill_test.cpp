@@ -231,9 +231,42 @@ TEST(HeldThing, IsNoFurniture) {
   }
 }
 
+// A cup in the hand that shall be held, or while a door is opened, goes nowhere.
+TEST(Episode, WhatIsHeldMayHaveNoDestination) {
+  SkillSubtask hold = PickUpCup();
+  hold.subtask.program =
+      "def compute_reward(env):\n"
+      "    grasped = env.check_grasped(\"cup\")\n"
+      "    return grasped.float(), grasped\n";
+  hold.subtask.start.held = "cup";
+  SkillSubtask open = OpenDoor();
+  open.assets.push_back(WithInertia(tasks::Cup("cup", 0.03)));
+  tasks::AssetPlacement placement;
+  placement.asset = "cup";
+  placement.world_from_asset.translation() = Vector3d(0.4, -0.3, 0.0);
+  open.subtask.start.placements.push_back(placement);
+  open.subtask.start.held = "cup";
+  for (const SkillSubtask& scene : {hold, open}) {
+    const auto skill = Make({scene});
+    const SkillVariant& variant = skill->variants.front();
+    ASSERT_TRUE(variant.starts_held && !variant.destination);
+    const FocusFrame frame(variant, variant.start, Vector3d::UnitY(), 0.0);
+    EXPECT_FALSE(frame.at_destination());
+    EXPECT_EQ(frame.room_depth(), 0.0);
+    Episode episode(*skill);
+    episode.Begin(DrawStarts(*skill, 1, 3).front());
+    float action[7];
+    for (int i = 0; i < 5; ++i) {
+      ScriptedAction(episode, action);
+      EXPECT_FALSE(episode.Step(action).failed);
+    }
+  }
+}
+
 TEST(StartPool, ReadsWhatItWrites) {
   const auto skill = Make({OpenDoor()});
-  const EpisodeStart start = DrawStarts(*skill, 3, 8).back();
+  EpisodeStart start = DrawStarts(*skill, 3, 8).back();
+  start.via = {skill->robot->home(), start.at_work};
   const EpisodeStart read = ParseStart(StartText(start), *skill, "test");
   EXPECT_EQ(StartText(read), StartText(start));
   // It is the same start to the last bit: both episodes go the same way.
@@ -242,6 +275,10 @@ TEST(StartPool, ReadsWhatItWrites) {
   b.Begin(read);
   const float action[7] = {0.1f, -0.2f, 0.0f, 0.0f, 0.3f, 0.0f, 1.0f};
   for (int step = 0; step < 5; ++step) EXPECT_EQ(a.Step(action).reward, b.Step(action).reward);
+  EXPECT_EQ(read.via.size(), 2u);
+  EpisodeStart far = start;
+  far.via.assign(17, start.arm);
+  EXPECT_THROW(ParseStart(StartText(far), *skill, "test"), core::Error);
   const std::string text = StartText(start);
   for (const std::string& bad :
        {std::string(), std::string("{}"), text.substr(0, text.size() / 2), std::string("[1]")}) {

@@ -279,6 +279,25 @@ TEST(Motion, WhatIsInADrawerMovesWithIt) {
   EXPECT_NEAR(moved.z(), 0.0, 1e-9);
 }
 
+TEST(Layout, WhatRestsInAMicrowaveStandsInItsFront) {
+  const SceneModel& model = Kitchen();
+  const int microwave = model.Find("microwave"), cup = model.Find("cup");
+  LayoutRequest request;
+  request.things = {microwave, cup};
+  request.resting = {{cup, microwave, 0}};
+  core::Rng rng(1);
+  const std::optional<InitialState> start = LayOut(model, request, rng);
+  ASSERT_TRUE(start.has_value());
+  const SceneState state = StateOf(model, *start);
+  // The body is 0.4 deep about its middle and opens to -x (household.h), as it stands turned.
+  const Eigen::Isometry3d& pose = state.roots[static_cast<size_t>(microwave)];
+  const Eigen::Vector3d at = pose.inverse() * LinkPoint(model, state, cup, 0);
+  const double half = 0.5 * model.things[static_cast<size_t>(cup)].box.sizes().head<2>().maxCoeff();
+  EXPECT_NEAR(at.x() - half, -0.2 + 0.03, 0.4 / 40);
+  EXPECT_NEAR(at.y(), 0.0, 0.4 / 40);
+  EXPECT_NEAR(WorldBox(model, state, cup).min().z(), pose.translation().z() + 0.02, 0.4 / 40);
+}
+
 // Nothing overlaps, all is within reach.
 TEST(LayOut, KeepsThingsApart) {
   const SceneModel& model = Kitchen();

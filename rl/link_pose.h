@@ -1,0 +1,13 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "tasks/scene_state.h"
+
+namespace simwright::rl {
+
+// world_from_link of a thing's link in `state`.
+Eigen::Isometry3d WorldFromLink(const tasks::SceneModel& model, const tasks::SceneState& state,
+                                int thing, int link);
+
+}  // namespace simwright::rl
