@@ -36,14 +36,15 @@ fi
 rm -rf "$folder"
 mkdir -p "$build/seeds/reward_fuzz"
 cp "$root"/tests/tasks/reward/corpus/*.py "$build/seeds/reward_fuzz"
-# All at once: most of the time of some goes into files, that of others into decoding.
+# All at once: most of the time of some goes into files, that of others into decoding. An input has
+# a minute: ten targets share the cores, and planning where things of a URDF stand takes a second.
 fuzz() {
   local target=$1 seeds=$here/seeds/$1
   [ -d "$seeds" ] || seeds=$build/seeds/$target
   mkdir -p "$build/corpus/$target"
   ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1:quarantine_size_mb=16 \
     "$build/bin/$target" "$build/corpus/$target" "$seeds" \
-    -max_total_time="$seconds" -timeout=20 -rss_limit_mb=3000 -max_len=8192 -print_final_stats=1 \
+    -max_total_time="$seconds" -timeout=60 -rss_limit_mb=3000 -max_len=8192 -print_final_stats=1 \
     -artifact_prefix="$build/found/$target-" > "$build/$target.log" 2>&1
 }
 declare -A running
