@@ -1,5 +1,7 @@
 #include "rl/arm_clearance.h"
 
+#include <algorithm>
+
 #include "assets/joint_poses.h"
 #include "rl/hand_clearance.h"
 
@@ -55,10 +57,15 @@ ArmClearance::ArmClearance(const Skill& skill, const SkillVariant& variant,
   }
 }
 
-bool ArmClearance::IsClear(const robot::Posture& arm) const {
+bool ArmClearance::IsClear(const robot::Posture& arm, Fingers fingers) const {
+  const std::vector<int>& finger_links = skill_.robot->gripper.links;
   const std::vector<Eigen::Isometry3d> robot = RobotPoses(*skill_.robot, world_from_robot_, arm);
   for (size_t l = 0; l < robot.size(); ++l) {
     const SurfacePoints& surface = skill_.robot_surface[l];
+    if (fingers == Fingers::kIgnored && std::find(finger_links.begin(), finger_links.end(),
+                                                  static_cast<int>(l)) != finger_links.end()) {
+      continue;
+    }
     if (!grounded_[l] && IsInFloor(surface, robot[l])) return false;
     for (const Obstacle& obstacle : obstacles_) {
       if (DeepestInBody(surface, robot[l], *obstacle.solids, obstacle.poses) > kTouching) {

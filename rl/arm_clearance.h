@@ -6,6 +6,9 @@
 
 namespace simwright::rl {
 
+// Of the robot: whether its fingers count. Those of a hand at work are about what it works on.
+enum class Fingers { kCount, kIgnored };
+
 // Where the robot's links, fingers open, are in none of the things that the variant places, nor in
 // the floor, as far as its surface, looked at every few centimetres, can tell. For one state of the
 // scene; constant.
@@ -15,7 +18,7 @@ class ArmClearance {
   ArmClearance(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
                int held = -1);
 
-  bool IsClear(const robot::Posture& arm) const;  // (J)
+  bool IsClear(const robot::Posture& arm, Fingers fingers = Fingers::kCount) const;  // (J)
   // Whether the arm is clear between the two postures (J), as it goes straight from joint to joint,
   // and at the second.
   bool IsWayClear(const robot::Posture& from, const robot::Posture& to) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "rl/arm_clearance.h"
+#include "rl/goal_placement.h"
 #include "rl/open_room.h"
 #include "rl/reach_plan.h"
 #include "rl/tool_follower.h"
@@ -174,6 +175,7 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
     start.state = variant.start;
     Scatter(variant, options, Farther(attempt), rng, &start.state);
     if (Overlap(variant, start.state)) continue;
+    start.state.goal = GoalIn(variant, start.state);
     if (!IsArmClear(skill, variant, start.state, home)) continue;
     if (!variant.focus) break;
     const auto plan = PlanReach(skill, variant, start.state, home, rng);
@@ -231,7 +233,7 @@ EpisodeStart Varied(const Skill& skill, const EpisodeStart& from, core::Rng& rng
                     VariedParts parts) {
   const SkillVariant& variant = skill.variants[static_cast<size_t>(from.variant)];
   EpisodeStart start = from;
-  start.state.goal = variant.start.goal;
+  start.state.goal = GoalIn(variant, start.state);
   const bool everything = parts == VariedParts::kEverything;
   if (everything && start.held < 0) Shake(skill, kShake, rng, &start.arm);
   start.at_work = start.arm;

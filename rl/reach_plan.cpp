@@ -86,8 +86,9 @@ bool CarriesThing(const Skill& skill, const SkillVariant& variant, const tasks::
   return !demands.looks_ahead || !variant.next || goes(*variant.next);
 }
 
-bool MovesJoint(const SkillVariant& variant, tasks::SceneState state, const Isometry3d& tool,
-                double pitch, ToolFollower* follower) {
+// Whether the tool goes the joint's way, `clear`: and the arm, but for its fingers, is in nothing.
+bool MovesJoint(const Skill& skill, const SkillVariant& variant, tasks::SceneState state,
+                const Isometry3d& tool, double pitch, bool clear, ToolFollower* follower) {
   const Focus& focus = *variant.focus;
   const auto thing = static_cast<size_t>(focus.thing), j = static_cast<size_t>(focus.joint);
   Vector3d across = tool.linear().col(1);
@@ -97,6 +98,9 @@ bool MovesJoint(const SkillVariant& variant, tasks::SceneState state, const Isom
     const Isometry3d next = ToolAtFocus(variant, state, across, pitch);
     across = next.linear().col(1);
     if (!follower->Goes(next)) return false;
+    if (!clear) continue;
+    const ArmClearance clearance(skill, variant, state);
+    if (!clearance.IsClear(follower->posture(), Fingers::kIgnored)) return false;
   }
   return true;
 }
@@ -161,14 +165,37 @@ std::vector<Stance> StancesWith(const SkillVariant& variant, const tasks::SceneS
   return stances;
 }
 
+// Into `before` (J) where the hand stays back before its work `at_work` (J), or as near to that as it
+// gets. Whether it gets there: beside that place it would wait for ever.
+bool StaysBack(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
+               const robot::Posture& at_work, robot::Posture* before) {
+  Isometry3d place =
+      variant.subtask.start.world_from_robot * robot::ForwardKinematics(skill.robot->arm, at_work);
+  Vector3d back = -skill.options.standoff * place.linear().col(2);
+  if (variant.room && IsIn(*variant.room, variant.model, state, place.translation())) {
+    const double depth = DepthIn(*variant.room, variant.model, state, place.translation());
+    back = -(depth + kBeforeOpening) * InwardOf(*variant.room, variant.model, state);
+  }
+  place.translation() += back;
+  ToolFollower follower(skill, variant, at_work);
+  const bool there = follower.Goes(place);
+  *before = follower.posture();
+  return there;
+}
+
 // Whether the arm gets from `from` to where the hand stays back before its work, and is in nothing
-// at the work itself. At a handle it is: the fingers are about it.
+// at the work itself but for the fingers, which are about it.
 bool GetsThere(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
                const robot::Posture& from, const Candidate& candidate) {
   const bool takes = variant.focus->joint < 0;
   const ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
   if (takes && !clearance.IsClear(candidate.posture)) return false;
-  return clearance.IsWayClear(from, BeforeWork(skill, variant, state, candidate.posture));
+  const bool palm_free =
+      Pushes(variant) ||
+      ArmClearance(skill, variant, state).IsClear(candidate.posture, Fingers::kIgnored);
+  robot::Posture before;
+  return palm_free && StaysBack(skill, variant, state, candidate.posture, &before) &&
+         clearance.IsWayClear(from, before);
 }
 
 // The lines (unit, world) that the fingers may be along: `across`, and turned about the upright
@@ -209,7 +236,8 @@ std::optional<ReachPlan> PlanWith(const Skill& skill, const SkillVariant& varian
     ToolFollower follower(skill, variant, candidate.posture);
     const bool works =
         variant.focus->joint >= 0
-            ? MovesJoint(variant, state, candidate.tool, candidate.pitch, &follower)
+            ? MovesJoint(skill, variant, state, candidate.tool, candidate.pitch, demands.clear,
+                         &follower)
             : CarriesThing(skill, variant, state, candidate.tool, demands, &follower);
     if (!works) continue;
     if (demands.clear && !GetsThere(skill, variant, state, from, candidate)) continue;
@@ -286,17 +314,9 @@ std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& varia
 
 robot::Posture BeforeWork(const Skill& skill, const SkillVariant& variant,
                           const tasks::SceneState& state, const robot::Posture& at_work) {
-  Isometry3d before =
-      variant.subtask.start.world_from_robot * robot::ForwardKinematics(skill.robot->arm, at_work);
-  Vector3d back = -skill.options.standoff * before.linear().col(2);
-  if (variant.room && IsIn(*variant.room, variant.model, state, before.translation())) {
-    const double depth = DepthIn(*variant.room, variant.model, state, before.translation());
-    back = -(depth + kBeforeOpening) * InwardOf(*variant.room, variant.model, state);
-  }
-  before.translation() += back;
-  ToolFollower follower(skill, variant, at_work);
-  follower.Goes(before);
-  return follower.posture();
+  robot::Posture before;
+  StaysBack(skill, variant, state, at_work, &before);
+  return before;
 }
 
 double PitchAt(const SkillVariant& variant, const tasks::SceneState& state,

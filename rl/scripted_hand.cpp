@@ -18,6 +18,9 @@ using Eigen::Vector3d;
 constexpr double kThere = 0.03, kLost = 0.045;    // m
 constexpr double kAligned = 0.3, kTwisted = 0.8;  // rad
 constexpr double kGripGain = 3.0;                 // of the action, over the share that is missing
+// Of where the fingers open again: so far the hand pulls on. A pull that got weaker before that
+// would hold closed fingers that have slipped off where they are, for ever.
+constexpr double kPullsTo = 1.5;
 constexpr double kBesideFree = 0.007, kFarthestBack = 0.04;  // m
 constexpr double kBackPerBeside = 4.0;                       // m a m
 constexpr double kClosed = 0.1;                              // of the opening that is asked for
@@ -54,13 +57,17 @@ Glance GlanceAt(const Episode& episode) {
           gripper.Opening(episode.command().leader) / gripper.MaxOpening()};
 }
 
-// What the fingers shall do: close, below 0, where the hand is at its work, as near as they demand
-// that are open or have closed. Without jumps, which a network learns late.
-double GripAt(const Glance& glance) {
+// How far the hand is off its work: 1 where fingers that are so far open or closed turn round.
+double OffAt(const Glance& glance) {
   const double distance = kLost + glance.asked * (kThere - kLost);
   const double angle = kTwisted + glance.asked * (kAligned - kTwisted);
-  const double off = std::max(glance.off.norm() / distance, glance.angle / angle);
-  return std::clamp(kGripGain * (off - 1.0), -1.0, 1.0);
+  return std::max(glance.off.norm() / distance, glance.angle / angle);
+}
+
+// What the fingers shall do: close, below 0, where the hand is at its work. Without jumps, which a
+// network learns late.
+double GripAt(const Glance& glance) {
+  return std::clamp(kGripGain * (OffAt(glance) - 1.0), -1.0, 1.0);
 }
 
 void Ask(const Vector3d& part, double unit, float* action) {
@@ -82,7 +89,8 @@ void WorkPart(const Glance& glance, float* action) {
   const double grip = GripAt(glance);
   action[6] = static_cast<float>(grip);
   if (grip > 0.0) ComeFromBehind(glance, action);
-  const double pull = std::max(0.0, -grip) * std::max(0.0, 1.0 - glance.asked / kClosed);
+  const double pull = std::clamp(kGripGain * (kPullsTo - OffAt(glance)), 0.0, 1.0) *
+                      std::max(0.0, 1.0 - glance.asked / kClosed);
   if (pull == 0.0) return;
   const Vector3d way = glance.frame.free_way();
   if (!way.isZero()) {
