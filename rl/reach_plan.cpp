@@ -165,8 +165,8 @@ std::vector<Stance> StancesWith(const SkillVariant& variant, const tasks::SceneS
   return stances;
 }
 
-// Into `before` (J) where the hand stays back before its work `at_work` (J), or as near to that as it
-// gets. Whether it gets there: beside that place it would wait for ever.
+// Into `before` (J) where the hand stays back before its work `at_work` (J), or as near to that as
+// it gets. Whether it gets there: beside that place it would wait for ever.
 bool StaysBack(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
                const robot::Posture& at_work, robot::Posture* before) {
   Isometry3d place =

@@ -1,0 +1,105 @@
+// Goals where the scene stands otherwise than described: free where they are, above the thing where
+// furniture has come to stand in their way, with the room that the thing comes out of.
+#include "rl/goal_placement.h"
+
+#include <gtest/gtest.h>
+
+#include "rl/arm_clearance.h"
+#include "rl/skill_evaluation.h"
+#include "tests/rl/skill_scene.h"
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr int kCup = 0, kMicrowave = 1;
+
+// A cup to pick up at (0.5, 0), and a microwave at `microwave`.
+std::shared_ptr<const Skill> CupAndMicrowave(const Isometry3d& microwave,
+                                             const Vector3d& cup = {0.5, 0.0, 0.0}) {
+  SkillSubtask scene = PickUpCup();
+  scene.assets.push_back(WithInertia(tasks::Microwave()));
+  scene.subtask.start.placements[0].world_from_asset.translation() = cup;
+  tasks::AssetPlacement placement;
+  placement.asset = "microwave";
+  placement.fixed = true;
+  placement.world_from_asset = microwave;
+  scene.subtask.start.placements.push_back(placement);
+  return MakeSkill(robot::Panda(false), {scene}, SkillOptions().ForEvaluation());
+}
+
+Isometry3d At(double x, double y, double yaw = 0.0) {
+  return Eigen::Translation3d(x, y, 0.0) * Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) *
+         Isometry3d::Identity();
+}
+
+TEST(GoalPlacement, AFreeGoalStaysWhereItIs) {
+  const auto skill = CupAndMicrowave(At(0.8, 0.6));
+  const SkillVariant& variant = skill->variants.front();
+  tasks::SceneState state = variant.start;
+  EXPECT_EQ(GoalIn(variant, state), Vector3d(0.5, 0.0, 0.2));
+  state.roots[kCup].translation() += Vector3d(0.1, -0.1, 0.0);
+  EXPECT_EQ(GoalIn(variant, state), Vector3d(0.5, 0.0, 0.2));
+}
+
+TEST(GoalPlacement, WhatAMicrowaveIsInTheWayOfIsAboveTheCup) {
+  const auto skill = CupAndMicrowave(At(0.8, 0.6));
+  const SkillVariant& variant = skill->variants.front();
+  tasks::SceneState state = variant.start;
+  state.roots[kMicrowave] = At(0.65, 0.2);
+  state.roots[kCup].translation() += Vector3d(-0.1, -0.3, 0.0);
+  const Vector3d goal = GoalIn(variant, state);
+  EXPECT_NEAR(goal.x(), 0.4, 1e-9);
+  EXPECT_NEAR(goal.y(), -0.3, 1e-9);
+  EXPECT_NEAR(goal.z(), 0.2, 1e-9);  // as high as described
+}
+
+TEST(GoalPlacement, WhatComesOutOfARoomGoesBeforeItWhereverItStands) {
+  const auto skill = CupAndMicrowave(At(0.9, 0.0), {0.8, 0.0, 0.03});
+  const SkillVariant& variant = skill->variants.front();
+  const Isometry3d moved = At(0.8, 0.2, 0.4);
+  tasks::SceneState state = variant.start;
+  state.roots[kMicrowave] = moved;
+  state.roots[kCup] = moved * At(0.9, 0.0).inverse() * state.roots[kCup];
+  const Vector3d goal = GoalIn(variant, state);
+  const Vector3d expected = moved * (At(0.9, 0.0).inverse() * Vector3d(0.5, 0.0, 0.2));
+  EXPECT_NEAR((goal - expected).norm(), 0.0, 1e-9);
+}
+
+TEST(GoalPlacement, EveryStartThatIsDrawnHasAGoalThatNothingIsInTheWayOf) {
+  const auto skill = CupAndMicrowave(At(0.7, 0.3));
+  const SkillVariant& variant = skill->variants.front();
+  int moved = 0;
+  for (const EpisodeStart& start : DrawStarts(*skill, 40, 3)) {
+    const Vector3d thing = tasks::LinkPoint(variant.model, start.state, kCup, 0);
+    const Vector3d way = start.state.goal - thing;
+    const auto there = tasks::WorldBox(variant.model, start.state, kCup).translated(way);
+    EXPECT_FALSE(there.intersects(tasks::WorldBox(variant.model, start.state, kMicrowave)));
+    moved += start.state.goal != variant.start.goal;
+  }
+  EXPECT_GT(moved, 0);
+  EXPECT_LT(moved, 40);
+}
+
+TEST(ArmClearance, FingersAboutAThingMayBeIgnoredAPalmMayNot) {
+  const auto skill = MakeSkill(robot::Panda(false), {PickUpCup()}, SkillOptions().ForEvaluation());
+  const SkillVariant& variant = skill->variants.front();
+  const EpisodeStart start = DrawStarts(*skill, 1, 5).front();
+  const Isometry3d tool = variant.subtask.start.world_from_robot *
+                          robot::ForwardKinematics(skill->robot->arm, start.at_work);
+  tasks::SceneState state = start.state;
+  const auto clear = [&](Fingers fingers) {
+    return ArmClearance(*skill, variant, state).IsClear(start.at_work, fingers);
+  };
+  ASSERT_TRUE(clear(Fingers::kCount));
+  state.roots[kCup].translation() += 0.04 * tool.linear().col(1);  // one finger is in it
+  EXPECT_FALSE(clear(Fingers::kCount));
+  EXPECT_TRUE(clear(Fingers::kIgnored));
+  state.roots[kCup].translation() -= 0.06 * tool.linear().col(2);  // now the palm is
+  EXPECT_FALSE(clear(Fingers::kIgnored));
+}
+
+}  // namespace
+}  // namespace simwright::rl
