@@ -67,19 +67,29 @@ bool ArmClearance::IsClear(const robot::Posture& arm, Fingers fingers) const {
       continue;
     }
     if (!grounded_[l] && IsInFloor(surface, robot[l])) return false;
-    for (const Obstacle& obstacle : obstacles_) {
-      if (DeepestInBody(surface, robot[l], *obstacle.solids, obstacle.poses) > kTouching) {
-        return false;
-      }
-    }
+    if (IsInObstacle(surface, robot[l])) return false;
   }
   return true;
+}
+
+bool ArmClearance::IsInObstacle(const SurfacePoints& surface, const Eigen::Isometry3d& pose) const {
+  return std::any_of(obstacles_.begin(), obstacles_.end(), [&](const Obstacle& obstacle) {
+    return DeepestInBody(surface, pose, *obstacle.solids, obstacle.poses) > kTouching;
+  });
+}
+
+bool ArmClearance::IsLoadClear(const robot::Posture& arm) const {
+  if (carried_.points.empty()) return true;
+  const Eigen::Isometry3d tool =
+      world_from_robot_ * robot::ForwardKinematics(skill_.robot->arm, arm);
+  return !IsInFloor(carried_, tool) && !IsInObstacle(carried_, tool);
 }
 
 bool ArmClearance::IsWayClear(const robot::Posture& from, const robot::Posture& to) const {
   const int looks = 1 + static_cast<int>((to - from).lpNorm<Eigen::Infinity>() / kLook);
   for (int i = looks; i > 0; --i) {  // what is in the way is nearer to the work, as a rule
-    if (!IsClear(from + static_cast<double>(i) / looks * (to - from))) return false;
+    const robot::Posture at = from + static_cast<double>(i) / looks * (to - from);
+    if (!IsClear(at) || !IsLoadClear(at)) return false;
   }
   return true;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "rl/skill.h"
@@ -19,11 +20,15 @@ class ArmClearance {
                int held = -1);
 
   bool IsClear(const robot::Posture& arm, Fingers fingers = Fingers::kCount) const;  // (J)
-  // Whether the arm is clear between the two postures (J), as it goes straight from joint to joint,
-  // and at the second.
+  // What the hand carries from then on, in the tool's frame: on its way it is in nothing either.
+  void Carry(SurfacePoints carried) { carried_ = std::move(carried); }
+  // Whether the arm, and what it carries, is clear between the two postures (J), as it goes
+  // straight from joint to joint, and at the second.
   bool IsWayClear(const robot::Posture& from, const robot::Posture& to) const;
 
  private:
+  bool IsInObstacle(const SurfacePoints& surface, const Eigen::Isometry3d& pose) const;
+  bool IsLoadClear(const robot::Posture& arm) const;
   struct Obstacle {
     const BodySolids* solids;
     std::vector<Eigen::Isometry3d> poses;  // world_from_link (links)
@@ -32,6 +37,7 @@ class ArmClearance {
   const Skill& skill_;
   const Eigen::Isometry3d& world_from_robot_;
   std::vector<Obstacle> obstacles_;
+  SurfacePoints carried_;
   std::vector<bool> grounded_;  // by link: is in the floor at home, as the foot of an arm may be
 };
 

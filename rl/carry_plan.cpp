@@ -41,12 +41,28 @@ std::vector<Arrival> ArrivalsAt(const Skill& skill, const SkillVariant& variant,
   return arrivals;
 }
 
+// The outline of the thing in the hand, in the tool's frame.
+SurfacePoints Load(const SkillVariant& variant, const tasks::SceneState& state) {
+  const auto thing = static_cast<size_t>(variant.focus->thing);
+  const std::vector<Isometry3d> links =
+      tasks::LinkPosesOf(variant.model.things[thing], state.joints[thing]);
+  const Isometry3d tool_from_thing = state.gripper.inverse() * state.roots[thing];
+  std::vector<Vector3d> points;
+  for (size_t l = 0; l < links.size(); ++l) {
+    for (const Vector3d& point : variant.model.things[thing].links[l].outline) {
+      points.push_back(tool_from_thing * links[l] * point);
+    }
+  }
+  return SurfacePoints(std::move(points));
+}
+
 }  // namespace
 
 std::optional<CarryPlan> PlanCarry(const Skill& skill, const SkillVariant& variant,
                                    const tasks::SceneState& state, const CarryTask& task,
                                    const robot::Posture& from) {
-  const ArmClearance clearance(skill, variant, state, variant.focus->thing);
+  ArmClearance clearance(skill, variant, state, variant.focus->thing);
+  clearance.Carry(Load(variant, state));
   std::optional<CarryPlan> any, longer;
   for (const double turn : kTurns) {
     if (turn != 0.0 && !task.may_turn) break;

@@ -94,6 +94,8 @@ void Episode::PlanArrival() {
   if (plan->turn != 0.0) frame_->Turn(plan->turn, state_);
   command_.goal = plan->arrival;
   command_.via = plan->via;
+  // Before a room that opens to a side the hand may have to go straight back first.
+  if (!variant.room) command_.via.push_back(plan->arrival);
 }
 
 float Episode::Reward(bool* success) {

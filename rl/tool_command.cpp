@@ -206,15 +206,15 @@ ToolTarget TargetOf(const Skill& skill, const float* action, const WorkFrame& fr
 
 void Approach(const Skill& skill, const ToolTarget& target, const robot::Posture& actual,
               ArmCommand* command) {
-  if (skill.options.action == ActionSpace::kJoints) {
-    command->goal = target.joints;
-  } else {
-    const robot::Posture jump = robot::Posture::Constant(actual.size(), kGoalJump);
-    skill.kinematics->Track(target.base_from_tool, jump, &command->goal);
-  }
   std::vector<robot::Posture>& via = command->via;
   if (!via.empty() && (via.front() - command->sent).lpNorm<Eigen::Infinity>() < kPassed) {
     via.erase(via.begin());
+  }
+  if (skill.options.action == ActionSpace::kJoints) {
+    command->goal = target.joints;
+  } else if (via.empty()) {  // until then the goal stays the posture that was planned
+    const robot::Posture jump = robot::Posture::Constant(actual.size(), kGoalJump);
+    skill.kinematics->Track(target.base_from_tool, jump, &command->goal);
   }
   MoveArm(skill, via.empty() ? command->goal : via.front(), actual, command);
   MoveFingers(skill, target.leader, command);
