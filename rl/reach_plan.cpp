@@ -29,7 +29,8 @@ constexpr double kPushPitches[] = {0.6, 0.8, 0.4};
 // ceiling. A microwave is 20 cm high inside; upright, hand and flange alone are 25.
 constexpr double kRoomPitches[] = {0.8, 1.0, 0.6, 1.2};
 constexpr double kLeaning = 0.9;  // of the lean, into the room: things with corners turn the hand
-constexpr int kRoomPostures = 6;  // that are looked at: whether an arm is clear takes a millisecond
+// That are looked at in rooms and along a joint's way: whether an arm is clear takes a millisecond.
+constexpr int kPostures = 6;
 constexpr double kPalmEdge = 0.04;  // m: what the edge comes down by, over 1 - cos(lean)
 constexpr double kUpright = 0.8;    // of a thing's z axis
 constexpr double kTurns[] = {0.25 * M_PI, 0.5 * M_PI, 0.75 * M_PI};  // of the fingers' line
@@ -92,13 +93,14 @@ bool MovesJoint(const Skill& skill, const SkillVariant& variant, tasks::SceneSta
   const Focus& focus = *variant.focus;
   const auto thing = static_cast<size_t>(focus.thing), j = static_cast<size_t>(focus.joint);
   Vector3d across = tool.linear().col(1);
-  for (const double position :
-       JointWay(variant.model.things[thing].joints[j], state.joints[thing][j])) {
-    state.joints[thing][j] = position;
+  const std::vector<double> way =
+      JointWay(variant.model.things[thing].joints[j], state.joints[thing][j]);
+  for (size_t i = 0; i < way.size(); ++i) {
+    state.joints[thing][j] = way[i];
     const Isometry3d next = ToolAtFocus(variant, state, across, pitch);
     across = next.linear().col(1);
     if (!follower->Goes(next)) return false;
-    if (!clear) continue;
+    if (!clear || i % 3 != 2) continue;  // half-way and at the end
     const ArmClearance clearance(skill, variant, state);
     if (!clearance.IsClear(follower->posture(), Fingers::kIgnored)) return false;
   }
@@ -229,8 +231,9 @@ std::optional<ReachPlan> PlanWith(const Skill& skill, const SkillVariant& varian
   }
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.seconds < b.seconds; });
-  if (variant.room && candidates.size() > kRoomPostures) {
-    candidates.erase(candidates.begin() + kRoomPostures, candidates.end());
+  const bool costs = variant.room || (variant.focus->joint >= 0 && demands.clear);
+  if (costs && candidates.size() > kPostures) {
+    candidates.erase(candidates.begin() + kPostures, candidates.end());
   }
   for (const Candidate& candidate : candidates) {
     ToolFollower follower(skill, variant, candidate.posture);

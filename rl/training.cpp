@@ -144,6 +144,7 @@ TrainingRecord Training::RecordOf(const UpdateReport& update) const {
 bool Training::ExaminationDue() const {
   if (!examine_) return false;
   if (OutOfBudget()) return true;
+  if (options_.examine_from == 0.0 && progress_.iteration == 1) return true;
   return progress_.iteration % options_.examine_every == 0 && recent_.full() &&
          recent_.SuccessRate() >= options_.examine_from;
 }

@@ -21,7 +21,8 @@ struct TrainingOptions {
   int success_window = 200;
   // Iterations between examinations, which begin once this share of the window's episodes succeed:
   // before that, an examination only costs time. Of the episodes that explore 37 % succeeded where
-  // the mean action did in 71 % (a cup that was lifted from a photo, by its rim).
+  // the mean action did in 71 % (a cup that was lifted from a photo, by its rim). With 0 the first
+  // iteration is examined too: what a training begins with may be good already.
   int examine_every = 10;
   double examine_from = 0.35;
   // Iterations between checkpoints: about 100k samples, half a minute that a crash costs.
