@@ -245,6 +245,21 @@ TEST(Training, KeepsTheBestPolicyThatWasExamined) {
   EXPECT_FALSE(Examinations::PolicyBytes(kept) == examinations.policies().back());
 }
 
+TEST(Training, WhatItBeginsWithMayBeGoodAlready) {
+  const core::TemporaryFolder folder;
+  Examinations good({97});
+  const TrainingResult result =
+      Train(ExaminedTraining(40), folder.path() / "good", false, {}, std::ref(good));
+  EXPECT_EQ(result.end, TrainingEnd::kSuccess);
+  EXPECT_EQ(result.last.iteration, 1.0);
+  TrainingOptions later = ExaminedTraining(1);
+  later.examine_from = 0.35;
+  Examinations none({50});  // the last iteration is examined in any case
+  const TrainingResult other = Train(later, folder.path() / "later", false, {}, std::ref(none));
+  EXPECT_EQ(other.end, TrainingEnd::kSamples);
+  EXPECT_EQ(none.policies().size(), 1u);
+}
+
 TEST(Training, EndsWithTheExaminationThatReachesTheTarget) {
   const core::TemporaryFolder folder;
   Examinations examinations({95, 96, 100});
