@@ -12,7 +12,7 @@ enum class Fingers { kCount, kIgnored };
 
 // Where the robot's links, fingers open, are in none of the things that the variant places, nor in
 // the floor, as far as its surface, looked at every few centimetres, can tell. For one state of the
-// scene; constant.
+// scene; constant but for what the hand carries.
 class ArmClearance {
  public:
   // The thing `held` (-1: none) does not count. All must outlive this.
@@ -20,7 +20,8 @@ class ArmClearance {
                int held = -1);
 
   bool IsClear(const robot::Posture& arm, Fingers fingers = Fingers::kCount) const;  // (J)
-  // What the hand carries from then on, in the tool's frame: on its way it is in nothing either.
+  // The surface (m, the tool's frame) of what the hand carries: IsWayClear then asks that this is
+  // in nothing either. Nothing carried at first.
   void Carry(SurfacePoints carried) { carried_ = std::move(carried); }
   // Whether the arm, and what it carries, is clear between the two postures (J), as it goes
   // straight from joint to joint, and at the second.

@@ -30,7 +30,7 @@ constexpr double kPushPitches[] = {0.6, 0.8, 0.4};
 constexpr double kRoomPitches[] = {0.8, 1.0, 0.6, 1.2};
 constexpr double kLeaning = 0.9;  // of the lean, into the room: things with corners turn the hand
 // That are looked at in rooms and along a joint's way: whether an arm is clear takes a millisecond.
-constexpr int kPostures = 6;
+constexpr int kLookedAt = 6;
 constexpr double kPalmEdge = 0.04;  // m: what the edge comes down by, over 1 - cos(lean)
 constexpr double kUpright = 0.8;    // of a thing's z axis
 constexpr double kTurns[] = {0.25 * M_PI, 0.5 * M_PI, 0.75 * M_PI};  // of the fingers' line
@@ -232,8 +232,8 @@ std::optional<ReachPlan> PlanWith(const Skill& skill, const SkillVariant& varian
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.seconds < b.seconds; });
   const bool costs = variant.room || (variant.focus->joint >= 0 && demands.clear);
-  if (costs && candidates.size() > kPostures) {
-    candidates.erase(candidates.begin() + kPostures, candidates.end());
+  if (costs && candidates.size() > kLookedAt) {
+    candidates.erase(candidates.begin() + kLookedAt, candidates.end());
   }
   for (const Candidate& candidate : candidates) {
     ToolFollower follower(skill, variant, candidate.posture);
