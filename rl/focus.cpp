@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "rl/open_room.h"
+#include "rl/push_contact.h"
 
 namespace simwright::rl {
 namespace {
@@ -210,8 +211,12 @@ std::optional<Focus> FocusOf(const SceneModel& model, const SceneState& start,
     const Thing& thing = model.things[static_cast<size_t>(focus.thing)];
     focus.joint = thing.FindJoint(slot->part);
     if (focus.joint >= 0) {
-      focus.link = thing.joints[static_cast<size_t>(focus.joint)].grip;
-      focus.approaches = ToolsOnPart(model, start, focus, opening);
+      const tasks::ThingJoint& joint = thing.joints[static_cast<size_t>(focus.joint)];
+      const auto t = static_cast<size_t>(focus.thing), j = static_cast<size_t>(focus.joint);
+      focus.pushes = IsSwungShut(thing, joint, start.joints[t][j]);
+      focus.link = focus.pushes ? joint.link : joint.grip;
+      focus.approaches = focus.pushes ? ToolsPushingShut(model, start, focus.thing, joint)
+                                      : ToolsOnPart(model, start, focus, opening);
       focus.link_from_tool = focus.approaches.front();
       return focus;
     }

@@ -16,7 +16,8 @@ namespace simwright::rl {
 // What the hand works on in a subtask: a part that a joint moves, or a thing.
 struct Focus {
   int thing = -1, link = -1;
-  int joint = -1;  // into Thing::joints; -1: the thing itself is moved
+  int joint = -1;       // into Thing::joints; -1: the thing itself is moved
+  bool pushes = false;  // the joint's part, with the tool's x along its way; else takes it
   // The tool's place at work: its z towards the link, its y across the link's thin side. Of a
   // thing without a joint only the origin counts; it is taken from above, wherever it is turned.
   Eigen::Isometry3d link_from_tool = Eigen::Isometry3d::Identity();

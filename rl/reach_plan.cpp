@@ -25,6 +25,8 @@ constexpr double kPitches[] = {0.0, 0.35, -0.35, 0.7, -0.7};
 // that the fingers push below the middle. Upright, the palm comes down on whatever is taller than
 // the fingers are long.
 constexpr double kPushPitches[] = {0.6, 0.8, 0.4};
+// Of one that pushes a door shut: the door stands higher than the fingers are long.
+constexpr double kShutPitches[] = {0.3, 0.6, 0.0, 0.9};
 // Of a hand that goes into a room through its side: palm and wrist stay out of it, or below its
 // ceiling. A microwave is 20 cm high inside; upright, hand and flange alone are 25.
 constexpr double kRoomPitches[] = {0.8, 1.0, 0.6, 1.2};
@@ -148,6 +150,7 @@ double Shallower(double pitch, double height) {
 
 std::span<const double> PitchesOf(const SkillVariant& variant, const Demands& demands) {
   if (Pushes(variant)) return kPushPitches;
+  if (variant.focus->pushes) return kShutPitches;
   if (demands.leans_in) return kRoomPitches;
   return kPitches;
 }
@@ -155,6 +158,7 @@ std::span<const double> PitchesOf(const SkillVariant& variant, const Demands& de
 // For both sides of the hand, whose y axis is `across` now.
 std::vector<Stance> StancesWith(const SkillVariant& variant, const tasks::SceneState& state,
                                 const Vector3d& across, double pitch, const Demands& demands) {
+  if (variant.focus->pushes) return {{across, pitch}};
   if (!demands.leans_in) return {{across, pitch}, {-across, pitch}};
   const Vector3d inward = InwardOf(*variant.room, variant.model, state);
   const Vector3d aside = (-Vector3d::UnitZ()).cross(inward).normalized();
@@ -269,7 +273,7 @@ Isometry3d ToolAtFocus(const SkillVariant& variant, const tasks::SceneState& sta
     tool = ToolBehind(variant, state, across);
   } else if (focus.joint >= 0) {
     tool = ToolAtJoint(variant.model, state, focus);
-    if (across.dot(tool.linear().col(1)) < 0.0) tool.linear().leftCols<2>() *= -1.0;
+    if (!focus.pushes && across.dot(tool.linear().col(1)) < 0.0) tool.linear().leftCols<2>() *= -1.0;
   } else {
     const Isometry3d& root = state.roots[static_cast<size_t>(focus.thing)];
     const tasks::Thing& taken = variant.model.things[static_cast<size_t>(focus.thing)];

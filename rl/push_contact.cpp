@@ -1,0 +1,90 @@
+#include "rl/push_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rl/link_pose.h"
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr double kSwings = 0.08;   // m from its axis to the farthest point of what swings
+constexpr double kOverEdge = 0.03;    // m that the fingertips' middle is past an edge of the face
+constexpr double kBehindFace = 0.02;  // m: half of a finger, and some room
+constexpr double kOut = 0.75;         // of the way from the axis to the free edge
+constexpr double kUpright = 0.9;      // cosine of an upright axis
+
+// What swings, about the origin of its link's frame.
+struct Swing {
+  Vector3d axis;  // unit
+  Vector3d out;   // unit, from the axis to the free edge
+  Vector3d way;   // unit, that the part goes as it is shut
+  double edge = 0.0, face = 0.0;  // m along out and way
+  double low = 0.0, high = 0.0;   // m along the axis
+};
+
+Swing SwingOf(const tasks::Thing& thing, const tasks::ThingJoint& joint, double position) {
+  const tasks::ThingLink& link = thing.links[static_cast<size_t>(joint.link)];
+  Swing swing;
+  swing.axis = joint.axis;
+  swing.out = link.middle - link.middle.dot(joint.axis) * joint.axis;
+  if (swing.out.norm() < 1e-6) return swing;
+  swing.out.normalize();
+  swing.way = (joint.rest() < position ? -1.0 : 1.0) * swing.axis.cross(swing.out);
+  swing.face = swing.low = std::numeric_limits<double>::infinity();
+  swing.high = -swing.low;
+  for (const Vector3d& point : link.outline) {
+    swing.edge = std::max(swing.edge, point.dot(swing.out));
+    swing.face = std::min(swing.face, point.dot(swing.way));
+    swing.low = std::min(swing.low, point.dot(swing.axis));
+    swing.high = std::max(swing.high, point.dot(swing.axis));
+  }
+  return swing;
+}
+
+// The tool with its axes along `x` and `z`, at the point that is `out`, `way` and `along` the axis.
+Isometry3d ToolAt(const Swing& swing, const Vector3d& x, const Vector3d& z, double out, double way,
+                  double along) {
+  Isometry3d tool = Isometry3d::Identity();
+  tool.linear() << x, z.cross(x), z;
+  tool.translation() = out * swing.out + way * swing.way + along * swing.axis;
+  return tool;
+}
+
+}  // namespace
+
+bool IsSwungShut(const tasks::Thing& thing, const tasks::ThingJoint& joint, double position) {
+  if (joint.type == tasks::RewardJointType::kPrismatic) return false;
+  const double open = joint.far() - joint.rest();
+  if (std::abs(position - joint.rest()) < 0.4 * std::abs(open)) return false;
+  return SwingOf(thing, joint, position).edge > kSwings;
+}
+
+std::vector<Isometry3d> ToolsPushingShut(const tasks::SceneModel& model,
+                                         const tasks::SceneState& start, int thing,
+                                         const tasks::ThingJoint& joint) {
+  const tasks::Thing& whole = model.things[static_cast<size_t>(thing)];
+  const auto j = static_cast<size_t>(&joint - whole.joints.data());
+  const Swing swing = SwingOf(whole, joint, start.joints[static_cast<size_t>(thing)][j]);
+  const Vector3d up =
+      WorldFromLink(model, start, thing, joint.link).linear().transpose() * Vector3d::UnitZ();
+  const double rise = up.dot(swing.axis);
+  const double middle = 0.5 * (swing.low + swing.high);
+  const double behind = swing.face - kBehindFace;
+  std::vector<Isometry3d> tools;
+  if (std::abs(rise) > kUpright) {
+    const double top = rise > 0.0 ? swing.high - kOverEdge : swing.low + kOverEdge;
+    const Vector3d down = rise > 0.0 ? Vector3d(-swing.axis) : swing.axis;
+    tools.push_back(ToolAt(swing, swing.way, down, kOut * swing.edge, behind, top));
+  }
+  tools.push_back(
+      ToolAt(swing, swing.way, -swing.out, swing.edge - kOverEdge, behind, middle));
+  tools.push_back(
+      ToolAt(swing, swing.out, swing.way, kOut * swing.edge, swing.face, middle));
+  return tools;
+}
+
+}  // namespace simwright::rl
