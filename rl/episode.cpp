@@ -112,7 +112,7 @@ Decision Episode::Step(const float* action) {
   work.base_from_focus =
       variant.subtask.start.world_from_robot.inverse() * frame_->world_from_focus();
   work.lean = frame_->lean();
-  work.pushes = Pushes(variant);
+  work.pushes = Pushes(variant) || (variant.focus && variant.focus->pushes);
   work.free_way = frame_->free_way();
   work.back = frame_->back();
   work.room_depth = frame_->room_depth();

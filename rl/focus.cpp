@@ -202,7 +202,7 @@ double RimOf(const Thing& thing, const Eigen::Isometry3d& world_from_thing, doub
 }  // namespace
 
 std::optional<Focus> FocusOf(const SceneModel& model, const SceneState& start,
-                             const std::vector<RewardSlot>& slots, double opening) {
+                             const std::vector<RewardSlot>& slots, double opening, double base) {
   const auto of_joint = [](RewardInput input) { return input == RewardInput::kJointState; };
   const auto of_grasp = [](RewardInput input) { return input == RewardInput::kGrasped; };
   Focus focus;
@@ -215,7 +215,7 @@ std::optional<Focus> FocusOf(const SceneModel& model, const SceneState& start,
       const auto t = static_cast<size_t>(focus.thing), j = static_cast<size_t>(focus.joint);
       focus.pushes = IsSwungShut(thing, joint, start.joints[t][j]);
       focus.link = focus.pushes ? joint.link : joint.grip;
-      focus.approaches = focus.pushes ? ToolsPushingShut(model, start, focus.thing, joint)
+      focus.approaches = focus.pushes ? ToolsPushingShut(model, start, focus.thing, joint, base)
                                       : ToolsOnPart(model, start, focus, opening);
       focus.link_from_tool = focus.approaches.front();
       return focus;

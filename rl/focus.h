@@ -39,9 +39,10 @@ struct Destination {
 
 // What the program of a subtask works on, from what it reads: the joint whose state it takes, the
 // thing whose grasp it asks for, else the thing or link whose place it takes. None where it names
-// nothing. `opening`: m, how wide the hand opens.
+// nothing. `opening`: m, how wide the hand opens; `base`: m, the height of the robot's base.
 std::optional<Focus> FocusOf(const tasks::SceneModel& model, const tasks::SceneState& start,
-                             const std::vector<tasks::RewardSlot>& slots, double opening);
+                             const std::vector<tasks::RewardSlot>& slots, double opening,
+                             double base);
 
 std::optional<Destination> DestinationOf(const tasks::SceneModel& model,
                                          const tasks::SceneState& start, const Focus& focus,

@@ -16,10 +16,11 @@ bool IsSwungShut(const tasks::Thing& thing, const tasks::ThingJoint& joint, doub
 // Where a hand pushes what swings on `joint` shut, in the frame of the link that it moves, the most
 // natural first: x along the part's way, the fingers' sides on the face that is behind it, near the
 // free edge and an edge over which the palm stays out of the way. From above where the axis is
-// upright, then past the free edge; last with the fingertips on the face. A hand that pushes needs
-// no handle, which an open door holds out to where the robot stands.
+// upright and the edge low, then past the free edge; last with the fingertips on the face. A hand
+// that pushes needs no handle, which an open door holds out to where the robot stands. `base`: m,
+// the height of the robot's base.
 std::vector<Eigen::Isometry3d> ToolsPushingShut(const tasks::SceneModel& model,
                                                 const tasks::SceneState& start, int thing,
-                                                const tasks::ThingJoint& joint);
+                                                const tasks::ThingJoint& joint, double base);
 
 }  // namespace simwright::rl

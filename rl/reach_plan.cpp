@@ -273,7 +273,8 @@ Isometry3d ToolAtFocus(const SkillVariant& variant, const tasks::SceneState& sta
     tool = ToolBehind(variant, state, across);
   } else if (focus.joint >= 0) {
     tool = ToolAtJoint(variant.model, state, focus);
-    if (!focus.pushes && across.dot(tool.linear().col(1)) < 0.0) tool.linear().leftCols<2>() *= -1.0;
+    if (!focus.pushes && across.dot(tool.linear().col(1)) < 0.0)
+      tool.linear().leftCols<2>() *= -1.0;
   } else {
     const Isometry3d& root = state.roots[static_cast<size_t>(focus.thing)];
     const tasks::Thing& taken = variant.model.things[static_cast<size_t>(focus.thing)];

@@ -25,6 +25,7 @@ constexpr double kBesideFree = 0.007, kFarthestBack = 0.04;  // m
 constexpr double kBackPerBeside = 4.0;                       // m a m
 constexpr double kClosed = 0.1;                              // of the opening that is asked for
 constexpr double kAhead = 0.06;      // m that a part is pulled by ahead of it
+constexpr double kAheadShut = 0.08;  // m that a door is pushed by: it is wide, and goes far
 constexpr double kTurnAhead = 0.35;  // rad
 constexpr double kArrived = 0.025;   // m from the destination: lets go
 constexpr double kPushing = 0.02;    // m ahead of its place behind it, the hand touches the thing
@@ -109,6 +110,16 @@ void WorkPart(const Glance& glance, float* action) {
   Ask(pull * sense * kTurnAhead * axis, glance.options.turn, action + 3);
 }
 
+// Closed fingers that are behind the part push it on; how far they give way before it does, or it
+// is ahead of them, is no matter.
+void PushShut(const Glance& glance, float* action) {
+  action[6] = -1.0f;
+  const Vector3d beside(std::max(0.0, glance.off.x() - kThere), glance.off.y(), glance.off.z());
+  const double off = std::max(beside.norm() / kThere, glance.angle / kAligned);
+  const double push = std::clamp(kGripGain * (kPullsTo - off), 0.0, 1.0);
+  Ask(push * kAheadShut * glance.frame.free_way(), glance.options.reach, action);
+}
+
 void Push(const Glance& glance, float* action) {
   action[6] = -1.0f;
   const bool behind = std::abs(glance.off.y()) < kLost && std::abs(glance.off.z()) < kLost &&
@@ -148,6 +159,8 @@ void ScriptedAction(const Episode& episode, float* action) {
   if (!glance.variant.focus) return;
   if (glance.frame.withdrawing()) {
     action[6] = 1.0f;
+  } else if (glance.variant.focus->pushes) {
+    PushShut(glance, action);
   } else if (glance.variant.focus->joint >= 0) {
     WorkPart(glance, action);
   } else if (Pushes(glance.variant)) {

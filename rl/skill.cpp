@@ -85,7 +85,8 @@ void CompileProgram(SkillVariant* variant) {
 
 void FindFocus(double opening, SkillVariant* variant) {
   const std::vector<tasks::RewardSlot>& slots = variant->program->slots();
-  variant->focus = FocusOf(variant->model, variant->start, slots, opening);
+  variant->focus = FocusOf(variant->model, variant->start, slots, opening,
+                           variant->subtask.start.world_from_robot.translation().z());
   if (variant->focus) {
     variant->destination = DestinationOf(variant->model, variant->start, *variant->focus, slots);
   }

@@ -56,8 +56,11 @@ Isometry3d InFocus(const Skill& skill, const WorkFrame& frame, const ArmCommand&
 double Standoff(const Skill& skill, const WorkFrame& frame, const Isometry3d& off) {
   const Vector3d& back = frame.back;
   Vector3d beside = off.translation() - off.translation().dot(back) * back;
-  const Vector3d way = frame.free_way - frame.free_way.dot(back) * back;
-  if (frame.pushes) beside.x() = std::max(0.0, beside.x() - kAhead);
+  Vector3d way = frame.free_way - frame.free_way.dot(back) * back;
+  if (frame.pushes) {
+    beside.x() = std::max(0.0, beside.x() - kAhead);
+    way.setZero();
+  }
   const double counted = (beside - std::max(0.0, beside.dot(way)) * way).norm();
   const double aside = std::max(0.0, counted - kBeside);
   const Eigen::AngleAxisd turn(off.linear() * Leaning(-frame.lean));
