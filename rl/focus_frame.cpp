@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "rl/focus_geometry.h"
+#include "rl/joint_work.h"
 #include "rl/observation.h"
 #include "rl/open_room.h"
 #include "rl/reach_plan.h"

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "rl/joint_work.h"
 #include "rl/link_pose.h"
 
 namespace simwright::rl {
@@ -62,9 +64,7 @@ Isometry3d ToolAt(const Swing& swing, const Vector3d& x, const Vector3d& z, doub
 
 bool IsSwungShut(const tasks::Thing& thing, const tasks::ThingJoint& joint, double position) {
   if (joint.type == tasks::RewardJointType::kPrismatic) return false;
-  const double open = joint.far() - joint.rest();
-  if (std::abs(position - joint.rest()) < 0.4 * std::abs(open)) return false;
-  return SwingOf(thing, joint, position).edge > kSwings;
+  return WorkEnd(joint, position) == joint.rest() && SwingOf(thing, joint, position).edge > kSwings;
 }
 
 std::vector<Isometry3d> ToolsPushingShut(const tasks::SceneModel& model,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rl/arm_clearance.h"
+#include "rl/joint_work.h"
 #include "rl/observation.h"
 #include "rl/posture_search.h"
 #include "rl/tool_follower.h"
@@ -254,11 +255,6 @@ std::optional<ReachPlan> PlanWith(const Skill& skill, const SkillVariant& varian
 }
 
 }  // namespace
-
-double WorkEnd(const tasks::ThingJoint& joint, double position) {
-  const double rest = joint.rest(), most = rest + 0.8 * (joint.far() - rest);
-  return std::abs(position - rest) > std::abs(position - most) ? rest : most;
-}
 
 bool Pushes(const SkillVariant& variant) {
   return variant.focus && variant.focus->joint < 0 && variant.destination &&

@@ -9,9 +9,6 @@ namespace simwright::rl {
 // Whether the thing is brought to its destination without being grasped.
 bool Pushes(const SkillVariant& variant);
 
-// How far a joint that stands at `position` shall go: the farther of its rest and most of its way.
-double WorkEnd(const tasks::ThingJoint& joint, double position);
-
 // world_from_tool at work: on the focus, or where it is pushed, behind it as seen from its
 // destination. `across` (unit, world): the tool's y axis, the line from
 // finger to finger, as it is now; the hand is the same turned by half about its own axis, and stays

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rl/joint_work.h"
 #include "rl/link_pose.h"
 #include "rl/observation.h"
 #include "rl/reach_plan.h"

@@ -48,7 +48,7 @@ TEST(FocusFrame, TheWayThatADoorIsClosedIsFreeWhereverItIsMet) {
   tasks::SceneState state = variant.start;
   for (const double position : {1.4, 0.2}) {
     state.joints[0][static_cast<size_t>(variant.focus->joint)] = position;
-    EXPECT_GT(FrameOf(variant, state).free_way().z(), 0.9) << position;
+    EXPECT_GT(FrameOf(variant, state).free_way().x(), 0.9) << position;
   }
 }
 

@@ -44,6 +44,11 @@ TEST(ScriptedHand, OpensADoor) {
   EXPECT_GE(EvaluateScript(*skill, DrawStarts(*skill, 20, 5)).successes, 10);
 }
 
+TEST(ScriptedHand, ShutsADoor) {
+  const auto skill = Evaluated(CloseDoor());
+  EXPECT_GE(EvaluateScript(*skill, DrawStarts(*skill, 20, 5)).successes, 18);
+}
+
 TEST(ScriptedHand, IsWhatAnEnvironmentShows) {
   const auto skill = Evaluated(OpenDoor());
   SkillEnvironment environment(skill, 3);

@@ -77,4 +77,18 @@ inline SkillSubtask OpenDoor(const std::string& name = "microwave") {
   return scene;
 }
 
+// The same, its door wide open, to be closed.
+inline SkillSubtask CloseDoor(const std::string& name = "microwave") {
+  SkillSubtask scene = OpenDoor(name);
+  scene.subtask.name = "close_" + name;
+  scene.subtask.program =
+      "def compute_reward(env):\n"
+      "    moved = env.get_state_by_joint_name(\"" +
+      name +
+      "\", \"door_joint\") / 1.7\n"
+      "    return -moved, moved <= 0.05\n";
+  scene.subtask.start.joints = {{name, "door_joint", 1.3}};
+  return scene;
+}
+
 }  // namespace simwright::rl

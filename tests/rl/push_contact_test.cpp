@@ -1,0 +1,86 @@
+// Where a hand pushes a door shut: behind it, as it goes, and only where something is to be shut.
+#include "rl/push_contact.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/rl/skill_scene.h"
+
+namespace simwright::rl {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+std::shared_ptr<const Skill> SkillOf(const SkillSubtask& scene) {
+  return MakeSkill(robot::Panda(false), {scene}, SkillOptions().ForEvaluation());
+}
+
+// A panel of `width` x 0.02 x 0.3 m that turns about an upright axis at its side, wide open at 1.5.
+tasks::Thing Panel(double width) {
+  assets::SemanticModel model;
+  model.name = "panel";
+  assets::UrdfLink post = tasks::MakeLink("post", 1.0), leaf = tasks::MakeLink("leaf", 1.0);
+  post.collisions = {tasks::Block({0.02, 0.02, 0.3}, {0, 0, 0.15})};
+  leaf.collisions = {tasks::Block({width, 0.02, 0.3}, {0.5 * width, 0, 0.15})};
+  model.model.links = {post, leaf};
+  model.model.joints = {tasks::MakeJoint("hinge", "post", "leaf", assets::UrdfJointType::kRevolute,
+                                         Vector3d::Zero(), {0, 0, 1}, 0.0, 1.5)};
+  return tasks::ThingOf("panel", model);
+}
+
+TEST(ToolsPushingShut, AreBehindTheDoorAndGoItsWay) {
+  const auto skill = SkillOf(CloseDoor());
+  const SkillVariant& variant = skill->variants.front();
+  const Focus& focus = *variant.focus;
+  ASSERT_TRUE(focus.pushes);
+  const tasks::Thing& thing = variant.model.things[0];
+  ASSERT_EQ(focus.approaches.size(), 3u);  // from above, past the edge, with the fingertips
+  for (size_t i = 0; i < 2; ++i) {
+    Focus one = focus;
+    one.link_from_tool = focus.approaches[i];
+    tasks::SceneState state = variant.start;
+    const Isometry3d before = ToolAtJoint(variant.model, state, one);
+    state.joints[0][static_cast<size_t>(focus.joint)] -= 1e-6;
+    const Isometry3d after = ToolAtJoint(variant.model, state, one);
+    const Vector3d way = (after.translation() - before.translation()).normalized();
+    // The contact is a little behind the face that the hinge is in: its way is not quite x.
+    EXPECT_GT(way.dot(before.linear().col(0)), 0.95);
+    for (const Vector3d& point : thing.links[static_cast<size_t>(focus.link)].outline) {
+      EXPECT_GE((focus.approaches[i].inverse() * point).x(), 0.02 - 1e-9);
+    }
+    EXPECT_NEAR(focus.approaches[i].linear().determinant(), 1.0, 1e-12);
+  }
+  EXPECT_LT(ToolAtJoint(variant.model, variant.start, focus).linear()(2, 2), -0.999);
+}
+
+TEST(ToolsPushingShut, ToHighEdgesAreNotFromAbove) {
+  tasks::SceneModel model;
+  model.things = {Panel(0.4)};
+  tasks::SceneState state;
+  state.roots = {Isometry3d::Identity()};
+  state.joints = {{1.2}};
+  const tasks::ThingJoint& hinge = model.things[0].joints[0];
+  const auto low = ToolsPushingShut(model, state, 0, hinge, 0.0);
+  ASSERT_EQ(low.size(), 3u);
+  EXPECT_NEAR(low[0].translation().z(), 0.27, 1e-9);  // 3 cm below the edge
+  EXPECT_NEAR(low[0].translation().x(), 0.3, 1e-9);   // three quarters of the way out
+  EXPECT_NEAR(low[1].translation().z(), 0.15, 1e-9);
+  EXPECT_NEAR(low[1].translation().x(), 0.37, 1e-9);
+  // It shuts clockwise: the hand is on the side that y grows to.
+  EXPECT_NEAR(low[1].translation().y(), 0.03, 1e-9);
+  // From a base 30 cm lower it is a face from 0.3 to 0.6 m: 0.4 m up is within it.
+  const auto high = ToolsPushingShut(model, state, 0, hinge, -0.3);
+  ASSERT_EQ(high.size(), 2u);
+  EXPECT_NEAR(high[0].translation().z(), 0.1, 1e-9);
+}
+
+TEST(IsSwungShut, IsNoKnobAndNothingThatIsOpened) {
+  const tasks::Thing door = Panel(0.4), knob = Panel(0.06);
+  EXPECT_TRUE(IsSwungShut(door, door.joints[0], 1.2));
+  EXPECT_FALSE(IsSwungShut(door, door.joints[0], 0.0));
+  EXPECT_FALSE(IsSwungShut(knob, knob.joints[0], 1.2));
+  EXPECT_FALSE(SkillOf(OpenDoor())->variants.front().focus->pushes);
+}
+
+}  // namespace
+}  // namespace simwright::rl
