@@ -42,6 +42,12 @@ double Farther(int attempt) {
   return kFarthest * std::max(0.0, (attempt - kTries / 3) / (kTries * 2.0 / 3.0));
 }
 
+// The try from which on a plan that is not clear will do. An arm that cannot get behind an open
+// door opens it wider, for ever; where the furniture is farther away, there is a way.
+int UnclearFrom(const SkillVariant& variant) {
+  return variant.focus->pushes ? 2 * kTries / 3 : kTries / 3;
+}
+
 // Moves and turns every thing; what stands in another goes with it and turns where it stands.
 // `farther`: m away from the robot, all of them.
 void Scatter(const SkillVariant& variant, const SkillOptions& options, double farther,
@@ -178,10 +184,14 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
     start.state.goal = GoalIn(variant, start.state);
     if (!IsArmClear(skill, variant, start.state, home)) continue;
     if (!variant.focus) break;
-    const auto plan = PlanReach(skill, variant, start.state, home, rng);
-    if (plan && (plan->clear || attempt >= kTries / 3)) {
+    const auto plan = PlanReach(skill, variant, start.state, home, rng, attempt >= kTries / 3);
+    if (plan && (plan->clear || attempt >= UnclearFrom(variant))) {
       start.pitch = plan->pitch;
       start.at_work = plan->at_work;
+      start.via = plan->via;
+      if (variant.focus->pushes) {
+        start.via.push_back(BeforeWork(skill, variant, start.state, start.at_work));
+      }
       break;
     }
     start.state = variant.start;

@@ -58,6 +58,7 @@ struct Demands {
   bool looks_ahead = false;  // the thing can go on to variant.next
   bool leans_in = false;     // the hand leans into variant.room
   bool clear = false;        // ReachPlan::clear
+  bool round = false;        // or ReachPlan::via
 };
 
 // Whether the tool goes to `there` in variant.room through its opening, the arm being in nothing.
@@ -190,19 +191,24 @@ bool StaysBack(const Skill& skill, const SkillVariant& variant, const tasks::Sce
   return there;
 }
 
-// Whether the arm gets from `from` to where the hand stays back before its work, and is in nothing
-// at the work itself but for the fingers, which are about it.
-bool GetsThere(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
-               const robot::Posture& from, const Candidate& candidate) {
+// How the arm gets from `from` to where the hand stays back before its work, in nothing at the work
+// itself but for the fingers, which are about it: straight, or `round` what is between. None where
+// it does not.
+std::optional<Detour> WayThere(const Skill& skill, const SkillVariant& variant,
+                               const tasks::SceneState& state, const robot::Posture& from,
+                               const Candidate& candidate, bool round) {
   const bool takes = variant.focus->joint < 0;
   const ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
-  if (takes && !clearance.IsClear(candidate.posture)) return false;
+  if (takes && !clearance.IsClear(candidate.posture)) return std::nullopt;
   const bool palm_free =
       Pushes(variant) ||
       ArmClearance(skill, variant, state).IsClear(candidate.posture, Fingers::kIgnored);
   robot::Posture before;
-  return palm_free && StaysBack(skill, variant, state, candidate.posture, &before) &&
-         clearance.IsWayClear(from, before);
+  if (!palm_free || !StaysBack(skill, variant, state, candidate.posture, &before)) {
+    return std::nullopt;
+  }
+  if (clearance.IsWayClear(from, before)) return Detour();
+  return round ? PlanDetour(skill, clearance, from, before) : std::nullopt;
 }
 
 // The lines (unit, world) that the fingers may be along: `across`, and turned about the upright
@@ -248,8 +254,9 @@ std::optional<ReachPlan> PlanWith(const Skill& skill, const SkillVariant& varian
                          &follower)
             : CarriesThing(skill, variant, state, candidate.tool, demands, &follower);
     if (!works) continue;
-    if (demands.clear && !GetsThere(skill, variant, state, from, candidate)) continue;
-    return ReachPlan{candidate.pitch, candidate.posture, demands.clear};
+    if (!demands.clear) return ReachPlan{candidate.pitch, candidate.posture, false, {}};
+    const auto way = WayThere(skill, variant, state, from, candidate, demands.round);
+    if (way) return ReachPlan{candidate.pitch, candidate.posture, way->empty(), *way};
   }
   return std::nullopt;
 }
@@ -286,7 +293,7 @@ Isometry3d ToolAtFocus(const SkillVariant& variant, const tasks::SceneState& sta
 
 std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& variant,
                                    const tasks::SceneState& state, const robot::Posture& from,
-                                   core::Rng& rng) {
+                                   core::Rng& rng, bool round) {
   const Isometry3d& world_from_base = variant.subtask.start.world_from_robot;
   const Isometry3d tool_now = world_from_base * robot::ForwardKinematics(skill.robot->arm, from);
   const std::vector<Vector3d> lines = LinesAcross(variant, state, tool_now.linear().col(1));
@@ -312,6 +319,8 @@ std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& varia
       if (const auto found = plan({.looks_ahead = true, .clear = clear})) return found;
     }
     if (const auto found = plan({.clear = clear})) return found;
+    if (!clear || !round || variant.room) continue;
+    if (const auto found = plan({.clear = true, .round = true})) return found;
   }
   return std::nullopt;
 }

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "rl/detour.h"
 #include "rl/skill.h"
 
 namespace simwright::rl {
@@ -22,6 +23,7 @@ struct ReachPlan {
   double pitch = 0.0;      // rad, of the hand
   robot::Posture at_work;  // (J) with the tool at the focus
   bool clear = false;      // the arm is in nothing on its way there, straight from joint to joint
+  Detour via;              // else round what is between, to where it waits; empty: none found
 };
 
 // The least pitch (of a hand that pushes: about 0.6 rad; of one that goes into a room through its
@@ -29,12 +31,13 @@ struct ReachPlan {
 // which the tool goes along most of the joint's way, or with the thing to its destination, off by
 // no more than a centimetre and 0.15 rad, and the arm is in nothing in a room and before it. One
 // that is clear, where there is one: round things are taken with the fingers' line any way for it.
-// A thing is taken so that it can go on to variant.next too, where there is a way. None where no
-// pitch does. Postures are sought for both sides of the hand, from `from` and from random ones: a
-// tool that only ever goes straight at its target ends at some joint's limit every other time.
+// A thing is taken so that it can go on to variant.next too, where there is a way. `round`: where
+// no plan is clear, one to whose work the arm gets round what is between. None where no pitch does.
+// Postures are sought for both sides of the hand, from `from` and from random ones: a tool that
+// only ever goes straight at its target ends at some joint's limit every other time.
 std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& variant,
                                    const tasks::SceneState& state, const robot::Posture& from,
-                                   core::Rng& rng);
+                                   core::Rng& rng, bool round = false);
 
 // (J) in which the hand stays back before its work `at_work` (J).
 robot::Posture BeforeWork(const Skill& skill, const SkillVariant& variant,
