@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kTouching = 0.001;  // m; in a board no point is deeper than half of its thickness
 constexpr double kInFloor = 0.005;   // m
-constexpr double kLook = 0.1;       // rad or m of any joint from look to look
+constexpr double kLook = 0.1;        // rad or m of any joint from look to look
 
 // world_from_link of the robot's links. (urdf.links)
 std::vector<Eigen::Isometry3d> RobotPoses(const robot::RobotModel& robot,

@@ -167,6 +167,15 @@ void PlanFromBefore(const Skill& skill, const SkillVariant& variant, core::Rng& 
           .value_or(Detour());
 }
 
+// EpisodeStart::via of an arm that begins away from its work. Behind an open door it gets only the
+// way that was looked at.
+Detour WayToWork(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
+                 const ReachPlan& plan) {
+  Detour way = plan.via;
+  if (variant.focus->pushes) way.push_back(BeforeWork(skill, variant, state, plan.at_work));
+  return way;
+}
+
 }  // namespace
 
 EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
@@ -188,10 +197,7 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
     if (plan && (plan->clear || attempt >= UnclearFrom(variant))) {
       start.pitch = plan->pitch;
       start.at_work = plan->at_work;
-      start.via = plan->via;
-      if (variant.focus->pushes) {
-        start.via.push_back(BeforeWork(skill, variant, start.state, start.at_work));
-      }
+      start.via = WayToWork(skill, variant, start.state, *plan);
       break;
     }
     start.state = variant.start;
@@ -210,6 +216,7 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
     } else if (const auto plan = PlanReach(skill, variant, start.state, home, rng)) {
       start.pitch = plan->pitch;
       start.at_work = plan->at_work;
+      start.via = WayToWork(skill, variant, start.state, *plan);
       at_work = core::Uniform(rng) < kOnPart;
     }
   }
@@ -220,7 +227,10 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
   const bool grasps = variant.focus && variant.focus->joint < 0 && variant.asks_for_grasp;
   if (grasps && (part_way || variant.starts_held)) start.held = variant.focus->thing;
   at_work = at_work && IsArmClear(skill, variant, start.state, start.at_work);
-  if (at_work || start.held >= 0) start.arm = start.at_work;
+  if (at_work || start.held >= 0) {
+    start.arm = start.at_work;
+    start.via.clear();
+  }
   const robot::Gripper& gripper = skill.robot->gripper;
   // A wall is thin: fingers that begin near it are closed sooner.
   if (start.held >= 0 && variant.focus->rim > 0.0) {

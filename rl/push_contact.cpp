@@ -19,7 +19,7 @@ constexpr double kBehindFace = 0.02;  // m: half of a finger, and some room
 constexpr double kOut = 0.75;         // of the way from the axis to the free edge
 constexpr double kUpright = 0.9;      // cosine of an upright axis
 // m above the robot's base: an edge that is higher has the arm stretched out when it comes from
-// above, and a face that goes higher is pushed there (of 100 doors of cabinets 78 by script; half
+// above, and a face that goes higher is pushed there (of 100 doors of cabinets 79 by script; half
 // way up, 42).
 constexpr double kHighest = 0.45, kPushesAt = 0.4;
 

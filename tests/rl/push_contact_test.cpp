@@ -74,6 +74,22 @@ TEST(ToolsPushingShut, ToHighEdgesAreNotFromAbove) {
   EXPECT_NEAR(high[0].translation().z(), 0.1, 1e-9);
 }
 
+TEST(DrawStart, AHandThatBeginsAtTheDoorDoesNotGoBackFirst) {
+  SkillOptions options;
+  options.at_focus_share = 1.0;
+  options.part_way_share = 0.0;
+  const auto skill = MakeSkill(robot::Panda(false), {CloseDoor()}, options);
+  core::Rng rng = core::StreamRng(3, 0);
+  int at_work = 0;
+  for (int i = 0; i < 10; ++i) {
+    const EpisodeStart start = DrawStart(*skill, rng);
+    const bool there = start.arm == start.at_work;
+    at_work += there;
+    EXPECT_EQ(start.via.empty(), there);
+  }
+  EXPECT_GT(at_work, 0);
+}
+
 TEST(IsSwungShut, IsNoKnobAndNothingThatIsOpened) {
   const tasks::Thing door = Panel(0.4), knob = Panel(0.06);
   EXPECT_TRUE(IsSwungShut(door, door.joints[0], 1.2));
