@@ -140,6 +140,41 @@ Vector3d WayOut(const Skill& skill, const SkillVariant& variant, const EpisodeSt
   return length * back;
 }
 
+// The way of an arm that does `plan`: behind an open door it gets only the way that was looked at.
+Detour WayToWork(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
+                 const ReachPlan& plan) {
+  Detour way = plan.via;
+  if (variant.focus->pushes) way.push_back(BeforeWork(skill, variant, state, plan.at_work));
+  return way;
+}
+
+void Follow(const Skill& skill, const SkillVariant& variant, const ReachPlan& plan,
+            EpisodeStart* start) {
+  start->pitch = plan.pitch;
+  start->at_work = plan.at_work;
+  start->via = WayToWork(skill, variant, start->state, plan);
+}
+
+bool GetsThere(const ReachPlan& plan) {
+  return plan.clear || !plan.via.empty();
+}
+
+// From `from` (J): a plan to whose work the arm gets from there, or else folded as at home first.
+std::optional<ReachPlan> PlanFromAnywhere(const Skill& skill, const SkillVariant& variant,
+                                          const tasks::SceneState& state,
+                                          const robot::Posture& from, core::Rng& rng) {
+  auto plan = PlanReach(skill, variant, state, from, rng, true);
+  if (plan && GetsThere(*plan)) return plan;
+  const auto folded = PlanReach(skill, variant, state, skill.robot->home(), rng, true);
+  if (folded && (GetsThere(*folded) || !plan)) plan = folded;
+  if (!plan) return std::nullopt;
+  const bool takes = variant.focus->joint < 0;
+  const ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
+  plan->via = PlanDetour(skill, clearance, from, BeforeWork(skill, variant, state, plan->at_work))
+                  .value_or(Detour());
+  return plan;
+}
+
 // How an empty hand goes from where another skill has left it: away from there, then to its work.
 void PlanFromBefore(const Skill& skill, const SkillVariant& variant, core::Rng& rng,
                     EpisodeStart* start) {
@@ -149,31 +184,72 @@ void PlanFromBefore(const Skill& skill, const SkillVariant& variant, core::Rng& 
   away.translation() += start->withdraw;
   ToolFollower follower(skill, variant, start->arm);
   follower.Goes(away);
-  const robot::Posture from = follower.posture();
-  auto plan = PlanReach(skill, variant, start->state, from, rng);
-  const bool straight = plan && plan->clear;
-  if (!straight) {
-    const auto folded = PlanReach(skill, variant, start->state, skill.robot->home(), rng);
-    if (folded && (folded->clear || !plan)) plan = folded;
-  }
-  if (!plan) return;
-  start->pitch = plan->pitch;
-  start->at_work = plan->at_work;
-  if (straight) return;
-  const bool takes = variant.focus->joint < 0;
-  const ArmClearance clearance(skill, variant, start->state, takes ? variant.focus->thing : -1);
-  start->via =
-      PlanDetour(skill, clearance, from, BeforeWork(skill, variant, start->state, plan->at_work))
-          .value_or(Detour());
+  const auto plan = PlanFromAnywhere(skill, variant, start->state, follower.posture(), rng);
+  if (plan) Follow(skill, variant, *plan, start);
 }
 
-// EpisodeStart::via of an arm that begins away from its work. Behind an open door it gets only the
-// way that was looked at.
-Detour WayToWork(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
-                 const ReachPlan& plan) {
-  Detour way = plan.via;
-  if (variant.focus->pushes) way.push_back(BeforeWork(skill, variant, state, plan.at_work));
-  return way;
+// Finds a place for every thing, and plans the work there.
+void PlaceThings(const Skill& skill, core::Rng& rng, EpisodeStart* start) {
+  const SkillVariant& variant = skill.variants[static_cast<size_t>(start->variant)];
+  const robot::Posture home = skill.robot->home();
+  for (int attempt = 0; attempt < kTries; ++attempt) {
+    start->state = variant.start;
+    Scatter(variant, skill.options, Farther(attempt), rng, &start->state);
+    if (Overlap(variant, start->state)) continue;
+    start->state.goal = GoalIn(variant, start->state);
+    if (!IsArmClear(skill, variant, start->state, home)) continue;
+    if (!variant.focus) return;
+    const auto plan = PlanReach(skill, variant, start->state, home, rng, attempt >= kTries / 3);
+    if (plan && (GetsThere(*plan) || attempt >= UnclearFrom(variant))) {
+      Follow(skill, variant, *plan, start);
+      return;
+    }
+    start->state = variant.start;
+  }
+}
+
+// Moves the joint that the skill works on to anywhere in its range, if the arm can do its work
+// there. Whether it can.
+bool MovePartWay(const Skill& skill, core::Rng& rng, EpisodeStart* start) {
+  const SkillVariant& variant = skill.variants[static_cast<size_t>(start->variant)];
+  const auto thing = static_cast<size_t>(variant.focus->thing);
+  const auto joint = static_cast<size_t>(variant.focus->joint);
+  const tasks::ThingJoint& moved = variant.model.things[thing].joints[joint];
+  double& position = start->state.joints[thing][joint];
+  const double before = position;
+  position = core::Uniform(rng, moved.lower, moved.upper);
+  const robot::Posture home = skill.robot->home();
+  if (IsArmClear(skill, variant, start->state, home)) {
+    if (const auto plan = PlanReach(skill, variant, start->state, home, rng)) {
+      Follow(skill, variant, *plan, start);
+      return true;
+    }
+  }
+  position = before;
+  return false;
+}
+
+// Where arm and fingers begin: at home, or at their work as `at_work` and what is held say.
+void PlaceArm(const Skill& skill, bool at_work, core::Rng& rng, EpisodeStart* start) {
+  const SkillVariant& variant = skill.variants[static_cast<size_t>(start->variant)];
+  const robot::Gripper& gripper = skill.robot->gripper;
+  start->arm = skill.robot->home();
+  Shake(skill, skill.options.posture_range, rng, &start->arm);
+  if (!IsArmClear(skill, variant, start->state, start->arm)) start->arm = skill.robot->home();
+  start->leader = gripper.open;
+  at_work = at_work && IsArmClear(skill, variant, start->state, start->at_work);
+  if (at_work || start->held >= 0) {
+    start->arm = start->at_work;
+    start->via.clear();
+  }
+  // A wall is thin: fingers that begin near it are closed sooner.
+  if (start->held >= 0 && variant.focus->rim > 0.0) {
+    start->leader = gripper.closed + kNearWall * (gripper.open - gripper.closed);
+  }
+  if (at_work && start->held < 0) {
+    start->closed_to = core::Uniform(rng, std::min(gripper.closed, gripper.open),
+                                     std::max(gripper.closed, gripper.open));
+  }
 }
 
 }  // namespace
@@ -184,62 +260,17 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
   start.variant =
       static_cast<int>(core::UniformIndex(rng, static_cast<std::int64_t>(skill.variants.size())));
   const SkillVariant& variant = skill.variants[static_cast<size_t>(start.variant)];
-  const robot::Posture home = skill.robot->home();
-  start.at_work = home;
-  for (int attempt = 0; attempt < kTries; ++attempt) {
-    start.state = variant.start;
-    Scatter(variant, options, Farther(attempt), rng, &start.state);
-    if (Overlap(variant, start.state)) continue;
-    start.state.goal = GoalIn(variant, start.state);
-    if (!IsArmClear(skill, variant, start.state, home)) continue;
-    if (!variant.focus) break;
-    const auto plan = PlanReach(skill, variant, start.state, home, rng, attempt >= kTries / 3);
-    if (plan && (plan->clear || attempt >= UnclearFrom(variant))) {
-      start.pitch = plan->pitch;
-      start.at_work = plan->at_work;
-      start.via = WayToWork(skill, variant, start.state, *plan);
-      break;
-    }
-    start.state = variant.start;
-  }
+  start.at_work = skill.robot->home();
+  PlaceThings(skill, rng, &start);
   const double lot = core::Uniform(rng);
   bool at_work = lot < options.at_focus_share;
   const bool part_way = !at_work && lot < options.at_focus_share + options.part_way_share;
-  if (part_way && variant.focus && variant.focus->joint >= 0) {
-    const auto thing = static_cast<size_t>(variant.focus->thing);
-    const auto joint = static_cast<size_t>(variant.focus->joint);
-    const tasks::ThingJoint& moved = variant.model.things[thing].joints[joint];
-    const double before = start.state.joints[thing][joint];
-    start.state.joints[thing][joint] = core::Uniform(rng, moved.lower, moved.upper);
-    if (!IsArmClear(skill, variant, start.state, home)) {
-      start.state.joints[thing][joint] = before;
-    } else if (const auto plan = PlanReach(skill, variant, start.state, home, rng)) {
-      start.pitch = plan->pitch;
-      start.at_work = plan->at_work;
-      start.via = WayToWork(skill, variant, start.state, *plan);
-      at_work = core::Uniform(rng) < kOnPart;
-    }
+  if (part_way && variant.focus && variant.focus->joint >= 0 && MovePartWay(skill, rng, &start)) {
+    at_work = core::Uniform(rng) < kOnPart;
   }
-  start.arm = home;
-  Shake(skill, options.posture_range, rng, &start.arm);
-  if (!IsArmClear(skill, variant, start.state, start.arm)) start.arm = home;
-  start.leader = skill.robot->gripper.open;
   const bool grasps = variant.focus && variant.focus->joint < 0 && variant.asks_for_grasp;
   if (grasps && (part_way || variant.starts_held)) start.held = variant.focus->thing;
-  at_work = at_work && IsArmClear(skill, variant, start.state, start.at_work);
-  if (at_work || start.held >= 0) {
-    start.arm = start.at_work;
-    start.via.clear();
-  }
-  const robot::Gripper& gripper = skill.robot->gripper;
-  // A wall is thin: fingers that begin near it are closed sooner.
-  if (start.held >= 0 && variant.focus->rim > 0.0) {
-    start.leader = gripper.closed + kNearWall * (gripper.open - gripper.closed);
-  }
-  if (at_work && start.held < 0) {
-    start.closed_to = core::Uniform(rng, std::min(gripper.closed, gripper.open),
-                                    std::max(gripper.closed, gripper.open));
-  }
+  PlaceArm(skill, at_work, rng, &start);
   DrawBodies(variant, options, rng, &start);
   return start;
 }
