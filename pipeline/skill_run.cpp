@@ -167,8 +167,9 @@ std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun&
     models.emplace(asset.name, std::move(model));
   }
   const robot::RobotModel& robot = RobotOf(run.robot);
-  std::vector<RunSkill> skills;
-  for (size_t k = 0; k < named.size(); ++k) {
+  std::vector<RunSkill> skills(named.size());
+  std::vector<std::shared_ptr<const rl::Skill>> later;  // of the first, which is made last
+  for (size_t k = named.size(); k-- > 0;) {
     std::vector<rl::SkillSubtask> subtasks;
     for (const tasks::Task& task : set.tasks) {
       rl::SkillSubtask& one = subtasks.emplace_back();
@@ -176,11 +177,13 @@ std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun&
       if (k + 1 < task.subtasks.size()) one.next = task.subtasks[k + 1];
       for (const std::string& name : task.assets) one.assets.push_back(models.at(name));
     }
-    RunSkill& skill = skills.emplace_back();
+    RunSkill& skill = skills[k];
     skill.name = named[k].name;
     skill.folder = run.folder / (std::to_string(k + 1) + "_" + skill.name);
-    skill.skill = rl::MakeSkill(robot, subtasks, run.options);
-    skill.evaluated = rl::MakeSkill(robot, subtasks, run.options.ForEvaluation());
+    const auto followers = k == 0 ? later : std::vector<std::shared_ptr<const rl::Skill>>();
+    skill.skill = rl::MakeSkill(robot, subtasks, run.options, followers);
+    skill.evaluated = rl::MakeSkill(robot, subtasks, run.options.ForEvaluation(), followers);
+    later.insert(later.begin(), skill.evaluated);
   }
   return skills;
 }

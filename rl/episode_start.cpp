@@ -5,6 +5,7 @@
 
 #include "rl/arm_clearance.h"
 #include "rl/goal_placement.h"
+#include "rl/later_work.h"
 #include "rl/open_room.h"
 #include "rl/reach_plan.h"
 #include "rl/tool_follower.h"
@@ -24,6 +25,7 @@ constexpr double kNearWall = 0.3;  // of the opening
 constexpr double kBackOff = 0.08;  // m that a hand gets away from what it has let go of, at least
 // Of the hand's own axis, out of a room: a hand that leans less into it leaves it level.
 constexpr double kLeansIn = 0.3;
+constexpr double kSteepest = 0.7;   // of the way out of it, or the hand would meet the ceiling
 constexpr double kFromRobot = 0.2;  // m from the robot's axis to a thing's box
 
 double Draw(const FactorRange& range, core::Rng& rng) {
@@ -130,7 +132,12 @@ Vector3d WayOut(const Skill& skill, const SkillVariant& variant, const EpisodeSt
   double length = kBackOff;
   if (const auto room = SideRoomAround(variant.model, start.state, tool.translation())) {
     const Vector3d out = -InwardOf(*room, variant.model, start.state);
-    if (back.dot(out) < kLeansIn) back = out;
+    const Vector3d aside = back - back.dot(out) * out;
+    if (back.dot(out) < kLeansIn) {
+      back = out;
+    } else if (back.dot(out) < kSteepest) {
+      back = kSteepest * out + std::sqrt(1.0 - kSteepest * kSteepest) * aside.normalized();
+    }
     const double depth = DepthIn(*room, variant.model, start.state, tool.translation());
     length = std::max(length, (depth + kBeforeOpening) / back.dot(out));
   } else if (const auto rim = RimAround(variant.model, start.state, tool.translation())) {
@@ -155,18 +162,14 @@ void Follow(const Skill& skill, const SkillVariant& variant, const ReachPlan& pl
   start->via = WayToWork(skill, variant, start->state, plan);
 }
 
-bool GetsThere(const ReachPlan& plan) {
-  return plan.clear || !plan.via.empty();
-}
-
 // From `from` (J): a plan to whose work the arm gets from there, or else folded as at home first.
 std::optional<ReachPlan> PlanFromAnywhere(const Skill& skill, const SkillVariant& variant,
                                           const tasks::SceneState& state,
                                           const robot::Posture& from, core::Rng& rng) {
   auto plan = PlanReach(skill, variant, state, from, rng, true);
-  if (plan && GetsThere(*plan)) return plan;
+  if (plan && plan->GetsThere()) return plan;
   const auto folded = PlanReach(skill, variant, state, skill.robot->home(), rng, true);
-  if (folded && (GetsThere(*folded) || !plan)) plan = folded;
+  if (folded && (folded->GetsThere() || !plan)) plan = folded;
   if (!plan) return std::nullopt;
   const bool takes = variant.focus->joint < 0;
   const ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
@@ -188,10 +191,12 @@ void PlanFromBefore(const Skill& skill, const SkillVariant& variant, core::Rng& 
   if (plan) Follow(skill, variant, *plan, start);
 }
 
-// Finds a place for every thing, and plans the work there.
+// Finds a place for every thing, and plans the work there. A place where only what comes later in
+// the task is out of reach will do where there is no other.
 void PlaceThings(const Skill& skill, core::Rng& rng, EpisodeStart* start) {
   const SkillVariant& variant = skill.variants[static_cast<size_t>(start->variant)];
   const robot::Posture home = skill.robot->home();
+  std::optional<EpisodeStart> second_best;
   for (int attempt = 0; attempt < kTries; ++attempt) {
     start->state = variant.start;
     Scatter(variant, skill.options, Farther(attempt), rng, &start->state);
@@ -200,12 +205,14 @@ void PlaceThings(const Skill& skill, core::Rng& rng, EpisodeStart* start) {
     if (!IsArmClear(skill, variant, start->state, home)) continue;
     if (!variant.focus) return;
     const auto plan = PlanReach(skill, variant, start->state, home, rng, attempt >= kTries / 3);
-    if (plan && (GetsThere(*plan) || attempt >= UnclearFrom(variant))) {
+    if (plan && (plan->GetsThere() || attempt >= UnclearFrom(variant))) {
       Follow(skill, variant, *plan, start);
-      return;
+      if (IsLaterWorkInReach(skill, start->variant, start->state, rng)) return;
+      if (!second_best) second_best = *start;
     }
     start->state = variant.start;
   }
+  if (second_best) *start = *second_best;
 }
 
 // Moves the joint that the skill works on to anywhere in its range, if the arm can do its work

@@ -54,6 +54,7 @@ class FocusFrame {
   bool at_destination_ = false;
   double below_ = 0.0;  // m, how far the thing reaches below its middle
   int held_ = 0;        // updates in a row with the thing in both fingers
+  bool was_held_ = false;
   Eigen::Vector3d back_ = -Eigen::Vector3d::UnitZ();
   double room_depth_ = 0.0;
   bool withdrawing_ = false;

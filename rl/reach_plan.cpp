@@ -35,7 +35,6 @@ constexpr double kLeaning = 0.9;  // of the lean, into the room: things with cor
 // That are looked at in rooms and along a joint's way: whether an arm is clear takes a millisecond.
 constexpr int kLookedAt = 6;
 constexpr double kPalmEdge = 0.04;  // m: what the edge comes down by, over 1 - cos(lean)
-constexpr double kUpright = 0.8;    // of a thing's z axis
 constexpr double kTurns[] = {0.25 * M_PI, 0.5 * M_PI, 0.75 * M_PI};  // of the fingers' line
 constexpr double kSameLine = 0.97;  // the cosine of about 14 degrees
 
@@ -254,9 +253,10 @@ std::optional<ReachPlan> PlanWith(const Skill& skill, const SkillVariant& varian
                          &follower)
             : CarriesThing(skill, variant, state, candidate.tool, demands, &follower);
     if (!works) continue;
-    if (!demands.clear) return ReachPlan{candidate.pitch, candidate.posture, false, {}};
+    const bool goes_on = demands.looks_ahead && variant.next;
+    if (!demands.clear) return ReachPlan{candidate.pitch, candidate.posture, false, {}, goes_on};
     const auto way = WayThere(skill, variant, state, from, candidate, demands.round);
-    if (way) return ReachPlan{candidate.pitch, candidate.posture, way->empty(), *way};
+    if (way) return ReachPlan{candidate.pitch, candidate.posture, way->empty(), *way, goes_on};
   }
   return std::nullopt;
 }
@@ -332,10 +332,9 @@ robot::Posture BeforeWork(const Skill& skill, const SkillVariant& variant,
   return before;
 }
 
-double PitchAt(const SkillVariant& variant, const tasks::SceneState& state,
+double PitchAt(const SkillVariant&, const tasks::SceneState&,
                const Isometry3d& world_from_tool) {
-  Vector3d up = state.roots[static_cast<size_t>(variant.focus->thing)].linear().col(2);
-  if (up.z() < kUpright) up = Vector3d::UnitZ();
+  const Vector3d up = Vector3d::UnitZ();
   const Vector3d axis = world_from_tool.linear().col(2);
   const Vector3d ahead = world_from_tool.linear().col(1).cross(-up).normalized();
   return std::atan2(axis.dot(ahead), -axis.dot(up));

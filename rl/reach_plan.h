@@ -24,6 +24,9 @@ struct ReachPlan {
   robot::Posture at_work;  // (J) with the tool at the focus
   bool clear = false;      // the arm is in nothing on its way there, straight from joint to joint
   Detour via;              // else round what is between, to where it waits; empty: none found
+  bool goes_on = false;    // what is taken can go on to variant.next
+
+  bool GetsThere() const { return clear || !via.empty(); }
 };
 
 // The least pitch (of a hand that pushes: about 0.6 rad; of one that goes into a room through its

@@ -29,6 +29,8 @@ constexpr double kAhead = 0.06;      // m that a part is pulled by ahead of it
 constexpr double kAheadShut = 0.08;  // m that a door is pushed by: it is wide, and goes far
 constexpr double kTurnAhead = 0.35;  // rad
 constexpr double kArrived = 0.025;   // m from the destination: lets go
+constexpr double kAtRest = 0.005;    // m: the hand is where it shall be, and gets no nearer
+constexpr double kArrivedTurned = 0.1;  // m that what has turned in it may be off then
 constexpr double kPushing = 0.02;    // m ahead of its place behind it, the hand touches the thing
 constexpr double kNearGoal = 0.01;   // m: what is so near to its goal is left there
 
@@ -134,7 +136,9 @@ void Carry(const Glance& glance, float* action) {
   const bool putting = glance.variant.starts_held;
   if (glance.frame.at_destination()) {
     const double missing = WayToDestination(glance.variant, glance.state).norm();
-    const double early = putting ? kGripGain * (1.0 - missing / kArrived) : -1.0;
+    // What has turned in the hand is not where the hand would have it.
+    const double arrived = glance.off.norm() < kAtRest ? kArrivedTurned : kArrived;
+    const double early = putting ? kGripGain * (1.0 - missing / arrived) : -1.0;
     action[6] = static_cast<float>(std::clamp(early, -1.0, 1.0));
     return;
   }

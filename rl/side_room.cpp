@@ -14,7 +14,7 @@ using tasks::SceneModel;
 using tasks::SceneState;
 
 constexpr double kLevel = 0.5;        // of the opening's rise: less is to a side
-constexpr double kBehind = 0.02;      // m between the thing and the opening's plane
+constexpr double kBehind = 0.03;      // m between the thing and the opening's plane
 constexpr double kAboveFloor = 0.01;  // m, from where it is let go of
 
 // m from the room's middle to the plane of its opening.

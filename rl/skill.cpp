@@ -179,10 +179,16 @@ bool Alike(const SkillVariant& a, const SkillVariant& b) {
 
 std::shared_ptr<const Skill> MakeSkill(const robot::RobotModel& robot,
                                        const std::vector<SkillSubtask>& subtasks,
-                                       const SkillOptions& options) {
+                                       const SkillOptions& options,
+                                       std::vector<std::shared_ptr<const Skill>> later) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error(error, "skill options");
   if (subtasks.empty()) throw core::Error("a skill needs a subtask");
+  for (const auto& skill : later) {
+    if (skill->variants.size() == subtasks.size()) continue;
+    throw core::Error("is practised in another number of scenes than what it follows",
+                      "subtask " + skill->variants.front().subtask.name);
+  }
   auto skill = std::make_shared<Skill>();
   skill->robot = &robot;
   skill->robot_body = sim::RobotBody(robot);
@@ -190,6 +196,7 @@ std::shared_ptr<const Skill> MakeSkill(const robot::RobotModel& robot,
   skill->kinematics = std::make_shared<robot::PoseInverseKinematics>(robot.arm);
   skill->chain = std::make_shared<robot::ChainKinematics>(robot.arm);
   skill->options = options;
+  skill->later = std::move(later);
   for (const SkillSubtask& subtask : subtasks) {
     skill->variants.push_back(MakeVariant(subtask, robot, options));
     if (!Alike(skill->variants.front(), skill->variants.back())) {

@@ -59,13 +59,18 @@ struct Skill {
   std::shared_ptr<const robot::ChainKinematics> chain;
   SkillOptions options;
   std::vector<SkillVariant> variants;  // at least one; all read slots of the same kinds
+  // What follows in the task that this begins, as many variants each: where it is begun, the arm
+  // can do that too (DrawStart). Empty: nothing, or this is not the first.
+  std::vector<std::shared_ptr<const Skill>> later;
 };
 
 // Prepares `subtasks` for `robot`, which must outlive the skill. Throws core::Error where there is
 // none, options are not valid, a program does not compile or has no success, a thing cannot be
-// simulated, or two of the programs read different things.
+// simulated, two of the programs read different things, or one of `later` has another number of
+// variants.
 std::shared_ptr<const Skill> MakeSkill(const robot::RobotModel& robot,
                                        const std::vector<SkillSubtask>& subtasks,
-                                       const SkillOptions& options = {});
+                                       const SkillOptions& options = {},
+                                       std::vector<std::shared_ptr<const Skill>> later = {});
 
 }  // namespace simwright::rl
