@@ -108,9 +108,9 @@ void FocusFrame::FindWayIn(const tasks::SceneState& state) {
   const Vector3d thing = tasks::LinkPoint(variant_.model, state, variant_.focus->thing, 0);
   const bool inside = IsIn(room, variant_.model, state, point);
   if (!inside && !IsIn(room, variant_.model, state, thing)) return;
-  back_ = -(world_from_focus_.linear().transpose() * InwardOf(room, variant_.model, state));
-  room_depth_ = kBeforeOpening;
-  if (inside) room_depth_ += DepthIn(room, variant_.model, state, point);
+  const Vector3d way = WayOutOfRoom(variant_, state, point);
+  back_ = world_from_focus_.linear().transpose() * way.normalized();
+  room_depth_ = way.norm();
 }
 
 void FocusFrame::Update(const tasks::SceneState& state) {

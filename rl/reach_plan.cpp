@@ -34,6 +34,8 @@ constexpr double kRoomPitches[] = {0.8, 1.0, 0.6, 1.2};
 constexpr double kLeaning = 0.9;  // of the lean, into the room: things with corners turn the hand
 // That are looked at in rooms and along a joint's way: whether an arm is clear takes a millisecond.
 constexpr int kLookedAt = 6;
+// m a m, of a way over a rim: as fingers reach into a cup, over its width, and some more.
+constexpr double kRise = 1.0;
 constexpr double kPalmEdge = 0.04;  // m: what the edge comes down by, over 1 - cos(lean)
 constexpr double kTurns[] = {0.25 * M_PI, 0.5 * M_PI, 0.75 * M_PI};  // of the fingers' line
 constexpr double kSameLine = 0.97;  // the cosine of about 14 degrees
@@ -63,10 +65,8 @@ struct Demands {
 // Whether the tool goes to `there` in variant.room through its opening, the arm being in nothing.
 bool GoesIn(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
             const Isometry3d& there, ToolFollower* follower) {
-  const Vector3d inward = InwardOf(*variant.room, variant.model, state);
-  const double depth = DepthIn(*variant.room, variant.model, state, there.translation());
   Isometry3d before = there;
-  before.translation() -= (std::max(0.0, depth) + kBeforeOpening) * inward;
+  before.translation() += WayOutOfRoom(variant, state, there.translation());
   for (const Isometry3d& place : {before, there}) {
     if (!follower->Goes(place)) return false;
     const robot::Posture& arm = follower->posture();
@@ -180,8 +180,7 @@ bool StaysBack(const Skill& skill, const SkillVariant& variant, const tasks::Sce
       variant.subtask.start.world_from_robot * robot::ForwardKinematics(skill.robot->arm, at_work);
   Vector3d back = -skill.options.standoff * place.linear().col(2);
   if (variant.room && IsIn(*variant.room, variant.model, state, place.translation())) {
-    const double depth = DepthIn(*variant.room, variant.model, state, place.translation());
-    back = -(depth + kBeforeOpening) * InwardOf(*variant.room, variant.model, state);
+    back = WayOutOfRoom(variant, state, place.translation());
   }
   place.translation() += back;
   ToolFollower follower(skill, variant, at_work);
@@ -325,6 +324,14 @@ std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& varia
   return std::nullopt;
 }
 
+Vector3d WayOutOfRoom(const SkillVariant& variant, const tasks::SceneState& state,
+                      const Vector3d& point) {
+  const double depth = std::max(0.0, DepthIn(*variant.room, variant.model, state, point));
+  const Vector3d out = -InwardOf(*variant.room, variant.model, state);
+  const bool over_rim = variant.focus->rim > 0.0 && !variant.starts_held;
+  return (depth + kBeforeOpening) * (out + (over_rim ? kRise : 0.0) * Vector3d::UnitZ());
+}
+
 robot::Posture BeforeWork(const Skill& skill, const SkillVariant& variant,
                           const tasks::SceneState& state, const robot::Posture& at_work) {
   robot::Posture before;
@@ -332,8 +339,7 @@ robot::Posture BeforeWork(const Skill& skill, const SkillVariant& variant,
   return before;
 }
 
-double PitchAt(const SkillVariant&, const tasks::SceneState&,
-               const Isometry3d& world_from_tool) {
+double PitchAt(const SkillVariant&, const tasks::SceneState&, const Isometry3d& world_from_tool) {
   const Vector3d up = Vector3d::UnitZ();
   const Vector3d axis = world_from_tool.linear().col(2);
   const Vector3d ahead = world_from_tool.linear().col(1).cross(-up).normalized();

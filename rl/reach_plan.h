@@ -42,6 +42,11 @@ std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& varia
                                    const tasks::SceneState& state, const robot::Posture& from,
                                    core::Rng& rng, bool round = false);
 
+// m, world: how a hand at `point` in variant.room goes out of it to before the opening. Straight,
+// or from a rim that it takes, one finger being inside: upwards as well, and so it comes in.
+Eigen::Vector3d WayOutOfRoom(const SkillVariant& variant, const tasks::SceneState& state,
+                             const Eigen::Vector3d& point);
+
 // (J) in which the hand stays back before its work `at_work` (J).
 robot::Posture BeforeWork(const Skill& skill, const SkillVariant& variant,
                           const tasks::SceneState& state, const robot::Posture& at_work);
