@@ -11,6 +11,7 @@ namespace {
 constexpr double kTouching = 0.001;  // m; in a board no point is deeper than half of its thickness
 constexpr double kInFloor = 0.005;   // m
 constexpr double kLook = 0.1;        // rad or m of any joint from look to look
+constexpr double kNearEnd = 0.3;     // rad or m from either end of a way, which is near things
 
 // world_from_link of the robot's links. (urdf.links)
 std::vector<Eigen::Isometry3d> RobotPoses(const robot::RobotModel& robot,
@@ -38,6 +39,27 @@ bool IsInFloor(const SurfacePoints& surface, const Eigen::Isometry3d& world_from
   return false;
 }
 
+// With every face moved out by `margin` (m).
+BodySolids Grown(BodySolids solids, double margin) {
+  for (std::vector<ConvexSolid>& link : solids) {
+    for (ConvexSolid& solid : link) {
+      const Eigen::Vector3d low = solid.box.min().array() - margin;
+      const Eigen::Vector3d high = solid.box.max().array() + margin;
+      solid.box = {low, high};
+      for (auto& face : solid.faces) face.offset() -= margin;
+    }
+  }
+  return solids;
+}
+
+template <typename Obstacles>
+bool IsInOne(const SurfacePoints& surface, const Eigen::Isometry3d& pose,
+             const Obstacles& obstacles) {
+  return std::any_of(obstacles.begin(), obstacles.end(), [&](const auto& obstacle) {
+    return DeepestInBody(surface, pose, *obstacle.solids, obstacle.poses) > kTouching;
+  });
+}
+
 }  // namespace
 
 ArmClearance::ArmClearance(const Skill& skill, const SkillVariant& variant,
@@ -57,7 +79,21 @@ ArmClearance::ArmClearance(const Skill& skill, const SkillVariant& variant,
   }
 }
 
+void ArmClearance::KeepOff(double margin) {
+  grown_solids_.clear();
+  grown_ = obstacles_;
+  for (const Obstacle& obstacle : obstacles_) {
+    grown_solids_.push_back(Grown(*obstacle.solids, margin));
+  }
+  for (size_t i = 0; i < grown_.size(); ++i) grown_[i].solids = &grown_solids_[i];
+}
+
 bool ArmClearance::IsClear(const robot::Posture& arm, Fingers fingers) const {
+  return IsClearOf(obstacles_, arm, fingers);
+}
+
+bool ArmClearance::IsClearOf(const Obstacles& obstacles, const robot::Posture& arm,
+                             Fingers fingers) const {
   const std::vector<int>& finger_links = skill_.robot->gripper.links;
   const std::vector<Eigen::Isometry3d> robot = RobotPoses(*skill_.robot, world_from_robot_, arm);
   for (size_t l = 0; l < robot.size(); ++l) {
@@ -67,29 +103,27 @@ bool ArmClearance::IsClear(const robot::Posture& arm, Fingers fingers) const {
       continue;
     }
     if (!grounded_[l] && IsInFloor(surface, robot[l])) return false;
-    if (IsInObstacle(surface, robot[l])) return false;
+    if (IsInOne(surface, robot[l], obstacles)) return false;
   }
   return true;
-}
-
-bool ArmClearance::IsInObstacle(const SurfacePoints& surface, const Eigen::Isometry3d& pose) const {
-  return std::any_of(obstacles_.begin(), obstacles_.end(), [&](const Obstacle& obstacle) {
-    return DeepestInBody(surface, pose, *obstacle.solids, obstacle.poses) > kTouching;
-  });
 }
 
 bool ArmClearance::IsLoadClear(const robot::Posture& arm) const {
   if (carried_.points.empty()) return true;
   const Eigen::Isometry3d tool =
       world_from_robot_ * robot::ForwardKinematics(skill_.robot->arm, arm);
-  return !IsInFloor(carried_, tool) && !IsInObstacle(carried_, tool);
+  return !IsInFloor(carried_, tool) && !IsInOne(carried_, tool, obstacles_);
 }
 
 bool ArmClearance::IsWayClear(const robot::Posture& from, const robot::Posture& to) const {
-  const int looks = 1 + static_cast<int>((to - from).lpNorm<Eigen::Infinity>() / kLook);
+  const double length = (to - from).lpNorm<Eigen::Infinity>();
+  const int looks = 1 + static_cast<int>(length / kLook);
   for (int i = looks; i > 0; --i) {  // what is in the way is nearer to the work, as a rule
-    const robot::Posture at = from + static_cast<double>(i) / looks * (to - from);
-    if (!IsClear(at) || !IsLoadClear(at)) return false;
+    const double share = static_cast<double>(i) / looks;
+    const robot::Posture at = from + share * (to - from);
+    const bool half_way = std::min(share, 1.0 - share) * length > kNearEnd;
+    const Obstacles& obstacles = half_way && !grown_.empty() ? grown_ : obstacles_;
+    if (!IsClearOf(obstacles, at, Fingers::kCount) || !IsLoadClear(at)) return false;
   }
   return true;
 }

@@ -23,21 +23,27 @@ class ArmClearance {
   // The surface (m, the tool's frame) of what the hand carries: IsWayClear then asks that this is
   // in nothing either. Nothing carried at first.
   void Carry(SurfacePoints carried) { carried_ = std::move(carried); }
+  // IsWayClear then asks that the arm keeps `margin` (m) off things half-way, away from both ends:
+  // what it goes by may give way, and the arm is never quite where it is sent.
+  void KeepOff(double margin);
   // Whether the arm, and what it carries, is clear between the two postures (J), as it goes
   // straight from joint to joint, and at the second.
   bool IsWayClear(const robot::Posture& from, const robot::Posture& to) const;
 
  private:
-  bool IsInObstacle(const SurfacePoints& surface, const Eigen::Isometry3d& pose) const;
-  bool IsLoadClear(const robot::Posture& arm) const;
   struct Obstacle {
     const BodySolids* solids;
     std::vector<Eigen::Isometry3d> poses;  // world_from_link (links)
   };
+  using Obstacles = std::vector<Obstacle>;
+
+  bool IsClearOf(const Obstacles& obstacles, const robot::Posture& arm, Fingers fingers) const;
+  bool IsLoadClear(const robot::Posture& arm) const;
 
   const Skill& skill_;
   const Eigen::Isometry3d& world_from_robot_;
-  std::vector<Obstacle> obstacles_;
+  Obstacles obstacles_, grown_;  // `grown_`: by KeepOff's margin
+  std::vector<BodySolids> grown_solids_;
   SurfacePoints carried_;
   std::vector<bool> grounded_;  // by link: is in the floor at home, as the foot of an arm may be
 };

@@ -18,7 +18,10 @@ robot::Posture Folded(const Skill& skill, const robot::Posture& posture) {
 std::optional<Detour> PlanDetour(const Skill& skill, const ArmClearance& clearance,
                                  const robot::Posture& from, const robot::Posture& to) {
   const robot::Posture here = Folded(skill, from), there = Folded(skill, to);
-  for (const Detour& detour : {Detour{}, Detour{here}, Detour{there}, Detour{here, there}}) {
+  const robot::Posture& home = skill.robot->home();
+  for (const Detour& detour :
+       {Detour{}, Detour{here}, Detour{there}, Detour{here, there}, Detour{home},
+        Detour{here, home}, Detour{home, there}, Detour{here, home, there}}) {
     robot::Posture at = from;
     bool clear = true;
     for (const robot::Posture& next : detour) {

@@ -13,8 +13,8 @@ namespace simwright::rl {
 using Detour = std::vector<robot::Posture>;
 
 // How the arm gets from `from` to `to` (J) and is in nothing: straight, where that is clear (an
-// empty detour), else folded as at home before it turns, after it has turned, or both. None where
-// none of these is clear.
+// empty detour), else folded as at home before it turns, after it has turned, or both, or by home
+// itself. None where none of these is clear.
 std::optional<Detour> PlanDetour(const Skill& skill, const ArmClearance& clearance,
                                  const robot::Posture& from, const robot::Posture& to);
 

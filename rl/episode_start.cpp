@@ -9,6 +9,7 @@
 #include "rl/open_room.h"
 #include "rl/reach_plan.h"
 #include "rl/tool_follower.h"
+#include "rl/tree_search.h"
 
 namespace simwright::rl {
 namespace {
@@ -17,12 +18,13 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kTries = 60;
-constexpr double kFarthest = 0.4;  // m
-constexpr double kShake = 0.03;    // rad, of an arm that begins where another skill ended
-constexpr double kApart = 0.005;   // m between boxes of things
-constexpr double kOnPart = 0.5;    // share of joints part of their way that the hand begins at
-constexpr double kNearWall = 0.3;  // of the opening
-constexpr double kBackOff = 0.08;  // m that a hand gets away from what it has let go of, at least
+constexpr double kFarthest = 0.4;   // m
+constexpr double kKeepsOff = 0.02;  // m off what stands open, which the arm would push shut
+constexpr double kShake = 0.03;     // rad, of an arm that begins where another skill ended
+constexpr double kApart = 0.005;    // m between boxes of things
+constexpr double kOnPart = 0.5;     // share of joints part of their way that the hand begins at
+constexpr double kNearWall = 0.3;   // of the opening
+constexpr double kBackOff = 0.08;   // m that a hand gets away from what it has let go of, at least
 // Of the hand's own axis, out of a room: a hand that leans less into it leaves it level.
 constexpr double kLeansIn = 0.3;
 constexpr double kSteepest = 0.7;   // of the way out of it, or the hand would meet the ceiling
@@ -147,11 +149,21 @@ Vector3d WayOut(const Skill& skill, const SkillVariant& variant, const EpisodeSt
   return length * back;
 }
 
-// The way of an arm that does `plan`: behind an open door it gets only the way that was looked at.
+// Whether what the skill takes stands in a room that opens to a side.
+bool TakesFromRoom(const SkillVariant& variant, const tasks::SceneState& state) {
+  if (!variant.room || variant.focus->joint >= 0) return false;
+  return IsIn(*variant.room, variant.model, state,
+              tasks::LinkPoint(variant.model, state, variant.focus->thing, 0));
+}
+
+// The way of an arm that does `plan`: behind an open door, and past one into a room, it
+// gets only the way that was looked at.
 Detour WayToWork(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
                  const ReachPlan& plan) {
   Detour way = plan.via;
-  if (variant.focus->pushes) way.push_back(BeforeWork(skill, variant, state, plan.at_work));
+  if (variant.focus->pushes || TakesFromRoom(variant, state)) {
+    way.push_back(BeforeWork(skill, variant, state, plan.at_work));
+  }
   return way;
 }
 
@@ -162,20 +174,35 @@ void Follow(const Skill& skill, const SkillVariant& variant, const ReachPlan& pl
   start->via = WayToWork(skill, variant, start->state, plan);
 }
 
-// From `from` (J): a plan to whose work the arm gets from there, or else folded as at home first.
+// From `from` (J): a plan to whose work the arm gets from there, or else folded as at home first;
+// past things at some distance, or else as it can.
 std::optional<ReachPlan> PlanFromAnywhere(const Skill& skill, const SkillVariant& variant,
                                           const tasks::SceneState& state,
                                           const robot::Posture& from, core::Rng& rng) {
-  auto plan = PlanReach(skill, variant, state, from, rng, true);
-  if (plan && plan->GetsThere()) return plan;
-  const auto folded = PlanReach(skill, variant, state, skill.robot->home(), rng, true);
-  if (folded && (folded->GetsThere() || !plan)) plan = folded;
-  if (!plan) return std::nullopt;
   const bool takes = variant.focus->joint < 0;
+  std::optional<ReachPlan> any, folded;
+  for (const double margin : {kKeepsOff, 0.0}) {
+    const WayWanted wanted{.round = true, .margin = margin};
+    auto plan = PlanReach(skill, variant, state, from, rng, wanted);
+    if (plan && plan->GetsThere()) return plan;
+    if (!any) any = plan;
+    plan = PlanReach(skill, variant, state, skill.robot->home(), rng, wanted);
+    if (!plan || !plan->GetsThere()) continue;
+    ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
+    if (margin > 0.0) clearance.KeepOff(margin);
+    const auto way =
+        PlanDetour(skill, clearance, from, BeforeWork(skill, variant, state, plan->at_work));
+    plan->clear = false;
+    plan->via = way.value_or(Detour());
+    if (way) return plan;
+    folded = plan;
+  }
+  if (!folded) return any;
   const ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
-  plan->via = PlanDetour(skill, clearance, from, BeforeWork(skill, variant, state, plan->at_work))
-                  .value_or(Detour());
-  return plan;
+  const auto way = SearchDetour(skill.robot->arm, clearance, from,
+                                BeforeWork(skill, variant, state, folded->at_work));
+  folded->via = way.value_or(Detour());
+  return folded;
 }
 
 // How an empty hand goes from where another skill has left it: away from there, then to its work.
@@ -204,7 +231,8 @@ void PlaceThings(const Skill& skill, core::Rng& rng, EpisodeStart* start) {
     start->state.goal = GoalIn(variant, start->state);
     if (!IsArmClear(skill, variant, start->state, home)) continue;
     if (!variant.focus) return;
-    const auto plan = PlanReach(skill, variant, start->state, home, rng, attempt >= kTries / 3);
+    const auto plan =
+        PlanReach(skill, variant, start->state, home, rng, {.round = attempt >= kTries / 3});
     if (plan && (plan->GetsThere() || attempt >= UnclearFrom(variant))) {
       Follow(skill, variant, *plan, start);
       if (IsLaterWorkInReach(skill, start->variant, start->state, rng)) return;

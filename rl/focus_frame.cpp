@@ -19,6 +19,8 @@ constexpr double kLost = 0.06;     // m between the tool and the grasp point: no
 constexpr double kInPlace = 0.03;  // m from its axis: what is nearer turns in place
 constexpr double kAway = 0.02;     // m from where it gets away to: the hand is away
 constexpr double kNearer = 0.003;  // m, of a hand that gets on
+constexpr double kLetGo = 0.03;    // m between fingers that have let go of what they were about
+constexpr int kOpening = 10;       // updates that a hand waits for that
 constexpr int kStuck = 10;         // updates in which it does not: fingers open in 8 of them
 constexpr int kLongestWay = 30;    // updates, 1.5 s at 20 Hz: what is in the way stays there
 
@@ -54,6 +56,7 @@ FocusFrame::FocusFrame(const SkillVariant& variant, const tasks::SceneState& sta
   axes_ = world_from_focus_.linear();
   withdrawing_ = !withdraw.isZero();
   refuge_ = Eigen::Translation3d(withdraw) * state.gripper;
+  before_ = state.gripper;
   Update(state);
   withdrawn_ = 0;
 }
@@ -69,6 +72,11 @@ void FocusFrame::Switch(const tasks::SceneState& state) {
 
 bool FocusFrame::Withdraws(const tasks::SceneState& state) {
   if (!withdrawing_) return false;
+  if (opens_ < kOpening && state.opening < kLetGo) {
+    ++opens_;
+    return true;
+  }
+  opens_ = kOpening;
   const double missing = (refuge_.translation() - state.gripper.translation()).norm();
   if (missing < nearest_ - kNearer) {
     nearest_ = missing;
@@ -116,7 +124,7 @@ void FocusFrame::FindWayIn(const tasks::SceneState& state) {
 void FocusFrame::Update(const tasks::SceneState& state) {
   if (!variant_.focus) return;
   if (Withdraws(state)) {
-    world_from_focus_ = refuge_;
+    world_from_focus_ = opens_ < kOpening ? before_ : refuge_;
     return;
   }
   Follow(state);

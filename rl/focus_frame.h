@@ -62,6 +62,8 @@ class FocusFrame {
   int stuck_ = 0;                                             // updates without coming nearer
   int withdrawn_ = 0;                                         // updates that it has gone on for
   Eigen::Isometry3d refuge_ = Eigen::Isometry3d::Identity();  // world_from_tool, to get away to
+  Eigen::Isometry3d before_ = Eigen::Isometry3d::Identity();  // world_from_tool, at the start
+  int opens_ = 0;                                             // updates that it has waited there
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();        // of the frame at work
 };
 

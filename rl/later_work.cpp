@@ -26,7 +26,7 @@ bool IsLaterWorkInReach(const Skill& skill, int variant, const tasks::SceneState
     tasks::SceneState then = state;
     then.joints = later.start.joints;
     then.goal = GoalIn(later, then);
-    const auto plan = PlanReach(*next, later, then, skill.robot->home(), rng, true);
+    const auto plan = PlanReach(*next, later, then, skill.robot->home(), rng, {.round = true});
     if (!plan || !plan->GetsThere() || (later.next && !plan->goes_on)) return false;
   }
   return true;

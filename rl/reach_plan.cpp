@@ -60,6 +60,7 @@ struct Demands {
   bool leans_in = false;     // the hand leans into variant.room
   bool clear = false;        // ReachPlan::clear
   bool round = false;        // or ReachPlan::via
+  double margin = 0.0;       // m, WayWanted
 };
 
 // Whether the tool goes to `there` in variant.room through its opening, the arm being in nothing.
@@ -190,13 +191,14 @@ bool StaysBack(const Skill& skill, const SkillVariant& variant, const tasks::Sce
 }
 
 // How the arm gets from `from` to where the hand stays back before its work, in nothing at the work
-// itself but for the fingers, which are about it: straight, or `round` what is between. None where
+// itself but for the fingers, which are about it: straight, or round what is between. None where
 // it does not.
 std::optional<Detour> WayThere(const Skill& skill, const SkillVariant& variant,
                                const tasks::SceneState& state, const robot::Posture& from,
-                               const Candidate& candidate, bool round) {
+                               const Candidate& candidate, const Demands& demands) {
   const bool takes = variant.focus->joint < 0;
-  const ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
+  ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
+  if (demands.margin > 0.0) clearance.KeepOff(demands.margin);
   if (takes && !clearance.IsClear(candidate.posture)) return std::nullopt;
   const bool palm_free =
       Pushes(variant) ||
@@ -206,7 +208,7 @@ std::optional<Detour> WayThere(const Skill& skill, const SkillVariant& variant,
     return std::nullopt;
   }
   if (clearance.IsWayClear(from, before)) return Detour();
-  return round ? PlanDetour(skill, clearance, from, before) : std::nullopt;
+  return demands.round ? PlanDetour(skill, clearance, from, before) : std::nullopt;
 }
 
 // The lines (unit, world) that the fingers may be along: `across`, and turned about the upright
@@ -254,7 +256,7 @@ std::optional<ReachPlan> PlanWith(const Skill& skill, const SkillVariant& varian
     if (!works) continue;
     const bool goes_on = demands.looks_ahead && variant.next;
     if (!demands.clear) return ReachPlan{candidate.pitch, candidate.posture, false, {}, goes_on};
-    const auto way = WayThere(skill, variant, state, from, candidate, demands.round);
+    const auto way = WayThere(skill, variant, state, from, candidate, demands);
     if (way) return ReachPlan{candidate.pitch, candidate.posture, way->empty(), *way, goes_on};
   }
   return std::nullopt;
@@ -292,11 +294,12 @@ Isometry3d ToolAtFocus(const SkillVariant& variant, const tasks::SceneState& sta
 
 std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& variant,
                                    const tasks::SceneState& state, const robot::Posture& from,
-                                   core::Rng& rng, bool round) {
+                                   core::Rng& rng, const WayWanted& way) {
   const Isometry3d& world_from_base = variant.subtask.start.world_from_robot;
   const Isometry3d tool_now = world_from_base * robot::ForwardKinematics(skill.robot->arm, from);
   const std::vector<Vector3d> lines = LinesAcross(variant, state, tool_now.linear().col(1));
-  const auto plan = [&](const Demands& demands) -> std::optional<ReachPlan> {
+  const auto plan = [&](Demands demands) -> std::optional<ReachPlan> {
+    demands.margin = way.margin;
     for (const double pitch : PitchesOf(variant, demands)) {
       for (size_t i = 0; i < (demands.clear && !demands.leans_in ? lines.size() : 1); ++i) {
         const auto stances = StancesWith(variant, state, lines[i], pitch, demands);
@@ -318,7 +321,7 @@ std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& varia
       if (const auto found = plan({.looks_ahead = true, .clear = clear})) return found;
     }
     if (const auto found = plan({.clear = clear})) return found;
-    if (!clear || !round || variant.room) continue;
+    if (!clear || !way.round || variant.room) continue;
     if (const auto found = plan({.clear = true, .round = true})) return found;
   }
   return std::nullopt;

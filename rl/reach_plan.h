@@ -29,18 +29,24 @@ struct ReachPlan {
   bool GetsThere() const { return clear || !via.empty(); }
 };
 
+// Of the arm's way to where it waits.
+struct WayWanted {
+  bool round = false;   // ReachPlan::via, where no plan is clear
+  double margin = 0.0;  // m that it keeps off things half-way (ArmClearance::KeepOff)
+};
+
 // The least pitch (of a hand that pushes: about 0.6 rad; of one that goes into a room through its
 // side: about 0.8, leaning into it), and of some postures the one soonest reached from `from`, from
 // which the tool goes along most of the joint's way, or with the thing to its destination, off by
 // no more than a centimetre and 0.15 rad, and the arm is in nothing in a room and before it. One
 // that is clear, where there is one: round things are taken with the fingers' line any way for it.
-// A thing is taken so that it can go on to variant.next too, where there is a way. `round`: where
-// no plan is clear, one to whose work the arm gets round what is between. None where no pitch does.
-// Postures are sought for both sides of the hand, from `from` and from random ones: a tool that
-// only ever goes straight at its target ends at some joint's limit every other time.
+// A thing is taken so that it can go on to variant.next too, where there is a way. `way`.round:
+// where no plan is clear, one to whose work the arm gets round what is between. None where no pitch
+// does. Postures are sought for both sides of the hand, from `from` and from random ones: a tool
+// that only ever goes straight at its target ends at some joint's limit every other time.
 std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& variant,
                                    const tasks::SceneState& state, const robot::Posture& from,
-                                   core::Rng& rng, bool round = false);
+                                   core::Rng& rng, const WayWanted& way = {});
 
 // m, world: how a hand at `point` in variant.room goes out of it to before the opening. Straight,
 // or from a rim that it takes, one finger being inside: upwards as well, and so it comes in.
