@@ -198,10 +198,15 @@ std::optional<ReachPlan> PlanFromAnywhere(const Skill& skill, const SkillVariant
     folded = plan;
   }
   if (!folded) return any;
-  const ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
-  const auto way = SearchDetour(skill.robot->arm, clearance, from,
-                                BeforeWork(skill, variant, state, folded->at_work));
-  folded->via = way.value_or(Detour());
+  const robot::Posture before = BeforeWork(skill, variant, state, folded->at_work);
+  for (const double margin : {kKeepsOff, 0.0}) {
+    ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
+    if (margin > 0.0) clearance.KeepOff(margin);
+    const auto way = SearchDetour(skill.robot->arm, clearance, from, before);
+    if (!way) continue;
+    folded->via = *way;
+    break;
+  }
   return folded;
 }
 

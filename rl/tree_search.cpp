@@ -8,7 +8,7 @@
 namespace simwright::rl {
 namespace {
 
-constexpr int kRounds = 150;        // each grows either tree by a posture at least
+constexpr int kRounds = 600;        // each grows either tree by a posture at least
 constexpr double kStep = 0.35;      // rad or m of any joint, from a posture to the next
 constexpr double kBaseRange = 0.4;  // m about both ends that a base is moved by
 constexpr double kMetre = 3.0;      // rad that a metre counts as
