@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "rl/focus_frame.h"
 #include "rl/hand_clearance.h"
+#include "rl/later_work.h"
+#include "rl/reach_plan.h"
 #include "rl/skill_environment.h"
 #include "rl/start_pool.h"
 #include "rl/variant_reward.h"
@@ -287,6 +290,94 @@ TEST(SideRoom, AThingInTheHandGoesInThroughTheOpening) {
   // Beside the opening: before it. Beside the room: straight back first, for its wall is between.
   EXPECT_LT((sent_to(0.3 * aside + before) - before).norm(), 1e-6);
   EXPECT_LT((sent_to(0.3 * aside) - (0.3 * aside + before)).norm(), 1e-6);
+}
+
+TEST(SideRoom, OverARimAHandComesFromAbove) {
+  const std::vector<SkillSubtask> scenes = PutCupIntoMicrowave();
+  ASSERT_EQ(scenes.size(), 4u);
+  SkillVariant variant = Make(scenes[1])->variants.front();
+  const Vector3d inward = InwardOf(*variant.room, variant.model, variant.start);
+  const Vector3d inside = variant.start.roots[0] * Vector3d(-kHalfDepth + 0.07, 0.0, 0.1);
+  const double depth = DepthIn(*variant.room, variant.model, variant.start, inside);
+  variant.focus->rim = 0.0;
+  const Vector3d straight = WayOutOfRoom(variant, variant.start, inside);
+  EXPECT_LT((straight + (depth + kBeforeOpening) * inward).norm(), 1e-9);
+  variant.focus->rim = 0.03;
+  const Vector3d over = WayOutOfRoom(variant, variant.start, inside);
+  EXPECT_NEAR((over - straight).head<2>().norm(), 0.0, 1e-9);
+  // A finger that is 3 cm deep in a cup 3 cm wide is out of it before it meets the wall.
+  EXPECT_GE(over.z() / over.head<2>().norm(), 1.0);
+  variant.starts_held = true;
+  EXPECT_LT((WayOutOfRoom(variant, variant.start, inside) - straight).norm(), 1e-9);
+}
+
+TEST(SideRoom, AHandStaysWhereItHasLetGo) {
+  const std::vector<SkillSubtask> scenes = PutCupIntoMicrowave();
+  ASSERT_EQ(scenes.size(), 4u);
+  const auto skill = Make(scenes[2]);
+  const SkillVariant& variant = skill->variants.front();
+  tasks::SceneState state = variant.start;
+  state.grasped = true;
+  state.touched = variant.focus->thing;
+  FocusFrame frame(variant, state, Vector3d::UnitY(), 0.8);
+  ASSERT_TRUE(frame.at_destination());
+  Isometry3d& cup = state.roots[static_cast<size_t>(variant.focus->thing)];
+  const Vector3d before = frame.world_from_focus().translation();
+  // The rim goes round with a cup that turns in the hand, and the hand with it.
+  cup.rotate(Eigen::AngleAxisd(0.5, Vector3d::UnitZ()));
+  cup.translation().x() += 0.02;
+  frame.Update(state);
+  const Vector3d held = frame.world_from_focus().translation();
+  state.grasped = false;
+  cup.rotate(Eigen::AngleAxisd(0.5, Vector3d::UnitX()));
+  frame.Update(state);
+  EXPECT_EQ(frame.world_from_focus().translation(), held);
+  state.grasped = true;
+  frame.Update(state);
+  EXPECT_GT((frame.world_from_focus().translation() - held).norm(), 1e-3);
+  EXPECT_TRUE(before.allFinite());
+}
+
+TEST(SideRoom, AHandThatLeavesWaitsForItsFingers) {
+  const auto skill = MakeSkill(robot::Panda(false), {OpenDoor()}, SkillOptions().ForEvaluation());
+  const SkillVariant& variant = skill->variants.front();
+  for (const bool opens : {true, false}) {
+    tasks::SceneState state = variant.start;
+    state.opening = 0.01;
+    const Vector3d way(0.0, 0.0, 0.1), here = state.gripper.translation();
+    FocusFrame frame(variant, state, Vector3d::UnitY(), 0.0, way);
+    int updates = 1;
+    while ((frame.world_from_focus().translation() - here).norm() < 1e-9 && updates < 100) {
+      if (opens && updates == 4) state.opening = 0.05;
+      frame.Update(state);
+      ++updates;
+    }
+    EXPECT_NEAR(updates, opens ? 5 : 11, 1) << opens;
+    EXPECT_LT((frame.world_from_focus().translation() - here - way).norm(), 1e-9);
+  }
+}
+
+TEST(LaterWork, ATaskBeginsWhereAllOfItsWorkIsInReach) {
+  const std::vector<SkillSubtask> scenes = PutCupIntoMicrowave();
+  ASSERT_EQ(scenes.size(), 4u);
+  const std::vector<std::shared_ptr<const Skill>> later = {Make(scenes[1]), Make(scenes[2]),
+                                                           Make(scenes[3])};
+  const auto opens =
+      MakeSkill(robot::Panda(true), {scenes[0]}, SkillOptions().ForEvaluation(), later);
+  core::Rng rng = core::StreamRng(6, 0);
+  int within = 0;
+  for (int i = 0; i < 10; ++i) {
+    const EpisodeStart start = DrawStart(*opens, rng);
+    within += IsLaterWorkInReach(*opens, 0, start.state, rng);
+  }
+  EXPECT_GE(within, 8);
+  tasks::SceneState far = opens->variants.front().start;
+  const auto cup = static_cast<size_t>(later[0]->variants.front().focus->thing);
+  far.roots[cup].translation().y() -= 3.0;
+  EXPECT_FALSE(IsLaterWorkInReach(*opens, 0, far, rng));
+  EXPECT_TRUE(IsLaterWorkInReach(*later[0], 0, far, rng));  // nothing comes later
+  EXPECT_THROW(MakeSkill(robot::Panda(true), {scenes[0], scenes[0]}, SkillOptions(), later),
+               core::Error);
 }
 
 }  // namespace
