@@ -205,6 +205,7 @@ std::optional<ReachPlan> PlanFromAnywhere(const Skill& skill, const SkillVariant
     const auto way = SearchDetour(skill.robot->arm, clearance, from, before);
     if (!way) continue;
     folded->via = *way;
+    folded->via.push_back(before);
     break;
   }
   return folded;
@@ -332,9 +333,9 @@ EpisodeStart Varied(const Skill& skill, const EpisodeStart& from, core::Rng& rng
   start.withdraw.setZero();
   start.via.clear();
   if (start.held >= 0 && variant.room) {
-    start.pitch = PitchAt(variant, start.state,
-                          variant.subtask.start.world_from_robot *
-                              robot::ForwardKinematics(skill.robot->arm, start.arm));
+    // It keeps its lean, whatever the thing has turned by in it: upright, it may not fit.
+    start.pitch = PitchOf(variant.subtask.start.world_from_robot *
+                          robot::ForwardKinematics(skill.robot->arm, start.arm));
   }
   if (variant.focus && start.held < 0) PlanFromBefore(skill, variant, rng, &start);
   if (everything) DrawBodies(variant, skill.options, rng, &start);

@@ -139,9 +139,11 @@ void FocusFrame::Follow(const tasks::SceneState& state) {
     return;
   }
   if (variant_.destination && variant_.asks_for_grasp) Switch(state);
-  // The hand stays where it has let go: what it is about would roll on, and lead it away.
+  // In a room the hand stays where it has let go: what it is about would roll on, and lead it away.
   was_held_ = was_held_ || state.grasped;
-  if (at_destination_ && variant_.starts_held && was_held_ && !state.grasped) return;
+  if (at_destination_ && variant_.room && variant_.starts_held && was_held_ && !state.grasped) {
+    return;
+  }
   world_from_focus_.translation() = state.roots[static_cast<size_t>(focus.thing)] * grip_;
   if (at_destination_) world_from_focus_.translation() += WayToDestination(variant_, state);
 }

@@ -342,11 +342,10 @@ robot::Posture BeforeWork(const Skill& skill, const SkillVariant& variant,
   return before;
 }
 
-double PitchAt(const SkillVariant&, const tasks::SceneState&, const Isometry3d& world_from_tool) {
-  const Vector3d up = Vector3d::UnitZ();
+double PitchOf(const Isometry3d& world_from_tool) {
   const Vector3d axis = world_from_tool.linear().col(2);
-  const Vector3d ahead = world_from_tool.linear().col(1).cross(-up).normalized();
-  return std::atan2(axis.dot(ahead), -axis.dot(up));
+  const Vector3d ahead = world_from_tool.linear().col(1).cross(-Vector3d::UnitZ()).normalized();
+  return std::atan2(axis.dot(ahead), -axis.z());
 }
 
 }  // namespace simwright::rl

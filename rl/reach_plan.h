@@ -57,9 +57,7 @@ Eigen::Vector3d WayOutOfRoom(const SkillVariant& variant, const tasks::SceneStat
 robot::Posture BeforeWork(const Skill& skill, const SkillVariant& variant,
                           const tasks::SceneState& state, const robot::Posture& at_work);
 
-// rad that the hand at `world_from_tool` leans about its own y axis, as PlanReach's pitch: against
-// the upright of the thing at work, which it may have tilted, or the world's where that lies.
-double PitchAt(const SkillVariant& variant, const tasks::SceneState& state,
-               const Eigen::Isometry3d& world_from_tool);
+// rad that the hand at `world_from_tool` leans about its own y axis, as PlanReach's pitch.
+double PitchOf(const Eigen::Isometry3d& world_from_tool);
 
 }  // namespace simwright::rl

@@ -25,14 +25,14 @@ constexpr double kPullsTo = 1.5;
 constexpr double kBesideFree = 0.007, kFarthestBack = 0.04;  // m
 constexpr double kBackPerBeside = 4.0;                       // m a m
 constexpr double kClosed = 0.1;                              // of the opening that is asked for
-constexpr double kAhead = 0.06;      // m that a part is pulled by ahead of it
-constexpr double kAheadShut = 0.08;  // m that a door is pushed by: it is wide, and goes far
-constexpr double kTurnAhead = 0.35;  // rad
-constexpr double kArrived = 0.025;   // m from the destination: lets go
-constexpr double kAtRest = 0.005;    // m: the hand is where it shall be, and gets no nearer
+constexpr double kAhead = 0.06;         // m that a part is pulled by ahead of it
+constexpr double kAheadShut = 0.08;     // m that a door is pushed by: it is wide, and goes far
+constexpr double kTurnAhead = 0.35;     // rad
+constexpr double kArrived = 0.025;      // m from the destination: lets go
+constexpr double kAtRest = 0.005;       // m: the hand is where it shall be, and gets no nearer
 constexpr double kArrivedTurned = 0.1;  // m that what has turned in it may be off then
-constexpr double kPushing = 0.02;    // m ahead of its place behind it, the hand touches the thing
-constexpr double kNearGoal = 0.01;   // m: what is so near to its goal is left there
+constexpr double kPushing = 0.02;   // m ahead of its place behind it, the hand touches the thing
+constexpr double kNearGoal = 0.01;  // m: what is so near to its goal is left there
 
 // What the script looks at.
 struct Glance {
@@ -136,8 +136,9 @@ void Carry(const Glance& glance, float* action) {
   const bool putting = glance.variant.starts_held;
   if (glance.frame.at_destination()) {
     const double missing = WayToDestination(glance.variant, glance.state).norm();
-    // What has turned in the hand is not where the hand would have it.
-    const double arrived = glance.off.norm() < kAtRest ? kArrivedTurned : kArrived;
+    // What has turned in the hand, in a room, is not where the hand would have it.
+    const bool at_rest = glance.variant.room && glance.off.norm() < kAtRest;
+    const double arrived = at_rest ? kArrivedTurned : kArrived;
     const double early = putting ? kGripGain * (1.0 - missing / arrived) : -1.0;
     action[6] = static_cast<float>(std::clamp(early, -1.0, 1.0));
     return;

@@ -125,7 +125,7 @@ TEST(SideRoom, AThingThatGoesIntoOneIsTakenByAHandThatLeansIn) {
     const EpisodeStart start = DrawStart(*picks, rng);
     const Vector3d inward = InwardOf(*variant.room, variant.model, start.state);
     const Isometry3d tool = ToolAt(*picks, start.at_work);
-    EXPECT_NEAR(std::abs(PitchAt(variant, start.state, tool)), std::abs(start.pitch), 0.02);
+    EXPECT_NEAR(std::abs(PitchOf(tool)), std::abs(start.pitch), 0.02);
     EXPECT_LT(ToolAt(*picks_alone, DrawStart(*picks_alone, rng).at_work).linear().col(2).z(), -0.7);
     if (tool.linear().col(2).dot(inward) < std::sin(0.5)) continue;
     ++leaning;
@@ -322,7 +322,6 @@ TEST(SideRoom, AHandStaysWhereItHasLetGo) {
   FocusFrame frame(variant, state, Vector3d::UnitY(), 0.8);
   ASSERT_TRUE(frame.at_destination());
   Isometry3d& cup = state.roots[static_cast<size_t>(variant.focus->thing)];
-  const Vector3d before = frame.world_from_focus().translation();
   // The rim goes round with a cup that turns in the hand, and the hand with it.
   cup.rotate(Eigen::AngleAxisd(0.5, Vector3d::UnitZ()));
   cup.translation().x() += 0.02;
@@ -335,7 +334,6 @@ TEST(SideRoom, AHandStaysWhereItHasLetGo) {
   state.grasped = true;
   frame.Update(state);
   EXPECT_GT((frame.world_from_focus().translation() - held).norm(), 1e-3);
-  EXPECT_TRUE(before.allFinite());
 }
 
 TEST(SideRoom, AHandThatLeavesWaitsForItsFingers) {
