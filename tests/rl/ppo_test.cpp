@@ -134,7 +134,7 @@ TEST(Ppo, ImitatesWhatIsShownAndKeepsItAfterwards) {
   EXPECT_GT(learn(30), 1.03 * best) << "best " << best;
   EXPECT_EQ(ppo.CurrentPolicy().std()[0], static_cast<float>(options.initial_std));
   // Nothing is shown any more, and nothing is gained by doing otherwise.
-  EXPECT_GT(learn(3), 1.1 * best);
+  EXPECT_GT(learn(3), 1.25 * best);  // 1.13 on one core, where sums go otherwise
   core::SetThreadCount(0);
 }
 
