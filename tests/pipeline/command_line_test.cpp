@@ -209,10 +209,12 @@ TEST_F(CommandLine, TheExampleChairBecomesAnAssetThatHolds) {
 TEST_F(CommandLine, CtrlCLeavesNothing) {
   const std::string mesh = Write("ball.obj", assets::ObjText(assets::SphereMesh(0.1, 200)));
   const size_t before = Entries();
-  // A shell starts what goes on behind with SIGINT ignored: wait until the program catches it.
+  // A shell starts what goes on behind with SIGINT ignored: wait until it has become the program,
+  // whose shell may have caught it, and the program catches it.
   const Outcome outcome =
       RunProgram("import " + mesh + " --category ball -o " + Out() +
                  " 2>&1 & pid=$!; for i in $(seq 400); do "
+                 "grep -q simwright /proc/$pid/comm && "
                  "grep -q 'SigCgt.*[2367abef]$' /proc/$pid/status && break; sleep 0.05; done; "
                  "sleep 0.3; kill -INT $pid; wait $pid");
   EXPECT_NE(outcome.code, 0) << outcome.text;
