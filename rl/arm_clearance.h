@@ -19,6 +19,9 @@ class ArmClearance {
   ArmClearance(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
                int held = -1);
 
+  ArmClearance(const ArmClearance&) = delete;  // KeepOff's obstacles are pointed to
+  ArmClearance& operator=(const ArmClearance&) = delete;
+
   bool IsClear(const robot::Posture& arm, Fingers fingers = Fingers::kCount) const;  // (J)
   // The surface (m, the tool's frame) of what the hand carries: IsWayClear then asks that this is
   // in nothing either. Nothing carried at first.

@@ -20,7 +20,8 @@ struct Node {
 };
 using Tree = std::vector<Node>;
 
-double Distance(const robot::Arm& arm, const robot::Posture& a, const robot::Posture& b) {
+// rad^2, metres of a base counted as kMetre.
+double SquaredDistance(const robot::Arm& arm, const robot::Posture& a, const robot::Posture& b) {
   double sum = 0.0;
   for (Eigen::Index j = 0; j < a.size(); ++j) {
     const double way =
@@ -34,7 +35,7 @@ int Nearest(const robot::Arm& arm, const Tree& tree, const robot::Posture& to) {
   int nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < tree.size(); ++i) {
-    const double distance = Distance(arm, tree[i].posture, to);
+    const double distance = SquaredDistance(arm, tree[i].posture, to);
     if (distance >= least) continue;
     least = distance;
     nearest = static_cast<int>(i);
