@@ -6,6 +6,7 @@
 #include "rl/arm_clearance.h"
 #include "rl/posture_search.h"
 #include "rl/tool_follower.h"
+#include "rl/tree_search.h"
 
 namespace simwright::rl {
 namespace {
@@ -15,6 +16,8 @@ using Eigen::Vector3d;
 
 constexpr double kTurns[] = {0.0,         0.25 * M_PI, -0.25 * M_PI, 0.5 * M_PI,
                              -0.5 * M_PI, 0.75 * M_PI, -0.75 * M_PI, M_PI};  // rad
+// Arrivals to which a way is searched for where none is simple: a search takes long.
+constexpr size_t kSearched = 3;
 
 struct Arrival {
   CarryPlan plan;
@@ -64,6 +67,7 @@ std::optional<CarryPlan> PlanCarry(const Skill& skill, const SkillVariant& varia
   ArmClearance clearance(skill, variant, state, variant.focus->thing);
   clearance.Carry(Load(variant, state));
   std::optional<CarryPlan> any, longer;
+  std::vector<CarryPlan> behind;  // what is between them and the arm, no detour gets round
   for (const double turn : kTurns) {
     if (turn != 0.0 && !task.may_turn) break;
     for (const Arrival& arrival : ArrivalsAt(skill, variant, task, turn, from)) {
@@ -71,12 +75,22 @@ std::optional<CarryPlan> PlanCarry(const Skill& skill, const SkillVariant& varia
       if (!clearance.IsClear(arrival.there)) continue;
       const auto way = PlanDetour(skill, clearance, from, arrival.plan.arrival);
       if (way && way->empty()) return arrival.plan;
+      if (!way && behind.size() < kSearched && clearance.IsClear(arrival.plan.arrival)) {
+        behind.push_back(arrival.plan);
+      }
       if (!way || longer) continue;
       longer = arrival.plan;
       longer->via = *way;
     }
   }
-  return longer ? longer : any;
+  if (longer) return longer;
+  for (CarryPlan& plan : behind) {
+    const auto way = SearchDetour(skill.robot->arm, clearance, from, plan.arrival);
+    if (!way) continue;
+    plan.via = *way;
+    return plan;
+  }
+  return any;
 }
 
 }  // namespace simwright::rl

@@ -51,7 +51,9 @@ void Episode::Begin(const EpisodeStart& start) {
   command_.sent = world_->robot().command();
   command_.goal = frame_->withdrawing() ? start.arm : start.at_work;
   command_.via = frame_->withdrawing() ? Detour() : start.via;
+  along_ = PosturesAlong(skill_, skill_.variants[variant], start.state, start.at_work, start.pitch);
   if (frame_->at_destination()) PlanArrival();
+  RestAsPlanned();
   command_.leader = world_->robot().leader_command();
   command_.rate = robot::Posture::Zero(command_.sent.size());
   command_.leader_rate = 0.0;
@@ -82,6 +84,7 @@ void Episode::Act(const ToolTarget& target) {
 
 // A destination that is far away is come to by a plan; to a near one the tool goes straight.
 void Episode::PlanArrival() {
+  arrival_.resize(0);
   const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
   if (WayToDestination(variant, state_).norm() < kFar) return;
   CarryTask task;
@@ -91,11 +94,26 @@ void Episode::PlanArrival() {
   task.may_turn = !variant.room;
   const auto plan = PlanCarry(skill_, variant, state_, task, command_.sent);
   if (!plan) return;
+  arrival_ = plan->arrival;
   if (plan->turn != 0.0) frame_->Turn(plan->turn, state_);
   command_.goal = plan->arrival;
   command_.via = plan->via;
   // Before a room that opens to a side the hand may have to go straight back first.
   if (!variant.room) command_.via.push_back(plan->arrival);
+}
+
+// Where joints are to spare they keep to the posture that was planned. An arm that drifted home
+// while it pulled a door folded itself into that door.
+void Episode::RestAsPlanned() {
+  const std::optional<Focus>& focus = skill_.variants[static_cast<size_t>(start_.variant)].focus;
+  if (!focus || frame_->withdrawing()) {
+    command_.rest.resize(0);
+  } else if (!along_.positions.empty()) {
+    command_.rest = along_.At(
+        state_.joints[static_cast<size_t>(focus->thing)][static_cast<size_t>(focus->joint)]);
+  } else {
+    command_.rest = frame_->at_destination() ? arrival_ : start_.at_work;
+  }
 }
 
 float Episode::Reward(bool* success) {
@@ -138,6 +156,7 @@ Decision Episode::Step(const float* action) {
   const bool withdrew = frame_->withdrawing(), was_there = frame_->at_destination();
   frame_->Update(state_);
   if (frame_->at_destination() && !was_there) PlanArrival();
+  RestAsPlanned();
   if (withdrew && !frame_->withdrawing()) {
     command_.goal = start_.at_work;
     command_.via = start_.via;

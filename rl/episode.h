@@ -11,6 +11,7 @@
 #include "rl/skill_world.h"
 #include "rl/tool_command.h"
 #include "rl/variant_reward.h"
+#include "rl/work_postures.h"
 
 namespace simwright::rl {
 
@@ -45,6 +46,7 @@ class Episode {
   const FocusFrame& frame() const { return *frame_; }
   const ArmCommand& command() const { return command_; }
   const Skill& skill() const { return skill_; }
+  bool succeeding() const { return held_ > 0; }  // at the last decision
   double seconds() const { return decisions_ * skill_.options.decision_seconds(); }  // since Begin
 
  private:
@@ -52,6 +54,7 @@ class Episode {
   void Act(const ToolTarget& target);
   float Reward(bool* success);
   void PlanArrival();
+  void RestAsPlanned();
 
   const Skill& skill_;
   std::vector<std::unique_ptr<Program>> programs_;  // by variant, made when first used
@@ -61,6 +64,8 @@ class Episode {
   tasks::SceneState state_, previous_;
   robot::Posture arm_, velocities_;
   ArmCommand command_;
+  WorkPostures along_;      // of the joint that is worked on
+  robot::Posture arrival_;  // (J) before a destination that was planned for; else empty
   Eigen::VectorXd positions_;
   ToolTarget target_;
   std::vector<float> action_, guided_;  // (A) the policy's, and with the script's

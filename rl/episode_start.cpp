@@ -18,7 +18,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kTries = 60;
-constexpr double kFarthest = 0.4;   // m
+constexpr double kFarthest = 0.4, kNearest = 0.2;  // m
 constexpr double kKeepsOff = 0.02;  // m off what stands open, which the arm would push shut
 constexpr double kShake = 0.03;     // rad, of an arm that begins where another skill ended
 constexpr double kApart = 0.005;    // m between boxes of things
@@ -40,10 +40,12 @@ Isometry3d Moved(const Isometry3d& pose, const Vector3d& pivot, const Vector3d& 
 }
 
 // m that things begin farther from the robot than described, in a try of that number: a drawer that
-// stands open may leave the arm no room where the closed one does. The first third of the tries
-// keeps to the description.
+// stands open may leave the arm no room where the closed one does. Every other time they begin
+// nearer: a lid goes away from the robot as it opens. The first third of the tries keeps to the
+// description.
 double Farther(int attempt) {
-  return kFarthest * std::max(0.0, (attempt - kTries / 3) / (kTries * 2.0 / 3.0));
+  const double share = std::max(0.0, (attempt - kTries / 3) / (kTries * 2.0 / 3.0));
+  return share * (attempt % 2 == 0 ? kFarthest : -kNearest);
 }
 
 // The try from which on a plan that is not clear will do. An arm that cannot get behind an open
@@ -162,9 +164,27 @@ Detour WayToWork(const Skill& skill, const SkillVariant& variant, const tasks::S
                  const ReachPlan& plan) {
   Detour way = plan.via;
   if (variant.focus->pushes || TakesFromRoom(variant, state)) {
-    way.push_back(BeforeWork(skill, variant, state, plan.at_work));
+    const robot::Posture before = BeforeWork(skill, variant, state, plan.at_work);
+    if (way.empty() || way.back() != before) way.push_back(before);
   }
   return way;
+}
+
+// Where no simple way is clear from `from` (J) to the work of `plan`: one that is searched for,
+// past things at some distance, or else as the arm can.
+void SearchWay(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
+               const robot::Posture& from, ReachPlan* plan) {
+  const bool takes = variant.focus->joint < 0;
+  const robot::Posture before = BeforeWork(skill, variant, state, plan->at_work);
+  for (const double margin : {kKeepsOff, 0.0}) {
+    ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
+    if (margin > 0.0) clearance.KeepOff(margin);
+    const auto way = SearchDetour(skill.robot->arm, clearance, from, before);
+    if (!way) continue;
+    plan->via = *way;
+    plan->via.push_back(before);
+    return;
+  }
 }
 
 void Follow(const Skill& skill, const SkillVariant& variant, const ReachPlan& plan,
@@ -198,16 +218,7 @@ std::optional<ReachPlan> PlanFromAnywhere(const Skill& skill, const SkillVariant
     folded = plan;
   }
   if (!folded) return any;
-  const robot::Posture before = BeforeWork(skill, variant, state, folded->at_work);
-  for (const double margin : {kKeepsOff, 0.0}) {
-    ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
-    if (margin > 0.0) clearance.KeepOff(margin);
-    const auto way = SearchDetour(skill.robot->arm, clearance, from, before);
-    if (!way) continue;
-    folded->via = *way;
-    folded->via.push_back(before);
-    break;
-  }
+  SearchWay(skill, variant, state, from, &*folded);
   return folded;
 }
 
@@ -237,8 +248,11 @@ void PlaceThings(const Skill& skill, core::Rng& rng, EpisodeStart* start) {
     start->state.goal = GoalIn(variant, start->state);
     if (!IsArmClear(skill, variant, start->state, home)) continue;
     if (!variant.focus) return;
-    const auto plan =
-        PlanReach(skill, variant, start->state, home, rng, {.round = attempt >= kTries / 3});
+    const bool round = attempt >= kTries / 3;
+    auto plan = PlanReach(skill, variant, start->state, home, rng, {.round = round});
+    if (plan && !plan->GetsThere() && round) {
+      SearchWay(skill, variant, start->state, home, &*plan);
+    }
     if (plan && (plan->GetsThere() || attempt >= UnclearFrom(variant))) {
       Follow(skill, variant, *plan, start);
       if (IsLaterWorkInReach(skill, start->variant, start->state, rng)) return;

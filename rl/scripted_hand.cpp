@@ -26,6 +26,7 @@ constexpr double kBesideFree = 0.007, kFarthestBack = 0.04;  // m
 constexpr double kBackPerBeside = 4.0;                       // m a m
 constexpr double kClosed = 0.1;                              // of the opening that is asked for
 constexpr double kAhead = 0.06;         // m that a part is pulled by ahead of it
+constexpr double kGently = 0.35;        // of kAhead, of a door that is open enough
 constexpr double kAheadShut = 0.08;     // m that a door is pushed by: it is wide, and goes far
 constexpr double kTurnAhead = 0.35;     // rad
 constexpr double kArrived = 0.025;      // m from the destination: lets go
@@ -43,6 +44,9 @@ struct Glance {
   Vector3d off;        // m, the tool from where it works, in the focus' frame
   double angle = 0.0;  // rad that it is turned
   double asked = 0.0;  // share of the opening that the fingers are sent to
+  bool succeeding = false;
+  size_t number = 0;  // of the variant
+  const std::vector<std::shared_ptr<const Skill>>& later;
 };
 
 Glance GlanceAt(const Episode& episode) {
@@ -58,7 +62,10 @@ Glance GlanceAt(const Episode& episode) {
           episode.state(),
           off.translation(),
           Eigen::AngleAxisd(off.linear() * straight).angle(),
-          gripper.Opening(episode.command().leader) / gripper.MaxOpening()};
+          gripper.Opening(episode.command().leader) / gripper.MaxOpening(),
+          episode.succeeding(),
+          static_cast<size_t>(episode.start().variant),
+          skill.later};
 }
 
 // How far the hand is off its work: 1 where fingers that are so far open or closed turn round.
@@ -89,6 +96,16 @@ void ComeFromBehind(const Glance& glance, float* action) {
   Ask(std::min(stay, kFarthestBack) * back, glance.options.reach, action);
 }
 
+// Whether a subtask that comes later pushes the part shut: opened little wider than it has to be,
+// it leaves the arm a way behind it. Where none does, what comes next has more room beside it.
+bool IsShutLater(const Glance& glance) {
+  const Focus& focus = *glance.variant.focus;
+  return std::any_of(glance.later.begin(), glance.later.end(), [&](const auto& skill) {
+    const std::optional<Focus>& shut = skill->variants[glance.number].focus;
+    return shut && shut->pushes && shut->thing == focus.thing && shut->joint == focus.joint;
+  });
+}
+
 void WorkPart(const Glance& glance, float* action) {
   const double grip = GripAt(glance);
   action[6] = static_cast<float>(grip);
@@ -98,7 +115,8 @@ void WorkPart(const Glance& glance, float* action) {
   if (pull == 0.0) return;
   const Vector3d way = glance.frame.free_way();
   if (!way.isZero()) {
-    Ask(pull * kAhead * way, glance.options.reach, action);
+    const double gently = glance.succeeding && IsShutLater(glance) ? kGently : 1.0;
+    Ask(gently * pull * kAhead * way, glance.options.reach, action);
     return;
   }
   const Focus& focus = *glance.variant.focus;

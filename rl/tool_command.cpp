@@ -217,7 +217,8 @@ void Approach(const Skill& skill, const ToolTarget& target, const robot::Posture
     command->goal = target.joints;
   } else if (via.empty()) {  // until then the goal stays the posture that was planned
     const robot::Posture jump = robot::Posture::Constant(actual.size(), kGoalJump);
-    skill.kinematics->Track(target.base_from_tool, jump, &command->goal);
+    skill.kinematics->Track(target.base_from_tool, jump, &command->goal,
+                            command->rest.size() > 0 ? &command->rest : nullptr);
   }
   MoveArm(skill, via.empty() ? command->goal : via.front(), actual, command);
   MoveFingers(skill, target.leader, command);

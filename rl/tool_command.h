@@ -26,6 +26,7 @@ struct ArmCommand {
   robot::Posture sent;  // (J) what the motors hold now: on its way to `goal`
   // (J) that it goes through before, whatever the action wants meanwhile (PlanDetour).
   std::vector<robot::Posture> via;
+  robot::Posture rest;  // (J) to which joints that are to spare drift; empty: home
   robot::Posture rate;  // (J) per s: how fast `sent` moves
   double leader = 0.0;  // the gripper's first joint
   double leader_rate = 0.0;

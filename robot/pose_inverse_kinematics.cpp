@@ -102,7 +102,8 @@ void PoseInverseKinematics::Evaluate(const Target& target, const Posture& q, Wor
 
 // The damped step from `q` among the joints that may take it: one that would leave its limits is
 // fixed, and the others solve again.
-void PoseInverseKinematics::Step(const Posture& q, double posture_gain, Work* work) const {
+void PoseInverseKinematics::Step(const Posture& q, const Posture& rest, double posture_gain,
+                                 Work* work) const {
   const double damping = 0.5 * work->squared() + options_.least_damping;
   const int count = chain_.size();
   std::array<bool, kMostJoints> fixed{};
@@ -129,8 +130,8 @@ void PoseInverseKinematics::Step(const Posture& q, double posture_gain, Work* wo
     if (!again) break;
   }
   if (posture_gain <= 0.0) return;
-  // The way home, less what of it would move the tool.
-  Posture drift = posture_gain * (home_ - q);
+  // The way to rest, less what of it would move the tool.
+  Posture drift = posture_gain * (rest - q);
   Vector6 moved = Vector6::Zero();
   for (int j = 0; j < count; ++j) {
     if (fixed[static_cast<std::size_t>(j)]) drift[j] = 0.0;
@@ -144,7 +145,8 @@ void PoseInverseKinematics::Step(const Posture& q, double posture_gain, Work* wo
 }
 
 PoseError PoseInverseKinematics::Track(const Eigen::Isometry3d& base_from_tool,
-                                       const Posture& longest_step, Posture* q) const {
+                                       const Posture& longest_step, Posture* q,
+                                       const Posture* rest) const {
   const Target target{base_from_tool.linear(), base_from_tool.translation()};
   Clamp(q);
   const Posture before = *q;
@@ -153,8 +155,9 @@ PoseError PoseInverseKinematics::Track(const Eigen::Isometry3d& base_from_tool,
   for (int i = 0; i < options_.tracking_iterations; ++i) {
     Evaluate(target, *q, &work);
     const double near = 1.0 - std::sqrt(work.squared()) / kErrorWithoutDrift;
-    // Drifting home belongs to the call, not to each of its iterations.
-    Step(*q, i == 0 ? options_.posture_gain * std::max(0.0, near) : 0.0, &work);
+    // Drifting belongs to the call, not to each of its iterations.
+    Step(*q, rest ? *rest : home_, i == 0 ? options_.posture_gain * std::max(0.0, near) : 0.0,
+         &work);
     const double largest = work.step.cwiseAbs().maxCoeff();
     if (largest > options_.longest_step) work.step *= options_.longest_step / largest;
     *q += work.step;
@@ -193,7 +196,7 @@ void PoseInverseKinematics::Descend(const Target& target, PoseSolution* solution
     double& then = earlier[static_cast<std::size_t>(i % kPatience)];
     if (work.squared() > (1.0 - kLeastGain) * then) return;
     then = work.squared();
-    Step(q, 0.0, &work);
+    Step(q, home_, 0.0, &work);
     const double largest = work.step.cwiseAbs().maxCoeff();
     if (largest > options_.longest_step) work.step *= options_.longest_step / largest;
     q += work.step;

@@ -28,7 +28,7 @@ struct PoseInverseKinematicsOptions {
   int starts = 30;              // of Solve: the first from the posture given, the others at random
   int drafts = 8;               // random postures of which a start takes the nearest
   int tracking_iterations = 2;  // of one call of Track
-  double posture_gain = 0.02;  // share of the way home that one call of Track goes where it is free
+  double posture_gain = 0.02;   // of the way to rest that one call of Track goes where it is free
 
   bool IsValid(std::string* error) const;
 };
@@ -55,11 +55,11 @@ class PoseInverseKinematics {
   // One step of control: moves `q` (J) towards `base_from_tool`, no joint further than its entry
   // of `longest_step` (J, rad or m, above 0), all in proportion, and never out of its limits (a
   // `q` that lies outside is first put to the limit). Where the arm has joints to spare they drift
-  // home, less the further the tool is from its target. Returns the error that is left. Called
-  // again and again with one target it comes to rest, in reach or out of it. Requires finite
-  // values and vectors of the arm's length.
-  PoseError Track(const Eigen::Isometry3d& base_from_tool, const Posture& longest_step,
-                  Posture* q) const;
+  // to `rest` (J; none: home), less the further the tool is from its target. Returns the error that
+  // is left. Called again and again with one target it comes to rest, in reach or out of it.
+  // Requires finite values and vectors of the arm's length.
+  PoseError Track(const Eigen::Isometry3d& base_from_tool, const Posture& longest_step, Posture* q,
+                  const Posture* rest = nullptr) const;
 
   // From `start` (J), then from random postures until both tolerances are met. Not finding one is
   // no proof that there is none. Throws core::Error for a target or start that is not finite or of
@@ -73,7 +73,8 @@ class PoseInverseKinematics {
   struct Target;
   struct Work;
   void Evaluate(const Target& target, const Posture& q, Work* work) const;
-  void Step(const Posture& q, double posture_gain, Work* work) const;
+  // Drifts by `posture_gain` of the way to `rest`, as far as that leaves the tool where it is.
+  void Step(const Posture& q, const Posture& rest, double posture_gain, Work* work) const;
   bool Reached(const PoseError& error) const;
   void Descend(const Target& target, PoseSolution* solution) const;
   Posture Draft(const Target& target, core::Rng& rng) const;

@@ -29,6 +29,7 @@ struct Arguments {
   double minutes = 15.0;
   bool script = false;
   std::int64_t imitated = pipeline::TrainRequest().imitated_samples;
+  std::int64_t backward = pipeline::TrainRequest().backward_samples;
   int episodes = 300;
   std::uint64_t seed = 1;
   fs::path output = "out/long_tasks";
@@ -147,6 +148,7 @@ void RunTask(const pipeline::LongTask& task, const Arguments& arguments) {
   request.samples = 1'000'000'000;
   request.minutes = arguments.minutes;
   request.imitated_samples = arguments.imitated;
+  request.backward_samples = arguments.backward;
   request.action = rl::ActionSpaceOf(arguments.chain_action);
   const fs::path run = folder / ("run_chain_" + std::to_string(arguments.seed));
   const pipeline::TrainReport report = Train(task, file, run, request, arguments, &progress);
@@ -182,6 +184,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--script", arguments.script, "Only evaluate the script, without training");
   app.add_option("--imitate", arguments.imitated, "Decisions that imitate a script at first")
+      ->capture_default_str();
+  app.add_option("--backward-steps", arguments.backward,
+                 "Decisions of a subtask that learns on for the one after it; 0: none does")
       ->capture_default_str();
   app.add_option("--episodes", arguments.episodes, "Of each evaluation")->capture_default_str();
   app.add_option("--seed", arguments.seed, "Of the training")->capture_default_str();

@@ -49,6 +49,27 @@ TEST(ScriptedHand, ShutsADoor) {
   EXPECT_GE(EvaluateScript(*skill, DrawStarts(*skill, 20, 5)).successes, 18);
 }
 
+// A hand that shall shut the door has to get behind it; for any other one, wide is good.
+TEST(ScriptedHand, OpensADoorThatIsShutLaterLittleWiderThanItHasTo) {
+  const auto alone = Evaluated(OpenDoor());
+  const auto shut = MakeSkill(robot::Panda(false), {OpenDoor()}, SkillOptions().ForEvaluation(),
+                              {Evaluated(CloseDoor())});
+  const std::vector<EpisodeStart> starts = DrawStarts(*shut, 20, 5);
+  const SkillEvaluation wide = EvaluateScript(*alone, starts);
+  const SkillEvaluation little = EvaluateScript(*shut, starts);
+  EXPECT_GE(little.successes, wide.successes - 1);  // it holds what it has reached
+  int both = 0;
+  double wider = 0.0;
+  for (size_t i = 0; i < starts.size(); ++i) {
+    if (!wide.episodes[i].success || !little.episodes[i].success) continue;
+    ++both;
+    wider += wide.episodes[i].end.state.joints[0][0] - little.episodes[i].end.state.joints[0][0];
+    EXPECT_GE(little.episodes[i].end.state.joints[0][0], 0.7 * 1.7);
+  }
+  ASSERT_GE(both, 8);
+  EXPECT_GT(wider / both, 0.05);
+}
+
 TEST(ScriptedHand, IsWhatAnEnvironmentShows) {
   const auto skill = Evaluated(OpenDoor());
   SkillEnvironment environment(skill, 3);
