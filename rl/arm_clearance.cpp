@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kTouching = 0.001;  // m; in a board no point is deeper than half of its thickness
 constexpr double kInFloor = 0.005;   // m
-constexpr double kLook = 0.1;        // rad or m of any joint from look to look
-constexpr double kNearEnd = 0.3;     // rad or m from either end of a way, which is near things
+constexpr double kLook = 0.05;       // rad or m of any joint from look to look
+constexpr double kNearEnd = 0.3;     // rad or m of any joint from an end, which is near things
 
 // world_from_link of the robot's links. (urdf.links)
 std::vector<Eigen::Isometry3d> RobotPoses(const robot::RobotModel& robot,
@@ -79,7 +79,8 @@ ArmClearance::ArmClearance(const Skill& skill, const SkillVariant& variant,
   }
 }
 
-void ArmClearance::KeepOff(double margin) {
+void ArmClearance::KeepOff(double margin, std::vector<robot::Posture> ends) {
+  ends_ = std::move(ends);
   grown_solids_.clear();
   grown_ = obstacles_;
   for (const Obstacle& obstacle : obstacles_) {
@@ -121,8 +122,10 @@ bool ArmClearance::IsWayClear(const robot::Posture& from, const robot::Posture& 
   for (int i = looks; i > 0; --i) {  // what is in the way is nearer to the work, as a rule
     const double share = static_cast<double>(i) / looks;
     const robot::Posture at = from + share * (to - from);
-    const bool half_way = std::min(share, 1.0 - share) * length > kNearEnd;
-    const Obstacles& obstacles = half_way && !grown_.empty() ? grown_ : obstacles_;
+    const bool near_end = std::any_of(ends_.begin(), ends_.end(), [&](const auto& end) {
+      return (end - at).template lpNorm<Eigen::Infinity>() < kNearEnd;
+    });
+    const Obstacles& obstacles = near_end || grown_.empty() ? obstacles_ : grown_;
     if (!IsClearOf(obstacles, at, Fingers::kCount) || !IsLoadClear(at)) return false;
   }
   return true;

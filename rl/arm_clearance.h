@@ -26,9 +26,10 @@ class ArmClearance {
   // The surface (m, the tool's frame) of what the hand carries: IsWayClear then asks that this is
   // in nothing either. Nothing carried at first.
   void Carry(SurfacePoints carried) { carried_ = std::move(carried); }
-  // IsWayClear then asks that the arm keeps `margin` (m) off things half-way, away from both ends:
-  // what it goes by may give way, and the arm is never quite where it is sent.
-  void KeepOff(double margin);
+  // IsWayClear then asks that the arm keeps `margin` (m) off things, but within 0.3 rad (or m) of
+  // `ends` (J each), which may be near things: what it goes by may give way, and the arm is never
+  // quite where it is sent.
+  void KeepOff(double margin, std::vector<robot::Posture> ends);
   // Whether the arm, and what it carries, is clear between the two postures (J), as it goes
   // straight from joint to joint, and at the second.
   bool IsWayClear(const robot::Posture& from, const robot::Posture& to) const;
@@ -47,6 +48,7 @@ class ArmClearance {
   const Eigen::Isometry3d& world_from_robot_;
   Obstacles obstacles_, grown_;  // `grown_`: by KeepOff's margin
   std::vector<BodySolids> grown_solids_;
+  std::vector<robot::Posture> ends_;  // of KeepOff
   SurfacePoints carried_;
   std::vector<bool> grounded_;  // by link: is in the floor at home, as the foot of an arm may be
 };

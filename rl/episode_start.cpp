@@ -178,7 +178,7 @@ void SearchWay(const Skill& skill, const SkillVariant& variant, const tasks::Sce
   const robot::Posture before = BeforeWork(skill, variant, state, plan->at_work);
   for (const double margin : {kKeepsOff, 0.0}) {
     ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
-    if (margin > 0.0) clearance.KeepOff(margin);
+    if (margin > 0.0) clearance.KeepOff(margin, {from, before});
     const auto way = SearchDetour(skill.robot->arm, clearance, from, before);
     if (!way) continue;
     plan->via = *way;
@@ -209,9 +209,9 @@ std::optional<ReachPlan> PlanFromAnywhere(const Skill& skill, const SkillVariant
     plan = PlanReach(skill, variant, state, skill.robot->home(), rng, wanted);
     if (!plan || !plan->GetsThere()) continue;
     ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
-    if (margin > 0.0) clearance.KeepOff(margin);
-    const auto way =
-        PlanDetour(skill, clearance, from, BeforeWork(skill, variant, state, plan->at_work));
+    const robot::Posture before = BeforeWork(skill, variant, state, plan->at_work);
+    if (margin > 0.0) clearance.KeepOff(margin, {from, before});
+    const auto way = PlanDetour(skill, clearance, from, before);
     plan->clear = false;
     plan->via = way.value_or(Detour());
     if (way) return plan;

@@ -20,6 +20,9 @@ constexpr double kInPlace = 0.03;  // m from its axis: what is nearer turns in p
 constexpr double kAway = 0.02;     // m from where it gets away to: the hand is away
 constexpr double kNearer = 0.003;  // m, of a hand that gets on
 constexpr double kLetGo = 0.03;    // m between fingers that have let go of what they were about
+constexpr double kAtRest = 0.005;  // m: the hand is where it shall be
+constexpr double kSlid = 0.01;     // m that what it holds is off its destination all the same
+constexpr int kResting = 4;        // updates
 constexpr int kOpening = 10;       // updates that a hand waits for that
 constexpr int kStuck = 10;         // updates in which it does not: fingers open in 8 of them
 constexpr int kLongestWay = 30;    // updates, 1.5 s at 20 Hz: what is in the way stays there
@@ -131,6 +134,17 @@ void FocusFrame::Update(const tasks::SceneState& state) {
   FindWayIn(state);
 }
 
+// What has slid in the hand is not at its destination when the hand is where it was taken: the hand
+// goes on from where it holds it now.
+void FocusFrame::GripAnew(const tasks::SceneState& state) {
+  const Vector3d tool = state.gripper.translation();
+  const bool rests = (tool - world_from_focus_.translation()).norm() < kAtRest;
+  resting_ = state.grasped && rests ? resting_ + 1 : 0;
+  if (resting_ < kResting || WayToDestination(variant_, state).norm() < kSlid) return;
+  grip_ = state.roots[static_cast<size_t>(variant_.focus->thing)].inverse() * tool;
+  resting_ = 0;
+}
+
 void FocusFrame::Follow(const tasks::SceneState& state) {
   const Focus& focus = *variant_.focus;
   if (focus.joint >= 0 || Pushes(variant_)) {
@@ -144,6 +158,7 @@ void FocusFrame::Follow(const tasks::SceneState& state) {
   if (at_destination_ && variant_.room && variant_.starts_held && was_held_ && !state.grasped) {
     return;
   }
+  if (at_destination_) GripAnew(state);
   world_from_focus_.translation() = state.roots[static_cast<size_t>(focus.thing)] * grip_;
   if (at_destination_) world_from_focus_.translation() += WayToDestination(variant_, state);
 }

@@ -42,6 +42,7 @@ class FocusFrame {
  private:
   void Switch(const tasks::SceneState& state);
   void Follow(const tasks::SceneState& state);
+  void GripAnew(const tasks::SceneState& state);
   bool Withdraws(const tasks::SceneState& state);
   void FindWayIn(const tasks::SceneState& state);
 
@@ -55,6 +56,7 @@ class FocusFrame {
   double below_ = 0.0;  // m, how far the thing reaches below its middle
   int held_ = 0;        // updates in a row with the thing in both fingers
   bool was_held_ = false;
+  int resting_ = 0;  // updates in a row that the hand, holding it, is where it shall be
   Eigen::Vector3d back_ = -Eigen::Vector3d::UnitZ();
   double room_depth_ = 0.0;
   bool withdrawing_ = false;

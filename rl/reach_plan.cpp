@@ -198,7 +198,6 @@ std::optional<Detour> WayThere(const Skill& skill, const SkillVariant& variant,
                                const Candidate& candidate, const Demands& demands) {
   const bool takes = variant.focus->joint < 0;
   ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
-  if (demands.margin > 0.0) clearance.KeepOff(demands.margin);
   if (takes && !clearance.IsClear(candidate.posture)) return std::nullopt;
   const bool palm_free =
       Pushes(variant) ||
@@ -207,6 +206,7 @@ std::optional<Detour> WayThere(const Skill& skill, const SkillVariant& variant,
   if (!palm_free || !StaysBack(skill, variant, state, candidate.posture, &before)) {
     return std::nullopt;
   }
+  if (demands.margin > 0.0) clearance.KeepOff(demands.margin, {from, before});
   if (clearance.IsWayClear(from, before)) return Detour();
   return demands.round ? PlanDetour(skill, clearance, from, before) : std::nullopt;
 }

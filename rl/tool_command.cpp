@@ -30,7 +30,7 @@ constexpr double kAbove = 0.015;  // m: a hand so far above its work comes down 
 // the thing that it touches upwards, and tip it.
 constexpr double kAhead = 0.05;
 constexpr double kDecided = 0.15;  // of an action: less leaves the fingers as they are
-constexpr double kPassed = 0.1;    // rad or m of any joint: a posture on the way has been passed
+constexpr double kPassed = 0.05;   // rad or m of any joint: a posture on the way has been passed
 constexpr double kGoalJump = 0.1;  // rad or m that any joint of the goal moves in a control step
 
 Isometry3d Offset(const float* action, double reach, double turn) {
