@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rl/observation.h"
 #include "rl/skill_environment.h"
 #include "tests/rl/skill_scene.h"
 
@@ -80,6 +81,44 @@ TEST(FocusFrame, AThingThatIsALittlePastItsGoalIsStillMetFromTheSameSide) {
   EXPECT_NEAR(direction_at(root + 0.19), 1.0, 1e-9);
   EXPECT_NEAR(direction_at(root + 0.23), 1.0, 1e-9);
   EXPECT_NEAR(direction_at(root + 0.26), -1.0, 1e-9);
+}
+
+// A cup in the hand that shall stand 25 cm aside.
+SkillSubtask PutAside() {
+  SkillSubtask scene = PickUpCup();
+  scene.subtask.program =
+      "def compute_reward(env):\n"
+      "    missing = torch.norm(env.get_goal_pose() - env.get_position(\"cup\"), dim=-1)\n"
+      "    released = torch.logical_not(env.check_grasped(\"cup\"))\n"
+      "    return -missing, torch.logical_and(missing <= 0.03, released)\n";
+  scene.subtask.goal = Vector3d(0.5, 0.25, 0.05);
+  scene.subtask.start.held = "cup";
+  return scene;
+}
+
+TEST(FocusFrame, WhatHasSlidInTheHandIsBroughtOn) {
+  const auto skill = Make(PutAside());
+  const SkillVariant& variant = skill->variants.front();
+  tasks::SceneState state = variant.start;
+  FocusFrame frame = FrameOf(variant, state);
+  ASSERT_TRUE(frame.at_destination());
+  const Vector3d way = WayToDestination(variant, state);
+  ASSERT_GT(way.norm(), 0.2);
+  // The hand has gone where it should go, and the cup has not come along.
+  state.grasped = true;
+  state.touched = variant.focus->thing;
+  state.gripper = frame.world_from_focus();
+  for (int i = 0; i < 3; ++i) frame.Update(state);
+  EXPECT_TRUE(frame.world_from_focus().translation().isApprox(state.gripper.translation(), 1e-9));
+  frame.Update(state);
+  EXPECT_TRUE(frame.world_from_focus().translation().isApprox(
+      Vector3d(state.gripper.translation() + way), 1e-9));
+  // On its way there the hand holds it as it does.
+  state.gripper.translation() += 0.5 * way;
+  state.roots[static_cast<size_t>(variant.focus->thing)].pretranslate(0.5 * way);
+  for (int i = 0; i < 8; ++i) frame.Update(state);
+  EXPECT_TRUE(frame.world_from_focus().translation().isApprox(
+      Vector3d(state.gripper.translation() + 0.5 * way), 1e-9));
 }
 
 }  // namespace

@@ -78,15 +78,36 @@ TEST(SearchDetour, FindsNoWayIntoAWall) {
   EXPECT_FALSE(SearchDetour(scene.skill->robot->arm, clearance, scene.left, inside));
 }
 
+// Of a way of several postures the corners are half-way too, where an arm that goes on to the next
+// one is never quite on its way.
+TEST(SearchDetour, KeepsOffThingsAtItsCorners) {
+  const BothSides scene;
+  constexpr double kMargin = 0.02;
+  ArmClearance clearance(*scene.skill, scene.variant, scene.variant.start);
+  ArmClearance everywhere(*scene.skill, scene.variant, scene.variant.start);
+  clearance.KeepOff(kMargin, {scene.left, scene.right});
+  everywhere.KeepOff(kMargin, {});
+  const auto detour = SearchDetour(scene.skill->robot->arm, clearance, scene.left, scene.right);
+  ASSERT_TRUE(detour);
+  int corners = 0;
+  for (const robot::Posture& corner : *detour) {
+    if ((corner - scene.left).lpNorm<Eigen::Infinity>() < 0.3) continue;
+    if ((corner - scene.right).lpNorm<Eigen::Infinity>() < 0.3) continue;
+    ++corners;
+    EXPECT_TRUE(everywhere.IsWayClear(corner, corner));
+  }
+  EXPECT_GT(corners, 0);
+}
+
 TEST(ArmClearance, KeepsOffThingsHalfWayOnly) {
   const BothSides scene;
   ArmClearance clearance(*scene.skill, scene.variant, scene.variant.start);
   const robot::Posture home = scene.skill->robot->home();
   ASSERT_TRUE(clearance.IsWayClear(home, scene.right));
-  clearance.KeepOff(0.01);
+  clearance.KeepOff(0.01, {home, scene.right});
   EXPECT_TRUE(clearance.IsWayClear(home, scene.right));
   EXPECT_TRUE(clearance.IsClear(home));
-  clearance.KeepOff(1.0);
+  clearance.KeepOff(1.0, {home, scene.right});
   EXPECT_FALSE(clearance.IsWayClear(home, scene.right));
   EXPECT_TRUE(clearance.IsWayClear(home, home));
   EXPECT_TRUE(clearance.IsClear(home));

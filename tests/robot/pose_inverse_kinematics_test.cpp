@@ -167,6 +167,26 @@ TEST(Track, DriftsHomeWithoutMovingTheTool) {
   EXPECT_LT((q - model.home()).norm(), 0.02);
 }
 
+TEST(Track, DriftsToRestWhereThatIsNotHome) {
+  const RobotModel& model = Panda(false);
+  const PoseInverseKinematics solver(model.arm);
+  const Eigen::Isometry3d target = ForwardKinematics(model.arm, model.home());
+  core::Rng rng(5);
+  Posture away = model.home();
+  away[0] += 0.5;
+  away[2] -= 0.6;
+  const Posture rest = solver.Solve(target, away, rng).q;
+  ASSERT_GT((rest - model.home()).norm(), 0.3);
+  Posture q = model.home();
+  const Posture steps = StepsOf(model, 1.0 / 60.0);
+  for (int i = 0; i < 600; ++i) {
+    const PoseError error = solver.Track(target, steps, &q, &rest);
+    EXPECT_LT(error.position, 1e-3);
+    EXPECT_LT(error.angle, kHalfDegree);
+  }
+  EXPECT_LT((q - rest).norm(), 0.02);
+}
+
 TEST(Track, PutsAPostureOutsideItsLimitsBack) {
   const RobotModel& model = Panda(false);
   const PoseInverseKinematics solver(model.arm);
