@@ -12,7 +12,9 @@ namespace {
 
 // Of the fingers' part of an action: all of it has to overrule the script.
 constexpr float kOverrule = 2.0f;
-constexpr double kFar = 0.25;  // m: to what is nearer the tool goes straight
+constexpr double kNearPlansEnd = 0.15;  // rad
+constexpr int kPlans = 3;               // of an episode, at most
+constexpr double kFar = 0.25;           // m: to what is nearer the tool goes straight
 
 }  // namespace
 
@@ -43,17 +45,9 @@ void Episode::Begin(const EpisodeStart& start) {
   state_ = start.state;
   world_->Read(&state_);
   previous_ = state_;
-  const Eigen::Isometry3d at_work = robot::ForwardKinematics(skill_.robot->arm, start.at_work);
-  frame_ = std::make_unique<FocusFrame>(
-      skill_.variants[variant], state_,
-      skill_.variants[variant].subtask.start.world_from_robot.linear() * at_work.linear().col(1),
-      start.pitch, start.withdraw);
   command_.sent = world_->robot().command();
-  command_.goal = frame_->withdrawing() ? start.arm : start.at_work;
-  command_.via = frame_->withdrawing() ? Detour() : start.via;
-  along_ = PosturesAlong(skill_, skill_.variants[variant], start.state, start.at_work, start.pitch);
-  if (frame_->at_destination()) PlanArrival();
-  RestAsPlanned();
+  plans_ = 0;
+  FollowPlan();
   command_.leader = world_->robot().leader_command();
   command_.rate = robot::Posture::Zero(command_.sent.size());
   command_.leader_rate = 0.0;
@@ -66,6 +60,40 @@ void Episode::Begin(const EpisodeStart& start) {
   target_.leader = command_.leader;
   std::fill(action_.begin(), action_.end(), 0.0f);
   decisions_ = held_ = 0;
+}
+
+// From where things and arm are now, as `start_` has planned it.
+void Episode::FollowPlan() {
+  const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
+  const Eigen::Isometry3d at_work = robot::ForwardKinematics(skill_.robot->arm, start_.at_work);
+  const Eigen::Matrix3d& world_from_base = variant.subtask.start.world_from_robot.linear();
+  frame_ = std::make_unique<FocusFrame>(variant, state_, world_from_base * at_work.linear().col(1),
+                                        start_.pitch, start_.withdraw);
+  command_.goal = frame_->withdrawing() ? start_.arm : start_.at_work;
+  command_.via = frame_->withdrawing() ? Detour() : start_.via;
+  along_ = PosturesAlong(skill_, variant, state_, start_.at_work, start_.pitch);
+  if (frame_->at_destination()) PlanArrival();
+  RestAsPlanned();
+  ++plans_;
+}
+
+// A door that stands wide open is pushed as far as one posture after the other goes.
+bool Episode::IsAtPlansEnd() const {
+  const std::optional<Focus>& focus = skill_.variants[static_cast<size_t>(start_.variant)].focus;
+  if (!focus || !focus->pushes || !along_.ends_early || frame_->withdrawing()) return false;
+  const double position =
+      state_.joints[static_cast<size_t>(focus->thing)][static_cast<size_t>(focus->joint)];
+  const double end = along_.positions.back(), begin = along_.positions.front();
+  return (position - end) * (begin - end) < kNearPlansEnd * std::abs(begin - end);
+}
+
+void Episode::PlanAnew() {
+  core::Rng rng = core::StreamRng(static_cast<std::uint64_t>(plans_), 0);
+  EpisodeStart now = start_;
+  now.state = state_;
+  now.arm = arm_;
+  start_ = Varied(skill_, now, rng, VariedParts::kNothing);
+  FollowPlan();
 }
 
 void Episode::Act(const ToolTarget& target) {
@@ -105,8 +133,9 @@ void Episode::PlanArrival() {
 // Where joints are to spare they keep to the posture that was planned. An arm that drifted home
 // while it pulled a door folded itself into that door.
 void Episode::RestAsPlanned() {
-  const std::optional<Focus>& focus = skill_.variants[static_cast<size_t>(start_.variant)].focus;
-  if (!focus || frame_->withdrawing()) {
+  const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
+  const std::optional<Focus>& focus = variant.focus;
+  if (!focus || frame_->withdrawing() || Pushes(variant)) {
     command_.rest.resize(0);
   } else if (!along_.positions.empty()) {
     command_.rest = along_.At(
@@ -156,6 +185,7 @@ Decision Episode::Step(const float* action) {
   const bool withdrew = frame_->withdrawing(), was_there = frame_->at_destination();
   frame_->Update(state_);
   if (frame_->at_destination() && !was_there) PlanArrival();
+  if (plans_ < kPlans && IsAtPlansEnd()) PlanAnew();
   RestAsPlanned();
   if (withdrew && !frame_->withdrawing()) {
     command_.goal = start_.at_work;

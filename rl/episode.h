@@ -40,6 +40,7 @@ class Episode {
   // Into `row`, as Observer says.
   void Observe(float* row) const;
 
+  // As it was begun, but for what is planned: where a plan has ended early, another follows.
   const EpisodeStart& start() const { return start_; }
   const tasks::SceneState& state() const { return state_; }
   const SkillWorld& world() const { return *world_; }
@@ -51,6 +52,9 @@ class Episode {
 
  private:
   struct Program;
+  void FollowPlan();
+  bool IsAtPlansEnd() const;
+  void PlanAnew();
   void Act(const ToolTarget& target);
   float Reward(bool* success);
   void PlanArrival();
@@ -71,7 +75,8 @@ class Episode {
   std::vector<float> action_, guided_;  // (A) the policy's, and with the script's
   std::function<void(const Episode&)> watch_;
   int decisions_ = 0;
-  int held_ = 0;  // decisions in a row with success
+  int plans_ = 0;  // that were followed
+  int held_ = 0;   // decisions in a row with success
 };
 
 }  // namespace simwright::rl

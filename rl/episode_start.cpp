@@ -202,7 +202,7 @@ std::optional<ReachPlan> PlanFromAnywhere(const Skill& skill, const SkillVariant
   const bool takes = variant.focus->joint < 0;
   std::optional<ReachPlan> any, folded;
   for (const double margin : {kKeepsOff, 0.0}) {
-    const WayWanted wanted{.round = true, .margin = margin};
+    const WayWanted wanted{.round = true, .part = true, .margin = margin};
     auto plan = PlanReach(skill, variant, state, from, rng, wanted);
     if (plan && plan->GetsThere()) return plan;
     if (!any) any = plan;

@@ -31,6 +31,9 @@ constexpr double kShutPitches[] = {0.3, 0.6, 0.0, 0.9};
 // Of a hand that goes into a room through its side: palm and wrist stay out of it, or below its
 // ceiling. A microwave is 20 cm high inside; upright, hand and flange alone are 25.
 constexpr double kRoomPitches[] = {0.8, 1.0, 0.6, 1.2};
+// rad that fingers may be turned that push a door shut from where it stands wide open: to turn with
+// it all that way is more than most wrists can.
+constexpr double kPushTurned = 0.6;
 constexpr double kLeaning = 0.9;  // of the lean, into the room: things with corners turn the hand
 // That are looked at in rooms and along a joint's way: whether an arm is clear takes a millisecond.
 constexpr int kLookedAt = 6;
@@ -61,6 +64,7 @@ struct Demands {
   bool clear = false;        // ReachPlan::clear
   bool round = false;        // or ReachPlan::via
   double margin = 0.0;       // m, WayWanted
+  bool half = false;         // only the first half of a joint's way, the tool turned as it can be
 };
 
 // Whether the tool goes to `there` in variant.room through its opening, the arm being in nothing.
@@ -91,26 +95,6 @@ bool CarriesThing(const Skill& skill, const SkillVariant& variant, const tasks::
   return !demands.looks_ahead || !variant.next || goes(*variant.next);
 }
 
-// Whether the tool goes the joint's way, `clear`: and the arm, but for its fingers, is in nothing.
-bool MovesJoint(const Skill& skill, const SkillVariant& variant, tasks::SceneState state,
-                const Isometry3d& tool, double pitch, bool clear, ToolFollower* follower) {
-  const Focus& focus = *variant.focus;
-  const auto thing = static_cast<size_t>(focus.thing), j = static_cast<size_t>(focus.joint);
-  Vector3d across = tool.linear().col(1);
-  const std::vector<double> way =
-      JointWay(variant.model.things[thing].joints[j], state.joints[thing][j]);
-  for (size_t i = 0; i < way.size(); ++i) {
-    state.joints[thing][j] = way[i];
-    const Isometry3d next = ToolAtFocus(variant, state, across, pitch);
-    across = next.linear().col(1);
-    if (!follower->Goes(next)) return false;
-    if (!clear || i % 3 != 2) continue;  // half-way and at the end
-    const ArmClearance clearance(skill, variant, state);
-    if (!clearance.IsClear(follower->posture(), Fingers::kIgnored)) return false;
-  }
-  return true;
-}
-
 // A posture in which the tool is at work.
 struct Candidate {
   Isometry3d tool;  // world_from_tool
@@ -118,6 +102,29 @@ struct Candidate {
   robot::Posture posture;
   double seconds = 0.0;  // to get there, every joint at its highest speed
 };
+
+// Whether the tool goes the joint's way, and, where that is demanded, the arm, but for its fingers,
+// is in nothing.
+bool MovesJoint(const Skill& skill, const SkillVariant& variant, tasks::SceneState state,
+                const Candidate& candidate, const Demands& demands, ToolFollower* follower) {
+  const Focus& focus = *variant.focus;
+  const auto thing = static_cast<size_t>(focus.thing), j = static_cast<size_t>(focus.joint);
+  Vector3d across = candidate.tool.linear().col(1);
+  const std::vector<double> way =
+      JointWay(variant.model.things[thing].joints[j], state.joints[thing][j]);
+  const size_t followed = demands.half ? way.size() / 2 : way.size();
+  const double turned = demands.half ? PushTurned(variant) : ToolFollower::kTurned;
+  for (size_t i = 0; i < followed; ++i) {
+    state.joints[thing][j] = way[i];
+    const Isometry3d next = ToolAtFocus(variant, state, across, candidate.pitch);
+    across = next.linear().col(1);
+    if (!follower->Goes(next, turned)) return false;
+    if (!demands.clear || i % 3 != 2) continue;  // half-way and at the end
+    const ArmClearance clearance(skill, variant, state);
+    if (!clearance.IsClear(follower->posture(), Fingers::kIgnored)) return false;
+  }
+  return true;
+}
 
 void AddCandidates(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
                    const Stance& stance, const robot::Posture& from, core::Rng& rng,
@@ -250,8 +257,7 @@ std::optional<ReachPlan> PlanWith(const Skill& skill, const SkillVariant& varian
     ToolFollower follower(skill, variant, candidate.posture);
     const bool works =
         variant.focus->joint >= 0
-            ? MovesJoint(skill, variant, state, candidate.tool, candidate.pitch, demands.clear,
-                         &follower)
+            ? MovesJoint(skill, variant, state, candidate, demands, &follower)
             : CarriesThing(skill, variant, state, candidate.tool, demands, &follower);
     if (!works) continue;
     const bool goes_on = demands.looks_ahead && variant.next;
@@ -323,6 +329,9 @@ std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& varia
     if (const auto found = plan({.clear = clear})) return found;
     if (!clear || !way.round || variant.room) continue;
     if (const auto found = plan({.clear = true, .round = true})) return found;
+    if (!way.part || !variant.focus->pushes) continue;
+    const Demands half{.clear = true, .round = true, .half = true};
+    if (const auto found = plan(half)) return found;
   }
   return std::nullopt;
 }
@@ -340,6 +349,10 @@ robot::Posture BeforeWork(const Skill& skill, const SkillVariant& variant,
   robot::Posture before;
   StaysBack(skill, variant, state, at_work, &before);
   return before;
+}
+
+double PushTurned(const SkillVariant& variant) {
+  return variant.focus && variant.focus->pushes ? kPushTurned : ToolFollower::kTurned;
 }
 
 double PitchOf(const Isometry3d& world_from_tool) {

@@ -32,6 +32,7 @@ struct ReachPlan {
 // Of the arm's way to where it waits.
 struct WayWanted {
   bool round = false;   // ReachPlan::via, where no plan is clear
+  bool part = false;    // and where there is none: one for the first half of what is pushed shut
   double margin = 0.0;  // m that it keeps off things half-way (ArmClearance::KeepOff)
 };
 
@@ -56,6 +57,10 @@ Eigen::Vector3d WayOutOfRoom(const SkillVariant& variant, const tasks::SceneStat
 // (J) in which the hand stays back before its work `at_work` (J).
 robot::Posture BeforeWork(const Skill& skill, const SkillVariant& variant,
                           const tasks::SceneState& state, const robot::Posture& at_work);
+
+// rad that the tool may be turned as it moves the part that the skill works on: more where fingers
+// only push it.
+double PushTurned(const SkillVariant& variant);
 
 // rad that the hand at `world_from_tool` leans about its own y axis, as PlanReach's pitch.
 double PitchOf(const Eigen::Isometry3d& world_from_tool);

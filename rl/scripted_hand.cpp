@@ -136,7 +136,7 @@ void WorkPart(const Glance& glance, float* action) {
 void PushShut(const Glance& glance, float* action) {
   action[6] = -1.0f;
   const Vector3d beside(std::max(0.0, glance.off.x() - kThere), glance.off.y(), glance.off.z());
-  const double off = std::max(beside.norm() / kThere, glance.angle / kAligned);
+  const double off = std::max(beside.norm() / kThere, glance.angle / PushTurned(glance.variant));
   const double push = std::clamp(kGripGain * (kPullsTo - off), 0.0, 1.0);
   Ask(push * kAheadShut * glance.frame.free_way(), glance.options.reach, action);
 }

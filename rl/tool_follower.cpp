@@ -7,10 +7,10 @@ namespace {
 
 using Eigen::Isometry3d;
 
-constexpr double kPosition = 0.01, kAngle = 0.15;  // m, rad: what is off at most
-constexpr double kStride = 0.03;                   // m of the tool between two looks
-constexpr double kTurn = 0.12;                     // rad
-constexpr double kJointStep = 0.1;                 // rad or m of any joint in one look
+constexpr double kPosition = 0.01;  // m: what is off at most
+constexpr double kStride = 0.03;    // m of the tool between two looks
+constexpr double kTurn = 0.12;      // rad
+constexpr double kJointStep = 0.1;  // rad or m of any joint in one look
 
 }  // namespace
 
@@ -21,7 +21,7 @@ ToolFollower::ToolFollower(const Skill& skill, const SkillVariant& variant,
       step_(robot::Posture::Constant(from.size(), kJointStep)),
       posture_(from) {}
 
-bool ToolFollower::Goes(const Isometry3d& world_from_tool) {
+bool ToolFollower::Goes(const Isometry3d& world_from_tool, double turned) {
   const Isometry3d target = base_from_world_ * world_from_tool;
   const Isometry3d now = robot::ForwardKinematics(skill_.robot->arm, posture_);
   const Eigen::Quaterniond a(now.linear()), b(target.linear());
@@ -35,7 +35,7 @@ bool ToolFollower::Goes(const Isometry3d& world_from_tool) {
     next.linear() = a.slerp(share, b).toRotationMatrix();
     error = skill_.kinematics->Track(next, step_, &posture_);
   }
-  return error.position < kPosition && error.angle < kAngle;
+  return error.position < kPosition && error.angle < turned;
 }
 
 }  // namespace simwright::rl

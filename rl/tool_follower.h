@@ -8,12 +8,13 @@ namespace simwright::rl {
 // uses: from posture to posture, with the jumps of none of its joints.
 class ToolFollower {
  public:
+  static constexpr double kTurned = 0.15;  // rad that a tool may be turned where it has come to
   // Begins at `from` (J). Skill and variant must outlive this.
   ToolFollower(const Skill& skill, const SkillVariant& variant, const robot::Posture& from);
 
   // Goes straight to `world_from_tool`. Whether the tool gets there, off by no more than a
-  // centimetre and 0.15 rad.
-  bool Goes(const Eigen::Isometry3d& world_from_tool);
+  // centimetre and `turned` (rad).
+  bool Goes(const Eigen::Isometry3d& world_from_tool, double turned = kTurned);
   const robot::Posture& posture() const { return posture_; }  // (J) where it has come to
 
  private:

@@ -47,7 +47,8 @@ WorkPostures PosturesAlong(const Skill& skill, const SkillVariant& variant, task
     position = begin + (end - begin) * i / kSteps;
     const Isometry3d next = ToolAtFocus(variant, state, across, pitch);
     across = next.linear().col(1);
-    if (!follower.Goes(next)) break;
+    along.ends_early = !follower.Goes(next, PushTurned(variant));
+    if (along.ends_early) break;
     along.positions.push_back(position);
     along.postures.push_back(follower.posture());
   }

@@ -11,6 +11,7 @@ namespace simwright::rl {
 struct WorkPostures {
   std::vector<double> positions;         // rad or m, of the joint, from where it stands on
   std::vector<robot::Posture> postures;  // (J) one for each
+  bool ends_early = false;               // the tool does not go all of the joint's way
 
   // Between the two nearest; the first or last beyond them. Requires at least one.
   robot::Posture At(double position) const;

@@ -2,6 +2,7 @@
 // chain of subtasks, and undecomposed with as many samples, by the reward of what the task is for
 // and by the sum of its subtasks' rewards.
 //   bench_long_tasks --task cup_into_microwave --seed 1
+//   bench_long_tasks --task cup_into_microwave --method own --samples 200000    without the chain
 // A training that was stopped goes on; what is done is not done again: remove its folder.
 #include <algorithm>
 #include <cstdio>
@@ -22,6 +23,8 @@ namespace fs = std::filesystem;
 // Of an episode of each subtask, at most: after another the arm comes from far, round what stands
 // open, and takes 5 s to be there.
 constexpr double kSubtaskSeconds = 12.0;
+constexpr std::uint64_t kEvaluated = 9000;  // more than the training's seed: that of evaluations
+constexpr int kLookedAt = 40;  // chains of the script that say which subtasks' success lasts
 
 struct Arguments {
   std::string task = "all", method = "all", action = "delta";
@@ -30,6 +33,7 @@ struct Arguments {
   bool script = false;
   std::int64_t imitated = pipeline::TrainRequest().imitated_samples;
   std::int64_t backward = pipeline::TrainRequest().backward_samples;
+  std::int64_t samples = 0;
   int episodes = 300;
   std::uint64_t seed = 1;
   fs::path output = "out/long_tasks";
@@ -65,7 +69,7 @@ Learnt SumOf(const pipeline::TrainReport& report) {
 // The chain, evaluated anew from starts of its own.
 rl::ChainEvaluation Evaluated(const fs::path& run, const Arguments& arguments) {
   const pipeline::TrainedTask trained(run);
-  return rl::EvaluateChain(trained.links(), arguments.episodes, arguments.seed + 9000);
+  return rl::EvaluateChain(trained.links(), arguments.episodes, arguments.seed + kEvaluated);
 }
 
 void PrintHandovers(const pipeline::TrainReport& report) {
@@ -115,26 +119,52 @@ void RunUndecomposed(const pipeline::LongTask& task, const tasks::Task& source,
   PrintRow(task.name, method, arguments, SumOf(report), found.successes, found.interval);
 }
 
-// What the script that the subtasks begin with makes of the task, and of each subtask.
-void RunScript(const pipeline::LongTask& task, const fs::path& file, const Arguments& arguments) {
+// A task by the script that its subtasks begin with.
+struct ScriptedTask {
   pipeline::SkillRun run;
-  run.robot = task.robot;
-  run.options.episode_seconds = kSubtaskSeconds;
-  run.set = tasks::ReadTaskFile(file);
-  const std::vector<pipeline::RunSkill> skills = PrepareSkills(run);
+  std::vector<pipeline::RunSkill> skills;
+  rl::ChainEvaluation chain;
+};
+
+ScriptedTask ByScript(const pipeline::LongTask& task, const fs::path& file, int episodes,
+                      std::uint64_t seed) {
+  ScriptedTask scripted;
+  scripted.run.robot = task.robot;
+  scripted.run.options.episode_seconds = kSubtaskSeconds;
+  scripted.run.set = tasks::ReadTaskFile(file);
+  scripted.skills = PrepareSkills(scripted.run);
   std::vector<rl::ChainLink> links;
-  for (const pipeline::RunSkill& skill : skills) links.push_back({skill.evaluated.get(), nullptr});
-  const rl::ChainEvaluation chain =
-      rl::EvaluateChain(links, arguments.episodes, arguments.seed + 9000);
+  for (const pipeline::RunSkill& skill : scripted.skills) {
+    links.push_back({skill.evaluated.get(), nullptr});
+  }
+  scripted.chain = rl::EvaluateChain(links, episodes, seed);
+  return scripted;
+}
+
+// What the script makes of the task, and of each subtask.
+void RunScript(const pipeline::LongTask& task, const fs::path& file, const Arguments& arguments) {
+  const ScriptedTask scripted =
+      ByScript(task, file, arguments.episodes, arguments.seed + kEvaluated);
+  const rl::ChainEvaluation& chain = scripted.chain;
   PrintRow(task.name, "script", arguments, {}, chain.successes, chain.interval);
-  for (size_t k = 0; k < skills.size(); ++k) {
-    const rl::Skill& skill = *skills[k].evaluated;
-    const int own =
-        rl::EvaluateScript(skill, rl::DrawStarts(skill, arguments.episodes, arguments.seed + 9000))
-            .successes;
+  for (size_t k = 0; k < scripted.skills.size(); ++k) {
+    const rl::Skill& skill = *scripted.skills[k].evaluated;
+    const auto starts = rl::DrawStarts(skill, arguments.episodes, arguments.seed + kEvaluated);
     std::printf("    %-36s own starts %d of %d, after the one before %d of %d\n",
-                skills[k].name.c_str(), own, arguments.episodes, chain.succeeded[k],
-                chain.tried[k]);
+                scripted.skills[k].name.c_str(), rl::EvaluateScript(skill, starts).successes,
+                arguments.episodes, chain.succeeded[k], chain.tried[k]);
+  }
+}
+
+// `lasting`: the subtasks whose success holds at the end.
+void RunWhole(const pipeline::LongTask& task, const fs::path& file,
+              const std::vector<bool>& lasting, std::int64_t samples, const Arguments& arguments,
+              core::Progress* progress) {
+  const tasks::TaskSet set = tasks::ReadTaskFile(file);
+  for (const bool sum : {false, true}) {
+    if (arguments.method != "all" && arguments.method != (sum ? "sum" : "own")) continue;
+    RunUndecomposed(task, set.tasks.front(), set, lasting, sum, file.parent_path(), samples,
+                    arguments, progress);
   }
 }
 
@@ -143,6 +173,11 @@ void RunTask(const pipeline::LongTask& task, const Arguments& arguments) {
   const fs::path folder = arguments.output / task.name;
   const fs::path file = pipeline::MakeLongTask(task, folder, &progress);
   if (arguments.script) return RunScript(task, file, arguments);
+  if (arguments.samples > 0) {
+    const ScriptedTask scripted = ByScript(task, file, kLookedAt, arguments.seed + kEvaluated);
+    return RunWhole(task, file, pipeline::LastingSubtasks(scripted.skills, scripted.chain),
+                    arguments.samples, arguments, &progress);
+  }
   pipeline::TrainRequest request;
   request.episode_seconds = kSubtaskSeconds;
   request.samples = 1'000'000'000;
@@ -156,14 +191,9 @@ void RunTask(const pipeline::LongTask& task, const Arguments& arguments) {
   progress.Finish();
   PrintRow(task.name, "chain", arguments, SumOf(report), chain.successes, chain.interval);
   PrintHandovers(report);
-  const tasks::TaskSet set = tasks::ReadTaskFile(file);
-  const pipeline::TrainedTask trained(run);
-  const std::vector<bool> lasting = pipeline::LastingSubtasks(trained.skills(), chain);
-  for (const bool sum : {false, true}) {
-    if (arguments.method != "all" && arguments.method != (sum ? "sum" : "own")) continue;
-    RunUndecomposed(task, set.tasks.front(), set, lasting, sum, folder, SumOf(report).samples,
-                    arguments, &progress);
-  }
+  const std::vector<bool> lasting =
+      pipeline::LastingSubtasks(pipeline::TrainedTask(run).skills(), chain);
+  RunWhole(task, file, lasting, SumOf(report).samples, arguments, &progress);
 }
 
 }  // namespace
@@ -187,6 +217,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--backward-steps", arguments.backward,
                  "Decisions of a subtask that learns on for the one after it; 0: none does")
+      ->capture_default_str();
+  app.add_option("--samples", arguments.samples,
+                 "Of the undecomposed, without a chain beside them; 0: as many as the chain's")
       ->capture_default_str();
   app.add_option("--episodes", arguments.episodes, "Of each evaluation")->capture_default_str();
   app.add_option("--seed", arguments.seed, "Of the training")->capture_default_str();
