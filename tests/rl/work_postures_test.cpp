@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rl/arm_clearance.h"
 #include "rl/joint_work.h"
 #include "rl/scripted_hand.h"
 #include "rl/skill_evaluation.h"
@@ -98,6 +99,31 @@ TEST(WorkPostures, AnArmKeepsToThemWhileItPulls) {
     EXPECT_LT((arm - along.At(position)).lpNorm<Eigen::Infinity>(), 0.5);
   }
   EXPECT_GE(opened, 7);
+}
+
+// An arm after another skill, the door at its stop: of some places no arm shuts it in one go.
+TEST(Episode, ADoorAtItsStopIsShutInTwoPlans) {
+  const auto skill = Make(CloseDoor(), false);
+  const SkillVariant& variant = skill->variants.front();
+  const tasks::ThingJoint& joint = variant.model.things[kDoor].joints[JointOf(variant)];
+  Episode episode(*skill);
+  int in_two = 0, shut = 0, shut_in_two = 0, tried = 0;
+  for (EpisodeStart start : DrawStarts(*skill, 24, 5)) {
+    start.state.joints[kDoor][JointOf(variant)] = joint.upper;
+    start.arm = skill->robot->home();
+    if (!IsArmClear(*skill, variant, start.state, start.arm)) continue;
+    core::Rng rng = core::StreamRng(7, static_cast<std::uint64_t>(tried++));
+    const EpisodeStart next = Varied(*skill, start, rng, VariedParts::kNothing);
+    const bool two =
+        PosturesAlong(*skill, variant, next.state, next.at_work, next.pitch).ends_early;
+    const EvaluatedEpisode result = RunScript(next, &episode);
+    in_two += two;
+    shut += result.success;
+    shut_in_two += two && result.success;
+  }
+  EXPECT_GE(in_two, 3);
+  EXPECT_GE(shut_in_two, 1);
+  EXPECT_GE(shut, tried / 2);
 }
 
 }  // namespace
