@@ -14,7 +14,10 @@ namespace {
 constexpr float kOverrule = 2.0f;
 constexpr double kNearPlansEnd = 0.15;  // rad
 constexpr int kPlans = 3;               // of an episode, at most
-constexpr double kFar = 0.25;           // m: to what is nearer the tool goes straight
+// Of the arm's pace, of one that carries a thing far: what hangs by its rim between two fingers
+// turns in them, and is lost, where it is swung.
+constexpr double kCarries = 0.6;
+constexpr double kFar = 0.25;  // m: to what is nearer the tool goes straight
 
 }  // namespace
 
@@ -47,6 +50,7 @@ void Episode::Begin(const EpisodeStart& start) {
   previous_ = state_;
   command_.sent = world_->robot().command();
   plans_ = 0;
+  command_.pace = 1.0;
   FollowPlan();
   command_.leader = world_->robot().leader_command();
   command_.rate = robot::Posture::Zero(command_.sent.size());
@@ -113,6 +117,7 @@ void Episode::Act(const ToolTarget& target) {
 // A destination that is far away is come to by a plan; to a near one the tool goes straight.
 void Episode::PlanArrival() {
   arrival_.resize(0);
+  command_.pace = 1.0;
   const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
   if (WayToDestination(variant, state_).norm() < kFar) return;
   CarryTask task;
@@ -123,6 +128,7 @@ void Episode::PlanArrival() {
   const auto plan = PlanCarry(skill_, variant, state_, task, command_.sent);
   if (!plan) return;
   arrival_ = plan->arrival;
+  command_.pace = kCarries;
   if (plan->turn != 0.0) frame_->Turn(plan->turn, state_);
   command_.goal = plan->arrival;
   command_.via = plan->via;

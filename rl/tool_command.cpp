@@ -94,9 +94,9 @@ double StoppingSpeed(double distance, double acceleration, double dt) {
 }
 
 // The speed (J) that goes straight along `way` (J), as fast as options, joints and the stop at its
-// end allow.
+// end allow, by `pace` slower.
 robot::Posture WantedRate(const Skill& skill, const robot::Posture& posture,
-                          const robot::Posture& way) {
+                          const robot::Posture& way, double pace) {
   const robot::RobotModel& robot = *skill.robot;
   const double dt = 1.0 / skill.options.control_rate;
   double rate = skill.options.control_rate;  // of the way, 1/s: no farther than its end
@@ -105,29 +105,34 @@ robot::Posture WantedRate(const Skill& skill, const robot::Posture& posture,
     if (length == 0.0) continue;
     const robot::JointLimits& limits =
         robot.limits[static_cast<size_t>(robot.arm_joints[static_cast<size_t>(j)])];
-    const double most = std::min(kOfSpeed * limits.velocity,
-                                 StoppingSpeed(length, kOfAcceleration * limits.acceleration, dt));
+    const double most =
+        std::min(pace * kOfSpeed * limits.velocity,
+                 StoppingSpeed(length, pace * kOfAcceleration * limits.acceleration, dt));
     rate = std::min(rate, most / length);
   }
   robot::ToolJacobian jacobian;
   skill.chain->Tool(posture, &jacobian);
   const Eigen::Matrix<double, 6, 1> tool = jacobian * way;
   const double shift = tool.head<3>().norm(), turn = tool.tail<3>().norm();
-  if (shift * rate > skill.options.tool_speed) rate = skill.options.tool_speed / shift;
-  if (turn * rate > skill.options.turn_speed) rate = skill.options.turn_speed / turn;
+  if (shift * rate > pace * skill.options.tool_speed) {
+    rate = pace * skill.options.tool_speed / shift;
+  }
+  if (turn * rate > pace * skill.options.turn_speed) rate = pace * skill.options.turn_speed / turn;
   return rate * way;
 }
 
 // `rate` after one step towards `wanted`.
-double Accelerated(double rate, double wanted, const robot::JointLimits& limits, double dt) {
-  const double most = kOfAcceleration * limits.acceleration * dt;
+double Accelerated(double rate, double wanted, const robot::JointLimits& limits, double dt,
+                   double pace = 1.0) {
+  const double most = pace * kOfAcceleration * limits.acceleration * dt;
   return rate + std::clamp(wanted - rate, -most, most);
 }
 
 void MoveArm(const Skill& skill, const robot::Posture& goal, const robot::Posture& actual,
              ArmCommand* command) {
   const double dt = 1.0 / skill.options.control_rate, lead = skill.options.longest_lead;
-  const robot::Posture wanted = WantedRate(skill, command->sent, goal - command->sent);
+  const robot::Posture wanted =
+      WantedRate(skill, command->sent, goal - command->sent, command->pace);
   for (Eigen::Index j = 0; j < actual.size(); ++j) {
     const robot::ArmJoint& joint = skill.robot->arm.joints[static_cast<size_t>(j)];
     const auto index = static_cast<size_t>(skill.robot->arm_joints[static_cast<size_t>(j)]);
@@ -135,7 +140,7 @@ void MoveArm(const Skill& skill, const robot::Posture& goal, const robot::Postur
     const double held = std::clamp(wanted[j], std::min(0.0, (-lead - ahead) / dt),
                                    std::max(0.0, (lead - ahead) / dt));
     double& rate = command->rate[j];
-    rate = Accelerated(rate, held, skill.robot->limits[index], dt);
+    rate = Accelerated(rate, held, skill.robot->limits[index], dt, command->pace);
     const double from = command->sent[j];
     command->sent[j] = std::clamp(from + dt * rate, joint.lower, joint.upper);
     rate = (command->sent[j] - from) / dt;

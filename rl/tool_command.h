@@ -28,6 +28,7 @@ struct ArmCommand {
   std::vector<robot::Posture> via;
   robot::Posture rest;  // (J) to which joints that are to spare drift; empty: home
   robot::Posture rate;  // (J) per s: how fast `sent` moves
+  double pace = 1.0;    // of the speeds and accelerations that it may move with
   double leader = 0.0;  // the gripper's first joint
   double leader_rate = 0.0;
 };
