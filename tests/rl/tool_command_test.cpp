@@ -71,6 +71,38 @@ TEST(Approach, KeepsTheJointsSpeedsAndAccelerationsWhateverIsAskedFor) {
   EXPECT_NEAR(hardest, 0.7, 1e-6);
 }
 
+TEST(Approach, GoesAtTheShareOfItsPaceThatItIsGiven) {
+  const auto skill = OfPanda();
+  const double dt = 1.0 / skill->options.control_rate;
+  ToolTarget target;
+  double fastest[2], hardest[2];
+  int steps[2];
+  for (const int slow : {0, 1}) {
+    ArmCommand command = AtHome(*skill);
+    command.pace = slow ? 0.5 : 1.0;
+    robot::Posture goal = command.sent;
+    goal[0] += 1.2;
+    goal[3] -= 0.4;
+    target.base_from_tool = robot::ForwardKinematics(skill->robot->arm, goal);
+    command.goal = goal;
+    robot::Posture rate = command.rate;
+    fastest[slow] = hardest[slow] = 0.0;
+    for (steps[slow] = 0; steps[slow] < 600; ++steps[slow]) {
+      const robot::Posture before = command.sent;
+      if ((goal - before).lpNorm<Eigen::Infinity>() < 0.01) break;
+      command.goal = goal;
+      Approach(*skill, target, before, &command);
+      const double speed = (command.sent[0] - before[0]) / dt;
+      fastest[slow] = std::max(fastest[slow], std::abs(speed));
+      hardest[slow] = std::max(hardest[slow], std::abs(speed - rate[0]) / dt);
+      rate[0] = speed;
+    }
+  }
+  EXPECT_NEAR(fastest[1], 0.5 * fastest[0], 0.02 * fastest[0]);
+  EXPECT_NEAR(hardest[1], 0.5 * hardest[0], 0.02 * hardest[0]);
+  EXPECT_GT(steps[1], 1.4 * steps[0]);
+}
+
 TEST(Approach, StopsAtItsGoalWithoutGoingPastIt) {
   const auto skill = OfPanda();
   ArmCommand command = AtHome(*skill);
