@@ -21,11 +21,12 @@ constexpr double kAway = 0.02;     // m from where it gets away to: the hand is 
 constexpr double kNearer = 0.003;  // m, of a hand that gets on
 constexpr double kLetGo = 0.03;    // m between fingers that have let go of what they were about
 constexpr double kAtRest = 0.005;  // m: the hand is where it shall be
-constexpr double kSlid = 0.01;     // m that what it holds is off its destination all the same
-constexpr int kResting = 4;        // updates
-constexpr int kOpening = 10;       // updates that a hand waits for that
-constexpr int kStuck = 10;         // updates in which it does not: fingers open in 8 of them
-constexpr int kLongestWay = 30;    // updates, 1.5 s at 20 Hz: what is in the way stays there
+// m that what it holds is off its destination all the same: too far to let go of it.
+constexpr double kSlid = 0.025;
+constexpr int kResting = 4;      // updates
+constexpr int kOpening = 10;     // updates that a hand waits for that
+constexpr int kStuck = 10;       // updates in which it does not: fingers open in 8 of them
+constexpr int kLongestWay = 30;  // updates, 1.5 s at 20 Hz: what is in the way stays there
 
 // FocusFrame::free_way, with the frame at `world_from_focus`.
 Vector3d FreeWay(const SkillVariant& variant, const tasks::SceneState& state,
