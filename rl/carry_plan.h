@@ -23,9 +23,9 @@ struct CarryTask {
 
 // The least turn, and of some postures the one soonest reached from `from`, from which the tool
 // goes to its destination and the arm, but for the thing `held`, is in nothing there nor on its way
-// to the posture, straight from joint to joint, else by a detour. Without such a one, of those that
-// reach. None where none does. A tool that only ever goes straight at a far destination ends at a
-// joint's limit, or in furniture.
+// to the posture, straight from joint to joint, else by a detour, else by one that is searched for.
+// Without such a one, of those that reach. None where none does. A tool that only ever goes
+// straight at a far destination ends at a joint's limit, or in furniture.
 std::optional<CarryPlan> PlanCarry(const Skill& skill, const SkillVariant& variant,
                                    const tasks::SceneState& state, const CarryTask& task,
                                    const robot::Posture& from);

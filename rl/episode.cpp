@@ -128,7 +128,7 @@ void Episode::PlanArrival() {
   const auto plan = PlanCarry(skill_, variant, state_, task, command_.sent);
   if (!plan) return;
   arrival_ = plan->arrival;
-  command_.pace = kCarries;
+  if (variant.focus->rim > 0.0) command_.pace = kCarries;
   if (plan->turn != 0.0) frame_->Turn(plan->turn, state_);
   command_.goal = plan->arrival;
   command_.via = plan->via;

@@ -38,8 +38,8 @@ struct EpisodeStart {
 // ranges such that nothing overlaps, the arm is in none of them and can do its work there
 // (PlanReach), joints and hand as the shares of easier starts say. Falls back on the start as
 // described where no such place is found in 60 tries, the later of which move everything away from
-// the robot by up to 0.4 m. Where the skill begins a task, what comes later is within the arm's
-// reach too (IsLaterWorkInReach), if such a place is found.
+// the robot by up to 0.4 m, or towards it by up to 0.2. Where the skill begins a task, what comes
+// later is within the arm's reach too (IsLaterWorkInReach), if such a place is found.
 EpisodeStart DrawStart(const Skill& skill, core::Rng& rng);
 
 // The thing that both fingers hold and that moves with them: no furniture. -1: none.
