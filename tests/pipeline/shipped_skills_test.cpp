@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -27,11 +30,23 @@ std::vector<std::string> Shipped() {
 
 class ShippedSkill : public testing::TestWithParam<std::string> {};
 
-// Their cards say 85 % and more of 300 episodes; of 60 that is less than 70 % in one case of 1000.
+// Of 300 episodes.
+double RateOnCard(const fs::path& card) {
+  static const std::regex rate(R"(([0-9.]+) % \()");
+  const std::string text = core::ReadFile(card, 1 << 16);
+  std::smatch found;
+  if (!std::regex_search(text, found, rate)) ADD_FAILURE() << card << " says no rate";
+  return found.empty() ? 1.0 : 0.01 * std::stod(found[1]);
+}
+
+// As their cards say, where that is 85 % or less, else 85: of 60 episodes it is below that by three
+// standard deviations in one case of 1000 (85 %: below 70).
 TEST_P(ShippedSkill, SucceedsOnAssetsThatItHasNotSeen) {
   const SuiteCell& cell = CellOf(GetParam());
   const fs::path file = ShippedPolicy(kModels, cell.name);
-  EXPECT_TRUE(fs::exists(fs::path(file).replace_extension(".md"))) << "a policy without a card";
+  const fs::path card = fs::path(file).replace_extension(".md");
+  ASSERT_TRUE(fs::exists(card)) << "a policy without a card";
+  const double rate = std::min(0.85, RateOnCard(card));
   const rl::Policy policy = rl::ReadPolicy(file);
   const core::TemporaryFolder folder;
   core::Progress progress;
@@ -45,7 +60,8 @@ TEST_P(ShippedSkill, SucceedsOnAssetsThatItHasNotSeen) {
   const auto skills = PrepareSkills(run);
   const rl::Skill& skill = *skills.front().evaluated;
   const rl::SkillEvaluation found = rl::Evaluate(skill, policy, rl::DrawStarts(skill, 60, 5));
-  EXPECT_GE(found.successes, 42) << cell.name;
+  EXPECT_GE(found.successes, 60.0 * rate - 3.1 * std::sqrt(60.0 * rate * (1.0 - rate)))
+      << cell.name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Suite, ShippedSkill, testing::ValuesIn(Shipped()),
