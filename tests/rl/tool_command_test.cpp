@@ -84,7 +84,7 @@ TEST(Approach, GoesAtTheShareOfItsPaceThatItIsGiven) {
     goal[0] += 1.2;
     goal[3] -= 0.4;
     target.base_from_tool = robot::ForwardKinematics(skill->robot->arm, goal);
-    command.goal = goal;
+    command.goal = command.rest = goal;
     robot::Posture rate = command.rate;
     fastest[slow] = hardest[slow] = 0.0;
     for (steps[slow] = 0; steps[slow] < 600; ++steps[slow]) {
