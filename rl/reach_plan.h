@@ -59,7 +59,7 @@ robot::Posture BeforeWork(const Skill& skill, const SkillVariant& variant,
                           const tasks::SceneState& state, const robot::Posture& at_work);
 
 // rad that the tool may be turned as it moves the part that the skill works on: more where fingers
-// only push it.
+// push a door or lid shut (Focus::pushes).
 double PushTurned(const SkillVariant& variant);
 
 // rad that the hand at `world_from_tool` leans about its own y axis, as PlanReach's pitch.

@@ -1,7 +1,5 @@
 #include "rl/work_postures.h"
 
-#include <algorithm>
-
 #include "rl/joint_work.h"
 #include "rl/reach_plan.h"
 #include "rl/tool_follower.h"

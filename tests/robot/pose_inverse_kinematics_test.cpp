@@ -147,15 +147,21 @@ TEST(Track, ComesToRestAsNearAsCanBe) {
 }
 
 // With the tool where it shall be, the elbow goes home and the tool stays.
-TEST(Track, DriftsHomeWithoutMovingTheTool) {
-  const RobotModel& model = Panda(false);
-  const PoseInverseKinematics solver(model.arm);
-  const Eigen::Isometry3d target = ForwardKinematics(model.arm, model.home());
+// Another posture than home, of a 7-joint arm, with the tool at `target`.
+Posture Elsewhere(const RobotModel& model, const PoseInverseKinematics& solver,
+                  const Eigen::Isometry3d& target) {
   core::Rng rng(5);
   Posture away = model.home();
   away[0] += 0.5;
   away[2] -= 0.6;
-  Posture q = solver.Solve(target, away, rng).q;
+  return solver.Solve(target, away, rng).q;
+}
+
+TEST(Track, DriftsHomeWithoutMovingTheTool) {
+  const RobotModel& model = Panda(false);
+  const PoseInverseKinematics solver(model.arm);
+  const Eigen::Isometry3d target = ForwardKinematics(model.arm, model.home());
+  Posture q = Elsewhere(model, solver, target);
   ASSERT_GT((q - model.home()).norm(), 0.3);
   const Posture steps = StepsOf(model, 1.0 / 60.0);
   for (int i = 0; i < 20; ++i) solver.Track(target, steps, &q);
@@ -171,11 +177,7 @@ TEST(Track, DriftsToRestWhereThatIsNotHome) {
   const RobotModel& model = Panda(false);
   const PoseInverseKinematics solver(model.arm);
   const Eigen::Isometry3d target = ForwardKinematics(model.arm, model.home());
-  core::Rng rng(5);
-  Posture away = model.home();
-  away[0] += 0.5;
-  away[2] -= 0.6;
-  const Posture rest = solver.Solve(target, away, rng).q;
+  const Posture rest = Elsewhere(model, solver, target);
   ASSERT_GT((rest - model.home()).norm(), 0.3);
   Posture q = model.home();
   const Posture steps = StepsOf(model, 1.0 / 60.0);
