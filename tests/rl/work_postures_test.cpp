@@ -96,7 +96,7 @@ TEST(WorkPostures, AnArmKeepsToThemWhileItPulls) {
     Eigen::VectorXd arm;
     episode.world().robot().Positions(&arm);
     const double position = episode.state().joints[kDoor][JointOf(variant)];
-    EXPECT_LT((arm - along.At(position)).lpNorm<Eigen::Infinity>(), 0.5);
+    EXPECT_LT((arm - along.At(position)).lpNorm<Eigen::Infinity>(), 0.25);
   }
   EXPECT_GE(opened, 7);
 }
