@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 constexpr double kFinger = 0.03;  // m behind what is pushed: fingers lean, walls lean out
 // m: nearer to its goal a thing is pushed on as before. The hand would else have to go round it
 // whenever it is past its goal.
-constexpr double kThere = 0.04;
+constexpr double kThere = 0.03;
 constexpr double kPitches[] = {0.0, 0.35, -0.35, 0.7, -0.7};
 // Of a hand that pushes: leaning back it has its palm behind the thing, and not on top of it, so
 // that the fingers push below the middle. Upright, the palm comes down on whatever is taller than

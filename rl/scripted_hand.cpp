@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rl/focus_geometry.h"
 #include "rl/joint_work.h"
 #include "rl/link_pose.h"
 #include "rl/observation.h"
@@ -26,14 +27,18 @@ constexpr double kBesideFree = 0.007, kFarthestBack = 0.04;  // m
 constexpr double kBackPerBeside = 4.0;                       // m a m
 constexpr double kClosed = 0.1;                              // of the opening that is asked for
 constexpr double kAhead = 0.06;         // m that a part is pulled by ahead of it
+constexpr double kHeldAhead = 0.03;     // m, of a lid between both fingers: faster, they slide off
 constexpr double kGently = 0.35;        // of kAhead, of a door that is open enough
+constexpr double kLevel = 0.5;          // of a hinge's axis, upwards
+constexpr double kSpare = 0.015;        // m on each side of a lid's handle
 constexpr double kAheadShut = 0.08;     // m that a door is pushed by: it is wide, and goes far
 constexpr double kTurnAhead = 0.35;     // rad
 constexpr double kArrived = 0.025;      // m from the destination: lets go
 constexpr double kAtRest = 0.005;       // m: the hand is where it shall be, and gets no nearer
 constexpr double kArrivedTurned = 0.1;  // m that what has turned in it may be off then
-constexpr double kPushing = 0.02;   // m ahead of its place behind it, the hand touches the thing
-constexpr double kNearGoal = 0.01;  // m: what is so near to its goal is left there
+constexpr double kPushing = 0.02;    // m ahead of its place behind it, the hand touches the thing
+constexpr double kPushAhead = 0.02;  // m farther, at most: what goes faster slides past its goal
+constexpr double kNearGoal = 0.01;   // m: what is so near to its goal is left there
 
 // What the script looks at.
 struct Glance {
@@ -45,7 +50,8 @@ struct Glance {
   double angle = 0.0;  // rad that it is turned
   double asked = 0.0;  // share of the opening that the fingers are sent to
   bool succeeding = false;
-  size_t number = 0;  // of the variant
+  double widest = 0.0;  // m that the hand opens
+  size_t number = 0;    // of the variant
   const std::vector<std::shared_ptr<const Skill>>& later;
 };
 
@@ -64,6 +70,7 @@ Glance GlanceAt(const Episode& episode) {
           Eigen::AngleAxisd(off.linear() * straight).angle(),
           gripper.Opening(episode.command().leader) / gripper.MaxOpening(),
           episode.succeeding(),
+          gripper.MaxOpening(),
           static_cast<size_t>(episode.start().variant),
           skill.later};
 }
@@ -106,17 +113,42 @@ bool IsShutLater(const Glance& glance) {
   });
 }
 
+// Lids have: they lie under their handle, and their weight pulls them out of the hand.
+bool HasLevelHinge(const Glance& glance) {
+  const Focus& focus = *glance.variant.focus;
+  const tasks::ThingJoint& joint = glance.variant.model.things[static_cast<size_t>(focus.thing)]
+                                       .joints[static_cast<size_t>(focus.joint)];
+  if (joint.type == tasks::RewardJointType::kPrismatic) return false;
+  const Isometry3d link =
+      WorldFromLink(glance.variant.model, glance.state, focus.thing, joint.link);
+  return std::abs((link.linear() * joint.axis).z()) < kLevel;
+}
+
+// m that the fingers open for a part: of a hand that leans one fingertip is lower than the other,
+// and wide open it would stand on the lid and never close.
+double OpeningFor(const Glance& glance) {
+  if (!HasLevelHinge(glance)) return glance.widest;
+  const FocusGeometry part = GeometryOf(glance.variant.model, glance.state, *glance.variant.focus,
+                                        glance.frame.world_from_focus());
+  return std::min(glance.widest, part.size.y() + 2.0 * kSpare);
+}
+
 void WorkPart(const Glance& glance, float* action) {
-  const double grip = GripAt(glance);
+  double grip = GripAt(glance);
+  if (grip > 0.0) {
+    ComeFromBehind(glance, action);
+    const double opening = OpeningFor(glance) / glance.widest;
+    if (opening < 1.0) grip = std::clamp(kGripGain * (opening - glance.asked), -1.0, 1.0);
+  }
   action[6] = static_cast<float>(grip);
-  if (grip > 0.0) ComeFromBehind(glance, action);
   const double pull = std::clamp(kGripGain * (kPullsTo - OffAt(glance)), 0.0, 1.0) *
                       std::max(0.0, 1.0 - glance.asked / kClosed);
   if (pull == 0.0) return;
   const Vector3d way = glance.frame.free_way();
   if (!way.isZero()) {
     const double gently = glance.succeeding && IsShutLater(glance) ? kGently : 1.0;
-    Ask(gently * pull * kAhead * way, glance.options.reach, action);
+    const double ahead = HasLevelHinge(glance) && glance.state.grasped ? kHeldAhead : kAhead;
+    Ask(gently * pull * ahead * way, glance.options.reach, action);
     return;
   }
   const Focus& focus = *glance.variant.focus;
@@ -146,8 +178,12 @@ void Push(const Glance& glance, float* action) {
   const bool behind = std::abs(glance.off.y()) < kLost && std::abs(glance.off.z()) < kLost &&
                       glance.off.x() < 2.0 * kPushing;
   if (!behind) return;
-  const double missing = WayToDestination(glance.variant, glance.state).norm();
-  Ask(Vector3d(missing + kPushing - kNearGoal, 0.0, 0.0), glance.options.reach, action);
+  // Along the way that it is pushed: what has slid past its goal is not pushed on.
+  const double missing = WayToDestination(glance.variant, glance.state)
+                             .dot(glance.frame.world_from_focus().linear().col(0));
+  if (missing < kNearGoal) return;
+  const double ahead = std::min(missing - kNearGoal, kPushAhead);
+  Ask(Vector3d(ahead + kPushing, 0.0, 0.0), glance.options.reach, action);
 }
 
 void Carry(const Glance& glance, float* action) {

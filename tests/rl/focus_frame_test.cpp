@@ -79,8 +79,8 @@ TEST(FocusFrame, AThingThatIsALittlePastItsGoalIsStillMetFromTheSameSide) {
   };
   const double root = variant.start.roots[0].translation().x();
   EXPECT_NEAR(direction_at(root + 0.19), 1.0, 1e-9);
-  EXPECT_NEAR(direction_at(root + 0.23), 1.0, 1e-9);
-  EXPECT_NEAR(direction_at(root + 0.26), -1.0, 1e-9);
+  EXPECT_NEAR(direction_at(root + 0.228), 1.0, 1e-9);
+  EXPECT_NEAR(direction_at(root + 0.24), -1.0, 1e-9);
 }
 
 // A cup in the hand that shall stand 25 cm aside.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "rl/observation.h"
 #include "rl/skill_environment.h"
 #include "rl/skill_evaluation.h"
 #include "tests/rl/skill_scene.h"
@@ -29,6 +30,36 @@ SkillSubtask PutDownCup() {
   return scene;
 }
 
+// A box that slides easily shall be 12 cm farther.
+SkillSubtask PushBox() {
+  SkillSubtask scene = PickUpCup();
+  scene.assets = {WithInertia(tasks::Box("cup", {0.1, 0.2, 0.08}, 0.2))};
+  scene.subtask.program =
+      "def compute_reward(env):\n"
+      "    missing = torch.norm((env.get_goal_pose() - env.get_position(\"cup\"))[:, :2], dim=-1)\n"
+      "    return -missing, missing <= 0.03\n";
+  scene.subtask.goal = Eigen::Vector3d(0.5, 0.12, 0.04);
+  return scene;
+}
+
+SkillSubtask LiftLid() {
+  SkillSubtask scene;
+  scene.assets = {WithInertia(tasks::Chest())};
+  scene.subtask.name = "open_chest";
+  scene.subtask.program =
+      "def compute_reward(env):\n"
+      "    handle = env.get_pose_by_link_name(\"chest\", \"handle\")\n"
+      "    reach = torch.norm(env.get_robot_gripper_pose() - handle, dim=-1)\n"
+      "    moved = env.get_state_by_joint_name(\"chest\", \"lid_joint\") / 1.5\n"
+      "    return 2.0 * moved - reach, moved >= 0.7\n";
+  tasks::AssetPlacement placement;
+  placement.asset = "chest";
+  placement.fixed = true;
+  placement.world_from_asset.translation() = Eigen::Vector3d(0.5, 0.0, 0.0);
+  scene.subtask.start.placements = {placement};
+  return scene;
+}
+
 TEST(ScriptedHand, PicksACupUp) {
   const auto skill = Evaluated(PickUpCup());
   EXPECT_GE(EvaluateScript(*skill, DrawStarts(*skill, 20, 5)).successes, 17);
@@ -47,6 +78,40 @@ TEST(ScriptedHand, OpensADoor) {
 TEST(ScriptedHand, ShutsADoor) {
   const auto skill = Evaluated(CloseDoor());
   EXPECT_GE(EvaluateScript(*skill, DrawStarts(*skill, 20, 5)).successes, 18);
+}
+
+// Struck as hard as the arm can, it slid past its goal, and was pushed on from there.
+TEST(ScriptedHand, PushesAThingToItsGoalAndNotPastIt) {
+  const auto skill = Evaluated(PushBox());
+  EXPECT_GE(EvaluateScript(*skill, DrawStarts(*skill, 40, 5)).successes, 34);
+}
+
+TEST(ScriptedHand, LeavesWhatHasSlidPastItsGoal) {
+  const auto skill = Evaluated(PushBox());
+  Episode episode(*skill);
+  episode.Begin(DrawStarts(*skill, 1, 5).front());
+  std::vector<float> action(7);
+  Decision decision;
+  bool pushed = false, past = false;
+  while (!decision.terminated && !decision.truncated) {
+    ScriptedAction(episode, action.data());
+    const SkillVariant& variant = skill->variants.front();
+    const double missing = WayToDestination(variant, episode.state())
+                               .dot(episode.frame().world_from_focus().linear().col(0));
+    pushed = pushed || action[0] > 0.0f;
+    past = past || missing < 0.0;
+    if (missing < 0.0) EXPECT_EQ(action[0], 0.0f);
+    // As hard as the arm can: it slides past.
+    if (action[0] > 0.0f && !past) action[0] = 1.0f;
+    decision = episode.Step(action.data());
+  }
+  EXPECT_TRUE(pushed && past);
+}
+
+// Its fingers wide open, a hand that leans stood with one of them on the lid.
+TEST(ScriptedHand, LiftsALid) {
+  const auto skill = Evaluated(LiftLid());
+  EXPECT_GE(EvaluateScript(*skill, DrawStarts(*skill, 40, 5)).successes, 36);
 }
 
 // A hand that shall shut the door has to get behind it; for any other one, wide is good.

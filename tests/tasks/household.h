@@ -99,6 +99,32 @@ inline assets::SemanticModel DrawerUnit(const std::string& name = "drawer_unit")
   return asset;
 }
 
+// 0.2 deep, 0.3 wide, 0.16 high with a lid on a level hinge behind; a bar over the lid's front
+// edge.
+inline assets::SemanticModel Chest(const std::string& name = "chest") {
+  assets::SemanticModel asset;
+  asset.name = name;
+  asset.category = "box";
+  assets::UrdfLink body = MakeLink("body", 2.0);
+  body.collisions = {
+      Block({0.2, 0.3, 0.01}, {0, 0, 0.005}), Block({0.01, 0.3, 0.13}, {-0.095, 0, 0.075}),
+      Block({0.01, 0.3, 0.13}, {0.095, 0, 0.075}), Block({0.18, 0.01, 0.13}, {0, 0.145, 0.075}),
+      Block({0.18, 0.01, 0.13}, {0, -0.145, 0.075})};
+  assets::UrdfLink lid = MakeLink("lid", 0.4);
+  lid.collisions = {Block({0.2, 0.3, 0.01}, {-0.1, 0, 0.015})};
+  assets::UrdfLink handle = MakeLink("handle", 0.05);
+  handle.collisions = {Block({0.01, 0.11, 0.01}, {0, 0, 0.034}),
+                       Block({0.008, 0.008, 0.029}, {0, 0.05, 0.0145}),
+                       Block({0.008, 0.008, 0.029}, {0, -0.05, 0.0145})};
+  asset.model.links = {body, lid, handle};
+  asset.model.joints = {MakeJoint("lid_joint", "body", "lid", assets::UrdfJointType::kRevolute,
+                                  {0.1, 0, 0.14}, {0, 1, 0}, 0.0, 1.5),
+                        MakeJoint("handle_joint", "lid", "handle", assets::UrdfJointType::kFixed,
+                                  {-0.155, 0, 0.02}, {1, 0, 0}, 0.0, 0.0)};
+  asset.semantics = {{"lid", {"hinge", "lid"}}, {"handle", {"fixed", "handle"}}};
+  return asset;
+}
+
 // Eight walls about a floor: open above.
 inline assets::SemanticModel Cup(const std::string& name = "cup", double radius = 0.035,
                                  double height = 0.1) {
