@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kWidth = 760.0, kHeight = 560.0;  // pixels
 constexpr double kLeft = 80.0, kRight = 740.0;
+constexpr double kStroke = 6.0;           // pixels, half of it
 constexpr std::size_t kMostPoints = 600;  // more than that no screen shows
 
 // Where a panel's numbers lie on the page.
@@ -84,12 +85,20 @@ std::string Axes(const Panel& panel, const std::string& label) {
 
 using Value = double TrainingRecord::*;
 
-std::string Points(const Panel& panel, const std::vector<TrainingRecord>& records, Value value) {
+// A lone record is a stroke as wide as a dot, from its left end to its right one or, with `sense`
+// -1, back: of a point nothing would be seen.
+std::string Points(const Panel& panel, const std::vector<TrainingRecord>& records, Value value,
+                   double sense = 1.0) {
   std::string out;
-  for (const TrainingRecord& record : records) {
-    if (!std::isfinite(record.*value)) continue;
-    out += Format("%.1f,%.1f ", panel.X(record.samples), panel.Y(record.*value));
+  const auto add = [&](const TrainingRecord& record, double aside) {
+    if (!std::isfinite(record.*value)) return;
+    out += Format("%.1f,%.1f ", panel.X(record.samples) + aside, panel.Y(record.*value));
+  };
+  if (records.size() == 1) {
+    for (const double side : {-1.0, 1.0}) add(records[0], side * sense * kStroke);
+    return out;
   }
+  for (const TrainingRecord& record : records) add(record, 0.0);
   return out;
 }
 
@@ -112,7 +121,7 @@ std::string Band(const Panel& panel, const std::vector<TrainingRecord>& records,
                  Value high) {
   const std::vector<TrainingRecord> back(records.rbegin(), records.rend());
   return "<polygon class=\"band\" points=\"" + Points(panel, records, high) +
-         Points(panel, back, low) + "\"/>\n";
+         Points(panel, back, low, -1.0) + "\"/>\n";
 }
 
 // Every so many of the records, the last one among them; those without an ended episode left out.
@@ -137,7 +146,7 @@ Panel ReturnPanel(const std::vector<TrainingRecord>& records, double samples) {
         return a.mean_return < b.mean_return;
       });
   const double room = std::max(0.05 * (high->mean_return - low->mean_return),
-                               1e-6 * std::max(1.0, std::abs(high->mean_return)));
+                               0.01 * std::max(1.0, std::abs(high->mean_return)));
   panel.low = low->mean_return - room;
   panel.high = high->mean_return + room;
   return panel;

@@ -110,6 +110,15 @@ TEST(TrainingLog, GoesOnAfterTheCheckpointsRowAndKeepsEveryDigit) {
   EXPECT_THROW(TrainingLog(folder.path() / "none", 0), core::Error);
 }
 
+// What the curves' points are, file by file: their number, and how wide they reach.
+std::string PointsOf(const std::filesystem::path& svg) {
+  return OutputOf(
+      "python3 -c \"import sys,xml.etree.ElementTree as t; r=t.parse(sys.argv[1]).getroot(); "
+      "p=[[float(q.split(',')[0]) for q in e.get('points').split()] for e in r.iter() "
+      "if e.get('points')]; print(*[len(x) for x in p], *[round(max(x)-min(x)) for x in p])\" " +
+      svg.string());
+}
+
 TEST(TrainingCurves, AreSoundXmlWithAPointARecord) {
   const core::TemporaryFolder folder;
   std::vector<TrainingRecord> records;
@@ -121,17 +130,30 @@ TEST(TrainingCurves, AreSoundXmlWithAPointARecord) {
     records.back().mean_return = 100.0 - i;
   }
   core::WriteFile(folder.path() / "c.svg", TrainingCurves("open <the> door & more", records));
-  const std::string output = OutputOf(
-      "python3 -c \"import sys,xml.etree.ElementTree as t; r=t.parse(sys.argv[1]).getroot(); "
-      "print(*[len(e.get('points').split()) for e in r.iter() if e.get('points')])\" " +
-      (folder.path() / "c.svg").string());
-  EXPECT_EQ(output, "80 40 40\n");  // the band goes there and back
+  // The band goes there and back; the panel is 660 pixels wide, the first record at a fortieth.
+  EXPECT_EQ(PointsOf(folder.path() / "c.svg"), "80 40 40 644 644 644\n");
   for (const std::vector<TrainingRecord>& few :
        {std::vector<TrainingRecord>(), std::vector<TrainingRecord>{RecordAt(1)}}) {
     const std::string svg = TrainingCurves("none", few);
     EXPECT_EQ(svg.find("nan"), std::string::npos);
     EXPECT_EQ(svg.find("inf"), std::string::npos);
   }
+}
+
+// Of a training that the first examination ends, there is one.
+TEST(TrainingCurves, ALoneRecordIsAStrokeThatIsSeen) {
+  const core::TemporaryFolder folder;
+  TrainingRecord record = RecordAt(1);
+  record.success = 0.9;
+  record.success_low = 0.8;
+  record.success_high = 1.0;
+  record.mean_return = 174.2;
+  core::WriteFile(folder.path() / "c.svg", TrainingCurves("one", {record}));
+  EXPECT_EQ(PointsOf(folder.path() / "c.svg"), "4 2 2 12 12 12\n");
+  const std::string svg = core::ReadFile(folder.path() / "c.svg");
+  const size_t first = svg.find(">173<");
+  EXPECT_NE(first, std::string::npos);  // numbers beside it that differ
+  EXPECT_EQ(svg.find(">173<", first + 1), std::string::npos);
 }
 
 Policy SmallPolicy() {
