@@ -100,7 +100,9 @@ TEST(ScriptedHand, LeavesWhatHasSlidPastItsGoal) {
                                .dot(episode.frame().world_from_focus().linear().col(0));
     pushed = pushed || action[0] > 0.0f;
     past = past || missing < 0.0;
-    if (missing < 0.0) EXPECT_EQ(action[0], 0.0f);
+    if (missing < 0.0) {
+      EXPECT_EQ(action[0], 0.0f);
+    }
     // As hard as the arm can: it slides past.
     if (action[0] > 0.0f && !past) action[0] = 1.0f;
     decision = episode.Step(action.data());
