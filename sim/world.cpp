@@ -62,10 +62,19 @@ int World::Add(const RigidBody& body, const Eigen::Isometry3d& world_from_body) 
   if (body.parts.empty() || !(body.inertial.mass > 0.0)) {
     throw core::Error("a body needs collision parts and a mass", body.name);
   }
+  return AddBody(body, world_from_body, body.inertial.mass);
+}
+
+int World::AddFixed(const RigidBody& body, const Eigen::Isometry3d& world_from_body) {
+  if (body.parts.empty()) throw core::Error("a body needs collision parts", body.name);
+  return AddBody(body, world_from_body, 0.0);
+}
+
+int World::AddBody(const RigidBody& body, const Eigen::Isometry3d& world_from_body, double mass) {
   auto loaded = std::make_unique<LoadedBody>(body, options_.margin);
   const BulletShape& shape = loaded->shape;
-  btRigidBody::btRigidBodyConstructionInfo info(body.inertial.mass, nullptr, shape.compound(),
-                                                ToBullet(shape.moments()));
+  const btVector3 moments = mass > 0.0 ? ToBullet(shape.moments()) : btVector3(0, 0, 0);
+  btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape.compound(), moments);
   info.m_startWorldTransform = ToBullet(world_from_body * shape.body_from_principal());
   info.m_friction = body.friction;
   info.m_restitution = body.restitution;

@@ -34,6 +34,9 @@ class World {
   // body without parts or mass. Parts of fewer than four vertices are refused.
   int Add(const RigidBody& body, const Eigen::Isometry3d& world_from_body);
 
+  // The same, of a body that stays where it is, as welded furniture does; it needs no mass.
+  int AddFixed(const RigidBody& body, const Eigen::Isometry3d& world_from_body);
+
   // One time step.
   void Step();
 
@@ -48,6 +51,8 @@ class World {
 
  private:
   struct Bullet;
+  int AddBody(const RigidBody& body, const Eigen::Isometry3d& world_from_body, double mass);
+
   std::unique_ptr<Bullet> bullet_;
   WorldOptions options_;
   double time_ = 0.0;

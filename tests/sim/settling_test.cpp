@@ -1,0 +1,102 @@
+// Scenes left to gravity: what rests, what slides as far as Coulomb says, what falls.
+#include "sim/settling.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "assets/primitive_meshes.h"
+#include "core/error.h"
+
+namespace simwright::sim {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+RigidBody Box(const Vector3d& size, double mass, double friction = 0.5) {
+  RigidBody body;
+  body.name = "box";
+  body.parts = {assets::BoxMesh(size)};
+  body.friction = friction;
+  const Vector3d s2 = size.cwiseAbs2();
+  body.inertial = {
+      mass, Vector3d::Zero(),
+      (mass / 12.0 * Vector3d(s2.y() + s2.z(), s2.x() + s2.z(), s2.x() + s2.y())).asDiagonal()};
+  return body;
+}
+
+Isometry3d At(const Vector3d& place) {
+  return Isometry3d(Eigen::Translation3d(place));
+}
+
+TEST(Settle, ATowerOnATableStandsStill) {
+  const RigidBody table = Box({1, 1, 0.1}, 0.0), box = Box({0.1, 0.1, 0.06}, 0.3);
+  std::vector<SettlingBody> bodies = {{&table, At({0, 0, 0.5}), true}};
+  for (int i = 0; i < 5; ++i) bodies.push_back({&box, At({0.2, 0, 0.58 + 0.06 * i}), false});
+  const std::vector<SettledBody> settled = Settle(bodies);
+  for (size_t i = 0; i < settled.size(); ++i) {
+    EXPECT_TRUE(settled[i].stable) << i << " " << settled[i].drift;
+    EXPECT_FALSE(settled[i].fell);
+    EXPECT_LT(settled[i].moved, 1e-3) << i;
+    EXPECT_LT(settled[i].tilted, 1e-3) << i;
+  }
+  EXPECT_EQ(settled[0].world_from_body.matrix(), bodies[0].world_from_body.matrix());
+}
+
+TEST(Settle, WhatHangsOverTheEdgeFalls) {
+  const RigidBody table = Box({1, 1, 0.1}, 0.0), box = Box({0.1, 0.1, 0.06}, 0.3);
+  // Its middle is 1 cm outside, another's 1 cm inside.
+  const std::vector<SettledBody> settled = Settle({{&table, At({0, 0, 0.5}), true},
+                                                   {&box, At({0.51, 0.2, 0.581}), false},
+                                                   {&box, At({0.49, -0.2, 0.581}), false}});
+  EXPECT_TRUE(settled[1].fell);
+  EXPECT_GT(settled[1].moved, 0.4);
+  EXPECT_FALSE(settled[2].fell);
+  EXPECT_TRUE(settled[2].stable);
+}
+
+// On a slope of 20 degrees, tan 0.364: friction of 0.5 holds, none lets slide.
+TEST(Settle, WhatSlidesIsNotStable) {
+  const Isometry3d slope =
+      At({0, 0, 5}) * Eigen::AngleAxisd(20.0 * M_PI / 180.0, Vector3d::UnitY());
+  const RigidBody plank = Box({4, 1, 0.1}, 0.0, 1.0);
+  const RigidBody rough = Box({0.1, 0.1, 0.04}, 0.3, 0.5), smooth = Box({0.1, 0.1, 0.04}, 0.3, 0.0);
+  SettlingOptions options;
+  options.duration = 0.5;
+  options.watch = 0.5;
+  const std::vector<SettledBody> settled = Settle({{&plank, slope, true},
+                                                   {&rough, slope * At({-1, 0.2, 0.07}), false},
+                                                   {&smooth, slope * At({-1, -0.2, 0.07}), false}},
+                                                  options);
+  EXPECT_TRUE(settled[1].stable);
+  EXPECT_FALSE(settled[2].stable);
+  // s = g sin(20) t^2 / 2.
+  const double a = 9.81 * std::sin(20.0 * M_PI / 180.0);
+  EXPECT_NEAR(settled[2].moved, 0.5 * a * 0.25, 0.005);
+  EXPECT_NEAR(settled[2].drift, 0.5 * a * 0.75, 0.005);
+}
+
+TEST(Settle, IsTheSameEveryTime) {
+  const RigidBody box = Box({0.1, 0.1, 0.06}, 0.3);
+  const std::vector<SettlingBody> bodies = {{&box, At({0, 0, 0.1}), false},
+                                            {&box, At({0.06, 0.03, 0.2}), false}};
+  const auto one = Settle(bodies), two = Settle(bodies);
+  for (size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].world_from_body.matrix(), two[i].world_from_body.matrix());
+  }
+}
+
+TEST(Settle, RefusesWhatIsNotSound) {
+  const RigidBody box = Box({0.1, 0.1, 0.06}, 0.3), no_mass = Box({0.1, 0.1, 0.06}, 0.0);
+  EXPECT_TRUE(Settle({}).empty());
+  EXPECT_THROW(Settle({{}}), core::Error);
+  EXPECT_THROW(Settle({{&no_mass, At({0, 0, 1}), false}}), core::Error);
+  EXPECT_THROW(Settle({{&box, At({0, 0, std::nan("")}), false}}), core::Error);
+  SettlingOptions options;
+  options.time_step = 0.0;
+  EXPECT_THROW(Settle({{&box, At({0, 0, 1}), false}}, options), core::Error);
+}
+
+}  // namespace
+}  // namespace simwright::sim
