@@ -1,0 +1,182 @@
+#include "scene/grammar/derivation.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/error.h"
+
+namespace simwright::scene {
+namespace {
+
+constexpr std::size_t kMostNodes = 10'000;
+
+const Symbol& SymbolOf(const Grammar& grammar, const DerivedNode& node) {
+  return grammar.symbols()[static_cast<std::size_t>(node.symbol)];
+}
+
+// Index drawn by weight; the weights have a sum above 0.
+int DrawIndex(const std::vector<double>& weights, core::Rng& rng) {
+  double left = core::Uniform(rng) * std::accumulate(weights.begin(), weights.end(), 0.0);
+  int last = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (weights[i] <= 0.0) continue;
+    last = static_cast<int>(i);
+    if (left < weights[i]) return last;
+    left -= weights[i];
+  }
+  return last;
+}
+
+// The branches that a node takes, in order.
+std::vector<int> DrawBranches(const Symbol& symbol, core::Rng& rng) {
+  std::vector<int> taken;
+  const int count = static_cast<int>(symbol.branches.size());
+  switch (symbol.kind) {
+    case NodeKind::kLeaf:
+      break;
+    case NodeKind::kAnd:
+      for (int i = 0; i < count; ++i) taken.push_back(i);
+      break;
+    case NodeKind::kOr: {
+      std::vector<double> weights;
+      for (const Branch& branch : symbol.branches) weights.push_back(branch.weight);
+      taken.push_back(DrawIndex(weights, rng));
+      break;
+    }
+    case NodeKind::kIndependent:
+      for (int i = 0; i < count; ++i) {
+        const double weight = symbol.branches[static_cast<std::size_t>(i)].weight;
+        if (core::Uniform(rng) < weight) taken.push_back(i);
+      }
+      break;
+    case NodeKind::kRepeat:
+      taken.assign(static_cast<std::size_t>(DrawIndex(symbol.count_weights, rng)), 0);
+      break;
+  }
+  return taken;
+}
+
+void DeriveBelow(const Grammar& grammar, int index, core::Rng& rng, Derivation* derivation) {
+  if (derivation->size() > kMostNodes) {
+    throw core::Error("a derivation has more than " + std::to_string(kMostNodes) + " nodes",
+                      "scene grammar " + grammar.name(),
+                      "let its symbols derive themselves with a smaller probability");
+  }
+  const DerivedNode node = (*derivation)[static_cast<std::size_t>(index)];
+  const Symbol& symbol = SymbolOf(grammar, node);
+  for (const int branch : DrawBranches(symbol, rng)) {
+    DerivedNode child;
+    child.symbol = symbol.branches[static_cast<std::size_t>(branch)].symbol;
+    child.parent = index;
+    child.branch = branch;
+    child.surface = symbol.surface ? index : node.surface;
+    child.carrier = symbol.IsObject() && !symbol.welded ? index : node.carrier;
+    derivation->push_back(child);
+    DeriveBelow(grammar, static_cast<int>(derivation->size()) - 1, rng, derivation);
+  }
+}
+
+bool IsWithin(const Grammar& grammar, const Derivation& derivation, int index,
+              const std::string& symbol) {
+  for (int i = index; i >= 0; i = derivation[static_cast<std::size_t>(i)].parent) {
+    if (SymbolOf(grammar, derivation[static_cast<std::size_t>(i)]).name == symbol) return true;
+  }
+  return false;
+}
+
+// What constraints count, of the objects of one slot or all.
+struct Census {
+  int objects = 0;  // welded ones left out
+  int entries = 0;  // and with them
+  int of_slot = 0, stacks = 0, tallest = 0;
+};
+
+Census CensusOf(const Grammar& grammar, const Derivation& derivation,
+                const StructureConstraint& constraint) {
+  Census census;
+  std::vector<int> level(derivation.size(), 0);  // in its stack, from 1
+  for (std::size_t i = 0; i < derivation.size(); ++i) {
+    const DerivedNode& node = derivation[i];
+    const Symbol& symbol = SymbolOf(grammar, node);
+    if (!symbol.IsObject()) continue;
+    if (!constraint.within.empty() &&
+        !IsWithin(grammar, derivation, static_cast<int>(i), constraint.within)) {
+      continue;
+    }
+    ++census.entries;
+    if (!symbol.welded) ++census.objects;
+    if (symbol.slot != constraint.slot) continue;
+    ++census.of_slot;
+    const bool based = node.carrier < 0 || level[static_cast<std::size_t>(node.carrier)] == 0;
+    if (based) ++census.stacks;
+    level[i] = based ? 1 : level[static_cast<std::size_t>(node.carrier)] + 1;
+    census.tallest = std::max(census.tallest, level[i]);
+  }
+  return census;
+}
+
+bool Meets(const Grammar& grammar, const Derivation& derivation,
+           const StructureConstraint& constraint) {
+  const Census census = CensusOf(grammar, derivation, constraint);
+  switch (constraint.kind) {
+    case StructureKind::kSlotAtLeast:
+      return census.of_slot >= constraint.n;
+    case StructureKind::kSlotAtMost:
+      return census.of_slot <= constraint.n;
+    case StructureKind::kObjectsAtLeast:
+      return census.objects >= constraint.n;
+    case StructureKind::kEntriesAtMost:
+      return census.entries <= constraint.n;
+    case StructureKind::kTallestAtLeast:
+      return census.tallest >= constraint.n;
+    case StructureKind::kTallestAtMost:
+      return census.tallest <= constraint.n;
+    case StructureKind::kStacksAtLeast:
+      return census.stacks >= constraint.n;
+  }
+  return false;
+}
+
+}  // namespace
+
+Derivation Derive(const Grammar& grammar, core::Rng& rng) {
+  Derivation derivation(1);
+  derivation[0].symbol = 0;
+  DeriveBelow(grammar, 0, rng, &derivation);
+  return derivation;
+}
+
+void DrawPosesFrom(const Grammar& grammar, int first, bool keep, core::Rng& rng,
+                   Derivation* derivation) {
+  std::vector<char> below(derivation->size(), 0);
+  const auto begin = static_cast<std::size_t>(first);
+  below[begin] = 1;
+  const Eigen::Isometry3d before = (*derivation)[begin].world_from_node;
+  for (std::size_t i = begin; i < derivation->size(); ++i) {
+    DerivedNode& node = (*derivation)[i];
+    if (node.parent < 0) continue;  // the start is the world
+    const auto parent = static_cast<std::size_t>(node.parent);
+    below[i] = below[i] || below[parent];
+    if (!below[i]) continue;
+    if (keep && i != begin) {
+      node.world_from_node =
+          (*derivation)[begin].world_from_node * before.inverse() * node.world_from_node;
+      continue;
+    }
+    const Symbol& above = SymbolOf(grammar, (*derivation)[parent]);
+    const PoseRule& rule = above.branches[static_cast<std::size_t>(node.branch)].pose;
+    const Eigen::Isometry3d surface =
+        node.surface < 0 ? Eigen::Isometry3d::Identity()
+                         : (*derivation)[static_cast<std::size_t>(node.surface)].world_from_node;
+    node.world_from_node = DrawPose(rule, (*derivation)[parent].world_from_node, surface, rng);
+  }
+}
+
+int UnmetStructure(const Grammar& grammar, const Derivation& derivation) {
+  for (std::size_t i = 0; i < grammar.structure().size(); ++i) {
+    if (!Meets(grammar, derivation, grammar.structure()[i])) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+}  // namespace simwright::scene

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/grammar/grammar.h"
+
+namespace simwright::scene {
+
+// The left side of a production: what the symbol itself is.
+struct Head {
+  std::string name;
+  std::string slot;
+  bool welded = false;
+  bool surface = false;
+
+  // A group: no object of its own.
+  Head(const char* group) : name(group) {}             // NOLINT: written as a plain string
+  Head(std::string group) : name(std::move(group)) {}  // NOLINT
+  Head(std::string symbol, std::string object_slot, bool is_welded)
+      : name(std::move(symbol)), slot(std::move(object_slot)), welded(is_welded) {}
+};
+Head Object(const std::string& symbol, const std::string& slot);
+Head Welded(const std::string& symbol, const std::string& slot);
+// A group whose frame things stand in, at z = 0.
+Head Surface(const std::string& symbol);
+
+// The right side: a symbol by name, where it stands, and its weight or probability.
+struct Child {
+  std::string symbol;
+  PoseRule pose;
+  double weight = 1.0;
+};
+Child Always(const std::string& symbol, const PoseRule& pose = SamePose());
+Child With(double weight, const std::string& symbol, const PoseRule& pose = SamePose());
+
+// The symbol that is nothing, known to every grammar.
+inline constexpr char kNothing[] = "nothing";
+
+// Writes a grammar down, production by production; names may be used before they are defined, so
+// that a symbol may derive itself.
+class GrammarBuilder {
+ public:
+  // `start` is the symbol every derivation begins with.
+  GrammarBuilder(std::string name, std::string start);
+
+  GrammarBuilder& Leaf(const Head& head);
+  GrammarBuilder& And(const Head& head, const std::vector<Child>& children);
+  GrammarBuilder& Or(const Head& head, const std::vector<Child>& choices);
+  GrammarBuilder& Independent(const Head& head, const std::vector<Child>& children);
+  // `count_weights` of k = 0, 1, ...: GeometricWeights or any other.
+  GrammarBuilder& Repeat(const Head& head, const std::vector<double>& count_weights,
+                         const Child& child);
+
+  GrammarBuilder& Require(const StructureConstraint& constraint);
+  GrammarBuilder& Require(const KeepOut& constraint);
+  GrammarBuilder& Require(const InsideRim& constraint);
+  GrammarBuilder& Options(const DrawOptions& options);
+
+  // Throws core::Error naming the symbol for: a symbol defined twice, used but not defined, or
+  // never used; an Or without weight, a probability outside [0, 1], a count without weight; an
+  // invalid pose rule; a constraint on an unknown symbol or slot, or with an impossible number;
+  // invalid options; a grammar without an object.
+  Grammar Build() const;
+
+ private:
+  struct Production {
+    Head head;
+    NodeKind kind;
+    std::vector<Child> children;
+    std::vector<double> count_weights;
+  };
+
+  GrammarBuilder& Add(Production production);
+  void Resolve(Grammar* grammar) const;
+  [[noreturn]] void Refuse(const std::string& what, const std::string& symbol) const;
+  void CheckProduction(const Production& production) const;
+  void CheckReachable(const Grammar& grammar) const;
+  void CheckStructure(const Grammar& grammar) const;
+  void CheckPoseConstraints(const Grammar& grammar) const;
+
+  std::string name_;
+  std::string start_;
+  std::vector<Production> productions_;
+  std::vector<StructureConstraint> structure_;
+  std::vector<KeepOut> keep_outs_;
+  std::vector<InsideRim> rims_;
+  DrawOptions options_;
+};
+
+}  // namespace simwright::scene

@@ -1,0 +1,162 @@
+#include "scene/grammar/pose_violation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace simwright::scene {
+namespace {
+
+using Eigen::Vector3d;
+
+const Symbol& SymbolOf(const Grammar& grammar, const DerivedNode& node) {
+  return grammar.symbols()[static_cast<std::size_t>(node.symbol)];
+}
+
+bool Names(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// The radius that a keep-out gives the symbol; less than 0 for one that it does not name.
+double RadiusIn(const KeepOut& keep_out, const std::string& symbol) {
+  for (const KeepOutBody& body : keep_out.bodies) {
+    if (body.symbol == symbol) return body.radius;
+  }
+  return -1.0;
+}
+
+// The nearest node at or above `index` of that symbol; -1 where there is none.
+int Above(const Grammar& grammar, const Derivation& derivation, int index,
+          const std::string& symbol) {
+  for (int i = index; i >= 0; i = derivation[static_cast<std::size_t>(i)].parent) {
+    if (SymbolOf(grammar, derivation[static_cast<std::size_t>(i)]).name == symbol) return i;
+  }
+  return -1;
+}
+
+// From a surface to a node, in the surface's frame.
+Vector3d OnSurface(const Derivation& derivation, int surface, int node) {
+  const Vector3d& point = derivation[static_cast<std::size_t>(node)].world_from_node.translation();
+  if (surface < 0) return point;
+  return derivation[static_cast<std::size_t>(surface)].world_from_node.inverse() * point;
+}
+
+}  // namespace
+
+PoseViolation::PoseViolation(const Grammar& grammar, const Derivation& derivation)
+    : grammar_(grammar) {
+  FindPairs(derivation);
+  FindInside(derivation);
+}
+
+void PoseViolation::FindPairs(const Derivation& derivation) {
+  for (std::size_t k = 0; k < grammar_.keep_outs().size(); ++k) {
+    const KeepOut& keep_out = grammar_.keep_outs()[k];
+    for (std::size_t i = 0; i < derivation.size(); ++i) {
+      const std::string& one = SymbolOf(grammar_, derivation[i]).name;
+      const double radius = RadiusIn(keep_out, one);
+      if (radius < 0.0 || derivation[i].carrier >= 0) continue;
+      for (std::size_t j = i + 1; j < derivation.size(); ++j) {
+        const std::string& other = SymbolOf(grammar_, derivation[j]).name;
+        const double second = RadiusIn(keep_out, other);
+        if (second < 0.0 || derivation[j].carrier >= 0) continue;
+        if (derivation[i].surface != derivation[j].surface) continue;
+        const bool counts = keep_out.against.empty() || Names(keep_out.against, one) ||
+                            Names(keep_out.against, other);
+        if (!counts) continue;
+        const auto a = static_cast<int>(i), b = static_cast<int>(j);
+        if (!keep_out.exempt_within.empty()) {
+          const int group = Above(grammar_, derivation, a, keep_out.exempt_within);
+          if (group >= 0 && group == Above(grammar_, derivation, b, keep_out.exempt_within)) {
+            continue;
+          }
+        }
+        pairs_.push_back({a, b, radius + second, static_cast<int>(k), keep_out.decision});
+      }
+    }
+  }
+}
+
+void PoseViolation::FindInside(const Derivation& derivation) {
+  for (std::size_t k = 0; k < grammar_.rims().size(); ++k) {
+    const InsideRim& rim = grammar_.rims()[k];
+    for (std::size_t i = 0; i < derivation.size(); ++i) {
+      const DerivedNode& node = derivation[i];
+      const Symbol& symbol = SymbolOf(grammar_, node);
+      if (!symbol.IsObject() || symbol.welded || node.carrier >= 0 || node.surface < 0) continue;
+      if (!rim.symbols.empty() && !Names(rim.symbols, symbol.name)) continue;
+      const DerivedNode& surface = derivation[static_cast<std::size_t>(node.surface)];
+      if (SymbolOf(grammar_, surface).name != rim.surface) continue;
+      insides_.push_back({static_cast<int>(i), static_cast<int>(k), rim.decision});
+    }
+  }
+}
+
+double PoseViolation::Missing(const Derivation& derivation, const Pair& pair) const {
+  const int surface = derivation[static_cast<std::size_t>(pair.a)].surface;
+  const Vector3d way =
+      OnSurface(derivation, surface, pair.b) - OnSurface(derivation, surface, pair.a);
+  return std::max(0.0, pair.apart - way.head<2>().norm());
+}
+
+double PoseViolation::Missing(const Derivation& derivation, const Inside& inside) const {
+  const InsideRim& rim = grammar_.rims()[static_cast<std::size_t>(inside.rim)];
+  const int surface = derivation[static_cast<std::size_t>(inside.node)].surface;
+  const Vector3d place = OnSurface(derivation, surface, inside.node);
+  if (rim.round) return std::max(0.0, place.head<2>().norm() - (rim.half_x - rim.margin));
+  const double x = std::abs(place.x()) - (rim.half_x - rim.margin);
+  const double y = std::abs(place.y()) - (rim.half_y - rim.margin);
+  return std::max({0.0, x, y});
+}
+
+double PoseViolation::Sum(const Derivation& derivation, Decision decision) const {
+  double sum = 0.0;
+  for (const Pair& pair : pairs_) {
+    if (pair.decision == decision) sum += Missing(derivation, pair);
+  }
+  for (const Inside& inside : insides_) {
+    if (inside.decision == decision) sum += Missing(derivation, inside);
+  }
+  return sum;
+}
+
+double PoseViolation::Redrawable(const Derivation& derivation) const {
+  return Sum(derivation, Decision::kRedraw);
+}
+
+double PoseViolation::Rejectable(const Derivation& derivation) const {
+  return Sum(derivation, Decision::kReject);
+}
+
+std::vector<int> PoseViolation::Offenders(const Derivation& derivation) const {
+  std::set<int> offenders;
+  for (const Pair& pair : pairs_) {
+    if (pair.decision != Decision::kRedraw || Missing(derivation, pair) == 0.0) continue;
+    offenders.insert({pair.a, pair.b});
+  }
+  for (const Inside& inside : insides_) {
+    if (inside.decision != Decision::kRedraw || Missing(derivation, inside) == 0.0) continue;
+    offenders.insert(inside.node);
+  }
+  return {offenders.begin(), offenders.end()};
+}
+
+std::string PoseViolation::Worst(const Derivation& derivation) const {
+  double most = 0.0;
+  std::string what;
+  for (const Pair& pair : pairs_) {
+    const double missing = Missing(derivation, pair);
+    if (missing <= most) continue;
+    most = missing;
+    what = "keep-out " + grammar_.keep_outs()[static_cast<std::size_t>(pair.keep_out)].name;
+  }
+  for (const Inside& inside : insides_) {
+    const double missing = Missing(derivation, inside);
+    if (missing <= most) continue;
+    most = missing;
+    what = grammar_.rims()[static_cast<std::size_t>(inside.rim)].Describe();
+  }
+  return what;
+}
+
+}  // namespace simwright::scene

@@ -1,0 +1,126 @@
+#include "scene/grammar/scene_draw.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "core/error.h"
+#include "scene/grammar/derivation.h"
+#include "scene/grammar/pose_violation.h"
+
+namespace simwright::scene {
+namespace {
+
+const Symbol& SymbolOf(const Grammar& grammar, const DerivedNode& node) {
+  return grammar.symbols()[static_cast<std::size_t>(node.symbol)];
+}
+
+// How often each constraint stood in the way.
+using Failures = std::map<std::string, int>;
+
+std::optional<Derivation> DeriveSound(const Grammar& grammar, core::Rng& rng, SceneDraw* draw,
+                                      Failures* failures) {
+  for (int i = 0; i < grammar.options().derivations; ++i) {
+    ++draw->derivations;
+    Derivation derivation = Derive(grammar, rng);
+    const int unmet = UnmetStructure(grammar, derivation);
+    if (unmet < 0) return derivation;
+    ++(*failures)[grammar.structure()[static_cast<std::size_t>(unmet)].Describe()];
+  }
+  return std::nullopt;
+}
+
+// The node whose pose is drawn anew to move `node`: itself, or the nearest above it whose rule is
+// random and that stands on the same surface; -1 where nothing moves it.
+int Movable(const Grammar& grammar, const Derivation& derivation, int node) {
+  const int surface = derivation[static_cast<std::size_t>(node)].surface;
+  for (int i = node; i != surface && i >= 0;) {
+    const DerivedNode& one = derivation[static_cast<std::size_t>(i)];
+    if (one.parent < 0) return -1;
+    const Symbol& above = SymbolOf(grammar, derivation[static_cast<std::size_t>(one.parent)]);
+    if (above.branches[static_cast<std::size_t>(one.branch)].pose.IsRandom()) return i;
+    i = one.parent;
+  }
+  return -1;
+}
+
+// One pass over what offends. Proposals are drawn from the pose rules, so that what is accepted
+// keeps their distribution where nothing is in the way.
+void RedrawOffenders(const Grammar& grammar, const PoseViolation& violation, core::Rng& rng,
+                     Derivation* derivation) {
+  double now = violation.Redrawable(*derivation);
+  for (const int offender : violation.Offenders(*derivation)) {
+    const int movable = Movable(grammar, *derivation, offender);
+    if (movable < 0) continue;
+    for (int i = 0; i < grammar.options().proposals && now > 0.0; ++i) {
+      Derivation proposal = *derivation;
+      DrawPosesFrom(grammar, movable, /*keep=*/true, rng, &proposal);
+      const double then = violation.Redrawable(proposal);
+      const double chance = std::exp((now - then) / grammar.options().temperature);
+      if (then > now && core::Uniform(rng) >= chance) continue;
+      *derivation = std::move(proposal);
+      now = then;
+    }
+  }
+}
+
+bool PlaceSound(const Grammar& grammar, core::Rng& rng, Derivation* derivation, SceneDraw* draw,
+                Failures* failures) {
+  const PoseViolation violation(grammar, *derivation);
+  DrawPosesFrom(grammar, 0, /*keep=*/false, rng, derivation);
+  for (int i = 0;; ++i) {
+    ++draw->pose_draws;
+    if (violation.Redrawable(*derivation) == 0.0) break;
+    if (i == grammar.options().pose_draws) {
+      ++(*failures)[violation.Worst(*derivation)];
+      return false;
+    }
+    RedrawOffenders(grammar, violation, rng, derivation);
+  }
+  if (violation.Rejectable(*derivation) == 0.0) return true;
+  ++(*failures)[violation.Worst(*derivation)];
+  return false;
+}
+
+std::vector<DrawnObject> Flattened(const Grammar& grammar, const Derivation& derivation) {
+  std::vector<DrawnObject> objects;
+  std::vector<int> entry(derivation.size(), -1);  // the object at or above a node
+  for (std::size_t i = 0; i < derivation.size(); ++i) {
+    const DerivedNode& node = derivation[i];
+    const int above = node.parent < 0 ? -1 : entry[static_cast<std::size_t>(node.parent)];
+    entry[i] = above;
+    const Symbol& symbol = SymbolOf(grammar, node);
+    if (!symbol.IsObject()) continue;
+    entry[i] = static_cast<int>(objects.size());
+    objects.push_back({symbol.slot, symbol.name, node.world_from_node, symbol.welded, above});
+  }
+  return objects;
+}
+
+[[noreturn]] void Fail(const Grammar& grammar, const SceneDraw& draw, const Failures& failures) {
+  const auto most =
+      std::max_element(failures.begin(), failures.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  throw core::Error("no scene meets '" + most->first + "' (missed " + std::to_string(most->second) +
+                        " times in " + std::to_string(draw.derivations) + " derivations and " +
+                        std::to_string(draw.pose_draws) + " draws of poses)",
+                    "scene grammar " + grammar.name(), "loosen it, or allow more tries");
+}
+
+}  // namespace
+
+SceneDraw DrawScene(const Grammar& grammar, core::Rng& rng) {
+  SceneDraw draw;
+  Failures failures;
+  while (draw.tries < grammar.options().tries) {
+    ++draw.tries;
+    std::optional<Derivation> derivation = DeriveSound(grammar, rng, &draw, &failures);
+    if (!derivation || !PlaceSound(grammar, rng, &*derivation, &draw, &failures)) continue;
+    draw.objects = Flattened(grammar, *derivation);
+    return draw;
+  }
+  Fail(grammar, draw, failures);
+}
+
+}  // namespace simwright::scene

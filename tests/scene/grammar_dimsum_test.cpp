@@ -1,0 +1,136 @@
+// Dimsum tables: the published probabilities, and what holds in every scene.
+#include "scene/grammar/dimsum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "scene/grammar/scene_draw.h"
+
+namespace simwright::scene {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kTabletop = 0.785;
+
+std::vector<SceneDraw> Draws(int count) {
+  const Grammar grammar = DimsumTable();
+  std::vector<SceneDraw> draws;
+  for (int i = 0; i < count; ++i) {
+    core::Rng rng = core::StreamRng(1, static_cast<std::uint64_t>(i));
+    draws.push_back(DrawScene(grammar, rng));
+  }
+  return draws;
+}
+
+const std::vector<SceneDraw>& TwoThousand() {
+  static const std::vector<SceneDraw> draws = Draws(2000);
+  return draws;
+}
+
+int CountOf(const SceneDraw& draw, const std::string& slot) {
+  return static_cast<int>(std::count_if(draw.objects.begin(), draw.objects.end(),
+                                        [&](const DrawnObject& o) { return o.slot == slot; }));
+}
+
+// The height of each stack of steamers.
+std::vector<int> Stacks(const SceneDraw& draw) {
+  std::map<int, int> level;
+  std::vector<int> heights;
+  for (size_t i = 0; i < draw.objects.size(); ++i) {
+    if (draw.objects[i].slot != "steamer") continue;
+    const auto below = level.find(draw.objects[i].parent);
+    level[static_cast<int>(i)] = below == level.end() ? 1 : below->second + 1;
+    if (below == level.end()) heights.push_back(1);
+    heights.back() = std::max(heights.back(), level[static_cast<int>(i)]);
+  }
+  return heights;
+}
+
+double KeepOutOf(const std::string& slot) {
+  const std::map<std::string, double> radii = {
+      {"plate", 0.14}, {"cup", 0.07}, {"teapot", 0.10}, {"serving_dish", 0.20}, {"steamer", 0.12}};
+  const auto found = radii.find(slot);
+  return found == radii.end() ? 0.0 : found->second;
+}
+
+TEST(DimsumTable, EverySceneKeepsItsConstraints) {
+  for (const SceneDraw& draw : TwoThousand()) {
+    const std::vector<int> stacks = Stacks(draw);
+    ASSERT_GE(stacks.size(), 3u);
+    ASSERT_GE(*std::max_element(stacks.begin(), stacks.end()), 4);
+    ASSERT_LE(draw.objects.size(), 34u);
+    ASSERT_EQ(draw.objects[0].slot, "table_round");
+    ASSERT_TRUE(draw.objects[0].welded);
+    for (size_t i = 1; i < draw.objects.size(); ++i) {
+      const DrawnObject& one = draw.objects[i];
+      const Vector3d at = one.world_from_object.translation();
+      if (one.parent != 0) continue;  // stands on another
+      ASSERT_NEAR(at.z(), kTabletop, 1e-12);
+      const double margin = one.slot == "plate" ? 0.1 : one.slot == "cup" ? 0.05 : 0.15;
+      ASSERT_LE(at.head<2>().norm(), 0.625 - margin + 1e-9);
+      for (size_t j = i + 1; j < draw.objects.size(); ++j) {
+        const DrawnObject& other = draw.objects[j];
+        if (other.parent != 0) continue;
+        const Vector3d way = other.world_from_object.translation() - at;
+        ASSERT_GE(way.head<2>().norm(), KeepOutOf(one.slot) + KeepOutOf(other.slot) - 1e-9);
+      }
+    }
+  }
+}
+
+TEST(DimsumTable, SteamersStandOnEachOther) {
+  for (const SceneDraw& draw : TwoThousand()) {
+    for (const DrawnObject& one : draw.objects) {
+      if (one.parent <= 0) continue;
+      const DrawnObject& below = draw.objects[static_cast<size_t>(one.parent)];
+      ASSERT_EQ(below.slot, "steamer");
+      const Vector3d way = below.world_from_object.inverse() * one.world_from_object.translation();
+      ASSERT_LT((way - Vector3d(0, 0, 0.091)).norm(), 1e-12);
+    }
+  }
+}
+
+// Of 0.7 + 0.025 + 0.025 + 0.2. Where there are many stacks and dishes settings have less room, so
+// that those with plate and cup are thrown away more often than empty ones.
+TEST(DimsumTable, SettingsAreAsOftenAsPublished) {
+  int plates = 0, cups = 0;
+  for (const SceneDraw& draw : TwoThousand()) {
+    plates += CountOf(draw, "plate");
+    cups += CountOf(draw, "cup");
+  }
+  const double settings = 4.0 * 2000.0;
+  EXPECT_NEAR(plates / settings, 0.725 / 0.95, 0.06);
+  EXPECT_NEAR(cups / settings, 0.725 / 0.95, 0.06);
+}
+
+TEST(DimsumTable, HasAsManyObjectsAsPublished) {
+  double sum = 0.0;
+  size_t most = 0;
+  for (const SceneDraw& draw : TwoThousand()) {
+    sum += static_cast<double>(draw.objects.size());
+    most = std::max(most, draw.objects.size());
+  }
+  RecordProperty("mean", std::to_string(sum / 2000.0));
+  EXPECT_NEAR(sum / 2000.0, 17.1, 2.0);
+  EXPECT_LE(most, 34u);
+  EXPECT_GE(most, 24u);
+}
+
+TEST(DimsumTable, TheSameStateGivesTheSameScene) {
+  const std::vector<SceneDraw> again = Draws(5);
+  for (size_t k = 0; k < again.size(); ++k) {
+    const SceneDraw& draw = TwoThousand()[k];
+    ASSERT_EQ(again[k].objects.size(), draw.objects.size());
+    for (size_t i = 0; i < draw.objects.size(); ++i) {
+      EXPECT_EQ(again[k].objects[i].world_from_object.matrix(),
+                draw.objects[i].world_from_object.matrix());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace simwright::scene
