@@ -4,20 +4,9 @@
 #include "library/rigid_kinds.h"
 #include "library/rigid_shapes.h"
 
-// Boxes, closed and open above.
+// Boxes, closed and open above, and slabs.
 namespace simwright::library {
 namespace {
-
-// A label's colour; packages come in several.
-core::Material Print(RigidDraft* d) {
-  constexpr float kColors[][3] = {{.80f, .24f, .18f},
-                                  {.20f, .42f, .68f},
-                                  {.92f, .72f, .22f},
-                                  {.28f, .58f, .36f},
-                                  {.55f, .30f, .56f}};
-  const auto& c = kColors[core::UniformIndex(d->rng, std::size(kColors))];
-  return Look("print", c[0], c[1], c[2]);
-}
 
 core::TexturedMesh Plain(RigidDraft* d, const core::Material& look, double bevel_share) {
   return PaintedBox(d->size, bevel_share * d->size.minCoeff(), {look},
@@ -124,6 +113,95 @@ core::TexturedMesh MilkCarton(RigidDraft* d) {
               RoundedSquareOutline(0.03, 3), looks);
 }
 
+// A carton whose lid goes down over its lower part, with a picture on top.
+core::TexturedMesh BoardGame(RigidDraft* d) {
+  const double x = 0.5 * d->size.x(), y = 0.5 * d->size.y(), h = d->size.z(), board = 0.0015;
+  const core::Material side = Print(d);
+  return Loft({{0, 0, 0},
+               {x - board, y - board, 0},
+               {x - board, y - board, 0.2 * h},
+               {x, y, 0.2 * h},
+               {x, y, h - 0.5 * board, 1},
+               {x - 0.5 * board, y - 0.5 * board, h, 1},
+               {0.82 * x, 0.82 * y, h, 1},
+               {0, 0, h, 2}},
+              RoundedSquareOutline(0.02, 3), {Look("board", .86f, .80f, .68f), side, Print(d)});
+}
+
+// A case for a small cartridge, lying, its printed sheet up.
+core::TexturedMesh ConsoleGame(RigidDraft* d) {
+  const double x = 0.5 * d->size.x(), y = 0.5 * d->size.y(), h = d->size.z(), edge = 0.0012;
+  return Loft({{0, 0, 0},
+               {x - edge, y - edge, 0},
+               {x, y, edge},
+               {x, y, h - edge},
+               {x - edge, y - edge, h},
+               {x - 0.005, y - 0.004, h},
+               {0, 0, h, 1}},
+              RoundedSquareOutline(0.05, 4), {Look("case", .20f, .21f, .24f), Print(d)});
+}
+
+// Its front faces x: the surround of a cone stands out of it, with the cone and its cap inside.
+core::TexturedMesh Driver(double radius) {
+  constexpr double kInside = 0.004, kOut = 0.003;  // m, of the front
+  const std::vector<core::Material> looks{Look("surround", .10f, .10f, .11f),
+                                          Look("cone", .34f, .35f, .37f)};
+  return AlongX(Revolved({{0, -kInside},
+                          {radius, -kInside},
+                          {radius, 0.6 * kOut},
+                          {0.94 * radius, kOut},
+                          {0.84 * radius, kOut},
+                          {0.78 * radius, 0.3 * kOut},
+                          {0.32 * radius, 0.2 * kOut, 1},
+                          {0.2 * radius, 0.7 * kOut},
+                          {0, kOut}},
+                         looks));
+}
+
+core::TexturedMesh Speaker(RigidDraft* d) {
+  constexpr double kOut = 0.003;  // m, as far as the drivers stand out
+  const Eigen::Vector3d box = d->size - Eigen::Vector3d(kOut, 0, 0);
+  const core::Material veneer =
+      d->Draw(0, 1) < 0.5 ? Look("veneer", .42f, .27f, .17f) : Look("black", .16f, .16f, .17f);
+  core::TexturedMesh mesh =
+      PaintedBox(box, 0.003, {veneer, Look("front", .22f, .22f, .23f)},
+                 [](const Eigen::Vector3d& n) { return n.x() > 0.8 ? 1 : 0; });
+  const double woofer = std::min(0.4 * box.y(), 0.25 * box.z());
+  core::TexturedMesh low = Driver(woofer), high = Driver(0.4 * woofer);
+  Move({0.5 * box.x(), 0, -0.44 * box.z() + woofer}, &low);
+  Move({0.5 * box.x(), 0, 0.34 * box.z()}, &high);
+  Join(low, &mesh);
+  Join(high, &mesh);
+  return mesh;
+}
+
+// A slice of a loaf, lying: two straight sides, a waist and a crown.
+core::TexturedMesh Toast(RigidDraft* d) {
+  const double x = 0.5 * d->size.x(), y = 0.5 * d->size.y(), h = d->size.z();
+  const std::vector<ProfilePoint> half = Smooth({{0.8, -1.0},
+                                                 {0.93, -0.9},
+                                                 {0.95, -0.5},
+                                                 {0.92, 0.1},
+                                                 {0.92, 0.3},
+                                                 {1.0, 0.55},
+                                                 {0.94, 0.82},
+                                                 {0.6, 0.98},
+                                                 {0.2, 1.0}});
+  std::vector<Eigen::Vector2d> outline;  // the crown at x: a slice is a little longer than wide
+  for (const ProfilePoint& p : half) outline.emplace_back(p.z, -p.r);
+  std::reverse(outline.begin(), outline.end());
+  for (const ProfilePoint& p : half) outline.emplace_back(p.z, p.r);
+  std::reverse(outline.begin(), outline.end());
+  return Loft({{0, 0, 0},
+               {0.97 * x, 0.97 * y, 0},
+               {x, y, 0.12 * h, 1},
+               {x, y, 0.88 * h, 1},
+               {0.97 * x, 0.97 * y, h, 1},
+               {0.93 * x, 0.93 * y, h, 1},
+               {0, 0, h}},
+              outline, {Look("crumb", .80f, .58f, .30f), Look("crust", .50f, .30f, .14f)});
+}
+
 }  // namespace
 
 std::vector<RigidKind> BoxKinds() {
@@ -143,7 +221,12 @@ std::vector<RigidKind> BoxKinds() {
           {"phone", "phone", "lying, its screen up", S::kFree, Phone},
           {"chocolate_bar", "chocolate bar", "wrapped", S::kFree, ChocolateBar},
           {"box", "box", "open above", S::kFree, Box},
-          {"tray", "tray", "low, open above", S::kFree, Tray}};
+          {"tray", "tray", "low, open above", S::kFree, Tray},
+          {"board_game_large", "large board game", "a lid over its box", S::kFree, BoardGame},
+          {"board_game_small", "small board game", "a lid over its box", S::kFree, BoardGame},
+          {"console_game", "console game", "a flat case, lying", S::kFree, ConsoleGame},
+          {"speaker", "bookshelf speaker", "two drivers in front", S::kFree, Speaker},
+          {"toast", "toast", "a slice, lying", S::kFree, Toast}};
 }
 
 }  // namespace simwright::library

@@ -78,10 +78,21 @@ core::Material Look(const std::string& name, float r, float g, float b) {
   return {name, {r, g, b, 1.0f}, -1};
 }
 
+core::Material Print(RigidDraft* draft) {
+  constexpr float kColors[][3] = {{.80f, .24f, .18f},
+                                  {.20f, .42f, .68f},
+                                  {.92f, .72f, .22f},
+                                  {.28f, .58f, .36f},
+                                  {.55f, .30f, .56f}};
+  const auto& c = kColors[core::UniformIndex(draft->rng, std::size(kColors))];
+  return Look("print", c[0], c[1], c[2]);
+}
+
 const std::vector<RigidKind>& RigidKinds() {
   static const std::vector<RigidKind> kKinds = [] {
     std::vector<RigidKind> all;
-    for (const auto& family : {VesselKinds(), BoxKinds(), RoundKinds(), LongKinds()}) {
+    for (const auto& family :
+         {VesselKinds(), TablewareKinds(), BoxKinds(), RoundKinds(), LongKinds(), ToyKinds()}) {
       all.insert(all.end(), family.begin(), family.end());
     }
     return all;

@@ -45,16 +45,18 @@ struct RigidKind {
   core::TexturedMesh (*make)(RigidDraft*);  // of any size: it is stretched to the draft's
 };
 
-// All of them: vessels, boxes, fruit and balls, tools.
+// All of them: vessels, tableware, boxes, fruit and balls, long things, toys.
 const std::vector<RigidKind>& RigidKinds();
 // Null for an unknown one.
 const RigidKind* FindRigidKind(const std::string& name);
 
 // The families, each in its own file.
 std::vector<RigidKind> VesselKinds();
+std::vector<RigidKind> TablewareKinds();
 std::vector<RigidKind> BoxKinds();
 std::vector<RigidKind> RoundKinds();
 std::vector<RigidKind> LongKinds();
+std::vector<RigidKind> ToyKinds();
 
 // A thing of the kind; size and look are drawn from the knowledge base's category by the seed, and
 // the same seed gives the same thing. Throws core::Error where the base has no such category.
@@ -62,5 +64,7 @@ RigidThing MakeRigidThing(const RigidKind& kind, std::uint64_t seed);
 
 // A plain colour.
 core::Material Look(const std::string& name, float r, float g, float b);
+// The colour of a label or of paint, which come in several: one of five, drawn.
+core::Material Print(RigidDraft* draft);
 
 }  // namespace simwright::library

@@ -50,6 +50,12 @@ Eigen::Vector2d Pear(double angle) {
   return {1.0 - 0.32 / (1.0 + std::exp(-6.0 * (up - 0.25))), 0.0};
 }
 
+// Slimmer above, without a neck.
+Eigen::Vector2d Avocado(double angle) {
+  const double up = -std::cos(angle);
+  return {1.0 - 0.30 / (1.0 + std::exp(-4.0 * (up - 0.35))), 0.0};
+}
+
 // Drawn out at both ends.
 Eigen::Vector2d Lemon(double angle) {
   const double up = -std::cos(angle);
@@ -78,6 +84,11 @@ core::TexturedMesh LemonShape(RigidDraft*) {
 }
 core::TexturedMesh Lime(RigidDraft*) {
   return Fruit(AlongX(Bent(Look("lime", .42f, .62f, .20f), Lemon)));
+}
+core::TexturedMesh AvocadoShape(RigidDraft* d) {
+  return Fruit(AlongX(
+      Bent(d->Draw(0, 1) < 0.5 ? Look("ripe", .20f, .20f, .15f) : Look("green", .25f, .36f, .16f),
+           Avocado)));
 }
 core::TexturedMesh EggShape(RigidDraft*) {
   return Fruit(AlongX(Bent(Look("shell", .90f, .78f, .64f), Egg)));
@@ -108,6 +119,7 @@ std::vector<RigidKind> RoundKinds() {
           {"pear", "pear", "with a neck", S::kRound, PearShape},
           {"lemon", "lemon", "drawn out at both ends", S::kLying, LemonShape},
           {"lime", "lime", "drawn out at both ends", S::kLying, Lime},
+          {"avocado", "avocado", "lying, slimmer at one end", S::kLying, AvocadoShape},
           {"tomato", "tomato", "dimpled", S::kSquat, Tomato},
           {"potato", "potato", "longish", S::kFree, Potato},
           {"egg", "egg", "lying", S::kLying, EggShape},

@@ -131,6 +131,11 @@ core::TexturedMesh AlongX(core::TexturedMesh mesh) {
   return mesh;
 }
 
+core::TexturedMesh AlongY(core::TexturedMesh mesh) {
+  for (Eigen::Vector3d& v : mesh.mesh.vertices) v = Eigen::Vector3d(v.x(), -v.z(), v.y());
+  return mesh;
+}
+
 core::TexturedMesh Sheet(const std::vector<Station>& stations, double thickness,
                          const std::vector<core::Material>& looks) {
   constexpr int kAcross = 8;
@@ -164,22 +169,22 @@ core::TexturedMesh Sheet(const std::vector<Station>& stations, double thickness,
   return mesh;
 }
 
-core::TexturedMesh Tube(const std::vector<Eigen::Vector2d>& path_xz, double half_across,
-                        double half_thick, const core::Material& look) {
+core::TexturedMesh TaperedTube(const std::vector<TubeSection>& path, const core::Material& look) {
   constexpr int kRound = 16;
   core::TexturedMesh mesh;
   mesh.materials = {look};
   std::vector<std::vector<int>> rings;
-  for (size_t i = 0; i < path_xz.size(); ++i) {
-    const Eigen::Vector2d before = path_xz[i == 0 ? 0 : i - 1];
-    const Eigen::Vector2d after = path_xz[std::min(i + 1, path_xz.size() - 1)];
+  const auto point = [&](size_t i) { return Eigen::Vector2d(path[i].x, path[i].z); };
+  for (size_t i = 0; i < path.size(); ++i) {
+    const Eigen::Vector2d before = point(i == 0 ? 0 : i - 1);
+    const Eigen::Vector2d after = point(std::min(i + 1, path.size() - 1));
     const Eigen::Vector2d along = (after - before).normalized();
     const Eigen::Vector2d normal(-along.y(), along.x());
     std::vector<int>& ring = rings.emplace_back();
     for (int k = 0; k < kRound; ++k) {
       const double angle = 2.0 * kPi * k / kRound;
-      const Eigen::Vector2d at = path_xz[i] + half_thick * std::cos(angle) * normal;
-      mesh.mesh.vertices.push_back({at.x(), -half_across * std::sin(angle), at.y()});
+      const Eigen::Vector2d at = point(i) + path[i].half_thick * std::cos(angle) * normal;
+      mesh.mesh.vertices.push_back({at.x(), -path[i].half_across * std::sin(angle), at.y()});
       ring.push_back(static_cast<int>(mesh.mesh.vertices.size()) - 1);
     }
   }
@@ -187,9 +192,37 @@ core::TexturedMesh Tube(const std::vector<Eigen::Vector2d>& path_xz, double half
     mesh.mesh.vertices.push_back({at.x(), 0.0, at.y()});
     return std::vector<int>(kRound, static_cast<int>(mesh.mesh.vertices.size()) - 1);
   };
-  AddBand(middle(path_xz.front()), rings.front(), 0, &mesh);
+  AddBand(middle(point(0)), rings.front(), 0, &mesh);
   for (size_t i = 0; i + 1 < rings.size(); ++i) AddBand(rings[i], rings[i + 1], 0, &mesh);
-  AddBand(rings.back(), middle(path_xz.back()), 0, &mesh);
+  AddBand(rings.back(), middle(point(path.size() - 1)), 0, &mesh);
+  return mesh;
+}
+
+core::TexturedMesh Tube(const std::vector<Eigen::Vector2d>& path_xz, double half_across,
+                        double half_thick, const core::Material& look) {
+  std::vector<TubeSection> path;
+  for (const Eigen::Vector2d& at : path_xz) {
+    path.push_back({at.x(), at.y(), half_across, half_thick});
+  }
+  return TaperedTube(path, look);
+}
+
+core::TexturedMesh Bar(const std::vector<BarSection>& sections,
+                       const std::vector<Eigen::Vector2d>& outline,
+                       const std::vector<core::Material>& looks) {
+  std::vector<Ring> rings{{0, 0, sections.front().x, sections.front().look}};
+  for (const BarSection& s : sections) {
+    rings.push_back({0.5 * (s.y_high - s.y_low), 0.5 * (s.z_high - s.z_low), s.x, s.look});
+  }
+  rings.push_back({0, 0, sections.back().x, sections.back().look});
+  core::TexturedMesh mesh = AlongX(Loft(rings, outline, looks));
+  // A loft's rings are about its axis; the first and the last vertex are the ends' middles.
+  for (size_t i = 0; i < mesh.mesh.vertices.size(); ++i) {
+    const size_t section = i == 0 ? 0 : std::min((i - 1) / outline.size(), sections.size() - 1);
+    const BarSection& s = sections[section];
+    mesh.mesh.vertices[i] +=
+        Eigen::Vector3d(0.0, 0.5 * (s.y_low + s.y_high), 0.5 * (s.z_low + s.z_high));
+  }
   return mesh;
 }
 

@@ -44,6 +44,8 @@ std::vector<ProfilePoint> VesselProfile(const std::vector<ProfilePoint>& outer, 
 
 // The same, its axis along x.
 core::TexturedMesh AlongX(core::TexturedMesh mesh);
+// Its axis along y, towards -y.
+core::TexturedMesh AlongY(core::TexturedMesh mesh);
 
 // A bent sheet along x: at each station half as wide as `half_width`, its middle at z, its edges
 // `dish` higher than its middle.
@@ -57,6 +59,22 @@ core::TexturedMesh Sheet(const std::vector<Station>& stations, double thickness,
 // A bar of elliptic section along a path in the plane y = 0, with flat ends.
 core::TexturedMesh Tube(const std::vector<Eigen::Vector2d>& path_xz, double half_across,
                         double half_thick, const core::Material& look);
+
+// The same with a section of its own at each point of the path.
+struct TubeSection {
+  double x = 0.0, z = 0.0, half_across = 0.0, half_thick = 0.0;
+};
+core::TexturedMesh TaperedTube(const std::vector<TubeSection>& path, const core::Material& look);
+
+// A bar along x with flat ends: at each section the outline fills y_low to y_high and z_low to
+// z_high.
+struct BarSection {
+  double x = 0.0, y_low = 0.0, y_high = 0.0, z_low = 0.0, z_high = 0.0;
+  int look = 0;
+};
+core::TexturedMesh Bar(const std::vector<BarSection>& sections,
+                       const std::vector<Eigen::Vector2d>& outline,
+                       const std::vector<core::Material>& looks);
 
 // A box about the origin, its edges chamfered; `look_of` gives a colour by a face's normal.
 core::TexturedMesh PaintedBox(const Eigen::Vector3d& size, double bevel,

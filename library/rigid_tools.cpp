@@ -38,6 +38,32 @@ core::TexturedMesh Spoon(RigidDraft* d) {
   return SpoonOf(d, 0.0018, kSteel);
 }
 
+// It lies on its handle's end and on the belly of its head, from which four tines go up.
+core::TexturedMesh Fork(RigidDraft* d) {
+  const double l = d->size.x(), w = 0.5 * d->size.y(), thick = 0.0024, up = d->size.z() - thick;
+  core::TexturedMesh mesh = Sheet({{0.00 * l, 0.36 * w, 0.02 * up},
+                                   {0.03 * l, 0.48 * w, 0},
+                                   {0.30 * l, 0.36 * w, 0.30 * up},
+                                   {0.58 * l, 0.22 * w, 0.52 * up},
+                                   {0.66 * l, 0.30 * w, 0.40 * up},
+                                   {0.71 * l, 0.70 * w, 0.20 * up},
+                                   {0.76 * l, 0.94 * w, 0.04 * up},
+                                   {0.81 * l, 0.97 * w, 0}},
+                                  thick, {kSteel});
+  // Thinner than the head, so that no face of theirs lies in one of its own.
+  const double half = 0.15 * w;
+  for (int k = 0; k < 4; ++k) {
+    core::TexturedMesh tine = Sheet({{0.79 * l, half, 0.02 * up + 0.06 * thick},
+                                     {0.87 * l, half, 0.12 * up},
+                                     {0.94 * l, 0.9 * half, 0.45 * up},
+                                     {1.00 * l, 0.4 * half, up + 0.12 * thick}},
+                                    0.88 * thick, {kSteel});
+    Move({0, (w - half) * (2.0 * k / 3.0 - 1.0), 0}, &tine);
+    Join(tine, &mesh);
+  }
+  return mesh;
+}
+
 core::TexturedMesh WoodenSpoon(RigidDraft* d) {
   return SpoonOf(d, 0.006, kWood);
 }
@@ -124,7 +150,7 @@ core::TexturedMesh Hammer(RigidDraft* d) {
                                   {0.08 * h, 0.42 * h, w},
                                   {0, 0, w}},
                                  RoundedSquareOutline(0.4, 6), {kSteel});
-  for (Eigen::Vector3d& v : head.mesh.vertices) v = Eigen::Vector3d(v.x(), -v.z(), v.y());
+  head = AlongY(head);
   Move({l - 0.5 * h, 0.5 * w, 0}, &head);
   Join(head, &mesh);
   return mesh;
@@ -218,6 +244,8 @@ core::TexturedMesh BaseballBat(RigidDraft* d) {
 std::vector<RigidKind> LongKinds() {
   using S = RigidSides;
   return {{"spoon", "spoon", "with a hollow bowl", S::kFree, Spoon},
+          {"teaspoon", "teaspoon", "with a hollow bowl", S::kFree, Spoon},
+          {"fork", "fork", "four tines, lying", S::kFree, Fork},
           {"wooden_spoon", "wooden spoon", "with a hollow bowl", S::kFree, WoodenSpoon},
           {"ruler", "ruler", "flat", S::kFree, Ruler},
           {"pen", "pen", "turned, with a tip", S::kLying, Pen},

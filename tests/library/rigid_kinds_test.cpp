@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "geometry/soundness.h"
@@ -61,6 +63,52 @@ INSTANTIATE_TEST_SUITE_P(Library, EveryRigidKind, ::testing::ValuesIn([] {
                            return names;
                          }()),
                          [](const auto& info) { return info.param; });
+
+// m, the greatest distance from the z axis of what lies at height z.
+double RadiusAt(const core::TriangleMesh& mesh, double z) {
+  double radius = -1.0;
+  for (const Eigen::Vector3d& v : mesh.vertices) {
+    if (std::abs(v.z() - z) < 1e-9) radius = std::max(radius, v.head<2>().norm());
+  }
+  return radius;
+}
+
+// Baskets stack: foot and rim are level rings of one radius, and the inside is open to its floor.
+TEST(RigidKinds, SteamersStackAndAreHollow) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const RigidThing steamer = MakeRigidThing(*FindRigidKind("steamer"), seed);
+    const core::TriangleMesh& mesh = steamer.visual.mesh;
+    const double high = steamer.size.z(), radius = 0.5 * steamer.size.x();
+    EXPECT_NEAR(RadiusAt(mesh, 0.0), radius, 1e-9);
+    EXPECT_NEAR(RadiusAt(mesh, high), radius, 1e-9);
+    double inner = radius, floor = high;  // of the rim's inside, and what is on the axis
+    for (const Eigen::Vector3d& v : mesh.vertices) {
+      if (std::abs(v.z() - high) < 1e-9) inner = std::min(inner, v.head<2>().norm());
+      if (v.head<2>().norm() < 1e-9 && v.z() > 1e-9) floor = std::min(floor, v.z());
+    }
+    EXPECT_NEAR(inner, radius - 0.0065, 1e-4);
+    EXPECT_NEAR(floor, 0.005, 1e-3);
+    // A wall and a floor, not a block.
+    const double solid = M_PI * radius * radius * high;
+    EXPECT_LT(geometry::Examine(mesh).signed_volume, 0.3 * solid);
+  }
+}
+
+// The spout is at x and ends high; the handle is opposite, and its hole is to be reached through.
+TEST(RigidKinds, TeapotsHaveASpoutAndAHandle) {
+  const RigidThing teapot = MakeRigidThing(*FindRigidKind("teapot"), 1);
+  const double body = 0.5 * teapot.size.y(), high = teapot.size.z();
+  double spout = 0.0, handle_low = high, handle_high = 0.0;
+  for (const Eigen::Vector3d& v : teapot.visual.mesh.vertices) {
+    if (v.x() > 1.2 * body) spout = std::max(spout, v.z());
+    if (v.x() < -1.1 * body) {
+      handle_low = std::min(handle_low, v.z());
+      handle_high = std::max(handle_high, v.z());
+    }
+  }
+  EXPECT_GT(spout, 0.7 * high);
+  EXPECT_GT(handle_high - handle_low, 0.2 * high);
+}
 
 TEST(RigidKinds, HaveNamesOfTheirOwn) {
   std::set<std::string> names;

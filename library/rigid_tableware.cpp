@@ -1,0 +1,199 @@
+#include <algorithm>
+#include <cmath>
+
+#include "library/rigid_kinds.h"
+#include "library/rigid_shapes.h"
+
+// What is turned and stands on a laid table or beside it, beyond cups and plates.
+namespace simwright::library {
+namespace {
+
+double Radius(const RigidDraft& d) {
+  return 0.5 * d.size.y();
+}
+
+// Body and lid in one, a spout at x and a handle to reach through opposite.
+core::TexturedMesh Teapot(RigidDraft* d) {
+  const double r = Radius(*d), h = d->size.z(), beyond = d->size.x() - d->size.y();
+  const double spout = 0.5 * beyond, loop = 0.5 * beyond;
+  std::vector<ProfilePoint> profile{{0, 0}, {0.54 * r, 0}};
+  for (const ProfilePoint& p : Smooth({{0.60 * r, 0.02 * h},
+                                       {0.92 * r, 0.20 * h},
+                                       {r, 0.38 * h},
+                                       {0.86 * r, 0.60 * h},
+                                       {0.52 * r, 0.75 * h}})) {
+    profile.push_back(p);
+  }
+  const std::vector<ProfilePoint> lid{
+      {0.48 * r, 0.755 * h, 1}, {0.49 * r, 0.78 * h, 1}, {0.34 * r, 0.83 * h, 1},
+      {0.13 * r, 0.86 * h, 1},  {0.12 * r, 0.88 * h, 1}, {0.19 * r, 0.93 * h, 1},
+      {0.16 * r, 0.97 * h, 1},  {0.07 * r, h, 1},        {0, h, 1}};
+  profile.insert(profile.end(), lid.begin(), lid.end());
+  const core::Material& glaze = d->look;
+  const core::Material darker{"lid", 0.86f * glaze.base_color, -1};
+  core::TexturedMesh mesh = Revolved(profile, {glaze, darker});
+  Join(TaperedTube({{0.70 * r, 0.26 * h, 0.24 * r, 0.13 * h},
+                    {r, 0.38 * h, 0.20 * r, 0.10 * h},
+                    {r + 0.40 * spout, 0.52 * h, 0.14 * r, 0.07 * h},
+                    {r + 0.70 * spout, 0.66 * h, 0.11 * r, 0.055 * h},
+                    {r + 0.92 * spout, 0.76 * h, 0.10 * r, 0.05 * h}},
+                   glaze),
+       &mesh);
+  std::vector<Eigen::Vector2d> path;
+  for (int k = 0; k <= 16; ++k) {
+    const double angle = M_PI * (k / 16.0 + 0.5);
+    path.emplace_back(-0.62 * r + (0.38 * r + loop - 0.0045) * std::cos(angle),
+                      0.44 * h + 0.23 * h * std::sin(angle));
+  }
+  Join(Tube(path, 0.007, 0.0045, glaze), &mesh);
+  return mesh;
+}
+
+core::TexturedMesh ServingDish(RigidDraft* d) {
+  const double r = Radius(*d), h = d->size.z();
+  const auto wall = Smooth({{0.56 * r, 0}, {0.72 * r, 0.18 * h}, {0.90 * r, 0.56 * h}, {r, h}});
+  return Revolved(VesselProfile(wall, 0.009, 0.006), {d->look});
+}
+
+const core::Material kBamboo{"bamboo", {.84f, .70f, .45f, 1.0f}, -1};
+const core::Material kHoop{"hoop", {.66f, .49f, .28f, 1.0f}, -1};
+
+constexpr double kHoopOut = 0.0006;  // m: a hoop stands out of the wall between them
+
+// Baskets stand on each other: the hoops at foot and rim have one radius, rim and foot are level.
+core::TexturedMesh Steamer(RigidDraft* d) {
+  const double r = Radius(*d), h = d->size.z(), wall = 0.0065, floor = 0.005;
+  return Revolved({{0, 0, 1},
+                   {r, 0, 1},
+                   {r, 0.24 * h, 1},
+                   {r - kHoopOut, 0.24 * h, 1},
+                   {r - kHoopOut, 0.72 * h},
+                   {r, 0.72 * h, 1},
+                   {r, h, 1},
+                   {r - wall, h, 1},
+                   {r - wall, floor},
+                   {0, floor}},
+                  {kBamboo, kHoop});
+}
+
+core::TexturedMesh UtensilCrock(RigidDraft* d) {
+  const double r = Radius(*d), h = d->size.z();
+  return Revolved(VesselProfile({{0.92 * r, 0},
+                                 {0.97 * r, 0.03 * h},
+                                 {0.97 * r, 0.90 * h},
+                                 {r, 0.92 * h},
+                                 {r, 0.98 * h},
+                                 {0.98 * r, h}},
+                                0.006, 0.008),
+                  {d->look});
+}
+
+// Bellied, open above, a lip opposite its handle.
+core::TexturedMesh Jug(RigidDraft* d) {
+  const double r = Radius(*d), h = d->size.z(), wall = 0.005;
+  const double neck = 0.66 * r, out = d->size.x() - d->size.y();
+  core::TexturedMesh mesh = Revolved(VesselProfile(Smooth({{0.70 * r, 0},
+                                                           {0.90 * r, 0.12 * h},
+                                                           {r, 0.36 * h},
+                                                           {0.84 * r, 0.64 * h},
+                                                           {neck, 0.84 * h},
+                                                           {0.76 * r, h}}),
+                                                   wall, 0.007),
+                                     {d->look});
+  for (Eigen::Vector3d& v : mesh.mesh.vertices) {  // both sides of the wall alike
+    const double up = (v.z() / h - 0.8) / 0.2, away = v.head<2>().norm();
+    if (up <= 0.0 || v.x() >= 0.0) continue;
+    v.x() -= 0.2 * r * up * up * std::pow(-v.x() / away, 6);
+  }
+  // It meets the wall level, at the neck and at the belly, where the wall is upright.
+  std::vector<Eigen::Vector2d> path;
+  for (const ProfilePoint& p : Smooth({{neck - 0.4 * wall, 0.84 * h},
+                                       {neck + 0.3 * (r - neck), 0.845 * h},
+                                       {r + 0.8 * out - 0.005, 0.80 * h},
+                                       {r + out - 0.005, 0.66 * h},
+                                       {r + 0.7 * out - 0.005, 0.47 * h},
+                                       {r + 0.15 * out, 0.37 * h},
+                                       {r - 0.4 * wall, 0.36 * h}})) {
+    path.emplace_back(p.r, p.z);
+  }
+  Join(Tube(path, 0.008, 0.005, d->look), &mesh);
+  return mesh;
+}
+
+// Of clear plastic, full: what is seen is the tea.
+core::TexturedMesh TeaBottle(RigidDraft* d) {
+  const double r = Radius(*d), h = d->size.z(), neck = 0.40 * r;
+  const core::Material tea =
+      d->Draw(0, 1) < 0.5 ? Look("tea", .60f, .36f, .14f) : Look("green tea", .66f, .62f, .26f);
+  return Revolved({{0, 0},
+                   {0.80 * r, 0},
+                   {0.96 * r, 0.02 * h},
+                   {r, 0.06 * h},
+                   {r, 0.22 * h},
+                   {0.95 * r, 0.24 * h},
+                   {0.95 * r, 0.58 * h, 1},
+                   {r, 0.60 * h},
+                   {r, 0.66 * h},
+                   {0.92 * r, 0.72 * h},
+                   {0.66 * r, 0.80 * h},
+                   {neck, 0.87 * h},
+                   {neck, 0.91 * h},
+                   {1.15 * neck, 0.91 * h, 2},
+                   {1.15 * neck, 0.995 * h, 2},
+                   {1.05 * neck, h, 2},
+                   {0, h, 2}},
+                  {tea, Print(d), Look("cap", .93f, .93f, .92f)});
+}
+
+// Drawn thin, necked in below and above.
+core::TexturedMesh SodaCan(RigidDraft* d) {
+  const double r = Radius(*d), h = d->size.z(), end = 0.82 * r;
+  return Revolved({{0, 0},
+                   {0.76 * r, 0},
+                   {0.82 * r, 0.012 * h},
+                   {r, 0.06 * h},
+                   {r, 0.90 * h, 1},
+                   {end, 0.965 * h},
+                   {1.03 * end, 0.98 * h},
+                   {1.03 * end, h},
+                   {0.95 * end, h},
+                   {0.93 * end, 0.975 * h},
+                   {0, 0.975 * h}},
+                  {Look("aluminium", .78f, .79f, .81f), Print(d)});
+}
+
+// A turned foot and, on a rod, a shade that is closed below.
+core::TexturedMesh Lamp(RigidDraft* d) {
+  const double r = Radius(*d), h = d->size.z();
+  std::vector<ProfilePoint> profile{
+      {0, 0}, {0.64 * r, 0}, {0.64 * r, 0.025 * h}, {0.40 * r, 0.05 * h}};
+  for (const ProfilePoint& p : Smooth({{0.26 * r, 0.07 * h},
+                                       {0.44 * r, 0.20 * h},
+                                       {0.34 * r, 0.34 * h},
+                                       {0.12 * r, 0.44 * h}})) {
+    profile.push_back(p);
+  }
+  const std::vector<ProfilePoint> shade{
+      {0.07 * r, 0.45 * h, 2}, {0.07 * r, 0.54 * h, 2}, {0.97 * r, 0.54 * h, 1}, {r, 0.54 * h, 1},
+      {0.66 * r, h, 1},        {0.63 * r, h, 1},        {0.63 * r, 0.97 * h, 1}, {0, 0.97 * h, 1}};
+  profile.insert(profile.end(), shade.begin(), shade.end());
+  return Revolved(profile,
+                  {d->look, Look("shade", .94f, .88f, .74f), Look("rod", .66f, .58f, .42f)});
+}
+
+}  // namespace
+
+std::vector<RigidKind> TablewareKinds() {
+  using S = RigidSides;
+  return {
+      {"teapot", "small teapot", "with a spout, a handle and its lid", S::kHandled, Teapot},
+      {"serving_dish", "serving dish", "wide and low", S::kRound, ServingDish},
+      {"steamer", "steamer basket", "of bamboo, open above, to stack", S::kRound, Steamer},
+      {"utensil_crock", "utensil crock", "a tall cylinder, open above", S::kRound, UtensilCrock},
+      {"jug", "jug", "open above, with a handle and a lip", S::kHandled, Jug},
+      {"tea_bottle", "tea bottle", "half a litre, full", S::kRound, TeaBottle},
+      {"soda_can", "soda can", "for a drink", S::kRound, SodaCan},
+      {"lamp", "bedside lamp", "a turned foot and a shade", S::kRound, Lamp}};
+}
+
+}  // namespace simwright::library
