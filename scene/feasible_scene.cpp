@@ -1,0 +1,125 @@
+#include "scene/feasible_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "scene/near_parts.h"
+
+namespace simwright::scene {
+namespace {
+
+using Eigen::Vector3d;
+
+Projection Project(const std::vector<DrawnObject>& objects, const Palette& palette,
+                   const ProjectionOptions& options) {
+  std::vector<ProjectedBody> bodies;
+  for (const DrawnObject& object : objects) {
+    bodies.push_back({&palette.At(object.slot).parts, object.world_from_object, object.welded});
+  }
+  return ProjectApart(bodies, options);
+}
+
+std::vector<sim::SettledBody> LeaveToGravity(const std::vector<DrawnObject>& objects,
+                                             const Palette& palette,
+                                             const sim::SettlingOptions& options) {
+  std::vector<sim::SettlingBody> bodies;
+  for (const DrawnObject& object : objects) {
+    bodies.push_back({&palette.At(object.slot).body, object.world_from_object, object.welded});
+  }
+  return sim::Settle(bodies, options);
+}
+
+// Without those that are not kept; what stood on them stands on nothing that is known.
+std::vector<DrawnObject> Kept(const std::vector<DrawnObject>& objects,
+                              const std::vector<char>& kept) {
+  std::vector<int> index(objects.size(), -1);
+  std::vector<DrawnObject> left;
+  for (size_t i = 0; i < objects.size(); ++i) {
+    if (!kept[i]) continue;
+    index[i] = static_cast<int>(left.size());
+    left.push_back(objects[i]);
+  }
+  for (DrawnObject& object : left) {
+    if (object.parent >= 0) object.parent = index[static_cast<size_t>(object.parent)];
+  }
+  return left;
+}
+
+double DeepestPenetration(const std::vector<DrawnObject>& objects, const Palette& palette) {
+  ConvexBodies bodies;
+  for (const DrawnObject& object : objects) {
+    bodies.Add(palette.At(object.slot).parts, object.world_from_object, object.welded);
+  }
+  const std::vector<Vector3d> shifts(objects.size(), Vector3d::Zero());
+  std::vector<NearParts> near;
+  bodies.Find(
+      shifts, 1e-9, [](int, int) { return false; }, &near);
+  double deepest = 0.0;
+  for (const NearParts& pair : near) deepest = std::max(deepest, -pair.distance);
+  return deepest;
+}
+
+}  // namespace
+
+bool FeasibilityOptions::IsValid(std::string* error) const {
+  if (!projection.IsValid(error) || !settling.IsValid(error)) return false;
+  const auto fails = [&](const char* what) {
+    *error = what;
+    return false;
+  };
+  if (!(tilted > 0.0)) return fails("tilted has to be above 0 rad");
+  if (!(penetration > 0.0)) return fails("penetration has to be above 0 m");
+  if (passes < 1) return fails("passes has to be at least 1");
+  if (fewest < 0) return fails("fewest has to be at least 0");
+  return true;
+}
+
+FeasibleScene MakeFeasible(const std::vector<DrawnObject>& objects, const Palette& palette,
+                           const FeasibilityOptions& options) {
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error("feasible scene: " + error);
+  FeasibleScene scene;
+  scene.objects = objects;
+  const Projection projection = Project(objects, palette, options.projection);
+  scene.projected = projection.feasible;
+  for (size_t i = 0; i < objects.size(); ++i) {
+    scene.objects[i].world_from_object.pretranslate(projection.shifts[i]);
+  }
+  std::vector<Vector3d> places;  // of the draw, of what is kept
+  for (const DrawnObject& object : objects)
+    places.push_back(object.world_from_object.translation());
+  for (int pass = 0; pass < options.passes; ++pass) {
+    const auto settled = LeaveToGravity(scene.objects, palette, options.settling);
+    std::vector<char> kept(settled.size(), 1);
+    std::vector<Vector3d> left;
+    scene.drift = 0.0;
+    for (size_t i = 0; i < settled.size(); ++i) {
+      scene.objects[i].world_from_object = settled[i].world_from_body;
+      kept[i] = !settled[i].fell && settled[i].stable && settled[i].tilted <= options.tilted;
+      if (!kept[i]) continue;
+      left.push_back(places[i]);
+      scene.drift = std::max(scene.drift, settled[i].drift);
+    }
+    const auto gone = static_cast<int>(std::count(kept.begin(), kept.end(), 0));
+    scene.objects = Kept(scene.objects, kept);
+    places = std::move(left);
+    scene.dropped += gone;
+    if (gone == 0) break;
+    // What was about the dropped has not been watched without it.
+    scene.drift = HUGE_VAL;
+  }
+  scene.penetration = DeepestPenetration(scene.objects, palette);
+  int free = 0;
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    if (scene.objects[i].welded) continue;
+    ++free;
+    scene.moved += (scene.objects[i].world_from_object.translation() - places[i]).norm();
+  }
+  if (free > 0) scene.moved /= free;
+  scene.sound = free >= options.fewest && scene.drift <= options.settling.stable &&
+                scene.penetration <= options.penetration;
+  return scene;
+}
+
+}  // namespace simwright::scene

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/grammar/scene_draw.h"
+#include "scene/palette.h"
+#include "scene/projection.h"
+#include "sim/settling.h"
+
+namespace simwright::scene {
+
+struct FeasibilityOptions {
+  ProjectionOptions projection;
+  sim::SettlingOptions settling;
+  double tilted = 0.35;       // rad: what has tipped by more is dropped; bowls may lean a little
+  double penetration = 1e-4;  // m that parts of a finished scene may be in each other
+  int passes = 3;             // of settling, at most: what stood on what was dropped settles again
+  int fewest = 3;             // free objects that a scene needs (Pfaff et al., appendix)
+
+  bool IsValid(std::string* error) const;
+};
+
+// What physics makes of a scene.
+struct FeasibleScene {
+  // Enough objects, none in another by more than the penetration, all stable.
+  bool sound = false;
+  std::vector<DrawnObject> objects;  // as they came to rest; parents as in the draw, by new index
+  int dropped = 0;                   // objects that fell, tipped or did not come to rest
+  double moved = 0.0;                // m, the mean over those that were kept
+  double penetration = 0.0;          // m, the deepest, of convex parts
+  double drift = 0.0;                // m, the farthest over the watched time
+  bool projected = false;            // Projection::feasible
+};
+
+// Moves the objects of a scene apart and leaves them to gravity; drops what fell off, tipped or
+// does not come to rest, and lets the others settle again where any was. Welded ones stay as they
+// are. Throws core::Error for a slot without an asset, or options that are not valid.
+FeasibleScene MakeFeasible(const std::vector<DrawnObject>& objects, const Palette& palette,
+                           const FeasibilityOptions& options = {});
+
+}  // namespace simwright::scene

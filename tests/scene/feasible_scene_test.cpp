@@ -1,0 +1,124 @@
+// Scenes that physics accepts: dimsum tables of drums, and what is not sound.
+#include "scene/feasible_scene.h"
+
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "geometry/mass_properties.h"
+#include "library/convex_shapes.h"
+#include "scene/grammar/dimsum.h"
+
+namespace simwright::scene {
+namespace {
+
+using Eigen::Vector3d;
+
+// A drum that stands on z = 0, or reaches down from it by `below`.
+sim::RigidBody Drum(double radius, double height, double density, double below = 0.0) {
+  sim::RigidBody body;
+  body.name = "drum";
+  body.friction = 0.6;
+  body.parts = {library::Rod(Vector3d(0, 0, -below), Vector3d(0, 0, height), radius, 24)};
+  const auto properties = geometry::SolidMassProperties(body.parts[0], density);
+  body.inertial = {properties.mass, properties.center_of_mass, properties.inertia};
+  return body;
+}
+
+Palette Drums() {
+  Palette palette;
+  palette.Add("table_round", Drum(0.625, 0.785, 500.0));
+  for (const auto& [slot, radius, height] :
+       {std::tuple("plate", 0.1, 0.018), std::tuple("cup", 0.05, 0.07),
+        std::tuple("teapot", 0.09, 0.13), std::tuple("serving_dish", 0.13, 0.025),
+        std::tuple("steamer", 0.1, 0.091), std::tuple("steamer_lid", 0.1, 0.05)}) {
+    palette.Add(slot, Drum(radius, height, 300.0));
+  }
+  return palette;
+}
+
+SceneDraw DrawOf(const Palette& palette, std::uint64_t stream) {
+  core::Rng rng = core::StreamRng(3, stream);
+  return DrawScene(DimsumTable(palette.Sizes()), rng);
+}
+
+TEST(MakeFeasible, DimsumTablesStand) {
+  const Palette palette = Drums();
+  FeasibilityOptions options;
+  options.settling.duration = 0.5;  // drums that begin where they stand need no more
+  options.settling.watch = 0.5;
+  int sound = 0, objects = 0, dropped = 0;
+  constexpr int kScenes = 10;
+  for (int i = 0; i < kScenes; ++i) {
+    const SceneDraw draw = DrawOf(palette, static_cast<std::uint64_t>(i));
+    const FeasibleScene scene = MakeFeasible(draw.objects, palette, options);
+    EXPECT_TRUE(scene.projected);
+    sound += scene.sound;
+    objects += static_cast<int>(draw.objects.size());
+    dropped += scene.dropped;
+    if (!scene.sound) continue;
+    EXPECT_LE(scene.penetration, 1e-4);
+    EXPECT_LE(scene.drift, 1e-3);
+    EXPECT_LT(scene.moved, 2e-3);
+    EXPECT_EQ(scene.objects.size() + static_cast<size_t>(scene.dropped), draw.objects.size());
+  }
+  EXPECT_GE(sound, 9);
+  EXPECT_LE(dropped, objects / 20);
+}
+
+TEST(MakeFeasible, WhatHangsInTheAirFallsAndIsDropped) {
+  const Palette palette = Drums();
+  FeasibilityOptions options;
+  options.settling.duration = 1.0;
+  options.settling.watch = 0.3;
+  options.fewest = 1;
+  std::vector<DrawnObject> objects(4);
+  objects[0] = {"table_round", "table", Eigen::Isometry3d::Identity(), true, -1};
+  objects[1] = {"plate", "plate", Eigen::Isometry3d(Eigen::Translation3d(0.1, 0, 0.785)), false, 0};
+  objects[2] = {"cup", "cup", Eigen::Isometry3d(Eigen::Translation3d(0.9, 0, 0.785)), false, 0};
+  // Half in the plate: they are moved apart.
+  objects[3] = {"cup", "cup", Eigen::Isometry3d(Eigen::Translation3d(-0.04, 0, 0.785)), false, 1};
+  const FeasibleScene scene = MakeFeasible(objects, palette, options);
+  EXPECT_TRUE(scene.sound);
+  EXPECT_EQ(scene.dropped, 1);
+  ASSERT_EQ(scene.objects.size(), 3u);
+  EXPECT_EQ(scene.objects[2].parent, 1);
+  const Vector3d way = scene.objects[2].world_from_object.translation() -
+                       scene.objects[1].world_from_object.translation();
+  EXPECT_NEAR(way.head<2>().norm(), 0.15, 2e-3);
+  EXPECT_EQ(scene.objects[0].world_from_object.matrix(), Eigen::Matrix4d::Identity());
+}
+
+TEST(MakeFeasible, TooFewObjectsAreNoScene) {
+  const Palette palette = Drums();
+  std::vector<DrawnObject> objects = {
+      {"table_round", "table", Eigen::Isometry3d::Identity(), true, -1}};
+  FeasibilityOptions options;
+  options.settling.duration = options.settling.watch = 0.01;
+  EXPECT_FALSE(MakeFeasible(objects, palette, options).sound);
+  EXPECT_FALSE(MakeFeasible({}, palette, options).sound);
+}
+
+TEST(MakeFeasible, RefusesWhatIsNotKnown) {
+  const Palette palette = Drums();
+  const std::vector<DrawnObject> ghost = {
+      {"ghost", "ghost", Eigen::Isometry3d::Identity(), false, -1}};
+  EXPECT_THROW(MakeFeasible(ghost, palette), core::Error);
+  FeasibilityOptions options;
+  options.passes = 0;
+  EXPECT_THROW(MakeFeasible({}, palette, options), core::Error);
+  Palette twice = Drums();
+  EXPECT_THROW(twice.Add("cup", Drum(0.05, 0.07, 300.0)), core::Error);
+  EXPECT_THROW(twice.Add("air", sim::RigidBody()), core::Error);
+}
+
+TEST(Palette, SizesAreThoseOfItsAssets) {
+  const SlotSizes sizes = Drums().Sizes();
+  EXPECT_NEAR(sizes.at("steamer").height, 0.091, 1e-9);
+  EXPECT_NEAR(sizes.at("serving_dish").Radius(), 0.13, 1e-9);
+  EXPECT_EQ(sizes.at("fork").height, DefaultSlotSizes().at("fork").height);
+}
+
+}  // namespace
+}  // namespace simwright::scene
