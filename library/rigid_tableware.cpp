@@ -76,6 +76,15 @@ core::TexturedMesh Steamer(RigidDraft* d) {
                   {kBamboo, kHoop});
 }
 
+// On the rim of the basket of the same seed, whose diameter it has: both rows of the knowledge base
+// hold one range, and a seed draws one place in it. A woven sheet in a hoop; its foot is inside the
+// rim, which the slant about it finds by itself.
+core::TexturedMesh SteamerLid(RigidDraft* d) {
+  const double r = Radius(*d), h = d->size.z(), slant = 0.004;
+  return Revolved({{0, 0, 1}, {0.9 * r, 0, 1}, {r, slant, 1}, {r, h, 1}, {0.94 * r, h, 1}, {0, h}},
+                  {kBamboo, kHoop});
+}
+
 core::TexturedMesh UtensilCrock(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z();
   return Revolved(VesselProfile({{0.92 * r, 0},
@@ -189,6 +198,7 @@ std::vector<RigidKind> TablewareKinds() {
       {"teapot", "small teapot", "with a spout, a handle and its lid", S::kHandled, Teapot},
       {"serving_dish", "serving dish", "wide and low", S::kRound, ServingDish},
       {"steamer", "steamer basket", "of bamboo, open above, to stack", S::kRound, Steamer},
+      {"steamer_lid", "steamer lid", "for a steamer of its seed", S::kRound, SteamerLid},
       {"utensil_crock", "utensil crock", "a tall cylinder, open above", S::kRound, UtensilCrock},
       {"jug", "jug", "open above, with a handle and a lip", S::kHandled, Jug},
       {"tea_bottle", "tea bottle", "half a litre, full", S::kRound, TeaBottle},
