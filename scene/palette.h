@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/mesh.h"
 #include "geometry/distance.h"
 #include "scene/grammar/slot_size.h"
 #include "sim/rigid_body.h"
@@ -15,14 +16,15 @@ struct PaletteAsset {
   sim::RigidBody body;                       // as physics takes it
   std::vector<geometry::ConvexShape> parts;  // the same parts, as projection takes them
   SlotSize size;                             // as grammars take it
+  core::TexturedMesh visual;                 // as it is seen
 };
 
 // The assets of scenes by the name of their slot. Constant once it is filled; shared by threads.
 class Palette {
  public:
-  // Throws core::Error for a slot that is taken or a body without parts. `rest_height`: m, where
-  // what is put in or on it stands.
-  void Add(const std::string& slot, sim::RigidBody body, double rest_height = 0.0);
+  // Throws core::Error for a slot that is taken or a body without parts. Without a `visual` its
+  // parts are what is seen.
+  void Add(const std::string& slot, sim::RigidBody body, core::TexturedMesh visual = {});
 
   // Throws core::Error, naming the slot, where nothing stands for it.
   const PaletteAsset& At(const std::string& slot) const;

@@ -1,0 +1,144 @@
+// Dimsum tables from the grammar, moved apart and settled: how many physics accepts, and how long
+// each step takes. The table is a drum; what stands on it is read from a folder that
+//   simwright library --kind plate,cup,teapot,serving_dish,steamer,steamer_lid -o FOLDER
+// made.
+#include <chrono>
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+
+#include "core/image.h"
+#include "core/parallel.h"
+#include "library/convex_shapes.h"
+#include "scene/feasible_scene.h"
+#include "scene/grammar/dimsum.h"
+#include "scene/palette_folder.h"
+#include "scene/scene_picture.h"
+
+namespace simwright {
+namespace {
+
+struct Arguments {
+  std::string assets, picture;
+  int count = 20;
+  std::uint64_t seed = 1;
+  double settle = 2.5, watch = 2.0, step = 1e-3;  // s
+};
+
+struct Outcome {
+  scene::SceneDraw draw;
+  scene::FeasibleScene scene;
+  double drawing = 0.0, apart = 0.0, settling = 0.0;  // s
+};
+
+double SecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+scene::Palette PaletteOf(const std::string& folder) {
+  scene::Palette palette = scene::ReadPalette(folder);
+  const scene::SlotSize& size = scene::SizeOf(scene::DefaultSlotSizes(), "table_round");
+  sim::RigidBody table;
+  table.name = "table_round";
+  table.friction = 0.6;
+  const Eigen::Vector3d top(0.0, 0.0, size.height);
+  table.parts = {library::Rod(top - Eigen::Vector3d(0.0, 0.0, 0.04), top, size.Radius(), 32)};
+  palette.Add("table_round", table);
+  return palette;
+}
+
+Outcome Make(const scene::Grammar& grammar, const scene::Palette& palette, int index,
+             const Arguments& arguments) {
+  Outcome outcome;
+  core::Rng rng = core::StreamRng(arguments.seed, static_cast<std::uint64_t>(index));
+  auto start = std::chrono::steady_clock::now();
+  outcome.draw = scene::DrawScene(grammar, rng);
+  outcome.drawing = SecondsSince(start);
+  std::vector<scene::ProjectedBody> bodies;
+  for (const scene::DrawnObject& object : outcome.draw.objects) {
+    bodies.push_back({&palette.At(object.slot).parts, object.world_from_object, object.welded});
+  }
+  start = std::chrono::steady_clock::now();
+  scene::ProjectApart(bodies);
+  outcome.apart = SecondsSince(start);
+  scene::FeasibilityOptions options;
+  options.settling.duration = arguments.settle;
+  options.settling.watch = arguments.watch;
+  options.settling.time_step = arguments.step;
+  start = std::chrono::steady_clock::now();
+  outcome.scene = scene::MakeFeasible(outcome.draw.objects, palette, options);
+  outcome.settling = SecondsSince(start) - outcome.apart;
+  return outcome;
+}
+
+void Report(const std::vector<Outcome>& outcomes) {
+  int sound = 0, projected = 0, dropped = 0;
+  size_t drawn = 0, kept = 0, most = 0;
+  double drawing = 0.0, apart = 0.0, settling = 0.0, moved = 0.0;
+  for (const Outcome& one : outcomes) {
+    sound += one.scene.sound;
+    projected += one.scene.projected;
+    dropped += one.scene.dropped;
+    drawn += one.draw.objects.size();
+    kept += one.scene.objects.size();
+    most = std::max(most, one.scene.objects.size());
+    drawing += one.drawing;
+    apart += one.apart;
+    settling += one.settling;
+    moved += one.scene.moved;
+  }
+  const double n = static_cast<double>(outcomes.size());
+  std::printf("scenes %zu, projected %d, sound %d (%.1f %%)\n", outcomes.size(), projected, sound,
+              100.0 * sound / n);
+  std::printf("objects drawn %.1f, kept %.1f in the mean, %zu at most; dropped %d\n", drawn / n,
+              kept / n, most, dropped);
+  std::printf("moved %.2f mm in the mean\n", 1e3 * moved / n);
+  std::printf("a scene, one core: drawing %.1f ms, projection %.1f ms, settling %.2f s\n",
+              1e3 * drawing / n, 1e3 * apart / n, settling / n);
+}
+
+void Run(const Arguments& arguments) {
+  const scene::Palette palette = PaletteOf(arguments.assets);
+  const scene::Grammar grammar = scene::DimsumTable(palette.Sizes());
+  std::vector<Outcome> outcomes(static_cast<size_t>(arguments.count));
+  core::ParallelFor(arguments.count, [&](int i) {
+    outcomes[static_cast<size_t>(i)] = Make(grammar, palette, i, arguments);
+  });
+  Report(outcomes);
+  for (size_t i = 0; i < outcomes.size(); ++i) {
+    const scene::FeasibleScene& one = outcomes[i].scene;
+    if (one.sound) continue;
+    std::printf("not sound: scene %zu, dropped %d of %zu, drift %.2f mm, penetration %.3f mm\n", i,
+                one.dropped, outcomes[i].draw.objects.size(), 1e3 * one.drift,
+                1e3 * one.penetration);
+  }
+  if (arguments.picture.empty()) return;
+  std::vector<core::Image> pictures;
+  for (size_t i = 0; i < std::min<size_t>(8, outcomes.size()); ++i) {
+    pictures.push_back(scene::SceneFromTheSide(outcomes[i].scene.objects, palette, 420));
+  }
+  core::WritePng(arguments.picture, core::ContactSheet(pictures, 4));
+}
+
+}  // namespace
+}  // namespace simwright
+
+int main(int argc, char** argv) {
+  CLI::App app("Dimsum tables: drawn, moved apart, settled");
+  simwright::Arguments arguments;
+  app.add_option("--assets", arguments.assets, "Folder of rigid assets")->required();
+  app.add_option("--count", arguments.count, "Scenes")->capture_default_str();
+  app.add_option("--seed", arguments.seed, "Of the scenes")->capture_default_str();
+  app.add_option("--settle", arguments.settle, "s of simulation")->capture_default_str();
+  app.add_option("--watch", arguments.watch, "s, after it")->capture_default_str();
+  app.add_option("--step", arguments.step, "s, of simulation")->capture_default_str();
+  app.add_option("--picture", arguments.picture, "PNG of the first eight");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    simwright::core::SetThreadCount(0);
+    simwright::Run(arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+}

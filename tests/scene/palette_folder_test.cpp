@@ -1,0 +1,67 @@
+// Asset folders as a palette, and what a scene of them looks like.
+#include "scene/palette_folder.h"
+
+#include <gtest/gtest.h>
+
+#include "assets/asset_folder.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "scene/scene_picture.h"
+#include "tests/assets/sample_asset.h"
+
+namespace simwright::scene {
+namespace {
+
+void WriteSample(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  assets::Asset asset = assets::SampleAsset();
+  asset.name = folder.filename().string();
+  assets::WriteAsset(asset, folder);
+}
+
+TEST(ReadPalette, SlotsAreNamesWithoutTheirSeed) {
+  const core::TemporaryFolder folder;
+  WriteSample(folder.path() / "mug_3");
+  WriteSample(folder.path() / "mug_4");
+  WriteSample(folder.path() / "apple_2_1");
+  WriteSample(folder.path() / "lifted");
+  std::filesystem::create_directories(folder.path() / "something_else");
+  const Palette palette = ReadPalette(folder.path());
+  EXPECT_TRUE(palette.Has("mug") && palette.Has("apple_2") && palette.Has("lifted"));
+  EXPECT_FALSE(palette.Has("mug_3") || palette.Has("apple") || palette.Has("something_else"));
+  const assets::Asset asset = assets::SampleAsset();
+  EXPECT_NEAR(palette.At("mug").body.inertial.mass, asset.inertial.mass, 1e-9);
+  EXPECT_EQ(palette.At("mug").parts.size(), asset.parts.size());
+  EXPECT_EQ(palette.At("mug").visual.mesh.triangles.size(), asset.visual.mesh.triangles.size());
+}
+
+TEST(ReadPalette, SaysWhereThereIsNone) {
+  const core::TemporaryFolder folder;
+  EXPECT_THROW(ReadPalette(folder.path()), core::Error);
+  EXPECT_THROW(ReadPalette(folder.path() / "gone"), core::Error);
+}
+
+TEST(ScenePicture, ShowsTheWholeScene) {
+  const core::TemporaryFolder folder;
+  WriteSample(folder.path() / "mug_1");
+  const Palette palette = ReadPalette(folder.path());
+  std::vector<DrawnObject> objects(2);
+  objects[0] = {"mug", "mug", Eigen::Isometry3d::Identity(), false, -1};
+  objects[1] = {"mug", "mug", Eigen::Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0)), false, -1};
+  const core::Image picture = SceneFromTheSide(objects, palette, 200);
+  ASSERT_EQ(picture.channels, 4);
+  int seen = 0, at_the_edge = 0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const bool covered = picture.At(x, y)[3] > 0;
+      seen += covered;
+      at_the_edge += covered && (x == 0 || y == 0 || x == 199 || y == 199);
+    }
+  }
+  EXPECT_GT(seen, 50);
+  EXPECT_EQ(at_the_edge, 0);
+  EXPECT_THROW(SceneFromTheSide({}, palette, 200), core::Error);
+}
+
+}  // namespace
+}  // namespace simwright::scene
