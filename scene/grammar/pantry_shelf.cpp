@@ -1,0 +1,50 @@
+#include "scene/grammar/pantry_shelf.h"
+
+#include "scene/grammar/grammar_builder.h"
+#include "scene/grammar/shelf_boards.h"
+
+namespace simwright::scene {
+namespace {
+
+// Counts and probabilities of Pfaff et al., Steerable Scene Generation, appendix.
+constexpr double kStop = 0.6;     // of the geometric counts
+constexpr int kMostOfAKind = 10;  // on a board
+constexpr double kFruitBowl = 0.2;
+constexpr int kMostEntries = 61;  // of a scene, the shelf among them
+constexpr int kFewestObjects = 3;
+
+const std::vector<std::string>& Goods() {
+  static const std::vector<std::string> goods = {"can",     "tea_bottle", "apple",     "apple_2",
+                                                 "apple_3", "apple_4",    "pear",      "pear_2",
+                                                 "pear_3",  "avocado",    "avocado_2", "avocado_3"};
+  return goods;
+}
+
+}  // namespace
+
+Grammar PantryShelf(const SlotSizes& sizes) {
+  GrammarBuilder builder("pantry_shelf", "room");
+  builder.And("room", {Always("shelf")});
+  AddShelf("shelf_pantry", sizes, "board", "top_board", &builder);
+  std::vector<Child> on_board;
+  for (const std::string& slot : Goods()) {
+    on_board.push_back(Always("some_" + slot));
+    builder.Repeat("some_" + slot, GeometricWeights(kStop, 0, kMostOfAKind),
+                   Always(slot, AnywhereOnBoard(sizes, "shelf_pantry", slot)));
+    builder.Leaf(Object(slot, slot));
+  }
+  builder.And(Surface("board"), on_board);
+  on_board.push_back(Always("fruit_bowl"));
+  builder.And(Surface("top_board"), on_board);
+  builder.Independent("fruit_bowl",
+                      {With(kFruitBowl, "bowl", AnywhereOnBoard(sizes, "shelf_pantry", "bowl"))});
+  builder.Leaf(Object("bowl", "bowl"));
+  builder.Require(ObjectsAtLeast(kFewestObjects));
+  builder.Require(EntriesAtMost(kMostEntries));
+  DrawOptions options;
+  options.derivations = 5000;
+  builder.Options(options);
+  return builder.Build();
+}
+
+}  // namespace simwright::scene

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "scene/grammar/grammar_builder.h"
+#include "scene/grammar/slot_size.h"
+
+namespace simwright::scene {
+
+// The shelf of both shelf scenes: 0.3 m deep, 0.6 m wide, 0.783 m high, its foot at z = 0, with
+// four boards on whose upper sides things stand (Pfaff et al., appendix: -0.39, -0.12, 0.14 and
+// 0.41 m from its middle).
+
+// Adds the symbol "shelf", welded, of `slot`, whose three lower boards are the symbol `board` and
+// whose uppermost is `top_board`: both to be defined as surfaces.
+void AddShelf(const std::string& slot, const SlotSizes& sizes, const std::string& board,
+              const std::string& top_board, GrammarBuilder* builder);
+
+// Uniform over a board of the shelf `shelf_slot`, so that a thing of `slot` does not stand over its
+// edge; turned anyhow. What is wider than the board stands in its middle.
+PoseRule AnywhereOnBoard(const SlotSizes& sizes, const std::string& shelf_slot,
+                         const std::string& slot);
+
+}  // namespace simwright::scene
