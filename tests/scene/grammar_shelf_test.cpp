@@ -1,9 +1,11 @@
 // Shelves: their counts against closed forms, and where things stand.
 #include <cmath>
+#include <map>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "scene/grammar/living_room_shelf.h"
 #include "scene/grammar/pantry_shelf.h"
 #include "scene/grammar/scene_draw.h"
 
@@ -60,6 +62,68 @@ TEST(PantryShelf, ThingsStandOnItsBoardsInsideOfIt) {
     }
   }
   EXPECT_EQ(heights, (std::set<int>{15, 2715, 5315, 8015}));
+}
+
+// Without what is thrown away: of a lower board 0.7 of a setting's things and 0.2 of a large game's
+// stack, of the top one 0.8 and 0.1.
+double ExpectedOnALivingRoomShelf() {
+  // 1 / (1 - 0.3) to a stack, but for its limit, which cuts a thousandth.
+  const double stack = 1.0 / 0.7;
+  const double lower = 0.3 * stack + 0.1 + 2.0 * MeanOfGeometric(0.7, 6) + 0.2 +
+                       MeanOfGeometric(0.7, 3) * stack + 0.2 + 0.2 + 0.2 * 1.75;
+  const double top = MeanOfGeometric(0.8, 2) + 0.2 + 0.3 * stack + 0.1;
+  return 3.0 * (0.7 * lower + 0.2 * stack) + 0.8 * top + 0.1 * stack;
+}
+
+TEST(LivingRoomShelf, HasTheCountsOfItsGrammar) {
+  const Grammar grammar = LivingRoomShelf();
+  core::Rng rng = core::StreamRng(3, 0);
+  constexpr int kScenes = 4000;
+  std::map<size_t, int> by_count;
+  double sum = 0.0, derivations = 0.0;
+  for (int i = 0; i < kScenes; ++i) {
+    const SceneDraw draw = DrawScene(grammar, rng);
+    ++by_count[draw.objects.size() - 1];
+    sum += static_cast<double>(draw.objects.size() - 1);
+    derivations += draw.derivations;
+  }
+  EXPECT_GE(by_count.begin()->first, 3u);
+  EXPECT_LE(by_count.rbegin()->first, 22u);
+  // With those of fewer than three objects, which are thrown away, the mean is the grammar's: they
+  // have between 0 and 2. The mean's deviation is 0.06.
+  const double accepted = kScenes / derivations;
+  const double expected = ExpectedOnALivingRoomShelf();
+  EXPECT_LE(accepted * sum / kScenes, expected + 0.2);
+  EXPECT_GE(accepted * sum / kScenes + 2.0 * (1.0 - accepted), expected - 0.2);
+  RecordProperty("mean", std::to_string(sum / kScenes));
+  RecordProperty("grammar", std::to_string(expected));
+}
+
+TEST(LivingRoomShelf, GamesAreStackedAndFoodIsOnPlates) {
+  const Grammar grammar = LivingRoomShelf();
+  core::Rng rng = core::StreamRng(5, 0);
+  int stacked = 0, on_plates = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const SceneDraw draw = DrawScene(grammar, rng);
+    for (const DrawnObject& object : draw.objects) {
+      if (object.parent <= 0) continue;
+      const DrawnObject& below = draw.objects[static_cast<size_t>(object.parent)];
+      const Eigen::Vector3d way =
+          below.world_from_object.inverse() * object.world_from_object.translation();
+      const SlotSize& size = SizeOf(DefaultSlotSizes(), below.slot);
+      if (below.slot == "plate") {
+        ++on_plates;
+        EXPECT_NEAR(way.z(), size.rest_height, 1e-12);
+      } else {
+        ++stacked;
+        EXPECT_EQ(below.slot, object.slot);
+        EXPECT_NEAR(way.z(), size.height, 1e-12);
+      }
+      EXPECT_LT(way.head<2>().norm(), 1e-12);
+    }
+  }
+  EXPECT_GT(stacked, 500);
+  EXPECT_GT(on_plates, 300);
 }
 
 }  // namespace
