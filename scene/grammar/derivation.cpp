@@ -10,10 +10,6 @@ namespace {
 
 constexpr std::size_t kMostNodes = 10'000;
 
-const Symbol& SymbolOf(const Grammar& grammar, const DerivedNode& node) {
-  return grammar.symbols()[static_cast<std::size_t>(node.symbol)];
-}
-
 // Index drawn by weight; the weights have a sum above 0.
 int DrawIndex(const std::vector<double>& weights, core::Rng& rng) {
   double left = core::Uniform(rng) * std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -138,6 +134,10 @@ bool Meets(const Grammar& grammar, const Derivation& derivation,
 }
 
 }  // namespace
+
+const Symbol& SymbolOf(const Grammar& grammar, const DerivedNode& node) {
+  return grammar.symbols()[static_cast<std::size_t>(node.symbol)];
+}
 
 Derivation Derive(const Grammar& grammar, core::Rng& rng) {
   Derivation derivation(1);

@@ -21,6 +21,8 @@ struct DerivedNode {
 
 using Derivation = std::vector<DerivedNode>;
 
+const Symbol& SymbolOf(const Grammar& grammar, const DerivedNode& node);
+
 // A derivation by ancestral sampling, poses not drawn. A grammar whose derivations may be without
 // end is cut: throws core::Error above 10 000 nodes, naming the grammar.
 Derivation Derive(const Grammar& grammar, core::Rng& rng);

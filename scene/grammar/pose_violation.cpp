@@ -9,10 +9,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-const Symbol& SymbolOf(const Grammar& grammar, const DerivedNode& node) {
-  return grammar.symbols()[static_cast<std::size_t>(node.symbol)];
-}
-
 bool Names(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }

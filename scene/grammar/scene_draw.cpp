@@ -12,10 +12,6 @@
 namespace simwright::scene {
 namespace {
 
-const Symbol& SymbolOf(const Grammar& grammar, const DerivedNode& node) {
-  return grammar.symbols()[static_cast<std::size_t>(node.symbol)];
-}
-
 // How often each constraint stood in the way.
 using Failures = std::map<std::string, int>;
 

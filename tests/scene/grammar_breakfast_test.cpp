@@ -8,21 +8,12 @@
 #include <gtest/gtest.h>
 
 #include "scene/grammar/scene_draw.h"
+#include "tests/scene/geometric_mean.h"
 
 namespace simwright::scene {
 namespace {
 
 constexpr int kScenes = 4000;
-
-// The mean of k = 0 .. last with P(k) ~ (1 - p)^k p.
-double MeanOfGeometric(double p, int last) {
-  double sum = 0.0, total = 0.0;
-  for (int k = 0; k <= last; ++k) {
-    sum += k * std::pow(1.0 - p, k);
-    total += std::pow(1.0 - p, k);
-  }
-  return sum / total;
-}
 
 // Objects of a setting with a plate: it, what is on it, fork, knife, a spoon, a mug.
 constexpr double kPlateSetting = 1.0 + 0.6 + 0.7 + 0.8 + 0.4 + 0.8;

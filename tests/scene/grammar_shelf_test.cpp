@@ -8,19 +8,10 @@
 #include "scene/grammar/living_room_shelf.h"
 #include "scene/grammar/pantry_shelf.h"
 #include "scene/grammar/scene_draw.h"
+#include "tests/scene/geometric_mean.h"
 
 namespace simwright::scene {
 namespace {
-
-// The mean of k = 0 .. last with P(k) ~ (1 - p)^k p.
-double MeanOfGeometric(double p, int last) {
-  double sum = 0.0, total = 0.0;
-  for (int k = 0; k <= last; ++k) {
-    sum += k * std::pow(1.0 - p, k);
-    total += std::pow(1.0 - p, k);
-  }
-  return sum / total;
-}
 
 TEST(PantryShelf, HasTheCountsOfItsGrammar) {
   const Grammar grammar = PantryShelf();
