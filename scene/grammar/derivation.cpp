@@ -52,24 +52,21 @@ std::vector<int> DrawBranches(const Symbol& symbol, core::Rng& rng) {
   return taken;
 }
 
-void DeriveBelow(const Grammar& grammar, int index, core::Rng& rng, Derivation* derivation) {
-  if (derivation->size() > kMostNodes) {
-    throw core::Error("a derivation has more than " + std::to_string(kMostNodes) + " nodes",
-                      "scene grammar " + grammar.name(),
-                      "let its symbols derive themselves with a smaller probability");
-  }
-  const DerivedNode node = (*derivation)[static_cast<std::size_t>(index)];
+// What is still to be derived: a child of a node, by one of its symbol's branches.
+struct Pending {
+  int parent = -1, branch = -1;
+};
+
+DerivedNode ChildOf(const Grammar& grammar, const Derivation& derivation, const Pending& pending) {
+  const DerivedNode& node = derivation[static_cast<std::size_t>(pending.parent)];
   const Symbol& symbol = SymbolOf(grammar, node);
-  for (const int branch : DrawBranches(symbol, rng)) {
-    DerivedNode child;
-    child.symbol = symbol.branches[static_cast<std::size_t>(branch)].symbol;
-    child.parent = index;
-    child.branch = branch;
-    child.surface = symbol.surface ? index : node.surface;
-    child.carrier = symbol.IsObject() && !symbol.welded ? index : node.carrier;
-    derivation->push_back(child);
-    DeriveBelow(grammar, static_cast<int>(derivation->size()) - 1, rng, derivation);
-  }
+  DerivedNode child;
+  child.symbol = symbol.branches[static_cast<std::size_t>(pending.branch)].symbol;
+  child.parent = pending.parent;
+  child.branch = pending.branch;
+  child.surface = symbol.surface ? pending.parent : node.surface;
+  child.carrier = symbol.IsObject() && !symbol.welded ? pending.parent : node.carrier;
+  return child;
 }
 
 bool IsWithin(const Grammar& grammar, const Derivation& derivation, int index,
@@ -139,11 +136,26 @@ const Symbol& SymbolOf(const Grammar& grammar, const DerivedNode& node) {
   return grammar.symbols()[static_cast<std::size_t>(node.symbol)];
 }
 
+// Depth first, by a stack of its own: a symbol that derives itself may go on for thousands.
 Derivation Derive(const Grammar& grammar, core::Rng& rng) {
   Derivation derivation(1);
   derivation[0].symbol = 0;
-  DeriveBelow(grammar, 0, rng, &derivation);
-  return derivation;
+  std::vector<Pending> pending;
+  for (int last = 0;; last = static_cast<int>(derivation.size()) - 1) {
+    const Symbol& symbol = SymbolOf(grammar, derivation[static_cast<std::size_t>(last)]);
+    const std::vector<int> taken = DrawBranches(symbol, rng);
+    for (auto branch = taken.rbegin(); branch != taken.rend(); ++branch) {
+      pending.push_back({last, *branch});
+    }
+    if (pending.empty()) return derivation;
+    if (derivation.size() > kMostNodes) {
+      throw core::Error("a derivation has more than " + std::to_string(kMostNodes) + " nodes",
+                        "scene grammar " + grammar.name(),
+                        "let its symbols derive themselves with a smaller probability");
+    }
+    derivation.push_back(ChildOf(grammar, derivation, pending.back()));
+    pending.pop_back();
+  }
 }
 
 void DrawPosesFrom(const Grammar& grammar, int first, bool keep, core::Rng& rng,

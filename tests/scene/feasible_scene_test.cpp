@@ -49,7 +49,7 @@ TEST(MakeFeasible, DimsumTablesStand) {
   options.settling.duration = 0.5;  // drums that begin where they stand need no more
   options.settling.watch = 0.5;
   int sound = 0, objects = 0, dropped = 0;
-  constexpr int kScenes = 10;
+  constexpr int kScenes = 6;
   for (int i = 0; i < kScenes; ++i) {
     const SceneDraw draw = DrawOf(palette, static_cast<std::uint64_t>(i));
     const FeasibleScene scene = MakeFeasible(draw.objects, palette, options);
@@ -63,7 +63,7 @@ TEST(MakeFeasible, DimsumTablesStand) {
     EXPECT_LT(scene.moved, 2e-3);
     EXPECT_EQ(scene.objects.size() + static_cast<size_t>(scene.dropped), draw.objects.size());
   }
-  EXPECT_GE(sound, 9);
+  EXPECT_GE(sound, 5);
   EXPECT_LE(dropped, objects / 20);
 }
 
