@@ -41,6 +41,7 @@ int Main(int argc, char** argv) {
   cli::AddRollout(&app, &common, &run);
   cli::AddExport(&app, &common, &run);
   cli::AddReplay(&app, &common, &run);
+  cli::AddScene(&app, &common, &run);
   cli::AddRun(&app, &common, &run);
   cli::AddDoctor(&app, &common, &run);
   cli::AddVersion(&app, &run);
