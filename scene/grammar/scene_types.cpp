@@ -1,0 +1,60 @@
+#include "scene/grammar/scene_types.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/error.h"
+#include "scene/grammar/breakfast.h"
+#include "scene/grammar/dimsum.h"
+#include "scene/grammar/living_room_shelf.h"
+#include "scene/grammar/pantry_shelf.h"
+
+namespace simwright::scene {
+namespace {
+
+// The least bound on entries that the grammar decides by rejection; 0 where there is none.
+int MostEntries(const Grammar& grammar) {
+  int most = 0;
+  for (const StructureConstraint& constraint : grammar.structure()) {
+    if (constraint.kind != StructureKind::kEntriesAtMost) continue;
+    most = most == 0 ? constraint.n : std::min(most, constraint.n);
+  }
+  return most;
+}
+
+std::vector<std::string> SlotsOf(const Grammar& grammar) {
+  std::set<std::string> slots;
+  for (const Symbol& symbol : grammar.symbols()) {
+    if (symbol.IsObject()) slots.insert(symbol.slot);
+  }
+  return {slots.begin(), slots.end()};
+}
+
+SceneType TypeOf(const std::string& what, Grammar (*make)(const SlotSizes&)) {
+  const Grammar grammar = make(DefaultSlotSizes());
+  return {grammar.name(), what, MostEntries(grammar), make, SlotsOf(grammar)};
+}
+
+}  // namespace
+
+const std::vector<SceneType>& SceneTypes() {
+  static const std::vector<SceneType> types = {
+      TypeOf("a breakfast table for six, with much that is shared", &BreakfastTableHigh),
+      TypeOf("a breakfast table for two, with a crock of utensils", &BreakfastTableLow),
+      TypeOf("a round table with dim sum for four, steamers in stacks", &DimsumTable),
+      TypeOf("a living room's shelf: games in stacks, drinks, a lamp, toys", &LivingRoomShelf),
+      TypeOf("a pantry's shelf full of cans, bottles and fruit", &PantryShelf),
+  };
+  return types;
+}
+
+const SceneType& SceneTypeNamed(const std::string& name) {
+  std::string names;
+  for (const SceneType& type : SceneTypes()) {
+    if (type.name == name) return type;
+    names += (names.empty() ? "" : ", ") + type.name;
+  }
+  throw core::Error("no scene type has this name", name, "there are " + names);
+}
+
+}  // namespace simwright::scene

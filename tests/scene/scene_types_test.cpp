@@ -1,0 +1,62 @@
+// The list of scene types: against what their grammars draw.
+#include "scene/grammar/scene_types.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "scene/grammar/scene_draw.h"
+
+namespace simwright::scene {
+namespace {
+
+// The published lengths of scenes, by name.
+TEST(SceneTypes, AreThePublishedOnesWithTheirLengths) {
+  const std::map<std::string, int> published = {{"breakfast_high", 46},
+                                                {"breakfast_low", 35},
+                                                {"dimsum", 34},
+                                                {"living_room_shelf", 23},
+                                                {"pantry_shelf", 61}};
+  std::map<std::string, int> listed;
+  for (const SceneType& type : SceneTypes()) listed[type.name] = type.entries;
+  EXPECT_EQ(listed, published);
+  EXPECT_TRUE(std::is_sorted(SceneTypes().begin(), SceneTypes().end(),
+                             [](const auto& a, const auto& b) { return a.name < b.name; }));
+}
+
+TEST(SceneTypes, DrawNothingThatIsNotAmongTheirSlots) {
+  for (const SceneType& type : SceneTypes()) {
+    const Grammar grammar = type.make(DefaultSlotSizes());
+    EXPECT_EQ(grammar.name(), type.name);
+    EXPECT_TRUE(std::is_sorted(type.slots.begin(), type.slots.end()));
+    std::set<std::string> seen;
+    core::Rng rng = core::StreamRng(11, 0);
+    for (int i = 0; i < 100; ++i) {
+      const SceneDraw draw = DrawScene(grammar, rng);
+      EXPECT_LE(draw.objects.size(), static_cast<size_t>(type.entries)) << type.name;
+      for (const DrawnObject& object : draw.objects) seen.insert(object.slot);
+    }
+    const std::set<std::string> known(type.slots.begin(), type.slots.end());
+    EXPECT_TRUE(std::includes(known.begin(), known.end(), seen.begin(), seen.end())) << type.name;
+    // What is drawn once in a hundred scenes or more often was drawn: that is nearly everything.
+    EXPECT_GE(seen.size() + 1, known.size()) << type.name;
+  }
+}
+
+TEST(SceneTypes, AnUnknownNameIsToldWhichThereAre) {
+  EXPECT_EQ(SceneTypeNamed("dimsum").name, "dimsum");
+  try {
+    SceneTypeNamed("kitchen");
+    FAIL() << "an unknown type was found";
+  } catch (const core::Error& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("kitchen"), std::string::npos) << text;
+    EXPECT_NE(text.find("breakfast_low, dimsum"), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace simwright::scene
