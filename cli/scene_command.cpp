@@ -41,10 +41,10 @@ int Generate(GenerateFlags flags, const CommonOptions& common) {
   flags.request.chosen = ChosenOf(flags.chosen);
   core::Progress progress(common.ProgressStyle());
   const pipeline::SceneStatistics statistics = pipeline::GenerateScenes(flags.request, &progress);
-  std::fputs((common.json ? pipeline::StatisticsJson(statistics)
-                          : pipeline::StatisticsTable(statistics))
-                 .c_str(),
-             stdout);
+  std::fputs(
+      (common.json ? pipeline::StatisticsJson(statistics) : pipeline::StatisticsTable(statistics))
+          .c_str(),
+      stdout);
   return 0;
 }
 
@@ -55,7 +55,8 @@ void AddGenerate(CLI::App* scene, CommonOptions* common, Run* run) {
       "generate", "Scenes from a grammar, moved apart, settled, and written as a dataset");
   command->footer(
       "Example:\n  simwright scene generate --type dimsum --count 100 -o out/dimsum\n"
-      "  simwright scene generate --type pantry_shelf --count 20 --asset apple=out/apple -o pantry\n"
+      "  simwright scene generate --type pantry_shelf --count 20 --asset apple=out/apple -o "
+      "pantry\n"
       "Several at once may write into one folder; one that was stopped goes on when it is called\n"
       "again. docs/scenes.md says more.");
   command->add_option("--type", request.type, "Of scene, see --list");

@@ -290,9 +290,9 @@ void Hdf5Group::ReadInto(const std::string& name, std::size_t first, std::uint64
     start[0] = first;
     H5Sselect_hyperslab(here->id(), H5S_SELECT_SET, start.data(), nullptr, sizes.data(), nullptr);
   }
-  const auto memory = Handle::Of(
-      H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), nullptr), H5Sclose,
-      "no space", At(name));
+  const auto memory =
+      Handle::Of(H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), nullptr), H5Sclose,
+                 "no space", At(name));
   if (H5Dread(dataset->id(), NativeType<T>(), memory->id(), here->id(), H5P_DEFAULT,
               array->values.data()) < 0) {
     Fail("cannot read the dataset", At(name));
@@ -364,16 +364,16 @@ template void Hdf5Group::Write(const std::string&, const std::vector<std::size_t
                                const std::int64_t*, const Hdf5Storage&);
 template Hdf5Array<float> Hdf5Group::Read(const std::string&, std::uint64_t) const;
 template Hdf5Array<float> Hdf5Group::ReadRows(const std::string&, std::size_t, std::size_t,
-                                           std::uint64_t) const;
+                                              std::uint64_t) const;
 template Hdf5Array<double> Hdf5Group::Read(const std::string&, std::uint64_t) const;
 template Hdf5Array<double> Hdf5Group::ReadRows(const std::string&, std::size_t, std::size_t,
-                                           std::uint64_t) const;
+                                               std::uint64_t) const;
 template Hdf5Array<std::uint8_t> Hdf5Group::Read(const std::string&, std::uint64_t) const;
 template Hdf5Array<std::uint8_t> Hdf5Group::ReadRows(const std::string&, std::size_t, std::size_t,
-                                           std::uint64_t) const;
+                                                     std::uint64_t) const;
 template Hdf5Array<std::int64_t> Hdf5Group::Read(const std::string&, std::uint64_t) const;
 template Hdf5Array<std::int64_t> Hdf5Group::ReadRows(const std::string&, std::size_t, std::size_t,
-                                           std::uint64_t) const;
+                                                     std::uint64_t) const;
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : root_(nullptr, path.string()) {
   Silence();

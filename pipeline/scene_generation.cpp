@@ -115,7 +115,7 @@ SceneStatistics GenerateScenes(const SceneGenerationRequest& request, core::Prog
   const scene::SlotFolders folders = GatherSceneAssets(
       {vocabulary.slots, request.chosen, request.assets, request.output / "assets"}, progress);
   const scene::Palette palette = scene::ReadPalette(folders);
-  scene::Generation generation{type.make(palette.Sizes()), &palette};
+  scene::Generation generation{type.make(palette.Sizes()), &palette, {}};
   if (request.time_step > 0.0) generation.feasibility.settling.time_step = request.time_step;
   scene::PartOrigin origin;
   origin.seed = request.seed;

@@ -13,13 +13,13 @@
 namespace simwright::pipeline {
 
 struct SceneGenerationRequest {
-  std::string type;          // of scene::SceneTypes()
-  int count = 100;           // scenes that the dataset is to have
+  std::string type;  // of scene::SceneTypes()
+  int count = 100;   // scenes that the dataset is to have
   std::uint64_t seed = 1;
   std::filesystem::path output;
   std::vector<std::filesystem::path> assets;  // folders of assets, the first first
   scene::SlotFolders chosen;                  // an asset folder for a slot
-  int part = 64;     // scenes of a part: what one worker makes at a time
+  int part = 64;                              // scenes of a part: what one worker makes at a time
   double time_step = 0.0;  // s, of physics; 0: as measured to hold (scene::FeasibilityOptions)
 };
 
@@ -27,7 +27,7 @@ struct SceneGenerationRequest {
 struct SceneStatistics {
   std::string type;
   int scenes = 0, attempts = 0;
-  double yield = 0.0;  // share of the attempts that are scenes
+  double yield = 0.0;                           // share of the attempts that are scenes
   double mean_objects = 0.0, mean_drawn = 0.0;  // furniture included; of scenes, of all draws
   int most_objects = 0;
   double dropped = 0.0;                   // objects a scene, the mean

@@ -18,15 +18,14 @@ int Between(const std::vector<int>& counts, size_t from, size_t to) {
 
 // Shares of draws and of scenes, by their number of objects.
 std::string CountsTable(const SceneStatistics& statistics) {
-  const size_t longest =
-      std::max(statistics.drawn_counts.size(), statistics.scene_counts.size());
+  const size_t longest = std::max(statistics.drawn_counts.size(), statistics.scene_counts.size());
   const size_t step = (longest + kBins - 1) / kBins;
   std::string text = "  objects      drawn   kept\n";
   for (size_t from = 0; step > 0 && from < longest; from += step) {
-    const double drawn =
-        Between(statistics.drawn_counts, from, from + step) / std::max(1.0, 1.0 * statistics.attempts);
-    const double kept =
-        Between(statistics.scene_counts, from, from + step) / std::max(1.0, 1.0 * statistics.scenes);
+    const double drawn = Between(statistics.drawn_counts, from, from + step) /
+                         std::max(1.0, 1.0 * statistics.attempts);
+    const double kept = Between(statistics.scene_counts, from, from + step) /
+                        std::max(1.0, 1.0 * statistics.scenes);
     if (drawn == 0.0 && kept == 0.0) continue;
     char line[96];
     std::snprintf(line, sizeof line, "  %3zu to %3zu  %5.1f%%  %5.1f%%  ", from, from + step - 1,

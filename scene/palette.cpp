@@ -83,8 +83,8 @@ std::string Palette::HashOf(const std::string& slot) const {
     bytes += '|';
   }
   const assets::Inertial& inertial = asset.body.inertial;
-  for (const double number : {inertial.mass, asset.body.friction, asset.body.restitution,
-                              asset.body.rolling_friction}) {
+  for (const double number :
+       {inertial.mass, asset.body.friction, asset.body.restitution, asset.body.rolling_friction}) {
     add(&number, 1);
   }
   add(inertial.center_of_mass.data(), 3);

@@ -42,9 +42,10 @@ SceneDataset::SceneDataset(const fs::path& path) {
     const ScenePartFile& part = parts_.back();
     if (!(part.vocabulary() == vocabulary()) ||
         !part.origin().SameDataset(parts_.front().origin())) {
-      throw core::Error("its scenes are of another type, seed, set of assets or settings than those "
-                        "of the parts before",
-                        one.string(), "keep datasets in folders of their own");
+      throw core::Error(
+          "its scenes are of another type, seed, set of assets or settings than those "
+          "of the parts before",
+          one.string(), "keep datasets in folders of their own");
     }
     first_.push_back(scenes_);
     scenes_ += part.SceneCount();

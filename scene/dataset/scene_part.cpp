@@ -49,11 +49,11 @@ void WritePart(const ScenePart& part, const fs::path& path) {
   root.WriteTexts("slots", vocabulary.slots);
   const std::vector<std::uint8_t> welded(vocabulary.welded.begin(), vocabulary.welded.end());
   root.Write("welded", {welded.size()}, welded.data());
-  root.Write("scenes",
-             {static_cast<std::size_t>(part.SceneCount()),
-              static_cast<std::size_t>(vocabulary.entries),
-              static_cast<std::size_t>(vocabulary.TokenWidth())},
-             part.tokens.data(), {.rows_per_chunk = kScenesPerChunk, .gzip = kGzip});
+  root.Write(
+      "scenes",
+      {static_cast<std::size_t>(part.SceneCount()), static_cast<std::size_t>(vocabulary.entries),
+       static_cast<std::size_t>(vocabulary.TokenWidth())},
+      part.tokens.data(), {.rows_per_chunk = kScenesPerChunk, .gzip = kGzip});
   WriteAttempts(part.attempts, &root);
   writer.Commit();
 }
@@ -75,8 +75,8 @@ ScenePartFile::ScenePartFile(const fs::path& path) : path_(path) {
   const auto sound = std::count_if(attempts_.begin(), attempts_.end(),
                                    [](const SceneAttempt& one) { return one.sound; });
   if (sound != scenes_) {
-    throw core::Error("it says of " + std::to_string(sound) + " scenes that they are sound and holds " +
-                          std::to_string(scenes_),
+    throw core::Error("it says of " + std::to_string(sound) +
+                          " scenes that they are sound and holds " + std::to_string(scenes_),
                       path.string());
   }
 }
@@ -123,15 +123,15 @@ void ScenePartFile::ReadAttempts(const core::Hdf5Group& root) {
 
 std::vector<float> ScenePartFile::Read(int first, int count) const {
   const core::Hdf5Reader reader(path_);
-  const std::vector<float> tokens =
-      reader.root()
-          .ReadRows<float>("scenes", static_cast<std::size_t>(first),
-                           static_cast<std::size_t>(count))
-          .values;
+  const std::vector<float> tokens = reader.root()
+                                        .ReadRows<float>("scenes", static_cast<std::size_t>(first),
+                                                         static_cast<std::size_t>(count))
+                                        .values;
   const std::size_t size = static_cast<std::size_t>(vocabulary_.entries) *
                            static_cast<std::size_t>(vocabulary_.TokenWidth());
   for (int i = 0; i < count; ++i) {
-    const std::string fault = FaultOfTokens(&tokens[static_cast<std::size_t>(i) * size], vocabulary_);
+    const std::string fault =
+        FaultOfTokens(&tokens[static_cast<std::size_t>(i) * size], vocabulary_);
     if (!fault.empty()) {
       throw core::Error(fault, path_.string() + ", scene " + std::to_string(first + i),
                         "delete the file and generate again: only this part is made anew");

@@ -87,8 +87,7 @@ void SceneStream::Next(int count, float* tokens) {
         Permute(rng_, &whole_order_);
         next_whole_ = 0;
       }
-      const float* const scene =
-          &buffer_[static_cast<size_t>(whole_order_[next_whole_++]) * size];
+      const float* const scene = &buffer_[static_cast<size_t>(whole_order_[next_whole_++]) * size];
       std::copy(scene, scene + size, tokens);
       continue;
     }

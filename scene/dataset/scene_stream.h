@@ -39,10 +39,10 @@ class SceneStream {
   StreamOptions options_;
   int last_ = 0;  // one behind
   core::Rng rng_;
-  std::vector<int> order_;     // of blocks, this round
-  size_t next_block_ = 0;      // in order_
+  std::vector<int> order_;      // of blocks, this round
+  size_t next_block_ = 0;       // in order_
   std::vector<float> pending_;  // of the block read last, not yet in the buffer
-  size_t next_pending_ = 0;    // scene
+  size_t next_pending_ = 0;     // scene
   std::vector<float> buffer_;
   bool whole_ = false;  // the buffer holds all scenes there are
   std::vector<int> whole_order_;

@@ -62,8 +62,10 @@ void EncodeScene(const std::vector<DrawnObject>& objects, const Vocabulary& voca
     const int c = vocabulary.ClassOf(objects[i].slot);
     if (c < 0) throw core::Error("the vocabulary has no such slot", objects[i].slot);
     const Eigen::Isometry3d& pose = objects[i].world_from_object;
-    Eigen::Map<Eigen::Vector3f>(token) = pose.translation().cast<float>();
-    Eigen::Map<RowMajor>(token + 3) = pose.linear().cast<float>();
+    Eigen::Map<Eigen::Vector3f> translation(token);
+    Eigen::Map<RowMajor> turn(token + 3);
+    translation = pose.translation().cast<float>();
+    turn = pose.linear().cast<float>();
     token[kPoseWidth + c] = 1.0f;
   }
 }

@@ -19,8 +19,8 @@ void EncodeScene(const std::vector<DrawnObject>& objects, const Vocabulary& voca
 // finite.
 std::vector<DrawnObject> DecodeScene(const float* tokens, const Vocabulary& vocabulary);
 
-// Empty where the tokens are a scene: finite, one class each, proper rotations (to 1e-3), padding of
-// zeros; else what is wrong, and of which entry.
+// Empty where the tokens are a scene: finite, one class each, proper rotations (to 1e-3), padding
+// of zeros; else what is wrong, and of which entry.
 std::string FaultOfTokens(const float* tokens, const Vocabulary& vocabulary);
 
 // The rotation nearest to a matrix by the sum of squares: U diag(1, 1, det(U V^T)) V^T of its
