@@ -80,7 +80,7 @@ void AddBoardSettings(const SlotSizes& sizes, GrammarBuilder* builder) {
   builder->Independent("top_setting", {With(1.0, "some_lamp"), OnBoard(sizes, 0.2, "bowl"),
                                        With(1.0, "small_games"), OnBoard(sizes, 0.1, "speaker")});
   builder->Independent(
-      "setting",
+      "board_setting",
       {With(1.0, "small_games"), OnBoard(sizes, 0.1, "speaker"), With(1.0, "some_can"),
        With(1.0, "some_tea_bottle"), With(0.2, "book", AtLeftWall(sizes, kShelf, "book")),
        With(1.0, "some_console_game"), OnBoard(sizes, 0.2, "stacking_ring"),
@@ -102,7 +102,7 @@ void AddBoards(GrammarBuilder* builder) {
   top.push_back(With(0.1, kNothing));
   builder->Or(Surface("top_board"), top);
   std::vector<Child> lower = LargeGames(0.2, kLargeGameBelow);
-  lower.push_back(With(0.7, "setting"));
+  lower.push_back(With(0.7, "board_setting"));
   lower.push_back(With(0.1, kNothing));
   builder->Or(Surface("board"), lower);
 }
