@@ -107,9 +107,16 @@ void PoseViolation::FindInside(const Derivation& derivation, int index) {
 
 double PoseViolation::Missing(const Derivation& derivation, const Pair& pair) const {
   const int surface = derivation[static_cast<std::size_t>(pair.a)].surface;
-  const Vector3d way =
-      OnSurface(derivation, surface, pair.b) - OnSurface(derivation, surface, pair.a);
-  return std::max(0.0, pair.apart - way.head<2>().norm());
+  const Vector3d way = derivation[static_cast<std::size_t>(pair.b)].world_from_node.translation() -
+                       derivation[static_cast<std::size_t>(pair.a)].world_from_node.translation();
+  const double across = surface < 0 ? way.head<2>().norm()
+                                    : (derivation[static_cast<std::size_t>(surface)]
+                                           .world_from_node.linear()
+                                           .leftCols<2>()
+                                           .transpose() *
+                                       way)
+                                          .norm();
+  return std::max(0.0, pair.apart - across);
 }
 
 double PoseViolation::Missing(const Derivation& derivation, const Inside& inside) const {
@@ -126,6 +133,18 @@ double PoseViolation::Sum(const Derivation& derivation) const {
   double sum = 0.0;
   for (const Pair& pair : pairs_) sum += Missing(derivation, pair);
   for (const Inside& inside : insides_) sum += Missing(derivation, inside);
+  return sum;
+}
+
+double PoseViolation::SumOf(const Derivation& derivation, int first, int last) const {
+  const auto within = [&](int node) { return node >= first && node < last; };
+  double sum = 0.0;
+  for (const Pair& pair : pairs_) {
+    if (within(pair.a) || within(pair.b)) sum += Missing(derivation, pair);
+  }
+  for (const Inside& inside : insides_) {
+    if (within(inside.node)) sum += Missing(derivation, inside);
+  }
   return sum;
 }
 

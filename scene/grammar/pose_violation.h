@@ -16,6 +16,8 @@ class PoseViolation {
 
   // m, the sum of all that is missing.
   double Sum(const Derivation& derivation) const;
+  // The same of what nodes `first` to before `last` miss, among themselves and with the others.
+  double SumOf(const Derivation& derivation, int first, int last) const;
   // The objects that violate something, as indices into the derivation.
   std::vector<int> Offenders(const Derivation& derivation) const;
   // What is missed most, in words; empty where nothing is.

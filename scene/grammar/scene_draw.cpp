@@ -54,18 +54,21 @@ int Movable(const Grammar& grammar, const Derivation& derivation, int node) {
 // keeps their distribution where nothing is in the way.
 void RedrawOffenders(const Grammar& grammar, const PoseViolation& violation, core::Rng& rng,
                      Derivation* derivation) {
-  double now = violation.Sum(*derivation);
   for (const int offender : violation.Offenders(*derivation)) {
     const int movable = Movable(grammar, *derivation, offender);
     if (movable < 0) continue;
+    const int end = EndOf(*derivation, movable);
+    double now = violation.SumOf(*derivation, movable, end);
     for (int i = 0; i < grammar.options().proposals && now > 0.0; ++i) {
-      Derivation proposal = *derivation;
-      DrawPosesFrom(grammar, movable, /*keep=*/true, rng, &proposal);
-      const double then = violation.Sum(proposal);
+      const Derivation before(derivation->begin() + movable, derivation->begin() + end);
+      DrawPosesFrom(grammar, movable, /*keep=*/true, rng, derivation);
+      const double then = violation.SumOf(*derivation, movable, end);
       const double chance = std::exp((now - then) / grammar.options().temperature);
-      if (then > now && core::Uniform(rng) >= chance) continue;
-      *derivation = std::move(proposal);
-      now = then;
+      if (then > now && core::Uniform(rng) >= chance) {
+        std::copy(before.begin(), before.end(), derivation->begin() + movable);
+      } else {
+        now = then;
+      }
     }
   }
 }
