@@ -10,60 +10,99 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// What differs between the two; probabilities and counts are those of Pfaff et al., Steerable Scene
-// Generation, appendix.
+// Probabilities, counts and places are those of Pfaff et al., Steerable Scene Generation, appendix,
+// and of its grammars (github.com/nepfaff/spatial_scene_grammars, tri_table), but for what says
+// that it is ours.
+
+// What differs between the two.
 struct Clutter {
-  std::vector<double> pairs;                   // m, y of each pair of settings
+  std::vector<Child> pairs;                    // of settings, where they stand
   double plate = 0.0, bowl = 0.0, none = 0.0;  // what a setting has
   int most_plates = 0, most_bowls = 0;         // that are shared
   double cereal_stop = 0.0;
+  double toast_goes_on = 0.0;  // with another slice on top
   bool crock = false;
   int most_entries = 0;  // of a scene, the table among them
 };
 
-constexpr double kSettingFromMiddle = 0.2;          // m, along x
-constexpr double kSharedX = 0.3, kSharedY = 0.6;    // m, from the middle
-constexpr double kCrock = 0.7, kCrockGoesOn = 0.1;  // and where its utensils stop
+constexpr double kFromMiddle = 0.2;                // m, of a setting, along x
+constexpr double kSharedX = 0.3, kSharedY = 0.6;   // m, from the middle
+constexpr double kRimMargin = 0.1;                 // m
+constexpr double kCrock = 0.7, kCrockStops = 0.1;  // that there is one; utensils in it
 constexpr int kMostUtensils = 10, kFewestObjects = 3;
-// Ours: how far what lies about a plate is from its middle, and by how much that varies.
-constexpr double kCutleryAside = 0.14, kTop = 0.13, kMugAside = 0.15, kDeviation = 0.008;  // m
-constexpr double kPairsApart = 0.45;                                                       // m
-constexpr double kAskew = 0.06;                                                            // rad
+constexpr double kLengthwise = 0.01;             // m, deviations of cutlery along itself,
+constexpr double kSettingDeviation = 0.02;       // of a setting,
+constexpr double kMugDeviation = 0.015;          // of a mug
+constexpr double kCutleryConcentration = 100.0;  // of its yaw
+// From a plate's or bowl's middle to what lies beside it, m, and how far back that is. Sideways it
+// is ours: as published, cutlery lies 5 mm in the plate's rim.
+constexpr double kBesidePlate = 0.12, kBackOfPlate = -0.05;
+constexpr double kTopOfPlate = 0.13, kTopAside = 0.025;
+constexpr double kMug = 0.13;
+constexpr double kBesideBowl = 0.095, kTopOfBowl = 0.1;
 
-PoseRule About(double x, double y) {
-  return GaussianOffset({x, y, 0.0}, {kDeviation, kDeviation, 0.0}).Turned(0.0, kAskew);
+// Cutlery that varies along itself, beside a plate or at its top.
+PoseRule Beside(double x, double y) {
+  return GaussianOffset({x, y, 0.0}, {kLengthwise, 0.0, 0.0})
+      .Turned(0.0, DeviationOfConcentration(kCutleryConcentration));
+}
+PoseRule AtTop(double x, double y) {
+  return GaussianOffset({x, y, 0.0}, {0.0, kLengthwise, 0.0})
+      .Turned(0.5 * std::numbers::pi, DeviationOfConcentration(kCutleryConcentration));
+}
+
+// On or in a dish.
+PoseRule OnDish(const SlotSizes& sizes, const std::string& dish, double deviation) {
+  return GaussianOffset({0.0, 0.0, SizeOf(sizes, dish).rest_height}, {deviation, deviation, 0.0})
+      .FacingAnyWay();
 }
 
 // A setting's x points to the table's middle: left of it is y, and its top x.
 void AddSettings(const Clutter& clutter, const SlotSizes& sizes, GrammarBuilder* builder) {
-  std::vector<Child> places;
-  for (const double y : clutter.pairs) {
-    places.push_back(Always("setting", Offset(-kSettingFromMiddle, y)));
-    places.push_back(Always("setting", Offset(kSettingFromMiddle, y).Turned(std::numbers::pi)));
-  }
-  builder->And("settings", places);
-  builder->Or("setting", {With(clutter.plate, "plate_setting"), With(clutter.bowl, "bowl"),
+  builder->And("settings", clutter.pairs);
+  const Vector3d vary(kSettingDeviation, clutter.crock ? kSettingDeviation : 0.0, 0.0);
+  builder->And(
+      "pair",
+      {Always("setting", GaussianOffset({-kFromMiddle, 0.0, 0.0}, vary)),
+       Always("setting", GaussianOffset({kFromMiddle, 0.0, 0.0}, vary).Turned(std::numbers::pi))});
+  builder->Or("setting", {With(clutter.plate, "plate_setting"), With(clutter.bowl, "bowl_setting"),
                           With(clutter.none, kNothing)});
   builder->Independent(
       "plate_setting",
-      {With(1.0, "full_plate", GaussianOffset(Vector3d::Zero(), {kDeviation, kDeviation, 0.0})),
-       With(0.7, "fork", About(0.0, kCutleryAside)), With(0.8, "knife", About(0.0, -kCutleryAside)),
-       With(1.0, "top_spoon", About(kTop, 0.0)), With(0.8, "mug", About(kTop, -kMugAside))});
-  builder->Or("top_spoon", {With(0.2, "spoon", Offset(0, 0).Turned(0.5 * std::numbers::pi)),
-                            With(0.2, "teaspoon", Offset(0, 0).Turned(0.5 * std::numbers::pi)),
-                            With(0.6, kNothing)});
-  const PoseRule on_it = Offset(0.0, 0.0, SizeOf(sizes, "plate").rest_height).FacingAnyWay();
-  builder->Or(Object("full_plate", "plate"),
-              {With(0.2, "toast", on_it), With(0.1, "apple", on_it), With(0.1, "pear", on_it),
-               With(0.2, "bowl", on_it), With(0.4, kNothing)});
+      {With(1.0, "own_plate", SamePose().FacingAnyWay()),
+       With(0.7, "fork", Beside(kBackOfPlate, kBesidePlate)),
+       With(0.8, "knife", Beside(kBackOfPlate, -kBesidePlate)), With(1.0, "plate_spoon"),
+       With(0.8, "mug",
+            GaussianOffset({kMug, -kMug, 0.0}, {kMugDeviation, kMugDeviation, 0.0})
+                .FacingAnyWay())});
+  const PoseRule top_of_plate = AtTop(kTopOfPlate, kTopAside);
+  builder->Or("plate_spoon", {With(0.2, "spoon", top_of_plate), With(0.2, "teaspoon", top_of_plate),
+                              With(0.6, kNothing)});
+  builder->Or(Object("own_plate", "plate"),
+              {With(0.2, "toast", OnDish(sizes, "plate", 0.03)),
+               With(0.1, "apple", OnDish(sizes, "plate", 0.025)),
+               With(0.1, "pear", OnDish(sizes, "plate", 0.025)),
+               With(0.2, "bowl", OnDish(sizes, "plate", 0.02)), With(0.4, kNothing)});
+  builder->And("bowl_setting", {Always("own_bowl", SamePose().FacingAnyWay()),
+                                Always("right_spoon"), Always("bowl_spoon")});
+  builder->Or(Object("own_bowl", "bowl"),
+              {With(0.1, "toast", OnDish(sizes, "bowl", 0.02)),
+               With(0.1, "apple", OnDish(sizes, "bowl", 0.015)),
+               With(0.1, "pear", OnDish(sizes, "bowl", 0.015)), With(0.7, kNothing)});
+  const PoseRule right = Beside(kBackOfPlate, -kBesideBowl), top = AtTop(kTopOfBowl, kTopAside);
+  builder->Or("right_spoon",
+              {With(1.0, "spoon", right), With(1.0, "teaspoon", right), With(4.0, kNothing)});
+  builder->Or("bowl_spoon",
+              {With(1.0, "spoon", top), With(1.0, "teaspoon", top), With(4.0, kNothing)});
 }
 
-void AddShared(const Clutter& clutter, GrammarBuilder* builder) {
+void AddShared(const Clutter& clutter, const SlotSizes& sizes, GrammarBuilder* builder) {
   const PoseRule anywhere =
       UniformOnSurface({-kSharedX, -kSharedY, 0.0}, {kSharedX, kSharedY, 0.0}).FacingAnyWay();
   builder->Repeat("plates", GeometricWeights(0.7, 0, clutter.most_plates),
-                  Always("plate", anywhere));
-  builder->Repeat("bowls", GeometricWeights(0.7, 0, clutter.most_bowls), Always("bowl", anywhere));
+                  Always("shared_plate", anywhere));
+  builder->Repeat("bowls", GeometricWeights(0.7, 0, clutter.most_bowls),
+                  Always("shared_bowl", anywhere));
   builder->Repeat("cereal", GeometricWeights(clutter.cereal_stop, 0, 3),
                   Always("cereal_box", anywhere));
   builder->Repeat("jugs", GeometricWeights(0.6, 0, 2), Always("jug", anywhere));
@@ -73,10 +112,16 @@ void AddShared(const Clutter& clutter, GrammarBuilder* builder) {
   if (clutter.crock) {
     builder->Independent("maybe_crock", {With(kCrock, "utensil_crock", anywhere)});
   }
+  builder->Or(Object("shared_plate", "plate"), {With(0.5, "toast", OnDish(sizes, "plate", 0.02)),
+                                                With(0.25, "apple", OnDish(sizes, "plate", 0.015)),
+                                                With(0.25, "pear", OnDish(sizes, "plate", 0.015))});
+  builder->Or(Object("shared_bowl", "bowl"), {With(0.2, "toast", OnDish(sizes, "bowl", 0.015)),
+                                              With(0.4, "apple", OnDish(sizes, "bowl", 0.015)),
+                                              With(0.4, "pear", OnDish(sizes, "bowl", 0.015))});
 }
 
 // Utensils lie along x: stood up, x points upwards. They lean as the crock lets them, once physics
-// has them.
+// has them. The crock is ours but for its counts.
 void AddCrock(const SlotSizes& sizes, GrammarBuilder* builder) {
   const SlotSize& crock = SizeOf(sizes, "utensil_crock");
   const Quaterniond upright(Eigen::AngleAxisd(-0.5 * std::numbers::pi, Vector3d::UnitY()));
@@ -90,8 +135,47 @@ void AddCrock(const SlotSizes& sizes, GrammarBuilder* builder) {
   }
   builder->Or("utensil", choices);
   builder->Repeat(Object("utensil_crock", "utensil_crock"),
-                  GeometricWeights(kCrockGoesOn, 0, kMostUtensils),
+                  GeometricWeights(kCrockStops, 0, kMostUtensils),
                   Always("utensil", SamePose().FacingAnyWay()));
+}
+
+void AddFood(const Clutter& clutter, const SlotSizes& sizes, GrammarBuilder* builder) {
+  const double slice = SizeOf(sizes, "toast").height;
+  builder->Or(Object("toast", "toast"),
+              {With(clutter.toast_goes_on, "toast", Offset(0.0, 0.0, slice).FacingAnyWay()),
+               With(1.0 - clutter.toast_goes_on, kNothing)});
+  builder->Leaf(Object("bowl", "bowl"));
+  for (const char* slot :
+       {"fork", "knife", "spoon", "teaspoon", "mug", "apple", "pear", "cereal_box", "jug"}) {
+    builder->Leaf(Object(slot, slot));
+  }
+}
+
+// Both are decided by rejection: a shared thing is nowhere nearer to a setting's than it is wide,
+// and nothing stands within 0.1 m of the rim. That favours tables with less on them.
+void RequireRoom(const Clutter& clutter, const SlotSizes& sizes, GrammarBuilder* builder) {
+  KeepOut apart;
+  apart.name = "between what is shared and settings";
+  apart.bodies = {{"shared_plate", 0.11}, {"shared_bowl", 0.08}, {"cereal_box", 0.15},
+                  {"jug", 0.06},          {"own_plate", 0.0},    {"own_bowl", 0.0},
+                  {"fork", 0.0},          {"knife", 0.0},        {"spoon", 0.0},
+                  {"teaspoon", 0.0},      {"mug", 0.0}};
+  apart.against = {"shared_plate", "shared_bowl", "cereal_box", "jug"};
+  if (clutter.crock) {
+    apart.bodies.push_back({"utensil_crock", SizeOf(sizes, "utensil_crock").Radius()});
+    apart.against.push_back("utensil_crock");
+  }
+  apart.exempt_within = "shared";
+  apart.decision = Decision::kReject;
+  builder->Require(apart);
+  const SlotSize& table = SizeOf(sizes, "table_breakfast");
+  InsideRim rim;
+  rim.surface = "tabletop";
+  rim.half_x = table.half_size.x();
+  rim.half_y = table.half_size.y();
+  rim.margin = kRimMargin;
+  rim.decision = Decision::kReject;
+  builder->Require(rim);
 }
 
 Grammar BreakfastTable(const std::string& name, const Clutter& clutter, const SlotSizes& sizes) {
@@ -102,12 +186,10 @@ Grammar BreakfastTable(const std::string& name, const Clutter& clutter, const Sl
               {Always("tabletop", Offset(0.0, 0.0, table.height))});
   builder.And(Surface("tabletop"), {Always("settings"), Always("shared")});
   AddSettings(clutter, sizes, &builder);
-  AddShared(clutter, &builder);
+  AddShared(clutter, sizes, &builder);
   if (clutter.crock) AddCrock(sizes, &builder);
-  for (const char* slot : {"plate", "bowl", "fork", "knife", "spoon", "teaspoon", "mug", "toast",
-                           "apple", "pear", "cereal_box", "jug"}) {
-    builder.Leaf(Object(slot, slot));
-  }
+  AddFood(clutter, sizes, &builder);
+  RequireRoom(clutter, sizes, &builder);
   builder.Require(ObjectsAtLeast(kFewestObjects));
   builder.Require(EntriesAtMost(clutter.most_entries));
   return builder.Build();
@@ -117,10 +199,11 @@ Grammar BreakfastTable(const std::string& name, const Clutter& clutter, const Sl
 
 Grammar BreakfastTableLow(const SlotSizes& sizes) {
   Clutter clutter;
-  clutter.pairs = {0.0};
+  clutter.pairs = {Always("pair", GaussianOffset(Vector3d::Zero(), {0.0, 0.2, 0.0}))};
   clutter.plate = 0.7, clutter.bowl = 0.2, clutter.none = 0.1;
   clutter.most_plates = clutter.most_bowls = 2;
   clutter.cereal_stop = 0.3;
+  clutter.toast_goes_on = 0.2;
   clutter.crock = true;
   clutter.most_entries = 35;
   return BreakfastTable("breakfast_low", clutter, sizes);
@@ -128,11 +211,14 @@ Grammar BreakfastTableLow(const SlotSizes& sizes) {
 
 Grammar BreakfastTableHigh(const SlotSizes& sizes) {
   Clutter clutter;
-  clutter.pairs = {-kPairsApart, 0.0, kPairsApart};
+  for (const auto& [low, high] : {std::pair(-0.52, -0.3), {-0.08, 0.08}, {0.3, 0.52}}) {
+    clutter.pairs.push_back(Always("pair", UniformOnSurface({0.0, low, 0.0}, {0.0, high, 0.0})));
+  }
   clutter.plate = 0.6, clutter.bowl = clutter.none = 0.2;
   clutter.most_plates = 4;
   clutter.most_bowls = 6;
   clutter.cereal_stop = 0.4;
+  clutter.toast_goes_on = 0.25;
   clutter.most_entries = 46;
   return BreakfastTable("breakfast_high", clutter, sizes);
 }

@@ -158,23 +158,26 @@ Derivation Derive(const Grammar& grammar, core::Rng& rng) {
   }
 }
 
+int EndOf(const Derivation& derivation, int first) {
+  auto end = static_cast<std::size_t>(first) + 1;
+  while (end < derivation.size() && derivation[end].parent >= first) ++end;
+  return static_cast<int>(end);
+}
+
 void DrawPosesFrom(const Grammar& grammar, int first, bool keep, core::Rng& rng,
                    Derivation* derivation) {
-  std::vector<char> below(derivation->size(), 0);
   const auto begin = static_cast<std::size_t>(first);
-  below[begin] = 1;
-  const Eigen::Isometry3d before = (*derivation)[begin].world_from_node;
-  for (std::size_t i = begin; i < derivation->size(); ++i) {
+  const auto end = static_cast<std::size_t>(EndOf(*derivation, first));
+  const Eigen::Isometry3d before_from_world = (*derivation)[begin].world_from_node.inverse();
+  for (std::size_t i = begin; i < end; ++i) {
     DerivedNode& node = (*derivation)[i];
     if (node.parent < 0) continue;  // the start is the world
-    const auto parent = static_cast<std::size_t>(node.parent);
-    below[i] = below[i] || below[parent];
-    if (!below[i]) continue;
     if (keep && i != begin) {
       node.world_from_node =
-          (*derivation)[begin].world_from_node * before.inverse() * node.world_from_node;
+          (*derivation)[begin].world_from_node * before_from_world * node.world_from_node;
       continue;
     }
+    const auto parent = static_cast<std::size_t>(node.parent);
     const Symbol& above = SymbolOf(grammar, (*derivation)[parent]);
     const PoseRule& rule = above.branches[static_cast<std::size_t>(node.branch)].pose;
     const Eigen::Isometry3d surface =

@@ -9,7 +9,7 @@
 
 namespace simwright::scene {
 
-// A symbol of a derivation. Parents come before their children.
+// A symbol of a derivation. Each is followed by all that is derived from it.
 struct DerivedNode {
   int symbol = -1;   // index into Grammar::symbols()
   int parent = -1;   // index into the derivation; -1: the start
@@ -26,6 +26,9 @@ const Symbol& SymbolOf(const Grammar& grammar, const DerivedNode& node);
 // A derivation by ancestral sampling, poses not drawn. A grammar whose derivations may be without
 // end is cut: throws core::Error above 10 000 nodes, naming the grammar.
 Derivation Derive(const Grammar& grammar, core::Rng& rng);
+
+// Where what is derived from node `first` ends: an index, one past the last.
+int EndOf(const Derivation& derivation, int first);
 
 // Draws the pose of node `first` and of all that is below it, given those above. With `keep`, what
 // is below it goes along as it is, and only its own pose is drawn.

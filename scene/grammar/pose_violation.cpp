@@ -30,6 +30,34 @@ int Above(const Grammar& grammar, const Derivation& derivation, int index,
   return -1;
 }
 
+// What a keep-out names, of a derivation.
+struct Body {
+  int node = -1;
+  double radius = 0.0;  // m
+  int surface = -1;
+  bool against = false;  // one of those that a pair has to have
+  int group = -1;        // the node within which pairs do not count; -1: none
+};
+
+std::vector<Body> BodiesOf(const Grammar& grammar, const Derivation& derivation,
+                           const KeepOut& keep_out) {
+  std::vector<Body> bodies;
+  for (std::size_t i = 0; i < derivation.size(); ++i) {
+    const std::string& symbol = SymbolOf(grammar, derivation[i]).name;
+    Body body;
+    body.node = static_cast<int>(i);
+    body.radius = RadiusIn(keep_out, symbol);
+    if (body.radius < 0.0 || derivation[i].carrier >= 0) continue;
+    body.surface = derivation[i].surface;
+    body.against = Names(keep_out.against, symbol);
+    if (!keep_out.exempt_within.empty()) {
+      body.group = Above(grammar, derivation, body.node, keep_out.exempt_within);
+    }
+    bodies.push_back(body);
+  }
+  return bodies;
+}
+
 // From a surface to a node, in the surface's frame.
 Vector3d OnSurface(const Derivation& derivation, int surface, int node) {
   const Vector3d& point = derivation[static_cast<std::size_t>(node)].world_from_node.translation();
@@ -39,60 +67,56 @@ Vector3d OnSurface(const Derivation& derivation, int surface, int node) {
 
 }  // namespace
 
-PoseViolation::PoseViolation(const Grammar& grammar, const Derivation& derivation)
+PoseViolation::PoseViolation(const Grammar& grammar, const Derivation& derivation,
+                             Decision decision)
     : grammar_(grammar) {
-  FindPairs(derivation);
-  FindInside(derivation);
+  for (std::size_t k = 0; k < grammar.keep_outs().size(); ++k) {
+    if (grammar.keep_outs()[k].decision == decision) FindPairs(derivation, static_cast<int>(k));
+  }
+  for (std::size_t k = 0; k < grammar.rims().size(); ++k) {
+    if (grammar.rims()[k].decision == decision) FindInside(derivation, static_cast<int>(k));
+  }
 }
 
-void PoseViolation::FindPairs(const Derivation& derivation) {
-  for (std::size_t k = 0; k < grammar_.keep_outs().size(); ++k) {
-    const KeepOut& keep_out = grammar_.keep_outs()[k];
-    for (std::size_t i = 0; i < derivation.size(); ++i) {
-      const std::string& one = SymbolOf(grammar_, derivation[i]).name;
-      const double radius = RadiusIn(keep_out, one);
-      if (radius < 0.0 || derivation[i].carrier >= 0) continue;
-      for (std::size_t j = i + 1; j < derivation.size(); ++j) {
-        const std::string& other = SymbolOf(grammar_, derivation[j]).name;
-        const double second = RadiusIn(keep_out, other);
-        if (second < 0.0 || derivation[j].carrier >= 0) continue;
-        if (derivation[i].surface != derivation[j].surface) continue;
-        const bool counts = keep_out.against.empty() || Names(keep_out.against, one) ||
-                            Names(keep_out.against, other);
-        if (!counts) continue;
-        const auto a = static_cast<int>(i), b = static_cast<int>(j);
-        if (!keep_out.exempt_within.empty()) {
-          const int group = Above(grammar_, derivation, a, keep_out.exempt_within);
-          if (group >= 0 && group == Above(grammar_, derivation, b, keep_out.exempt_within)) {
-            continue;
-          }
-        }
-        pairs_.push_back({a, b, radius + second, static_cast<int>(k), keep_out.decision});
-      }
+void PoseViolation::FindPairs(const Derivation& derivation, int index) {
+  const KeepOut& keep_out = grammar_.keep_outs()[static_cast<std::size_t>(index)];
+  const std::vector<Body> bodies = BodiesOf(grammar_, derivation, keep_out);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (std::size_t j = i + 1; j < bodies.size(); ++j) {
+      const Body &one = bodies[i], &other = bodies[j];
+      if (one.surface != other.surface) continue;
+      if (!keep_out.against.empty() && !one.against && !other.against) continue;
+      if (one.group >= 0 && one.group == other.group) continue;
+      pairs_.push_back({one.node, other.node, one.radius + other.radius, index});
     }
   }
 }
 
-void PoseViolation::FindInside(const Derivation& derivation) {
-  for (std::size_t k = 0; k < grammar_.rims().size(); ++k) {
-    const InsideRim& rim = grammar_.rims()[k];
-    for (std::size_t i = 0; i < derivation.size(); ++i) {
-      const DerivedNode& node = derivation[i];
-      const Symbol& symbol = SymbolOf(grammar_, node);
-      if (!symbol.IsObject() || symbol.welded || node.carrier >= 0 || node.surface < 0) continue;
-      if (!rim.symbols.empty() && !Names(rim.symbols, symbol.name)) continue;
-      const DerivedNode& surface = derivation[static_cast<std::size_t>(node.surface)];
-      if (SymbolOf(grammar_, surface).name != rim.surface) continue;
-      insides_.push_back({static_cast<int>(i), static_cast<int>(k), rim.decision});
-    }
+void PoseViolation::FindInside(const Derivation& derivation, int index) {
+  const InsideRim& rim = grammar_.rims()[static_cast<std::size_t>(index)];
+  for (std::size_t i = 0; i < derivation.size(); ++i) {
+    const DerivedNode& node = derivation[i];
+    const Symbol& symbol = SymbolOf(grammar_, node);
+    if (!symbol.IsObject() || symbol.welded || node.carrier >= 0 || node.surface < 0) continue;
+    if (!rim.symbols.empty() && !Names(rim.symbols, symbol.name)) continue;
+    const DerivedNode& surface = derivation[static_cast<std::size_t>(node.surface)];
+    if (SymbolOf(grammar_, surface).name != rim.surface) continue;
+    insides_.push_back({static_cast<int>(i), index});
   }
 }
 
 double PoseViolation::Missing(const Derivation& derivation, const Pair& pair) const {
   const int surface = derivation[static_cast<std::size_t>(pair.a)].surface;
-  const Vector3d way =
-      OnSurface(derivation, surface, pair.b) - OnSurface(derivation, surface, pair.a);
-  return std::max(0.0, pair.apart - way.head<2>().norm());
+  const Vector3d way = derivation[static_cast<std::size_t>(pair.b)].world_from_node.translation() -
+                       derivation[static_cast<std::size_t>(pair.a)].world_from_node.translation();
+  const double across = surface < 0 ? way.head<2>().norm()
+                                    : (derivation[static_cast<std::size_t>(surface)]
+                                           .world_from_node.linear()
+                                           .leftCols<2>()
+                                           .transpose() *
+                                       way)
+                                          .norm();
+  return std::max(0.0, pair.apart - across);
 }
 
 double PoseViolation::Missing(const Derivation& derivation, const Inside& inside) const {
@@ -105,34 +129,32 @@ double PoseViolation::Missing(const Derivation& derivation, const Inside& inside
   return std::max({0.0, x, y});
 }
 
-double PoseViolation::Sum(const Derivation& derivation, Decision decision) const {
+double PoseViolation::Sum(const Derivation& derivation) const {
   double sum = 0.0;
-  for (const Pair& pair : pairs_) {
-    if (pair.decision == decision) sum += Missing(derivation, pair);
-  }
-  for (const Inside& inside : insides_) {
-    if (inside.decision == decision) sum += Missing(derivation, inside);
-  }
+  for (const Pair& pair : pairs_) sum += Missing(derivation, pair);
+  for (const Inside& inside : insides_) sum += Missing(derivation, inside);
   return sum;
 }
 
-double PoseViolation::Redrawable(const Derivation& derivation) const {
-  return Sum(derivation, Decision::kRedraw);
-}
-
-double PoseViolation::Rejectable(const Derivation& derivation) const {
-  return Sum(derivation, Decision::kReject);
+double PoseViolation::SumOf(const Derivation& derivation, int first, int last) const {
+  const auto within = [&](int node) { return node >= first && node < last; };
+  double sum = 0.0;
+  for (const Pair& pair : pairs_) {
+    if (within(pair.a) || within(pair.b)) sum += Missing(derivation, pair);
+  }
+  for (const Inside& inside : insides_) {
+    if (within(inside.node)) sum += Missing(derivation, inside);
+  }
+  return sum;
 }
 
 std::vector<int> PoseViolation::Offenders(const Derivation& derivation) const {
   std::set<int> offenders;
   for (const Pair& pair : pairs_) {
-    if (pair.decision != Decision::kRedraw || Missing(derivation, pair) == 0.0) continue;
-    offenders.insert({pair.a, pair.b});
+    if (Missing(derivation, pair) > 0.0) offenders.insert({pair.a, pair.b});
   }
   for (const Inside& inside : insides_) {
-    if (inside.decision != Decision::kRedraw || Missing(derivation, inside) == 0.0) continue;
-    offenders.insert(inside.node);
+    if (Missing(derivation, inside) > 0.0) offenders.insert(inside.node);
   }
   return {offenders.begin(), offenders.end()};
 }

@@ -7,16 +7,18 @@
 
 namespace simwright::scene {
 
-// By how much the poses of a derivation miss its grammar's keep-outs and rims. What stands on what,
-// and whose radius is whose, is found once: poses may then be drawn as often as need be.
+// By how much the poses of a derivation miss those of its grammar's keep-outs and rims that are
+// decided one way. What stands on what, and whose radius is whose, is found once: poses may then be
+// drawn as often as need be.
 class PoseViolation {
  public:
-  PoseViolation(const Grammar& grammar, const Derivation& derivation);
+  PoseViolation(const Grammar& grammar, const Derivation& derivation, Decision decision);
 
-  // m, all that is missing, summed over what has decision kRedraw, and what has kReject.
-  double Redrawable(const Derivation& derivation) const;
-  double Rejectable(const Derivation& derivation) const;
-  // The objects that violate something that is to be redrawn, as indices into the derivation.
+  // m, the sum of all that is missing.
+  double Sum(const Derivation& derivation) const;
+  // The same of what nodes `first` to before `last` miss, among themselves and with the others.
+  double SumOf(const Derivation& derivation, int first, int last) const;
+  // The objects that violate something, as indices into the derivation.
   std::vector<int> Offenders(const Derivation& derivation) const;
   // What is missed most, in words; empty where nothing is.
   std::string Worst(const Derivation& derivation) const;
@@ -26,19 +28,16 @@ class PoseViolation {
     int a = -1, b = -1;  // nodes
     double apart = 0.0;  // m, at least
     int keep_out = -1;   // into Grammar::keep_outs()
-    Decision decision = Decision::kRedraw;
   };
   struct Inside {
     int node = -1;
     int rim = -1;  // into Grammar::rims()
-    Decision decision = Decision::kRedraw;
   };
 
   double Missing(const Derivation& derivation, const Pair& pair) const;
   double Missing(const Derivation& derivation, const Inside& inside) const;
-  double Sum(const Derivation& derivation, Decision decision) const;
-  void FindPairs(const Derivation& derivation);
-  void FindInside(const Derivation& derivation);
+  void FindPairs(const Derivation& derivation, int keep_out);
+  void FindInside(const Derivation& derivation, int rim);
 
   const Grammar& grammar_;
   std::vector<Pair> pairs_;

@@ -15,14 +15,23 @@ namespace {
 // How often each constraint stood in the way.
 using Failures = std::map<std::string, int>;
 
+// Throws away what misses the structure or, once its poses are drawn, what is decided by rejection:
+// each counts as a derivation.
 std::optional<Derivation> DeriveSound(const Grammar& grammar, core::Rng& rng, SceneDraw* draw,
                                       Failures* failures) {
   for (int i = 0; i < grammar.options().derivations; ++i) {
     ++draw->derivations;
     Derivation derivation = Derive(grammar, rng);
     const int unmet = UnmetStructure(grammar, derivation);
-    if (unmet < 0) return derivation;
-    ++(*failures)[grammar.structure()[static_cast<std::size_t>(unmet)].Describe()];
+    if (unmet >= 0) {
+      ++(*failures)[grammar.structure()[static_cast<std::size_t>(unmet)].Describe()];
+      continue;
+    }
+    ++draw->pose_draws;
+    DrawPosesFrom(grammar, 0, /*keep=*/false, rng, &derivation);
+    const PoseViolation violation(grammar, derivation, Decision::kReject);
+    if (violation.Sum(derivation) == 0.0) return derivation;
+    ++(*failures)[violation.Worst(derivation)];
   }
   return std::nullopt;
 }
@@ -45,37 +54,41 @@ int Movable(const Grammar& grammar, const Derivation& derivation, int node) {
 // keeps their distribution where nothing is in the way.
 void RedrawOffenders(const Grammar& grammar, const PoseViolation& violation, core::Rng& rng,
                      Derivation* derivation) {
-  double now = violation.Redrawable(*derivation);
   for (const int offender : violation.Offenders(*derivation)) {
     const int movable = Movable(grammar, *derivation, offender);
     if (movable < 0) continue;
+    const int end = EndOf(*derivation, movable);
+    double now = violation.SumOf(*derivation, movable, end);
     for (int i = 0; i < grammar.options().proposals && now > 0.0; ++i) {
-      Derivation proposal = *derivation;
-      DrawPosesFrom(grammar, movable, /*keep=*/true, rng, &proposal);
-      const double then = violation.Redrawable(proposal);
+      const Derivation before(derivation->begin() + movable, derivation->begin() + end);
+      DrawPosesFrom(grammar, movable, /*keep=*/true, rng, derivation);
+      const double then = violation.SumOf(*derivation, movable, end);
       const double chance = std::exp((now - then) / grammar.options().temperature);
-      if (then > now && core::Uniform(rng) >= chance) continue;
-      *derivation = std::move(proposal);
-      now = then;
+      if (then > now && core::Uniform(rng) >= chance) {
+        std::copy(before.begin(), before.end(), derivation->begin() + movable);
+      } else {
+        now = then;
+      }
     }
   }
 }
 
+// Draws offenders anew until nothing offends; false where it was not enough, or where that moved
+// something into what is decided by rejection.
 bool PlaceSound(const Grammar& grammar, core::Rng& rng, Derivation* derivation, SceneDraw* draw,
                 Failures* failures) {
-  const PoseViolation violation(grammar, *derivation);
-  DrawPosesFrom(grammar, 0, /*keep=*/false, rng, derivation);
-  for (int i = 0;; ++i) {
-    ++draw->pose_draws;
-    if (violation.Redrawable(*derivation) == 0.0) break;
+  const PoseViolation violation(grammar, *derivation, Decision::kRedraw);
+  for (int i = 0; violation.Sum(*derivation) > 0.0; ++i) {
     if (i == grammar.options().pose_draws) {
       ++(*failures)[violation.Worst(*derivation)];
       return false;
     }
+    ++draw->pose_draws;
     RedrawOffenders(grammar, violation, rng, derivation);
   }
-  if (violation.Rejectable(*derivation) == 0.0) return true;
-  ++(*failures)[violation.Worst(*derivation)];
+  const PoseViolation rejected(grammar, *derivation, Decision::kReject);
+  if (rejected.Sum(*derivation) == 0.0) return true;
+  ++(*failures)[rejected.Worst(*derivation)];
   return false;
 }
 

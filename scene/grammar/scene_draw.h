@@ -25,11 +25,11 @@ struct SceneDraw {
   int pose_draws = 0;                // in all tries, redraws among them
 };
 
-// A scene of the grammar, before physics: derivations until one meets the constraints on structure
-// (rejection), then its poses, each offender drawn anew until they meet the others (Metropolis,
-// with the sum of what is missing as energy). The same generator state, the same scene. Throws
-// core::Error where options().tries were not enough: what was missed most often, and how many
-// derivations or draws that took.
+// A scene of the grammar, before physics: derivations with their poses until one meets what is
+// decided by rejection, then each pose that offends the rest drawn anew until none does
+// (Metropolis, with the sum of what is missing as energy). The same generator state, the same
+// scene. Throws core::Error where options().tries were not enough: what was missed most often, and
+// how many derivations or draws that took.
 SceneDraw DrawScene(const Grammar& grammar, core::Rng& rng);
 
 }  // namespace simwright::scene

@@ -8,6 +8,7 @@
 #include "scene/grammar/dimsum.h"
 #include "scene/grammar/living_room_shelf.h"
 #include "scene/grammar/pantry_shelf.h"
+#include "scene/grammar/restaurant.h"
 
 namespace simwright::scene {
 namespace {
@@ -44,6 +45,8 @@ const std::vector<SceneType>& SceneTypes() {
       TypeOf("a round table with dim sum for four, steamers in stacks", &DimsumTable),
       TypeOf("a living room's shelf: games in stacks, drinks, a lamp, toys", &LivingRoomShelf),
       TypeOf("a pantry's shelf full of cans, bottles and fruit", &PantryShelf),
+      TypeOf("a restaurant: tables with much dim sum, chairs, shelves", &RestaurantHigh),
+      TypeOf("a restaurant: tables with little dim sum, chairs, shelves", &RestaurantLow),
   };
   return types;
 }

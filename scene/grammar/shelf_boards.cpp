@@ -1,6 +1,7 @@
 #include "scene/grammar/shelf_boards.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace simwright::scene {
 namespace {
@@ -8,6 +9,13 @@ namespace {
 constexpr double kMiddle = 0.3915;                        // m, of the published height, 0.783 m
 constexpr double kBoards[] = {-0.39, -0.12, 0.14, 0.41};  // m, from the middle
 constexpr double kWall = 0.015;                           // m, of the shelf's sides and back
+
+// Uniform over a board of that half size, `around` off its walls.
+PoseRule Uniform(const Eigen::Vector2d& board, const Eigen::Vector2d& around) {
+  const Eigen::Vector2d room = (board - around).array() - kWall;
+  const double x = std::max(0.0, room.x()), y = std::max(0.0, room.y());
+  return UniformOnSurface({-x, -y, 0.0}, {x, y, 0.0});
+}
 
 }  // namespace
 
@@ -24,10 +32,25 @@ void AddShelf(const std::string& slot, const SlotSizes& sizes, const std::string
 
 PoseRule AnywhereOnBoard(const SlotSizes& sizes, const std::string& shelf_slot,
                          const std::string& slot) {
-  const double around = SizeOf(sizes, slot).half_size.norm();
-  const Eigen::Vector2d room =
-      (SizeOf(sizes, shelf_slot).half_size.array() - kWall - around).max(0.0);
-  return UniformOnSurface({-room.x(), -room.y(), 0.0}, {room.x(), room.y(), 0.0}).FacingAnyWay();
+  const double around = SizeOf(sizes, slot).Radius();
+  return Uniform(SizeOf(sizes, shelf_slot).half_size, {around, around}).FacingAnyWay();
+}
+
+PoseRule SquarelyOnBoard(const SlotSizes& sizes, const std::string& shelf_slot,
+                         const std::string& slot, bool across, double deviation) {
+  Eigen::Vector2d around = SizeOf(sizes, slot).half_size;
+  if (across) around = around.reverse().eval();
+  return Uniform(SizeOf(sizes, shelf_slot).half_size, around)
+      .Turned(across ? 0.5 * std::numbers::pi : 0.0, deviation);
+}
+
+PoseRule AtLeftWall(const SlotSizes& sizes, const std::string& shelf_slot,
+                    const std::string& slot) {
+  const Eigen::Vector2d& board = SizeOf(sizes, shelf_slot).half_size;
+  const Eigen::Vector2d& around = SizeOf(sizes, slot).half_size;
+  const double x = std::max(0.0, board.x() - kWall - around.x());
+  const double y = -std::max(0.0, board.y() - kWall - around.y());
+  return UniformOnSurface({-x, y, 0.0}, {x, y, 0.0}).Turned(std::numbers::pi);
 }
 
 }  // namespace simwright::scene

@@ -16,9 +16,17 @@ namespace simwright::scene {
 void AddShelf(const std::string& slot, const SlotSizes& sizes, const std::string& board,
               const std::string& top_board, GrammarBuilder* builder);
 
-// Uniform over a board of the shelf `shelf_slot`, so that a thing of `slot` does not stand over its
-// edge; turned anyhow. What is wider than the board stands in its middle.
+// Uniform over a board of the shelf `shelf_slot`, so that a thing of `slot` stands off its walls by
+// its larger half size; turned anyhow. What is wider than the board stands in its middle.
 PoseRule AnywhereOnBoard(const SlotSizes& sizes, const std::string& shelf_slot,
                          const std::string& slot);
+
+// The same for a thing that stands along the board, or with `across` turned by a right angle, its
+// yaw off that by `deviation` (rad).
+PoseRule SquarelyOnBoard(const SlotSizes& sizes, const std::string& shelf_slot,
+                         const std::string& slot, bool across, double deviation);
+
+// Leaning against the wall at -y, uniform along it, its back to x.
+PoseRule AtLeftWall(const SlotSizes& sizes, const std::string& shelf_slot, const std::string& slot);
 
 }  // namespace simwright::scene

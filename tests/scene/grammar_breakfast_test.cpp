@@ -1,4 +1,5 @@
-// Breakfast tables: their counts against closed forms, and how things lie about a plate.
+// Breakfast tables: their counts against closed forms, what is kept apart, and how things lie about
+// a plate.
 #include "scene/grammar/breakfast.h"
 
 #include <algorithm>
@@ -7,103 +8,221 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/grammar/scene_draw.h"
+#include "tests/scene/drawn_objects.h"
 #include "tests/scene/geometric_mean.h"
 
 namespace simwright::scene {
 namespace {
 
-constexpr int kScenes = 4000;
+constexpr double kHalfX = 0.3575, kHalfY = 0.7, kMargin = 0.1;  // m
 
-// Objects of a setting with a plate: it, what is on it, fork, knife, a spoon, a mug.
-constexpr double kPlateSetting = 1.0 + 0.6 + 0.7 + 0.8 + 0.4 + 0.8;
-
-double MeanOf(const Grammar& grammar, std::map<std::string, int>* slots) {
-  core::Rng rng = core::StreamRng(6, 0);
-  double sum = 0.0;
-  for (int i = 0; i < kScenes; ++i) {
-    const SceneDraw draw = DrawScene(grammar, rng);
-    sum += static_cast<double>(draw.objects.size()) - 1.0;
-    for (const DrawnObject& object : draw.objects) ++(*slots)[object.slot];
-  }
-  return sum / kScenes;
+const std::vector<SceneDraw>& Draws(bool high) {
+  static const auto draw = [](const Grammar& grammar) {
+    std::vector<SceneDraw> draws;
+    for (std::uint64_t i = 0; i < 3000; ++i) {
+      core::Rng rng = core::StreamRng(6, i);
+      draws.push_back(DrawScene(grammar, rng));
+    }
+    return draws;
+  };
+  static const std::vector<SceneDraw> highs = draw(BreakfastTableHigh());
+  static const std::vector<SceneDraw> lows = draw(BreakfastTableLow());
+  return high ? highs : lows;
 }
 
-TEST(BreakfastTable, LowHasTheCountsOfItsGrammar) {
-  std::map<std::string, int> slots;
-  const double mean = MeanOf(BreakfastTableLow(), &slots);
-  const double settings = 2.0 * (0.7 * kPlateSetting + 0.2);
-  const double shared = 2.0 * MeanOfGeometric(0.7, 2) + MeanOfGeometric(0.3, 3) +
-                        MeanOfGeometric(0.6, 2) + 0.7 * (1.0 + MeanOfGeometric(0.1, 10));
-  // Fewer than three objects are one scene in a hundred or so.
-  EXPECT_NEAR(mean, settings + shared, 0.4);
-  RecordProperty("mean", std::to_string(mean));
-  EXPECT_NEAR(slots["utensil_crock"] / static_cast<double>(kScenes), 0.7, 0.04);
-  EXPECT_NEAR(slots["mug"] / static_cast<double>(kScenes), 2.0 * 0.7 * 0.8, 0.06);
+// The radius that a shared thing keeps free; less than 0 for what is of a setting.
+double SharedRadius(const std::string& symbol) {
+  const std::map<std::string, double> radii = {{"shared_plate", 0.11},
+                                               {"shared_bowl", 0.08},
+                                               {"cereal_box", 0.15},
+                                               {"jug", 0.06},
+                                               {"utensil_crock", 0.06}};
+  const auto found = radii.find(symbol);
+  return found == radii.end() ? -1.0 : found->second;
 }
 
-TEST(BreakfastTable, HighHasTheCountsOfItsGrammar) {
-  std::map<std::string, int> slots;
-  const double mean = MeanOf(BreakfastTableHigh(), &slots);
-  const double settings = 6.0 * (0.6 * kPlateSetting + 0.2);
-  const double shared = MeanOfGeometric(0.7, 4) + MeanOfGeometric(0.7, 6) +
-                        MeanOfGeometric(0.4, 3) + MeanOfGeometric(0.6, 2);
-  EXPECT_NEAR(mean, settings + shared, 0.4);
-  RecordProperty("mean", std::to_string(mean));
-  EXPECT_EQ(slots.count("utensil_crock"), 0u);
+bool HasShared(const SceneDraw& draw) {
+  return std::any_of(draw.objects.begin(), draw.objects.end(),
+                     [](const DrawnObject& o) { return SharedRadius(o.symbol) >= 0.0; });
 }
 
-// Seen from who sits there, forks are left of the plate and knives right, and mugs beyond.
-TEST(BreakfastTable, CutleryLiesWhereItBelongs) {
-  const Grammar grammar = BreakfastTableHigh();
-  core::Rng rng = core::StreamRng(7, 0);
-  int forks = 0, knives = 0, mugs = 0;
-  for (int i = 0; i < 200; ++i) {
-    for (const DrawnObject& object : DrawScene(grammar, rng).objects) {
-      const Eigen::Vector3d at = object.world_from_object.translation();
-      // Who sits at negative x looks along x; left is y.
-      const double facing = at.x() < 0.0 ? 1.0 : -1.0;
-      const double pair = 0.45 * std::round(at.y() / 0.45);
-      const double left = facing * (at.y() - pair);
-      if (object.slot == "fork") {
-        ++forks;
-        EXPECT_NEAR(left, 0.14, 0.04);
-        EXPECT_NEAR(std::abs(at.x()), 0.2, 0.04);
-      } else if (object.slot == "knife") {
-        ++knives;
-        EXPECT_NEAR(left, -0.14, 0.04);
-      } else if (object.slot == "mug") {
-        ++mugs;
-        EXPECT_NEAR(left, -0.15, 0.04);
-        EXPECT_NEAR(std::abs(at.x()), 0.07, 0.04);
+TEST(BreakfastTable, KeepsSettingsAndSharedThingsApartAndInsideTheRim) {
+  for (const bool high : {false, true}) {
+    int pairs = 0;
+    for (const SceneDraw& draw : Draws(high)) {
+      for (const DrawnObject& one : draw.objects) {
+        if (!IsBase(draw, one)) continue;
+        ASSERT_LE(std::abs(PlaceOf(one).x()), kHalfX - kMargin + 1e-12);
+        ASSERT_LE(std::abs(PlaceOf(one).y()), kHalfY - kMargin + 1e-12);
+        ASSERT_NEAR(PlaceOf(one).z(), 0.75, 1e-12);
+        const double radius = SharedRadius(one.symbol);
+        if (radius < 0.0) continue;
+        for (const DrawnObject& other : draw.objects) {
+          if (!IsBase(draw, other) || SharedRadius(other.symbol) >= 0.0) continue;
+          ASSERT_GE(Across(one, other), radius - 1e-12) << one.symbol << " " << other.symbol;
+          ++pairs;
+        }
       }
-      EXPECT_LE(std::abs(at.x()), 0.3575);
-      EXPECT_LE(std::abs(at.y()), 0.7);
+    }
+    EXPECT_GT(pairs, 3000);
+  }
+}
+
+// P(Z <= z) of a standard normal.
+double Normal(double z) {
+  return 0.5 * std::erfc(-z / std::sqrt(2.0));
+}
+
+// Of n things beside a setting, 0.05 m towards the rim with deviation 0.01 m along themselves: all
+// are at most 0.2575 m from the middle, the setting being at 0.2 m with deviation 0.02 m.
+double AllInside(int n) {
+  double sum = 0.0;
+  constexpr int kSteps = 4000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double z = -6.0 + 12.0 * (i + 0.5) / kSteps;
+    const double density = std::exp(-0.5 * z * z) / std::sqrt(2.0 * M_PI);
+    const double left = 0.0075 - 0.02 * z;
+    if (0.02 * z > 0.0575) continue;  // the setting itself
+    sum += density * std::pow(Normal(left / 0.01), n) * 12.0 / kSteps;
+  }
+  return sum;
+}
+
+// Where nothing is shared, settings of the middle pair are thrown away only for what lies beyond
+// the rim's margin: what is left of each kind is known.
+TEST(BreakfastTable, TheMiddlePairHasItsClosedForm) {
+  const double fork = 0.7 * 0.2 * AllInside(1) + 0.56 * AllInside(2);
+  const double plate = 0.6 * (0.06 * AllInside(0) + 0.24 * AllInside(1) + fork);
+  const double bowl = 0.2 * (2.0 / 3.0 * AllInside(0) + 1.0 / 3.0 * AllInside(1));
+  const double total = plate + bowl + 0.2;
+  int scenes = 0, plates = 0, bowls = 0, forks = 0;
+  for (const SceneDraw& draw : Draws(true)) {
+    if (HasShared(draw)) continue;
+    ++scenes;
+    bool middle = false;
+    for (const DrawnObject& object : draw.objects) {
+      const bool own = object.symbol == "own_plate" || object.symbol == "own_bowl";
+      // What belongs to a setting follows its dish.
+      if (own) middle = std::abs(PlaceOf(object).y()) <= 0.08;
+      if (!middle) continue;
+      plates += object.symbol == "own_plate";
+      bowls += object.symbol == "own_bowl";
+      forks += object.symbol == "fork";
     }
   }
-  EXPECT_GT(std::min({forks, knives, mugs}), 400);
+  ASSERT_GT(scenes, 800);
+  // Four standard deviations.
+  const auto expect = [&](int count, double share) {
+    EXPECT_NEAR(count / (2.0 * scenes), share,
+                4.0 * std::sqrt(share * (1.0 - share) / (2.0 * scenes)));
+  };
+  expect(plates, plate / total);
+  expect(bowls, bowl / total);
+  expect(forks, 0.6 * fork / total);
+}
+
+// What a dish holds decides nothing that is rejected: it is as often as published.
+TEST(BreakfastTable, DishesHoldWhatIsPublished) {
+  const std::map<std::string, std::map<std::string, double>> published = {
+      {"own_plate", {{"toast", 0.2}, {"apple", 0.1}, {"pear", 0.1}, {"bowl", 0.2}, {"", 0.4}}},
+      {"own_bowl", {{"toast", 0.1}, {"apple", 0.1}, {"pear", 0.1}, {"", 0.7}}},
+      {"shared_plate", {{"toast", 0.5}, {"apple", 0.25}, {"pear", 0.25}}},
+      {"shared_bowl", {{"toast", 0.2}, {"apple", 0.4}, {"pear", 0.4}}},
+      {"toast", {{"toast", 0.25}, {"", 0.75}}}};
+  std::map<std::string, std::map<std::string, int>> seen;
+  std::map<std::string, int> dishes;
+  for (const SceneDraw& draw : Draws(true)) {
+    for (size_t i = 0; i < draw.objects.size(); ++i) {
+      const std::string& dish = draw.objects[i].symbol;
+      if (published.count(dish) == 0) continue;
+      ++dishes[dish];
+      ++seen[dish][CarriedBy(draw, i)];
+    }
+  }
+  for (const auto& [dish, shares] : published) {
+    ASSERT_GT(dishes[dish], 200) << dish;
+    EXPECT_EQ(seen[dish].size(), shares.size()) << dish;
+    for (const auto& [held, share] : shares) {
+      EXPECT_NEAR(seen[dish][held] / static_cast<double>(dishes[dish]), share,
+                  4.0 * std::sqrt(share * (1.0 - share) / dishes[dish]))
+          << dish << " with " << held;
+    }
+  }
+}
+
+TEST(BreakfastTable, ACrockHoldsAGeometricNumberOfUtensils) {
+  double crocks = 0.0, utensils = 0.0;
+  for (const SceneDraw& draw : Draws(false)) {
+    for (const DrawnObject& object : draw.objects) {
+      crocks += object.slot == "utensil_crock";
+      utensils += object.parent > 0 && ParentOf(draw, object).slot == "utensil_crock";
+    }
+  }
+  // The deviation of one is 3.0.
+  EXPECT_NEAR(utensils / crocks, MeanOfGeometric(0.1, 10), 4.0 * 3.0 / std::sqrt(crocks));
+  EXPECT_LT(crocks, 0.7 * 3000);  // they are in the way, too
+  EXPECT_GT(crocks, 0.55 * 3000);
+}
+
+// Published, after physics: 10.1 and 10.0, the table counted. What is drawn has more.
+TEST(BreakfastTable, HasNotManyMoreThingsThanPublished) {
+  double sums[2] = {0.0, 0.0};
+  for (const bool high : {false, true}) {
+    for (const SceneDraw& draw : Draws(high)) {
+      sums[high] += static_cast<double>(draw.objects.size()) / 3000.0;
+      ASSERT_LE(draw.objects.size(), high ? 46u : 35u);
+      ASSERT_GE(draw.objects.size(), 4u);
+    }
+  }
+  RecordProperty("low", std::to_string(sums[0]));
+  RecordProperty("high", std::to_string(sums[1]));
+  EXPECT_NEAR(sums[0], 10.1, 2.5);
+  EXPECT_NEAR(sums[1], 10.0, 7.0);
+}
+
+// Seen from who sits there, forks are left of their plate and knives right, and mugs beyond.
+TEST(BreakfastTable, CutleryLiesWhereItBelongs) {
+  int forks = 0, knives = 0, mugs = 0;
+  for (const SceneDraw& draw : Draws(true)) {
+    const DrawnObject* plate = nullptr;  // a setting's things follow it
+    for (const DrawnObject& object : draw.objects) {
+      if (object.symbol == "own_plate") plate = &object;
+      if (plate == nullptr || !IsBase(draw, object)) continue;
+      // Who sits at negative x looks along x; left is y.
+      const double facing = PlaceOf(*plate).x() < 0.0 ? 1.0 : -1.0;
+      const Eigen::Vector3d way = facing * (PlaceOf(object) - PlaceOf(*plate));
+      const double along = object.world_from_object.linear()(0, 0) * facing;
+      if (object.slot == "fork" || object.slot == "knife") {
+        const bool is_fork = object.slot == "fork";
+        ++(is_fork ? forks : knives);
+        ASSERT_NEAR(way.y(), is_fork ? 0.12 : -0.12, 1e-12);
+        ASSERT_NEAR(way.x(), -0.05, 0.06);
+        ASSERT_GT(along, 0.7);
+      } else if (object.slot == "mug") {
+        ++mugs;
+        ASSERT_NEAR(way.x(), 0.13, 0.08);
+        ASSERT_NEAR(way.y(), -0.13, 0.08);
+      }
+    }
+  }
+  EXPECT_GT(std::min({forks, knives, mugs}), 3000);
 }
 
 TEST(BreakfastTable, UtensilsStandInTheirCrock) {
-  const Grammar grammar = BreakfastTableLow();
-  core::Rng rng = core::StreamRng(8, 0);
   int standing = 0;
-  for (int i = 0; i < 300; ++i) {
-    const SceneDraw draw = DrawScene(grammar, rng);
+  for (const SceneDraw& draw : Draws(false)) {
     for (const DrawnObject& object : draw.objects) {
       if (object.parent <= 0) continue;
-      const DrawnObject& below = draw.objects[static_cast<size_t>(object.parent)];
+      const DrawnObject& below = ParentOf(draw, object);
       if (below.slot != "utensil_crock") continue;
       ++standing;
-      EXPECT_NEAR(object.world_from_object.linear().col(0).z(), 1.0, 1e-9);
+      ASSERT_NEAR(object.world_from_object.linear().col(0).z(), 1.0, 1e-9);
       const SlotSize& size = SizeOf(DefaultSlotSizes(), object.slot);
-      const double foot = object.world_from_object.translation().z() - size.half_size.x();
-      const double floor = below.world_from_object.translation().z() +
-                           SizeOf(DefaultSlotSizes(), "utensil_crock").rest_height;
-      EXPECT_NEAR(foot, floor, 1e-9);
+      const double floor = PlaceOf(below).z() + 0.01;
+      ASSERT_NEAR(PlaceOf(object).z() - size.half_size.x(), floor, 1e-9);
     }
   }
-  EXPECT_GT(standing, 500);
+  EXPECT_GT(standing, 5000);
 }
 
 }  // namespace

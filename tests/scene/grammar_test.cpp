@@ -148,6 +148,39 @@ TEST(Grammar, KeepOutsAreKept) {
   EXPECT_NEAR(way / kDraws, 0.6 + 0.4 / 3.0, 0.01);
 }
 
+// One disc of 0.3 m in [0, 1], or two: two stand 0.6 m apart with probability 0.4^2, and where that
+// is decided by rejection a derivation that does not counts, so that one alone is drawn more often.
+TEST(Grammar, ARejectedPoseCountsItsDerivation) {
+  GrammarBuilder builder("bar", "room");
+  builder.Repeat(Surface("room"), {0.0, 1.0, 1.0},
+                 Always("a", UniformOnSurface({0, 0, 0}, {1, 0, 0})));
+  builder.Leaf(Object("a", "apple"));
+  KeepOut apart;
+  apart.name = "apart";
+  apart.bodies = {{"a", 0.3}};
+  apart.decision = Decision::kReject;
+  builder.Require(apart);
+  const Grammar grammar = builder.Build();
+  core::Rng rng = core::StreamRng(8, 1);
+  int both = 0, derivations = 0;
+  for (int i = 0; i < kDraws; ++i) {
+    const SceneDraw draw = DrawScene(grammar, rng);
+    derivations += draw.derivations;
+    if (draw.objects.size() < 2) continue;
+    ++both;
+    ASSERT_GE(std::abs(draw.objects[0].world_from_object.translation().x() -
+                       draw.objects[1].world_from_object.translation().x()),
+              0.6);
+  }
+  const double accepted = 0.5 + 0.5 * 0.16;
+  const double share = 0.5 * 0.16 / accepted;
+  // Four standard deviations each.
+  EXPECT_NEAR(both / static_cast<double>(kDraws), share,
+              4.0 * std::sqrt(share * (1.0 - share) / kDraws));
+  EXPECT_NEAR(derivations / static_cast<double>(kDraws), 1.0 / accepted,
+              4.0 * std::sqrt((1.0 - accepted) / kDraws) / accepted);
+}
+
 TEST(Grammar, StructureIsDecidedByRejection) {
   GrammarBuilder builder = Apples(GeometricWeights(0.5, 0, 8));
   builder.Require(ObjectsAtLeast(3));
