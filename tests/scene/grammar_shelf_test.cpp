@@ -52,7 +52,7 @@ TEST(PantryShelf, ThingsStandOnItsBoardsInsideOfIt) {
       heights.insert(static_cast<int>(std::lround(1e4 * at.z())));
     }
   }
-  EXPECT_EQ(heights, (std::set<int>{15, 2715, 5315, 8015}));
+  EXPECT_EQ(heights, (std::set<int>{170, 2870, 5470, 8170}));
 }
 
 // Without what is thrown away: of a lower board 0.7 of a setting's things and 0.2 of a large game's
