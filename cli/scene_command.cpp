@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/scene_model_commands.h"
 #include "core/error.h"
 #include "pipeline/scene_generation.h"
 #include "scene/grammar/scene_types.h"
@@ -81,6 +82,8 @@ void AddScene(CLI::App* app, CommonOptions* common, Run* run) {
   CLI::App* scene = app->add_subcommand("scene", "Cluttered scenes that hold in simulation");
   scene->require_subcommand(1);
   AddGenerate(scene, common, run);
+  AddSceneTrain(scene, common, run);
+  AddSceneSample(scene, common, run);
 }
 
 }  // namespace simwright::cli

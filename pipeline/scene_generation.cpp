@@ -7,20 +7,16 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "core/image.h"
 #include "pipeline/scene_assets.h"
+#include "pipeline/scene_sheet.h"
 #include "scene/dataset/part_claim.h"
 #include "scene/dataset/scene_dataset.h"
-#include "scene/dataset/tokens.h"
 #include "scene/generation.h"
 #include "scene/grammar/scene_types.h"
-#include "scene/scene_picture.h"
 
 namespace simwright::pipeline {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr int kSheetScenes = 12, kSheetSize = 420;  // of a side, pixels
 
 void Validate(const SceneGenerationRequest& request) {
   if (request.count < 1) throw core::Error("a dataset needs at least 1 scene", "--count");
@@ -56,21 +52,6 @@ void MakePart(const scene::Generation& generation, int scenes, const fs::path& p
     throw;
   }
   scene::WritePart(part, path);
-}
-
-void WriteSheet(const fs::path& path, const scene::SceneDataset& dataset,
-                const scene::Palette& palette) {
-  const int count = std::min(kSheetScenes, dataset.SceneCount());
-  if (count == 0) return;
-  const std::vector<float> tokens = dataset.Read(0, count);
-  const size_t size = tokens.size() / static_cast<size_t>(count);
-  std::vector<core::Image> pictures;
-  for (int i = 0; i < count; ++i) {
-    pictures.push_back(scene::SceneFromTheSide(
-        scene::DecodeScene(&tokens[static_cast<size_t>(i) * size], dataset.vocabulary()), palette,
-        kSheetSize));
-  }
-  core::WritePng(path, core::ContactSheet(pictures, 4));
 }
 
 }  // namespace
@@ -144,7 +125,7 @@ SceneStatistics GenerateScenes(const SceneGenerationRequest& request, core::Prog
   statistics.type = request.type;
   statistics.elsewhere = elsewhere;
   core::WriteFile(request.output / "statistics.json", StatisticsJson(statistics));
-  WriteSheet(request.output / "scenes.png", dataset, palette);
+  WriteSceneSheet(dataset, palette, request.output / "scenes.png");
   return statistics;
 }
 
