@@ -1,5 +1,8 @@
 #include "scene/model/model_options.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.h"
 
 namespace simwright::scene {
@@ -42,8 +45,7 @@ SceneModelOptions SceneModelOptions::AsDiffuScene() const {
   // Its parameters are `kUnetShare` width^2, ours as above.
   constexpr double kUnetShare = 132.0;
   const double ours = (18.0 * double_blocks + 15.0 * single_blocks) * width * width;
-  options.width = 8;
-  while ((options.width + 8) * (options.width + 8) * kUnetShare <= ours) options.width += 8;
+  options.width = std::max(8, 4 * static_cast<int>(std::lround(std::sqrt(ours / kUnetShare) / 4)));
   return options;
 }
 
@@ -52,8 +54,8 @@ bool SceneModelOptions::IsValid(std::string* error) const {
     *error = what;
     return false;
   };
-  if (width < 8 || width > 4096 || width % 8 != 0) {
-    return fails("width has to be 8 to 4096, in eights");
+  if (width < 8 || width > 4096 || width % 4 != 0) {
+    return fails("width has to be 8 to 4096, in fours");
   }
   if (heads < 1 || width % heads != 0) return fails("heads have to divide the width");
   if (double_blocks < 0 || single_blocks < 0 || double_blocks + single_blocks > 256) {

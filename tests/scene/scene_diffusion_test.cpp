@@ -139,19 +139,21 @@ class BestDenoiser : public Denoiser {
  private:
   // log q(classes_t | classes_0) over the tokens, (B).
   torch::Tensor ClassEvidence(const NoisyScenes& noisy, const torch::Tensor& clean) const {
-    torch::Tensor sum = torch::zeros({noisy.poses.size(0)});
-    for (std::int64_t b = 0; b < noisy.poses.size(0); ++b) {
+    const torch::Tensor same = noisy.classes.eq(clean.unsqueeze(0)).to(torch::kFloat);
+    const torch::Tensor masked = noisy.classes.eq(kClasses).to(torch::kFloat);
+    std::vector<float> kept, replaced, mask;
+    for (std::int64_t b = 0; b < noisy.time.size(0); ++b) {
       const int t = noisy.time[b].item<int>();
-      for (std::int64_t n = 0; n < clean.size(0); ++n) {
-        const auto now = noisy.classes[b][n].item<std::int64_t>();
-        const double q = now == kClasses ? classes_.Masked(t)
-                         : now == clean[n].item<std::int64_t>()
-                             ? classes_.Kept(t) + classes_.Replaced(t)
-                             : classes_.Replaced(t);
-        sum[b] += std::log(q);
-      }
+      kept.push_back(static_cast<float>(classes_.Kept(t)));
+      replaced.push_back(static_cast<float>(classes_.Replaced(t)));
+      mask.push_back(static_cast<float>(classes_.Masked(t)));
     }
-    return sum;
+    const auto column = [](const std::vector<float>& values) {
+      return torch::tensor(values).unsqueeze(1);
+    };
+    const torch::Tensor q = masked * column(mask) +
+                            (1.0 - masked) * (same * column(kept) + column(replaced));
+    return q.log().sum(1);
   }
 
   nn::DiffusionSchedule poses_;
@@ -171,7 +173,7 @@ CleanScenes Batch(const CleanScenes& data, std::int64_t count) {
 TEST(SceneDiffusion, OverfittingFewScenesGoesToWhereTheoryIs) {
   const CleanScenes data = FewScenes(8);
   SceneModelOptions options = Small(DenoiserKind::kFlux, false);
-  options.width = 64;
+  options.width = 48;
   options.double_blocks = 2;
   options.diffusion_steps = 100;
   const SceneDiffusion diffusion(options, kClasses);
@@ -188,12 +190,12 @@ TEST(SceneDiffusion, OverfittingFewScenesGoesToWhereTheoryIs) {
   const double start = loss(denoiser.get()).total.item<double>();
   torch::optim::AdamW optimizer(denoiser->parameters(), torch::optim::AdamWOptions(2e-3));
   const at::Generator generator = at::detail::createCPUGenerator(1);
-  constexpr int kUpdates = 700;
+  constexpr int kUpdates = 500;
   for (int i = 0; i < kUpdates; ++i) {
     static_cast<torch::optim::AdamWOptions&>(optimizer.param_groups()[0].options())
         .lr(2e-3 * (1.0 - static_cast<double>(i) / kUpdates));
     optimizer.zero_grad();
-    diffusion.Loss(denoiser.get(), Batch(data, 128), generator).total.backward();
+    diffusion.Loss(denoiser.get(), Batch(data, 96), generator).total.backward();
     torch::nn::utils::clip_grad_norm_(denoiser->parameters(), 1.0);
     optimizer.step();
   }
@@ -201,10 +203,10 @@ TEST(SceneDiffusion, OverfittingFewScenesGoesToWhereTheoryIs) {
   const double floor = ideal.total.item<double>(), reached = trained.total.item<double>();
   // Nothing is below what is best; training closes most of the way there.
   EXPECT_GT(reached, floor);
-  EXPECT_LT(reached - floor, 0.25 * (start - floor))
+  EXPECT_LT(reached - floor, 0.2 * (start - floor))
       << "from " << start << " to " << reached << ", best " << floor;
   EXPECT_NEAR(trained.divergence.item<double>(), ideal.divergence.item<double>(),
-              0.5 * ideal.divergence.item<double>());
+              3.0 * ideal.divergence.item<double>());
 }
 
 // The index of the scene of `data` that tokens are, in any order; -1 for none.

@@ -1,0 +1,130 @@
+// `simwright scene`: a dataset made, gone on with, learned from and sampled; wrong input refused.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "assets/asset_folder.h"
+#include "core/files.h"
+#include "pipeline/scene_generation.h"
+#include "program.h"
+#include "scene/dataset/scene_dataset.h"
+#include "scene/dataset/tokens.h"
+#include "scene/model/training.h"
+
+namespace simwright::pipeline {
+namespace {
+namespace fs = std::filesystem;
+
+// The library's things for dimsum tables, made once.
+class SceneCommand : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new core::TemporaryFolder();
+    generated_ =
+        RunProgram("scene generate --type dimsum --count 3 --part 2 --quiet -o " + Dimsum());
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static std::string Dimsum() { return (folder_->path() / "dimsum").string(); }
+  static std::string At(const std::string& name) { return (folder_->path() / name).string(); }
+
+  static inline core::TemporaryFolder* folder_ = nullptr;
+  static inline Outcome generated_;
+};
+
+TEST_F(SceneCommand, GeneratesScenesThatHold) {
+  ASSERT_EQ(generated_.code, 0) << generated_.text;
+  const scene::SceneDataset dataset(Dimsum());
+  EXPECT_EQ(dataset.SceneCount(), 3);
+  EXPECT_EQ(dataset.parts().size(), 2u);
+  EXPECT_EQ(dataset.vocabulary().type, "dimsum");
+  for (const char* const file : {"scenes.png", "statistics.json", "assets/steamer/asset.json"}) {
+    EXPECT_TRUE(fs::exists(fs::path(Dimsum()) / file)) << file;
+  }
+  for (const scene::SceneAttempt& one : dataset.Attempts()) {
+    if (!one.sound) continue;
+    EXPECT_LE(one.penetration, 1e-4);
+    EXPECT_LE(one.drift, 1e-3);
+  }
+  const auto json = nlohmann::json::parse(core::ReadFile(fs::path(Dimsum()) / "statistics.json"));
+  EXPECT_EQ(json["scenes"], 3);
+  EXPECT_GE(json["objects_mean"].get<double>(), 5.0);
+}
+
+TEST_F(SceneCommand, GoesOnWhereItStopped) {
+  ASSERT_EQ(generated_.code, 0) << generated_.text;
+  const std::string copy = At("more");
+  fs::copy(Dimsum(), copy, fs::copy_options::recursive);
+  const Outcome more =
+      RunProgram("scene generate --type dimsum --count 4 --part 2 --json -o " + copy);
+  ASSERT_EQ(more.code, 0) << more.text;
+  EXPECT_EQ(nlohmann::json::parse(more.text)["scenes"], 4);
+  const scene::SceneDataset before{fs::path(Dimsum())}, after{fs::path(copy)};
+  EXPECT_EQ(after.Read(0, 3), before.Read(0, 3));
+  // Other settings are another dataset.
+  for (const char* const flags : {"--seed 2", "--step 0.003", "--type pantry_shelf"}) {
+    const Outcome other =
+        RunProgram(std::string("scene generate --type dimsum --count 4 --part 2 ") + flags +
+                   " --quiet -o " + copy);
+    EXPECT_EQ(other.code, 1) << flags;
+  }
+}
+
+TEST_F(SceneCommand, LearnsAndSamples) {
+  ASSERT_EQ(generated_.code, 0) << generated_.text;
+  const Outcome trained =
+      RunProgram("scene train " + Dimsum() + " --steps 4 --batch 2 --quiet -o " + At("model"));
+  ASSERT_EQ(trained.code, 0) << trained.text;
+  const std::string sample = "scene sample " + At("model") +
+                             "/model.pt --count 2 --steps 5 --raw " + "--assets " + Dimsum() +
+                             "/assets --quiet -o ";
+  const Outcome sampled = RunProgram(sample + At("sampled"));
+  ASSERT_EQ(sampled.code, 0) << sampled.text;
+  const scene::SceneDataset dataset{fs::path(At("sampled"))};
+  EXPECT_EQ(dataset.SceneCount(), 2);
+  EXPECT_EQ(dataset.vocabulary(), scene::SceneDataset(fs::path(Dimsum())).vocabulary());
+  ASSERT_EQ(RunProgram(sample + At("again")).code, 0);
+  EXPECT_EQ(core::ReadFile(fs::path(At("again")) / scene::PartName(0)),
+            core::ReadFile(fs::path(At("sampled")) / scene::PartName(0)));
+  const Outcome over = RunProgram(sample + At("sampled"));
+  EXPECT_EQ(over.code, 1);
+  EXPECT_NE(over.text.find("exists"), std::string::npos) << over.text;
+}
+
+TEST_F(SceneCommand, AnAssetOfOnesOwnTakesASlot) {
+  ASSERT_EQ(generated_.code, 0) << generated_.text;
+  // The cup's place is taken by the teapot, by name or by category.
+  const std::string teapot = Dimsum() + "/assets/teapot";
+  const Outcome own =
+      RunProgram("scene generate --type dimsum --count 1 --quiet --asset cup=" + teapot +
+                 " --assets " + Dimsum() + "/assets -o " + At("own"));
+  ASSERT_EQ(own.code, 0) << own.text;
+  EXPECT_EQ(assets::ReadAsset(fs::path(At("own")) / "assets" / "cup").parameters.category,
+            assets::ReadAsset(teapot).parameters.category);
+  for (const std::string flag : {"--asset cup=" + At("nowhere"), "--asset spoon=" + teapot,
+                                 std::string("--asset cup"), "--assets " + At("nowhere")}) {
+    const Outcome wrong =
+        RunProgram("scene generate --type dimsum --count 1 --quiet " + flag + " -o " + At("wrong"));
+    EXPECT_EQ(wrong.code, 1) << flag;
+    EXPECT_EQ(wrong.text.rfind("error: ", 0), 0u) << wrong.text;
+  }
+}
+
+TEST_F(SceneCommand, RefusesWhatIsNone) {
+  for (const std::string arguments :
+       {"scene generate --type banquet -o " + At("a"), std::string("scene generate --count 3"),
+        "scene generate --type dimsum --count 0 -o " + At("a"),
+        "scene train " + At("nowhere") + " -o " + At("a"),
+        "scene sample " + At("nowhere.pt") + " -o " + At("a")}) {
+    const Outcome outcome = RunProgram(arguments + " --quiet");
+    EXPECT_EQ(outcome.code, 1) << arguments;
+    EXPECT_EQ(outcome.text.rfind("error: ", 0), 0u) << outcome.text;
+  }
+  EXPECT_FALSE(fs::exists(At("a") + "/part_00000.h5"));
+  EXPECT_EQ(RunProgram("scene").code, 2);
+}
+
+}  // namespace
+}  // namespace simwright::pipeline
