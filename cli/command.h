@@ -44,6 +44,7 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run);
 void AddRollout(CLI::App* app, CommonOptions* common, Run* run);
 void AddExport(CLI::App* app, CommonOptions* common, Run* run);
 void AddReplay(CLI::App* app, CommonOptions* common, Run* run);
+void AddScene(CLI::App* app, CommonOptions* common, Run* run);
 void AddRun(CLI::App* app, CommonOptions* common, Run* run);
 void AddDoctor(CLI::App* app, CommonOptions* common, Run* run);
 void AddVersion(CLI::App* app, Run* run);

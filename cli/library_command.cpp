@@ -20,21 +20,23 @@ struct Flags {
 };
 
 template <typename Kinds>
-void ListKinds(const Kinds& kinds, bool rigid, bool as_json, nlohmann::ordered_json* json) {
-  if (!as_json) std::printf(rigid ? "\nrigid:\n" : "articulated:\n");
+void ListKinds(const Kinds& kinds, const char* heading, bool rigid, bool as_json,
+               nlohmann::ordered_json* json) {
+  if (!as_json) std::printf("%s:\n", heading);
   for (const auto& kind : kinds) {
     if (as_json) {
       json->push_back({{"kind", kind.name}, {"what", kind.what}, {"rigid", rigid}});
     } else {
-      std::printf("  %-14s %s\n", kind.name.c_str(), kind.what.c_str());
+      std::printf("  %-17s %s\n", kind.name.c_str(), kind.what.c_str());
     }
   }
 }
 
 int List(bool as_json) {
   nlohmann::ordered_json kinds = nlohmann::ordered_json::array();
-  ListKinds(library::Kinds(), false, as_json, &kinds);
-  ListKinds(library::RigidKinds(), true, as_json, &kinds);
+  ListKinds(library::Kinds(), "articulated", false, as_json, &kinds);
+  ListKinds(library::RigidKinds(), "\nrigid", true, as_json, &kinds);
+  ListKinds(library::FurnitureKinds(), "\nfurniture", true, as_json, &kinds);
   if (as_json) std::printf("%s\n", kinds.dump(2).c_str());
   return 0;
 }
@@ -110,9 +112,10 @@ void AddLibrary(CLI::App* app, CommonOptions* common, Run* run) {
       "  simwright library --kind mug --count 5 -o mugs\n"
       "Each asset is checked before it is kept. Exit code 1 when one was refused.");
   command
-      ->add_option("--kind", flags->options.kind,
-                   "What to make (see --list); all: what has joints, rigid: what has none, "
-                   "everything: both; several with commas, mug,book")
+      ->add_option(
+          "--kind", flags->options.kind,
+          "What to make (see --list); all: what has joints, rigid: what has none, "
+          "everything: both; furniture: what scenes stand on; several with commas, mug,book")
       ->capture_default_str();
   command->add_option("--count", flags->options.count, "So many of each kind, seeds in a row")
       ->capture_default_str()

@@ -41,6 +41,7 @@ int Main(int argc, char** argv) {
   cli::AddRollout(&app, &common, &run);
   cli::AddExport(&app, &common, &run);
   cli::AddReplay(&app, &common, &run);
+  cli::AddScene(&app, &common, &run);
   cli::AddRun(&app, &common, &run);
   cli::AddDoctor(&app, &common, &run);
   cli::AddVersion(&app, &run);
@@ -63,7 +64,10 @@ int Main(int argc, char** argv) {
 void StartWithThreadsAndKernels(int argc, char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
   const std::string_view command = argc > 1 ? argv[1] : "";
-  if (command != "lift" && command != "prior" && command != "train" && command != "run") return;
+  if (command != "lift" && command != "prior" && command != "train" && command != "run" &&
+      command != "scene") {
+    return;
+  }
   setenv("OMP_WAIT_POLICY", "passive", 1);
 #if defined(__x86_64__)
   __builtin_cpu_init();

@@ -266,11 +266,10 @@ std::vector<std::size_t> Hdf5Group::Shape(const std::string& name) const {
 }
 
 template <typename T>
-Hdf5Array<T> Hdf5Group::Read(const std::string& name, std::uint64_t limit) const {
-  Hdf5Array<T> array;
-  array.shape = Shape(name);
+void Hdf5Group::ReadInto(const std::string& name, std::size_t first, std::uint64_t limit,
+                         Hdf5Array<T>* array) const {
   std::uint64_t count = 1;
-  for (const std::size_t size : array.shape) {
+  for (const std::size_t size : array->shape) {
     if (size > 0 && count > limit / sizeof(T) / size) {
       throw Error("the dataset is larger than " + std::to_string(limit >> 20) + " MiB", At(name));
     }
@@ -282,11 +281,42 @@ Hdf5Array<T> Hdf5Group::Read(const std::string& name, std::uint64_t limit) const
   if (H5Tget_class(type->id()) != wanted || H5Tget_size(type->id()) > sizeof(T)) {
     throw Error("the dataset holds numbers of another kind", At(name));
   }
-  array.values.resize(count);
-  if (count > 0 && H5Dread(dataset->id(), NativeType<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                           array.values.data()) < 0) {
+  array->values.resize(count);
+  if (count == 0) return;
+  const auto here = Handle::Of(H5Dget_space(dataset->id()), H5Sclose, "no space", At(name));
+  const std::vector<hsize_t> sizes(array->shape.begin(), array->shape.end());
+  std::vector<hsize_t> start(sizes.size(), 0);
+  if (!start.empty()) {
+    start[0] = first;
+    H5Sselect_hyperslab(here->id(), H5S_SELECT_SET, start.data(), nullptr, sizes.data(), nullptr);
+  }
+  const auto memory =
+      Handle::Of(H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), nullptr), H5Sclose,
+                 "no space", At(name));
+  if (H5Dread(dataset->id(), NativeType<T>(), memory->id(), here->id(), H5P_DEFAULT,
+              array->values.data()) < 0) {
     Fail("cannot read the dataset", At(name));
   }
+}
+
+template <typename T>
+Hdf5Array<T> Hdf5Group::Read(const std::string& name, std::uint64_t limit) const {
+  Hdf5Array<T> array;
+  array.shape = Shape(name);
+  ReadInto(name, 0, limit, &array);
+  return array;
+}
+
+template <typename T>
+Hdf5Array<T> Hdf5Group::ReadRows(const std::string& name, std::size_t first, std::size_t count,
+                                 std::uint64_t limit) const {
+  Hdf5Array<T> array;
+  array.shape = Shape(name);
+  if (array.shape.empty() || first > array.shape[0] || count > array.shape[0] - first) {
+    throw Error("the dataset has no such rows", At(name));
+  }
+  array.shape[0] = count;
+  ReadInto(name, first, limit, &array);
   return array;
 }
 
@@ -333,9 +363,17 @@ template void Hdf5Group::Write(const std::string&, const std::vector<std::size_t
 template void Hdf5Group::Write(const std::string&, const std::vector<std::size_t>&,
                                const std::int64_t*, const Hdf5Storage&);
 template Hdf5Array<float> Hdf5Group::Read(const std::string&, std::uint64_t) const;
+template Hdf5Array<float> Hdf5Group::ReadRows(const std::string&, std::size_t, std::size_t,
+                                              std::uint64_t) const;
 template Hdf5Array<double> Hdf5Group::Read(const std::string&, std::uint64_t) const;
+template Hdf5Array<double> Hdf5Group::ReadRows(const std::string&, std::size_t, std::size_t,
+                                               std::uint64_t) const;
 template Hdf5Array<std::uint8_t> Hdf5Group::Read(const std::string&, std::uint64_t) const;
+template Hdf5Array<std::uint8_t> Hdf5Group::ReadRows(const std::string&, std::size_t, std::size_t,
+                                                     std::uint64_t) const;
 template Hdf5Array<std::int64_t> Hdf5Group::Read(const std::string&, std::uint64_t) const;
+template Hdf5Array<std::int64_t> Hdf5Group::ReadRows(const std::string&, std::size_t, std::size_t,
+                                                     std::uint64_t) const;
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : root_(nullptr, path.string()) {
   Silence();

@@ -52,6 +52,10 @@ class Hdf5Group {
   // `limit` bytes.
   template <typename T>
   Hdf5Array<T> Read(const std::string& name, std::uint64_t limit = 4ull << 30) const;
+  // The same of `count` indices of the first dimension from `first` on, which have to be there.
+  template <typename T>
+  Hdf5Array<T> ReadRows(const std::string& name, std::size_t first, std::size_t count,
+                        std::uint64_t limit = 4ull << 30) const;
   // Texts of fixed or variable length.
   std::vector<std::string> ReadTexts(const std::string& name) const;
 
@@ -63,6 +67,10 @@ class Hdf5Group {
       : group_(std::move(group)), place_(std::move(place)) {}
   std::string At(const std::string& name) const;
   std::shared_ptr<Handle> Dataset(const std::string& name) const;
+  // Rows `first` and on, as many as array->shape says.
+  template <typename T>
+  void ReadInto(const std::string& name, std::size_t first, std::uint64_t limit,
+                Hdf5Array<T>* array) const;
 
   std::shared_ptr<Handle> group_;
   std::string place_;  // file and path, for errors

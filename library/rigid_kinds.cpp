@@ -45,9 +45,10 @@ double Shared(double value, std::initializer_list<const physics_params::Estimate
   return std::clamp(value, std::min(low, high), high);
 }
 
-Eigen::Vector3d SizeOf(RigidSides sides, const physics_params::PhysicalParameters& p) {
+Eigen::Vector3d SizeOf(const RigidKind& kind, const physics_params::PhysicalParameters& p) {
+  if (!kind.size.isZero()) return kind.size;
   const double l = p.length.sample, w = p.width.sample, h = p.height.sample;
-  switch (sides) {
+  switch (kind.sides) {
     case RigidSides::kRound: {
       const double across = Shared(w, {&p.length, &p.width});
       return {across, across, h};
@@ -101,8 +102,10 @@ const std::vector<RigidKind>& RigidKinds() {
 }
 
 const RigidKind* FindRigidKind(const std::string& name) {
-  for (const RigidKind& kind : RigidKinds()) {
-    if (kind.name == name) return &kind;
+  for (const std::vector<RigidKind>* kinds : {&RigidKinds(), &FurnitureKinds()}) {
+    for (const RigidKind& kind : *kinds) {
+      if (kind.name == name) return &kind;
+    }
   }
   return nullptr;
 }
@@ -118,9 +121,12 @@ RigidThing MakeRigidThing(const RigidKind& kind, std::uint64_t seed) {
   for (const char c : kind.name) stream = 31 * stream + static_cast<unsigned char>(c);
   draft.rng = core::StreamRng(seed, stream);
   draft.look = LookOf(thing.parameters.material, draft.rng);
-  draft.size = thing.size = SizeOf(kind.sides, thing.parameters);
+  draft.size = thing.size = SizeOf(kind, thing.parameters);
   thing.visual = kind.make(&draft);
-  FitTo(thing.size, &thing.visual);
+  thing.parts = std::move(draft.parts);
+  const Eigen::Affine3d fit = FitOf(thing.size, core::Bounds(thing.visual.mesh));
+  core::Transform(fit, &thing.visual.mesh);
+  for (core::TriangleMesh& part : thing.parts) core::Transform(fit, &part);
   return thing;
 }
 

@@ -15,15 +15,18 @@ namespace simwright::library {
 // standing on z = 0.
 struct RigidThing {
   core::TexturedMesh visual;
+  // Closed and convex, covering `visual`, where the kind knows its own; else empty.
+  std::vector<core::TriangleMesh> parts;
   Eigen::Vector3d size;                           // m; the bounds of `visual`
   physics_params::PhysicalParameters parameters;  // as drawn for the category
 };
 
-// What a generator is given.
+// What a generator is given, and where it leaves its collision parts if it has its own.
 struct RigidDraft {
   Eigen::Vector3d size;  // m
   core::Material look;   // by the material that was drawn
   core::Rng rng;
+  std::vector<core::TriangleMesh> parts;
   double Draw(double low, double high) { return core::Uniform(rng, low, high); }
 };
 
@@ -42,12 +45,15 @@ struct RigidKind {
   std::string category;  // row of the knowledge base
   std::string what;      // one line
   RigidSides sides;
-  core::TexturedMesh (*make)(RigidDraft*);  // of any size: it is stretched to the draft's
+  core::TexturedMesh (*make)(RigidDraft*);         // of any size: it is stretched to the draft's
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  // m, of every one of them; zero: as sampled
 };
 
 // All of them: vessels, tableware, boxes, fruit and balls, long things, toys.
 const std::vector<RigidKind>& RigidKinds();
-// Null for an unknown one.
+// What scenes stand on and in, each of one size: tables, shelves, a chair, a floor.
+const std::vector<RigidKind>& FurnitureKinds();
+// Of both; null for an unknown one.
 const RigidKind* FindRigidKind(const std::string& name);
 
 // The families, each in its own file.

@@ -257,11 +257,10 @@ void Flatten(double share, core::TexturedMesh* mesh) {
   for (Eigen::Vector3d& v : mesh->mesh.vertices) v.z() = std::max(v.z(), foot);
 }
 
-void FitTo(const Eigen::Vector3d& size, core::TexturedMesh* mesh) {
-  const Eigen::AlignedBox3d box = core::Bounds(mesh->mesh);
-  const Eigen::Vector3d scale = size.cwiseQuotient(box.sizes());
-  const Eigen::Vector3d base(box.center().x(), box.center().y(), box.min().z());
-  for (Eigen::Vector3d& v : mesh->mesh.vertices) v = scale.cwiseProduct(v - base).eval();
+Eigen::Affine3d FitOf(const Eigen::Vector3d& size, const Eigen::AlignedBox3d& bounds) {
+  const Eigen::Vector3d base(bounds.center().x(), bounds.center().y(), bounds.min().z());
+  return Eigen::Scaling(Eigen::Vector3d(size.cwiseQuotient(bounds.sizes()))) *
+         Eigen::Translation3d(-base);
 }
 
 }  // namespace simwright::library

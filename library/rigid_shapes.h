@@ -4,12 +4,13 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "core/mesh.h"
 
 namespace simwright::library {
 
-// Closed, outward surfaces that rigid things are made of. Metres or any unit: FitTo gives the size.
+// Closed, outward surfaces that rigid things are made of. Metres or any unit: FitOf gives the size.
 
 // A cross-section of a loft: its outline stretched to x and y, at height z. `look` indexes the
 // colour of the band that leads to it from the ring before.
@@ -88,7 +89,7 @@ void Move(const Eigen::Vector3d& by, core::TexturedMesh* mesh);
 // Presses what lies in the lowest `share` of the height flat, so that round things have a foot.
 void Flatten(double share, core::TexturedMesh* mesh);
 
-// Stretches the mesh to this size, standing on z = 0 about the z axis.
-void FitTo(const Eigen::Vector3d& size, core::TexturedMesh* mesh);
+// Stretches what has these bounds to this size, standing on z = 0 about the z axis.
+Eigen::Affine3d FitOf(const Eigen::Vector3d& size, const Eigen::AlignedBox3d& bounds);
 
 }  // namespace simwright::library

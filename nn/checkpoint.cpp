@@ -18,21 +18,8 @@ torch::Tensor Packed(const CheckpointFacts& facts) {
       .clone();
 }
 
-}  // namespace
-
-void SaveCheckpoint(const torch::nn::Module& module, const CheckpointFacts& facts,
-                    const std::filesystem::path& path) {
-  if (!facts.contains("kind")) throw core::Error("a checkpoint says its kind", path.string());
-  NamedTensors tensors;
-  CollectTensors(module, "", &tensors);
-  for (auto& [name, tensor] : tensors) tensor = tensor.detach().to(torch::kHalf);
-  tensors[kFacts] = Packed(facts);
-  WriteTensors(tensors, path);
-}
-
-CheckpointFacts LoadCheckpoint(const std::filesystem::path& path, const std::string& kind,
-                               torch::nn::Module* module) {
-  const NamedTensors tensors = ReadTensors(path);
+CheckpointFacts FactsOf(const NamedTensors& tensors, const std::string& kind,
+                        const std::filesystem::path& path) {
   const auto found = tensors.find(kFacts);
   if (found == tensors.end() || found->second.scalar_type() != torch::kUInt8) {
     throw core::Error("holds no facts: is no weights file of this program", path.string());
@@ -49,6 +36,29 @@ CheckpointFacts LoadCheckpoint(const std::filesystem::path& path, const std::str
     throw core::Error("holds weights of kind '" + facts["kind"] + "', wanted is '" + kind + "'",
                       path.string());
   }
+  return facts;
+}
+
+}  // namespace
+
+void SaveCheckpoint(const torch::nn::Module& module, const CheckpointFacts& facts,
+                    const std::filesystem::path& path) {
+  if (!facts.contains("kind")) throw core::Error("a checkpoint says its kind", path.string());
+  NamedTensors tensors;
+  CollectTensors(module, "", &tensors);
+  for (auto& [name, tensor] : tensors) tensor = tensor.detach().to(torch::kHalf);
+  tensors[kFacts] = Packed(facts);
+  WriteTensors(tensors, path);
+}
+
+CheckpointFacts ReadCheckpointFacts(const std::filesystem::path& path, const std::string& kind) {
+  return FactsOf(ReadTensors(path), kind, path);
+}
+
+CheckpointFacts LoadCheckpoint(const std::filesystem::path& path, const std::string& kind,
+                               torch::nn::Module* module) {
+  const NamedTensors tensors = ReadTensors(path);
+  const CheckpointFacts facts = FactsOf(tensors, kind, path);
   const std::string missing = RestoreTensors(tensors, "", module);
   if (!missing.empty()) {
     throw core::Error("has no '" + missing + "' of the network's shape", path.string(),

@@ -16,6 +16,9 @@ using CheckpointFacts = std::map<std::string, std::string>;
 void SaveCheckpoint(const torch::nn::Module& module, const CheckpointFacts& facts,
                     const std::filesystem::path& path);
 
+// What a weights file says of itself, before a network is built for it. Throws as LoadCheckpoint.
+CheckpointFacts ReadCheckpointFacts(const std::filesystem::path& path, const std::string& kind);
+
 // Fills the module and returns the facts. Throws core::Error where the file is missing, damaged, of
 // another kind than `kind`, or holds other names or shapes than the module, naming the first.
 CheckpointFacts LoadCheckpoint(const std::filesystem::path& path, const std::string& kind,

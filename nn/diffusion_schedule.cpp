@@ -1,17 +1,18 @@
 #include "nn/diffusion_schedule.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/error.h"
 
 namespace simwright::nn {
 namespace {
 
-torch::Tensor Column(const torch::Tensor& table, const torch::Tensor& t) {
-  return table.to(t.device())
-      .index_select(0, t.to(torch::kLong))
-      .to(torch::kFloat)
-      .reshape({-1, 1, 1, 1});
+torch::Tensor Column(const torch::Tensor& table, const torch::Tensor& t, std::int64_t rank) {
+  std::vector<std::int64_t> shape(static_cast<size_t>(rank), 1);
+  shape[0] = -1;
+  return table.to(t.device()).index_select(0, t.to(torch::kLong)).to(torch::kFloat).reshape(shape);
 }
 
 }  // namespace
@@ -38,22 +39,29 @@ DiffusionSchedule DiffusionSchedule::ScaledLinear(int steps, double first, doubl
       torch::pow(torch::linspace(std::sqrt(first), std::sqrt(last), steps, torch::kDouble), 2));
 }
 
-torch::Tensor DiffusionSchedule::Signal(const torch::Tensor& t) const {
-  return Column(signal_, t);
+DiffusionSchedule DiffusionSchedule::Linear(int steps, double first, double last) {
+  if (steps < 2 || !(first > 0.0) || !(last > first) || last >= 1.0) {
+    throw core::Error("a diffusion has at least two steps and betas that rise between 0 and 1");
+  }
+  return DiffusionSchedule(torch::linspace(first, last, steps, torch::kDouble));
 }
 
-torch::Tensor DiffusionSchedule::Noise(const torch::Tensor& t) const {
-  return Column(noise_, t);
+torch::Tensor DiffusionSchedule::Signal(const torch::Tensor& t, std::int64_t rank) const {
+  return Column(signal_, t, rank);
+}
+
+torch::Tensor DiffusionSchedule::Noise(const torch::Tensor& t, std::int64_t rank) const {
+  return Column(noise_, t, rank);
 }
 
 torch::Tensor DiffusionSchedule::AddNoise(const torch::Tensor& clean, const torch::Tensor& noise,
                                           const torch::Tensor& t) const {
-  return Signal(t) * clean + Noise(t) * noise;
+  return Signal(t, clean.dim()) * clean + Noise(t, clean.dim()) * noise;
 }
 
 torch::Tensor DiffusionSchedule::CleanFrom(const torch::Tensor& noisy, const torch::Tensor& noise,
                                            const torch::Tensor& t) const {
-  return (noisy - Noise(t) * noise) / Signal(t);
+  return (noisy - Noise(t, noisy.dim()) * noise) / Signal(t, noisy.dim());
 }
 
 torch::Tensor DiffusionSchedule::DdimStep(const torch::Tensor& noisy, const torch::Tensor& noise,
@@ -61,6 +69,20 @@ torch::Tensor DiffusionSchedule::DdimStep(const torch::Tensor& noisy, const torc
   const torch::Tensor clean = (noisy - NoiseAt(t) * noise) / SignalAt(t);
   if (previous < 0) return clean;
   return SignalAt(previous) * clean + NoiseAt(previous) * noise;
+}
+
+torch::Tensor DiffusionSchedule::StochasticStep(const torch::Tensor& noisy,
+                                                const torch::Tensor& clean, int t, int previous,
+                                                double eta, const torch::Tensor& fresh) const {
+  if (previous < 0) return clean;
+  const double signal = SignalAt(t), spread = NoiseAt(t);
+  const double earlier = SignalAt(previous), earlier_spread = NoiseAt(previous);
+  const double kept = signal / earlier;  // signal from `previous` to t
+  const double deviation = eta * earlier_spread / spread * std::sqrt(1.0 - kept * kept);
+  const torch::Tensor noise = (noisy - signal * clean) / spread;
+  const double direct =
+      std::sqrt(std::max(0.0, earlier_spread * earlier_spread - deviation * deviation));
+  return earlier * clean + direct * noise + deviation * fresh;
 }
 
 }  // namespace simwright::nn

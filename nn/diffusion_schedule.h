@@ -14,14 +14,17 @@ class DiffusionSchedule {
   // al. 2022), which Zero-1-to-3 keeps: 0.00085 to 0.012 over 1000 steps.
   static DiffusionSchedule ScaledLinear(int steps, double first, double last);
 
+  // Betas that rise evenly from `first` to `last` (Ho et al. 2020: 1e-4 to 0.02 over 1000 steps).
+  static DiffusionSchedule Linear(int steps, double first, double last);
+
   int steps() const { return static_cast<int>(signal_.size(0)); }
-  // a_t and s_t for t (B, int64), as (B x 1 x 1 x 1) on t's device.
-  torch::Tensor Signal(const torch::Tensor& t) const;
-  torch::Tensor Noise(const torch::Tensor& t) const;
+  // a_t and s_t for t (B, int64), on t's device, of `rank` dimensions: (B x 1 x 1 x 1) for images.
+  torch::Tensor Signal(const torch::Tensor& t, std::int64_t rank = 4) const;
+  torch::Tensor Noise(const torch::Tensor& t, std::int64_t rank = 4) const;
   double SignalAt(int t) const { return signal_[t].item<double>(); }
   double NoiseAt(int t) const { return noise_[t].item<double>(); }
 
-  // x_t from x_0 and noise, (B x C x H x W) each.
+  // x_t from x_0 and noise, (B x C x H x W) each or of another rank.
   torch::Tensor AddNoise(const torch::Tensor& clean, const torch::Tensor& noise,
                          const torch::Tensor& t) const;
   // The x_0 that x_t and its predicted noise stand for.
@@ -30,6 +33,11 @@ class DiffusionSchedule {
   // The deterministic step of DDIM (Song et al. 2021) from t to `previous` < t; -1: to x_0.
   torch::Tensor DdimStep(const torch::Tensor& noisy, const torch::Tensor& noise, int t,
                          int previous) const;
+  // The same from the x_0 that is believed in, with a share `eta` in [0, 1] of the noise that the
+  // posterior q(x_previous | x_t, x_0) has (Song et al. 2021, equation 16): 1 draws from that
+  // posterior, which with previous = t - 1 is the step of Ho et al. `fresh`: standard normal.
+  torch::Tensor StochasticStep(const torch::Tensor& noisy, const torch::Tensor& clean, int t,
+                               int previous, double eta, const torch::Tensor& fresh) const;
 
  private:
   explicit DiffusionSchedule(const torch::Tensor& betas);

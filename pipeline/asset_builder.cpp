@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "core/error.h"
+#include "geometry/concavity.h"
 #include "geometry/mass_properties.h"
 #include "pipeline/foot.h"
 #include "pipeline/rest_pose.h"
@@ -78,7 +79,17 @@ void GiveMass(const BuildRequest& request, assets::Asset* asset) {
   asset->rolling_friction = kRollingResistance * 0.5 * core::Bounds(asset->solid).sizes().mean();
 }
 
-void Decompose(const BuildRequest& request, assets::Asset* asset) {
+void TakeParts(const BuildRequest& request, assets::Asset* asset) {
+  asset->parts = request.parts;
+  const geometry::DecompositionQuality quality =
+      geometry::MeasureDecomposition(asset->solid, asset->parts);
+  const Eigen::AlignedBox3d box = core::Bounds(asset->solid);
+  // In CoACD's units, as of a decomposition.
+  asset->concavity = quality.concavity * 2.0 * box.diagonal().norm() / box.sizes().maxCoeff();
+  asset->coverage = quality.coverage;
+}
+
+void FindParts(const BuildRequest& request, assets::Asset* asset) {
   geometry::DecompositionOptions options = request.decomposition;
   options.max_hull_vertices -= kFootCorners;
   const geometry::ConvexDecomposition decomposition = geometry::Decompose(asset->solid, options);
@@ -114,8 +125,10 @@ void LayDown(const BuildRequest& request, assets::Asset* asset) {
   RestPose rest;
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
   for (int pass = 0; pass < kRestPasses; ++pass) {
-    KeepFoot(FindFoot(asset->solid, asset->inertial.center_of_mass, kFootCorners),
-             request.decomposition.max_hull_vertices, &asset->parts);
+    if (request.parts.empty()) {
+      KeepFoot(FindFoot(asset->solid, asset->inertial.center_of_mass, kFootCorners),
+               request.decomposition.max_hull_vertices, &asset->parts);
+    }
     rest = FindRestPose(sim::BodyFromAsset(*asset));
     PlaceInLinkFrame(rest.turn, asset);
     turn = rest.turn * turn;
@@ -150,7 +163,7 @@ BuiltAsset BuildAsset(const core::TexturedMesh& visual, const BuildRequest& requ
   clock.Begin("mass");
   GiveMass(request, &asset);
   clock.Begin("collision parts");
-  Decompose(request, &asset);
+  request.parts.empty() ? FindParts(request, &asset) : TakeParts(request, &asset);
   clock.Begin("rest pose");
   LayDown(request, &asset);
   clock.End();

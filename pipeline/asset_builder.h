@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "assets/asset.h"
 #include "core/progress.h"
@@ -19,6 +20,9 @@ struct BuildRequest {
   std::uint64_t seed = 1;
   geometry::SolidOptions solid;
   geometry::DecompositionOptions decomposition;
+  // Closed, convex, at most decomposition.max_hull_vertices vertices, in the mesh's frame: what
+  // collides, taken as it is. Empty: convex decomposition finds them.
+  std::vector<core::TriangleMesh> parts;
 };
 
 // Wall-clock seconds by stage, for people and benchmarks; kept out of the asset, whose bytes

@@ -38,7 +38,12 @@ void AddKind(const std::string& kind, std::vector<Item>* items) {
       items->push_back({nullptr, &one, {}});
     }
   }
-  if (kind == "all" || kind == "rigid" || kind == "everything") return;
+  if (kind == "furniture") {
+    for (const library::RigidKind& one : library::FurnitureKinds()) {
+      items->push_back({nullptr, &one, {}});
+    }
+  }
+  if (kind == "all" || kind == "rigid" || kind == "everything" || kind == "furniture") return;
   const library::RigidKind* rigid = library::FindRigidKind(kind);
   items->push_back(rigid != nullptr ? Item{nullptr, rigid, {}}
                                     : Item{&library::KindNamed(kind), nullptr, {}});
@@ -92,6 +97,7 @@ void WriteRigid(const Item& item, const fs::path& folder, LibraryOutcome* outcom
   request.source = "library/" + item.rigid->name;
   request.category = physics_params::RequireCategory(item.rigid->category);
   request.seed = item.options.seed;
+  request.parts = thing.parts;
   core::Progress silent;
   const assets::Asset asset = BuildAsset(thing.visual, request, &silent).asset;
   outcome->links = 1;

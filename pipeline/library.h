@@ -13,8 +13,9 @@
 namespace simwright::pipeline {
 
 struct LibraryOptions {
-  // Of library::Kinds() or library::RigidKinds(), or all of the former ("all"), of the latter
-  // ("rigid"), or of both ("everything"); several with commas, "mug,book".
+  // Of library::Kinds(), library::RigidKinds() or library::FurnitureKinds(), or all of the first
+  // ("all"), of the second ("rigid"), of both ("everything"), of the third ("furniture"); several
+  // with commas, "mug,book".
   std::string kind = "all";
   int count = 1;           // of each kind
   std::uint64_t seed = 1;  // of the first; the others follow

@@ -1,11 +1,41 @@
 #include "scene/palette.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "core/content_hash.h"
 #include "core/error.h"
 
 namespace simwright::scene {
 namespace {
+
+// Where a line straight down through the origin meets the triangle; -1 where it does not.
+double HeightAtOrigin(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                      const Eigen::Vector3d& c) {
+  const auto cross = [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+    return p.x() * q.y() - p.y() * q.x();
+  };
+  const Eigen::Vector3d weights(cross(b, c), cross(c, a), cross(a, b));
+  const double area = weights.sum();
+  if (std::abs(area) < 1e-14) return -1.0;  // m^2: upright
+  const Eigen::Vector3d share = weights / area;
+  if (share.minCoeff() < -1e-9) return -1.0;
+  return share.dot(Eigen::Vector3d(a.z(), b.z(), c.z()));
+}
+
+// Where a thing stands that is put in or on the middle of the body.
+double RestHeight(const sim::RigidBody& body) {
+  double height = 0.0;
+  for (const core::TriangleMesh& part : body.parts) {
+    for (const Eigen::Vector3i& triangle : part.triangles) {
+      height = std::max(height, HeightAtOrigin(part.vertices[static_cast<size_t>(triangle[0])],
+                                               part.vertices[static_cast<size_t>(triangle[1])],
+                                               part.vertices[static_cast<size_t>(triangle[2])]));
+    }
+  }
+  return height;
+}
 
 SlotSize SizeOfBody(const sim::RigidBody& body) {
   Eigen::AlignedBox3d box;
@@ -14,7 +44,7 @@ SlotSize SizeOfBody(const sim::RigidBody& body) {
   }
   // About the origin, which is where grammars place it.
   const Eigen::Vector3d farthest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs());
-  return BoxSize(farthest.x(), farthest.y(), box.max().z());
+  return BoxSize(farthest.x(), farthest.y(), box.max().z(), RestHeight(body));
 }
 
 }  // namespace
@@ -39,6 +69,27 @@ const PaletteAsset& Palette::At(const std::string& slot) const {
     throw core::Error("no asset stands for this slot of the scene", slot, "add one to the palette");
   }
   return found->second;
+}
+
+std::string Palette::HashOf(const std::string& slot) const {
+  const PaletteAsset& asset = At(slot);
+  std::string bytes;
+  const auto add = [&](const double* numbers, Eigen::Index count) {
+    bytes.append(reinterpret_cast<const char*>(numbers),
+                 static_cast<size_t>(count) * sizeof(double));
+  };
+  for (const core::TriangleMesh& part : asset.body.parts) {
+    for (const Eigen::Vector3d& vertex : part.vertices) add(vertex.data(), 3);
+    bytes += '|';
+  }
+  const assets::Inertial& inertial = asset.body.inertial;
+  for (const double number :
+       {inertial.mass, asset.body.friction, asset.body.restitution, asset.body.rolling_friction}) {
+    add(&number, 1);
+  }
+  add(inertial.center_of_mass.data(), 3);
+  add(inertial.inertia.data(), 9);
+  return core::ContentHash(bytes);
 }
 
 SlotSizes Palette::Sizes(const SlotSizes& others) const {

@@ -30,6 +30,9 @@ class Palette {
   const PaletteAsset& At(const std::string& slot) const;
   bool Has(const std::string& slot) const { return assets_.count(slot) > 0; }
 
+  // Over what physics takes of the asset: parts, inertial, friction. Throws as At does.
+  std::string HashOf(const std::string& slot) const;
+
   // For grammars: the sizes of what is here, those of `others` for the rest.
   SlotSizes Sizes(const SlotSizes& others = DefaultSlotSizes()) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <vector>
 
 #include "assets/asset_folder.h"
@@ -19,9 +20,8 @@ std::string SlotOf(const std::string& name) {
   return seeded ? name.substr(0, digits - 1) : name;
 }
 
-}  // namespace
-
-Palette ReadPalette(const fs::path& folder) {
+// Rigid asset folders, sorted by name.
+std::vector<fs::path> AssetFolders(const fs::path& folder) {
   if (!fs::is_directory(folder)) {
     throw core::Error("there is no folder of assets", folder.string(),
                       "make one with `simwright library`");
@@ -31,14 +31,49 @@ Palette ReadPalette(const fs::path& folder) {
     if (assets::IsAssetFolder(entry.path())) entries.push_back(entry.path());
   }
   std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
+}  // namespace
+
+Palette ReadPalette(const fs::path& folder) {
+  SlotFolders folders;
+  for (const fs::path& path : AssetFolders(folder)) {
+    folders.emplace(SlotOf(path.filename().string()), path);  // the first of a slot stays
+  }
+  if (folders.empty()) throw core::Error("there is no rigid asset", folder.string());
+  return ReadPalette(folders);
+}
+
+SlotFolders FoldersForSlots(const fs::path& folder, const std::vector<std::string>& slots) {
+  const std::set<std::string> wanted(slots.begin(), slots.end());
+  SlotFolders by_name, by_seed, by_category;
+  for (const fs::path& path : AssetFolders(folder)) {
+    const std::string name = path.filename().string();
+    if (wanted.count(name) > 0) {
+      by_name.emplace(name, path);
+      continue;
+    }
+    const std::string slot = SlotOf(name);
+    if (wanted.count(slot) > 0) by_seed.emplace(slot, path);
+    const std::string category = assets::ReadAsset(path).parameters.category;
+    if (wanted.count(category) > 0) by_category.emplace(category, path);
+  }
+  by_name.merge(by_seed);
+  by_name.merge(by_category);
+  return by_name;
+}
+
+Palette ReadPalette(const SlotFolders& folders) {
   Palette palette;
-  for (const fs::path& path : entries) {
-    const std::string slot = SlotOf(path.filename().string());
-    if (palette.Has(slot)) continue;
+  for (const auto& [slot, path] : folders) {
     const assets::Asset asset = assets::ReadAsset(path);
+    if (asset.parts.empty()) {
+      throw core::Error("the asset has no collision parts", path.string(),
+                        "make it with `simwright import` or `lift`");
+    }
     palette.Add(slot, sim::BodyFromAsset(asset), asset.visual);
   }
-  if (entries.empty()) throw core::Error("there is no rigid asset", folder.string());
   return palette;
 }
 

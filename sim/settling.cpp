@@ -42,6 +42,104 @@ SettledBody EndOf(const SettlingBody& one, const Isometry3d& now, double fallen)
   return end;
 }
 
+constexpr double kLook = 0.05;          // s between two looks
+constexpr double kRestFor = 0.1;        // s without a motion: at rest
+constexpr double kWatchAtLeast = 0.25;  // s
+
+// A world with the things of a scene in it, stepped until they rest and then watched.
+class Scene {
+ public:
+  Scene(const std::vector<SettlingBody>& bodies, const SettlingOptions& options)
+      : bodies_(bodies), options_(options), world_(OptionsOf(options)) {
+    Load(bodies, &world_);
+    for (const SettlingBody& one : bodies) radii_.push_back(Radius(*one.body));
+  }
+
+  std::vector<SettledBody> Run() {
+    Settle();
+    std::vector<SettledBody> settled;
+    for (size_t i = 0; i < bodies_.size(); ++i) {
+      SettledBody stays;
+      stays.world_from_body = bodies_[i].world_from_body;
+      settled.push_back(bodies_[i].fixed ? stays : EndOf(bodies_[i], PoseOf(i), options_.fallen));
+    }
+    Watch(&settled);
+    for (SettledBody& end : settled) end.stable = end.drift <= options_.stable;
+    return settled;
+  }
+
+ private:
+  static WorldOptions OptionsOf(const SettlingOptions& options) {
+    WorldOptions world;
+    world.time_step = options.time_step;
+    world.solver_iterations = options.solver_iterations;
+    return world;
+  }
+
+  Isometry3d PoseOf(size_t body) const { return world_.Pose(static_cast<int>(body)); }
+
+  void Step(double seconds) {
+    const int steps = static_cast<int>(std::lround(seconds / options_.time_step));
+    for (int i = 0; i < std::max(1, steps); ++i) world_.Step();
+  }
+
+  // The farthest that any free body is from where it was; HUGE_VAL where one is nowhere.
+  double FarthestFrom(const std::vector<Isometry3d>& poses) const {
+    double farthest = 0.0;
+    for (size_t i = 0; i < bodies_.size(); ++i) {
+      if (bodies_[i].fixed) continue;
+      const double way = Way(*bodies_[i].body, radii_[i], poses[i], PoseOf(i));
+      farthest = std::isfinite(way) ? std::max(farthest, way) : HUGE_VAL;
+    }
+    return farthest;
+  }
+
+  std::vector<Isometry3d> Poses() const {
+    std::vector<Isometry3d> poses;
+    for (size_t i = 0; i < bodies_.size(); ++i) poses.push_back(PoseOf(i));
+    return poses;
+  }
+
+  void Settle() {
+    std::vector<Isometry3d> before = Poses();
+    double passed = 0.0;
+    while (passed < options_.duration - 1e-9) {
+      const double some = std::min(kRestFor, options_.duration - passed);
+      Step(some);
+      passed += some;
+      if (options_.resting > 0.0 && FarthestFrom(before) <= options_.resting) return;
+      before = Poses();
+    }
+  }
+
+  void Watch(std::vector<SettledBody>* settled) {
+    double passed = 0.0, farthest = 0.0;
+    while (passed < options_.watch - 1e-9) {
+      const double some = std::min(kLook, options_.watch - passed);
+      Step(some);
+      passed += some;
+      for (size_t i = 0; i < bodies_.size(); ++i) {
+        if (bodies_[i].fixed) continue;
+        SettledBody& one = (*settled)[i];
+        const double way = Way(*bodies_[i].body, radii_[i], one.world_from_body, PoseOf(i));
+        one.drift = std::isfinite(way) ? std::max(one.drift, way) : HUGE_VAL;
+        farthest = std::max(farthest, one.drift);
+      }
+      const double rest = options_.watch / passed;
+      const bool early = options_.pace > 0.0 && passed >= kWatchAtLeast - 1e-9 &&
+                         farthest * rest * options_.pace <= options_.stable;
+      if (!early) continue;
+      for (SettledBody& one : *settled) one.drift *= rest;
+      return;
+    }
+  }
+
+  const std::vector<SettlingBody>& bodies_;
+  const SettlingOptions& options_;
+  World world_;
+  std::vector<double> radii_;
+};
+
 }  // namespace
 
 bool SettlingOptions::IsValid(std::string* error) const {
@@ -54,6 +152,8 @@ bool SettlingOptions::IsValid(std::string* error) const {
   if (!(time_step > 0.0) || time_step > 0.02) return fails("time_step has to be 0 to 0.02 s");
   if (solver_iterations < 1) return fails("solver_iterations has to be at least 1");
   if (!(stable > 0.0)) return fails("stable has to be above 0 m");
+  if (!(resting >= 0.0)) return fails("resting has to be at least 0 m");
+  if (!(pace >= 0.0)) return fails("pace has to be at least 0");
   if (!(fallen > 0.0)) return fails("fallen has to be above 0 m");
   return true;
 }
@@ -62,36 +162,7 @@ std::vector<SettledBody> Settle(const std::vector<SettlingBody>& bodies,
                                 const SettlingOptions& options) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("settling: " + error);
-  WorldOptions world_options;
-  world_options.time_step = options.time_step;
-  world_options.solver_iterations = options.solver_iterations;
-  World world(world_options);
-  Load(bodies, &world);
-  const auto run = [&](double seconds) {
-    const int steps = static_cast<int>(std::lround(seconds / options.time_step));
-    for (int i = 0; i < steps; ++i) world.Step();
-  };
-  run(options.duration);
-  std::vector<SettledBody> settled;
-  for (size_t i = 0; i < bodies.size(); ++i) {
-    SettledBody stays;
-    stays.world_from_body = bodies[i].world_from_body;
-    const int index = static_cast<int>(i);
-    settled.push_back(bodies[i].fixed ? stays
-                                      : EndOf(bodies[i], world.Pose(index), options.fallen));
-  }
-  constexpr double kLook = 0.05;  // s between two looks
-  for (double watched = 0.0; watched < options.watch - 1e-9; watched += kLook) {
-    run(std::min(kLook, options.watch - watched));
-    for (size_t i = 0; i < bodies.size(); ++i) {
-      if (bodies[i].fixed) continue;
-      const double way = Way(*bodies[i].body, Radius(*bodies[i].body), settled[i].world_from_body,
-                             world.Pose(static_cast<int>(i)));
-      settled[i].drift = std::isfinite(way) ? std::max(settled[i].drift, way) : HUGE_VAL;
-    }
-  }
-  for (SettledBody& end : settled) end.stable = end.drift <= options.stable;
-  return settled;
+  return Scene(bodies, options).Run();
 }
 
 }  // namespace simwright::sim

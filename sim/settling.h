@@ -24,6 +24,12 @@ struct SettlingOptions {
   double time_step = 1e-3;
   int solver_iterations = 50;
   double stable = 1e-3;  // m that no point of a stable thing moves while it is watched
+  // m that nothing moves over 0.1 s: then all has settled, whatever is left of `duration`; 0: never
+  // before it has passed. What creeps from its place does so at a pace that watching finds.
+  double resting = 2e-5;
+  // Watching ends after a quarter of a second or more where ways so far, at so many times their
+  // pace to the end, would stay below `stable`; 0: never before `watch` has passed.
+  double pace = 4.0;
   // m below where it began: what is lower has fallen off what it stood on.
   double fallen = 0.05;
 
@@ -36,7 +42,9 @@ struct SettledBody {
   Eigen::Isometry3d world_from_body = Eigen::Isometry3d::Identity();  // when it had settled
   double moved = 0.0;   // m, from the beginning to then
   double tilted = 0.0;  // rad, its upright from its first one
-  double drift = 0.0;   // m, the farthest it was from there while it was watched
+  // m, the farthest it was from there while it was watched; where that ended early, at the same
+  // pace to the end.
+  double drift = 0.0;
   bool fell = false;    // lower than it began, by more than `fallen`
   bool stable = false;  // drift <= options.stable
 };

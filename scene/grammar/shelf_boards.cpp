@@ -6,7 +6,7 @@
 namespace simwright::scene {
 namespace {
 
-constexpr double kMiddle = 0.3915;                        // m, of the published height, 0.783 m
+constexpr double kMiddle = 0.407;                         // m, over the foot, 17 mm of board below
 constexpr double kBoards[] = {-0.39, -0.12, 0.14, 0.41};  // m, from the middle
 constexpr double kWall = 0.015;                           // m, of the shelf's sides and back
 

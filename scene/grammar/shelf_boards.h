@@ -7,9 +7,10 @@
 
 namespace simwright::scene {
 
-// The shelf of both shelf scenes: 0.3 m deep, 0.6 m wide, 0.783 m high, its foot at z = 0, with
-// four boards on whose upper sides things stand (Pfaff et al., appendix: -0.39, -0.12, 0.14 and
-// 0.41 m from its middle).
+// The shelf of both shelf scenes: 0.3 m deep, 0.6 m wide, its foot at z = 0, with four boards on
+// whose upper sides things stand (Pfaff et al., appendix: -0.39, -0.12, 0.14 and 0.41 m from its
+// middle). The published height, 0.783 m, is that of its sides, which stand on the lowest board and
+// carry the uppermost.
 
 // Adds the symbol "shelf", welded, of `slot`, whose three lower boards are the symbol `board` and
 // whose uppermost is `top_board`: both to be defined as surfaces.

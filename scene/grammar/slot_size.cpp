@@ -35,8 +35,8 @@ SlotSizes MakeDefaults() {
   sizes["table_round"] = RoundSize(0.625, 0.785);          // (p)
   sizes["table_restaurant"] = RoundSize(0.625, 0.785);     // (p)
   sizes["table_breakfast"] = BoxSize(0.3575, 0.7, 0.75);   // (p) but for the height
-  sizes["shelf_living_room"] = BoxSize(0.15, 0.3, 0.783);  // (p)
-  sizes["shelf_pantry"] = BoxSize(0.15, 0.3, 0.783);       // (p)
+  sizes["shelf_living_room"] = BoxSize(0.15, 0.3, 0.817);  // (p), to its uppermost board
+  sizes["shelf_pantry"] = BoxSize(0.15, 0.3, 0.817);       // (p), to its uppermost board
   sizes["floor"] = BoxSize(5.0, 5.0, 0.05);
   sizes["chair"] = BoxSize(0.22, 0.24, 0.9);
   // Tableware.

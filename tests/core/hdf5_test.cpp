@@ -73,6 +73,26 @@ TEST(Hdf5, ReadsBackWhatItWrote) {
   EXPECT_EQ(group.ReadTexts("texts"), (std::vector<std::string>{"demo_0", "demo_10"}));
 }
 
+TEST(Hdf5, ReadsRowsOfADataset) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.hdf5";
+  WriteSample(path);
+  const Hdf5Reader reader(path);
+  const Hdf5Group group = reader.root().Open("group");
+  const std::vector<double> numbers = Doubles(60);
+  const Hdf5Array<double> rows = group.ReadRows<double>("packed", 1, 3);
+  EXPECT_EQ(rows.shape, (std::vector<std::size_t>{3, 3, 4}));
+  EXPECT_EQ(rows.values, std::vector<double>(numbers.begin() + 12, numbers.begin() + 48));
+  EXPECT_EQ(group.ReadRows<std::uint8_t>("bytes", 1, 1).values,
+            (std::vector<std::uint8_t>{127, 255}));
+  EXPECT_TRUE(group.ReadRows<double>("packed", 5, 0).values.empty());
+  EXPECT_THROW(group.ReadRows<double>("packed", 3, 3), Error);
+  EXPECT_THROW(group.ReadRows<double>("packed", 6, 0), Error);
+  EXPECT_THROW(group.ReadRows<double>("packed", 1, ~std::size_t{0}), Error);
+  EXPECT_THROW(group.ReadRows<float>("packed", 0, 1), Error);
+  EXPECT_THROW(group.ReadRows<double>("packed", 0, 5, 100), Error);
+}
+
 TEST(Hdf5, SameCallsSameBytesWhenever) {
   const TemporaryFolder folder;
   WriteSample(folder.path() / "a.hdf5");

@@ -36,6 +36,33 @@ TEST(DiffusionSchedule, StepsWithTheTrueNoiseLeadToTheCleanPicture) {
   EXPECT_LT((x - clean).abs().max().item<double>(), 1e-4);
 }
 
+TEST(DiffusionSchedule, AStochasticStepDrawsFromThePosterior) {
+  // The posterior of two Gaussians in closed form: x_s given x_0, and x_t given x_s.
+  const DiffusionSchedule schedule = DiffusionSchedule::Linear(1000, 1e-4, 0.02);
+  // sqrt of the product of 1 - beta over all 1000 steps, by hand: exp(0.5 sum log(1 - beta)).
+  double log_kept = 0.0;
+  for (int i = 0; i < 1000; ++i) log_kept += std::log(1.0 - (1e-4 + i * (0.02 - 1e-4) / 999.0));
+  EXPECT_NEAR(schedule.SignalAt(999), std::exp(0.5 * log_kept), 1e-12);
+  const torch::Tensor clean = torch::full({1}, 0.7, torch::kDouble);
+  const torch::Tensor noisy = torch::full({1}, -0.4, torch::kDouble);
+  const torch::Tensor none = torch::zeros({1}, torch::kDouble), one = torch::ones_like(none);
+  for (const auto& [t, s] : {std::pair(500, 499), std::pair(800, 300), std::pair(1, 0)}) {
+    const double a = schedule.SignalAt(t) / schedule.SignalAt(s);
+    const double step_variance = 1.0 - a * a, variance = std::pow(schedule.NoiseAt(s), 2);
+    const double precision = 1.0 / variance + a * a / step_variance;
+    const double mean =
+        (schedule.SignalAt(s) * 0.7 / variance + a * -0.4 / step_variance) / precision;
+    EXPECT_NEAR(schedule.StochasticStep(noisy, clean, t, s, 1.0, none).item<double>(), mean, 1e-9);
+    const double deviation = schedule.StochasticStep(noisy, clean, t, s, 1.0, one).item<double>() -
+                             schedule.StochasticStep(noisy, clean, t, s, 1.0, none).item<double>();
+    EXPECT_NEAR(deviation, std::sqrt(1.0 / precision), 1e-9);
+    // Without noise it is the deterministic step.
+    const torch::Tensor noise = (noisy - schedule.SignalAt(t) * clean) / schedule.NoiseAt(t);
+    EXPECT_NEAR(schedule.StochasticStep(noisy, clean, t, s, 0.0, one).item<double>(),
+                schedule.DdimStep(noisy, noise, t, s).item<double>(), 1e-9);
+  }
+}
+
 TEST(DiffusionSchedule, RefusesWhatIsNone) {
   EXPECT_THROW(DiffusionSchedule::Cosine(1), core::Error);
   EXPECT_THROW(DiffusionSchedule::ScaledLinear(10, 0.1, 0.01), core::Error);

@@ -53,7 +53,7 @@ TEST(PantryShelf, ThingsStandOnItsBoardsInsideOfIt) {
       heights.insert(static_cast<int>(std::lround(1e4 * at.z())));
     }
   }
-  EXPECT_EQ(heights, (std::set<int>{15, 2715, 5315, 8015}));
+  EXPECT_EQ(heights, (std::set<int>{170, 2870, 5470, 8170}));
 }
 
 // What stands on the boards of a living room's shelf, a board by its height in 0.1 mm: the indices

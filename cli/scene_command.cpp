@@ -1,0 +1,89 @@
+#include <cstdio>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/scene_model_commands.h"
+#include "core/error.h"
+#include "pipeline/scene_generation.h"
+#include "scene/grammar/scene_types.h"
+
+namespace simwright::cli {
+namespace {
+
+struct GenerateFlags {
+  pipeline::SceneGenerationRequest request;
+  std::vector<std::string> chosen;  // "apple=out/my_apple"
+  bool list = false;
+};
+
+scene::SlotFolders ChosenOf(const std::vector<std::string>& flags) {
+  scene::SlotFolders chosen;
+  for (const std::string& flag : flags) {
+    const size_t equals = flag.find('=');
+    if (equals == 0 || equals == std::string::npos || equals + 1 == flag.size()) {
+      throw core::Error("this is no SLOT=FOLDER", "--asset " + flag);
+    }
+    chosen[flag.substr(0, equals)] = flag.substr(equals + 1);
+  }
+  return chosen;
+}
+
+int Generate(GenerateFlags flags, const CommonOptions& common) {
+  if (flags.list) {
+    for (const scene::SceneType& type : scene::SceneTypes()) {
+      std::printf("%-18s %s\n", type.name.c_str(), type.what.c_str());
+    }
+    return 0;
+  }
+  if (flags.request.type.empty() || flags.request.output.empty()) {
+    throw core::Error("scenes need a type and a place", "", "--type dimsum -o FOLDER, or --list");
+  }
+  flags.request.seed = common.seed;
+  flags.request.chosen = ChosenOf(flags.chosen);
+  core::Progress progress(common.ProgressStyle());
+  const pipeline::SceneStatistics statistics = pipeline::GenerateScenes(flags.request, &progress);
+  std::fputs(
+      (common.json ? pipeline::StatisticsJson(statistics) : pipeline::StatisticsTable(statistics))
+          .c_str(),
+      stdout);
+  return 0;
+}
+
+void AddGenerate(CLI::App* scene, CommonOptions* common, Run* run) {
+  auto flags = std::make_shared<GenerateFlags>();
+  pipeline::SceneGenerationRequest& request = flags->request;
+  CLI::App* command = scene->add_subcommand(
+      "generate", "Scenes from a grammar, moved apart, settled, and written as a dataset");
+  command->footer(
+      "Example:\n  simwright scene generate --type dimsum --count 100 -o out/dimsum\n"
+      "  simwright scene generate --type pantry_shelf --count 20 --asset apple=out/apple -o "
+      "pantry\n"
+      "Several at once may write into one folder; one that was stopped goes on when it is called\n"
+      "again. docs/scenes.md says more.");
+  command->add_option("--type", request.type, "Of scene, see --list");
+  command->add_option("--count", request.count, "Scenes that the dataset is to have")
+      ->capture_default_str();
+  command->add_option("-o,--output", request.output, "Folder of the dataset");
+  command->add_option("--assets", request.assets,
+                      "Folders of assets to take before the library's, by name or category");
+  command->add_option("--asset", flags->chosen, "SLOT=FOLDER: this asset for this slot");
+  command->add_option("--part", request.part, "Scenes of a part, which one worker makes at a time")
+      ->capture_default_str();
+  command->add_option("--step", request.time_step, "s of a step of physics; 0: the default")
+      ->capture_default_str();
+  command->add_flag("--list", flags->list, "Say what types there are");
+  AddCommon(command, common);
+  command->callback([flags, common, run] { *run = [=] { return Generate(*flags, *common); }; });
+}
+
+}  // namespace
+
+void AddScene(CLI::App* app, CommonOptions* common, Run* run) {
+  CLI::App* scene = app->add_subcommand("scene", "Cluttered scenes that hold in simulation");
+  scene->require_subcommand(1);
+  AddGenerate(scene, common, run);
+  AddSceneTrain(scene, common, run);
+  AddSceneSample(scene, common, run);
+}
+
+}  // namespace simwright::cli

@@ -1,0 +1,129 @@
+#include "cli/scene_model_commands.h"
+
+#include <cstdio>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "pipeline/scene_sampling.h"
+#include "scene/dataset/scene_dataset.h"
+#include "scene/model/training.h"
+
+namespace simwright::cli {
+namespace {
+
+struct TrainFlags {
+  std::filesystem::path dataset, output;
+  std::string size = "tiny", method = "ours";
+  scene::SceneTrainingOptions options;
+};
+
+scene::SceneModelOptions ModelOf(const TrainFlags& flags) {
+  scene::SceneModelOptions model = scene::SceneModelOptions::OfSize(flags.size);
+  if (flags.method == "continuous") model.continuous = true;
+  if (flags.method == "midiffusion") return model.AsMiDiffusion();
+  if (flags.method == "diffuscene") return model.AsDiffuScene();
+  return model;
+}
+
+std::string ReportJson(const scene::SceneTrainingReport& report) {
+  nlohmann::ordered_json json;
+  json["weights"] = report.weights.string();
+  json["parameters"] = report.parameters;
+  json["training_scenes"] = report.training_scenes;
+  json["held_out_scenes"] = report.held_out_scenes;
+  json["seconds"] = report.seconds;
+  if (!report.losses.empty()) {
+    json["loss"] = report.losses.back().total;
+    json["held_out_loss"] = report.losses.back().held_out;
+  }
+  return json.dump(2) + "\n";
+}
+
+int Train(TrainFlags flags, const CommonOptions& common) {
+  flags.options.seed = common.seed;
+  const scene::SceneDataset dataset(flags.dataset);
+  core::Progress progress(common.ProgressStyle());
+  const scene::SceneTrainingReport report =
+      scene::TrainSceneModel(dataset, ModelOf(flags), flags.options, flags.output, &progress);
+  if (common.json) {
+    std::fputs(ReportJson(report).c_str(), stdout);
+    return 0;
+  }
+  std::printf("%s: %lld parameters, %d scenes, %d held out, %.0f s\n", report.weights.c_str(),
+              static_cast<long long>(report.parameters), report.training_scenes,
+              report.held_out_scenes, report.seconds);
+  if (!report.losses.empty()) {
+    std::printf("loss %.4f, on held-out scenes %.4f\n", report.losses.back().total,
+                report.losses.back().held_out);
+  }
+  return 0;
+}
+
+int Sample(pipeline::SceneSamplingRequest request, const CommonOptions& common) {
+  request.sampling.seed = common.seed;
+  request.force = common.force;
+  core::Progress progress(common.ProgressStyle());
+  const pipeline::SceneSamplingReport report = pipeline::SampleScenes(request, &progress);
+  std::fputs(
+      (common.json ? pipeline::SamplingJson(report) : pipeline::SamplingTable(report)).c_str(),
+      stdout);
+  return 0;
+}
+
+}  // namespace
+
+void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run) {
+  auto flags = std::make_shared<TrainFlags>();
+  scene::SceneTrainingOptions& options = flags->options;
+  CLI::App* command =
+      scene->add_subcommand("train", "A diffusion model of the scenes of a dataset");
+  command->footer(
+      "Example:\n  simwright scene train out/dimsum -o out/dimsum_model --steps 2500\n"
+      "--resume goes on where an earlier run of the folder stopped.");
+  command->add_option("dataset", flags->dataset, "What `simwright scene generate` wrote")
+      ->required();
+  command->add_option("-o,--output", flags->output, "Folder for weights and losses")->required();
+  command->add_option("--size", flags->size, "tiny, base or full")->capture_default_str();
+  command->add_option("--method", flags->method, "ours, continuous, midiffusion or diffuscene")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"ours", "continuous", "midiffusion", "diffuscene"}));
+  command->add_option("--steps", options.trainer.steps, "Updates")->capture_default_str();
+  command->add_option("--batch", options.batch, "Scenes of an update")->capture_default_str();
+  command->add_option("--rate", options.trainer.learning_rate, "Of learning")
+      ->capture_default_str();
+  command->add_option("--held-out", options.held_out, "Share of scenes that are not learned from")
+      ->capture_default_str();
+  command->add_option("--save-every", options.trainer.save_every, "Updates between saved states")
+      ->capture_default_str();
+  command->add_flag("--resume", options.trainer.resume, "Go on from the folder's state");
+  AddCommon(command, common);
+  command->callback([flags, common, run] { *run = [=] { return Train(*flags, *common); }; });
+}
+
+void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run) {
+  auto request = std::make_shared<pipeline::SceneSamplingRequest>();
+  CLI::App* command =
+      scene->add_subcommand("sample", "New scenes from a trained model, made feasible");
+  command->footer(
+      "Example:\n  simwright scene sample out/dimsum_model/model.pt --count 20 -o out/sampled \\\n"
+      "    --assets out/dimsum/assets\n"
+      "Without --raw, things are moved apart and left to gravity, and what falls is dropped.");
+  command->add_option("weights", request->weights, "What `simwright scene train` wrote")
+      ->required();
+  command->add_option("--count", request->count, "Scenes")->capture_default_str();
+  command->add_option("-o,--output", request->output, "Folder for the scenes")->required();
+  command->add_option("--assets", request->assets,
+                      "Folders of assets, by name or category; the library's for the rest");
+  command->add_option("--steps", request->sampling.steps, "Of the diffusion, 0: all")
+      ->capture_default_str();
+  command->add_option("--eta", request->sampling.eta, "Share of the noise kept in each step")
+      ->capture_default_str();
+  command->add_option("--batch", request->sampling.batch, "Scenes at once")->capture_default_str();
+  command->add_flag("--raw", request->raw, "As the model has them, in each other and in the air");
+  AddCommon(command, common);
+  AddForce(command, common);
+  command->callback([request, common, run] { *run = [=] { return Sample(*request, *common); }; });
+}
+
+}  // namespace simwright::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "core/mesh.h"
+#include "library/rigid_shapes.h"
+
+namespace simwright::library {
+
+// Convex parts of what is turned about the z axis. Rings are a profile's points from below; the
+// first corner of each lies at x.
+
+// The hull of rings. All have `corners` corners, but the lowest may have `foot` of its own: engines
+// keep three or four contacts of a hull on a plane, and those of a foot of few corners are the same
+// from step to step. At most 64 corners in all.
+core::TriangleMesh TurnedPart(const std::vector<ProfilePoint>& rings, int corners = 20,
+                              int foot = 0);
+
+// The wall between two profiles, cut into `count` wedges. A wedge is the hull of its ends and of
+// the outer profile in its middle, so that it fills the hollow by a chord's height.
+std::vector<core::TriangleMesh> WallParts(const std::vector<ProfilePoint>& outer,
+                                          const std::vector<ProfilePoint>& inner, int count);
+
+}  // namespace simwright::library

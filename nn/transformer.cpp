@@ -1,0 +1,45 @@
+#include "nn/transformer.h"
+
+#include <cmath>
+
+namespace simwright::nn {
+
+torch::Tensor Attention(const torch::Tensor& q, const torch::Tensor& k, const torch::Tensor& v) {
+  const double scale = 1.0 / std::sqrt(static_cast<double>(q.size(-1)));
+  const torch::Tensor weights = torch::softmax(torch::matmul(q * scale, k.transpose(-2, -1)), -1);
+  const torch::Tensor mixed = torch::matmul(weights, v).transpose(1, 2);
+  return mixed.reshape({mixed.size(0), mixed.size(1), mixed.size(2) * mixed.size(3)});
+}
+
+torch::Tensor SplitHeads(const torch::Tensor& x, std::int64_t heads) {
+  return x.reshape({x.size(0), x.size(1), heads, x.size(2) / heads}).transpose(1, 2);
+}
+
+RmsNormImpl::RmsNormImpl(std::int64_t size) {
+  scale_ = register_parameter("scale", torch::ones({size}));
+}
+
+torch::Tensor RmsNormImpl::forward(const torch::Tensor& x) {
+  return x * torch::rsqrt(x.square().mean(-1, true) + 1e-6) * scale_;
+}
+
+torch::Tensor PlainLayerNorm(const torch::Tensor& x) {
+  return torch::layer_norm(x, {x.size(-1)}, {}, {}, 1e-6);
+}
+
+ModulationImpl::ModulationImpl(std::int64_t width, std::int64_t count) : count_(count) {
+  map_ = register_module("map", torch::nn::Linear(width, count * width));
+  torch::nn::init::zeros_(map_->weight);
+  torch::nn::init::zeros_(map_->bias);
+}
+
+std::vector<torch::Tensor> ModulationImpl::forward(const torch::Tensor& vector) {
+  return map_(torch::silu(vector)).unsqueeze(1).chunk(count_, -1);
+}
+
+torch::Tensor Modulated(const torch::Tensor& x, const torch::Tensor& shift,
+                        const torch::Tensor& scale) {
+  return PlainLayerNorm(x) * (1.0 + scale) + shift;
+}
+
+}  // namespace simwright::nn

@@ -1,0 +1,113 @@
+#include "pipeline/scene_assets.h"
+
+#include <cctype>
+#include <chrono>
+#include <map>
+#include <thread>
+
+#include "assets/asset_folder.h"
+#include "core/content_hash.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "library/rigid_kinds.h"
+#include "pipeline/library.h"
+#include "scene/dataset/part_claim.h"
+
+namespace simwright::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+// "apple_2": the library's apple of seed 2.
+struct Named {
+  std::string kind;
+  std::uint64_t seed = 1;
+};
+
+Named KindOfSlot(const std::string& slot) {
+  static const std::map<std::string, std::string> others = {{"can", "soda_can"}};
+  const auto other = others.find(slot);
+  if (other != others.end()) return {other->second, 1};
+  const size_t bar = slot.rfind('_');
+  const bool seeded = bar != std::string::npos && bar + 2 == slot.size() &&
+                      std::isdigit(static_cast<unsigned char>(slot.back()));
+  if (!seeded) return {slot, 1};
+  return {slot.substr(0, bar), static_cast<std::uint64_t>(slot.back() - '0')};
+}
+
+void Copy(const fs::path& from, const fs::path& to) {
+  if (!assets::IsAssetFolder(from)) {
+    throw core::Error("this is no asset folder", from.string(),
+                      "make one with `simwright lift`, `import` or `library`");
+  }
+  if (fs::exists(to)) {
+    if (core::ContentHashOf(to / "asset.json") == core::ContentHashOf(from / "asset.json")) return;
+    throw core::Error("another asset stands for this slot already", to.string(),
+                      "generate into a new folder");
+  }
+  core::StagedFolder staged(to, false);
+  fs::copy(from, staged.staging(), fs::copy_options::recursive);
+  staged.Commit();
+}
+
+void MakeMissing(const std::vector<std::string>& slots, const fs::path& kept,
+                 core::Progress* progress) {
+  // One call for each seed: a library is so many seeds of each kind.
+  std::map<std::uint64_t, std::vector<std::string>> by_seed;
+  for (const std::string& slot : slots) {
+    if (!fs::exists(kept / slot)) by_seed[KindOfSlot(slot).seed].push_back(slot);
+  }
+  for (const auto& [seed, wanted] : by_seed) {
+    LibraryOptions options;
+    options.kind.clear();
+    for (const std::string& slot : wanted) {
+      const std::string kind = KindOfSlot(slot).kind;
+      if (library::FindRigidKind(kind) == nullptr) {
+        throw core::Error("nothing stands for this slot, and the library has no such kind", slot,
+                          "give one: --asset " + slot + "=FOLDER");
+      }
+      options.kind += (options.kind.empty() ? "" : ",") + kind;
+    }
+    options.seed = seed;
+    options.force = true;  // of an earlier run that was killed
+    const fs::path making = kept / ".making";
+    const std::vector<LibraryOutcome> made = MakeLibrary(options, making, progress);
+    core::CheckCancelled();
+    for (size_t i = 0; i < made.size(); ++i) {
+      if (!made[i].refusal.empty()) throw core::Error(made[i].refusal, made[i].name);
+      fs::rename(made[i].folder, kept / wanted[i]);
+    }
+    fs::remove_all(making);
+  }
+}
+
+}  // namespace
+
+scene::SlotFolders GatherSceneAssets(const SceneAssetsRequest& request, core::Progress* progress) {
+  fs::create_directories(request.kept);
+  std::unique_ptr<scene::PartClaim> claim;
+  for (;;) {
+    claim = std::make_unique<scene::PartClaim>(request.kept / "assets");
+    if (claim->held()) break;
+    core::CheckCancelled();
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+  scene::SlotFolders found = request.chosen;
+  for (const fs::path& folder : request.folders) {
+    found.merge(scene::FoldersForSlots(folder, request.slots));
+  }
+  scene::SlotFolders folders;
+  for (const std::string& slot : request.slots) {
+    folders[slot] = request.kept / slot;
+    const auto one = found.find(slot);
+    if (one != found.end()) Copy(one->second, folders[slot]);
+  }
+  for (const auto& [slot, folder] : request.chosen) {
+    if (folders.count(slot) == 0) {
+      throw core::Error("scenes of this type have no such slot", slot);
+    }
+  }
+  MakeMissing(request.slots, request.kept, progress);
+  return folders;
+}
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,132 @@
+#include "pipeline/scene_generation.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "pipeline/scene_assets.h"
+#include "pipeline/scene_sheet.h"
+#include "scene/dataset/part_claim.h"
+#include "scene/dataset/scene_dataset.h"
+#include "scene/generation.h"
+#include "scene/grammar/scene_types.h"
+
+namespace simwright::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+void Validate(const SceneGenerationRequest& request) {
+  if (request.count < 1) throw core::Error("a dataset needs at least 1 scene", "--count");
+  if (request.part < 1) throw core::Error("a part needs at least 1 scene", "--part");
+  if (request.time_step < 0.0) throw core::Error("a time step is above 0 s", "--step");
+}
+
+std::string AssetsText(const scene::Palette& palette, const scene::Vocabulary& vocabulary) {
+  nlohmann::ordered_json json;
+  for (const std::string& slot : vocabulary.slots) json[slot] = palette.HashOf(slot);
+  return json.dump();
+}
+
+// The part as far as it has come, or an empty one.
+scene::ScenePart PartAt(const fs::path& path, const scene::Vocabulary& vocabulary,
+                        const scene::PartOrigin& origin) {
+  if (!fs::exists(path)) return {vocabulary, origin, {}, {}};
+  scene::ScenePart part = scene::ScenePartFile(path).ReadAll();
+  if (!(part.vocabulary == vocabulary) || !part.origin.SameDataset(origin)) {
+    throw core::Error("it holds scenes of another type, seed, set of assets or settings",
+                      path.string(), "generate into a new folder");
+  }
+  return part;
+}
+
+void MakePart(const scene::Generation& generation, int scenes, const fs::path& path,
+              scene::ScenePart part, core::Progress* progress) {
+  const size_t before = part.attempts.size();
+  try {
+    scene::ExtendPart(generation, scenes, &part, progress);
+  } catch (const core::Cancelled&) {
+    if (part.attempts.size() > before) scene::WritePart(part, path);
+    throw;
+  }
+  scene::WritePart(part, path);
+}
+
+}  // namespace
+
+SceneStatistics StatisticsOf(const std::vector<scene::SceneAttempt>& attempts) {
+  SceneStatistics statistics;
+  const auto count = [](int objects, std::vector<int>* counts) {
+    if (static_cast<size_t>(objects) >= counts->size()) counts->resize(objects + 1, 0);
+    ++(*counts)[static_cast<size_t>(objects)];
+  };
+  for (const scene::SceneAttempt& one : attempts) {
+    ++statistics.attempts;
+    statistics.mean_drawn += one.drawn;
+    count(one.drawn, &statistics.drawn_counts);
+    if (!one.sound) continue;
+    ++statistics.scenes;
+    statistics.mean_objects += one.kept;
+    statistics.most_objects = std::max(statistics.most_objects, one.kept);
+    statistics.dropped += one.dropped;
+    statistics.moved += one.moved;
+    statistics.penetration = std::max(statistics.penetration, one.penetration);
+    statistics.drift = std::max(statistics.drift, one.drift);
+    count(one.kept, &statistics.scene_counts);
+  }
+  if (statistics.attempts > 0) {
+    statistics.yield = static_cast<double>(statistics.scenes) / statistics.attempts;
+    statistics.mean_drawn /= statistics.attempts;
+  }
+  if (statistics.scenes > 0) {
+    statistics.mean_objects /= statistics.scenes;
+    statistics.dropped /= statistics.scenes;
+    statistics.moved /= statistics.scenes;
+  }
+  return statistics;
+}
+
+SceneStatistics GenerateScenes(const SceneGenerationRequest& request, core::Progress* progress) {
+  Validate(request);
+  const scene::SceneType& type = scene::SceneTypeNamed(request.type);
+  // The slots are the same whatever the sizes.
+  const scene::Vocabulary vocabulary = VocabularyOf(type.make(scene::DefaultSlotSizes()));
+  const scene::SlotFolders folders = GatherSceneAssets(
+      {vocabulary.slots, request.chosen, request.assets, request.output / "assets"}, progress);
+  const scene::Palette palette = scene::ReadPalette(folders);
+  scene::Generation generation{type.make(palette.Sizes()), &palette, {}};
+  if (request.time_step > 0.0) generation.feasibility.settling.time_step = request.time_step;
+  scene::PartOrigin origin;
+  origin.seed = request.seed;
+  origin.assets = AssetsText(palette, vocabulary);
+  origin.settings = scene::SettingsText(generation);
+  origin.program = SIMWRIGHT_VERSION;
+
+  progress->Stage("scenes", request.count);
+  int elsewhere = 0;
+  for (int first = 0; first < request.count; first += request.part) {
+    origin.part = first / request.part;
+    const int scenes = std::min(request.part, request.count - first);
+    const fs::path path = request.output / scene::PartName(origin.part);
+    const scene::PartClaim claim(path);
+    elsewhere += !claim.held();
+    if (!claim.held()) continue;
+    scene::ScenePart part = PartAt(path, vocabulary, origin);
+    for (int i = 0; i < std::min(scenes, part.SceneCount()); ++i) progress->Advance();
+    if (part.SceneCount() >= scenes) continue;
+    MakePart(generation, scenes, path, std::move(part), progress);
+  }
+  progress->Finish();
+
+  const scene::SceneDataset dataset(request.output);
+  SceneStatistics statistics = StatisticsOf(dataset.Attempts());
+  statistics.type = request.type;
+  statistics.elsewhere = elsewhere;
+  core::WriteFile(request.output / "statistics.json", StatisticsJson(statistics));
+  WriteSceneSheet(dataset, palette, request.output / "scenes.png");
+  return statistics;
+}
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,144 @@
+#include "pipeline/scene_sampling.h"
+
+#include <chrono>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "core/content_hash.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "pipeline/scene_assets.h"
+#include "pipeline/scene_sheet.h"
+#include "scene/dataset/scene_dataset.h"
+#include "scene/dataset/tokens.h"
+
+namespace simwright::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct Sampled {
+  scene::SceneAttempt attempt;
+  std::vector<scene::DrawnObject> objects;
+};
+
+Sampled AsSampled(std::vector<scene::DrawnObject> objects) {
+  Sampled sampled;
+  const int count = static_cast<int>(objects.size());
+  sampled.attempt = {count, count, 0, false, true, 0.0, 0.0, 0.0};
+  sampled.objects = std::move(objects);
+  return sampled;
+}
+
+Sampled Settled(const std::vector<scene::DrawnObject>& objects, const scene::Palette& palette) {
+  scene::FeasibleScene feasible = MakeFeasible(objects, palette);
+  Sampled sampled;
+  sampled.attempt = {static_cast<int>(objects.size()),
+                     static_cast<int>(feasible.objects.size()),
+                     feasible.dropped,
+                     feasible.projected,
+                     feasible.sound,
+                     feasible.moved,
+                     feasible.penetration,
+                     feasible.drift};
+  sampled.objects = std::move(feasible.objects);
+  return sampled;
+}
+
+std::vector<Sampled> Finish(const std::vector<float>& tokens, const scene::Vocabulary& vocabulary,
+                            const scene::Palette& palette, bool raw, core::Progress* progress) {
+  const auto size = static_cast<size_t>(vocabulary.entries * vocabulary.TokenWidth());
+  std::vector<Sampled> scenes(tokens.size() / size);
+  progress->Stage(raw ? "writing" : "settling", static_cast<int>(scenes.size()));
+  core::ParallelFor(static_cast<int>(scenes.size()), [&](int i) {
+    core::CheckCancelled();
+    const auto index = static_cast<size_t>(i);
+    std::vector<scene::DrawnObject> objects = DecodeScene(&tokens[index * size], vocabulary);
+    scenes[index] = raw ? AsSampled(std::move(objects)) : Settled(objects, palette);
+    progress->Advance();
+  });
+  return scenes;
+}
+
+scene::ScenePart PartOf(const std::vector<Sampled>& scenes, const scene::Vocabulary& vocabulary,
+                        const scene::PartOrigin& origin) {
+  scene::ScenePart part{vocabulary, origin, {}, {}};
+  const auto size = static_cast<size_t>(vocabulary.entries * vocabulary.TokenWidth());
+  for (const Sampled& one : scenes) {
+    part.attempts.push_back(one.attempt);
+    if (!one.attempt.sound) continue;
+    part.tokens.resize(part.tokens.size() + size);
+    EncodeScene(one.objects, vocabulary, &part.tokens[part.tokens.size() - size]);
+  }
+  return part;
+}
+
+scene::PartOrigin OriginOf(const SceneSamplingRequest& request) {
+  nlohmann::ordered_json settings;
+  settings["weights"] = core::ContentHash(core::ReadFile(request.weights));
+  settings["steps"] = request.sampling.steps;
+  settings["eta"] = request.sampling.eta;
+  settings["raw"] = request.raw;
+  return {request.sampling.seed, 0, "{}", settings.dump(), SIMWRIGHT_VERSION};
+}
+
+}  // namespace
+
+SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Progress* progress) {
+  if (request.count < 1) throw core::Error("at least 1 scene is to be sampled", "--count");
+  const scene::SceneModel model = scene::SceneModel::Load(request.weights);
+  const scene::Vocabulary& vocabulary = model.facts().vocabulary;
+  core::StagedFolder staged(request.output, request.force);
+  const scene::Palette palette = scene::ReadPalette(GatherSceneAssets(
+      {vocabulary.slots, {}, request.assets, staged.staging() / "assets"}, progress));
+  SceneSamplingReport report;
+  report.output = request.output;
+  report.raw = request.raw;
+  progress->Stage("sampling", request.count);
+  auto start = Clock::now();
+  const std::vector<float> tokens = model.Sample(request.count, request.sampling, progress);
+  report.sampling_seconds = SecondsSince(start);
+  start = Clock::now();
+  const std::vector<Sampled> scenes = Finish(tokens, vocabulary, palette, request.raw, progress);
+  report.physics_seconds = SecondsSince(start);
+  const scene::ScenePart part = PartOf(scenes, vocabulary, OriginOf(request));
+  scene::WritePart(part, staged.staging() / scene::PartName(0));
+  report.statistics = StatisticsOf(part.attempts);
+  report.statistics.type = vocabulary.type;
+  core::WriteFile(staged.staging() / "statistics.json", StatisticsJson(report.statistics));
+  WriteSceneSheet(scene::SceneDataset(staged.staging()), palette, staged.staging() / "scenes.png");
+  progress->Finish();
+  staged.Commit();
+  return report;
+}
+
+std::string SamplingTable(const SceneSamplingReport& report) {
+  char line[256];
+  std::snprintf(line, sizeof line, "%s: sampled in %.1f s (%.1f scenes/s)", report.output.c_str(),
+                report.sampling_seconds,
+                report.statistics.attempts / std::max(1e-9, report.sampling_seconds));
+  std::string text = line;
+  if (!report.raw) {
+    std::snprintf(line, sizeof line, ", physics in %.1f s", report.physics_seconds);
+    text += line;
+  }
+  return text + "\n" + StatisticsTable(report.statistics);
+}
+
+std::string SamplingJson(const SceneSamplingReport& report) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(StatisticsJson(report.statistics));
+  json["output"] = report.output.string();
+  json["raw"] = report.raw;
+  json["sampling_seconds"] = report.sampling_seconds;
+  json["physics_seconds"] = report.physics_seconds;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace simwright::pipeline

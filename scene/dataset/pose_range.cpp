@@ -1,0 +1,82 @@
+#include "scene/dataset/pose_range.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+
+namespace simwright::scene {
+namespace {
+
+// Half the least range that is stretched to [-1, 1]: below, what is noise of settling would become
+// as large as what matters.
+constexpr double kLeastHalf = 1e-3;
+constexpr int kBlock = 256;  // scenes read at once
+
+}  // namespace
+
+PoseRange::PoseRange(const std::array<double, kPoseWidth>& low,
+                     const std::array<double, kPoseWidth>& high)
+    : low_(low), high_(high) {
+  for (size_t i = 0; i < kPoseWidth; ++i) {
+    if (!std::isfinite(low[i]) || !std::isfinite(high[i]) || low[i] > high[i]) {
+      throw core::Error("the range of a pose's feature is none", std::to_string(i));
+    }
+  }
+}
+
+PoseRange PoseRange::Of(const SceneDataset& dataset, int first, int count) {
+  std::array<double, kPoseWidth> low{}, high{};
+  const auto width = static_cast<size_t>(dataset.vocabulary().TokenWidth());
+  for (int at = first; at < first + count; at += kBlock) {
+    const std::vector<float> tokens = dataset.Read(at, std::min(kBlock, first + count - at));
+    for (size_t token = 0; token < tokens.size(); token += width) {
+      for (size_t i = 0; i < kPoseWidth; ++i) {
+        low[i] = std::min<double>(low[i], tokens[token + i]);
+        high[i] = std::max<double>(high[i], tokens[token + i]);
+      }
+    }
+  }
+  return PoseRange(low, high);
+}
+
+double PoseRange::HalfWidth(size_t feature) const {
+  return std::max(0.5 * (high_[feature] - low_[feature]), kLeastHalf);
+}
+
+void PoseRange::ToUnit(const float* pose, float* unit) const {
+  for (size_t i = 0; i < kPoseWidth; ++i) {
+    unit[i] = static_cast<float>((pose[i] - 0.5 * (low_[i] + high_[i])) / HalfWidth(i));
+  }
+}
+
+void PoseRange::FromUnit(const float* unit, float* pose) const {
+  for (size_t i = 0; i < kPoseWidth; ++i) {
+    pose[i] = static_cast<float>(0.5 * (low_[i] + high_[i]) + HalfWidth(i) * unit[i]);
+  }
+}
+
+std::string PoseRange::Text() const {
+  return nlohmann::json{{"low", low_}, {"high", high_}}.dump();
+}
+
+PoseRange PoseRange::FromText(const std::string& text) {
+  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  const auto read = [&](const char* name) {
+    std::array<double, kPoseWidth> values{};
+    if (!json.is_object() || !json.contains(name) || !json[name].is_array() ||
+        json[name].size() != kPoseWidth) {
+      throw core::Error("these are no ranges of poses", text.substr(0, 40));
+    }
+    for (size_t i = 0; i < kPoseWidth; ++i) {
+      if (!json[name][i].is_number()) throw core::Error("a range is no number", name);
+      values[i] = json[name][i].get<double>();
+    }
+    return values;
+  };
+  return PoseRange(read("low"), read("high"));
+}
+
+}  // namespace simwright::scene

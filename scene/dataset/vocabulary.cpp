@@ -1,0 +1,56 @@
+#include "scene/dataset/vocabulary.h"
+
+#include <algorithm>
+#include <map>
+
+#include "core/error.h"
+
+namespace simwright::scene {
+
+int Vocabulary::ClassOf(const std::string& slot) const {
+  const auto found = std::lower_bound(slots.begin(), slots.end(), slot);
+  return found == slots.end() || *found != slot ? -1 : static_cast<int>(found - slots.begin());
+}
+
+bool Vocabulary::IsValid(std::string* error) const {
+  const auto fails = [&](const char* what) {
+    *error = what;
+    return false;
+  };
+  if (entries < 1 || entries > 1 << 16) return fails("a scene has 1 to 65536 entries");
+  if (slots.empty() || slots.size() > 1 << 16) return fails("there are 1 to 65536 slots");
+  if (welded.size() != slots.size()) return fails("welded has to say something of each slot");
+  for (size_t i = 0; i < slots.size(); ++i) {
+    if (slots[i].empty()) return fails("a slot has no name");
+    if (i > 0 && !(slots[i - 1] < slots[i])) return fails("slots are not sorted, each once");
+  }
+  return true;
+}
+
+Vocabulary VocabularyOf(const Grammar& grammar) {
+  Vocabulary vocabulary;
+  vocabulary.type = grammar.name();
+  for (const StructureConstraint& one : grammar.structure()) {
+    if (one.kind != StructureKind::kEntriesAtMost) continue;
+    vocabulary.entries = vocabulary.entries == 0 ? one.n : std::min(vocabulary.entries, one.n);
+  }
+  if (vocabulary.entries == 0) {
+    throw core::Error("the grammar does not say how long its scenes are at most", grammar.name(),
+                      "require EntriesAtMost");
+  }
+  std::map<std::string, bool> welded;
+  for (const Symbol& symbol : grammar.symbols()) {
+    if (!symbol.IsObject()) continue;
+    const auto [entry, is_new] = welded.emplace(symbol.slot, symbol.welded);
+    if (!is_new && entry->second != symbol.welded) {
+      throw core::Error("one slot is furniture and not", grammar.name() + ": " + symbol.slot);
+    }
+  }
+  for (const auto& [slot, is_welded] : welded) {
+    vocabulary.slots.push_back(slot);
+    vocabulary.welded.push_back(is_welded);
+  }
+  return vocabulary;
+}
+
+}  // namespace simwright::scene

@@ -1,0 +1,113 @@
+#include "scene/generation.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "scene/dataset/tokens.h"
+#include "scene/grammar/scene_draw.h"
+
+namespace simwright::scene {
+namespace {
+
+struct Made {
+  SceneAttempt attempt;
+  std::vector<DrawnObject> objects;
+};
+
+Made Attempt(const Generation& generation, const PartOrigin& origin, size_t index) {
+  const std::uint64_t stream = (static_cast<std::uint64_t>(origin.part) << 32) + index;
+  core::Rng rng = core::StreamRng(origin.seed, stream);
+  const SceneDraw draw = DrawScene(generation.grammar, rng);
+  FeasibleScene scene = MakeFeasible(draw.objects, *generation.palette, generation.feasibility);
+  Made made;
+  made.attempt = {static_cast<int>(draw.objects.size()),
+                  static_cast<int>(scene.objects.size()),
+                  scene.dropped,
+                  scene.projected,
+                  scene.sound,
+                  scene.moved,
+                  scene.penetration,
+                  scene.drift};
+  made.objects = std::move(scene.objects);
+  return made;
+}
+
+void Keep(const Made& made, ScenePart* part) {
+  part->attempts.push_back(made.attempt);
+  if (!made.attempt.sound) return;
+  const size_t size = static_cast<size_t>(part->vocabulary.entries) *
+                      static_cast<size_t>(part->vocabulary.TokenWidth());
+  part->tokens.resize(part->tokens.size() + size);
+  EncodeScene(made.objects, part->vocabulary, &part->tokens[part->tokens.size() - size]);
+}
+
+[[noreturn]] void GiveUp(const ScenePart& part) {
+  int dropped = 0, jammed = 0;
+  for (const SceneAttempt& one : part.attempts) {
+    dropped += one.dropped > 0;
+    jammed += !one.projected;
+  }
+  const auto of = [](int count) { return std::to_string(count); };
+  throw core::Error("of " + std::to_string(part.attempts.size()) + " scenes " +
+                        of(part.SceneCount()) + " are sound; in " + of(jammed) +
+                        " things cannot be moved apart, in " + of(dropped) +
+                        " some fell, tipped or did not rest",
+                    part.vocabulary.type, "look at the assets: sizes, feet, collision parts");
+}
+
+}  // namespace
+
+void ExtendPart(const Generation& generation, int scenes, ScenePart* part,
+                core::Progress* progress) {
+  const int most = generation.attempts_a_scene * scenes;
+  int have = part->SceneCount();
+  while (have < scenes) {
+    if (static_cast<int>(part->attempts.size()) >= most) GiveUp(*part);
+    // As many at once as are missing, but for those that fail: what is made beyond the last that is
+    // needed is thrown away.
+    std::vector<Made> made(static_cast<size_t>(scenes - have));
+    std::vector<char> done(made.size(), 0);
+    const size_t first = part->attempts.size();
+    const auto keep = [&] {
+      for (size_t i = 0; i < made.size() && done[i]; ++i) Keep(made[i], part);
+      have = part->SceneCount();
+    };
+    try {
+      core::ParallelFor(static_cast<int>(made.size()), [&](int i) {
+        core::CheckCancelled();
+        const auto slot = static_cast<size_t>(i);
+        made[slot] = Attempt(generation, part->origin, first + slot);
+        done[slot] = 1;
+        if (made[slot].attempt.sound) progress->Advance();
+      });
+    } catch (const core::Cancelled&) {
+      keep();
+      throw;
+    }
+    keep();
+  }
+}
+
+std::string SettingsText(const Generation& generation) {
+  const FeasibilityOptions& feasible = generation.feasibility;
+  nlohmann::ordered_json json;
+  json["grammar"] = generation.grammar.name();
+  json["projection"] = {{"influence", feasible.projection.influence},
+                        {"tolerance", feasible.projection.tolerance},
+                        {"rounds", feasible.projection.rounds}};
+  json["settling"] = {{"duration", feasible.settling.duration},
+                      {"watch", feasible.settling.watch},
+                      {"time_step", feasible.settling.time_step},
+                      {"solver_iterations", feasible.settling.solver_iterations},
+                      {"stable", feasible.settling.stable},
+                      {"fallen", feasible.settling.fallen}};
+  json["tilted"] = feasible.tilted;
+  json["penetration"] = feasible.penetration;
+  json["fewest"] = feasible.fewest;
+  return json.dump();
+}
+
+}  // namespace simwright::scene

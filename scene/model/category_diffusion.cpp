@@ -1,0 +1,77 @@
+#include "scene/model/category_diffusion.h"
+
+#include "core/error.h"
+
+namespace simwright::scene {
+namespace {
+
+constexpr double kSure = 0.99999, kHardly = 9e-6;  // Gu et al. 2022
+constexpr double kLeast = 1e-30;                   // of a probability whose logarithm is taken: -69
+
+}  // namespace
+
+CategoryDiffusion::CategoryDiffusion(int steps, int classes) : steps_(steps), classes_(classes) {
+  if (steps < 2 || classes < 1) {
+    throw core::Error("a diffusion of classes has at least two steps and one class");
+  }
+  const torch::Tensor clean = torch::tensor({1.0}, torch::kDouble);
+  kept_ = torch::cat({clean, torch::linspace(kSure, kHardly, steps, torch::kDouble)});
+  masked_ = torch::cat({1.0 - clean, torch::linspace(kHardly, kSure, steps, torch::kDouble)});
+  replaced_ = (1.0 - kept_ - masked_).clamp_min(0.0) / classes;
+}
+
+torch::Tensor CategoryDiffusion::At(const torch::Tensor& table, const torch::Tensor& t) const {
+  return table.to(t.device()).index_select(0, t + 1).to(torch::kFloat).reshape({-1, 1, 1});
+}
+
+torch::Tensor CategoryDiffusion::Draw(const torch::Tensor& probabilities,
+                                      const at::Generator& generator) {
+  const torch::Tensor uniform =
+      torch::rand(probabilities.sizes(), generator, torch::kFloat).to(probabilities.device());
+  const torch::Tensor gumbel =
+      -torch::log((-torch::log(uniform.clamp_min(1e-20))).clamp_min(1e-20));
+  return (torch::log(probabilities.clamp_min(kLeast)) + gumbel).argmax(-1);
+}
+
+torch::Tensor CategoryDiffusion::AddNoise(const torch::Tensor& clean, const torch::Tensor& t,
+                                          const at::Generator& generator) const {
+  const torch::Tensor one_hot = torch::one_hot(clean, classes_).to(torch::kFloat);
+  const torch::Tensor classes = At(kept_, t) * one_hot + At(replaced_, t);
+  const torch::Tensor mask = At(masked_, t).expand({clean.size(0), clean.size(1), 1});
+  return Draw(torch::cat({classes, mask}, -1), generator);
+}
+
+torch::Tensor CategoryDiffusion::Posterior(const torch::Tensor& noisy, const torch::Tensor& clean,
+                                           const torch::Tensor& t, const torch::Tensor& s) const {
+  const torch::Tensor a_t = At(kept_, t), b_t = At(replaced_, t), c_t = At(masked_, t);
+  const torch::Tensor a_s = At(kept_, s), b_s = At(replaced_, s), c_s = At(masked_, s);
+  // From s to t: a stays, c is masked, what is left goes anywhere.
+  const torch::Tensor a = a_t / a_s, stays = (1.0 - c_t) / (1.0 - c_s), c = 1.0 - stays;
+  const torch::Tensor b = (stays - a).clamp_min(0.0) / classes_;
+  const torch::Tensor here = torch::one_hot(noisy, classes_ + 1).to(torch::kFloat);
+  const torch::Tensor classes_here = here.narrow(-1, 0, classes_);
+  const torch::Tensor masked_here = here.narrow(-1, classes_, 1);
+  const torch::Tensor open = 1.0 - masked_here;
+  // r_k = p(k) / q(x_t | x_0 = k).
+  const torch::Tensor evidence = open * (a_t * classes_here + b_t) + masked_here * c_t;
+  const torch::Tensor r = clean / evidence.clamp_min(kLeast);
+  const torch::Tensor sum = r.sum(-1, true);
+  // q(x_t | x_s = i) for a class i, and for the mask, which stays.
+  const torch::Tensor step = open * (a * classes_here + b) + masked_here * c;
+  const torch::Tensor posterior =
+      torch::cat({step * (a_s * r + b_s * sum), masked_here * c_s * sum}, -1);
+  return posterior / posterior.sum(-1, true).clamp_min(kLeast);
+}
+
+torch::Tensor CategoryDiffusion::Divergence(const torch::Tensor& clean, const torch::Tensor& noisy,
+                                            const torch::Tensor& log_clean,
+                                            const torch::Tensor& t) const {
+  const torch::Tensor truth =
+      Posterior(noisy, torch::one_hot(clean, classes_).to(torch::kFloat), t, t - 1);
+  const torch::Tensor belief = Posterior(noisy, log_clean.exp(), t, t - 1);
+  const torch::Tensor difference =
+      torch::log(truth.clamp_min(kLeast)) - torch::log(belief.clamp_min(kLeast));
+  return (truth * difference).sum(-1);
+}
+
+}  // namespace simwright::scene

@@ -1,0 +1,31 @@
+#include "scene/model/denoiser.h"
+
+#include "core/error.h"
+#include "scene/model/flux_denoiser.h"
+#include "scene/model/transformer_denoiser.h"
+#include "scene/model/unet_denoiser.h"
+
+namespace simwright::scene {
+
+std::shared_ptr<Denoiser> MakeDenoiser(const SceneModelOptions& options, int classes) {
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error("model of scenes: " + error);
+  if (classes < 2) throw core::Error("a model of scenes needs a class beside the empty one");
+  switch (options.kind) {
+    case DenoiserKind::kFlux:
+      return std::make_shared<FluxDenoiser>(options, classes);
+    case DenoiserKind::kTransformer:
+      return std::make_shared<TransformerDenoiser>(options, classes);
+    case DenoiserKind::kUnet:
+      return std::make_shared<UnetDenoiser>(options, classes);
+  }
+  throw core::Error("a denoiser of no kind");
+}
+
+std::int64_t ParameterCount(const torch::nn::Module& module) {
+  std::int64_t count = 0;
+  for (const torch::Tensor& one : module.parameters()) count += one.numel();
+  return count;
+}
+
+}  // namespace simwright::scene

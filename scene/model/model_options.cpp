@@ -1,0 +1,91 @@
+#include "scene/model/model_options.h"
+
+#include "core/error.h"
+
+namespace simwright::scene {
+
+SceneModelOptions SceneModelOptions::OfSize(const std::string& size) {
+  SceneModelOptions options;
+  if (size == "tiny") return options;
+  if (size == "base") {
+    options.width = 256;
+    options.heads = 8;
+    options.double_blocks = 3;
+    options.single_blocks = 6;
+    return options;
+  }
+  if (size == "full") {
+    options.width = 512;
+    options.heads = 16;
+    options.double_blocks = 5;
+    options.single_blocks = 10;
+    return options;
+  }
+  throw core::Error("there is no such size of a model", size, "tiny, base or full");
+}
+
+SceneModelOptions SceneModelOptions::AsMiDiffusion() const {
+  SceneModelOptions options = *this;
+  options.kind = DenoiserKind::kTransformer;
+  // A block of ours has 18 or 15 width^2 parameters, one of theirs 16.
+  options.single_blocks = (18 * double_blocks + 15 * single_blocks + 8) / 16;
+  options.double_blocks = 0;
+  options.heads = 4;
+  return options;
+}
+
+SceneModelOptions SceneModelOptions::AsDiffuScene() const {
+  SceneModelOptions options = *this;
+  options.kind = DenoiserKind::kUnet;
+  options.continuous = true;
+  options.heads = 4;
+  // Its parameters are `kUnetShare` width^2, ours as above.
+  constexpr double kUnetShare = 132.0;
+  const double ours = (18.0 * double_blocks + 15.0 * single_blocks) * width * width;
+  options.width = 8;
+  while ((options.width + 8) * (options.width + 8) * kUnetShare <= ours) options.width += 8;
+  return options;
+}
+
+bool SceneModelOptions::IsValid(std::string* error) const {
+  const auto fails = [&](const char* what) {
+    *error = what;
+    return false;
+  };
+  if (width < 8 || width > 4096 || width % 8 != 0) {
+    return fails("width has to be 8 to 4096, in eights");
+  }
+  if (heads < 1 || width % heads != 0) return fails("heads have to divide the width");
+  if (double_blocks < 0 || single_blocks < 0 || double_blocks + single_blocks > 256) {
+    return fails("blocks have to be 0 to 256");
+  }
+  if (kind != DenoiserKind::kUnet && double_blocks + single_blocks < 1) {
+    return fails("a model needs a block");
+  }
+  if (diffusion_steps < 2 || diffusion_steps > 100000) {
+    return fails("diffusion_steps have to be 2 to 100000");
+  }
+  return true;
+}
+
+std::string NameOf(DenoiserKind kind) {
+  switch (kind) {
+    case DenoiserKind::kFlux:
+      return "flux";
+    case DenoiserKind::kTransformer:
+      return "transformer";
+    case DenoiserKind::kUnet:
+      return "unet";
+  }
+  throw core::Error("a denoiser of no kind");
+}
+
+DenoiserKind DenoiserNamed(const std::string& name) {
+  for (const DenoiserKind kind :
+       {DenoiserKind::kFlux, DenoiserKind::kTransformer, DenoiserKind::kUnet}) {
+    if (NameOf(kind) == name) return kind;
+  }
+  throw core::Error("there is no such denoiser", name, "flux, transformer or unet");
+}
+
+}  // namespace simwright::scene

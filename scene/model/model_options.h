@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+
+namespace simwright::scene {
+
+enum class DenoiserKind {
+  kFlux,         // ours: double- and single-stream blocks (Pfaff et al., after Flux)
+  kTransformer,  // MiDiffusion (Hu et al. 2024)
+  kUnet,         // DiffuScene (Tang et al. 2024)
+};
+
+// A model of scenes, free of libtorch, so that whoever passes it on is too.
+struct SceneModelOptions {
+  DenoiserKind kind = DenoiserKind::kFlux;
+  // Classes as numbers, diffused as poses are; else as classes, by mask and replace.
+  bool continuous = false;
+  int width = 128;
+  int heads = 4;
+  int double_blocks = 2;  // of kFlux; attention, then a network a token
+  int single_blocks = 4;  // of kFlux: both at once; of kTransformer: all of them
+  int diffusion_steps = 1000;
+
+  // "tiny" (two cores), "base", "full" (the paper's 88 M). Throws core::Error for another.
+  static SceneModelOptions OfSize(const std::string& size);
+  // The baselines of the paper, as large as `this` to within a tenth.
+  SceneModelOptions AsMiDiffusion() const;
+  SceneModelOptions AsDiffuScene() const;
+
+  bool IsValid(std::string* error) const;
+};
+
+// "flux", "transformer", "unet", and back. Throws core::Error for another.
+std::string NameOf(DenoiserKind kind);
+DenoiserKind DenoiserNamed(const std::string& name);
+
+}  // namespace simwright::scene

@@ -1,0 +1,80 @@
+#include "scene/model/scene_model.h"
+
+#include "core/error.h"
+#include "core/random.h"
+#include "nn/compute.h"
+#include "scene/model/scene_diffusion.h"
+#include "scene/model/token_tensors.h"
+#include "scene/model/weights_file.h"
+
+namespace simwright::scene {
+
+struct SceneModel::Network {
+  SceneModelFacts facts;
+  std::shared_ptr<Denoiser> denoiser;
+  torch::Device device;
+};
+
+bool SampleOptions::IsValid(std::string* error) const {
+  const auto fails = [&](const char* what) {
+    *error = what;
+    return false;
+  };
+  if (steps < 0) return fails("steps have to be at least 1, or 0 for all");
+  if (!(eta >= 0.0 && eta <= 1.0)) return fails("eta has to be 0 to 1");
+  if (batch < 1) return fails("batch has to be at least 1");
+  return true;
+}
+
+SceneModel::SceneModel(std::unique_ptr<Network> network) : network_(std::move(network)) {}
+SceneModel::~SceneModel() = default;
+SceneModel::SceneModel(SceneModel&&) noexcept = default;
+SceneModel& SceneModel::operator=(SceneModel&&) noexcept = default;
+
+SceneModel SceneModel::Load(const std::filesystem::path& weights) {
+  ReadModel model = ReadWeights(weights);
+  const torch::Device device = nn::BestDevice();
+  model.denoiser->to(device);
+  return SceneModel(std::make_unique<Network>(
+      Network{std::move(model.facts), std::move(model.denoiser), device}));
+}
+
+const SceneModelFacts& SceneModel::facts() const {
+  return network_->facts;
+}
+
+std::vector<float> SceneModel::Sample(int count, const SampleOptions& options,
+                                      core::Progress* progress) const {
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error("sampling: " + error);
+  if (count < 0) throw core::Error("so many scenes cannot be sampled", std::to_string(count));
+  nn::UseThreads();
+  const torch::NoGradGuard no_gradient;
+  const SceneModelFacts& facts = network_->facts;
+  const SceneDiffusion diffusion(facts.options, facts.vocabulary.ClassCount());
+  std::vector<int> times =
+      diffusion.Times(options.steps == 0 ? facts.options.diffusion_steps : options.steps);
+  times.push_back(-1);
+  std::vector<float> tokens;
+  for (int first = 0; first < count; first += options.batch) {
+    const int some = std::min(options.batch, count - first);
+    // Each batch draws from its own stream: more scenes leave the first ones as they were.
+    core::Rng rng = core::StreamRng(options.seed, static_cast<std::uint64_t>(first));
+    const at::Generator generator = at::detail::createCPUGenerator(rng());
+    NoisyScenes scenes = diffusion.Noise(some, facts.vocabulary.entries, generator);
+    scenes.poses = scenes.poses.to(network_->device);
+    scenes.classes = scenes.classes.to(network_->device);
+    for (size_t i = 0; i + 1 < times.size(); ++i) {
+      core::CheckCancelled();
+      diffusion.Step(network_->denoiser.get(), times[i], times[i + 1], options.eta, generator,
+                     &scenes);
+    }
+    const std::vector<float> part =
+        TokensOf(diffusion.Clean(scenes), facts.vocabulary, facts.range);
+    tokens.insert(tokens.end(), part.begin(), part.end());
+    for (int i = 0; i < some; ++i) progress->Advance();
+  }
+  return tokens;
+}
+
+}  // namespace simwright::scene

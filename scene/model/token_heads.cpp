@@ -1,0 +1,53 @@
+#include "scene/model/token_heads.h"
+
+#include "nn/blocks.h"
+#include "scene/dataset/vocabulary.h"
+
+namespace simwright::scene {
+namespace {
+
+using torch::nn::Linear;
+
+constexpr int kTimeFeatures = 256;
+
+}  // namespace
+
+TokenEntryImpl::TokenEntryImpl(std::int64_t width, int classes, bool continuous) {
+  const std::int64_t half = width / 2;
+  pose_ = register_module("pose", torch::nn::Sequential(Linear(kPoseWidth, half), torch::nn::SiLU(),
+                                                        Linear(half, half)));
+  if (continuous) {
+    class_map_ = register_module("class_map", Linear(classes, half));
+  } else {
+    class_ = register_module("class", torch::nn::Embedding(classes + 1, half));
+  }
+  join_ = register_module("join", Linear(2 * half, width));
+}
+
+torch::Tensor TokenEntryImpl::forward(const NoisyScenes& scenes) {
+  const torch::Tensor classes = class_map_ ? class_map_(scenes.classes) : class_(scenes.classes);
+  return join_(torch::cat({pose_->forward(scenes.poses), classes}, -1));
+}
+
+TokenExitImpl::TokenExitImpl(std::int64_t width, int classes) {
+  pose_ = register_module("pose", torch::nn::Sequential(Linear(width, width), torch::nn::SiLU(),
+                                                        Linear(width, kPoseWidth)));
+  class_norm_ = register_module(
+      "class_norm", torch::nn::LayerNorm(torch::nn::LayerNormOptions({width}).eps(1e-6)));
+  class_map_ = register_module("class_map", Linear(width, classes));
+}
+
+Denoised TokenExitImpl::forward(const torch::Tensor& features) {
+  return {pose_->forward(features), class_map_(class_norm_(features))};
+}
+
+TimeEntryImpl::TimeEntryImpl(std::int64_t width) {
+  map_ = register_module("map", torch::nn::Sequential(Linear(kTimeFeatures, width),
+                                                      torch::nn::SiLU(), Linear(width, width)));
+}
+
+torch::Tensor TimeEntryImpl::forward(const torch::Tensor& time) {
+  return map_->forward(nn::SinusoidalEmbedding(time, kTimeFeatures));
+}
+
+}  // namespace simwright::scene

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "scene/model/denoiser.h"
+
+namespace simwright::scene {
+
+// Tokens into a network's features and back, the same for every denoiser.
+
+// A network of two layers on the pose, an embedding of the class (a linear map of it where classes
+// are numbers), and a linear map of both to the width.
+class TokenEntryImpl : public torch::nn::Module {
+ public:
+  TokenEntryImpl(std::int64_t width, int classes, bool continuous);
+  torch::Tensor forward(const NoisyScenes& scenes);  // (B x N x width)
+
+ private:
+  torch::nn::Sequential pose_{nullptr};
+  torch::nn::Embedding class_{nullptr};
+  torch::nn::Linear class_map_{nullptr}, join_{nullptr};
+};
+TORCH_MODULE(TokenEntry);
+
+// Two heads: a network of two layers for the pose's noise, a norm and a linear map for the class.
+class TokenExitImpl : public torch::nn::Module {
+ public:
+  TokenExitImpl(std::int64_t width, int classes);
+  Denoised forward(const torch::Tensor& features);
+
+ private:
+  torch::nn::Sequential pose_{nullptr};
+  torch::nn::LayerNorm class_norm_{nullptr};
+  torch::nn::Linear class_map_{nullptr};
+};
+TORCH_MODULE(TokenExit);
+
+// Time as a vector: sines and cosines of 256 / 2 frequencies through two layers.
+class TimeEntryImpl : public torch::nn::Module {
+ public:
+  explicit TimeEntryImpl(std::int64_t width);
+  torch::Tensor forward(const torch::Tensor& time);  // (B) -> (B x width)
+
+ private:
+  torch::nn::Sequential map_{nullptr};
+};
+TORCH_MODULE(TimeEntry);
+
+}  // namespace simwright::scene

@@ -1,0 +1,241 @@
+#include "scene/model/training.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/random.h"
+#include "nn/compute.h"
+#include "nn/trainer.h"
+#include "scene/dataset/scene_stream.h"
+#include "scene/model/token_tensors.h"
+#include "scene/model/weights_file.h"
+
+namespace simwright::scene {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kBadInARow = 20;     // losses that are not finite: more is no accident
+constexpr int kHeldOutBatch = 64;  // scenes, all at once
+
+constexpr char kHeader[] = "step,total,translation,rotation,classes,cross_entropy,held_out\n";
+
+int HeldOut(int scenes, const SceneTrainingOptions& options) {
+  const int share = static_cast<int>(options.held_out * scenes);
+  return std::min(share, options.held_out_most);
+}
+
+std::string LossesText(const std::vector<LossRecord>& losses) {
+  std::string text = kHeader;
+  for (const LossRecord& one : losses) {
+    char line[192];
+    std::snprintf(line, sizeof line, "%d,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n", one.step, one.total,
+                  one.translation, one.rotation, one.classes, one.cross_entropy, one.held_out);
+    text += line;
+  }
+  return text;
+}
+
+// Those of an earlier run up to `step`.
+std::vector<LossRecord> EarlierLosses(const fs::path& path, int step) {
+  std::vector<LossRecord> losses;
+  if (step == 0 || !fs::exists(path)) return losses;
+  std::istringstream text(core::ReadFile(path));
+  std::string line;
+  std::getline(text, line);
+  while (std::getline(text, line)) {
+    LossRecord one;
+    const int read = std::sscanf(line.c_str(), "%d,%lf,%lf,%lf,%lf,%lf,%lf", &one.step, &one.total,
+                                 &one.translation, &one.rotation, &one.classes, &one.cross_entropy,
+                                 &one.held_out);
+    if (read == 7 && one.step <= step) losses.push_back(one);
+  }
+  return losses;
+}
+
+// Sums of the losses since the last line.
+class LossMeans {
+ public:
+  void Add(const SceneLoss& loss) {
+    sums_.total += loss.total.item<double>();
+    sums_.translation += loss.translation.item<double>();
+    sums_.rotation += loss.rotation.item<double>();
+    sums_.classes += loss.divergence.item<double>();
+    sums_.cross_entropy += loss.cross_entropy.item<double>();
+    ++count_;
+  }
+  LossRecord Take(int step) {
+    LossRecord mean = sums_;
+    mean.step = step;
+    for (double* const one :
+         {&mean.total, &mean.translation, &mean.rotation, &mean.classes, &mean.cross_entropy}) {
+      *one = count_ > 0 ? *one / count_ : NAN;
+    }
+    sums_ = {};
+    count_ = 0;
+    return mean;
+  }
+
+ private:
+  LossRecord sums_;
+  int count_ = 0;
+};
+
+class Training {
+ public:
+  Training(const SceneDataset& dataset, const SceneModelOptions& model,
+           const SceneTrainingOptions& options, const fs::path& output)
+      : dataset_(dataset),
+        options_(options),
+        output_(output),
+        device_(nn::BestDevice()),
+        held_out_(HeldOut(dataset.SceneCount(), options)),
+        training_(dataset.SceneCount() - held_out_),
+        facts_{dataset.vocabulary(), model, PoseRange::Of(dataset, 0, training_)},
+        diffusion_(model, dataset.vocabulary().ClassCount()) {
+    facts_.training_scenes = training_;
+    facts_.data_seed = dataset.parts().front().origin().seed;
+    torch::manual_seed(options.seed);  // of the weights' start
+    denoiser_ = MakeDenoiser(model, dataset.vocabulary().ClassCount());
+    facts_.parameters = ParameterCount(*denoiser_);
+    denoiser_->to(device_);
+    average_ = MakeDenoiser(model, dataset.vocabulary().ClassCount());
+    average_->to(device_);
+    trainer_ = std::make_unique<nn::Trainer>(denoiser_.get(), options.trainer, output / kStateFile);
+  }
+
+  SceneTrainingReport Run(core::Progress* progress) {
+    const auto start = std::chrono::steady_clock::now();
+    const int first = trainer_->first_step();
+    losses_ = EarlierLosses(output_ / kLossesFile, first);
+    SceneStream stream(dataset_, {0, training_, options_.buffer}, options_.seed + first);
+    core::Rng rng = core::StreamRng(options_.seed, static_cast<std::uint64_t>(first) + 1);
+    const at::Generator generator = at::detail::createCPUGenerator(rng());
+    std::vector<float> tokens(static_cast<size_t>(options_.batch) *
+                              static_cast<size_t>(dataset_.vocabulary().entries) *
+                              static_cast<size_t>(dataset_.vocabulary().TokenWidth()));
+    progress->Stage("training", options_.trainer.steps - first);
+    for (int step = first; step < options_.trainer.steps; ++step) {
+      stream.Next(options_.batch, tokens.data());
+      Descend(step, OnDevice(TensorsOf(tokens, dataset_.vocabulary(), facts_.range)), generator);
+      const bool last = step + 1 == options_.trainer.steps;
+      if ((step + 1) % options_.report_every == 0 || last) Record(step + 1);
+      if (trainer_->SaveDue(step)) Save(step + 1);
+      progress->Advance();
+    }
+    progress->Finish();
+    SceneTrainingReport report;
+    report.weights = output_ / kWeightsFile;
+    report.parameters = facts_.parameters;
+    report.training_scenes = training_;
+    report.held_out_scenes = held_out_;
+    report.losses = losses_;
+    report.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return report;
+  }
+
+ private:
+  CleanScenes OnDevice(const CleanScenes& scenes) const {
+    return {scenes.poses.to(device_), scenes.classes.to(device_)};
+  }
+
+  void Descend(int step, const CleanScenes& scenes, const at::Generator& generator) {
+    const SceneLoss loss = diffusion_.Loss(denoiser_.get(), scenes, generator);
+    trainer_->Descend(step, loss.total);
+    if (std::isfinite(loss.total.item<double>())) {
+      means_.Add(loss);
+      bad_ = 0;
+      return;
+    }
+    if (++bad_ < kBadInARow) return;
+    throw core::Error(
+        "the training has diverged: the loss is not a number at step " + std::to_string(step),
+        output_.string(),
+        "the last good state is kept; go on from it with --resume and a lower rate");
+  }
+
+  // The averaged weights' loss on held-out scenes, at the same times and noise every time.
+  double HeldOutLoss() {
+    if (held_out_ == 0) return NAN;
+    const torch::NoGradGuard no_gradient;
+    trainer_->CopyAverageTo(average_.get());
+    const CleanScenes scenes =
+        OnDevice(TensorsOf(dataset_.Read(training_, std::min(held_out_, kHeldOutBatch)),
+                           dataset_.vocabulary(), facts_.range));
+    core::Rng rng = core::StreamRng(options_.seed, 0);
+    const at::Generator generator = at::detail::createCPUGenerator(rng());
+    return diffusion_.Loss(average_.get(), scenes, generator).total.item<double>();
+  }
+
+  void Record(int step) {
+    LossRecord record = means_.Take(step);
+    record.held_out = HeldOutLoss();
+    losses_.push_back(record);
+  }
+
+  void Save(int step) {
+    trainer_->SaveState(step);
+    trainer_->CopyAverageTo(average_.get());
+    facts_.steps = step;
+    WriteWeights(*average_, facts_, output_ / kWeightsFile);
+    core::WriteFile(output_ / kLossesFile, LossesText(losses_));
+  }
+
+  const SceneDataset& dataset_;
+  SceneTrainingOptions options_;
+  fs::path output_;
+  torch::Device device_;
+  int held_out_, training_;
+  SceneModelFacts facts_;
+  SceneDiffusion diffusion_;
+  std::shared_ptr<Denoiser> denoiser_, average_;
+  std::unique_ptr<nn::Trainer> trainer_;
+  LossMeans means_;
+  std::vector<LossRecord> losses_;
+  int bad_ = 0;
+};
+
+}  // namespace
+
+SceneTrainingOptions::SceneTrainingOptions() {
+  trainer.steps = 10000;
+  trainer.learning_rate = 1e-3;
+  trainer.weight_decay = 1e-3;
+  trainer.ema_decay = 0.999;
+  trainer.warm_share = 0.02;
+  trainer.save_every = 500;
+}
+
+bool SceneTrainingOptions::IsValid(std::string* error) const {
+  const auto fails = [&](const char* what) {
+    *error = what;
+    return false;
+  };
+  if (!trainer.IsValid(error)) return false;
+  if (batch < 1) return fails("batch has to be at least 1");
+  if (!(held_out >= 0.0 && held_out < 1.0)) return fails("held_out has to be a share below 1");
+  if (held_out_most < 0) return fails("held_out_most has to be at least 0");
+  if (buffer < 1) return fails("buffer has to be at least 1");
+  if (report_every < 1) return fails("report_every has to be at least 1");
+  return true;
+}
+
+SceneTrainingReport TrainSceneModel(const SceneDataset& dataset, const SceneModelOptions& model,
+                                    const SceneTrainingOptions& options, const fs::path& output,
+                                    core::Progress* progress) {
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error("training: " + error);
+  if (dataset.SceneCount() < 2) {
+    throw core::Error("a model needs at least 2 scenes to learn from",
+                      std::to_string(dataset.SceneCount()) + " are there");
+  }
+  nn::UseThreads();
+  fs::create_directories(output);
+  return Training(dataset, model, options, output).Run(progress);
+}
+
+}  // namespace simwright::scene

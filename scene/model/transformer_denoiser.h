@@ -1,0 +1,35 @@
+#pragma once
+
+#include "nn/transformer.h"
+#include "scene/model/token_heads.h"
+
+namespace simwright::scene {
+
+// Attention, then a network on each token; time scales and shifts the norm before each.
+class AdaptiveBlockImpl : public torch::nn::Module {
+ public:
+  AdaptiveBlockImpl(std::int64_t width, std::int64_t heads);
+  torch::Tensor forward(torch::Tensor x, const torch::Tensor& vector);
+
+ private:
+  std::int64_t heads_;
+  nn::Modulation modulation_{nullptr};
+  torch::nn::Linear qkv_{nullptr}, out_{nullptr}, rise_{nullptr}, fall_{nullptr};
+};
+TORCH_MODULE(AdaptiveBlock);
+
+// The denoiser of MiDiffusion (Hu et al. 2024): a transformer with 4 heads, networks of four times
+// the width, layer norms by time, no gates.
+class TransformerDenoiser : public Denoiser {
+ public:
+  TransformerDenoiser(const SceneModelOptions& options, int classes);
+  Denoised Predict(const NoisyScenes& scenes) override;
+
+ private:
+  TokenEntry entry_{nullptr};
+  TimeEntry time_{nullptr};
+  torch::nn::ModuleList blocks_;
+  TokenExit exit_{nullptr};
+};
+
+}  // namespace simwright::scene

@@ -1,0 +1,80 @@
+#include "scene/model/weights_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "nn/checkpoint.h"
+
+namespace simwright::scene {
+namespace {
+
+constexpr char kKind[] = "scene model";
+
+SceneModelOptions OptionsOf(const nlohmann::json& json) {
+  SceneModelOptions options;
+  options.kind = DenoiserNamed(json.at("denoiser"));
+  options.continuous = json.at("continuous");
+  options.width = json.at("width");
+  options.heads = json.at("heads");
+  options.double_blocks = json.at("double_blocks");
+  options.single_blocks = json.at("single_blocks");
+  options.diffusion_steps = json.at("diffusion_steps");
+  return options;
+}
+
+SceneModelFacts FactsOf(const nlohmann::json& json) {
+  Vocabulary vocabulary;
+  vocabulary.type = json.at("type");
+  vocabulary.entries = json.at("entries");
+  vocabulary.slots = json.at("slots").get<std::vector<std::string>>();
+  vocabulary.welded = json.at("welded").get<std::vector<bool>>();
+  SceneModelFacts facts{vocabulary, OptionsOf(json), PoseRange::FromText(json.at("range"))};
+  facts.training_scenes = json.at("training_scenes");
+  facts.data_seed = json.at("data_seed");
+  facts.steps = json.at("steps");
+  return facts;
+}
+
+}  // namespace
+
+void WriteWeights(const Denoiser& denoiser, const SceneModelFacts& facts,
+                  const std::filesystem::path& path) {
+  nlohmann::ordered_json json;
+  json["type"] = facts.vocabulary.type;
+  json["entries"] = facts.vocabulary.entries;
+  json["slots"] = facts.vocabulary.slots;
+  json["welded"] = facts.vocabulary.welded;
+  json["range"] = facts.range.Text();
+  json["denoiser"] = NameOf(facts.options.kind);
+  json["continuous"] = facts.options.continuous;
+  json["width"] = facts.options.width;
+  json["heads"] = facts.options.heads;
+  json["double_blocks"] = facts.options.double_blocks;
+  json["single_blocks"] = facts.options.single_blocks;
+  json["diffusion_steps"] = facts.options.diffusion_steps;
+  json["training_scenes"] = facts.training_scenes;
+  json["data_seed"] = facts.data_seed;
+  json["steps"] = facts.steps;
+  nn::SaveCheckpoint(denoiser, {{"kind", kKind}, {"model", json.dump()}}, path);
+}
+
+ReadModel ReadWeights(const std::filesystem::path& path) {
+  const nn::CheckpointFacts facts = nn::ReadCheckpointFacts(path, kKind);
+  std::string error;
+  try {
+    ReadModel model{FactsOf(nlohmann::json::parse(facts.at("model"))), nullptr};
+    if (!model.facts.vocabulary.IsValid(&error)) throw core::Error(error, path.string());
+    model.denoiser = MakeDenoiser(model.facts.options, model.facts.vocabulary.ClassCount());
+    nn::LoadCheckpoint(path, kKind, model.denoiser.get());
+    model.facts.parameters = ParameterCount(*model.denoiser);
+    model.denoiser->eval();
+    return model;
+  } catch (const nlohmann::json::exception&) {
+    throw core::Error("what the weights say of themselves cannot be read", path.string(),
+                      "train the model anew");
+  } catch (const std::out_of_range&) {
+    throw core::Error("the weights do not say of which model they are", path.string());
+  }
+}
+
+}  // namespace simwright::scene

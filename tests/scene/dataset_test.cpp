@@ -1,0 +1,281 @@
+// Scenes as numbers in HDF5: what is written is read, also by h5py; what is damaged is refused.
+#include "scene/dataset/scene_dataset.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "scene/dataset/part_claim.h"
+#include "scene/dataset/pose_range.h"
+#include "scene/dataset/scene_stream.h"
+#include "scene/dataset/tokens.h"
+#include "scene/grammar/dimsum.h"
+
+namespace simwright::scene {
+namespace {
+namespace fs = std::filesystem;
+
+Vocabulary Words() {
+  return {"test", 4, {"bowl", "cup", "table"}, {false, false, true}};
+}
+
+DrawnObject Thing(const std::string& slot, double x, double turn) {
+  DrawnObject object;
+  object.slot = slot;
+  object.welded = slot == "table";
+  object.world_from_object = Eigen::Translation3d(x, -x, 0.7) *
+                             Eigen::AngleAxisd(turn, Eigen::Vector3d(1, 2, 3).normalized());
+  return object;
+}
+
+// Scene i: a table, and a cup whose place says i.
+ScenePart Part(int number, int scenes) {
+  ScenePart part{Words(), {5, number, "{}", "{}", "1"}, {}, {}};
+  const size_t size = static_cast<size_t>(Words().entries * Words().TokenWidth());
+  for (int i = 0; i < scenes; ++i) {
+    part.tokens.resize(part.tokens.size() + size);
+    EncodeScene({Thing("table", 0.0, 0.1), Thing("cup", 100 * number + i, 0.3 * i)}, Words(),
+                &part.tokens[part.tokens.size() - size]);
+    part.attempts.push_back({3, 2, 1, true, true, 1e-3 * i, 1e-5, 2e-4});
+    part.attempts.push_back({4, 1, 3, false, false, 0.0, 0.5, 0.1});
+  }
+  return part;
+}
+
+int NumberOf(const float* tokens) {
+  return static_cast<int>(tokens[Words().TokenWidth()]);
+}
+
+TEST(SceneTokens, ComeBackAsTheyWere) {
+  const std::vector<DrawnObject> objects = {Thing("table", 0.0, 0.0), Thing("cup", 0.31, 2.9),
+                                            Thing("bowl", -0.2, -1.0)};
+  std::vector<float> tokens(static_cast<size_t>(Words().entries * Words().TokenWidth()));
+  EncodeScene(objects, Words(), tokens.data());
+  EXPECT_EQ(FaultOfTokens(tokens.data(), Words()), "");
+  EXPECT_EQ(tokens[12 + 2], 1.0f);  // a table is class 2 of (bowl, cup, table, empty)
+  EXPECT_EQ(tokens[static_cast<size_t>(3 * Words().TokenWidth() + 12 + 3)], 1.0f);
+  const std::vector<DrawnObject> back = DecodeScene(tokens.data(), Words());
+  ASSERT_EQ(back.size(), 3u);
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(back[i].slot, objects[i].slot);
+    EXPECT_EQ(back[i].welded, objects[i].welded);
+    EXPECT_TRUE(back[i].world_from_object.isApprox(objects[i].world_from_object, 1e-6));
+  }
+  EXPECT_THROW(EncodeScene({Thing("spoon", 0, 0)}, Words(), tokens.data()), core::Error);
+  EXPECT_THROW(EncodeScene(std::vector<DrawnObject>(5, Thing("cup", 0, 0)), Words(), tokens.data()),
+               core::Error);
+}
+
+TEST(SceneTokens, TheNearestRotationIsTheNearest) {
+  // A rotation times a symmetric positive matrix is nearest to that rotation (polar decomposition).
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  Eigen::Matrix3d stretch;
+  stretch << 2.0, 0.3, 0.1, 0.3, 1.0, -0.2, 0.1, -0.2, 0.5;
+  EXPECT_TRUE(NearestRotation(turn * stretch).isApprox(turn, 1e-12));
+  // Of a reflection it is still a rotation, and no other of many is nearer.
+  Eigen::Matrix3d mirror = Eigen::Vector3d(1.0, 0.9, -0.3).asDiagonal();
+  mirror(0, 1) = 0.2;
+  const Eigen::Matrix3d nearest = NearestRotation(mirror);
+  EXPECT_NEAR(nearest.determinant(), 1.0, 1e-12);
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Matrix3d other = Eigen::Quaterniond::UnitRandom().toRotationMatrix();
+    EXPECT_GE((other - mirror).norm(), (nearest - mirror).norm() - 1e-12);
+  }
+}
+
+TEST(SceneTokens, SayWhatIsWrong) {
+  std::vector<float> sound(static_cast<size_t>(Words().entries * Words().TokenWidth()));
+  EncodeScene({Thing("cup", 0.1, 0.5)}, Words(), sound.data());
+  const auto fault = [&](size_t index, float value) {
+    std::vector<float> tokens = sound;
+    tokens[index] = value;
+    return FaultOfTokens(tokens.data(), Words());
+  };
+  EXPECT_NE(fault(1, NAN).find("finite"), std::string::npos);
+  EXPECT_NE(fault(12, 1.0f).find("one-hot"), std::string::npos);
+  EXPECT_NE(fault(13, 0.5f).find("one-hot"), std::string::npos);
+  EXPECT_NE(fault(4, 3.0f).find("rotation"), std::string::npos);
+  EXPECT_NE(fault(16, 3.0f).find("entry 1"), std::string::npos);
+}
+
+TEST(SceneVocabulary, IsTheGrammars) {
+  const Vocabulary vocabulary = VocabularyOf(DimsumTable());
+  EXPECT_EQ(vocabulary.entries, 34);
+  EXPECT_EQ(vocabulary.ClassCount(), 8);  // seven slots and the empty one, as published
+  EXPECT_TRUE(vocabulary.welded[static_cast<size_t>(vocabulary.ClassOf("table_round"))]);
+  EXPECT_FALSE(vocabulary.welded[static_cast<size_t>(vocabulary.ClassOf("cup"))]);
+  EXPECT_EQ(vocabulary.ClassOf("spoon"), -1);
+}
+
+TEST(SceneDataset, ReadsAcrossItsParts) {
+  const core::TemporaryFolder folder;
+  for (int i = 0; i < 3; ++i) WritePart(Part(i, 5 + i), folder.path() / PartName(i));
+  const SceneDataset dataset(folder.path());
+  EXPECT_EQ(dataset.SceneCount(), 18);
+  EXPECT_EQ(dataset.vocabulary(), Words());
+  EXPECT_EQ(dataset.Attempts().size(), 36u);
+  EXPECT_EQ(dataset.Attempts()[2], Part(0, 5).attempts[2]);
+  const size_t size = static_cast<size_t>(Words().entries * Words().TokenWidth());
+  const std::vector<float> tokens = dataset.Read(3, 9);
+  ASSERT_EQ(tokens.size(), 9 * size);
+  std::vector<int> numbers;
+  for (size_t i = 0; i < 9; ++i) numbers.push_back(NumberOf(&tokens[i * size]));
+  EXPECT_EQ(numbers, (std::vector<int>{3, 4, 100, 101, 102, 103, 104, 105, 200}));
+  EXPECT_THROW(dataset.Read(10, 9), core::Error);
+  EXPECT_THROW(dataset.Read(-1, 2), core::Error);
+  EXPECT_EQ(SceneDataset(folder.path() / PartName(1)).SceneCount(), 6);
+}
+
+TEST(SceneDataset, H5pyReadsTheSame) {
+  const core::TemporaryFolder folder;
+  WritePart(Part(0, 5), folder.path() / PartName(0));
+  const std::string script =
+      "import h5py, numpy as np, sys\n"
+      "f = h5py.File(sys.argv[1])\n"
+      "s = f['scenes']\n"
+      "assert s.shape == (5, 4, 16) and s.dtype == np.float32 and s.compression == 'gzip', s\n"
+      "assert s.chunks == (5, 4, 16), s.chunks\n"
+      "assert [x.decode() for x in f['slots'][:]] == ['bowl', 'cup', 'table']\n"
+      "assert f['welded'][:].tolist() == [0, 0, 1]\n"
+      "assert f.attrs['type'] == 'test' and f.attrs['seed'] == 5 and f.attrs['version'] == 1\n"
+      "assert np.allclose(s[:, 1, 0], np.arange(5)) and np.allclose(s[:, 0, 2], 0.7)\n"
+      "assert np.all(s[:, :, 12:].sum(-1) == 1) and np.all(s[:, 2:, 15] == 1)\n"
+      "r = s[:, 1, 3:12].reshape(-1, 3, 3)\n"
+      "assert np.allclose(r @ r.transpose(0, 2, 1), np.eye(3), atol=1e-6)\n"
+      "assert f['attempt_counts'].shape == (10, 5) and f['attempt_figures'].shape == (10, 3)\n";
+  core::WriteFile(folder.path() / "read.py", script);
+  const std::string command = "python3 " + (folder.path() / "read.py").string() + " " +
+                              (folder.path() / PartName(0)).string();
+  EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+std::string ErrorOf(const fs::path& path) {
+  try {
+    const SceneDataset dataset(path);
+    dataset.Read(0, dataset.SceneCount());
+  } catch (const core::Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SceneDataset, RefusesWhatIsDamaged) {
+  const core::TemporaryFolder folder;
+  const fs::path path = folder.path() / PartName(0);
+  EXPECT_NE(ErrorOf(folder.path()).find("no scenes"), std::string::npos);
+  WritePart(Part(0, 40), path);
+  const std::string bytes = core::ReadFile(path);
+  EXPECT_EQ(ErrorOf(path), "");
+  for (const double share : {0.0, 0.3, 0.7, 0.99}) {
+    core::WriteFile(path, bytes.substr(0, static_cast<size_t>(share * bytes.size())));
+    EXPECT_NE(ErrorOf(path).find(path.string()), std::string::npos) << share;
+  }
+  core::WriteFile(path, "no HDF5 at all");
+  EXPECT_NE(ErrorOf(path).find("HDF5"), std::string::npos);
+  {
+    core::Hdf5Writer writer(path);
+    writer.root().SetAttribute("format", "simwright scenes");
+    writer.root().SetAttribute("version", std::int64_t{2});
+    writer.Commit();
+  }
+  EXPECT_NE(ErrorOf(path).find("version 2"), std::string::npos);
+  ScenePart part = Part(0, 3);
+  part.tokens[20] = NAN;
+  WritePart(part, path);
+  EXPECT_NE(ErrorOf(path).find("scene 0: entry 1: a number is not finite"), std::string::npos);
+  part = Part(0, 3);
+  part.attempts[0].sound = false;
+  part.tokens.resize(part.tokens.size() / 3 * 2);
+  part.attempts.push_back({3, 3, 0, true, true, 0, 0, 0});
+  WritePart(part, path);
+  EXPECT_EQ(ErrorOf(path), "");  // what is sound is counted, wherever it is
+}
+
+TEST(SceneDataset, RefusesPartsThatDoNotBelongTogether) {
+  const core::TemporaryFolder folder;
+  WritePart(Part(0, 3), folder.path() / PartName(0));
+  ScenePart other = Part(1, 3);
+  other.origin.seed = 6;
+  WritePart(other, folder.path() / PartName(1));
+  EXPECT_NE(ErrorOf(folder.path()).find(PartName(1)), std::string::npos);
+}
+
+TEST(SceneStream, GivesEveryScenePerRound) {
+  const core::TemporaryFolder folder;
+  for (int i = 0; i < 4; ++i) WritePart(Part(i, 20), folder.path() / PartName(i));
+  const SceneDataset dataset(folder.path());
+  const size_t size = static_cast<size_t>(Words().entries * Words().TokenWidth());
+  std::vector<float> tokens(60 * size);
+  const auto numbers = [&](SceneStream* stream) {
+    stream->Next(60, tokens.data());
+    std::vector<int> result;
+    for (size_t i = 0; i < 60; ++i) result.push_back(NumberOf(&tokens[i * size]));
+    return result;
+  };
+  // All in the buffer: the 60 scenes from the tenth on, each once, then each once in another order.
+  SceneStream whole(dataset, {10, 60, 100, 8}, 3);
+  const std::vector<int> first = numbers(&whole), second = numbers(&whole);
+  EXPECT_EQ(std::set<int>(first.begin(), first.end()).size(), 60u);
+  EXPECT_EQ(std::set<int>(second.begin(), second.end()).size(), 60u);
+  EXPECT_EQ(*std::min_element(first.begin(), first.end()), 10);
+  EXPECT_NE(first, second);
+  SceneStream again(dataset, {10, 60, 100, 8}, 3);
+  EXPECT_EQ(numbers(&again), first);
+  // A buffer of a quarter: over ten rounds every scene about ten times, no order kept.
+  SceneStream streamed(dataset, {10, 60, 15, 8}, 3);
+  std::map<int, int> counts;
+  for (int round = 0; round < 10; ++round) {
+    for (const int number : numbers(&streamed)) ++counts[number];
+  }
+  EXPECT_EQ(counts.size(), 60u);
+  for (const auto& [number, count] : counts) EXPECT_NEAR(count, 10, 4) << number;
+  EXPECT_THROW(SceneStream(dataset, {70, 20, 15, 8}, 3), core::Error);
+  EXPECT_THROW(SceneStream(dataset, {0, 20, 0, 8}, 3), core::Error);
+}
+
+TEST(PoseRange, BringsFeaturesToTheUnitRange) {
+  const core::TemporaryFolder folder;
+  WritePart(Part(0, 5), folder.path() / PartName(0));
+  const SceneDataset dataset(folder.path());
+  const PoseRange range = PoseRange::Of(dataset, 0, 5);
+  EXPECT_EQ(range.low()[0], 0.0);
+  EXPECT_EQ(range.high()[0], 4.0);
+  EXPECT_EQ(range.low()[2], 0.0);  // of the padding
+  EXPECT_NEAR(range.high()[2], 0.7, 1e-6);
+  const std::vector<float> tokens = dataset.Read(4, 1);
+  float unit[kPoseWidth], pose[kPoseWidth];
+  range.ToUnit(&tokens[static_cast<size_t>(Words().TokenWidth())], unit);
+  EXPECT_FLOAT_EQ(unit[0], 1.0f);
+  EXPECT_FLOAT_EQ(unit[1], -1.0f);
+  range.FromUnit(unit, pose);
+  for (size_t i = 0; i < kPoseWidth; ++i) {
+    EXPECT_NEAR(pose[i], tokens[static_cast<size_t>(Words().TokenWidth()) + i], 1e-6);
+  }
+  const PoseRange back = PoseRange::FromText(range.Text());
+  EXPECT_EQ(back.low(), range.low());
+  EXPECT_EQ(back.high(), range.high());
+  EXPECT_THROW(PoseRange::FromText("{\"low\": 3}"), core::Error);
+}
+
+TEST(PartClaim, OneWorkerHasIt) {
+  const core::TemporaryFolder folder;
+  const fs::path part = folder.path() / PartName(0);
+  {
+    const PartClaim mine(part);
+    EXPECT_TRUE(mine.held());
+    EXPECT_FALSE(PartClaim(part).held());
+  }
+  EXPECT_TRUE(PartClaim(part).held());
+  // A lock's file that a worker left when it died holds nobody up.
+  std::ofstream(part.string() + ".lock") << "";
+  EXPECT_TRUE(PartClaim(part).held());
+}
+
+}  // namespace
+}  // namespace simwright::scene

@@ -1,0 +1,77 @@
+// What grammars put on furniture stands on a surface of the library's furniture.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "library/rigid_kinds.h"
+#include "scene/grammar/breakfast.h"
+#include "scene/grammar/dimsum.h"
+#include "scene/grammar/living_room_shelf.h"
+#include "scene/grammar/pantry_shelf.h"
+#include "scene/grammar/scene_draw.h"
+#include "scene/palette.h"
+
+namespace simwright::scene {
+namespace {
+
+Palette Furniture() {
+  Palette palette;
+  for (const library::RigidKind& kind : library::FurnitureKinds()) {
+    sim::RigidBody body;
+    body.name = kind.name;
+    body.parts = library::MakeRigidThing(kind, 1).parts;
+    body.inertial.mass = 1.0;
+    palette.Add(kind.name, body);
+  }
+  return palette;
+}
+
+// m, of the highest part of `asset` under the point, at most a tenth of a millimetre above it.
+double SurfaceUnder(const PaletteAsset& asset, const Eigen::Vector3d& point) {
+  double highest = -1.0;
+  for (const core::TriangleMesh& part : asset.body.parts) {
+    const Eigen::AlignedBox3d box = core::Bounds(part);
+    const bool over = (box.min().head<2>().array() <= point.head<2>().array()).all() &&
+                      (box.max().head<2>().array() >= point.head<2>().array()).all();
+    if (over && box.max().z() <= point.z() + 1e-4) highest = std::max(highest, box.max().z());
+  }
+  return highest;
+}
+
+TEST(FurnitureInGrammars, ThingsStandOnItsSurfaces) {
+  const Palette palette = Furniture();
+  const SlotSizes sizes = palette.Sizes();
+  for (const Grammar& grammar :
+       {DimsumTable(sizes), BreakfastTableLow(sizes), BreakfastTableHigh(sizes), PantryShelf(sizes),
+        LivingRoomShelf(sizes)}) {
+    core::Rng rng = core::StreamRng(5, 0);
+    int standing = 0;
+    for (int scene = 0; scene < 3; ++scene) {
+      const SceneDraw draw = DrawScene(grammar, rng);
+      for (const DrawnObject& object : draw.objects) {
+        if (object.parent < 0 || !draw.objects[static_cast<size_t>(object.parent)].welded) continue;
+        const DrawnObject& furniture = draw.objects[static_cast<size_t>(object.parent)];
+        const Eigen::Vector3d at =
+            furniture.world_from_object.inverse() * object.world_from_object.translation();
+        EXPECT_NEAR(SurfaceUnder(palette.At(furniture.slot), at), at.z(), 1e-9)
+            << grammar.name() << ": " << object.slot;
+        ++standing;
+      }
+    }
+    EXPECT_GE(standing, 6) << grammar.name();
+  }
+}
+
+TEST(FurnitureInGrammars, IsOfTheSizesThatGrammarsStartFrom) {
+  const SlotSizes sizes = Furniture().Sizes();
+  for (const library::RigidKind& kind : library::FurnitureKinds()) {
+    const SlotSize& expected = SizeOf(DefaultSlotSizes(), kind.name);
+    const SlotSize& found = sizes.at(kind.name);
+    EXPECT_LT((found.half_size - expected.half_size).norm(), 1e-9) << kind.name;
+    EXPECT_NEAR(found.height, expected.height, 1e-9) << kind.name;
+  }
+}
+
+}  // namespace
+}  // namespace simwright::scene

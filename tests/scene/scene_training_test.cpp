@@ -1,0 +1,155 @@
+// Training a small model, going on where it stopped, drawing from what it wrote.
+#include "scene/model/training.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "scene/dataset/tokens.h"
+#include "scene/model/scene_model.h"
+
+namespace simwright::scene {
+namespace {
+namespace fs = std::filesystem;
+
+Vocabulary Words() {
+  return {"test", 4, {"cup", "plate", "table"}, {false, false, true}};
+}
+
+// A table at the origin, a cup at x = 1 on it, and in half of the scenes a plate at x = -1.
+void WriteScenes(const fs::path& folder, int count) {
+  ScenePart part{Words(), {5, 0, "{}", "{}", "1"}, {}, {}};
+  const size_t size = static_cast<size_t>(Words().entries * Words().TokenWidth());
+  core::Rng rng = core::StreamRng(4, 0);
+  for (int i = 0; i < count; ++i) {
+    std::vector<DrawnObject> objects(2 + i % 2);
+    objects[0].slot = "table";
+    objects[1].slot = "cup";
+    objects[1].world_from_object.translation() << 1.0 + 0.05 * core::Normal(rng), 0.0, 0.5;
+    if (i % 2 == 1) {
+      objects[2].slot = "plate";
+      objects[2].world_from_object.translation() << -1.0, 0.05 * core::Normal(rng), 0.5;
+    }
+    part.tokens.resize(part.tokens.size() + size);
+    EncodeScene(objects, Words(), &part.tokens[part.tokens.size() - size]);
+    part.attempts.push_back({3, 3, 0, true, true, 0, 0, 0});
+  }
+  WritePart(part, folder / PartName(0));
+}
+
+SceneModelOptions Small() {
+  SceneModelOptions options;
+  options.width = 64;
+  options.double_blocks = 1;
+  options.single_blocks = 2;
+  options.diffusion_steps = 100;
+  return options;
+}
+
+SceneTrainingOptions Short(int steps) {
+  SceneTrainingOptions options;
+  options.trainer.steps = steps;
+  options.trainer.learning_rate = 2e-3;
+  options.trainer.ema_decay = 0.98;
+  options.trainer.save_every = 20;
+  options.batch = 64;
+  options.report_every = 10;
+  return options;
+}
+
+TEST(SceneTraining, LearnsWhatScenesHold) {
+  const core::TemporaryFolder folder;
+  WriteScenes(folder.path(), 200);
+  core::Progress progress;
+  const SceneTrainingReport report = TrainSceneModel(SceneDataset(folder.path()), Small(),
+                                                     Short(400), folder.path() / "run", &progress);
+  EXPECT_EQ(report.training_scenes, 180);
+  EXPECT_EQ(report.held_out_scenes, 20);
+  ASSERT_EQ(report.losses.size(), 40u);
+  EXPECT_LT(report.losses.back().held_out, 0.5 * report.losses.front().held_out);
+
+  const SceneModel model = SceneModel::Load(report.weights);
+  EXPECT_EQ(model.facts().vocabulary, Words());
+  EXPECT_EQ(model.facts().training_scenes, 180);
+  EXPECT_EQ(model.facts().parameters, report.parameters);
+  SampleOptions options;
+  options.steps = 50;
+  constexpr int kScenes = 64;
+  const std::vector<float> tokens = model.Sample(kScenes, options, &progress);
+  const size_t size = static_cast<size_t>(Words().entries * Words().TokenWidth());
+  ASSERT_EQ(tokens.size(), kScenes * size);
+  int right = 0, plates = 0;
+  for (int i = 0; i < kScenes; ++i) {
+    int cups = 0, tables = 0, others = 0;
+    for (const DrawnObject& object : DecodeScene(&tokens[static_cast<size_t>(i) * size], Words())) {
+      const Eigen::Vector3d at = object.world_from_object.translation();
+      EXPECT_TRUE(object.world_from_object.linear().isUnitary(1e-9));
+      cups += object.slot == "cup" && (at - Eigen::Vector3d(1, 0, 0.5)).norm() < 0.3;
+      tables += object.slot == "table" && at.norm() < 0.3;
+      others += object.slot == "plate" && (at - Eigen::Vector3d(-1, 0, 0.5)).norm() < 0.3;
+    }
+    right += cups == 1 && tables == 1 && others <= 1;
+    plates += others == 1;
+  }
+  EXPECT_GE(right, kScenes * 3 / 4);
+  EXPECT_NEAR(plates, kScenes / 2, 16);
+  // The same seed, the same scenes.
+  EXPECT_EQ(model.Sample(2, options, &progress),
+            std::vector<float>(model.Sample(2, options, &progress)));
+}
+
+TEST(SceneTraining, GoesOnWhereItStopped) {
+  const core::TemporaryFolder folder;
+  WriteScenes(folder.path(), 50);
+  const SceneDataset dataset(folder.path());
+  core::Progress progress;
+  SceneTrainingOptions options = Short(40);
+  TrainSceneModel(dataset, Small(), options, folder.path() / "run", &progress);
+  options.trainer.steps = 60;
+  options.trainer.resume = true;
+  const SceneTrainingReport report =
+      TrainSceneModel(dataset, Small(), options, folder.path() / "run", &progress);
+  ASSERT_EQ(report.losses.size(), 6u);
+  EXPECT_EQ(report.losses.front().step, 10);
+  EXPECT_EQ(report.losses.back().step, 60);
+  EXPECT_EQ(SceneModel::Load(report.weights).facts().steps, 60);
+  SceneModelOptions other = Small();
+  other.width = 32;
+  EXPECT_THROW(TrainSceneModel(dataset, other, options, folder.path() / "run", &progress),
+               core::Error);
+}
+
+TEST(SceneTraining, KeepsTheLastGoodWeightsWhereItDiverges) {
+  const core::TemporaryFolder folder;
+  WriteScenes(folder.path(), 50);
+  const SceneDataset dataset(folder.path());
+  core::Progress progress;
+  SceneTrainingOptions options = Short(40);
+  const SceneTrainingReport good =
+      TrainSceneModel(dataset, Small(), options, folder.path() / "run", &progress);
+  const std::string weights = core::ReadFile(good.weights);
+  options.trainer.steps = 400;
+  options.trainer.save_every = 1000;
+  options.trainer.resume = true;
+  options.trainer.learning_rate = 1e18;
+  options.trainer.largest_norm = 1e30;
+  try {
+    TrainSceneModel(dataset, Small(), options, folder.path() / "run", &progress);
+    FAIL() << "a rate of 1e18 did not diverge";
+  } catch (const core::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("diverged"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(core::ReadFile(good.weights), weights);
+  EXPECT_EQ(SceneModel::Load(good.weights).facts().steps, 40);
+}
+
+TEST(SceneModel, RefusesWhatIsNone) {
+  const core::TemporaryFolder folder;
+  EXPECT_THROW(SceneModel::Load(folder.path() / "none.pt"), core::Error);
+  core::WriteFile(folder.path() / "other.pt", "no weights");
+  EXPECT_THROW(SceneModel::Load(folder.path() / "other.pt"), core::Error);
+}
+
+}  // namespace
+}  // namespace simwright::scene
