@@ -60,7 +60,18 @@ double DeepestPenetration(const std::vector<DrawnObject>& objects, const Palette
   return deepest;
 }
 
+bool IsKept(const sim::SettledBody& settled, const std::string& slot,
+            const FeasibilityOptions& options) {
+  if (settled.fell || !settled.stable) return false;
+  return settled.tilted <= options.tilted || options.may_lie.count(slot) == 1;
+}
+
 }  // namespace
+
+std::set<std::string> FruitSlots() {
+  return {"apple",  "apple_2", "apple_3", "apple_4",   "pear",
+          "pear_2", "pear_3",  "avocado", "avocado_2", "avocado_3"};
+}
 
 bool FeasibilityOptions::IsValid(std::string* error) const {
   if (!projection.IsValid(error) || !settling.IsValid(error)) return false;
@@ -96,7 +107,7 @@ FeasibleScene MakeFeasible(const std::vector<DrawnObject>& objects, const Palett
     scene.drift = 0.0;
     for (size_t i = 0; i < settled.size(); ++i) {
       scene.objects[i].world_from_object = settled[i].world_from_body;
-      kept[i] = !settled[i].fell && settled[i].stable && settled[i].tilted <= options.tilted;
+      kept[i] = IsKept(settled[i], scene.objects[i].slot, options);
       if (!kept[i]) continue;
       left.push_back(places[i]);
       scene.drift = std::max(scene.drift, settled[i].drift);

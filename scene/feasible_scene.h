@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,10 +11,15 @@
 
 namespace simwright::scene {
 
+// The slots of fruit.
+std::set<std::string> FruitSlots();
+
 struct FeasibilityOptions {
   ProjectionOptions projection;
   sim::SettlingOptions settling;
-  double tilted = 0.35;       // rad: what has tipped by more is dropped; bowls may lean a little
+  double tilted = 0.35;  // rad: what has tipped by more is dropped; bowls may lean a little
+  // Slots of what may tip, as it lies as well as it stands.
+  std::set<std::string> may_lie = FruitSlots();
   double penetration = 1e-4;  // m that parts of a finished scene may be in each other
   int passes = 3;             // of settling, at most: what stood on what was dropped settles again
   int fewest = 3;             // free objects that a scene needs (Pfaff et al., appendix)

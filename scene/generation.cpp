@@ -105,6 +105,7 @@ std::string SettingsText(const Generation& generation) {
                       {"stable", feasible.settling.stable},
                       {"fallen", feasible.settling.fallen}};
   json["tilted"] = feasible.tilted;
+  json["may_lie"] = feasible.may_lie;
   json["penetration"] = feasible.penetration;
   json["fewest"] = feasible.fewest;
   return json.dump();

@@ -6,7 +6,7 @@
 namespace simwright::scene {
 
 // A shelf of four boards with what a living room has: games in stacks, lamps, speakers, drinks, a
-// book, toys, a plate with something on it. The shelf stands at the world's origin, open to x.
+// book, toys, a plate with something on it. The shelf stands at the world's origin, open to -x.
 Grammar LivingRoomShelf(const SlotSizes& sizes = DefaultSlotSizes());
 
 // Adds that shelf as the symbol "shelf" to a grammar, with what is required of each of them and of

@@ -6,7 +6,7 @@
 namespace simwright::scene {
 
 // A shelf of four boards, each with cans, bottles and fruit all over it. The shelf stands at the
-// world's origin, open to x.
+// world's origin, open to -x.
 Grammar PantryShelf(const SlotSizes& sizes = DefaultSlotSizes());
 
 }  // namespace simwright::scene

@@ -1,5 +1,7 @@
 #include "scene/grammar/restaurant.h"
 
+#include <numbers>
+
 #include "scene/grammar/grammar_builder.h"
 #include "scene/grammar/living_room_shelf.h"
 #include "scene/grammar/round_table.h"
@@ -28,22 +30,24 @@ void RequireRoom(GrammarBuilder* builder) {
   KeepOut apart;
   apart.name = "between tables, chairs and shelves";
   apart.bodies = {{"table", kTableRadius}, {"chair", kChairRadius}, {"shelf", kShelfRadius}};
-  apart.exempt_within = "table";
+  apart.exempt_within = "table_and_chairs";
   apart.decision = Decision::kReject;
   builder->Require(apart);
 }
 
 Grammar Restaurant(const std::string& name, const Clutter& clutter, const SlotSizes& sizes) {
   GrammarBuilder builder(name, "room");
-  builder.And("room", {Always("floor", Offset(0.0, 0.0, -SizeOf(sizes, "floor").height)),
-                       Always("tables"), Always("shelves")});
-  builder.Leaf(Welded("floor", "floor"));
-  builder.Repeat(
-      "tables", clutter.tables,
-      Always("table",
-             UniformInWorld({kTablesFrom, -kAside, 0.0}, {kTablesTo, kAside, 0.0}).FacingAnyWay()));
-  builder.Repeat("shelves", clutter.shelves,
-                 Always("shelf", UniformInWorld({kWall, -kAside, 0.0}, {kWall, kAside, 0.0})));
+  const double thick = SizeOf(sizes, "floor").height;
+  builder.And("room", {Always("floor", Offset(0.0, 0.0, -thick))});
+  builder.And(Welded("floor", "floor"), {Always("ground", Offset(0.0, 0.0, thick))});
+  builder.And(Surface("ground"), {Always("tables"), Always("shelves")});
+  const PoseRule anywhere =
+      UniformInWorld({kTablesFrom, -kAside, 0.0}, {kTablesTo, kAside, 0.0}).FacingAnyWay();
+  builder.Repeat("tables", clutter.tables, Always("table_and_chairs", anywhere));
+  // Shelves open to their -x, so that they are turned to the room.
+  const PoseRule at_wall =
+      UniformInWorld({kWall, -kAside, 0.0}, {kWall, kAside, 0.0}).Turned(std::numbers::pi);
+  builder.Repeat("shelves", clutter.shelves, Always("shelf", at_wall));
   AddRoundTable(clutter.table, sizes, &builder);
   AddLivingRoomShelf(sizes, &builder);
   RequireRoom(&builder);

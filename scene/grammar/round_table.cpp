@@ -75,7 +75,8 @@ void AddChairs(GrammarBuilder* builder) {
     const double angle = 0.5 * std::numbers::pi * i;
     places.push_back(Always("chair_place", SamePose().Turned(angle)));
   }
-  builder->And("chairs", places);
+  places.push_back(Always("table"));
+  builder->And("table_and_chairs", places);
   // A chair's x points to where one looks who sits on it.
   builder->And(
       "chair_place",
@@ -99,9 +100,7 @@ void RequireInside(const std::vector<std::string>& symbols, double radius, doubl
 
 void AddRoundTable(const RoundTable& table, const SlotSizes& sizes, GrammarBuilder* builder) {
   const SlotSize& size = SizeOf(sizes, table.slot);
-  std::vector<Child> parts = {Always("tabletop", Offset(0.0, 0.0, size.height))};
-  if (table.chairs) parts.push_back(Always("chairs"));
-  builder->And(Welded("table", table.slot), parts);
+  builder->And(Welded("table", table.slot), {Always("tabletop", Offset(0.0, 0.0, size.height))});
   builder->And(Surface("tabletop"), {Always("settings"), Always("middle")});
   AddSettings(table, builder);
   AddMiddle(table, sizes, builder);

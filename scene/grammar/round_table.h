@@ -20,8 +20,9 @@ struct RoundTable {
 };
 
 // Adds the symbol "table", welded, its foot on the plane that it is derived on, and all that stands
-// on it; what stands on one top is kept apart and inside its rim by drawing it anew. The radius of
-// what has to be kept free about each is published with the grammar.
+// on it; where there are chairs, also "table_and_chairs", the table and four chairs about it;
+// what stands on one top is kept apart and inside its rim by drawing it anew. The radius of what
+// has to be kept free about each is published with the grammar.
 void AddRoundTable(const RoundTable& table, const SlotSizes& sizes, GrammarBuilder* builder);
 
 }  // namespace simwright::scene

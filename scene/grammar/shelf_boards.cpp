@@ -49,8 +49,8 @@ PoseRule AtLeftWall(const SlotSizes& sizes, const std::string& shelf_slot,
   const Eigen::Vector2d& board = SizeOf(sizes, shelf_slot).half_size;
   const Eigen::Vector2d& around = SizeOf(sizes, slot).half_size;
   const double x = std::max(0.0, board.x() - kWall - around.x());
-  const double y = -std::max(0.0, board.y() - kWall - around.y());
-  return UniformOnSurface({-x, y, 0.0}, {x, y, 0.0}).Turned(std::numbers::pi);
+  const double y = std::max(0.0, board.y() - kWall - around.y());
+  return UniformOnSurface({-x, y, 0.0}, {x, y, 0.0});
 }
 
 }  // namespace simwright::scene

@@ -27,7 +27,7 @@ PoseRule AnywhereOnBoard(const SlotSizes& sizes, const std::string& shelf_slot,
 PoseRule SquarelyOnBoard(const SlotSizes& sizes, const std::string& shelf_slot,
                          const std::string& slot, bool across, double deviation);
 
-// Leaning against the wall at -y, uniform along it, its back to x.
+// Against the wall that is left as one looks in, at y, uniform along it.
 PoseRule AtLeftWall(const SlotSizes& sizes, const std::string& shelf_slot, const std::string& slot);
 
 }  // namespace simwright::scene

@@ -90,6 +90,37 @@ TEST(MakeFeasible, WhatHangsInTheAirFallsAndIsDropped) {
   EXPECT_EQ(scene.objects[0].world_from_object.matrix(), Eigen::Matrix4d::Identity());
 }
 
+// Two upright boxes that begin to topple: what has to stand is dropped, a pear is kept as it lies.
+TEST(MakeFeasible, FruitMayLie) {
+  Palette palette = Drums();
+  sim::RigidBody box;
+  box.name = "box";
+  box.friction = 0.6;
+  box.parts = {library::Box(Vector3d(-0.02, -0.02, 0.0), Vector3d(0.02, 0.02, 0.1))};
+  const auto properties = geometry::SolidMassProperties(box.parts[0], 300.0);
+  box.inertial = {properties.mass, properties.center_of_mass, properties.inertia};
+  palette.Add("can", box);
+  palette.Add("pear", box);
+  FeasibilityOptions options;
+  options.settling.duration = 1.0;
+  options.settling.watch = 0.3;
+  options.fewest = 1;
+  const auto toppling = [](double x) {
+    return Eigen::Translation3d(x, 0.0, 0.8) * Eigen::AngleAxisd(0.7, Vector3d::UnitY());
+  };
+  std::vector<DrawnObject> objects(3);
+  objects[0] = {"table_round", "table", Eigen::Isometry3d::Identity(), true, -1};
+  objects[1] = {"can", "can", Eigen::Isometry3d(toppling(-0.3)), false, 0};
+  objects[2] = {"pear", "pear", Eigen::Isometry3d(toppling(0.1)), false, 0};
+  const FeasibleScene scene = MakeFeasible(objects, palette, options);
+  EXPECT_EQ(scene.dropped, 1);
+  ASSERT_EQ(scene.objects.size(), 2u);
+  EXPECT_EQ(scene.objects[1].slot, "pear");
+  // It lies: its upright is level.
+  EXPECT_NEAR(scene.objects[1].world_from_object.linear()(2, 2), 0.0, 0.02);
+  EXPECT_TRUE(scene.sound);
+}
+
 TEST(MakeFeasible, TooFewObjectsAreNoScene) {
   const Palette palette = Drums();
   std::vector<DrawnObject> objects = {

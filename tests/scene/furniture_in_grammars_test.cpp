@@ -9,6 +9,7 @@
 #include "scene/grammar/dimsum.h"
 #include "scene/grammar/living_room_shelf.h"
 #include "scene/grammar/pantry_shelf.h"
+#include "scene/grammar/restaurant.h"
 #include "scene/grammar/scene_draw.h"
 #include "scene/palette.h"
 
@@ -44,7 +45,7 @@ TEST(FurnitureInGrammars, ThingsStandOnItsSurfaces) {
   const SlotSizes sizes = palette.Sizes();
   for (const Grammar& grammar :
        {DimsumTable(sizes), BreakfastTableLow(sizes), BreakfastTableHigh(sizes), PantryShelf(sizes),
-        LivingRoomShelf(sizes)}) {
+        LivingRoomShelf(sizes), RestaurantHigh(sizes), RestaurantLow(sizes)}) {
     core::Rng rng = core::StreamRng(5, 0);
     int standing = 0;
     for (int scene = 0; scene < 3; ++scene) {

@@ -1,0 +1,221 @@
+// Restaurants: what is kept apart, checked apart from the grammar, and their counts.
+#include "scene/grammar/restaurant.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "tests/scene/drawn_objects.h"
+
+namespace simwright::scene {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kHighs = 100, kLows = 300;
+
+std::vector<SceneDraw> Draws(const Grammar& grammar, int count) {
+  std::vector<SceneDraw> draws;
+  for (int i = 0; i < count; ++i) {
+    core::Rng rng = core::StreamRng(9, static_cast<std::uint64_t>(i));
+    draws.push_back(DrawScene(grammar, rng));
+  }
+  return draws;
+}
+
+const std::vector<SceneDraw>& Highs() {
+  static const std::vector<SceneDraw> draws = Draws(RestaurantHigh(), kHighs);
+  return draws;
+}
+const std::vector<SceneDraw>& Lows() {
+  static const std::vector<SceneDraw> draws = Draws(RestaurantLow(), kLows);
+  return draws;
+}
+
+int CountOf(const SceneDraw& draw, const std::string& slot) {
+  return static_cast<int>(std::count_if(draw.objects.begin(), draw.objects.end(),
+                                        [&](const DrawnObject& o) { return o.slot == slot; }));
+}
+
+TEST(Restaurant, TablesChairsAndShelvesAreKeptApart) {
+  const std::map<std::string, double> radii = {
+      {"table_restaurant", 0.8}, {"chair", 0.35}, {"shelf_living_room", 0.3}};
+  for (const auto* draws : {&Highs(), &Lows()}) {
+    for (const SceneDraw& draw : *draws) {
+      // And of which table: four chairs come before each.
+      std::vector<std::pair<size_t, int>> placed;
+      int group = 0;
+      for (size_t i = 0; i < draw.objects.size(); ++i) {
+        const DrawnObject& one = draw.objects[i];
+        if (radii.count(one.slot) == 0) continue;
+        placed.emplace_back(i, group);
+        group += one.slot != "chair";
+      }
+      for (size_t a = 0; a < placed.size(); ++a) {
+        for (size_t b = a + 1; b < placed.size(); ++b) {
+          if (placed[a].second == placed[b].second) continue;
+          const DrawnObject &one = draw.objects[placed[a].first],
+                            &other = draw.objects[placed[b].first];
+          ASSERT_GE(Across(one, other), radii.at(one.slot) + radii.at(other.slot) - 1e-12);
+        }
+      }
+    }
+  }
+}
+
+TEST(Restaurant, FurnitureIsWeldedAndChairsAreNot) {
+  const std::set<std::string> welded = {"floor", "table_restaurant", "shelf_living_room"};
+  for (const auto* draws : {&Highs(), &Lows()}) {
+    for (const SceneDraw& draw : *draws) {
+      ASSERT_EQ(CountOf(draw, "floor"), 1);
+      ASSERT_EQ(draw.objects[0].slot, "floor");
+      ASSERT_NEAR(PlaceOf(draw.objects[0]).z(), -0.05, 1e-12);  // its upper side is at 0
+      for (const DrawnObject& one : draw.objects) {
+        ASSERT_EQ(one.welded, welded.count(one.slot) == 1) << one.slot;
+        const Vector3d at = PlaceOf(one);
+        if (one.slot == "table_restaurant") {
+          ASSERT_NEAR(at.z(), 0.0, 1e-12);
+          ASSERT_TRUE(at.x() >= -2.5 && at.x() <= 3.0 && std::abs(at.y()) <= 3.0);
+        } else if (one.slot == "shelf_living_room") {
+          ASSERT_NEAR(at.z(), 0.0, 1e-12);
+          ASSERT_NEAR(at.x(), -4.75, 1e-12);
+          // It opens to -x of its own: to the room.
+          ASSERT_NEAR(one.world_from_object.linear()(0, 0), -1.0, 1e-12);
+          ASSERT_LE(std::abs(at.y()), 3.0);
+        }
+      }
+    }
+  }
+}
+
+TEST(Restaurant, FourChairsStandAboutEachTableAndFaceIt) {
+  double distance = 0.0;
+  int chairs = 0;
+  for (const SceneDraw& draw : Highs()) {
+    ASSERT_EQ(CountOf(draw, "chair"), 4 * CountOf(draw, "table_restaurant"));
+    Vector3d sum = Vector3d::Zero();
+    for (size_t i = 0; i < draw.objects.size(); ++i) {
+      const DrawnObject& one = draw.objects[i];
+      if (one.slot != "chair") continue;
+      ASSERT_EQ(ParentOf(draw, one).slot, "floor");
+      ASSERT_NEAR(PlaceOf(one).z(), 0.0, 1e-12);
+      size_t table = i;  // their table follows
+      while (draw.objects[table].slot == "chair") ++table;
+      ASSERT_EQ(draw.objects[table].slot, "table_restaurant");
+      const Vector3d way = PlaceOf(draw.objects[table]) - PlaceOf(one);
+      distance += way.norm();
+      ++chairs;
+      ASSERT_GT(one.world_from_object.linear().col(0).dot(way.normalized()), 0.4);
+      sum += way.normalized();
+      if (table != i + 1) continue;
+      // One a side: their ways to the table all but cancel.
+      ASSERT_LT(sum.norm(), 1.0);
+      sum.setZero();
+    }
+  }
+  // The mean of the length of a Gaussian about (1.1, 0) with variances 0.005 and 0.03 is about
+  // 1.1 + 0.03 / (2 * 1.1).
+  EXPECT_NEAR(distance / chairs, 1.1 + 0.03 / 2.2, 4.0 * std::sqrt(0.005 / chairs) + 0.005);
+}
+
+TEST(Restaurant, WhatStandsOnATableIsKeptApartAndInside) {
+  const std::map<std::string, double> radii = {
+      {"plate", 0.14}, {"cup", 0.07}, {"teapot", 0.10}, {"serving_dish", 0.20}, {"steamer", 0.12}};
+  int pairs = 0;
+  for (const auto* draws : {&Highs(), &Lows()}) {
+    for (const SceneDraw& draw : *draws) {
+      for (size_t i = 0; i < draw.objects.size(); ++i) {
+        const DrawnObject& one = draw.objects[i];
+        if (!IsBase(draw, one)) continue;
+        if (ParentOf(draw, one).slot != "table_restaurant") continue;
+        ASSERT_NEAR(PlaceOf(one).z(), 0.785, 1e-12);
+        ASSERT_LE(Across(one, ParentOf(draw, one)), one.slot == "plate" ? 0.525 : 0.475);
+        for (size_t j = i + 1; j < draw.objects.size(); ++j) {
+          const DrawnObject& other = draw.objects[j];
+          if (other.parent != one.parent) continue;
+          ASSERT_GE(Across(one, other), radii.at(one.slot) + radii.at(other.slot) - 1e-9);
+          ++pairs;
+        }
+      }
+    }
+  }
+  EXPECT_GT(pairs, 10000);
+}
+
+TEST(Restaurant, ShelvesHoldAtLeastThreeThingsBetweenThem) {
+  for (const auto* draws : {&Highs(), &Lows()}) {
+    for (const SceneDraw& draw : *draws) {
+      int on_shelves = 0;
+      for (const DrawnObject& one : draw.objects) {
+        if (!IsBase(draw, one) || ParentOf(draw, one).slot != "shelf_living_room") continue;
+        ++on_shelves;
+        const Vector3d there = ParentOf(draw, one).world_from_object.inverse() * PlaceOf(one);
+        ASSERT_LT(std::abs(there.x()), 0.15);
+        ASSERT_LT(std::abs(there.y()), 0.3);
+        const auto height = std::lround(1e4 * there.z());
+        ASSERT_TRUE(height == 170 || height == 2870 || height == 5470 || height == 8170);
+      }
+      // What is stacked counts as well, so that one or two bases may do.
+      ASSERT_GE(on_shelves, 1);
+      int all = 0;
+      for (DrawnObject one : draw.objects) {
+        while (!one.welded) one = ParentOf(draw, one);
+        all += one.slot == "shelf_living_room";
+      }
+      ASSERT_GE(all - CountOf(draw, "shelf_living_room"), 3);
+    }
+  }
+}
+
+int TallestStack(const SceneDraw& draw) {
+  int tallest = 0;
+  for (DrawnObject one : draw.objects) {
+    int height = 0;
+    while (one.slot == "steamer") {
+      ++height;
+      one = ParentOf(draw, one);
+    }
+    tallest = std::max(tallest, height);
+  }
+  return tallest;
+}
+
+// Published, after physics: 60.5 and at most 125 things, 35.1 and at most 107.
+TEST(Restaurant, HasAsManyThingsAsPublished) {
+  double high = 0.0, low = 0.0;
+  for (const SceneDraw& draw : Highs()) {
+    high += static_cast<double>(draw.objects.size()) / kHighs;
+    ASSERT_LE(draw.objects.size(), 125u);
+    ASSERT_GE(TallestStack(draw), 3);
+    const int tables = CountOf(draw, "table_restaurant");
+    ASSERT_TRUE(tables >= 3 && tables <= 10);
+    ASSERT_GE(CountOf(draw, "shelf_living_room"), 1);
+    ASSERT_LE(CountOf(draw, "shelf_living_room"), 5);
+  }
+  for (const SceneDraw& draw : Lows()) {
+    low += static_cast<double>(draw.objects.size()) / kLows;
+    ASSERT_LE(draw.objects.size(), 107u);
+    ASSERT_GE(TallestStack(draw), 2);
+  }
+  RecordProperty("high", std::to_string(high));
+  RecordProperty("low", std::to_string(low));
+  EXPECT_NEAR(high, 60.5, 5.0);
+  EXPECT_NEAR(low, 35.1, 2.5);
+}
+
+TEST(Restaurant, TheSameStateGivesTheSameScene) {
+  const std::vector<SceneDraw> again = Draws(RestaurantHigh(), 2);
+  for (size_t k = 0; k < again.size(); ++k) {
+    ASSERT_EQ(again[k].objects.size(), Highs()[k].objects.size());
+    for (size_t i = 0; i < again[k].objects.size(); ++i) {
+      EXPECT_EQ(again[k].objects[i].world_from_object.matrix(),
+                Highs()[k].objects[i].world_from_object.matrix());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace simwright::scene
