@@ -21,7 +21,7 @@ CategoryDiffusion::CategoryDiffusion(int steps, int classes) : steps_(steps), cl
 }
 
 torch::Tensor CategoryDiffusion::At(const torch::Tensor& table, const torch::Tensor& t) const {
-  return table.to(t.device()).index_select(0, t + 1).to(torch::kFloat).reshape({-1, 1, 1});
+  return table.to(t.device()).index_select(0, t + 1).reshape({-1, 1, 1});
 }
 
 torch::Tensor CategoryDiffusion::Draw(const torch::Tensor& probabilities,
@@ -36,18 +36,24 @@ torch::Tensor CategoryDiffusion::Draw(const torch::Tensor& probabilities,
 torch::Tensor CategoryDiffusion::AddNoise(const torch::Tensor& clean, const torch::Tensor& t,
                                           const at::Generator& generator) const {
   const torch::Tensor one_hot = torch::one_hot(clean, classes_).to(torch::kFloat);
-  const torch::Tensor classes = At(kept_, t) * one_hot + At(replaced_, t);
-  const torch::Tensor mask = At(masked_, t).expand({clean.size(0), clean.size(1), 1});
+  const torch::Tensor classes = (At(kept_, t) * one_hot + At(replaced_, t)).to(torch::kFloat);
+  const torch::Tensor mask =
+      At(masked_, t).to(torch::kFloat).expand({clean.size(0), clean.size(1), 1});
   return Draw(torch::cat({classes, mask}, -1), generator);
 }
 
 torch::Tensor CategoryDiffusion::Posterior(const torch::Tensor& noisy, const torch::Tensor& clean,
                                            const torch::Tensor& t, const torch::Tensor& s) const {
-  const torch::Tensor a_t = At(kept_, t), b_t = At(replaced_, t), c_t = At(masked_, t);
-  const torch::Tensor a_s = At(kept_, s), b_s = At(replaced_, s), c_s = At(masked_, s);
-  // From s to t: a stays, c is masked, what is left goes anywhere.
-  const torch::Tensor a = a_t / a_s, stays = (1.0 - c_t) / (1.0 - c_s), c = 1.0 - stays;
-  const torch::Tensor b = (stays - a).clamp_min(0.0) / classes_;
+  // From s to t: a stays, c is masked, what is left goes anywhere. That is a millionth, the
+  // difference of numbers near one: in single precision it would be noise.
+  const torch::Tensor kept = At(kept_, t) / At(kept_, s);
+  const torch::Tensor stays = (1.0 - At(masked_, t)) / (1.0 - At(masked_, s));
+  const auto single = [](const torch::Tensor& x) { return x.to(torch::kFloat); };
+  const torch::Tensor a = single(kept), c = single(1.0 - stays);
+  const torch::Tensor b = single((stays - kept).clamp_min(0.0) / classes_);
+  const torch::Tensor a_t = single(At(kept_, t)), a_s = single(At(kept_, s));
+  const torch::Tensor b_t = single(At(replaced_, t)), b_s = single(At(replaced_, s));
+  const torch::Tensor c_t = single(At(masked_, t)), c_s = single(At(masked_, s));
   const torch::Tensor here = torch::one_hot(noisy, classes_ + 1).to(torch::kFloat);
   const torch::Tensor classes_here = here.narrow(-1, 0, classes_);
   const torch::Tensor masked_here = here.narrow(-1, classes_, 1);

@@ -42,7 +42,7 @@ class CategoryDiffusion {
   static torch::Tensor Draw(const torch::Tensor& probabilities, const at::Generator& generator);
 
  private:
-  // Of `table` at t (B), as (B x 1 x 1).
+  // Of `table` at t (B), as (B x 1 x 1), double.
   torch::Tensor At(const torch::Tensor& table, const torch::Tensor& t) const;
 
   int steps_, classes_;

@@ -34,6 +34,7 @@ SceneModelOptions SceneModelOptions::AsMiDiffusion() const {
   options.single_blocks = (18 * double_blocks + 15 * single_blocks + 8) / 16;
   options.double_blocks = 0;
   options.heads = 4;
+  options.class_weight = 1.0;
   return options;
 }
 
@@ -64,6 +65,7 @@ bool SceneModelOptions::IsValid(std::string* error) const {
   if (kind != DenoiserKind::kUnet && double_blocks + single_blocks < 1) {
     return fails("a model needs a block");
   }
+  if (!(class_weight > 0.0)) return fails("class_weight has to be above 0");
   if (diffusion_steps < 2 || diffusion_steps > 100000) {
     return fails("diffusion_steps have to be 2 to 100000");
   }

@@ -20,6 +20,10 @@ struct SceneModelOptions {
   int double_blocks = 2;  // of kFlux; attention, then a network a token
   int single_blocks = 4;  // of kFlux: both at once; of kTransformer: all of them
   int diffusion_steps = 1000;
+  // Of the classes' loss in the whole, of a mixed model; the papers' is 1. A step's divergence is
+  // what a class is worth divided by the steps, a thousandth of what poses' errors are: of 64 drawn
+  // after 400 updates 25 scenes had the right things with 1, and 54 with 30 (of 100 steps).
+  double class_weight = 100.0;
 
   // "tiny" (two cores), "base", "full" (the paper's 88 M). Throws core::Error for another.
   static SceneModelOptions OfSize(const std::string& size);

@@ -29,6 +29,7 @@ void SetPoseLoss(const torch::Tensor& off, SceneLoss* loss) {
 
 SceneDiffusion::SceneDiffusion(const SceneModelOptions& options, int classes)
     : continuous_(options.continuous),
+      class_weight_(options.class_weight),
       poses_(nn::DiffusionSchedule::Linear(options.diffusion_steps, kFirstBeta, kLastBeta)),
       classes_(options.diffusion_steps, classes) {}
 
@@ -60,8 +61,8 @@ SceneLoss SceneDiffusion::MixedLoss(Denoiser* denoiser, const CleanScenes& scene
   loss.cross_entropy = entropy.mean();
   const torch::Tensor weight =
       2.0 - (t.to(torch::kFloat) + 1.0) / static_cast<double>(poses_.steps());
-  loss.total = 0.5 * (loss.translation + loss.rotation) + loss.divergence +
-               kCrossEntropyShare * (weight * entropy).mean();
+  loss.total = 0.5 * (loss.translation + loss.rotation) +
+               class_weight_ * (loss.divergence + kCrossEntropyShare * (weight * entropy).mean());
   return loss;
 }
 

@@ -29,7 +29,8 @@ class SceneDiffusion {
  public:
   SceneDiffusion(const SceneModelOptions& options, int classes);
 
-  // (MSE_translation + MSE_rotation) / 2 + KL + 5e-4 (2 - t / T) CE(x_0), at random times.
+  // (MSE_translation + MSE_rotation) / 2 + w (KL + 5e-4 (2 - t / T) CE(x_0)), at random times; w is
+  // options.class_weight.
   SceneLoss Loss(Denoiser* denoiser, const CleanScenes& scenes,
                  const at::Generator& generator) const;
   // The same at times t (B).
@@ -54,6 +55,7 @@ class SceneDiffusion {
                            const at::Generator& generator) const;
 
   bool continuous_;
+  double class_weight_;
   nn::DiffusionSchedule poses_;
   CategoryDiffusion classes_;
 };

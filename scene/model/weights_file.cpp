@@ -19,6 +19,7 @@ SceneModelOptions OptionsOf(const nlohmann::json& json) {
   options.double_blocks = json.at("double_blocks");
   options.single_blocks = json.at("single_blocks");
   options.diffusion_steps = json.at("diffusion_steps");
+  options.class_weight = json.at("class_weight");
   return options;
 }
 
@@ -52,6 +53,7 @@ void WriteWeights(const Denoiser& denoiser, const SceneModelFacts& facts,
   json["double_blocks"] = facts.options.double_blocks;
   json["single_blocks"] = facts.options.single_blocks;
   json["diffusion_steps"] = facts.options.diffusion_steps;
+  json["class_weight"] = facts.options.class_weight;
   json["training_scenes"] = facts.training_scenes;
   json["data_seed"] = facts.data_seed;
   json["steps"] = facts.steps;

@@ -150,7 +150,7 @@ TEST(SceneDataset, H5pyReadsTheSame) {
       "assert np.allclose(r @ r.transpose(0, 2, 1), np.eye(3), atol=1e-6)\n"
       "assert f['attempt_counts'].shape == (10, 5) and f['attempt_figures'].shape == (10, 3)\n";
   core::WriteFile(folder.path() / "read.py", script);
-  const std::string command = "python3 " + (folder.path() / "read.py").string() + " " +
+  const std::string command = "/usr/bin/python3 " + (folder.path() / "read.py").string() + " " +
                               (folder.path() / PartName(0)).string();
   EXPECT_EQ(std::system(command.c_str()), 0);
 }

@@ -151,8 +151,8 @@ class BestDenoiser : public Denoiser {
     const auto column = [](const std::vector<float>& values) {
       return torch::tensor(values).unsqueeze(1);
     };
-    const torch::Tensor q = masked * column(mask) +
-                            (1.0 - masked) * (same * column(kept) + column(replaced));
+    const torch::Tensor q =
+        masked * column(mask) + (1.0 - masked) * (same * column(kept) + column(replaced));
     return q.log().sum(1);
   }
 
@@ -176,6 +176,7 @@ TEST(SceneDiffusion, OverfittingFewScenesGoesToWhereTheoryIs) {
   options.width = 48;
   options.double_blocks = 2;
   options.diffusion_steps = 100;
+  options.class_weight = 30.0;
   const SceneDiffusion diffusion(options, kClasses);
   torch::manual_seed(2);
   const std::shared_ptr<Denoiser> denoiser = MakeDenoiser(options, kClasses);
