@@ -13,6 +13,9 @@ Eigen::Vector3d At(const ProfilePoint& ring, double angle) {
   return {ring.r * std::cos(angle), ring.r * std::sin(angle), ring.z};
 }
 
+constexpr double kOffGround = 5e-4;  // m, of a wall: what its foot bears does not bear on it too
+constexpr int kFootCorners = 8;
+
 // At most seven of them, the ends among them: of a wedge 35 corners.
 std::vector<ProfilePoint> Few(const std::vector<ProfilePoint>& points) {
   const size_t last = std::min<size_t>(points.size(), 7) - 1;
@@ -57,9 +60,13 @@ std::vector<core::TriangleMesh> VesselParts(const std::vector<ProfilePoint>& out
   const std::vector<ProfilePoint> profile = VesselProfile(outer, thickness, floor);
   const std::vector<ProfilePoint> inner(
       profile.begin() + static_cast<std::ptrdiff_t>(outer.size()) + 1, profile.end() - 1);
-  std::vector<core::TriangleMesh> parts = WallParts(Few(outer), Few(inner), count);
-  const ProfilePoint edge = inner.back(), foot{std::min(edge.r, outer.front().r), outer.front().z};
-  parts.push_back(TurnedPart({foot, edge}, 2 * count));
+  std::vector<ProfilePoint> wall = Few(outer);
+  const ProfilePoint foot = wall[0], edge = inner.back();
+  const double share = std::min(0.5, kOffGround / (wall[1].z - foot.z));
+  wall[0].r += share * (wall[1].r - foot.r);
+  wall[0].z += share * (wall[1].z - foot.z);
+  std::vector<core::TriangleMesh> parts = WallParts(wall, Few(inner), count);
+  parts.push_back(TurnedPart({foot, edge}, 2 * count, kFootCorners));
   return parts;
 }
 

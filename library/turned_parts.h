@@ -17,7 +17,8 @@ core::TriangleMesh TurnedPart(const std::vector<ProfilePoint>& rings, int corner
                               int foot = 0);
 
 // A vessel of VesselProfile: `count` wedges of its wall, and its floor. What bulges keeps its
-// outside; its hollow is as wide as its narrowest place.
+// outside; its hollow is as wide as its narrowest place. It stands on the floor's part alone: a
+// solver's time goes by the pairs of parts that touch.
 std::vector<core::TriangleMesh> VesselParts(const std::vector<ProfilePoint>& outer,
                                             double thickness, double floor, int count);
 
