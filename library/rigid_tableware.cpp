@@ -170,7 +170,7 @@ core::TexturedMesh Jug(RigidDraft* d) {
   core::TexturedMesh mesh = Revolved(VesselProfile(outer, wall, 0.007), {d->look});
   PullLip(r, h, &mesh.mesh);
   // As wide inside as the neck lets anything in.
-  d->parts = VesselParts(outer, wall, 0.007, kJugWedges);
+  d->parts = VesselParts(outer, wall, 0.007, kJugWedges, 4);
   for (core::TriangleMesh& part : d->parts) {
     PullLip(r, h, &part);
     part = Hull(part.vertices);

@@ -17,7 +17,8 @@ constexpr int kWedges = 10;  // of a wall, as parts
 
 core::TexturedMesh Vessel(RigidDraft* d, const std::vector<ProfilePoint>& outer, double thickness,
                           double floor) {
-  d->parts = VesselParts(outer, thickness, floor, kWedges);
+  const bool handled = d->size.x() > d->size.y();
+  d->parts = VesselParts(outer, thickness, floor, kWedges, handled ? 4 : 8);
   return Revolved(VesselProfile(outer, thickness, floor), {d->look});
 }
 

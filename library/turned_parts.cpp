@@ -14,7 +14,6 @@ Eigen::Vector3d At(const ProfilePoint& ring, double angle) {
 }
 
 constexpr double kOffGround = 5e-4;  // m, of a wall: what its foot bears does not bear on it too
-constexpr int kFootCorners = 8;
 
 // At most seven of them, the ends among them: of a wedge 35 corners.
 std::vector<ProfilePoint> Few(const std::vector<ProfilePoint>& points) {
@@ -55,7 +54,8 @@ std::vector<core::TriangleMesh> WallParts(const std::vector<ProfilePoint>& outer
 }
 
 std::vector<core::TriangleMesh> VesselParts(const std::vector<ProfilePoint>& outer,
-                                            double thickness, double floor, int count) {
+                                            double thickness, double floor, int count,
+                                            int foot_corners) {
   // Of VesselProfile: between its middle points the outside, then the inside down to the floor.
   const std::vector<ProfilePoint> profile = VesselProfile(outer, thickness, floor);
   const std::vector<ProfilePoint> inner(
@@ -66,7 +66,7 @@ std::vector<core::TriangleMesh> VesselParts(const std::vector<ProfilePoint>& out
   wall[0].r += share * (wall[1].r - foot.r);
   wall[0].z += share * (wall[1].z - foot.z);
   std::vector<core::TriangleMesh> parts = WallParts(wall, Few(inner), count);
-  parts.push_back(TurnedPart({foot, edge}, 2 * count, kFootCorners));
+  parts.push_back(TurnedPart({foot, edge}, 2 * count, foot_corners));
   return parts;
 }
 

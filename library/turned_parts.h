@@ -18,9 +18,11 @@ core::TriangleMesh TurnedPart(const std::vector<ProfilePoint>& rings, int corner
 
 // A vessel of VesselProfile: `count` wedges of its wall, and its floor. What bulges keeps its
 // outside; its hollow is as wide as its narrowest place. It stands on the floor's part alone: a
-// solver's time goes by the pairs of parts that touch.
+// solver's time goes by the pairs of parts that touch. A handle puts the weight to one side, where
+// MuJoCo's three or four contacts then all are: it wants a foot of four corners.
 std::vector<core::TriangleMesh> VesselParts(const std::vector<ProfilePoint>& outer,
-                                            double thickness, double floor, int count);
+                                            double thickness, double floor, int count,
+                                            int foot_corners = 8);
 
 // The wall between two profiles, cut into `count` wedges (a multiple of 2). A wedge is the hull of
 // its two ends and of the outer profile in its middle, so that it fills the hollow by a chord's
