@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "library/convex_shapes.h"
 #include "library/rigid_kinds.h"
 #include "library/rigid_shapes.h"
 
@@ -91,7 +92,7 @@ core::TexturedMesh OpenBox(RigidDraft* d, double wall, double lean, double corne
               RoundedSquareOutline(corner, 4), {look});
 }
 
-core::TexturedMesh Box(RigidDraft* d) {
+core::TexturedMesh OpenCarton(RigidDraft* d) {
   return OpenBox(d, std::max(0.004, 0.012 * d->size.x()), 0.0, 0.02, d->look);
 }
 
@@ -128,34 +129,46 @@ core::TexturedMesh BoardGame(RigidDraft* d) {
               RoundedSquareOutline(0.02, 3), {Look("board", .86f, .80f, .68f), side, Print(d)});
 }
 
+// The hull of rectangular rings: four corners stand firmer than a chamfered outline's many.
+core::TriangleMesh SquarePart(const std::vector<Ring>& rings) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Ring& ring : rings) {
+    for (const double x : {-ring.x, ring.x}) {
+      for (const double y : {-ring.y, ring.y}) points.emplace_back(x, y, ring.z);
+    }
+  }
+  return Hull(points);
+}
+
 // A case for a small cartridge, lying, its printed sheet up.
 core::TexturedMesh ConsoleGame(RigidDraft* d) {
   const double x = 0.5 * d->size.x(), y = 0.5 * d->size.y(), h = d->size.z(), edge = 0.0012;
-  return Loft({{0, 0, 0},
-               {x - edge, y - edge, 0},
-               {x, y, edge},
-               {x, y, h - edge},
-               {x - edge, y - edge, h},
-               {x - 0.005, y - 0.004, h},
-               {0, 0, h, 1}},
+  const Ring foot{x - edge, y - edge, 0}, low{x, y, edge}, high{x, y, h - edge},
+      top{x - edge, y - edge, h};
+  d->parts = {SquarePart({foot, low, high, top})};
+  return Loft({{0, 0, 0}, foot, low, high, top, {x - 0.005, y - 0.004, h}, {0, 0, h, 1}},
               RoundedSquareOutline(0.05, 4), {Look("case", .20f, .21f, .24f), Print(d)});
 }
 
 // Its front faces x: the surround of a cone stands out of it, with the cone and its cap inside.
-core::TexturedMesh Driver(double radius) {
+core::TexturedMesh Driver(double radius, const Eigen::Vector3d& at, RigidDraft* d) {
   constexpr double kInside = 0.004, kOut = 0.003;  // m, of the front
   const std::vector<core::Material> looks{Look("surround", .10f, .10f, .11f),
                                           Look("cone", .34f, .35f, .37f)};
-  return AlongX(Revolved({{0, -kInside},
-                          {radius, -kInside},
-                          {radius, 0.6 * kOut},
-                          {0.94 * radius, kOut},
-                          {0.84 * radius, kOut},
-                          {0.78 * radius, 0.3 * kOut},
-                          {0.32 * radius, 0.2 * kOut, 1},
-                          {0.2 * radius, 0.7 * kOut},
-                          {0, kOut}},
-                         looks));
+  core::TexturedMesh mesh = AlongX(Revolved({{0, -kInside},
+                                             {radius, -kInside},
+                                             {radius, 0.6 * kOut},
+                                             {0.94 * radius, kOut},
+                                             {0.84 * radius, kOut},
+                                             {0.78 * radius, 0.3 * kOut},
+                                             {0.32 * radius, 0.2 * kOut, 1},
+                                             {0.2 * radius, 0.7 * kOut},
+                                             {0, kOut}},
+                                            looks));
+  Move(at, &mesh);
+  d->parts.push_back(
+      Rod(at - kInside * Eigen::Vector3d::UnitX(), at + kOut * Eigen::Vector3d::UnitX(), radius));
+  return mesh;
 }
 
 core::TexturedMesh Speaker(RigidDraft* d) {
@@ -167,11 +180,10 @@ core::TexturedMesh Speaker(RigidDraft* d) {
       PaintedBox(box, 0.003, {veneer, Look("front", .22f, .22f, .23f)},
                  [](const Eigen::Vector3d& n) { return n.x() > 0.8 ? 1 : 0; });
   const double woofer = std::min(0.4 * box.y(), 0.25 * box.z());
-  core::TexturedMesh low = Driver(woofer), high = Driver(0.4 * woofer);
-  Move({0.5 * box.x(), 0, -0.44 * box.z() + woofer}, &low);
-  Move({0.5 * box.x(), 0, 0.34 * box.z()}, &high);
-  Join(low, &mesh);
-  Join(high, &mesh);
+  d->parts = {Box(-0.5 * box, 0.5 * box, 0.003)};
+  const Eigen::Vector3d front(0.5 * box.x(), 0, 0);
+  Join(Driver(woofer, front + Eigen::Vector3d(0, 0, -0.44 * box.z() + woofer), d), &mesh);
+  Join(Driver(0.4 * woofer, front + Eigen::Vector3d(0, 0, 0.34 * box.z()), d), &mesh);
   return mesh;
 }
 
@@ -220,7 +232,7 @@ std::vector<RigidKind> BoxKinds() {
           {"cutting_board", "cutting board", "a board", S::kFree, CuttingBoard},
           {"phone", "phone", "lying, its screen up", S::kFree, Phone},
           {"chocolate_bar", "chocolate bar", "wrapped", S::kFree, ChocolateBar},
-          {"box", "box", "open above", S::kFree, Box},
+          {"box", "box", "open above", S::kFree, OpenCarton},
           {"tray", "tray", "low, open above", S::kFree, Tray},
           {"board_game_large", "large board game", "a lid over its box", S::kFree, BoardGame},
           {"board_game_small", "small board game", "a lid over its box", S::kFree, BoardGame},

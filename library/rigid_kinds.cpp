@@ -75,6 +75,10 @@ Eigen::Vector3d SizeOf(const RigidKind& kind, const physics_params::PhysicalPara
 
 }  // namespace
 
+void AddParts(const std::vector<core::TriangleMesh>& parts, RigidDraft* draft) {
+  draft->parts.insert(draft->parts.end(), parts.begin(), parts.end());
+}
+
 core::Material Look(const std::string& name, float r, float g, float b) {
   return {name, {r, g, b, 1.0f}, -1};
 }

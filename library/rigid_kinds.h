@@ -30,6 +30,8 @@ struct RigidDraft {
   double Draw(double low, double high) { return core::Uniform(rng, low, high); }
 };
 
+void AddParts(const std::vector<core::TriangleMesh>& parts, RigidDraft* draft);
+
 // How the sampled length, width and height are made one thing's.
 enum class RigidSides {
   kFree,    // each as sampled

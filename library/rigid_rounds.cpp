@@ -2,6 +2,7 @@
 
 #include "library/rigid_kinds.h"
 #include "library/rigid_shapes.h"
+#include "library/turned_parts.h"
 
 // Fruit, eggs and balls. Fruit is flat where it lies, as it is a little soft: else it would roll.
 namespace simwright::library {
@@ -25,6 +26,25 @@ core::TexturedMesh Bent(const core::Material& look, Eigen::Vector2d (*bend)(doub
 // As it lies on its lower pole, or on its side.
 core::TexturedMesh Fruit(core::TexturedMesh mesh) {
   Flatten(0.02, &mesh);
+  return mesh;
+}
+
+// Upright fruit with dimples as one hull: nothing reaches into them.
+core::TexturedMesh DimpledFruit(RigidDraft* d, core::TexturedMesh mesh) {
+  constexpr int kRound = 48, kCorners = 10;  // of Revolved; of a ring
+  mesh = Fruit(std::move(mesh));
+  const std::vector<Eigen::Vector3d>& vertices = mesh.mesh.vertices;
+  const double ground = core::Bounds(mesh.mesh).min().z();
+  // The pole comes first, then ring after ring, each with a corner at x first.
+  std::vector<ProfilePoint> rings;
+  for (size_t first = 1; first + kRound < vertices.size(); first += kRound) {
+    const ProfilePoint ring{vertices[first].x(), vertices[first].z()};
+    if (ring.z <= ground + 1e-12 && !rings.empty()) rings.clear();
+    rings.push_back(ring);
+  }
+  std::vector<ProfilePoint> few;  // the foot, and five more
+  for (size_t i = 0; i < 6; ++i) few.push_back(rings[i * (rings.size() - 1) / 5]);
+  d->parts = {TurnedPart(few, kCorners, 8)};
   return mesh;
 }
 
@@ -63,18 +83,18 @@ Eigen::Vector2d Lemon(double angle) {
 }
 
 core::TexturedMesh Apple(RigidDraft* d) {
-  return Fruit(
-      Bent(d->Draw(0, 1) < 0.5 ? Look("red", .70f, .14f, .13f) : Look("green", .55f, .68f, .22f),
-           Dimpled));
+  return DimpledFruit(
+      d, Bent(d->Draw(0, 1) < 0.5 ? Look("red", .70f, .14f, .13f) : Look("green", .55f, .68f, .22f),
+              Dimpled));
 }
-core::TexturedMesh Tomato(RigidDraft*) {
-  return Fruit(Bent(Look("tomato", .82f, .18f, .12f), Dimpled));
+core::TexturedMesh Tomato(RigidDraft* d) {
+  return DimpledFruit(d, Bent(Look("tomato", .82f, .18f, .12f), Dimpled));
 }
 core::TexturedMesh Orange(RigidDraft*) {
   return Fruit(Bent(Look("orange", .93f, .54f, .13f), Ball));
 }
-core::TexturedMesh Peach(RigidDraft*) {
-  return Fruit(Bent(Look("peach", .93f, .62f, .42f), Dimpled));
+core::TexturedMesh Peach(RigidDraft* d) {
+  return DimpledFruit(d, Bent(Look("peach", .93f, .62f, .42f), Dimpled));
 }
 core::TexturedMesh PearShape(RigidDraft*) {
   return Fruit(Bent(Look("pear", .74f, .74f, .30f), Pear));

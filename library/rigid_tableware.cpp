@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "library/convex_shapes.h"
 #include "library/rigid_kinds.h"
 #include "library/rigid_shapes.h"
+#include "library/turned_parts.h"
 
 // What is turned and stands on a laid table or beside it, beyond cups and plates.
 namespace simwright::library {
@@ -12,58 +14,108 @@ double Radius(const RigidDraft& d) {
   return 0.5 * d.size.y();
 }
 
+constexpr int kWedges = 10;  // of a wall, as parts
+constexpr int kFoot = 8;     // corners of what stands on one part
+
+// Three small feet, which stand still in every engine, where a round foot rocks from corner to
+// corner.
+void AddFeet(double out, double radius, double height, double into, RigidDraft* d,
+             core::TexturedMesh* mesh) {
+  for (int k = 0; k < 3; ++k) {
+    const double angle = M_PI * (2.0 * k / 3.0 + 1.0 / 3.0);
+    const Eigen::Vector3d at(out * std::cos(angle), out * std::sin(angle), 0.0);
+    core::TexturedMesh foot = Revolved(
+        {{0, 0}, {0.8 * radius, 0}, {radius, height}, {radius, into}, {0, into}}, {d->look});
+    Move(at, &foot);
+    Join(foot, mesh);
+    core::TriangleMesh part = TurnedPart({{0.8 * radius, 0}, {radius, height}}, kFoot, 3);
+    core::Transform(Eigen::Affine3d(Eigen::Translation3d(at)), &part);
+    d->parts.push_back(part);
+  }
+}
+
+// The body, above feet that are `under` high, and its lid.
+core::TexturedMesh TeapotBody(RigidDraft* d, double r, double h, double under) {
+  const ProfilePoint bottom{0.54 * r, under}, low{0.92 * r, 0.20 * h}, belly{r, 0.38 * h},
+      shoulder{0.86 * r, 0.60 * h}, neck{0.52 * r, 0.75 * h};
+  const ProfilePoint lid{0.34 * r, 0.83 * h, 1}, stem{0.13 * r, 0.86 * h, 1},
+      knob{0.19 * r, 0.93 * h, 1}, top{0.07 * r, h, 1};
+  AddParts({TurnedPart({bottom, low, belly}), TurnedPart({belly, shoulder, neck, lid, stem}, 12),
+            TurnedPart({stem, knob, top}, 12)},
+           d);
+  std::vector<ProfilePoint> profile{{0, under}, bottom};
+  for (const ProfilePoint& p : Smooth({{0.60 * r, under + 0.02 * h}, low, belly, shoulder, neck})) {
+    profile.push_back(p);
+  }
+  const std::vector<ProfilePoint> above{{0.48 * r, 0.755 * h, 1},
+                                        {0.49 * r, 0.78 * h, 1},
+                                        lid,
+                                        stem,
+                                        {0.12 * r, 0.88 * h, 1},
+                                        knob,
+                                        {0.16 * r, 0.97 * h, 1},
+                                        top,
+                                        {0, h, 1}};
+  profile.insert(profile.end(), above.begin(), above.end());
+  return Revolved(profile, {d->look, {"lid", 0.86f * d->look.base_color, -1}});
+}
+
 // Body and lid in one, a spout at x and a handle to reach through opposite.
 core::TexturedMesh Teapot(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z(), beyond = d->size.x() - d->size.y();
-  const double spout = 0.5 * beyond, loop = 0.5 * beyond;
-  std::vector<ProfilePoint> profile{{0, 0}, {0.54 * r, 0}};
-  for (const ProfilePoint& p : Smooth({{0.60 * r, 0.02 * h},
-                                       {0.92 * r, 0.20 * h},
-                                       {r, 0.38 * h},
-                                       {0.86 * r, 0.60 * h},
-                                       {0.52 * r, 0.75 * h}})) {
-    profile.push_back(p);
-  }
-  const std::vector<ProfilePoint> lid{
-      {0.48 * r, 0.755 * h, 1}, {0.49 * r, 0.78 * h, 1}, {0.34 * r, 0.83 * h, 1},
-      {0.13 * r, 0.86 * h, 1},  {0.12 * r, 0.88 * h, 1}, {0.19 * r, 0.93 * h, 1},
-      {0.16 * r, 0.97 * h, 1},  {0.07 * r, h, 1},        {0, h, 1}};
-  profile.insert(profile.end(), lid.begin(), lid.end());
-  const core::Material& glaze = d->look;
-  const core::Material darker{"lid", 0.86f * glaze.base_color, -1};
-  core::TexturedMesh mesh = Revolved(profile, {glaze, darker});
-  Join(TaperedTube({{0.70 * r, 0.26 * h, 0.24 * r, 0.13 * h},
-                    {r, 0.38 * h, 0.20 * r, 0.10 * h},
-                    {r + 0.40 * spout, 0.52 * h, 0.14 * r, 0.07 * h},
-                    {r + 0.70 * spout, 0.66 * h, 0.11 * r, 0.055 * h},
-                    {r + 0.92 * spout, 0.76 * h, 0.10 * r, 0.05 * h}},
-                   glaze),
-       &mesh);
+  const double spout = 0.5 * beyond, loop = 0.5 * beyond, under = 0.03 * h;
+  core::TexturedMesh mesh = TeapotBody(d, r, h, under);
+  const core::TexturedMesh snout = TaperedTube({{0.70 * r, 0.26 * h, 0.24 * r, 0.13 * h},
+                                                {r, 0.38 * h, 0.20 * r, 0.10 * h},
+                                                {r + 0.40 * spout, 0.52 * h, 0.14 * r, 0.07 * h},
+                                                {r + 0.70 * spout, 0.66 * h, 0.11 * r, 0.055 * h},
+                                                {r + 0.92 * spout, 0.76 * h, 0.10 * r, 0.05 * h}},
+                                               d->look);
   std::vector<Eigen::Vector2d> path;
   for (int k = 0; k <= 16; ++k) {
     const double angle = M_PI * (k / 16.0 + 0.5);
     path.emplace_back(-0.62 * r + (0.38 * r + loop - 0.0045) * std::cos(angle),
                       0.44 * h + 0.23 * h * std::sin(angle));
   }
-  Join(Tube(path, 0.007, 0.0045, glaze), &mesh);
+  const core::TexturedMesh handle = Tube(path, 0.007, 0.0045, d->look);
+  Join(snout, &mesh);
+  Join(handle, &mesh);
+  AddParts(TubeParts(snout, 2), d);
+  AddParts(TubeParts(handle, 4), d);
+  AddFeet(0.44 * r, 0.09 * r, under, 2.0 * under, d, &mesh);
   return mesh;
 }
 
 core::TexturedMesh ServingDish(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z();
   const auto wall = Smooth({{0.56 * r, 0}, {0.72 * r, 0.18 * h}, {0.90 * r, 0.56 * h}, {r, h}});
+  d->parts = VesselParts(wall, 0.009, 0.006, kWedges);
   return Revolved(VesselProfile(wall, 0.009, 0.006), {d->look});
 }
 
 const core::Material kBamboo{"bamboo", {.84f, .70f, .45f, 1.0f}, -1};
 const core::Material kHoop{"hoop", {.66f, .49f, .28f, 1.0f}, -1};
 
+constexpr int kBasketWedges = 8;
+constexpr double kClear = 5e-4;      // m
 constexpr double kHoopOut = 0.0006;  // m: a hoop stands out of the wall between them
 
 // Baskets stand on each other: the hoops at foot and rim have one radius, rim and foot are level.
+// The floor hangs in the wall, so that the wall alone bears, rim on foot.
 core::TexturedMesh Steamer(RigidDraft* d) {
-  const double r = Radius(*d), h = d->size.z(), wall = 0.0065, floor = 0.005;
-  return Revolved({{0, 0, 1},
+  const double r = Radius(*d), h = d->size.z(), wall = 0.0065, under = 0.012, floor = 0.017;
+  // Every other wedge bears: a solver's time goes by the pairs of parts that touch.
+  const std::vector<core::TriangleMesh> bearing =
+      WallParts({{r, 0}, {r, h}}, {{r - wall, 0}, {r - wall, h}}, kBasketWedges);
+  const std::vector<core::TriangleMesh> hanging =
+      WallParts({{r, kClear}, {r, h}}, {{r - wall, kClear}, {r - wall, h}}, kBasketWedges);
+  for (size_t k = 0; k < bearing.size(); ++k) {
+    d->parts.push_back(k % 2 == 0 ? bearing[k] : hanging[k]);
+  }
+  d->parts.push_back(TurnedPart({{r - wall, under}, {r - wall, floor}}, 2 * kBasketWedges));
+  return Revolved({{0, under},
+                   {r - wall, under},
+                   {r - wall, 0, 1},
                    {r, 0, 1},
                    {r, 0.24 * h, 1},
                    {r - kHoopOut, 0.24 * h, 1},
@@ -77,42 +129,51 @@ core::TexturedMesh Steamer(RigidDraft* d) {
 }
 
 // On the rim of the basket of the same seed, whose diameter it has: both rows of the knowledge base
-// hold one range, and a seed draws one place in it. A woven sheet in a hoop; its foot is inside the
-// rim, which the slant about it finds by itself.
+// hold one range, and a seed draws one place in it. A woven sheet in a hoop, flat below out to
+// where it bears on the rim.
 core::TexturedMesh SteamerLid(RigidDraft* d) {
-  const double r = Radius(*d), h = d->size.z(), slant = 0.004;
-  return Revolved({{0, 0, 1}, {0.9 * r, 0, 1}, {r, slant, 1}, {r, h, 1}, {0.94 * r, h, 1}, {0, h}},
+  const double r = Radius(*d), h = d->size.z(), slant = 0.003;
+  d->parts = {TurnedPart({{0.98 * r, 0}, {r, slant}, {r, h}}, 20, kFoot)};
+  return Revolved({{0, 0, 1}, {0.98 * r, 0, 1}, {r, slant, 1}, {r, h, 1}, {0.94 * r, h, 1}, {0, h}},
                   {kBamboo, kHoop});
 }
 
 core::TexturedMesh UtensilCrock(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z();
-  return Revolved(VesselProfile({{0.92 * r, 0},
-                                 {0.97 * r, 0.03 * h},
-                                 {0.97 * r, 0.90 * h},
-                                 {r, 0.92 * h},
-                                 {r, 0.98 * h},
-                                 {0.98 * r, h}},
-                                0.006, 0.008),
-                  {d->look});
+  const std::vector<ProfilePoint> wall{{0.92 * r, 0}, {0.97 * r, 0.03 * h}, {0.97 * r, 0.90 * h},
+                                       {r, 0.92 * h}, {r, 0.98 * h},        {0.98 * r, h}};
+  d->parts = VesselParts(wall, 0.006, 0.008, kWedges);
+  return Revolved(VesselProfile(wall, 0.006, 0.008), {d->look});
+}
+
+constexpr int kJugWedges = 8;
+
+// A lip towards -x: both sides of the wall alike.
+void PullLip(double r, double h, core::TriangleMesh* mesh) {
+  for (Eigen::Vector3d& v : mesh->vertices) {
+    const double up = (v.z() / h - 0.8) / 0.2, away = v.head<2>().norm();
+    if (up <= 0.0 || v.x() >= 0.0) continue;
+    v.x() -= 0.2 * r * up * up * std::pow(-v.x() / away, 6);
+  }
 }
 
 // Bellied, open above, a lip opposite its handle.
 core::TexturedMesh Jug(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z(), wall = 0.005;
   const double neck = 0.66 * r, out = d->size.x() - d->size.y();
-  core::TexturedMesh mesh = Revolved(VesselProfile(Smooth({{0.70 * r, 0},
-                                                           {0.90 * r, 0.12 * h},
-                                                           {r, 0.36 * h},
-                                                           {0.84 * r, 0.64 * h},
-                                                           {neck, 0.84 * h},
-                                                           {0.76 * r, h}}),
-                                                   wall, 0.007),
-                                     {d->look});
-  for (Eigen::Vector3d& v : mesh.mesh.vertices) {  // both sides of the wall alike
-    const double up = (v.z() / h - 0.8) / 0.2, away = v.head<2>().norm();
-    if (up <= 0.0 || v.x() >= 0.0) continue;
-    v.x() -= 0.2 * r * up * up * std::pow(-v.x() / away, 6);
+  const std::vector<ProfilePoint> outer = Smooth({{0.70 * r, 0},
+                                                  {0.90 * r, 0.12 * h},
+                                                  {r, 0.36 * h},
+                                                  {0.84 * r, 0.64 * h},
+                                                  {neck, 0.84 * h},
+                                                  {0.76 * r, h}});
+  core::TexturedMesh mesh = Revolved(VesselProfile(outer, wall, 0.007), {d->look});
+  PullLip(r, h, &mesh.mesh);
+  // As wide inside as the neck lets anything in.
+  d->parts = VesselParts(outer, wall, 0.007, kJugWedges, 4);
+  for (core::TriangleMesh& part : d->parts) {
+    PullLip(r, h, &part);
+    part = Hull(part.vertices);
   }
   // It meets the wall level, at the neck and at the belly, where the wall is upright.
   std::vector<Eigen::Vector2d> path;
@@ -125,7 +186,9 @@ core::TexturedMesh Jug(RigidDraft* d) {
                                        {r - 0.4 * wall, 0.36 * h}})) {
     path.emplace_back(p.r, p.z);
   }
-  Join(Tube(path, 0.008, 0.005, d->look), &mesh);
+  const core::TexturedMesh handle = Tube(path, 0.008, 0.005, d->look);
+  Join(handle, &mesh);
+  AddParts(TubeParts(handle, 4), d);
   return mesh;
 }
 
@@ -157,6 +220,8 @@ core::TexturedMesh TeaBottle(RigidDraft* d) {
 // Drawn thin, necked in below and above.
 core::TexturedMesh SodaCan(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z(), end = 0.82 * r;
+  d->parts = {TurnedPart({{0.76 * r, 0}, {r, 0.06 * h}, {r, 0.9 * h}}, 20, kFoot),
+              TurnedPart({{r, 0.9 * h}, {1.03 * end, 0.98 * h}, {1.03 * end, h}})};
   return Revolved({{0, 0},
                    {0.76 * r, 0},
                    {0.82 * r, 0.012 * h},
@@ -186,6 +251,12 @@ core::TexturedMesh Lamp(RigidDraft* d) {
       {0.07 * r, 0.45 * h, 2}, {0.07 * r, 0.54 * h, 2}, {0.97 * r, 0.54 * h, 1}, {r, 0.54 * h, 1},
       {0.66 * r, h, 1},        {0.63 * r, h, 1},        {0.63 * r, 0.97 * h, 1}, {0, 0.97 * h, 1}};
   profile.insert(profile.end(), shade.begin(), shade.end());
+  const ProfilePoint foot{0.64 * r, 0}, low{0.26 * r, 0.07 * h}, belly{0.44 * r, 0.20 * h},
+      waist{0.12 * r, 0.44 * h};
+  d->parts = {TurnedPart({foot, {0.64 * r, 0.025 * h}, {0.40 * r, 0.05 * h}, low}, 16, kFoot),
+              TurnedPart({low, belly}), TurnedPart({belly, {0.34 * r, 0.34 * h}, waist}),
+              TurnedPart({waist, {0.07 * r, 0.54 * h}}, 8),
+              TurnedPart({{r, 0.54 * h}, {0.66 * r, h}})};
   return Revolved(profile,
                   {d->look, Look("shade", .94f, .88f, .74f), Look("rod", .66f, .58f, .42f)});
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "library/convex_shapes.h"
 #include "library/rigid_kinds.h"
 #include "library/rigid_shapes.h"
 
@@ -61,6 +62,47 @@ core::TexturedMesh Fork(RigidDraft* d) {
     Move({0, (w - half) * (2.0 * k / 3.0 - 1.0), 0}, &tine);
     Join(tine, &mesh);
   }
+  return mesh;
+}
+
+// The hull of a bar's corners, flat below where the bar is.
+core::TriangleMesh BarPart(const std::vector<BarSection>& bar) {
+  std::vector<Eigen::Vector3d> points;
+  for (const BarSection& s : bar) {
+    for (const double y : {s.y_low, s.y_high}) {
+      points.emplace_back(s.x, y, s.z_low);
+      points.emplace_back(s.x, y, s.z_high);
+    }
+  }
+  return Hull(points);
+}
+
+// A handle and a thin blade, its tip at x. It lies on the handle's end and on the blade's. Those
+// are parts of their own: engines pass over contacts that are near to each other for a part's
+// length, and of a long narrow part keep one side's.
+core::TexturedMesh Knife(RigidDraft* d) {
+  const double l = d->size.x(), w = 0.5 * d->size.y(), h = d->size.z();
+  const double up = 0.0006, thin = 0.0026;
+  const std::vector<BarSection> handle{{0.00 * l, -0.8 * w, 0.8 * w, 0, h},
+                                       {0.12 * l, -0.8 * w, 0.8 * w, 0, h},
+                                       {0.30 * l, -0.7 * w, 0.7 * w, up, h},
+                                       {0.43 * l, -0.55 * w, 0.55 * w, up, 0.8 * h},
+                                       {0.46 * l, -0.5 * w, 0.5 * w, up, thin}};
+  const std::vector<BarSection> blade{
+      {0.45 * l, -0.7 * w, 0.45 * w, up, thin}, {0.50 * l, -0.95 * w, 0.55 * w, up, thin},
+      {0.70 * l, -w, 0.65 * w, up, thin},       {0.84 * l, -0.9 * w, 0.8 * w, 0, thin - up},
+      {0.95 * l, -0.5 * w, w, 0, thin - up},    {l, 0.5 * w, w, 0.3 * up, 0.7 * thin}};
+  const std::vector<Eigen::Vector2d> outline = RoundedSquareOutline(0.3, 3);
+  core::TexturedMesh mesh = Bar(handle, outline, {kSteel});
+  Join(Bar(blade, outline, {kSteel}), &mesh);
+  const auto first = [](const std::vector<BarSection>& bar, size_t count) {
+    return std::vector<BarSection>(bar.begin(), bar.begin() + static_cast<std::ptrdiff_t>(count));
+  };
+  const auto rest = [](const std::vector<BarSection>& bar, size_t from) {
+    return std::vector<BarSection>(bar.begin() + static_cast<std::ptrdiff_t>(from), bar.end());
+  };
+  d->parts = {BarPart(first(handle, 2)), BarPart(rest(handle, 1)), BarPart(first(blade, 4)),
+              BarPart(rest(blade, 3))};
   return mesh;
 }
 
@@ -246,6 +288,7 @@ std::vector<RigidKind> LongKinds() {
   return {{"spoon", "spoon", "with a hollow bowl", S::kFree, Spoon},
           {"teaspoon", "teaspoon", "with a hollow bowl", S::kFree, Spoon},
           {"fork", "fork", "four tines, lying", S::kFree, Fork},
+          {"knife", "table knife", "a handle and a blade, lying flat", S::kFree, Knife},
           {"wooden_spoon", "wooden spoon", "with a hollow bowl", S::kFree, WoodenSpoon},
           {"ruler", "ruler", "flat", S::kFree, Ruler},
           {"pen", "pen", "turned, with a tip", S::kLying, Pen},

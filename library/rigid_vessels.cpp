@@ -2,6 +2,7 @@
 
 #include "library/rigid_kinds.h"
 #include "library/rigid_shapes.h"
+#include "library/turned_parts.h"
 
 // Bodies of revolution: what holds food and drink, and what else is turned.
 namespace simwright::library {
@@ -12,8 +13,12 @@ double Radius(const RigidDraft& d) {
   return 0.5 * d.size.y();
 }
 
+constexpr int kWedges = 10;  // of a wall, as parts
+
 core::TexturedMesh Vessel(RigidDraft* d, const std::vector<ProfilePoint>& outer, double thickness,
                           double floor) {
+  const bool handled = d->size.x() > d->size.y();
+  d->parts = VesselParts(outer, thickness, floor, kWedges, handled ? 4 : 8);
   return Revolved(VesselProfile(outer, thickness, floor), {d->look});
 }
 
@@ -28,7 +33,9 @@ core::TexturedMesh Mug(RigidDraft* d) {
     path.emplace_back(r - 0.5 * wall + (out - 0.0035 + 0.5 * wall) * std::cos(angle),
                       0.52 * h + high * std::sin(angle));
   }
-  Join(Tube(path, 0.006, 0.0035, d->look), &mesh);
+  const core::TexturedMesh handle = Tube(path, 0.006, 0.0035, d->look);
+  Join(handle, &mesh);
+  AddParts(TubeParts(handle, 4), d);
   return mesh;
 }
 
@@ -57,14 +64,15 @@ core::TexturedMesh Plate(RigidDraft* d) {
 
 core::TexturedMesh Vase(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z(), neck = d->Draw(0.4, 0.6) * r;
-  return Vessel(d,
-                Smooth({{0.6 * r, 0},
-                        {0.9 * r, 0.2 * h},
-                        {r, 0.42 * h},
-                        {0.75 * r, 0.68 * h},
-                        {neck, 0.86 * h},
-                        {1.25 * neck, h}}),
-                0.006, 0.010);
+  // Its parts are found: a wedge from foot to rim would fill belly and neck.
+  return Revolved(VesselProfile(Smooth({{0.6 * r, 0},
+                                        {0.9 * r, 0.2 * h},
+                                        {r, 0.42 * h},
+                                        {0.75 * r, 0.68 * h},
+                                        {neck, 0.86 * h},
+                                        {1.25 * neck, h}}),
+                                0.006, 0.010),
+                  {d->look});
 }
 
 core::TexturedMesh Bucket(RigidDraft* d) {
@@ -123,6 +131,7 @@ core::TexturedMesh Jar(RigidDraft* d) {
 
 core::TexturedMesh Can(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z();
+  d->parts = {TurnedPart({{0.93 * r, 0}, {r, 0.03 * h}, {r, h}}, 20, 8)};
   const std::vector<core::Material> looks{Look("tin", .76f, .77f, .79f), d->look,
                                           Look("label", .74f, .22f, .18f)};
   return Revolved({{0, 0},
@@ -164,9 +173,11 @@ core::TexturedMesh Pan(RigidDraft* d, double foot, double at) {
   const double r = Radius(*d), h = d->size.z(), wall = 0.003, rod = std::min(0.009, 0.12 * h);
   core::TexturedMesh mesh = Vessel(d, {{foot * r, 0}, {r, at * h + rod}, {r, h}}, wall, 0.004);
   const double out = d->size.x() - d->size.y();
-  Join(Tube({{r - 0.5 * wall, at * h}, {r + 0.5 * out, at * h}, {r + out, at * h}}, 1.6 * rod, rod,
-            Look("grip", .13f, .13f, .14f)),
-       &mesh);
+  const core::TexturedMesh grip =
+      Tube({{r - 0.5 * wall, at * h}, {r + 0.5 * out, at * h}, {r + out, at * h}}, 1.6 * rod, rod,
+           Look("grip", .13f, .13f, .14f));
+  Join(grip, &mesh);
+  AddParts(TubeParts(grip, 1), d);
   return mesh;
 }
 

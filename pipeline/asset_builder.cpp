@@ -81,8 +81,11 @@ void GiveMass(const BuildRequest& request, assets::Asset* asset) {
 
 void TakeParts(const BuildRequest& request, assets::Asset* asset) {
   asset->parts = request.parts;
+  geometry::ConcavityOptions options;
+  options.surface_samples = 6000;
+  options.volume_samples = 1000;
   const geometry::DecompositionQuality quality =
-      geometry::MeasureDecomposition(asset->solid, asset->parts);
+      geometry::MeasureDecomposition(asset->solid, asset->parts, options);
   const Eigen::AlignedBox3d box = core::Bounds(asset->solid);
   // In CoACD's units, as of a decomposition.
   asset->concavity = quality.concavity * 2.0 * box.diagonal().norm() / box.sizes().maxCoeff();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "geometry/soundness.h"
@@ -52,6 +53,34 @@ TEST_P(EveryRigidKind, IsAsLargeAsItsKind) {
   }
 }
 
+// Parts that a kind brings itself: closed, convex, small, and as far out as what is seen.
+TEST_P(EveryRigidKind, OwnPartsAreSoundAndReachAsFar) {
+  for (const std::uint64_t seed : {1, 2, 5}) {
+    const RigidThing thing = Make(seed);
+    if (thing.parts.empty()) continue;
+    EXPECT_LE(thing.parts.size(), 15u);
+    Eigen::AlignedBox3d all;
+    for (const core::TriangleMesh& part : thing.parts) {
+      const geometry::Soundness s = geometry::Examine(part);
+      EXPECT_TRUE(s.Sound()) << geometry::Describe(s);
+      EXPECT_LE(part.vertices.size(), 64u);
+      for (size_t t = 0; t < part.triangles.size(); ++t) {
+        const Eigen::Vector3d normal =
+            core::TriangleAreaVector(part, static_cast<int>(t)).normalized();
+        const Eigen::Vector3d& corner = part.vertices[static_cast<size_t>(part.triangles[t][0])];
+        for (const Eigen::Vector3d& v : part.vertices) {
+          ASSERT_LT(normal.dot(v - corner), 1e-6 * thing.size.norm()) << "not convex";
+        }
+      }
+      all.extend(core::Bounds(part));
+    }
+    EXPECT_NEAR(all.min().z(), 0.0, 1e-9);  // it stands on them
+    const Eigen::AlignedBox3d box = core::Bounds(thing.visual.mesh);
+    EXPECT_LT((all.min() - box.min()).cwiseAbs().maxCoeff(), 0.02 * box.diagonal().norm());
+    EXPECT_LT((all.max() - box.max()).cwiseAbs().maxCoeff(), 0.02 * box.diagonal().norm());
+  }
+}
+
 TEST_P(EveryRigidKind, SameSeedSameThing) {
   EXPECT_EQ(Make(7).visual.mesh.vertices, Make(7).visual.mesh.vertices);
   EXPECT_NE(Make(7).visual.mesh.vertices, Make(8).visual.mesh.vertices);
@@ -73,7 +102,8 @@ double RadiusAt(const core::TriangleMesh& mesh, double z) {
   return radius;
 }
 
-// Baskets stack: foot and rim are level rings of one radius, and the inside is open to its floor.
+// Baskets stack: foot and rim are level rings of one radius, and the inside is open to its floor,
+// which hangs 12 mm over what the foot stands on.
 TEST(RigidKinds, SteamersStackAndAreHollow) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const RigidThing steamer = MakeRigidThing(*FindRigidKind("steamer"), seed);
@@ -81,13 +111,16 @@ TEST(RigidKinds, SteamersStackAndAreHollow) {
     const double high = steamer.size.z(), radius = 0.5 * steamer.size.x();
     EXPECT_NEAR(RadiusAt(mesh, 0.0), radius, 1e-9);
     EXPECT_NEAR(RadiusAt(mesh, high), radius, 1e-9);
-    double inner = radius, floor = high;  // of the rim's inside, and what is on the axis
+    double inner = radius, under = high, floor = 0.0;  // of the rim, and on the axis
     for (const Eigen::Vector3d& v : mesh.vertices) {
       if (std::abs(v.z() - high) < 1e-9) inner = std::min(inner, v.head<2>().norm());
-      if (v.head<2>().norm() < 1e-9 && v.z() > 1e-9) floor = std::min(floor, v.z());
+      if (v.head<2>().norm() > 1e-9) continue;
+      under = std::min(under, v.z());
+      floor = std::max(floor, v.z());
     }
     EXPECT_NEAR(inner, radius - 0.0065, 1e-4);
-    EXPECT_NEAR(floor, 0.005, 1e-3);
+    EXPECT_NEAR(under, 0.012, 1e-3);
+    EXPECT_NEAR(floor - under, 0.005, 1e-3);
     // A wall and a floor, not a block.
     const double solid = M_PI * radius * radius * high;
     EXPECT_LT(geometry::Examine(mesh).signed_volume, 0.3 * solid);
@@ -108,6 +141,26 @@ TEST(RigidKinds, TeapotsHaveASpoutAndAHandle) {
   }
   EXPECT_GT(spout, 0.7 * high);
   EXPECT_GT(handle_high - handle_low, 0.2 * high);
+}
+
+// Few enough for scenes of dozens of them.
+TEST(RigidKinds, WhatGrammarsUseOftenBringsFewParts) {
+  for (const auto& [kind, most] : std::map<std::string, size_t>{{"steamer", 9},
+                                                                {"steamer_lid", 1},
+                                                                {"teapot", 12},
+                                                                {"cup", 11},
+                                                                {"bowl", 11},
+                                                                {"plate", 11},
+                                                                {"jug", 13},
+                                                                {"mug", 15},
+                                                                {"serving_dish", 11},
+                                                                {"lamp", 5},
+                                                                {"soda_can", 2},
+                                                                {"toy_train", 11}}) {
+    const size_t parts = MakeRigidThing(*FindRigidKind(kind), 1).parts.size();
+    EXPECT_GE(parts, 1u) << kind;
+    EXPECT_LE(parts, most) << kind;
+  }
 }
 
 TEST(RigidKinds, HaveNamesOfTheirOwn) {
