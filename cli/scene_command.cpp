@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/scene_export_command.h"
 #include "cli/scene_model_commands.h"
 #include "core/error.h"
 #include "pipeline/scene_generation.h"
@@ -84,6 +85,8 @@ void AddScene(CLI::App* app, CommonOptions* common, Run* run) {
   AddGenerate(scene, common, run);
   AddSceneTrain(scene, common, run);
   AddSceneSample(scene, common, run);
+  AddSceneExport(scene, common, run);
+  AddSceneView(scene, common, run);
 }
 
 }  // namespace simwright::cli
