@@ -45,8 +45,9 @@ TEST(WorldSdf, LibsdformatFindsTheSameWorld) {
     ASSERT_EQ(link.CollisionCount(), asset.parts.size());
     const std::string uri = link.CollisionByIndex(0)->Geom()->MeshShape()->Uri();
     EXPECT_TRUE(fs::exists(folder.path() / "scene" / uri)) << uri;
-    EXPECT_NEAR(link.CollisionByIndex(0)->Surface()->Friction()->ODE()->Mu(), asset.friction,
-                1e-12);
+    const sdf::ElementPtr surface = link.CollisionByIndex(0)->Element()->GetElement("surface");
+    const sdf::ElementPtr ode = surface->GetElement("friction")->GetElement("ode");
+    EXPECT_NEAR(ode->Get<double>("mu"), asset.friction, 1e-12);
   }
 }
 
