@@ -23,8 +23,8 @@ struct SceneFeatureTrainingRequest {
 
 // Trains the network by whose features `scene evaluate` compares pictures: to tell counts in label
 // renders of scenes, two renders each: as it is, and with objects left out and moved at random, as
-// poor models have them. Throws core::Error for an unknown type, a damaged dataset, or fewer than 10
-// scenes.
+// poor models have them. Throws core::Error for an unknown type, a damaged dataset, or fewer than
+// 10 scenes.
 scene::FeatureTrainingReport TrainSceneFeatures(const SceneFeatureTrainingRequest& request,
                                                 core::Progress* progress);
 

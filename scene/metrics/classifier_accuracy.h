@@ -11,6 +11,8 @@ namespace simwright::scene {
 struct AccuracyOptions {
   int runs = 10;
   std::vector<int> scored = {50, 100};  // passes over the training half, ascending
+  // As published. Adam moves a weight by no more than this a step: of few features, which have to
+  // be weighed against each other, a classifier is only learned at a higher one.
   double learning_rate = 1e-4;
   int batch = 256;
   // Each feature by the mean and deviation of the training half: for features that are of unlike

@@ -5,9 +5,10 @@
 namespace simwright::scene {
 namespace {
 
-constexpr int kChannels[] = {24, 32, 48, 64, 96};
+constexpr int kPatch = 4;  // pixels a side that the first convolution takes at once
+constexpr int kChannels[] = {32, 48, 64, 96};
 constexpr int kGroup = 8;  // channels of a norm
-// Of the last convolution: 160 x 120 halved five times, rounded up.
+// Of the last convolution: 160 x 120 by 4, then halved three times, rounded up.
 constexpr int kLastWidth = 5, kLastHeight = 4;
 
 }  // namespace
@@ -16,8 +17,10 @@ FeatureNetworkImpl::FeatureNetworkImpl() {
   convolutions_ = torch::nn::Sequential();
   int in = 3;
   for (const int out : kChannels) {
-    convolutions_->push_back(
-        torch::nn::Conv2d(torch::nn::Conv2dOptions(in, out, 3).stride(2).padding(1)));
+    const torch::nn::Conv2dOptions size =
+        in == 3 ? torch::nn::Conv2dOptions(in, out, kPatch).stride(kPatch)
+                : torch::nn::Conv2dOptions(in, out, 3).stride(2).padding(1);
+    convolutions_->push_back(torch::nn::Conv2d(size));
     convolutions_->push_back(torch::nn::GroupNorm(torch::nn::GroupNormOptions(out / kGroup, out)));
     convolutions_->push_back(torch::nn::SiLU());
     in = out;

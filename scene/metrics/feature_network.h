@@ -13,8 +13,9 @@ inline constexpr int kFeatureSize = 128;
 // left, upper right, lower left, lower right), since counts alone say nothing of where things are.
 inline constexpr int kCountsAClass = 5;
 
-// A small convolutional network on label renders: five halvings of size, 24 to 96 channels with
-// group norms, then two layers; what the first gives, rectified, are the features.
+// A small convolutional network on label renders: patches of 4 x 4 pixels, three halvings of size,
+// 32 to 96 channels with group norms, then two layers; what the first gives, after SiLU, are the
+// features.
 class FeatureNetworkImpl : public torch::nn::Module {
  public:
   FeatureNetworkImpl();
