@@ -149,7 +149,8 @@ class Evaluation {
     size_t objects = 0;
     for (const auto& scene : set) objects += scene.size();
     metrics.mean_objects = static_cast<double>(objects) / static_cast<double>(set.size());
-    metrics.divergence = FrequencyDivergence(reference_counts_, AssetCounts(set, sets_.vocabulary));
+    metrics.divergence =
+        scene::FrequencyDivergence(reference_counts_, AssetCounts(set, sets_.vocabulary));
     metrics.penetration = PenetrationOf(set);
     if (!features_) return metrics;
     const scene::FeatureMatrix features = FeaturesOf(set, name);

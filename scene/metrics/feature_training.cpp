@@ -107,7 +107,7 @@ CountedPicture CountPicture(const std::vector<DrawnObject>& objects, const Vocab
 }
 
 FeatureTrainingOptions::FeatureTrainingOptions() {
-  trainer.steps = 2500;
+  trainer.steps = 1500;
   trainer.learning_rate = 2e-3;
   trainer.ema_decay = 0.99;
   trainer.save_every = 1 << 30;  // minutes: nothing to go on from

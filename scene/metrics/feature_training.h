@@ -25,7 +25,7 @@ CountedPicture CountPicture(const std::vector<DrawnObject>& objects, const Vocab
 
 struct FeatureTrainingOptions {
   nn::TrainerOptions trainer;
-  int batch = 48;         // pictures of a step
+  int batch = 32;         // pictures of a step
   double held_out = 0.1;  // share of the pictures, the last, that are not learned from
   std::uint64_t seed = 1;
   FeatureTrainingOptions();

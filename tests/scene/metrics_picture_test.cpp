@@ -162,18 +162,18 @@ TEST(SceneFeatures, LearnToCount) {
   const core::Camera camera = LabelCamera("dimsum");
   core::Rng rng = core::StreamRng(1, 0);
   std::vector<CountedPicture> pictures;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 50; ++i) {
     pictures.push_back(CountPicture(Cubes(5, rng), Words(), palette, camera));
   }
   const core::TemporaryFolder folder;
   FeatureTrainingOptions options;
-  options.trainer.steps = 100;
-  options.batch = 16;
+  options.trainer.steps = 80;
+  options.batch = 8;
   core::Progress progress;
   const FeatureTrainingReport report =
       TrainFeatures(pictures, options, folder.path() / "features.pt", &progress);
-  EXPECT_EQ(report.pictures, 54);
-  EXPECT_EQ(report.held_out, 6);
+  EXPECT_EQ(report.pictures, 45);
+  EXPECT_EQ(report.held_out, 5);
   EXPECT_LT(report.error, 0.75 * report.error_of_the_mean);
   const SceneFeatures features = SceneFeatures::Load(folder.path() / "features.pt");
   EXPECT_TRUE(features.own());
