@@ -84,6 +84,8 @@ void AddScene(CLI::App* app, CommonOptions* common, Run* run) {
   AddGenerate(scene, common, run);
   AddSceneTrain(scene, common, run);
   AddSceneSample(scene, common, run);
+  AddSceneEvaluate(scene, common, run);
+  AddSceneFeatures(scene, common, run);
 }
 
 }  // namespace simwright::cli
