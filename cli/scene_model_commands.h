@@ -4,8 +4,10 @@
 
 namespace simwright::cli {
 
-// `simwright scene train` and `scene sample`.
+// `simwright scene train`, `scene sample`, `scene evaluate` and `scene features`.
 void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run);
 void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run);
+void AddSceneEvaluate(CLI::App* scene, CommonOptions* common, Run* run);
+void AddSceneFeatures(CLI::App* scene, CommonOptions* common, Run* run);
 
 }  // namespace simwright::cli

@@ -1,28 +1,12 @@
 #include "pipeline/prior_weights.h"
 
-#include <cstdlib>
-
 #include "asset_lift/learned_view_prior.h"
 #include "asset_lift/scripted_view_prior.h"
+#include "pipeline/models_folder.h"
 #include "pipeline/prior_training.h"
 
 namespace simwright::pipeline {
 namespace fs = std::filesystem;
-
-fs::path ModelsFolder() {
-  if (const char* told = std::getenv("SIMWRIGHT_MODELS"); told != nullptr && *told != '\0') {
-    return told;
-  }
-  std::error_code none;
-  const fs::path program = fs::read_symlink("/proc/self/exe", none);
-  if (none) return {};
-  const fs::path folder = program.parent_path();
-  for (const fs::path& candidate :
-       {folder / ".." / "share" / "simwright" / "models", folder / ".." / ".." / "models"}) {
-    if (fs::is_directory(candidate, none)) return candidate.lexically_normal();
-  }
-  return {};
-}
 
 asset_lift::LiftPriors LoadLiftPriors(const fs::path& view_script, core::Findings* findings) {
   asset_lift::LiftPriors priors;

@@ -7,10 +7,6 @@
 
 namespace simwright::pipeline {
 
-// The folder of the shipped weights: $SIMWRIGHT_MODELS where it is set, else beside the program
-// (../share/simwright/models of an installation, ../../models of a build); empty where none is.
-std::filesystem::path ModelsFolder();
-
 // The lift's learned priors from the shipped weights, and from a user's TorchScript module for the
 // view prior where `view_script` is not empty. What is not there is left out, with a finding that
 // says how to get it. Throws core::Error for weights or a module that are damaged.

@@ -25,6 +25,7 @@ struct Arguments {
   int count = 20;
   std::uint64_t seed = 1;
   double settle = 2.5, watch = 2.0, step = 1e-3;  // s
+  bool whole = false;
 };
 
 struct Outcome {
@@ -46,7 +47,7 @@ scene::Palette PaletteOf(const std::string& folder) {
   table.friction = 0.6;
   const Eigen::Vector3d top(0.0, 0.0, size.height);
   table.parts = {library::Rod(top - Eigen::Vector3d(0.0, 0.0, 0.04), top, size.Radius(), 32)};
-  palette.Add("table_round", table);
+  if (!palette.Has("table_round")) palette.Add("table_round", table);
   return palette;
 }
 
@@ -68,6 +69,7 @@ Outcome Make(const scene::Grammar& grammar, const scene::Palette& palette, int i
   options.settling.duration = arguments.settle;
   options.settling.watch = arguments.watch;
   options.settling.time_step = arguments.step;
+  if (arguments.whole) options.settling.resting = options.settling.pace = 0.0;
   start = std::chrono::steady_clock::now();
   outcome.scene = scene::MakeFeasible(outcome.draw.objects, palette, options);
   outcome.settling = SecondsSince(start) - outcome.apart;
@@ -135,6 +137,7 @@ int main(int argc, char** argv) {
   app.add_option("--settle", arguments.settle, "s of simulation")->capture_default_str();
   app.add_option("--watch", arguments.watch, "s, after it")->capture_default_str();
   app.add_option("--step", arguments.step, "s, of simulation")->capture_default_str();
+  app.add_flag("--whole", arguments.whole, "Never end settling or watching early");
   app.add_option("--picture", arguments.picture, "PNG of the first eight");
   CLI11_PARSE(app, argc, argv);
   try {

@@ -1,0 +1,180 @@
+// The table of models of scenes, as in the paper's Table 1: ours, MiDiffusion and DiffuScene on the
+// same data with the same updates, each so many seeds. One cell is trained and evaluated at a call,
+// into OUT/METHOD_SEED; without --method the table of what is there is printed.
+//   bench_scene_table --data out/dimsum -o out/table --method ours --seed 1 --steps 2500
+//   bench_scene_table --data out/dimsum -o out/table
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "core/files.h"
+#include "core/parallel.h"
+#include "pipeline/scene_evaluation.h"
+#include "scene/dataset/scene_dataset.h"
+#include "scene/model/training.h"
+
+namespace simwright {
+namespace {
+namespace fs = std::filesystem;
+
+// "ours_paper_loss": ours with the paper's weight of the classes' loss.
+const std::vector<std::string> kMethods = {"ours", "ours_paper_loss", "continuous", "midiffusion",
+                                           "diffuscene"};
+
+struct Arguments {
+  fs::path data, output, features;
+  std::string method, size = "tiny";
+  std::uint64_t seed = 1;
+  int steps = 2500, batch = 128, count = 1000, sample_steps = 0;
+};
+
+scene::SceneModelOptions ModelOf(const Arguments& arguments) {
+  scene::SceneModelOptions model = scene::SceneModelOptions::OfSize(arguments.size);
+  if (arguments.method == "ours_paper_loss") model.class_weight = 1.0;
+  if (arguments.method == "continuous") model.continuous = true;
+  if (arguments.method == "midiffusion") return model.AsMiDiffusion();
+  if (arguments.method == "diffuscene") return model.AsDiffuScene();
+  return model;
+}
+
+void MakeCell(const Arguments& arguments) {
+  const fs::path cell =
+      arguments.output / (arguments.method + "_" + std::to_string(arguments.seed));
+  if (fs::exists(cell / "cell.json")) {
+    std::printf("%s is there already\n", cell.c_str());
+    return;
+  }
+  core::Progress progress(core::Progress::StyleForStderr());
+  const scene::SceneDataset dataset(arguments.data);
+  scene::SceneTrainingOptions options;
+  options.trainer.steps = arguments.steps;
+  options.trainer.resume = true;
+  options.trainer.save_every = 250;
+  options.batch = arguments.batch;
+  options.seed = arguments.seed;
+  const scene::SceneTrainingReport trained =
+      scene::TrainSceneModel(dataset, ModelOf(arguments), options, cell, &progress);
+  pipeline::SceneEvaluationRequest request;
+  request.data = arguments.data;
+  request.weights = trained.weights;
+  request.training_scenes = trained.training_scenes;
+  request.count = arguments.count;
+  request.assets = {arguments.data / "assets"};
+  request.features = arguments.features;
+  request.sampling.seed = arguments.seed;
+  request.sampling.steps = arguments.sample_steps;
+  request.output = cell / "evaluation";
+  const pipeline::SceneEvaluation evaluation = pipeline::EvaluateScenes(request, &progress);
+  progress.Finish();
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(EvaluationJson(evaluation));
+  json["run"] = {{"steps", arguments.steps},
+                 {"batch", arguments.batch},
+                 {"parameters", trained.parameters},
+                 {"seconds", trained.seconds},
+                 {"held_out_loss", trained.losses.back().held_out}};
+  core::WriteFile(cell / "cell.json", json.dump(2) + "\n");
+  std::fputs(EvaluationTable(evaluation).c_str(), stdout);
+}
+
+// What the table says of a cell.
+struct Row {
+  double accuracy = NAN, divergence = NAN, frechet = NAN, penetration = NAN, objects = NAN;
+  double seconds = NAN, parameters = NAN;
+};
+
+using Column = double Row::*;
+
+std::string MeanAndInterval(const std::vector<Row>& rows, Column column, double scale,
+                            const char* format) {
+  double mean = 0.0, spread = 0.0;
+  for (const Row& row : rows) mean += scale * (row.*column) / static_cast<double>(rows.size());
+  for (const Row& row : rows) spread += std::pow(scale * (row.*column) - mean, 2);
+  char text[64];
+  std::snprintf(text, sizeof text, format, mean);
+  std::string cell = text;
+  if (rows.size() < 2) return cell;
+  // 95 % of Student's t with n - 1 degrees of freedom.
+  static const double kT[] = {12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36, 2.31, 2.26};
+  const size_t n = rows.size();
+  const double t = n - 2 < std::size(kT) ? kT[n - 2] : 1.96;
+  std::snprintf(text, sizeof text, format,
+                t * std::sqrt(spread / static_cast<double>(n - 1) / static_cast<double>(n)));
+  return cell + " +- " + text;
+}
+
+Row RowOf(const nlohmann::json& json) {
+  const auto number = [](const nlohmann::json& at, const char* name) {
+    return at.contains(name) && at[name].is_number() ? at[name].get<double>() : NAN;
+  };
+  Row row;
+  const nlohmann::json& samples = json.at("samples");
+  row.divergence = number(samples, "kl_1e4");
+  row.frechet = number(samples, "frechet");
+  row.penetration = number(samples.at("penetration"), "parts_median_cm");
+  row.objects = number(samples, "objects_mean");
+  if (samples.contains("classifier_accuracy") && !samples["classifier_accuracy"].empty()) {
+    row.accuracy = number(samples["classifier_accuracy"].back(), "percent");
+  }
+  row.seconds = number(json.at("run"), "seconds");
+  row.parameters = number(json.at("run"), "parameters");
+  return row;
+}
+
+void PrintTable(const fs::path& output) {
+  std::map<std::string, std::vector<Row>> rows;
+  for (const fs::directory_entry& entry : fs::directory_iterator(output)) {
+    const fs::path file = entry.path() / "cell.json";
+    if (!fs::exists(file)) continue;
+    const std::string name = entry.path().filename().string();
+    rows[name.substr(0, name.rfind('_'))].push_back(
+        RowOf(nlohmann::json::parse(core::ReadFile(file))));
+  }
+  std::printf("%-16s %5s %9s %15s %15s %15s %15s %9s %7s\n", "method", "seeds", "parameters",
+              "CA %", "KL x1e4", "Frechet", "MTP cm", "objects", "s");
+  for (const std::string& method : kMethods) {
+    const auto found = rows.find(method);
+    if (found == rows.end()) continue;
+    const std::vector<Row>& cells = found->second;
+    std::printf("%-16s %5zu %9s %15s %15s %15s %15s %9s %7s\n", method.c_str(), cells.size(),
+                MeanAndInterval({cells[0]}, &Row::parameters, 1.0, "%.0f").c_str(),
+                MeanAndInterval(cells, &Row::accuracy, 1.0, "%.1f").c_str(),
+                MeanAndInterval(cells, &Row::divergence, 1.0, "%.2f").c_str(),
+                MeanAndInterval(cells, &Row::frechet, 1.0, "%.3f").c_str(),
+                MeanAndInterval(cells, &Row::penetration, 1.0, "%.2f").c_str(),
+                MeanAndInterval(cells, &Row::objects, 1.0, "%.1f").c_str(),
+                MeanAndInterval({cells[0]}, &Row::seconds, 1.0, "%.0f").c_str());
+  }
+}
+
+}  // namespace
+}  // namespace simwright
+
+int main(int argc, char** argv) {
+  CLI::App app("Models of scenes beside each other");
+  simwright::Arguments arguments;
+  app.add_option("--data", arguments.data, "Dataset of scenes")->required();
+  app.add_option("-o,--output", arguments.output, "Folder of the cells")->required();
+  app.add_option("--method", arguments.method, "The cell to make; none: print the table")
+      ->check(CLI::IsMember(simwright::kMethods));
+  app.add_option("--seed", arguments.seed, "Of the cell")->capture_default_str();
+  app.add_option("--size", arguments.size, "tiny, base or full")->capture_default_str();
+  app.add_option("--steps", arguments.steps, "Updates")->capture_default_str();
+  app.add_option("--batch", arguments.batch, "Scenes of an update")->capture_default_str();
+  app.add_option("--count", arguments.count, "Samples that are measured")->capture_default_str();
+  app.add_option("--sample-steps", arguments.sample_steps, "Of the diffusion, 0: all")
+      ->capture_default_str();
+  app.add_option("--features", arguments.features, "A TorchScript module in place of ours");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    simwright::core::InstallCancelHandler();
+    simwright::core::SetThreadCount(0);
+    if (!arguments.method.empty()) simwright::MakeCell(arguments);
+    simwright::PrintTable(arguments.output);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+}

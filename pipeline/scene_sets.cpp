@@ -1,0 +1,154 @@
+#include "pipeline/scene_sets.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "pipeline/models_folder.h"
+#include "pipeline/scene_assets.h"
+#include "pipeline/scene_generation.h"
+#include "pipeline/scene_sampling.h"
+#include "scene/dataset/scene_dataset.h"
+#include "scene/dataset/tokens.h"
+#include "scene/palette_folder.h"
+
+namespace simwright::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+SceneSet Decoded(const scene::SceneDataset& dataset, int first, int count) {
+  SceneSet set;
+  if (count == 0) return set;
+  const std::vector<float> tokens = dataset.Read(first, count);
+  const size_t size = tokens.size() / static_cast<size_t>(count);
+  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
+    set.push_back(DecodeScene(&tokens[i * size], dataset.vocabulary()));
+  }
+  return set;
+}
+
+// The weights to sample from or to ask what they learned from; empty where none are needed.
+fs::path WeightsOf(const SceneEvaluationRequest& request) {
+  if (!request.weights.empty()) return request.weights;
+  if (!request.samples.empty()) return {};
+  if (request.type.empty()) {
+    throw core::Error("there is nothing to evaluate", "",
+                      "give --samples, --model or a --type that has shipped weights");
+  }
+  const fs::path models = ModelsFolder();
+  const fs::path weights = SceneWeights(models, request.type);
+  if (models.empty() || !fs::exists(weights)) {
+    throw core::Error("no weights of this scene type are shipped", request.type,
+                      "train some with `simwright scene train` and name them with --model");
+  }
+  return weights;
+}
+
+std::vector<fs::path> AssetFolders(const SceneEvaluationRequest& request, const fs::path& data) {
+  std::vector<fs::path> folders = request.assets;
+  for (const fs::path& one : {data / "assets", request.samples / "assets"}) {
+    if (fs::is_directory(one)) folders.push_back(one);
+  }
+  return folders;
+}
+
+// A dataset that no model of ours has learned from: of another seed than the model's data.
+fs::path Generated(const SceneEvaluationRequest& request, const std::string& type,
+                   std::uint64_t data_seed, const fs::path& folder, core::Progress* progress) {
+  constexpr std::uint64_t kElsewhere = 1'000'003;
+  SceneGenerationRequest generation;
+  generation.type = type;
+  generation.count = request.count;
+  generation.seed = data_seed + kElsewhere + request.seed;
+  generation.assets = request.assets;
+  generation.output = folder / "held_out";
+  GenerateScenes(generation, progress);
+  return generation.output;
+}
+
+int TrainingScenes(const SceneEvaluationRequest& request, const scene::SceneDataset& data,
+                   const std::optional<scene::SceneModelFacts>& facts, core::Findings* findings) {
+  const int there = data.SceneCount();
+  if (request.training_scenes > there) {
+    throw core::Error("the dataset has " + std::to_string(there) + " scenes", request.data.string(),
+                      "--training-scenes cannot be more");
+  }
+  if (request.training_scenes >= 0) return request.training_scenes;
+  if (request.data.empty() || !facts) return 0;
+  if (facts->data_seed != data.parts().front().origin().seed) return 0;
+  if (facts->training_scenes > there) {
+    findings->push_back({"scenes-missing", core::Severity::kWarning, request.data.string(),
+                         "the model learned from more scenes of this dataset than are here",
+                         static_cast<double>(facts->training_scenes)});
+  }
+  return std::min(there, facts->training_scenes);
+}
+
+void Sample(const SceneEvaluationRequest& request, const fs::path& weights,
+            const std::vector<fs::path>& assets, const fs::path& output, core::Progress* progress) {
+  SceneSamplingRequest sampling;
+  sampling.weights = weights;
+  sampling.count = request.count;
+  sampling.output = output;
+  sampling.assets = assets;
+  sampling.sampling = request.sampling;
+  sampling.raw = true;
+  sampling.force = true;
+  SampleScenes(sampling, progress);
+}
+
+// Whether samples are as the model has them.
+void WarnOfPhysics(const scene::SceneDataset& samples, const fs::path& path,
+                   core::Findings* findings) {
+  const auto settings = nlohmann::json::parse(samples.parts().front().origin().settings, nullptr,
+                                              /*allow_exceptions=*/false);
+  if (settings.is_object() && settings.value("raw", false)) return;
+  findings->push_back({"scenes-processed", core::Severity::kWarning, path.string(),
+                       "these scenes are not as a model has them: their penetration is what "
+                       "moving them apart left (sample with --raw)",
+                       0.0});
+}
+
+}  // namespace
+
+SceneSets GatherSceneSets(const SceneEvaluationRequest& request, const fs::path& folder,
+                          core::Findings* findings, core::Progress* progress) {
+  const fs::path weights = WeightsOf(request);
+  std::optional<scene::SceneModelFacts> facts;
+  if (!weights.empty()) facts = scene::SceneModel::Load(weights).facts();
+  std::optional<scene::SceneDataset> samples;
+  if (!request.samples.empty()) samples.emplace(request.samples);
+  SceneSets sets;
+  sets.vocabulary = samples ? samples->vocabulary() : facts->vocabulary;
+  const std::string& type = sets.vocabulary.type;
+  if (!request.type.empty() && request.type != type) {
+    throw core::Error("these are scenes of the type " + type, "--type " + request.type);
+  }
+  const fs::path data_folder =
+      !request.data.empty()
+          ? request.data
+          : Generated(request, type, facts ? facts->data_seed : 0, folder, progress);
+  const scene::SceneDataset data(data_folder);
+  const std::vector<fs::path> assets = AssetFolders(request, data_folder);
+  if (!samples) {
+    Sample(request, weights, assets, folder / "samples", progress);
+    samples.emplace(folder / "samples");
+  } else {
+    WarnOfPhysics(*samples, request.samples, findings);
+  }
+  if (!(data.vocabulary() == sets.vocabulary && samples->vocabulary() == sets.vocabulary)) {
+    throw core::Error("data, samples and model are of different scene types or slots",
+                      data_folder.string());
+  }
+  sets.palette = scene::ReadPalette(
+      GatherSceneAssets({sets.vocabulary.slots, {}, assets, folder / "assets"}, progress));
+  const int training = TrainingScenes(request, data, facts, findings);
+  sets.samples = Decoded(*samples, 0, std::min(request.count, samples->SceneCount()));
+  sets.training = Decoded(data, 0, training);
+  sets.held_out = Decoded(data, training, std::min(request.count, data.SceneCount() - training));
+  return sets;
+}
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,151 @@
+#include "scene/metrics/classifier_accuracy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "nn/compute.h"
+#include "nn/torch.h"
+
+namespace simwright::scene {
+namespace {
+
+torch::Tensor TensorOf(const FeatureMatrix& features) {
+  return torch::from_blob(const_cast<float*>(features.data()), {features.rows(), features.cols()})
+      .clone();
+}
+
+torch::Tensor Shuffled(std::int64_t count, core::Rng& rng) {
+  std::vector<std::int64_t> order(static_cast<size_t>(count));
+  std::iota(order.begin(), order.end(), 0);
+  for (size_t i = order.size(); i > 1; --i) {
+    const std::int64_t other = core::UniformIndex(rng, static_cast<std::int64_t>(i));
+    std::swap(order[i - 1], order[static_cast<size_t>(other)]);
+  }
+  return torch::tensor(order);
+}
+
+struct Halves {
+  torch::Tensor train, train_labels, test, test_labels;
+};
+
+// Half of each side, so that guessing is right in 50 of 100.
+Halves Split(const torch::Tensor& data, const torch::Tensor& generated, bool standardise,
+             core::Rng& rng) {
+  const std::int64_t count = std::min(data.size(0), generated.size(0)), half = count / 2;
+  const torch::Tensor a = data.index_select(0, Shuffled(data.size(0), rng));
+  const torch::Tensor b = generated.index_select(0, Shuffled(generated.size(0), rng));
+  const auto labels = [](std::int64_t n) {
+    return torch::cat({torch::zeros({n}), torch::ones({n})});
+  };
+  Halves halves;
+  halves.train = torch::cat({a.slice(0, 0, half), b.slice(0, 0, half)});
+  halves.test = torch::cat({a.slice(0, half, count), b.slice(0, half, count)});
+  halves.train_labels = labels(half);
+  halves.test_labels = labels(count - half);
+  if (standardise) {
+    const torch::Tensor mean = halves.train.mean(0, true);
+    const torch::Tensor deviation = halves.train.std(0, true, true).clamp_min(1e-6);
+    halves.train = (halves.train - mean) / deviation;
+    halves.test = (halves.test - mean) / deviation;
+  }
+  return halves;
+}
+
+double Percent(torch::nn::Linear& linear, const Halves& halves) {
+  const torch::NoGradGuard no_gradient;
+  const torch::Tensor says = linear->forward(halves.test).squeeze(1);
+  // What is exactly between the two counts half.
+  const torch::Tensor right =
+      torch::where(says == 0.0, torch::full_like(says, 0.5),
+                   ((says > 0.0) == (halves.test_labels > 0.5)).to(torch::kFloat32));
+  const double percent = 100.0 * right.mean().item<double>();
+  return std::max(percent, 100.0 - percent);
+}
+
+std::vector<double> Run(const Halves& halves, const AccuracyOptions& options, core::Rng& rng) {
+  torch::nn::Linear linear(halves.train.size(1), 1);
+  // From zero, so that few small steps are not drowned by the start.
+  torch::nn::init::zeros_(linear->weight);
+  torch::nn::init::zeros_(linear->bias);
+  torch::optim::Adam optimizer(linear->parameters(),
+                               torch::optim::AdamOptions(options.learning_rate));
+  std::vector<double> scores;
+  for (int pass = 1; pass <= options.scored.back(); ++pass) {
+    const torch::Tensor order = Shuffled(halves.train.size(0), rng);
+    for (const torch::Tensor& batch : order.split(options.batch)) {
+      optimizer.zero_grad();
+      torch::nn::functional::binary_cross_entropy_with_logits(
+          linear->forward(halves.train.index_select(0, batch)).squeeze(1),
+          halves.train_labels.index_select(0, batch))
+          .backward();
+      optimizer.step();
+    }
+    if (std::binary_search(options.scored.begin(), options.scored.end(), pass)) {
+      scores.push_back(Percent(linear, halves));
+    }
+  }
+  return scores;
+}
+
+void Require(const FeatureMatrix& data, const FeatureMatrix& generated) {
+  if (data.cols() != generated.cols() || data.cols() == 0) {
+    throw core::Error("a classifier needs features of one size");
+  }
+  if (std::min(data.rows(), generated.rows()) < 4) {
+    throw core::Error("a classifier needs at least 4 scenes of each set");
+  }
+  if (!data.allFinite() || !generated.allFinite()) {
+    throw core::Error("the features of a picture are not finite");
+  }
+}
+
+}  // namespace
+
+bool AccuracyOptions::IsValid(std::string* error) const {
+  const auto fails = [&](const char* what) {
+    *error = what;
+    return false;
+  };
+  if (runs < 1) return fails("runs has to be at least 1");
+  if (scored.empty() || scored.front() < 1) return fails("scored has to name passes, at least 1");
+  if (std::adjacent_find(scored.begin(), scored.end(), std::greater_equal<int>()) != scored.end()) {
+    return fails("scored has to ascend");
+  }
+  if (!(learning_rate > 0.0 && std::isfinite(learning_rate))) {
+    return fails("learning_rate has to be above 0");
+  }
+  if (batch < 1) return fails("batch has to be at least 1");
+  return true;
+}
+
+std::vector<AccuracyScore> ClassifierAccuracy(const FeatureMatrix& data,
+                                              const FeatureMatrix& generated,
+                                              const AccuracyOptions& options) {
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error("classifier: " + error);
+  Require(data, generated);
+  nn::UseThreads();
+  const torch::Tensor a = TensorOf(data), b = TensorOf(generated);
+  std::vector<AccuracyScore> scores(options.scored.size());
+  for (size_t i = 0; i < scores.size(); ++i) scores[i].passes = options.scored[i];
+  std::vector<double> squares(scores.size(), 0.0);
+  for (int run = 0; run < options.runs; ++run) {
+    core::Rng rng = core::StreamRng(options.seed, static_cast<std::uint64_t>(run));
+    const std::vector<double> percents = Run(Split(a, b, options.standardise, rng), options, rng);
+    for (size_t i = 0; i < scores.size(); ++i) {
+      scores[i].percent += percents[i] / options.runs;
+      squares[i] += percents[i] * percents[i] / options.runs;
+    }
+  }
+  for (size_t i = 0; i < scores.size(); ++i) {
+    scores[i].deviation =
+        std::sqrt(std::max(0.0, squares[i] - scores[i].percent * scores[i].percent));
+  }
+  return scores;
+}
+
+}  // namespace simwright::scene

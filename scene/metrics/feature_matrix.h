@@ -1,0 +1,10 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace simwright::scene {
+
+// Features of pictures: a picture a row, (N x D).
+using FeatureMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+}  // namespace simwright::scene

@@ -1,0 +1,64 @@
+// What grammars learn of assets.
+#include "scene/palette.h"
+
+#include <gtest/gtest.h>
+
+#include "assets/primitive_meshes.h"
+#include "core/error.h"
+
+namespace simwright::scene {
+namespace {
+
+core::TriangleMesh BoxAt(const Eigen::Vector3d& size, const Eigen::Vector3d& middle) {
+  core::TriangleMesh box = assets::BoxMesh(size);
+  for (Eigen::Vector3d& vertex : box.vertices) vertex += middle;
+  return box;
+}
+
+// A tray 0.4 x 0.3, its floor 1 cm thick and 2 cm up, its rim 5 cm high.
+sim::RigidBody Tray(double floor_thickness = 0.01) {
+  sim::RigidBody body;
+  body.name = "tray";
+  body.inertial.mass = 1.0;
+  body.parts = {BoxAt({0.4, 0.3, floor_thickness}, {0, 0, 0.02 + 0.5 * floor_thickness}),
+                BoxAt({0.02, 0.3, 0.05}, {0.19, 0, 0.025}),
+                BoxAt({0.02, 0.3, 0.05}, {-0.19, 0, 0.025})};
+  return body;
+}
+
+TEST(Palette, KnowsWhereThingsStandInAThing) {
+  Palette palette;
+  palette.Add("tray", Tray());
+  const SlotSize& size = palette.At("tray").size;
+  EXPECT_NEAR(size.half_size.x(), 0.2, 1e-12);
+  EXPECT_NEAR(size.half_size.y(), 0.15, 1e-12);
+  EXPECT_NEAR(size.height, 0.05, 1e-12);
+  EXPECT_NEAR(size.rest_height, 0.03, 1e-12);
+  EXPECT_EQ(palette.Sizes().at("tray").rest_height, size.rest_height);
+  EXPECT_EQ(palette.Sizes().at("plate").height, DefaultSlotSizes().at("plate").height);
+}
+
+TEST(Palette, AnotherAssetHasAnotherHash) {
+  Palette one, same, thicker, heavier;
+  one.Add("tray", Tray());
+  same.Add("tray", Tray());
+  thicker.Add("tray", Tray(0.0101));
+  sim::RigidBody heavy = Tray();
+  heavy.inertial.mass = 1.1;
+  heavier.Add("tray", heavy);
+  EXPECT_EQ(one.HashOf("tray"), same.HashOf("tray"));
+  EXPECT_NE(one.HashOf("tray"), thicker.HashOf("tray"));
+  EXPECT_NE(one.HashOf("tray"), heavier.HashOf("tray"));
+  EXPECT_THROW(one.HashOf("cup"), core::Error);
+}
+
+TEST(Palette, RefusesWhatIsNone) {
+  Palette palette;
+  palette.Add("tray", Tray());
+  EXPECT_THROW(palette.Add("tray", Tray()), core::Error);
+  EXPECT_THROW(palette.Add("cup", sim::RigidBody{}), core::Error);
+  EXPECT_THROW(palette.At("cup"), core::Error);
+}
+
+}  // namespace
+}  // namespace simwright::scene
