@@ -103,8 +103,9 @@ TEST_F(SceneCommand, AnAssetOfOnesOwnTakesASlot) {
   ASSERT_EQ(own.code, 0) << own.text;
   EXPECT_EQ(assets::ReadAsset(fs::path(At("own")) / "assets" / "cup").parameters.category,
             assets::ReadAsset(teapot).parameters.category);
-  for (const std::string flag : {"--asset cup=" + At("nowhere"), "--asset spoon=" + teapot,
-                                 std::string("--asset cup"), "--assets " + At("nowhere")}) {
+  for (const std::string& flag :
+       {std::string("--asset cup=" + At("nowhere")), std::string("--asset spoon=" + teapot),
+        std::string("--asset cup"), "--assets " + At("nowhere")}) {
     const Outcome wrong =
         RunProgram("scene generate --type dimsum --count 1 --quiet " + flag + " -o " + At("wrong"));
     EXPECT_EQ(wrong.code, 1) << flag;
@@ -113,7 +114,7 @@ TEST_F(SceneCommand, AnAssetOfOnesOwnTakesASlot) {
 }
 
 TEST_F(SceneCommand, RefusesWhatIsNone) {
-  for (const std::string arguments :
+  for (const std::string& arguments :
        {"scene generate --type banquet -o " + At("a"), std::string("scene generate --count 3"),
         "scene generate --type dimsum --count 0 -o " + At("a"),
         "scene train " + At("nowhere") + " -o " + At("a"),
