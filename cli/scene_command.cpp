@@ -81,6 +81,9 @@ void AddGenerate(CLI::App* scene, CommonOptions* common, Run* run) {
 void AddScene(CLI::App* app, CommonOptions* common, Run* run) {
   CLI::App* scene = app->add_subcommand("scene", "Cluttered scenes that hold in simulation");
   scene->require_subcommand(1);
+  scene->footer(
+      "Example:\n  simwright scene generate --type dimsum --count 100 -o out/dimsum\n"
+      "Each subcommand has its own --help with an example; docs/scenes.md says more.");
   AddGenerate(scene, common, run);
   AddSceneTrain(scene, common, run);
   AddSceneSample(scene, common, run);

@@ -71,12 +71,15 @@ void MakeMissing(const std::vector<std::string>& slots, const fs::path& kept,
     options.force = true;  // of an earlier run that was killed
     const fs::path making = kept / ".making";
     const std::vector<LibraryOutcome> made = MakeLibrary(options, making, progress);
-    core::CheckCancelled();
+    // What is done stays, whatever became of the others.
     for (size_t i = 0; i < made.size(); ++i) {
-      if (!made[i].refusal.empty()) throw core::Error(made[i].refusal, made[i].name);
-      fs::rename(made[i].folder, kept / wanted[i]);
+      if (made[i].refusal.empty()) fs::rename(made[i].folder, kept / wanted[i]);
     }
     fs::remove_all(making);
+    core::CheckCancelled();
+    for (const LibraryOutcome& one : made) {
+      if (!one.refusal.empty()) throw core::Error(one.refusal, one.name);
+    }
   }
 }
 
