@@ -7,66 +7,10 @@
 #include <tinyxml2.h>
 #include <Eigen/Geometry>
 
+#include "assets/mjcf_elements.h"
 #include "assets/xml_element.h"
 
 namespace simwright::assets {
-namespace {
-
-void MjcfAssets(tinyxml2::XMLPrinter* printer, const Asset& asset, bool textured) {
-  Element assets(printer, "asset");
-  if (textured) {
-    Element(printer, "texture")
-        .Set("name", asset.name + "_texture")
-        .Set("type", "2d")
-        .Set("file", "texture.png");
-    Element(printer, "material")
-        .Set("name", asset.name + "_material")
-        .Set("texture", asset.name + "_texture");
-  }
-  Element(printer, "mesh")
-      .Set("name", asset.name + "_visual")
-      .Set("file", VisualSuitsMujoco(asset.visual.mesh) ? "visual.obj" : "solid.obj");
-  for (size_t i = 0; i < asset.parts.size(); ++i) {
-    const std::string file = CollisionFileName(static_cast<int>(i));
-    Element(printer, "mesh")
-        .Set("name", asset.name + "_" + file.substr(0, file.find('.')))
-        .Set("file", file);
-  }
-}
-
-void MjcfBody(tinyxml2::XMLPrinter* printer, const Asset& asset, bool textured) {
-  Element body(printer, "body");
-  body.Set("name", asset.name);
-  Element(printer, "freejoint").Set("name", asset.name + "_free");
-  MjcfInertial(printer, asset.inertial);
-  {
-    Element visual(printer, "geom");
-    visual.Set("type", "mesh")
-        .Set("mesh", asset.name + "_visual")
-        .Set("contype", "0")
-        .Set("conaffinity", "0")
-        .Set("group", "2");
-    if (textured) {
-      visual.Set("material", asset.name + "_material");
-    } else if (!asset.visual.materials.empty()) {
-      const Eigen::Vector4f& c = asset.visual.materials[0].base_color;
-      visual.Set("rgba", Numbers({c.x(), c.y(), c.z(), 1.0}));
-    }
-  }
-  for (size_t i = 0; i < asset.parts.size(); ++i) {
-    const std::string file = CollisionFileName(static_cast<int>(i));
-    Element(printer, "geom")
-        .Set("type", "mesh")
-        .Set("mesh", asset.name + "_" + file.substr(0, file.find('.')))
-        .Set("group", "3")
-        .Set("condim", "6")
-        .Set("friction", Numbers({asset.friction, asset.rolling_friction, asset.rolling_friction}))
-        .Set("solref", Numbers({0.005, DampingRatio(asset.restitution)}));
-  }
-}
-
-}  // namespace
-
 std::string CollisionFileName(int part) {
   char name[32];
   std::snprintf(name, sizeof(name), "collision_%03d.obj", part);
@@ -142,10 +86,13 @@ std::string MjcfText(const Asset& asset) {
           .Set("njmax", std::to_string(std::min(500 + 40 * parts, 2500)))
           .Set("nconmax", std::to_string(100 + 4 * parts));
     }
-    const bool textured = asset.visual.textures.size() == 1 && VisualSuitsMujoco(asset.visual.mesh);
-    MjcfAssets(&printer, asset, textured);
+    const MjcfNames names{asset.name, ""};
+    {
+      Element meshes(&printer, "asset");
+      MjcfMeshes(&printer, asset, names);
+    }
     Element worldbody(&printer, "worldbody");
-    MjcfBody(&printer, asset, textured);
+    MjcfBody(&printer, asset, names, {asset.name, nullptr, true});
   }
   return printer.CStr();
 }

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/scene_export_command.h"
 #include "cli/scene_model_commands.h"
 #include "core/error.h"
 #include "pipeline/scene_generation.h"
@@ -89,6 +90,8 @@ void AddScene(CLI::App* app, CommonOptions* common, Run* run) {
   AddSceneSample(scene, common, run);
   AddSceneEvaluate(scene, common, run);
   AddSceneFeatures(scene, common, run);
+  AddSceneExport(scene, common, run);
+  AddSceneView(scene, common, run);
 }
 
 }  // namespace simwright::cli

@@ -1,5 +1,6 @@
 #include "scene/scene_picture.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -14,6 +15,9 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kElevation = 35.0 * kDegree, kAzimuth = 215.0 * kDegree;
 constexpr double kFieldOfView = 30.0 * kDegree;
+// So many times the scene's size away, lines of sight are all but parallel.
+constexpr double kFarAbove = 50.0;
+constexpr double kRim = 1.06;  // of the picture's width to the scene's
 
 Eigen::AlignedBox3d BoundsOf(const std::vector<DrawnObject>& objects, const Palette& palette) {
   Eigen::AlignedBox3d box;
@@ -49,6 +53,24 @@ core::Image SceneFromTheSide(const std::vector<DrawnObject>& objects, const Pale
   return ScenePicture(
       objects, palette,
       core::OrbitCamera(box.center(), distance, kElevation, kAzimuth, kFieldOfView, size, size));
+}
+
+core::Image SceneFromAbove(const std::vector<DrawnObject>& objects, const Palette& palette,
+                           int size) {
+  const Eigen::AlignedBox3d box = BoundsOf(objects, palette);
+  core::Camera camera;
+  camera.width = camera.height = size;
+  camera.cx = camera.cy = 0.5 * size;
+  const double wide = kRim * std::max(1e-3, box.sizes().head<2>().maxCoeff());
+  const double distance = kFarAbove * std::max(wide, box.sizes().z());
+  // Of the top, which is nearest and so the widest.
+  camera.fx = camera.fy = size * distance / wide;
+  camera.world_from_camera.linear().col(0) = Eigen::Vector3d::UnitX();
+  camera.world_from_camera.linear().col(1) = -Eigen::Vector3d::UnitY();
+  camera.world_from_camera.linear().col(2) = -Eigen::Vector3d::UnitZ();
+  camera.world_from_camera.translation() = box.center();
+  camera.world_from_camera.translation().z() = box.max().z() + distance;
+  return ScenePicture(objects, palette, camera);
 }
 
 }  // namespace simwright::scene

@@ -18,4 +18,9 @@ core::Image ScenePicture(const std::vector<DrawnObject>& objects, const Palette&
 core::Image SceneFromTheSide(const std::vector<DrawnObject>& objects, const Palette& palette,
                              int size);
 
+// The same straight from above, from so far that lines of sight are all but parallel: x to the
+// right, y upwards.
+core::Image SceneFromAbove(const std::vector<DrawnObject>& objects, const Palette& palette,
+                           int size);
+
 }  // namespace simwright::scene

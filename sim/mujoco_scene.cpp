@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <mutex>
+#include <optional>
 
 #include <mujoco/mujoco.h>
 #include <unistd.h>
@@ -66,16 +67,18 @@ class SceneFile {
 
 }  // namespace
 
-MujocoScene::MujocoScene(const fs::path& mjcf, const std::vector<double>& balls) {
+MujocoScene::MujocoScene(const fs::path& mjcf, const std::vector<double>& balls, Ground ground) {
   if (!fs::exists(mjcf)) throw core::Error("no such file", mjcf.string());
-  const SceneFile scene(mjcf, balls);
+  std::optional<SceneFile> scene;
+  if (ground == Ground::kAdded) scene.emplace(mjcf, balls);
+  const fs::path& file = scene ? scene->path() : mjcf;
   char message[1000] = "";
   {
     // The XML compiler keeps global state (locale, last model).
     static std::mutex compiler_mutex;
     const std::lock_guard lock(compiler_mutex);
     const Listen listen(&warnings_);
-    model_ = mj_loadXML(scene.path().c_str(), nullptr, message, sizeof(message));
+    model_ = mj_loadXML(file.c_str(), nullptr, message, sizeof(message));
   }
   if (model_ == nullptr) throw core::Error(message, mjcf.string());
   if (message[0] != '\0') warnings_.emplace_back(message);

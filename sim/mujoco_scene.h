@@ -13,9 +13,13 @@ namespace simwright::sim {
 // thread a scene. MuJoCo's body 0 is the world, 1 is the asset's root.
 class MujocoScene {
  public:
+  // kOwn: the file is a whole world and is loaded as it is, without balls.
+  enum class Ground { kAdded, kOwn };
+
   // `balls` are radii (m) of free spheres of 1000 kg/m^3. Throws core::Error with MuJoCo's own
   // words where the file does not compile.
-  explicit MujocoScene(const std::filesystem::path& mjcf, const std::vector<double>& balls = {});
+  explicit MujocoScene(const std::filesystem::path& mjcf, const std::vector<double>& balls = {},
+                       Ground ground = Ground::kAdded);
   ~MujocoScene();
   MujocoScene(const MujocoScene&) = delete;
   MujocoScene& operator=(const MujocoScene&) = delete;

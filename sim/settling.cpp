@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "sim/drop_test.h"
+#include "sim/point_way.h"
 #include "sim/world.h"
 
 namespace simwright::sim {
@@ -13,11 +14,8 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// m that any point of the body, no farther than `radius` from its centre of mass, has moved by.
 double Way(const RigidBody& body, double radius, const Isometry3d& from, const Isometry3d& to) {
-  const Vector3d& center = body.inertial.center_of_mass;
-  const double turn = Eigen::AngleAxisd(from.linear().transpose() * to.linear()).angle();
-  return (to * center - from * center).norm() + 2.0 * radius * std::sin(0.5 * turn);
+  return FarthestWay(body.inertial.center_of_mass, radius, from, to);
 }
 
 void Load(const std::vector<SettlingBody>& bodies, World* world) {

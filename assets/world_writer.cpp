@@ -1,0 +1,165 @@
+#include "assets/world_writer.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <tinyxml2.h>
+
+#include "assets/mjcf_elements.h"
+#include "assets/model_writer.h"
+#include "assets/xml_element.h"
+#include "core/error.h"
+
+namespace simwright::assets {
+namespace {
+
+constexpr char kGround[] = "ground";
+
+void RequireName(const std::string& name) {
+  if (FileSafeName(name) != name) throw core::Error("this is no name for a file", name);
+}
+
+// The assets of the things, each once, by key.
+std::map<std::string, const WorldAsset*> AssetsOf(const std::vector<WorldThing>& things) {
+  std::map<std::string, const WorldAsset*> assets;
+  std::set<std::string> names = {kGround};
+  for (const WorldThing& thing : things) {
+    RequireName(thing.name);
+    RequireName(thing.asset->key);
+    if (!names.insert(thing.name).second) {
+      throw core::Error("two things of a world have one name", thing.name);
+    }
+    if (assets.emplace(thing.asset->key, thing.asset).first->second != thing.asset) {
+      throw core::Error("two assets of a world have one key", thing.asset->key);
+    }
+  }
+  return assets;
+}
+
+// MuJoCo 2.2 reserves contacts and rows of constraints, six a contact, beforehand, and memory for
+// the square of the rows, 0.8 GB for 10 000; from 15 000 on it fails. Scenes of tables and shelves
+// had up to two contacts a part of what is free. What it works with, `nstack`, it would reserve by
+// the square too: it needs 40 numbers a row.
+void MjcfSize(tinyxml2::XMLPrinter* printer, const std::vector<WorldThing>& things) {
+  int contacts = 100, free = 0;
+  for (const WorldThing& thing : things) {
+    if (thing.welded) continue;
+    ++free;
+    contacts += std::min(8 + 2 * static_cast<int>(thing.asset->asset.parts.size()), 60);
+  }
+  const int rows = std::min(6 * contacts, 12'000);
+  const int working = 1'000'000 + 2 * rows * std::min(6 * free, 600);
+  Element(printer, "size")
+      .Set("njmax", std::to_string(rows))
+      .Set("nconmax", std::to_string(contacts))
+      .Set("nstack", std::to_string(working));
+}
+
+void SdfGround(tinyxml2::XMLPrinter* printer) {
+  Element model(printer, "model");
+  model.Set("name", kGround);
+  Leaf(printer, "static", "true");
+  Element link(printer, "link");
+  link.Set("name", kGround);
+  for (const char* const role : {"collision", "visual"}) {
+    Element owner(printer, role);
+    owner.Set("name", role);
+    Element geometry(printer, "geometry");
+    Element plane(printer, "plane");
+    Leaf(printer, "normal", "0 0 1");
+    Leaf(printer, "size", "20 20");
+  }
+}
+
+void SdfModel(tinyxml2::XMLPrinter* printer, const WorldThing& thing) {
+  const Asset& asset = thing.asset->asset;
+  Element model(printer, "model");
+  model.Set("name", thing.name);
+  if (thing.welded) Leaf(printer, "static", "true");
+  {
+    const Eigen::Vector3d& place = thing.world_from_thing.translation();
+    const Eigen::Quaterniond turn(thing.world_from_thing.linear());
+    Element(printer, "pose")
+        .Set("rotation_format", "quat_xyzw")
+        .Text(Numbers({place.x(), place.y(), place.z(), turn.x(), turn.y(), turn.z(), turn.w()}));
+  }
+  Element link(printer, "link");
+  link.Set("name", asset.name);
+  SdfInertial(printer, asset.inertial);
+  SdfVisual(printer, "visual", thing.asset->folder + "visual.obj");
+  for (size_t i = 0; i < asset.parts.size(); ++i) {
+    const std::string file = CollisionFileName(static_cast<int>(i));
+    SdfCollision(printer, file.substr(0, file.find('.')), thing.asset->folder + file,
+                 asset.friction, asset.restitution);
+  }
+}
+
+// Without a light nothing is seen.
+void SdfSun(tinyxml2::XMLPrinter* printer) {
+  Element light(printer, "light");
+  light.Set("name", "sun").Set("type", "directional");
+  Leaf(printer, "pose", "0 0 10 0 0 0");
+  Leaf(printer, "cast_shadows", "true");
+  Leaf(printer, "diffuse", "0.8 0.8 0.8 1");
+  Leaf(printer, "specular", "0.2 0.2 0.2 1");
+  Leaf(printer, "direction", "-0.5 0.2 -0.9");
+}
+
+}  // namespace
+
+std::string WorldMjcf(const std::string& name, const std::vector<WorldThing>& things) {
+  const std::map<std::string, const WorldAsset*> assets = AssetsOf(things);
+  tinyxml2::XMLPrinter printer;
+  {
+    Element mujoco(&printer, "mujoco");
+    mujoco.Set("model", name);
+    Element(&printer, "compiler").Set("angle", "radian");
+    MjcfOption(&printer);
+    MjcfSize(&printer, things);
+    {
+      Element meshes(&printer, "asset");
+      for (const auto& [key, asset] : assets) {
+        MjcfMeshes(&printer, asset->asset, {key, asset->folder});
+      }
+    }
+    Element worldbody(&printer, "worldbody");
+    // MuJoCo takes the greater friction of two: the things' own counts.
+    Element(&printer, "geom")
+        .Set("name", kGround)
+        .Set("type", "plane")
+        .Set("size", "0 0 1")
+        .Set("condim", "6")
+        .Set("friction", "0.01 1e-5 1e-5");
+    for (const WorldThing& thing : things) {
+      MjcfBody(&printer, thing.asset->asset, {thing.asset->key, thing.asset->folder},
+               {thing.name, &thing.world_from_thing, !thing.welded});
+    }
+  }
+  return printer.CStr();
+}
+
+std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& things) {
+  AssetsOf(things);
+  tinyxml2::XMLPrinter printer;
+  printer.PushHeader(false, true);
+  {
+    Element sdf(&printer, "sdf");
+    sdf.Set("version", "1.9");
+    Element world(&printer, "world");
+    world.Set("name", name);
+    Leaf(&printer, "gravity", "0 0 -9.81");
+    {
+      Element physics(&printer, "physics");
+      physics.Set("name", "steady").Set("default", "true").Set("type", "ode");
+      Leaf(&printer, "max_step_size", "0.001");
+      Leaf(&printer, "real_time_factor", "1");
+    }
+    SdfSun(&printer);
+    SdfGround(&printer);
+    for (const WorldThing& thing : things) SdfModel(&printer, thing);
+  }
+  return printer.CStr();
+}
+
+}  // namespace simwright::assets

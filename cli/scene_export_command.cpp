@@ -1,0 +1,86 @@
+#include "cli/scene_export_command.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "pipeline/scene_export.h"
+
+namespace simwright::cli {
+namespace {
+
+int Export(pipeline::SceneExportRequest request, const std::vector<std::string>& formats,
+           const CommonOptions& common) {
+  request.formats = {formats.begin(), formats.end()};
+  request.force = common.force;
+  core::Progress progress(common.ProgressStyle());
+  const pipeline::SceneExportReport report = pipeline::ExportScenes(request, &progress);
+  std::fputs((common.json ? pipeline::ExportJson(report) : pipeline::ExportTable(report)).c_str(),
+             stdout);
+  return report.StillShare() < 1.0 ? 1 : 0;
+}
+
+struct ViewFlags {
+  std::filesystem::path dataset, assets, output;
+  int scene = 0, size = 700;
+};
+
+int View(const ViewFlags& flags, const CommonOptions& common) {
+  if (std::filesystem::exists(flags.output) && !common.force) {
+    throw core::Error("it exists already", flags.output.string(), "--force replaces it");
+  }
+  core::WritePng(flags.output,
+                 pipeline::SceneView(flags.dataset, flags.assets, flags.scene, flags.size));
+  return 0;
+}
+
+}  // namespace
+
+void AddSceneExport(CLI::App* scene, CommonOptions* common, Run* run) {
+  auto request = std::make_shared<pipeline::SceneExportRequest>();
+  auto formats = std::make_shared<std::vector<std::string>>(1, "all");
+  CLI::App* command =
+      scene->add_subcommand("export", "Scenes of a dataset as world files for simulators");
+  command->footer(
+      "Example:\n  simwright scene export out/dimsum --scene 0,3-5 --format all -o out/worlds\n"
+      "--check runs each for 2 s in MuJoCo and Bullet; exit code 1 where one does not stand "
+      "still.\n"
+      "docs/formats.md says what is written.");
+  command->add_option("dataset", request->dataset, "What `simwright scene generate` wrote")
+      ->required();
+  CLI::Option* const scenes = command->add_option("--scene", request->scenes, "Which, as in 0,3-5");
+  command->add_option("--count", request->count, "The first so many; without either, all")
+      ->excludes(scenes);
+  command->add_option("--format", *formats, "urdf, sdf, mjcf, drake or all; several with commas")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("-o,--output", request->output, "Folder for the worlds")->required();
+  command->add_option("--assets", request->assets,
+                      "Folder of the slots' assets, if not the dataset's");
+  command->add_flag("--check", request->check, "Say which scenes stand still in both engines");
+  AddCommon(command, common);
+  AddForce(command, common);
+  command->callback([request, formats, common, run] {
+    *run = [=] { return Export(*request, *formats, *common); };
+  });
+}
+
+void AddSceneView(CLI::App* scene, CommonOptions* common, Run* run) {
+  auto flags = std::make_shared<ViewFlags>();
+  CLI::App* command =
+      scene->add_subcommand("view", "A picture of a scene, from above and the side");
+  command->footer("Example:\n  simwright scene view out/dimsum --scene 3 -o scene.png");
+  command->add_option("dataset", flags->dataset, "What `simwright scene generate` wrote")
+      ->required();
+  command->add_option("--scene", flags->scene, "Which")->capture_default_str();
+  command->add_option("-o,--output", flags->output, "Picture (PNG)")->required();
+  command->add_option("--assets", flags->assets,
+                      "Folder of the slots' assets, if not the dataset's");
+  command->add_option("--size", flags->size, "Pixels a side of each")->capture_default_str();
+  AddCommon(command, common);
+  AddForce(command, common);
+  command->callback([flags, common, run] { *run = [=] { return View(*flags, *common); }; });
+}
+
+}  // namespace simwright::cli

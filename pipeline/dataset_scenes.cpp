@@ -1,0 +1,94 @@
+#include "pipeline/dataset_scenes.h"
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "assets/asset.h"
+#include "assets/asset_folder.h"
+#include "core/error.h"
+#include "scene/dataset/tokens.h"
+
+namespace simwright::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+int SceneNumber(const std::string& text, const std::string& whole, int count) {
+  int number = -1;
+  const char* const end = text.data() + text.size();
+  const auto [stop, fault] = std::from_chars(text.data(), end, number);
+  const bool is_number = !text.empty() && stop == end && text.front() != '-';
+  if (!is_number || fault == std::errc::invalid_argument) {
+    throw core::Error("this is no list of scenes", whole, "as in 0,3-5");
+  }
+  if (fault != std::errc() || number >= count) {
+    throw core::Error("there is no scene " + text + ", they are 0 to " + std::to_string(count - 1),
+                      whole);
+  }
+  return number;
+}
+
+}  // namespace
+
+std::vector<int> ScenesNamed(const std::string& text, int count) {
+  std::vector<int> scenes;
+  std::set<int> known;
+  std::istringstream list(text);
+  for (std::string range; std::getline(list, range, ',');) {
+    const size_t dash = range.find('-');
+    const int first = SceneNumber(range.substr(0, dash), text, count);
+    const int last =
+        dash == std::string::npos ? first : SceneNumber(range.substr(dash + 1), text, count);
+    if (last < first) throw core::Error("a range of scenes goes upwards", range, "as in 0,3-5");
+    for (int scene = first; scene <= last; ++scene) {
+      if (known.insert(scene).second) scenes.push_back(scene);
+    }
+  }
+  if (scenes.empty()) throw core::Error("no scene is named", text, "as in 0,3-5");
+  return scenes;
+}
+
+std::vector<scene::DrawnObject> SceneAt(const scene::SceneDataset& dataset, int index) {
+  const std::vector<float> tokens = dataset.Read(index, 1);
+  return DecodeScene(tokens.data(), dataset.vocabulary());
+}
+
+scene::SlotFolders FoldersOfSlots(const fs::path& path, const fs::path& assets,
+                                  const std::set<std::string>& slots) {
+  const fs::path beside = fs::is_regular_file(path) ? path.parent_path() : path;
+  const fs::path folder = assets.empty() ? beside / "assets" : assets;
+  if (!fs::is_directory(folder)) {
+    throw core::Error("there is no folder of assets", folder.string(),
+                      "give the one that the scenes were made with: --assets FOLDER");
+  }
+  scene::SlotFolders folders;
+  for (const std::string& slot : slots) {
+    if (assets::FileSafeName(slot) != slot) {
+      throw core::Error("a slot of the scenes is no name for a folder", slot);
+    }
+    if (!assets::IsAssetFolder(folder / slot)) {
+      throw core::Error("there is no asset for the slot \"" + slot + "\"", folder.string());
+    }
+    folders[slot] = folder / slot;
+  }
+  return folders;
+}
+
+void RequireSameAssets(const scene::SceneDataset& dataset, const scene::Palette& palette,
+                       const std::set<std::string>& slots) {
+  const std::string& text = dataset.parts().front().origin().assets;
+  const auto hashes = nlohmann::json::parse(text, nullptr, false);
+  if (!hashes.is_object()) return;
+  for (const std::string& slot : slots) {
+    const auto hash = hashes.find(slot);
+    if (hash == hashes.end() || !hash->is_string()) continue;
+    if (hash->get<std::string>() != palette.HashOf(slot)) {
+      throw core::Error("another asset stands for the slot \"" + slot +
+                        "\" than the one that the scenes were made with");
+    }
+  }
+}
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,91 @@
+// What an export of scenes says of itself.
+#include <algorithm>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "pipeline/scene_export.h"
+
+namespace simwright::pipeline {
+namespace {
+
+std::string Line(const SceneStillness& check) {
+  char line[256];
+  std::snprintf(line, sizeof line, "%s  %3d things  %-6s  MuJoCo %8.3f mm %-18s Bullet %8.3f mm %s",
+                check.name.c_str(), check.things, check.Still() ? "still" : "MOVES",
+                1e3 * check.mujoco.moved, check.mujoco.name.c_str(), 1e3 * check.bullet.moved,
+                check.bullet.name.c_str());
+  std::string text = line;
+  for (const std::string& warning : check.warnings) text += "\n    MuJoCo: " + warning;
+  return text + "\n";
+}
+
+nlohmann::ordered_json MotionJson(const FarthestMotion& motion) {
+  nlohmann::ordered_json json;
+  json["moved_m"] = motion.moved;  // null where it is nowhere
+  json["thing"] = motion.name;
+  return json;
+}
+
+nlohmann::ordered_json CheckJson(const SceneStillness& check) {
+  nlohmann::ordered_json json;
+  json["scene"] = check.name;
+  json["things"] = check.things;
+  json["still"] = check.Still();
+  json["mujoco"] = MotionJson(check.mujoco);
+  json["mujoco"]["warnings"] = check.warnings;
+  json["bullet"] = MotionJson(check.bullet);
+  return json;
+}
+
+int Count(const std::vector<SceneStillness>& checks, bool (SceneStillness::*still)() const) {
+  return static_cast<int>(std::count_if(checks.begin(), checks.end(),
+                                        [&](const SceneStillness& one) { return (one.*still)(); }));
+}
+
+nlohmann::ordered_json ChecksJson(const SceneExportReport& report) {
+  nlohmann::ordered_json json;
+  json["still_share"] = report.StillShare();
+  json["checks"] = nlohmann::ordered_json::array();
+  for (const SceneStillness& check : report.checks) json["checks"].push_back(CheckJson(check));
+  return json;
+}
+
+}  // namespace
+
+double SceneExportReport::StillShare() const {
+  if (checks.empty()) return 1.0;
+  return static_cast<double>(Count(checks, &SceneStillness::Still)) /
+         static_cast<double>(checks.size());
+}
+
+std::string ExportTable(const SceneExportReport& report) {
+  std::string text;
+  for (const SceneStillness& check : report.checks) text += Line(check);
+  char line[200];
+  if (!report.checks.empty()) {
+    std::snprintf(line, sizeof line,
+                  "still for 2 s: %d of %zu scenes (%.0f %%); in MuJoCo %d, in Bullet %d\n",
+                  Count(report.checks, &SceneStillness::Still), report.checks.size(),
+                  100.0 * report.StillShare(), Count(report.checks, &SceneStillness::StillInMujoco),
+                  Count(report.checks, &SceneStillness::StillInBullet));
+    text += line;
+  }
+  return text + report.output.string() + ": " + std::to_string(report.scenes.size()) + " scenes, " +
+         std::to_string(report.assets) + " assets\n";
+}
+
+std::string ExportJson(const SceneExportReport& report) {
+  nlohmann::ordered_json json;
+  json["output"] = report.output.string();
+  json["scenes"] = report.scenes;
+  json["assets"] = report.assets;
+  if (!report.checks.empty()) json.update(ChecksJson(report));
+  return json.dump(2) + "\n";
+}
+
+std::string StillnessJson(const SceneExportReport& report) {
+  return ChecksJson(report).dump(2) + "\n";
+}
+
+}  // namespace simwright::pipeline

@@ -1,0 +1,94 @@
+#include "scene/export/scene_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+namespace simwright::scene {
+namespace {
+
+using assets::WorldThing;
+
+Eigen::Quaterniond TurnOf(const WorldThing& thing) {
+  Eigen::Quaterniond turn = Eigen::Quaterniond(thing.world_from_thing.linear()).normalized();
+  if (turn.w() < 0.0) turn.coeffs() *= -1.0;
+  return turn;
+}
+
+// With a point, without which YAML 1.1 takes 1e-05 for a text.
+std::string Number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  std::string number = text;
+  if (number.find('.') == std::string::npos) {
+    number.insert(std::min(number.find('e'), number.size()), ".0");
+  }
+  return number;
+}
+
+// A name of digits alone stays a text.
+std::string Quoted(const std::string& name) {
+  return "\"" + name + "\"";
+}
+
+std::string List(const Eigen::Vector3d& v) {
+  return "[" + Number(v.x()) + ", " + Number(v.y()) + ", " + Number(v.z()) + "]";
+}
+
+std::string PoseLines(const WorldThing& thing, const std::string& indent) {
+  const Eigen::AngleAxisd turn(TurnOf(thing));
+  return indent + "translation: " + List(thing.world_from_thing.translation()) + "\n" + indent +
+         "rotation: !AngleAxis {angle_deg: " + Number(turn.angle() * (180.0 / M_PI)) +
+         ", axis: " + List(turn.axis()) + "}\n";
+}
+
+}  // namespace
+
+std::string SceneJson(const ExportedScene& scene) {
+  nlohmann::ordered_json json;
+  json["format"] = 1;
+  json["name"] = scene.name;
+  json["type"] = scene.type;
+  json["scene"] = scene.index;
+  json["objects"] = nlohmann::ordered_json::array();
+  for (const WorldThing& thing : scene.things) {
+    const Eigen::Vector3d& place = thing.world_from_thing.translation();
+    const Eigen::Quaterniond turn = TurnOf(thing);
+    nlohmann::ordered_json object;
+    object["name"] = thing.name;
+    object["slot"] = thing.asset->key;
+    object["urdf"] = thing.asset->folder + thing.asset->asset.name + ".urdf";
+    object["translation"] = {place.x(), place.y(), place.z()};
+    object["quaternion_wxyz"] = {turn.w(), turn.x(), turn.y(), turn.z()};
+    object["welded"] = thing.welded;
+    json["objects"].push_back(std::move(object));
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string DrakeDirectives(const ExportedScene& scene, const std::string& package) {
+  std::string text = "# " + scene.name + ": model directives of Drake\ndirectives:\n";
+  for (const WorldThing& thing : scene.things) {
+    const std::string& link = thing.asset->asset.name;
+    text += "- add_model:\n    name: " + Quoted(thing.name) + "\n    file: package://" + package +
+            "/assets/" + thing.asset->key + "/" + link + ".sdf\n";
+    if (thing.welded) {
+      text += "- add_weld:\n    parent: world\n    child: " + Quoted(thing.name + "::" + link) +
+              "\n    X_PC:\n" + PoseLines(thing, "      ");
+    } else {
+      text += "    default_free_body_pose:\n      " + Quoted(link) + ":\n" +
+              PoseLines(thing, "        ");
+    }
+  }
+  return text;
+}
+
+std::string PackageXml(const std::string& package) {
+  return "<?xml version=\"1.0\"?>\n<package format=\"2\">\n  <name>" + package +
+         "</name>\n  <version>1.0.0</version>\n  <description>Scenes and their "
+         "assets</description>\n</package>\n";
+}
+
+}  // namespace simwright::scene

@@ -1,0 +1,154 @@
+#include "sim/mujoco_stillness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <mujoco/mujoco.h>
+
+#include "core/error.h"
+#include "core/progress.h"
+#include "sim/mujoco_scene.h"
+#include "sim/point_way.h"
+
+namespace simwright::sim {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+Isometry3d PoseFrom(const double* place, const double* turn) {
+  Isometry3d pose(Eigen::Quaterniond(turn[0], turn[1], turn[2], turn[3]).normalized());
+  pose.translation() = Eigen::Map<const Vector3d>(place);
+  return pose;
+}
+
+// A body with a free joint.
+struct Watched {
+  int body = 0, position = 0;  // position: of its pose in qpos
+  Vector3d center;             // of mass, in the body's frame
+  double radius = 0.0;         // m from there to its farthest vertex
+};
+
+// m, of what touches.
+double RadiusOf(const mjModel& model, int body, const Vector3d& center) {
+  double radius = 0.0;
+  for (int i = 0; i < model.body_geomnum[body]; ++i) {
+    const int geom = model.body_geomadr[body] + i;
+    if (model.geom_contype[geom] == 0 && model.geom_conaffinity[geom] == 0) continue;
+    const Isometry3d body_from_geom =
+        PoseFrom(model.geom_pos + 3 * geom, model.geom_quat + 4 * geom);
+    const int mesh = model.geom_dataid[geom];
+    if (model.geom_type[geom] != mjGEOM_MESH || mesh < 0) {
+      radius = std::max(radius,
+                        (body_from_geom.translation() - center).norm() + model.geom_rbound[geom]);
+      continue;
+    }
+    for (int v = 0; v < model.mesh_vertnum[mesh]; ++v) {
+      const float* const vertex = model.mesh_vert + 3 * (model.mesh_vertadr[mesh] + v);
+      const Vector3d point = Eigen::Map<const Eigen::Vector3f>(vertex).cast<double>();
+      radius = std::max(radius, (body_from_geom * point - center).norm());
+    }
+  }
+  return radius;
+}
+
+std::vector<Watched> FreeBodies(const mjModel& model) {
+  std::vector<Watched> bodies;
+  for (int body = 1; body < model.nbody; ++body) {
+    const int joint = model.body_jntadr[body];
+    if (joint < 0 || model.jnt_type[joint] != mjJNT_FREE) continue;
+    Watched one;
+    one.body = body;
+    one.position = model.jnt_qposadr[joint];
+    one.center = Eigen::Map<const Vector3d>(model.body_ipos + 3 * body);
+    one.radius = RadiusOf(model, body, one.center);
+    bodies.push_back(one);
+  }
+  return bodies;
+}
+
+// Steps the world and measures ways from where its bodies last were marked.
+class Watch {
+ public:
+  explicit Watch(const std::filesystem::path& mjcf)
+      : scene_(mjcf, {}, MujocoScene::Ground::kOwn), bodies_(FreeBodies(*scene_.model())) {
+    for (const Watched& one : bodies_) {
+      const char* const name = mj_id2name(scene_.model(), mjOBJ_BODY, one.body);
+      result_.bodies.push_back({name != nullptr ? name : "", 0.0, 0.0});
+    }
+  }
+
+  MujocoStillness Run(const StillnessOptions& options) {
+    Mark();
+    StepUntil(options.settle, false);
+    for (size_t i = 0; i < bodies_.size(); ++i) result_.bodies[i].settled = WayOf(i);
+    Mark();
+    StepUntil(options.settle + options.watch, true);
+    result_.warnings = scene_.warnings();
+    return result_;
+  }
+
+ private:
+  Isometry3d PoseOf(size_t index) const {
+    const double* const q = scene_.data()->qpos + bodies_[index].position;
+    return PoseFrom(q, q + 3);
+  }
+
+  double WayOf(size_t index) const {
+    const Watched& one = bodies_[index];
+    const double way = FarthestWay(one.center, one.radius, marks_[index], PoseOf(index));
+    return std::isfinite(way) ? way : HUGE_VAL;
+  }
+
+  void Mark() {
+    marks_.clear();
+    for (size_t i = 0; i < bodies_.size(); ++i) marks_.push_back(PoseOf(i));
+  }
+
+  void StepUntil(double time, bool watched) {
+    const mjData& data = *scene_.data();
+    const double step = scene_.model()->opt.timestep;
+    // Counted, not read off the clock: MuJoCo sets its clock back where a world has burst.
+    const auto steps = static_cast<int>(std::lround((time - passed_) / step));
+    passed_ = time;
+    for (int i = 0; i < steps; ++i) {
+      scene_.Step();
+      result_.contacts = std::max(result_.contacts, data.ncon);
+      result_.rows = std::max(result_.rows, data.nefc);
+      if (i % 100 == 0) core::CheckCancelled();
+      for (size_t b = 0; watched && b < bodies_.size(); ++b) {
+        result_.bodies[b].drift = std::max(result_.bodies[b].drift, WayOf(b));
+      }
+    }
+  }
+
+  MujocoScene scene_;
+  std::vector<Watched> bodies_;
+  std::vector<Isometry3d> marks_;
+  double passed_ = 0.0;  // s
+  MujocoStillness result_;
+};
+
+}  // namespace
+
+bool StillnessOptions::IsValid(std::string* error) const {
+  const auto lasts = [](double time) { return time >= 0.0 && time <= 3600.0; };
+  if (lasts(settle) && lasts(watch)) return true;
+  *error = "settle and watch have to be 0 to 3600 s";
+  return false;
+}
+
+const BodyMotion* MujocoStillness::Farthest() const {
+  const auto farthest =
+      std::max_element(bodies.begin(), bodies.end(),
+                       [](const BodyMotion& a, const BodyMotion& b) { return a.drift < b.drift; });
+  return farthest == bodies.end() ? nullptr : &*farthest;
+}
+
+MujocoStillness WatchInMujoco(const std::filesystem::path& mjcf, const StillnessOptions& options) {
+  std::string error;
+  if (!options.IsValid(&error)) throw core::Error("stillness: " + error);
+  return Watch(mjcf).Run(options);
+}
+
+}  // namespace simwright::sim

@@ -1,0 +1,138 @@
+// Worlds in MuJoCo: what it loads has the assets' numbers, and what moves is found to move.
+#include "sim/mujoco_stillness.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "sim/mujoco_scene.h"
+#include "sim/point_way.h"
+#include "tests/assets/sample_world.h"
+
+namespace simwright::sim {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+Isometry3d Upright(double x, double z) {
+  return Isometry3d(Eigen::Translation3d(x, 0.0, z));
+}
+
+class MujocoWorlds : public testing::Test {
+ protected:
+  std::filesystem::path Write(const std::vector<assets::WorldThing>& things) const {
+    const auto path = folder_.path() / "scene" / "scene.xml";
+    core::WriteFile(path, assets::WorldMjcf("room", things));
+    return path;
+  }
+  // Boxes of 10 cm where they are put, alone.
+  std::vector<assets::WorldThing> Boxes(const std::vector<Isometry3d>& poses) const {
+    std::vector<assets::WorldThing> boxes;
+    for (const Isometry3d& pose : poses) {
+      const std::string name = "box_" + std::to_string(boxes.size());
+      boxes.push_back({name, sample_.things[1].asset, pose, false});
+    }
+    return boxes;
+  }
+
+  const core::TemporaryFolder folder_;
+  const assets::SampleWorld sample_{folder_.path()};
+};
+
+TEST_F(MujocoWorlds, LoadWithTheAssetsNumbers) {
+  const MujocoScene scene(Write(sample_.things), {}, MujocoScene::Ground::kOwn);
+  EXPECT_TRUE(scene.warnings().empty()) << scene.warnings()[0];
+  const mjModel& model = *scene.model();
+  mj_forward(scene.model(), scene.data());
+  ASSERT_EQ(model.nbody, 4);
+  EXPECT_EQ(model.nmesh, 4);  // two a kind, however many share them
+  EXPECT_EQ(model.njnt, 2);
+  for (const assets::WorldThing& thing : sample_.things) {
+    const int body = mj_name2id(&model, mjOBJ_BODY, thing.name.c_str());
+    ASSERT_GT(body, 0) << thing.name;
+    EXPECT_EQ(model.body_jntnum[body], thing.welded ? 0 : 1);
+    const assets::Inertial& inertial = thing.asset->asset.inertial;
+    EXPECT_NEAR(model.body_mass[body], inertial.mass, 1e-12);
+    const double* const q = model.body_iquat + 4 * body;
+    const Eigen::Matrix3d axes = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+    const Eigen::Matrix3d inertia =
+        axes * Eigen::Map<const Vector3d>(model.body_inertia + 3 * body).asDiagonal() *
+        axes.transpose();
+    EXPECT_LT((inertia - inertial.inertia).norm(), 1e-6 * inertia.norm());
+    EXPECT_LT(
+        (Eigen::Map<const Vector3d>(model.body_ipos + 3 * body) - inertial.center_of_mass).norm(),
+        1e-12);
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> turn(scene.data()->xmat +
+                                                                              9 * body);
+    EXPECT_LT((turn - thing.world_from_thing.linear()).norm(), 1e-12) << thing.name;
+    const Eigen::Map<const Vector3d> place(scene.data()->xpos + 3 * body);
+    EXPECT_LT((place - thing.world_from_thing.translation()).norm(), 1e-12) << thing.name;
+  }
+}
+
+// As the file of the asset itself has it, which is tested on its own.
+TEST_F(MujocoWorlds, HaveTheOptionsOfOneAsset) {
+  const MujocoScene world(Write(sample_.things), {}, MujocoScene::Ground::kOwn);
+  const MujocoScene alone(folder_.path() / "assets" / "box" / "sample_box.xml");
+  const mjModel &a = *world.model(), &b = *alone.model();
+  EXPECT_NE(a.opt.enableflags & mjENBL_MULTICCD, 0);
+  EXPECT_EQ(a.opt.enableflags, b.opt.enableflags);
+  EXPECT_EQ(a.opt.cone, mjCONE_ELLIPTIC);
+  EXPECT_EQ(a.opt.timestep, b.opt.timestep);
+  EXPECT_EQ(a.opt.impratio, b.opt.impratio);
+  EXPECT_EQ(a.opt.tolerance, b.opt.tolerance);
+  const auto geom_of = [](const mjModel& model, const char* body) {
+    return model.body_geomadr[mj_name2id(&model, mjOBJ_BODY, body)] + 1;  // after what is seen
+  };
+  const int geom = geom_of(a, "box_1"), other = geom_of(b, "sample_box");
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(a.geom_friction[3 * geom + i], b.geom_friction[3 * other + i]);
+  }
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(a.geom_solref[2 * geom + i], b.geom_solref[2 * other + i]);
+  EXPECT_EQ(a.geom_condim[geom], b.geom_condim[other]);
+  EXPECT_GT(a.geom_contype[geom], 0);
+}
+
+TEST_F(MujocoWorlds, WhatStandsStandsAndWhatFallsFalls) {
+  const MujocoStillness watched =
+      WatchInMujoco(Write(Boxes({Upright(0.0, 0.0), Upright(0.0, 0.1), Upright(1.0, 1.0)})));
+  EXPECT_TRUE(watched.warnings.empty());
+  ASSERT_EQ(watched.bodies.size(), 3u);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_LT(watched.bodies[i].settled, 2e-4) << i;
+    EXPECT_LT(watched.bodies[i].drift, 1e-4) << i;
+  }
+  // g t^2 / 2 in the first quarter of a second, to the integrator's step of g t dt / 2, then the
+  // rest of its way at least.
+  const double fallen = 0.5 * 9.81 * 0.25 * 0.25;
+  EXPECT_NEAR(watched.bodies[2].settled, fallen, 9.81 * 0.25 * 0.002);
+  EXPECT_GT(watched.bodies[2].drift, 0.99 * (1.0 - fallen) - 0.01);
+  ASSERT_NE(watched.Farthest(), nullptr);
+  EXPECT_EQ(watched.Farthest()->name, "box_2");
+  EXPECT_GE(watched.contacts, 8);
+}
+
+TEST_F(MujocoWorlds, ATopplingBoxMoves) {
+  const Isometry3d pose =
+      Upright(0.0, 0.03) * Isometry3d(Eigen::AngleAxisd(0.8, Vector3d::UnitY()));
+  EXPECT_GT(WatchInMujoco(Write(Boxes({pose})), {0.05, 1.0}).bodies[0].drift, 0.02);
+  // A point 10 cm from the centre turns by a quarter: a chord of sqrt(2) radii.
+  const Isometry3d turned(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()));
+  EXPECT_NEAR(FarthestWay(Vector3d::Zero(), 0.1, Isometry3d::Identity(), turned),
+              0.1 * std::sqrt(2.0), 1e-12);
+}
+
+TEST_F(MujocoWorlds, SayWhatIsWrong) {
+  EXPECT_THROW(WatchInMujoco(folder_.path() / "gone.xml"), core::Error);
+  core::WriteFile(folder_.path() / "bad.xml", "<mujoco><worldbody><body/></worldbody>");
+  EXPECT_THROW(WatchInMujoco(folder_.path() / "bad.xml"), core::Error);
+  EXPECT_THROW(WatchInMujoco(Write(sample_.things), {-1.0, 2.0}), core::Error);
+  EXPECT_EQ(WatchInMujoco(Write({sample_.things[0]}), {0.0, 0.01}).Farthest(), nullptr);
+}
+
+}  // namespace
+}  // namespace simwright::sim
