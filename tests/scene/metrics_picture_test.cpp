@@ -128,8 +128,11 @@ TEST(LabelRender, IsTheClassesColoursOnWhite) {
   // Nothing is white, and a shelf's camera looks along +x.
   const core::Image none = LabelRender({}, Words(), palette, camera);
   EXPECT_EQ(std::count(none.pixels.begin(), none.pixels.end(), 255), 640 * 480 * 3);
-  EXPECT_NEAR(LabelCamera("pantry_shelf").Project({0.0, -0.2, 0.5}).x(),
-              320.0 + 0.2 / 1.2 * camera.fx, 1e-9);
+  const core::Camera shelf = LabelCamera("pantry_shelf");
+  EXPECT_NEAR(shelf.Project({0.0, -0.2, 0.5}).x(), 320.0 + 0.2 / 1.2 * shelf.fx, 1e-9);
+  // The front edge of its lowest board, and a bottle's top on the uppermost.
+  EXPECT_LT(shelf.Project({-0.15, 0.0, 0.0}).y(), 480.0);
+  EXPECT_GT(shelf.Project({-0.15, 0.0, 1.025}).y(), 0.0);
   EXPECT_THROW(LabelRender({At("spoon", 0, 0, 0)}, Words(), palette, camera), core::Error);
 }
 
