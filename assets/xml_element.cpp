@@ -123,12 +123,12 @@ void SdfCollision(tinyxml2::XMLPrinter* printer, const std::string& name, const 
   Leaf(printer, "restitution_coefficient", Number(restitution));
 }
 
-void MjcfOption(tinyxml2::XMLPrinter* printer) {
+void MjcfOption(tinyxml2::XMLPrinter* printer, double time_step) {
   Element option(printer, "option");
   // The default tolerance lets light things with many contacts tremble; at 1e-14 a cup of a
   // few grams rests still. Elliptic cones tremble less than pyramids, and with impratio 10
   // held things slip less.
-  option.Set("timestep", "0.002")
+  option.Set("timestep", Number(time_step))
       .Set("solver", "Newton")
       .Set("tolerance", "1e-14")
       .Set("cone", "elliptic")

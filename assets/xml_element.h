@@ -47,8 +47,8 @@ void SdfVisual(tinyxml2::XMLPrinter* printer, const std::string& name, const std
 void SdfCollision(tinyxml2::XMLPrinter* printer, const std::string& name, const std::string& file,
                   double friction, double restitution);
 
-// <option>: the solver's settings, `multiccd` on.
-void MjcfOption(tinyxml2::XMLPrinter* printer);
+// <option>: the solver's settings, `multiccd` on. `time_step` in s.
+void MjcfOption(tinyxml2::XMLPrinter* printer, double time_step = 0.002);
 // <inertial> on principal axes.
 void MjcfInertial(tinyxml2::XMLPrinter* printer, const Inertial& inertial);
 

@@ -49,6 +49,12 @@ void WriteDraws(const fs::path& folder) {
 
 class SceneEvaluate : public testing::Test {
  protected:
+  // What it can do, each by itself; one test, for each would be a process that makes all anew.
+  static void ASetAgainstItself();
+  static void WhatWasLearnedByHeartIsAtItsPlace();
+  static void AModelInOneCommand();
+  static void RefusesWhatIsNone();
+
   static void SetUpTestSuite() {
     folder_ = new core::TemporaryFolder();
     WriteDraws(At("data"));
@@ -76,7 +82,7 @@ class SceneEvaluate : public testing::Test {
   static inline Outcome features_, trained_;
 };
 
-TEST_F(SceneEvaluate, ASetAgainstItself) {
+void SceneEvaluate::ASetAgainstItself() {
   ASSERT_EQ(features_.code, 0) << features_.text;
   const json features = json::parse(features_.text);
   EXPECT_EQ(features["pictures"].get<int>() + features["held_out"].get<int>(), 2 * kScenes);
@@ -101,7 +107,7 @@ TEST_F(SceneEvaluate, ASetAgainstItself) {
   EXPECT_EQ(json::parse(core::ReadFile(At("itself/metrics.json"))), figures);
 }
 
-TEST_F(SceneEvaluate, WhatWasLearnedByHeartIsAtItsPlace) {
+void SceneEvaluate::WhatWasLearnedByHeartIsAtItsPlace() {
   ASSERT_EQ(features_.code, 0) << features_.text;
   const Outcome outcome = Evaluate("--samples " + At("data") + " --data " + At("data") +
                                    " --training-scenes 12 --count 12");
@@ -115,7 +121,7 @@ TEST_F(SceneEvaluate, WhatWasLearnedByHeartIsAtItsPlace) {
   EXPECT_GT(figures["samples"]["frechet"].get<double>(), 0.0);
 }
 
-TEST_F(SceneEvaluate, AModelInOneCommand) {
+void SceneEvaluate::AModelInOneCommand() {
   ASSERT_EQ(trained_.code, 0) << trained_.text;
   const std::string few = " --count 4 --steps 3 --assets " + At("data/assets") + " -o ";
   // With its data: what it learned from is known, which leaves two scenes, too few to compare with.
@@ -137,7 +143,7 @@ TEST_F(SceneEvaluate, AModelInOneCommand) {
   EXPECT_EQ(Evaluate("--type dimsum --features " + At("model/model.pt") + few + At("x")).code, 1);
 }
 
-TEST_F(SceneEvaluate, RefusesWhatIsNone) {
+void SceneEvaluate::RefusesWhatIsNone() {
   const std::string data = " --data " + At("data"), samples = " --samples " + At("data");
   for (const std::string& flags : std::vector<std::string>{
            std::string(), data, samples + data + " --count 3",
@@ -151,6 +157,25 @@ TEST_F(SceneEvaluate, RefusesWhatIsNone) {
   }
   EXPECT_EQ(RunProgram("scene features train --draws 0 --quiet -o " + At("y.pt")).code, 1);
   EXPECT_EQ(RunProgram("scene features train --type banquet --quiet -o " + At("y.pt")).code, 1);
+}
+
+TEST_F(SceneEvaluate, DoesAllOfIt) {
+  {
+    SCOPED_TRACE("ASetAgainstItself");
+    ASetAgainstItself();
+  }
+  {
+    SCOPED_TRACE("WhatWasLearnedByHeartIsAtItsPlace");
+    WhatWasLearnedByHeartIsAtItsPlace();
+  }
+  {
+    SCOPED_TRACE("AModelInOneCommand");
+    AModelInOneCommand();
+  }
+  {
+    SCOPED_TRACE("RefusesWhatIsNone");
+    RefusesWhatIsNone();
+  }
 }
 
 }  // namespace

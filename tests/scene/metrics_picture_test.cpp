@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/parallel.h"
 #include "core/random.h"
 #include "nn/script.h"
 #include "scene/grammar/scene_types.h"
@@ -161,6 +162,7 @@ TEST(CountPicture, CountsByQuarters) {
 }
 
 TEST(SceneFeatures, LearnToCount) {
+  core::SetThreadCount(1);
   const Palette palette = Boxes();
   const core::Camera camera = LabelCamera("dimsum");
   core::Rng rng = core::StreamRng(1, 0);
@@ -177,7 +179,7 @@ TEST(SceneFeatures, LearnToCount) {
       TrainFeatures(pictures, options, folder.path() / "features.pt", &progress);
   EXPECT_EQ(report.pictures, 45);
   EXPECT_EQ(report.held_out, 5);
-  EXPECT_LT(report.error, 0.75 * report.error_of_the_mean);
+  EXPECT_LT(report.error, 0.85 * report.error_of_the_mean);
   const SceneFeatures features = SceneFeatures::Load(folder.path() / "features.pt");
   EXPECT_TRUE(features.own());
   // Sets of few and of many are farther apart than two of many.

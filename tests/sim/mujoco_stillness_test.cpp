@@ -82,7 +82,7 @@ TEST_F(MujocoWorlds, HaveTheOptionsOfOneAsset) {
   EXPECT_NE(a.opt.enableflags & mjENBL_MULTICCD, 0);
   EXPECT_EQ(a.opt.enableflags, b.opt.enableflags);
   EXPECT_EQ(a.opt.cone, mjCONE_ELLIPTIC);
-  EXPECT_EQ(a.opt.timestep, b.opt.timestep);
+  EXPECT_EQ(a.opt.timestep, 1e-3);  // half: stacks creep otherwise
   EXPECT_EQ(a.opt.impratio, b.opt.impratio);
   EXPECT_EQ(a.opt.tolerance, b.opt.tolerance);
   const auto geom_of = [](const mjModel& model, const char* body) {
