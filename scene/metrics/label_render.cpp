@@ -18,7 +18,10 @@ namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
 
-constexpr double kFieldOfView = 0.25 * std::numbers::pi;  // a room of 10 m fills it from 13 m
+// A room of 10 m fills it from 13 m, a table of 1.25 m from 1.7 m.
+constexpr double kFieldOfView = 0.25 * std::numbers::pi;
+// From its lowest board's edge to a bottle on its uppermost.
+constexpr double kShelfView = 55.0 / 180.0 * std::numbers::pi;
 // m, from where the camera looks.
 constexpr double kBreakfast = 1.5, kDimsum = 1.7, kRoom = 13.0, kShelf = 1.2, kAboveMiddle = 0.1;
 constexpr double kShelfMiddle = 0.407;  // m, over its foot (scene/grammar/shelf_boards)
@@ -60,10 +63,10 @@ std::vector<Colour> MakeColours() {
 }
 
 core::Camera LookingAlong(const Eigen::Vector3d& position, const Eigen::Vector3d& right,
-                          const Eigen::Vector3d& along) {
+                          const Eigen::Vector3d& along, double field_of_view) {
   core::Camera camera;
   camera.width = kLabelWidth, camera.height = kLabelHeight;
-  camera.fx = camera.fy = 0.5 * kLabelHeight / std::tan(0.5 * kFieldOfView);
+  camera.fx = camera.fy = 0.5 * kLabelHeight / std::tan(0.5 * field_of_view);
   camera.cx = 0.5 * kLabelWidth, camera.cy = 0.5 * kLabelHeight;
   camera.world_from_camera.linear().col(0) = right;
   camera.world_from_camera.linear().col(1) = along.cross(right);
@@ -73,7 +76,8 @@ core::Camera LookingAlong(const Eigen::Vector3d& position, const Eigen::Vector3d
 }
 
 core::Camera FromAbove(double height) {
-  return LookingAlong({0.0, 0.0, height}, Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitZ());
+  return LookingAlong({0.0, 0.0, height}, Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitZ(),
+                      kFieldOfView);
 }
 
 double TopOf(const std::string& table) {
@@ -98,7 +102,7 @@ core::Camera LabelCamera(const std::string& type) {
   if (type.starts_with("restaurant")) return FromAbove(kRoom);
   // Ours open to their -x, the published ones to +x.
   return LookingAlong({-kShelf, 0.0, kShelfMiddle + kAboveMiddle}, -Eigen::Vector3d::UnitY(),
-                      Eigen::Vector3d::UnitX());
+                      Eigen::Vector3d::UnitX(), kShelfView);
 }
 
 core::Image LabelRender(const std::vector<DrawnObject>& objects, const Vocabulary& vocabulary,

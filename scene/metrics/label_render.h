@@ -22,11 +22,12 @@ inline constexpr int kMostLabels = 48;
 // core::Error for another index.
 std::array<std::uint8_t, 3> LabelColour(int index);
 
-// The one camera from which scenes of a type are compared, 640 x 480, 45 degrees high (Pfaff et
-// al., appendix, whose tables have their top and whose shelves their middle at the origin):
-// breakfast from 1.5 m and dimsum from 1.7 m above the table's top, restaurants from 13 m above the
-// floor, all three straight down with the world's y to the right; shelves from 1.2 m in front of
-// their middle, 0.1 m above it. Throws core::Error for an unknown type.
+// The one camera from which scenes of a type are compared, 640 x 480 (Pfaff et al., appendix, whose
+// tables have their top and whose shelves their middle at the origin): breakfast from 1.5 m and
+// dimsum from 1.7 m above the table's top, restaurants from 13 m above the floor, all three
+// straight down, 45 degrees high, the world's y to the right; shelves from 1.2 m in front of their
+// middle, 0.1 m above it, 55 degrees high, so that all of them is seen. Throws core::Error for an
+// unknown type.
 core::Camera LabelCamera(const std::string& type);
 
 // The scene as a camera sees it, RGB, each object in its class's colour without light, furniture

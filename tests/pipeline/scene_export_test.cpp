@@ -27,6 +27,14 @@ const std::vector<std::string> kSlots = {"steamer", "steamer_lid", "table_round"
 
 class SceneExport : public testing::Test {
  protected:
+  // What it can do, each by itself; one test, for each would be a process that makes all anew.
+  static void StacksStandStillInBothEnginesAndWhatHangsFalls();
+  static void IsSelfContained();
+  static void RefusesWhatIsNone();
+  static void SaysWhichAssetIsMissingOrAnother();
+  static void IsACommand();
+  static void AViewShowsTheTableRoundFromAbove();
+
   static void SetUpTestSuite() {
     folder_ = new core::TemporaryFolder();
     LibraryOptions options;
@@ -96,7 +104,7 @@ class SceneExport : public testing::Test {
   static inline std::vector<double> heights_;
 };
 
-TEST_F(SceneExport, StacksStandStillInBothEnginesAndWhatHangsFalls) {
+void SceneExport::StacksStandStillInBothEnginesAndWhatHangsFalls() {
   SceneExportRequest request = Request("checked");
   request.check = true;
   core::Progress silent;
@@ -119,7 +127,7 @@ TEST_F(SceneExport, StacksStandStillInBothEnginesAndWhatHangsFalls) {
   EXPECT_EQ(json["checks"][2]["still"], false);
 }
 
-TEST_F(SceneExport, IsSelfContained) {
+void SceneExport::IsSelfContained() {
   core::Progress silent;
   SceneExportRequest request = Request("before");
   request.scenes = "1,0";
@@ -153,7 +161,7 @@ TEST_F(SceneExport, IsSelfContained) {
   EXPECT_TRUE(watched.warnings.empty());
 }
 
-TEST_F(SceneExport, RefusesWhatIsNone) {
+void SceneExport::RefusesWhatIsNone() {
   SceneExportRequest request = Request("refused");
   for (const char* const scenes : {"3", "0-3", "0,7", "99999999999", "a", "-1", "2-1", ",", "1-"}) {
     request.scenes = scenes;
@@ -174,7 +182,7 @@ TEST_F(SceneExport, RefusesWhatIsNone) {
   EXPECT_EQ(ScenesNamed("2,0-1,1", 3), (std::vector<int>{2, 0, 1}));
 }
 
-TEST_F(SceneExport, SaysWhichAssetIsMissingOrAnother) {
+void SceneExport::SaysWhichAssetIsMissingOrAnother() {
   fs::create_directories(At("few"));
   for (const char* const slot : {"steamer", "table_round"}) {
     fs::copy(At("dataset/assets/") + slot, At("few/") + slot, fs::copy_options::recursive);
@@ -199,7 +207,7 @@ TEST_F(SceneExport, SaysWhichAssetIsMissingOrAnother) {
   EXPECT_EQ(ErrorOf(request), "");
 }
 
-TEST_F(SceneExport, IsACommand) {
+void SceneExport::IsACommand() {
   const std::string command = "scene export " + At("dataset") + " --quiet -o " + At("told");
   const Outcome written = RunProgram(command + " --scene 1 --format mjcf,urdf --check");
   EXPECT_EQ(written.code, 0) << written.text;
@@ -214,7 +222,7 @@ TEST_F(SceneExport, IsACommand) {
   EXPECT_NE(moves.text.find("MOVES"), std::string::npos) << moves.text;
 }
 
-TEST_F(SceneExport, AViewShowsTheTableRoundFromAbove) {
+void SceneExport::AViewShowsTheTableRoundFromAbove() {
   const std::string command = "scene view " + At("dataset") + " --size 200 --scene 0 -o ";
   ASSERT_EQ(RunProgram(command + At("view.png")).code, 0);
   const core::Image picture = core::ReadImage(At("view.png"));
@@ -239,6 +247,33 @@ TEST_F(SceneExport, AViewShowsTheTableRoundFromAbove) {
   EXPECT_EQ(RunProgram(command + At("view.png")).code, 1);
   EXPECT_EQ(RunProgram("scene view " + At("dataset") + " --scene 3 -o " + At("no.png")).code, 1);
   EXPECT_FALSE(fs::exists(At("no.png")));
+}
+
+TEST_F(SceneExport, DoesAllOfIt) {
+  {
+    SCOPED_TRACE("StacksStandStillInBothEnginesAndWhatHangsFalls");
+    StacksStandStillInBothEnginesAndWhatHangsFalls();
+  }
+  {
+    SCOPED_TRACE("IsSelfContained");
+    IsSelfContained();
+  }
+  {
+    SCOPED_TRACE("RefusesWhatIsNone");
+    RefusesWhatIsNone();
+  }
+  {
+    SCOPED_TRACE("SaysWhichAssetIsMissingOrAnother");
+    SaysWhichAssetIsMissingOrAnother();
+  }
+  {
+    SCOPED_TRACE("IsACommand");
+    IsACommand();
+  }
+  {
+    SCOPED_TRACE("AViewShowsTheTableRoundFromAbove");
+    AViewShowsTheTableRoundFromAbove();
+  }
 }
 
 }  // namespace
