@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/error.h"
 #include "pipeline/scene_sampling.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/model/training.h"
@@ -42,6 +43,11 @@ std::string ReportJson(const scene::SceneTrainingReport& report) {
 
 int Train(TrainFlags flags, const CommonOptions& common) {
   flags.options.seed = common.seed;
+  const std::filesystem::path weights = flags.output / scene::kWeightsFile;
+  if (std::filesystem::exists(weights) && !flags.options.trainer.resume && !common.force) {
+    throw core::Error("a model is there already", weights.string(),
+                      "go on with --resume, choose another place, or replace it with --force");
+  }
   const scene::SceneDataset dataset(flags.dataset);
   core::Progress progress(common.ProgressStyle());
   const scene::SceneTrainingReport report =
@@ -98,6 +104,7 @@ void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run) {
       ->capture_default_str();
   command->add_flag("--resume", options.trainer.resume, "Go on from the folder's state");
   AddCommon(command, common);
+  AddForce(command, common);
   command->callback([flags, common, run] { *run = [=] { return Train(*flags, *common); }; });
 }
 

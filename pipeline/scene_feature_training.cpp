@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
-#include "core/random.h"
+#include "core/shuffle.h"
 #include "pipeline/scene_assets.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/dataset/tokens.h"
@@ -113,10 +113,7 @@ scene::FeatureTrainingReport TrainSceneFeatures(const SceneFeatureTrainingReques
   }
   // What is held out at the end is of all types.
   core::Rng rng = core::StreamRng(request.options.seed, 1);
-  for (size_t i = pictures.size(); i > 1; --i) {
-    const std::int64_t other = core::UniformIndex(rng, static_cast<std::int64_t>(i));
-    std::swap(pictures[i - 1], pictures[static_cast<size_t>(other)]);
-  }
+  core::Shuffle(&pictures, rng);
   return scene::TrainFeatures(pictures, request.options, request.weights, progress);
 }
 

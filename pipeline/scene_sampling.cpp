@@ -40,14 +40,7 @@ Sampled AsSampled(std::vector<scene::DrawnObject> objects) {
 Sampled Settled(const std::vector<scene::DrawnObject>& objects, const scene::Palette& palette) {
   scene::FeasibleScene feasible = MakeFeasible(objects, palette);
   Sampled sampled;
-  sampled.attempt = {static_cast<int>(objects.size()),
-                     static_cast<int>(feasible.objects.size()),
-                     feasible.dropped,
-                     feasible.projected,
-                     feasible.sound,
-                     feasible.moved,
-                     feasible.penetration,
-                     feasible.drift};
+  sampled.attempt = AttemptOf(feasible, static_cast<int>(objects.size()));
   sampled.objects = std::move(feasible.objects);
   return sampled;
 }

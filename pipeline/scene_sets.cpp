@@ -104,7 +104,7 @@ void WarnOfPhysics(const scene::SceneDataset& samples, const fs::path& path,
                    core::Findings* findings) {
   const auto settings = nlohmann::json::parse(samples.parts().front().origin().settings, nullptr,
                                               /*allow_exceptions=*/false);
-  if (settings.is_object() && settings.value("raw", false)) return;
+  if (settings.is_object() && settings.contains("raw") && settings["raw"] == true) return;
   findings->push_back({"scenes-processed", core::Severity::kWarning, path.string(),
                        "these scenes are not as a model has them: their penetration is what "
                        "moving them apart left (sample with --raw)",

@@ -23,14 +23,7 @@ Made Attempt(const Generation& generation, const PartOrigin& origin, size_t inde
   const SceneDraw draw = DrawScene(generation.grammar, rng);
   FeasibleScene scene = MakeFeasible(draw.objects, *generation.palette, generation.feasibility);
   Made made;
-  made.attempt = {static_cast<int>(draw.objects.size()),
-                  static_cast<int>(scene.objects.size()),
-                  scene.dropped,
-                  scene.projected,
-                  scene.sound,
-                  scene.moved,
-                  scene.penetration,
-                  scene.drift};
+  made.attempt = AttemptOf(scene, static_cast<int>(draw.objects.size()));
   made.objects = std::move(scene.objects);
   return made;
 }

@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "assets/articulated_folder.h"
 #include "assets/asset_folder.h"
 #include "core/error.h"
 
@@ -28,7 +29,10 @@ std::vector<fs::path> AssetFolders(const fs::path& folder) {
   }
   std::vector<fs::path> entries;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (assets::IsAssetFolder(entry.path())) entries.push_back(entry.path());
+    const fs::path& path = entry.path();
+    if (assets::IsAssetFolder(path) && !assets::IsArticulatedAssetFolder(path)) {
+      entries.push_back(path);
+    }
   }
   std::sort(entries.begin(), entries.end());
   return entries;

@@ -29,6 +29,17 @@ void WriteAttempts(const std::vector<SceneAttempt>& attempts, core::Hdf5Group* r
 
 }  // namespace
 
+SceneAttempt AttemptOf(const FeasibleScene& scene, int drawn) {
+  return {drawn,
+          static_cast<int>(scene.objects.size()),
+          scene.dropped,
+          scene.projected,
+          scene.sound,
+          scene.moved,
+          scene.penetration,
+          scene.drift};
+}
+
 int ScenePart::SceneCount() const {
   return static_cast<int>(std::count_if(attempts.begin(), attempts.end(),
                                         [](const SceneAttempt& one) { return one.sound; }));

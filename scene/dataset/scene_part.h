@@ -7,6 +7,7 @@
 
 #include "core/hdf5.h"
 #include "scene/dataset/vocabulary.h"
+#include "scene/feasible_scene.h"
 
 namespace simwright::scene {
 
@@ -23,6 +24,9 @@ struct SceneAttempt {
 
   bool operator==(const SceneAttempt&) const = default;
 };
+
+// Of a scene that had `drawn` objects.
+SceneAttempt AttemptOf(const FeasibleScene& scene, int drawn);
 
 // Where scenes come from. Parts of one dataset differ in `part` alone.
 struct PartOrigin {

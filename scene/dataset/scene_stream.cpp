@@ -4,18 +4,9 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/shuffle.h"
 
 namespace simwright::scene {
-namespace {
-
-void Permute(core::Rng& rng, std::vector<int>* order) {
-  for (size_t i = order->size(); i > 1; --i) {
-    const auto j = static_cast<size_t>(core::UniformIndex(rng, static_cast<std::int64_t>(i)));
-    std::swap((*order)[i - 1], (*order)[j]);
-  }
-}
-
-}  // namespace
 
 bool StreamOptions::IsValid(std::string* error) const {
   const auto fails = [&](const char* what) {
@@ -71,7 +62,7 @@ int SceneStream::BlockCount() const {
 
 void SceneStream::ReadBlock() {
   if (next_block_ == order_.size()) {
-    Permute(rng_, &order_);
+    core::Shuffle(&order_, rng_);
     next_block_ = 0;
   }
   const int from = options_.first + order_[next_block_++] * options_.block;
@@ -84,7 +75,7 @@ void SceneStream::Next(int count, float* tokens) {
   for (int i = 0; i < count; ++i, tokens += size) {
     if (whole_) {
       if (next_whole_ == whole_order_.size()) {
-        Permute(rng_, &whole_order_);
+        core::Shuffle(&whole_order_, rng_);
         next_whole_ = 0;
       }
       const float* const scene = &buffer_[static_cast<size_t>(whole_order_[next_whole_++]) * size];

@@ -1,7 +1,6 @@
 #include "scene/dataset/vocabulary.h"
 
 #include <algorithm>
-#include <map>
 
 #include "core/error.h"
 
@@ -30,25 +29,22 @@ bool Vocabulary::IsValid(std::string* error) const {
 Vocabulary VocabularyOf(const Grammar& grammar) {
   Vocabulary vocabulary;
   vocabulary.type = grammar.name();
-  for (const StructureConstraint& one : grammar.structure()) {
-    if (one.kind != StructureKind::kEntriesAtMost) continue;
-    vocabulary.entries = vocabulary.entries == 0 ? one.n : std::min(vocabulary.entries, one.n);
-  }
+  vocabulary.entries = grammar.MostEntries();
   if (vocabulary.entries == 0) {
     throw core::Error("the grammar does not say how long its scenes are at most", grammar.name(),
                       "require EntriesAtMost");
   }
-  std::map<std::string, bool> welded;
+  vocabulary.slots = grammar.Slots();
+  vocabulary.welded.assign(vocabulary.slots.size(), false);
+  std::vector<bool> known(vocabulary.slots.size(), false);
   for (const Symbol& symbol : grammar.symbols()) {
     if (!symbol.IsObject()) continue;
-    const auto [entry, is_new] = welded.emplace(symbol.slot, symbol.welded);
-    if (!is_new && entry->second != symbol.welded) {
+    const auto c = static_cast<size_t>(vocabulary.ClassOf(symbol.slot));
+    if (known[c] && vocabulary.welded[c] != symbol.welded) {
       throw core::Error("one slot is furniture and not", grammar.name() + ": " + symbol.slot);
     }
-  }
-  for (const auto& [slot, is_welded] : welded) {
-    vocabulary.slots.push_back(slot);
-    vocabulary.welded.push_back(is_welded);
+    known[c] = true;
+    vocabulary.welded[c] = symbol.welded;
   }
   return vocabulary;
 }

@@ -1,6 +1,8 @@
 #include "scene/grammar/grammar.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/error.h"
 
@@ -35,6 +37,23 @@ std::vector<double> GeometricWeights(double p, int first, int last) {
   std::vector<double> weights(last + 1, 0.0);
   for (int k = first; k <= last; ++k) weights[k] = std::pow(1.0 - p, k - first) * p;
   return weights;
+}
+
+int Grammar::MostEntries() const {
+  int most = 0;
+  for (const StructureConstraint& one : structure_) {
+    if (one.kind != StructureKind::kEntriesAtMost) continue;
+    most = most == 0 ? one.n : std::min(most, one.n);
+  }
+  return most;
+}
+
+std::vector<std::string> Grammar::Slots() const {
+  std::set<std::string> slots;
+  for (const Symbol& symbol : symbols_) {
+    if (symbol.IsObject()) slots.insert(symbol.slot);
+  }
+  return {slots.begin(), slots.end()};
 }
 
 int Grammar::Find(const std::string& symbol) const {

@@ -62,6 +62,11 @@ class Grammar {
   const std::vector<InsideRim>& rims() const { return rims_; }
   const DrawOptions& options() const { return options_; }
 
+  // The least of its EntriesAtMost; 0 where it has none.
+  int MostEntries() const;
+  // Every slot that its symbols stand for, furniture among them; sorted, each once.
+  std::vector<std::string> Slots() const;
+
   // Index of a symbol, -1 for an unknown one.
   int Find(const std::string& symbol) const;
   // With other options. Throws core::Error for invalid ones.

@@ -1,8 +1,5 @@
 #include "scene/grammar/scene_types.h"
 
-#include <algorithm>
-#include <set>
-
 #include "core/error.h"
 #include "scene/grammar/breakfast.h"
 #include "scene/grammar/dimsum.h"
@@ -13,27 +10,9 @@
 namespace simwright::scene {
 namespace {
 
-// The least bound on entries that the grammar decides by rejection; 0 where there is none.
-int MostEntries(const Grammar& grammar) {
-  int most = 0;
-  for (const StructureConstraint& constraint : grammar.structure()) {
-    if (constraint.kind != StructureKind::kEntriesAtMost) continue;
-    most = most == 0 ? constraint.n : std::min(most, constraint.n);
-  }
-  return most;
-}
-
-std::vector<std::string> SlotsOf(const Grammar& grammar) {
-  std::set<std::string> slots;
-  for (const Symbol& symbol : grammar.symbols()) {
-    if (symbol.IsObject()) slots.insert(symbol.slot);
-  }
-  return {slots.begin(), slots.end()};
-}
-
 SceneType TypeOf(const std::string& what, Grammar (*make)(const SlotSizes&)) {
   const Grammar grammar = make(DefaultSlotSizes());
-  return {grammar.name(), what, MostEntries(grammar), make, SlotsOf(grammar)};
+  return {grammar.name(), what, grammar.MostEntries(), make, grammar.Slots()};
 }
 
 }  // namespace

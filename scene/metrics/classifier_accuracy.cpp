@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "core/random.h"
+#include "core/shuffle.h"
 #include "nn/compute.h"
 #include "nn/torch.h"
 
@@ -21,10 +21,7 @@ torch::Tensor TensorOf(const FeatureMatrix& features) {
 torch::Tensor Shuffled(std::int64_t count, core::Rng& rng) {
   std::vector<std::int64_t> order(static_cast<size_t>(count));
   std::iota(order.begin(), order.end(), 0);
-  for (size_t i = order.size(); i > 1; --i) {
-    const std::int64_t other = core::UniformIndex(rng, static_cast<std::int64_t>(i));
-    std::swap(order[i - 1], order[static_cast<size_t>(other)]);
-  }
+  core::Shuffle(&order, rng);
   return torch::tensor(order);
 }
 

@@ -4,20 +4,12 @@
 #include <functional>
 #include <numeric>
 
+#include "core/shuffle.h"
 #include "tasks/rules/affordances.h"
 #include "tasks/rules/step.h"
 
 namespace simwright::tasks {
 namespace {
-
-template <typename T>
-void Shuffle(std::vector<T>* items, core::Rng& rng) {
-  for (std::size_t i = items->size(); i > 1; --i) {
-    std::swap(
-        (*items)[i - 1],
-        (*items)[static_cast<std::size_t>(core::UniformIndex(rng, static_cast<std::int64_t>(i)))]);
-  }
-}
 
 // Collects the ideas of each kind.
 class Thinker {
@@ -26,7 +18,7 @@ class Thinker {
       : model_(model), most_(most), rng_(rng) {
     order_.resize(model.things.size());
     std::iota(order_.begin(), order_.end(), 0);
-    Shuffle(&order_, rng_);
+    core::Shuffle(&order_, rng_);
     for (int t : order_) {
       if (CanBeLifted(Known(t))) lifted_.push_back(t);
       if (!Known(t).cavities.empty()) holders_.push_back(t);

@@ -84,6 +84,10 @@ void SceneCommand::LearnsAndSamples() {
   const Outcome trained =
       RunProgram("scene train " + Dimsum() + " --steps 4 --batch 2 --quiet -o " + At("model"));
   ASSERT_EQ(trained.code, 0) << trained.text;
+  const Outcome again =
+      RunProgram("scene train " + Dimsum() + " --steps 4 --batch 2 --quiet -o " + At("model"));
+  EXPECT_EQ(again.code, 1);
+  EXPECT_NE(again.text.find("--resume"), std::string::npos) << again.text;
   const std::string sample = "scene sample " + At("model") +
                              "/model.pt --count 2 --steps 5 --raw " + "--assets " + Dimsum() +
                              "/assets --quiet -o ";

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "assets/articulated_folder.h"
 #include "assets/asset_folder.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "scene/scene_picture.h"
+#include "tests/assets/sample_articulated.h"
 #include "tests/assets/sample_asset.h"
 
 namespace simwright::scene {
@@ -33,6 +35,23 @@ TEST(ReadPalette, SlotsAreNamesWithoutTheirSeed) {
   EXPECT_NEAR(palette.At("mug").body.inertial.mass, asset.inertial.mass, 1e-9);
   EXPECT_EQ(palette.At("mug").parts.size(), asset.parts.size());
   EXPECT_EQ(palette.At("mug").visual.mesh.triangles.size(), asset.visual.mesh.triangles.size());
+}
+
+TEST(FoldersForSlots, TakesNamesThenSeedsThenCategories) {
+  const core::TemporaryFolder folder;
+  for (const char* const name : {"apple", "apple_2", "pear_7", "pear_8", "my_find"}) {
+    WriteSample(folder.path() / name);
+  }
+  // What has joints stands for no slot, whatever its name.
+  std::filesystem::create_directories(folder.path() / "cabinet");
+  assets::WriteArticulatedAsset(assets::SampleArticulated(), folder.path() / "cabinet");
+  const std::string category = assets::SampleAsset().parameters.category;
+  const SlotFolders found =
+      FoldersForSlots(folder.path(), {"apple", "apple_2", "pear", category, "cabinet", "spoon"});
+  EXPECT_EQ(found, (SlotFolders{{"apple", folder.path() / "apple"},
+                                {"apple_2", folder.path() / "apple_2"},
+                                {"pear", folder.path() / "pear_7"},
+                                {category, folder.path() / "my_find"}}));
 }
 
 TEST(ReadPalette, SaysWhereThereIsNone) {
