@@ -1,5 +1,7 @@
 #include "sim/bullet_shape.h"
 
+#include <algorithm>
+
 #include <btBulletDynamicsCommon.h>
 
 #include "core/error.h"
@@ -30,7 +32,35 @@ Eigen::Isometry3d FromBullet(const btTransform& transform) {
   return pose;
 }
 
-BulletShape::BulletShape(const RigidBody& body, double margin) {
+namespace {
+
+// Of its area, the share of the largest of its flat faces: a box's is a third or so, a can's base a
+// tenth, of a round fruit of fifty corners a face is a fortieth.
+double LargestFaceShare(const core::TriangleMesh& part) {
+  std::vector<Eigen::Vector3d> areas;  // m^2, along each triangle's normal
+  double all = 0.0, largest = 0.0;
+  for (const Eigen::Vector3i& t : part.triangles) {
+    const Eigen::Vector3d& a = part.vertices[static_cast<size_t>(t[0])];
+    areas.push_back(0.5 * (part.vertices[static_cast<size_t>(t[1])] - a)
+                              .cross(part.vertices[static_cast<size_t>(t[2])] - a));
+    all += areas.back().norm();
+  }
+  for (const Eigen::Vector3d& of : areas) {
+    double face = 0.0;
+    for (const Eigen::Vector3d& other : areas) {
+      // Within a thousandth of a radian or so.
+      if (of.dot(other) >= (1.0 - 1e-6) * of.norm() * other.norm()) face += other.norm();
+    }
+    largest = std::max(largest, face);
+  }
+  return all > 0.0 ? largest / all : 0.0;
+}
+
+constexpr double kFlat = 0.06;  // LargestFaceShare of what lies flat
+
+}  // namespace
+
+BulletShape::BulletShape(const RigidBody& body, double margin, HullContact contact) {
   if (body.inertial.mass > 0.0) {
     const geometry::PrincipalInertia principal =
         geometry::PrincipalInertiaOf(body.inertial.inertia);
@@ -44,7 +74,7 @@ BulletShape::BulletShape(const RigidBody& body, double margin) {
     if (i < body.capsules.size() && body.capsules[i]) {
       AddCapsule(*body.capsules[i], principal_from_body);
     } else {
-      AddHull(body.parts[i], principal_from_body, body.name, margin);
+      AddHull(body.parts[i], principal_from_body, body.name, margin, contact);
     }
   }
   compound_->setMargin(margin);
@@ -70,7 +100,7 @@ void BulletShape::AddCapsule(const Capsule& capsule, const Eigen::Isometry3d& pr
 
 void BulletShape::AddHull(const core::TriangleMesh& part,
                           const Eigen::Isometry3d& principal_from_body, const std::string& name,
-                          double margin) {
+                          double margin, HullContact contact) {
   if (part.vertices.size() < 4) {
     throw core::Error("a collision part has fewer than four vertices", name);
   }
@@ -80,6 +110,10 @@ void BulletShape::AddHull(const core::TriangleMesh& part,
   }
   hull->setMargin(margin);
   hull->recalcLocalAabb();
+  // Round things roll about on one point whatever they lie on, at half the price.
+  if (contact == HullContact::kFaces && LargestFaceShare(part) > kFlat) {
+    hull->initializePolyhedralFeatures();
+  }
   compound_->addChildShape(btTransform::getIdentity(), hull.get());
   convex_.push_back(std::move(hull));
 }

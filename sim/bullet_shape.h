@@ -26,12 +26,18 @@ struct FloorPoint {
   double radius = 0.0;                               // m
 };
 
+// How two hulls touch. Bullet finds one pair of nearest points a step and keeps up to four of the
+// last ones: what lies flat on another then stands on points of many steps, and stacks of boxes
+// that were still for a tenth of a second creep by millimetres. With faces it clips the two that
+// look at each other, and a step has all of their corners; that needs each hull's faces.
+enum class HullContact { kPoints, kFaces };
+
 // A rigid body's parts as Bullet wants them: the centre of mass at the origin and the inertia
 // diagonal, so the body's frame is turned to the principal axes. A body without a mass keeps its
 // own frame. Throws core::Error for parts of fewer than four vertices.
 class BulletShape {
  public:
-  BulletShape(const RigidBody& body, double margin);
+  BulletShape(const RigidBody& body, double margin, HullContact contact = HullContact::kPoints);
   ~BulletShape();
   BulletShape(const BulletShape&) = delete;
   BulletShape& operator=(const BulletShape&) = delete;
@@ -45,7 +51,7 @@ class BulletShape {
  private:
   void AddCapsule(const Capsule& capsule, const Eigen::Isometry3d& principal_from_body);
   void AddHull(const core::TriangleMesh& part, const Eigen::Isometry3d& principal_from_body,
-               const std::string& name, double margin);
+               const std::string& name, double margin, HullContact contact);
   void AddFloorPoints(const RigidBody& body, const Eigen::Isometry3d& principal_from_body,
                       double margin);
 

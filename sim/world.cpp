@@ -1,6 +1,7 @@
 #include "sim/world.h"
 
 #include <algorithm>
+#include <map>
 
 #include <btBulletDynamicsCommon.h>
 
@@ -11,8 +12,7 @@ namespace simwright::sim {
 namespace {
 
 struct LoadedBody {
-  LoadedBody(const RigidBody& body, double margin) : shape(body, margin) {}
-  BulletShape shape;
+  const BulletShape* shape = nullptr;
   std::unique_ptr<btRigidBody> rigid;
 };
 
@@ -26,10 +26,18 @@ struct World::Bullet {
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
   btStaticPlaneShape floor_shape{btVector3(0, 0, 1), 0};
   std::unique_ptr<btRigidBody> floor;
-  std::vector<std::unique_ptr<LoadedBody>> bodies;
+  // One for all bodies that are alike: a table has nine steamers, and faces take long to find.
+  std::map<const RigidBody*, std::unique_ptr<BulletShape>> shapes;
+  std::vector<LoadedBody> bodies;
+
+  const BulletShape& ShapeOf(const RigidBody& body, double margin) {
+    std::unique_ptr<BulletShape>& shape = shapes[&body];
+    if (!shape) shape = std::make_unique<BulletShape>(body, margin, HullContact::kFaces);
+    return *shape;
+  }
 
   ~Bullet() {
-    for (const auto& body : bodies) world.removeRigidBody(body->rigid.get());
+    for (const LoadedBody& body : bodies) world.removeRigidBody(body.rigid.get());
     if (floor) world.removeRigidBody(floor.get());
   }
 };
@@ -71,8 +79,7 @@ int World::AddFixed(const RigidBody& body, const Eigen::Isometry3d& world_from_b
 }
 
 int World::AddBody(const RigidBody& body, const Eigen::Isometry3d& world_from_body, double mass) {
-  auto loaded = std::make_unique<LoadedBody>(body, options_.margin);
-  const BulletShape& shape = loaded->shape;
+  const BulletShape& shape = bullet_->ShapeOf(body, options_.margin);
   const btVector3 moments = mass > 0.0 ? ToBullet(shape.moments()) : btVector3(0, 0, 0);
   btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape.compound(), moments);
   info.m_startWorldTransform = ToBullet(world_from_body * shape.body_from_principal());
@@ -80,12 +87,12 @@ int World::AddBody(const RigidBody& body, const Eigen::Isometry3d& world_from_bo
   info.m_restitution = body.restitution;
   info.m_rollingFriction = body.rolling_friction;
   info.m_spinningFriction = body.rolling_friction;
-  loaded->rigid = std::make_unique<btRigidBody>(info);
-  loaded->rigid->setActivationState(DISABLE_DEACTIVATION);
+  auto rigid = std::make_unique<btRigidBody>(info);
+  rigid->setActivationState(DISABLE_DEACTIVATION);
   // Sized for the body: Bullet's fixed 2 cm would join contacts of small things.
-  loaded->rigid->setContactProcessingThreshold(1e30);
-  bullet_->world.addRigidBody(loaded->rigid.get());
-  bullet_->bodies.push_back(std::move(loaded));
+  rigid->setContactProcessingThreshold(1e30);
+  bullet_->world.addRigidBody(rigid.get());
+  bullet_->bodies.push_back({&shape, std::move(rigid)});
   return static_cast<int>(bullet_->bodies.size()) - 1;
 }
 
@@ -95,17 +102,17 @@ void World::Step() {
 }
 
 Eigen::Isometry3d World::Pose(int body) const {
-  const LoadedBody& loaded = *bullet_->bodies.at(static_cast<size_t>(body));
+  const LoadedBody& loaded = bullet_->bodies.at(static_cast<size_t>(body));
   return FromBullet(loaded.rigid->getWorldTransform()) *
-         loaded.shape.body_from_principal().inverse();
+         loaded.shape->body_from_principal().inverse();
 }
 
 Eigen::Vector3d World::LinearVelocity(int body) const {
-  return FromBullet(bullet_->bodies.at(static_cast<size_t>(body))->rigid->getLinearVelocity());
+  return FromBullet(bullet_->bodies.at(static_cast<size_t>(body)).rigid->getLinearVelocity());
 }
 
 Eigen::Vector3d World::AngularVelocity(int body) const {
-  return FromBullet(bullet_->bodies.at(static_cast<size_t>(body))->rigid->getAngularVelocity());
+  return FromBullet(bullet_->bodies.at(static_cast<size_t>(body)).rigid->getAngularVelocity());
 }
 
 double World::DeepestPenetration() const {
@@ -120,12 +127,12 @@ double World::DeepestPenetration() const {
 }
 
 assets::Inertial World::LoadedInertial(int body) const {
-  const LoadedBody& loaded = *bullet_->bodies.at(static_cast<size_t>(body));
+  const LoadedBody& loaded = bullet_->bodies.at(static_cast<size_t>(body));
   assets::Inertial inertial;
   inertial.mass = 1.0 / loaded.rigid->getInvMass();
-  inertial.center_of_mass = loaded.shape.body_from_principal().translation();
+  inertial.center_of_mass = loaded.shape->body_from_principal().translation();
   const Eigen::Vector3d moments = FromBullet(loaded.rigid->getInvInertiaDiagLocal()).cwiseInverse();
-  const Eigen::Matrix3d R = loaded.shape.body_from_principal().linear();
+  const Eigen::Matrix3d R = loaded.shape->body_from_principal().linear();
   inertial.inertia = R * moments.asDiagonal() * R.transpose();
   return inertial;
 }

@@ -30,7 +30,8 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  // Adds a free body; `body` must outlive the world. Returns its index. Throws core::Error for a
+  // Adds a free body; `body` must outlive the world, as it is: what is added
+  // again shares its shape. Returns its index. Throws core::Error for a
   // body without parts or mass. Parts of fewer than four vertices are refused.
   int Add(const RigidBody& body, const Eigen::Isometry3d& world_from_body);
 

@@ -28,6 +28,7 @@ struct Arguments {
   fs::path data, output, features;
   std::string method, size = "tiny";
   std::uint64_t seed = 1;
+  double held_out = 1.0 / 6.0;  // 1000 of 6000, as many as there are samples
   int steps = 2500, batch = 128, count = 1000, sample_steps = 0;
 };
 
@@ -54,6 +55,7 @@ void MakeCell(const Arguments& arguments) {
   options.trainer.resume = true;
   options.trainer.save_every = 250;
   options.batch = arguments.batch;
+  options.held_out = arguments.held_out;
   options.seed = arguments.seed;
   const scene::SceneTrainingReport trained =
       scene::TrainSceneModel(dataset, ModelOf(arguments), options, cell, &progress);
@@ -162,6 +164,8 @@ int main(int argc, char** argv) {
   app.add_option("--seed", arguments.seed, "Of the cell")->capture_default_str();
   app.add_option("--size", arguments.size, "tiny, base or full")->capture_default_str();
   app.add_option("--steps", arguments.steps, "Updates")->capture_default_str();
+  app.add_option("--held-out", arguments.held_out, "Share of scenes not learned from, 1000 at most")
+      ->capture_default_str();
   app.add_option("--batch", arguments.batch, "Scenes of an update")->capture_default_str();
   app.add_option("--count", arguments.count, "Samples that are measured")->capture_default_str();
   app.add_option("--sample-steps", arguments.sample_steps, "Of the diffusion, 0: all")
