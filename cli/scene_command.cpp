@@ -4,6 +4,7 @@
 #include "cli/command.h"
 #include "cli/scene_export_command.h"
 #include "cli/scene_model_commands.h"
+#include "cli/slot_folders.h"
 #include "core/error.h"
 #include "pipeline/scene_generation.h"
 #include "scene/grammar/scene_types.h"
@@ -17,18 +18,6 @@ struct GenerateFlags {
   bool list = false;
 };
 
-scene::SlotFolders ChosenOf(const std::vector<std::string>& flags) {
-  scene::SlotFolders chosen;
-  for (const std::string& flag : flags) {
-    const size_t equals = flag.find('=');
-    if (equals == 0 || equals == std::string::npos || equals + 1 == flag.size()) {
-      throw core::Error("this is no SLOT=FOLDER", "--asset " + flag);
-    }
-    chosen[flag.substr(0, equals)] = flag.substr(equals + 1);
-  }
-  return chosen;
-}
-
 int Generate(GenerateFlags flags, const CommonOptions& common) {
   if (flags.list) {
     for (const scene::SceneType& type : scene::SceneTypes()) {
@@ -40,7 +29,7 @@ int Generate(GenerateFlags flags, const CommonOptions& common) {
     throw core::Error("scenes need a type and a place", "", "--type dimsum -o FOLDER, or --list");
   }
   flags.request.seed = common.seed;
-  flags.request.chosen = ChosenOf(flags.chosen);
+  flags.request.chosen = SlotFoldersOf(flags.chosen, "--asset");
   core::Progress progress(common.ProgressStyle());
   const pipeline::SceneStatistics statistics = pipeline::GenerateScenes(flags.request, &progress);
   std::fputs(

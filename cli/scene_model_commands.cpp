@@ -5,16 +5,21 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/slot_folders.h"
 #include "core/error.h"
 #include "pipeline/scene_sampling.h"
+#include "pipeline/scene_shapes.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/model/training.h"
 
 namespace simwright::cli {
 namespace {
 
+constexpr int kShapePoints = 256;  // as SceneModelOptions::shape_points says
+
 struct TrainFlags {
-  std::filesystem::path dataset, output;
+  std::filesystem::path dataset, output, assets;
+  bool by_shape = false;
   std::string size = "tiny", method = "ours";
   scene::SceneTrainingOptions options;
 };
@@ -22,6 +27,7 @@ struct TrainFlags {
 scene::SceneModelOptions ModelOf(const TrainFlags& flags) {
   scene::SceneModelOptions model = scene::SceneModelOptions::OfSize(flags.size);
   if (flags.method == "continuous") model.continuous = true;
+  if (flags.by_shape) model.shape_points = kShapePoints;
   if (flags.method == "midiffusion") return model.AsMiDiffusion();
   if (flags.method == "diffuscene") return model.AsDiffuScene();
   return model;
@@ -49,9 +55,14 @@ int Train(TrainFlags flags, const CommonOptions& common) {
                       "go on with --resume, choose another place, or replace it with --force");
   }
   const scene::SceneDataset dataset(flags.dataset);
+  const scene::SceneModelOptions model = ModelOf(flags);
+  if (model.shape_points > 0) {
+    flags.options.shapes = pipeline::ShapesOfDataset(flags.dataset, flags.assets,
+                                                     dataset.vocabulary(), model.shape_points);
+  }
   core::Progress progress(common.ProgressStyle());
   const scene::SceneTrainingReport report =
-      scene::TrainSceneModel(dataset, ModelOf(flags), flags.options, flags.output, &progress);
+      scene::TrainSceneModel(dataset, model, flags.options, flags.output, &progress);
   if (common.json) {
     std::fputs(ReportJson(report).c_str(), stdout);
     return 0;
@@ -94,6 +105,10 @@ void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run) {
   command->add_option("--method", flags->method, "ours, continuous, midiffusion or diffuscene")
       ->capture_default_str()
       ->check(CLI::IsMember({"ours", "continuous", "midiffusion", "diffuscene"}));
+  command->add_flag("--by-shape", flags->by_shape,
+                    "Know things by their assets' surfaces, so that `sample --add` can add some");
+  command->add_option("--assets", flags->assets,
+                      "With --by-shape: the slots' assets, if not the dataset's");
   command->add_option("--steps", options.trainer.steps, "Updates")->capture_default_str();
   command->add_option("--batch", options.batch, "Scenes of an update")->capture_default_str();
   command->add_option("--rate", options.trainer.learning_rate, "Of learning")
@@ -110,6 +125,7 @@ void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run) {
 
 void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run) {
   auto request = std::make_shared<pipeline::SceneSamplingRequest>();
+  auto added = std::make_shared<std::vector<std::string>>();
   CLI::App* command =
       scene->add_subcommand("sample", "New scenes from a trained model, made feasible");
   command->footer(
@@ -122,6 +138,8 @@ void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run) {
   command->add_option("-o,--output", request->output, "Folder for the scenes")->required();
   command->add_option("--assets", request->assets,
                       "Folders of assets, by name or category; the library's for the rest");
+  command->add_option("--add", *added,
+                      "SLOT=FOLDER: an asset that the model, trained --by-shape, has not seen");
   command->add_option("--steps", request->sampling.steps, "Of the diffusion, 0: all")
       ->capture_default_str();
   command->add_option("--eta", request->sampling.eta, "Share of the noise kept in each step")
@@ -130,7 +148,12 @@ void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run) {
   command->add_flag("--raw", request->raw, "As the model has them, in each other and in the air");
   AddCommon(command, common);
   AddForce(command, common);
-  command->callback([request, common, run] { *run = [=] { return Sample(*request, *common); }; });
+  command->callback([request, added, common, run] {
+    *run = [=] {
+      request->added = SlotFoldersOf(*added, "--add");
+      return Sample(*request, *common);
+    };
+  });
 }
 
 }  // namespace simwright::cli

@@ -10,6 +10,7 @@
 #include "core/files.h"
 #include "core/parallel.h"
 #include "pipeline/scene_assets.h"
+#include "pipeline/scene_shapes.h"
 #include "pipeline/scene_sheet.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/dataset/tokens.h"
@@ -86,11 +87,14 @@ scene::PartOrigin OriginOf(const SceneSamplingRequest& request) {
 
 SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Progress* progress) {
   if (request.count < 1) throw core::Error("at least 1 scene is to be sampled", "--count");
-  const scene::SceneModel model = scene::SceneModel::Load(request.weights);
+  scene::SceneModel model = scene::SceneModel::Load(request.weights);
+  for (const auto& [slot, folder] : request.added) {
+    model.AddAsset(slot, ShapeOfAsset(folder, model.facts().options.shape_points));
+  }
   const scene::Vocabulary& vocabulary = model.facts().vocabulary;
   core::StagedFolder staged(request.output, request.force);
   const scene::Palette palette = scene::ReadPalette(GatherSceneAssets(
-      {vocabulary.slots, {}, request.assets, staged.staging() / "assets"}, progress));
+      {vocabulary.slots, request.added, request.assets, staged.staging() / "assets"}, progress));
   SceneSamplingReport report;
   report.output = request.output;
   report.raw = request.raw;

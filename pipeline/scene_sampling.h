@@ -15,6 +15,8 @@ struct SceneSamplingRequest {
   int count = 16;
   std::filesystem::path output;
   std::vector<std::filesystem::path> assets;  // folders, the first first; the library for the rest
+  scene::SlotFolders
+      added;  // assets that the model has not seen, by the slot that is new with them
   scene::SampleOptions sampling;
   bool raw = false;    // as the model has them
   bool force = false;  // replace an output that exists
@@ -29,8 +31,8 @@ struct SceneSamplingReport {
 
 // Samples scenes of a trained model into output/part_00000.h5, a dataset as `scene generate` writes
 // it, with its assets and a sheet of pictures. Unless `raw`, each is moved apart and settled; what
-// is not sound then is left out, and counted. Throws core::Error for weights that are none, or an
-// output that exists.
+// is not sound then is left out, and counted. Throws core::Error for weights that are none, an
+// output that exists, or assets for a model that does not know classes by their shape.
 SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Progress* progress);
 
 std::string SamplingTable(const SceneSamplingReport& report);

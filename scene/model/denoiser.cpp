@@ -7,6 +7,33 @@
 
 namespace simwright::scene {
 
+namespace {
+
+void RequireShapes(const ClassShapes& shapes) {
+  if (shapes) return;
+  throw core::Error("the model has a table of its classes and takes no assets by their shape", "",
+                    "train one with --by-shape");
+}
+
+}  // namespace
+
+void Denoiser::SetShapes(const AssetShapes& shapes) {
+  RequireShapes(shapes_);
+  shapes_->Set(shapes);
+}
+
+AssetShapes Denoiser::Shapes() const {
+  RequireShapes(shapes_);
+  return shapes_->Shapes();
+}
+
+ClassShapes Denoiser::RegisterShapes(const SceneModelOptions& options, int classes,
+                                     std::int64_t entry, std::int64_t exit) {
+  if (options.shape_points == 0) return nullptr;
+  shapes_ = register_module("shapes", ClassShapes(classes, options.shape_points, entry, exit));
+  return shapes_;
+}
+
 std::shared_ptr<Denoiser> MakeDenoiser(const SceneModelOptions& options, int classes) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("model of scenes: " + error);

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "nn/torch.h"
+#include "scene/model/class_shapes.h"
 #include "scene/model/model_options.h"
 
 namespace simwright::scene {
@@ -23,6 +24,19 @@ struct Denoised {
 class Denoiser : public torch::nn::Module {
  public:
   virtual Denoised Predict(const NoisyScenes& scenes) = 0;
+
+  // Throws core::Error where the model has a table of its classes, or for shapes of other numbers.
+  void SetShapes(const AssetShapes& shapes);
+  // What SetShapes was given, in single precision; throws likewise.
+  AssetShapes Shapes() const;
+
+ protected:
+  // What knows classes by their shape where `options` say so, registered; else empty.
+  ClassShapes RegisterShapes(const SceneModelOptions& options, int classes, std::int64_t entry,
+                             std::int64_t exit);
+
+ private:
+  ClassShapes shapes_{nullptr};
 };
 
 // A network of random weights. Throws core::Error for options that are not valid.

@@ -54,7 +54,8 @@ torch::Tensor SingleBlockImpl::forward(const torch::Tensor& x, const torch::Tens
 
 FluxDenoiser::FluxDenoiser(const SceneModelOptions& options, int classes) {
   const std::int64_t width = options.width;
-  entry_ = register_module("entry", TokenEntry(width, classes, options.continuous));
+  const ClassShapes shapes = RegisterShapes(options, classes, EntryWidth(width), width / 2);
+  entry_ = register_module("entry", TokenEntry(width, classes, options.continuous, shapes));
   time_ = register_module("time", TimeEntry(width));
   for (int i = 0; i < options.double_blocks; ++i) {
     double_blocks_->push_back(DoubleBlock(width, options.heads));
@@ -66,7 +67,7 @@ FluxDenoiser::FluxDenoiser(const SceneModelOptions& options, int classes) {
   register_module("single_blocks", single_blocks_);
   last_ = register_module("last", nn::Modulation(width, 2));
   narrow_ = register_module("narrow", Linear(width, width / 2));
-  exit_ = register_module("exit", TokenExit(width / 2, classes));
+  exit_ = register_module("exit", TokenExit(width / 2, classes, shapes));
 }
 
 Denoised FluxDenoiser::Predict(const NoisyScenes& scenes) {

@@ -66,6 +66,11 @@ bool SceneModelOptions::IsValid(std::string* error) const {
     return fails("a model needs a block");
   }
   if (!(class_weight > 0.0)) return fails("class_weight has to be above 0");
+  if (shape_points < 0 || shape_points > 65536) return fails("shape_points have to be 0 to 65536");
+  if (shape_points > 0 && continuous) return fails("classes as numbers cannot be known by shape");
+  if (shape_points > 0 && kind == DenoiserKind::kUnet) {
+    return fails("a U-Net cannot know classes by shape");
+  }
   if (diffusion_steps < 2 || diffusion_steps > 100000) {
     return fails("diffusion_steps have to be 2 to 100000");
   }

@@ -25,6 +25,10 @@ struct SceneModelOptions {
   // after 400 updates 25 scenes had the right things with 1, and 54 with 30 (of 100 steps).
   double class_weight = 100.0;
 
+  // Above 0: classes are known by so many points of their assets' surfaces instead of by their
+  // number, so that an asset can be added without training. 256 tell a fork from a spoon.
+  int shape_points = 0;
+
   // "tiny" (two cores), "base", "full" (the paper's 88 M). Throws core::Error for another.
   static SceneModelOptions OfSize(const std::string& size);
   // The baselines of the paper, as large as `this` to within a tenth.

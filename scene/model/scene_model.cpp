@@ -1,5 +1,7 @@
 #include "scene/model/scene_model.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/random.h"
 #include "nn/compute.h"
@@ -41,6 +43,33 @@ SceneModel SceneModel::Load(const std::filesystem::path& weights) {
 
 const SceneModelFacts& SceneModel::facts() const {
   return network_->facts;
+}
+
+void SceneModel::AddAsset(const std::string& slot, const std::vector<Eigen::Vector3d>& surface) {
+  SceneModelFacts facts = network_->facts;
+  Vocabulary& vocabulary = facts.vocabulary;
+  AssetShapes shapes = network_->denoiser->Shapes();
+  if (vocabulary.ClassOf(slot) >= 0) throw core::Error("the model knows this slot already", slot);
+  const auto at = std::lower_bound(vocabulary.slots.begin(), vocabulary.slots.end(), slot) -
+                  vocabulary.slots.begin();
+  vocabulary.slots.insert(vocabulary.slots.begin() + at, slot);
+  vocabulary.welded.insert(vocabulary.welded.begin() + at, false);
+  shapes.surfaces.insert(shapes.surfaces.begin() + at, surface);
+  std::string error;
+  if (!vocabulary.IsValid(&error) ||
+      !shapes.IsValid(vocabulary, facts.options.shape_points, &error)) {
+    throw core::Error("an asset for a model of scenes: " + error);
+  }
+  // No parameter belongs to a class.
+  std::shared_ptr<Denoiser> wider = MakeDenoiser(facts.options, vocabulary.ClassCount());
+  const torch::NoGradGuard no_gradient;
+  const auto learned = network_->denoiser->named_parameters();
+  for (auto& one : wider->named_parameters()) one.value().copy_(learned[one.key()]);
+  wider->SetShapes(shapes);
+  wider->to(network_->device);
+  wider->eval();
+  network_->denoiser = std::move(wider);
+  network_->facts = std::move(facts);
 }
 
 std::vector<float> SceneModel::Sample(int count, const SampleOptions& options,

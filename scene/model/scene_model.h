@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/progress.h"
 #include "scene/dataset/pose_range.h"
 #include "scene/dataset/vocabulary.h"
@@ -44,6 +46,11 @@ class SceneModel {
   SceneModel& operator=(SceneModel&&) noexcept;
 
   const SceneModelFacts& facts() const;
+
+  // One thing more that it may place, free, known by its surface alone (ShapeOf, of
+  // facts().options.shape_points). Throws core::Error where the model does not know classes by
+  // their shape, the slot is there already, or points are missing or not finite.
+  void AddAsset(const std::string& slot, const std::vector<Eigen::Vector3d>& surface);
 
   // Tokens of `count` new scenes (count x entries x TokenWidth), classes one-hot, matrices as the
   // network has them (DecodeScene turns them to rotations). Advances `progress` by one a scene.

@@ -12,33 +12,38 @@ constexpr int kTimeFeatures = 256;
 
 }  // namespace
 
-TokenEntryImpl::TokenEntryImpl(std::int64_t width, int classes, bool continuous) {
-  const std::int64_t half = width / 2;
+TokenEntryImpl::TokenEntryImpl(std::int64_t width, int classes, bool continuous, ClassShapes shapes)
+    : shapes_(std::move(shapes)) {
+  const std::int64_t half = EntryWidth(width);
   pose_ = register_module("pose", torch::nn::Sequential(Linear(kPoseWidth, half), torch::nn::SiLU(),
                                                         Linear(half, half)));
   if (continuous) {
     class_map_ = register_module("class_map", Linear(classes, half));
-  } else {
+  } else if (!shapes_) {
     class_ = register_module("class", torch::nn::Embedding(classes + 1, half));
   }
   join_ = register_module("join", Linear(2 * half, width));
 }
 
 torch::Tensor TokenEntryImpl::forward(const NoisyScenes& scenes) {
-  const torch::Tensor classes = class_map_ ? class_map_(scenes.classes) : class_(scenes.classes);
+  const torch::Tensor classes = class_map_ ? class_map_(scenes.classes)
+                                : shapes_  ? torch::embedding(shapes_->Entries(), scenes.classes)
+                                           : class_(scenes.classes);
   return join_(torch::cat({pose_->forward(scenes.poses), classes}, -1));
 }
 
-TokenExitImpl::TokenExitImpl(std::int64_t width, int classes) {
+TokenExitImpl::TokenExitImpl(std::int64_t width, int classes, ClassShapes shapes)
+    : shapes_(std::move(shapes)) {
   pose_ = register_module("pose", torch::nn::Sequential(Linear(width, width), torch::nn::SiLU(),
                                                         Linear(width, kPoseWidth)));
   class_norm_ = register_module(
       "class_norm", torch::nn::LayerNorm(torch::nn::LayerNormOptions({width}).eps(1e-6)));
-  class_map_ = register_module("class_map", Linear(width, classes));
+  if (!shapes_) class_map_ = register_module("class_map", Linear(width, classes));
 }
 
 Denoised TokenExitImpl::forward(const torch::Tensor& features) {
-  return {pose_->forward(features), class_map_(class_norm_(features))};
+  const torch::Tensor normed = class_norm_(features);
+  return {pose_->forward(features), shapes_ ? shapes_->Logits(normed) : class_map_(normed)};
 }
 
 TimeEntryImpl::TimeEntryImpl(std::int64_t width) {

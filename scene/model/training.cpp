@@ -104,6 +104,10 @@ class Training {
     denoiser_->to(device_);
     average_ = MakeDenoiser(model, dataset.vocabulary().ClassCount());
     average_->to(device_);
+    if (model.shape_points > 0) {
+      denoiser_->SetShapes(options.shapes);
+      average_->SetShapes(options.shapes);
+    }
     trainer_ = std::make_unique<nn::Trainer>(denoiser_.get(), options.trainer, output / kStateFile);
   }
 
@@ -232,6 +236,10 @@ SceneTrainingReport TrainSceneModel(const SceneDataset& dataset, const SceneMode
   if (dataset.SceneCount() < 2) {
     throw core::Error("a model needs at least 2 scenes to learn from",
                       std::to_string(dataset.SceneCount()) + " are there");
+  }
+  if (model.shape_points > 0 &&
+      !options.shapes.IsValid(dataset.vocabulary(), model.shape_points, &error)) {
+    throw core::Error("training by shape: " + error);
   }
   nn::UseThreads();
   fs::create_directories(output);

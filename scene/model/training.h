@@ -8,6 +8,7 @@
 #include "core/progress.h"
 #include "nn/trainer_options.h"
 #include "scene/dataset/scene_dataset.h"
+#include "scene/model/asset_shapes.h"
 #include "scene/model/model_options.h"
 
 namespace simwright::scene {
@@ -22,6 +23,7 @@ struct SceneTrainingOptions {
   int buffer = 16384;     // scenes held in memory (SceneStream)
   int report_every = 50;  // steps between two lines of the losses
   std::uint64_t seed = 1;
+  AssetShapes shapes;  // of the dataset's slots, for a model that knows classes by them
   // The paper's rate is 2e-4 for batches of 2048 over 200k steps; of the few steps that two cores
   // have, a higher one learns more.
   SceneTrainingOptions();

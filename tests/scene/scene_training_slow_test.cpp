@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "assets/primitive_meshes.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
@@ -101,6 +102,54 @@ TEST(SceneTraining, LearnsWhatScenesHold) {
   // The same seed, the same scenes.
   EXPECT_EQ(model.Sample(2, options, &progress),
             std::vector<float>(model.Sample(2, options, &progress)));
+}
+
+// A model that knows classes by their shape takes a thing that it has never seen for what it is
+// like: a mug a little larger than the cups stands where cups do, as often as they, and plates stay
+// plates.
+TEST(SceneTraining, PlacesAnAssetItHasNotSeen) {
+  constexpr int kPoints = 64;
+  const auto shape = [](double x, double y, double z) {
+    return ShapeOf(assets::BoxMesh({x, y, z}), kPoints);
+  };
+  const core::TemporaryFolder folder;
+  WriteScenes(folder.path(), 200);
+  core::Progress progress;
+  SceneModelOptions options = Small();
+  options.shape_points = kPoints;
+  SceneTrainingOptions training = Short(400);
+  EXPECT_THROW(TrainSceneModel(SceneDataset(folder.path()), options, training,
+                               folder.path() / "run", &progress),
+               core::Error);
+  training.shapes = {{shape(0.08, 0.08, 0.1), shape(0.25, 0.25, 0.02), shape(1, 1, 0.7)}};
+  const SceneTrainingReport report = TrainSceneModel(SceneDataset(folder.path()), options, training,
+                                                     folder.path() / "run", &progress);
+  SceneModel model = SceneModel::Load(report.weights);
+  model.AddAsset("mug", shape(0.085, 0.085, 0.105));
+  EXPECT_THROW(model.AddAsset("mug", shape(1, 1, 1)), core::Error);
+  const Vocabulary words = model.facts().vocabulary;
+  EXPECT_EQ(words.slots, (std::vector<std::string>{"cup", "mug", "plate", "table"}));
+  EXPECT_EQ(words.welded, (std::vector<bool>{false, false, false, true}));
+  SampleOptions sampling;
+  sampling.steps = 50;
+  constexpr int kScenes = 64;
+  const std::vector<float> tokens = model.Sample(kScenes, sampling, &progress);
+  const size_t size = static_cast<size_t>(words.entries * words.TokenWidth());
+  int cups = 0, mugs = 0, mugs_at_cups = 0, right = 0;
+  for (int i = 0; i < kScenes; ++i) {
+    int drinks = 0;
+    for (const DrawnObject& object : DecodeScene(&tokens[static_cast<size_t>(i) * size], words)) {
+      const Eigen::Vector3d at = object.world_from_object.translation();
+      drinks += object.slot == "cup" || object.slot == "mug";
+      cups += object.slot == "cup";
+      mugs += object.slot == "mug";
+      mugs_at_cups += object.slot == "mug" && (at - Eigen::Vector3d(1, 0, 0.5)).norm() < 0.3;
+    }
+    right += drinks == 1;
+  }
+  EXPECT_GE(right, kScenes * 3 / 4);
+  EXPECT_GE(mugs_at_cups, 0.9 * mugs);
+  EXPECT_NEAR(static_cast<double>(mugs) / (cups + mugs), 0.5, 0.25);
 }
 
 TEST(SceneTraining, GoesOnWhereItStopped) {

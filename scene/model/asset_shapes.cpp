@@ -1,0 +1,26 @@
+#include "scene/model/asset_shapes.h"
+
+#include "geometry/surface_distance.h"
+
+namespace simwright::scene {
+
+bool AssetShapes::IsValid(const Vocabulary& vocabulary, int points, std::string* error) const {
+  if (surfaces.size() != vocabulary.slots.size()) {
+    *error = "a surface of each slot is needed";
+    return false;
+  }
+  for (size_t i = 0; i < surfaces.size(); ++i) {
+    bool sound = static_cast<int>(surfaces[i].size()) == points;
+    for (const Eigen::Vector3d& point : surfaces[i]) sound = sound && point.allFinite();
+    if (sound) continue;
+    *error = vocabulary.slots[i] + " has not " + std::to_string(points) + " finite points";
+    return false;
+  }
+  return true;
+}
+
+std::vector<Eigen::Vector3d> ShapeOf(const core::TriangleMesh& solid, int points) {
+  return geometry::SampleSurface(solid, points, 1);
+}
+
+}  // namespace simwright::scene
