@@ -60,17 +60,17 @@ double DeepestPenetration(const std::vector<DrawnObject>& objects, const Palette
   return deepest;
 }
 
-bool IsKept(const sim::SettledBody& settled, const std::string& slot,
-            const FeasibilityOptions& options) {
-  if (settled.fell || !settled.stable) return false;
+bool HasItsPlace(const sim::SettledBody& settled, const std::string& slot,
+                 const FeasibilityOptions& options) {
+  if (settled.fell) return false;
   return settled.tilted <= options.tilted || options.may_lie.count(slot) == 1;
 }
 
 }  // namespace
 
-std::set<std::string> FruitSlots() {
-  return {"apple",  "apple_2", "apple_3", "apple_4",   "pear",
-          "pear_2", "pear_3",  "avocado", "avocado_2", "avocado_3"};
+std::set<std::string> SlotsThatMayLie() {
+  return {"apple",   "apple_2",   "apple_3",   "apple_4", "pear",  "pear_2", "pear_3",
+          "avocado", "avocado_2", "avocado_3", "fork",    "knife", "spoon",  "teaspoon"};
 }
 
 bool FeasibilityOptions::IsValid(std::string* error) const {
@@ -104,11 +104,15 @@ FeasibleScene MakeFeasible(const std::vector<DrawnObject>& objects, const Palett
     const auto settled = LeaveToGravity(scene.objects, palette, options.settling);
     std::vector<char> kept(settled.size(), 1);
     std::vector<Vector3d> left;
+    bool waiting = false;
     scene.drift = 0.0;
     for (size_t i = 0; i < settled.size(); ++i) {
       scene.objects[i].world_from_object = settled[i].world_from_body;
-      kept[i] = IsKept(settled[i], scene.objects[i].slot, options);
+      const bool on_its_way = !settled[i].stable && pass == 0 && options.passes > 1;
+      kept[i] = HasItsPlace(settled[i], scene.objects[i].slot, options) &&
+                (settled[i].stable || on_its_way);
       if (!kept[i]) continue;
+      waiting = waiting || on_its_way;
       left.push_back(places[i]);
       scene.drift = std::max(scene.drift, settled[i].drift);
     }
@@ -116,8 +120,8 @@ FeasibleScene MakeFeasible(const std::vector<DrawnObject>& objects, const Palett
     scene.objects = Kept(scene.objects, kept);
     places = std::move(left);
     scene.dropped += gone;
-    if (gone == 0) break;
-    // What was about the dropped has not been watched without it.
+    if (gone == 0 && !waiting) break;
+    // What was about the dropped, or about what moves, has not been watched without it.
     scene.drift = HUGE_VAL;
   }
   scene.penetration = DeepestPenetration(scene.objects, palette);

@@ -11,18 +11,20 @@
 
 namespace simwright::scene {
 
-// The slots of fruit.
-std::set<std::string> FruitSlots();
+// The slots of fruit and of cutlery, which leans in its crock.
+std::set<std::string> SlotsThatMayLie();
 
 struct FeasibilityOptions {
   ProjectionOptions projection;
   sim::SettlingOptions settling;
   double tilted = 0.35;  // rad: what has tipped by more is dropped; bowls may lean a little
   // Slots of what may tip, as it lies as well as it stands.
-  std::set<std::string> may_lie = FruitSlots();
+  std::set<std::string> may_lie = SlotsThatMayLie();
   double penetration = 1e-4;  // m that parts of a finished scene may be in each other
-  int passes = 3;             // of settling, at most: what stood on what was dropped settles again
-  int fewest = 3;             // free objects that a scene needs (Pfaff et al., appendix)
+  // Of settling, at most: what stood on what was dropped settles again, and what is still on its
+  // way after the first has the second to come to rest.
+  int passes = 6;
+  int fewest = 3;  // free objects that a scene needs (Pfaff et al., appendix)
 
   bool IsValid(std::string* error) const;
 };
@@ -39,9 +41,10 @@ struct FeasibleScene {
   bool projected = false;            // Projection::feasible
 };
 
-// Moves the objects of a scene apart and leaves them to gravity; drops what fell off, tipped or
-// does not come to rest, and lets the others settle again where any was. Welded ones stay as they
-// are. Throws core::Error for a slot without an asset, or options that are not valid.
+// Moves the objects of a scene apart and leaves them to gravity; drops what fell off or tipped, and
+// from the second pass what does not come to rest, and lets the others settle again where any was.
+// Welded ones stay as they are. Throws core::Error for a slot without an asset, or options that are
+// not valid.
 FeasibleScene MakeFeasible(const std::vector<DrawnObject>& objects, const Palette& palette,
                            const FeasibilityOptions& options = {});
 
