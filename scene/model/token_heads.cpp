@@ -42,7 +42,8 @@ TokenExitImpl::TokenExitImpl(std::int64_t width, int classes, ClassShapes shapes
 }
 
 Denoised TokenExitImpl::forward(const torch::Tensor& features) {
-  const torch::Tensor normed = class_norm_(features);
+  // In single precision, whatever products are done in (nn::MixedPrecision).
+  const torch::Tensor normed = class_norm_(features.to(torch::kFloat));
   return {pose_->forward(features), shapes_ ? shapes_->Logits(normed) : class_map_(normed)};
 }
 

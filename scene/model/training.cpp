@@ -9,6 +9,7 @@
 #include "core/files.h"
 #include "core/random.h"
 #include "nn/compute.h"
+#include "nn/mixed_precision.h"
 #include "nn/trainer.h"
 #include "scene/dataset/scene_stream.h"
 #include "scene/model/token_tensors.h"
@@ -148,7 +149,11 @@ class Training {
   }
 
   void Descend(int step, const CleanScenes& scenes, const at::Generator& generator) {
-    const SceneLoss loss = diffusion_.Loss(denoiser_.get(), scenes, generator);
+    const SceneLoss loss = [&] {
+      // A GPU's; a CPU of two cores has no faster products of half the width.
+      const nn::MixedPrecision half(device_, options_.bfloat16_on_gpu && device_.is_cuda());
+      return diffusion_.Loss(denoiser_.get(), scenes, generator);
+    }();
     trainer_->Descend(step, loss.total);
     if (std::isfinite(loss.total.item<double>())) {
       means_.Add(loss);

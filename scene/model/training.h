@@ -20,8 +20,9 @@ struct SceneTrainingOptions {
   // many.
   double held_out = 0.1;
   int held_out_most = 1000;
-  int buffer = 16384;     // scenes held in memory (SceneStream)
-  int report_every = 50;  // steps between two lines of the losses
+  int buffer = 16384;           // scenes held in memory (SceneStream)
+  int report_every = 50;        // steps between two lines of the losses
+  bool bfloat16_on_gpu = true;  // products of matrices; as the paper trains
   std::uint64_t seed = 1;
   AssetShapes shapes;  // of the dataset's slots, for a model that knows classes by them
   // The paper's rate is 2e-4 for batches of 2048 over 200k steps; of the few steps that two cores

@@ -1,0 +1,118 @@
+// How fast a model of scenes learns, and how much of what the machine can do that is: updates and
+// scenes a second of each denoiser, the floating-point operations of their matrix products a
+// second, and the same of one large product by libtorch's BLAS.
+//   bench_training_speed --entries 25 --batch 128
+#include <chrono>
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+
+#include "core/files.h"
+#include "core/parallel.h"
+#include "nn/compute.h"
+#include "nn/trainer.h"
+#include "scene/model/scene_diffusion.h"
+
+namespace simwright {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Arguments {
+  std::string size = "tiny";
+  int entries = 25, classes = 8, batch = 128, updates = 20;
+};
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// FLOP/s of a product of two square matrices.
+double Peak() {
+  constexpr std::int64_t kSide = 1536;
+  const torch::Tensor a = torch::randn({kSide, kSide}), b = torch::randn({kSide, kSide});
+  double best = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    const auto start = Clock::now();
+    torch::mm(a, b);
+    best = std::max(best, 2.0 * kSide * kSide * kSide / SecondsSince(start));
+  }
+  return best;
+}
+
+// Multiplications and additions of an update's matrix products, three passes (forward, and backward
+// to inputs and to weights): two a weight and token, or a weight and scene where a layer acts on
+// time alone, and two products of attention a pair of tokens.
+double FlopOf(const scene::SceneModelOptions& model, const scene::Denoiser& denoiser,
+              const Arguments& arguments) {
+  double token_weights = 0.0, scene_weights = 0.0;
+  for (const auto& one : denoiser.named_parameters()) {
+    const std::string& name = one.key();
+    if (one.value().dim() < 2 || name.ends_with("class.weight")) continue;
+    const bool of_time = name.find("modulation") != std::string::npos ||
+                         name.find("time") != std::string::npos ||
+                         name.find("last.") != std::string::npos;
+    (of_time ? scene_weights : token_weights) += static_cast<double>(one.value().numel());
+  }
+  const double tokens = static_cast<double>(arguments.batch) * arguments.entries;
+  const double layers = model.double_blocks + model.single_blocks;
+  const double attention = model.kind == scene::DenoiserKind::kUnet
+                               ? 0.0
+                               : 4.0 * layers * model.width * arguments.entries * tokens;
+  return 3.0 * (2.0 * token_weights * tokens + 2.0 * scene_weights * arguments.batch + attention);
+}
+
+void Measure(const char* name, const scene::SceneModelOptions& model, const Arguments& arguments,
+             double peak) {
+  torch::manual_seed(1);
+  const auto denoiser = scene::MakeDenoiser(model, arguments.classes);
+  const scene::SceneDiffusion diffusion(model, arguments.classes);
+  const core::TemporaryFolder folder;
+  nn::TrainerOptions training;
+  training.steps = 1000;
+  nn::Trainer trainer(denoiser.get(), training, folder.path() / "state.pt");
+  const scene::CleanScenes scenes{
+      torch::rand({arguments.batch, arguments.entries, 12}) * 2.0 - 1.0,
+      torch::randint(0, arguments.classes, {arguments.batch, arguments.entries}, torch::kLong)};
+  const at::Generator generator = at::detail::createCPUGenerator(1);
+  double seconds = 0.0;
+  for (int i = -2; i < arguments.updates; ++i) {  // two to warm up
+    const auto start = Clock::now();
+    trainer.Descend(i + 2, diffusion.Loss(denoiser.get(), scenes, generator).total);
+    if (i >= 0) seconds += SecondsSince(start);
+  }
+  const double flop = FlopOf(model, *denoiser, arguments) * arguments.updates / seconds;
+  std::printf("%-12s %9lld %10.2f %10.0f %9.1f %7.0f %%\n", name,
+              static_cast<long long>(scene::ParameterCount(*denoiser)), arguments.updates / seconds,
+              arguments.batch * arguments.updates / seconds, flop * 1e-9, 100.0 * flop / peak);
+}
+
+}  // namespace
+}  // namespace simwright
+
+int main(int argc, char** argv) {
+  using namespace simwright;
+  CLI::App app("How fast models of scenes learn");
+  Arguments arguments;
+  app.add_option("--size", arguments.size, "tiny, base or full")->capture_default_str();
+  app.add_option("--entries", arguments.entries, "Of a scene")->capture_default_str();
+  app.add_option("--classes", arguments.classes, "The empty one too")->capture_default_str();
+  app.add_option("--batch", arguments.batch, "Scenes of an update")->capture_default_str();
+  app.add_option("--updates", arguments.updates, "That are timed")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    core::SetThreadCount(0);
+    nn::UseThreads();
+    const double peak = Peak();
+    std::printf("%d threads, largest product %.1f GFLOP/s\n", core::ThreadCount(), peak * 1e-9);
+    std::printf("%-12s %9s %10s %10s %9s %9s\n", "denoiser", "weights", "updates/s", "scenes/s",
+                "GFLOP/s", "of it");
+    const scene::SceneModelOptions model = scene::SceneModelOptions::OfSize(arguments.size);
+    Measure("ours", model, arguments, peak);
+    Measure("midiffusion", model.AsMiDiffusion(), arguments, peak);
+    Measure("diffuscene", model.AsDiffuScene(), arguments, peak);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+}
