@@ -11,13 +11,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-Projection Project(const std::vector<DrawnObject>& objects, const Palette& palette,
-                   const ProjectionOptions& options) {
+// Moves them apart; whether that succeeded.
+bool MoveApart(const Palette& palette, const ProjectionOptions& options,
+               std::vector<DrawnObject>* objects) {
   std::vector<ProjectedBody> bodies;
-  for (const DrawnObject& object : objects) {
+  for (const DrawnObject& object : *objects) {
     bodies.push_back({&palette.At(object.slot).parts, object.world_from_object, object.welded});
   }
-  return ProjectApart(bodies, options);
+  const Projection projection = ProjectApart(bodies, options);
+  for (size_t i = 0; i < objects->size(); ++i) {
+    (*objects)[i].world_from_object.pretranslate(projection.shifts[i]);
+  }
+  return projection.feasible;
 }
 
 std::vector<sim::SettledBody> LeaveToGravity(const std::vector<DrawnObject>& objects,
@@ -92,11 +97,7 @@ FeasibleScene MakeFeasible(const std::vector<DrawnObject>& objects, const Palett
   if (!options.IsValid(&error)) throw core::Error("feasible scene: " + error);
   FeasibleScene scene;
   scene.objects = objects;
-  const Projection projection = Project(objects, palette, options.projection);
-  scene.projected = projection.feasible;
-  for (size_t i = 0; i < objects.size(); ++i) {
-    scene.objects[i].world_from_object.pretranslate(projection.shifts[i]);
-  }
+  scene.projected = MoveApart(palette, options.projection, &scene.objects);
   std::vector<Vector3d> places;  // of the draw, of what is kept
   for (const DrawnObject& object : objects)
     places.push_back(object.world_from_object.translation());
@@ -120,7 +121,12 @@ FeasibleScene MakeFeasible(const std::vector<DrawnObject>& objects, const Palett
     scene.objects = Kept(scene.objects, kept);
     places = std::move(left);
     scene.dropped += gone;
-    if (gone == 0 && !waiting) break;
+    if (gone == 0 && !waiting) {
+      scene.penetration = DeepestPenetration(scene.objects, palette);
+      if (scene.penetration <= options.penetration || pass + 1 == options.passes) break;
+      // Bullet lets a heap's parts sink in by a fraction of a millimetre.
+      MoveApart(palette, options.projection, &scene.objects);
+    }
     // What was about the dropped, or about what moves, has not been watched without it.
     scene.drift = HUGE_VAL;
   }
