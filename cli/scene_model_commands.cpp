@@ -15,7 +15,7 @@
 namespace simwright::cli {
 namespace {
 
-constexpr int kShapePoints = 256;  // as SceneModelOptions::shape_points says
+constexpr int kShapePoints = 256;  // of --by-shape
 
 struct TrainFlags {
   std::filesystem::path dataset, output, assets;
@@ -105,10 +105,13 @@ void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run) {
   command->add_option("--method", flags->method, "ours, continuous, midiffusion or diffuscene")
       ->capture_default_str()
       ->check(CLI::IsMember({"ours", "continuous", "midiffusion", "diffuscene"}));
-  command->add_flag("--by-shape", flags->by_shape,
-                    "Know things by their assets' surfaces, so that `sample --add` can add some");
-  command->add_option("--assets", flags->assets,
-                      "With --by-shape: the slots' assets, if not the dataset's");
+  CLI::Option* const by_shape = command->add_flag(
+      "--by-shape", flags->by_shape,
+      "Know things by their assets' surfaces, so that `sample --add` can add some");
+  command
+      ->add_option("--assets", flags->assets,
+                   "Folder of the slots' assets, if not the dataset's; by their surfaces")
+      ->needs(by_shape);
   command->add_option("--steps", options.trainer.steps, "Updates")->capture_default_str();
   command->add_option("--batch", options.batch, "Scenes of an update")->capture_default_str();
   command->add_option("--rate", options.trainer.learning_rate, "Of learning")

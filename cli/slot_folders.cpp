@@ -12,7 +12,9 @@ scene::SlotFolders SlotFoldersOf(const std::vector<std::string>& values,
     if (equals == 0 || equals == std::string::npos || equals + 1 == value.size()) {
       throw core::Error("this is no SLOT=FOLDER", option + " " + value);
     }
-    folders[value.substr(0, equals)] = value.substr(equals + 1);
+    if (!folders.emplace(value.substr(0, equals), value.substr(equals + 1)).second) {
+      throw core::Error("a slot has two folders", option + " " + value);
+    }
   }
   return folders;
 }

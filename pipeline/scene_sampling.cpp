@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "assets/asset.h"
 #include "core/content_hash.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -89,6 +90,9 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Prog
   if (request.count < 1) throw core::Error("at least 1 scene is to be sampled", "--count");
   scene::SceneModel model = scene::SceneModel::Load(request.weights);
   for (const auto& [slot, folder] : request.added) {
+    if (assets::FileSafeName(slot) != slot) {
+      throw core::Error("a slot has to be a name for a folder", slot);
+    }
     model.AddAsset(slot, ShapeOfAsset(folder, model.facts().options.shape_points));
   }
   const scene::Vocabulary& vocabulary = model.facts().vocabulary;

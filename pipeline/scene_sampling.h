@@ -15,8 +15,8 @@ struct SceneSamplingRequest {
   int count = 16;
   std::filesystem::path output;
   std::vector<std::filesystem::path> assets;  // folders, the first first; the library for the rest
-  scene::SlotFolders
-      added;  // assets that the model has not seen, by the slot that is new with them
+  // Assets that the model has not seen, by the slot that is new with them.
+  scene::SlotFolders added;
   scene::SampleOptions sampling;
   bool raw = false;    // as the model has them
   bool force = false;  // replace an output that exists

@@ -37,6 +37,7 @@ enum class HullContact { kPoints, kFaces };
 // own frame. Throws core::Error for parts of fewer than four vertices.
 class BulletShape {
  public:
+  // `margin`: m, about each hull.
   BulletShape(const RigidBody& body, double margin, HullContact contact = HullContact::kPoints);
   ~BulletShape();
   BulletShape(const BulletShape&) = delete;

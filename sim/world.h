@@ -30,9 +30,9 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  // Adds a free body; `body` must outlive the world, as it is: what is added
-  // again shares its shape. Returns its index. Throws core::Error for a
-  // body without parts or mass. Parts of fewer than four vertices are refused.
+  // Adds a free body; `body` must outlive the world, as it is: what is added again shares its
+  // shape. Returns its index. Throws core::Error for a body without parts or mass, or with a part
+  // of fewer than four vertices.
   int Add(const RigidBody& body, const Eigen::Isometry3d& world_from_body);
 
   // The same, of a body that stays where it is, as welded furniture does; it needs no mass.

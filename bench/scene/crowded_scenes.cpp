@@ -106,7 +106,9 @@ int main(int argc, char** argv) {
   simwright::Arguments arguments;
   app.add_option("--type", arguments.type, "Of scene")->capture_default_str();
   app.add_option("--assets", arguments.assets, "Folder of the slots' assets")->required();
-  app.add_option("--objects", arguments.objects, "Of a scene")->capture_default_str();
+  app.add_option("--objects", arguments.objects, "Of a scene, furniture included")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   app.add_option("--count", arguments.count, "Scenes, at least 1")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);

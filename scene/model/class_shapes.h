@@ -9,19 +9,21 @@ namespace simwright::scene {
 // the largest of each feature over the points (Qi et al. 2017, PointNet) give a thing's features,
 // and linear maps of these what enters a denoiser and what its logits are products with. The empty
 // class and the mask have vectors of their own. Nothing is learned of a class by its number, so
-// that one more needs no training: where its surface is like another's, it is drawn as that is.
+// that one more needs no training: where its surface is like another's, it is drawn as that is. K
+// classes: things, the empty one last; the mask is not among them.
 class ClassShapesImpl : public torch::nn::Module {
  public:
-  // `entry`: the width that enters; `exit`: of the features that logits are of.
+  // `classes`: K; `points`: of a surface, P; `entry`: the width that enters; `exit`: of the
+  // features that logits are of. Surfaces are points at the origin until they are set.
   ClassShapesImpl(int classes, int points, std::int64_t entry, std::int64_t exit);
 
   // Throws core::Error for another number of classes or points.
   void Set(const AssetShapes& shapes);
-  AssetShapes Shapes() const;
+  AssetShapes Shapes() const;  // in single precision
 
-  // (K + 1 x entry): things, then the empty class, then the mask.
+  // (K + 1 x entry): the classes, then the mask.
   torch::Tensor Entries();
-  // (... x exit) -> (... x K): the empty class last.
+  // (... x exit) -> (... x K).
   torch::Tensor Logits(const torch::Tensor& features);
 
  private:

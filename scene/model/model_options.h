@@ -26,7 +26,7 @@ struct SceneModelOptions {
   double class_weight = 100.0;
 
   // Above 0: classes are known by so many points of their assets' surfaces instead of by their
-  // number, so that an asset can be added without training. 256 tell a fork from a spoon.
+  // number, so that an asset can be added without training.
   int shape_points = 0;
 
   // "tiny" (two cores), "base", "full" (the paper's 88 M). Throws core::Error for another.

@@ -24,6 +24,7 @@ class SceneCommand : public testing::Test {
   static void GeneratesScenesThatHold();
   static void GoesOnWhereItStopped();
   static void LearnsAndSamples();
+  static void AModelByShapeTakesANewAsset();
   static void AnAssetOfOnesOwnTakesASlot();
   static void RefusesWhatIsNone();
 
@@ -104,6 +105,36 @@ void SceneCommand::LearnsAndSamples() {
   EXPECT_NE(over.text.find("exists"), std::string::npos) << over.text;
 }
 
+void SceneCommand::AModelByShapeTakesANewAsset() {
+  ASSERT_EQ(generated_.code, 0) << generated_.text;
+  const Outcome trained = RunProgram("scene train " + Dimsum() +
+                                     " --by-shape --steps 2 --batch 2 --quiet -o " + At("shapes"));
+  ASSERT_EQ(trained.code, 0) << trained.text;
+  const std::string assets = Dimsum() + "/assets";
+  const auto sample = [&](const std::string& model, const std::string& added,
+                          const std::string& output) {
+    return RunProgram("scene sample " + At(model) +
+                      "/model.pt --count 2 --steps 5 --raw --assets " + assets + " " + added +
+                      " --quiet -o " + At(output));
+  };
+  const Outcome sampled = sample("shapes", "--add mug=" + assets + "/cup", "with_mugs");
+  ASSERT_EQ(sampled.code, 0) << sampled.text;
+  const scene::SceneDataset dataset{fs::path(At("with_mugs"))};
+  EXPECT_GE(dataset.vocabulary().ClassOf("mug"), 0);
+  EXPECT_TRUE(assets::IsAssetFolder(fs::path(At("with_mugs")) / "assets" / "mug"));
+  for (const std::string& added : {"--add mug=" + At("nowhere"), "--add ../mug=" + assets + "/cup",
+                                   "--add cup=" + assets + "/cup", std::string("--add mug"),
+                                   "--add mug=" + assets + "/cup mug=" + assets + "/plate"}) {
+    const Outcome wrong = sample("shapes", added, "wrong");
+    EXPECT_EQ(wrong.code, 1) << added;
+    EXPECT_EQ(wrong.text.rfind("error: ", 0), 0u) << wrong.text;
+  }
+  const Outcome table = sample("model", "--add mug=" + assets + "/cup", "wrong");
+  EXPECT_EQ(table.code, 1);
+  EXPECT_NE(table.text.find("--by-shape"), std::string::npos) << table.text;
+  EXPECT_FALSE(fs::exists(At("wrong")));
+}
+
 void SceneCommand::AnAssetOfOnesOwnTakesASlot() {
   ASSERT_EQ(generated_.code, 0) << generated_.text;
   // The cup's place is taken by the teapot, by name or by category.
@@ -150,6 +181,10 @@ TEST_F(SceneCommand, DoesAllOfIt) {
   {
     SCOPED_TRACE("LearnsAndSamples");
     LearnsAndSamples();
+  }
+  {
+    SCOPED_TRACE("AModelByShapeTakesANewAsset");
+    AModelByShapeTakesANewAsset();
   }
   {
     SCOPED_TRACE("AnAssetOfOnesOwnTakesASlot");
