@@ -58,8 +58,7 @@ double DeepestPenetration(const std::vector<DrawnObject>& objects, const Palette
   }
   const std::vector<Vector3d> shifts(objects.size(), Vector3d::Zero());
   std::vector<NearParts> near;
-  bodies.Find(
-      shifts, 1e-9, [](int, int) { return false; }, &near);
+  bodies.Find(shifts, 1e-9, &near);
   double deepest = 0.0;
   for (const NearParts& pair : near) deepest = std::max(deepest, -pair.distance);
   return deepest;

@@ -20,13 +20,16 @@ struct LeastShiftOptions {
   // Rows that contradict each other are short by this share of their pressure in place of growing
   // without bound; others by less than the tolerance, as pressures are no more than what moved.
   double compliance = 1e-5;
-  int sweeps = 2000;  // at most, over all rows
+  // m: a pressure above it is of rows that contradict each other, which ends the search. What is
+  // moved by the sum of all that presses on it, in a scene, is moved by less.
+  double unbounded = 5.0;
+  int sweeps = 2000;  // at most, over the rows that press
 };
 
 // The shifts (N x 3, m) with the least sum of squares that all rows allow; of bodies that are
 // `fixed` they are zero. Each row in turn takes the pressure that closes it (Hildreth 1957, which
-// is Gauss and Seidel on the dual), as contact solvers do. Returns by how much the worst row is
-// short, m. Rows between two fixed bodies are left out.
+// is Gauss and Seidel on the dual), as contact solvers do, and somewhat more of it (over-relaxed).
+// Returns by how much the worst row is short, m. Rows between two fixed bodies are left out.
 double LeastShift(const std::vector<char>& fixed, const LeastShiftOptions& options,
                   std::vector<SeparationRow>* rows, std::vector<Eigen::Vector3d>* shifts);
 

@@ -1,6 +1,7 @@
 #include "scene/near_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "core/error.h"
@@ -26,15 +27,6 @@ AlignedBox3d BoxOf(const geometry::ConvexShape& shape) {
   box.min().array() -= shape.radius;
   box.max().array() += shape.radius;
   return box;
-}
-
-// m between two boxes along the axis on which they are farthest apart, less than 0 where they
-// overlap: no more than their distance.
-double Gap(const AlignedBox3d& a, const Vector3d& shift_a, const AlignedBox3d& b,
-           const Vector3d& shift_b) {
-  const Vector3d one = (b.min() + shift_b) - (a.max() + shift_a);
-  const Vector3d other = (a.min() + shift_a) - (b.max() + shift_b);
-  return one.cwiseMax(other).maxCoeff();
 }
 
 }  // namespace
@@ -83,7 +75,7 @@ std::vector<std::pair<int, int>> ConvexBodies::NearBodies(const std::vector<Vect
     for (size_t j = i + 1; j < order.size() && left(order[j]) < right; ++j) {
       const auto b = static_cast<size_t>(order[j]);
       if (bodies_[a].fixed && bodies_[b].fixed) continue;
-      if (Gap(bodies_[a].hull.box, shifts[a], bodies_[b].hull.box, shifts[b]) >= within) continue;
+      if (Gap(bodies_[a].hull.box, bodies_[b].hull.box, shifts[b] - shifts[a]) >= within) continue;
       pairs.emplace_back(std::min(order[i], order[j]), std::max(order[i], order[j]));
     }
   }
@@ -91,29 +83,33 @@ std::vector<std::pair<int, int>> ConvexBodies::NearBodies(const std::vector<Vect
   return pairs;
 }
 
-void ConvexBodies::FindBetween(int a, int b, const std::vector<Vector3d>& shifts, double within,
-                               bool by_hull, std::vector<NearParts>* near) const {
-  const auto i = static_cast<size_t>(a), j = static_cast<size_t>(b);
-  Isometry3d from_a = Isometry3d::Identity(), from_b = Isometry3d::Identity();
-  from_a.translation() = shifts[i];
-  from_b.translation() = shifts[j];
-  const auto look = [&](const Part& part_a, const Part& part_b, int index_a, int index_b) {
-    if (Gap(part_a.box, shifts[i], part_b.box, shifts[j]) >= within) return;
-    const geometry::ConvexDistance found =
-        geometry::SignedDistance(part_a.shape, from_a, part_b.shape, from_b);
-    if (found.distance >= within) return;
-    near->push_back({a, b, index_a, index_b, found.distance, found.normal});
-  };
-  if (by_hull) {
-    look(bodies_[i].hull, bodies_[j].hull, -1, -1);
-    return;
-  }
-  for (size_t p = 0; p < bodies_[i].parts.size(); ++p) {
-    const Part& part = bodies_[i].parts[p];
-    if (Gap(part.box, shifts[i], bodies_[j].hull.box, shifts[j]) >= within) continue;
-    for (size_t q = 0; q < bodies_[j].parts.size(); ++q) {
-      look(part, bodies_[j].parts[q], static_cast<int>(p), static_cast<int>(q));
-    }
+NearParts ConvexBodies::Distance(int a, int part_a, int b, int part_b,
+                                 const Vector3d& apart) const {
+  Isometry3d at_b = Isometry3d::Identity();
+  at_b.translation() = apart;
+  const geometry::ConvexDistance found = geometry::SignedDistance(
+      PartOf(a, part_a).shape, Isometry3d::Identity(), PartOf(b, part_b).shape, at_b);
+  return {a, b, part_a, part_b, found.distance, found.normal};
+}
+
+double ConvexBodies::DepthAlong(int a, int b, const Vector3d& apart, const Vector3d& normal) const {
+  const geometry::ConvexShape& one = PartOf(a, -1).shape;
+  const geometry::ConvexShape& other = PartOf(b, -1).shape;
+  double farthest = -HUGE_VAL, nearest = HUGE_VAL;
+  for (const Vector3d& vertex : one.vertices) farthest = std::max(farthest, normal.dot(vertex));
+  for (const Vector3d& vertex : other.vertices) nearest = std::min(nearest, normal.dot(vertex));
+  return farthest + one.radius - (nearest + normal.dot(apart) - other.radius);
+}
+
+void ConvexBodies::Find(const std::vector<Vector3d>& shifts, double within,
+                        std::vector<NearParts>* near) const {
+  near->clear();
+  for (const auto& [a, b] : NearBodies(shifts, within)) {
+    const Vector3d apart = shifts[static_cast<size_t>(b)] - shifts[static_cast<size_t>(a)];
+    ForPartsNear(a, b, apart, within, false, [&, a = a, b = b](int part_a, int part_b) {
+      const NearParts found = Distance(a, part_a, b, part_b, apart);
+      if (found.distance < within) near->push_back(found);
+    });
   }
 }
 

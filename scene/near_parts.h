@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -30,16 +31,40 @@ class ConvexBodies {
   bool fixed(int body) const { return bodies_[static_cast<size_t>(body)].fixed; }
 
   // All pairs of parts nearer than `within` (m) once body i is shifted by shifts[i] (N x 3), in the
-  // order of a, b, part_a, part_b. `by_hull(a, b)`: these two bodies are taken by their hulls. The
-  // bounding boxes are swept along x.
-  template <typename ByHull>
-  void Find(const std::vector<Eigen::Vector3d>& shifts, double within, const ByHull& by_hull,
-            std::vector<NearParts>* near) const {
-    near->clear();
-    for (const auto& [a, b] : NearBodies(shifts, within)) {
-      FindBetween(a, b, shifts, within, by_hull(a, b), near);
+  // order of a, b, part_a, part_b.
+  void Find(const std::vector<Eigen::Vector3d>& shifts, double within,
+            std::vector<NearParts>* near) const;
+
+  // All pairs a < b of bodies, not both fixed, whose bounding boxes are nearer than `within`, in
+  // order: the boxes are swept along x.
+  std::vector<std::pair<int, int>> NearBodies(const std::vector<Eigen::Vector3d>& shifts,
+                                              double within) const;
+
+  // `visit(part_a, part_b)`, in order, for those whose bounding boxes are nearer than `within` once
+  // b is shifted by `apart` against a; by_hull: of the hulls alone, as -1, -1.
+  template <typename Visit>
+  void ForPartsNear(int a, int b, const Eigen::Vector3d& apart, double within, bool by_hull,
+                    const Visit& visit) const {
+    const Body& one = bodies_[static_cast<size_t>(a)];
+    const Body& other = bodies_[static_cast<size_t>(b)];
+    if (Gap(one.hull.box, other.hull.box, apart) >= within) return;
+    if (by_hull) return visit(-1, -1);
+    for (size_t p = 0; p < one.parts.size(); ++p) {
+      if (Gap(one.parts[p].box, other.hull.box, apart) >= within) continue;
+      for (size_t q = 0; q < other.parts.size(); ++q) {
+        if (Gap(one.parts[p].box, other.parts[q].box, apart) >= within) continue;
+        visit(static_cast<int>(p), static_cast<int>(q));
+      }
     }
   }
+
+  // Of two parts (-1: the body's hull) once b is shifted by `apart` against a.
+  NearParts Distance(int a, int part_a, int b, int part_b, const Eigen::Vector3d& apart) const;
+
+  // How deep the hulls are in each other along a unit `normal` from a to b, m; less than 0 where
+  // the planes across it part them.
+  double DepthAlong(int a, int b, const Eigen::Vector3d& apart,
+                    const Eigen::Vector3d& normal) const;
 
  private:
   struct Part {
@@ -52,10 +77,18 @@ class ConvexBodies {
     bool fixed = false;
   };
 
-  std::vector<std::pair<int, int>> NearBodies(const std::vector<Eigen::Vector3d>& shifts,
-                                              double within) const;
-  void FindBetween(int a, int b, const std::vector<Eigen::Vector3d>& shifts, double within,
-                   bool by_hull, std::vector<NearParts>* near) const;
+  // m between two boxes along the axis on which they are farthest apart, less than 0 where they
+  // overlap: no more than their distance.
+  static double Gap(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b,
+                    const Eigen::Vector3d& apart) {
+    const Eigen::Vector3d one = (b.min() + apart) - a.max();
+    const Eigen::Vector3d other = a.min() - (b.max() + apart);
+    return one.cwiseMax(other).maxCoeff();
+  }
+  const Part& PartOf(int body, int part) const {
+    const Body& of = bodies_[static_cast<size_t>(body)];
+    return part < 0 ? of.hull : of.parts[static_cast<size_t>(part)];
+  }
 
   std::vector<Body> bodies_;
 };

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "geometry/distance.h"
+#include "scene/separation_planes.h"
 
 namespace simwright::scene {
 
@@ -25,19 +26,10 @@ struct ProjectionOptions {
   // m that parts may still be in each other. A tenth of what a scene may have, so that figures
   // written in single precision still pass.
   double tolerance = 1e-5;
-  double settled = 1e-6;  // m: a round that moves every body by less is the last
+  double settled = 1e-5;  // m: a round that moves every body by less is the last
   int rounds = 40;        // of linearising anew, at most; stacks of five take about ten
-  // Rounds after which two things that are still in each other are taken by their hulls: parts of
-  // hollow things, each seen by itself, may push in ways that contradict each other.
-  int by_parts = 15;
 
   bool IsValid(std::string* error) const;
-};
-
-// Two bodies that are in each other all the same, by index.
-struct Overlap {
-  int a = -1, b = -1;
-  double depth = 0.0;  // m
 };
 
 struct Projection {
@@ -53,10 +45,10 @@ struct Projection {
 // one constraint a pair, so that what touches in the end truly touches. The signed distance of two
 // convex parts is convex in their shift, so that its tangent at any place, d + n . dp, is a bound
 // from below: a round's quadratic programme keeps the tangents above zero, and the next takes them
-// anew where it has come to. The programme is solved in its dual, row by row (Hildreth 1957).
-// Where there is no solution, what comes back is the least bad that was found, with its overlaps.
-// Throws core::Error for options that are not valid, a body without parts, or numbers that are not
-// finite. Bodies: none or thousands; parts that are far apart cost nothing.
+// anew where it has come to (SeparationPlanes). The programme is solved in its dual, row by row
+// (Hildreth 1957). Where there is no solution, what comes back is the least bad that was found,
+// with its overlaps. Throws core::Error for options that are not valid, a body without parts, or
+// numbers that are not finite. Bodies: none or thousands; parts that are far apart cost nothing.
 Projection ProjectApart(const std::vector<ProjectedBody>& bodies,
                         const ProjectionOptions& options = {});
 

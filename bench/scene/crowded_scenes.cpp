@@ -115,8 +115,6 @@ int main(int argc, char** argv) {
   app.add_option("--settled", arguments.settled, "Of these, how many settle too")
       ->capture_default_str();
   app.add_option("--shake", arguments.shake, "m, deviation along each axis")->capture_default_str();
-  app.add_option("--by-parts", arguments.projection.by_parts, "Rounds before hulls")
-      ->capture_default_str();
   app.add_option("--rounds", arguments.projection.rounds, "At most")->capture_default_str();
   app.add_option("--seed", arguments.seed, "Of the scenes")->capture_default_str();
   CLI11_PARSE(app, argc, argv);

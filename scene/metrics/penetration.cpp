@@ -38,8 +38,7 @@ double TotalPenetration(const std::vector<DrawnObject>& objects, const Palette& 
   }
   std::vector<NearParts> near;
   const std::vector<Eigen::Vector3d> unmoved(objects.size(), Eigen::Vector3d::Zero());
-  bodies.Find(
-      unmoved, 0.0, [](int, int) { return false; }, &near);
+  bodies.Find(unmoved, 0.0, &near);
   double sum = 0.0;
   for (const NearParts& pair : near) sum += std::max(0.0, -pair.distance);
   return sum;

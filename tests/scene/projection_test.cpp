@@ -224,6 +224,31 @@ TEST(ProjectApart, AThingInAHollowOneStaysThere) {
   EXPECT_LT((result.shifts[1] - Vector3d(-0.005, 0, 0)).norm(), 1e-5);
 }
 
+// A ball that is larger than the hole: out of the frame is the only way, by its hull.
+TEST(ProjectApart, WhatDoesNotFitIntoAHollowThingLeavesIt) {
+  Things things;
+  things.Add(Frame(0.2, 0.1), {0, 0, 0}, true);
+  things.Add({Ball(0.09)}, {0, 0, 0.03});  // 8 cm to the walls
+  const Projection result = things.Apart();
+  EXPECT_TRUE(result.feasible);
+  EXPECT_LT((result.shifts[1] - Vector3d(0, 0, 0.11)).norm(), 1e-5);  // on the rim's plane
+}
+
+// Up is the shallowest way out of each other, and boards leave no room for it.
+TEST(ProjectApart, BetweenBoardsWhatCannotRiseGoesAside) {
+  Things things;
+  things.Add({Box({1, 1, 0.02})}, {0, 0, -0.01}, true);
+  things.Add({Box({1, 1, 0.02})}, {0, 0, 0.11}, true);
+  things.Add({Box({0.12, 0.5, 0.06})}, {0, 0, 0.03});
+  things.Add({Box({0.12, 0.5, 0.06})}, {0.02, 0, 0.07});  // 0.02 m deep in it, 0.1 m to the side
+  const Projection result = things.Apart();
+  EXPECT_TRUE(result.feasible);
+  EXPECT_NEAR(result.shifts[2].x(), -0.05, 1e-3);
+  EXPECT_NEAR(result.shifts[3].x(), 0.05, 1e-3);
+  EXPECT_NEAR(result.shifts[2].z(), 0.0, 1e-3);
+  EXPECT_NEAR(result.shifts[3].z(), 0.0, 1e-3);
+}
+
 TEST(ProjectApart, WhereThereIsNoRoomTheLeastBadIsNamed) {
   Things things;
   things.Add({Box({0.1, 1, 1})}, {-0.09, 0, 0}, true);

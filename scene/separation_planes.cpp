@@ -1,0 +1,145 @@
+#include "scene/separation_planes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace simwright::scene {
+
+using Eigen::Vector3d;
+
+void SeparationPlanes::Update(const std::vector<Vector3d>& shifts) {
+  std::vector<BodyPair> pairs;
+  auto old = pairs_.begin();
+  for (const auto& [a, b] : bodies_->NearBodies(shifts, options_.influence)) {
+    while (old != pairs_.end() && std::pair(old->a, old->b) < std::pair(a, b)) ++old;
+    const bool known = old != pairs_.end() && old->a == a && old->b == b;
+    pairs.push_back(known ? std::move(*old) : BodyPair{a, b, {}});
+    UpdatePair(shifts, &pairs.back());
+  }
+  pairs_ = std::move(pairs);
+}
+
+void SeparationPlanes::UpdatePair(const std::vector<Vector3d>& shifts, BodyPair* pair) {
+  const bool by_hull = by_hull_.count({pair->a, pair->b}) > 0;
+  const Vector3d apart =
+      shifts[static_cast<size_t>(pair->b)] - shifts[static_cast<size_t>(pair->a)];
+  std::vector<Plane> planes;
+  planes.reserve(pair->planes.size());
+  auto old = pair->planes.begin();
+  const auto end = pair->planes.end();
+  bodies_->ForPartsNear(
+      pair->a, pair->b, apart, options_.influence, by_hull, [&](int part_a, int part_b) {
+        const std::pair parts(part_a, part_b);
+        while (old != end && std::pair(old->part_a, old->part_b) < parts) ++old;
+        const bool known = old != end && old->part_a == part_a && old->part_b == part_b;
+        Plane plane;
+        if (known) {
+          plane = *old;
+          plane.bound = plane.normal.dot(apart) - plane.least;
+          const bool holds = plane.pressure == 0.0 && plane.bound >= -options_.tolerance;
+          if (holds || plane.taken_at == apart) return planes.push_back(plane);
+        }
+        const NearParts taken = bodies_->Distance(pair->a, part_a, pair->b, part_b, apart);
+        plane.part_a = part_a;
+        plane.part_b = part_b;
+        plane.normal = taken.normal;
+        plane.taken_at = apart;
+        plane.bound = taken.distance;
+        plane.least = taken.normal.dot(apart) - taken.distance;
+        planes.push_back(plane);
+      });
+  pair->planes = std::move(planes);
+  if (!by_hull && Deepest(*pair) > options_.tolerance && HullIsNearer(*pair, shifts)) {
+    TakeByHull(pair->a, pair->b);
+    pair->planes.clear();
+    UpdatePair(shifts, pair);
+  }
+}
+
+double SeparationPlanes::Deepest(const BodyPair& pair) const {
+  double deepest = 0.0;
+  for (const Plane& plane : pair.planes) deepest = std::max(deepest, -plane.bound);
+  return deepest;
+}
+
+bool SeparationPlanes::HullIsNearer(const BodyPair& pair,
+                                    const std::vector<Vector3d>& shifts) const {
+  const Vector3d apart = shifts[static_cast<size_t>(pair.b)] - shifts[static_cast<size_t>(pair.a)];
+  std::vector<SeparationRow> rows;
+  for (const Plane& plane : pair.planes) {
+    rows.push_back({0, 1, plane.normal, plane.least - plane.normal.dot(apart), 0.0});
+  }
+  const double by_hull = -bodies_->Distance(pair.a, -1, pair.b, -1, apart).distance;
+  LeastShiftOptions least;
+  least.unbounded = 10.0 * by_hull;
+  std::vector<Vector3d> way;  // of b alone
+  const double missing = LeastShift({1, 0}, least, &rows, &way);
+  return missing > options_.tolerance || way[1].norm() > by_hull;
+}
+
+void SeparationPlanes::TurnOneAcross(const std::vector<std::pair<int, int>>& pairs,
+                                     const std::vector<Vector3d>& shifts) {
+  constexpr int kWays = 16;
+  Plane* turned = nullptr;
+  Vector3d best, taken_at;
+  double shallowest = HUGE_VAL;
+  for (BodyPair& pair : pairs_) {
+    const std::pair bodies(pair.a, pair.b);
+    if (pair.planes.size() != 1 || std::find(pairs.begin(), pairs.end(), bodies) == pairs.end()) {
+      continue;
+    }
+    Plane& plane = pair.planes.front();
+    const Vector3d apart =
+        shifts[static_cast<size_t>(pair.b)] - shifts[static_cast<size_t>(pair.a)];
+    const Vector3d side = plane.normal.unitOrthogonal(), other = plane.normal.cross(side);
+    for (int i = 0; i < kWays; ++i) {
+      const double angle = 2.0 * M_PI * i / kWays;
+      const Vector3d normal = std::cos(angle) * side + std::sin(angle) * other;
+      const double depth = bodies_->DepthAlong(pair.a, pair.b, apart, normal);
+      if (depth >= shallowest) continue;
+      shallowest = depth;
+      best = normal;
+      taken_at = apart;
+      turned = &plane;
+    }
+  }
+  if (!turned) return;
+  turned->normal = best;
+  turned->bound = -shallowest;
+  turned->taken_at = taken_at;
+  turned->least = best.dot(taken_at) + shallowest;
+  turned->pressure = 0.0;
+}
+
+std::vector<SeparationRow> SeparationPlanes::Rows() const {
+  std::vector<SeparationRow> rows;
+  for (const BodyPair& pair : pairs_) {
+    for (const Plane& plane : pair.planes) {
+      if (plane.bound >= options_.influence) continue;
+      rows.push_back({pair.a, pair.b, plane.normal, plane.least, plane.pressure});
+    }
+  }
+  return rows;
+}
+
+void SeparationPlanes::SetPressures(const std::vector<SeparationRow>& rows) {
+  auto row = rows.begin();
+  for (BodyPair& pair : pairs_) {
+    for (Plane& plane : pair.planes) {
+      plane.pressure = plane.bound >= options_.influence ? 0.0 : (row++)->pressure;
+    }
+  }
+}
+
+std::vector<Overlap> SeparationPlanes::Overlaps() const {
+  std::vector<Overlap> overlaps;
+  for (const BodyPair& pair : pairs_) {
+    const double deepest = Deepest(pair);
+    if (deepest > options_.tolerance) overlaps.push_back({pair.a, pair.b, deepest});
+  }
+  std::stable_sort(overlaps.begin(), overlaps.end(),
+                   [](const Overlap& a, const Overlap& b) { return a.depth > b.depth; });
+  return overlaps;
+}
+
+}  // namespace simwright::scene
