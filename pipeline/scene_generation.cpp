@@ -57,6 +57,7 @@ void MakePart(const scene::Generation& generation, int scenes, const fs::path& p
 }  // namespace
 
 SceneStatistics StatisticsOf(const std::vector<scene::SceneAttempt>& attempts) {
+  const scene::FeasibilityOptions limits;
   SceneStatistics statistics;
   const auto count = [](int objects, std::vector<int>* counts) {
     if (static_cast<size_t>(objects) >= counts->size()) counts->resize(objects + 1, 0);
@@ -66,6 +67,9 @@ SceneStatistics StatisticsOf(const std::vector<scene::SceneAttempt>& attempts) {
     ++statistics.attempts;
     statistics.mean_drawn += one.drawn;
     count(one.drawn, &statistics.drawn_counts);
+    const bool accepted =
+        one.penetration <= limits.penetration && one.drift <= limits.settling.stable;
+    statistics.too_few += accepted && !one.sound;
     if (!one.sound) continue;
     ++statistics.scenes;
     statistics.mean_objects += one.kept;

@@ -27,6 +27,9 @@ struct SceneGenerationRequest {
 struct SceneStatistics {
   std::string type;
   int scenes = 0, attempts = 0;
+  // Of the attempts that are no scenes, those that physics accepts, but with fewer free objects
+  // than a scene needs (scene::FeasibilityOptions::fewest).
+  int too_few = 0;
   double yield = 0.0;                           // share of the attempts that are scenes
   double mean_objects = 0.0, mean_drawn = 0.0;  // furniture included; of scenes, of all draws
   int most_objects = 0;

@@ -48,6 +48,10 @@ std::string StatisticsTable(const SceneStatistics& statistics) {
                 statistics.most_objects, statistics.dropped, 1e3 * statistics.moved,
                 1e3 * statistics.penetration, 1e3 * statistics.drift);
   std::string table = text + CountsTable(statistics);
+  if (statistics.too_few > 0) {
+    table += std::to_string(statistics.too_few) +
+             " more are apart and at rest, but with too few things left for a scene\n";
+  }
   if (statistics.elsewhere > 0) {
     table += std::to_string(statistics.elsewhere) + " parts are being made by other workers\n";
   }
@@ -59,6 +63,7 @@ std::string StatisticsJson(const SceneStatistics& statistics) {
   json["type"] = statistics.type;
   json["scenes"] = statistics.scenes;
   json["attempts"] = statistics.attempts;
+  json["too_few"] = statistics.too_few;
   json["yield"] = statistics.yield;
   json["objects_mean"] = statistics.mean_objects;
   json["objects_drawn_mean"] = statistics.mean_drawn;

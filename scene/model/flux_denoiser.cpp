@@ -55,7 +55,7 @@ torch::Tensor SingleBlockImpl::forward(const torch::Tensor& x, const torch::Tens
 FluxDenoiser::FluxDenoiser(const SceneModelOptions& options, int classes) {
   const std::int64_t width = options.width;
   const ClassShapes shapes = RegisterShapes(options, classes, EntryWidth(width), width / 2);
-  entry_ = register_module("entry", TokenEntry(width, classes, options.continuous, shapes));
+  entry_ = register_module("entry", TokenEntry(options, classes, shapes));
   time_ = register_module("time", TimeEntry(width));
   for (int i = 0; i < options.double_blocks; ++i) {
     double_blocks_->push_back(DoubleBlock(width, options.heads));

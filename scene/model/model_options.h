@@ -19,6 +19,10 @@ struct SceneModelOptions {
   int heads = 4;
   int double_blocks = 2;  // of kFlux; attention, then a network a token
   int single_blocks = 4;  // of kFlux: both at once; of kTransformer: all of them
+  // Sines and cosines that a place enters as beside itself, octaves of each coordinate from the
+  // whole range on (TokenEntry); 0: none, as in the papers. Boards and table tops leave few
+  // heights, and a network of the bare number learns such steps last (Tancik et al. 2020).
+  int place_octaves = 6;
   int diffusion_steps = 1000;
   // Of the classes' loss in the whole, of a mixed model; the papers' is 1. A step's divergence is
   // what a class is worth divided by the steps, a thousandth of what poses' errors are: of 64 drawn

@@ -1,5 +1,7 @@
 #include "scene/model/token_heads.h"
 
+#include <cmath>
+
 #include "nn/blocks.h"
 #include "scene/dataset/vocabulary.h"
 
@@ -9,27 +11,41 @@ namespace {
 using torch::nn::Linear;
 
 constexpr int kTimeFeatures = 256;
+constexpr std::int64_t kPlaceWidth = 3;
+
+// (B x N x 12) -> (B x N x 12 + 6 octaves).
+torch::Tensor WithOctaves(const torch::Tensor& poses, int octaves) {
+  if (octaves == 0) return poses;
+  std::vector<torch::Tensor> all{poses};
+  torch::Tensor angle = M_PI * poses.narrow(-1, 0, kPlaceWidth);
+  for (int k = 0; k < octaves; ++k, angle = 2.0 * angle) {
+    all.push_back(torch::sin(angle));
+    all.push_back(torch::cos(angle));
+  }
+  return torch::cat(all, -1);
+}
 
 }  // namespace
 
-TokenEntryImpl::TokenEntryImpl(std::int64_t width, int classes, bool continuous, ClassShapes shapes)
-    : shapes_(std::move(shapes)) {
-  const std::int64_t half = EntryWidth(width);
-  pose_ = register_module("pose", torch::nn::Sequential(Linear(kPoseWidth, half), torch::nn::SiLU(),
-                                                        Linear(half, half)));
-  if (continuous) {
+TokenEntryImpl::TokenEntryImpl(const SceneModelOptions& options, int classes, ClassShapes shapes)
+    : octaves_(options.place_octaves), shapes_(std::move(shapes)) {
+  const std::int64_t half = EntryWidth(options.width);
+  const std::int64_t pose = kPoseWidth + 2 * kPlaceWidth * octaves_;
+  pose_ = register_module(
+      "pose", torch::nn::Sequential(Linear(pose, half), torch::nn::SiLU(), Linear(half, half)));
+  if (options.continuous) {
     class_map_ = register_module("class_map", Linear(classes, half));
   } else if (!shapes_) {
     class_ = register_module("class", torch::nn::Embedding(classes + 1, half));
   }
-  join_ = register_module("join", Linear(2 * half, width));
+  join_ = register_module("join", Linear(2 * half, options.width));
 }
 
 torch::Tensor TokenEntryImpl::forward(const NoisyScenes& scenes) {
   const torch::Tensor classes = class_map_ ? class_map_(scenes.classes)
                                 : shapes_  ? torch::embedding(shapes_->Entries(), scenes.classes)
                                            : class_(scenes.classes);
-  return join_(torch::cat({pose_->forward(scenes.poses), classes}, -1));
+  return join_(torch::cat({pose_->forward(WithOctaves(scenes.poses, octaves_)), classes}, -1));
 }
 
 TokenExitImpl::TokenExitImpl(std::int64_t width, int classes, ClassShapes shapes)

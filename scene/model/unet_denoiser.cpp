@@ -57,7 +57,7 @@ torch::Tensor TokenAttentionImpl::forward(const torch::Tensor& x) {
 
 UnetDenoiser::UnetDenoiser(const SceneModelOptions& options, int classes) {
   const std::int64_t width = options.width, heads = options.heads;
-  entry_ = register_module("entry", TokenEntry(width, classes, options.continuous));
+  entry_ = register_module("entry", TokenEntry(options, classes));
   time_ = register_module("time", TimeEntry(width));
   for (int level = 0; level < kLevels; ++level) {
     down_->push_back(TokenResidual(width, width, width));

@@ -20,6 +20,7 @@ SceneModelOptions OptionsOf(const nlohmann::json& json) {
   options.single_blocks = json.at("single_blocks");
   options.diffusion_steps = json.at("diffusion_steps");
   options.class_weight = json.at("class_weight");
+  options.place_octaves = json.value("place_octaves", 0);
   options.shape_points = json.value("shape_points", 0);
   return options;
 }
@@ -55,6 +56,7 @@ void WriteWeights(const Denoiser& denoiser, const SceneModelFacts& facts,
   json["single_blocks"] = facts.options.single_blocks;
   json["diffusion_steps"] = facts.options.diffusion_steps;
   json["class_weight"] = facts.options.class_weight;
+  json["place_octaves"] = facts.options.place_octaves;
   json["shape_points"] = facts.options.shape_points;
   json["training_scenes"] = facts.training_scenes;
   json["data_seed"] = facts.data_seed;
