@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/file_seal.h"
 
 namespace simwright::core {
 namespace {
@@ -398,8 +399,18 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& path)
                                        "the file has no root", path.string());
 }
 
-void Hdf5Writer::Commit() {
+void Hdf5Writer::Close() {
   if (H5Fclose(file_->id()) < 0) Fail("cannot write the file to its end", root_.place_);
+}
+
+void Hdf5Writer::Commit() {
+  Close();
+  staged_.Commit();
+}
+
+void Hdf5Writer::CommitSealed() {
+  Close();
+  SealFile(staged_.staging());
   staged_.Commit();
 }
 

@@ -76,7 +76,8 @@ class Hdf5Group {
   std::string place_;  // file and path, for errors
 };
 
-// An HDF5 file to be read. libhdf5 1.10 is no match for files made to harm it: read what you trust.
+// An HDF5 file to be read. libhdf5 1.10 is no match for a flipped bit (of 3000 damaged files 73
+// made it crash and 15 run on): read what you trust, or what is sealed (core/file_seal).
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::filesystem::path& path);
@@ -92,10 +93,14 @@ class Hdf5Writer {
  public:
   explicit Hdf5Writer(const std::filesystem::path& path);
   Hdf5Group& root() { return root_; }
-  // Closes the file with all its groups and moves it into place.
+  // Closes the file with all its groups and moves it into place; with a seal (core/file_seal),
+  // which other programs pass over, as it follows all that the file's own length speaks of.
   void Commit();
+  void CommitSealed();
 
  private:
+  void Close();
+
   StagedFile staged_;
   std::shared_ptr<Hdf5Group::Handle> file_;
   Hdf5Group root_;

@@ -20,9 +20,9 @@ namespace simwright {
 namespace {
 namespace fs = std::filesystem;
 
-// "ours_paper_loss": ours with the paper's weight of the classes' loss; "ours_bare_places": without
-// the octaves of places.
-const std::vector<std::string> kMethods = {"ours",       "ours_bare_places", "ours_paper_loss",
+// "ours_paper_loss": ours with the paper's weight of the classes' loss; "ours_paper_poses": places
+// enter as they are, noise is guessed as such, and times are drawn evenly.
+const std::vector<std::string> kMethods = {"ours",       "ours_paper_poses", "ours_paper_loss",
                                            "continuous", "midiffusion",      "diffuscene"};
 
 struct Arguments {
@@ -36,7 +36,11 @@ struct Arguments {
 scene::SceneModelOptions ModelOf(const Arguments& arguments) {
   scene::SceneModelOptions model = scene::SceneModelOptions::OfSize(arguments.size);
   if (arguments.method == "ours_paper_loss") model.class_weight = 1.0;
-  if (arguments.method == "ours_bare_places") model.place_octaves = 0;
+  if (arguments.method == "ours_paper_poses") {
+    model.place_octaves = 0;
+    model.blends_clean_poses = false;
+    model.time_power = 1.0;
+  }
   if (arguments.method == "continuous") model.continuous = true;
   if (arguments.method == "midiffusion") return model.AsMiDiffusion();
   if (arguments.method == "diffuscene") return model.AsDiffuScene();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/file_seal.h"
 #include "scene/dataset/tokens.h"
 
 namespace simwright::scene {
@@ -66,10 +67,14 @@ void WritePart(const ScenePart& part, const fs::path& path) {
        static_cast<std::size_t>(vocabulary.TokenWidth())},
       part.tokens.data(), {.rows_per_chunk = kScenesPerChunk, .gzip = kGzip});
   WriteAttempts(part.attempts, &root);
-  writer.Commit();
+  writer.CommitSealed();
 }
 
 ScenePartFile::ScenePartFile(const fs::path& path) : path_(path) {
+  if (fs::is_regular_file(path) && core::SealOf(path) == core::FileSeal::kBroken) {
+    throw core::Error("it is damaged: something in it is not as it was written", path.string(),
+                      "delete the file and generate again: only this part is made anew");
+  }
   const core::Hdf5Reader reader(path);
   const core::Hdf5Group& root = reader.root();
   ReadOrigin(root);

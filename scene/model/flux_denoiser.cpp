@@ -67,7 +67,7 @@ FluxDenoiser::FluxDenoiser(const SceneModelOptions& options, int classes) {
   register_module("single_blocks", single_blocks_);
   last_ = register_module("last", nn::Modulation(width, 2));
   narrow_ = register_module("narrow", Linear(width, width / 2));
-  exit_ = register_module("exit", TokenExit(width / 2, classes, shapes));
+  exit_ = register_module("exit", TokenExit(options, width / 2, classes, shapes));
 }
 
 Denoised FluxDenoiser::Predict(const NoisyScenes& scenes) {
@@ -80,7 +80,7 @@ Denoised FluxDenoiser::Predict(const NoisyScenes& scenes) {
     x = block->as<SingleBlockImpl>()->forward(x, vector);
   }
   const std::vector<torch::Tensor> m = last_(vector);
-  return exit_(narrow_(nn::Modulated(x, m[0], m[1])));
+  return exit_(narrow_(nn::Modulated(x, m[0], m[1])), scenes);
 }
 
 }  // namespace simwright::scene

@@ -35,6 +35,8 @@ SceneModelOptions SceneModelOptions::AsMiDiffusion() const {
   options.double_blocks = 0;
   options.heads = 4;
   options.place_octaves = 0;
+  options.blends_clean_poses = false;
+  options.time_power = 1.0;
   options.class_weight = 1.0;
   return options;
 }
@@ -45,6 +47,8 @@ SceneModelOptions SceneModelOptions::AsDiffuScene() const {
   options.continuous = true;
   options.heads = 4;
   options.place_octaves = 0;
+  options.blends_clean_poses = false;
+  options.time_power = 1.0;
   // Its parameters are `kUnetShare` width^2, ours as above.
   constexpr double kUnetShare = 132.0;
   const double ours = (18.0 * double_blocks + 15.0 * single_blocks) * width * width;
@@ -69,6 +73,7 @@ bool SceneModelOptions::IsValid(std::string* error) const {
   }
   if (!(class_weight > 0.0)) return fails("class_weight has to be above 0");
   if (place_octaves < 0 || place_octaves > 16) return fails("place_octaves have to be 0 to 16");
+  if (!(time_power >= 1.0 && time_power <= 8.0)) return fails("time_power has to be 1 to 8");
   if (shape_points < 0 || shape_points > 65536) return fails("shape_points have to be 0 to 65536");
   if (shape_points > 0 && continuous) return fails("classes as numbers cannot be known by shape");
   if (shape_points > 0 && kind == DenoiserKind::kUnet) {

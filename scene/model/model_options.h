@@ -23,6 +23,13 @@ struct SceneModelOptions {
   // whole range on (TokenEntry); 0: none, as in the papers. Boards and table tops leave few
   // heights, and a network of the bare number learns such steps last (Tancik et al. 2020).
   int place_octaves = 6;
+  // The noise of a pose is predicted both as such and by way of the clean pose (PoseBlend); else as
+  // such, as in the papers.
+  bool blends_clean_poses = true;
+  // Times to learn at are drawn as T u^p, u uniform in [0, 1): 1, as in the papers, has an eighth
+  // of them where the noise is less than a quarter of the room, where heights are decided; 2 a
+  // third. The classes' loss is weighted back to the evidence's bound.
+  double time_power = 2.0;
   int diffusion_steps = 1000;
   // Of the classes' loss in the whole, of a mixed model; the papers' is 1. A step's divergence is
   // what a class is worth divided by the steps, a thousandth of what poses' errors are: of 64 drawn

@@ -4,11 +4,11 @@
 
 #include "core/error.h"
 #include "scene/dataset/vocabulary.h"
+#include "scene/model/pose_schedule.h"
 
 namespace simwright::scene {
 namespace {
 
-constexpr double kFirstBeta = 1e-4, kLastBeta = 0.02;
 constexpr double kCrossEntropyShare = 5e-4;
 
 // Drawn on the CPU, so that a seed gives the same on every device.
@@ -30,39 +30,52 @@ void SetPoseLoss(const torch::Tensor& off, SceneLoss* loss) {
 SceneDiffusion::SceneDiffusion(const SceneModelOptions& options, int classes)
     : continuous_(options.continuous),
       class_weight_(options.class_weight),
-      poses_(nn::DiffusionSchedule::Linear(options.diffusion_steps, kFirstBeta, kLastBeta)),
+      time_power_(options.time_power),
+      poses_(PoseSchedule(options.diffusion_steps)),
       classes_(options.diffusion_steps, classes) {}
 
 SceneLoss SceneDiffusion::Loss(Denoiser* denoiser, const CleanScenes& scenes,
                                const at::Generator& generator) const {
-  const torch::Tensor t =
-      torch::randint(0, poses_.steps(), {scenes.poses.size(0)}, generator, torch::kLong)
-          .to(scenes.poses.device());
-  return LossAt(denoiser, scenes, t, generator);
+  const torch::Tensor u = torch::rand({scenes.poses.size(0)}, generator, torch::kFloat);
+  const torch::Tensor t = (poses_.steps() * u.pow(time_power_)).to(torch::kLong);
+  const torch::Tensor weight = class_weight_ * time_power_ * u.pow(time_power_ - 1.0);
+  const torch::Device device = scenes.poses.device();
+  return Loss(denoiser, scenes, t.clamp_max(poses_.steps() - 1).to(device), weight.to(device),
+              generator);
 }
 
 SceneLoss SceneDiffusion::LossAt(Denoiser* denoiser, const CleanScenes& scenes,
                                  const torch::Tensor& t, const at::Generator& generator) const {
+  const torch::Tensor weight = torch::full({t.size(0)}, class_weight_, scenes.poses.options());
+  return Loss(denoiser, scenes, t, weight, generator);
+}
+
+SceneLoss SceneDiffusion::Loss(Denoiser* denoiser, const CleanScenes& scenes,
+                               const torch::Tensor& t, const torch::Tensor& class_weight,
+                               const at::Generator& generator) const {
   return continuous_ ? ContinuousLoss(denoiser, scenes, t, generator)
-                     : MixedLoss(denoiser, scenes, t, generator);
+                     : MixedLoss(denoiser, scenes, t, class_weight, generator);
 }
 
 SceneLoss SceneDiffusion::MixedLoss(Denoiser* denoiser, const CleanScenes& scenes,
-                                    const torch::Tensor& t, const at::Generator& generator) const {
+                                    const torch::Tensor& t, const torch::Tensor& class_weight,
+                                    const at::Generator& generator) const {
   const torch::Tensor noise = NormalLike(scenes.poses, generator);
   const torch::Tensor noisy = classes_.AddNoise(scenes.classes, t, generator);
   const Denoised guess = denoiser->Predict({poses_.AddNoise(scenes.poses, noise, t), noisy, t});
   SceneLoss loss;
   SetPoseLoss(guess.pose_noise - noise, &loss);
   const torch::Tensor log_clean = torch::log_softmax(guess.classes.to(torch::kFloat), -1);
-  loss.divergence = classes_.Divergence(scenes.classes, noisy, log_clean, t).mean();
+  const torch::Tensor divergence =
+      classes_.Divergence(scenes.classes, noisy, log_clean, t).mean(-1);  // (B)
+  loss.divergence = divergence.mean();
   const torch::Tensor entropy =
       -log_clean.gather(-1, scenes.classes.unsqueeze(-1)).squeeze(-1).mean(-1);  // (B)
   loss.cross_entropy = entropy.mean();
   const torch::Tensor weight =
       2.0 - (t.to(torch::kFloat) + 1.0) / static_cast<double>(poses_.steps());
-  loss.total = 0.5 * (loss.translation + loss.rotation) +
-               class_weight_ * (loss.divergence + kCrossEntropyShare * (weight * entropy).mean());
+  const torch::Tensor classes = class_weight * (divergence + kCrossEntropyShare * weight * entropy);
+  loss.total = 0.5 * (loss.translation + loss.rotation) + classes.mean();
   return loss;
 }
 

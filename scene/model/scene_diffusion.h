@@ -29,8 +29,8 @@ class SceneDiffusion {
  public:
   SceneDiffusion(const SceneModelOptions& options, int classes);
 
-  // (MSE_translation + MSE_rotation) / 2 + w (KL + 5e-4 (2 - t / T) CE(x_0)), at random times; w is
-  // options.class_weight.
+  // (MSE_translation + MSE_rotation) / 2 + w (KL + 5e-4 (2 - t / T) CE(x_0)), at random times
+  // T u^p; w is options.class_weight over the density of t against the uniform one, p u^(p - 1).
   SceneLoss Loss(Denoiser* denoiser, const CleanScenes& scenes,
                  const at::Generator& generator) const;
   // The same at times t (B).
@@ -49,13 +49,16 @@ class SceneDiffusion {
   CleanScenes Clean(const NoisyScenes& scenes) const;
 
  private:
+  SceneLoss Loss(Denoiser* denoiser, const CleanScenes& scenes, const torch::Tensor& t,
+                 const torch::Tensor& class_weight, const at::Generator& generator) const;
   SceneLoss MixedLoss(Denoiser* denoiser, const CleanScenes& scenes, const torch::Tensor& t,
+                      const torch::Tensor& class_weight,  // (B)
                       const at::Generator& generator) const;
   SceneLoss ContinuousLoss(Denoiser* denoiser, const CleanScenes& scenes, const torch::Tensor& t,
                            const at::Generator& generator) const;
 
   bool continuous_;
-  double class_weight_;
+  double class_weight_, time_power_;
   nn::DiffusionSchedule poses_;
   CategoryDiffusion classes_;
 };

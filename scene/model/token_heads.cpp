@@ -13,10 +13,9 @@ using torch::nn::Linear;
 constexpr int kTimeFeatures = 256;
 constexpr std::int64_t kPlaceWidth = 3;
 
-// (B x N x 12) -> (B x N x 12 + 6 octaves).
-torch::Tensor WithOctaves(const torch::Tensor& poses, int octaves) {
-  if (octaves == 0) return poses;
-  std::vector<torch::Tensor> all{poses};
+// Of the places of poses (B x N x 12): (B x N x 6 octaves).
+torch::Tensor Octaves(const torch::Tensor& poses, int octaves) {
+  std::vector<torch::Tensor> all;
   torch::Tensor angle = M_PI * poses.narrow(-1, 0, kPlaceWidth);
   for (int k = 0; k < octaves; ++k, angle = 2.0 * angle) {
     all.push_back(torch::sin(angle));
@@ -30,9 +29,13 @@ torch::Tensor WithOctaves(const torch::Tensor& poses, int octaves) {
 TokenEntryImpl::TokenEntryImpl(const SceneModelOptions& options, int classes, ClassShapes shapes)
     : octaves_(options.place_octaves), shapes_(std::move(shapes)) {
   const std::int64_t half = EntryWidth(options.width);
-  const std::int64_t pose = kPoseWidth + 2 * kPlaceWidth * octaves_;
-  pose_ = register_module(
-      "pose", torch::nn::Sequential(Linear(pose, half), torch::nn::SiLU(), Linear(half, half)));
+  pose_ = register_module("pose", torch::nn::Sequential(Linear(kPoseWidth, half), torch::nn::SiLU(),
+                                                        Linear(half, half)));
+  if (octaves_ > 0) {
+    place_ = register_module("place", Linear(2 * kPlaceWidth * octaves_, half));
+    torch::nn::init::zeros_(place_->weight);  // such steep features are noise until they are known
+    torch::nn::init::zeros_(place_->bias);
+  }
   if (options.continuous) {
     class_map_ = register_module("class_map", Linear(classes, half));
   } else if (!shapes_) {
@@ -45,22 +48,40 @@ torch::Tensor TokenEntryImpl::forward(const NoisyScenes& scenes) {
   const torch::Tensor classes = class_map_ ? class_map_(scenes.classes)
                                 : shapes_  ? torch::embedding(shapes_->Entries(), scenes.classes)
                                            : class_(scenes.classes);
-  return join_(torch::cat({pose_->forward(WithOctaves(scenes.poses, octaves_)), classes}, -1));
+  torch::Tensor pose = pose_->forward(scenes.poses);
+  if (place_) pose = pose + place_(Octaves(scenes.poses, octaves_));
+  return join_(torch::cat({pose, classes}, -1));
 }
 
-TokenExitImpl::TokenExitImpl(std::int64_t width, int classes, ClassShapes shapes)
-    : shapes_(std::move(shapes)) {
+std::int64_t PoseBlend::Width() const {
+  return wanted_ ? 3 * kPoseWidth : kPoseWidth;
+}
+
+torch::Tensor PoseBlend::Noise(const torch::Tensor& guesses, const NoisyScenes& scenes) const {
+  if (!wanted_) return guesses;
+  // g begins near nothing: x_0' is far off then, and divided by what may be a hundredth.
+  constexpr double kGateStart = -4.0;
+  const std::vector<torch::Tensor> parts = guesses.to(torch::kFloat).chunk(3, -1);
+  const torch::Tensor off = (scenes.poses - schedule_.Signal(scenes.time, 3) * parts[1]) /
+                            schedule_.Noise(scenes.time, 3);
+  return parts[0] + torch::sigmoid(parts[2] + kGateStart) * off;
+}
+
+TokenExitImpl::TokenExitImpl(const SceneModelOptions& options, std::int64_t width, int classes,
+                             ClassShapes shapes)
+    : blend_(options), shapes_(std::move(shapes)) {
   pose_ = register_module("pose", torch::nn::Sequential(Linear(width, width), torch::nn::SiLU(),
-                                                        Linear(width, kPoseWidth)));
+                                                        Linear(width, blend_.Width())));
   class_norm_ = register_module(
       "class_norm", torch::nn::LayerNorm(torch::nn::LayerNormOptions({width}).eps(1e-6)));
   if (!shapes_) class_map_ = register_module("class_map", Linear(width, classes));
 }
 
-Denoised TokenExitImpl::forward(const torch::Tensor& features) {
+Denoised TokenExitImpl::forward(const torch::Tensor& features, const NoisyScenes& scenes) {
   // In single precision, whatever products are done in (nn::MixedPrecision).
   const torch::Tensor normed = class_norm_(features.to(torch::kFloat));
-  return {pose_->forward(features), shapes_ ? shapes_->Logits(normed) : class_map_(normed)};
+  return {blend_.Noise(pose_->forward(features), scenes),
+          shapes_ ? shapes_->Logits(normed) : class_map_(normed)};
 }
 
 TimeEntryImpl::TimeEntryImpl(std::int64_t width) {

@@ -29,14 +29,14 @@ TransformerDenoiser::TransformerDenoiser(const SceneModelOptions& options, int c
     blocks_->push_back(AdaptiveBlock(width, options.heads));
   }
   register_module("blocks", blocks_);
-  exit_ = register_module("exit", TokenExit(width, classes, shapes));
+  exit_ = register_module("exit", TokenExit(options, width, classes, shapes));
 }
 
 Denoised TransformerDenoiser::Predict(const NoisyScenes& scenes) {
   const torch::Tensor vector = time_(scenes.time);
   torch::Tensor x = entry_(scenes);
   for (const auto& block : *blocks_) x = block->as<AdaptiveBlockImpl>()->forward(x, vector);
-  return exit_(x);
+  return exit_(x, scenes);
 }
 
 }  // namespace simwright::scene

@@ -74,7 +74,7 @@ UnetDenoiser::UnetDenoiser(const SceneModelOptions& options, int classes) {
   register_module("down", down_);
   register_module("middle", middle_);
   register_module("up", up_);
-  exit_ = register_module("exit", TokenExit(width, classes));
+  exit_ = register_module("exit", TokenExit(options, width, classes));
 }
 
 Denoised UnetDenoiser::Predict(const NoisyScenes& scenes) {
@@ -104,7 +104,7 @@ Denoised UnetDenoiser::Predict(const NoisyScenes& scenes) {
     }
     attend(up_, 3 * level + 2);
   }
-  return exit_(x.transpose(1, 2));
+  return exit_(x.transpose(1, 2), scenes);
 }
 
 }  // namespace simwright::scene

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "nn/mixed_precision.h"
+#include "scene/model/token_heads.h"
 
 namespace simwright::scene {
 namespace {
@@ -75,6 +76,33 @@ TEST(Denoiser, AnotherOrderOfTheObjectsIsTheSamePredictionInThatOrder) {
       EXPECT_TRUE(differs(beside)) << NameOf(kind);
     }
   }
+}
+
+// e' + g (x - a x_0') / s with each of its guesses right or wrong.
+TEST(PoseBlend, IsTheNoiseByEitherWay) {
+  torch::manual_seed(2);
+  SceneModelOptions options;
+  const PoseBlend blend(options);
+  ASSERT_EQ(blend.Width(), 36);
+  const torch::Tensor clean = 2.0 * torch::rand({4, 5, 12}) - 1.0, noise = torch::randn({4, 5, 12});
+  const torch::Tensor time = torch::tensor({0, 10, 300, 999}, torch::kLong);
+  const NoisyScenes scenes{PoseSchedule(1000).AddNoise(clean, noise, time), torch::Tensor(), time};
+  const torch::Tensor shut = torch::full_like(clean, -1e4), open = torch::full_like(clean, 1e4);
+  const torch::Tensor wrong = torch::randn_like(clean), none = torch::zeros_like(clean);
+  const auto off = [&](const torch::Tensor& e, const torch::Tensor& x0, const torch::Tensor& g) {
+    return (blend.Noise(torch::cat({e, x0, g}, -1), scenes) - noise).abs().max().item<double>();
+  };
+  EXPECT_LT(off(noise, wrong, shut), 1e-6);
+  EXPECT_LT(off(none, clean, open), 1e-4);  // a hundredth of single precision
+  EXPECT_GT(off(none, wrong, open), 1.0);
+  EXPECT_GT(off(wrong, clean, shut), 0.1);
+  // A clean pose that is off by d is a noise off by a d / s: 0.01 at the first step is about 1.
+  const double first = PoseSchedule(1000).SignalAt(0) / PoseSchedule(1000).NoiseAt(0);
+  const torch::Tensor guess = blend.Noise(torch::cat({none, clean + 0.01, open}, -1), scenes);
+  EXPECT_NEAR((guess - noise)[0].mean().item<double>(), -0.01 * first, 1e-3);
+  options.blends_clean_poses = false;
+  EXPECT_EQ(PoseBlend(options).Width(), 12);
+  EXPECT_TRUE(torch::equal(PoseBlend(options).Noise(wrong, scenes), wrong));
 }
 
 TEST(Denoiser, BaselinesAreAsLargeWithinATenth) {
