@@ -29,14 +29,18 @@ void Load(const std::vector<SettlingBody>& bodies, World* world) {
   }
 }
 
+bool HasFallen(const SettlingBody& one, const Isometry3d& now, double fallen) {
+  const Vector3d& center = one.body->inertial.center_of_mass;
+  return (one.world_from_body * center - now * center).z() > fallen;
+}
+
 // Where a free body is once it has settled.
 SettledBody EndOf(const SettlingBody& one, const Isometry3d& now, double fallen) {
-  const Vector3d& center = one.body->inertial.center_of_mass;
   SettledBody end;
   end.world_from_body = now;
   end.moved = Way(*one.body, Radius(*one.body), one.world_from_body, now);
   end.tilted = TiltBetween(one.world_from_body, now);
-  end.fell = (one.world_from_body * center - now * center).z() > fallen;
+  end.fell = HasFallen(one, now, fallen);
   return end;
 }
 
@@ -48,7 +52,7 @@ constexpr double kWatchAtLeast = 0.25;  // s
 class Scene {
  public:
   Scene(const std::vector<SettlingBody>& bodies, const SettlingOptions& options)
-      : bodies_(bodies), options_(options), world_(OptionsOf(options)) {
+      : bodies_(bodies), options_(options), world_(OptionsOf(options)), removed_(bodies.size(), 0) {
     Load(bodies, &world_);
     for (const SettlingBody& one : bodies) radii_.push_back(Radius(*one.body));
   }
@@ -62,7 +66,10 @@ class Scene {
       settled.push_back(bodies_[i].fixed ? stays : EndOf(bodies_[i], PoseOf(i), options_.fallen));
     }
     Watch(&settled);
-    for (SettledBody& end : settled) end.stable = end.drift <= options_.stable;
+    for (size_t i = 0; i < settled.size(); ++i) {
+      if (removed_[i]) settled[i].drift = HUGE_VAL;
+      settled[i].stable = settled[i].drift <= options_.stable;
+    }
     return settled;
   }
 
@@ -85,7 +92,7 @@ class Scene {
   double FarthestFrom(const std::vector<Isometry3d>& poses) const {
     double farthest = 0.0;
     for (size_t i = 0; i < bodies_.size(); ++i) {
-      if (bodies_[i].fixed) continue;
+      if (bodies_[i].fixed || removed_[i]) continue;
       const double way = Way(*bodies_[i].body, radii_[i], poses[i], PoseOf(i));
       farthest = std::isfinite(way) ? std::max(farthest, way) : HUGE_VAL;
     }
@@ -98,6 +105,14 @@ class Scene {
     return poses;
   }
 
+  void RemoveFallen() {
+    for (size_t i = 0; i < bodies_.size(); ++i) {
+      if (bodies_[i].fixed || removed_[i]) continue;
+      removed_[i] = HasFallen(bodies_[i], PoseOf(i), options_.fallen);
+      if (removed_[i]) world_.Remove(static_cast<int>(i));
+    }
+  }
+
   void Settle() {
     std::vector<Isometry3d> before = Poses();
     double passed = 0.0;
@@ -105,7 +120,10 @@ class Scene {
       const double some = std::min(kRestFor, options_.duration - passed);
       Step(some);
       passed += some;
-      if (options_.resting > 0.0 && FarthestFrom(before) <= options_.resting) return;
+      if (options_.resting > 0.0) {
+        RemoveFallen();
+        if (FarthestFrom(before) <= options_.resting) return;
+      }
       before = Poses();
     }
   }
@@ -117,16 +135,17 @@ class Scene {
       Step(some);
       passed += some;
       for (size_t i = 0; i < bodies_.size(); ++i) {
-        if (bodies_[i].fixed) continue;
+        if (bodies_[i].fixed || removed_[i]) continue;
         SettledBody& one = (*settled)[i];
         const double way = Way(*bodies_[i].body, radii_[i], one.world_from_body, PoseOf(i));
         one.drift = std::isfinite(way) ? std::max(one.drift, way) : HUGE_VAL;
         farthest = std::max(farthest, one.drift);
       }
       const double rest = options_.watch / passed;
-      const bool early = options_.pace > 0.0 && passed >= kWatchAtLeast - 1e-9 &&
-                         farthest * rest * options_.pace <= options_.stable;
-      if (!early) continue;
+      const bool still =
+          passed >= kWatchAtLeast - 1e-9 && farthest * rest * options_.pace <= options_.stable;
+      const bool decided = still || farthest > options_.stable;
+      if (options_.pace <= 0.0 || !decided) continue;
       for (SettledBody& one : *settled) one.drift *= rest;
       return;
     }
@@ -135,6 +154,7 @@ class Scene {
   const std::vector<SettlingBody>& bodies_;
   const SettlingOptions& options_;
   World world_;
+  std::vector<char> removed_;
   std::vector<double> radii_;
 };
 

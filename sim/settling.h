@@ -28,9 +28,11 @@ struct SettlingOptions {
   // before it has passed. What creeps from its place does so at a pace that watching finds.
   double resting = 2e-5;
   // Watching ends after a quarter of a second or more where ways so far, at so many times their
-  // pace to the end, would stay below `stable`; 0: never before `watch` has passed.
+  // pace to the end, would stay below `stable`, and wherever one has moved by more; 0: never before
+  // `watch` has passed.
   double pace = 4.0;
-  // m below where it began: what is lower has fallen off what it stood on.
+  // m below where it began: what is lower has fallen off what it stood on. It is taken out, so that
+  // it knocks nothing down and nobody waits for it to roll to rest; not where `resting` is 0.
   double fallen = 0.05;
 
   bool IsValid(std::string* error) const;
@@ -43,7 +45,7 @@ struct SettledBody {
   double moved = 0.0;   // m, from the beginning to then
   double tilted = 0.0;  // rad, its upright from its first one
   // m, the farthest it was from there while it was watched; where that ended early, at the same
-  // pace to the end.
+  // pace to the end. Of what was taken out, HUGE_VAL.
   double drift = 0.0;
   bool fell = false;    // lower than it began, by more than `fallen`
   bool stable = false;  // drift <= options.stable

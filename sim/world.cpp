@@ -36,8 +36,12 @@ struct World::Bullet {
     return *shape;
   }
 
+  void Remove(const LoadedBody& body) {
+    if (body.rigid->getWorldArrayIndex() >= 0) world.removeRigidBody(body.rigid.get());
+  }
+
   ~Bullet() {
-    for (const LoadedBody& body : bodies) world.removeRigidBody(body.rigid.get());
+    for (const LoadedBody& body : bodies) Remove(body);
     if (floor) world.removeRigidBody(floor.get());
   }
 };
@@ -94,6 +98,10 @@ int World::AddBody(const RigidBody& body, const Eigen::Isometry3d& world_from_bo
   bullet_->world.addRigidBody(rigid.get());
   bullet_->bodies.push_back({&shape, std::move(rigid)});
   return static_cast<int>(bullet_->bodies.size()) - 1;
+}
+
+void World::Remove(int body) {
+  bullet_->Remove(bullet_->bodies.at(static_cast<size_t>(body)));
 }
 
 void World::Step() {

@@ -38,6 +38,9 @@ class World {
   // The same, of a body that stays where it is, as welded furniture does; it needs no mass.
   int AddFixed(const RigidBody& body, const Eigen::Isometry3d& world_from_body);
 
+  // Takes a body out: nothing touches it any more, and it keeps its pose. Once or more.
+  void Remove(int body);
+
   // One time step.
   void Step();
 

@@ -96,8 +96,24 @@ TEST(Settle, WhatHangsOverTheEdgeFalls) {
                                                    {&box, At({0.51, 0.2, 0.581}), false},
                                                    {&box, At({0.49, -0.2, 0.581}), false}});
   EXPECT_TRUE(settled[1].fell);
-  EXPECT_GT(settled[1].moved, 0.4);
+  EXPECT_FALSE(settled[1].stable);
   EXPECT_FALSE(settled[2].fell);
+  EXPECT_TRUE(settled[2].stable);
+}
+
+// What has fallen off is gone before it can knock over what stands below.
+TEST(Settle, WhatFallsKnocksNothingDown) {
+  const RigidBody table = Box({1, 1, 0.1}, 0.0), box = Box({0.1, 0.1, 0.06}, 0.3);
+  const RigidBody post = Box({0.03, 0.03, 0.2}, 0.1);
+  const std::vector<SettlingBody> bodies = {{&table, At({0, 0, 0.5}), true},
+                                            {&box, At({0.52, 0.2, 0.581}), false},
+                                            {&post, At({0.56, 0.2, 0.1}), false}};
+  SettlingOptions whole;
+  whole.resting = whole.pace = 0.0;
+  EXPECT_GT(Settle(bodies, whole)[2].tilted, 1.0);
+  const std::vector<SettledBody> settled = Settle(bodies);
+  EXPECT_TRUE(settled[1].fell);
+  EXPECT_LT(settled[2].tilted, 0.01);
   EXPECT_TRUE(settled[2].stable);
 }
 
@@ -110,6 +126,7 @@ TEST(Settle, WhatSlidesIsNotStable) {
   SettlingOptions options;
   options.duration = 0.5;
   options.watch = 0.5;
+  options.resting = options.pace = 0.0;  // to the end
   const std::vector<SettledBody> settled = Settle({{&plank, slope, true},
                                                    {&rough, slope * At({-1, 0.2, 0.07}), false},
                                                    {&smooth, slope * At({-1, -0.2, 0.07}), false}},
