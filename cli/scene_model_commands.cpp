@@ -96,7 +96,7 @@ void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run) {
   CLI::App* command =
       scene->add_subcommand("train", "A diffusion model of the scenes of a dataset");
   command->footer(
-      "Example:\n  simwright scene train out/dimsum -o out/dimsum_model --steps 2500\n"
+      "Example:\n  simwright scene train out/dimsum -o out/dimsum_model\n"
       "--resume goes on where an earlier run of the folder stopped.");
   command->add_option("dataset", flags->dataset, "What `simwright scene generate` wrote")
       ->required();

@@ -1,7 +1,7 @@
 // The table of models of scenes, as in the paper's Table 1: ours, MiDiffusion and DiffuScene on the
 // same data with the same updates, each so many seeds. One cell is trained and evaluated at a call,
 // into OUT/METHOD_SEED; without --method the table of what is there is printed.
-//   bench_scene_table --data out/dimsum -o out/table --method ours --seed 1 --steps 2500
+//   bench_scene_table --data out/dimsum -o out/table --method ours --seed 1
 //   bench_scene_table --data out/dimsum -o out/table
 #include <cmath>
 #include <cstdio>
@@ -20,8 +20,8 @@ namespace simwright {
 namespace {
 namespace fs = std::filesystem;
 
-// "ours_paper_loss": ours with the paper's weight of the classes' loss; "ours_paper_poses": places
-// enter as they are, noise is guessed as such, and times are drawn evenly.
+// "ours_paper_loss": ours with the paper's weight of the classes' loss; "ours_paper_poses": noise
+// is guessed as such, and times are drawn evenly.
 const std::vector<std::string> kMethods = {"ours",       "ours_paper_poses", "ours_paper_loss",
                                            "continuous", "midiffusion",      "diffuscene"};
 
@@ -30,14 +30,13 @@ struct Arguments {
   std::string method, size = "tiny";
   std::uint64_t seed = 1;
   double held_out = 1.0 / 6.0;  // 1000 of 6000, as many as there are samples
-  int steps = 2500, batch = 128, count = 1000, sample_steps = 0;
+  int steps = 10000, batch = 32, count = 1000, sample_steps = 0;
 };
 
 scene::SceneModelOptions ModelOf(const Arguments& arguments) {
   scene::SceneModelOptions model = scene::SceneModelOptions::OfSize(arguments.size);
   if (arguments.method == "ours_paper_loss") model.class_weight = 1.0;
   if (arguments.method == "ours_paper_poses") {
-    model.place_octaves = 0;
     model.blends_clean_poses = false;
     model.time_power = 1.0;
   }

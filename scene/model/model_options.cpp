@@ -34,7 +34,6 @@ SceneModelOptions SceneModelOptions::AsMiDiffusion() const {
   options.single_blocks = (18 * double_blocks + 15 * single_blocks + 8) / 16;
   options.double_blocks = 0;
   options.heads = 4;
-  options.place_octaves = 0;
   options.blends_clean_poses = false;
   options.time_power = 1.0;
   options.class_weight = 1.0;
@@ -46,7 +45,6 @@ SceneModelOptions SceneModelOptions::AsDiffuScene() const {
   options.kind = DenoiserKind::kUnet;
   options.continuous = true;
   options.heads = 4;
-  options.place_octaves = 0;
   options.blends_clean_poses = false;
   options.time_power = 1.0;
   // Its parameters are `kUnetShare` width^2, ours as above.
@@ -72,7 +70,6 @@ bool SceneModelOptions::IsValid(std::string* error) const {
     return fails("a model needs a block");
   }
   if (!(class_weight > 0.0)) return fails("class_weight has to be above 0");
-  if (place_octaves < 0 || place_octaves > 16) return fails("place_octaves have to be 0 to 16");
   if (!(time_power >= 1.0 && time_power <= 8.0)) return fails("time_power has to be 1 to 8");
   if (shape_points < 0 || shape_points > 65536) return fails("shape_points have to be 0 to 65536");
   if (shape_points > 0 && continuous) return fails("classes as numbers cannot be known by shape");

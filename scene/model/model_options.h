@@ -19,16 +19,12 @@ struct SceneModelOptions {
   int heads = 4;
   int double_blocks = 2;  // of kFlux; attention, then a network a token
   int single_blocks = 4;  // of kFlux: both at once; of kTransformer: all of them
-  // Sines and cosines that a place enters as beside itself, octaves of each coordinate from the
-  // whole range on (TokenEntry); 0: none, as in the papers. Boards and table tops leave few
-  // heights, and a network of the bare number learns such steps last (Tancik et al. 2020).
-  int place_octaves = 6;
   // The noise of a pose is predicted both as such and by way of the clean pose (PoseBlend); else as
   // such, as in the papers.
   bool blends_clean_poses = true;
-  // Times to learn at are drawn as T u^p, u uniform in [0, 1): 1, as in the papers, has an eighth
-  // of them where the noise is less than a quarter of the room, where heights are decided; 2 a
-  // third. The classes' loss is weighted back to the evidence's bound.
+  // Times to learn at are drawn as T u^p, u uniform in [0, 1). Heights are decided where the noise
+  // is below 0.25, poses being in [-1, 1]: 1, as in the papers, has 8 % of times there, 2 has 28 %.
+  // The classes' loss is weighted back to the evidence's bound.
   double time_power = 2.0;
   int diffusion_steps = 1000;
   // Of the classes' loss in the whole, of a mixed model; the papers' is 1. A step's divergence is

@@ -1,7 +1,5 @@
 #include "scene/model/token_heads.h"
 
-#include <cmath>
-
 #include "nn/blocks.h"
 #include "scene/dataset/vocabulary.h"
 
@@ -11,31 +9,14 @@ namespace {
 using torch::nn::Linear;
 
 constexpr int kTimeFeatures = 256;
-constexpr std::int64_t kPlaceWidth = 3;
-
-// Of the places of poses (B x N x 12): (B x N x 6 octaves).
-torch::Tensor Octaves(const torch::Tensor& poses, int octaves) {
-  std::vector<torch::Tensor> all;
-  torch::Tensor angle = M_PI * poses.narrow(-1, 0, kPlaceWidth);
-  for (int k = 0; k < octaves; ++k, angle = 2.0 * angle) {
-    all.push_back(torch::sin(angle));
-    all.push_back(torch::cos(angle));
-  }
-  return torch::cat(all, -1);
-}
 
 }  // namespace
 
 TokenEntryImpl::TokenEntryImpl(const SceneModelOptions& options, int classes, ClassShapes shapes)
-    : octaves_(options.place_octaves), shapes_(std::move(shapes)) {
+    : shapes_(std::move(shapes)) {
   const std::int64_t half = EntryWidth(options.width);
   pose_ = register_module("pose", torch::nn::Sequential(Linear(kPoseWidth, half), torch::nn::SiLU(),
                                                         Linear(half, half)));
-  if (octaves_ > 0) {
-    place_ = register_module("place", Linear(2 * kPlaceWidth * octaves_, half));
-    torch::nn::init::zeros_(place_->weight);  // such steep features are noise until they are known
-    torch::nn::init::zeros_(place_->bias);
-  }
   if (options.continuous) {
     class_map_ = register_module("class_map", Linear(classes, half));
   } else if (!shapes_) {
@@ -48,9 +29,7 @@ torch::Tensor TokenEntryImpl::forward(const NoisyScenes& scenes) {
   const torch::Tensor classes = class_map_ ? class_map_(scenes.classes)
                                 : shapes_  ? torch::embedding(shapes_->Entries(), scenes.classes)
                                            : class_(scenes.classes);
-  torch::Tensor pose = pose_->forward(scenes.poses);
-  if (place_) pose = pose + place_(Octaves(scenes.poses, octaves_));
-  return join_(torch::cat({pose, classes}, -1));
+  return join_(torch::cat({pose_->forward(scenes.poses), classes}, -1));
 }
 
 std::int64_t PoseBlend::Width() const {

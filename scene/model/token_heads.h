@@ -9,21 +9,18 @@ namespace simwright::scene {
 // Tokens into a network's features and back, the same for every denoiser.
 
 // A network of two layers on the pose, an embedding of the class (a linear map of it where classes
-// are numbers), and a linear map of both to the width. A linear map of sin and cos(2^k pi p) of
-// each coordinate p of the place, in [-1, 1], for k below `place_octaves`, adds to the pose's. With
-// `shapes`, which has to be a module of the same denoiser and enter by EntryWidth(width), it embeds
-// classes.
+// are numbers), and a linear map of both to the width. With `shapes`, which has to be a module of
+// the same denoiser and enter by EntryWidth(width), it embeds classes.
 class TokenEntryImpl : public torch::nn::Module {
  public:
   TokenEntryImpl(const SceneModelOptions& options, int classes, ClassShapes shapes = nullptr);
   torch::Tensor forward(const NoisyScenes& scenes);  // (B x N x width)
 
  private:
-  int octaves_;
   ClassShapes shapes_{nullptr};
   torch::nn::Sequential pose_{nullptr};
   torch::nn::Embedding class_{nullptr};
-  torch::nn::Linear place_{nullptr}, class_map_{nullptr}, join_{nullptr};
+  torch::nn::Linear class_map_{nullptr}, join_{nullptr};
 };
 TORCH_MODULE(TokenEntry);
 

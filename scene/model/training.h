@@ -15,7 +15,9 @@ namespace simwright::scene {
 
 struct SceneTrainingOptions {
   nn::TrainerOptions trainer;  // the steps, their rate, averaging, resuming
-  int batch = 128;             // scenes of a step
+  // Scenes of a step. Two cores have time for few steps, and four times as many of a quarter learn
+  // more than fewer of 128 do in the same time (docs/scenes.md); a GPU has room for more.
+  int batch = 32;
   // Scenes at the dataset's end that training does not see: a share of all, but no more than so
   // many.
   double held_out = 0.1;

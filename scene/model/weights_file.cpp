@@ -20,7 +20,6 @@ SceneModelOptions OptionsOf(const nlohmann::json& json) {
   options.single_blocks = json.at("single_blocks");
   options.diffusion_steps = json.at("diffusion_steps");
   options.class_weight = json.at("class_weight");
-  options.place_octaves = json.value("place_octaves", 0);
   options.blends_clean_poses = json.value("blends_clean_poses", false);
   options.time_power = json.value("time_power", 1.0);
   options.shape_points = json.value("shape_points", 0);
@@ -58,7 +57,6 @@ void WriteWeights(const Denoiser& denoiser, const SceneModelFacts& facts,
   json["single_blocks"] = facts.options.single_blocks;
   json["diffusion_steps"] = facts.options.diffusion_steps;
   json["class_weight"] = facts.options.class_weight;
-  json["place_octaves"] = facts.options.place_octaves;
   json["blends_clean_poses"] = facts.options.blends_clean_poses;
   json["time_power"] = facts.options.time_power;
   json["shape_points"] = facts.options.shape_points;

@@ -270,6 +270,20 @@ TEST(ProjectApart, NothingIsApart) {
   EXPECT_TRUE(none.shifts.empty());
 }
 
+// Pairs in a grid: what is far away costs next to nothing.
+TEST(ProjectApart, TenThousandThings) {
+  Things things;
+  for (int i = 0; i < 5000; ++i) {
+    const Vector3d place(0.5 * (i % 71), 0.5 * (i / 71), 0.0);
+    things.Add({Box({0.1, 0.1, 0.1})}, place);
+    things.Add({Box({0.1, 0.1, 0.1})}, place + Vector3d(0.08, 0, 0));
+  }
+  const Projection result = things.Apart();
+  EXPECT_TRUE(result.feasible);
+  EXPECT_NEAR(result.cost, 10000 * 1e-4, 1e-4);
+  for (const Vector3d& shift : result.shifts) EXPECT_NEAR(std::abs(shift.x()), 0.01, 1e-6);
+}
+
 TEST(ProjectApart, WhatIsNotSoundIsRefused) {
   Things things;
   things.Add({Ball(0.03)}, {std::nan(""), 0, 0});
