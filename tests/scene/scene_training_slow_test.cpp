@@ -117,7 +117,7 @@ TEST(SceneTraining, PlacesAnAssetItHasNotSeen) {
   core::Progress progress;
   SceneModelOptions options = Small();
   options.shape_points = kPoints;
-  SceneTrainingOptions training = Short(400);
+  SceneTrainingOptions training = Short(700);
   EXPECT_THROW(TrainSceneModel(SceneDataset(folder.path()), options, training,
                                folder.path() / "run", &progress),
                core::Error);
