@@ -7,8 +7,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of each step on a row. Any below 2 converges (Cryer 1971); in stacks of five this one takes half
-// the sweeps of 1.
+// Of each step on a row. Any below 2 converges (Cryer 1971).
 constexpr double kOverRelaxation = 1.4;
 constexpr int kSweepsBetween = 10;  // over the rows that press, between two over all
 

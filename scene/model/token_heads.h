@@ -31,9 +31,8 @@ constexpr std::int64_t EntryWidth(std::int64_t width) {
 // The noise of poses x = a x_0 + s e from a network's guesses at both e and x_0,
 //   e' + g (x - a x_0') / s,  0 < g < 1 a guess too.
 // With e' alone, what tells a height that is known (a table's top) from one that is not is a slope
-// of 1 / s, a hundred where the noise is least, and is learned last: after 2500 updates of a tiny
-// model the error in the height of things on a shelf's boards was 0.6 of what a blind guess has,
-// where the noise was a tenth of the boards' distance. x_0' is a step that is flat there.
+// of 1 / s, a hundred where the noise is least, and is learned last (docs/scenes.md has figures).
+// x_0' is a step that is flat there.
 class PoseBlend {
  public:
   explicit PoseBlend(const SceneModelOptions& options)
