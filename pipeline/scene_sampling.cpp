@@ -22,6 +22,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// m: about what heights of the small models are off by, and less than half of what is between two
+// boards of a shelf.
+constexpr double kLowering = 0.12;
+
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -40,7 +44,9 @@ Sampled AsSampled(std::vector<scene::DrawnObject> objects) {
 }
 
 Sampled Settled(const std::vector<scene::DrawnObject>& objects, const scene::Palette& palette) {
-  scene::FeasibleScene feasible = MakeFeasible(objects, palette);
+  scene::FeasibilityOptions options;
+  options.lowering = kLowering;
+  scene::FeasibleScene feasible = MakeFeasible(objects, palette, options);
   Sampled sampled;
   sampled.attempt = AttemptOf(feasible, static_cast<int>(objects.size()));
   sampled.objects = std::move(feasible.objects);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "scene/lowering.h"
 #include "scene/near_parts.h"
 
 namespace simwright::scene {
@@ -11,18 +12,36 @@ namespace {
 
 using Eigen::Vector3d;
 
+std::vector<ProjectedBody> BodiesOf(const std::vector<DrawnObject>& objects,
+                                    const Palette& palette) {
+  std::vector<ProjectedBody> bodies;
+  for (const DrawnObject& object : objects) {
+    bodies.push_back({&palette.At(object.slot).parts, object.world_from_object, object.welded});
+  }
+  return bodies;
+}
+
+void Shift(const std::vector<Vector3d>& shifts, std::vector<DrawnObject>* objects) {
+  for (size_t i = 0; i < objects->size(); ++i) {
+    (*objects)[i].world_from_object.pretranslate(shifts[i]);
+  }
+}
+
 // Moves them apart; whether that succeeded.
 bool MoveApart(const Palette& palette, const ProjectionOptions& options,
                std::vector<DrawnObject>* objects) {
-  std::vector<ProjectedBody> bodies;
-  for (const DrawnObject& object : *objects) {
-    bodies.push_back({&palette.At(object.slot).parts, object.world_from_object, object.welded});
-  }
-  const Projection projection = ProjectApart(bodies, options);
-  for (size_t i = 0; i < objects->size(); ++i) {
-    (*objects)[i].world_from_object.pretranslate(projection.shifts[i]);
-  }
+  const Projection projection = ProjectApart(BodiesOf(*objects, palette), options);
+  Shift(projection.shifts, objects);
   return projection.feasible;
+}
+
+// As they may be left to gravity; whether all are apart.
+bool Arrange(const Palette& palette, const FeasibilityOptions& options,
+             std::vector<DrawnObject>* objects) {
+  const bool apart = MoveApart(palette, options.projection, objects);
+  if (options.lowering == 0.0) return apart;
+  Shift(LowerOntoSupports(BodiesOf(*objects, palette), options.lowering), objects);
+  return MoveApart(palette, options.projection, objects);  // of what has slid past walls
 }
 
 std::vector<sim::SettledBody> LeaveToGravity(const std::vector<DrawnObject>& objects,
@@ -83,6 +102,7 @@ bool FeasibilityOptions::IsValid(std::string* error) const {
     *error = what;
     return false;
   };
+  if (!(lowering >= 0.0)) return fails("lowering has to be 0 m or more");
   if (!(tilted > 0.0)) return fails("tilted has to be above 0 rad");
   if (!(penetration > 0.0)) return fails("penetration has to be above 0 m");
   if (passes < 1) return fails("passes has to be at least 1");
@@ -96,7 +116,7 @@ FeasibleScene MakeFeasible(const std::vector<DrawnObject>& objects, const Palett
   if (!options.IsValid(&error)) throw core::Error("feasible scene: " + error);
   FeasibleScene scene;
   scene.objects = objects;
-  scene.projected = MoveApart(palette, options.projection, &scene.objects);
+  scene.projected = Arrange(palette, options, &scene.objects);
   std::vector<Vector3d> places;  // of the draw, of what is kept
   for (const DrawnObject& object : objects)
     places.push_back(object.world_from_object.translation());

@@ -17,6 +17,9 @@ std::set<std::string> SlotsThatMayLie();
 struct FeasibilityOptions {
   ProjectionOptions projection;
   sim::SettlingOptions settling;
+  // m by which what hangs in the air is lowered onto what is beneath it, at most
+  // (LowerOntoSupports); 0: it falls. For samples of a model, whose heights are off by centimetres.
+  double lowering = 0.0;
   double tilted = 0.35;  // rad: what has tipped by more is dropped; bowls may lean a little
   // Slots of what may tip, as it lies as well as it stands.
   std::set<std::string> may_lie = SlotsThatMayLie();
@@ -41,10 +44,10 @@ struct FeasibleScene {
   bool projected = false;            // Projection::feasible
 };
 
-// Moves the objects of a scene apart and leaves them to gravity; drops what fell off or tipped, and
-// from the second pass what does not come to rest, and lets the others settle again where any was.
-// Welded ones stay as they are. Throws core::Error for a slot without an asset, or options that are
-// not valid.
+// Moves the objects of a scene apart, lowers them and leaves them to gravity; drops what fell off
+// or tipped, and from the second pass what does not come to rest, and lets the others settle again
+// where any was. Welded ones stay as they are. Throws core::Error for a slot without an asset, or
+// options that are not valid.
 FeasibleScene MakeFeasible(const std::vector<DrawnObject>& objects, const Palette& palette,
                            const FeasibilityOptions& options = {});
 

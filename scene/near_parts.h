@@ -30,6 +30,12 @@ class ConvexBodies {
   int size() const { return static_cast<int>(bodies_.size()); }
   bool fixed(int body) const { return bodies_[static_cast<size_t>(body)].fixed; }
 
+  int Parts(int body) const {
+    return static_cast<int>(bodies_[static_cast<size_t>(body)].parts.size());
+  }
+  // Of a part (-1: the body's hull) at the body's first place, m.
+  const Eigen::AlignedBox3d& Box(int body, int part) const { return PartOf(body, part).box; }
+
   // All pairs of parts nearer than `within` (m) once body i is shifted by shifts[i] (N x 3), in the
   // order of a, b, part_a, part_b.
   void Find(const std::vector<Eigen::Vector3d>& shifts, double within,

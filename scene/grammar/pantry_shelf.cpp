@@ -12,12 +12,25 @@ constexpr int kMostOfAKind = 10;  // on a board
 constexpr double kFruitBowl = 0.2;
 constexpr int kMostEntries = 61;  // of a scene, the shelf among them
 constexpr int kFewestObjects = 3;
+constexpr double kGoodsRadius = 0.01;  // m
 
 const std::vector<std::string>& Goods() {
   static const std::vector<std::string> goods = {"can",     "tea_bottle", "apple",     "apple_2",
                                                  "apple_3", "apple_4",    "pear",      "pear_2",
                                                  "pear_3",  "avocado",    "avocado_2", "avocado_3"};
   return goods;
+}
+
+// No two things of a board are drawn on one place. Ours: as published nothing is kept apart, and
+// while that draws 33.2 entries, the published scenes have 28.0; what loses them is not published.
+// Thrown away at 2 cm there are 28.7, and what is left is moved apart by less.
+KeepOut Uncrowded() {
+  KeepOut apart;
+  apart.name = "between goods";
+  for (const std::string& slot : Goods()) apart.bodies.push_back({slot, kGoodsRadius});
+  apart.bodies.push_back({"bowl", kGoodsRadius});
+  apart.decision = Decision::kReject;
+  return apart;
 }
 
 }  // namespace
@@ -39,6 +52,7 @@ Grammar PantryShelf(const SlotSizes& sizes) {
   builder.Independent("fruit_bowl",
                       {With(kFruitBowl, "bowl", AnywhereOnBoard(sizes, "shelf_pantry", "bowl"))});
   builder.Leaf(Object("bowl", "bowl"));
+  builder.Require(Uncrowded());
   builder.Require(ObjectsAtLeast(kFewestObjects));
   builder.Require(EntriesAtMost(kMostEntries));
   DrawOptions options;

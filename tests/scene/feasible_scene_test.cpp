@@ -90,6 +90,27 @@ TEST(MakeFeasible, WhatHangsInTheAirFallsAndIsDropped) {
   EXPECT_EQ(scene.objects[0].world_from_object.matrix(), Eigen::Matrix4d::Identity());
 }
 
+// What falls by 8 cm is dropped, but where it is lowered first.
+TEST(MakeFeasible, LowersWhatHangsInTheAir) {
+  const Palette palette = Drums();
+  FeasibilityOptions options;
+  options.settling.duration = 0.5;
+  options.settling.watch = 0.3;
+  options.fewest = 1;
+  std::vector<DrawnObject> objects(3);
+  objects[0] = {"table_round", "table", Eigen::Isometry3d::Identity(), true, -1};
+  objects[1] = {"plate", "plate", Eigen::Isometry3d(Eigen::Translation3d(0.2, 0, 0.805)), false, 0};
+  objects[2] = {"cup", "cup", Eigen::Isometry3d(Eigen::Translation3d(0.2, 0, 0.865)), false, 1};
+  EXPECT_EQ(MakeFeasible(objects, palette, options).dropped, 1);
+  options.lowering = 0.1;
+  const FeasibleScene scene = MakeFeasible(objects, palette, options);
+  EXPECT_TRUE(scene.sound);
+  EXPECT_EQ(scene.dropped, 0);
+  ASSERT_EQ(scene.objects.size(), 3u);
+  EXPECT_NEAR(scene.objects[1].world_from_object.translation().z(), 0.785, 2e-4);
+  EXPECT_NEAR(scene.objects[2].world_from_object.translation().z(), 0.785 + 0.018, 3e-4);
+}
+
 // From 15 mm above the table it takes 55 ms to fall, and a pass has 50: the cup is still on its way
 // when it is watched, and rests in the second pass.
 TEST(MakeFeasible, WhatIsOnItsWayIsGivenTime) {
