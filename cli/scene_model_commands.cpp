@@ -132,11 +132,14 @@ void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run) {
   CLI::App* command =
       scene->add_subcommand("sample", "New scenes from a trained model, made feasible");
   command->footer(
-      "Example:\n  simwright scene sample out/dimsum_model/model.pt --count 20 -o out/sampled \\\n"
+      "Examples:\n  simwright scene sample --type dimsum --steps 100 -o out/sampled\n"
+      "  simwright scene sample out/dimsum_model/model.pt --count 20 -o out/sampled \\\n"
       "    --assets out/dimsum/assets\n"
-      "Without --raw, things are moved apart and left to gravity, and what falls is dropped.");
-  command->add_option("weights", request->weights, "What `simwright scene train` wrote")
-      ->required();
+      "Without --raw, things are moved apart, lowered onto what is beneath them and left to "
+      "gravity;\n"
+      "what falls is dropped.");
+  command->add_option("weights", request->weights, "What `simwright scene train` wrote");
+  command->add_option("--type", request->type, "Of scene: with the weights that are shipped");
   command->add_option("--count", request->count, "Scenes")->capture_default_str();
   command->add_option("-o,--output", request->output, "Folder for the scenes")->required();
   command->add_option("--assets", request->assets,

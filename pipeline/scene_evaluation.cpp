@@ -212,10 +212,6 @@ void WriteSheet(const SceneSets& sets, const fs::path& path) {
 
 }  // namespace
 
-fs::path SceneWeights(const fs::path& models, const std::string& type) {
-  return models / "scenes" / (type + ".pt");
-}
-
 SceneEvaluation EvaluateScenes(const SceneEvaluationRequest& request, core::Progress* progress) {
   Validate(request);
   const auto start = std::chrono::steady_clock::now();

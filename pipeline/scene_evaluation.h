@@ -84,7 +84,4 @@ SceneEvaluation EvaluateScenes(const SceneEvaluationRequest& request, core::Prog
 std::string EvaluationTable(const SceneEvaluation& evaluation);
 std::string EvaluationJson(const SceneEvaluation& evaluation);
 
-// Weights of a scene type's shipped model in a folder of models.
-std::filesystem::path SceneWeights(const std::filesystem::path& models, const std::string& type);
-
 }  // namespace simwright::pipeline

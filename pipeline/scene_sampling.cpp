@@ -13,6 +13,7 @@
 #include "pipeline/scene_assets.h"
 #include "pipeline/scene_shapes.h"
 #include "pipeline/scene_sheet.h"
+#include "pipeline/scene_weights.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/dataset/tokens.h"
 
@@ -81,12 +82,21 @@ scene::ScenePart PartOf(const std::vector<Sampled>& scenes, const scene::Vocabul
   return part;
 }
 
-scene::PartOrigin OriginOf(const SceneSamplingRequest& request) {
+fs::path WeightsOf(const SceneSamplingRequest& request) {
+  if (request.weights.empty() == request.type.empty()) {
+    throw core::Error("there is nothing to sample from, or too much", "",
+                      "name either weights or, with --type, a scene type that has shipped ones");
+  }
+  return request.weights.empty() ? ShippedSceneWeights(request.type) : request.weights;
+}
+
+scene::PartOrigin OriginOf(const SceneSamplingRequest& request, const fs::path& weights) {
   nlohmann::ordered_json settings;
-  settings["weights"] = core::ContentHash(core::ReadFile(request.weights));
+  settings["weights"] = core::ContentHash(core::ReadFile(weights));
   settings["steps"] = request.sampling.steps;
   settings["eta"] = request.sampling.eta;
   settings["raw"] = request.raw;
+  if (!request.raw) settings["lowering"] = kLowering;
   return {request.sampling.seed, 0, "{}", settings.dump(), SIMWRIGHT_VERSION};
 }
 
@@ -94,7 +104,8 @@ scene::PartOrigin OriginOf(const SceneSamplingRequest& request) {
 
 SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Progress* progress) {
   if (request.count < 1) throw core::Error("at least 1 scene is to be sampled", "--count");
-  scene::SceneModel model = scene::SceneModel::Load(request.weights);
+  const fs::path weights = WeightsOf(request);
+  scene::SceneModel model = scene::SceneModel::Load(weights);
   for (const auto& [slot, folder] : request.added) {
     if (assets::FileSafeName(slot) != slot) {
       throw core::Error("a slot has to be a name for a folder", slot);
@@ -115,7 +126,7 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Prog
   start = Clock::now();
   const std::vector<Sampled> scenes = Finish(tokens, vocabulary, palette, request.raw, progress);
   report.physics_seconds = SecondsSince(start);
-  const scene::ScenePart part = PartOf(scenes, vocabulary, OriginOf(request));
+  const scene::ScenePart part = PartOf(scenes, vocabulary, OriginOf(request, weights));
   scene::WritePart(part, staged.staging() / scene::PartName(0));
   report.statistics = StatisticsOf(part.attempts);
   report.statistics.type = vocabulary.type;

@@ -12,6 +12,7 @@ namespace simwright::pipeline {
 
 struct SceneSamplingRequest {
   std::filesystem::path weights;
+  std::string type;  // of scene: with the shipped weights, where `weights` is empty
   int count = 16;
   std::filesystem::path output;
   std::vector<std::filesystem::path> assets;  // folders, the first first; the library for the rest
@@ -32,7 +33,8 @@ struct SceneSamplingReport {
 // Samples scenes of a trained model into output/part_00000.h5, a dataset as `scene generate` writes
 // it, with its assets and a sheet of pictures. Unless `raw`, each is moved apart and settled; what
 // is not sound then is left out, and counted. Throws core::Error for weights that are none, an
-// output that exists, or assets for a model that does not know classes by their shape.
+// output that exists, a type without weights, or assets for a model that does not know classes by
+// their shape.
 SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Progress* progress);
 
 std::string SamplingTable(const SceneSamplingReport& report);

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "pipeline/models_folder.h"
 #include "pipeline/scene_assets.h"
 #include "pipeline/scene_generation.h"
 #include "pipeline/scene_sampling.h"
+#include "pipeline/scene_weights.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/dataset/tokens.h"
 #include "scene/palette_folder.h"
@@ -37,13 +37,7 @@ fs::path WeightsOf(const SceneEvaluationRequest& request) {
     throw core::Error("there is nothing to evaluate", "",
                       "give --samples, --model or a --type that has shipped weights");
   }
-  const fs::path models = ModelsFolder();
-  const fs::path weights = SceneWeights(models, request.type);
-  if (models.empty() || !fs::exists(weights)) {
-    throw core::Error("no weights of this scene type are shipped", request.type,
-                      "train some with `simwright scene train` and name them with --model");
-  }
-  return weights;
+  return ShippedSceneWeights(request.type);
 }
 
 std::vector<fs::path> AssetFolders(const SceneEvaluationRequest& request, const fs::path& data) {

@@ -84,9 +84,14 @@ void ExtendPart(const Generation& generation, int scenes, ScenePart* part,
   }
 }
 
+// Of grammars and physics: one more whenever the same settings give other scenes. 2: contacts in
+// all corners of faces; pantries with no two things on one place.
+constexpr int kRevision = 2;
+
 std::string SettingsText(const Generation& generation) {
   const FeasibilityOptions& feasible = generation.feasibility;
   nlohmann::ordered_json json;
+  json["revision"] = kRevision;
   json["grammar"] = generation.grammar.name();
   json["projection"] = {{"influence", feasible.projection.influence},
                         {"tolerance", feasible.projection.tolerance},

@@ -62,6 +62,7 @@ void MakeCell(const Arguments& arguments) {
   options.batch = arguments.batch;
   options.held_out = arguments.held_out;
   options.seed = arguments.seed;
+  const bool goes_on = fs::exists(cell / scene::kStateFile);  // its time is not known as a whole
   const scene::SceneTrainingReport trained =
       scene::TrainSceneModel(dataset, ModelOf(arguments), options, cell, &progress);
   pipeline::SceneEvaluationRequest request;
@@ -80,7 +81,7 @@ void MakeCell(const Arguments& arguments) {
   json["run"] = {{"steps", arguments.steps},
                  {"batch", arguments.batch},
                  {"parameters", trained.parameters},
-                 {"seconds", trained.seconds},
+                 {"seconds", goes_on ? NAN : trained.seconds},
                  {"held_out_loss", trained.losses.back().held_out}};
   core::WriteFile(cell / "cell.json", json.dump(2) + "\n");
   std::fputs(EvaluationTable(evaluation).c_str(), stdout);

@@ -2,8 +2,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <sstream>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -22,39 +20,9 @@ namespace {
 constexpr int kBadInARow = 20;     // losses that are not finite: more is no accident
 constexpr int kHeldOutBatch = 64;  // scenes, all at once
 
-constexpr char kHeader[] = "step,total,translation,rotation,classes,cross_entropy,held_out\n";
-
 int HeldOut(int scenes, const SceneTrainingOptions& options) {
   const int share = static_cast<int>(options.held_out * scenes);
   return std::min(share, options.held_out_most);
-}
-
-std::string LossesText(const std::vector<LossRecord>& losses) {
-  std::string text = kHeader;
-  for (const LossRecord& one : losses) {
-    char line[192];
-    std::snprintf(line, sizeof line, "%d,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n", one.step, one.total,
-                  one.translation, one.rotation, one.classes, one.cross_entropy, one.held_out);
-    text += line;
-  }
-  return text;
-}
-
-// Those of an earlier run up to `step`.
-std::vector<LossRecord> EarlierLosses(const fs::path& path, int step) {
-  std::vector<LossRecord> losses;
-  if (step == 0 || !fs::exists(path)) return losses;
-  std::istringstream text(core::ReadFile(path));
-  std::string line;
-  std::getline(text, line);
-  while (std::getline(text, line)) {
-    LossRecord one;
-    const int read = std::sscanf(line.c_str(), "%d,%lf,%lf,%lf,%lf,%lf,%lf", &one.step, &one.total,
-                                 &one.translation, &one.rotation, &one.classes, &one.cross_entropy,
-                                 &one.held_out);
-    if (read == 7 && one.step <= step) losses.push_back(one);
-  }
-  return losses;
 }
 
 // Sums of the losses since the last line.
@@ -115,7 +83,7 @@ class Training {
   SceneTrainingReport Run(core::Progress* progress) {
     const auto start = std::chrono::steady_clock::now();
     const int first = trainer_->first_step();
-    losses_ = EarlierLosses(output_ / kLossesFile, first);
+    losses_ = ReadLosses(output_ / kLossesFile, first);
     SceneStream stream(dataset_, {0, training_, options_.buffer}, options_.seed + first);
     core::Rng rng = core::StreamRng(options_.seed, static_cast<std::uint64_t>(first) + 1);
     const at::Generator generator = at::detail::createCPUGenerator(rng());
@@ -192,6 +160,7 @@ class Training {
     facts_.steps = step;
     WriteWeights(*average_, facts_, output_ / kWeightsFile);
     core::WriteFile(output_ / kLossesFile, LossesText(losses_));
+    core::WriteFile(output_ / kLossCurvesFile, LossCurves(facts_.vocabulary.type, losses_));
   }
 
   const SceneDataset& dataset_;

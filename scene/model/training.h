@@ -9,6 +9,7 @@
 #include "nn/trainer_options.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/model/asset_shapes.h"
+#include "scene/model/loss_records.h"
 #include "scene/model/model_options.h"
 
 namespace simwright::scene {
@@ -34,13 +35,6 @@ struct SceneTrainingOptions {
   bool IsValid(std::string* error) const;
 };
 
-// A line of the losses: means over the steps since the one before.
-struct LossRecord {
-  int step = 0;
-  double total = 0.0, translation = 0.0, rotation = 0.0, classes = 0.0, cross_entropy = 0.0;
-  double held_out = 0.0;  // total, on held-out scenes at times and noise that are always the same
-};
-
 struct SceneTrainingReport {
   std::filesystem::path weights;
   std::int64_t parameters = 0;
@@ -51,10 +45,11 @@ struct SceneTrainingReport {
 
 // Files of a training's folder.
 inline constexpr char kWeightsFile[] = "model.pt", kStateFile[] = "training.pt",
-                      kLossesFile[] = "losses.csv";
+                      kLossesFile[] = "losses.csv", kLossCurvesFile[] = "losses.svg";
 
 // Trains a model on the scenes of a dataset and writes it, the averaged weights, to
-// output/model.pt, at each state that is saved; the losses go to output/losses.csv. Goes on from
+// output/model.pt, at each state that is saved; the losses go to output/losses.csv and, as a
+// picture, losses.svg. Goes on from
 // the state in `output` where the trainer's options say so. Throws core::Error for options that are
 // not valid, a damaged dataset, and where the loss is not finite so often that the training has
 // diverged: then the last good state and weights stay.

@@ -85,6 +85,8 @@ void SceneCommand::LearnsAndSamples() {
   const Outcome trained =
       RunProgram("scene train " + Dimsum() + " --steps 4 --batch 2 --quiet -o " + At("model"));
   ASSERT_EQ(trained.code, 0) << trained.text;
+  EXPECT_NE(core::ReadFile(fs::path(At("model")) / scene::kLossCurvesFile).find("</svg>"),
+            std::string::npos);
   const Outcome again =
       RunProgram("scene train " + Dimsum() + " --steps 4 --batch 2 --quiet -o " + At("model"));
   EXPECT_EQ(again.code, 1);
@@ -100,6 +102,13 @@ void SceneCommand::LearnsAndSamples() {
   ASSERT_EQ(RunProgram(sample + At("again")).code, 0);
   EXPECT_EQ(core::ReadFile(fs::path(At("again")) / scene::PartName(0)),
             core::ReadFile(fs::path(At("sampled")) / scene::PartName(0)));
+  // Weights are a model's or a type's, not both and not none.
+  for (const std::string& from : {std::string(), At("model") + "/model.pt --type dimsum",
+                                  std::string("--type no_such_type")}) {
+    const Outcome refused = RunProgram("scene sample " + from + " --quiet -o " + At("refused"));
+    EXPECT_EQ(refused.code, 1) << from;
+    EXPECT_FALSE(fs::exists(At("refused"))) << from;
+  }
   const Outcome over = RunProgram(sample + At("sampled"));
   EXPECT_EQ(over.code, 1);
   EXPECT_NE(over.text.find("exists"), std::string::npos) << over.text;

@@ -1,0 +1,86 @@
+#include "scene/model/loss_records.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "core/files.h"
+#include "core/line_plot.h"
+
+namespace simwright::scene {
+namespace {
+
+constexpr char kHeader[] = "step,total,translation,rotation,classes,cross_entropy,held_out\n";
+
+constexpr double kHighest = 1.2;  // shown of a loss or an error: a blind guess's is 1
+
+using Value = double LossRecord::*;
+
+core::PlotPoints Points(const std::vector<LossRecord>& losses, Value value) {
+  core::PlotPoints points;
+  for (const std::size_t i : core::PlotIndices(losses.size())) {
+    points.emplace_back(losses[i].step, std::min(kHighest, losses[i].*value));
+  }
+  return points;
+}
+
+// A panel with two curves, named in their colours.
+std::string TwoCurves(const core::PlotPanel& panel, const std::vector<LossRecord>& losses,
+                      const std::string& label, Value one, const std::string& one_name, Value other,
+                      const std::string& other_name) {
+  const double x = core::kPlotRight - 8.0;
+  return PlotAxes(panel, label) + PlotCurve(panel, Points(losses, one), "one") +
+         PlotCurve(panel, Points(losses, other), "other") + "<g class=\"name_one\">" +
+         core::PlotText(x, panel.top + 16.0, "end", one_name) + "</g><g class=\"name_other\">" +
+         core::PlotText(x, panel.top + 32.0, "end", other_name) + "</g>\n";
+}
+
+}  // namespace
+
+std::string LossesText(const std::vector<LossRecord>& losses) {
+  std::string text = kHeader;
+  for (const LossRecord& one : losses) {
+    char line[192];
+    std::snprintf(line, sizeof line, "%d,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n", one.step, one.total,
+                  one.translation, one.rotation, one.classes, one.cross_entropy, one.held_out);
+    text += line;
+  }
+  return text;
+}
+
+std::vector<LossRecord> ReadLosses(const std::filesystem::path& path, int step) {
+  std::vector<LossRecord> losses;
+  if (step == 0 || !std::filesystem::exists(path)) return losses;
+  std::istringstream text(core::ReadFile(path));
+  std::string line;
+  std::getline(text, line);
+  while (std::getline(text, line)) {
+    LossRecord one;
+    const int read = std::sscanf(line.c_str(), "%d,%lf,%lf,%lf,%lf,%lf,%lf", &one.step, &one.total,
+                                 &one.translation, &one.rotation, &one.classes, &one.cross_entropy,
+                                 &one.held_out);
+    if (read == 7 && one.step <= step) losses.push_back(one);
+  }
+  return losses;
+}
+
+std::string LossCurves(const std::string& title, const std::vector<LossRecord>& losses) {
+  const double last = losses.empty() ? 1.0 : std::max(1, losses.back().step);
+  const core::PlotPanel loss{60.0, 280.0, 0.0, kHighest, last};
+  const core::PlotPanel errors{350.0, 570.0, 0.0, kHighest, last};
+  const std::string body =
+      TwoCurves(loss, losses, "loss", &LossRecord::total, "of updates", &LossRecord::held_out,
+                "of the averaged weights, on held-out scenes") +
+      TwoCurves(errors, losses, "error in the noise", &LossRecord::translation, "of translations",
+                &LossRecord::rotation, "of rotations") +
+      core::PlotText(0.5 * (core::kPlotLeft + core::kPlotRight), errors.bottom + 42.0, "middle",
+                     "updates");
+  return core::PlotPage(title,
+                        ".one{stroke:#1f5fa8;stroke-width:1.8;fill:none}"
+                        ".other{stroke:#c2571a;stroke-width:1.8;fill:none}"
+                        ".name_one{fill:#1f5fa8}.name_other{fill:#c2571a}",
+                        body, 640.0);
+}
+
+}  // namespace simwright::scene
