@@ -13,27 +13,46 @@ namespace {
 
 constexpr char kHeader[] = "step,total,translation,rotation,classes,cross_entropy,held_out\n";
 
-constexpr double kHighest = 1.2;  // shown of a loss or an error: a blind guess's is 1
-
 using Value = double LossRecord::*;
 
-core::PlotPoints Points(const std::vector<LossRecord>& losses, Value value) {
+// Up to the panel's upper end.
+core::PlotPoints Points(const core::PlotPanel& panel, const std::vector<LossRecord>& losses,
+                        Value value) {
   core::PlotPoints points;
   for (const std::size_t i : core::PlotIndices(losses.size())) {
-    points.emplace_back(losses[i].step, std::min(kHighest, losses[i].*value));
+    points.emplace_back(losses[i].step, std::min(panel.high, losses[i].*value));
   }
   return points;
 }
 
+// From 0 to what both reach after a twentieth of the updates: in the first ones losses fall so far
+// that nothing would be seen of the others.
+core::PlotPanel PanelOf(double top, double bottom, const std::vector<LossRecord>& losses, Value one,
+                        Value other) {
+  core::PlotPanel panel{top, bottom, 0.0, 1.0, 1.0};
+  if (losses.empty()) return panel;
+  panel.last = std::max(1, losses.back().step);
+  double highest = 0.0;
+  for (const LossRecord& loss : losses) {
+    if (loss.step < losses.back().step && 20 * loss.step <= losses.back().step) continue;
+    for (const double value : {loss.*one, loss.*other}) {
+      if (std::isfinite(value)) highest = std::max(highest, value);
+    }
+  }
+  if (highest > 0.0) panel.high = 1.1 * highest;
+  return panel;
+}
+
 // A panel with two curves, named in their colours.
-std::string TwoCurves(const core::PlotPanel& panel, const std::vector<LossRecord>& losses,
+std::string TwoCurves(double top, double bottom, const std::vector<LossRecord>& losses,
                       const std::string& label, Value one, const std::string& one_name, Value other,
                       const std::string& other_name) {
+  const core::PlotPanel panel = PanelOf(top, bottom, losses, one, other);
   const double x = core::kPlotRight - 8.0;
-  return PlotAxes(panel, label) + PlotCurve(panel, Points(losses, one), "one") +
-         PlotCurve(panel, Points(losses, other), "other") + "<g class=\"name_one\">" +
-         core::PlotText(x, panel.top + 16.0, "end", one_name) + "</g><g class=\"name_other\">" +
-         core::PlotText(x, panel.top + 32.0, "end", other_name) + "</g>\n";
+  return PlotAxes(panel, label) + PlotCurve(panel, Points(panel, losses, one), "one") +
+         PlotCurve(panel, Points(panel, losses, other), "other") + "<g class=\"name_one\">" +
+         core::PlotText(x, top + 16.0, "end", one_name) + "</g><g class=\"name_other\">" +
+         core::PlotText(x, top + 32.0, "end", other_name) + "</g>\n";
 }
 
 }  // namespace
@@ -66,16 +85,12 @@ std::vector<LossRecord> ReadLosses(const std::filesystem::path& path, int step) 
 }
 
 std::string LossCurves(const std::string& title, const std::vector<LossRecord>& losses) {
-  const double last = losses.empty() ? 1.0 : std::max(1, losses.back().step);
-  const core::PlotPanel loss{60.0, 280.0, 0.0, kHighest, last};
-  const core::PlotPanel errors{350.0, 570.0, 0.0, kHighest, last};
   const std::string body =
-      TwoCurves(loss, losses, "loss", &LossRecord::total, "of updates", &LossRecord::held_out,
-                "of the averaged weights, on held-out scenes") +
-      TwoCurves(errors, losses, "error in the noise", &LossRecord::translation, "of translations",
-                &LossRecord::rotation, "of rotations") +
-      core::PlotText(0.5 * (core::kPlotLeft + core::kPlotRight), errors.bottom + 42.0, "middle",
-                     "updates");
+      TwoCurves(60.0, 280.0, losses, "loss", &LossRecord::total, "of updates",
+                &LossRecord::held_out, "of the averaged weights, on held-out scenes") +
+      TwoCurves(350.0, 570.0, losses, "error in the noise", &LossRecord::translation,
+                "of translations", &LossRecord::rotation, "of rotations") +
+      core::PlotText(0.5 * (core::kPlotLeft + core::kPlotRight), 612.0, "middle", "updates");
   return core::PlotPage(title,
                         ".one{stroke:#1f5fa8;stroke-width:1.8;fill:none}"
                         ".other{stroke:#c2571a;stroke-width:1.8;fill:none}"
