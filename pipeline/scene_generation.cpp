@@ -99,7 +99,8 @@ SceneStatistics GenerateScenes(const SceneGenerationRequest& request, core::Prog
   const scene::Vocabulary vocabulary = VocabularyOf(type.make(scene::DefaultSlotSizes()));
   const scene::SlotFolders folders = GatherSceneAssets(
       {vocabulary.slots, request.chosen, request.assets, request.output / "assets"}, progress);
-  const scene::Palette palette = scene::ReadPalette(folders);
+  scene::Palette palette = scene::ReadPalette(folders);
+  for (const std::string& slot : request.hulls) palette.TakeAsHull(slot);
   scene::Generation generation{type.make(palette.Sizes()), &palette, {}};
   if (request.time_step > 0.0) generation.feasibility.settling.time_step = request.time_step;
   scene::PartOrigin origin;

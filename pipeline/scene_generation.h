@@ -19,6 +19,7 @@ struct SceneGenerationRequest {
   std::filesystem::path output;
   std::vector<std::filesystem::path> assets;  // folders of assets, the first first
   scene::SlotFolders chosen;                  // an asset folder for a slot
+  std::vector<std::string> hulls;             // slots whose assets collide as their hulls
   int part = 64;                              // scenes of a part: what one worker makes at a time
   double time_step = 0.0;  // s, of physics; 0: as measured to hold (scene::FeasibilityOptions)
 };

@@ -6,6 +6,7 @@
 
 #include "core/content_hash.h"
 #include "core/error.h"
+#include "geometry/convex_hull.h"
 
 namespace simwright::scene {
 namespace {
@@ -61,6 +62,19 @@ void Palette::Add(const std::string& slot, sim::RigidBody body, core::TexturedMe
   asset.visual = std::move(visual);
   asset.body = std::move(body);
   assets_.emplace(slot, std::move(asset));
+}
+
+void Palette::TakeAsHull(const std::string& slot) {
+  At(slot);  // that there is one
+  PaletteAsset& asset = assets_.at(slot);
+  std::vector<Eigen::Vector3d> vertices;
+  for (const core::TriangleMesh& part : asset.body.parts) {
+    vertices.insert(vertices.end(), part.vertices.begin(), part.vertices.end());
+  }
+  asset.body.parts = {geometry::ConvexHull(vertices)};
+  asset.body.capsules.clear();
+  asset.parts = {{asset.body.parts[0].vertices, 0.0}};
+  asset.size = SizeOfBody(asset.body);
 }
 
 const PaletteAsset& Palette::At(const std::string& slot) const {

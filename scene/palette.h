@@ -26,6 +26,10 @@ class Palette {
   // parts are what is seen.
   void Add(const std::string& slot, sim::RigidBody body, core::TexturedMesh visual = {});
 
+  // Has it collide as the convex hull of its parts: several times faster where it is hollow, and
+  // nothing goes into it. Throws as At does.
+  void TakeAsHull(const std::string& slot);
+
   // Throws core::Error, naming the slot, where nothing stands for it.
   const PaletteAsset& At(const std::string& slot) const;
   bool Has(const std::string& slot) const { return assets_.count(slot) > 0; }

@@ -16,6 +16,19 @@ struct LoadedBody {
   std::unique_ptr<btRigidBody> rigid;
 };
 
+// The plane z = 0, its bounds ending a little above it. Bullet's are without end, so that each part
+// of all that stands on a table would be held against it in each step: 0.6 of the time of 17 hollow
+// things.
+class Floor : public btStaticPlaneShape {
+ public:
+  Floor() : btStaticPlaneShape(btVector3(0, 0, 1), 0) {}
+  void getAabb(const btTransform& at, btVector3& low, btVector3& high) const override {
+    constexpr double kAbove = 0.05;  // m: more than a thing falls in a step
+    btStaticPlaneShape::getAabb(at, low, high);
+    high.setZ(kAbove);
+  }
+};
+
 }  // namespace
 
 struct World::Bullet {
@@ -24,7 +37,7 @@ struct World::Bullet {
   btDbvtBroadphase broadphase;
   btSequentialImpulseConstraintSolver solver;
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
-  btStaticPlaneShape floor_shape{btVector3(0, 0, 1), 0};
+  Floor floor_shape;
   std::unique_ptr<btRigidBody> floor;
   // One for all bodies that are alike: a table has nine steamers, and faces take long to find.
   std::map<const RigidBody*, std::unique_ptr<BulletShape>> shapes;

@@ -22,6 +22,7 @@ namespace {
 
 struct Arguments {
   std::string assets, picture;
+  std::vector<std::string> hulls;
   int count = 20;
   std::uint64_t seed = 1;
   double settle = 2.5, watch = 2.0, step = 1e-3;  // s
@@ -103,7 +104,8 @@ void Report(const std::vector<Outcome>& outcomes) {
 }
 
 void Run(const Arguments& arguments) {
-  const scene::Palette palette = PaletteOf(arguments.assets);
+  scene::Palette palette = PaletteOf(arguments.assets);
+  for (const std::string& slot : arguments.hulls) palette.TakeAsHull(slot);
   const scene::Grammar grammar = scene::DimsumTable(palette.Sizes());
   std::vector<Outcome> outcomes(static_cast<size_t>(arguments.count));
   core::ParallelFor(arguments.count, [&](int i) {
@@ -137,6 +139,7 @@ int main(int argc, char** argv) {
   app.add_option("--settle", arguments.settle, "s of simulation")->capture_default_str();
   app.add_option("--watch", arguments.watch, "s, after it")->capture_default_str();
   app.add_option("--step", arguments.step, "s, of simulation")->capture_default_str();
+  app.add_option("--hull", arguments.hulls, "Slots whose things collide as their hulls");
   app.add_flag("--whole", arguments.whole, "Never end settling or watching early");
   app.add_option("--picture", arguments.picture, "PNG of the first eight");
   CLI11_PARSE(app, argc, argv);

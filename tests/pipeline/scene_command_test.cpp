@@ -72,7 +72,7 @@ void SceneCommand::GoesOnWhereItStopped() {
   const scene::SceneDataset before{fs::path(Dimsum())}, after{fs::path(copy)};
   EXPECT_EQ(after.Read(0, 3), before.Read(0, 3));
   // Other settings are another dataset.
-  for (const char* const flags : {"--seed 2", "--step 0.003"}) {
+  for (const char* const flags : {"--seed 2", "--step 0.003", "--hull steamer"}) {
     const Outcome other =
         RunProgram(std::string("scene generate --type dimsum --count 4 --part 2 ") + flags +
                    " --quiet -o " + copy);

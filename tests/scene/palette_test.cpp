@@ -52,6 +52,25 @@ TEST(Palette, AnotherAssetHasAnotherHash) {
   EXPECT_THROW(one.HashOf("cup"), core::Error);
 }
 
+// A tray taken whole: what was in it stands on it then.
+TEST(Palette, TakesAHollowThingAsItsHull) {
+  Palette palette;
+  palette.Add("tray", Tray());
+  EXPECT_GT(palette.At("tray").parts.size(), 1u);
+  const std::string hollow = palette.HashOf("tray");
+  const SlotSize before = palette.At("tray").size;
+  palette.TakeAsHull("tray");
+  const PaletteAsset& asset = palette.At("tray");
+  ASSERT_EQ(asset.parts.size(), 1u);
+  ASSERT_EQ(asset.body.parts.size(), 1u);
+  EXPECT_NEAR(asset.size.height, before.height, 1e-12);
+  EXPECT_LT(before.rest_height, before.height);
+  EXPECT_NEAR(asset.size.rest_height, before.height, 1e-12);
+  EXPECT_EQ(asset.body.inertial.mass, Tray().inertial.mass);  // the matter is where it was
+  EXPECT_NE(palette.HashOf("tray"), hollow);
+  EXPECT_THROW(palette.TakeAsHull("mug"), core::Error);
+}
+
 TEST(Palette, RefusesWhatIsNone) {
   Palette palette;
   palette.Add("tray", Tray());

@@ -40,6 +40,17 @@ TEST(World, FallsAsNewtonSays) {
   EXPECT_NEAR(world.LinearVelocity(0).z(), -9.81, 1e-9);
 }
 
+// It comes down at 24 m/s, 10 cm a step: more than the floor reaches up.
+TEST(World, WhatIsFastDoesNotFallThroughTheFloor) {
+  const RigidBody box = Box({0.1, 0.1, 0.02}, 1.0);
+  World world;
+  Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
+  start.translation().z() = 30.0;
+  world.Add(box, start);
+  for (int i = 0; i < 5 * 240; ++i) world.Step();
+  EXPECT_NEAR(world.Pose(0).translation().z(), 0.01, 2e-4);
+}
+
 TEST(World, KeepsTheInertialItWasGiven) {
   const assets::Asset asset = assets::SampleAsset();
   const RigidBody body = BodyFromAsset(asset);
