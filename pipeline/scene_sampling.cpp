@@ -23,9 +23,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// m: about what heights of the small models are off by, and less than half of what is between two
-// boards of a shelf.
-constexpr double kLowering = 0.12;
+// m: about as far as from a shelf's board to the next, so that what hangs between two comes down on
+// the one beneath; a table's height is more, so that what hangs beside it falls. Of 48 shelf
+// samples 59 things of 269 are dropped without it, 39 with 0.12, 26 with this and 24 with 0.3.
+constexpr double kLowering = 0.25;
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
