@@ -101,7 +101,10 @@ std::string SettingsText(const Generation& generation) {
                       {"time_step", feasible.settling.time_step},
                       {"solver_iterations", feasible.settling.solver_iterations},
                       {"stable", feasible.settling.stable},
+                      {"resting", feasible.settling.resting},
+                      {"pace", feasible.settling.pace},
                       {"fallen", feasible.settling.fallen}};
+  json["lowering"] = feasible.lowering;
   json["tilted"] = feasible.tilted;
   json["may_lie"] = feasible.may_lie;
   json["penetration"] = feasible.penetration;

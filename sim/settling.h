@@ -25,8 +25,9 @@ struct SettlingOptions {
   int solver_iterations = 50;
   double stable = 1e-3;  // m that no point of a stable thing moves while it is watched
   // m that nothing moves over 0.1 s: then all has settled, whatever is left of `duration`; 0: never
-  // before it has passed. What creeps from its place does so at a pace that watching finds.
-  double resting = 2e-5;
+  // before it has passed. At that pace a thing would be at the limit of `stable` when it has been
+  // watched: whether it creeps on, watching finds.
+  double resting = 5e-5;
   // Watching ends after a quarter of a second or more where ways so far, at so many times their
   // pace to the end, would stay below `stable`, and wherever one has moved by more; 0: never before
   // `watch` has passed.

@@ -66,6 +66,11 @@ World::World(const WorldOptions& options) : bullet_(std::make_unique<Bullet>()),
   bullet_->world.setGravity(btVector3(0, 0, -options.gravity));
   btContactSolverInfo& solver = bullet_->world.getSolverInfo();
   solver.m_numIterations = options.solver_iterations;
+  // All of the last step's impulses to begin with, and friction across both directions: a lid that
+  // lies still crept by 0.4 mm/s with 0.85 of them and a single direction, 0.15 now, 0.03 with 200
+  // iterations.
+  solver.m_warmstartingFactor = 1.0;
+  solver.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
   solver.m_splitImpulse = 1;  // penetration is mended without adding velocity
   // The default of 4 cm would let small things sink in before they are pushed out.
   solver.m_splitImpulsePenetrationThreshold = 0.0;
