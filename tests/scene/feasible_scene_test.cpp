@@ -1,7 +1,9 @@
 // Scenes that physics accepts: dimsum tables of drums, and what is not sound.
 #include "scene/feasible_scene.h"
 
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -36,6 +38,22 @@ Palette Drums() {
     palette.Add(slot, Drum(radius, height, 300.0));
   }
   return palette;
+}
+
+// A table, and things on it or in the air, each with its parent's index.
+struct Laid {
+  std::string slot;
+  Vector3d place;
+  int parent = 0;
+};
+std::vector<DrawnObject> TableWith(const std::vector<Laid>& things) {
+  std::vector<DrawnObject> objects = {
+      {"table_round", "table", Eigen::Isometry3d::Identity(), true, -1}};
+  for (const Laid& thing : things) {
+    objects.push_back({thing.slot, thing.slot, Eigen::Isometry3d(Eigen::Translation3d(thing.place)),
+                       false, thing.parent});
+  }
+  return objects;
 }
 
 SceneDraw DrawOf(const Palette& palette, std::uint64_t stream) {
@@ -73,12 +91,9 @@ TEST(MakeFeasible, WhatHangsInTheAirFallsAndIsDropped) {
   options.settling.duration = 1.0;
   options.settling.watch = 0.3;
   options.fewest = 1;
-  std::vector<DrawnObject> objects(4);
-  objects[0] = {"table_round", "table", Eigen::Isometry3d::Identity(), true, -1};
-  objects[1] = {"plate", "plate", Eigen::Isometry3d(Eigen::Translation3d(0.1, 0, 0.785)), false, 0};
-  objects[2] = {"cup", "cup", Eigen::Isometry3d(Eigen::Translation3d(0.9, 0, 0.785)), false, 0};
   // Half in the plate: they are moved apart.
-  objects[3] = {"cup", "cup", Eigen::Isometry3d(Eigen::Translation3d(-0.04, 0, 0.785)), false, 1};
+  const std::vector<DrawnObject> objects = TableWith(
+      {{"plate", {0.1, 0, 0.785}}, {"cup", {0.9, 0, 0.785}}, {"cup", {-0.04, 0, 0.785}, 1}});
   const FeasibleScene scene = MakeFeasible(objects, palette, options);
   EXPECT_TRUE(scene.sound);
   EXPECT_EQ(scene.dropped, 1);
@@ -97,10 +112,8 @@ TEST(MakeFeasible, LowersWhatHangsInTheAir) {
   options.settling.duration = 0.5;
   options.settling.watch = 0.3;
   options.fewest = 1;
-  std::vector<DrawnObject> objects(3);
-  objects[0] = {"table_round", "table", Eigen::Isometry3d::Identity(), true, -1};
-  objects[1] = {"plate", "plate", Eigen::Isometry3d(Eigen::Translation3d(0.2, 0, 0.805)), false, 0};
-  objects[2] = {"cup", "cup", Eigen::Isometry3d(Eigen::Translation3d(0.2, 0, 0.865)), false, 1};
+  const std::vector<DrawnObject> objects =
+      TableWith({{"plate", {0.2, 0, 0.805}}, {"cup", {0.2, 0, 0.865}, 1}});
   EXPECT_EQ(MakeFeasible(objects, palette, options).dropped, 1);
   options.lowering = 0.1;
   const FeasibleScene scene = MakeFeasible(objects, palette, options);
@@ -119,10 +132,8 @@ TEST(MakeFeasible, WhatIsOnItsWayIsGivenTime) {
   options.settling.duration = 0.05;
   options.settling.watch = 0.1;
   options.fewest = 1;
-  std::vector<DrawnObject> objects(3);
-  objects[0] = {"table_round", "table", Eigen::Isometry3d::Identity(), true, -1};
-  objects[1] = {"plate", "plate", Eigen::Isometry3d(Eigen::Translation3d(0.2, 0, 0.785)), false, 0};
-  objects[2] = {"cup", "cup", Eigen::Isometry3d(Eigen::Translation3d(-0.2, 0, 0.8)), false, 0};
+  const std::vector<DrawnObject> objects =
+      TableWith({{"plate", {0.2, 0, 0.785}}, {"cup", {-0.2, 0, 0.8}}});
   const FeasibleScene scene = MakeFeasible(objects, palette, options);
   EXPECT_TRUE(scene.sound);
   EXPECT_EQ(scene.dropped, 0);

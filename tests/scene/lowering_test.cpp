@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "tests/scene/convex_parts.h"
 
 namespace simwright::scene {
 namespace {
@@ -13,19 +14,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using geometry::ConvexShape;
-
-ConvexShape Box(const Vector3d& size, const Vector3d& center = Vector3d::Zero()) {
-  ConvexShape shape;
-  for (int i = 0; i < 8; ++i) {
-    const Vector3d corner(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5);
-    shape.vertices.push_back(center + corner.cwiseProduct(size));
-  }
-  return shape;
-}
-
-ConvexShape Ball(double radius) {
-  return {{Vector3d::Zero()}, radius};
-}
 
 struct Thing {
   std::vector<ConvexShape> parts;
