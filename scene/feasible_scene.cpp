@@ -70,17 +70,47 @@ std::vector<DrawnObject> Kept(const std::vector<DrawnObject>& objects,
   return left;
 }
 
-double DeepestPenetration(const std::vector<DrawnObject>& objects, const Palette& palette) {
+// Pairs of parts that are in each other by more than `depth` (m).
+std::vector<NearParts> Penetrations(const std::vector<DrawnObject>& objects, const Palette& palette,
+                                    double depth) {
   ConvexBodies bodies;
   for (const DrawnObject& object : objects) {
     bodies.Add(palette.At(object.slot).parts, object.world_from_object, object.welded);
   }
   const std::vector<Vector3d> shifts(objects.size(), Vector3d::Zero());
   std::vector<NearParts> near;
-  bodies.Find(shifts, 1e-9, &near);
+  bodies.Find(shifts, -depth, &near);
+  return near;
+}
+
+double DeepestPenetration(const std::vector<DrawnObject>& objects, const Palette& palette) {
   double deepest = 0.0;
-  for (const NearParts& pair : near) deepest = std::max(deepest, -pair.distance);
+  for (const NearParts& pair : Penetrations(objects, palette, 0.0)) {
+    deepest = std::max(deepest, -pair.distance);
+  }
   return deepest;
+}
+
+// Takes the lighter of two out where they are in each other too deeply, as cutlery that wedges its
+// crock's walls apart; how many.
+int DropWedged(const Palette& palette, double depth, std::vector<DrawnObject>* objects,
+               std::vector<Vector3d>* places) {
+  std::vector<char> kept(objects->size(), 1);
+  const auto mass = [&](int i) {
+    const DrawnObject& object = (*objects)[static_cast<size_t>(i)];
+    return object.welded ? HUGE_VAL : palette.At(object.slot).body.inertial.mass;
+  };
+  for (const NearParts& pair : Penetrations(*objects, palette, depth)) {
+    if (!kept[static_cast<size_t>(pair.a)] || !kept[static_cast<size_t>(pair.b)]) continue;
+    kept[static_cast<size_t>(mass(pair.a) < mass(pair.b) ? pair.a : pair.b)] = 0;
+  }
+  std::vector<Vector3d> left;
+  for (size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i]) left.push_back((*places)[i]);
+  }
+  *places = std::move(left);
+  *objects = Kept(*objects, kept);
+  return static_cast<int>(std::count(kept.begin(), kept.end(), 0));
 }
 
 bool HasItsPlace(const sim::SettledBody& settled, const std::string& slot,
@@ -90,6 +120,13 @@ bool HasItsPlace(const sim::SettledBody& settled, const std::string& slot,
 }
 
 }  // namespace
+
+sim::SettlingOptions SwayingSettling() {
+  sim::SettlingOptions options;
+  options.sway = 0.05;
+  options.settling_friction = 0.25;
+  return options;
+}
 
 std::set<std::string> SlotsThatMayLie() {
   return {"apple",   "apple_2",   "apple_3",   "apple_4", "pear",  "pear_2", "pear_3",
@@ -143,7 +180,10 @@ FeasibleScene MakeFeasible(const std::vector<DrawnObject>& objects, const Palett
     if (gone == 0 && !waiting) {
       scene.penetration = DeepestPenetration(scene.objects, palette);
       if (scene.penetration <= options.penetration || pass + 1 == options.passes) break;
-      // Bullet lets a heap's parts sink in by a fraction of a millimetre.
+      // Bullet lets a heap's parts sink in by a fraction of a millimetre. What does so again has no
+      // room.
+      if (pass > 0)
+        scene.dropped += DropWedged(palette, options.penetration, &scene.objects, &places);
       MoveApart(palette, options.projection, &scene.objects);
     }
     // What was about the dropped, or about what moves, has not been watched without it.

@@ -103,6 +103,9 @@ std::string SettingsText(const Generation& generation) {
                       {"stable", feasible.settling.stable},
                       {"resting", feasible.settling.resting},
                       {"pace", feasible.settling.pace},
+                      {"sway", feasible.settling.sway},
+                      {"sway_time", feasible.settling.sway_time},
+                      {"settling_friction", feasible.settling.settling_friction},
                       {"fallen", feasible.settling.fallen}};
   json["lowering"] = feasible.lowering;
   json["tilted"] = feasible.tilted;

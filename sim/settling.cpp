@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.h"
 #include "sim/drop_test.h"
@@ -44,6 +45,7 @@ SettledBody EndOf(const SettlingBody& one, const Isometry3d& now, double fallen)
   return end;
 }
 
+constexpr double kFloorReach = 0.05;    // m
 constexpr double kLook = 0.05;          // s between two looks
 constexpr double kRestFor = 0.1;        // s without a motion: at rest
 constexpr double kWatchAtLeast = 0.25;  // s
@@ -58,13 +60,16 @@ class Scene {
   }
 
   std::vector<SettledBody> Run() {
+    world_.ScaleFriction(options_.settling_friction);
     Settle();
+    world_.ScaleFriction(1.0);
     std::vector<SettledBody> settled;
     for (size_t i = 0; i < bodies_.size(); ++i) {
       SettledBody stays;
       stays.world_from_body = bodies_[i].world_from_body;
       settled.push_back(bodies_[i].fixed ? stays : EndOf(bodies_[i], PoseOf(i), options_.fallen));
     }
+    world_.Rest();  // what contacts have learned on the way may hold what slips without
     Watch(&settled);
     for (size_t i = 0; i < settled.size(); ++i) {
       if (removed_[i]) settled[i].drift = HUGE_VAL;
@@ -78,6 +83,8 @@ class Scene {
     WorldOptions world;
     world.time_step = options.time_step;
     world.solver_iterations = options.solver_iterations;
+    world.firm_contacts = true;
+    world.floor_reach = kFloorReach;
     return world;
   }
 
@@ -113,9 +120,26 @@ class Scene {
     }
   }
 
+  // Leaves gravity as it was.
+  void Sway() {
+    const double down = WorldOptions().gravity;
+    const int steps = static_cast<int>(std::lround(options_.sway_time / options_.time_step));
+    for (int i = 0; i < steps; ++i) {
+      const double turn = 2.0 * std::numbers::pi * i / steps, aside = std::sin(options_.sway);
+      world_.SetGravity(down * Vector3d(aside * std::cos(turn), aside * std::sin(turn),
+                                        -std::cos(options_.sway)));
+      world_.Step();
+    }
+    world_.SetGravity({0.0, 0.0, -down});
+  }
+
   void Settle() {
-    std::vector<Isometry3d> before = Poses();
     double passed = 0.0;
+    if (options_.sway > 0.0 && options_.sway_time < options_.duration) {
+      Sway();
+      passed = options_.sway_time;
+    }
+    std::vector<Isometry3d> before = Poses();
     while (passed < options_.duration - 1e-9) {
       const double some = std::min(kRestFor, options_.duration - passed);
       Step(some);
@@ -169,6 +193,11 @@ bool SettlingOptions::IsValid(std::string* error) const {
   if (!(watch >= 0.0) || watch > 3600.0) return fails("watch has to be 0 to 3600 s");
   if (!(time_step > 0.0) || time_step > 0.02) return fails("time_step has to be 0 to 0.02 s");
   if (solver_iterations < 1) return fails("solver_iterations has to be at least 1");
+  if (!(sway >= 0.0) || sway > 0.5) return fails("sway has to be 0 to 0.5 rad");
+  if (!(settling_friction >= 0.0) || settling_friction > 10.0) {
+    return fails("settling_friction has to be 0 to 10");
+  }
+  if (!(sway_time >= 0.0)) return fails("sway_time has to be at least 0 s");
   if (!(stable > 0.0)) return fails("stable has to be above 0 m");
   if (!(resting >= 0.0)) return fails("resting has to be at least 0 m");
   if (!(pace >= 0.0)) return fails("pace has to be at least 0");

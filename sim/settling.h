@@ -20,6 +20,12 @@ struct SettlingBody {
 struct SettlingOptions {
   double duration = 2.5;  // s: what is off by millimetres has come to rest after that
   double watch = 2.0;     // s, after it: what moves then is not stable
+  // rad by which gravity leans, once round, in the first `sway_time` (s): what balances tips.
+  double sway = 0.0;
+  double sway_time = 0.1;
+  // Share of their friction that things have until they are watched: below 1, what then rests has
+  // friction to spare.
+  double settling_friction = 1.0;
   // s. Towers of five stand still at 1 ms; at 240 Hz the upper ones creep.
   double time_step = 1e-3;
   int solver_iterations = 50;
@@ -52,9 +58,11 @@ struct SettledBody {
   bool stable = false;  // drift <= options.stable
 };
 
-// Lets things fall and slide in Bullet, over the floor z = 0, until they rest; then watches them.
-// In the order of `bodies`; what is fixed is as it was. Repeatable bit for bit. Throws core::Error
-// for options that are not valid, a free body without a mass, or poses that are not finite.
+// Lets things fall and slide in Bullet, over the floor z = 0, until they rest; then watches them,
+// from a start without speed, or contacts that are known already, as whoever loads them will see
+// them. In the order of `bodies`; what is fixed is as it was. Repeatable bit for bit. Throws
+// core::Error for options that are not valid, a free body without a mass, or poses that are not
+// finite.
 std::vector<SettledBody> Settle(const std::vector<SettlingBody>& bodies,
                                 const SettlingOptions& options = {});
 

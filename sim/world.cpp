@@ -1,6 +1,7 @@
 #include "sim/world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <btBulletDynamicsCommon.h>
@@ -14,24 +15,27 @@ namespace {
 struct LoadedBody {
   const BulletShape* shape = nullptr;
   std::unique_ptr<btRigidBody> rigid;
+  double friction = 0.0, rolling_friction = 0.0;
 };
 
-// The plane z = 0, its bounds ending a little above it. Bullet's are without end, so that each part
-// of all that stands on a table would be held against it in each step: 0.6 of the time of 17 hollow
-// things.
+// The plane z = 0, its bounds ending `reach` (m) above it.
 class Floor : public btStaticPlaneShape {
  public:
-  Floor() : btStaticPlaneShape(btVector3(0, 0, 1), 0) {}
+  explicit Floor(double reach) : btStaticPlaneShape(btVector3(0, 0, 1), 0), reach_(reach) {}
   void getAabb(const btTransform& at, btVector3& low, btVector3& high) const override {
-    constexpr double kAbove = 0.05;  // m: more than a thing falls in a step
     btStaticPlaneShape::getAabb(at, low, high);
-    high.setZ(kAbove);
+    high.setZ(reach_);
   }
+
+ private:
+  double reach_;
 };
 
 }  // namespace
 
 struct World::Bullet {
+  explicit Bullet(double floor_reach) : floor_shape(floor_reach) {}
+
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
@@ -59,18 +63,21 @@ struct World::Bullet {
   }
 };
 
-World::World(const WorldOptions& options) : bullet_(std::make_unique<Bullet>()), options_(options) {
-  if (!(options.time_step > 0.0) || options.solver_iterations < 1 || !(options.margin >= 0.0)) {
-    throw core::Error("a world needs a positive time step and at least one solver iteration");
+World::World(const WorldOptions& options)
+    : bullet_(std::make_unique<Bullet>(options.floor_reach)), options_(options) {
+  if (!(options.time_step > 0.0) || options.solver_iterations < 1 || !(options.margin >= 0.0) ||
+      !(options.floor_reach > 0.0)) {
+    throw core::Error(
+        "a world needs a positive time step and reach of its floor, and at least one solver "
+        "iteration");
   }
   bullet_->world.setGravity(btVector3(0, 0, -options.gravity));
   btContactSolverInfo& solver = bullet_->world.getSolverInfo();
   solver.m_numIterations = options.solver_iterations;
-  // All of the last step's impulses to begin with, and friction across both directions: a lid that
-  // lies still crept by 0.4 mm/s with 0.85 of them and a single direction, 0.15 now, 0.03 with 200
-  // iterations.
-  solver.m_warmstartingFactor = 1.0;
-  solver.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+  if (options.firm_contacts) {
+    solver.m_warmstartingFactor = 1.0;
+    solver.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+  }
   solver.m_splitImpulse = 1;  // penetration is mended without adding velocity
   // The default of 4 cm would let small things sink in before they are pushed out.
   solver.m_splitImpulsePenetrationThreshold = 0.0;
@@ -114,12 +121,37 @@ int World::AddBody(const RigidBody& body, const Eigen::Isometry3d& world_from_bo
   // Sized for the body: Bullet's fixed 2 cm would join contacts of small things.
   rigid->setContactProcessingThreshold(1e30);
   bullet_->world.addRigidBody(rigid.get());
-  bullet_->bodies.push_back({&shape, std::move(rigid)});
+  bullet_->bodies.push_back({&shape, std::move(rigid), body.friction, body.rolling_friction});
   return static_cast<int>(bullet_->bodies.size()) - 1;
 }
 
 void World::Remove(int body) {
   bullet_->Remove(bullet_->bodies.at(static_cast<size_t>(body)));
+}
+
+void World::SetGravity(const Eigen::Vector3d& gravity) {
+  bullet_->world.setGravity(ToBullet(gravity));  // all bodies', too
+}
+
+void World::ScaleFriction(double scale) {
+  const double share = std::sqrt(scale);  // Bullet multiplies both sides'
+  for (const LoadedBody& body : bullet_->bodies) {
+    body.rigid->setFriction(share * body.friction);
+    body.rigid->setRollingFriction(share * body.rolling_friction);
+    body.rigid->setSpinningFriction(share * body.rolling_friction);
+  }
+  bullet_->floor->setFriction(share * options_.floor_friction);
+}
+
+void World::Rest() {
+  const btVector3 zero(0, 0, 0);
+  btOverlappingPairCache* const pairs = bullet_->broadphase.getOverlappingPairCache();
+  for (const LoadedBody& body : bullet_->bodies) {
+    body.rigid->setLinearVelocity(zero);
+    body.rigid->setAngularVelocity(zero);
+    if (body.rigid->getWorldArrayIndex() < 0) continue;  // taken out
+    pairs->cleanProxyFromPairs(body.rigid->getBroadphaseHandle(), &bullet_->dispatcher);
+  }
 }
 
 void World::Step() {

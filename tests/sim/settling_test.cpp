@@ -136,7 +136,29 @@ TEST(Settle, WhatSlidesIsNotStable) {
   // s = g sin(20) t^2 / 2.
   const double a = 9.81 * std::sin(20.0 * M_PI / 180.0);
   EXPECT_NEAR(settled[2].moved, 0.5 * a * 0.25, 0.005);
-  EXPECT_NEAR(settled[2].drift, 0.5 * a * 0.75, 0.005);
+  EXPECT_NEAR(settled[2].drift, 0.5 * a * 0.25, 0.005);  // it is watched from a standstill
+  // With 0.6 of its friction the rough one slides for that half second, too, and holds then.
+  options.settling_friction = 0.6;
+  const std::vector<SettledBody> eased =
+      Settle({{&plank, slope, true}, {&rough, slope * At({-1, 0.2, 0.07}), false}}, options);
+  const double slower = a - 0.3 * 9.81 * std::cos(20.0 * M_PI / 180.0);
+  EXPECT_NEAR(eased[1].moved, 0.5 * slower * 0.25, 0.005);
+  EXPECT_TRUE(eased[1].stable);
+}
+
+// A thin slab on its edge stands, but for a sway; a box does not mind it.
+TEST(Settle, WhatBalancesTipsInASway) {
+  const RigidBody slab = Box({0.002, 0.1, 0.2}, 0.1), box = Box({0.1, 0.1, 0.1}, 0.3);
+  const std::vector<SettlingBody> bodies = {{&slab, At({0, 0, 0.1}), false},
+                                            {&box, At({0.5, 0, 0.05}), false}};
+  SettlingOptions options;
+  EXPECT_LT(Settle(bodies, options)[0].tilted, 1e-3);
+  options.sway = 0.1;
+  options.sway_time = 0.2;
+  const std::vector<SettledBody> swayed = Settle(bodies, options);
+  EXPECT_GT(swayed[0].tilted, 1.0);  // until it was taken out
+  EXPECT_LT(swayed[1].moved, 1e-4);
+  EXPECT_TRUE(swayed[1].stable);
 }
 
 TEST(Settle, IsTheSameEveryTime) {
@@ -156,6 +178,12 @@ TEST(Settle, RefusesWhatIsNotSound) {
   EXPECT_THROW(Settle({{&no_mass, At({0, 0, 1}), false}}), core::Error);
   EXPECT_THROW(Settle({{&box, At({0, 0, std::nan("")}), false}}), core::Error);
   SettlingOptions options;
+  options.sway = -0.1;
+  EXPECT_THROW(Settle({{&box, At({0, 0, 1}), false}}, options), core::Error);
+  options.sway = 0.0;
+  options.settling_friction = -1.0;
+  EXPECT_THROW(Settle({{&box, At({0, 0, 1}), false}}, options), core::Error);
+  options.settling_friction = 1.0;
   options.time_step = 0.0;
   EXPECT_THROW(Settle({{&box, At({0, 0, 1}), false}}, options), core::Error);
 }
