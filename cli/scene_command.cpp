@@ -58,7 +58,7 @@ void AddGenerate(CLI::App* scene, CommonOptions* common, Run* run) {
                       "Folders of assets to take before the library's, by name or category");
   command->add_option("--asset", flags->chosen, "SLOT=FOLDER: this asset for this slot");
   command->add_option("--hull", request.hulls,
-                      "Slots whose things collide as their hulls: faster, and nothing goes in");
+                      "Slots whose things collide as their convex hulls: nothing goes in");
   command->add_option("--part", request.part, "Scenes of a part, which one worker makes at a time")
       ->capture_default_str();
   command->add_option("--step", request.time_step, "s of a step of physics; 0: the default")

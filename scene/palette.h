@@ -26,8 +26,8 @@ class Palette {
   // parts are what is seen.
   void Add(const std::string& slot, sim::RigidBody body, core::TexturedMesh visual = {});
 
-  // Has it collide as the convex hull of its parts: several times faster where it is hollow, and
-  // nothing goes into it. Throws as At does.
+  // Has it collide as the convex hull of its parts: fewer contacts where it is hollow, and nothing
+  // goes into it. Throws as At does.
   void TakeAsHull(const std::string& slot);
 
   // Throws core::Error, naming the slot, where nothing stands for it.

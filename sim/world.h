@@ -18,12 +18,12 @@ struct WorldOptions {
   double floor_friction = 1.0;     // Bullet multiplies both sides': the body's own then counts
   // Of World: contacts begin with all of the last step's impulses and resist across both
   // directions. A lid that lies still crept by 0.4 mm/s with Bullet's own 0.85 and a single
-  // direction, 0.15 so (0.03 with 200 iterations). Drop tests keep Bullet's own: they look for what
-  // rolls and rocks.
+  // direction, by 0.15 so, by 0.03 with Bullet's own and 200 iterations, which take three times as
+  // long. Drop tests, whose figures were measured so, keep Bullet's own.
   bool firm_contacts = false;
   // m over the floor up to which it is held against things: more than a thing falls in a step.
   // Without end, as Bullet has it, each part of all that stands on a table is held against it in
-  // each step.
+  // each step. Drop tests keep that: contacts in another order may end in another rest.
   double floor_reach = 1e9;
   // Of ArticulatedWorld: the iterations by CompactSolver; else by Bullet, which it is tested
   // against and compared with.
