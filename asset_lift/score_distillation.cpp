@@ -52,7 +52,7 @@ ScoreDistillation::ScoreDistillation(std::shared_ptr<ViewPrior> prior, const Vie
     : prior_(std::move(prior)), frame_(frame), options_(options) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error(error, "score distillation");
-  nn::UseThreads();
+  nn::PrepareForWork();
   prior_->SetReference({frame, photo, alpha});
 }
 

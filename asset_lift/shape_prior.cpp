@@ -38,7 +38,7 @@ ShapePrediction ShapePrior::Predict(const core::Image& crop, const ViewFrame& fr
 std::vector<ShapePrediction> ShapePrior::Predict(const std::vector<core::Image>& crops,
                                                  const std::vector<ViewFrame>& frames) const {
   if (crops.size() != frames.size()) throw core::Error("a crop has one frame");
-  nn::UseThreads();
+  nn::PrepareForWork();
   std::vector<torch::Tensor> pictures;
   for (const core::Image& crop : crops) {
     if (crop.width != kCropSide || crop.height != kCropSide || crop.channels != 4) {

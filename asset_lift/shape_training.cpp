@@ -102,7 +102,7 @@ PriorTrainingReport TrainShapeNetwork(const std::vector<core::TexturedMesh>& mes
                                       const PriorTrainingListener& report) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error(error, "prior training");
-  nn::UseThreads();
+  nn::PrepareForWork();
   torch::manual_seed(options.seed);
   const torch::Device device = nn::BestDevice();
   ShapeNetwork network;

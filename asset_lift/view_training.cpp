@@ -120,7 +120,7 @@ PriorTrainingReport TrainViewNetwork(const std::vector<core::TexturedMesh>& mesh
                                      const PriorTrainingListener& report) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error(error, "prior training");
-  nn::UseThreads();
+  nn::PrepareForWork();
   torch::manual_seed(options.seed);
   const torch::Device device = nn::BestDevice();
   const ShapePrior shape(shape_weights);

@@ -1,5 +1,7 @@
 #include "core/parallel.h"
 
+#include <sched.h>
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -13,8 +15,13 @@ namespace {
 std::atomic<int> thread_count{0};
 thread_local bool inside_parallel_for = false;
 
+// Not std::thread::hardware_concurrency: it counts processors that `taskset` or a container
+// withholds, and more threads than processors wait for each other at every loop's end.
 int MachineThreads() {
-  return std::max(1u, std::thread::hardware_concurrency());
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return std::max(1, CPU_COUNT(&allowed));
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ const PpoOptions& Checked(const PpoOptions& options, const VectorEnvironment& en
     throw core::Error("is empty: it needs an environment, an observation and an action",
                       "training environment");
   }
-  nn::UseThreads();
+  nn::PrepareForWork();
   return options;
 }
 

@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     core::SetThreadCount(0);
-    nn::UseThreads();
+    nn::PrepareForWork();
     const double peak = Peak();
     std::printf("%d threads, largest product %.1f GFLOP/s\n", core::ThreadCount(), peak * 1e-9);
     std::printf("%-12s %9s %10s %10s %9s %9s\n", "denoiser", "weights", "updates/s", "scenes/s",

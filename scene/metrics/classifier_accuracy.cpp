@@ -125,7 +125,7 @@ std::vector<AccuracyScore> ClassifierAccuracy(const FeatureMatrix& data,
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("classifier: " + error);
   Require(data, generated);
-  nn::UseThreads();
+  nn::PrepareForWork();
   const torch::Tensor a = TensorOf(data), b = TensorOf(generated);
   std::vector<AccuracyScore> scores(options.scored.size());
   for (size_t i = 0; i < scores.size(); ++i) scores[i].passes = options.scored[i];

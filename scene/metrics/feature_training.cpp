@@ -131,7 +131,7 @@ FeatureTrainingReport TrainFeatures(const std::vector<CountedPicture>& pictures,
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("training of features: " + error);
   Require(pictures);
-  nn::UseThreads();
+  nn::PrepareForWork();
   const auto start = std::chrono::steady_clock::now();
   FeatureTrainingReport report;
   report.held_out =

@@ -71,7 +71,7 @@ core::Image SceneFeatures::Shrunk(const core::Image& picture) const {
 }
 
 FeatureMatrix SceneFeatures::Of(const std::vector<core::Image>& pictures) const {
-  nn::UseThreads();
+  nn::PrepareForWork();
   const torch::NoGradGuard no_gradient;
   const torch::Tensor input = PictureTensor(pictures);
   if (input.size(3) != network_->width || input.size(2) != network_->height) {

@@ -77,7 +77,7 @@ std::vector<float> SceneModel::Sample(int count, const SampleOptions& options,
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("sampling: " + error);
   if (count < 0) throw core::Error("so many scenes cannot be sampled", std::to_string(count));
-  nn::UseThreads();
+  nn::PrepareForWork();
   const torch::NoGradGuard no_gradient;
   const SceneModelFacts& facts = network_->facts;
   const SceneDiffusion diffusion(facts.options, facts.vocabulary.ClassCount());

@@ -215,7 +215,7 @@ SceneTrainingReport TrainSceneModel(const SceneDataset& dataset, const SceneMode
       !options.shapes.IsValid(dataset.vocabulary(), model.shape_points, &error)) {
     throw core::Error("training by shape: " + error);
   }
-  nn::UseThreads();
+  nn::PrepareForWork();
   fs::create_directories(output);
   return Training(dataset, model, options, output).Run(progress);
 }
