@@ -24,6 +24,17 @@ void Validate(const SceneGenerationRequest& request) {
   if (request.time_step < 0.0) throw core::Error("a time step is above 0 s", "--step");
 }
 
+// Before assets are gathered, which takes minutes.
+void CheckHulls(const std::vector<std::string>& hulls, const scene::Vocabulary& vocabulary) {
+  std::string known;
+  for (const std::string& slot : vocabulary.slots) known += (known.empty() ? "" : ", ") + slot;
+  for (const std::string& slot : hulls) {
+    if (std::count(vocabulary.slots.begin(), vocabulary.slots.end(), slot) > 0) continue;
+    throw core::Error("scenes of " + vocabulary.type + " have no such slot", "--hull " + slot,
+                      "one of " + known);
+  }
+}
+
 std::string AssetsText(const scene::Palette& palette, const scene::Vocabulary& vocabulary) {
   nlohmann::ordered_json json;
   for (const std::string& slot : vocabulary.slots) json[slot] = palette.HashOf(slot);
@@ -97,6 +108,7 @@ SceneStatistics GenerateScenes(const SceneGenerationRequest& request, core::Prog
   const scene::SceneType& type = scene::SceneTypeNamed(request.type);
   // The slots are the same whatever the sizes.
   const scene::Vocabulary vocabulary = VocabularyOf(type.make(scene::DefaultSlotSizes()));
+  CheckHulls(request.hulls, vocabulary);
   const scene::SlotFolders folders = GatherSceneAssets(
       {vocabulary.slots, request.chosen, request.assets, request.output / "assets"}, progress);
   scene::Palette palette = scene::ReadPalette(folders);

@@ -85,8 +85,8 @@ void ExtendPart(const Generation& generation, int scenes, ScenePart* part,
 }
 
 // Of grammars and physics: one more whenever the same settings give other scenes. 2: contacts in
-// all corners of faces; pantries with no two things on one place.
-constexpr int kRevision = 2;
+// all corners of faces; pantries with no two things on one place. 3: watching ends earlier.
+constexpr int kRevision = 3;
 
 std::string SettingsText(const Generation& generation) {
   const FeasibilityOptions& feasible = generation.feasibility;

@@ -166,8 +166,9 @@ class Scene {
         farthest = std::max(farthest, one.drift);
       }
       const double rest = options_.watch / passed;
+      const double pace = 1.0 + (options_.pace - 1.0) * (1.0 - passed / options_.watch);
       const bool still =
-          passed >= kWatchAtLeast - 1e-9 && farthest * rest * options_.pace <= options_.stable;
+          passed >= kWatchAtLeast - 1e-9 && farthest * rest * pace <= options_.stable;
       const bool decided = still || farthest > options_.stable;
       if (options_.pace <= 0.0 || !decided) continue;
       for (SettledBody& one : *settled) one.drift *= rest;

@@ -34,9 +34,9 @@ struct SettlingOptions {
   // before it has passed. At that pace a thing would be at the limit of `stable` when it has been
   // watched: whether it creeps on, watching finds.
   double resting = 5e-5;
-  // Watching ends after a quarter of a second or more where ways so far, at so many times their
-  // pace to the end, would stay below `stable`, and wherever one has moved by more; 0: never before
-  // `watch` has passed.
+  // Watching ends after a quarter of a second or more where ways so far would stay below `stable` to
+  // the end, at a multiple of their pace: this one at first, less the less there is to come, 1 at the
+  // end; and wherever one has moved by more. 0: never before `watch` has passed.
   double pace = 4.0;
   // m below where it began: what is lower has fallen off what it stood on. It is taken out, so that
   // it knocks nothing down and nobody waits for it to roll to rest; not where `resting` is 0.

@@ -23,6 +23,7 @@ class SceneCommand : public testing::Test {
   // What it can do, each by itself; one test, for each would be a process that makes all anew.
   static void GeneratesScenesThatHold();
   static void GoesOnWhereItStopped();
+  static void NamesASlotThatThereIsNot();
   static void LearnsAndSamples();
   static void AModelByShapeTakesANewAsset();
   static void AnAssetOfOnesOwnTakesASlot();
@@ -78,6 +79,16 @@ void SceneCommand::GoesOnWhereItStopped() {
                    " --quiet -o " + copy);
     EXPECT_EQ(other.code, 1) << flags;
   }
+}
+
+void SceneCommand::NamesASlotThatThereIsNot() {
+  const std::string output = At("no_such_slot");
+  const Outcome refused =
+      RunProgram("scene generate --type dimsum --count 1 --hull lampshade --quiet -o " + output);
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_NE(refused.text.find("lampshade"), std::string::npos) << refused.text;
+  EXPECT_NE(refused.text.find("steamer_lid"), std::string::npos) << refused.text;
+  EXPECT_FALSE(fs::exists(fs::path(output) / "assets"));
 }
 
 void SceneCommand::LearnsAndSamples() {
@@ -186,6 +197,10 @@ TEST_F(SceneCommand, DoesAllOfIt) {
   {
     SCOPED_TRACE("GoesOnWhereItStopped");
     GoesOnWhereItStopped();
+  }
+  {
+    SCOPED_TRACE("NamesASlotThatThereIsNot");
+    NamesASlotThatThereIsNot();
   }
   {
     SCOPED_TRACE("LearnsAndSamples");
