@@ -1,8 +1,10 @@
 #include "nn/trainer.h"
 
 #include <cmath>
+#include <numeric>
 
 #include "core/error.h"
+#include "nn/compute.h"
 #include "nn/tensor_file.h"
 
 namespace simwright::nn {
@@ -44,11 +46,41 @@ double Trainer::LearningRate(int step) const {
 
 void Trainer::Descend(int step, const torch::Tensor& loss) {
   if (!std::isfinite(loss.item<double>())) return;
+  optimizer_->zero_grad();
+  loss.backward();
+  TakeStep(step);
+}
+
+double Trainer::Descend(int step, int shares, const std::function<torch::Tensor(int)>& term) {
+  const std::vector<torch::Tensor> parameters = module_->parameters();
+  std::vector<double> losses(static_cast<size_t>(shares));
+  std::vector<torch::autograd::variable_list> gradients(losses.size());
+  ForEachShare(shares, [&](int i) {
+    const torch::Tensor loss = term(i);
+    const size_t at = static_cast<size_t>(i);
+    losses[at] = loss.item<double>();
+    gradients[at] = torch::autograd::grad({loss}, parameters, {}, {}, false, /*allow_unused=*/true);
+  });
+  const double sum = std::accumulate(losses.begin(), losses.end(), 0.0);
+  if (!std::isfinite(sum)) return sum;
+  const LoopsAlone alone;
+  for (size_t p = 0; p < parameters.size(); ++p) {
+    torch::Tensor whole;
+    for (const torch::autograd::variable_list& share : gradients) {
+      if (!share[p].defined()) continue;
+      whole = whole.defined() ? whole + share[p] : share[p].clone();
+    }
+    parameters[p].mutable_grad() = whole;
+  }
+  TakeStep(step);
+  return sum;
+}
+
+void Trainer::TakeStep(int step) {
+  const LoopsAlone alone;
   for (auto& group : optimizer_->param_groups()) {
     static_cast<torch::optim::AdamWOptions&>(group.options()).lr(LearningRate(step));
   }
-  optimizer_->zero_grad();
-  loss.backward();
   torch::nn::utils::clip_grad_norm_(module_->parameters(), options_.largest_norm);
   optimizer_->step();
   average_->Update(*module_);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -25,6 +26,10 @@ class Trainer {
   double LearningRate(int step) const;
   // One descent along the gradient of `loss`. A loss that is not finite is left out.
   void Descend(int step, const torch::Tensor& loss);
+  // The same for a loss that is the sum of `shares` terms, each worked out on a thread of its own
+  // (ForEachShare): term(i) gives a scalar over the module's parameters. Returns the sum; the same
+  // for the same shares, bit for bit.
+  double Descend(int step, int shares, const std::function<torch::Tensor(int)>& term);
   // Whether the state is due after `step`.
   bool SaveDue(int step) const;
   void SaveState(int step) const;
@@ -35,6 +40,7 @@ class Trainer {
 
  private:
   void LoadState();
+  void TakeStep(int step);  // along the parameters' gradients
 
   torch::nn::Module* module_;
   TrainerOptions options_;

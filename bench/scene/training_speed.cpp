@@ -20,7 +20,8 @@ using Clock = std::chrono::steady_clock;
 
 struct Arguments {
   std::string size = "tiny";
-  int entries = 34, classes = 8, batch = 128, updates = 20;  // of dimsum
+  int entries = 34, classes = 8, batch = 32, updates = 40;  // of dimsum
+  bool whole = false;
 };
 
 double SecondsSince(Clock::time_point start) {
@@ -75,10 +76,17 @@ void Measure(const char* name, const scene::SceneModelOptions& model, const Argu
       torch::rand({arguments.batch, arguments.entries, 12}) * 2.0 - 1.0,
       torch::randint(0, arguments.classes, {arguments.batch, arguments.entries}, torch::kLong)};
   const at::Generator generator = at::detail::createCPUGenerator(1);
+  const int shares = arguments.whole ? 1 : nn::ShareCount(torch::kCPU, arguments.batch);
   double seconds = 0.0;
   for (int i = -2; i < arguments.updates; ++i) {  // two to warm up
     const auto start = Clock::now();
-    trainer.Descend(i + 2, diffusion.Loss(denoiser.get(), scenes, generator).total);
+    const scene::NoisedScenes noised = diffusion.AddNoise(scenes, generator);
+    trainer.Descend(i + 2, shares, [&](int share) {
+      const int first = arguments.batch * share / shares;
+      const int some = arguments.batch * (share + 1) / shares - first;
+      return some / static_cast<double>(arguments.batch) *
+             diffusion.Loss(denoiser.get(), noised.Part(first, some)).total;
+    });
     if (i >= 0) seconds += SecondsSince(start);
   }
   const double flop = FlopOf(model, *denoiser, arguments) * arguments.updates / seconds;
@@ -98,6 +106,7 @@ int main(int argc, char** argv) {
   app.add_option("--entries", arguments.entries, "Of a scene")->capture_default_str();
   app.add_option("--classes", arguments.classes, "The empty one too")->capture_default_str();
   app.add_option("--batch", arguments.batch, "Scenes of an update")->capture_default_str();
+  app.add_flag("--whole", arguments.whole, "All threads in each product, none for a share");
   app.add_option("--updates", arguments.updates, "That are timed")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {

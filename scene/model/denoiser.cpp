@@ -1,6 +1,7 @@
 #include "scene/model/denoiser.h"
 
 #include "core/error.h"
+#include "nn/compute.h"
 #include "scene/model/flux_denoiser.h"
 #include "scene/model/transformer_denoiser.h"
 #include "scene/model/unet_denoiser.h"
@@ -16,6 +17,21 @@ void RequireShapes(const ClassShapes& shapes) {
 }
 
 }  // namespace
+
+Denoised Denoiser::PredictInShares(const NoisyScenes& scenes) {
+  const std::int64_t count = scenes.poses.size(0);
+  const int shares = nn::ShareCount(scenes.poses.device(), count);
+  std::vector<torch::Tensor> noise(static_cast<size_t>(shares)), classes(noise.size());
+  nn::ForEachShare(shares, [&](int i) {
+    const std::int64_t first = count * i / shares, some = count * (i + 1) / shares - first;
+    const Denoised one =
+        Predict({scenes.poses.narrow(0, first, some), scenes.classes.narrow(0, first, some),
+                 scenes.time.narrow(0, first, some)});
+    noise[static_cast<size_t>(i)] = one.pose_noise;
+    classes[static_cast<size_t>(i)] = one.classes;
+  });
+  return {torch::cat(noise), torch::cat(classes)};
+}
 
 void Denoiser::SetShapes(const AssetShapes& shapes) {
   RequireShapes(shapes_);

@@ -23,7 +23,10 @@ struct Denoised {
 // What predicts the noise of scenes' tokens. K counts the empty class, not the mask.
 class Denoiser : public torch::nn::Module {
  public:
+  // From several threads at once, too.
   virtual Denoised Predict(const NoisyScenes& scenes) = 0;
+  // The same, each of the CPU's threads with some of the scenes.
+  Denoised PredictInShares(const NoisyScenes& scenes);
 
   // Throws core::Error where the model has a table of its classes, or for shapes of other numbers.
   void SetShapes(const AssetShapes& shapes);

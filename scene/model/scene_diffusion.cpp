@@ -27,6 +27,17 @@ void SetPoseLoss(const torch::Tensor& off, SceneLoss* loss) {
 
 }  // namespace
 
+NoisedScenes NoisedScenes::Part(std::int64_t first, std::int64_t count) const {
+  const auto part = [&](const torch::Tensor& all) {
+    return all.defined() ? all.narrow(0, first, count) : all;
+  };
+  return {{part(clean.poses), part(clean.classes)},
+          {part(noisy.poses), part(noisy.classes), part(noisy.time)},
+          part(pose_noise),
+          part(class_noise),
+          part(class_weight)};
+}
+
 SceneDiffusion::SceneDiffusion(const SceneModelOptions& options, int classes)
     : continuous_(options.continuous),
       class_weight_(options.class_weight),
@@ -34,65 +45,55 @@ SceneDiffusion::SceneDiffusion(const SceneModelOptions& options, int classes)
       poses_(PoseSchedule(options.diffusion_steps)),
       classes_(options.diffusion_steps, classes) {}
 
-SceneLoss SceneDiffusion::Loss(Denoiser* denoiser, const CleanScenes& scenes,
-                               const at::Generator& generator) const {
+NoisedScenes SceneDiffusion::AddNoise(const CleanScenes& scenes,
+                                      const at::Generator& generator) const {
+  const torch::Device device = scenes.poses.device();
   const torch::Tensor u = torch::rand({scenes.poses.size(0)}, generator, torch::kFloat);
   const torch::Tensor t = (poses_.steps() * u.pow(time_power_)).to(torch::kLong);
-  const torch::Tensor weight = class_weight_ * time_power_ * u.pow(time_power_ - 1.0);
-  const torch::Device device = scenes.poses.device();
-  return Loss(denoiser, scenes, t.clamp_max(poses_.steps() - 1).to(device), weight.to(device),
-              generator);
+  NoisedScenes noised;
+  noised.clean = scenes;
+  noised.noisy.time = t.clamp_max(poses_.steps() - 1).to(device);
+  noised.class_weight = (class_weight_ * time_power_ * u.pow(time_power_ - 1.0)).to(device);
+  noised.pose_noise = NormalLike(scenes.poses, generator);
+  noised.noisy.poses = poses_.AddNoise(scenes.poses, noised.pose_noise, noised.noisy.time);
+  if (!continuous_) {
+    noised.noisy.classes = classes_.AddNoise(scenes.classes, noised.noisy.time, generator);
+    return noised;
+  }
+  const torch::Tensor one_hot =
+      2.0 * torch::one_hot(scenes.classes, classes_.classes()).to(torch::kFloat) - 1.0;
+  noised.class_noise = NormalLike(one_hot, generator);
+  noised.noisy.classes = poses_.AddNoise(one_hot, noised.class_noise, noised.noisy.time);
+  return noised;
 }
 
-SceneLoss SceneDiffusion::LossAt(Denoiser* denoiser, const CleanScenes& scenes,
-                                 const torch::Tensor& t, const at::Generator& generator) const {
-  const torch::Tensor weight = torch::full({t.size(0)}, class_weight_, scenes.poses.options());
-  return Loss(denoiser, scenes, t, weight, generator);
-}
-
-SceneLoss SceneDiffusion::Loss(Denoiser* denoiser, const CleanScenes& scenes,
-                               const torch::Tensor& t, const torch::Tensor& class_weight,
-                               const at::Generator& generator) const {
-  return continuous_ ? ContinuousLoss(denoiser, scenes, t, generator)
-                     : MixedLoss(denoiser, scenes, t, class_weight, generator);
-}
-
-SceneLoss SceneDiffusion::MixedLoss(Denoiser* denoiser, const CleanScenes& scenes,
-                                    const torch::Tensor& t, const torch::Tensor& class_weight,
-                                    const at::Generator& generator) const {
-  const torch::Tensor noise = NormalLike(scenes.poses, generator);
-  const torch::Tensor noisy = classes_.AddNoise(scenes.classes, t, generator);
-  const Denoised guess = denoiser->Predict({poses_.AddNoise(scenes.poses, noise, t), noisy, t});
+SceneLoss SceneDiffusion::Loss(Denoiser* denoiser, const NoisedScenes& scenes) const {
+  const Denoised guess = denoiser->Predict(scenes.noisy);
+  if (!continuous_) return MixedLoss(guess, scenes);
   SceneLoss loss;
-  SetPoseLoss(guess.pose_noise - noise, &loss);
-  const torch::Tensor log_clean = torch::log_softmax(guess.classes.to(torch::kFloat), -1);
-  const torch::Tensor divergence =
-      classes_.Divergence(scenes.classes, noisy, log_clean, t).mean(-1);  // (B)
-  loss.divergence = divergence.mean();
-  const torch::Tensor entropy =
-      -log_clean.gather(-1, scenes.classes.unsqueeze(-1)).squeeze(-1).mean(-1);  // (B)
-  loss.cross_entropy = entropy.mean();
-  const torch::Tensor weight =
-      2.0 - (t.to(torch::kFloat) + 1.0) / static_cast<double>(poses_.steps());
-  const torch::Tensor classes = class_weight * (divergence + kCrossEntropyShare * weight * entropy);
-  loss.total = 0.5 * (loss.translation + loss.rotation) + classes.mean();
+  SetPoseLoss(guess.pose_noise - scenes.pose_noise, &loss);
+  loss.divergence = MeanSquare(guess.classes - scenes.class_noise);
+  loss.cross_entropy = torch::zeros_like(loss.divergence);
+  loss.total = 0.5 * (loss.translation + loss.rotation) + loss.divergence;
   return loss;
 }
 
-SceneLoss SceneDiffusion::ContinuousLoss(Denoiser* denoiser, const CleanScenes& scenes,
-                                         const torch::Tensor& t,
-                                         const at::Generator& generator) const {
-  const torch::Tensor one_hot =
-      2.0 * torch::one_hot(scenes.classes, classes_.classes()).to(torch::kFloat) - 1.0;
-  const torch::Tensor pose_noise = NormalLike(scenes.poses, generator);
-  const torch::Tensor class_noise = NormalLike(one_hot, generator);
-  const Denoised guess = denoiser->Predict(
-      {poses_.AddNoise(scenes.poses, pose_noise, t), poses_.AddNoise(one_hot, class_noise, t), t});
+SceneLoss SceneDiffusion::MixedLoss(const Denoised& guess, const NoisedScenes& scenes) const {
+  const torch::Tensor &clean = scenes.clean.classes, &t = scenes.noisy.time;
   SceneLoss loss;
-  SetPoseLoss(guess.pose_noise - pose_noise, &loss);
-  loss.divergence = MeanSquare(guess.classes - class_noise);
-  loss.cross_entropy = torch::zeros_like(loss.divergence);
-  loss.total = 0.5 * (loss.translation + loss.rotation) + loss.divergence;
+  SetPoseLoss(guess.pose_noise - scenes.pose_noise, &loss);
+  const torch::Tensor log_clean = torch::log_softmax(guess.classes.to(torch::kFloat), -1);
+  const torch::Tensor divergence =
+      classes_.Divergence(clean, scenes.noisy.classes, log_clean, t).mean(-1);  // (B)
+  loss.divergence = divergence.mean();
+  const torch::Tensor entropy =
+      -log_clean.gather(-1, clean.unsqueeze(-1)).squeeze(-1).mean(-1);  // (B)
+  loss.cross_entropy = entropy.mean();
+  const torch::Tensor weight =
+      2.0 - (t.to(torch::kFloat) + 1.0) / static_cast<double>(poses_.steps());
+  const torch::Tensor classes =
+      scenes.class_weight * (divergence + kCrossEntropyShare * weight * entropy);
+  loss.total = 0.5 * (loss.translation + loss.rotation) + classes.mean();
   return loss;
 }
 
@@ -121,7 +122,7 @@ void SceneDiffusion::Step(Denoiser* denoiser, int t, int previous, double eta,
                           const at::Generator& generator, NoisyScenes* scenes) const {
   scenes->time =
       torch::full({scenes->poses.size(0)}, t, scenes->classes.options().dtype(torch::kLong));
-  const Denoised guess = denoiser->Predict(*scenes);
+  const Denoised guess = denoiser->PredictInShares(*scenes);
   const auto advance = [&](const torch::Tensor& noisy, const torch::Tensor& noise) {
     const torch::Tensor clean = poses_.CleanFrom(noisy, noise, scenes->time).clamp(-1.0, 1.0);
     return poses_.StochasticStep(noisy, clean, t, previous, eta, NormalLike(noisy, generator));

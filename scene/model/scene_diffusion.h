@@ -22,6 +22,18 @@ struct SceneLoss {
   torch::Tensor cross_entropy;          // of the clean classes; continuous: 0
 };
 
+// Scenes with noise, and what a denoiser is to guess of them.
+struct NoisedScenes {
+  CleanScenes clean;
+  NoisyScenes noisy;
+  torch::Tensor pose_noise;    // (B x N x 12)
+  torch::Tensor class_noise;   // (B x N x K), of a continuous model
+  torch::Tensor class_weight;  // (B), of the classes' loss; of a mixed model
+
+  // `count` of them from `first` on: views, no copies.
+  NoisedScenes Part(std::int64_t first, std::int64_t count) const;
+};
+
 // Mixed diffusion of scenes (Pfaff et al., after Hu et al. 2024): poses by DDPM (beta 1e-4 to 0.02
 // evenly, the noise predicted, x_0 clipped to [-1, 1]), classes by mask and replace. Or, for a
 // continuous model, both by DDPM, classes as one-hot vectors from -1 to 1.
@@ -29,13 +41,11 @@ class SceneDiffusion {
  public:
   SceneDiffusion(const SceneModelOptions& options, int classes);
 
-  // (MSE_translation + MSE_rotation) / 2 + w (KL + 5e-4 (2 - t / T) CE(x_0)), at random times
-  // T u^p; w is options.class_weight over the density of t against the uniform one, p u^(p - 1).
-  SceneLoss Loss(Denoiser* denoiser, const CleanScenes& scenes,
-                 const at::Generator& generator) const;
-  // The same at times t (B).
-  SceneLoss LossAt(Denoiser* denoiser, const CleanScenes& scenes, const torch::Tensor& t,
-                   const at::Generator& generator) const;
+  // At random times T u^p.
+  NoisedScenes AddNoise(const CleanScenes& scenes, const at::Generator& generator) const;
+  // (MSE_translation + MSE_rotation) / 2 + w (KL + 5e-4 (2 - t / T) CE(x_0)), where w is
+  // options.class_weight over the density of t against the uniform one, p u^(p - 1).
+  SceneLoss Loss(Denoiser* denoiser, const NoisedScenes& scenes) const;
 
   // Times that a draw goes through, from the last down, `count` of them, evenly.
   std::vector<int> Times(int count) const;
@@ -49,13 +59,7 @@ class SceneDiffusion {
   CleanScenes Clean(const NoisyScenes& scenes) const;
 
  private:
-  SceneLoss Loss(Denoiser* denoiser, const CleanScenes& scenes, const torch::Tensor& t,
-                 const torch::Tensor& class_weight, const at::Generator& generator) const;
-  SceneLoss MixedLoss(Denoiser* denoiser, const CleanScenes& scenes, const torch::Tensor& t,
-                      const torch::Tensor& class_weight,  // (B)
-                      const at::Generator& generator) const;
-  SceneLoss ContinuousLoss(Denoiser* denoiser, const CleanScenes& scenes, const torch::Tensor& t,
-                           const at::Generator& generator) const;
+  SceneLoss MixedLoss(const Denoised& guess, const NoisedScenes& scenes) const;
 
   bool continuous_;
   double class_weight_, time_power_;

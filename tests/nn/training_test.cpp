@@ -80,6 +80,35 @@ TEST(Trainer, GoesOnAsIfItHadNeverStopped) {
   EXPECT_THROW(Trainer(rest.get(), options, folder.path() / "state"), core::Error);
 }
 
+TEST(Trainer, SharesGoWhereTheWholeGoes) {
+  const core::TemporaryFolder folder;
+  TrainerOptions options;
+  options.steps = 100;
+  options.largest_norm = 0.01;  // of the sum, not of a share
+  UNet whole = SmallUNet(1), shared = SmallUNet(1);
+  Trainer one(whole.get(), options, folder.path() / "one");
+  Trainer three(shared.get(), options, folder.path() / "three");
+  for (int step = 0; step < 5; ++step) {
+    torch::manual_seed(step);
+    const torch::Tensor x = torch::randn({6, 4, 8, 8}), y = x.roll(1, 1);
+    const torch::Tensor loss = torch::mse_loss(whole(x), y);
+    one.Descend(step, loss);
+    const double sum = three.Descend(step, 3, [&](int i) {
+      return torch::mse_loss(shared(x.narrow(0, 2 * i, 2)), y.narrow(0, 2 * i, 2)) / 3.0;
+    });
+    EXPECT_NEAR(sum, loss.item<double>(), 1e-5 * sum);
+  }
+  EXPECT_LT(Difference(*whole, *shared), 2e-5);
+  EXPECT_GT(Difference(*whole, *SmallUNet(1)), 1e-3);
+
+  UNet before = SmallUNet(9), after = SmallUNet(9);
+  Trainer skips(after.get(), options, folder.path() / "skips");
+  const double bad = skips.Descend(
+      0, 2, [&](int i) { return after->parameters()[0].sum() * (i == 1 ? NAN : 1.0); });
+  EXPECT_TRUE(std::isnan(bad));
+  EXPECT_EQ(Difference(*before, *after), 0.0);
+}
+
 TEST(Trainer, RateWarmsUpAndFallsToATwentieth) {
   UNet network = SmallUNet(1);
   TrainerOptions options;

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "nn/mixed_precision.h"
 #include "scene/model/token_heads.h"
 
@@ -79,6 +80,35 @@ TEST(Denoiser, AnotherOrderOfTheObjectsIsTheSamePredictionInThatOrder) {
 }
 
 // e' + g (x - a x_0') / s with each of its guesses right or wrong.
+// Threads share a batch: what they predict, and what their losses add up to, is the whole's.
+TEST(Denoiser, SharesOfABatchAreTheWhole) {
+  for (const DenoiserKind kind :
+       {DenoiserKind::kFlux, DenoiserKind::kTransformer, DenoiserKind::kUnet}) {
+    for (const bool continuous : {false, true}) {
+      const SceneModelOptions options = Small(kind, continuous);
+      const std::shared_ptr<Denoiser> denoiser = Stirred(options);
+      const SceneDiffusion diffusion(options, kClasses);
+      const torch::NoGradGuard no_gradient;
+      const CleanScenes scenes{torch::rand({7, 5, 12}) * 2.0 - 1.0,
+                               torch::randint(0, kClasses, {7, 5}, torch::kLong)};
+      const NoisedScenes noised = diffusion.AddNoise(scenes, at::detail::createCPUGenerator(3));
+      const Denoised whole = denoiser->Predict(noised.noisy);
+      core::SetThreadCount(3);
+      const Denoised shared = denoiser->PredictInShares(noised.noisy);
+      core::SetThreadCount(0);
+      const auto off = [](const torch::Tensor& a, const torch::Tensor& b) {
+        return (a - b).abs().max().item<double>();
+      };
+      EXPECT_LT(off(whole.pose_noise, shared.pose_noise), 1e-5) << NameOf(kind);
+      EXPECT_LT(off(whole.classes, shared.classes), 1e-5) << NameOf(kind);
+      const double loss = diffusion.Loss(denoiser.get(), noised).total.item<double>();
+      const double first = diffusion.Loss(denoiser.get(), noised.Part(0, 3)).total.item<double>();
+      const double last = diffusion.Loss(denoiser.get(), noised.Part(3, 4)).total.item<double>();
+      EXPECT_NEAR((3.0 * first + 4.0 * last) / 7.0, loss, 1e-5 * loss) << NameOf(kind);
+    }
+  }
+}
+
 TEST(PoseBlend, IsTheNoiseByEitherWay) {
   torch::manual_seed(2);
   SceneModelOptions options;
@@ -217,7 +247,7 @@ TEST(SceneDiffusion, MixedPrecisionHasTheSameGradient) {
       denoiser->zero_grad();
       const SceneLoss loss = [&] {
         const nn::MixedPrecision precision(cpu, half);
-        return diffusion.Loss(denoiser.get(), scenes, generator);
+        return diffusion.Loss(denoiser.get(), diffusion.AddNoise(scenes, generator));
       }();
       loss.total.backward();
       losses[half] = loss.total.item<double>();
@@ -251,7 +281,7 @@ TEST(SceneDiffusion, OverfittingFewScenesGoesToWhereTheoryIs) {
     const torch::NoGradGuard no_gradient;
     torch::manual_seed(99);
     const CleanScenes batch = Batch(data, 512);
-    return diffusion.Loss(one, batch, at::detail::createCPUGenerator(4));
+    return diffusion.Loss(one, diffusion.AddNoise(batch, at::detail::createCPUGenerator(4)));
   };
   const SceneLoss ideal = loss(&best);
   const double start = loss(denoiser.get()).total.item<double>();
@@ -262,7 +292,7 @@ TEST(SceneDiffusion, OverfittingFewScenesGoesToWhereTheoryIs) {
     static_cast<torch::optim::AdamWOptions&>(optimizer.param_groups()[0].options())
         .lr(2e-3 * (1.0 - static_cast<double>(i) / kUpdates));
     optimizer.zero_grad();
-    diffusion.Loss(denoiser.get(), Batch(data, 96), generator).total.backward();
+    diffusion.Loss(denoiser.get(), diffusion.AddNoise(Batch(data, 96), generator)).total.backward();
     torch::nn::utils::clip_grad_norm_(denoiser->parameters(), 1.0);
     optimizer.step();
   }
