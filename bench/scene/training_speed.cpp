@@ -80,12 +80,12 @@ void Measure(const char* name, const scene::SceneModelOptions& model, const Argu
   double seconds = 0.0;
   for (int i = -2; i < arguments.updates; ++i) {  // two to warm up
     const auto start = Clock::now();
-    const scene::NoisedScenes noised = diffusion.AddNoise(scenes, generator);
+    const scene::DenoisingBatch batch = diffusion.AddNoise(scenes, generator);
     trainer.Descend(i + 2, shares, [&](int share) {
       const int first = arguments.batch * share / shares;
       const int some = arguments.batch * (share + 1) / shares - first;
       return some / static_cast<double>(arguments.batch) *
-             diffusion.Loss(denoiser.get(), noised.Part(first, some)).total;
+             diffusion.Loss(denoiser.get(), batch.Part(first, some)).total;
     });
     if (i >= 0) seconds += SecondsSince(start);
   }

@@ -27,7 +27,7 @@ void SetPoseLoss(const torch::Tensor& off, SceneLoss* loss) {
 
 }  // namespace
 
-NoisedScenes NoisedScenes::Part(std::int64_t first, std::int64_t count) const {
+DenoisingBatch DenoisingBatch::Part(std::int64_t first, std::int64_t count) const {
   const auto part = [&](const torch::Tensor& all) {
     return all.defined() ? all.narrow(0, first, count) : all;
   };
@@ -45,29 +45,29 @@ SceneDiffusion::SceneDiffusion(const SceneModelOptions& options, int classes)
       poses_(PoseSchedule(options.diffusion_steps)),
       classes_(options.diffusion_steps, classes) {}
 
-NoisedScenes SceneDiffusion::AddNoise(const CleanScenes& scenes,
+DenoisingBatch SceneDiffusion::AddNoise(const CleanScenes& scenes,
                                       const at::Generator& generator) const {
   const torch::Device device = scenes.poses.device();
   const torch::Tensor u = torch::rand({scenes.poses.size(0)}, generator, torch::kFloat);
   const torch::Tensor t = (poses_.steps() * u.pow(time_power_)).to(torch::kLong);
-  NoisedScenes noised;
-  noised.clean = scenes;
-  noised.noisy.time = t.clamp_max(poses_.steps() - 1).to(device);
-  noised.class_weight = (class_weight_ * time_power_ * u.pow(time_power_ - 1.0)).to(device);
-  noised.pose_noise = NormalLike(scenes.poses, generator);
-  noised.noisy.poses = poses_.AddNoise(scenes.poses, noised.pose_noise, noised.noisy.time);
+  DenoisingBatch batch;
+  batch.clean = scenes;
+  batch.noisy.time = t.clamp_max(poses_.steps() - 1).to(device);
+  batch.class_weight = (class_weight_ * time_power_ * u.pow(time_power_ - 1.0)).to(device);
+  batch.pose_noise = NormalLike(scenes.poses, generator);
+  batch.noisy.poses = poses_.AddNoise(scenes.poses, batch.pose_noise, batch.noisy.time);
   if (!continuous_) {
-    noised.noisy.classes = classes_.AddNoise(scenes.classes, noised.noisy.time, generator);
-    return noised;
+    batch.noisy.classes = classes_.AddNoise(scenes.classes, batch.noisy.time, generator);
+    return batch;
   }
   const torch::Tensor one_hot =
       2.0 * torch::one_hot(scenes.classes, classes_.classes()).to(torch::kFloat) - 1.0;
-  noised.class_noise = NormalLike(one_hot, generator);
-  noised.noisy.classes = poses_.AddNoise(one_hot, noised.class_noise, noised.noisy.time);
-  return noised;
+  batch.class_noise = NormalLike(one_hot, generator);
+  batch.noisy.classes = poses_.AddNoise(one_hot, batch.class_noise, batch.noisy.time);
+  return batch;
 }
 
-SceneLoss SceneDiffusion::Loss(Denoiser* denoiser, const NoisedScenes& scenes) const {
+SceneLoss SceneDiffusion::Loss(Denoiser* denoiser, const DenoisingBatch& scenes) const {
   const Denoised guess = denoiser->Predict(scenes.noisy);
   if (!continuous_) return MixedLoss(guess, scenes);
   SceneLoss loss;
@@ -78,7 +78,7 @@ SceneLoss SceneDiffusion::Loss(Denoiser* denoiser, const NoisedScenes& scenes) c
   return loss;
 }
 
-SceneLoss SceneDiffusion::MixedLoss(const Denoised& guess, const NoisedScenes& scenes) const {
+SceneLoss SceneDiffusion::MixedLoss(const Denoised& guess, const DenoisingBatch& scenes) const {
   const torch::Tensor &clean = scenes.clean.classes, &t = scenes.noisy.time;
   SceneLoss loss;
   SetPoseLoss(guess.pose_noise - scenes.pose_noise, &loss);

@@ -23,7 +23,7 @@ struct SceneLoss {
 };
 
 // Scenes with noise, and what a denoiser is to guess of them.
-struct NoisedScenes {
+struct DenoisingBatch {
   CleanScenes clean;
   NoisyScenes noisy;
   torch::Tensor pose_noise;    // (B x N x 12)
@@ -31,7 +31,7 @@ struct NoisedScenes {
   torch::Tensor class_weight;  // (B), of the classes' loss; of a mixed model
 
   // `count` of them from `first` on: views, no copies.
-  NoisedScenes Part(std::int64_t first, std::int64_t count) const;
+  DenoisingBatch Part(std::int64_t first, std::int64_t count) const;
 };
 
 // Mixed diffusion of scenes (Pfaff et al., after Hu et al. 2024): poses by DDPM (beta 1e-4 to 0.02
@@ -42,10 +42,10 @@ class SceneDiffusion {
   SceneDiffusion(const SceneModelOptions& options, int classes);
 
   // At random times T u^p.
-  NoisedScenes AddNoise(const CleanScenes& scenes, const at::Generator& generator) const;
+  DenoisingBatch AddNoise(const CleanScenes& scenes, const at::Generator& generator) const;
   // (MSE_translation + MSE_rotation) / 2 + w (KL + 5e-4 (2 - t / T) CE(x_0)), where w is
   // options.class_weight over the density of t against the uniform one, p u^(p - 1).
-  SceneLoss Loss(Denoiser* denoiser, const NoisedScenes& scenes) const;
+  SceneLoss Loss(Denoiser* denoiser, const DenoisingBatch& scenes) const;
 
   // Times that a draw goes through, from the last down, `count` of them, evenly.
   std::vector<int> Times(int count) const;
@@ -59,7 +59,7 @@ class SceneDiffusion {
   CleanScenes Clean(const NoisyScenes& scenes) const;
 
  private:
-  SceneLoss MixedLoss(const Denoised& guess, const NoisedScenes& scenes) const;
+  SceneLoss MixedLoss(const Denoised& guess, const DenoisingBatch& scenes) const;
 
   bool continuous_;
   double class_weight_, time_power_;

@@ -120,7 +120,7 @@ class Training {
   }
 
   void Descend(int step, const CleanScenes& scenes, const at::Generator& generator) {
-    const NoisedScenes noised = diffusion_.AddNoise(scenes, generator);
+    const DenoisingBatch batch = diffusion_.AddNoise(scenes, generator);
     const std::int64_t count = scenes.poses.size(0);
     const int share_count = nn::ShareCount(device_, count);
     std::vector<SceneLoss> losses(static_cast<size_t>(share_count));
@@ -132,7 +132,7 @@ class Training {
       shares[at] = static_cast<double>(some) / static_cast<double>(count);
       // A GPU's; products of half the width gain a CPU with AMX a tenth of an update.
       const nn::MixedPrecision half(device_, options_.bfloat16_on_gpu && device_.is_cuda());
-      losses[at] = diffusion_.Loss(denoiser_.get(), noised.Part(first, some));
+      losses[at] = diffusion_.Loss(denoiser_.get(), batch.Part(first, some));
       return shares[at] * losses[at].total;
     });
     if (std::isfinite(total)) {

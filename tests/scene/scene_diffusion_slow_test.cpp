@@ -91,19 +91,19 @@ TEST(Denoiser, SharesOfABatchAreTheWhole) {
       const torch::NoGradGuard no_gradient;
       const CleanScenes scenes{torch::rand({7, 5, 12}) * 2.0 - 1.0,
                                torch::randint(0, kClasses, {7, 5}, torch::kLong)};
-      const NoisedScenes noised = diffusion.AddNoise(scenes, at::detail::createCPUGenerator(3));
-      const Denoised whole = denoiser->Predict(noised.noisy);
+      const DenoisingBatch batch = diffusion.AddNoise(scenes, at::detail::createCPUGenerator(3));
+      const Denoised whole = denoiser->Predict(batch.noisy);
       core::SetThreadCount(3);
-      const Denoised shared = denoiser->PredictInShares(noised.noisy);
+      const Denoised shared = denoiser->PredictInShares(batch.noisy);
       core::SetThreadCount(0);
       const auto off = [](const torch::Tensor& a, const torch::Tensor& b) {
         return (a - b).abs().max().item<double>();
       };
       EXPECT_LT(off(whole.pose_noise, shared.pose_noise), 1e-5) << NameOf(kind);
       EXPECT_LT(off(whole.classes, shared.classes), 1e-5) << NameOf(kind);
-      const double loss = diffusion.Loss(denoiser.get(), noised).total.item<double>();
-      const double first = diffusion.Loss(denoiser.get(), noised.Part(0, 3)).total.item<double>();
-      const double last = diffusion.Loss(denoiser.get(), noised.Part(3, 4)).total.item<double>();
+      const double loss = diffusion.Loss(denoiser.get(), batch).total.item<double>();
+      const double first = diffusion.Loss(denoiser.get(), batch.Part(0, 3)).total.item<double>();
+      const double last = diffusion.Loss(denoiser.get(), batch.Part(3, 4)).total.item<double>();
       EXPECT_NEAR((3.0 * first + 4.0 * last) / 7.0, loss, 1e-5 * loss) << NameOf(kind);
     }
   }
