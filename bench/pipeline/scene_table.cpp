@@ -89,7 +89,8 @@ void MakeCell(const Arguments& arguments) {
 
 // What the table says of a cell.
 struct Row {
-  double accuracy = NAN, divergence = NAN, frechet = NAN, penetration = NAN, objects = NAN;
+  double accuracy = NAN, divergence = NAN, frechet = NAN, objects = NAN;
+  double penetration = NAN, boxes = NAN, nearest = NAN;  // cm, cm, m
   double seconds = NAN, parameters = NAN;
 };
 
@@ -122,6 +123,10 @@ Row RowOf(const nlohmann::json& json) {
   row.divergence = number(samples, "kl_1e4");
   row.frechet = number(samples, "frechet");
   row.penetration = number(samples.at("penetration"), "parts_median_cm");
+  row.boxes = number(samples.at("penetration"), "boxes_median_cm");
+  if (json.contains("nearest_training_scene_m")) {
+    row.nearest = number(json["nearest_training_scene_m"].at("samples"), "mean");
+  }
   row.objects = number(samples, "objects_mean");
   if (samples.contains("classifier_accuracy") && !samples["classifier_accuracy"].empty()) {
     row.accuracy = number(samples["classifier_accuracy"].back(), "percent");
@@ -140,18 +145,21 @@ void PrintTable(const fs::path& output) {
     rows[name.substr(0, name.rfind('_'))].push_back(
         RowOf(nlohmann::json::parse(core::ReadFile(file))));
   }
-  std::printf("%-16s %5s %9s %15s %15s %15s %15s %9s %7s\n", "method", "seeds", "parameters",
-              "CA %", "KL x1e4", "Frechet", "MTP cm", "objects", "s");
+  std::printf("%-16s %5s %9s %13s %13s %15s %15s %13s %13s %13s %6s\n", "method", "seeds",
+              "weights", "CA %", "KL x1e4", "Frechet", "MTP cm", "of boxes", "nearest m", "objects",
+              "s");
   for (const std::string& method : kMethods) {
     const auto found = rows.find(method);
     if (found == rows.end()) continue;
     const std::vector<Row>& cells = found->second;
-    std::printf("%-16s %5zu %9s %15s %15s %15s %15s %9s %7s\n", method.c_str(), cells.size(),
-                MeanAndInterval({cells[0]}, &Row::parameters, 1.0, "%.0f").c_str(),
+    std::printf("%-16s %5zu %9s %13s %13s %15s %15s %13s %13s %13s %6s\n", method.c_str(),
+                cells.size(), MeanAndInterval({cells[0]}, &Row::parameters, 1.0, "%.0f").c_str(),
                 MeanAndInterval(cells, &Row::accuracy, 1.0, "%.1f").c_str(),
                 MeanAndInterval(cells, &Row::divergence, 1.0, "%.2f").c_str(),
                 MeanAndInterval(cells, &Row::frechet, 1.0, "%.3f").c_str(),
                 MeanAndInterval(cells, &Row::penetration, 1.0, "%.2f").c_str(),
+                MeanAndInterval(cells, &Row::boxes, 1.0, "%.1f").c_str(),
+                MeanAndInterval(cells, &Row::nearest, 1.0, "%.2f").c_str(),
                 MeanAndInterval(cells, &Row::objects, 1.0, "%.1f").c_str(),
                 MeanAndInterval({cells[0]}, &Row::seconds, 1.0, "%.0f").c_str());
   }
