@@ -52,6 +52,7 @@ void Trainer::Descend(int step, const torch::Tensor& loss) {
 }
 
 double Trainer::Descend(int step, int shares, const std::function<torch::Tensor(int)>& term) {
+  if (shares < 1) throw core::Error("a loss has at least one share", std::to_string(shares));
   const std::vector<torch::Tensor> parameters = module_->parameters();
   std::vector<double> losses(static_cast<size_t>(shares));
   std::vector<torch::autograd::variable_list> gradients(losses.size());

@@ -28,7 +28,7 @@ class Trainer {
   void Descend(int step, const torch::Tensor& loss);
   // The same for a loss that is the sum of `shares` terms, each worked out on a thread of its own
   // (ForEachShare): term(i) gives a scalar over the module's parameters. Returns the sum; the same
-  // for the same shares, bit for bit.
+  // for the same shares, bit for bit. Throws core::Error for fewer than 1, and what a term throws.
   double Descend(int step, int shares, const std::function<torch::Tensor(int)>& term);
   // Whether the state is due after `step`.
   bool SaveDue(int step) const;

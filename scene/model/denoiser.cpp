@@ -23,10 +23,11 @@ Denoised Denoiser::PredictInShares(const NoisyScenes& scenes) {
   const int shares = nn::ShareCount(scenes.poses.device(), count);
   std::vector<torch::Tensor> noise(static_cast<size_t>(shares)), classes(noise.size());
   nn::ForEachShare(shares, [&](int i) {
-    const std::int64_t first = count * i / shares, some = count * (i + 1) / shares - first;
-    const Denoised one =
-        Predict({scenes.poses.narrow(0, first, some), scenes.classes.narrow(0, first, some),
-                 scenes.time.narrow(0, first, some)});
+    const nn::Share share = nn::ShareOf(count, shares, i);
+    const auto part = [&](const torch::Tensor& all) {
+      return all.narrow(0, share.first, share.count);
+    };
+    const Denoised one = Predict({part(scenes.poses), part(scenes.classes), part(scenes.time)});
     noise[static_cast<size_t>(i)] = one.pose_noise;
     classes[static_cast<size_t>(i)] = one.classes;
   });

@@ -46,7 +46,7 @@ SceneDiffusion::SceneDiffusion(const SceneModelOptions& options, int classes)
       classes_(options.diffusion_steps, classes) {}
 
 DenoisingBatch SceneDiffusion::AddNoise(const CleanScenes& scenes,
-                                      const at::Generator& generator) const {
+                                        const at::Generator& generator) const {
   const torch::Device device = scenes.poses.device();
   const torch::Tensor u = torch::rand({scenes.poses.size(0)}, generator, torch::kFloat);
   const torch::Tensor t = (poses_.steps() * u.pow(time_power_)).to(torch::kLong);

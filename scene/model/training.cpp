@@ -127,12 +127,11 @@ class Training {
     std::vector<double> shares(losses.size());
     const double total = trainer_->Descend(step, share_count, [&](int i) {
       const size_t at = static_cast<size_t>(i);
-      const std::int64_t first = count * i / share_count;
-      const std::int64_t some = count * (i + 1) / share_count - first;
-      shares[at] = static_cast<double>(some) / static_cast<double>(count);
+      const nn::Share share = nn::ShareOf(count, share_count, i);
+      shares[at] = static_cast<double>(share.count) / static_cast<double>(count);
       // A GPU's; products of half the width gain a CPU with AMX a tenth of an update.
       const nn::MixedPrecision half(device_, options_.bfloat16_on_gpu && device_.is_cuda());
-      losses[at] = diffusion_.Loss(denoiser_.get(), batch.Part(first, some));
+      losses[at] = diffusion_.Loss(denoiser_.get(), batch.Part(share.first, share.count));
       return shares[at] * losses[at].total;
     });
     if (std::isfinite(total)) {
