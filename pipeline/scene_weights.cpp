@@ -1,18 +1,35 @@
 #include "pipeline/scene_weights.h"
 
+#include <set>
+
 #include "core/error.h"
 #include "pipeline/models_folder.h"
 
 namespace simwright::pipeline {
+namespace {
 
-std::filesystem::path ShippedSceneWeights(const std::string& type) {
-  const std::filesystem::path models = ModelsFolder();
-  const std::filesystem::path weights = models / "scenes" / (type + ".pt");
-  if (models.empty() || !std::filesystem::exists(weights)) {
-    throw core::Error("no weights of this scene type are shipped", type,
-                      "train some with `simwright scene train` and name their model.pt");
+namespace fs = std::filesystem;
+
+std::set<std::string> ShippedTypes() {
+  std::set<std::string> types;
+  const fs::path models = ModelsFolder();
+  if (models.empty() || !fs::is_directory(models / "scenes")) return types;
+  for (const fs::directory_entry& entry : fs::directory_iterator(models / "scenes")) {
+    if (entry.path().extension() == ".pt") types.insert(entry.path().stem().string());
   }
-  return weights;
+  return types;
+}
+
+}  // namespace
+
+fs::path ShippedSceneWeights(const std::string& type) {
+  const std::set<std::string> types = ShippedTypes();
+  if (types.contains(type)) return ModelsFolder() / "scenes" / (type + ".pt");
+  std::string known;
+  for (const std::string& shipped : types) known += (known.empty() ? "" : ", ") + shipped;
+  throw core::Error("no weights of this scene type are shipped", type,
+                    (types.empty() ? "" : "those of " + known + " are; else ") +
+                        "train some with `simwright scene train` and name their model.pt");
 }
 
 }  // namespace simwright::pipeline

@@ -120,6 +120,9 @@ void SceneCommand::LearnsAndSamples() {
     EXPECT_EQ(refused.code, 1) << from;
     EXPECT_FALSE(fs::exists(At("refused"))) << from;
   }
+  const Outcome unknown = RunProgram("scene sample --type no_such_type -o " + At("refused"));
+  EXPECT_NE(unknown.text.find("dimsum"), std::string::npos)
+      << "names those shipped: " << unknown.text;
   const Outcome over = RunProgram(sample + At("sampled"));
   EXPECT_EQ(over.code, 1);
   EXPECT_NE(over.text.find("exists"), std::string::npos) << over.text;
