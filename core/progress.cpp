@@ -1,14 +1,25 @@
 #include "core/progress.h"
 
+#include <pthread.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
+#include <mutex>
+#include <thread>
 
 #include "core/error.h"
 
 namespace simwright::core {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kTerminalInterval = 1.0;  // s between two drawings while no step is done
+constexpr double kShortestInterval = 0.1;  // s between two drawings of steps that are done
+constexpr double kSayMinutesFrom = 120.0;  // s
 
 volatile std::sig_atomic_t cancel_requested = 0;
 
@@ -17,7 +28,95 @@ void OnInterrupt(int signal_number) {
   std::signal(signal_number, SIG_DFL);
 }
 
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string Duration(double seconds) {
+  char text[32];
+  if (seconds >= kSayMinutesFrom) {
+    std::snprintf(text, sizeof(text), "%.0f min", seconds / 60.0);
+  } else {
+    std::snprintf(text, sizeof(text), "%.0f s", seconds);
+  }
+  return text;
+}
+
 }  // namespace
+
+std::string ProgressLine(const ProgressState& state) {
+  std::string line = state.name + ": ";
+  if (state.total > 0) {
+    line += std::to_string(state.done) + "/" + std::to_string(state.total) + ", ";
+  }
+  if (!state.detail.empty()) line += state.detail + ", ";
+  std::optional<double> left;
+  if (state.total > 0 && state.done > 0) {
+    left = state.elapsed / state.done * std::max(0, state.total - state.done);
+  }
+  if (!state.most_left) {
+    return line + (left ? Duration(*left) + " left" : Duration(state.elapsed) + " so far");
+  }
+  const double most = std::max(0.0, *state.most_left);
+  if (!left) return line + "at most " + Duration(most) + " left";
+  return line + Duration(std::min(*left, most)) + " left";
+}
+
+// The stage, and the thread that draws it in between. All of it is guarded by `mutex`.
+struct Progress::Shared {
+  Shared(Style drawn, double interval, const std::atomic<int>& steps)
+      : style(drawn), seconds(interval), done(steps) {
+    // Signals are for the thread that works: they wake it where it waits.
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    drawer = std::thread([this] { DrawInBetween(); });
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  }
+  ~Shared() {
+    {
+      const std::lock_guard lock(mutex);
+      stopped = true;
+    }
+    changed.notify_all();
+    drawer.join();
+  }
+
+  void DrawInBetween() {
+    std::unique_lock lock(mutex);
+    while (!stopped) {
+      const long stage = stages;
+      const bool other = changed.wait_for(lock, std::chrono::duration<double>(seconds),
+                                          [&] { return stopped || stages != stage; });
+      if (!other && !state.name.empty()) Draw();
+    }
+  }
+  void Draw() {
+    ProgressState now = state;
+    now.done = done;
+    now.elapsed = SecondsSince(start);
+    if (now.most_left) *now.most_left -= SecondsSince(said);
+    const std::string line = ProgressLine(now);
+    if (style == Style::kTerminal) {
+      std::fprintf(stderr, "\r\033[K%s", line.c_str());
+    } else {
+      std::fprintf(stderr, "%s\n", line.c_str());
+    }
+    std::fflush(stderr);
+    drawn = Clock::now();
+  }
+
+  const Style style;
+  const double seconds;
+  const std::atomic<int>& done;
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool stopped = false;
+  long stages = 0;      // that have begun
+  ProgressState state;  // its name is empty between stages
+  Clock::time_point start{}, said{}, drawn{};
+  std::thread drawer;
+};
 
 void InstallCancelHandler() {
   std::signal(SIGINT, OnInterrupt);
@@ -36,6 +135,12 @@ void CheckCancelled() {
   if (CancelRequested()) throw Cancelled();
 }
 
+Progress::Progress(Style style, double plain_interval) : style_(style) {
+  if (style_ == Style::kSilent) return;
+  const double interval = style_ == Style::kTerminal ? kTerminalInterval : plain_interval;
+  shared_ = std::make_unique<Shared>(style_, interval, done_);
+}
+
 Progress::~Progress() {
   Finish();
 }
@@ -47,44 +152,43 @@ Progress::Style Progress::StyleForStderr() {
 void Progress::Stage(const std::string& name, int total) {
   CheckCancelled();
   Finish();
-  name_ = name;
-  total_ = total;
   done_ = 0;
-  last_drawn_ms_ = 0;
-  start_ = std::chrono::steady_clock::now();
-  if (style_ == Style::kTerminal) Draw(0);
+  if (!shared_) return;
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->state = {};
+    shared_->state.name = name;
+    shared_->state.total = total;
+    shared_->start = shared_->said = Clock::now();
+    ++shared_->stages;
+    if (style_ == Style::kTerminal) shared_->Draw();
+  }
+  shared_->changed.notify_all();
+}
+
+void Progress::Say(const std::string& detail, std::optional<double> most_left) {
+  if (!shared_) return;
+  const std::lock_guard lock(shared_->mutex);
+  shared_->state.detail = detail;
+  shared_->state.most_left = most_left;
+  shared_->said = Clock::now();
 }
 
 void Progress::Advance() {
   CheckCancelled();
-  const int done = ++done_;
+  ++done_;
   if (style_ != Style::kTerminal) return;
-  const long now_ms = std::chrono::duration_cast<std::chrono::milliseconds>(
-                          std::chrono::steady_clock::now() - start_)
-                          .count();
-  long last = last_drawn_ms_.load();
-  if (now_ms - last >= 100 && last_drawn_ms_.compare_exchange_strong(last, now_ms)) Draw(done);
-}
-
-void Progress::Draw(int done) {
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  if (total_ > 0 && done > 0) {
-    const double left = seconds / done * (total_ - done);
-    std::fprintf(stderr, "\r\033[K%s  %d/%d  %.0f s left", name_.c_str(), done, total_, left);
-  } else {
-    std::fprintf(stderr, "\r\033[K%s ...", name_.c_str());
-  }
-  std::fflush(stderr);
+  const std::lock_guard lock(shared_->mutex);
+  if (SecondsSince(shared_->drawn) >= kShortestInterval) shared_->Draw();
 }
 
 void Progress::Finish() {
-  if (name_.empty()) return;
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  if (!shared_) return;
+  const std::lock_guard lock(shared_->mutex);
+  if (shared_->state.name.empty()) return;
   if (style_ == Style::kTerminal) std::fprintf(stderr, "\r\033[K");
-  if (style_ != Style::kSilent) std::fprintf(stderr, "%s: %.1f s\n", name_.c_str(), seconds);
-  name_.clear();
+  std::fprintf(stderr, "%s: %.1f s\n", shared_->state.name.c_str(), SecondsSince(shared_->start));
+  shared_->state = {};
 }
 
 }  // namespace simwright::core
