@@ -11,9 +11,10 @@ enum class Severity { kInfo, kWarning, kError };
 struct Finding {
   std::string code;  // stable short name, e.g. "urdf-missing-mesh"
   Severity severity = Severity::kInfo;
-  std::string place;     // file, element, row; may be empty
-  std::string sentence;  // for a person
-  double figure = 0.0;   // the number behind it, where there is one
+  std::string place;        // file, element, row; may be empty
+  std::string sentence;     // for a person
+  double figure = 0.0;      // the number behind it, where there is one
+  std::string remedy = {};  // what the reader can do; may be empty
 };
 
 using Findings = std::vector<Finding>;
