@@ -29,11 +29,32 @@ endif()
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
   # Relative to the source folder, so that a second clone finds what the first has compiled.
+  # Precompiled headers are compared by content, not by time.
   set(ccache_launcher ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}
-      CCACHE_NOHASHDIR=1 ${CCACHE_PROGRAM})
+      CCACHE_NOHASHDIR=1
+      CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+      ${CCACHE_PROGRAM})
   set(CMAKE_C_COMPILER_LAUNCHER ${ccache_launcher})
   set(CMAKE_CXX_COMPILER_LAUNCHER ${ccache_launcher})
 endif()
+
+# What a precompiled header asks of the compiler so that ccache can serve what includes it.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(simwright_pch_options -fpch-preprocess)
+else()
+  set(simwright_pch_options "SHELL:-Xclang -fno-pch-timestamp")
+endif()
+
+# simwright_precompile(TARGET HEADER) precompiles cmake/precompiled/HEADER for TARGET;
+# simwright_precompile(TARGET REUSE OTHER) takes what was precompiled for the target OTHER.
+function(simwright_precompile target header)
+  if(header STREQUAL REUSE)
+    target_precompile_headers(${target} REUSE_FROM ${ARGN})
+  else()
+    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled/${header})
+  endif()
+  target_compile_options(${target} PRIVATE ${simwright_pch_options})
+endfunction()
 
 # simwright_module(NAME [FOLDERS folder...] [PUBLIC lib...] [PRIVATE lib...])
 # One static library simwright::NAME from the sources of the folder, and of those FOLDERS inside it.
@@ -58,6 +79,17 @@ function(simwright_module name)
   target_compile_features(simwright_${name} PUBLIC cxx_std_20)
   target_compile_definitions(simwright_${name} PRIVATE SIMWRIGHT_VERSION="${PROJECT_VERSION}")
   target_link_libraries(simwright_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  if(name STREQUAL core)
+    simwright_precompile(simwright_core standard.h)
+  elseif(name STREQUAL nn)
+    simwright_precompile(simwright_nn torch.h)
+  elseif(name STREQUAL geometry)
+    simwright_precompile(simwright_geometry cgal.h)
+  elseif(simwright::nn IN_LIST arg_PRIVATE)
+    simwright_precompile(simwright_${name} REUSE simwright_nn)
+  else()
+    simwright_precompile(simwright_${name} REUSE simwright_core)
+  endif()
   install(TARGETS simwright_${name} EXPORT simwright_targets ARCHIVE DESTINATION lib)
   install(FILES ${headers} DESTINATION include/simwright/${name})
 endfunction()
