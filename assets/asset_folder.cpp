@@ -1,5 +1,7 @@
 #include "assets/asset_folder.h"
 
+#include <algorithm>
+
 #include "assets/asset_json.h"
 #include "assets/mesh_import.h"
 #include "assets/model_writer.h"
@@ -83,6 +85,23 @@ void WriteAsset(const Asset& asset, const std::filesystem::path& folder) {
   core::WriteFile(folder / (asset.name + ".xml"), MjcfText(asset));
   core::WriteFile(folder / (asset.name + ".sdf"), SdfText(asset));
   core::WriteFile(folder / "asset.json", AssetJson(asset).dump(2) + "\n");
+}
+
+void AddFindings(const std::filesystem::path& folder, const core::Findings& findings) {
+  if (findings.empty()) return;
+  const std::filesystem::path file = folder / "asset.json";
+  Json json;
+  try {
+    json = Json::parse(core::ReadFile(file, 16 << 20));
+    Json& known = json.at("findings");
+    for (const Json& finding : ToJson(findings)) {
+      if (std::find(known.begin(), known.end(), finding) == known.end()) known.push_back(finding);
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw core::Error(std::string("is not a valid asset description: ") + error.what(),
+                      file.string(), "make the asset again");
+  }
+  core::WriteFile(file, json.dump(2) + "\n");
 }
 
 Asset ReadAsset(const std::filesystem::path& folder) {

@@ -15,6 +15,10 @@ void WriteAsset(const Asset& asset, const std::filesystem::path& folder);
 // missing, malformed, of a newer format, or names a missing mesh.
 Asset ReadAsset(const std::filesystem::path& folder);
 
+// Adds to the findings in the asset.json of a rigid or an articulated asset's folder those
+// that are not there yet; the other files and values stay as they are. Throws core::Error where it cannot be read or written.
+void AddFindings(const std::filesystem::path& folder, const core::Findings& findings);
+
 // True where the folder holds an asset.json.
 bool IsAssetFolder(const std::filesystem::path& folder);
 

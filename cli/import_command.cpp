@@ -31,7 +31,10 @@ nlohmann::ordered_json ToJson(const pipeline::ImportOutcome& outcome) {
   json["name"] = outcome.name;
   json["folder"] = outcome.folder.string();
   if (!outcome.refusal.empty()) json["refused"] = outcome.refusal;
-  if (outcome.check) json["passed"] = outcome.check->passed();
+  if (outcome.check) {
+    json["passed"] = outcome.check->passed();
+    json["grade"] = pipeline::GradeName(outcome.check->grade());
+  }
   if (outcome.kept) json["kept"] = true;
   json["seconds"] = outcome.seconds;
   return json;
@@ -46,7 +49,7 @@ void PrintLine(const pipeline::ImportOutcome& outcome) {
     std::printf("kept     %s\n", outcome.folder.c_str());
     return;
   }
-  std::printf("%s  %s  (%.1f s)\n", outcome.check ? "passes " : "written", outcome.folder.c_str(),
+  std::printf("%s  %s  (%.1f s)\n", outcome.check ? pipeline::GradeSentence(outcome.check->grade()) : "written", outcome.folder.c_str(),
               outcome.seconds.at("total"));
 }
 

@@ -47,7 +47,10 @@ nlohmann::ordered_json ToJson(const pipeline::LibraryOutcome& outcome) {
   json["kind"] = outcome.kind;
   json["folder"] = outcome.folder.string();
   if (!outcome.refusal.empty()) json["refused"] = outcome.refusal;
-  if (outcome.check) json["passed"] = outcome.check->passed();
+  if (outcome.check) {
+    json["passed"] = outcome.check->passed();
+    json["grade"] = pipeline::GradeName(outcome.check->grade());
+  }
   json["links"] = outcome.links;
   json["joints"] = outcome.joints;
   json["mass_kg"] = outcome.mass;
@@ -60,7 +63,7 @@ void PrintLine(const pipeline::LibraryOutcome& outcome) {
     std::printf("refused  %s: %s\n", outcome.name.c_str(), outcome.refusal.c_str());
     return;
   }
-  const char* const state = outcome.check ? "passes " : "written";
+  const char* const state = outcome.check ? pipeline::GradeSentence(outcome.check->grade()) : "written";
   if (outcome.joints == 0) {
     std::printf("%s  %s  %.3f kg  (%.1f s)\n", state, outcome.folder.c_str(), outcome.mass,
                 outcome.seconds);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include "assets/articulated_folder.h"
 #include "assets/asset_folder.h"
@@ -109,18 +110,19 @@ void CheckDynamics(const assets::Asset& asset, const fs::path& folder, const Che
   const sim::RigidBody body = sim::BodyFromAsset(asset);
   sim::DropOptions options;
   const sim::DropResult bullet = sim::DropInBullet(body, options);
-  AddRestRows(bullet, "bullet", asset.rolls, limits, rows);
+  const double size = core::Bounds(asset.solid).diagonal().norm();
+  AddRestRows(bullet, "bullet", asset.rolls, size, limits, rows);
   RowOrFailure("settles-mujoco", rows, [&] {
     std::vector<std::string> warnings;
     const sim::DropResult mujoco =
         sim::DropInMujoco(body, folder / (asset.name + ".xml"), options, &warnings);
-    AddRestRows(mujoco, "mujoco", asset.rolls, limits, rows);
+    AddRestRows(mujoco, "mujoco", asset.rolls, size, limits, rows);
     if (!warnings.empty()) rows->Fail("mujoco-warnings", warnings[0]);
     if (asset.rolls) return;
     const Eigen::Vector3d com = asset.inertial.center_of_mass;
     rows->AtMost("engines-agree",
                  std::abs((bullet.rest_pose * com - mujoco.rest_pose * com).z()) * 1e3,
-                 limits.engines_distance * 1e3, "mm in height between Bullet and MuJoCo at rest");
+                 InUnit(limits.engines_distance, 1e3), "mm in height between Bullet and MuJoCo at rest");
     rows->AtMost("engines-agree-tilt",
                  sim::TiltBetween(bullet.rest_pose, mujoco.rest_pose) * kDegrees,
                  limits.engines_tilt, "degrees between Bullet and MuJoCo at rest, yaw free");
@@ -129,10 +131,11 @@ void CheckDynamics(const assets::Asset& asset, const fs::path& folder, const Che
 
 }  // namespace
 
-bool CheckReport::passed() const {
-  return std::none_of(rows.begin(), rows.end(), [](const core::Finding& row) {
-    return row.severity == core::Severity::kError;
-  });
+core::Findings CheckReport::Warnings() const {
+  core::Findings warnings;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(warnings),
+               [](const core::Finding& row) { return row.severity == core::Severity::kWarning; });
+  return warnings;
 }
 
 std::string FailedRows(const CheckReport& report) {
@@ -164,6 +167,14 @@ CheckReport CheckAsset(const fs::path& folder, const CheckLimits& limits) {
   return {folder.string(), rows.Take()};
 }
 
+CheckReport CheckBeforeKeeping(const fs::path& folder, const std::string& name,
+                               const CheckLimits& limits) {
+  CheckReport report = CheckAsset(folder, limits);
+  RequirePassed(report, name);
+  assets::AddFindings(folder, report.Warnings());
+  return report;
+}
+
 CheckReport CheckUrdf(const fs::path& urdf, const fs::path& root, const CheckLimits& limits) {
   const assets::UrdfModel model = assets::ReadUrdf(urdf, {root});
   CheckRows rows(urdf.filename().string());
@@ -183,7 +194,8 @@ CheckReport CheckUrdf(const fs::path& urdf, const fs::path& root, const CheckLim
   if (shapes > 0 && bodies > 0) {
     const sim::RigidBody body = sim::BodyFromUrdf(model);
     sim::DropOptions options;
-    AddRestRows(sim::DropInBullet(body, options), "bullet", false, limits, &rows);
+    AddRestRows(sim::DropInBullet(body, options), "bullet", false, 2.0 * sim::Radius(body), limits,
+                &rows);
   }
   RowOrFailure("joints", &rows, [&] { AddJointRowsOfUrdf(model, &rows); });
   return {urdf.string(), rows.Take()};

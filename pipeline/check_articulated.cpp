@@ -161,10 +161,11 @@ void CheckRest(const assets::UrdfModel& model, const fs::path& mjcf, const Check
   const sim::RigidBody whole = sim::BodyFromUrdf(model);
   const sim::DropOptions options;
   const auto bullet = sim::BulletRig(body, {.hold_root = false});
-  AddRestRows(sim::DropRig(whole, options, bullet.get()), "bullet", false, limits, rows);
+  const double size = 2.0 * sim::Radius(whole);
+  AddRestRows(sim::DropRig(whole, options, bullet.get()), "bullet", false, size, limits, rows);
   RowOrFailure("settles-mujoco", rows, [&] {
     const auto mujoco = sim::MujocoRig(body, mjcf, {.hold_root = false});
-    AddRestRows(sim::DropRig(whole, options, mujoco.get()), "mujoco", false, limits, rows);
+    AddRestRows(sim::DropRig(whole, options, mujoco.get()), "mujoco", false, size, limits, rows);
   });
 }
 

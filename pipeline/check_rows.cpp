@@ -43,12 +43,37 @@ void CheckRows::AtMost(const std::string& code, double figure, double limit,
   Require(code, figure <= limit, figure, what + ", at most " + Rounded(limit));
 }
 
+void CheckRows::AtMost(const std::string& code, double figure, const GradedLimit& limit,
+                       const std::string& what) {
+  const core::Severity severity = SeverityAtMost(figure, limit);
+  const bool failed = severity == core::Severity::kError;
+  Add(code, severity, figure, what + ", at most " + Rounded(failed ? limit.worst : limit.good));
+}
+
+void CheckRows::AtLeast(const std::string& code, double figure, const GradedLimit& limit,
+                        const std::string& what) {
+  const core::Severity severity = SeverityAtLeast(figure, limit);
+  const bool failed = severity == core::Severity::kError;
+  Add(code, severity, figure, what + ", at least " + Rounded(failed ? limit.worst : limit.good));
+}
+
+void CheckRows::Add(const std::string& code, core::Severity severity, double figure,
+                    const std::string& what) {
+  rows_.push_back({code, severity, place_, what, figure});
+}
+
 void CheckRows::Fail(const std::string& code, const std::string& why) {
   rows_.push_back({code, core::Severity::kError, place_, why, 0.0});
 }
 
 void CheckRows::Warn(const core::Finding& finding) {
   rows_.push_back(finding);
+}
+
+const char* GradeSentence(Grade grade) {
+  return grade == Grade::kPass       ? "passes"
+         : grade == Grade::kWarnings ? "passes with warnings"
+                                     : "does not pass";
 }
 
 std::string CheckTable(const CheckReport& report) {
@@ -59,13 +84,14 @@ std::string CheckTable(const CheckReport& report) {
                   Rounded(row.figure).c_str());
     table += line + row.sentence + "\n";
   }
-  return table + (report.passed() ? "  passes\n" : "  does not pass\n");
+  return table + "  " + GradeSentence(report.grade()) + "\n";
 }
 
 std::string CheckJson(const CheckReport& report) {
   nlohmann::ordered_json json;
   json["subject"] = report.subject;
   json["passed"] = report.passed();
+  json["grade"] = GradeName(report.grade());
   json["rows"] = nlohmann::ordered_json::array();
   for (const core::Finding& row : report.rows) {
     json["rows"].push_back({{"property", row.code},

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/finding.h"
+#include "pipeline/check_grade.h"
 
 namespace simwright::pipeline {
 
@@ -14,6 +15,14 @@ class CheckRows {
   void Report(const std::string& code, double figure, const std::string& what);
   void Require(const std::string& code, bool passes, double figure, const std::string& what);
   void AtMost(const std::string& code, double figure, double limit, const std::string& what);
+  // Pass, warning or failure by `limit`; the sentence ends with the bound that is not kept.
+  void AtMost(const std::string& code, double figure, const GradedLimit& limit,
+              const std::string& what);
+  void AtLeast(const std::string& code, double figure, const GradedLimit& limit,
+               const std::string& what);
+  // A verdict that was reached otherwise.
+  void Add(const std::string& code, core::Severity severity, double figure,
+           const std::string& what);
   void Fail(const std::string& code, const std::string& why);
   void Warn(const core::Finding& finding);
 

@@ -165,10 +165,7 @@ class Importer {
     const fs::path target = output_ / item.name;
     core::StagedFolder staged(target, options_.force);
     write(staged.staging());
-    if (options_.check) {
-      outcome->check = CheckAsset(staged.staging());
-      RequirePassed(*outcome->check, item.name);
-    }
+    if (options_.check) outcome->check = CheckBeforeKeeping(staged.staging(), item.name);
     staged.Commit();
     outcome->folder = target;
   }

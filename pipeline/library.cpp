@@ -110,10 +110,7 @@ void Make(const Item& item, const fs::path& target, const LibraryOptions& option
           LibraryOutcome* outcome) {
   core::StagedFolder staged(target, options.force);
   (item.rigid != nullptr ? WriteRigid : WriteJointed)(item, staged.staging(), outcome);
-  if (options.check) {
-    outcome->check = CheckAsset(staged.staging());
-    RequirePassed(*outcome->check, item.options.name);
-  }
+  if (options.check) outcome->check = CheckBeforeKeeping(staged.staging(), item.options.name);
   staged.Commit();
   outcome->folder = target;
 }

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "assets/asset_folder.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/image.h"
@@ -69,7 +70,10 @@ void Check(const PhotoRunFolder& folder, core::Progress* progress) {
   progress->Stage("check");
   const CheckReport report = CheckAsset(folder.Asset());
   core::WriteFile(folder.Check(), CheckJson(report));
-  if (report.passed()) return;
+  if (report.passed()) {
+    assets::AddFindings(folder.Asset(), report.Warnings());
+    return;
+  }
   throw core::Error("the lifted asset fails its check: " + FailedRows(report),
                     folder.Asset().string(),
                     "look at its preview.png; a --mask or another photo may help");

@@ -19,8 +19,9 @@ double InertialDifference(const assets::Inertial& a, const assets::Inertial& b, 
 // Runs one reader; the core::Error it throws is the failure of row `code`.
 void RowOrFailure(const std::string& code, CheckRows* rows, const std::function<void()>& load);
 
-// settles-*, rest-pose-* and drift-*.
-void AddRestRows(const sim::DropResult& drop, const std::string& engine, bool rolls,
+// settles-*, rest-pose-*, drift-* and sinks-*, or of a body that rolls rolls-* and sinks-*, its
+// diagonal being `size` (m).
+void AddRestRows(const sim::DropResult& drop, const std::string& engine, bool rolls, double size,
                  const CheckLimits& limits, CheckRows* rows);
 
 }  // namespace simwright::pipeline

@@ -25,7 +25,12 @@ Eigen::Isometry3d StartPose(const RigidBody& body, const DropOptions& options) {
 
 DropWatch::DropWatch(const RigidBody& body, const DropOptions& options,
                      const Eigen::Isometry3d& start)
-    : body_(body), options_(options), start_(start), radius_(Radius(body)), anchor_(start) {}
+    : body_(body),
+      options_(options),
+      start_(start),
+      radius_(Radius(body)),
+      anchor_(start),
+      half_(start) {}
 
 void DropWatch::Observe(double time, const Eigen::Isometry3d& world_from_body) {
   if (time <= options_.settle_time + 1e-9) {
@@ -43,15 +48,19 @@ void DropWatch::Observe(double time, const Eigen::Isometry3d& world_from_body) {
     result_.rest_pose = world_from_body;
     result_.rests = time - result_.rest_time >= options_.rest_window;
   }
+  if (time <= options_.settle_time + 0.5 * options_.watch_time + 1e-9) half_ = world_from_body;
   result_.final_pose = world_from_body;
 }
 
 DropResult DropWatch::Finish() const {
   DropResult result = result_;
   result.tilt = TiltBetween(start_, result.rest_pose);
-  result.drift = (result.final_pose * body_.inertial.center_of_mass -
-                  result.rest_pose * body_.inertial.center_of_mass)
-                     .norm();
+  const auto apart = [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+    return (a * body_.inertial.center_of_mass - b * body_.inertial.center_of_mass).norm();
+  };
+  result.drift = apart(result.final_pose, result.rest_pose);
+  result.early_drift = apart(half_, result.rest_pose);
+  result.late_drift = apart(result.final_pose, half_);
   result.turn =
       Eigen::AngleAxisd(result.rest_pose.linear().transpose() * result.final_pose.linear()).angle();
   result.lowest_point = LowestPoint(body_, result.final_pose);

@@ -25,6 +25,8 @@ struct DropResult {
   double rest_time = 0.0;     // s, since when it rests; settle_time where it does not
   double tilt = 0.0;          // rad, between the start's and the resting vertical
   double drift = 0.0;         // m, of the centre of mass over watch_time
+  double early_drift = 0.0;   // m, the same over its first half
+  double late_drift = 0.0;    // m, and over its second half: less than before where it slows down
   double turn = 0.0;          // rad, over watch_time, about any axis
   double lowest_point = 0.0;  // m, at the end: below 0 is penetration
   Eigen::Isometry3d rest_pose = Eigen::Isometry3d::Identity();   // world_from_body after settling
@@ -52,6 +54,7 @@ class DropWatch {
   double radius_;             // m, of the body about its centre of mass
   Eigen::Isometry3d anchor_;  // where it was at the start of the window
   double anchor_time_ = 0.0;  // s
+  Eigen::Isometry3d half_;    // where it was when half of the watching was over
   DropResult result_;
 };
 
