@@ -21,9 +21,13 @@ if(SIMWRIGHT_WERROR)
   add_compile_options(-Werror)
 endif()
 if(SIMWRIGHT_SANITIZE)
-  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined
-                      -fno-omit-frame-pointer)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize=vptr,function
+                      -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
+endif()
+if(SIMWRIGHT_FUZZ)
+  # Coverage for libFuzzer; the fuzz targets link its main function.
+  add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
 find_program(CCACHE_PROGRAM ccache)
@@ -56,11 +60,23 @@ function(simwright_precompile target header)
   target_compile_options(${target} PRIVATE ${simwright_pch_options})
 endfunction()
 
-# simwright_module(NAME [FOLDERS folder...] [PUBLIC lib...] [PRIVATE lib...])
+# simwright_torch_objects(TARGET SOURCES HEADER_OWNER lib...): compiles the list SOURCES, which include libtorch,
+# beside libtorch's precompiled header and adds the objects to TARGET. The other sources of TARGET
+# stay without it: at -O3 a file pays 8 s for its inline functions.
+function(simwright_torch_objects target sources header_owner)
+  add_library(${target}_torch OBJECT ${sources})
+  target_include_directories(${target}_torch PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${target}_torch PRIVATE ${ARGN})
+  simwright_precompile(${target}_torch REUSE ${header_owner})
+  target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_torch>)
+endfunction()
+
+# simwright_module(NAME [FOLDERS folder...] [PUBLIC lib...] [PRIVATE lib...] [TORCH file...])
 # One static library simwright::NAME from the sources of the folder, and of those FOLDERS inside it.
-# PUBLIC: what its headers include; PRIVATE: what stays behind its door.
+# PUBLIC: what its headers include; PRIVATE: what stays behind its door; TORCH: the sources that
+# include libtorch, where not all do.
 function(simwright_module name)
-  cmake_parse_arguments(arg "" "" "FOLDERS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "" "FOLDERS;PUBLIC;PRIVATE;TORCH" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   file(GLOB headers CONFIGURE_DEPENDS *.h)
   set(inner_headers)
@@ -71,6 +87,8 @@ function(simwright_module name)
     list(APPEND inner_headers ${folder_headers})
     install(FILES ${folder_headers} DESTINATION include/simwright/${name}/${folder})
   endforeach()
+  list(TRANSFORM arg_TORCH PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  list(REMOVE_ITEM sources ${arg_TORCH})
   add_library(simwright_${name} STATIC ${sources} ${headers} ${inner_headers})
   add_library(simwright::${name} ALIAS simwright_${name})
   set_target_properties(simwright_${name} PROPERTIES EXPORT_NAME ${name})
@@ -85,10 +103,14 @@ function(simwright_module name)
     simwright_precompile(simwright_nn torch.h)
   elseif(name STREQUAL geometry)
     simwright_precompile(simwright_geometry cgal.h)
-  elseif(simwright::nn IN_LIST arg_PRIVATE)
-    simwright_precompile(simwright_${name} REUSE simwright_nn)
   else()
     simwright_precompile(simwright_${name} REUSE simwright_core)
+  endif()
+  if(arg_TORCH)
+    simwright_torch_objects(simwright_${name} "${arg_TORCH}" simwright_nn
+                            ${arg_PUBLIC} ${arg_PRIVATE})
+    target_compile_definitions(simwright_${name}_torch PRIVATE
+                               SIMWRIGHT_VERSION="${PROJECT_VERSION}")
   endif()
   install(TARGETS simwright_${name} EXPORT simwright_targets ARCHIVE DESTINATION lib)
   install(FILES ${headers} DESTINATION include/simwright/${name})

@@ -1,21 +1,16 @@
 #!/bin/bash
-# tests/fuzz/run.sh [SECONDS=60]: builds the fuzz targets with clang in build-fuzz/ and runs each for
-# that long; with 0 builds alone. Exit 1 where one crashes; the input that did it stays in
-# build-fuzz/found/.
+# tests/fuzz/run.sh [SECONDS=60]: builds the fuzz targets in build-sanitize/ and runs each for that
+# long. Exit 1 where one crashes; the input that did it stays in build-sanitize/found/.
 set -euo pipefail
 seconds=${1:-60}
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
-build=${SIMWRIGHT_FUZZ_BUILD:-$root/build-fuzz}
-# Lines are what a report needs, and clang is twice as fast without the rest.
-cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-  -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" \
-  -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DSIMWRIGHT_FUZZ=ON \
-  -DSIMWRIGHT_TESTS=OFF -DSIMWRIGHT_BENCH=OFF -DSIMWRIGHT_SANITIZE=OFF > /dev/null
+build=$root/build-sanitize
+cd "$root"
+cmake --preset sanitize > /dev/null
+cmake --build --preset sanitize --target fuzz_targets
 targets="image_fuzz mesh_fuzz urdf_fuzz catalogue_fuzz chat_fuzz physics_answer_fuzz reward_fuzz
   task_answer_fuzz robot_side_file_fuzz trajectory_fuzz"
-ninja -C "$build" $targets
-[ "$seconds" -gt 0 ] || exit 0
 mkdir -p "$build/found"
 # Small files of each kind, made here so that no binary is kept.
 image_seeds=$build/seeds/image_fuzz

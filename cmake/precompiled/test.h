@@ -1,0 +1,6 @@
+#pragma once
+
+// Precompiled for the test programs.
+#include "cmake/precompiled/standard.h"
+
+#include <gtest/gtest.h>

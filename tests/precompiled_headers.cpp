@@ -1,0 +1,1 @@
+// Empty: the target of this file owns a precompiled header that all test programs share.
