@@ -26,6 +26,9 @@ pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
 # Debian's Torch config knows the headers and libraries; its old-style variables become one target.
 find_package(Torch REQUIRED)
+# It defines _GLIBCXX_USE_CXX11_ABI=1, which is the default; precompiled headers are shared with
+# modules that do not link libtorch only where all definitions are the same.
+set_property(TARGET torch PROPERTY INTERFACE_COMPILE_OPTIONS)
 if(NOT TARGET simwright_torch)
   add_library(simwright_torch INTERFACE IMPORTED)
   target_link_libraries(simwright_torch INTERFACE ${TORCH_LIBRARIES})
