@@ -2,6 +2,7 @@
 #include <string_view>
 
 #include "assets/mesh_import.h"
+#include "assets/mesh_format.h"
 #include "core/error.h"
 #include "core/files.h"
 
@@ -53,6 +54,7 @@ bool ReadFace(std::string_view line, core::TriangleMesh* mesh) {
 }  // namespace
 
 core::TriangleMesh ReadBareObj(const std::filesystem::path& path) {
+  RequireMeshFile(path);
   const std::string text = core::ReadFile(path);
   core::TriangleMesh mesh;
   std::string_view rest = text;

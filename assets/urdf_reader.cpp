@@ -10,6 +10,7 @@
 
 #include "assets/mesh_import.h"
 #include "assets/primitive_meshes.h"
+#include "assets/urdf_mesh_up.h"
 #include "assets/urdf_sanity.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -155,7 +156,13 @@ void Reader::AddShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
         return;
       }
       try {
-        shape.mesh = file->extension() == ".obj" ? ReadBareObj(*file) : ReadMesh(*file).mesh;
+        if (file->extension() == ".obj") {
+          shape.mesh = ReadBareObj(*file);
+        } else {
+          MeshFile read = ReadMeshFile(*file);
+          shape.mesh = std::move(read.mesh.mesh);
+          shape.up = read.up;
+        }
       } catch (const core::Error& error) {
         Warn("urdf-unreadable-mesh", std::string("a mesh is left out: ") + error.what());
         return;
@@ -311,6 +318,7 @@ UrdfModel Reader::Read() {
     throw core::Error("the joints form a loop", path_.string(), "a URDF is a tree of links");
   }
   ReadContacts(text);
+  TurnMeshesUp(&model_);
   return std::move(model_);
 }
 

@@ -22,6 +22,7 @@ struct UrdfShape {
   std::string file;         // the mesh file, absolute; empty for a primitive
   // What the file's vertices went through, scale and origin; identity for a primitive.
   Eigen::Affine3d link_from_file = Eigen::Affine3d::Identity();
+  char up = 0;  // axis that points up by the file's own word (MeshFile), before any turn
   std::optional<Eigen::Vector4f> color = std::nullopt;  // RGBA of a visual's <material>
   // What the file says of a primitive, for engines that know it exactly.
   UrdfGeometry geometry = UrdfGeometry::kMesh;

@@ -8,6 +8,7 @@ find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs saliency ximgproc
 find_package(CGAL REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(assimp REQUIRED)
+pkg_check_modules(draco REQUIRED IMPORTED_TARGET draco)
 # Debian's mujocoConfig names an include folder of a package that it does not depend on.
 find_library(MUJOCO_LIBRARY mujoco REQUIRED)
 if(NOT TARGET mujoco::mujoco)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include <libexif/exif-data.h>
 #include <opencv2/core/utils/logger.hpp>
@@ -12,6 +13,7 @@
 #include "core/animated_image.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/foreign_content.h"
 #include "core/image_header.h"
 
 namespace simwright::core {
@@ -89,6 +91,9 @@ Image DecodeImage(std::string_view bytes, const std::string& where,
     throw Error("the picture file is larger than 2 GiB", where);
   }
   const ImageHeader header = ReadImageHeader(bytes);
+  std::optional<ForeignContent> foreign = FindForeignContent(bytes);
+  if (!foreign) foreign = FindUnreadPicture(bytes);
+  if (foreign) throw Error(foreign->what, where, foreign->remedy);
   if (header.format == ImageFormat::kUnknown) {
     throw Error("this is not a picture that can be read", where,
                 "use PNG, JPEG, WebP, TIFF, BMP, GIF or PNM");

@@ -36,11 +36,13 @@ core::TexturedMesh ReadCataloguePiece(const assets::FurnitureCatalogue& catalogu
                                       const assets::CataloguePiece& piece,
                                       core::Findings* findings) {
   const core::TemporaryFolder folder;
-  core::TexturedMesh mesh =
-      assets::ReadMesh(catalogue.Extract(piece, folder.path()), [&](const std::string& sentence) {
-        if (findings == nullptr) return;
-        findings->push_back({"texture", core::Severity::kWarning, piece.id, sentence, 0.0});
-      });
+  assets::MeshFile file = assets::ReadMeshFile(catalogue.Extract(piece, folder.path()));
+  core::TexturedMesh mesh = std::move(file.mesh);
+  for (core::Finding& finding : file.findings) {
+    if (findings == nullptr) break;
+    finding.place = piece.id;
+    findings->push_back(std::move(finding));
+  }
   // The rotation turns the model in its own frame, where y is up (Sweet Home 3D).
   Eigen::Matrix3d z_up;
   z_up << 1, 0, 0, 0, 0, -1, 0, 1, 0;

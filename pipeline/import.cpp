@@ -35,19 +35,12 @@ bool IsUrdf(const fs::path& path) {
   return path.extension() == ".urdf";
 }
 
-char UpOf(const fs::path& mesh, char wanted) {
+char UpOf(const fs::path& mesh, char stated, char wanted) {
   if (wanted != 0) return wanted;
+  if (stated != 0) return stated;
   std::string ending = mesh.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), ::tolower);
   return ending == ".stl" || ending == ".ply" ? 'z' : 'y';
-}
-
-// World (z up) from a file whose `up` axis points up; right-handed turns.
-Eigen::Matrix3d WorldFromFile(char up) {
-  Eigen::Matrix3d m = Eigen::Matrix3d::Identity();
-  if (up == 'y') m << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-  if (up == 'x') m << 0, 0, -1, 0, 1, 0, 1, 0, 0;
-  return m;
 }
 
 std::string Unique(std::string name, std::set<std::string>* taken) {
@@ -178,12 +171,12 @@ class Importer {
 
 core::TexturedMesh ReadInWorld(const fs::path& mesh_path, const ImportOptions& options,
                                core::Findings* findings) {
-  core::TexturedMesh mesh = assets::ReadMesh(mesh_path, [&](const std::string& sentence) {
-    findings->push_back(
-        {"texture", core::Severity::kWarning, mesh_path.filename().string(), sentence, 0.0});
-  });
+  assets::MeshFile file = assets::ReadMeshFile(mesh_path);
+  findings->insert(findings->end(), file.findings.begin(), file.findings.end());
+  core::TexturedMesh mesh = std::move(file.mesh);
   Eigen::Affine3d world_from_file = Eigen::Affine3d::Identity();
-  world_from_file.linear() = options.unit * WorldFromFile(UpOf(mesh_path, options.up));
+  world_from_file.linear() =
+      options.unit * assets::ZUpFrom(UpOf(mesh_path, file.up, options.up));
   core::Transform(world_from_file, &mesh.mesh);
   if (options.height > 0.0) {
     const double height = core::Bounds(mesh.mesh).sizes().z();

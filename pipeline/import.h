@@ -13,7 +13,8 @@ namespace simwright::pipeline {
 
 struct ImportOptions {
   std::string category;  // empty: from the file's name, else the catch-all "object"
-  // 'x', 'y', 'z', or 0: y for OBJ, glTF and DAE, z for STL and PLY. URDFs have z up.
+  // 'x', 'y', 'z', or 0: as the file says (glTF, DAE), else y for OBJ and DAE, z for STL and PLY.
+  // URDFs have z up.
   char up = 0;
   double unit = 1.0;    // metres a file unit; 1: the file is in metres (as glTF and DAE are)
   double height = 0.0;  // m, > 0: scale to this height instead (of a URDF: joints at zero)

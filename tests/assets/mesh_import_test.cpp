@@ -98,20 +98,6 @@ TEST_F(MeshFiles, BadMeshesAreOneErrorEach) {
                core::Error);
 }
 
-TEST_F(MeshFiles, TexturesOutsideTheFolderAreLeftOut) {
-  fs::create_directories(folder_ / "in");
-  core::Image image(2, 2, 3, 128);
-  core::WritePng(folder_ / "secret.png", image);
-  std::ofstream(folder_ / "in" / "m.mtl") << "newmtl m\nKd 1 1 1\nmap_Kd ../secret.png\n";
-  std::ofstream(folder_ / "in" / "m.obj") << "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt "
-                                             "1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n";
-  std::vector<std::string> warnings;
-  const core::TexturedMesh mesh = ReadMesh(
-      folder_ / "in" / "m.obj", [&](const std::string& text) { warnings.push_back(text); });
-  EXPECT_TRUE(mesh.textures.empty());
-  EXPECT_EQ(warnings.size(), 1u);
-}
-
 TEST_F(MeshFiles, CatalogueGivesTrueSizes) {
   const FurnitureCatalogue catalogue(
       Zip({{"PluginFurnitureCatalog.properties",

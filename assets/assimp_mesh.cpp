@@ -1,0 +1,344 @@
+#include "assets/assimp_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/material.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/IOStream.hpp>
+#include <assimp/Importer.hpp>
+
+#include "assets/dae_head.h"
+#include "assets/mesh_format.h"
+#include "assets/obj_materials.h"
+#include "assets/obj_text.h"
+#include "core/error.h"
+#include "core/files.h"
+
+namespace simwright::assets {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::uint64_t kMaxMeshBytes = 4ull << 30;
+
+// Assimp tries every reader that it has on a file whose own reader does not know it. Only those of
+// the formats that come here stay, so that a broken file meets no other code.
+void KeepKnownFormats(Assimp::Importer* importer) {
+  static const std::set<std::string> kKept{"obj", "stl", "dae"};
+  for (size_t i = importer->GetImporterCount(); i-- > 0;) {
+    std::set<std::string> endings;
+    importer->GetImporter(i)->GetExtensionList(endings);
+    const bool known = std::any_of(endings.begin(), endings.end(),
+                                   [](const auto& ending) { return kKept.contains(ending); });
+    if (!known) importer->UnregisterLoader(importer->GetImporter(i));
+  }
+}
+
+// A file held in memory. Some of Assimp's readers wait for ever for the rest of a file that was cut
+// short: reading again and again at the end is an error here.
+class HeldFile : public Assimp::IOStream {
+ public:
+  explicit HeldFile(const std::string& bytes) : bytes_(bytes) {}
+  size_t Read(void* buffer, size_t size, size_t count) override {
+    if (size == 0 || count == 0) return 0;
+    const size_t whole = std::min(count, (bytes_.size() - at_) / size);
+    if (whole == 0 && ++reads_at_end_ > kMostReadsAtEnd) {
+      throw std::runtime_error("the file ends in the middle of something");
+    }
+    std::memcpy(buffer, bytes_.data() + at_, whole * size);
+    at_ += whole * size;
+    return whole;
+  }
+  aiReturn Seek(size_t offset, aiOrigin origin) override {
+    const size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at_ : bytes_.size();
+    const size_t target = base + offset;  // an offset backwards wraps round, as Assimp passes it
+    if (target > bytes_.size()) return aiReturn_FAILURE;
+    at_ = target;
+    return aiReturn_SUCCESS;
+  }
+  size_t Tell() const override { return at_; }
+  size_t FileSize() const override { return bytes_.size(); }
+  size_t Write(const void*, size_t, size_t) override { return 0; }
+  void Flush() override {}
+
+ private:
+  static constexpr int kMostReadsAtEnd = 1000;
+  const std::string& bytes_;
+  size_t at_ = 0;
+  int reads_at_end_ = 0;
+};
+
+// Shows Assimp the files given here and nothing on the disk.
+class HeldFiles : public Assimp::DefaultIOSystem {
+ public:
+  explicit HeldFiles(std::map<std::string, std::string> files) : files_(std::move(files)) {}
+  bool Exists(const char* file) const override {
+    return files_.contains(fs::path(file).filename().string());
+  }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    if (std::strchr(mode, 'w') != nullptr) return nullptr;
+    const auto found = files_.find(fs::path(file).filename().string());
+    // Assimp closes, and so deletes it.
+    return found == files_.end() ? nullptr : new HeldFile(found->second);
+  }
+
+ private:
+  std::map<std::string, std::string> files_;  // by file name
+};
+
+// What an OBJ's own text says beside what Assimp hands on.
+struct ObjFacts {
+  std::vector<MtlMaterial> materials;
+  bool colors_in_bytes = false;
+};
+
+// Collects Assimp's nodes into one mesh with exactly equal positions shared.
+class Collector {
+ public:
+  Collector(const aiScene& scene, fs::path folder, const ObjFacts* obj, FindingList* findings)
+      : scene_(scene), folder_(std::move(folder)), obj_(obj), findings_(*findings),
+        vertices_(&raw_.mesh.mesh) {}
+
+  RawMesh Collect() {
+    for (unsigned i = 0; i < scene_.mNumMaterials; ++i) ReadMaterial(*scene_.mMaterials[i], i);
+    AddNode(*scene_.mRootNode, aiMatrix4x4(), 0);
+    if (!any_uv_) raw_.mesh.corner_uvs.clear();
+    if (!any_color_) raw_.corner_colors.clear();
+    return std::move(raw_);
+  }
+
+ private:
+  // How the coordinates of a material's texture come from the mesh's.
+  struct UvSource {
+    unsigned channel = 0;
+    Eigen::Vector2f scale{1.0f, 1.0f}, offset{0.0f, 0.0f};
+    bool clamp = false;
+  };
+
+  void ReadMaterial(const aiMaterial& source, unsigned index);
+  bool ReadObjMaterial(const std::string& name, core::Material* material, UvSource* uv);
+  void ReadOwnMaterial(const aiMaterial& source, core::Material* material, UvSource* uv);
+  int ReadTexture(const std::string& name);
+  void AddNode(const aiNode& node, const aiMatrix4x4& parent, int depth);
+  void AddMesh(const aiMesh& mesh, const aiMatrix4x4& placed, const std::string& name);
+  void AddCorner(const aiMesh& mesh, unsigned corner, const UvSource& uv);
+
+  const aiScene& scene_;
+  fs::path folder_;
+  const ObjFacts* obj_;
+  FindingList& findings_;
+  RawMesh raw_;
+  VertexIndexer vertices_;
+  std::vector<UvSource> uv_of_;  // of the materials
+  std::map<std::string, int> texture_of_;
+  bool any_uv_ = false, any_color_ = false;
+};
+
+bool Collector::ReadObjMaterial(const std::string& name, core::Material* material, UvSource* uv) {
+  if (obj_ == nullptr || name.size() < 2 || name[0] != 'm') return false;
+  const size_t index = static_cast<size_t>(std::atoll(name.c_str() + 1));
+  if (index >= obj_->materials.size() || name != "m" + std::to_string(index)) return false;
+  const MtlMaterial& source = obj_->materials[index];
+  material->name = source.name;
+  material->base_color.head<3>() = source.diffuse;
+  material->base_color.w() = source.opacity;
+  uv->scale = source.uv_scale;
+  uv->offset = source.uv_offset;
+  uv->clamp = source.clamp;
+  if (!source.texture.empty()) {
+    material->texture = ReadTexture(source.texture);
+    if (material->texture >= 0 && !source.has_diffuse) material->base_color.head<3>().setOnes();
+  }
+  return true;
+}
+
+void Collector::ReadOwnMaterial(const aiMaterial& source, core::Material* material, UvSource* uv) {
+  aiColor4D color;
+  if (source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS) {
+    const Eigen::Vector4f read(color.r, color.g, color.b, color.a);
+    material->base_color =
+        read.array().isFinite().select(read, 0.8f).cwiseMax(0.0f).cwiseMin(1.0f);
+  }
+  float opacity = 1.0f;
+  if (source.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS && std::isfinite(opacity)) {
+    material->base_color.w() = std::clamp(opacity, 0.0f, 1.0f);
+  }
+  aiString file;
+  if (source.GetTexture(aiTextureType_DIFFUSE, 0, &file) != AI_SUCCESS) return;
+  material->texture = ReadTexture(file.C_Str());
+  int channel = 0;
+  if (source.Get(AI_MATKEY_UVWSRC(aiTextureType_DIFFUSE, 0), channel) == AI_SUCCESS &&
+      channel >= 0 && channel < AI_MAX_NUMBER_OF_TEXTURECOORDS) {
+    uv->channel = static_cast<unsigned>(channel);
+  }
+}
+
+void Collector::ReadMaterial(const aiMaterial& source, unsigned index) {
+  core::Material material;
+  UvSource uv;
+  aiString name;
+  if (source.Get(AI_MATKEY_NAME, name) == AI_SUCCESS) material.name = name.C_Str();
+  if (!ReadObjMaterial(material.name, &material, &uv)) {
+    if (obj_ == nullptr) ReadOwnMaterial(source, &material, &uv);
+  }
+  if (material.name.empty()) material.name = "material_" + std::to_string(index);
+  // Writers often leave the colour black beside a texture: the texture is meant as it is.
+  if (material.texture >= 0 && material.base_color.head<3>().maxCoeff() < 0.01f) {
+    material.base_color.head<3>().setOnes();
+  }
+  raw_.mesh.materials.push_back(material);
+  uv_of_.push_back(uv);
+}
+
+int Collector::ReadTexture(const std::string& name) {
+  const auto [entry, fresh] = texture_of_.try_emplace(name, -1);
+  core::Image image;
+  if (fresh && ReadTextureFile(folder_, name, &findings_, &image)) {
+    entry->second = static_cast<int>(raw_.mesh.textures.size());
+    raw_.mesh.textures.push_back(std::move(image));
+  }
+  return entry->second;
+}
+
+void Collector::AddCorner(const aiMesh& mesh, unsigned corner, const UvSource& uv) {
+  Eigen::Vector2f at = Eigen::Vector2f::Zero();
+  if (mesh.HasTextureCoords(uv.channel)) {
+    const aiVector3D& read = mesh.mTextureCoords[uv.channel][corner];
+    at = Eigen::Vector2f(read.x, read.y).cwiseProduct(uv.scale) + uv.offset;
+    if (!at.allFinite()) at.setZero();
+  }
+  raw_.mesh.corner_uvs.push_back(at);
+  Eigen::Vector4f color = Eigen::Vector4f::Ones();
+  if (mesh.HasVertexColors(0)) {
+    const aiColor4D& read = mesh.mColors[0][corner];
+    color = Eigen::Vector4f(read.r, read.g, read.b, read.a);
+    if (obj_ != nullptr && obj_->colors_in_bytes) color.head<3>() /= 255.0f;
+  }
+  raw_.corner_colors.push_back(ToCornerColor(color));
+}
+
+void Collector::AddMesh(const aiMesh& mesh, const aiMatrix4x4& placed, const std::string& name) {
+  core::TexturedMesh& result = raw_.mesh;
+  if (result.mesh.triangles.size() + mesh.mNumFaces > kMaxMeshFaces) {
+    throw core::Error("the mesh has more than 20 million faces", folder_.string(),
+                      "decimate it first");
+  }
+  const int part = static_cast<int>(result.part_names.size());
+  const bool mirrored = placed.Determinant() < 0.0f;
+  const size_t before = result.mesh.triangles.size();
+  const UvSource& uv = uv_of_[mesh.mMaterialIndex];
+  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+    const aiFace& face = mesh.mFaces[f];
+    if (face.mNumIndices != 3) continue;
+    unsigned corners[3] = {face.mIndices[0], face.mIndices[1], face.mIndices[2]};
+    if (mirrored) std::swap(corners[1], corners[2]);
+    if (std::max({corners[0], corners[1], corners[2]}) >= mesh.mNumVertices) continue;
+    Eigen::Vector3i t;
+    for (int k = 0; k < 3; ++k) {
+      const aiVector3D position = placed * mesh.mVertices[corners[k]];
+      t[k] = vertices_.Index({position.x, position.y, position.z});
+    }
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    result.mesh.triangles.push_back(t);
+    result.triangle_material.push_back(static_cast<int>(mesh.mMaterialIndex));
+    result.triangle_part.push_back(part);
+    for (const unsigned corner : corners) AddCorner(mesh, corner, uv);
+  }
+  any_uv_ = any_uv_ || mesh.HasTextureCoords(uv.channel);
+  any_color_ = any_color_ || mesh.HasVertexColors(0);
+  if (result.mesh.triangles.size() > before) result.part_names.push_back(name);
+}
+
+void Collector::AddNode(const aiNode& node, const aiMatrix4x4& parent, int depth) {
+  if (depth > 500) throw core::Error("the scene graph is nested too deeply", folder_.string());
+  const aiMatrix4x4 placed = parent * node.mTransformation;
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const aiMesh& mesh = *scene_.mMeshes[node.mMeshes[i]];
+    std::string name = mesh.mName.length > 0 ? mesh.mName.C_Str() : node.mName.C_Str();
+    AddMesh(mesh, placed, name.empty() ? "part" : name);
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) AddNode(*node.mChildren[i], placed, depth + 1);
+}
+
+// The file as Assimp is to see it, with what an OBJ or a DAE says that Assimp does not hand on.
+class Source {
+ public:
+  Source(const fs::path& path, FindingList* findings) : path_(path) {
+    std::string bytes = core::ReadFile(path, kMaxMeshBytes);
+    const MeshFormat format = MeshFormatOf(path);
+    if (format == MeshFormat::kObj) {
+      PrepareMaterials(PrepareObj(bytes), findings);
+      return;
+    }
+    if (format == MeshFormat::kDae) ReadHead(bytes, findings);
+    files_[path.filename().string()] = std::move(bytes);
+  }
+
+  const ObjFacts* obj() const { return is_obj_ ? &obj_ : nullptr; }
+  char up() const { return up_; }
+  std::map<std::string, std::string> TakeFiles() { return std::move(files_); }
+
+ private:
+  void PrepareMaterials(ObjText text, FindingList* findings) {
+    is_obj_ = true;
+    obj_.materials = ReadObjMaterials(path_, text, findings);
+    obj_.colors_in_bytes = text.colors_in_bytes;
+    if (text.has_surfaces) {
+      findings->Add(core::Severity::kWarning, "obj-surfaces",
+                    "free-form curves and surfaces are left out: only polygons are read",
+                    "convert them to a mesh and export again");
+    }
+    files_["materials.mtl"] = NumberedLibrary(obj_.materials);
+    files_[path_.filename().string()] = std::move(text.text);
+  }
+
+  void ReadHead(const std::string& bytes, FindingList* findings) {
+    const DaeHead head = ReadDaeHead(bytes);
+    up_ = head.up;
+    if (head.unread.empty()) return;
+    findings->Add(core::Severity::kInfo, "dae-not-read", "not read: " + head.unread,
+                  "apply modifiers and poses before the export where they matter");
+  }
+
+  fs::path path_;
+  bool is_obj_ = false;
+  ObjFacts obj_;
+  char up_ = 0;
+  std::map<std::string, std::string> files_;
+};
+
+}  // namespace
+
+RawMesh ReadByAssimp(const fs::path& path, FindingList* findings) {
+  Source source(path, findings);
+  Assimp::Importer importer;
+  KeepKnownFormats(&importer);
+  importer.SetIOHandler(new HeldFiles(source.TakeFiles()));  // the importer owns it
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                              aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  // Else a DAE is turned until y is up, and nobody is told.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = nullptr;
+  try {
+    scene = importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_SortByPType |
+                                                 aiProcess_ValidateDataStructure);
+  } catch (const std::exception&) {
+    scene = nullptr;
+  }
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    throw core::Error(std::string("the mesh cannot be read: ") + importer.GetErrorString(),
+                      path.string(), "it is damaged or cut short: export it again, as OBJ or GLB");
+  }
+  RawMesh raw = Collector(*scene, path.parent_path(), source.obj(), findings).Collect();
+  raw.up = source.up();
+  return raw;
+}
+
+}  // namespace simwright::assets

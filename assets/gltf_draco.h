@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace simwright::assets {
+
+// One attribute that KHR_draco_mesh_compression is asked for.
+struct DracoAttribute {
+  std::uint32_t unique_id = 0;  // in the compressed mesh
+  size_t components = 0;
+};
+
+struct DracoMesh {
+  std::vector<std::uint32_t> indices;                // of triangles
+  std::map<std::string, std::vector<float>> values;  // by name, `components` a vertex
+  size_t vertices = 0;
+};
+
+// Decompresses a mesh with Google's Draco. Throws core::Error, naming `where`, where it is damaged
+// or lacks an attribute.
+DracoMesh DecodeDraco(std::string_view bytes,
+                      const std::map<std::string, DracoAttribute>& attributes,
+                      const std::string& where);
+
+}  // namespace simwright::assets

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "assets/gltf_document.h"
+#include "assets/read_mesh.h"
+
+namespace simwright::assets {
+
+// A glTF material as far as it is kept, and how its texture's coordinates are made.
+struct GltfMaterial {
+  int index = 0;                 // into the mesh's materials
+  size_t texcoord = 0;           // TEXCOORD_n of its base colour
+  Eigen::Matrix2f uv_turn = Eigen::Matrix2f::Identity();  // KHR_texture_transform
+  Eigen::Vector2f uv_offset = Eigen::Vector2f::Zero();
+  bool wraps = true;             // false: its sampler clamps or mirrors
+  bool opaque = true;            // alphaMode OPAQUE: no alpha counts
+
+  // Coordinates with the origin at the picture's upper left become ours, lower left.
+  Eigen::Vector2f Uv(const Eigen::Vector2f& read) const;
+};
+
+// Makes materials and textures of a document as they are asked for.
+class GltfMaterials {
+ public:
+  GltfMaterials(const GltfDocument& document, core::TexturedMesh* mesh, FindingList* findings)
+      : document_(document), mesh_(*mesh), findings_(*findings) {}
+
+  // Of a primitive's "material"; none: the default, white.
+  const GltfMaterial& Find(std::optional<size_t> material);
+
+ private:
+  GltfMaterial Read(const nlohmann::json& source, const std::string& name);
+  void ReadTexture(const nlohmann::json& info, GltfMaterial* material, core::Material* target);
+  int ReadImage(size_t image, bool opaque);
+  void SayUnreadMaps(const nlohmann::json& source);
+
+  const GltfDocument& document_;
+  core::TexturedMesh& mesh_;
+  FindingList& findings_;
+  std::map<long long, GltfMaterial> materials_;       // by index, -1: the default
+  std::map<std::pair<size_t, bool>, int> textures_;  // (image, opaque) -> texture or -1
+};
+
+// Linear light to sRGB, [0, 1].
+float ToSrgb(float linear);
+
+}  // namespace simwright::assets

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "assets/read_mesh.h"
+
+namespace simwright::assets {
+
+// Reads a glTF 2.0 or GLB: the default scene's nodes with their transforms, all primitives made of
+// triangles (lists, strips, fans, with or without indices), morph targets at their default weights,
+// skins in the pose of their joints, COLOR_0, base colours and their textures. y is up.
+// KHR_mesh_quantization, KHR_draco_mesh_compression, KHR_texture_transform, KHR_materials_unlit,
+// KHR_materials_pbrSpecularGlossiness and EXT_texture_webp are read; what is not is a finding.
+// Throws core::Error: damaged, a required extension of shapes that is not read (named), glTF 1.
+RawMesh ReadGltf(const std::filesystem::path& path, FindingList* findings);
+
+}  // namespace simwright::assets
