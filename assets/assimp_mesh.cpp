@@ -110,7 +110,6 @@ class Collector {
     for (unsigned i = 0; i < scene_.mNumMaterials; ++i) ReadMaterial(*scene_.mMaterials[i], i);
     AddNode(*scene_.mRootNode, aiMatrix4x4(), 0);
     if (!any_uv_) raw_.mesh.corner_uvs.clear();
-    if (!any_color_) raw_.corner_colors.clear();
     return std::move(raw_);
   }
 
@@ -138,7 +137,7 @@ class Collector {
   VertexIndexer vertices_;
   std::vector<UvSource> uv_of_;  // of the materials
   std::map<std::string, int> texture_of_;
-  bool any_uv_ = false, any_color_ = false;
+  bool any_uv_ = false;
 };
 
 bool Collector::ReadObjMaterial(const std::string& name, core::Material* material, UvSource* uv) {
@@ -215,13 +214,15 @@ void Collector::AddCorner(const aiMesh& mesh, unsigned corner, const UvSource& u
     if (!at.allFinite()) at.setZero();
   }
   raw_.mesh.corner_uvs.push_back(at);
-  Eigen::Vector4f color = Eigen::Vector4f::Ones();
-  if (mesh.HasVertexColors(0)) {
-    const aiColor4D& read = mesh.mColors[0][corner];
-    color = Eigen::Vector4f(read.r, read.g, read.b, read.a);
-    if (obj_ != nullptr && obj_->colors_in_bytes) color.head<3>() /= 255.0f;
+  if (!mesh.HasVertexColors(0)) {
+    raw_.AddCornerColor(nullptr);
+    return;
   }
-  raw_.corner_colors.push_back(ToCornerColor(color));
+  const aiColor4D& read = mesh.mColors[0][corner];
+  Eigen::Vector4f color(read.r, read.g, read.b, read.a);
+  if (obj_ != nullptr && obj_->colors_in_bytes) color.head<3>() /= 255.0f;
+  const CornerColor rounded = ToCornerColor(color);
+  raw_.AddCornerColor(&rounded);
 }
 
 void Collector::AddMesh(const aiMesh& mesh, const aiMatrix4x4& placed, const std::string& name) {
@@ -252,7 +253,6 @@ void Collector::AddMesh(const aiMesh& mesh, const aiMatrix4x4& placed, const std
     for (const unsigned corner : corners) AddCorner(mesh, corner, uv);
   }
   any_uv_ = any_uv_ || mesh.HasTextureCoords(uv.channel);
-  any_color_ = any_color_ || mesh.HasVertexColors(0);
   if (result.mesh.triangles.size() > before) result.part_names.push_back(name);
 }
 

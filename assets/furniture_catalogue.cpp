@@ -3,13 +3,16 @@
 #include <zip.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <mutex>
 #include <sstream>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/foreign_content.h"
 
 namespace simwright::assets {
 namespace fs = std::filesystem;
@@ -82,6 +85,17 @@ CataloguePiece PieceFrom(int index, std::map<std::string, std::string> values) {
   return piece;
 }
 
+// Names a Git LFS pointer, a web page and the like; a zip is what is wanted.
+void RequireOwnContent(const fs::path& path) {
+  std::array<char, 1024> bytes{};
+  std::ifstream in(path, std::ios::binary);
+  in.read(bytes.data(), bytes.size());
+  const std::string_view head(bytes.data(), static_cast<size_t>(in.gcount()));
+  const auto foreign = core::FindForeignContent(head);
+  if (!foreign || head.starts_with("PK")) return;
+  throw core::Error(foreign->what, path.string(), foreign->remedy);
+}
+
 }  // namespace
 
 struct FurnitureCatalogue::Zip {
@@ -116,6 +130,7 @@ struct FurnitureCatalogue::Zip {
 FurnitureCatalogue::FurnitureCatalogue(const fs::path& path)
     : zip_(std::make_unique<Zip>()), path_(path) {
   if (!fs::exists(path)) throw core::Error("no such file", path.string());
+  RequireOwnContent(path);
   int code = 0;
   zip_->archive = zip_open(path.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, &code);
   if (zip_->archive == nullptr) {

@@ -71,7 +71,6 @@ class GltfReader {
     Walk(roots);
     for (const size_t node : order_) AddNode(node);
     if (!any_uv_) raw_.mesh.corner_uvs.clear();
-    if (!any_color_) raw_.corner_colors.clear();
     if (any_outside_) {
       findings_.Add(core::Severity::kInfo, "texture-wraps",
                     "a texture that its file clamps or mirrors at its edges is repeated instead",
@@ -98,7 +97,7 @@ class GltfReader {
   GltfMaterials materials_;
   std::vector<Eigen::Affine3d> world_;  // world_from_node
   std::vector<size_t> order_;           // nodes of the scene
-  bool any_uv_ = false, any_color_ = false, any_outside_ = false;
+  bool any_uv_ = false, any_outside_ = false;
 };
 
 void GltfReader::SayWhatIsNotRead() {
@@ -273,12 +272,10 @@ void GltfReader::AddPrimitive(const GltfPrimitive& primitive, const GltfMaterial
       mesh.corner_uvs.push_back(uv);
       const bool outside = uv.minCoeff() < -0.01f || uv.maxCoeff() > 1.01f;
       any_outside_ = any_outside_ || (textured && !material.wraps && outside);
-      raw_.corner_colors.push_back(primitive.colors.empty() ? CornerColor{255, 255, 255, 255}
-                                                            : primitive.colors[corner]);
+      raw_.AddCornerColor(primitive.colors.empty() ? nullptr : &primitive.colors[corner]);
     }
   }
   any_uv_ = any_uv_ || (textured && !primitive.uvs.empty());
-  any_color_ = any_color_ || !primitive.colors.empty();
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <fstream>
-#include <optional>
 #include <string_view>
 
 #include "core/error.h"
@@ -54,6 +53,13 @@ constexpr UnreadFormat kUnreadFormats[] = {
     {".mtl", "an OBJ's materials", "import the .obj beside it"},
     {".bin", "a glTF's buffer", "import the .gltf beside it"},
 };
+
+const UnreadFormat* FindUnread(const fs::path& path) {
+  const std::string ending = LowerEnding(path);
+  const auto* found = std::find_if(std::begin(kUnreadFormats), std::end(kUnreadFormats),
+                                   [&](const auto& format) { return ending == format.ending; });
+  return found == std::end(kUnreadFormats) ? nullptr : found;
+}
 
 std::string HeadOf(const fs::path& path) {
   std::array<char, 1024> head{};
@@ -109,6 +115,11 @@ MeshFormat MeshFormatOf(const fs::path& path) {
   return MeshFormat::kUnknown;
 }
 
+std::string UnreadMeshFormat(const fs::path& path) {
+  const UnreadFormat* unread = FindUnread(path);
+  return unread == nullptr ? "" : unread->name;
+}
+
 void RequireMeshFile(const fs::path& path) {
   if (!fs::exists(path)) throw core::Error("no such file", path.string());
   if (!fs::is_regular_file(path)) throw core::Error("this is not a file", path.string());
@@ -121,11 +132,9 @@ void RequireMeshFile(const fs::path& path) {
   }
   const MeshFormat format = MeshFormatOf(path);
   if (format == MeshFormat::kUnknown) {
-    const std::string ending = LowerEnding(path);
-    for (const UnreadFormat& unread : kUnreadFormats) {
-      if (ending != unread.ending) continue;
-      throw core::Error(std::string("this is ") + unread.name + ", which is not read",
-                        path.string(), unread.remedy);
+    if (const UnreadFormat* unread = FindUnread(path)) {
+      throw core::Error(std::string("this is ") + unread->name + ", which is not read",
+                        path.string(), unread->remedy);
     }
     throw core::Error("this is not a mesh that can be read", path.string(), kReadFormats);
   }

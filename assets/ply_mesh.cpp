@@ -72,7 +72,6 @@ class PlyReader {
     raw_.mesh.part_names.push_back(path_.stem().string());
     raw_.mesh.triangle_part.assign(raw_.mesh.mesh.triangles.size(), 0);
     if (!has_uvs_) raw_.mesh.corner_uvs.clear();
-    if (!vertex_colors_ && !face_colors_) raw_.corner_colors.clear();
     return std::move(raw_);
   }
 
@@ -182,7 +181,7 @@ void PlyReader::AddTriangle(const Corner& a, const Corner& b, const Corner& c, i
   mesh.triangle_material.push_back(material);
   for (const Corner* corner : {&a, &b, &c}) {
     mesh.corner_uvs.push_back(corner->uv.allFinite() ? corner->uv : Eigen::Vector2f::Zero());
-    raw_.corner_colors.push_back(corner->color);
+    raw_.AddCornerColor(vertex_colors_ || face_colors_ ? &corner->color : nullptr);
   }
 }
 

@@ -17,6 +17,13 @@ void FindingList::Add(core::Severity severity, const std::string& code, const st
   if (!said) findings_.push_back({code, severity, file_, sentence, figure, remedy});
 }
 
+void RawMesh::AddCornerColor(const CornerColor* color) {
+  constexpr CornerColor kWhite{255, 255, 255, 255};
+  if (color == nullptr && corner_colors.empty()) return;
+  corner_colors.resize(mesh.corner_uvs.size() - 1, kWhite);
+  corner_colors.push_back(color != nullptr ? *color : kWhite);
+}
+
 int VertexIndexer::Index(const Eigen::Vector3d& position) {
   // + 0.0 makes -0.0 and 0.0 one position.
   const std::array<double, 3> key{position.x() + 0.0, position.y() + 0.0, position.z() + 0.0};

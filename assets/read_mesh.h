@@ -27,6 +27,10 @@ struct RawMesh {
   // Whether these colours multiply the material's (glTF) or take its place (OBJ, PLY, STL, DAE).
   bool colors_multiply = false;
   char up = 0;  // as in MeshFile
+
+  // The colour of the corner whose coordinates were put in last, or none: white where others have
+  // one. Nothing is stored before the first colour.
+  void AddCornerColor(const CornerColor* color);
 };
 
 // Adds findings about one file; a code is said once for each place in it.

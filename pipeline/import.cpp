@@ -10,6 +10,7 @@
 #include "assets/articulated_folder.h"
 #include "assets/asset_folder.h"
 #include "assets/furniture_catalogue.h"
+#include "assets/mesh_format.h"
 #include "assets/mesh_import.h"
 #include "assets/semantic_model.h"
 #include "core/error.h"
@@ -76,6 +77,19 @@ void ListFolder(const fs::path& folder, std::vector<ImportItem>* items,
       items->push_back({entry, -1, Unique(NameOfFile(entry), taken)});
     }
   }
+}
+
+// Of a folder without anything that can be read: names what it holds instead.
+[[noreturn]] void RefuseFolder(const fs::path& folder) {
+  std::error_code code;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, code)) {
+    const std::string format = assets::UnreadMeshFormat(entry.path());
+    if (format.empty() || !entry.is_regular_file()) continue;
+    throw core::Error("holds no meshes that can be read and no URDF, but '" +
+                          entry.path().filename().string() + "' (" + format + ")",
+                      folder.string(), "convert it to GLB or OBJ (Blender)");
+  }
+  throw core::Error("holds no meshes and no URDF", folder.string());
 }
 
 void ListCatalogue(const fs::path& input, const ImportOptions& options,
@@ -205,7 +219,7 @@ std::vector<ImportItem> ListImports(const std::vector<fs::path>& inputs,
     if (fs::is_directory(input)) {
       const size_t before = items.size();
       ListFolder(input, &items, &taken);
-      if (items.size() == before) throw core::Error("holds no meshes and no URDF", input.string());
+      if (items.size() == before) RefuseFolder(input);
     } else if (IsCatalogue(input)) {
       ListCatalogue(input, options, &items, &taken);
     } else {

@@ -28,6 +28,7 @@ const std::vector<Door> kDoors = {
     {std::regex("^embree3?/"), {"render"}},
     {std::regex("^CGAL/"), {"geometry"}},
     {std::regex("^assimp/"), {"assets"}},
+    {std::regex("^draco/"), {"assets/gltf_draco"}},
     {std::regex("^(urdf_parser|urdf_model|console_bridge)/"), {"assets"}},
     {std::regex("^bt[A-Z]|^Bullet"), {"sim"}},
     {std::regex("^mujoco/"),

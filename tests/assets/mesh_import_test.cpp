@@ -113,6 +113,12 @@ TEST_F(MeshFiles, CatalogueGivesTrueSizes) {
 TEST_F(MeshFiles, BadCataloguesAreOneErrorEach) {
   EXPECT_THROW(FurnitureCatalogue(Write("text.sh3f", "no zip")), core::Error);
   EXPECT_THROW(FurnitureCatalogue(Zip({{"other.txt", "x"}})), core::Error);
+  try {
+    FurnitureCatalogue(Write("lfs.sh3f", "version https://git-lfs.github.com/spec/v1\n"));
+    ADD_FAILURE() << "a pointer was read";
+  } catch (const core::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("git lfs pull"), std::string::npos);
+  }
   EXPECT_THROW(FurnitureCatalogue(Zip({{"PluginFurnitureCatalog.properties", "id#1=a\n"},
                                        {"../climbs/out.obj", "x"}})),
                core::Error);

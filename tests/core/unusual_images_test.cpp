@@ -14,6 +14,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "core/error.h"
 #include "core/image.h"
 
 namespace simwright::core {
@@ -124,6 +125,32 @@ TEST(UnusualImage, AnAnimatedWebpGivesItsFirstFrame) {
   WebPDataClear(&data);
   WebPAnimEncoderDelete(encoder);
   ExpectColour(DecodeImage(bytes, "moving.webp"), {0x1E, 0x90, 0xC8}, 0);
+}
+
+// Formats that are known and not read are named, with what to do.
+TEST(UnusualImages, UnreadFormatsAreNamed) {
+  using namespace std::literals;
+  const std::pair<std::string, const char*> cases[] = {
+      {"\0\0\0\x18"s + "ftypheic\0\0\0\0mif1heic"s, "HEIC"},
+      {"\0\0\0\x18"s + "ftypmif1\0\0\0\0"s, "HEIC"},
+      {"\0\0\0\x1c"s + "ftypavif\0\0\0\0"s, "AVIF"},
+      {"\xabKTX 20\xbb\r\n\x1a\n"s, "KTX2"},
+      {"DDS |\0\0\0"s, "DDS"},
+      {"8BPS\0\1"s, "Photoshop"},
+      {"<?xml version=\"1.0\"?><svg xmlns=\"\">"s, "SVG"},
+      {"version https://git-lfs.github.com/spec/v1\n"s, "Git LFS"},
+      {"<!DOCTYPE html><html>"s, "web page"},
+      {std::string(2000, '\0'), "zeros"}};
+  for (const auto& [bytes, word] : cases) {
+    try {
+      DecodeImage(bytes, "photo.jpg");
+      ADD_FAILURE() << word << " was read";
+    } catch (const Error& error) {
+      const std::string what = error.what();
+      EXPECT_NE(what.find(word), std::string::npos) << what;
+      EXPECT_NE(what.find('('), std::string::npos) << what << " has no remedy";
+    }
+  }
 }
 
 }  // namespace

@@ -15,7 +15,14 @@ mkdir -p "$build/found"
 # Small files of each kind, made here so that no binary is kept.
 image_seeds=$build/seeds/image_fuzz
 catalogue_seeds=$build/seeds/catalogue_fuzz
-mkdir -p "$image_seeds" "$catalogue_seeds"
+mesh_seeds=$build/seeds/mesh_fuzz
+mkdir -p "$image_seeds" "$catalogue_seeds" "$mesh_seeds"
+# A GLB: header, the JSON chunk of the glTF seed, no binary chunk.
+json=$(tail -c +2 "$here/seeds/mesh_fuzz/tetrahedron_gltf.txt")
+while [ $((${#json} % 4)) -ne 0 ]; do json="$json "; done
+uint() { printf "\\x$(printf %02x $(($1 & 255)))\\x$(printf %02x $(($1 >> 8 & 255)))\\0\\0"; }
+{ printf 'DglTF\2\0\0\0'; uint $((${#json} + 20)); uint ${#json}; printf 'JSON%s' "$json"; } \
+  > "$mesh_seeds/tetrahedron.glb"
 printf 'P5 2 2 255\n\1\2\3\4' > "$image_seeds/two.pgm"
 printf 'GIF89a\1\0\1\0\200\0\0\0\0\0\377\377\377,\0\0\0\0\1\0\1\0\0\2\2D\1\0;' > "$image_seeds/one.gif"
 printf '\211PNG\r\n\032\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\10\0\0\0\0\x3a\x7e\x9b\x55\0\0\0\nIDATx\234c\140\0\0\0\2\0\1\x48\xaf\xa4\x71\0\0\0\0IEND\256B\140\202' > "$image_seeds/one.png"
@@ -34,11 +41,14 @@ cp "$root"/tests/tasks/reward/corpus/*.py "$build/seeds/reward_fuzz"
 # All at once: most of the time of some goes into files, that of others into decoding. An input has
 # a minute: ten targets share the cores, and planning where things of a URDF stand takes a second.
 fuzz() {
-  local target=$1 seeds=$here/seeds/$1
-  [ -d "$seeds" ] || seeds=$build/seeds/$target
+  local target=$1 folder
+  local seeds=()
+  for folder in "$here/seeds/$target" "$build/seeds/$target"; do
+    [ -d "$folder" ] && seeds+=("$folder")
+  done
   mkdir -p "$build/corpus/$target"
   ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1:quarantine_size_mb=16 \
-    "$build/bin/$target" "$build/corpus/$target" "$seeds" \
+    "$build/bin/$target" "$build/corpus/$target" "${seeds[@]}" \
     -max_total_time="$seconds" -timeout=60 -rss_limit_mb=3000 -max_len=8192 -print_final_stats=1 \
     -artifact_prefix="$build/found/$target-" > "$build/$target.log" 2>&1
 }
