@@ -1,8 +1,10 @@
 #include <charconv>
 #include <string_view>
+#include <vector>
 
-#include "assets/mesh_import.h"
 #include "assets/mesh_format.h"
+#include "assets/mesh_import.h"
+#include "assets/polygon_triangles.h"
 #include "core/error.h"
 #include "core/files.h"
 
@@ -34,21 +36,30 @@ bool ReadVertex(std::string_view line, core::TriangleMesh* mesh) {
 }
 
 bool ReadFace(std::string_view line, core::TriangleMesh* mesh) {
-  Eigen::Vector3i t;
-  int corners = 0;
+  std::vector<int> indices;
+  std::vector<Eigen::Vector3d> corners;
+  const int count = static_cast<int>(mesh->vertices.size());
   for (std::string_view token = NextToken(&line); !token.empty(); token = NextToken(&line)) {
     int index = 0;
     if (!Parse(token, &index) || index == 0) return false;
-    index = index > 0 ? index - 1 : static_cast<int>(mesh->vertices.size()) + index;
-    if (corners >= 3) {
-      t[1] = t[2];
-      t[2] = index;
-    } else {
-      t[corners] = index;
-    }
-    if (++corners >= 3) mesh->triangles.push_back(t);
+    index = index > 0 ? index - 1 : count + index;
+    indices.push_back(index);
+    // What is out of range is refused at the end.
+    if (index >= 0 && index < count) corners.push_back(mesh->vertices[static_cast<size_t>(index)]);
   }
-  return corners >= 3;
+  if (indices.size() < 3) return false;
+  if (indices.size() == 3 || corners.size() != indices.size()) {
+    for (size_t i = 1; i + 1 < indices.size(); ++i) {
+      mesh->triangles.emplace_back(indices[0], indices[i], indices[i + 1]);
+    }
+    return true;
+  }
+  for (const Eigen::Vector3i& t : PolygonTriangles(corners)) {
+    mesh->triangles.emplace_back(indices[static_cast<size_t>(t[0])],
+                                 indices[static_cast<size_t>(t[1])],
+                                 indices[static_cast<size_t>(t[2])]);
+  }
+  return true;
 }
 
 }  // namespace

@@ -73,8 +73,7 @@ int GltfMaterials::ReadImage(size_t image, bool opaque) {
     }
   } catch (const core::Error& error) {
     findings_.Add(core::Severity::kWarning, "texture-unreadable",
-                  std::string("a texture is left out: ") + error.what(),
-                  "export with PNG or JPEG textures");
+                  std::string("a texture is left out: ") + error.what(), "");
     return -1;
   }
   entry->second = static_cast<int>(mesh_.textures.size());

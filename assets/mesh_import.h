@@ -35,7 +35,7 @@ core::TexturedMesh ReadMesh(const std::filesystem::path& path);
 Eigen::Matrix3d ZUpFrom(char up);
 
 // The "v" and "f" lines of one of our own OBJ files, index for index (Assimp would weld or split).
-// Polygons are taken as fans. Throws core::Error when missing or malformed.
+// Polygons are triangulated. Throws core::Error when missing or malformed.
 core::TriangleMesh ReadBareObj(const std::filesystem::path& path);
 
 // Whether the file's ending is one of a mesh that ReadMesh takes.

@@ -54,8 +54,7 @@ bool ReadTextureFile(const fs::path& folder, const std::string& name, FindingLis
     return true;
   } catch (const core::Error& error) {
     findings->Add(core::Severity::kWarning, "texture-unreadable",
-                  std::string("a texture is left out: ") + error.what(),
-                  "save it as PNG or JPEG under the same name");
+                  std::string("a texture is left out: ") + error.what(), "");
     return false;
   }
 }

@@ -71,6 +71,15 @@ TEST_F(MeshFiles, ReadsItsOwnObjBitForBit) {
   EXPECT_EQ(back.triangles, box.triangles);
 }
 
+TEST_F(MeshFiles, BareObjTakesConcavePolygonsWhole) {
+  const core::TriangleMesh mesh = ReadBareObj(Write(
+      "l.obj", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 4//1 5//1 6//1 1 2 3\n"));
+  double area = 0.0;
+  for (int t = 0; t < 4; ++t) area += 0.5 * core::TriangleAreaVector(mesh, t).norm();
+  EXPECT_EQ(mesh.triangles.size(), 4u);
+  EXPECT_NEAR(area, 3.0, 1e-12);
+}
+
 // Assimp's own validation refuses a file whose faces and lines share a group.
 TEST_F(MeshFiles, LinesAndPointsOfAnObjAreLeftOut) {
   const std::string box = ObjText(BoxMesh({1, 1, 1}));
