@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <Eigen/Eigenvalues>
 
@@ -28,6 +29,7 @@ constexpr double kSheet = 2e-3;        // m, what a flat piece is thickened to
 constexpr double kSmall = 0.02;        // of the whole's diagonal: shorter pieces are hulls
 constexpr double kConvexShare = 0.97;  // of its hull's volume that a convex piece fills
 constexpr double kWeld = 1e-6;         // of a mesh's diagonal
+constexpr size_t kMostTextureColors = 16;  // that a texture keeps, each a file
 
 const std::vector<UrdfShape>& ShapesOf(const UrdfLink& link) {
   return link.visuals.empty() ? link.collisions : link.visuals;
@@ -47,11 +49,53 @@ Eigen::Vector4f MeanColor(const core::Image& image) {
   return mean;
 }
 
-Eigen::Vector4f ColorOf(const core::TexturedMesh& mesh, size_t triangle) {
-  if (mesh.triangle_material.empty() || mesh.materials.empty()) return core::Material{}.base_color;
-  const core::Material& material =
-      mesh.materials[static_cast<size_t>(mesh.triangle_material[triangle])];
-  return material.base_color;
+// A colour in 8 steps a channel, so that nearly equal ones become one.
+Eigen::Vector4f Rounded(const Eigen::Vector4f& color) {
+  return (color * 7.0f).array().round().matrix() / 7.0f;
+}
+
+// What a material's texture shows in the middle of each of its triangles, where that are few
+// colours (a palette, colours at vertices); else empty.
+std::map<size_t, Eigen::Vector4f> PaletteColors(const core::TexturedMesh& mesh, int material) {
+  std::map<size_t, Eigen::Vector4f> colors;
+  std::set<std::array<int, 3>> distinct;
+  const int texture = mesh.materials[static_cast<size_t>(material)].texture;
+  if (texture < 0 || mesh.corner_uvs.empty()) return colors;
+  for (size_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
+    if (mesh.triangle_material[t] != material) continue;
+    const Eigen::Vector2f middle = (mesh.corner_uvs[3 * t] + mesh.corner_uvs[3 * t + 1] +
+                                    mesh.corner_uvs[3 * t + 2]) / 3.0f;
+    Eigen::Vector4f color =
+        Rounded(core::SampleTexture(mesh.textures[static_cast<size_t>(texture)], middle));
+    color.w() = 1.0f;
+    distinct.insert({static_cast<int>(std::lround(7.0f * color[0])),
+                     static_cast<int>(std::lround(7.0f * color[1])),
+                     static_cast<int>(std::lround(7.0f * color[2]))});
+    if (distinct.size() > kMostTextureColors) return {};
+    colors.emplace(t, color);
+  }
+  return colors;
+}
+
+// The colour of each triangle: its material's, times its texture's where that shows few, or times
+// the texture's mean.
+std::vector<Eigen::Vector4f> TriangleColors(const core::TexturedMesh& mesh) {
+  std::vector<Eigen::Vector4f> colors(mesh.mesh.triangles.size(), core::Material{}.base_color);
+  if (mesh.triangle_material.empty()) return colors;
+  for (size_t m = 0; m < mesh.materials.size(); ++m) {
+    const core::Material& material = mesh.materials[m];
+    const std::map<size_t, Eigen::Vector4f> palette = PaletteColors(mesh, static_cast<int>(m));
+    Eigen::Vector4f mean = Eigen::Vector4f::Ones();
+    if (material.texture >= 0 && palette.empty()) {
+      mean = MeanColor(mesh.textures[static_cast<size_t>(material.texture)]);
+    }
+    for (size_t t = 0; t < colors.size(); ++t) {
+      if (mesh.triangle_material[t] != static_cast<int>(m)) continue;
+      const auto found = palette.find(t);
+      colors[t] = material.base_color.cwiseProduct(found == palette.end() ? mean : found->second);
+    }
+  }
+  return colors;
 }
 
 // Appends triangles by colour.
@@ -192,15 +236,8 @@ core::TexturedMesh ColoredVisual(const UrdfLink& link) {
       continue;
     }
     core::TexturedMesh file = assets::ReadMesh(shape.file);
-    for (core::Material& material : file.materials) {
-      if (material.texture < 0) continue;
-      material.base_color = material.base_color.cwiseProduct(
-          MeanColor(file.textures[static_cast<size_t>(material.texture)]));
-    }
     core::Transform(shape.link_from_file, &file.mesh);
-    std::vector<Eigen::Vector4f> colors;
-    for (size_t t = 0; t < file.mesh.triangles.size(); ++t) colors.push_back(ColorOf(file, t));
-    painter.Add(file.mesh, colors);
+    painter.Add(file.mesh, TriangleColors(file));
   }
   return painter.Take();
 }
