@@ -3,14 +3,22 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "physics_params/category_meaning.h"
+#include "physics_params/word_forms.h"
 
 namespace simwright::physics_params {
 namespace {
 
-// Below this Wu-Palmer similarity a kind is no longer near: "beaker" - "cup" has 0.9, "violin" -
-// "hammer" 0.6; container siblings such as "jar" - "box" meet at 0.8.
-constexpr double kNearEnough = 0.84;
-constexpr size_t kSuggestions = 5;
+constexpr size_t kSuggestions = 3;
+
+// What WordNet does not know, or knows by a rarer sense.
+constexpr struct {
+  std::string_view name, category;
+} kAliases[] = {{"torch", "flashlight"},     {"lorry", "truck"},         {"cafetiere", "french press"},
+                {"mobile", "phone"},         {"cellphone", "phone"},     {"tin", "tin can"},
+                {"trashbin", "trash can"},   {"garbage bin", "trash can"}, {"bin", "trash can"},
+                {"hob", "cooktop"},          {"cooker", "stove"},        {"clock", "wall clock"},
+                {"timepiece", "wall clock"}, {"sideboard", "cabinet"},   {"tankard", "beer mug"}};
 
 int EditDistance(std::string_view a, std::string_view b) {
   std::vector<int> row(b.size() + 1);
@@ -26,112 +34,172 @@ int EditDistance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-struct Candidate {
-  const Category* category;
-  double similarity;
+class Resolver {
+ public:
+  Resolver(const KnowledgeBase& base, const WordNet* wordnet) : base_(base), wordnet_(wordnet) {}
+
+  Resolution Resolve(std::string_view name) const;
+
+ private:
+  const Category* Spelled(const std::string& name) const;
+  const Category* Known(const std::string& name) const;
+  Resolution Meant(const std::string& name) const;
+  Resolution OfHead(const std::string& name) const;
+  bool IsWordOfItsOwn(const std::string& name) const;
+  std::vector<std::string> Suggestions(const std::string& name) const;
+
+  const KnowledgeBase& base_;
+  const WordNet* wordnet_;
 };
 
-// The base's categories by their likeness to any of the first senses of `name`; a rarer sense
-// counts a little less.
-std::vector<Candidate> ByMeaning(std::string_view name, const KnowledgeBase& base,
-                                 const WordNet& wordnet) {
-  std::vector<WordNet::Synset> senses = wordnet.PhysicalSenses(name);
-  if (senses.size() > 3) senses.resize(3);
-  std::vector<Candidate> candidates;
-  if (senses.empty()) return candidates;
-  for (const Category& category : base.categories()) {
-    const std::vector<WordNet::Synset> kinds = wordnet.PhysicalSenses(category.name);
-    if (kinds.empty() || category.name == "object") continue;
-    double best = 0.0;
-    for (size_t rank = 0; rank < senses.size(); ++rank) {
-      // A kind of the category itself ("demitasse" is a cup) is near whatever the depths are.
-      const bool below = wordnet.IsA(senses[rank], kinds[0]);
-      const double likeness = wordnet.Similarity(senses[rank], kinds[0]) + (below ? 0.05 : 0.0);
-      best = std::max(best, likeness - 0.02 * static_cast<double>(rank));
-    }
-    candidates.push_back({&category, best});
-  }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const auto& a, const auto& b) { return a.similarity > b.similarity; });
-  return candidates;
+// Its sentence is the reason alone, until Resolve puts the names before it.
+Resolution Taken(const Category* category, const std::string& why) {
+  return {category, false, why, {}};
 }
 
-const Category* FindSingular(const std::string& name, const KnowledgeBase& base) {
-  if (const Category* exact = base.FindCategory(name)) return exact;
-  for (const std::string_view suffix : {"s", "es"}) {
-    if (name.size() > suffix.size() + 2 && name.ends_with(suffix)) {
-      const Category* found = base.FindCategory(name.substr(0, name.size() - suffix.size()));
-      if (found != nullptr) return found;
-    }
+// The name or its singular.
+const Category* Resolver::Spelled(const std::string& name) const {
+  if (const Category* exact = base_.FindCategory(name)) return exact;
+  for (const std::string& singular : WordNet::Singulars(name)) {
+    if (const Category* found = base_.FindCategory(singular)) return found;
   }
   return nullptr;
 }
 
-std::vector<std::string> Suggestions(const std::string& name, const KnowledgeBase& base,
-                                     const std::vector<Candidate>& by_meaning) {
-  std::vector<std::string> names;
-  for (size_t i = 0; i < by_meaning.size() && names.size() < kSuggestions - 2; ++i) {
-    if (by_meaning[i].similarity > 0.6) names.push_back(by_meaning[i].category->name);
+// Also written together ("screw driver") or apart ("coffeetable"), or by another name of it.
+const Category* Resolver::Known(const std::string& name) const {
+  if (const Category* spelled = Spelled(name)) return spelled;
+  const std::vector<std::string> words = WordsOf(name);
+  if (words.size() > 1) {
+    if (const Category* joined = Spelled(Joined(words, 0, words.size(), ""))) return joined;
   }
+  for (size_t i = 2; i + 2 < name.size(); ++i) {
+    if (const Category* apart = Spelled(name.substr(0, i) + " " + name.substr(i))) return apart;
+  }
+  for (const auto& alias : kAliases) {
+    if (name == alias.name) return base_.FindCategory(alias.category);
+  }
+  return nullptr;
+}
+
+Resolution Resolver::Meant(const std::string& name) const {
+  if (const Category* known = Known(name)) return Taken(known, "");
+  if (wordnet_ == nullptr) return {};
+  const std::optional<MeaningMatch> match = MatchByMeaning(name, base_, *wordnet_);
+  if (!match) {
+    const std::vector<std::string> words = WordsOf(name);
+    return words.size() > 1 ? Meant(Joined(words, 0, words.size(), "")) : Resolution{};
+  }
+  return Taken(match->category,
+               match->steps == 0 ? ", a synonym by WordNet" : ", of which it is a kind by WordNet");
+}
+
+// A compound that WordNet has as one means something else than its last word.
+bool Resolver::IsWordOfItsOwn(const std::string& name) const {
+  if (wordnet_ == nullptr) return false;
+  const std::vector<std::string> words = WordsOf(name);
+  return words.size() > 1 && (!wordnet_->PhysicalSenses(name).empty() ||
+                              !wordnet_->PhysicalSenses(Joined(words, 0, words.size(), "")).empty());
+}
+
+// "red coffee mug" -> "coffee mug" -> "mug": English puts the head last.
+Resolution Resolver::OfHead(const std::string& name) const {
+  const std::vector<std::string> words = WordsOf(name);
+  for (size_t first = 1; first < words.size(); ++first) {
+    const std::string head = Joined(words, first, words.size(), " ");
+    const Resolution of_head = Meant(head);
+    // Who drives a screw is a person, but no one names an asset so.
+    if (of_head.category != nullptr && of_head.category->name != "person") {
+      return Taken(of_head.category, " by its last word");
+    }
+    if (IsWordOfItsOwn(head)) return {};
+  }
+  return {};
+}
+
+Resolution Resolver::Resolve(std::string_view name) const {
+  const std::string wanted = NormaliseName(name);
+  if (const Category* spelled = Spelled(wanted)) {
+    return {spelled, true, "'" + wanted + "' is in the knowledge base", {}};
+  }
+  const std::string plain = PlainName(name);
+  const std::string thing = WithoutComplement(plain);
+  Resolution found = Meant(thing);
+  if (found.category == nullptr && IsSmallCopy(thing)) {
+    found = Taken(base_.FindCategory("toy"), ", a small copy");
+  } else if (found.category == nullptr && !IsWordOfItsOwn(thing)) {
+    found = OfHead(thing);
+  }
+  if (found.category != nullptr) {
+    found.sentence = "'" + wanted + "' is taken for '" + found.category->name + "'" + found.sentence;
+    return found;
+  }
+  found.closest = Suggestions(plain);
+  found.sentence = "no known kind is near '" + wanted + "'";
+  return found;
+}
+
+// By spelling where it is a slip of two letters, then by meaning, of the whole or its head.
+std::vector<std::string> Resolver::Suggestions(const std::string& name) const {
   std::vector<std::pair<int, std::string>> by_spelling;
-  for (const Category& category : base.categories()) {
+  for (const Category& category : base_.categories()) {
     by_spelling.emplace_back(EditDistance(name, category.name), category.name);
   }
   std::stable_sort(by_spelling.begin(), by_spelling.end());
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& one) {
+    if (one != "object" && names.size() < kSuggestions &&
+        std::find(names.begin(), names.end(), one) == names.end()) {
+      names.push_back(one);
+    }
+  };
+  constexpr int kSlip = 2;
   for (const auto& [distance, spelled] : by_spelling) {
-    if (names.size() >= kSuggestions) break;
-    if (std::find(names.begin(), names.end(), spelled) == names.end()) names.push_back(spelled);
+    if (distance <= kSlip && distance * 3 <= static_cast<int>(name.size())) add(spelled);
   }
+  const std::vector<std::string> words = WordsOf(name);
+  for (size_t first = 0; wordnet_ != nullptr && first < words.size(); ++first) {
+    const std::string head = Joined(words, first, words.size(), " ");
+    for (const Category* category : NearestByMeaning(head, base_, *wordnet_)) add(category->name);
+  }
+  for (const auto& [distance, spelled] : by_spelling) add(spelled);
   return names;
+}
+
+std::string Listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
 }
 
 }  // namespace
 
 Resolution ResolveCategory(std::string_view name, const KnowledgeBase& base,
                            const WordNet* wordnet) {
-  Resolution result;
-  const std::string wanted = NormaliseName(name);
-  result.category = FindSingular(wanted, base);
-  if (result.category != nullptr) {
-    result.exact = true;
-    result.sentence = "'" + wanted + "' is in the knowledge base";
-    return result;
-  }
-  std::vector<Candidate> by_meaning;
-  if (wordnet != nullptr) by_meaning = ByMeaning(wanted, base, *wordnet);
-  if (!by_meaning.empty() && by_meaning[0].similarity >= kNearEnough) {
-    result.category = by_meaning[0].category;
-    result.sentence = "'" + wanted + "' is taken for the nearest known kind by WordNet, '" +
-                      result.category->name + "'";
-    return result;
-  }
-  // "red coffee mug" -> "coffee mug" -> "mug": English puts the head last.
-  for (size_t blank = wanted.find(' '); blank != std::string::npos;
-       blank = wanted.find(' ', blank + 1)) {
-    const std::string head = wanted.substr(blank + 1);
-    Resolution of_head = ResolveCategory(head, base, wordnet);
-    if (of_head.category != nullptr) {
-      of_head.exact = false;
-      of_head.sentence = "'" + wanted + "' is taken for '" + of_head.category->name + "'";
-      return of_head;
-    }
-  }
-  result.closest = Suggestions(wanted, base, by_meaning);
-  result.sentence = "no known kind is near '" + wanted + "'";
-  return result;
+  return Resolver(base, wordnet).Resolve(name);
 }
 
 Resolution RequireCategory(std::string_view name) {
   Resolution result = ResolveCategory(name, KnowledgeBase::Shipped(), WordNet::Installed());
   if (result.category == nullptr) {
-    std::string names;
-    for (const std::string& close : result.closest) names += (names.empty() ? "" : ", ") + close;
-    throw core::Error("no kind of household thing is known by this name or near it",
+    throw core::Error("no kind of thing is known by this name or near it",
                       "category '" + std::string(name) + "'",
-                      "the closest known: " + names +
-                          (WordNet::Installed() ? "" : "; install wordnet-base for more"));
+                      "the closest known: " + Listed(result.closest) +
+                          "; 'object' takes anything of a size that you give" +
+                          (WordNet::Installed() ? "" : "; install wordnet-base for more names"));
   }
   return result;
+}
+
+core::Findings ResolutionFindings(const Resolution& resolution, const std::string& place) {
+  if (resolution.exact) return {};
+  if (resolution.closest.empty()) {
+    return {{"category", core::Severity::kInfo, place, resolution.sentence, 0.0,
+             "--category names another"}};
+  }
+  return {{"category-unknown", core::Severity::kWarning, place, resolution.sentence, 0.0,
+           "--category names one, the closest known: " + Listed(resolution.closest) +
+               "; --mass or --density gives what it weighs"}};
 }
 
 }  // namespace simwright::physics_params

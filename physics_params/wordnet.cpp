@@ -39,28 +39,30 @@ int Number(std::string_view field, int base = 10) {
   return value;
 }
 
-// Regular English plurals, as WordNet's own morphology undoes them (morphy: s, ses, xes, zes,
-// ches, shes, men, ies).
-std::vector<std::string> Singulars(const std::string& lemma) {
-  static constexpr std::array<std::array<const char*, 2>, 8> kRules = {{{"s", ""},
-                                                                        {"ses", "s"},
-                                                                        {"xes", "x"},
-                                                                        {"zes", "z"},
-                                                                        {"ches", "ch"},
-                                                                        {"shes", "sh"},
-                                                                        {"men", "man"},
-                                                                        {"ies", "y"}}};
+}  // namespace
+
+std::vector<std::string> WordNet::Singulars(std::string_view name) {
+  // morphy(7): s, ses, xes, zes, ches, shes, men, ies; its exceptions "knives", "shelves".
+  static constexpr std::array<std::array<const char*, 2>, 11> kRules = {{{"s", ""},
+                                                                         {"es", ""},
+                                                                         {"ses", "s"},
+                                                                         {"xes", "x"},
+                                                                         {"zes", "z"},
+                                                                         {"ches", "ch"},
+                                                                         {"shes", "sh"},
+                                                                         {"men", "man"},
+                                                                         {"ies", "y"},
+                                                                         {"ves", "f"},
+                                                                         {"ves", "fe"}}};
   std::vector<std::string> result;
   for (const auto& [suffix, replacement] : kRules) {
     const std::string_view ending(suffix);
-    if (lemma.size() > ending.size() + 1 && lemma.ends_with(ending)) {
-      result.push_back(lemma.substr(0, lemma.size() - ending.size()) + replacement);
+    if (name.size() > ending.size() + 1 && name.ends_with(ending)) {
+      result.push_back(std::string(name.substr(0, name.size() - ending.size())) + replacement);
     }
   }
   return result;
 }
-
-}  // namespace
 
 WordNet::WordNet(const std::filesystem::path& folder) {
   // wndb(5): offset lex_filenum ss_type w_cnt(hex) {word lex_id} p_cnt {symbol offset pos st}
@@ -173,9 +175,25 @@ double WordNet::Similarity(Synset a, Synset b) const {
   return 2.0 * common / (Depth(a) + Depth(b));
 }
 
-bool WordNet::IsA(Synset kind, Synset of) const {
-  const std::vector<Synset> above = Ancestors(kind);
-  return std::find(above.begin(), above.end(), of) != above.end();
+int WordNet::LexicographerFile(Synset synset) const {
+  const auto node = nodes_.find(synset);
+  return node == nodes_.end() ? 0 : node->second.lexicographer_file;
+}
+
+std::optional<int> WordNet::StepsUp(Synset kind, Synset of) const {
+  constexpr int kHighest = 64;  // a damaged file may hold a loop
+  std::set<Synset> level{kind};
+  for (int steps = 0; steps < kHighest && !level.empty(); ++steps) {
+    if (level.contains(of)) return steps;
+    std::set<Synset> parents;
+    for (const Synset synset : level) {
+      const auto node = nodes_.find(synset);
+      if (node == nodes_.end()) continue;
+      parents.insert(node->second.hypernyms.begin(), node->second.hypernyms.end());
+    }
+    level = std::move(parents);
+  }
+  return std::nullopt;
 }
 
 }  // namespace simwright::physics_params

@@ -1,0 +1,138 @@
+// The bar of what a name may be taken for: a table of names that have to be understood, and one of
+// names for which the nearest row is another thing.
+#include "physics_params/category_resolution.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace simwright::physics_params {
+namespace {
+
+Resolution Resolve(const std::string& name) {
+  return ResolveCategory(name, KnowledgeBase::Shipped(), WordNet::Installed());
+}
+
+struct Row {
+  const char* name;
+  const char* category;
+};
+
+// Plurals, words of a file's name, compounds whose head is known: no WordNet is needed.
+constexpr Row kSpelled[] = {{"Mug", "mug"},
+                            {"mugs", "mug"},
+                            {"knives", "knife"},
+                            {"batteries", "battery"},
+                            {"shelves", "shelf"},
+                            {"tomatoes", "tomato"},
+                            {"wine_glass", "wine glass"},
+                            {"coffee mug", "coffee mug"},
+                            {"my red coffee mug", "coffee mug"},
+                            {"steel pan", "pan"},
+                            {"lava lamp", "lamp"},
+                            {"screw driver", "screwdriver"},
+                            {"coffeetable", "coffee table"},
+                            {"CoffeeMug_01", "coffee mug"},
+                            {"chair01", "chair"},
+                            {"chair_v2", "chair"},
+                            {"bottle of wine", "bottle"},
+                            {"mug with a handle", "mug"},
+                            {"pair of scissors", "scissors"},
+                            {"deck of cards", "deck of cards"},
+                            {"toy truck", "toy"},
+                            {"model car", "toy"},
+                            {"toy car", "toy car"},
+                            {"torch", "flashlight"}};
+
+constexpr Row kMeant[] = {{"skillet", "frying pan"},   {"spanner", "wrench"},
+                          {"rucksack", "backpack"},    {"billfold", "wallet"},
+                          {"spectacles", "glasses"},   {"aubergine", "eggplant"},
+                          {"courgette", "zucchini"},   {"telephone", "phone"},
+                          {"icebox", "refrigerator"},  {"fridge", "refrigerator"},
+                          {"hassock", "ottoman"},      {"decanter", "carafe"},
+                          {"loveseat", "sofa"},        {"tangerine", "mandarin"},
+                          {"recliner", "armchair"},    {"raincoat", "coat"},
+                          {"armoire", "wardrobe"},     {"valise", "suitcase"},
+                          {"claw hammer", "hammer"},   {"hacksaw", "saw"},
+                          {"sneaker", "shoe"},         {"swivel chair", "chair"},
+                          {"tea kettle", "kettle"},    {"bread knife", "knife"},
+                          {"candle holder", "candlestick"}};
+
+// Siblings, parts, holders and tools of a thing are not that thing; what WordNet knows as one word
+// is not its last word.
+constexpr const char* kFar[] = {
+    "domino",      "duck",          "garlic press",  "book holder",     "puzzle cube", "goose",
+    "rubber duck", "bookend",       "cup holder",    "mug rack",        "hot plate",   "license plate",
+    "sea horse",   "pizza cutter",  "egg beater",    "lemon squeezer",  "coffee grinder",
+    "nutcracker",  "pencil sharpener", "dog",        "cat",             "elephant",    "violin bow",
+    "slice of pizza", "bunch of bananas", "wheel",   "pipe",            "thermometer", "microscope",
+    "anvil",       "boat",          "flute",         "press",           "holder",      "cube",
+    "chess piece", "vinyl record",  "paper bag",     "democracy",       "mugg",        ""};
+
+TEST(CategoryResolution, SpellingsAreUnderstood) {
+  for (const Row& row : kSpelled) {
+    const Resolution found = Resolve(row.name);
+    ASSERT_NE(found.category, nullptr) << row.name;
+    EXPECT_EQ(found.category->name, row.category) << row.name;
+    EXPECT_TRUE(found.closest.empty()) << row.name;
+  }
+}
+
+TEST(CategoryResolution, SynonymsAndKindsAreUnderstoodByWordNet) {
+  if (WordNet::Installed() == nullptr) GTEST_SKIP() << "wordnet-base is not installed";
+  for (const Row& row : kMeant) {
+    const Resolution found = Resolve(row.name);
+    ASSERT_NE(found.category, nullptr) << row.name;
+    EXPECT_EQ(found.category->name, row.category) << row.name;
+    EXPECT_FALSE(found.exact) << row.name;
+    EXPECT_NE(found.sentence.find("'" + std::string(row.name) + "' is taken for '" + row.category),
+              std::string::npos)
+        << found.sentence;
+  }
+}
+
+TEST(CategoryResolution, FarNamesAreRefusedWithTheThreeNearest) {
+  if (WordNet::Installed() == nullptr) GTEST_SKIP() << "wordnet-base is not installed";
+  for (const char* name : kFar) {
+    const Resolution found = Resolve(name);
+    EXPECT_EQ(found.category, nullptr) << found.sentence;
+    EXPECT_EQ(found.closest.size(), 3u) << name;
+    EXPECT_THROW(RequireCategory(name), core::Error) << name;
+  }
+  try {
+    RequireCategory("duck");
+    FAIL();
+  } catch (const core::Error& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find("chicken"), std::string::npos) << what;
+    EXPECT_NE(what.find("'object'"), std::string::npos) << what;
+  }
+  const std::vector<std::string> slip = Resolve("mugg").closest;
+  EXPECT_EQ(slip.empty() ? "" : slip[0], "mug");
+}
+
+// Each row is found by its own name, and in the plural where that is regular.
+TEST(CategoryResolution, EveryRowIsItself) {
+  for (const Category& category : KnowledgeBase::Shipped().categories()) {
+    const Resolution found = Resolve(category.name);
+    ASSERT_EQ(found.category, &category) << category.name;
+    EXPECT_TRUE(found.exact);
+    EXPECT_TRUE(ResolutionFindings(found, "x").empty());
+  }
+}
+
+TEST(CategoryResolution, WhatWasUnderstoodIsAFinding) {
+  const core::Findings near = ResolutionFindings(Resolve("red mug"), "thing");
+  ASSERT_EQ(near.size(), 1u);
+  EXPECT_EQ(near[0].severity, core::Severity::kInfo);
+  EXPECT_EQ(near[0].sentence, "'red mug' is taken for 'mug' by its last word");
+  const core::Findings far = ResolutionFindings(Resolve("zorbelflux"), "thing");
+  ASSERT_EQ(far.size(), 1u);
+  EXPECT_EQ(far[0].severity, core::Severity::kWarning);
+  EXPECT_NE(far[0].remedy.find("--category"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace simwright::physics_params
