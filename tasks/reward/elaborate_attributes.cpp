@@ -3,6 +3,7 @@
 #include <map>
 
 #include "tasks/reward/elaborator.h"
+#include "tasks/reward/foreign_names.h"
 #include "tasks/reward/spelling.h"
 
 namespace simwright::tasks::reward {
@@ -120,9 +121,34 @@ Value Elaborator::EnvironmentAttribute(const Value& environment, const std::stri
     value.integer = 1;
     return value;
   }
+  if (IsForeignHandle(name) || !ForeignRemedy(name).empty()) {
+    return ForeignAttribute(name, position);
+  }
   std::vector<std::string> known = ApiNames();
   for (const char* attribute : {"device", "num_envs", "env_num"}) known.emplace_back(attribute);
   Fail("undefined", position, "the environment has no '" + name + "'" + Suggestion(name, known));
+}
+
+// `self.cube.pose`: what ManiSkill's own members lead to.
+bool Elaborator::LeadsAbroad(const Expression& expression) const {
+  const Expression& member = *expression.children[0];
+  if (member.kind != ExpressionKind::kAttribute ||
+      member.children[0]->kind != ExpressionKind::kName ||
+      !IsEnvironmentName(member.children[0]->text)) {
+    return false;
+  }
+  const bool known = functions_.contains(member.text) || FindApiFunction(member.text) != nullptr ||
+                     member.text == "env" || IsForeignHandle(member.text);
+  return !known && (IsForeignHandle(expression.text) ||
+                    !ForeignRemedy(member.text + "." + expression.text).empty());
+}
+
+Value Elaborator::ForeignAttribute(const std::string& path, Position position) {
+  const std::string remedy = ForeignRemedy(path);
+  if (!remedy.empty()) {
+    Fail("foreign-name", position, "the environment has no '" + path + "': " + remedy);
+  }
+  return PlainValue(ValueKind::kOpaque, std::string(kForeignPrefix) + path);
 }
 
 Value Elaborator::SizeValue(int size) {
@@ -168,9 +194,12 @@ Value Elaborator::TensorAttribute(const Value& value, const std::string& name, P
 }
 
 Value Elaborator::EvaluateAttribute(const Expression& expression) {
-  const Value base = Evaluate(*expression.children[0]);
   const std::string& name = expression.text;
   const Position position = expression.position;
+  if (LeadsAbroad(expression)) {
+    return ForeignAttribute(expression.children[0]->text + "." + name, position);
+  }
+  const Value base = Evaluate(*expression.children[0]);
   switch (base.kind) {
     case ValueKind::kModule:
       return ModuleAttribute(base.text, name, position);
@@ -188,6 +217,19 @@ Value Elaborator::EvaluateAttribute(const Expression& expression) {
       break;
     case ValueKind::kOpaque:
       if (base.text == "device") return base;
+      if (base.text.starts_with(kEntityPrefix)) {  // SceneEntityCfg("cube").name
+        return name == "name" ? StringValue(base.text.substr(kEntityPrefix.size()))
+                              : PlainValue(ValueKind::kOpaque, "device");
+      }
+      if (base.text.starts_with(kForeignPrefix)) {
+        const std::string path = base.text.substr(kForeignPrefix.size()) + "." + name;
+        if (!IsForeignHandle(name) && ForeignRemedy(path).empty()) {
+          Fail("foreign-name", position,
+               "the environment has no '" + path + "'; what can be read is env.get_position(ASSET), "
+               "env.get_state_by_joint_name(ASSET, JOINT) and others (docs/rewards.md)");
+        }
+        return ForeignAttribute(path, position);
+      }
       Fail("undefined", position, "'" + base.text + "' is not known here");
     case ValueKind::kUndefined:
       Fail(base.text.empty() ? "" : "undefined", position, base.text);

@@ -2,6 +2,7 @@
 #include <cstdlib>
 
 #include "tasks/reward/elaborator.h"
+#include "tasks/reward/foreign_names.h"
 #include "tasks/reward/spelling.h"
 
 namespace simwright::tasks::reward {
@@ -169,6 +170,9 @@ Value Elaborator::CallValue(const Value& callee, std::vector<Value> values,
   }
   if (callee.Is(ValueKind::kOpaque)) {
     if (callee.text == "device") return callee;
+    if (callee.text == "SceneEntityCfg" && !values.empty() && values[0].Is(ValueKind::kString)) {
+      return PlainValue(ValueKind::kOpaque, std::string(kEntityPrefix) + values[0].text);
+    }
     Fail(
         "undefined", position,
         "'" + callee.text + "' is not known here; only torch, numpy, math and the environment are");

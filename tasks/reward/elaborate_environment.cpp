@@ -7,10 +7,6 @@
 namespace simwright::tasks::reward {
 namespace {
 
-bool IsEnvironmentName(const std::string& name) {
-  return name == "env" || name == "self" || name == "simulator" || name == "envs";
-}
-
 // The keywords by which published programs name an argument.
 bool KeywordMeans(std::string_view argument, const std::string& keyword) {
   if (keyword == argument) return true;

@@ -46,6 +46,13 @@ void Elaborator::Report(const std::string& code, core::Severity severity, Positi
   if (held < options_.max_findings) findings_.push_back({code, severity, place, sentence, 0.0});
 }
 
+void Elaborator::ReportCollapse(const std::string& code, const Shape& shape, Position position) {
+  if (first_collapse_.line == 0) first_collapse_ = position;
+  Report(code, core::Severity::kWarning, position,
+         "the last dimension of " + ShapeText(shape) +
+             " runs over the environments: this is one number for all of them");
+}
+
 Elaborator::Deeper::Deeper(Elaborator* elaborator, Position position) : elaborator_(elaborator) {
   // Frames of functions that are entered add up on one stack.
   if (elaborator_->depth_ >= 3 * elaborator_->options_.max_depth) {
@@ -92,9 +99,11 @@ void Elaborator::Globals() {
   globals_["np"] = globals_["numpy"] = PlainValue(ValueKind::kModule, "np");
   globals_["math"] = PlainValue(ValueKind::kModule, "math");
   globals_["F"] = PlainValue(ValueKind::kModule, "torch.nn.functional");
-  for (const std::string type : {"Tensor", "Tuple", "Dict", "List", "Optional", "Any", "Union"}) {
+  for (const std::string type : {"Tensor", "Tuple", "Dict", "List", "Optional", "Any", "Union",
+                                 "SceneEntityCfg"}) {
     globals_[type] = PlainValue(ValueKind::kOpaque, type);
   }
+  globals_["TYPE_CHECKING"] = BoolValue(false);
   for (const auto& function : module_.functions) {
     const auto [found, fresh] = functions_.emplace(function->name, function.get());
     if (!fresh) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "tasks/reward/elaborator.h"
+#include "tasks/reward/foreign_names.h"
 #include "tasks/reward/spelling.h"
 
 namespace simwright::tasks::reward {
@@ -220,6 +221,9 @@ Value Elaborator::Subscript(const Value& base, const Value& index, Position posi
       value = SubscriptDict(base, index, position);
       break;
     case ValueKind::kOpaque:
+      if (base.text.starts_with(kForeignPrefix) && index.Is(ValueKind::kString)) {
+        return PlainValue(ValueKind::kOpaque, base.text + "[\"" + index.text + "\"]");
+      }
       return base;  // Dict[str, Tensor]
     case ValueKind::kUndefined:
       Fail(base.text.empty() ? "" : "undefined", position, base.text);

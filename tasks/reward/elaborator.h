@@ -41,6 +41,11 @@ class Elaborator {
   // Place and code of the first error, empty where there is none: what tells which guess of shapes
   // came further.
   Position first_error() const { return first_error_; }
+  // Place of the first reduction over the last dimension that goes over the environments, line 0
+  // where there is none: with another shape it would not.
+  Position first_collapse() const { return first_collapse_; }
+  // Reports that a reduction which was to go over the last dimension goes over the environments.
+  void ReportCollapse(const std::string& code, const Shape& shape, Position position);
   const std::string& first_code() const { return first_code_; }
   Graph& graph() { return graph_; }
   const std::vector<RewardSlot>& slots() const { return slots_; }
@@ -181,6 +186,10 @@ class Elaborator {
   Value EvaluateAttribute(const Expression& expression);
   Value ModuleAttribute(const std::string& module, const std::string& name, Position position);
   Value EnvironmentAttribute(const Value& environment, const std::string& name, Position position);
+  // What another simulator's environment has by this path (foreign_names.h): a handle to look
+  // further, or a Fault that names what reads it here.
+  bool LeadsAbroad(const Expression& expression) const;
+  Value ForeignAttribute(const std::string& path, Position position);
   Value TensorAttribute(const Value& value, const std::string& name, Position position);
 
   // elaborate_operators.cpp
@@ -229,6 +238,7 @@ class Elaborator {
   const RewardOptions& options_;
   core::Findings findings_;
   Position first_error_;
+  Position first_collapse_{0, 0};
   std::string first_code_;
   int errors_ = 0;
   Graph graph_;

@@ -130,6 +130,10 @@ const ApiFunction* FindApiFunction(std::string_view name) {
   return found == by_name->end() ? nullptr : found->second;
 }
 
+bool IsEnvironmentName(std::string_view name) {
+  return name == "env" || name == "self" || name == "simulator" || name == "envs";
+}
+
 std::vector<std::string> ApiNames() {
   std::vector<std::string> names;
   for (const ApiFunction& function : kApi) {

@@ -71,4 +71,7 @@ const ApiFunction* FindApiFunction(std::string_view name);
 // All names and aliases.
 std::vector<std::string> ApiNames();
 
+// True for the names that a parameter has which is the environment: env, self, simulator, envs.
+bool IsEnvironmentName(std::string_view name);
+
 }  // namespace simwright::tasks

@@ -30,12 +30,25 @@ std::vector<int> GuessByName(const std::string& name) {
   return {};
 }
 
+// A position or a rotation is no single number, whatever that would let compile: cart_pos and
+// dof_pos are, or may be.
+bool IsVector(const std::string& name) {
+  if (Contains(name, {"cart", "pole", "dof", "joint", "slider", "door", "drawer", "lever", "hinge"}))
+    return false;
+  if (name.starts_with("x_") || name.starts_with("y_") || name.starts_with("z_")) return false;
+  return Contains(name, {"quat", "orient", "_pos", "position"}) || name == "pos";
+}
+
 std::vector<int> FirstGuess(const std::string& name, const Usage& usage) {
   std::vector<int> guess = GuessByName(name);
   if (usage.rank > 0 && guess.empty()) guess = {3};
   if (usage.rank > 1) guess = {4, 3};
   if (!guess.empty() && usage.width > guess.back()) guess.back() = usage.width;
   return guess;
+}
+
+bool Before(Position a, Position b) {
+  return a.line != b.line ? a.line < b.line : a.column < b.column;
 }
 
 // How far the program comes with these shapes: no error, or the place of the first one.
@@ -83,6 +96,14 @@ class Search {
     Reach reach;
     reach.position = elaborator.first_error();
     reach.whole = code.empty();
+    const Position collapse = elaborator.first_collapse();
+    const bool collapses = collapse.line > 0 && (reach.whole || Before(collapse, reach.position));
+    if (collapses) {
+      reach.whole = false;
+      reach.position = collapse;
+      reach.by_shape = true;
+      return reach;
+    }
     reach.by_shape =
         std::find(std::begin(kShapeFaults), std::end(kShapeFaults), code) != std::end(kShapeFaults);
     reach.by_type = code == "type" || code == "index";
@@ -132,6 +153,9 @@ bool TryShapes(const std::vector<std::string>& open,
     if ((*usages)[name].width > 0) own.push_back({(*usages)[name].width});
     for (const std::vector<int>& candidate : own) {
       if (!search->by_shape()) return better;
+      // Actions and joints are rows, unless they are indexed otherwise.
+      if (OfJoints(name) && candidate.size() > 1 && (*usages)[name].rank < 2) continue;
+      if (IsVector(name) && (candidate.empty() || candidate == std::vector<int>{1})) continue;
       RewardOptions changed = search->options();
       changed.parameter_shapes[name] = candidate;
       better = search->Improve(changed) || better;
@@ -163,7 +187,9 @@ bool TryNumbers(const std::vector<std::string>& open, Search* search) {
   for (const std::vector<int>& shape : shapes) {
     RewardOptions changed = search->options();
     for (const std::string& name : open) {
-      if (changed.parameter_shapes[name] == shape) changed.parameter_shapes[name] = {};
+      if (changed.parameter_shapes[name] == shape && !IsVector(name)) {
+        changed.parameter_shapes[name] = {};
+      }
     }
     better = (!shape.empty() && search->by_shape() && search->Improve(changed)) || better;
   }
@@ -217,21 +243,31 @@ std::vector<const Parameter*> InferParameterShapes(const Module& module, const F
     options->parameter_shapes[name] = FirstGuess(name, usages[name]);
   }
   // First those of which the name says nothing.
-  std::stable_partition(open.begin(), open.end(),
-                        [](const std::string& name) { return GuessByName(name).empty(); });
+  const auto named = std::stable_partition(
+      open.begin(), open.end(), [](const std::string& name) { return GuessByName(name).empty(); });
+  const std::vector<std::string> unnamed(open.begin(), named);
   const std::set<int> lengths = ListLengths(module);
   std::vector<std::vector<int>> candidates = {{3}, {4}, {}, {1}, {7}, {13}, {8}, {6}, {4, 3}};
   for (const int length : lengths) candidates.push_back({length});
   Search search(module, entry, scene, *options);
   // One parameter at a time, as long as something gets further.
-  for (int round = 0; round < 4 && !search.Done(); ++round) {
+  constexpr int kRounds = 4;
+  for (int round = 0; round < kRounds && !search.Done(); ++round) {
     bool better = TryFlags(open, &search);
     better = TryWidthOfJoints(open, lengths, &search) || better;
-    better = TryNumbers(open, &search) || better;
-    better = TryShapes(open, candidates, &usages, &search) || better;
+    better = TryShapes(unnamed, candidates, &usages, &search) || better;
     if (!better) break;
   }
   *options = search.options();
+  // What a name says is given up only for a program that is right then: else a fault of shapes
+  // would be reported somewhere else, or not at all.
+  for (int round = 0; round < kRounds && !search.Done(); ++round) {
+    bool better = TryNumbers(open, &search);
+    better = TryFlags(open, &search) || better;
+    better = TryShapes(open, candidates, &usages, &search) || better;
+    if (!better) break;
+  }
+  if (search.whole()) *options = search.options();
   std::vector<const Parameter*> assumed;
   if (!search.whole()) return assumed;
   const std::vector<std::string> names = Assumed(open, &search);

@@ -18,9 +18,22 @@ void WantFloats(const Arguments& arguments, const Tensor& tensor) {
            "; .float() it first");
 }
 
+// The dimensions that a reduction goes over. "dim=-1" is meant to be the numbers of one environment.
+std::vector<int> Reduced(Elaborator& elaborator, const Arguments& arguments, std::size_t i,
+                         const Tensor& tensor) {
+  const std::vector<int> dimensions = Dimensions(elaborator, arguments, i, tensor);
+  const bool last = arguments[i].Is(ValueKind::kInteger) && arguments[i].integer == -1;
+  if (last && dimensions.size() == 1 && tensor.shape[dimensions[0]] == kBatch) {
+    const bool norm = arguments.called.ends_with("norm");
+    elaborator.ReportCollapse(norm ? "norm-over-environments" : "reduction-over-environments",
+                              tensor.shape, arguments.position);
+  }
+  return dimensions;
+}
+
 Value Simple(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
-  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
+  const std::vector<int> dimensions = Reduced(elaborator, arguments, 1, tensor);
   const auto reduction = static_cast<Reduction>(arguments.function->variant);
   return TensorValue(elaborator.math().Reduce(reduction, tensor, dimensions,
                                               FlagArgument(arguments, 2), arguments.position));
@@ -29,7 +42,7 @@ Value Simple(Elaborator& elaborator, const Arguments& arguments) {
 Value Mean(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
   WantFloats(arguments, tensor);
-  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
+  const std::vector<int> dimensions = Reduced(elaborator, arguments, 1, tensor);
   return TensorValue(
       elaborator.math().Mean(tensor, dimensions, FlagArgument(arguments, 2), arguments.position));
 }
@@ -40,7 +53,7 @@ Value Deviation(Elaborator& elaborator, const Arguments& arguments) {
   const Position position = arguments.position;
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
   WantFloats(arguments, tensor);
-  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
+  const std::vector<int> dimensions = Reduced(elaborator, arguments, 1, tensor);
   const Tensor mean = math.Mean(tensor, dimensions, true, position);
   const Tensor gap = math.Map(kSubtract, tensor, mean, DataType::kFloat, position);
   const Tensor squares = math.Map(kMultiply, gap, gap, DataType::kFloat, position);
@@ -72,7 +85,7 @@ Value Norm(Elaborator& elaborator, const Arguments& arguments) {
   Tensor tensor = TensorArgument(elaborator, arguments, 0);
   WantFloats(arguments, tensor);
   const double p = Order(elaborator, arguments, 1);
-  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 2, tensor);
+  const std::vector<int> dimensions = Reduced(elaborator, arguments, 2, tensor);
   const bool keep = FlagArgument(arguments, 3);
   if (std::any_of(dimensions.begin(), dimensions.end(),
                   [&](int dimension) { return RunsOverEnvironments(tensor.shape[dimension]); })) {
@@ -153,7 +166,7 @@ Value Extreme(Elaborator& elaborator, const Arguments& arguments) {
          "'" + arguments.called + "' compares tensors, this is a number; use torch.clamp(x, " +
              (largest ? "min=" : "max=") + "...)");
   }
-  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
+  const std::vector<int> dimensions = Reduced(elaborator, arguments, 1, tensor);
   const bool keep = FlagArgument(arguments, 2);
   Value values = TensorValue(math.Reduce(reduction, tensor, dimensions, keep, position));
   if (second.Is(ValueKind::kNone) || numpy || dimensions.size() != 1) return values;
@@ -164,7 +177,7 @@ Value Extreme(Elaborator& elaborator, const Arguments& arguments) {
 
 Value PlaceOf(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
-  std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
+  std::vector<int> dimensions = Reduced(elaborator, arguments, 1, tensor);
   if (dimensions.size() != 1) {
     Fail("arguments", arguments.position,
          "'" + arguments.called + "' wants the dimension to look along, dim=-1");
@@ -177,7 +190,7 @@ Value CountNonzero(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Tensor flags =
       math.Cast(TensorArgument(elaborator, arguments, 0), DataType::kBool, arguments.position);
-  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, flags);
+  const std::vector<int> dimensions = Reduced(elaborator, arguments, 1, flags);
   return TensorValue(math.Reduce(Reduction::kSum, flags, dimensions, false, arguments.position));
 }
 
@@ -186,7 +199,7 @@ Value Softmax(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Position position = arguments.position;
   const Tensor tensor = FloatArgument(elaborator, arguments, 0);
-  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
+  const std::vector<int> dimensions = Reduced(elaborator, arguments, 1, tensor);
   const Tensor most = math.Reduce(Reduction::kMaximum, tensor, dimensions, true, position);
   const Tensor power =
       math.Map(kExponential, math.Map(kSubtract, tensor, most, DataType::kFloat, position),
@@ -200,7 +213,7 @@ Value LogSumExp(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Position position = arguments.position;
   const Tensor tensor = FloatArgument(elaborator, arguments, 0);
-  const std::vector<int> dimensions = Dimensions(elaborator, arguments, 1, tensor);
+  const std::vector<int> dimensions = Reduced(elaborator, arguments, 1, tensor);
   const bool keep = FlagArgument(arguments, 2);
   const Tensor most = math.Reduce(Reduction::kMaximum, tensor, dimensions, true, position);
   const Tensor power =

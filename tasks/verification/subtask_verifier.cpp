@@ -50,6 +50,7 @@ void Sharpen(core::Findings* findings) {
   for (core::Finding& finding : *findings) {
     if (finding.code == "constant-reward" || finding.code == "constant-success" ||
         finding.code == "self-distance" || finding.code == "norm-over-environments" ||
+        finding.code == "reduction-over-environments" ||
         finding.code == "shared-reward") {
       finding.severity = Severity::kError;
     }
