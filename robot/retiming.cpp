@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 #include <utility>
 
@@ -17,9 +18,10 @@ namespace {
 constexpr Eigen::Index kLeastPositions = 4;
 constexpr Eigen::Index kMostPositions = 500000;
 constexpr double kMostUneven = 3.0;  // a step over the mean of all
-constexpr double kGrid = 0.002;      // s, on which the law of time is sought
-constexpr double kShare = 0.998;     // of the limits that is used: peaks lie between grid points
+constexpr double kShare = 0.998;      // of the limits that is used: peaks lie between grid points
+constexpr double kLessShare = 0.995;  // of that, in each further try
 constexpr int kRefinements = 12;
+constexpr int kTriesALevel = 3;
 constexpr double kLeastShare = 0.02;  // of a joint's deviation that is left to it for the tool's
 constexpr int kFinest = 4;  // knots of the smooth curve for each recorded position, at most
 
@@ -45,6 +47,11 @@ void RequireShape(const RecordedPath& path, const std::vector<JointLimits>& limi
   if (joints == 0 || path.positions.cols() != joints || path.positions.rows() != count ||
       limits.size() != path.joints.size() || sliding.size() != path.joints.size()) {
     Fail("names, times, positions and limits are not of one size");
+  }
+  const bool paced = std::all_of(path.paces.begin(), path.paces.end(),
+                                 [](double pace) { return pace > 0.0 && std::isfinite(pace); });
+  if (!paced || (!path.paces.empty() && path.paces.size() != path.times.size())) {
+    Fail("the paces are not one above 0 for each position");
   }
   if (count < kLeastPositions || count > kMostPositions) {
     Fail("the recording has " + std::to_string(count) + " positions",
@@ -158,6 +165,7 @@ class Retiming {
   QuinticSpline FitPath(Retimed* result) const;
   void Measure(const QuinticSpline& curve, Retimed* result) const;
   PathDerivatives Derivatives(const QuinticSpline& curve, const RestToRest& ends) const;
+  std::function<double(double)> Paces(const RestToRest& ends) const;
   JointTrajectory Sample(const QuinticSpline& curve, const RestToRest& ends, TimeLaw* law) const;
   [[noreturn]] void FailLimits(const PathDerivatives& derivatives, const RestToRest& ends) const;
 
@@ -258,7 +266,7 @@ QuinticSpline Retiming::FitPath(Retimed* result) const {
 }
 
 PathDerivatives Retiming::Derivatives(const QuinticSpline& curve, const RestToRest& ends) const {
-  const auto points = static_cast<Eigen::Index>(std::ceil(ends.length() / kGrid)) + 1;
+  const Eigen::Index points = TimeLawGrid(ends.length()) + 1;
   PathDerivatives path;
   path.step = ends.length() / static_cast<double>(points - 1);
   for (Eigen::MatrixXd* matrix : {&path.first, &path.second, &path.third}) {
@@ -273,6 +281,20 @@ PathDerivatives Retiming::Derivatives(const QuinticSpline& curve, const RestToRe
     path.third.col(i) = (d3 * u[1] * u[1] * u[1] + 3.0 * d2 * u[1] * u[2] + d1 * u[3]).transpose();
   }
   return path;
+}
+
+// How many times as fast as recorded the path may be run at w, at most.
+std::function<double(double)> Retiming::Paces(const RestToRest& ends) const {
+  return [this, &ends](double w) {
+    if (path_.paces.empty()) return options_.fastest;
+    const double u = ends.At(w)[0];
+    const auto after = std::upper_bound(parameters_.begin(), parameters_.end(), u);
+    const auto next = std::min<std::ptrdiff_t>(after - parameters_.begin(),
+                                               static_cast<std::ptrdiff_t>(parameters_.size()) - 1);
+    const auto last = std::max<std::ptrdiff_t>(next - 1, 0);
+    return std::min({options_.fastest, path_.paces[static_cast<std::size_t>(last)],
+                     path_.paces[static_cast<std::size_t>(next)]});
+  };
 }
 
 // At the rate asked for; the law is slowed by less than a sample, so that the last one falls on the
@@ -319,8 +341,8 @@ void Retiming::FailLimits(const PathDerivatives& derivatives, const RestToRest& 
         const double slowness = std::pow(std::abs(value) / bound, 1.0 / order);
         if (slowness <= most) return;
         most = slowness;
-        worst = "joint '" + path_.joints[static_cast<std::size_t>(j)] + "' at " + Shown(recorded) +
-                " s asks for " + quantity + " " + Shown(value) + ", the limit is " + Shown(bound);
+        worst = "joint '" + path_.joints[static_cast<std::size_t>(j)] + "' at " +
+                Shown(0.01 * std::round(100.0 * recorded)) + " s asks for " + quantity + " " + Shown(value) + ", the limit is " + Shown(bound);
       };
       consider("velocity", derivatives.first(j, i), limit.velocity, 1);
       consider("acceleration", derivatives.second(j, i), limit.acceleration, 2);
@@ -339,8 +361,10 @@ Retimed Retiming::Run() {
   const PathDerivatives derivatives = Derivatives(curve, ends);
   result.recorded = parameters_.back();
   double share = kShare;
-  for (int i = 0; i < kRefinements; ++i, share *= 0.995) {
-    TimeLawFit fit = FitTimeLaw(derivatives, ends.length(), limits_, share);
+  for (int i = 0; i < kRefinements; ++i, share *= kLessShare) {
+    // Where jerk peaks between the grid's points time and again, coarser knots.
+    const int levels = std::max(1, kTimeLawLevels - i / kTriesALevel);
+    TimeLawFit fit = FitTimeLaw(derivatives, ends.length(), limits_, share, Paces(ends), levels);
     result.stretch = TimeTable(fit.law).duration() / result.recorded;
     if (!fit.found || result.stretch > options_.most_stretch) FailLimits(derivatives, ends);
     result.trajectory = Sample(curve, ends, &fit.law);
@@ -366,6 +390,7 @@ bool RetimingOptions::IsValid(std::string* error) const {
   }
   if (!(longest_turn > 0.0 && longest_slide > 0.0)) wrong = "longest steps must be above 0";
   if (!(ramp >= 0.01 && ramp <= 10.0)) wrong = "ramp must be in [0.01, 10]";
+  if (!(fastest >= 1.0 && fastest <= 100.0)) wrong = "fastest must be in [1, 100]";
   if (!(most_stretch >= 1.0)) wrong = "most_stretch must be at least 1";
   if (wrong != nullptr && error != nullptr) *error = wrong;
   return wrong == nullptr;

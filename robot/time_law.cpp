@@ -7,12 +7,13 @@
 namespace simwright::robot {
 namespace {
 
-constexpr double kSpacing = 0.04;  // s between knots of the slowness
+constexpr double kSpacing = 0.03;  // s between knots of the slowness
 constexpr int kRaisingRounds = 400;
 constexpr double kLargestRaise = 1.5;  // in one round
 constexpr double kMostSlowness = 1e4;
 constexpr int kLongestStretch = 32;  // coefficients that are lowered at once
 constexpr std::array<double, 4> kLowered = {0.7, 0.85, 0.93, 0.98};
+constexpr double kGridSteps = 8;  // between the finest knots
 
 // The pieces of the cardinal cubic B-spline over one interval, times 6: coefficients of 1, x, x^2,
 // x^3.
@@ -47,6 +48,19 @@ TimeLaw::TimeLaw(double length, double spacing) : length_(length) {
   const double intervals = std::max(1.0, std::round(length / spacing));
   spacing_ = length / intervals;
   coefficients_.assign(static_cast<std::size_t>(intervals) + kSupport - 1, 1.0);
+}
+
+// Coefficient k stands above knot k - 1: subdivision of cubic B-splines keeps the curve.
+void TimeLaw::Refine() {
+  const std::vector<double> coarse = coefficients_;
+  const std::size_t intervals = coarse.size() - (kSupport - 1);
+  spacing_ *= 0.5;
+  coefficients_.resize(2 * intervals + kSupport - 1);
+  for (std::size_t k = 0; k + 1 < coarse.size(); ++k) {
+    coefficients_[2 * k] = 0.5 * (coarse[k] + coarse[k + 1]);
+    if (k == 0) continue;
+    coefficients_[2 * k - 1] = (coarse[k - 1] + 6.0 * coarse[k] + coarse[k + 1]) / 8.0;
+  }
 }
 
 TimeLaw::Slowness TimeLaw::At(double w) const {
@@ -107,8 +121,11 @@ namespace {
 class Search {
  public:
   Search(const PathDerivatives& path, double length, const std::vector<JointLimits>& limits,
-         double share)
-      : path_(path), law_(length, kSpacing), limits_(limits) {
+         double share, const std::function<double(double)>& fastest, int levels)
+      : path_(path), law_(length, kSpacing), limits_(limits), levels_(levels) {
+    for (Eigen::Index point = 0; point < points(); ++point) {
+      fastest_.push_back(fastest(ParameterAt(point)));
+    }
     for (JointLimits& limit : limits_) {
       limit.velocity *= share;
       limit.acceleration *= share;
@@ -117,8 +134,15 @@ class Search {
   }
 
   TimeLawFit Run() {
+    FindLeast();
+    Begin();
     const bool found = Raise();
-    if (found) Lower();
+    for (int level = 0; found && level < levels_; ++level) {
+      if (level > 0) law_.Refine();
+      FindLeast();
+      Lower();
+      Lower();
+    }
     return {law_, found};
   }
 
@@ -129,6 +153,8 @@ class Search {
   }
   double Excess(Eigen::Index point) const;
   bool HoldsBetween(double from, double to) const;
+  void FindLeast();
+  void Begin();
   bool Raise();
   void Lower();
   bool TryLower(std::size_t first, std::size_t count, double factor);
@@ -136,6 +162,9 @@ class Search {
   const PathDerivatives& path_;
   TimeLaw law_;
   std::vector<JointLimits> limits_;
+  int levels_;
+  std::vector<double> fastest_;  // (points) times the recording's pace, at most
+  std::vector<double> least_;    // slowness, of each coefficient
 };
 
 // By how much the path would have to be slower at `point`, were the slowness the same all round:
@@ -171,6 +200,41 @@ bool Search::HoldsBetween(double from, double to) const {
   return true;
 }
 
+// What no coefficient may be below: the slowest that is asked for where it has a say.
+void Search::FindLeast() {
+  const auto size = static_cast<std::ptrdiff_t>(law_.coefficients().size());
+  least_.assign(static_cast<std::size_t>(size), 0.0);
+  for (Eigen::Index point = 0; point < points(); ++point) {
+    const std::ptrdiff_t first =
+        static_cast<std::ptrdiff_t>(
+            PlaceOf(ParameterAt(point), law_.spacing(),
+                    static_cast<std::size_t>(size - (TimeLaw::kSupport - 1)))
+                .interval);
+    for (std::ptrdiff_t k = first; k < first + TimeLaw::kSupport; ++k) {
+      double& least = least_[static_cast<std::size_t>(k)];
+      least = std::max(least, 1.0 / fastest_[static_cast<std::size_t>(point)]);
+    }
+  }
+}
+
+// A coefficient is the slowest that velocity and acceleration ask for within the knots beside it.
+void Search::Begin() {
+  const std::vector<double> speeds = FastestSpeeds(path_, limits_, fastest_);
+  std::vector<double>& c = law_.coefficients();
+  std::vector<double> sum(c.size(), 0.0), weight(c.size(), 0.0);
+  for (Eigen::Index point = 0; point < points(); ++point) {
+    // Coefficient k stands above knot k - 1.
+    const double place = ParameterAt(point) / law_.spacing() + 1.0;
+    const auto k = std::min(static_cast<std::size_t>(std::lround(place)), c.size() - 1);
+    const double speed = speeds[static_cast<std::size_t>(point)];
+    sum[k] += 1.0 / std::max(speed, 1e-3);
+    weight[k] += 1.0;
+  }
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    c[k] = std::max(least_[k], weight[k] > 0.0 ? sum[k] / weight[k] : 0.0);
+  }
+}
+
 bool Search::Raise() {
   std::vector<double>& c = law_.coefficients();
   for (int round = 0; round < kRaisingRounds; ++round) {
@@ -202,7 +266,7 @@ bool Search::TryLower(std::size_t first, std::size_t count, double factor) {
                                    c.begin() + static_cast<std::ptrdiff_t>(first + count));
   bool lowered = false;
   for (std::size_t k = first; k < first + count; ++k) {
-    const double lower = std::max(1.0, 1.0 + factor * (c[k] - 1.0));
+    const double lower = std::min(c[k], least_[k] + factor * std::max(0.0, c[k] - least_[k]));
     lowered = lowered || c[k] - lower > 1e-4;
     c[k] = lower;
   }
@@ -228,9 +292,15 @@ void Search::Lower() {
 
 }  // namespace
 
+Eigen::Index TimeLawGrid(double length) {
+  const double knots = std::max(1.0, std::round(length / kSpacing));
+  return static_cast<Eigen::Index>(knots * kGridSteps * (1 << (kTimeLawLevels - 1)));
+}
+
 TimeLawFit FitTimeLaw(const PathDerivatives& path, double length,
-                      const std::vector<JointLimits>& limits, double share) {
-  return Search(path, length, limits, share).Run();
+                      const std::vector<JointLimits>& limits, double share,
+                      const std::function<double(double)>& fastest, int levels) {
+  return Search(path, length, limits, share, fastest, levels).Run();
 }
 
 }  // namespace simwright::robot
