@@ -4,6 +4,7 @@
 #include "assets/articulated_writer.h"
 #include "assets/asset_json.h"
 #include "assets/mesh_import.h"
+#include "assets/mjcf_scene.h"
 #include "assets/obj_file.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -154,6 +155,10 @@ void WriteArticulatedAsset(const ArticulatedAsset& asset, const fs::path& folder
   }
   core::WriteFile(folder / (asset.name + ".urdf"), ArticulatedUrdfText(asset));
   core::WriteFile(folder / (asset.name + ".xml"), ArticulatedMjcfText(asset));
+  int parts = 0;
+  for (const ArticulatedLink& link : asset.links) parts += static_cast<int>(link.parts.size());
+  core::WriteFile(folder / MjcfSceneFileName(asset.name),
+                  MjcfSceneText(asset.name, parts, BoundsAtZero(asset)));
   core::WriteFile(folder / (asset.name + ".sdf"), ArticulatedSdfText(asset));
   core::WriteFile(folder / "semantics.txt", SemanticsText(asset));
   core::WriteFile(folder / "asset.json", AssetJson(asset).dump(2) + "\n");

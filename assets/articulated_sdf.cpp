@@ -10,7 +10,8 @@ namespace {
 
 using Printer = tinyxml2::XMLPrinter;
 
-void SdfLink(Printer* printer, const ArticulatedLink& link, const UrdfJoint* joint) {
+void SdfLink(Printer* printer, const ArticulatedAsset& asset, const ArticulatedLink& link,
+             const UrdfJoint* joint) {
   Element element(printer, "link");
   element.Set("name", link.name);
   if (joint != nullptr) {
@@ -24,9 +25,10 @@ void SdfLink(Printer* printer, const ArticulatedLink& link, const UrdfJoint* joi
   for (const ColoredPiece& piece : ColoredPieces(link)) {
     SdfVisual(printer, piece.stem, piece.stem + ".obj");
   }
+  const HydroelasticContact contact = ContactOf(asset, link);
   for (size_t i = 0; i < link.parts.size(); ++i) {
     const std::string file = LinkCollisionFileName(link.name, static_cast<int>(i));
-    SdfCollision(printer, file.substr(0, file.find('.')), file, link.friction, link.restitution);
+    SdfCollision(printer, file.substr(0, file.find('.')), file, contact);
   }
 }
 
@@ -59,11 +61,11 @@ std::string ArticulatedSdfText(const ArticulatedAsset& asset) {
   printer.PushHeader(false, true);
   {
     Element sdf(&printer, "sdf");
-    sdf.Set("version", "1.9");
+    sdf.Set("version", "1.9").Set("xmlns:drake", kDrakeNamespace);
     Element model(&printer, "model");
     model.Set("name", asset.name);
     for (size_t i = 0; i < asset.links.size(); ++i) {
-      SdfLink(&printer, asset.links[i], i > 0 ? &asset.joints[i - 1] : nullptr);
+      SdfLink(&printer, asset, asset.links[i], i > 0 ? &asset.joints[i - 1] : nullptr);
     }
     if (asset.fixed) {
       Element held(&printer, "joint");

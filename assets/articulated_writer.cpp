@@ -38,13 +38,14 @@ void UrdfVisual(Printer* printer, const ColoredPiece& piece) {
   Element(printer, "color").Set("rgba", Numbers({c.x(), c.y(), c.z(), c.w()}));
 }
 
-void UrdfLinkElement(Printer* printer, const ArticulatedLink& link) {
+void UrdfLinkElement(Printer* printer, const ArticulatedAsset& asset, const ArticulatedLink& link) {
   Element element(printer, "link");
   element.Set("name", link.name);
   UrdfInertial(printer, link.inertial);
   for (const ColoredPiece& piece : ColoredPieces(link)) UrdfVisual(printer, piece);
+  const HydroelasticContact contact = ContactOf(asset, link);
   for (size_t i = 0; i < link.parts.size(); ++i) {
-    UrdfMesh(printer, "collision", LinkCollisionFileName(link.name, static_cast<int>(i)));
+    UrdfCollision(printer, LinkCollisionFileName(link.name, static_cast<int>(i)), contact);
   }
   UrdfContact(printer, link.friction, 0.0, link.restitution);
 }
@@ -184,6 +185,16 @@ std::vector<ColoredPiece> ColoredPieces(const ArticulatedLink& link) {
   return pieces;
 }
 
+HydroelasticContact ContactOf(const ArticulatedAsset& asset, const ArticulatedLink& link) {
+  double mass = 0.0;  // any link may carry the whole
+  for (const ArticulatedLink& one : asset.links) mass += one.inertial.mass;
+  Eigen::AlignedBox3d bounds;
+  for (const core::TriangleMesh& part : link.parts) bounds.extend(core::Bounds(part));
+  const Eigen::Vector3d extents =
+      bounds.isEmpty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(bounds.sizes());
+  return HydroelasticContactOf(link.material, mass, extents, link.friction);
+}
+
 std::string LinkCollisionFileName(const std::string& link, int part) {
   return link + "_" + CollisionFileName(part);
 }
@@ -193,8 +204,8 @@ std::string ArticulatedUrdfText(const ArticulatedAsset& asset) {
   printer.PushHeader(false, true);
   {
     Element robot(&printer, "robot");
-    robot.Set("name", asset.name);
-    for (const ArticulatedLink& link : asset.links) UrdfLinkElement(&printer, link);
+    robot.Set("name", asset.name).Set("xmlns:drake", kDrakeNamespace);
+    for (const ArticulatedLink& link : asset.links) UrdfLinkElement(&printer, asset, link);
     for (const UrdfJoint& joint : asset.joints) UrdfJointElement(&printer, joint);
   }
   return printer.CStr();
@@ -206,16 +217,6 @@ std::string ArticulatedMjcfText(const ArticulatedAsset& asset) {
     Element mujoco(&printer, "mujoco");
     mujoco.Set("model", asset.name);
     Element(&printer, "compiler").Set("angle", "radian");
-    MjcfOption(&printer);
-    {
-      int parts = 0;
-      for (const ArticulatedLink& link : asset.links) parts += static_cast<int>(link.parts.size());
-      // Rows of constraints and contacts that MuJoCo 2.2 reserves: a part touches in up to four
-      // points of four rows, but few parts touch at once.
-      Element(&printer, "size")
-          .Set("njmax", std::to_string(std::min(500 + 16 * parts, 2500)))
-          .Set("nconmax", std::to_string(200 + 4 * parts));
-    }
     MjcfMeshes(&printer, asset);
     Element worldbody(&printer, "worldbody");
     MjcfBodies(&printer, asset, 0);

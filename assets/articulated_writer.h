@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "assets/articulated_asset.h"
+#include "assets/hydroelastic.h"
 
 namespace simwright::assets {
 
@@ -17,13 +18,16 @@ struct ColoredPiece {
 // The link's visual, a piece a material. Throws core::Error where it has textures.
 std::vector<ColoredPiece> ColoredPieces(const ArticulatedLink& link);
 
+// How the link touches others in Drake.
+HydroelasticContact ContactOf(const ArticulatedAsset& asset, const ArticulatedLink& link);
+
 // "door_collision_007.obj"
 std::string LinkCollisionFileName(const std::string& link, int part);
 
 // The asset as a tree of links, with the same numbers in both formats. Mesh files are named
 // relative to the model. In MJCF a link on a fixed joint stays a body of its own, so that its pose
-// can be asked for; `multiccd` is on; joint friction holds what is below it to less than 1e-4
-// rad/s.
+// can be asked for; joint friction holds what is below it to less than 1e-4 rad/s; there is no
+// <option> or <size>, so that it can be attached to any model (mjcf_scene.h).
 std::string ArticulatedUrdfText(const ArticulatedAsset& asset);
 std::string ArticulatedMjcfText(const ArticulatedAsset& asset);
 

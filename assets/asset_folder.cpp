@@ -4,6 +4,7 @@
 
 #include "assets/asset_json.h"
 #include "assets/mesh_import.h"
+#include "assets/mjcf_scene.h"
 #include "assets/model_writer.h"
 #include "assets/obj_file.h"
 #include "core/error.h"
@@ -83,6 +84,9 @@ void WriteAsset(const Asset& asset, const std::filesystem::path& folder) {
   }
   core::WriteFile(folder / (asset.name + ".urdf"), UrdfText(asset));
   core::WriteFile(folder / (asset.name + ".xml"), MjcfText(asset));
+  core::WriteFile(folder / MjcfSceneFileName(asset.name),
+                  MjcfSceneText(asset.name, static_cast<int>(asset.parts.size()),
+                                core::Bounds(asset.visual.mesh)));
   core::WriteFile(folder / (asset.name + ".sdf"), SdfText(asset));
   core::WriteFile(folder / "asset.json", AssetJson(asset).dump(2) + "\n");
 }

@@ -17,6 +17,11 @@ std::string CollisionFileName(int part) {
   return name;
 }
 
+HydroelasticContact ContactOf(const Asset& asset) {
+  return HydroelasticContactOf(asset.parameters.material, asset.inertial.mass,
+                               core::Bounds(asset.solid).sizes(), asset.friction);
+}
+
 bool VisualSuitsMujoco(const core::TriangleMesh& visual) {
   if (visual.triangles.size() > 200'000) return false;
   // MuJoCo 2.2 sums |volume| of the cones over all faces from their centre and refuses < 1e-15.
@@ -36,13 +41,14 @@ std::string UrdfText(const Asset& asset) {
   printer.PushHeader(false, true);
   {
     Element robot(&printer, "robot");
-    robot.Set("name", asset.name);
+    robot.Set("name", asset.name).Set("xmlns:drake", kDrakeNamespace);
     Element link(&printer, "link");
     link.Set("name", asset.name);
     UrdfInertial(&printer, asset.inertial);
-    UrdfMesh(&printer, "visual", "visual.obj");
+    UrdfVisual(&printer, "visual.obj");
+    const HydroelasticContact contact = ContactOf(asset);
     for (size_t i = 0; i < asset.parts.size(); ++i) {
-      UrdfMesh(&printer, "collision", CollisionFileName(static_cast<int>(i)));
+      UrdfCollision(&printer, CollisionFileName(static_cast<int>(i)), contact);
     }
     UrdfContact(&printer, asset.friction, asset.rolling_friction, asset.restitution);
   }
@@ -54,17 +60,17 @@ std::string SdfText(const Asset& asset) {
   printer.PushHeader(false, true);
   {
     Element sdf(&printer, "sdf");
-    sdf.Set("version", "1.9");
+    sdf.Set("version", "1.9").Set("xmlns:drake", kDrakeNamespace);
     Element model(&printer, "model");
     model.Set("name", asset.name);
     Element link(&printer, "link");
     link.Set("name", asset.name);
     SdfInertial(&printer, asset.inertial);
     SdfVisual(&printer, "visual", "visual.obj");
+    const HydroelasticContact contact = ContactOf(asset);
     for (size_t i = 0; i < asset.parts.size(); ++i) {
       const std::string file = CollisionFileName(static_cast<int>(i));
-      SdfCollision(&printer, file.substr(0, file.find('.')), file, asset.friction,
-                   asset.restitution);
+      SdfCollision(&printer, file.substr(0, file.find('.')), file, contact);
     }
   }
   return printer.CStr();
@@ -76,16 +82,6 @@ std::string MjcfText(const Asset& asset) {
     Element mujoco(&printer, "mujoco");
     mujoco.Set("model", asset.name);
     Element(&printer, "compiler").Set("angle", "radian");
-    MjcfOption(&printer);
-    {
-      // MuJoCo 2.2 reserves 500 rows of constraints and 100 contacts, which a thing of many parts
-      // overflows (three contacts of six rows a part on a plane), and memory for their square:
-      // not more rows than a lying comb needs.
-      const int parts = static_cast<int>(asset.parts.size());
-      Element(&printer, "size")
-          .Set("njmax", std::to_string(std::min(500 + 40 * parts, 2500)))
-          .Set("nconmax", std::to_string(100 + 4 * parts));
-    }
     const MjcfNames names{asset.name, ""};
     {
       Element meshes(&printer, "asset");

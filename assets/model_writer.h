@@ -3,6 +3,7 @@
 #include <string>
 
 #include "assets/asset.h"
+#include "assets/hydroelastic.h"
 
 namespace simwright::assets {
 
@@ -11,9 +12,13 @@ namespace simwright::assets {
 // digits, so that each reader gets back the same doubles.
 std::string UrdfText(const Asset& asset);
 std::string SdfText(const Asset& asset);
-// MJCF with `multiccd` on, so that stacked meshes touch in more than one point. The visual mesh is
-// left out where MuJoCo would refuse it (no volume, or more than 200k faces): the solid stands in.
+// MJCF without <option> and <size>, to be attached to any model; its scene has them
+// (mjcf_scene.h). The visual mesh is left out where MuJoCo would refuse it (no volume, or more than
+// 200k faces): the solid stands in.
 std::string MjcfText(const Asset& asset);
+
+// How the asset touches others in Drake.
+HydroelasticContact ContactOf(const Asset& asset);
 
 // "collision_007.obj"
 std::string CollisionFileName(int part);

@@ -15,6 +15,8 @@ namespace simwright::assets {
 namespace {
 
 constexpr char kGround[] = "ground";
+// That of most floors. Drake takes 2 a b / (a + b) of two frictions, Gazebo the smaller.
+constexpr double kGroundFriction = 0.8;
 // s. At the 2 ms of a single asset, contacts of 5 ms ring in stacks of four or five, whose upper
 // ones creep by millimetres a second; at 1 ms nothing moves by more than 0.1 mm.
 constexpr double kMjcfStep = 1e-3;
@@ -59,6 +61,8 @@ void MjcfSize(tinyxml2::XMLPrinter* printer, const std::vector<WorldThing>& thin
       .Set("nstack", std::to_string(working));
 }
 
+// A box: Drake's contact of meshes with the half space that a plane becomes failed in scenes. Rigid,
+// for what stands on it is compliant, and two rigid bodies have no hydroelastic contact.
 void SdfGround(tinyxml2::XMLPrinter* printer) {
   Element model(printer, "model");
   model.Set("name", kGround);
@@ -68,10 +72,19 @@ void SdfGround(tinyxml2::XMLPrinter* printer) {
   for (const char* const role : {"collision", "visual"}) {
     Element owner(printer, role);
     owner.Set("name", role);
-    Element geometry(printer, "geometry");
-    Element plane(printer, "plane");
-    Leaf(printer, "normal", "0 0 1");
-    Leaf(printer, "size", "20 20");
+    Leaf(printer, "pose", "0 0 -0.5 0 0 0");
+    {
+      Element geometry(printer, "geometry");
+      Element box(printer, "box");
+      Leaf(printer, "size", "20 20 1");
+    }
+    if (role != std::string("collision")) continue;
+    {
+      Element properties(printer, "drake:proximity_properties");
+      Element(printer, "drake:rigid_hydroelastic");
+      Leaf(printer, "drake:mesh_resolution_hint", "1");
+    }
+    SdfSurface(printer, kGroundFriction);
   }
 }
 
@@ -91,11 +104,18 @@ void SdfModel(tinyxml2::XMLPrinter* printer, const WorldThing& thing) {
   link.Set("name", asset.name);
   SdfInertial(printer, asset.inertial);
   SdfVisual(printer, "visual", thing.asset->folder + "visual.obj");
+  const HydroelasticContact contact = ContactOf(asset);
   for (size_t i = 0; i < asset.parts.size(); ++i) {
     const std::string file = CollisionFileName(static_cast<int>(i));
-    SdfCollision(printer, file.substr(0, file.find('.')), thing.asset->folder + file,
-                 asset.friction, asset.restitution);
+    SdfCollision(printer, file.substr(0, file.find('.')), thing.asset->folder + file, contact);
   }
+}
+
+void SdfPhysics(tinyxml2::XMLPrinter* printer) {
+  Element physics(printer, "physics");
+  physics.Set("name", "steady").Set("default", "true").Set("type", "ode");
+  Leaf(printer, "max_step_size", "0.001");
+  Leaf(printer, "real_time_factor", "1");
 }
 
 // Without a light nothing is seen.
@@ -142,25 +162,34 @@ std::string WorldMjcf(const std::string& name, const std::vector<WorldThing>& th
   return printer.CStr();
 }
 
-std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& things) {
+std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& things,
+                     SdfReader reader) {
   AssetsOf(things);
   tinyxml2::XMLPrinter printer;
   printer.PushHeader(false, true);
   {
     Element sdf(&printer, "sdf");
-    sdf.Set("version", "1.9");
+    sdf.Set("version", "1.9").Set("xmlns:drake", kDrakeNamespace);
     Element world(&printer, "world");
     world.Set("name", name);
-    Leaf(&printer, "gravity", "0 0 -9.81");
-    {
-      Element physics(&printer, "physics");
-      physics.Set("name", "steady").Set("default", "true").Set("type", "ode");
-      Leaf(&printer, "max_step_size", "0.001");
-      Leaf(&printer, "real_time_factor", "1");
+    if (reader == SdfReader::kGazebo) {
+      Leaf(&printer, "gravity", "0 0 -9.81");
+      SdfPhysics(&printer);
+      SdfSun(&printer);
     }
-    SdfSun(&printer);
     SdfGround(&printer);
     for (const WorldThing& thing : things) SdfModel(&printer, thing);
+  }
+  return printer.CStr();
+}
+
+std::string GroundSdf() {
+  tinyxml2::XMLPrinter printer;
+  printer.PushHeader(false, true);
+  {
+    Element sdf(&printer, "sdf");
+    sdf.Set("version", "1.9").Set("xmlns:drake", kDrakeNamespace);
+    SdfGround(&printer);
   }
   return printer.CStr();
 }

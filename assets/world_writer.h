@@ -32,8 +32,14 @@ struct WorldThing {
 // has none; room for the contacts of all parts; steps of 1 ms, for at an asset's own 2 stacks
 // creep.
 std::string WorldMjcf(const std::string& name, const std::vector<WorldThing>& things);
+// Who reads an SDF world: Drake warns of gravity, physics and light in it, without which Gazebo
+// shows things in the dark.
+enum class SdfReader { kAny, kGazebo };
 // SDF 1.9: models in the world, poses with quaternions, so that none loses digits near the poles;
-// what is welded is static.
-std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& things);
+// what is welded is static; the ground is a box whose top is z = 0.
+std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& things,
+                     SdfReader reader = SdfReader::kAny);
+// The same ground as a model of its own.
+std::string GroundSdf();
 
 }  // namespace simwright::assets

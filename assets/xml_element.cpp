@@ -47,11 +47,33 @@ void Leaf(tinyxml2::XMLPrinter* printer, const char* name, const std::string& te
   Element(printer, name).Text(text);
 }
 
-void UrdfMesh(tinyxml2::XMLPrinter* printer, const char* role, const std::string& file) {
-  Element owner(printer, role);
+void UrdfVisual(tinyxml2::XMLPrinter* printer, const std::string& file) {
+  Element visual(printer, "visual");
   Element(printer, "origin").Set("xyz", "0 0 0").Set("rpy", "0 0 0");
   Element geometry(printer, "geometry");
   Element(printer, "mesh").Set("filename", file);
+}
+
+void UrdfCollision(tinyxml2::XMLPrinter* printer, const std::string& file,
+                   const HydroelasticContact& contact) {
+  Element collision(printer, "collision");
+  Element(printer, "origin").Set("xyz", "0 0 0").Set("rpy", "0 0 0");
+  {
+    Element geometry(printer, "geometry");
+    Element mesh(printer, "mesh");
+    mesh.Set("filename", file);
+    Element(printer, "drake:declare_convex");
+  }
+  Element properties(printer, "drake:proximity_properties");
+  Element(printer, "drake:compliant_hydroelastic");
+  const auto property = [&](const char* name, double value) {
+    Element(printer, name).Set("value", Number(value));
+  };
+  property("drake:hydroelastic_modulus", contact.modulus);
+  property("drake:mesh_resolution_hint", contact.resolution_hint);
+  property("drake:hunt_crossley_dissipation", contact.dissipation);
+  property("drake:mu_static", contact.friction);
+  property("drake:mu_dynamic", contact.friction);
 }
 
 void UrdfInertial(tinyxml2::XMLPrinter* printer, const Inertial& body) {
@@ -93,9 +115,10 @@ void SdfInertial(tinyxml2::XMLPrinter* printer, const Inertial& source) {
 
 namespace {
 
-void SdfGeometry(tinyxml2::XMLPrinter* printer, const std::string& file) {
+void SdfGeometry(tinyxml2::XMLPrinter* printer, const std::string& file, bool convex) {
   Element geometry(printer, "geometry");
   Element mesh(printer, "mesh");
+  if (convex) Element(printer, "drake:declare_convex");
   Leaf(printer, "uri", file);
 }
 
@@ -104,23 +127,30 @@ void SdfGeometry(tinyxml2::XMLPrinter* printer, const std::string& file) {
 void SdfVisual(tinyxml2::XMLPrinter* printer, const std::string& name, const std::string& file) {
   Element visual(printer, "visual");
   visual.Set("name", name);
-  SdfGeometry(printer, file);
+  SdfGeometry(printer, file, false);
 }
 
 void SdfCollision(tinyxml2::XMLPrinter* printer, const std::string& name, const std::string& file,
-                  double friction, double restitution) {
+                  const HydroelasticContact& contact) {
   Element collision(printer, "collision");
   collision.Set("name", name);
-  SdfGeometry(printer, file);
-  Element surface(printer, "surface");
+  SdfGeometry(printer, file, true);
   {
-    Element coulomb(printer, "friction");
-    Element ode(printer, "ode");
-    Leaf(printer, "mu", Number(friction));
-    Leaf(printer, "mu2", Number(friction));
+    Element properties(printer, "drake:proximity_properties");
+    Element(printer, "drake:compliant_hydroelastic");
+    Leaf(printer, "drake:hydroelastic_modulus", Number(contact.modulus));
+    Leaf(printer, "drake:mesh_resolution_hint", Number(contact.resolution_hint));
+    Leaf(printer, "drake:hunt_crossley_dissipation", Number(contact.dissipation));
   }
-  Element bounce(printer, "bounce");
-  Leaf(printer, "restitution_coefficient", Number(restitution));
+  SdfSurface(printer, contact.friction);
+}
+
+void SdfSurface(tinyxml2::XMLPrinter* printer, double friction) {
+  Element surface(printer, "surface");
+  Element coulomb(printer, "friction");
+  Element ode(printer, "ode");
+  Leaf(printer, "mu", Number(friction));
+  Leaf(printer, "mu2", Number(friction));
 }
 
 void MjcfOption(tinyxml2::XMLPrinter* printer, double time_step) {

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "assets/asset.h"
+#include "assets/hydroelastic.h"
 
 namespace tinyxml2 {
 class XMLPrinter;
@@ -35,8 +36,14 @@ class Element {
 
 void Leaf(tinyxml2::XMLPrinter* printer, const char* name, const std::string& text);
 
-// <visual> or <collision> of a mesh file; `role` is which.
-void UrdfMesh(tinyxml2::XMLPrinter* printer, const char* role, const std::string& file);
+// The namespace of Drake's elements, an attribute of the root of URDF and SDF: readers that do not
+// know Drake pass its elements over.
+constexpr char kDrakeNamespace[] = "http://drake.mit.edu";
+
+void UrdfVisual(tinyxml2::XMLPrinter* printer, const std::string& file);
+// A convex part. URDF has no friction of its own: Drake's stands in its properties.
+void UrdfCollision(tinyxml2::XMLPrinter* printer, const std::string& file,
+                   const HydroelasticContact& contact);
 void UrdfInertial(tinyxml2::XMLPrinter* printer, const Inertial& inertial);
 // Bullet's and Gazebo's extension: friction and bounce travel with the link.
 void UrdfContact(tinyxml2::XMLPrinter* printer, double friction, double rolling_friction,
@@ -44,8 +51,12 @@ void UrdfContact(tinyxml2::XMLPrinter* printer, double friction, double rolling_
 
 void SdfInertial(tinyxml2::XMLPrinter* printer, const Inertial& inertial);
 void SdfVisual(tinyxml2::XMLPrinter* printer, const std::string& name, const std::string& file);
+// A convex part. Restitution is left out: Drake, which has none, warns of it, and ODE heeds it only
+// above a threshold.
 void SdfCollision(tinyxml2::XMLPrinter* printer, const std::string& name, const std::string& file,
-                  double friction, double restitution);
+                  const HydroelasticContact& contact);
+// <surface> with the friction that all readers of SDF take.
+void SdfSurface(tinyxml2::XMLPrinter* printer, double friction);
 
 // <option>: the solver's settings, `multiccd` on. `time_step` in s.
 void MjcfOption(tinyxml2::XMLPrinter* printer, double time_step = 0.002);

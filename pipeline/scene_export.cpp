@@ -87,6 +87,7 @@ class Export {
     }
     if (formats_.count("drake") > 0) {
       core::WriteFile(folder / "package.xml", scene::PackageXml(package_));
+      core::WriteFile(folder / "ground.sdf", assets::GroundSdf());
     }
     report.assets = static_cast<int>(folders_.size());
     progress_->Stage("scenes", static_cast<int>(scenes_.size()));
@@ -128,6 +129,8 @@ class Export {
     core::WriteFile(folder / "scene.json", SceneJson(exported));
     if (formats_.count("sdf") > 0) {
       core::WriteFile(folder / "world.sdf", WorldSdf(exported.name, exported.things));
+      core::WriteFile(folder / "gazebo.sdf", WorldSdf(exported.name, exported.things,
+                                                      assets::SdfReader::kGazebo));
     }
     if (formats_.count("mjcf") > 0) {
       core::WriteFile(folder / "scene.xml", WorldMjcf(exported.name, exported.things));

@@ -8,7 +8,9 @@
 #include <mujoco/mujoco.h>
 #include <unistd.h>
 
+#include "assets/mjcf_scene.h"
 #include "core/error.h"
+#include "core/files.h"
 
 namespace simwright::sim {
 namespace fs = std::filesystem;
@@ -35,6 +37,11 @@ class SceneFile {
  public:
   SceneFile(const fs::path& mjcf, const std::vector<double>& balls) {
     const fs::path folder = fs::absolute(mjcf).parent_path();
+    const std::string model = core::ReadFile(mjcf);
+    int geoms = 0;
+    for (size_t at = model.find("<geom"); at != std::string::npos; at = model.find("<geom", at + 1)) {
+      ++geoms;
+    }
     std::string pattern = (fs::temp_directory_path() / "simwright_scene_XXXXXX.xml").string();
     const int file = mkstemps(pattern.data(), 4);
     if (file < 0) throw core::Error("cannot write a temporary file", pattern);
@@ -46,9 +53,8 @@ class SceneFile {
         << "\"/><include file=\""
         // MuJoCo 2.2 puts the scene's folder before any include, also before an absolute one.
         << fs::relative(fs::canonical(mjcf), fs::canonical(path_.parent_path())).string()
-        << "\"/><worldbody>"
-        << "<geom name=\"floor\" type=\"plane\" size=\"0 0 1\" condim=\"6\" friction=\"0.01 1e-5 "
-           "1e-5\"/>";
+        << "\"/>" << assets::MjcfPhysicsText(geoms) << "<worldbody>"
+        << assets::MjcfGroundText();
     for (size_t i = 0; i < balls.size(); ++i) {
       out << "<body name=\"ball_" << i << "\"><freejoint/><geom type=\"sphere\" size=\"" << balls[i]
           << "\" condim=\"4\" solref=\"0.005 1\"/></body>";

@@ -70,6 +70,7 @@ std::string SceneJson(const ExportedScene& scene) {
 
 std::string DrakeDirectives(const ExportedScene& scene, const std::string& package) {
   std::string text = "# " + scene.name + ": model directives of Drake\ndirectives:\n";
+  text += "- add_model:\n    name: ground\n    file: package://" + package + "/ground.sdf\n";
   for (const WorldThing& thing : scene.things) {
     const std::string& link = thing.asset->asset.name;
     text += "- add_model:\n    name: " + Quoted(thing.name) + "\n    file: package://" + package +

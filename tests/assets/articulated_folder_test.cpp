@@ -121,7 +121,7 @@ TEST_F(ArticulatedFolder, SameAssetSameBytes) {
     EXPECT_EQ(core::ReadFile(entry.path()), core::ReadFile(other.path() / entry.path().filename()))
         << entry.path();
   }
-  EXPECT_EQ(files, 3 * (1 + 2 * 2) + 5);  // parts, two colours with their .mtl; models and texts
+  EXPECT_EQ(files, 3 * (1 + 2 * 2) + 6);  // parts, two colours with their .mtl; models and texts
 }
 
 TEST_F(ArticulatedFolder, DamagedDescriptionsAreOneError) {

@@ -51,6 +51,30 @@ TEST(WorldSdf, LibsdformatFindsTheSameWorld) {
   }
 }
 
+// Top at z = 0; rigid, beside compliant things.
+TEST(WorldSdf, TheGroundIsABoxForDrake) {
+  const core::TemporaryFolder folder;
+  const SampleWorld sample(folder.path());
+  for (const std::string& text : {WorldSdf("room", sample.things), GroundSdf(),
+                                  WorldSdf("room", sample.things, SdfReader::kGazebo)}) {
+    sdf::Root root;
+    EXPECT_TRUE(root.LoadSdfString(text).empty());
+    const sdf::Model* const ground =
+        root.WorldCount() > 0 ? root.WorldByIndex(0)->ModelByName("ground") : root.Model();
+    ASSERT_NE(ground, nullptr);
+    EXPECT_TRUE(ground->Static());
+    const sdf::Collision& collision = *ground->LinkByIndex(0)->CollisionByIndex(0);
+    ASSERT_NE(collision.Geom()->BoxShape(), nullptr);
+    EXPECT_EQ(collision.RawPose().Pos().Z() + 0.5 * collision.Geom()->BoxShape()->Size().Z(), 0.0);
+    const sdf::ElementPtr drake = collision.Element()->FindElement("drake:proximity_properties");
+    ASSERT_NE(drake, nullptr);
+    EXPECT_TRUE(drake->HasElement("drake:rigid_hydroelastic"));
+  }
+  // Gazebo needs a light; Drake warns of it.
+  EXPECT_EQ(WorldSdf("room", sample.things).find("<light"), std::string::npos);
+  EXPECT_NE(WorldSdf("room", sample.things, SdfReader::kGazebo).find("<light"), std::string::npos);
+}
+
 TEST(WorldWriter, RefusesNamesThatClash) {
   const core::TemporaryFolder folder;
   const SampleWorld sample(folder.path());

@@ -133,7 +133,7 @@ void SceneExport::IsSelfContained() {
   request.scenes = "1,0";
   ExportScenes(request, &silent);
   fs::rename(At("before"), At("moved"));
-  for (const char* const name : {"scene.json", "world.sdf", "scene.xml", "scene.dmd.yaml"}) {
+  for (const char* const name : {"scene.json", "world.sdf", "gazebo.sdf", "scene.xml", "scene.dmd.yaml"}) {
     EXPECT_TRUE(fs::exists(At("moved/scene_00001/") + name)) << name;
     const std::string text = core::ReadFile(At("moved/scene_00001/") + name);
     EXPECT_EQ(text.find(folder_->path().string()), std::string::npos) << name;

@@ -42,6 +42,8 @@ def turn_of(rotation):
 
 models = {d['add_model']['name']: d['add_model'] for d in directives if 'add_model' in d}
 welds = {d['add_weld']['child'].split('::')[0]: d['add_weld'] for d in directives if 'add_weld' in d}
+ground = models.pop('ground')
+assert ground['file'] == 'package://rooms/ground.sdf' and 'ground' not in welds, ground
 assert len(models) == len(scene['objects']) == 42, len(models)
 for thing in scene['objects']:
     model = models[thing['name']]

@@ -97,6 +97,32 @@ TEST_F(MujocoWorlds, HaveTheOptionsOfOneAsset) {
   EXPECT_GT(a.geom_contype[geom], 0);
 }
 
+// An asset's MJCF brings no options of its own: it leaves those of the model that includes it. Its
+// own scene has multiccd and stands still.
+TEST_F(MujocoWorlds, AnAssetCanBePartOfAnyModelAndHasASceneOfItsOwn) {
+  const std::filesystem::path box = folder_.path() / "assets" / "box";
+  core::WriteFile(box / "mine.xml",
+                  "<mujoco><option timestep=\"0.005\" cone=\"pyramidal\"/><size nconmax=\"77\"/>"
+                  "<include file=\"sample_box.xml\"/><worldbody><geom name=\"ground\" "
+                  "type=\"plane\" size=\"1 1 1\"/></worldbody></mujoco>");
+  const MujocoScene mine(box / "mine.xml", {}, MujocoScene::Ground::kOwn);
+  EXPECT_TRUE(mine.warnings().empty());
+  EXPECT_EQ(mine.model()->opt.timestep, 0.005);
+  EXPECT_EQ(mine.model()->opt.cone, mjCONE_PYRAMIDAL);
+  EXPECT_EQ(mine.model()->opt.enableflags & mjENBL_MULTICCD, 0);
+  EXPECT_EQ(mine.model()->nconmax, 77);
+  EXPECT_GT(mj_name2id(mine.model(), mjOBJ_BODY, "sample_box"), 0);
+
+  const MujocoScene own(box / "scene.xml", {}, MujocoScene::Ground::kOwn);
+  EXPECT_TRUE(own.warnings().empty());
+  EXPECT_NE(own.model()->opt.enableflags & mjENBL_MULTICCD, 0);
+  EXPECT_EQ(own.model()->nlight, 1);
+  const MujocoStillness watched = WatchInMujoco(box / "scene.xml");
+  ASSERT_EQ(watched.bodies.size(), 1u);
+  EXPECT_LT(watched.bodies[0].settled, 2e-4);
+  EXPECT_LT(watched.bodies[0].drift, 1e-4);
+}
+
 TEST_F(MujocoWorlds, WhatStandsStandsAndWhatFallsFalls) {
   const MujocoStillness watched =
       WatchInMujoco(Write(Boxes({Upright(0.0, 0.0), Upright(0.0, 0.1), Upright(1.0, 1.0)})));
