@@ -2,7 +2,8 @@
 # Installs what Simwright builds, tests and runs with, from Debian 12's packages. Does nothing for
 # what is there already. --tests adds what tests alone need (python3-torch, beside which reward
 # programs are run), --catalogue the furniture that the catalogue tests use (120 MB), --fuzz the
-# compiler of the fuzz targets.
+# compiler of the fuzz targets. --peers alone makes .venv-peers: Drake, MuJoCo, PyBullet and yourdfpy
+# of PyPI (700 MB), in which the tests of label `peers` load what simwright writes.
 set -euo pipefail
 
 packages=(
@@ -14,14 +15,34 @@ packages=(
   wordnet-base libtorch-dev libopenblas0-pthread libgtest-dev
   libbenchmark-dev libsdformat-dev libcpp-httplib-dev
 )
+peers=
 for wanted in "$@"; do
   case $wanted in
     --tests) packages+=(python3-torch python3-numpy python3-h5py python3-yaml) ;;
     --catalogue) packages+=(sweethome3d-furniture python3-skimage) ;;
     --fuzz) packages+=(clang-14 libclang-rt-14-dev) ;;
-    *) echo "error: $wanted is not known (use --tests, --catalogue or --fuzz)" >&2; exit 2 ;;
+    --peers) peers=yes ;;
+    *) echo "error: $wanted is not known (use --tests, --catalogue, --fuzz or --peers)" >&2; exit 2 ;;
   esac
 done
+
+# Versions are pinned: what the tests measured is what is installed.
+if [ -n "$peers" ]; then
+  cd "$(dirname "$0")"
+  wanted=tests/peers/requirements.txt
+  cmp -s "$wanted" .venv-peers/requirements.txt && exit 0
+  python=${PYTHON:-python3}
+  "$python" -c 'import ensurepip' 2>/dev/null || {
+    echo "error: $python cannot make virtual environments (apt-get install python3-venv, or PYTHON=...)" >&2
+    exit 1
+  }
+  echo "Installing $(grep -c == "$wanted") Python packages into .venv-peers"
+  rm -rf .venv-peers
+  "$python" -m venv .venv-peers
+  .venv-peers/bin/pip install --quiet --disable-pip-version-check --only-binary :all: -r "$wanted"
+  cp "$wanted" .venv-peers/requirements.txt  # last: an environment that is not whole is made anew
+  exit 0
+fi
 
 missing=()
 for package in "${packages[@]}"; do
