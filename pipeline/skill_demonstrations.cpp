@@ -13,6 +13,7 @@ namespace {
 using nlohmann::json;
 
 constexpr size_t kValidEvery = 10;
+constexpr char kVersion[] = SIMWRIGHT_VERSION;
 constexpr const char* kRemedy = "give a file of `simwright export --format robomimic`";
 
 // Rows of one width.
@@ -158,6 +159,20 @@ json PlanJson(const SkillNotes& notes, const ChainRecording& recording) {
   return plan;
 }
 
+// Every n-th demonstration into "valid", the others into "train".
+void Split(robot::DemonstrationSet* set) {
+  const size_t count = set->demonstrations.size();
+  for (size_t valid = std::max(count / kValidEvery, std::min<size_t>(1, count - 1));; ++valid) {
+    set->filters.clear();
+    for (size_t i = 0, k = 0; i < count; ++i) {
+      const bool chosen = k < valid && i + 1 == (k + 1) * count / valid;
+      set->filters[chosen ? "valid" : "train"].push_back(i);
+      k += chosen;
+    }
+    if (ValidSteps(*set) >= kRobomimicBatch || 2 * (valid + 1) > count) return;
+  }
+}
+
 // Where the next subtask begins: where the replay has come to, with the file's plan of the work.
 rl::EpisodeStart Continued(const rl::EpisodeStart& end, const rl::EpisodeStart& planned) {
   rl::EpisodeStart start = end;
@@ -185,18 +200,23 @@ robot::DemonstrationSet DemonstrationsOf(const SkillRun& run, const std::vector<
   int horizon = 0;
   for (const RunSkill& skill : skills) horizon += skill.evaluated->options.decisions();
   kwargs["horizon"] = horizon;
-  for (size_t i = 0; i < recordings.size(); ++i) {
-    kwargs["episodes"].push_back(
-        PlanJson(NotesOf(run, skills, recordings[i], seed), recordings[i]));
-    set.demonstrations.push_back(DemonstrationOf(writer, recordings[i], skills));
-    const bool valid =
-        i % kValidEvery == kValidEvery - 1 ||
-        (recordings.size() > 1 && recordings.size() < kValidEvery && i + 1 == recordings.size());
-    set.filters[valid ? "valid" : "train"].push_back(i);
+  for (const ChainRecording& recording : recordings) {
+    set.notes.push_back(PlanJson(NotesOf(run, skills, recording, seed), recording).dump());
+    set.demonstrations.push_back(DemonstrationOf(writer, recording, skills));
   }
+  Split(&set);
   set.env_name = "simwright/" + notes.task;
+  set.env_version = kVersion;
   set.env_kwargs = kwargs.dump();
   return set;
+}
+
+size_t ValidSteps(const robot::DemonstrationSet& set) {
+  size_t steps = 0;
+  const auto valid = set.filters.find("valid");
+  if (valid == set.filters.end()) return 0;
+  for (const size_t i : valid->second) steps += set.demonstrations[i].size();
+  return steps;
 }
 
 std::vector<DemonstrationPlan> PlansOf(const robot::DemonstrationSet& set,
@@ -210,7 +230,9 @@ std::vector<DemonstrationPlan> PlansOf(const robot::DemonstrationSet& set,
     notes.assets = kwargs.at("assets").get<std::vector<std::string>>();
     notes.seed = kwargs.at("seed").get<std::uint64_t>();
     notes.subtasks = kwargs.at("subtasks").get<std::vector<std::string>>();
-    for (const json& one : kwargs.at("episodes")) {
+    json episodes = kwargs.value("episodes", json::array());
+    for (const std::string& note : set.notes) episodes.push_back(json::parse(note));
+    for (const json& one : episodes) {
       DemonstrationPlan& plan = plans.emplace_back();
       plan.notes = notes;
       plan.notes.episode = one.at("episode").get<std::uint64_t>();
@@ -219,10 +241,10 @@ std::vector<DemonstrationPlan> PlansOf(const robot::DemonstrationSet& set,
       plan.steps = one.at("steps").get<std::vector<int>>();
     }
   } catch (const json::exception&) {
-    throw core::Error("env_args do not say how its episodes begin", where, kRemedy);
+    throw core::Error("its notes do not say how its episodes begin", where, kRemedy);
   }
   if (plans.size() != set.demonstrations.size()) {
-    throw core::Error("env_args speak of " + std::to_string(plans.size()) +
+    throw core::Error("its notes speak of " + std::to_string(plans.size()) +
                           " episodes, there are " + std::to_string(set.demonstrations.size()),
                       where, kRemedy);
   }

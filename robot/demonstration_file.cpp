@@ -75,6 +75,11 @@ void RequireWhole(const Demonstration& demonstration, const std::string& place) 
 
 void RequireWhole(const DemonstrationSet& set, const std::string& where) {
   if (set.demonstrations.empty()) throw core::Error("there is no demonstration", where);
+  if (!set.notes.empty() && set.notes.size() != set.demonstrations.size()) {
+    throw core::Error("there are " + std::to_string(set.notes.size()) + " notes for " +
+                          std::to_string(set.demonstrations.size()) + " demonstrations",
+                      where + "/simwright/notes");
+  }
   for (std::size_t i = 0; i < set.demonstrations.size(); ++i) {
     RequireWhole(set.demonstrations[i], where + "/data/" + NameOf(i));
   }
@@ -161,6 +166,7 @@ void ReadEnvironment(const std::string& env_args, const std::string& where, Demo
   }
   set->env_name = root["env_name"].Text();
   set->env_type = static_cast<int>(root["type"].Integer());
+  if (root.Has("env_version")) set->env_version = root["env_version"].Text();
   if (!json["env_kwargs"].is_object()) root["env_kwargs"].Fail("should be an object");
   set->env_kwargs = json["env_kwargs"].dump();
 }
@@ -174,6 +180,7 @@ void WriteDemonstrations(const std::filesystem::path& path, const DemonstrationS
   if (!kwargs.is_object()) throw core::Error("env_kwargs is no JSON object", where);
   nlohmann::ordered_json env_args;
   env_args["env_name"] = set.env_name;
+  if (!set.env_version.empty()) env_args["env_version"] = set.env_version;
   env_args["type"] = set.env_type;
   env_args["env_kwargs"] = kwargs;
 
@@ -195,6 +202,7 @@ void WriteDemonstrations(const std::filesystem::path& path, const DemonstrationS
       mask.WriteTexts(name, names);
     }
   }
+  if (!set.notes.empty()) writer.root().Create("simwright").WriteTexts("notes", set.notes);
   writer.Commit();
 }
 
@@ -229,6 +237,9 @@ DemonstrationSet ReadDemonstrations(const std::filesystem::path& path) {
         indices.push_back(found->second);
       }
     }
+  }
+  if (reader.root().Has("simwright")) {
+    set.notes = reader.root().Open("simwright").ReadTexts("notes");
   }
   RequireWhole(set, where);
   return set;

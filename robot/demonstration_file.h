@@ -32,18 +32,21 @@ struct Demonstration {
 struct DemonstrationSet {
   std::string env_name;           // of the environment, as a learner would make it
   int env_type = 2;               // robomimic's number of its kind; 2 is a gym environment
+  std::string env_version;        // of what made it; may be empty
   std::string env_kwargs = "{}";  // JSON object
   std::vector<Demonstration> demonstrations;
   std::map<std::string, std::vector<std::size_t>> filters;  // e.g. "train": which demonstrations
+  std::vector<std::string> notes;  // one of each demonstration, or none at all
 };
 
 // robomimic's HDF5 file: group /data with attributes `total` and `env_args`, groups demo_<i> with
 // attribute `num_samples`, and datasets actions, states, rewards, dones, obs/<key>, next_obs/<key>,
-// packed; /mask/<filter> with the names of its demonstrations.
+// packed; /mask/<filter> with the names of its demonstrations; /simwright/notes, which robomimic
+// passes over: its tools print env_args whole.
 // Throws core::Error, naming demonstration and dataset: no demonstration, one without steps,
 // arrays of another length or whose values are not the product of their shape, numbers that are
 // not finite, an action outside [-1, 1], a key with '/', a filter of what is not there, kwargs
-// that are no JSON object, a file that cannot be written.
+// that are no JSON object, notes of another number, a file that cannot be written.
 void WriteDemonstrations(const std::filesystem::path& path, const DemonstrationSet& set);
 
 // Reads what WriteDemonstrations wrote, and robomimic's own files that have states, rewards and
