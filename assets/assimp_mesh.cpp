@@ -110,6 +110,11 @@ class Collector {
     for (unsigned i = 0; i < scene_.mNumMaterials; ++i) ReadMaterial(*scene_.mMaterials[i], i);
     AddNode(*scene_.mRootNode, aiMatrix4x4(), 0);
     if (!any_uv_) raw_.mesh.corner_uvs.clear();
+    if (any_outside_) {
+      findings_.Add(core::Severity::kInfo, "texture-wraps",
+                    "a texture that its file clamps at its edges is repeated instead",
+                    "keep its coordinates within [0, 1]");
+    }
     return std::move(raw_);
   }
 
@@ -137,7 +142,7 @@ class Collector {
   VertexIndexer vertices_;
   std::vector<UvSource> uv_of_;  // of the materials
   std::map<std::string, int> texture_of_;
-  bool any_uv_ = false;
+  bool any_uv_ = false, any_outside_ = false;
 };
 
 bool Collector::ReadObjMaterial(const std::string& name, core::Material* material, UvSource* uv) {
@@ -212,6 +217,8 @@ void Collector::AddCorner(const aiMesh& mesh, unsigned corner, const UvSource& u
     const aiVector3D& read = mesh.mTextureCoords[uv.channel][corner];
     at = Eigen::Vector2f(read.x, read.y).cwiseProduct(uv.scale) + uv.offset;
     if (!at.allFinite()) at.setZero();
+    const bool outside = at.minCoeff() < -0.01f || at.maxCoeff() > 1.01f;
+    any_outside_ = any_outside_ || (uv.clamp && outside);
   }
   raw_.mesh.corner_uvs.push_back(at);
   if (!mesh.HasVertexColors(0)) {

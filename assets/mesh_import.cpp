@@ -1,5 +1,7 @@
 #include "assets/mesh_import.h"
 
+#include <vector>
+
 #include "assets/assimp_mesh.h"
 #include "assets/gltf_mesh.h"
 #include "assets/mesh_format.h"
@@ -14,8 +16,11 @@ namespace {
 
 // Exporters that mix up opacity and transparency leave things that nobody would see.
 void ShowInvisibleMaterials(core::TexturedMesh* mesh, FindingList* findings) {
-  for (core::Material& material : mesh->materials) {
-    if (material.base_color.w() > 0.0f) continue;
+  std::vector<bool> used(mesh->materials.size(), false);
+  for (const int material : mesh->triangle_material) used[static_cast<size_t>(material)] = true;
+  for (size_t m = 0; m < mesh->materials.size(); ++m) {
+    core::Material& material = mesh->materials[m];
+    if (!used[m] || material.base_color.w() > 0.0f) continue;
     material.base_color.w() = 1.0f;
     findings->Add(core::Severity::kWarning, "material-invisible",
                   "material '" + material.name + "' is wholly transparent: it is taken as opaque",
@@ -51,7 +56,8 @@ Eigen::Matrix3d ZUpFrom(char up) {
 MeshFile ReadMeshFile(const fs::path& path) {
   RequireMeshFile(path);
   FindingList findings(path.filename().string());
-  RawMesh raw = ReadRaw(fs::absolute(path), &findings);
+  // Without "." and "..", so that the folder's parent is what lies above it.
+  RawMesh raw = ReadRaw(fs::absolute(path).lexically_normal(), &findings);
   if (raw.mesh.mesh.triangles.empty()) {
     throw core::Error("the mesh has no faces", path.string(),
                       "export its surface: points and lines have none (of a point cloud make a "

@@ -122,6 +122,25 @@ TEST_F(ObjImport, TextureOptionsMoveCoordinates) {
   EXPECT_NEAR((mesh.corner_uvs[2] - Eigen::Vector2f(2.5f, 3.25f)).norm(), 0.0, 1e-6);
 }
 
+// "./a.obj", as shells complete it: the textures beside its folder are found all the same.
+TEST_F(ObjImport, PathsWithDotsFindTheSameTextures) {
+  WriteRedBlue("../textures/wood.png");
+  WriteSquare("newmtl wood\nKd 1 1 1\nmap_Kd ..\\textures\\wood.png\n");
+  for (const fs::path& path : {folder_ / "." / "a.obj", folder_ / ".." / "source" / "a.obj"}) {
+    const MeshFile file = ReadMeshFile(path);
+    EXPECT_EQ(file.mesh.textures.size(), 1u) << path;
+    EXPECT_TRUE(file.findings.empty()) << path;
+  }
+}
+
+TEST_F(ObjImport, ClampedTexturesThatRepeatAreSaid) {
+  WriteRedBlue("w.png");
+  EXPECT_EQ(CountOf(ReadMeshFile(WriteSquare("newmtl wood\nmap_Kd -clamp on w.png\n")),
+                    "texture-wraps"), 0);
+  EXPECT_EQ(CountOf(ReadMeshFile(WriteSquare("newmtl wood\nmap_Kd -s 2 2 -clamp on w.png\n")),
+                    "texture-wraps"), 1);
+}
+
 TEST_F(ObjImport, WhollyTransparentMaterialsAreShownAndSaid) {
   for (const char* line : {"d 0", "Tr 1"}) {
     const MeshFile file =
@@ -129,6 +148,9 @@ TEST_F(ObjImport, WhollyTransparentMaterialsAreShownAndSaid) {
     EXPECT_EQ(CountOf(file, "material-invisible"), 1) << line;
     EXPECT_FLOAT_EQ(Shown(file.mesh, 0)[3], 1.0f) << line;
   }
+  // One that nothing has is nobody's concern.
+  EXPECT_TRUE(ReadMeshFile(WriteSquare("newmtl air\nd 0\nnewmtl wood\nKd 1 0 0\n"))
+                  .findings.empty());
 }
 
 TEST_F(ObjImport, MaterialsThatAreMissingAreSaid) {
