@@ -6,10 +6,16 @@
 
 namespace simwright::assets {
 
+bool IsRobot(const ArticulatedAsset& asset) {
+  const auto found = asset.features.find(kKindFeature);
+  return found != asset.features.end() && found->second == kRobotKind;
+}
+
 UrdfModel ModelOf(const ArticulatedAsset& asset) {
   UrdfModel model;
   model.name = asset.name;
   model.joints = asset.joints;
+  model.excluded_pairs = asset.excluded_pairs;
   for (const ArticulatedLink& link : asset.links) {
     UrdfLink& copy = model.links.emplace_back();
     copy.name = link.name;

@@ -13,12 +13,16 @@
 
 namespace simwright::assets {
 
+// ArticulatedAsset::features: the kind of a foreign URDF that is a robot, no thing for one.
+inline constexpr const char* kKindFeature = "kind";
+inline constexpr const char* kRobotKind = "robot";
+
 // One rigid part of a jointed thing. Meshes are in the link's frame, metres.
 struct ArticulatedLink {
   std::string name;           // "door", "handle_0": letters, digits, '_'
   std::string label;          // what it is: "door", "handle" (docs/formats.md lists them)
   core::TexturedMesh visual;  // colours by material, no textures
-  std::vector<core::TriangleMesh> parts;  // closed, convex, outward, without overlap
+  std::vector<core::TriangleMesh> parts;  // closed, convex, outward
   std::vector<double> densities;          // kg/m^3, a part each; they give the inertial
   Inertial inertial;
   double volume = 0.0;   // m^3, of its matter
@@ -37,10 +41,15 @@ struct ArticulatedAsset {
   bool fixed = false;
   std::vector<ArticulatedLink> links;  // the root first; a parent stands before its children
   std::vector<UrdfJoint> joints;       // joints[i] leads to links[i + 1]
+  // Links that overlap where their joint has them overlap: no contact is made of them, in any
+  // format (MuJoCo and SAPIEN make none between a parent and its child by default).
+  std::vector<ExcludedPair> excluded_pairs = {};
   std::map<std::string, std::string> features;  // what was drawn: "handle" -> "bar"
   std::uint64_t seed = 0;
   core::Findings findings;  // what a person should know of its making
 };
+
+bool IsRobot(const ArticulatedAsset& asset);
 
 // The same thing as a model for the engines: collision parts, inertials, joints; no visuals.
 UrdfModel ModelOf(const ArticulatedAsset& asset);

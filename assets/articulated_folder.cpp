@@ -68,6 +68,7 @@ Json AssetJson(const ArticulatedAsset& a) {
   for (const ArticulatedLink& link : a.links) json["links"].push_back(LinkJson(link));
   json["joints"] = Json::array();
   for (const UrdfJoint& joint : a.joints) json["joints"].push_back(JointJson(joint));
+  if (!a.excluded_pairs.empty()) json["excluded_pairs"] = a.excluded_pairs;
   json["findings"] = ToJson(a.findings);
   json["versions"] = {{"simwright", SIMWRIGHT_VERSION}};
   return json;
@@ -193,6 +194,7 @@ ArticulatedAsset ReadArticulatedAsset(const fs::path& folder) {
     asset.features = json.at("features").get<std::map<std::string, std::string>>();
     for (const Json& link : json.at("links")) asset.links.push_back(LinkFrom(link, folder));
     for (const Json& joint : json.at("joints")) asset.joints.push_back(JointFrom(joint));
+    asset.excluded_pairs = json.value("excluded_pairs", std::vector<ExcludedPair>());
     asset.findings = FindingsFrom(json.at("findings"));
   } catch (const nlohmann::json::exception& error) {
     throw core::Error(std::string("is not a valid asset description: ") + error.what(),

@@ -3,6 +3,7 @@
 #include <tinyxml2.h>
 
 #include "assets/articulated_writer.h"
+#include "assets/collision_exclusion.h"
 #include "assets/xml_element.h"
 
 namespace simwright::assets {
@@ -74,6 +75,7 @@ std::string ArticulatedSdfText(const ArticulatedAsset& asset) {
       Leaf(&printer, "child", asset.links.front().name);
     }
     for (const UrdfJoint& joint : asset.joints) SdfJoint(&printer, joint);
+    SdfExclusions(&printer, asset);
   }
   return printer.CStr();
 }

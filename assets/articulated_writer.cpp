@@ -5,6 +5,7 @@
 
 #include <tinyxml2.h>
 
+#include "assets/collision_exclusion.h"
 #include "assets/model_writer.h"
 #include "assets/xml_element.h"
 #include "core/error.h"
@@ -207,6 +208,7 @@ std::string ArticulatedUrdfText(const ArticulatedAsset& asset) {
     robot.Set("name", asset.name).Set("xmlns:drake", kDrakeNamespace);
     for (const ArticulatedLink& link : asset.links) UrdfLinkElement(&printer, asset, link);
     for (const UrdfJoint& joint : asset.joints) UrdfJointElement(&printer, joint);
+    UrdfExclusions(&printer, asset);
   }
   return printer.CStr();
 }
@@ -218,6 +220,7 @@ std::string ArticulatedMjcfText(const ArticulatedAsset& asset) {
     mujoco.Set("model", asset.name);
     Element(&printer, "compiler").Set("angle", "radian");
     MjcfMeshes(&printer, asset);
+    MjcfExclusions(&printer, asset);
     Element worldbody(&printer, "worldbody");
     MjcfBodies(&printer, asset, 0);
   }

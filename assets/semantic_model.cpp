@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "assets/articulated_writer.h"
+#include "assets/urdf_meshes.h"
 #include "core/error.h"
 #include "core/files.h"
 
@@ -18,6 +19,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t kMostBytes = 4 << 20;
+constexpr size_t kMostNamed = 8;  // URDFs in a message
+constexpr int kMostDepth = 8;     // of folders that are searched
 
 // "switch_off" has no number at its end, "handle_0" and "drawer2" have: what is left is the label.
 std::string LabelFromName(const std::string& link) {
@@ -103,12 +106,49 @@ fs::path UrdfIn(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == ".urdf") found.push_back(entry.path());
   }
+  std::sort(found.begin(), found.end());
+  const bool package = IsPackage(folder) ||
+                       std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                                   [](const fs::directory_entry& entry) {
+                                     return entry.is_directory() && HoldsUrdfs(entry.path());
+                                   });
+  if (found.empty() && package) found = FilesBelow(folder, ".urdf");
   if (found.size() == 1) return found.front();
-  throw core::Error(found.empty() ? "holds no URDF" : "holds several URDFs", folder.string(),
-                    "name the .urdf file itself");
+  if (!found.empty()) {
+    std::string names;
+    for (size_t i = 0; i < std::min<size_t>(found.size(), kMostNamed); ++i) {
+      names += (i > 0 ? ", " : "") + found[i].lexically_relative(folder).string();
+    }
+    if (found.size() > kMostNamed) names += " ...";
+    throw core::Error("holds " + std::to_string(found.size()) + " URDFs: " + names, folder.string(),
+                      "name the .urdf file itself");
+  }
+  if (const auto xacros = FilesBelow(folder, ".xacro"); !xacros.empty()) {
+    throw core::Error("holds no URDF, but the xacro " +
+                          xacros.front().lexically_relative(folder).string(),
+                      folder.string(), "expand it first: xacro FILE.xacro > FILE.urdf");
+  }
+  throw core::Error("holds no URDF", folder.string(), "name the .urdf file itself");
 }
 
-SemanticModel ReadSemanticModel(const fs::path& path) {
+std::vector<fs::path> FilesBelow(const fs::path& folder, const std::string& ending) {
+  std::vector<fs::path> found;
+  std::error_code failed;
+  for (auto at = fs::recursive_directory_iterator(
+           folder, fs::directory_options::skip_permission_denied, failed);
+       !failed && at != fs::recursive_directory_iterator(); at.increment(failed)) {
+    if (at->path().filename().string().starts_with(".")) {
+      if (at->is_directory()) at.disable_recursion_pending();
+      continue;
+    }
+    if (at->path().extension() == ending && !at->is_symlink() && at->is_regular_file()) found.push_back(at->path());
+    if (at.depth() >= kMostDepth) at.disable_recursion_pending();
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+SemanticModel ReadSemanticModel(const fs::path& path, const UrdfReadOptions& options) {
   if (!fs::exists(path)) throw core::Error("no such file or folder", path.string());
   SemanticModel model;
   const bool is_folder = fs::is_directory(path);
@@ -117,7 +157,7 @@ SemanticModel ReadSemanticModel(const fs::path& path) {
   const bool asset = !FirstThere(folder, {"asset.json", "meta.json"}).empty();
   model.name =
       is_folder || asset ? fs::weakly_canonical(folder).filename().string() : path.stem().string();
-  model.model = ReadUrdf(model.urdf);
+  model.model = ReadUrdf(model.urdf, options);
   model.category = CategoryIn(folder, &model.model.findings);
   // GAPartNet keeps its own beside PartNet-Mobility's: each tells of its own URDF's links.
   const char* const own = "semantics.txt";

@@ -2,18 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <console_bridge/console.h>
 #include <tinyxml2.h>
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include "assets/collision_exclusion.h"
 #include "assets/mesh_import.h"
 #include "assets/primitive_meshes.h"
 #include "assets/urdf_mesh_up.h"
+#include "assets/urdf_meshes.h"
 #include "assets/urdf_sanity.h"
+#include "assets/urdf_text.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "geometry/mass_properties.h"
 
 namespace simwright::assets {
 namespace fs = std::filesystem;
@@ -47,76 +52,74 @@ class UrdfdomMessages : public console_bridge::OutputHandler {
   console_bridge::OutputHandler* previous_;
 };
 
-// urdfdom refuses a <limit> without effort or velocity, which PartNet-Mobility leaves out: they are
-// given as 0, "none". The text as it is where nothing is missing.
-std::string WithWholeLimits(const std::string& text) {
-  tinyxml2::XMLDocument document;
-  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) return text;
-  bool changed = false;
-  auto* robot = document.FirstChildElement("robot");
-  for (auto* joint = robot ? robot->FirstChildElement("joint") : nullptr; joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
-    auto* limit = joint->FirstChildElement("limit");
-    if (limit == nullptr) continue;
-    for (const char* name : {"effort", "velocity"}) {
-      if (limit->Attribute(name) != nullptr) continue;
-      limit->SetAttribute(name, "0");
-      changed = true;
-    }
-  }
-  if (!changed) return text;
-  tinyxml2::XMLPrinter printer;
-  document.Print(&printer);
-  return printer.CStr();
-}
+struct MeshShape {
+  core::TriangleMesh mesh;
+  char up = 0;  // as UrdfShape::up
+};
 
 class Reader {
  public:
   Reader(const fs::path& path, const UrdfReadOptions& options)
-      : path_(path), folder_(fs::absolute(path).parent_path()), root_(options.root) {
-    if (root_.empty()) root_ = folder_.filename() == "urdf" ? folder_.parent_path() : folder_;
-  }
+      : path_(path),
+        options_(options),
+        finder_(path, options.root.empty() ? PackageRootOf(path) : options.root) {}
   UrdfModel Read();
 
  private:
-  void Warn(const std::string& code, const std::string& sentence) {
-    model_.findings.push_back({code, core::Severity::kWarning, path_.string(), sentence, 0.0});
+  void Warn(const std::string& code, const std::string& sentence, const std::string& remedy = "") {
+    Say(code, core::Severity::kWarning, sentence, 0.0, remedy);
   }
-  void AddLink(const urdf::Link& link, const std::string& text);
+  void Say(const std::string& code, core::Severity severity, const std::string& sentence,
+           double figure, const std::string& remedy = "") {
+    model_.findings.push_back({code, severity, path_.string(), sentence, figure, remedy});
+  }
+  void AddLink(const urdf::Link& link);
+  void AddInertial(const urdf::Inertial& from, UrdfLink* link);
   void AddJoint(const urdf::Joint& joint);
   void AddShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
                 const urdf::MaterialSharedPtr& material, std::vector<UrdfShape>* shapes);
-  std::optional<fs::path> FindMesh(const std::string& name);
+  // The mesh of a file, in its own coordinates; nothing, and a finding, where it is left out.
+  const MeshShape* MeshNamed(const std::string& name, std::string* file);
   void ReadContacts(const std::string& text);
 
-  fs::path path_, folder_, root_;
+  fs::path path_;
+  UrdfReadOptions options_;
+  MeshFinder finder_;
+  std::map<std::string, MeshShape> meshes_;   // by file: visual and collision share them
+  std::map<std::string, std::string> files_;  // by name; empty where it is left out
+  std::string text_;  // as urdfdom is given it
   UrdfModel model_;
 };
 
-std::optional<fs::path> Reader::FindMesh(const std::string& name) {
-  std::string relative = name;
-  std::vector<fs::path> places{folder_};
-  if (relative.starts_with("file://")) relative = relative.substr(7);
-  if (relative.starts_with("package://")) {
-    relative = relative.substr(10);
-    const size_t slash = relative.find('/');
-    const std::string package = relative.substr(0, slash);
-    relative = slash == std::string::npos ? "" : relative.substr(slash + 1);
-    for (fs::path place = folder_; place != place.root_path(); place = place.parent_path()) {
-      places.push_back(place);
-      places.push_back(place / package);
-      if (place == root_) break;
+const MeshShape* Reader::MeshNamed(const std::string& name, std::string* file) {
+  const auto known = files_.find(name);
+  if (known == files_.end()) {
+    std::string& place = files_[name];
+    const std::optional<FoundMesh> found = finder_.Find(name);
+    if (!found) {
+      Warn("urdf-missing-mesh", "the mesh '" + name + "' is missing and left out",
+           "put it into the URDF's folder or package, or give the folder that holds both");
+      return nullptr;
+    }
+    if (!found->mended.empty()) Say("urdf-mesh-name", core::Severity::kInfo, found->mended, 0.0);
+    try {
+      if (!meshes_.contains(found->file.string())) {
+        MeshShape shape;
+        if (found->file.extension() == ".obj") {
+          shape.mesh = ReadBareObj(found->file);
+        } else {
+          MeshFile read = ReadMeshFile(found->file);
+          shape = {std::move(read.mesh.mesh), read.up};
+        }
+        meshes_.emplace(found->file.string(), std::move(shape));
+      }
+      place = found->file.string();
+    } catch (const core::Error& error) {
+      Warn("urdf-unreadable-mesh", std::string("a mesh is left out: ") + error.what());
     }
   }
-  std::optional<fs::path> inside;
-  for (const fs::path& place : places) {
-    // Throws for a path that leaves the root: such a file is refused, not skipped.
-    const fs::path candidate = core::ResolveInside(
-        root_, fs::path(relative).is_absolute() ? fs::path(relative)
-                                                : (place / relative).lexically_normal());
-    if (fs::is_regular_file(candidate)) return candidate;
-  }
-  return std::nullopt;
+  *file = files_.at(name);
+  return file->empty() ? nullptr : &meshes_.at(*file);
 }
 
 void Reader::AddShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
@@ -150,24 +153,10 @@ void Reader::AddShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
       break;
     case urdf::Geometry::MESH: {
       const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
-      const std::optional<fs::path> file = FindMesh(mesh.filename);
-      if (!file) {
-        Warn("urdf-missing-mesh", "the mesh '" + mesh.filename + "' is missing and left out");
-        return;
-      }
-      try {
-        if (file->extension() == ".obj") {
-          shape.mesh = ReadBareObj(*file);
-        } else {
-          MeshFile read = ReadMeshFile(*file);
-          shape.mesh = std::move(read.mesh.mesh);
-          shape.up = read.up;
-        }
-      } catch (const core::Error& error) {
-        Warn("urdf-unreadable-mesh", std::string("a mesh is left out: ") + error.what());
-        return;
-      }
-      shape.file = file->string();
+      const MeshShape* known = MeshNamed(mesh.filename, &shape.file);
+      if (known == nullptr) return;
+      shape.mesh = known->mesh;
+      shape.up = known->up;
       const Eigen::Vector3d scale(mesh.scale.x, mesh.scale.y, mesh.scale.z);
       shape.link_from_file.scale(scale);
       break;
@@ -179,24 +168,57 @@ void Reader::AddShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
   shapes->push_back(std::move(shape));
 }
 
-void Reader::AddLink(const urdf::Link& source, const std::string& where) {
+// The inertial as the file has it, or what stands for one that no body can have.
+void Reader::AddInertial(const urdf::Inertial& from, UrdfLink* link) {
+  const std::string where = path_.string() + " link '" + link->name + "'";
+  const bool shapes = !link->visuals.empty() || !link->collisions.empty();
+  if (from.mass == 0.0 && !shapes) return;  // a frame
+  const Eigen::Isometry3d pose = ToIsometry(from.origin);
+  Inertial inertial;
+  inertial.mass = from.mass;
+  inertial.center_of_mass = pose.translation();
+  Eigen::Matrix3d local;
+  local << from.ixx, from.ixy, from.ixz, from.ixy, from.iyy, from.iyz, from.ixz, from.iyz, from.izz;
+  inertial.inertia = pose.linear() * local * pose.linear().transpose();
+  const InertialFault fault = FaultOf(inertial);
+  if (!options_.mend_inertials) {
+    RequirePhysical(inertial, where);
+    link->inertial = inertial;
+    return;
+  }
+  Eigen::AlignedBox3d box;
+  for (const auto* some : {&link->visuals, &link->collisions}) {
+    for (const UrdfShape& shape : *some) box.extend(core::Bounds(shape.mesh));
+  }
+  const bool massive = inertial.mass > 0.0 && std::isfinite(inertial.mass);
+  if (!fault.sentence.empty()) {
+    Warn("urdf-impossible-inertial",
+         "link '" + link->name + "': " + fault.sentence + "; " +
+             (massive ? "that of a box of its size stands for it" : "it counts as none"),
+         fault.remedy);
+    if (!massive) return;
+    const Eigen::Vector3d s = shapes ? Eigen::Vector3d(box.sizes()) : Eigen::Vector3d(Eigen::Vector3d::Constant(0.01));
+    const Eigen::Vector3d q = s.cwiseMax(1e-4).cwiseAbs2();
+    inertial.inertia = inertial.mass / 12.0 *
+                       Eigen::Vector3d(q.y() + q.z(), q.x() + q.z(), q.x() + q.y()).asDiagonal();
+    if (shapes) inertial.center_of_mass = box.center();
+  } else if (shapes) {
+    // No matter inside the box gives more than half its diagonal.
+    const double reach = std::sqrt(
+        geometry::PrincipalInertiaOf(inertial.inertia).moments.maxCoeff() / inertial.mass);
+    if (reach > 0.5 * box.diagonal().norm()) {
+      Say("urdf-implausible-inertia", core::Severity::kWarning,
+          "link '" + link->name +
+              "' has the inertia of a larger body: its radius of gyration exceeds half of its size",
+          reach, "compute the inertia from the shape");
+    }
+  }
+  link->inertial = inertial;
+}
+
+void Reader::AddLink(const urdf::Link& source) {
   UrdfLink link;
   link.name = source.name;
-  if (source.inertial) {
-    const urdf::Inertial& from = *source.inertial;
-    const Eigen::Isometry3d pose = ToIsometry(from.origin);
-    Inertial inertial;
-    inertial.mass = from.mass;
-    inertial.center_of_mass = pose.translation();
-    Eigen::Matrix3d local;
-    local << from.ixx, from.ixy, from.ixz, from.ixy, from.iyy, from.iyz, from.ixz, from.iyz,
-        from.izz;
-    inertial.inertia = pose.linear() * local * pose.linear().transpose();
-    RequirePhysical(inertial, where + " link '" + source.name + "'");
-    link.inertial = inertial;
-  } else if (!source.collision_array.empty() || !source.visual_array.empty()) {
-    Warn("urdf-no-inertial", "link '" + source.name + "' has no inertial");
-  }
   for (const auto& visual : source.visual_array) {
     if (!visual || !visual->geometry) continue;
     AddShape(*visual->geometry, visual->origin, visual->material, &link.visuals);
@@ -206,6 +228,11 @@ void Reader::AddLink(const urdf::Link& source, const std::string& where) {
       AddShape(*collision->geometry, collision->origin, nullptr, &link.collisions);
     }
   }
+  if (source.inertial) {
+    AddInertial(*source.inertial, &link);
+  } else if (!source.collision_array.empty() || !source.visual_array.empty()) {
+    Warn("urdf-no-inertial", "link '" + source.name + "' has no inertial");
+  }
   model_.links.push_back(std::move(link));
 }
 
@@ -214,7 +241,9 @@ void Reader::ReadContacts(const std::string& text) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) return;
   const auto* robot = document.FirstChildElement("robot");
-  for (auto* link = robot ? robot->FirstChildElement("link") : nullptr; link != nullptr;
+  if (robot == nullptr) return;
+  model_.excluded_pairs = ExcludedPairsIn(*robot);
+  for (auto* link = robot->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
     const auto* contact = link->FirstChildElement("contact");
     const char* name = link->Attribute("name");
@@ -288,12 +317,19 @@ void Reader::AddJoint(const urdf::Joint& source) {
 }
 
 UrdfModel Reader::Read() {
-  const std::string text = core::ReadFile(path_, kMaxUrdfBytes);
-  RequireHarmlessUrdfText(text, path_.string());
+  const std::string written = core::ReadFile(path_, kMaxUrdfBytes);
+  if (written.find("<!DOCTYPE") == std::string::npos && written.find("<!ENTITY") == std::string::npos) {
+    MendedUrdf mended = MendUrdfText(written, path_.string());
+    text_ = std::move(mended.text);
+    model_.findings = std::move(mended.findings);
+  } else {
+    text_ = written;  // refused below
+  }
+  RequireHarmlessUrdfText(text_, path_.string());
   urdf::ModelInterfaceSharedPtr parsed;
   {
     UrdfdomMessages heard;
-    parsed = urdf::parseURDF(WithWholeLimits(text));
+    parsed = urdf::parseURDF(text_);
     if (!parsed || !parsed->getRoot()) {
       throw core::Error("this is not a valid URDF" +
                             (heard.messages.empty() ? "" : ": " + heard.messages.front()),
@@ -305,7 +341,7 @@ UrdfModel Reader::Read() {
   // Breadth first from the root: parents before children, siblings by name.
   std::vector<urdf::LinkConstSharedPtr> queue{parsed->getRoot()};
   for (size_t i = 0; i < queue.size(); ++i) {
-    AddLink(*queue[i], path_.string());
+    AddLink(*queue[i]);
     std::vector<urdf::LinkSharedPtr> children = queue[i]->child_links;
     std::sort(children.begin(), children.end(),
               [](const auto& a, const auto& b) { return a->name < b->name; });
@@ -317,7 +353,7 @@ UrdfModel Reader::Read() {
   if (queue.size() != parsed->links_.size()) {
     throw core::Error("the joints form a loop", path_.string(), "a URDF is a tree of links");
   }
-  ReadContacts(text);
+  ReadContacts(text_);
   TurnMeshesUp(&model_);
   return std::move(model_);
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -64,28 +65,34 @@ struct UrdfJoint {
   bool Moves() const { return type != UrdfJointType::kFixed; }
 };
 
+// Two links, by name, that never touch each other.
+using ExcludedPair = std::pair<std::string, std::string>;
+
 struct UrdfModel {
   std::string name;
   std::vector<UrdfLink> links;    // the root first; a parent stands before its children
   std::vector<UrdfJoint> joints;  // joints[i] leads to links[i + 1]
-  core::Findings findings;        // what was missing or mended
+  std::vector<ExcludedPair> excluded_pairs = {};  // by <drake:collision_filter_group>
+  core::Findings findings = {};                   // what was missing or mended
 };
 
 struct UrdfReadOptions {
-  // No file outside this folder is read. Empty: the URDF's own folder, or the one above it where
-  // that folder is called "urdf" (a ROS package keeps "../meshes" there).
+  // No file outside this folder is read. Empty: PackageRootOf the URDF (urdf_meshes.h).
   std::filesystem::path root;
+  // For readers that make inertials anew: what no body can have is a finding, not an error. A mass
+  // that is not positive leaves the link without an inertial; an impossible inertia is replaced by
+  // that of the box around the link's shapes, of the same mass.
+  bool mend_inertials = false;
 };
 
-// Reads a URDF with urdfdom. Mesh names may be relative, "file://", "../meshes/x" inside the root,
-// or "package://NAME/x": x is then looked for in the root, the URDF's folder and the folders above
-// it inside the root. A mesh that is missing or cannot be read is left out with a warning, a
-// missing inertial and a joint that mimics another are reported. A <limit> may lack its effort and
-// velocity, as PartNet-Mobility's do.
-// Throws core::Error: no XML or no URDF, larger than 16 MiB, a DOCTYPE or entity, a loop, a joint
-// to a missing link, no root, a mass that is not positive, an inertia that no body can have, joint
-// damping, friction or limits that are not finite, negative damping or friction, a mesh path that
-// leads outside the root.
+// Reads a URDF with urdfdom, which is given what MendUrdfText makes of the text; meshes are found by
+// MeshFinder. A mesh that is missing or cannot be read is left out with a warning; a missing
+// inertial and a joint that mimics another are reported. A link without shapes may have mass zero:
+// it is a frame. Collision filter groups of Drake that name one link each become excluded pairs.
+// Throws core::Error: no XML or no URDF, an unexpanded xacro, larger than 16 MiB, a DOCTYPE or
+// entity, a loop, a joint to a missing link, no root, a mass that is not positive, an inertia that
+// no body can have, joint damping, friction or limits that are not finite, negative damping or
+// friction, a mesh path that leads outside the root.
 UrdfModel ReadUrdf(const std::filesystem::path& path, const UrdfReadOptions& options = {});
 
 }  // namespace simwright::assets

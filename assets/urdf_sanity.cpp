@@ -1,6 +1,7 @@
 #include "assets/urdf_sanity.h"
 
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <set>
 
@@ -71,21 +72,28 @@ void RequireHarmlessUrdfText(const std::string& text, const std::string& where) 
   RequireTree(*robot, where);
 }
 
-void RequirePhysical(const Inertial& inertial, const std::string& where) {
+InertialFault FaultOf(const Inertial& inertial) {
   if (!(inertial.mass > 0.0) || !std::isfinite(inertial.mass)) {
-    throw core::Error("the mass is " + std::to_string(inertial.mass) + " kg", where,
-                      "a mass is above zero");
+    char text[60];
+    std::snprintf(text, sizeof(text), "the mass is %g kg", inertial.mass);
+    return {text, "a mass is above zero"};
   }
   if (!inertial.inertia.allFinite() || !inertial.center_of_mass.allFinite()) {
-    throw core::Error("the inertia is not finite", where);
+    return {"the inertia is not finite", "compute the inertia from the shape"};
   }
   const Eigen::Vector3d moments = geometry::PrincipalInertiaOf(inertial.inertia).moments;
   if (!geometry::SatisfiesTriangleInequality(moments, 1e-3)) {
-    throw core::Error(
+    return {
         "no rigid body has this inertia: one principal moment exceeds the sum of "
         "the other two, or is not positive",
-        where, "compute the inertia from the shape");
+        "compute the inertia from the shape"};
   }
+  return {};
+}
+
+void RequirePhysical(const Inertial& inertial, const std::string& where) {
+  const InertialFault fault = FaultOf(inertial);
+  if (!fault.sentence.empty()) throw core::Error(fault.sentence, where, fault.remedy);
 }
 
 }  // namespace simwright::assets

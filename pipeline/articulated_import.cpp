@@ -17,6 +17,8 @@
 #include "pipeline/link_folding.h"
 #include "pipeline/link_shapes.h"
 #include "pipeline/part_clearing.h"
+#include "pipeline/range_limits.h"
+#include "pipeline/standing.h"
 
 namespace simwright::pipeline {
 namespace fs = std::filesystem;
@@ -29,6 +31,9 @@ using assets::UrdfModel;
 
 constexpr int kMostJoints = 128;       // that move: a keyboard's keys; each is swung in two engines
 constexpr double kSloppyShare = 0.02;  // of the diagonal: no more is trimmed of small things
+constexpr double kTippingMargin = 0.01;  // of the diagonal: what is nearer to tipping is jerked over
+constexpr int kRobotChain = 3;         // joints in a row
+constexpr int kRobotWheels = 4;
 constexpr double kHeaviest = 11000.0;  // kg/m^3: household metals are lighter
 
 bool IsNormalised(const fs::path& urdf) {
@@ -44,9 +49,7 @@ int MovingJoints(const UrdfModel& model) {
 
 void RequireJoints(const UrdfModel& model, const std::string& where) {
   const int moving = MovingJoints(model);
-  if (moving == 0) {
-    throw core::Error("no joint moves", where, "import its meshes, as a rigid thing");
-  }
+  if (moving == 0) throw core::Error("no joint moves", where, "import it as a rigid thing");
   if (moving > kMostJoints) {
     throw core::Error("has " + std::to_string(moving) + " joints that move", where,
                       "at most " + std::to_string(kMostJoints) + " can be tried in the engines");
@@ -105,6 +108,27 @@ bool StandsFixed(const SemanticModel& source, const std::string& category) {
   return found != source.semantics.end() && found->second.joint == "static";
 }
 
+// The most moving joints on the way from the root to any link.
+int LongestChain(const UrdfModel& model) {
+  const std::vector<int> parents = assets::ParentLinks(model);
+  std::vector<int> depth(model.links.size(), 0);
+  for (size_t i = 0; i < model.joints.size(); ++i) {
+    depth[i + 1] = depth[static_cast<size_t>(parents[i])] + (model.joints[i].Moves() ? 1 : 0);
+  }
+  return *std::max_element(depth.begin(), depth.end());
+}
+
+// What is no household thing that we know and has an arm's or legs' joints, or many that turn
+// freely. A desk lamp has such a chain as well, and is known as a lamp.
+bool IsRobot(const UrdfModel& model, const physics_params::Category& category) {
+  if (category.name != "object") return false;
+  const auto wheels =
+      std::count_if(model.joints.begin(), model.joints.end(), [](const auto& joint) {
+        return joint.type == assets::UrdfJointType::kContinuous;
+      });
+  return LongestChain(model) >= kRobotChain || wheels >= kRobotWheels;
+}
+
 // Names of links and joints become names of files and of things in programs.
 void MakeNamesSafe(SemanticModel* source) {
   std::map<std::string, std::string> renamed;
@@ -131,30 +155,47 @@ void MakeNamesSafe(SemanticModel* source) {
   }
 }
 
-// Replaces the links' collisions by convex parts that clear each other.
-void MakeParts(bool fixed, core::Progress* progress, UrdfModel* model) {
+void Add(const core::Findings& some, UrdfModel* model) {
+  model->findings.insert(model->findings.end(), some.begin(), some.end());
+}
+
+// Replaces the links' collisions by convex parts.
+void MakeParts(core::Progress* progress, UrdfModel* model) {
   const double whole = BoundsAtZero(*model).diagonal().norm();
-  progress->Stage("collision parts", static_cast<int>(model->links.size()));
-  std::vector<std::vector<assets::UrdfShape>> parts;
-  for (const assets::UrdfLink& link : model->links) {
-    core::CheckCancelled();
-    parts.emplace_back();
-    for (core::TriangleMesh& part : ConvexPartsOf(link, whole, &model->findings)) {
-      parts.back().push_back({std::move(part), ""});
-    }
-    progress->Advance();
-  }
+  progress->Stage("collision parts", 1);
+  std::vector<std::vector<core::TriangleMesh>> parts =
+      ConvexPartsOf(model->links, whole, &model->findings);
   for (size_t i = 0; i < parts.size(); ++i) {
-    if (model->links[i].visuals.empty()) model->links[i].visuals = model->links[i].collisions;
-    model->links[i].collisions = std::move(parts[i]);
+    assets::UrdfLink& link = model->links[i];
+    if (link.visuals.empty()) link.visuals = link.collisions;
+    link.collisions.clear();
+    for (core::TriangleMesh& part : parts[i]) link.collisions.push_back({std::move(part), ""});
   }
+  progress->Advance();
   progress->Finish();
+}
+
+// Lets the whole stand and its joints move: what stands in their way is trimmed, ends their range,
+// or is excluded from contact. A thing whose joints reach below the floor that it would stand on is
+// held in place instead.
+void ClearTheWay(bool robot, bool* fixed, UrdfModel* model) {
+  const double whole = BoundsAtZero(*model).diagonal().norm();
   ClearingOptions clearing;
   clearing.most = std::min(clearing.most, kSloppyShare * whole);
   clearing.gap = std::min(clearing.gap, 0.6 * clearing.most);
-  clearing.on_floor = !fixed;
-  const core::Findings findings = ClearMovingParts(clearing, model);
-  model->findings.insert(model->findings.end(), findings.begin(), findings.end());
+  if (!*fixed) Add(LetStand(model), model);
+  RangeResult ranges = EndRangesAtObstacles({clearing.most, !*fixed, !robot}, model);
+  Add(ranges.findings, model);
+  if (ranges.floor_in_the_way) {
+    *fixed = true;
+    Add({{"held", core::Severity::kWarning, model->name,
+          "a joint would reach through the floor that it stands on from its start: it is held where "
+          "it is, as what hangs on a wall or lies on a table's edge",
+          0.0, "set `fixed` to false where it is to stand free"}},
+        model);
+  }
+  clearing.on_floor = !*fixed;
+  Add(ClearMovingParts(clearing, model), model);
 }
 
 geometry::MassProperties Weighed(const ArticulatedLink& link) {
@@ -207,9 +248,23 @@ void GiveMass(const UrdfModel& model, bool metric, const physics_params::Categor
   p.mass.max = std::max(p.mass.max, mass);
 }
 
+// Large appliances are screwed to the wall, or their file leaves the weight in their base out.
+void HoldWhatTips(ArticulatedAsset* asset) {
+  const UrdfModel model = assets::ModelOf(*asset);
+  const TippingMargin least = LeastTippingMargin(model);
+  if (least.margin > kTippingMargin * assets::BoundsAtZero(*asset).diagonal().norm()) return;
+  asset->fixed = true;
+  asset->findings.push_back(
+      {"held", core::Severity::kWarning, asset->name,
+       "free on the floor it would tip over while '" + least.joint +
+           "' is opened: it is held where it is; its centre of mass stays inside its foot by (mm)",
+       1e3 * least.margin, "set `fixed` to false to let it stand free"});
+}
+
 ArticulatedAsset AssetFrom(const SemanticModel& source) {
   ArticulatedAsset asset;
   asset.joints = source.model.joints;
+  asset.excluded_pairs = source.model.excluded_pairs;
   for (size_t i = 0; i < source.model.links.size(); ++i) {
     const assets::UrdfLink& from = source.model.links[i];
     ArticulatedLink& link = asset.links.emplace_back();
@@ -239,9 +294,22 @@ fs::path ArticulatedUrdfIn(const fs::path& folder) {
   }
 }
 
+bool HasMovingJoint(const SemanticModel& source) {
+  UrdfModel model = source.model;
+  FoldEmptyLinks(&model);
+  NormaliseJoints(&model);
+  return MovingJoints(model) > 0;
+}
+
 ArticulatedAsset ImportArticulated(const fs::path& urdf, const ArticulatedImportOptions& options,
                                    core::Progress* progress) {
-  SemanticModel source = assets::ReadSemanticModel(urdf);
+  return ImportArticulated(assets::ReadSemanticModel(urdf, {options.root, true}), options,
+                           progress);
+}
+
+ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImportOptions& options,
+                                   core::Progress* progress) {
+  const fs::path urdf = source.urdf;
   const std::string where = urdf.string();
   RequireJoints(source.model, where);
   FoldEmptyLinks(&source.model);
@@ -259,8 +327,10 @@ ArticulatedAsset ImportArticulated(const fs::path& urdf, const ArticulatedImport
   const double scale =
       ScaleOf(options, normalised, where, parameters, SizeOf(BoundsAtZero(source.model)));
   StandOnOrigin(scale, &source.model);
-  const bool fixed = StandsFixed(source, category.category->name);
-  MakeParts(fixed, progress, &source.model);
+  const bool robot = IsRobot(source.model, *category.category);
+  bool fixed = robot || StandsFixed(source, category.category->name);
+  MakeParts(progress, &source.model);
+  ClearTheWay(robot, &fixed, &source.model);
 
   ArticulatedAsset asset = AssetFrom(source);
   asset.name = assets::FileSafeName(options.name);
@@ -275,6 +345,16 @@ ArticulatedAsset ImportArticulated(const fs::path& urdf, const ArticulatedImport
     link.friction = parameters.friction.sample;
     link.restitution = parameters.restitution.sample;
   }
+  if (robot) {
+    asset.features[assets::kKindFeature] = assets::kRobotKind;
+    asset.findings.push_back(
+        {"robot", core::Severity::kInfo, asset.name,
+         "it is taken for a robot: its root is held, and its motors hold its joints, whose friction "
+         "and damping stay as the file has them",
+         static_cast<double>(MovingJoints(source.model)), "give --category where it is a thing"});
+    return asset;
+  }
+  if (!fixed) HoldWhatTips(&asset);
   core::Rng rng = core::StreamRng(options.seed, 1);
   GiveJointsFeel(rng, &asset);
   return asset;

@@ -176,10 +176,20 @@ CheckReport CheckBeforeKeeping(const fs::path& folder, const std::string& name,
 }
 
 CheckReport CheckUrdf(const fs::path& urdf, const fs::path& root, const CheckLimits& limits) {
-  const assets::UrdfModel model = assets::ReadUrdf(urdf, {root});
   CheckRows rows(urdf.filename().string());
+  assets::UrdfModel model;
+  bool read = false;
+  RowOrFailure("loads-urdfdom", &rows, [&] {
+    model = assets::ReadUrdf(urdf, {root, true});
+    read = true;
+  });
+  if (!read) return {urdf.string(), rows.Take()};
   rows.Report("links", static_cast<double>(model.links.size()), "links");
-  for (const core::Finding& finding : model.findings) rows.Warn(finding);
+  for (core::Finding finding : model.findings) {
+    // What a reader that mends nothing stops at.
+    if (finding.code == "urdf-impossible-inertial") finding.severity = core::Severity::kError;
+    rows.Warn(finding);
+  }
   int shapes = 0, open = 0, bodies = 0;
   for (const assets::UrdfLink& link : model.links) {
     bodies += link.inertial.has_value();

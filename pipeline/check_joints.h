@@ -9,10 +9,14 @@
 
 namespace simwright::pipeline {
 
-// Rows of an asset's joints, in Bullet and, by `mjcf`, in MuJoCo: clearance-*, swings-*, holds-*,
-// and for one that stands free tips-* (docs/formats.md).
-void AddJointRows(const assets::UrdfModel& model, const std::filesystem::path& mjcf, bool fixed,
-                  const CheckLimits& limits, CheckRows* rows);
+// Rows of an asset's joints (docs/formats.md), which may be made at the same time: excluded-pairs,
+// clearance-* and above-floor-*; and in Bullet and, by `mjcf`, in MuJoCo swings-*, holds-*, and for
+// one that stands free tips-*.
+void AddClearanceRows(const assets::UrdfModel& model, bool fixed, CheckRows* rows);
+void AddJointRowsInBullet(const assets::UrdfModel& model, bool fixed, const CheckLimits& limits,
+                          CheckRows* rows);
+void AddJointRowsInMujoco(const assets::UrdfModel& model, const std::filesystem::path& mjcf,
+                          bool fixed, const CheckLimits& limits, CheckRows* rows);
 
 // For a URDF of any origin: each joint reaches both ends in Bullet, links passing through each
 // other; clearances and drifts are reported alone. No rows where nothing moves; one that says so

@@ -13,6 +13,7 @@
 #include "assets/mesh_format.h"
 #include "assets/mesh_import.h"
 #include "assets/semantic_model.h"
+#include "assets/urdf_meshes.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
@@ -21,6 +22,7 @@
 #include "pipeline/catalogue_meshes.h"
 #include "pipeline/import_category.h"
 #include "pipeline/preview.h"
+#include "pipeline/rigid_urdf.h"
 
 namespace simwright::pipeline {
 namespace fs = std::filesystem;
@@ -38,6 +40,7 @@ bool IsUrdf(const fs::path& path) {
 
 char UpOf(const fs::path& mesh, char stated, char wanted) {
   if (wanted != 0) return wanted;
+  if (IsUrdf(mesh)) return 'z';
   if (stated != 0) return stated;
   std::string ending = mesh.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), ::tolower);
@@ -58,22 +61,46 @@ std::string NameOfFile(const fs::path& file) {
   return assets::FileSafeName(named.string());
 }
 
-// The folder's own URDF, or its meshes and what the folders in it hold, by name.
-void ListFolder(const fs::path& folder, std::vector<ImportItem>* items,
+// No mesh is read from outside this folder: the one that was given, or the package around it.
+fs::path RootOf(const fs::path& urdf, const fs::path& given) {
+  const fs::path package = assets::PackageRootOf(urdf);
+  const fs::path folder = fs::weakly_canonical(given);
+  const fs::path inside = package.lexically_relative(folder);
+  return !inside.empty() && *inside.begin() != ".." ? folder : package;
+}
+
+// The folder's own URDF, or its meshes and what the folders in it hold, by name. `top`: it is the
+// one that was given, where a package with several URDFs, or none but a xacro, is an error. Meshes
+// beside URDFs, or in a folder beside them, are theirs and not listed.
+void ListFolder(const fs::path& folder, const fs::path& given, std::vector<ImportItem>* items,
                 std::set<std::string>* taken) {
-  const fs::path urdf = ArticulatedUrdfIn(folder);
+  const bool top = folder == given;
+  const auto add = [&](const fs::path& urdf, const std::string& name) {
+    ImportItem item{urdf, -1, Unique(assets::FileSafeName(name), taken)};
+    item.root = RootOf(urdf, given);
+    items->push_back(item);
+  };
+  const std::string name = fs::weakly_canonical(folder).filename().string();
+  fs::path urdf = ArticulatedUrdfIn(folder);
+  if (urdf.empty() && assets::IsPackage(folder)) {
+    const std::vector<fs::path> all = assets::FilesBelow(folder, ".urdf");
+    if (all.size() == 1 || top) urdf = assets::UrdfIn(folder);  // throws where it is not one
+  }
   if (!urdf.empty()) {
-    const std::string name = fs::weakly_canonical(folder).filename().string();
-    items->push_back({urdf, -1, Unique(assets::FileSafeName(name), taken)});
+    add(urdf, name);
     return;
   }
   std::vector<fs::path> entries;
   for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
   std::sort(entries.begin(), entries.end());
+  const bool own_urdfs = std::any_of(entries.begin(), entries.end(), IsUrdf);
   for (const fs::path& entry : entries) {
     if (fs::is_directory(entry) && !fs::is_symlink(entry)) {
-      ListFolder(entry, items, taken);
-    } else if (fs::is_regular_file(entry) && (assets::HasMeshEnding(entry) || IsUrdf(entry))) {
+      const bool theirs = own_urdfs && assets::FilesBelow(entry, ".urdf").empty();
+      if (!theirs) ListFolder(entry, given, items, taken);
+    } else if (fs::is_regular_file(entry) && IsUrdf(entry)) {
+      add(entry, NameOfFile(entry));
+    } else if (fs::is_regular_file(entry) && assets::HasMeshEnding(entry) && !own_urdfs) {
       items->push_back({entry, -1, Unique(NameOfFile(entry), taken)});
     }
   }
@@ -89,6 +116,7 @@ void ListFolder(const fs::path& folder, std::vector<ImportItem>* items,
                           entry.path().filename().string() + "' (" + format + ")",
                       folder.string(), "convert it to GLB or OBJ (Blender)");
   }
+  if (!assets::FilesBelow(folder, ".xacro").empty()) assets::UrdfIn(folder);  // throws, naming it
   throw core::Error("holds no meshes and no URDF", folder.string());
 }
 
@@ -109,6 +137,27 @@ void ListCatalogue(const fs::path& input, const ImportOptions& options,
   if (found == 0) throw core::Error("holds no such piece", input.string());
 }
 
+// What a file's place says of the thing: of a URDF, what lies beside it.
+std::string MeantBy(const ImportItem& item) {
+  if (!IsUrdf(item.mesh)) return item.mesh.stem().string();
+  const assets::SemanticModel source = assets::ReadSemanticModel(item.mesh, {item.root, true});
+  return source.category.empty() ? source.name : source.category;
+}
+
+// The links of a URDF whose joints do not move, as one mesh in the file's units.
+core::TexturedMesh ReadRigidUrdf(const fs::path& urdf, const fs::path& root,
+                                 core::Findings* findings) {
+  const assets::UrdfModel model = assets::ReadUrdf(urdf, {root, true});
+  for (core::Finding finding : model.findings) {
+    if (finding.code == "urdf-no-inertial") continue;  // it is made anew
+    if (finding.place == urdf.string()) finding.place = urdf.filename().string();
+    findings->push_back(finding);
+  }
+  findings->push_back({"urdf-rigid", core::Severity::kInfo, urdf.filename().string(),
+                       "no joint of it moves: it becomes one rigid thing", 0.0});
+  return RigidVisual(model, findings);
+}
+
 class Importer {
  public:
   Importer(const fs::path& output, const ImportOptions& options)
@@ -117,23 +166,28 @@ class Importer {
   // Throws core::Error where the mesh or URDF cannot become an asset.
   void Import(const ImportItem& item, const assets::FurnitureCatalogue* catalogue,
               core::Progress* progress, ImportOutcome* outcome) const {
+    // A URDF comes in as what it is: articulated, or rigid where no joint of it moves.
     if (IsUrdf(item.mesh)) {
-      ImportJointed(item, progress, outcome);
-    } else {
-      ImportRigid(item, catalogue, progress, outcome);
+      assets::SemanticModel source = assets::ReadSemanticModel(item.mesh, {item.root, true});
+      if (HasMovingJoint(source)) {
+        ImportJointed(item, std::move(source), progress, outcome);
+        return;
+      }
     }
+    ImportRigid(item, catalogue, progress, outcome);
   }
 
  private:
-  void ImportJointed(const ImportItem& item, core::Progress* progress,
-                     ImportOutcome* outcome) const {
+  void ImportJointed(const ImportItem& item, assets::SemanticModel source,
+                     core::Progress* progress, ImportOutcome* outcome) const {
     ArticulatedImportOptions options;
     options.name = item.name;
     options.category = options_.category;
     options.height = options_.height;
     options.unit = options_.unit;
     options.seed = options_.seed;
-    const assets::ArticulatedAsset asset = ImportArticulated(item.mesh, options, progress);
+    const assets::ArticulatedAsset asset =
+        ImportArticulated(std::move(source), options, progress);
     Keep(item, outcome, [&](const fs::path& folder) {
       assets::WriteArticulatedAsset(asset, folder);
       core::WritePng(folder / "preview.png", ArticulatedPreview(asset));
@@ -153,9 +207,9 @@ class Importer {
       request.source = item.mesh.filename().string() + ":" + piece.id;
       request.category = ImportCategory(options_.category, piece.name);
     } else {
-      visual = ReadInWorld(item.mesh, options_, &findings);
+      visual = ReadInWorld(item.mesh, options_, &findings, item.root);
       request.source = item.mesh.filename().string();
-      request.category = ImportCategory(options_.category, item.mesh.stem().string());
+      request.category = ImportCategory(options_.category, MeantBy(item));
     }
     BuiltAsset built = BuildAsset(visual, request, progress);
     built.asset.findings.insert(built.asset.findings.begin(), findings.begin(), findings.end());
@@ -184,8 +238,13 @@ class Importer {
 }  // namespace
 
 core::TexturedMesh ReadInWorld(const fs::path& mesh_path, const ImportOptions& options,
-                               core::Findings* findings) {
-  assets::MeshFile file = assets::ReadMeshFile(mesh_path);
+                               core::Findings* findings, const fs::path& root) {
+  assets::MeshFile file;
+  if (IsUrdf(mesh_path)) {
+    file.mesh = ReadRigidUrdf(mesh_path, root, findings);
+  } else {
+    file = assets::ReadMeshFile(mesh_path);
+  }
   findings->insert(findings->end(), file.findings.begin(), file.findings.end());
   core::TexturedMesh mesh = std::move(file.mesh);
   Eigen::Affine3d world_from_file = Eigen::Affine3d::Identity();
@@ -218,7 +277,7 @@ std::vector<ImportItem> ListImports(const std::vector<fs::path>& inputs,
     if (!fs::exists(input)) throw core::Error("no such file or folder", input.string());
     if (fs::is_directory(input)) {
       const size_t before = items.size();
-      ListFolder(input, &items, &taken);
+      ListFolder(input, input, &items, &taken);
       if (items.size() == before) RefuseFolder(input);
     } else if (IsCatalogue(input)) {
       ListCatalogue(input, options, &items, &taken);

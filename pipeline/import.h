@@ -31,6 +31,8 @@ struct ImportItem {
   std::filesystem::path mesh;  // file; for a catalogue piece the .sh3f; or the .urdf
   int piece = -1;              // index into the catalogue's pieces, or -1
   std::string name;            // of the asset's folder
+  // Of a URDF: no mesh is read from outside this folder. Empty: its package, or its own.
+  std::filesystem::path root = {};
 };
 
 struct ImportOutcome {
@@ -43,9 +45,10 @@ struct ImportOutcome {
 };
 
 // Meshes, URDFs, folders of them (searched through) and catalogues, as a list with distinct names.
-// A folder with one URDF, or PartNet-Mobility's or GAPartNet's, is one thing, named like the
-// folder: its meshes are not listed.
-// Throws core::Error for an input that does not exist or holds nothing to import.
+// A folder with one URDF, PartNet-Mobility's or GAPartNet's, or a ROS or Gazebo package is one
+// thing, named like the folder; meshes beside URDFs belong to them and are not listed.
+// Throws core::Error for an input that does not exist or holds nothing to import, and for a package
+// with several URDFs, which it names, or with none but a xacro.
 std::vector<ImportItem> ListImports(const std::vector<std::filesystem::path>& inputs,
                                     const ImportOptions& options);
 
@@ -57,8 +60,9 @@ std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items,
                                      const std::filesystem::path& output,
                                      const ImportOptions& options, core::Progress* progress);
 
-// The mesh of an item in the world: metres, z up, as large as it is said to be.
+// The mesh of an item in the world: metres, z up, as large as it is said to be. Of a URDF, all that
+// it shows with its joints at zero; no file outside `root` is read for it.
 core::TexturedMesh ReadInWorld(const std::filesystem::path& mesh, const ImportOptions& options,
-                               core::Findings* findings);
+                               core::Findings* findings, const std::filesystem::path& root = {});
 
 }  // namespace simwright::pipeline

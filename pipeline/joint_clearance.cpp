@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "assets/joint_poses.h"
+#include "core/parallel.h"
 #include "geometry/distance.h"
+#include "pipeline/link_overlap.h"
 
 namespace simwright::pipeline {
 namespace {
@@ -28,14 +31,12 @@ std::vector<Part> PartsOf(const assets::UrdfModel& model) {
   return parts;
 }
 
-// Links beyond the joint. (links)
-std::vector<bool> CarriedBy(const assets::UrdfModel& model, int joint) {
-  const std::vector<int> parents = assets::ParentLinks(model);
-  std::vector<bool> carried(model.links.size(), false);
-  for (size_t i = 0; i < model.joints.size(); ++i) {
-    carried[i + 1] = static_cast<int>(i) == joint || carried[static_cast<size_t>(parents[i])];
-  }
-  return carried;
+// Of kSteps + 1 over the joint's range; one without limits goes all round.
+double PositionAt(const assets::UrdfJoint& joint, int step) {
+  const bool turns = joint.type == assets::UrdfJointType::kContinuous;
+  const double lower = turns ? -std::numbers::pi : joint.lower;
+  const double upper = turns ? std::numbers::pi : joint.upper;
+  return lower + (upper - lower) * step / kSteps;
 }
 
 assets::JointPositions Positions(const assets::UrdfModel& model, int joint, double position,
@@ -48,7 +49,19 @@ assets::JointPositions Positions(const assets::UrdfModel& model, int joint, doub
   return positions;
 }
 
+// Whether two links are excluded from contact. (links x links)
+std::vector<std::vector<bool>> ExcludedIn(const assets::UrdfModel& model) {
+  std::vector<std::vector<bool>> excluded(model.links.size());
+  for (size_t a = 0; a < model.links.size(); ++a) {
+    for (size_t b = 0; b < model.links.size(); ++b) {
+      excluded[a].push_back(IsExcluded(model, a, b));
+    }
+  }
+  return excluded;
+}
+
 void Tighten(const std::vector<Part>& parts, const std::vector<bool>& carried,
+             const std::vector<std::vector<bool>>& excluded,
              const std::vector<Eigen::Isometry3d>& poses, const assets::UrdfModel& model,
              double position, Clearance* least) {
   std::vector<Eigen::AlignedBox3d> boxes;
@@ -59,6 +72,7 @@ void Tighten(const std::vector<Part>& parts, const std::vector<bool>& carried,
     if (!carried[static_cast<size_t>(parts[a].link)]) continue;
     for (size_t b = 0; b < parts.size(); ++b) {
       if (carried[static_cast<size_t>(parts[b].link)]) continue;
+      if (excluded[static_cast<size_t>(parts[a].link)][static_cast<size_t>(parts[b].link)]) continue;
       if (boxes[a].exteriorDistance(boxes[b]) >= std::max(least->distance, 1e-6)) continue;
       const double distance =
           geometry::SignedDistance(parts[a].shape, poses[static_cast<size_t>(parts[a].link)],
@@ -74,34 +88,43 @@ void Tighten(const std::vector<Part>& parts, const std::vector<bool>& carried,
 
 }  // namespace
 
-Clearance SweptClearance(const assets::UrdfModel& model, int joint) {
+Clearance SweptClearance(const assets::UrdfModel& model, int joint, bool others_up) {
   const std::vector<Part> parts = PartsOf(model);
-  const std::vector<bool> carried = CarriedBy(model, joint);
+  const std::vector<bool> carried = LinkGroups(model).CarriedBy(static_cast<size_t>(joint));
+  const std::vector<std::vector<bool>> excluded = ExcludedIn(model);
   const assets::UrdfJoint& moved = model.joints.at(static_cast<size_t>(joint));
-  Clearance least{std::numeric_limits<double>::infinity(), moved.lower, ""};
-  for (const bool others_up : {false, true}) {
-    for (int i = 0; i <= kSteps; ++i) {
-      const double position = moved.lower + (moved.upper - moved.lower) * i / kSteps;
-      const auto poses = assets::LinkPoses(model, Positions(model, joint, position, others_up));
-      Tighten(parts, carried, poses, model, position, &least);
-    }
-  }
-  return least;
+  std::vector<Clearance> at(kSteps + 1,
+                            {std::numeric_limits<double>::infinity(), moved.lower, ""});
+  core::ParallelFor(kSteps + 1, [&](int i) {
+    const double position = PositionAt(moved, i);
+    const auto poses = assets::LinkPoses(model, Positions(model, joint, position, others_up));
+    Tighten(parts, carried, excluded, poses, model, position, &at[static_cast<size_t>(i)]);
+  });
+  return *std::min_element(at.begin(), at.end(), [](const Clearance& a, const Clearance& b) {
+    return a.distance < b.distance;
+  });
+}
+
+Clearance SweptClearance(const assets::UrdfModel& model, int joint) {
+  const Clearance zero = SweptClearance(model, joint, false);
+  const auto moving = std::count_if(model.joints.begin(), model.joints.end(),
+                                    [](const auto& j) { return j.Moves(); });
+  if (moving == 1) return zero;  // there is no other
+  const Clearance up = SweptClearance(model, joint, true);
+  return up.distance < zero.distance ? up : zero;
 }
 
 double LowestOnSweep(const assets::UrdfModel& model, int joint) {
   const assets::UrdfJoint& moved = model.joints.at(static_cast<size_t>(joint));
-  const std::vector<bool> carried = CarriedBy(model, joint);
+  const std::vector<bool> carried = LinkGroups(model).CarriedBy(static_cast<size_t>(joint));
+  const std::vector<bool> bears = LinksThatBear(model);
   double lowest = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= kSteps; ++i) {
-    const double position = moved.lower + (moved.upper - moved.lower) * i / kSteps;
+    const double position = PositionAt(moved, i);
     const auto poses = assets::LinkPoses(model, Positions(model, joint, position, false));
     for (size_t link = 0; link < model.links.size(); ++link) {
-      if (!carried[link]) continue;
-      for (const assets::UrdfShape& shape : model.links[link].collisions) {
-        for (const Eigen::Vector3d& v : shape.mesh.vertices) {
-          lowest = std::min(lowest, (poses[link] * v).z());
-        }
+      if (carried[link] && !bears[link]) {
+        lowest = std::min(lowest, LowestOf(model.links[link], poses[link]));
       }
     }
   }

@@ -13,11 +13,16 @@ struct Clearance {
   std::string pair;       // "door and body"
 };
 
-// Over a joint's whole range, once with all other joints at zero and once with them at their
-// upper limits. Collision parts are taken as convex. `joint` indexes model.joints.
+// Over a joint's whole range, all other joints at zero, or (`others_up`) at their upper limits.
+// Collision parts are taken as convex; pairs that are excluded from contact do not count. `joint`
+// indexes model.joints.
+Clearance SweptClearance(const assets::UrdfModel& model, int joint, bool others_up);
+// The lesser of both.
 Clearance SweptClearance(const assets::UrdfModel& model, int joint);
 
-// Lowest point of all links over the joint's range, others at zero; m, in the root's frame.
+// Lowest point of all links that the joint carries, over its range, others at zero; m, in the root's
+// frame. Links that stand on the floor at zero while the root does not (a cart's wheels) do not
+// count; infinite where none is left.
 double LowestOnSweep(const assets::UrdfModel& model, int joint);
 
 }  // namespace simwright::pipeline

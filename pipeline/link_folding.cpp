@@ -158,9 +158,25 @@ void OpenUpwards(UrdfJoint* joint, UrdfModel* model) {
   joint->lower = -std::exchange(joint->upper, -joint->lower);
 }
 
+// A base that floats in a "world" without shapes is the root itself: every asset stands free.
+void TakeFloatingBaseAsRoot(UrdfModel* model) {
+  if (model->joints.empty() || HasShapes(model->links.front())) return;
+  const std::string& root = model->links.front().name;
+  const auto hangs_on_root = [&](const UrdfJoint& joint) { return joint.parent == root; };
+  if (std::count_if(model->joints.begin(), model->joints.end(), hangs_on_root) != 1) return;
+  const auto joint = std::find_if(model->joints.begin(), model->joints.end(), hangs_on_root);
+  if (joint->type != UrdfJointType::kFloating && joint->type != UrdfJointType::kPlanar) return;
+  Warn(*joint, "floating-base", core::Severity::kInfo,
+       "it lets '" + joint->child + "' float in '" + root + "', which has no shape: '" +
+           joint->child + "' is the root",
+       0.0, model);
+  joint->type = UrdfJointType::kFixed;
+}
+
 }  // namespace
 
 void FoldEmptyLinks(UrdfModel* model) {
+  TakeFloatingBaseAsRoot(model);
   Folding folding(model);
   folding.Fold();
   folding.WriteBack();

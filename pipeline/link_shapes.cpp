@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include <Eigen/Eigenvalues>
@@ -11,6 +12,7 @@
 #include "assets/mesh_import.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "geometry/convex_decomposition.h"
 #include "geometry/convex_hull.h"
 #include "geometry/solid.h"
@@ -30,6 +32,9 @@ constexpr double kSmall = 0.02;        // of the whole's diagonal: shorter piece
 constexpr double kConvexShare = 0.97;  // of its hull's volume that a convex piece fills
 constexpr double kWeld = 1e-6;         // of a mesh's diagonal
 constexpr size_t kMostTextureColors = 16;  // that a texture keeps, each a file
+// Pieces of half the whole's diagonal are as precise as rigid assets are, of a sixth a third.
+constexpr double kWholePrecision = 0.5, kCoarsest = 3.0;
+constexpr int kFaceBudget = 8000;  // of a piece's solid
 
 const std::vector<UrdfShape>& ShapesOf(const UrdfLink& link) {
   return link.visuals.empty() ? link.collisions : link.visuals;
@@ -193,7 +198,17 @@ std::vector<core::TriangleMesh> PartsOfPiece(const core::TriangleMesh& piece, do
   if (size < kSmall * whole || FillsItsHull(piece, hull)) {
     return {geometry::ConvexHull(piece.vertices, kMostVertices)};
   }
-  return geometry::Hulls(geometry::Decompose(geometry::MakeSolid(piece).mesh));
+  // Errors count beside the whole: a small piece may be coarser beside its own size.
+  const double coarser = std::clamp(kWholePrecision * whole / size, 1.0, kCoarsest);
+  geometry::SolidOptions solid;
+  solid.face_budget = kFaceBudget;
+  solid.cell_ratio *= coarser;
+  solid.tolerance_ratio *= coarser;
+  solid.sheet_thickness_ratio *= coarser;
+  geometry::DecompositionOptions decomposition;
+  decomposition.threshold *= coarser;
+  return geometry::Hulls(
+      geometry::Decompose(geometry::MakeSolid(piece, solid).mesh, decomposition));
 }
 
 bool LiesInside(const core::TriangleMesh& inner, const core::TriangleMesh& outer) {
@@ -242,27 +257,42 @@ core::TexturedMesh ColoredVisual(const UrdfLink& link) {
   return painter.Take();
 }
 
-std::vector<core::TriangleMesh> ConvexPartsOf(const UrdfLink& link, double whole,
-                                              core::Findings* findings) {
-  std::vector<core::TriangleMesh> pieces;
-  for (const UrdfShape& shape : ShapesOf(link)) {
-    const std::vector<core::TriangleMesh> some = PiecesOf(shape.mesh);
-    pieces.insert(pieces.end(), some.begin(), some.end());
+std::vector<std::vector<core::TriangleMesh>> ConvexPartsOf(const std::vector<UrdfLink>& links,
+                                                           double whole,
+                                                           core::Findings* findings) {
+  struct Job {
+    size_t link = 0;
+    core::TriangleMesh piece;
+    std::vector<core::TriangleMesh> parts;
+  };
+  std::vector<Job> jobs;
+  for (size_t i = 0; i < links.size(); ++i) {
+    for (const UrdfShape& shape : ShapesOf(links[i])) {
+      for (core::TriangleMesh& piece : PiecesOf(shape.mesh)) jobs.push_back({i, std::move(piece), {}});
+    }
   }
-  std::vector<std::vector<core::TriangleMesh>> found(pieces.size());
-  core::ParallelFor(static_cast<int>(pieces.size()), [&](int i) {
-    found[static_cast<size_t>(i)] = PartsOfPiece(pieces[static_cast<size_t>(i)], whole);
+  // The longest work first, so that no thread waits for it at the end.
+  std::vector<size_t> order(jobs.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    return jobs[a].piece.triangles.size() > jobs[b].piece.triangles.size();
   });
-  std::vector<core::TriangleMesh> parts;
-  for (std::vector<core::TriangleMesh>& some : found) {
-    parts.insert(parts.end(), some.begin(), some.end());
+  core::ParallelFor(static_cast<int>(jobs.size()), [&](int i) {
+    core::CheckCancelled();
+    Job& job = jobs[order[static_cast<size_t>(i)]];
+    job.parts = PartsOfPiece(job.piece, whole);
+  });
+  std::vector<std::vector<core::TriangleMesh>> parts(links.size());
+  for (Job& job : jobs) {
+    for (core::TriangleMesh& part : job.parts) parts[job.link].push_back(std::move(part));
   }
-  KeepOutermost(&parts);
-  if (parts.size() > kMostParts) {
-    findings->push_back({"parts-left-out", core::Severity::kWarning, link.name,
+  for (size_t i = 0; i < links.size(); ++i) {
+    KeepOutermost(&parts[i]);
+    if (parts[i].size() <= kMostParts) continue;
+    findings->push_back({"parts-left-out", core::Severity::kWarning, links[i].name,
                          "of its collision parts the smallest were left out",
-                         static_cast<double>(parts.size() - kMostParts)});
-    parts.resize(kMostParts);
+                         static_cast<double>(parts[i].size() - kMostParts)});
+    parts[i].resize(kMostParts);
   }
   return parts;
 }

@@ -14,12 +14,14 @@ namespace simwright::pipeline {
 // material. The files are read again for their materials.
 core::TexturedMesh ColoredVisual(const assets::UrdfLink& link);
 
-// Convex, closed, outward parts of at most 64 vertices for the link's matter, in its frame: each
-// connected piece of what is seen (or collides, where nothing is seen) that is convex is its own
-// hull; a flat one is given 2 mm; any other becomes a solid and is decomposed, so that hollows stay
-// open. Pieces shorter than a fiftieth of `whole` (m, the asset's diagonal) are hulls, those inside
-// another part go, and of more than 256 parts the largest are kept; that is reported.
-std::vector<core::TriangleMesh> ConvexPartsOf(const assets::UrdfLink& link, double whole,
-                                              core::Findings* findings);
+// Convex, closed, outward parts of at most 64 vertices for the matter of each link, in its frame:
+// each connected piece of what is seen (or collides, where nothing is seen) that is convex is its
+// own hull; a flat one is given 2 mm; any other becomes a solid and is decomposed, so that hollows
+// stay open, the coarser the smaller it is beside the whole. Pieces shorter than a fiftieth of
+// `whole` (m, the asset's diagonal) are hulls, those inside another part go, and of more than 256
+// parts of a link the largest are kept; that is reported. Pieces of all links are worked on in
+// parallel. (links)
+std::vector<std::vector<core::TriangleMesh>> ConvexPartsOf(
+    const std::vector<assets::UrdfLink>& links, double whole, core::Findings* findings);
 
 }  // namespace simwright::pipeline

@@ -4,16 +4,18 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "assets/joint_poses.h"
-#include "core/error.h"
+#include "core/parallel.h"
 #include "core/progress.h"
-#include "geometry/convex_hull.h"
+#include "geometry/convex_cut.h"
 #include "geometry/distance.h"
 #include "geometry/weld.h"
+#include "pipeline/link_overlap.h"
 
 namespace simwright::pipeline {
 namespace {
@@ -22,7 +24,7 @@ using assets::UrdfJoint;
 using assets::UrdfModel;
 
 constexpr int kSteps = 48;          // over a joint's range: 2 degrees of a door
-constexpr int kMostVertices = 64;   // of a part
+constexpr int kFewSteps = 6;
 constexpr double kLeastLeft = 0.3;  // of a part's volume that a cut has to leave
 
 // A half-space that a part has to stay in: normal . x <= offset, in its link's frame.
@@ -43,69 +45,67 @@ struct Encounter {
   std::vector<Cut> cuts;
 };
 
-// What the half-space leaves of a convex part; empty where that is nothing with a volume.
-core::TriangleMesh CutBy(const core::TriangleMesh& part, const Cut& cut) {
-  std::vector<Eigen::Vector3d> points;
-  const auto beyond = [&](const Eigen::Vector3d& v) { return cut.normal.dot(v) - cut.offset; };
-  for (const Eigen::Vector3d& v : part.vertices) {
-    if (beyond(v) <= 0.0) points.push_back(v);
-  }
-  for (const Eigen::Vector3i& t : part.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d& a = part.vertices[static_cast<size_t>(t[k])];
-      const Eigen::Vector3d& b = part.vertices[static_cast<size_t>(t[(k + 1) % 3])];
-      const double da = beyond(a), db = beyond(b);
-      if (da <= 0.0 && db > 0.0) points.push_back(a + (b - a) * (da / (da - db)));
-      if (da > 0.0 && db <= 0.0) points.push_back(b + (a - b) * (db / (db - da)));
-    }
-  }
-  try {
-    return geometry::ConvexHull(points, kMostVertices);
-  } catch (const core::Error&) {
-    return {};
-  }
-}
-
-// Links that move with the joint. (links)
-std::vector<bool> CarriedBy(const UrdfModel& model, const std::vector<int>& parents, size_t joint) {
-  std::vector<bool> carried(model.links.size(), false);
-  for (size_t i = 0; i < model.joints.size(); ++i) {
-    carried[i + 1] = i == joint || carried[static_cast<size_t>(parents[i])];
-  }
-  return carried;
-}
+// One part against another link (or the floor) at one position of a joint.
+struct Meeting {
+  PartPlace part;
+  int against = 0;
+  double depth = 0.0;
+  Cut cut;
+};
 
 class Clearing {
  public:
   Clearing(const ClearingOptions& options, UrdfModel* model)
-      : options_(options), model_(model), parents_(assets::ParentLinks(*model)) {}
+      : options_(options), model_(model), groups_(*model), bears_(LinksThatBear(*model)) {
+    for (const assets::UrdfLink& link : model->links) {
+      boxes_.emplace_back();
+      for (const assets::UrdfShape& shape : link.collisions) {
+        boxes_.back().push_back(core::Bounds(shape.mesh));
+      }
+    }
+  }
 
   core::Findings Clear() {
     for (size_t joint = 0; joint < model_->joints.size(); ++joint) {
       if (!model_->joints[joint].Moves()) continue;
       core::CheckCancelled();
-      Sweep(joint);
+      // A few positions show what overlaps deeply all the way, so that the many need not meet it.
+      Sweep(joint, kFewSteps);
+      ExcludeDeepOnes();
+      Sweep(joint, kSteps);
       Trim();
     }
     return std::move(findings_);
   }
 
  private:
-  void Sweep(size_t joint) {
+  void Sweep(size_t joint, int steps) {
     encounters_.clear();
     const UrdfJoint& moved = model_->joints[joint];
     const bool turns = moved.type == assets::UrdfJointType::kContinuous;
     const double lower = turns ? -std::numbers::pi : moved.lower;
     const double upper = turns ? std::numbers::pi : moved.upper;
-    const std::vector<bool> carried = CarriedBy(*model_, parents_, joint);
+    const std::vector<bool> carried = groups_.CarriedBy(joint);
+    const bool alone = std::count_if(model_->joints.begin(), model_->joints.end(),
+                                     [](const UrdfJoint& j) { return j.Moves(); }) == 1;
     for (const bool others_up : {false, true}) {
+      if (others_up && alone) continue;
       assets::JointPositions positions;
       for (const UrdfJoint& other : model_->joints) {
         if (others_up && other.Moves()) positions[other.name] = other.upper;
       }
-      for (int i = 0; i <= kSteps; ++i) {
-        positions[moved.name] = lower + (upper - lower) * i / kSteps;
-        Meet(carried, assets::LinkPoses(*model_, positions), others_up);
+      std::vector<std::vector<Meeting>> met(static_cast<size_t>(steps) + 1);
+      core::ParallelFor(steps + 1, [&](int i) {
+        assets::JointPositions at = positions;
+        at[moved.name] = lower + (upper - lower) * i / steps;
+        Meet(carried, assets::LinkPoses(*model_, at), others_up, &met[static_cast<size_t>(i)]);
+      });
+      for (const std::vector<Meeting>& some : met) {
+        for (const Meeting& one : some) {
+          Encounter& encounter = encounters_[{one.part, one.against}];
+          encounter.depth = std::max(encounter.depth, one.depth);
+          encounter.cuts.push_back(one.cut);
+        }
       }
     }
   }
@@ -115,89 +115,143 @@ class Clearing {
   }
 
   void Meet(const std::vector<bool>& carried, const std::vector<Eigen::Isometry3d>& poses,
-            bool others_up) {
-    std::vector<std::pair<PartPlace, Eigen::AlignedBox3d>> moving, still;
-    for (size_t link = 0; link < model_->links.size(); ++link) {
-      for (size_t part = 0; part < model_->links[link].collisions.size(); ++part) {
-        const PartPlace at{link, part};
-        (carried[link] ? moving : still)
-            .push_back({at, core::Bounds(Mesh(at)).transformed(poses[link])});
+            bool others_up, std::vector<Meeting>* met) const {
+    for (size_t a = 0; a < carried.size(); ++a) {
+      if (!carried[a]) continue;
+      for (size_t part = 0; part < boxes_[a].size(); ++part) {
+        if (options_.on_floor && !others_up && !bears_[a]) MeetFloor({a, part}, poses[a], met);
       }
-    }
-    for (const auto& [a, a_box] : moving) {
-      if (options_.on_floor && !others_up) MeetFloor(a, poses[a.link]);
-      for (const auto& [b, b_box] : still) {
-        if (a_box.exteriorDistance(b_box) >= options_.gap) continue;
-        MeetPart(a, poses[a.link], b, poses[b.link]);
+      for (size_t b = 0; b < carried.size(); ++b) {
+        if (!carried[b] && !IsExcluded(*model_, a, b)) MeetLink(a, b, poses, met);
       }
     }
   }
 
-  void MeetPart(const PartPlace& a, const Eigen::Isometry3d& a_pose, const PartPlace& b,
-                const Eigen::Isometry3d& b_pose) {
-    const geometry::ConvexDistance found =
-        geometry::SignedDistance({Mesh(a).vertices}, a_pose, {Mesh(b).vertices}, b_pose);
+  void MeetLink(size_t a, size_t b, const std::vector<Eigen::Isometry3d>& poses,
+                std::vector<Meeting>* met) const {
+    std::vector<Eigen::AlignedBox3d> others;
+    for (const Eigen::AlignedBox3d& box : boxes_[b]) others.push_back(box.transformed(poses[b]));
+    for (size_t part = 0; part < boxes_[a].size(); ++part) {
+      const Eigen::AlignedBox3d box = boxes_[a][part].transformed(poses[a]);
+      for (size_t other = 0; other < others.size(); ++other) {
+        if (box.exteriorDistance(others[other]) >= options_.gap) continue;
+        MeetPart({a, part}, {b, other}, poses, met);
+      }
+    }
+  }
+
+  void MeetPart(const PartPlace& a, const PartPlace& b,
+                const std::vector<Eigen::Isometry3d>& poses, std::vector<Meeting>* met) const {
+    const geometry::ConvexDistance found = geometry::SignedDistance(
+        {Mesh(a).vertices}, poses[a.link], {Mesh(b).vertices}, poses[b.link]);
     if (found.distance >= 0.9 * options_.gap) return;
-    AddCut(a, static_cast<int>(b.link), -found.distance, a_pose, found.normal,
-           found.normal.dot(found.point_b));
+    met->push_back(MeetingOf(a, static_cast<int>(b.link), -found.distance, poses[a.link],
+                             found.normal, found.normal.dot(found.point_b)));
   }
 
-  void MeetFloor(const PartPlace& a, const Eigen::Isometry3d& a_pose) {
+  void MeetFloor(const PartPlace& a, const Eigen::Isometry3d& a_pose,
+                 std::vector<Meeting>* met) const {
     double lowest = options_.gap;
     for (const Eigen::Vector3d& v : Mesh(a).vertices) lowest = std::min(lowest, (a_pose * v).z());
     if (lowest >= 0.9 * options_.gap) return;
-    AddCut(a, kFloor, -lowest, a_pose, -Eigen::Vector3d::UnitZ(), 0.0);
+    met->push_back(MeetingOf(a, kFloor, -lowest, a_pose, -Eigen::Vector3d::UnitZ(), 0.0));
   }
 
   // Keeps part a on the near side of the plane normal . x = offset (root's frame), less the gap.
-  void AddCut(const PartPlace& a, int against, double depth, const Eigen::Isometry3d& a_pose,
-              const Eigen::Vector3d& normal, double offset) {
-    Encounter& encounter = encounters_[{a, against}];
-    encounter.depth = std::max(encounter.depth, depth);
-    encounter.cuts.push_back({a_pose.linear().transpose() * normal,
-                              offset - options_.gap - normal.dot(a_pose.translation())});
+  Meeting MeetingOf(const PartPlace& a, int against, double depth, const Eigen::Isometry3d& a_pose,
+                    const Eigen::Vector3d& normal, double offset) const {
+    return {a,
+            against,
+            depth,
+            {a_pose.linear().transpose() * normal,
+             offset - options_.gap - normal.dot(a_pose.translation())}};
   }
 
-  void Trim() {
-    std::map<std::pair<size_t, int>, std::pair<double, bool>> report;  // depth, trimmed
+  // By link and what it met, the deepest.
+  std::map<std::pair<size_t, int>, double> DepthByPair() const {
+    std::map<std::pair<size_t, int>, double> depths;
     for (const auto& [key, encounter] : encounters_) {
-      const auto& [place, against] = key;
-      core::TriangleMesh& mesh = model_->links[place.link].collisions[place.part].mesh;
-      bool trimmed = encounter.depth <= options_.most;
-      if (trimmed) {
-        core::TriangleMesh cut = mesh;
-        for (const Cut& plane : encounter.cuts) {
-          if (!cut.empty()) cut = CutBy(cut, plane);
-        }
-        trimmed =
-            !cut.empty() && geometry::SignedVolume(cut) > kLeastLeft * geometry::SignedVolume(mesh);
-        if (trimmed) mesh = std::move(cut);
-      }
-      auto& [depth, all] =
-          report.emplace(std::pair{place.link, against}, std::pair{0.0, true}).first->second;
+      double& depth = depths.emplace(std::pair{key.first.link, key.second}, 0.0).first->second;
       depth = std::max(depth, encounter.depth);
-      all = all && trimmed;
     }
-    for (const auto& [pair, told] : report) Tell(pair.first, pair.second, told.first, told.second);
+    return depths;
   }
 
-  void Tell(size_t link, int against, double depth, bool trimmed) {
-    const std::string other = against == kFloor
-                                  ? "the floor"
-                                  : "'" + model_->links[static_cast<size_t>(against)].name + "'";
+  void ExcludeDeepOnes() {
+    for (const auto& [pair, depth] : DepthByPair()) {
+      if (depth > options_.most) LeaveOverlapping(pair.first, pair.second, depth);
+    }
+  }
+
+  // Neighbours by a joint make no contact where they overlap by more than is trimmed away.
+  void LeaveOverlapping(size_t link, int against, double depth) {
+    const auto other = static_cast<size_t>(std::max(against, 0));
+    if (against != kFloor && groups_.Adjacent(link, other)) {
+      model_->excluded_pairs.emplace_back(model_->links[link].name, model_->links[other].name);
+      Say("contact-excluded", core::Severity::kWarning, link,
+          "it and " + NameOf(against) +
+              " overlap where their joint holds or moves them (mm): no contact is made between "
+              "them, in any of the formats",
+          depth, "mend the file's meshes for contact between them");
+    } else if (told_.insert({link, against}).second) {
+      Say("overlap", core::Severity::kWarning, link,
+          "its collision parts overlap " + NameOf(against) + " on its way, by (mm)", depth,
+          "move one joint at a time, or mend the file's meshes");
+    }
+  }
+
+  // Cuts the parts of each pair that all can be cut enough.
+  void Trim() {
+    const auto depths = DepthByPair();
+    std::set<std::pair<size_t, int>> too_deep;
+    for (const auto& [pair, depth] : depths) {
+      if (depth > options_.most) too_deep.insert(pair);
+    }
+    for (const auto& [key, encounter] : encounters_) {
+      const std::pair<size_t, int> pair{key.first.link, key.second};
+      if (too_deep.contains(pair)) continue;
+      core::TriangleMesh& mesh = model_->links[key.first.link].collisions[key.first.part].mesh;
+      core::TriangleMesh cut = mesh;
+      for (const Cut& plane : encounter.cuts) {
+        if (!cut.empty()) cut = geometry::CutConvex(cut, plane.normal, plane.offset);
+      }
+      if (cut.empty() ||
+          geometry::SignedVolume(cut) < kLeastLeft * geometry::SignedVolume(mesh)) {
+        too_deep.insert(pair);
+        continue;
+      }
+      mesh = std::move(cut);
+      boxes_[key.first.link][key.first.part] = core::Bounds(mesh);
+    }
+    for (const auto& [pair, depth] : depths) {
+      if (too_deep.contains(pair)) {
+        LeaveOverlapping(pair.first, pair.second, depth);
+      } else {
+        Say("trimmed", core::Severity::kInfo, pair.first,
+            "its collision parts were trimmed so that they clear " + NameOf(pair.second), depth);
+      }
+    }
+  }
+
+  std::string NameOf(int against) const {
+    return against == kFloor ? "the floor"
+                             : "'" + model_->links[static_cast<size_t>(against)].name + "'";
+  }
+
+  void Say(const std::string& code, core::Severity severity, size_t link,
+           const std::string& sentence, double depth, const std::string& remedy = "") {
     findings_.push_back(
-        {trimmed ? "trimmed" : "overlap",
-         trimmed ? core::Severity::kInfo : core::Severity::kWarning, model_->links[link].name,
-         trimmed ? "its collision parts were trimmed so that they clear " + other
-                 : "its collision parts overlap " + other + " by more than is trimmed away",
-         1e3 * depth});
+        {code, severity, model_->links[link].name, sentence, 1e3 * depth, remedy});
   }
 
   static constexpr int kFloor = -1;
   const ClearingOptions options_;
   UrdfModel* model_;
-  const std::vector<int> parents_;
+  const LinkGroups groups_;
+  const std::vector<bool> bears_;
+  std::vector<std::vector<Eigen::AlignedBox3d>> boxes_;  // of the parts, by link, in its frame
   std::map<std::pair<PartPlace, int>, Encounter> encounters_;  // by part and link (or floor) met
+  std::set<std::pair<size_t, int>> told_;                      // of whose overlap was told
   core::Findings findings_;
 };
 

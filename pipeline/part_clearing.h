@@ -17,9 +17,11 @@ struct ClearingOptions {
 
 // Trims the collision parts (closed, convex) of links that move, so that over each joint's whole
 // range, others at zero and at their upper limits, they clear what the joint moves them against:
-// each part is cut by the planes that part it from what it overlaps. A pair that overlaps by more
-// than `most` anywhere on the way stays as it is. Returns a finding for each pair of links that was
-// trimmed (figure: deepest overlap, mm) or left overlapping.
+// each part is cut by the planes that part it from what it overlaps. Of two links that overlap by
+// more than `most` anywhere on the way the parts stay as they are; where one moving joint lies
+// between the two they go into model->excluded_pairs, as MuJoCo and SAPIEN make no contact between
+// a parent and its child. Returns a finding for each pair that was trimmed, excluded
+// ("contact-excluded") or left overlapping ("overlap"); the figure is the deepest overlap, mm.
 core::Findings ClearMovingParts(const ClearingOptions& options, assets::UrdfModel* model);
 
 }  // namespace simwright::pipeline

@@ -63,6 +63,14 @@ ArticulatedBody ArticulatedBodyFrom(const assets::UrdfModel& model) {
                         "use a tree of revolute, continuous, prismatic and fixed ones");
     }
   }
+  for (const auto& [first, second] : model.excluded_pairs) {
+    const auto known = [&](const std::string& link) {
+      return std::any_of(body.links.begin(), body.links.end(),
+                         [&](const RigidBody& l) { return l.name == link; });
+    };
+    if (!known(first) || !known(second)) continue;  // a group of a model that this was part of
+    body.excluded_pairs.insert(std::minmax(body.LinkIndex(first), body.LinkIndex(second)));
+  }
   return body;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "assets/joint_load.h"
@@ -15,6 +17,8 @@ struct ArticulatedBody {
   std::vector<RigidBody> links;           // the root first, each in its own frame
   std::vector<assets::UrdfJoint> joints;  // joints[i] leads to links[i + 1]
   std::vector<int> parents;               // link that joints[i] hangs on
+  // Links, the lesser index first, that make no contact with each other.
+  std::set<std::pair<int, int>> excluded_pairs = {};
 
   // Joints that move, as indices into `joints`, in order.
   std::vector<int> MovingJoints() const;

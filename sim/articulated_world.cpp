@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <memory>
+#include <set>
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
@@ -145,6 +147,30 @@ void AddOffsets(LoadedBody* loaded) {
   }
 }
 
+// Leaves out pairs of links that make no contact with each other: Bullet's link colliders heed no
+// list of objects to ignore. Colliders bear their body's index and their link's.
+class ExclusionFilter : public btOverlapFilterCallback {
+ public:
+  void Exclude(int body, const std::set<std::pair<int, int>>& pairs) {
+    if (!pairs.empty()) pairs_[body] = pairs;
+  }
+  bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
+    if ((a->m_collisionFilterGroup & b->m_collisionFilterMask) == 0 ||
+        (b->m_collisionFilterGroup & a->m_collisionFilterMask) == 0) {
+      return false;
+    }
+    const auto* one = static_cast<const btCollisionObject*>(a->m_clientObject);
+    const auto* other = static_cast<const btCollisionObject*>(b->m_clientObject);
+    if (one->getUserIndex() != other->getUserIndex()) return true;
+    const auto found = pairs_.find(one->getUserIndex());
+    return found == pairs_.end() || !found->second.contains(std::minmax(one->getUserIndex2(),
+                                                                        other->getUserIndex2()));
+  }
+
+ private:
+  std::map<int, std::set<std::pair<int, int>>> pairs_;  // by body
+};
+
 // Bullet sets 4096 of each aside, 7 MB a world, and writes to all of them when a world is made.
 // Where these do not do it takes more from the heap.
 btDefaultCollisionConstructionInfo Pools() {
@@ -170,6 +196,7 @@ struct ArticulatedWorld::Bullet {
   btDefaultCollisionConfiguration configuration{Pools()};
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
+  ExclusionFilter exclusion;  // heeded from the first body on that excludes a pair
   std::unique_ptr<btMultiBodyConstraintSolver> solver;
   std::unique_ptr<btMultiBodyDynamicsWorld> world;
   btStaticPlaneShape floor_shape{btVector3(0, 0, 1), 0};
@@ -209,6 +236,10 @@ struct ArticulatedWorld::Bullet {
 
 void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const Placement& placement,
                                             LoadedBody* loaded) {
+  if (placement.self_contacts && !body.excluded_pairs.empty()) {
+    exclusion.Exclude(static_cast<int>(bodies.size()), body.excluded_pairs);
+    broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&exclusion);
+  }
   for (size_t i = 0; i < body.links.size(); ++i) {
     const RigidBody& link = body.links[i];
     const TreeLink& place = loaded->tree->links[i];

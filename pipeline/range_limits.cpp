@@ -1,0 +1,161 @@
+#include "pipeline/range_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "assets/joint_poses.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "pipeline/link_overlap.h"
+
+namespace simwright::pipeline {
+namespace {
+
+using assets::UrdfJoint;
+using assets::UrdfModel;
+
+constexpr int kSteps = 48;      // over a joint's range: 2 degrees of a door
+constexpr int kBisections = 8;  // of one step
+
+struct Obstacle {
+  double depth = 0.0;  // m
+  std::string name;    // of the link, or "the floor"
+  bool floor = false;
+};
+
+class Ranges {
+ public:
+  Ranges(const RangeOptions& options, UrdfModel* model)
+      : options_(options), model_(model), groups_(*model) {}
+
+  RangeResult End() {
+    ExcludeWhatOverlapsAtRest();
+    for (size_t joint = 0; joint < model_->joints.size(); ++joint) {
+      if (!options_.end_ranges || !model_->joints[joint].Moves()) continue;
+      core::CheckCancelled();
+      EndRange(joint);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void ExcludeWhatOverlapsAtRest() {
+    const auto poses = assets::LinkPosesAtZero(*model_);
+    for (size_t a = 0; a < model_->links.size(); ++a) {
+      for (size_t b = 0; b < a; ++b) {
+        if (groups_.Rigid(a, b) || groups_.Adjacent(a, b)) continue;
+        const double depth = OverlapOf(*model_, poses, a, b);
+        if (depth <= options_.most) continue;
+        model_->excluded_pairs.emplace_back(model_->links[a].name, model_->links[b].name);
+        result_.findings.push_back(
+            {"overlap-excluded", core::Severity::kWarning, model_->links[a].name,
+             "it overlaps '" + model_->links[b].name +
+                 "', which no joint joins it to, with all joints at zero (mm): no contact is made "
+                 "between them",
+             1e3 * depth, "mend the file's meshes for contact between them"});
+      }
+    }
+  }
+
+  Obstacle ObstacleAt(size_t joint, const std::vector<bool>& carried, double position) const {
+    const auto poses = assets::LinkPoses(*model_, {{model_->joints[joint].name, position}});
+    Obstacle worst;
+    for (size_t a = 0; a < carried.size(); ++a) {
+      if (!carried[a]) continue;
+      if (options_.on_floor) {
+        for (const assets::UrdfShape& shape : model_->links[a].collisions) {
+          for (const Eigen::Vector3d& v : shape.mesh.vertices) {
+            const double depth = -(poses[a] * v).z();
+            if (depth > worst.depth) worst = {depth, "the floor", true};
+          }
+        }
+      }
+      for (size_t b = 0; b < carried.size(); ++b) {
+        if (carried[b] || groups_.Adjacent(a, b) || IsExcluded(*model_, a, b)) continue;
+        const double depth = OverlapOf(*model_, poses, a, b);
+        if (depth > worst.depth) worst = {depth, "'" + model_->links[b].name + "'", false};
+      }
+    }
+    return worst;
+  }
+
+  void EndRange(size_t index) {
+    UrdfJoint& joint = model_->joints[index];
+    const bool turns = joint.type == assets::UrdfJointType::kContinuous;
+    const double lower = turns ? -std::numbers::pi : joint.lower;
+    const double upper = turns ? std::numbers::pi : joint.upper;
+    const std::vector<bool> carried = groups_.CarriedBy(index);
+    const auto blocked = [&](double position, Obstacle* what) {
+      *what = ObstacleAt(index, carried, position);
+      return what->depth > options_.most;
+    };
+    Obstacle first, worst;
+    if (blocked(0.0, &first)) return;  // at rest already: nothing to end it at
+    const double step = (upper - lower) / kSteps;
+    std::vector<Obstacle> at(kSteps + 1);
+    core::ParallelFor(kSteps + 1, [&](int i) {
+      at[static_cast<size_t>(i)] = ObstacleAt(index, carried, lower + step * i);
+    });
+    double ends[2] = {lower, upper};
+    for (const int way : {-1, 1}) {
+      const double limit = way < 0 ? lower : upper;
+      // The free position nearest to the first blocked one on the way out from zero.
+      double free = 0.0;
+      const Obstacle* hit = nullptr;
+      double hit_at = limit;
+      const int start = static_cast<int>(std::floor(-lower / step));
+      for (int i = way < 0 ? start : start + 1; i >= 0 && i <= kSteps; i += way) {
+        const double position = lower + step * i;
+        if (way * position <= 0.0) continue;
+        if (at[static_cast<size_t>(i)].depth > options_.most) {
+          hit = &at[static_cast<size_t>(i)];
+          hit_at = position;
+          break;
+        }
+        free = position;
+      }
+      if (hit == nullptr) continue;
+      if (hit->depth > worst.depth) worst = *hit;
+      Obstacle what;
+      for (int i = 0; i < kBisections; ++i) {
+        const double middle = 0.5 * (free + hit_at);
+        (blocked(middle, &what) ? hit_at : free) = middle;
+      }
+      ends[way < 0 ? 0 : 1] = free;
+    }
+    if (worst.depth == 0.0) return;
+    const double left = (ends[1] - ends[0]) / (upper - lower);
+    if (left < options_.least_left) {
+      if (worst.floor) result_.floor_in_the_way = true;
+      return;
+    }
+    char figures[96];
+    std::snprintf(figures, sizeof(figures), " from [%.3g, %.3g] to [%.3g, %.3g]", lower, upper,
+                  ends[0], ends[1]);
+    const bool slides = joint.type == assets::UrdfJointType::kPrismatic;
+    result_.findings.push_back(
+        {"joint-cut", core::Severity::kWarning, joint.name,
+         "its range was cut" + std::string(figures) + (slides ? " m" : " rad") +
+             ", where it would meet " + worst.name + "; share that is left",
+         left, worst.floor ? "stand it higher, and widen the limit" : ""});
+    if (turns) joint.type = assets::UrdfJointType::kRevolute;
+    joint.lower = ends[0];
+    joint.upper = ends[1];
+  }
+
+  const RangeOptions options_;
+  UrdfModel* model_;
+  const LinkGroups groups_;
+  RangeResult result_;
+};
+
+}  // namespace
+
+RangeResult EndRangesAtObstacles(const RangeOptions& options, UrdfModel* model) {
+  return Ranges(options, model).End();
+}
+
+}  // namespace simwright::pipeline
