@@ -119,7 +119,8 @@ class Inflater {
   }
 
  private:
-  InflatedShape Upright(const UprightBody& body) const {
+  InflatedShape Upright(UprightBody body) const {
+    if (prior_.open) SharpenRim(mask_, camera_, &body);
     OutlineField field(camera_, mask_);
     field.AddUprightBody(body);
     if (prior_.open && !prior_.round) {

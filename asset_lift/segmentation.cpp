@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "asset_lift/background_model.h"
+#include "asset_lift/outline_contrast.h"
 #include "core/error.h"
 
 namespace simwright::asset_lift {
@@ -46,6 +47,41 @@ cv::Mat OneObject(const cv::Mat& mask, const SegmentationOptions& options) {
                       "take it from farther away, or give --mask");
   }
   return regions.labels == regions.by_area[0].second;
+}
+
+// What colours cut out of an empty table, or of a thing that shows what is behind it, has no edge.
+void RequireOutline(const core::Image& photo, const cv::Mat& object,
+                    const SegmentationOptions& options) {
+  const double weak = WeakOutlineShare(photo, object);
+  if (weak <= options.most_weak_outline) return;
+  throw core::Error("nothing stands out from the background: " +
+                        std::to_string(std::lround(100.0 * weak)) +
+                        " % of what might be an outline looks the same on both sides, as of an "
+                        "empty table, or of glass that shows what is behind it",
+                    "", "take it before another background, or give --mask");
+}
+
+// A smaller second thing beside the first, which its outline tells from a reflection or a shadow.
+void RequireAlone(const core::Image& photo, const cv::Mat& mask,
+                  const SegmentationOptions& options) {
+  const Regions regions = FindRegions(mask);
+  for (size_t i = 1; i < regions.by_area.size(); ++i) {
+    const auto [area, label] = regions.by_area[i];
+    if (area < options.second_outlined * regions.by_area[0].first) return;
+    if (WeakOutlineShare(photo, regions.labels == label) > options.most_weak_outline) continue;
+    throw core::Error("the photo shows two objects or more, the second " +
+                          std::to_string(std::lround(100.0 * area / regions.by_area[0].first)) +
+                          " % as large as the first",
+                      "", "crop it to one, or give --mask");
+  }
+}
+
+Matte LargeEnough(Matte matte, const SegmentationOptions& options) {
+  const int width = matte.right - matte.left, height = matte.bottom - matte.top;
+  if (std::max(width, height) >= options.least_side) return matte;
+  throw core::Error("the object is only " + std::to_string(width) + " x " +
+                        std::to_string(height) + " pixels",
+                    "", "use a photo that shows it at least 64 pixels large");
 }
 
 // Share of the border that the mask covers, by side: left, top, right, bottom.
@@ -142,15 +178,17 @@ Matte SegmentObject(const core::Image& photo, const std::optional<core::Image>& 
                           std::to_string(photo.height) + " pixels",
                       "", "use one of at least 64 pixels a side");
   }
-  if (mask) return FromMask(photo, *mask, options);
-  if (HasCutOut(photo)) return FromAlpha(photo, options);
+  if (mask) return LargeEnough(FromMask(photo, *mask, options), options);
+  if (HasCutOut(photo)) return LargeEnough(FromAlpha(photo, options), options);
   const cv::Mat alpha = FindForeground(photo, options);
   const cv::Mat object = OneObject(alpha > 127, options);
+  RequireOutline(photo, object, options);
+  RequireAlone(photo, alpha > 127, options);
   RequireWhole(object);
   cv::Mat grown, kept;
   cv::dilate(object, grown, cv::Mat::ones(5, 5, CV_8U));
   alpha.copyTo(kept, grown);
-  return MatteFrom(kept, "colour and contrast");
+  return LargeEnough(MatteFrom(kept, "colour and contrast"), options);
 }
 
 }  // namespace simwright::asset_lift

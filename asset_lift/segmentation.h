@@ -22,8 +22,14 @@ struct SegmentationOptions {
   int grabcut_iterations = 5;
   double min_area = 0.004;  // of the picture: less is a speck
   double max_area = 0.96;   // more leaves no background to tell it from
-  // A second region of this share of the largest one counts as a second object.
+  // A second region of this share of the largest one counts as a second object; one that is told
+  // from the background by its outline does from the smaller share on.
   double second_object = 0.35;
+  double second_outlined = 0.1;
+  // More of the outline than this that looks the same on both sides is no object's
+  // (outline_contrast.h).
+  double most_weak_outline = 0.5;
+  int least_side = 32;  // pixels of the object's longer side
   // The thing is known to be round: an ellipse with support in the photo's edges completes what
   // shade hides of it.
   bool round_object = false;
@@ -34,8 +40,9 @@ struct SegmentationOptions {
 // else from `mask` (any picture of the same proportions, bright inside); else by the colours along
 // the border (a Gaussian mixture), fine-grained saliency, GrabCut (Rother et al. 2004) and a guided
 // filter. Throws core::Error with the reason where no single object stands out: nothing opaque,
-// nothing distinct, two objects, an object cut off on several sides, a mask of other proportions,
-// or a photo under 16 pixels a side.
+// nothing distinct, an outline without an edge (an empty table, clear glass), two objects, an object
+// cut off on several sides or under 32 pixels, a mask of other proportions, or a photo under 16
+// pixels a side.
 Matte SegmentObject(const core::Image& photo, const std::optional<core::Image>& mask,
                     const SegmentationOptions& options = {});
 

@@ -112,6 +112,49 @@ void TrimEnds(const Sights& sights, const core::Camera& camera, UprightBody* bod
   body->bottom = bottom;
 }
 
+// The middle, in pixels, of the mask's run around column `x` of a row; negative where there is none.
+double MiddleOfRun(const cv::Mat& mask, int row, int x) {
+  if (row < 0 || row >= mask.rows || x < 0 || x >= mask.cols || mask.at<uchar>(row, x) == 0) {
+    return -1.0;
+  }
+  int left = x, right = x;
+  while (left > 0 && mask.at<uchar>(row, left - 1) != 0) --left;
+  while (right + 1 < mask.cols && mask.at<uchar>(row, right + 1) != 0) ++right;
+  return 0.5 * (left + right + 1);
+}
+
+// Where the axis is in the middle of most levels' rows: those that a handle widens on one side are
+// fewer, as the hole beside its bow ends the row.
+double MiddleAxis(const cv::Mat& mask, const core::Camera& camera, const UprightBody& body) {
+  std::vector<double> shifts;  // world
+  for (size_t level = 0; level < body.radius.size(); ++level) {
+    if (body.radius[level] <= 0.0) continue;
+    const double z = body.bottom + body.step * static_cast<double>(level);
+    const Eigen::Vector3d pixel = camera.Project({body.axis_x, body.axis_y, z});
+    const double middle = MiddleOfRun(mask, static_cast<int>(pixel.y()), static_cast<int>(pixel.x()));
+    if (middle < 0.0) continue;
+    const Eigen::Vector3d aside = camera.Project({body.axis_x + body.step, body.axis_y, z});
+    shifts.push_back((middle - pixel.x()) * body.step / (aside.x() - pixel.x()));
+  }
+  if (shifts.empty()) return body.axis_x;
+  std::nth_element(shifts.begin(), shifts.begin() + static_cast<long>(shifts.size() / 2),
+                   shifts.end());
+  return body.axis_x + shifts[shifts.size() / 2];
+}
+
+// The uppermost row, in pixels, that a disc reaches.
+double TopRow(const core::Camera& camera, const UprightBody& body, double z, double radius) {
+  double top = std::numeric_limits<double>::infinity();
+  constexpr int kSides = 72;
+  for (int k = 0; k < kSides; ++k) {
+    const double angle = 2.0 * M_PI * k / kSides;
+    const Eigen::Vector3d p = camera.Project(
+        {body.axis_x + radius * std::cos(angle), body.axis_y + radius * std::sin(angle), z});
+    top = std::min(top, p.y());
+  }
+  return top;
+}
+
 }  // namespace
 
 double UprightBody::RadiusAt(double z) const {
@@ -154,8 +197,42 @@ UprightBody FitUprightBody(const cv::Mat& mask, const core::Camera& camera) {
     from = best.axis_x - stride;
     to = best.axis_x + stride;
   }
-  if (best.coverage > 0.0) TrimEnds(sights, camera, &best);
+  if (best.coverage <= 0.0) return best;
+  body.axis_x = MiddleAxis(mask, camera, best);
+  FillRadii(sights, mask, camera, &body);
+  body.coverage = Coverage(sights, camera, body, 0, body.radius.size() - 1);
+  constexpr double kAsMuch = 0.01;
+  if (body.coverage >= best.coverage - kAsMuch) best = body;
+  TrimEnds(sights, camera, &best);
   return best;
+}
+
+bool SharpenRim(const cv::Mat& mask, const core::Camera& camera, UprightBody* body) {
+  const double height = body->top() - body->bottom;
+  const auto at = [&](double share) { return body->RadiusAt(body->bottom + share * height); };
+  // The wall, as a line through the radii at 0.6 and 0.82 of the height.
+  constexpr double kLow = 0.6, kHigh = 0.82, kShoulder = 0.97;
+  const double slope = (at(kHigh) - at(kLow)) / ((kHigh - kLow) * height);
+  const auto wall = [&](double z) {
+    return at(kHigh) + slope * (z - body->bottom - kHigh * height);
+  };
+  if (body->radius.size() < 12 || !(at(kLow) > 0.0)) return false;
+  if (body->radius.back() >= kShoulder * wall(body->top())) return false;
+  const double row = cv::boundingRect(mask).y;
+  double top = body->bottom + kHigh * height;
+  const double fine = 0.1 * body->step;
+  while (top < body->top() && wall(top) > 0.0 && TopRow(camera, *body, top, wall(top)) > row) {
+    top += fine;
+  }
+  UprightBody sharp = *body;
+  sharp.step = (top - body->bottom) / static_cast<double>(body->radius.size() - 1);
+  for (size_t level = 0; level < sharp.radius.size(); ++level) {
+    const double z = sharp.bottom + sharp.step * static_cast<double>(level);
+    const bool below = z <= body->bottom + kHigh * height;
+    sharp.radius[level] = below ? body->RadiusAt(z) : wall(z);
+  }
+  *body = sharp;
+  return true;
 }
 
 cv::Mat Silhouette(const UprightBody& body, const core::Camera& camera) {
