@@ -25,11 +25,6 @@ if(SIMWRIGHT_SANITIZE)
                       -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
 endif()
-if(SIMWRIGHT_FUZZ)
-  # Coverage for libFuzzer; the fuzz targets link its main function.
-  add_compile_options(-fsanitize=fuzzer-no-link)
-endif()
-
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
   # Relative to the source folder, so that a second clone finds what the first has compiled.
