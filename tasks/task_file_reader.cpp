@@ -30,13 +30,15 @@ class Value {
     throw core::Error(what, file_ + (place_.empty() ? "" : ": " + place_));
   }
 
-  // Throws unless this is an object of exactly these members.
-  void RequireMembers(std::initializer_list<const char*> names) const {
+  // Throws unless this is an object of exactly these members, and of `optional` ones.
+  void RequireMembers(std::initializer_list<const char*> names,
+                      std::initializer_list<const char*> optional = {}) const {
     if (!json_.is_object()) Fail("should be an object");
     for (const auto& member : json_.items()) {
       const std::string& key = member.key();
-      const bool known =
-          std::any_of(names.begin(), names.end(), [&](const char* name) { return key == name; });
+      const auto same = [&](const char* name) { return key == name; };
+      const bool known = std::any_of(names.begin(), names.end(), same) ||
+                         std::any_of(optional.begin(), optional.end(), same);
       if (!known) Fail("'" + key.substr(0, 40) + "' is no member that is known here");
     }
     for (const char* name : names) {
@@ -57,6 +59,7 @@ class Value {
     return elements;
   }
 
+  bool Holds(const char* name) const { return json_.contains(name); }
   bool is_null() const { return json_.is_null(); }
 
   std::string Text() const {
@@ -121,7 +124,7 @@ std::string LinesFrom(const Value& value) {
 core::Findings FindingsFrom(const Value& value) {
   core::Findings findings;
   for (const Value& entry : value.Elements()) {
-    entry.RequireMembers({"code", "severity", "place", "sentence", "figure"});
+    entry.RequireMembers({"code", "severity", "place", "sentence", "figure"}, {"remedy"});
     core::Finding finding;
     finding.code = entry["code"].Text();
     const std::string severity = entry["severity"].Text();
@@ -134,6 +137,7 @@ core::Findings FindingsFrom(const Value& value) {
     finding.place = entry["place"].Text();
     finding.sentence = entry["sentence"].Text();
     finding.figure = entry["figure"].Number();
+    if (entry.Holds("remedy")) finding.remedy = entry["remedy"].Text();
     findings.push_back(std::move(finding));
   }
   return findings;

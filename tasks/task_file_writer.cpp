@@ -70,6 +70,7 @@ Json ToJson(const core::Findings& findings, const std::string& place) {
                     {"place", f.place},
                     {"sentence", f.sentence},
                     {"figure", Finite(f.figure, place + ".figure")}});
+    if (!f.remedy.empty()) list.back()["remedy"] = f.remedy;
   }
   return list;
 }

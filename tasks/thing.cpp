@@ -50,6 +50,7 @@ ThingLink LinkOf(const assets::UrdfLink& source, const assets::SemanticModel& mo
     for (const assets::UrdfShape& shape : source.visuals) meshes.push_back(&shape.mesh);
   }
   link.outline = Outermost(meshes);
+  for (const core::TriangleMesh* mesh : meshes) link.parts.push_back(core::Bounds(*mesh));
   for (const Eigen::Vector3d& point : link.outline) link.box.extend(point);
   if (!link.box.isEmpty()) link.middle = link.box.center();
   if (source.inertial) link.mass = source.inertial->mass;

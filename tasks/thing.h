@@ -20,6 +20,7 @@ struct ThingLink {
   // The outermost points of its shapes, at most 98, m, link frame; none where it has no shape.
   std::vector<Eigen::Vector3d> outline;
   Eigen::AlignedBox3d box;                           // of the shapes, link frame; may be empty
+  std::vector<Eigen::AlignedBox3d> parts;            // of each shape
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // of the box; where "the link is"
   double mass = 0.0;                                 // kg; 0 where the file gives none
 };

@@ -4,6 +4,8 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
+#include <vector>
 
 namespace simwright::tasks {
 namespace {
@@ -12,6 +14,7 @@ constexpr double kPushable = 8.0;      // kg
 constexpr double kRimHeight = 0.3;     // m: what is higher is not taken by its rim
 constexpr double kLongest = 0.5;       // m, of what one hand carries
 constexpr double kSpare = 0.01;        // m
+constexpr double kLeastHeight = 0.015;  // m, of what fingers take from the floor
 constexpr double kLeastTurn = 0.6;     // rad that make a door
 constexpr double kLeastSlide = 0.06;   // m that make a drawer
 constexpr double kLeastPress = 0.002;  // m
@@ -99,12 +102,65 @@ std::string PartName(const Thing& thing, const ThingJoint& joint) {
   return same > 1 ? name + " " + std::to_string(number) : name;
 }
 
+bool HasHandle(const Thing& thing) {
+  constexpr double kOut = 0.02;  // m
+  Eigen::AlignedBox3d bulk;
+  std::vector<Eigen::AlignedBox3d> slim;
+  for (const Eigen::AlignedBox3d& part : thing.links[0].parts) {
+    Eigen::Vector3d sides = part.sizes();
+    std::sort(sides.data(), sides.data() + 3);
+    if (sides[1] > kHandOpening) {
+      bulk.extend(part);
+    } else {
+      slim.push_back(part);
+    }
+  }
+  return std::any_of(slim.begin(), slim.end(), [&](const Eigen::AlignedBox3d& part) {
+    if (bulk.isEmpty()) {
+      Eigen::Vector3d sides = part.sizes();
+      std::sort(sides.data(), sides.data() + 3);
+      return sides[2] >= 2.0 * sides[1];
+    }
+    const Eigen::Vector3d beyond =
+        (part.max() - bulk.max()).cwiseMax(bulk.min() - part.min());
+    return beyond.head<2>().maxCoeff() >= kOut;
+  });
+}
+
 bool CanBeLifted(const Thing& thing) {
   if (thing.articulated() || thing.mass > kPayload) return false;
   const Eigen::Vector3d size = thing.box.sizes();
-  if (size.maxCoeff() > kLongest || size.z() < 0.015) return false;
+  if (size.maxCoeff() > kLongest || size.z() < kLeastHeight) return false;
   const bool narrow = size.head<2>().minCoeff() <= kHandOpening;
-  return narrow || (OpensUpwards(thing) && size.z() <= kRimHeight);
+  return narrow || (OpensUpwards(thing) && size.z() <= kRimHeight) || HasHandle(thing);
+}
+
+NoUse WhyOfNoUse(const Thing& thing) {
+  char text[160];
+  if (thing.articulated()) {
+    const bool used = std::any_of(
+        thing.joints.begin(), thing.joints.end(),
+        [&](const ThingJoint& joint) { return UseOf(thing, joint) != JointUse::kNone; });
+    if (used) return {};
+    return {"none of its joints moves far enough for a hand: a turn of 0.1 rad, a slide of 2 mm",
+            "widen its limits"};
+  }
+  if (CanBeLifted(thing) || CanBePushed(thing)) return {};
+  const Eigen::Vector3d size = thing.box.sizes();
+  if (thing.box.isEmpty()) return {"it has no shape", "give it collision shapes"};
+  if (thing.mass > kPushable) {
+    std::snprintf(text, sizeof(text), "its %.3g kg are more than the %.3g kg that a hand pushes",
+                  thing.mass, kPushable);
+    return {text, "state its true --mass or --size where it is imported"};
+  }
+  if (size.maxCoeff() > 2.0 * kLongest) {
+    std::snprintf(text, sizeof(text), "its %.3g m are more than the %.3g m that a hand pushes",
+                  size.maxCoeff(), 2.0 * kLongest);
+    return {text, "state its true --size where it is imported"};
+  }
+  std::snprintf(text, sizeof(text), "it is %.3g m high, too flat for fingers to take or to push",
+                size.z());
+  return {text, "stand it on something, or make it thicker"};
 }
 
 bool CanBePushed(const Thing& thing) {
@@ -113,7 +169,10 @@ bool CanBePushed(const Thing& thing) {
 }
 
 bool CanPour(const Thing& thing) {
-  return CanBeLifted(thing) && OpensUpwards(thing) &&
+  const bool spout =
+      Holds(thing.category, std::array{"teapot", "kettle", "jug", "pitcher", "carafe", "watering can",
+                                       "coffee pot", "creamer", "gravy boat", "bottle"});
+  return CanBeLifted(thing) && (OpensUpwards(thing) || spout) &&
          thing.height() >= 0.5 * thing.box.sizes().head<2>().minCoeff();
 }
 

@@ -28,13 +28,24 @@ std::string PartName(const Thing& thing, const ThingJoint& joint);
 constexpr double kHandOpening = 0.075;  // m
 constexpr double kPayload = 2.5;        // kg
 
-// Whether one hand lifts it: narrow enough somewhere, or with a rim to take.
+// Whether it has a part that a hand closes around and that stands out: a hammer's shaft, the handle
+// of a teapot. Its shapes tell: a slim one that reaches 2 cm beyond those that are not slim, or,
+// where all are, a rod at least twice as long as wide.
+bool HasHandle(const Thing& thing);
+
+// Whether one hand lifts it: narrow enough somewhere, or with a rim or a handle to take.
 bool CanBeLifted(const Thing& thing);
+
+// Why no hand does anything with a thing, a sentence and what may mend it; empty where one can.
+struct NoUse {
+  std::string sentence, remedy;
+};
+NoUse WhyOfNoUse(const Thing& thing);
 
 // Whether a hand can push it along the floor: rigid, higher than 2 cm, at most 8 kg.
 bool CanBePushed(const Thing& thing);
 
-// Whether it holds what can be poured: open above, and can be lifted.
+// Whether it holds what can be poured: open above or called so (a teapot), and can be lifted.
 bool CanPour(const Thing& thing);
 
 // Whether `thing` stands on top of `holder`: a level top, larger than its foot.

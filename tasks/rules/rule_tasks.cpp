@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "tasks/layout.h"
+#include "tasks/rules/affordances.h"
 #include "tasks/rules/idea.h"
 #include "tasks/rules/step.h"
 #include "tasks/task_names.h"
@@ -92,6 +93,37 @@ Worked WorkOut(const SceneModel& model, const Idea& idea, std::uint64_t seed, st
   return {std::move(task), ""};
 }
 
+std::string DroppedText(const std::map<std::string, int>& dropped) {
+  std::string text;
+  for (const auto& [code, count] : dropped) {
+    text += (text.empty() ? "" : ", ") + code + " " + std::to_string(count);
+  }
+  return text;
+}
+
+// What is in no task, and why: nothing that a hand does with it, or no idea that held.
+core::Findings WithoutTask(const SceneModel& model, const RuleTasks& made) {
+  std::set<std::string> used;
+  for (const Task& task : made.tasks) used.insert(task.assets.begin(), task.assets.end());
+  core::Findings findings;
+  for (const Thing& thing : model.things) {
+    if (used.contains(thing.name)) continue;
+    NoUse why = WhyOfNoUse(thing);
+    if (why.sentence.empty()) {
+      const std::string dropped = DroppedText(made.dropped);
+      why = dropped.empty()
+                ? NoUse{"other assets took up the count of tasks", "a larger --count"}
+                : NoUse{"no task with it held on verification; dropped: " + dropped,
+                        "docs/tasks.md says what the codes mean; another --seed lays out anew"};
+    }
+    findings.push_back(
+        {"no-task", core::Severity::kWarning, thing.name, why.sentence, 0.0, why.remedy});
+  }
+  return findings;
+}
+
+RuleTasks Generate(const SceneModel& model, const RuleOptions& options, core::Progress* progress);
+
 }  // namespace
 
 bool RuleOptions::IsValid(std::string* error) const {
@@ -104,6 +136,14 @@ RuleTasks GenerateTasksByRules(const SceneModel& model, const RuleOptions& optio
                                core::Progress* progress) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error(error, "task generation");
+  RuleTasks made = Generate(model, options, progress);
+  made.findings = WithoutTask(model, made);
+  return made;
+}
+
+namespace {
+
+RuleTasks Generate(const SceneModel& model, const RuleOptions& options, core::Progress* progress) {
   const int wanted =
       options.count > 0 ? options.count : kTasksAThing * static_cast<int>(model.things.size());
   core::Rng rng = core::StreamRng(options.seed, 0);
@@ -136,5 +176,7 @@ RuleTasks GenerateTasksByRules(const SceneModel& model, const RuleOptions& optio
   }
   return result;
 }
+
+}  // namespace
 
 }  // namespace simwright::tasks

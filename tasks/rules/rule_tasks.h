@@ -23,6 +23,8 @@ struct RuleTasks {
   int tried = 0;            // ideas looked at, until there were enough
   // Why ideas were dropped: codes of findings, "no-plan", "no-layout", and how often.
   std::map<std::string, int> dropped;
+  // "no-task", a warning for each thing that is in no task, with the reason.
+  core::Findings findings;
 };
 
 // Tasks by rules alone: what can be opened, turned, pressed, picked up, pushed, stood on, put into,
