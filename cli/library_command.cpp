@@ -63,7 +63,8 @@ void PrintLine(const pipeline::LibraryOutcome& outcome) {
     std::printf("refused  %s: %s\n", outcome.name.c_str(), outcome.refusal.c_str());
     return;
   }
-  const char* const state = outcome.check ? pipeline::GradeSentence(outcome.check->grade()) : "written";
+  const char* const state =
+      outcome.check ? pipeline::GradeSentence(outcome.check->grade()) : "written";
   if (outcome.joints == 0) {
     std::printf("%s  %s  %.3f kg  (%.1f s)\n", state, outcome.folder.c_str(), outcome.mass,
                 outcome.seconds);

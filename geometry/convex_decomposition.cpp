@@ -10,6 +10,7 @@
 #include "geometry/convex_hull.h"
 #include "geometry/convex_pieces.h"
 #include "geometry/hull_fit.h"
+#include "geometry/hull_simplify.h"
 #include "geometry/simplify.h"
 #include "geometry/weld.h"
 
@@ -22,12 +23,11 @@ constexpr int kMostParts = 256;
 constexpr int kSearchFaces = 3000;     // the cuts are sought on a thinned solid of so many
 constexpr double kSearchError = 2e-3;  // of the diagonal, by which that may differ
 constexpr int kSolidSamples = 4000;
-constexpr double kGrow = 0.8;        // of what sticks out of a hull cut to the vertex limit
 constexpr double kUncovered = 1e-4;  // of the diagonal: a vertex that far out is taken in
 
 void RequireOptions(const DecompositionOptions& options) {
   const bool good = options.threshold > 0.0 && options.threshold <= 2.0 && options.max_parts >= 0 &&
-                    options.max_hull_vertices >= 8 && options.candidates >= 1 &&
+                    options.max_hull_vertices >= 16 && options.candidates >= 1 &&
                     options.beam >= 1 && options.depth >= 1 && options.depth <= 4 &&
                     options.min_thickness > 0.0 && options.min_thickness < 0.1;
   if (!good) throw core::Error("a decomposition option is out of range", "convex decomposition");
@@ -153,85 +153,6 @@ void TakeInVertices(const core::TriangleMesh& solid, const CutContext& context,
   }
 }
 
-// How far `points` stick out of each of the planes; each point counts for the one it is highest
-// over.
-std::vector<double> StickingOut(const std::vector<Eigen::Vector4d>& planes,
-                                const std::vector<Vector3d>& points) {
-  std::vector<double> out(planes.size(), 0.0);
-  for (const Vector3d& p : points) {
-    std::size_t face = 0;
-    double height = 0.0;
-    for (std::size_t f = 0; f < planes.size(); ++f) {
-      const double h = planes[f].head<3>().dot(p) - planes[f][3];
-      if (h <= height) continue;
-      height = h;
-      face = f;
-    }
-    out[face] = std::max(out[face], height);
-  }
-  return out;
-}
-
-// For each face whether it belongs to a flat side: one plane with a good share of the surface.
-std::vector<bool> OnFlatSide(const core::TriangleMesh& hull,
-                             const std::vector<Eigen::Vector4d>& planes, double same) {
-  constexpr double kShare = 0.04;
-  std::vector<double> area(planes.size());
-  for (std::size_t f = 0; f < planes.size(); ++f) {
-    area[f] = 0.5 * core::TriangleAreaVector(hull, static_cast<int>(f)).norm();
-  }
-  const double whole = core::SurfaceArea(hull);
-  std::vector<bool> flat(planes.size());
-  for (std::size_t f = 0; f < planes.size(); ++f) {
-    double side = 0.0;
-    for (std::size_t g = 0; g < planes.size(); ++g) {
-      const bool together = planes[f].head<3>().dot(planes[g].head<3>()) > 1.0 - 1e-8 &&
-                            std::abs(planes[f][3] - planes[g][3]) < same;
-      if (together) side += area[g];
-    }
-    flat[f] = side > kShare * whole;
-  }
-  return flat;
-}
-
-// The hull within the vertex limit. What fewer vertices cut off a round hull is given back: each
-// vertex moves out by what sticks out of its faces, along their normals. Flat sides, where parts
-// meet, stay where they are: no crack opens.
-core::TriangleMesh Limited(Piece piece, const CutContext& context) {
-  const DecompositionOptions& options = *context.options;
-  if (static_cast<int>(piece.hull.vertices.size()) <= options.max_hull_vertices) {
-    return std::move(piece.hull);
-  }
-  const double thinnest = options.min_thickness * context.diagonal;
-  const core::TriangleMesh hull =
-      ThickenedConvexHull(piece.hull.vertices, thinnest, options.max_hull_vertices);
-  const std::vector<Eigen::Vector4d> planes = FacePlanes(hull);
-  const std::vector<double> out = StickingOut(planes, piece.hull.vertices);
-  const std::vector<bool> flat = OnFlatSide(hull, planes, 1e-5 * context.diagonal);
-  std::vector<Vector3d> push(hull.vertices.size(), Vector3d::Zero());
-  std::vector<double> farthest(hull.vertices.size(), 0.0);
-  for (std::size_t f = 0; f < planes.size(); ++f) {
-    for (const int v : hull.triangles[f]) {
-      push[v] += out[f] * planes[f].head<3>();
-      farthest[v] = std::max(farthest[v], out[f]);
-    }
-  }
-  for (int round = 0; round < 3; ++round) {
-    for (std::size_t f = 0; f < planes.size(); ++f) {
-      if (!flat[f]) continue;
-      const Vector3d normal = planes[f].head<3>();
-      for (const int v : hull.triangles[f]) push[v] -= normal.dot(push[v]) * normal;
-    }
-  }
-  std::vector<Vector3d> grown = hull.vertices;
-  for (std::size_t v = 0; v < grown.size(); ++v) {
-    // What the planes leave of it may be nothing.
-    if (push[v].norm() <= 0.1 * farthest[v]) continue;
-    grown[v] += kGrow * farthest[v] * push[v].normalized();
-  }
-  return ThickenedConvexHull(grown, thinnest, options.max_hull_vertices);
-}
-
 ConvexDecomposition DecomposeUnit(const core::TriangleMesh& solid,
                                   const DecompositionOptions& options) {
   const double diagonal = core::Bounds(solid).diagonal().norm();
@@ -257,7 +178,7 @@ ConvexDecomposition DecomposeUnit(const core::TriangleMesh& solid,
     MeasureConcavity(context, &piece);
     ConvexPart part;
     part.concavity = piece.concavity;
-    part.hull = Limited(std::move(piece), context);
+    part.hull = SimplifyHull(piece.hull, options.max_hull_vertices);
     result.concavity = std::max(result.concavity, part.concavity);
     result.parts.push_back(std::move(part));
   }

@@ -21,6 +21,8 @@ using Eigen::Vector3d;
 constexpr double kSameAngle = 0.5 * std::numbers::pi / 180.0;
 constexpr double kSamePlane = 1e-4;  // of the diagonal
 constexpr double kInside = 1e-6;     // of the diagonal
+constexpr double kBarrier = 0.0355;  // of the height; 1 / cos(15 degrees) - 1 and some rounding
+constexpr double kRolled = 75.0 * std::numbers::pi / 180.0;
 
 struct Edge {
   Vector3d from, to;
@@ -183,20 +185,64 @@ StablePose PoseOn(const Facet& facet, const Vector3d& center) {
   return pose;
 }
 
-}  // namespace
-
-std::vector<StablePose> StablePoses(const core::TriangleMesh& solid, const Vector3d& center) {
+// The facets of the convex hull, the centre of mass above each of them.
+std::vector<Facet> RequireFacets(const core::TriangleMesh& solid, const Vector3d& center) {
   core::RequireValid(solid, "stable poses");
   if (!center.allFinite()) throw core::Error("the centre of mass is not finite", "stable poses");
   const core::TriangleMesh hull = ConvexHull(solid.vertices);
-  const double diagonal = core::Bounds(hull).diagonal().norm();
-  const std::vector<Facet> facets = Facets(hull, center, diagonal);
+  std::vector<Facet> facets = Facets(hull, center, core::Bounds(hull).diagonal().norm());
   for (const Facet& facet : facets) {
     if (facet.height <= 0.0) {
       throw core::Error("the centre of mass is not inside the convex hull", "stable poses",
                         "compute it from the closed solid");
     }
   }
+  return facets;
+}
+
+// The height that the centre of mass has to pass when the body turns over `edge` from one facet to
+// another: that over the edge, where it comes to stand above it, else the higher facet's.
+double Barrier(const Facet& from, const Facet& to, const Edge& edge, const Vector3d& center) {
+  const Vector3d along = (edge.to - edge.from).normalized();
+  const Vector3d arm = edge.from - center;
+  const Vector3d across = arm - along.dot(arm) * along;  // from the centre to the edge's line
+  const bool between = from.normal.cross(across).dot(across.cross(to.normal)) > 0.0;
+  return between ? across.norm() : std::max(from.height, to.height);
+}
+
+}  // namespace
+
+bool Rolls(const core::TriangleMesh& solid, const Vector3d& center, const Vector3d& down) {
+  const std::vector<Facet> facets = RequireFacets(solid, center);
+  const auto start = std::max_element(facets.begin(), facets.end(), [&](const auto& a,
+                                                                        const auto& b) {
+    return a.normal.dot(down) < b.normal.dot(down);
+  });
+  const double highest = start->height * (1.0 + kBarrier);
+  const double lowest = start->height * (1.0 - kBarrier);
+  std::vector<bool> reached(facets.size(), false);
+  std::vector<size_t> stack{static_cast<size_t>(start - facets.begin())};
+  reached[stack[0]] = true;
+  while (!stack.empty()) {
+    const Facet& facet = facets[stack.back()];
+    stack.pop_back();
+    if (facet.normal.dot(start->normal) < std::cos(kRolled)) return true;
+    for (const Edge& edge : facet.edges) {
+      const auto next = static_cast<size_t>(edge.across);
+      if (reached[next] || facets[next].height < lowest ||
+          Barrier(facet, facets[next], edge, center) > highest) {
+        continue;
+      }
+      reached[next] = true;
+      stack.push_back(next);
+    }
+  }
+  return false;
+}
+
+std::vector<StablePose> StablePoses(const core::TriangleMesh& solid, const Vector3d& center) {
+  const std::vector<Facet> facets = RequireFacets(solid, center);
+  const double diagonal = core::Bounds(solid).diagonal().norm();
   const int count = static_cast<int>(facets.size());
   const auto stable = [&](int f) { return facets[f].margin > kInside * diagonal; };
   std::vector<double> share(count, 0.0);

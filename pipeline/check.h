@@ -28,6 +28,7 @@ struct CheckLimits {
   double rest_time = 2.0;  // s
   // Degrees from the rest pose: beyond the worst it fell over (FindRestPose takes the same bound).
   GradedLimit tilt{2.0, 5.0};
+  GradedLimit rocking_tilt{5.0, 20.0};  // degrees, of what no pose held when it was made
   // m in 2 s, of what rests; for a small body the worst is this share of its diagonal instead, but
   // at least twice the good.
   GradedLimit drift{1e-3, 1e-2};
@@ -57,8 +58,8 @@ std::string FailedRows(const CheckReport& report);
 // Throws core::Error with them where the report did not pass.
 void RequirePassed(const CheckReport& report, const std::string& name);
 
-// Checks the folder of an asset that is being made, before it is kept: throws as RequirePassed where
-// it fails, else writes the rows that warn into the findings of its asset.json.
+// Checks the folder of an asset that is being made, before it is kept: throws as RequirePassed
+// where it fails, else writes the rows that warn into the findings of its asset.json.
 CheckReport CheckBeforeKeeping(const std::filesystem::path& folder, const std::string& name,
                                const CheckLimits& limits = {});
 

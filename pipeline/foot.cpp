@@ -17,21 +17,146 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kNearDown = 25.0 * kDegree;
 constexpr double kFirm = 3.0 * kDegree;
 constexpr double kLevel = 3e-3;   // of the diagonal: what is that near to the flat is part of it
-constexpr double kSpared = 0.05;  // of the flat's area: fewer corners give steadier contacts
-constexpr int kPartCorners = 8;   // of a part on the flat; more lie closer than contacts need
+constexpr double kSpared = 1e-4;  // of the flat's area: corners on the line between others
+// Of a part on the flat. MuJoCo takes the lowest corner and those of its neighbours that are a good
+// deal away: of a round foot of 8 corners three to one side, so that a disc sinks by 2 mm; of 16 or
+// more the opposite one.
+constexpr int kPartCorners = 32;
+constexpr int kFewCorners = 7, kEnoughCorners = 16;  // between them a foot is given more
+constexpr double kBulge = 1e-3;                      // of the foot's width
+constexpr double kThinLevel = 0.25;  // of the part's height, where that is less
+constexpr double kOutside = 0.01;        // of the flat's width: a corner that a part has lost
+
+using Polygon = std::vector<Eigen::Vector2d>;
+
+// The plane of a flat, to and fro.
+struct Flat {
+  explicit Flat(const Eigen::Vector3d& normal)
+      : down(normal), u(normal.unitOrthogonal()), v(normal.cross(u)) {}
+  Eigen::Vector2d On(const Eigen::Vector3d& p) const { return {u.dot(p), v.dot(p)}; }
+  Eigen::Vector3d At(const Eigen::Vector2d& p, double reach) const {
+    return p.x() * u + p.y() * v + reach * down;
+  }
+  Eigen::Vector3d down, u, v;
+};
+
+double AreaOf(const Polygon& polygon) {
+  double twice = 0.0;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return 0.5 * twice;
+}
+
+// The corners farthest out in `count` even directions, one of them that of the farthest of all.
+Polygon EvenCorners(const Polygon& polygon, int count) {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& p : polygon) middle += p / static_cast<double>(polygon.size());
+  const Eigen::Vector2d first =
+      *std::max_element(polygon.begin(), polygon.end(), [&](const auto& a, const auto& b) {
+        return (a - middle).squaredNorm() < (b - middle).squaredNorm() * (1.0 - 1e-9);
+      }) -
+      middle;
+  Polygon even;
+  for (int k = 0; k < count; ++k) {
+    const Eigen::Vector2d direction =
+        Eigen::Rotation2Dd(2.0 * std::numbers::pi * k / count) * first;
+    even.push_back(*std::max_element(
+        polygon.begin(), polygon.end(),
+        [&](const auto& a, const auto& b) { return a.dot(direction) < b.dot(direction); }));
+  }
+  return geometry::PlaneHull(std::move(even));
+}
+
+// At most `count` corners of a convex polygon: those whose loss costs least area, or even ones.
+Polygon FootCorners(const Polygon& polygon, int count) {
+  const Polygon fewer = geometry::FewerCorners(polygon, count, kSpared);
+  if (static_cast<int>(polygon.size()) <= count) return fewer;
+  const Polygon even = EvenCorners(polygon, count);
+  return AreaOf(even) >= (1.0 - 1e-6) * AreaOf(fewer) ? even : fewer;
+}
 
 // At most `count` corners of what `points` span across `down`, all at height `reach` along it.
 std::vector<Eigen::Vector3d> Outline(const std::vector<Eigen::Vector3d>& points,
                                      const Eigen::Vector3d& down, double reach, int count) {
-  const Eigen::Vector3d u = down.unitOrthogonal(), v = down.cross(u);
-  std::vector<Eigen::Vector2d> flat;
-  for (const Eigen::Vector3d& p : points) flat.emplace_back(u.dot(p), v.dot(p));
+  const Flat flat(down);
+  Polygon spread;
+  for (const Eigen::Vector3d& p : points) spread.push_back(flat.On(p));
   std::vector<Eigen::Vector3d> corners;
-  for (const Eigen::Vector2d& p :
-       geometry::FewerCorners(geometry::PlaneHull(std::move(flat)), count, kSpared)) {
-    corners.push_back(p.x() * u + p.y() * v + reach * down);
+  for (const Eigen::Vector2d& p : FootCorners(geometry::PlaneHull(std::move(spread)), count)) {
+    corners.push_back(flat.At(p, reach));
   }
   return corners;
+}
+
+// A polygon of 7 to 15 corners with more on its sides, which bulge by a thousandth of its width.
+Polygon WithMoreCorners(const Polygon& polygon) {
+  const int corners = static_cast<int>(polygon.size());
+  if (corners < kFewCorners || corners >= kEnoughCorners) return polygon;
+  Eigen::AlignedBox2d width;
+  for (const Eigen::Vector2d& p : polygon) width.extend(p);
+  const double bulge = kBulge * width.sizes().maxCoeff();
+  const int pieces = (kEnoughCorners + corners - 1) / corners;
+  Polygon more;
+  for (int i = 0; i < corners; ++i) {
+    const Eigen::Vector2d& a = polygon[static_cast<size_t>(i)];
+    const Eigen::Vector2d along = polygon[static_cast<size_t>((i + 1) % corners)] - a;
+    const Eigen::Vector2d outward = Eigen::Vector2d(along.y(), -along.x()).normalized();
+    for (int k = 0; k < pieces; ++k) {
+      const double t = static_cast<double>(k) / pieces;
+      more.push_back(a + t * along + 4.0 * t * (1.0 - t) * bulge * outward);
+    }
+  }
+  return geometry::PlaneHull(std::move(more));
+}
+
+bool IsOutside(const Polygon& polygon, const Eigen::Vector2d& p, double slack) {
+  if (polygon.size() < 3) return true;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d along = (polygon[(i + 1) % polygon.size()] - polygon[i]).normalized();
+    const Eigen::Vector2d to = p - polygon[i];
+    if (along.x() * to.y() - along.y() * to.x() < -slack) return true;
+  }
+  return false;
+}
+
+// The part with what it has of the flat, and `added` corners, as KeepFoot promises.
+core::TriangleMesh WithFoot(const core::TriangleMesh& part, const Foot& foot, double diagonal,
+                            const std::vector<Eigen::Vector3d>& added, bool alone,
+                            int max_vertices) {
+  const Flat flat(foot.down);
+  double height = 0.0;
+  for (const Eigen::Vector3d& p : part.vertices) {
+    height = std::max(height, foot.reach - p.dot(foot.down));
+  }
+  // On a point nothing is level but what reaches beyond it.
+  const double level =
+      foot.corners.size() < 3 ? 0.0 : std::min(kLevel * diagonal, kThinLevel * height);
+  std::vector<Eigen::Vector3d> points;
+  Polygon spread;
+  for (const Eigen::Vector3d& p : part.vertices) {
+    if (p.dot(foot.down) - foot.reach < -level) {
+      points.push_back(p);
+    } else {
+      spread.push_back(flat.On(p));
+    }
+  }
+  const Polygon own = geometry::PlaneHull(spread);
+  Eigen::AlignedBox2d width;
+  for (const Eigen::Vector2d& p : own) width.extend(p);
+  for (const Eigen::Vector3d& corner : added) {
+    const double slack = own.empty() ? 0.0 : kOutside * width.sizes().maxCoeff();
+    if (IsOutside(own, flat.On(corner), slack)) spread.push_back(flat.On(corner));
+  }
+  if (spread.empty()) return part;
+  const Polygon corners = geometry::PlaneHull(std::move(spread));
+  const int room = std::max(3, max_vertices - static_cast<int>(points.size()));
+  Polygon chosen = FootCorners(corners, std::min(kPartCorners, room));
+  if (alone && room >= 2 * kEnoughCorners) chosen = WithMoreCorners(chosen);
+  for (const Eigen::Vector2d& p : chosen) points.push_back(flat.At(p, foot.reach));
+  const double thinnest = 1e-3 * core::Bounds(part).diagonal().norm();
+  return geometry::ThickenedConvexHull(points, thinnest, max_vertices);
 }
 
 }  // namespace
@@ -66,9 +191,9 @@ Foot FindFoot(const core::TriangleMesh& solid, const Eigen::Vector3d& center_of_
 }
 
 void KeepFoot(const Foot& foot, int max_vertices, std::vector<core::TriangleMesh>* parts) {
-  if (foot.corners.size() < 3) return;
   std::vector<std::vector<Eigen::Vector3d>> added(parts->size());
   for (const Eigen::Vector3d& corner : foot.corners) {
+    if (foot.corners.size() < 3) break;
     size_t nearest = 0;
     double least = std::numeric_limits<double>::infinity();
     for (size_t i = 0; i < parts->size(); ++i) {
@@ -81,22 +206,9 @@ void KeepFoot(const Foot& foot, int max_vertices, std::vector<core::TriangleMesh
   }
   Eigen::AlignedBox3d box;
   for (const core::TriangleMesh& part : *parts) box.extend(core::Bounds(part));
-  const double level = kLevel * box.diagonal().norm();
   for (size_t i = 0; i < parts->size(); ++i) {
-    std::vector<Eigen::Vector3d> points, on_foot = added[i];
-    for (const Eigen::Vector3d& p : (*parts)[i].vertices) {
-      const double out = p.dot(foot.down) - foot.reach;
-      if (out < -level) {
-        points.push_back(p);
-      } else {
-        on_foot.push_back(p - out * foot.down);
-      }
-    }
-    if (on_foot.empty()) continue;
-    on_foot = Outline(on_foot, foot.down, foot.reach, kPartCorners);
-    points.insert(points.end(), on_foot.begin(), on_foot.end());
-    const double thinnest = 1e-3 * core::Bounds((*parts)[i]).diagonal().norm();
-    (*parts)[i] = geometry::ThickenedConvexHull(points, thinnest, max_vertices);
+    (*parts)[i] = WithFoot((*parts)[i], foot, box.diagonal().norm(), added[i], parts->size() == 1,
+                           max_vertices);
   }
 }
 

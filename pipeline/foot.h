@@ -17,13 +17,16 @@ struct Foot {
 
 // The foot nearest to straight down, within 25 degrees, that bears a tilt of 3 degrees under
 // `center_of_mass`; else what is within 0.1 % of the height of the lowest vertex. At most `count`
-// corners, which may leave 5 % of its area out. Throws core::Error for an invalid or flat mesh.
+// corners, evenly spread round a round one. Throws core::Error for an invalid or flat mesh.
 Foot FindFoot(const core::TriangleMesh& solid, const Eigen::Vector3d& center_of_mass, int count);
 
-// A hull of few vertices loses the small flat on which a round thing stands: the corners go back
-// into the nearest of `parts` (convex), and what lies within 0.3 % of the diagonal of the flat, or
-// beyond it, is moved onto it, at most eight corners a part: engines keep few contacts a hull, and
-// a foot that is nearly flat chatters between them. No part gets more than `max_vertices`.
+// A hull of few vertices may lose the flat on which a thing stands: corners that lie outside of
+// what the parts (convex) have of it go back into the nearest of `parts`, and what lies within
+// 0.3 % of the diagonal of the flat (a quarter of the height of a part thinner than that), or
+// beyond it, is moved onto it: a foot that is nearly flat chatters. Where the foot is a point, only
+// what lies beyond it is. At most 32 corners a part, evenly spread round a round one; one of 7 to
+// 15 that stands alone gets more on its sides, which bulge by a thousandth of its width. No part
+// gets more than `max_vertices`.
 void KeepFoot(const Foot& foot, int max_vertices, std::vector<core::TriangleMesh>* parts);
 
 }  // namespace simwright::pipeline

@@ -58,9 +58,10 @@ core::TriangleMesh HullOfParts(const sim::RigidBody& body) {
 }
 
 // Poses near the given one first (a fruit that lay a little aslant), then by probability.
-std::vector<geometry::StablePose> PosesToTry(const sim::RigidBody& body) {
+std::vector<geometry::StablePose> PosesToTry(const sim::RigidBody& body,
+                                             const core::TriangleMesh& hull) {
   std::vector<geometry::StablePose> poses =
-      geometry::StablePoses(HullOfParts(body), body.inertial.center_of_mass);
+      geometry::StablePoses(hull, body.inertial.center_of_mass);
   const auto tilt = [](const geometry::StablePose& pose) {
     return sim::TiltBetween(pose.resting_from_body, Eigen::Isometry3d::Identity());
   };
@@ -78,27 +79,32 @@ std::vector<geometry::StablePose> PosesToTry(const sim::RigidBody& body) {
 }  // namespace
 
 RestPose FindRestPose(const sim::RigidBody& body) {
-  RestPose result;
   const Eigen::Isometry3d upright = Eigen::Isometry3d::Identity();
+  const core::TriangleMesh hull = HullOfParts(body);
+  const auto rolls = [&](const Eigen::Isometry3d& turn) {
+    return geometry::Rolls(hull, body.inertial.center_of_mass,
+                           turn.linear().transpose() * -Eigen::Vector3d::UnitZ());
+  };
   const sim::DropResult given = Drop(body, upright, 2.0);
   if (Holds(given)) {
-    result.turn = Settled(upright, given);
-    return result;
+    const Eigen::Isometry3d turn = Settled(upright, given);
+    return {turn, rolls(turn)};
   }
-  const std::vector<geometry::StablePose> poses = PosesToTry(body);
+  const std::vector<geometry::StablePose> poses = PosesToTry(body, hull);
   for (const geometry::StablePose& pose : poses) {
     Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
     start.linear() = pose.resting_from_body.linear();
+    // A bottle that lies is not stood up because it rolls.
+    if (StandsAsGiven(start) && rolls(start)) return {start, true};
     const sim::DropResult drop = Drop(body, start, 2.0);
     if (!Holds(drop)) continue;
-    result.turn = Settled(start, drop);
-    return result;
+    const Eigen::Isometry3d turn = Settled(start, drop);
+    return {turn, rolls(turn)};
   }
   // Nothing holds at once: give it time, and take the pose in which it ends.
   const sim::DropResult patient = Drop(body, upright, 15.0);
-  result.turn = WithoutYaw(patient.rest_pose);
-  result.rolls = !Holds(Drop(body, result.turn, 2.0));
-  return result;
+  const Eigen::Isometry3d turn = WithoutYaw(patient.rest_pose);
+  return {turn, !Holds(Drop(body, turn, 2.0)) || rolls(turn)};
 }
 
 bool StandsAsGiven(const Eigen::Isometry3d& turn) {
@@ -106,13 +112,17 @@ bool StandsAsGiven(const Eigen::Isometry3d& turn) {
 }
 
 std::string RestSentence(const Eigen::Isometry3d& turn, bool rolls) {
-  if (rolls) return "rolls: no pose holds it within 5 degrees";
   const double tilt = sim::TiltBetween(turn, Eigen::Isometry3d::Identity());
+  const std::string degrees = std::to_string(std::lround(tilt / kDegree)) + " degrees";
+  if (rolls) {
+    return "rolls" +
+           (tilt < kRocks ? ", and lies the way it came" : ", and lies turned by " + degrees);
+  }
   if (tilt < kRocks) return "stands the way it came";
   return (StandsAsGiven(turn)
               ? "stands nearly the way it came, turned by "
               : "does not stand the way it came; lies in a stable pose, turned by ") +
-         std::to_string(std::lround(tilt / kDegree)) + " degrees";
+         degrees;
 }
 
 }  // namespace simwright::pipeline

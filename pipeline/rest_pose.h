@@ -10,13 +10,13 @@ namespace simwright::pipeline {
 
 struct RestPose {
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();  // rotation to apply to the body
-  bool rolls = false;  // it comes to rest nowhere in particular: a ball
+  bool rolls = false;  // geometry::Rolls there, or no pose held: a ball, a lying bottle, an egg
 };
 
 // How `body` rests: dropped as it is given; where it falls over, in its stable poses, those within
 // 20 degrees of the given one first, then the most probable. A pose holds when the body comes to
 // rest within 5 degrees of it; where it rocks by more than half a degree the pose it rocked into
-// is taken.
+// is taken. What rolls in a stable pose within 20 degrees of the given one stays so, held or not.
 RestPose FindRestPose(const sim::RigidBody& body);
 
 // Whether a thing so turned still stands the way it came: within 20 degrees, whatever its yaw.

@@ -41,11 +41,27 @@ void AddRollingRow(const sim::DropResult& drop, const std::string& engine, doubl
                "of its diagonal in 2 s; it rolls, and is judged as what rolls");
 }
 
-void AddStandingRows(const sim::DropResult& drop, const std::string& engine, double size,
-                     const CheckLimits& limits, CheckRows* rows) {
+GradedLimit AllowedDrift(double size, const CheckLimits& limits) {
   GradedLimit allowed = limits.drift;
   allowed.worst = std::clamp(limits.drift_share * size, 2.0 * allowed.good, allowed.worst);
-  const core::Severity drift = SeverityAtMost(drop.drift, allowed);
+  return allowed;
+}
+
+void AddSinkingRow(const sim::DropResult& drop, const std::string& engine,
+                   const CheckLimits& limits, CheckRows* rows) {
+  rows->AtMost("sinks-" + engine, -drop.lowest_point * 1e3, InUnit(limits.sinking, 1e3),
+               "mm below the floor at rest");
+}
+
+void AddDriftRow(const sim::DropResult& drop, const std::string& engine, double size,
+                 const CheckLimits& limits, CheckRows* rows) {
+  rows->AtMost("drift-" + engine, drop.drift * 1e3, InUnit(AllowedDrift(size, limits), 1e3),
+               "mm in 2 s at rest");
+}
+
+void AddStandingRows(const sim::DropResult& drop, const std::string& engine, double size,
+                     const CheckLimits& limits, CheckRows* rows) {
+  const core::Severity drift = SeverityAtMost(drop.drift, AllowedDrift(size, limits));
   const bool settles = drop.rests && drop.rest_time <= limits.rest_time;
   // What still trembles after that is as bad as it is seen to move.
   rows->Add("settles-" + engine,
@@ -53,8 +69,7 @@ void AddStandingRows(const sim::DropResult& drop, const std::string& engine, dou
             drop.rest_time, "s until it rests, limit 2");
   rows->AtMost("rest-pose-" + engine, drop.tilt * kDegrees, limits.tilt,
                "degrees from its rest pose");
-  rows->AtMost("drift-" + engine, drop.drift * 1e3, InUnit(allowed, 1e3),
-               "mm in 2 s at rest");
+  AddDriftRow(drop, engine, size, limits, rows);
 }
 
 }  // namespace
@@ -66,8 +81,16 @@ void AddRestRows(const sim::DropResult& drop, const std::string& engine, bool ro
   } else {
     AddStandingRows(drop, engine, size, limits, rows);
   }
-  rows->AtMost("sinks-" + engine, -drop.lowest_point * 1e3, InUnit(limits.sinking, 1e3),
-               "mm below the floor at rest");
+  AddSinkingRow(drop, engine, limits, rows);
+}
+
+void AddRockingRows(const sim::DropResult& drop, const std::string& engine, double size,
+                    const CheckLimits& limits, CheckRows* rows) {
+  rows->Report("settles-" + engine, drop.rest_time, "s; no pose holds it, and its drift is judged");
+  rows->AtMost("rest-pose-" + engine, drop.tilt * kDegrees, limits.rocking_tilt,
+               "degrees from its rest pose, which does not hold it");
+  AddDriftRow(drop, engine, size, limits, rows);
+  AddSinkingRow(drop, engine, limits, rows);
 }
 
 }  // namespace simwright::pipeline

@@ -24,4 +24,9 @@ void RowOrFailure(const std::string& code, CheckRows* rows, const std::function<
 void AddRestRows(const sim::DropResult& drop, const std::string& engine, bool rolls, double size,
                  const CheckLimits& limits, CheckRows* rows);
 
+// settles-* reported, rest-pose-* with wider limits, drift-* and sinks-*, of a body that no pose
+// held when it was made and that does not roll.
+void AddRockingRows(const sim::DropResult& drop, const std::string& engine, double size,
+                    const CheckLimits& limits, CheckRows* rows);
+
 }  // namespace simwright::pipeline

@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 
 #include "core/mesh.h"
+#include "geometry/convex_hull.h"
 #include "geometry/isosurface.h"
 
 // Closed solids whose volume, hollows and holes are known by construction: for tests and benches.
@@ -80,6 +81,48 @@ inline TriangleMesh Sphere(double radius, int segments) {
     profile.emplace_back(pole ? 0.0 : radius * std::cos(angle), radius * std::sin(angle));
   }
   return Revolved(profile, segments);
+}
+
+// Each triangle in four, the new corners in the middle of its edges.
+inline TriangleMesh Subdivided(const TriangleMesh& mesh) {
+  TriangleMesh fine;
+  fine.vertices = mesh.vertices;
+  std::map<std::pair<int, int>, int> middles;
+  const auto middle = [&](int a, int b) {
+    const auto [at, fresh] = middles.try_emplace(std::minmax(a, b), fine.vertices.size());
+    if (fresh) fine.vertices.push_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
+    return at->second;
+  };
+  for (const auto& t : mesh.triangles) {
+    const int ab = middle(t[0], t[1]), bc = middle(t[1], t[2]), ca = middle(t[2], t[0]);
+    fine.triangles.emplace_back(t[0], ab, ca);
+    fine.triangles.emplace_back(ab, t[1], bc);
+    fine.triangles.emplace_back(ca, bc, t[2]);
+    fine.triangles.emplace_back(ab, bc, ca);
+  }
+  return fine;
+}
+
+// 20 * 4^levels faces on the unit ball.
+inline TriangleMesh Icosphere(int levels) {
+  const double g = std::numbers::phi;
+  std::vector<Vector3d> points;
+  for (const double s : {-1.0, 1.0}) {
+    for (const double t : {-g, g}) {
+      for (int k = 0; k < 3; ++k) {
+        Vector3d p = Vector3d::Zero();
+        p[k] = s;
+        p[(k + 1) % 3] = t;
+        points.push_back(p.normalized());
+      }
+    }
+  }
+  TriangleMesh ball = geometry::ConvexHull(points);
+  for (int i = 0; i < levels; ++i) {
+    ball = Subdivided(ball);
+    for (Vector3d& v : ball.vertices) v.normalize();
+  }
+  return ball;
 }
 
 inline TriangleMesh Cylinder(double radius, double height, int segments) {

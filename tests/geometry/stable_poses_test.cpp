@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "geometry/convex_hull.h"
 #include "geometry/mass_properties.h"
 #include "tests/geometry/solid_shapes.h"
 
@@ -123,6 +124,53 @@ TEST(TippingAngle, NegativeWhereItDoesNotStand) {
   const core::TriangleMesh box = shapes::Box(1, 1, 1);
   EXPECT_NEAR(TippingAngle(box, Vector3d(.5, .5, .5), {0, 0, -1}, 1e-9), kPi / 4, 1e-12);
   EXPECT_LT(TippingAngle(box, Vector3d(1.5, .5, .5), {0, 0, -1}, 1e-9), 0.0);
+}
+
+bool RollsThere(const core::TriangleMesh& mesh, const Vector3d& down) {
+  return Rolls(mesh, SolidMassProperties(mesh, 1.0).center_of_mass, down);
+}
+
+TEST(Rolls, BallsLyingCylindersAndConesDo) {
+  const Vector3d below = -Vector3d::UnitZ(), side = Vector3d::UnitX();
+  EXPECT_TRUE(RollsThere(shapes::Sphere(1.0, 24), below));
+  EXPECT_TRUE(RollsThere(shapes::Sphere(0.02, 48), Vector3d(1, 2, 3).normalized()));
+  for (const int sides : {12, 32, 128}) {
+    EXPECT_TRUE(RollsThere(shapes::Cylinder(0.03, 0.2, sides), side)) << sides;
+    EXPECT_FALSE(RollsThere(shapes::Cylinder(0.03, 0.2, sides), below)) << sides;
+  }
+  core::TriangleMesh egg = shapes::Sphere(1.0, 32);
+  for (Vector3d& v : egg.vertices) v.z() *= v.z() > 0.0 ? 1.5 : 1.2;
+  EXPECT_TRUE(RollsThere(egg, side));
+  const core::TriangleMesh cone = shapes::Cone(0.03, 0.15, 48);
+  EXPECT_TRUE(RollsThere(cone, Vector3d(0.15, 0.0, 0.03).normalized()));
+  EXPECT_FALSE(RollsThere(cone, below));
+}
+
+TEST(Rolls, WhatRocksStandsOrTipsDoesNot) {
+  const Vector3d below = -Vector3d::UnitZ();
+  EXPECT_FALSE(RollsThere(shapes::Box(1, 1, 1), below));            // a die
+  EXPECT_FALSE(RollsThere(shapes::Cylinder(1, 20, 6), Vector3d::UnitX()));  // a pencil
+  EXPECT_FALSE(RollsThere(shapes::Cylinder(1, 40, 64), below));     // on its end: it falls
+  EXPECT_FALSE(RollsThere(shapes::Cylinder(1, 0.1, 64), below));    // a coin
+  EXPECT_FALSE(RollsThere(shapes::Bowl(1, 0.1, 32), below));        // rocks on its round side
+  EXPECT_FALSE(RollsThere(shapes::Bowl(1, 0.1, 32), -below));       // on its rim
+  EXPECT_FALSE(RollsThere(shapes::Torus(1, 0.3, 48, 16), below));
+  EXPECT_TRUE(RollsThere(shapes::Torus(1, 0.3, 48, 16), Vector3d::UnitX()));  // as a wheel
+  core::TriangleMesh pebble = shapes::Sphere(1.0, 32);
+  for (Vector3d& v : pebble.vertices) v = v.cwiseProduct(Vector3d(3, 2, 1));
+  EXPECT_FALSE(RollsThere(pebble, below));
+  // Icosahedron: 20.9 degrees from a face to its edge.
+  const double g = std::numbers::phi;
+  core::TriangleMesh twenty;
+  for (const double s : {-1.0, 1.0}) {
+    for (const double t : {-g, g}) {
+      twenty.vertices.insert(twenty.vertices.end(), {{0, s, t}, {s, t, 0}, {t, 0, s}});
+    }
+  }
+  twenty = ConvexHull(twenty.vertices);
+  for (int t = 0; t < 20; ++t) {
+    EXPECT_FALSE(RollsThere(twenty, core::TriangleAreaVector(twenty, t).normalized()));
+  }
 }
 
 TEST(StablePoses, RefusesBadInput) {

@@ -1,5 +1,6 @@
 #include "pipeline/foot.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -7,7 +8,9 @@
 
 #include "core/random.h"
 #include "geometry/convex_hull.h"
+#include "geometry/hull_simplify.h"
 #include "geometry/soundness.h"
+#include "geometry/weld.h"
 #include "pipeline/rest_pose.h"
 
 namespace simwright::pipeline {
@@ -66,7 +69,7 @@ TEST(Foot, OneThatIsNearlyFlatBecomesFlat) {
   ASSERT_LT(VerticesAt(parts[0], foot), 4);
   KeepFoot(foot, 64, &parts);
   EXPECT_GE(VerticesAt(parts[0], foot), 4);
-  EXPECT_LE(VerticesAt(parts[0], foot), 8);
+  EXPECT_LE(VerticesAt(parts[0], foot), 32);
   // Nothing between the flat and the upper face is left to rock on.
   for (const Vector3d& p : parts[0].vertices) {
     const double above = foot.reach - p.dot(foot.down);
@@ -75,25 +78,73 @@ TEST(Foot, OneThatIsNearlyFlatBecomesFlat) {
   EXPECT_TRUE(geometry::Examine(parts[0]).Sound());
 }
 
-TEST(Foot, ARoundOneKeepsEightCornersAndItsReach) {
-  const core::TriangleMesh can = Can(40);
-  const Foot foot = FindFoot(can, {0, 0, 0.05}, 12);
-  std::vector<core::TriangleMesh> parts{can};
-  KeepFoot(foot, 64, &parts);
-  EXPECT_EQ(VerticesAt(parts[0], foot), 8);
-  EXPECT_LE(parts[0].vertices.size(), 64u);
-  // The apothem of eight of forty corners, at worst six steps apart.
+// Reach of the foot in the direction in which it has least.
+double LeastReach(const core::TriangleMesh& part, const Foot& foot) {
   double least = INFINITY;
   for (int i = 0; i < 360; ++i) {
     const double angle = i * std::numbers::pi / 180.0;
     double reach = 0.0;
-    for (const Vector3d& p : parts[0].vertices) {
-      if (p.z() > 1e-9) continue;
+    for (const Vector3d& p : part.vertices) {
+      if (std::abs(p.dot(foot.down) - foot.reach) > 1e-12) continue;
       reach = std::max(reach, p.x() * std::cos(angle) + p.y() * std::sin(angle));
     }
     least = std::min(least, reach);
   }
-  EXPECT_GT(least, (1.0 - 1e-9) * 0.03 * std::cos(6 * std::numbers::pi / 40));
+  return least;
+}
+
+TEST(Foot, ARoundOneKeepsItsCornersAndItsReach) {
+  for (const int sides : {8, 12, 16, 24, 32, 40, 64}) {
+    const core::TriangleMesh can = Can(sides);
+    const Foot foot = FindFoot(can, {0, 0, 0.05}, 12);
+    std::vector<core::TriangleMesh> parts{
+        geometry::SimplifyHull(can, 52)};  // as the decomposition does
+    const double volume = geometry::SignedVolume(can);
+    KeepFoot(foot, 64, &parts);
+    EXPECT_GE(VerticesAt(parts[0], foot), std::clamp(sides, 16, 24));
+    EXPECT_LE(VerticesAt(parts[0], foot), 32);
+    EXPECT_LE(parts[0].vertices.size(), 64u);
+    EXPECT_GT(LeastReach(parts[0], foot),
+              0.03 * std::cos(std::numbers::pi / std::min(sides, 24)) - 1e-9);
+    EXPECT_NEAR(geometry::SignedVolume(parts[0]) / volume, 1.0, 0.01);
+    EXPECT_TRUE(geometry::Examine(parts[0]).Sound());
+  }
+}
+
+// A coin is thinner than what counts as level of larger things.
+TEST(Foot, ADiscStaysAsThickAsItIs) {
+  core::TriangleMesh disc = Can(32);
+  for (Vector3d& p : disc.vertices) p.z() *= 0.002;
+  std::vector<core::TriangleMesh> parts{geometry::SimplifyHull(disc, 52)};
+  KeepFoot(FindFoot(disc, {0, 0, 1e-4}, 12), 64, &parts);
+  EXPECT_NEAR(geometry::SignedVolume(parts[0]) / geometry::SignedVolume(disc), 1.0, 0.01);
+  EXPECT_NEAR(core::Bounds(parts[0]).sizes().z(), 2e-4, 1e-12);
+}
+
+// A ball of few corners has the volume of one of many, and its corners stick out.
+TEST(Foot, NothingReachesBelowAPoint) {
+  const Foot foot{-Vector3d::UnitZ(), 1.0, {Vector3d(0.0, 0.0, -1.0)}};
+  std::vector<core::TriangleMesh> parts{
+      geometry::ConvexHull({{0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}, {0, 0, -1.05}})};
+  KeepFoot(foot, 64, &parts);
+  EXPECT_NEAR(core::Bounds(parts[0]).min().z(), -1.0, 1e-12);
+  EXPECT_EQ(parts[0].vertices.size(), 5u);
+}
+
+// What was lost of the foot comes back from the solid.
+TEST(Foot, ALostOneComesBack) {
+  const core::TriangleMesh can = Can(64);
+  std::vector<Vector3d> points{{0, 0, -2e-4}};
+  for (const Vector3d& p : can.vertices) {
+    points.push_back(p.z() > 0.05 ? p : Vector3d(0.8 * p.x(), 0.8 * p.y(), 1e-4));
+  }
+  const Foot foot = FindFoot(can, {0, 0, 0.05}, 12);
+  std::vector<core::TriangleMesh> parts{
+      geometry::SimplifyHull(geometry::ConvexHull(points), 52)};
+  KeepFoot(foot, 64, &parts);
+  EXPECT_NEAR(core::Bounds(parts[0]).min().z(), 0.0, 1e-12);
+  // Twelve of 64, at worst six steps apart.
+  EXPECT_GT(LeastReach(parts[0], foot), 0.03 * std::cos(6 * std::numbers::pi / 64) - 1e-9);
 }
 
 TEST(Foot, PartsAboveItStayAsTheyAre) {
