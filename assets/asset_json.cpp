@@ -41,6 +41,7 @@ Json ToJson(const core::Findings& findings) {
                     {"place", f.place},
                     {"sentence", f.sentence},
                     {"figure", f.figure}});
+    if (!f.remedy.empty()) list.back()["remedy"] = f.remedy;
   }
   return list;
 }
@@ -94,7 +95,7 @@ core::Findings FindingsFrom(const Json& json) {
   core::Findings findings;
   for (const Json& entry : json) {
     core::Finding finding{entry.at("code"), core::Severity::kInfo, entry.at("place"),
-                          entry.at("sentence"), entry.at("figure")};
+                          entry.at("sentence"), entry.at("figure"), entry.value("remedy", "")};
     for (int i = 0; i < 3; ++i) {
       if (entry.at("severity") == kSeverities[i]) {
         finding.severity = static_cast<core::Severity>(i);

@@ -1,10 +1,15 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "assets/asset_folder.h"
 #include "cli/command.h"
+#include "cli/findings_output.h"
 #include "core/error.h"
 #include "pipeline/check.h"
+#include "pipeline/check_folder.h"
 
 namespace simwright::cli {
 namespace {
@@ -14,27 +19,65 @@ struct Flags {
   std::filesystem::path root;
 };
 
+// Reports on all inputs, and whether they are many: those of a folder of assets.
+struct Checked {
+  std::vector<pipeline::CheckReport> reports;
+  bool many = false;
+};
+
+void CheckInput(const std::filesystem::path& input, const Flags& flags, core::Progress* progress,
+                Checked* checked) {
+  if (!std::filesystem::exists(input)) throw core::Error("no such file or folder", input);
+  if (!std::filesystem::is_directory(input)) {
+    checked->reports.push_back(pipeline::CheckUrdf(input, flags.root));
+    return;
+  }
+  if (assets::IsAssetFolder(input)) {
+    checked->reports.push_back(pipeline::CheckAsset(input));
+    return;
+  }
+  const std::vector<std::filesystem::path> folders = pipeline::AssetFoldersIn(input);
+  if (folders.empty()) {
+    throw core::Error("holds no asset.json, and no folder in it does", input.string(),
+                      "give an asset's folder, a folder of them, or a .urdf file");
+  }
+  checked->many = true;
+  for (pipeline::CheckReport& report : pipeline::CheckFolders(folders, progress)) {
+    checked->reports.push_back(std::move(report));
+  }
+}
+
+int PrintReportsJson(const std::vector<pipeline::CheckReport>& reports, bool passed) {
+  nlohmann::ordered_json json = {{"passed", passed}};
+  json["reports"] = nlohmann::ordered_json::array();
+  core::Findings findings;
+  for (const pipeline::CheckReport& report : reports) {
+    json["reports"].push_back(nlohmann::ordered_json::parse(pipeline::CheckJson(report)));
+    const core::Findings rows = pipeline::NotableRows(report);
+    findings.insert(findings.end(), rows.begin(), rows.end());
+  }
+  PrintJson(std::move(json), findings);
+  return passed ? 0 : 1;
+}
+
 int Check(const Flags& flags, const CommonOptions& common) {
-  bool all_pass = true;
-  std::string json;
+  core::Progress progress(common.ProgressStyle());
+  Checked checked;
   for (const std::filesystem::path& input : flags.inputs) {
-    if (!std::filesystem::exists(input)) throw core::Error("no such file or folder", input);
-    const bool folder = std::filesystem::is_directory(input);
-    if (folder && !assets::IsAssetFolder(input)) {
-      throw core::Error("holds no asset.json", input.string(),
-                        "give an asset's folder or a .urdf file");
-    }
-    const pipeline::CheckReport report =
-        folder ? pipeline::CheckAsset(input) : pipeline::CheckUrdf(input, flags.root);
-    all_pass = all_pass && report.passed();
-    if (common.json) {
-      json += (json.empty() ? "[" : ",\n") + pipeline::CheckJson(report);
-    } else {
+    CheckInput(input, flags, &progress, &checked);
+  }
+  const std::vector<pipeline::CheckReport>& reports = checked.reports;
+  const bool passed = std::all_of(reports.begin(), reports.end(),
+                                  [](const auto& report) { return report.passed(); });
+  if (common.json) return PrintReportsJson(reports, passed);
+  if (checked.many) {
+    std::fputs(pipeline::CheckSummary(reports).c_str(), stdout);
+  } else {
+    for (const pipeline::CheckReport& report : reports) {
       std::fputs(pipeline::CheckTable(report).c_str(), stdout);
     }
   }
-  if (common.json) std::printf("%s]\n", json.c_str());
-  return all_pass ? 0 : 1;
+  return passed ? 0 : 1;
 }
 
 }  // namespace
@@ -44,11 +87,12 @@ void AddCheck(CLI::App* app, CommonOptions* common, Run* run) {
   CLI::App* command =
       app->add_subcommand("check", "Geometry, inertia, readers, a drop test, and how joints swing");
   command->footer(
-      "Example:\n  simwright check apple\n"
-      "Exit code 1 when a property fails.");
-  command->add_option("inputs", flags->inputs, "Asset folders or URDF files")->required();
+      "Examples:\n  simwright check apple\n  simwright check assets\n"
+      "A folder of assets gives a line each. Exit code 1 when a property fails.");
+  command->add_option("inputs", flags->inputs, "Asset folders, folders of them, or URDF files")->required();
   command->add_option("--root", flags->root,
-                      "URDF: no file outside this folder is read; default: the URDF's own");
+                      "URDF: no file outside this folder is read")
+      ->default_str("the URDF's own folder");
   AddCommon(command, common);
   command->callback([flags, common, run] { *run = [=] { return Check(*flags, *common); }; });
 }

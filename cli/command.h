@@ -20,6 +20,7 @@ struct CommonOptions {
   bool quiet = false;
   bool json = false;
   bool force = false;
+  std::string config;  // never read: ArgumentsOf hands --config to the program itself
 
   core::Progress::Style ProgressStyle() const {
     return quiet || json ? core::Progress::Style::kSilent : core::Progress::StyleForStderr();
@@ -47,6 +48,6 @@ void AddReplay(CLI::App* app, CommonOptions* common, Run* run);
 void AddScene(CLI::App* app, CommonOptions* common, Run* run);
 void AddRun(CLI::App* app, CommonOptions* common, Run* run);
 void AddDoctor(CLI::App* app, CommonOptions* common, Run* run);
-void AddVersion(CLI::App* app, Run* run);
+void AddVersion(CLI::App* app, CommonOptions* common, Run* run);
 
 }  // namespace simwright::cli

@@ -8,7 +8,12 @@ void AddCommon(CLI::App* command, CommonOptions* common) {
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--quiet", common->quiet, "Say nothing but errors and results");
-  command->add_flag("--json", common->json, "Print the result as JSON");
+  command->add_flag("--json", common->json, "Print the result and its findings as JSON");
+  command
+      ->add_option("--config", common->config,
+                   "Read flags from a TOML file, a section a subcommand; flags given here win")
+      ->default_str("none")
+      ->configurable(false);
 }
 
 void AddForce(CLI::App* command, CommonOptions* common) {

@@ -1,6 +1,9 @@
 #include <cstdio>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/command.h"
+#include "cli/findings_output.h"
 #include "core/parallel.h"
 #include "pipeline/doctor.h"
 
@@ -10,28 +13,38 @@ void AddDoctor(CLI::App* app, CommonOptions* common, Run* run) {
   CLI::App* command = app->add_subcommand("doctor", "What was found, what is slow, how to mend it");
   command->footer("Example:\n  simwright doctor");
   AddCommon(command, common);
-  command->callback([run] {
-    *run = [] {
+  command->callback([common, run] {
+    *run = [common] {
       bool sound = true;
-      for (const core::Finding& finding : pipeline::Examine()) {
+      const core::Findings findings = pipeline::Examine();
+      for (const core::Finding& finding : findings) {
         const bool bad = finding.severity == core::Severity::kError;
         sound = sound && !bad;
-        std::printf("%-4s  %-12s %s\n",
+        if (common->json) continue;
+        const std::string remedy = finding.remedy.empty() ? "" : " (" + finding.remedy + ")";
+        std::printf("%-4s  %-12s %s%s\n",
                     bad                                            ? "FAIL"
                     : finding.severity == core::Severity::kWarning ? "warn"
                                                                    : "good",
-                    finding.code.c_str(), finding.sentence.c_str());
+                    finding.code.c_str(), finding.sentence.c_str(), remedy.c_str());
       }
+      if (common->json) PrintJson(nlohmann::ordered_json{{"passed", sound}}, findings);
       return sound ? 0 : 1;
     };
   });
 }
 
-void AddVersion(CLI::App* app, Run* run) {
+void AddVersion(CLI::App* app, CommonOptions* common, Run* run) {
   CLI::App* command = app->add_subcommand("version", "The program's version");
   command->footer("Example:\n  simwright version");
-  command->callback([run] {
-    *run = [] {
+  AddCommon(command, common);
+  command->callback([common, run] {
+    *run = [common] {
+      if (common->json) {
+        PrintJson(nlohmann::ordered_json{{"program", "simwright"}, {"version", SIMWRIGHT_VERSION}},
+                  {});
+        return 0;
+      }
       std::printf("simwright %s\n", SIMWRIGHT_VERSION);
       return 0;
     };

@@ -3,6 +3,8 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/findings_output.h"
+#include "cli/usage.h"
 #include "pipeline/skill_export.h"
 
 namespace simwright::cli {
@@ -16,7 +18,7 @@ int Export(const pipeline::ExportRequest& given, const CommonOptions& common) {
   const pipeline::ExportReport report = pipeline::Export(request, &progress);
   progress.Finish();
   if (common.json) {
-    std::fputs(pipeline::ExportJson(report).c_str(), stdout);
+    PrintJson(pipeline::ExportJson(report), {});
     return 0;
   }
   if (!common.quiet) std::fputs(pipeline::ExportTable(report).c_str(), stdout);
@@ -28,7 +30,7 @@ int Export(const pipeline::ExportRequest& given, const CommonOptions& common) {
 
 void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
   using pipeline::ExportFormat;
-  const std::map<std::string, ExportFormat> formats = {{"ros2", ExportFormat::kRos2},
+  static const std::map<std::string, ExportFormat> formats = {{"ros2", ExportFormat::kRos2},
                                                        {"csv", ExportFormat::kCsv},
                                                        {"robomimic", ExportFormat::kRobomimic}};
   auto request = std::make_shared<pipeline::ExportRequest>();
@@ -40,11 +42,10 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
       "Trajectories keep the robot's limits at 1 kHz from rest to rest. `simwright replay` proves\n"
       "them. docs/export.md says more.");
   command->add_option("run", request->run, "The folder of `simwright train`")->required();
-  command
-      ->add_option("--format", request->format,
-                   "ros2 (YAML, or JSON by the ending), csv, robomimic")
-      ->required()
-      ->transform(CLI::CheckedTransformer(formats));
+  AddChoice(command, "--format", {"ros2", "csv", "robomimic"}, "",
+            "ros2 (YAML, or JSON by the ending), csv, robomimic",
+            [request](const std::string& name) { request->format = formats.at(name); })
+      ->required();
   command
       ->add_option("-o,--output", request->output,
                    "The file; of several trajectories a folder of them")

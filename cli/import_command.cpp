@@ -1,10 +1,14 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/findings_output.h"
+#include "cli/stated_options.h"
 #include "core/error.h"
+#include "physics_params/size_plausibility.h"
 #include "pipeline/import.h"
 
 namespace simwright::cli {
@@ -13,17 +17,20 @@ namespace {
 struct Flags {
   std::vector<std::filesystem::path> inputs;
   std::filesystem::path output;
-  std::string up, unit = "m";
+  std::string up, unit;
   pipeline::ImportOptions options;
   bool no_check = false;
 };
 
-double MetresPer(const std::string& unit) {
-  if (unit == "mm") return 0.001;
-  if (unit == "cm") return 0.01;
-  if (unit == "in") return 0.0254;
-  if (unit == "ft") return 0.3048;
-  return 1.0;
+// What the findings of one of several assets are about.
+core::Findings Placed(core::Findings findings, const std::string& name) {
+  for (core::Finding& finding : findings) {
+    if (finding.place.empty()) finding.place = name;
+    if (finding.place != name && !finding.place.starts_with(name + ".")) {
+      finding.place = name + ": " + finding.place;
+    }
+  }
+  return findings;
 }
 
 nlohmann::ordered_json ToJson(const pipeline::ImportOutcome& outcome) {
@@ -42,15 +49,63 @@ nlohmann::ordered_json ToJson(const pipeline::ImportOutcome& outcome) {
 
 void PrintLine(const pipeline::ImportOutcome& outcome) {
   if (!outcome.refusal.empty()) {
-    std::printf("refused  %s: %s\n", outcome.name.c_str(), outcome.refusal.c_str());
+    std::printf("refused  %s\n", outcome.name.c_str());
     return;
   }
   if (outcome.kept) {
     std::printf("kept     %s\n", outcome.folder.c_str());
     return;
   }
-  std::printf("%s  %s  (%.1f s)\n", outcome.check ? pipeline::GradeSentence(outcome.check->grade()) : "written", outcome.folder.c_str(),
-              outcome.seconds.at("total"));
+  const char* const state =
+      outcome.check ? pipeline::GradeSentence(outcome.check->grade()) : "written";
+  std::printf("%s  %s  (%.1f s)\n", state, outcome.folder.c_str(), outcome.seconds.at("total"));
+}
+
+int CountRefused(const std::vector<pipeline::ImportOutcome>& outcomes) {
+  return static_cast<int>(
+      std::count_if(outcomes.begin(), outcomes.end(),
+                    [](const auto& outcome) { return !outcome.refusal.empty(); }));
+}
+
+int PrintOutcomesJson(const std::vector<pipeline::ImportOutcome>& outcomes) {
+  nlohmann::ordered_json json;
+  json["assets"] = nlohmann::ordered_json::array();
+  core::Findings all;
+  for (const pipeline::ImportOutcome& outcome : outcomes) {
+    json["assets"].push_back(ToJson(outcome));
+    const core::Findings placed = Placed(outcome.findings, outcome.name);
+    all.insert(all.end(), placed.begin(), placed.end());
+  }
+  const int refused = CountRefused(outcomes);
+  json["refused"] = refused;
+  PrintJson(std::move(json), all);
+  return refused > 0 ? 1 : 0;
+}
+
+int PrintOutcomes(const std::vector<pipeline::ImportOutcome>& outcomes,
+                  const CommonOptions& common) {
+  const bool one = outcomes.size() == 1;
+  int notes = 0;
+  for (const pipeline::ImportOutcome& outcome : outcomes) {
+    if (one) {
+      PrintFindings(outcome.findings, common);
+      if (!outcome.refusal.empty()) return 1;
+    } else {
+      PrintWarnings(Placed(outcome.findings, outcome.name), common, &notes);
+    }
+    PrintLine(outcome);
+  }
+  const int refused = CountRefused(outcomes);
+  if (one && !common.quiet) {
+    std::printf("picture: %s\n", (outcomes[0].folder / "preview.png").c_str());
+  } else if (!one) {
+    std::printf("%zu imported, %d refused\n", outcomes.size() - static_cast<size_t>(refused),
+                refused);
+    if (notes > 0 && !common.quiet) {
+      std::printf("%d notes are in the asset.json of each, and in --json\n", notes);
+    }
+  }
+  return refused > 0 ? 1 : 0;
 }
 
 int Import(Flags flags, const CommonOptions& common) {
@@ -58,35 +113,21 @@ int Import(Flags flags, const CommonOptions& common) {
   flags.options.force = common.force;
   flags.options.check = !flags.no_check;
   flags.options.up = flags.up.empty() ? 0 : flags.up[0];
-  flags.options.unit = MetresPer(flags.unit);
+  flags.options.unit_stated = !flags.unit.empty();
+  if (flags.options.unit_stated) {
+    flags.options.unit = physics_params::MetresOfUnit(flags.unit);
+  }
+  pipeline::Validate(flags.options.size);
+  Validate(flags.options.stated);
   if (!flags.options.category.empty()) physics_params::RequireCategory(flags.options.category);
   core::Progress progress(common.ProgressStyle());
   const std::vector<pipeline::ImportItem> items =
       pipeline::ListImports(flags.inputs, flags.options);
   const std::vector<pipeline::ImportOutcome> outcomes =
       pipeline::ImportAll(items, flags.output, flags.options, &progress);
-  if (outcomes.size() == 1 && !outcomes[0].refusal.empty()) {
-    core::CheckCancelled();
-    throw core::Error(outcomes[0].refusal);
-  }
-  int refused = 0;
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const pipeline::ImportOutcome& outcome : outcomes) {
-    refused += !outcome.refusal.empty();
-    if (common.json) {
-      list.push_back(ToJson(outcome));
-    } else {
-      PrintLine(outcome);
-    }
-  }
-  if (common.json) {
-    std::printf("%s\n", list.dump(2).c_str());
-  } else if (outcomes.size() > 1) {
-    std::printf("%zu imported, %d refused\n", outcomes.size() - refused, refused);
-  } else if (!common.quiet) {
-    std::printf("picture: %s\n", (outcomes[0].folder / "preview.png").c_str());
-  }
-  return refused > 0 ? 1 : 0;
+  const bool one = outcomes.size() == 1;
+  if (one && !outcomes[0].refusal.empty()) core::CheckCancelled();
+  return common.json ? PrintOutcomesJson(outcomes) : PrintOutcomes(outcomes, common);
 }
 
 }  // namespace
@@ -109,17 +150,25 @@ void AddImport(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_option("-o,--output", flags->output, "Folder for the assets, one folder each")
       ->required();
   command->add_option("--category", flags->options.category,
-                      "What it is; default: by meta.json or the file's name");
+                      "What it is, e.g. mug")
+      ->default_str("by meta.json or the file's name");
   command->add_option("--up", flags->up, "Axis that points up in the file")
+      ->default_str("by the format, the category's proportions and how it stands")
       ->check(CLI::IsMember({"x", "y", "z"}));
-  command->add_option("--unit", flags->unit, "Unit of the file's coordinates")
-      ->capture_default_str()
+  command
+      ->add_option("--unit", flags->unit,
+                   "Unit of the file's coordinates; stated, any size that comes out is meant")
+      ->default_str("m")
       ->check(CLI::IsMember({"m", "cm", "mm", "in", "ft"}));
   command->add_option("--height", flags->options.height, "Scale to this height, m")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--only", flags->options.only, "Catalogues: pieces with this in the name");
+      ->check(CLI::PositiveNumber)
+      ->default_str("by the unit");
+  AddStatedOptions(command, &flags->options.size, &flags->options.stated);
+  command->add_option("--only", flags->options.only, "Catalogues: pieces with this in the name")
+      ->default_str("all");
   command->add_option("--limit", flags->options.limit, "Catalogues: at most so many pieces")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::NonNegativeNumber)
+      ->default_str("all");
   command->add_flag("--resume", flags->options.resume,
                     "Keep assets that are there, import the others");
   command->add_flag("--no-check", flags->no_check, "Write assets unchecked, good or not");

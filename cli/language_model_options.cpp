@@ -15,7 +15,8 @@ void AddLanguageModel(CLI::App* command, LanguageModelOptions* options) {
       "SIMWRIGHT_LLM_URL. Its key is taken from SIMWRIGHT_LLM_KEY");
   const auto needs_server = [&](CLI::Option* option) { return option->needs(url); };
   needs_server(command->add_option("--llm-model", options->model,
-                                   "The model's name; default: SIMWRIGHT_LLM_MODEL"));
+                                   "The model's name"))
+      ->default_str("SIMWRIGHT_LLM_MODEL");
   needs_server(command->add_option("--llm-cache", options->cache,
                                    "Folder of answers that are kept and not asked for twice"));
   needs_server(command

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/findings_output.h"
 #include "core/error.h"
 #include "core/image.h"
 #include "library/kinds.h"
@@ -37,7 +38,7 @@ int List(bool as_json) {
   ListKinds(library::Kinds(), "articulated", false, as_json, &kinds);
   ListKinds(library::RigidKinds(), "\nrigid", true, as_json, &kinds);
   ListKinds(library::FurnitureKinds(), "\nfurniture", true, as_json, &kinds);
-  if (as_json) std::printf("%s\n", kinds.dump(2).c_str());
+  if (as_json) PrintJson(nlohmann::ordered_json{{"kinds", kinds}}, {});
   return 0;
 }
 
@@ -60,7 +61,7 @@ nlohmann::ordered_json ToJson(const pipeline::LibraryOutcome& outcome) {
 
 void PrintLine(const pipeline::LibraryOutcome& outcome) {
   if (!outcome.refusal.empty()) {
-    std::printf("refused  %s: %s\n", outcome.name.c_str(), outcome.refusal.c_str());
+    std::printf("refused  %s\n", outcome.name.c_str());
     return;
   }
   const char* const state =
@@ -86,17 +87,23 @@ int Library(Flags flags, const CommonOptions& common) {
   const std::vector<pipeline::LibraryOutcome> outcomes =
       pipeline::MakeLibrary(flags.options, flags.output, &progress);
   int refused = 0;
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  int notes = 0;  // of the kinds, the same in every run
+  core::Findings findings;
+  nlohmann::ordered_json json;
+  json["assets"] = nlohmann::ordered_json::array();
   for (const pipeline::LibraryOutcome& outcome : outcomes) {
     refused += !outcome.refusal.empty();
+    findings.insert(findings.end(), outcome.findings.begin(), outcome.findings.end());
     if (common.json) {
-      list.push_back(ToJson(outcome));
+      json["assets"].push_back(ToJson(outcome));
     } else {
+      PrintWarnings(outcome.findings, common, &notes);
       PrintLine(outcome);
     }
   }
   if (common.json) {
-    std::printf("%s\n", list.dump(2).c_str());
+    json["refused"] = refused;
+    PrintJson(std::move(json), findings);
   } else if (outcomes.size() > 1) {
     std::printf("%zu made, %d refused\n", outcomes.size() - refused, refused);
   }

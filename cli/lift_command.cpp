@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/findings_output.h"
+#include "cli/stated_options.h"
 #include "core/error.h"
 #include "pipeline/lift.h"
 
@@ -18,26 +20,41 @@ struct Flags {
   pipeline::LiftRequest request;
 };
 
-void Print(const pipeline::LiftOutcome& outcome, const CommonOptions& common) {
-  if (common.json) {
-    nlohmann::ordered_json json;
-    json["folder"] = outcome.folder.string();
-    json["silhouette_iou"] = outcome.silhouette_iou;
-    json["seconds"] = outcome.seconds;
-    json["findings"] = nlohmann::ordered_json::array();
-    for (const core::Finding& f : outcome.findings) json["findings"].push_back(f.sentence);
-    std::printf("%s\n", json.dump(2).c_str());
+// Says what became of each photo: at once for people, in one object at the end for machines.
+class LiftPrinter {
+ public:
+  explicit LiftPrinter(const CommonOptions& common) : common_(common) {
+    json_["assets"] = nlohmann::ordered_json::array();
+  }
+  void Print(const pipeline::LiftOutcome& outcome);
+  void Finish() {
+    if (common_.json) PrintJson(json_, findings_);
+  }
+
+ private:
+  const CommonOptions& common_;
+  nlohmann::ordered_json json_;
+  core::Findings findings_;
+};
+
+void LiftPrinter::Print(const pipeline::LiftOutcome& outcome) {
+  findings_.insert(findings_.end(), outcome.findings.begin(), outcome.findings.end());
+  if (common_.json) {
+    json_["assets"].push_back({{"folder", outcome.folder.string()},
+                               {"silhouette_iou", outcome.silhouette_iou},
+                               {"seconds", outcome.seconds}});
     return;
   }
-  if (!common.quiet) {
-    for (const core::Finding& f : outcome.findings) std::printf("  %s\n", f.sentence.c_str());
-  }
+  PrintFindings(outcome.findings, common_);
   std::printf("asset:   %s\npicture: %s\n", outcome.folder.c_str(),
               (outcome.folder / "preview.png").c_str());
 }
 
 int Lift(Flags flags, const CommonOptions& common) {
+  pipeline::Validate(flags.request.size);
+  Validate(flags.request.stated);
   core::Progress progress(common.ProgressStyle());
+  LiftPrinter printer(common);
   flags.request.seed = common.seed;
   flags.request.force = common.force;
   if (!flags.mask.empty()) flags.request.mask = flags.mask;
@@ -48,11 +65,11 @@ int Lift(Flags flags, const CommonOptions& common) {
       throw core::Error("--cameras goes with several photos of one thing");
     if (flags.request.mask) throw core::Error("--mask goes with one photo");
     const pipeline::LiftRequest& one = flags.request;
-    Print(pipeline::LiftToFolder(
-              pipeline::MultiLiftRequest{flags.photos, flags.cameras, one.category, one.height,
-                                         one.effort, one.seed, one.output, one.force},
-              &progress),
-          common);
+    printer.Print(pipeline::LiftToFolder(
+        pipeline::MultiLiftRequest{flags.photos, flags.cameras, one.category, one.height, one.size,
+                                   one.stated, one.effort, one.seed, one.output, one.force},
+        &progress));
+    printer.Finish();
     return 0;
   }
   if (flags.photos.size() > 1 && flags.request.mask) {
@@ -63,8 +80,9 @@ int Lift(Flags flags, const CommonOptions& common) {
     flags.request.photo = photo;
     // Several photos are several things: a folder each.
     flags.request.output = flags.photos.size() > 1 ? output / photo.stem() : output;
-    Print(pipeline::LiftToFolder(flags.request, &progress), common);
+    printer.Print(pipeline::LiftToFolder(flags.request, &progress));
   }
+  printer.Finish();
   return 0;
 }
 
@@ -84,22 +102,27 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_option("--category", flags->request.category, "What it is, e.g. mug")->required();
   command->add_option("-o,--output", flags->request.output, "The asset's folder")->required();
   command->add_option("--mask", flags->mask, "Picture that is bright where the object is");
-  command->add_option("--height", flags->request.height, "Its true height, m; default: drawn")
-      ->check(CLI::PositiveNumber);
+  command->add_option("--height", flags->request.height, "Its true height, m")
+      ->check(CLI::PositiveNumber)
+      ->default_str("drawn by the category");
+  AddStatedOptions(command, &flags->request.size, &flags->request.stated);
   command->add_option("--cameras", flags->cameras,
                       "JSON with the cameras of several photos of one thing (docs/formats.md)");
   command->add_option("--prior", flags->request.prior,
-                      "A TorchScript view prior instead of ours, e.g. an exported Zero-1-to-3");
+                      "A TorchScript view prior, e.g. an exported Zero-1-to-3")
+      ->default_str("the shipped one");
   command->add_flag("--fast", flags->fast, "No radiance field: under a minute");
   command->add_flag("--outline", flags->outline, "The inflated outline alone: a few seconds");
   command
       ->add_option("--elevation", flags->request.elevation_degrees,
-                   "Degrees the camera looked down; default: estimated")
-      ->check(CLI::Range(0.0, 85.0));
+                   "Degrees the camera looked down")
+      ->check(CLI::Range(0.0, 85.0))
+      ->default_str("estimated");
   command
       ->add_option("--fov", flags->request.fov_degrees,
-                   "Field of view over the longer side, degrees; default: EXIF or 35")
-      ->check(CLI::Range(1.0, 160.0));
+                   "Field of view over the longer side, degrees")
+      ->check(CLI::Range(1.0, 160.0))
+      ->default_str("EXIF, else 35");
   AddCommon(command, common);
   AddForce(command, common);
   command->callback([flags, common, run] { *run = [=] { return Lift(*flags, *common); }; });

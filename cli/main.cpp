@@ -8,18 +8,28 @@
 #include <new>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/command.h"
+#include "cli/findings_output.h"
+#include "cli/usage.h"
 #include "core/error.h"
+#include "core/finding_text.h"
 #include "core/parallel.h"
 
 namespace {
 
-constexpr int kWrongUsage = 2;
+// An error as the finding that it is: on stderr, and with --json also as the result.
+void PrintError(const simwright::core::Finding& error, bool json) {
+  std::fputs(simwright::core::FindingText(error, simwright::cli::LineWidth()).c_str(), stderr);
+  if (json) simwright::cli::PrintJson(nlohmann::ordered_json{{"error", error.sentence}}, {error});
+}
 
 int Main(int argc, char** argv) {
   using namespace simwright;
   CLI::App app{"Photos and meshes become assets that hold in simulation."};
   app.name("simwright");
+  cli::PrepareApp(&app);
   app.footer(
       "Example:\n  simwright lift examples/apple.jpg --category apple -o apple\n"
       "Each subcommand has its own --help with an example.");
@@ -44,16 +54,29 @@ int Main(int argc, char** argv) {
   cli::AddScene(&app, &common, &run);
   cli::AddRun(&app, &common, &run);
   cli::AddDoctor(&app, &common, &run);
-  cli::AddVersion(&app, &run);
+  cli::AddVersion(&app, &common, &run);
+  const std::vector<std::string> arguments = cli::ArgumentsOf(argc, argv);
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : kWrongUsage;
+    return cli::ReportUsage(app, arguments, error);
   }
   core::InstallCancelHandler();
   core::SetThreadCount(common.threads);
-  return run();
+  try {
+    return run();
+  } catch (const core::Error& error) {
+    PrintError(core::FindingOf(error), common.json);
+  } catch (const core::Cancelled&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    PrintError({"error", core::Severity::kError, "", "out of memory", 0.0,
+                "close other programs, or use a smaller input"},
+               common.json);
+  } catch (const std::exception& error) {
+    PrintError({"error", core::Severity::kError, "", error.what()}, common.json);
+  }
+  return 1;
 }
 
 // libtorch's threads wait for each other by spinning, unless told otherwise before its OpenMP

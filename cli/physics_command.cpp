@@ -5,6 +5,7 @@
 
 #include "assets/asset_folder.h"
 #include "cli/command.h"
+#include "cli/findings_output.h"
 #include "cli/language_model_options.h"
 #include "core/error.h"
 #include "core/finding.h"
@@ -35,7 +36,7 @@ nlohmann::ordered_json ToJson(const Estimate& e) {
   return {{"min", e.min}, {"max", e.max}, {"sample", e.sample}};
 }
 
-void PrintJson(const Result& result) {
+void PrintResultJson(const Result& result) {
   const PhysicalParameters& p = result.parameters;
   nlohmann::ordered_json json;
   json["category"] = p.category;
@@ -55,13 +56,7 @@ void PrintJson(const Result& result) {
                      {"height", p.height.source},
                      {"mass", p.mass.source},
                      {"material", p.density.source}};
-  json["findings"] = nlohmann::ordered_json::array();
-  for (const core::Finding& finding : result.findings) {
-    json["findings"].push_back({{"code", finding.code}, {"sentence", finding.sentence}});
-  }
-  // A name or an answer may hold what is no UTF-8.
-  std::printf("%s\n",
-              json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+  PrintJson(std::move(json), result.findings);
 }
 
 void PrintRow(const char* name, const Estimate& e, const char* unit) {
@@ -93,10 +88,6 @@ void PrintTable(const Result& result, bool quiet) {
   PrintRow("restitution", p.restitution, "");
   PrintSources(p);
   if (quiet) return;
-  for (const core::Finding& finding : result.findings) {
-    const bool warning = finding.severity == core::Severity::kWarning;
-    std::printf("  %s%s\n", warning ? "warning: " : "", finding.sentence.c_str());
-  }
   if (!result.usage.empty()) std::printf("  %s\n", result.usage.c_str());
 }
 
@@ -128,10 +119,12 @@ int Physics(const Flags& flags, const CommonOptions& common) {
     result.parameters = physics_params::SampleParameters(
         *resolution.category, physics_params::KnowledgeBase::Shipped(), common.seed);
     result.parameters.resolution = resolution.sentence;
+    result.findings = physics_params::ResolutionFindings(resolution, flags.category);
   }
   if (common.json) {
-    PrintJson(result);
+    PrintResultJson(result);
   } else {
+    PrintFindings(result.findings, common);
     PrintTable(result, common.quiet);
   }
   return 0;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/findings_output.h"
 #include "pipeline/prior_training.h"
 
 namespace simwright::cli {
@@ -29,7 +30,7 @@ void PrintLine(const pipeline::TrainedPrior& prior) {
   std::fflush(stdout);
 }
 
-void PrintJson(const std::vector<pipeline::TrainedPrior>& trained) {
+void PrintTrainedJson(const std::vector<pipeline::TrainedPrior>& trained) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const pipeline::TrainedPrior& prior : trained) {
     nlohmann::ordered_json entry;
@@ -41,7 +42,7 @@ void PrintJson(const std::vector<pipeline::TrainedPrior>& trained) {
     entry["seconds"] = prior.report.seconds;
     json.push_back(entry);
   }
-  std::printf("%s\n", json.dump(2).c_str());
+  PrintJson(nlohmann::ordered_json{{"priors", json}}, {});
 }
 
 int Train(Flags flags, const CommonOptions& common) {
@@ -67,7 +68,7 @@ int Train(Flags flags, const CommonOptions& common) {
         if (!common.quiet && !common.json) PrintLine(prior);
       });
   if (common.json) {
-    PrintJson(trained);
+    PrintTrainedJson(trained);
   } else {
     for (const pipeline::TrainedPrior& prior : trained) {
       std::printf("weights: %s\n", prior.weights.c_str());
@@ -87,11 +88,13 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
       "Example (weights like the shipped ones, in about three hours on two cores):\n"
       "  simwright prior train -o models");
   command->add_option("catalogues", flags->request.catalogues,
-                      "Furniture catalogues (.sh3f) to learn from; default: the CC0 one of Debian");
+                      "Furniture catalogues (.sh3f) to learn from")
+      ->default_str("the CC0 one of Debian");
   command->add_flag("--parametric-only", flags->parametric_only,
                     "Learn from parametric shapes alone");
   command->add_option("-o,--output", flags->request.output, "Folder of the weights")->required();
-  command->add_option("--only", flags->only, "Train one of the two: shape or view")
+  command->add_option("--only", flags->only, "Train one of the two")
+      ->default_str("both")
       ->check(CLI::IsMember({"shape", "view"}));
   command
       ->add_option("--shape-steps", flags->request.shape_options.trainer.steps,
@@ -101,12 +104,15 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
       ->add_option("--view-steps", flags->request.view_options.trainer.steps,
                    "Steps of the view prior")
       ->capture_default_str();
-  command->add_option("--batch", flags->batch, "Photos a step; default: 16")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--pool", flags->pool, "Objects kept ready; default: 160")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--rate", flags->rate, "Learning rate; default: 8e-4 (shape), 1e-3 (view)")
-      ->check(CLI::PositiveNumber);
+  command->add_option("--batch", flags->batch, "Photos a step")
+      ->check(CLI::PositiveNumber)
+      ->default_str("16");
+  command->add_option("--pool", flags->pool, "Objects kept ready")
+      ->check(CLI::PositiveNumber)
+      ->default_str("160");
+  command->add_option("--rate", flags->rate, "Learning rate")
+      ->check(CLI::PositiveNumber)
+      ->default_str("8e-4 shape, 1e-3 view");
   command->add_option("--from", flags->from,
                       "Folder of weights to begin with, to learn from a catalogue of one's own");
   command->add_flag("--resume", flags->resume, "Go on from what an earlier run left in the folder");

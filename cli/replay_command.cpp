@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/findings_output.h"
 #include "pipeline/skill_replay.h"
 
 namespace simwright::cli {
@@ -11,8 +12,11 @@ int Replay(const pipeline::ReplayRequest& request, const CommonOptions& common) 
   core::Progress progress(common.ProgressStyle());
   const pipeline::ReplayReport report = pipeline::Replay(request, &progress);
   progress.Finish();
-  std::fputs((common.json ? pipeline::ReplayJson(report) : pipeline::ReplayTable(report)).c_str(),
-             stdout);
+  if (common.json) {
+    PrintJson(pipeline::ReplayJson(report), {});
+  } else {
+    std::fputs(pipeline::ReplayTable(report).c_str(), stdout);
+  }
   return report.successes > 0 ? 0 : 1;
 }
 
@@ -30,7 +34,8 @@ void AddReplay(CLI::App* app, CommonOptions* common, Run* run) {
                    "What `simwright export` wrote: YAML, JSON, CSV, HDF5, or folders of them")
       ->required();
   command->add_option("--run", request->run,
-                      "The folder of `simwright train`; default: where the file says");
+                      "The folder of `simwright train`")
+      ->default_str("where the file says");
   AddCommon(command, common);
   command->callback([request, common, run] { *run = [=] { return Replay(*request, *common); }; });
 }

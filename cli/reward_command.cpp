@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/findings_output.h"
 #include "pipeline/reward_check.h"
 
 namespace simwright::cli {
@@ -16,9 +17,11 @@ int Reward(const Flags& flags, const CommonOptions& common) {
   pipeline::RewardCheckRequest request = flags.request;
   request.scene = !flags.no_scene;
   const pipeline::RewardCheckReport report = pipeline::CheckReward(request);
-  const std::string text =
-      common.json ? pipeline::RewardCheckJson(report) : pipeline::RewardCheckText(report);
-  if (common.json || !common.quiet || !report.passed()) std::fputs(text.c_str(), stdout);
+  if (common.json) {
+    PrintJson(pipeline::RewardCheckJson(report), report.findings);
+  } else if (!common.quiet || !report.passed()) {
+    std::fputs(pipeline::RewardCheckText(report).c_str(), stdout);
+  }
   return report.passed() ? 0 : 1;
 }
 
@@ -42,7 +45,8 @@ void AddReward(CLI::App* app, CommonOptions* common, Run* run) {
                  "The function alone: its parameters are inputs, names are not looked up")
       ->excludes(assets);
   command->add_option("--function", flags->request.entry,
-                      "The function that gives the reward; default: by its name");
+                      "The function that gives the reward")
+      ->default_str("by its name");
   AddCommon(command, common);
   command->callback([flags, common, run] { *run = [=] { return Reward(*flags, *common); }; });
 }

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/findings_output.h"
 #include "pipeline/skill_rollout.h"
 
 namespace simwright::cli {
@@ -13,8 +14,11 @@ int Rollout(const pipeline::RolloutRequest& given, const CommonOptions& common) 
   core::Progress progress(common.ProgressStyle());
   const pipeline::RolloutReport report = pipeline::Rollout(request, &progress);
   progress.Finish();
-  std::fputs((common.json ? pipeline::RolloutJson(report) : pipeline::RolloutTable(report)).c_str(),
-             stdout);
+  if (common.json) {
+    PrintJson(pipeline::RolloutJson(report), {});
+  } else {
+    std::fputs(pipeline::RolloutTable(report).c_str(), stdout);
+  }
   return 0;
 }
 

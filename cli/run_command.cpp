@@ -3,7 +3,9 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/findings_output.h"
 #include "cli/training_options.h"
+#include "cli/usage.h"
 #include "core/error.h"
 #include "pipeline/photo_run.h"
 
@@ -23,7 +25,12 @@ int RunOnPhoto(const Flags& flags, const CommonOptions& common) {
   core::Progress progress(common.ProgressStyle());
   try {
     const pipeline::PhotoRunOutcome outcome = pipeline::RunPhoto(request, &progress);
-    std::fputs((common.json ? outcome.json : pipeline::PhotoRunTable(outcome)).c_str(), stdout);
+    if (common.json) {
+      PrintJson(outcome.json, outcome.findings);
+    } else {
+      PrintFindings(outcome.findings, common);
+      std::fputs(pipeline::PhotoRunTable(outcome).c_str(), stdout);
+    }
   } catch (const core::Cancelled&) {
     if (!std::filesystem::exists(request.output)) throw;
     std::fprintf(stderr,
@@ -39,7 +46,7 @@ int RunOnPhoto(const Flags& flags, const CommonOptions& common) {
 
 void AddRun(CLI::App* app, CommonOptions* common, Run* run) {
   using asset_lift::LiftEffort;
-  const std::map<std::string, LiftEffort> efforts = {
+  static const std::map<std::string, LiftEffort> efforts = {
       {"outline", LiftEffort::kOutline}, {"fast", LiftEffort::kFast}, {"full", LiftEffort::kFull}};
   auto flags = std::make_shared<Flags>();
   pipeline::PhotoRunRequest* request = &flags->request;
@@ -54,15 +61,17 @@ void AddRun(CLI::App* app, CommonOptions* common, Run* run) {
       ->required();
   command->add_option("--category", request->category, "What it is, e.g. apple")->required();
   command->add_option("-o,--output", request->output,
-                      "The folder; default: the photo's name and _run, here");
+                      "The folder")
+      ->default_str("the photo's name and _run, here");
   command->add_option("--task", request->task,
-                      "Which of the tasks that are made, '*' for any letters; default: pick it up");
+                      "Which of the tasks that are made, '*' for any letters")
+      ->default_str("pick it up");
   command->add_option("--mask", flags->mask, "Picture that is bright where the object is");
-  command->add_option("--height", request->height, "Its true height, m; default: drawn")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--lift", request->effort, "outline, fast, or full (docs/lift.md)")
-      ->transform(CLI::CheckedTransformer(efforts))
-      ->default_str("fast");
+  command->add_option("--height", request->height, "Its true height, m")
+      ->check(CLI::PositiveNumber)
+      ->default_str("drawn by the category");
+  AddChoice(command, "--lift", {"outline", "fast", "full"}, "fast", "How (docs/lift.md)",
+            [flags](const std::string& name) { flags->request.effort = efforts.at(name); });
   command->add_option("--furniture", request->furniture, "drawer_unit, microwave, or any that fits")
       ->check(CLI::IsMember({"any", "drawer_unit", "microwave"}))
       ->capture_default_str();

@@ -1,7 +1,10 @@
 #include <cstdio>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/command.h"
+#include "cli/findings_output.h"
 #include "cli/scene_export_command.h"
 #include "cli/scene_model_commands.h"
 #include "cli/slot_folders.h"
@@ -18,13 +21,18 @@ struct GenerateFlags {
   bool list = false;
 };
 
-int Generate(GenerateFlags flags, const CommonOptions& common) {
-  if (flags.list) {
-    for (const scene::SceneType& type : scene::SceneTypes()) {
-      std::printf("%-18s %s\n", type.name.c_str(), type.what.c_str());
-    }
-    return 0;
+int List(const CommonOptions& common) {
+  nlohmann::ordered_json types = nlohmann::ordered_json::array();
+  for (const scene::SceneType& type : scene::SceneTypes()) {
+    types.push_back({{"type", type.name}, {"what", type.what}});
+    if (!common.json) std::printf("%-18s %s\n", type.name.c_str(), type.what.c_str());
   }
+  if (common.json) PrintJson(nlohmann::ordered_json{{"types", types}}, {});
+  return 0;
+}
+
+int Generate(GenerateFlags flags, const CommonOptions& common) {
+  if (flags.list) return List(common);
   if (flags.request.type.empty() || flags.request.output.empty()) {
     throw core::Error("scenes need a type and a place", "", "--type dimsum -o FOLDER, or --list");
   }
@@ -32,10 +40,12 @@ int Generate(GenerateFlags flags, const CommonOptions& common) {
   flags.request.chosen = SlotFoldersOf(flags.chosen, "--asset");
   core::Progress progress(common.ProgressStyle());
   const pipeline::SceneStatistics statistics = pipeline::GenerateScenes(flags.request, &progress);
-  std::fputs(
-      (common.json ? pipeline::StatisticsJson(statistics) : pipeline::StatisticsTable(statistics))
-          .c_str(),
-      stdout);
+  if (common.json) {
+    PrintJson(pipeline::StatisticsJson(statistics), statistics.findings);
+    return 0;
+  }
+  PrintFindings(statistics.findings, common);
+  std::fputs(pipeline::StatisticsTable(statistics).c_str(), stdout);
   return 0;
 }
 
@@ -55,14 +65,15 @@ void AddGenerate(CLI::App* scene, CommonOptions* common, Run* run) {
       ->capture_default_str();
   command->add_option("-o,--output", request.output, "Folder of the dataset");
   command->add_option("--assets", request.assets,
-                      "Folders of assets to take before the library's, by name or category");
+                      "Folders of assets to take before the library's, by name or category")
+      ->default_str("the library's alone");
   command->add_option("--asset", flags->chosen, "SLOT=FOLDER: this asset for this slot");
   command->add_option("--hull", request.hulls,
                       "Slots whose things collide as their convex hulls: nothing goes in");
   command->add_option("--part", request.part, "Scenes of a part, which one worker makes at a time")
       ->capture_default_str();
-  command->add_option("--step", request.time_step, "s of a step of physics; 0: the default")
-      ->capture_default_str();
+  command->add_option("--step", request.time_step, "s of a step of physics")
+      ->default_str("as measured to hold");
   command->add_flag("--list", flags->list, "Say what types there are");
   AddCommon(command, common);
   command->callback([flags, common, run] { *run = [=] { return Generate(*flags, *common); }; });

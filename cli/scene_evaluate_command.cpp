@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/findings_output.h"
 #include "cli/scene_model_commands.h"
 #include "pipeline/scene_evaluation.h"
 #include "pipeline/scene_feature_training.h"
@@ -14,10 +15,12 @@ int Evaluate(pipeline::SceneEvaluationRequest request, const CommonOptions& comm
   request.seed = request.sampling.seed = common.seed;
   core::Progress progress(common.ProgressStyle());
   const pipeline::SceneEvaluation evaluation = pipeline::EvaluateScenes(request, &progress);
-  std::fputs(
-      (common.json ? pipeline::EvaluationJson(evaluation) : pipeline::EvaluationTable(evaluation))
-          .c_str(),
-      stdout);
+  if (common.json) {
+    PrintJson(pipeline::EvaluationJson(evaluation), evaluation.findings);
+    return 0;
+  }
+  std::fputs(pipeline::EvaluationTable(evaluation).c_str(), stdout);
+  PrintFindings(evaluation.findings, common);
   return 0;
 }
 
@@ -33,7 +36,7 @@ int TrainFeatures(pipeline::SceneFeatureTrainingRequest request, const CommonOpt
                                          {"error", report.error},
                                          {"error_of_the_mean", report.error_of_the_mean},
                                          {"seconds", report.seconds}};
-    std::printf("%s\n", json.dump(2).c_str());
+    PrintJson(json, {});
     return 0;
   }
   std::printf(
@@ -89,7 +92,8 @@ void AddSceneEvaluate(CLI::App* scene, CommonOptions* common, Run* run) {
   command->add_option("--data", request->data,
                       "Dataset to compare with; without one, scenes are generated");
   command->add_option("--training-scenes", request->training_scenes,
-                      "The first so many of --data were learned from; -1: as --model says");
+                      "The first so many of --data were learned from")
+      ->default_str("as --model says");
   command->add_option("--count", request->count, "Scenes of each set, at most")
       ->capture_default_str();
   command->add_option("--assets", request->assets,

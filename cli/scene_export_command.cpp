@@ -3,6 +3,9 @@
 #include <cstdio>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
+#include "cli/findings_output.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "pipeline/scene_export.h"
@@ -16,8 +19,11 @@ int Export(pipeline::SceneExportRequest request, const std::vector<std::string>&
   request.force = common.force;
   core::Progress progress(common.ProgressStyle());
   const pipeline::SceneExportReport report = pipeline::ExportScenes(request, &progress);
-  std::fputs((common.json ? pipeline::ExportJson(report) : pipeline::ExportTable(report)).c_str(),
-             stdout);
+  if (common.json) {
+    PrintJson(pipeline::ExportJson(report), {});
+  } else {
+    std::fputs(pipeline::ExportTable(report).c_str(), stdout);
+  }
   return report.StillShare() < 1.0 ? 1 : 0;
 }
 
@@ -32,6 +38,11 @@ int View(const ViewFlags& flags, const CommonOptions& common) {
   }
   core::WritePng(flags.output,
                  pipeline::SceneView(flags.dataset, flags.assets, flags.scene, flags.size));
+  if (common.json) {
+    PrintJson(nlohmann::ordered_json{{"picture", flags.output.string()}}, {});
+  } else if (!common.quiet) {
+    std::printf("picture: %s\n", flags.output.c_str());
+  }
   return 0;
 }
 
@@ -49,8 +60,9 @@ void AddSceneExport(CLI::App* scene, CommonOptions* common, Run* run) {
       "docs/formats.md says what is written.");
   command->add_option("dataset", request->dataset, "What `simwright scene generate` wrote")
       ->required();
-  CLI::Option* const scenes = command->add_option("--scene", request->scenes, "Which, as in 0,3-5");
-  command->add_option("--count", request->count, "The first so many; without either, all")
+  CLI::Option* const scenes = command->add_option("--scene", request->scenes, "Which, as in 0,3-5")->default_str("all");
+  command->add_option("--count", request->count, "The first so many")
+      ->default_str("all")
       ->excludes(scenes);
   command->add_option("--format", *formats, "urdf, sdf, mjcf, drake or all; several with commas")
       ->delimiter(',')

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/findings_output.h"
 #include "cli/slot_folders.h"
 #include "core/error.h"
 #include "pipeline/scene_sampling.h"
@@ -33,7 +34,7 @@ scene::SceneModelOptions ModelOf(const TrainFlags& flags) {
   return model;
 }
 
-std::string ReportJson(const scene::SceneTrainingReport& report) {
+nlohmann::ordered_json ReportJson(const scene::SceneTrainingReport& report) {
   nlohmann::ordered_json json;
   json["weights"] = report.weights.string();
   json["parameters"] = report.parameters;
@@ -44,7 +45,7 @@ std::string ReportJson(const scene::SceneTrainingReport& report) {
     json["loss"] = report.losses.back().total;
     json["held_out_loss"] = report.losses.back().held_out;
   }
-  return json.dump(2) + "\n";
+  return json;
 }
 
 int Train(TrainFlags flags, const CommonOptions& common) {
@@ -64,7 +65,7 @@ int Train(TrainFlags flags, const CommonOptions& common) {
   const scene::SceneTrainingReport report =
       scene::TrainSceneModel(dataset, model, flags.options, flags.output, &progress);
   if (common.json) {
-    std::fputs(ReportJson(report).c_str(), stdout);
+    PrintJson(ReportJson(report), {});
     return 0;
   }
   std::printf("%s: %lld parameters, %d scenes, %d held out, %.0f s\n", report.weights.c_str(),
@@ -82,9 +83,12 @@ int Sample(pipeline::SceneSamplingRequest request, const CommonOptions& common) 
   request.force = common.force;
   core::Progress progress(common.ProgressStyle());
   const pipeline::SceneSamplingReport report = pipeline::SampleScenes(request, &progress);
-  std::fputs(
-      (common.json ? pipeline::SamplingJson(report) : pipeline::SamplingTable(report)).c_str(),
-      stdout);
+  if (common.json) {
+    PrintJson(pipeline::SamplingJson(report), report.statistics.findings);
+    return 0;
+  }
+  PrintFindings(report.statistics.findings, common);
+  std::fputs(pipeline::SamplingTable(report).c_str(), stdout);
   return 0;
 }
 
@@ -101,7 +105,9 @@ void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run) {
   command->add_option("dataset", flags->dataset, "What `simwright scene generate` wrote")
       ->required();
   command->add_option("-o,--output", flags->output, "Folder for weights and losses")->required();
-  command->add_option("--size", flags->size, "tiny, base or full")->capture_default_str();
+  command->add_option("--size", flags->size, "Of the network")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"tiny", "base", "full"}));
   command->add_option("--method", flags->method, "ours, continuous, midiffusion or diffuscene")
       ->capture_default_str()
       ->check(CLI::IsMember({"ours", "continuous", "midiffusion", "diffuscene"}));

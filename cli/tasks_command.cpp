@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/findings_output.h"
 #include "cli/language_model_options.h"
 #include "pipeline/task_making.h"
 
@@ -24,10 +25,11 @@ int Tasks(const Flags& flags, const CommonOptions& common) {
   const pipeline::TasksReport report = pipeline::MakeTasks(request, &progress);
   progress.Finish();
   if (common.json) {
-    std::fputs(pipeline::TasksJson(report).c_str(), stdout);
+    PrintJson(pipeline::TasksJson(report), report.findings);
     return report.passed() ? 0 : 1;
   }
   if (!common.quiet) std::fputs(pipeline::TasksTable(report).c_str(), stdout);
+  PrintFindings(report.findings, common);
   if (model != nullptr && !common.quiet) std::printf("%s\n", UsageLine(model->usage()).c_str());
   std::printf("%zu tasks: %s\npage: %s\n", report.set.tasks.size(), report.file.c_str(),
               report.page.c_str());
@@ -53,8 +55,9 @@ void AddTasks(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_option("-o,--output", flags->request.output, "The file, tasks.json")->required();
   command
       ->add_option("--count", flags->request.count,
-                   "Tasks to make; default: five an asset by rules, 8 of a language model")
-      ->check(CLI::Range(0, 100000));
+                   "Tasks to make")
+      ->check(CLI::Range(0, 100000))
+      ->default_str("5 an asset by rules, 8 of a language model");
   AddLanguageModel(command, &flags->language);
   AddCommon(command, common);
   AddForce(command, common);

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/findings_output.h"
 #include "cli/training_options.h"
 #include "pipeline/skill_training.h"
 
@@ -15,7 +16,7 @@ int Train(const pipeline::TrainRequest& given, const CommonOptions& common) {
   const pipeline::TrainReport report = pipeline::TrainTask(request, &progress);
   progress.Finish();
   if (common.json) {
-    std::fputs(pipeline::TrainJson(report).c_str(), stdout);
+    PrintJson(pipeline::TrainJson(report), {});
     return 0;
   }
   if (!common.quiet) std::fputs(pipeline::TrainTable(report).c_str(), stdout);

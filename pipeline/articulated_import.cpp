@@ -63,15 +63,26 @@ Eigen::Vector3d SizeOf(const Eigen::AlignedBox3d& box) {
 }
 
 double ScaleOf(const ArticulatedImportOptions& options, bool normalised, const std::string& where,
-               const physics_params::PhysicalParameters& p, const Eigen::Vector3d& size) {
+               const physics_params::PhysicalParameters& p,
+               const physics_params::Category& category, const Eigen::Vector3d& size) {
   if (!(size.minCoeff() > 0.0)) {
     throw core::Error("the whole is flat or has no extent", where, "mend its meshes");
   }
   double scale = options.unit;
-  if (options.height > 0.0) {
+  if (options.size.size() > 1) {
+    throw core::Error("joints keep the proportions of what they join", where,
+                      "state one side with --size, or its --height");
+  }
+  if (!options.size.empty()) {
+    scale = options.size[0] / size.maxCoeff();
+  } else if (options.height > 0.0) {
     scale = options.height / size.z();
   } else if (normalised) {
     scale = std::cbrt(p.length.sample * p.width.sample * p.height.sample / size.prod());
+  }
+  const bool stated = options.unit_stated || options.height > 0.0 || !options.size.empty();
+  if (!stated && !normalised) {
+    RequirePlausibleSize(category, scale * size, options.unit, where, kAbsurdUrdf);
   }
   const double extent = scale * size.maxCoeff();
   if (!(extent > 1e-3 && extent < 100.0)) {
@@ -207,10 +218,23 @@ geometry::MassProperties Weighed(const ArticulatedLink& link) {
   return total;
 }
 
+// A stated mass or density for the whole.
+void Reweigh(const physics_params::StatedPhysics& stated, ArticulatedAsset* asset) {
+  double before = 0.0;
+  for (const ArticulatedLink& link : asset->links) before += link.inertial.mass;
+  for (ArticulatedLink& link : asset->links) {
+    for (double& density : link.densities) {
+      density = stated.mass ? density * *stated.mass / before : *stated.density;
+    }
+    const geometry::MassProperties total = Weighed(link);
+    link.inertial = {total.mass, total.center_of_mass, total.inertia};
+  }
+}
+
 // Masses that the file gives for every link count where its lengths are metres too; else the
-// category's mass is split by volume.
+// category's mass is split by volume. What is stated wins.
 void GiveMass(const UrdfModel& model, bool metric, const physics_params::Category& category,
-              ArticulatedAsset* asset) {
+              const physics_params::StatedPhysics& stated, ArticulatedAsset* asset) {
   double volume = 0.0;
   for (ArticulatedLink& link : asset->links) {
     link.densities.assign(link.parts.size(), 1.0);
@@ -237,6 +261,14 @@ void GiveMass(const UrdfModel& model, bool metric, const physics_params::Categor
     link.inertial = {total.mass, total.center_of_mass, total.inertia};
     mass += total.mass;
     densest = std::max(densest, density);
+  }
+  if (stated.mass || stated.density) {
+    Reweigh(stated, asset);
+    mass = densest = 0.0;
+    for (const ArticulatedLink& link : asset->links) {
+      mass += link.inertial.mass;
+      for (const double density : link.densities) densest = std::max(densest, density);
+    }
   }
   if (densest > kHeaviest) {
     asset->findings.push_back({"implausible-density", core::Severity::kWarning, asset->name,
@@ -325,7 +357,8 @@ ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImport
   parameters.resolution = category.sentence;
   const bool normalised = IsNormalised(urdf);
   const double scale =
-      ScaleOf(options, normalised, where, parameters, SizeOf(BoundsAtZero(source.model)));
+      ScaleOf(options, normalised, where, parameters, *category.category,
+              SizeOf(BoundsAtZero(source.model)));
   StandOnOrigin(scale, &source.model);
   const bool robot = IsRobot(source.model, *category.category);
   bool fixed = robot || StandsFixed(source, category.category->name);
@@ -338,11 +371,15 @@ ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImport
   asset.seed = options.seed;
   asset.fixed = fixed;
   asset.parameters = parameters;
-  GiveMass(source.model, !normalised && scale == options.unit, *category.category, &asset);
+  const core::Findings understood = physics_params::ResolutionFindings(category, asset.name);
+  asset.findings.insert(asset.findings.end(), understood.begin(), understood.end());
+  GiveMass(source.model, !normalised && scale == options.unit, *category.category,
+           options.stated, &asset);
+  Apply(options.stated, &asset.parameters);
   const physics_params::Material& material = *base.FindMaterial(parameters.material);
   for (ArticulatedLink& link : asset.links) {
     link.material = material.name;
-    link.friction = parameters.friction.sample;
+    link.friction = asset.parameters.friction.sample;
     link.restitution = parameters.restitution.sample;
   }
   if (robot) {

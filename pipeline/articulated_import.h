@@ -6,6 +6,8 @@
 #include "assets/articulated_asset.h"
 #include "assets/semantic_model.h"
 #include "core/progress.h"
+#include "physics_params/stated_physics.h"
+#include "pipeline/true_size.h"
 
 namespace simwright::pipeline {
 
@@ -16,6 +18,9 @@ struct ArticulatedImportOptions {
   // the volume of the box sampled for their category; others are `unit` metres a unit.
   double height = 0.0;
   double unit = 1.0;
+  bool unit_stated = false;  // by the user: any size that comes out is meant
+  StatedSize size;           // of the whole, its longest side; takes the place of `height`
+  physics_params::StatedPhysics stated;
   std::uint64_t seed = 1;
   std::filesystem::path root = {};  // no mesh is read from outside it; empty: as ReadUrdf has it
 };

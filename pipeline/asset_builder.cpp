@@ -1,12 +1,14 @@
 #include "pipeline/asset_builder.h"
 
 #include <chrono>
+#include <cstdio>
 
 #include "core/error.h"
 #include "geometry/concavity.h"
 #include "geometry/mass_properties.h"
 #include "pipeline/foot.h"
 #include "pipeline/rest_pose.h"
+#include "pipeline/true_size.h"
 
 namespace simwright::pipeline {
 namespace {
@@ -48,21 +50,37 @@ void MakeSolidPart(const BuildRequest& request, assets::Asset* asset) {
   asset->findings.insert(asset->findings.end(), solid.findings.begin(), solid.findings.end());
 }
 
+// Nothing on earth is denser than osmium: a stated mass or a scale is wrong.
+void ReportDensity(double density, assets::Asset* asset) {
+  constexpr double kOsmium = 22590.0;  // kg/m^3
+  if (density <= kOsmium) return;
+  char text[120];
+  std::snprintf(text, sizeof(text), "its matter would weigh %.3g kg/m3, more than osmium", density);
+  asset->findings.push_back({"implausible-density", core::Severity::kWarning, asset->name, text,
+                             density, "mend --mass, --density or the size"});
+}
+
 void GiveMass(const BuildRequest& request, assets::Asset* asset) {
   const auto& base = physics_params::KnowledgeBase::Shipped();
   const physics_params::Category& category = *request.category.category;
+  const core::Findings understood =
+      physics_params::ResolutionFindings(request.category, asset->name);
+  asset->findings.insert(asset->findings.end(), understood.begin(), understood.end());
   asset->parameters = physics_params::SampleParameters(category, base, request.seed);
   asset->parameters.resolution = request.category.sentence;
   const geometry::MassProperties unit = geometry::SolidMassProperties(asset->solid, 1.0);
   asset->volume = unit.volume;
   const std::string unusual = physics_params::FollowSize(
-      category, core::Bounds(asset->visual.mesh).sizes(), unit.volume, &asset->parameters);
+      category, GroundBoxOf(asset->visual.mesh).sides, unit.volume, &asset->parameters);
   if (!unusual.empty()) {
-    asset->findings.push_back(
-        {"unusual-size", core::Severity::kWarning, asset->name, unusual, 0.0});
+    asset->findings.push_back({"unusual-size", core::Severity::kWarning, asset->name, unusual, 0.0,
+                               "--height or --size states the true one, --mass what it weighs"});
   }
-  const physics_params::MassModel model = physics_params::ReconcileMass(
-      asset->parameters, category, base, unit.volume, core::SurfaceArea(asset->solid));
+  Apply(request.stated, &asset->parameters);
+  const physics_params::MassModel model =
+      ReconcileMass(request.stated, asset->parameters, category, base, unit.volume,
+                    core::SurfaceArea(asset->solid));
+  ReportDensity(model.density, asset);
   const geometry::MassProperties mass =
       model.wall_thickness > 0.0
           ? geometry::ShellMassProperties(asset->solid, model.wall_thickness, model.density)
@@ -138,7 +156,7 @@ void LayDown(const BuildRequest& request, assets::Asset* asset) {
     if (rest.turn.linear().isIdentity()) break;
   }
   asset->rolls = rest.rolls;
-  const Eigen::Vector3d size = core::Bounds(asset->visual.mesh).sizes();
+  const Eigen::Vector3d size = GroundBoxOf(asset->visual.mesh).sides;
   asset->parameters.length.sample = std::max(size.x(), size.y());
   asset->parameters.width.sample = std::min(size.x(), size.y());
   asset->parameters.height.sample = size.z();

@@ -10,6 +10,7 @@
 #include "geometry/convex_decomposition.h"
 #include "geometry/solid.h"
 #include "physics_params/category_resolution.h"
+#include "physics_params/stated_physics.h"
 
 namespace simwright::pipeline {
 
@@ -17,6 +18,7 @@ struct BuildRequest {
   std::string name;                     // made file-safe
   std::string source;                   // file name of the photo or mesh
   physics_params::Resolution category;  // of RequireCategory or ResolveCategory; not null
+  physics_params::StatedPhysics stated;  // by the user; wins
   std::uint64_t seed = 1;
   geometry::SolidOptions solid;
   geometry::DecompositionOptions decomposition;

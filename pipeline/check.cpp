@@ -159,21 +159,44 @@ core::Findings CheckReport::Warnings() const {
   return warnings;
 }
 
-std::string FailedRows(const CheckReport& report) {
-  std::string failures;
+core::Findings NotableRows(const CheckReport& report) {
+  core::Findings rows;
+  for (const core::Finding& row : report.rows) {
+    if (row.severity != core::Severity::kInfo) rows.push_back(row);
+  }
+  return rows;
+}
+
+namespace {
+
+std::string FailureOf(const CheckReport& report) {
+  int failed = 0;
+  std::string names;
   for (const core::Finding& row : report.rows) {
     if (row.severity != core::Severity::kError) continue;
-    char figure[40];
-    std::snprintf(figure, sizeof(figure), " %.4g ", row.figure);
-    failures += (failures.empty() ? "" : "; ") + row.code + figure + row.sentence;
+    ++failed;
+    names += (names.empty() ? "" : ", ") + row.code;
   }
-  return failures;
+  return "fails " + std::to_string(failed) + " of " + std::to_string(report.rows.size()) +
+         " properties of its check: " + names;
+}
+
+}  // namespace
+
+CheckFailed::CheckFailed(const CheckReport& report, const std::string& name)
+    : core::Error(FailureOf(report), name, "--no-check writes it all the same") {
+  for (core::Finding row : report.rows) {
+    if (row.severity != core::Severity::kError) continue;
+    row.place = name;
+    char figure[40];
+    std::snprintf(figure, sizeof(figure), "%.4g ", row.figure);
+    row.sentence = figure + row.sentence;
+    rows_.push_back(row);
+  }
 }
 
 void RequirePassed(const CheckReport& report, const std::string& name) {
-  if (report.passed()) return;
-  throw core::Error("fails its check: " + FailedRows(report), name,
-                    "--no-check writes it all the same");
+  if (!report.passed()) throw CheckFailed(report, name);
 }
 
 CheckReport CheckAsset(const fs::path& folder, const CheckLimits& limits) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/error.h"
 #include "core/finding.h"
 #include "pipeline/check_grade.h"
 
@@ -52,10 +53,21 @@ CheckReport CheckAsset(const std::filesystem::path& folder, const CheckLimits& l
 CheckReport CheckUrdf(const std::filesystem::path& urdf, const std::filesystem::path& root,
                       const CheckLimits& limits = {});
 
-// Each row that failed, with its figure and limit; empty where the report passed.
-std::string FailedRows(const CheckReport& report);
+// The rows that warn or fail.
+core::Findings NotableRows(const CheckReport& report);
 
-// Throws core::Error with them where the report did not pass.
+// An asset that fails its check: the message counts and names the rows that failed, `rows` has
+// them.
+class CheckFailed : public core::Error {
+ public:
+  CheckFailed(const CheckReport& report, const std::string& name);
+  const core::Findings& rows() const { return rows_; }
+
+ private:
+  core::Findings rows_;
+};
+
+// Throws CheckFailed where the report did not pass.
 void RequirePassed(const CheckReport& report, const std::string& name);
 
 // Checks the folder of an asset that is being made, before it is kept: throws as RequirePassed

@@ -9,9 +9,8 @@
 
 #include "assets/primitive_meshes.h"
 #include "core/parallel.h"
-#include "physics_params/wordnet.h"
+#include "pipeline/doctor_software.h"
 #include "render/forward.h"
-#include "sim/drop_test.h"
 
 namespace simwright::pipeline {
 namespace {
@@ -25,20 +24,21 @@ std::string Format(const char* format, double value) {
 void ExamineMachine(core::Findings* findings) {
   const int threads = core::ThreadCount();
   findings->push_back({"threads", core::Severity::kInfo, "",
-                       std::to_string(threads) + " threads; fewer with --threads",
-                       static_cast<double>(threads)});
+                       std::to_string(threads) + " threads", static_cast<double>(threads),
+                       "--threads takes fewer"});
   const double gib = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
                      static_cast<double>(sysconf(_SC_PAGE_SIZE)) / std::pow(2.0, 30);
   findings->push_back({"memory", gib < 2.0 ? core::Severity::kWarning : core::Severity::kInfo, "",
                        Format("%.1f GiB; a lift takes up to 1, a mesh of millions of faces 4", gib),
-                       gib});
+                       gib,
+                       gib < 2.0 ? "close other programs" : ""});
   std::error_code code;
   const auto space = std::filesystem::space(std::filesystem::temp_directory_path(), code);
   const double free_gib = static_cast<double>(space.available) / std::pow(2.0, 30);
   findings->push_back(
       {"disk", code || free_gib < 0.5 ? core::Severity::kWarning : core::Severity::kInfo, "",
-       Format("%.1f GiB free for temporary files; set TMPDIR to another place", free_gib),
-       free_gib});
+       Format("%.1f GiB free for temporary files", free_gib), free_gib,
+       "TMPDIR names another place"});
 }
 
 void ExamineRays(core::Findings* findings) {
@@ -56,8 +56,8 @@ void ExamineRays(core::Findings* findings) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double rate = kFrames * 512.0 * 512.0 / seconds * 1e-6;
   findings->push_back({"rays", rate < 2.0 ? core::Severity::kWarning : core::Severity::kInfo, "",
-                       Format("%.1f million rays/s; under 2 is slow: use a Release build", rate),
-                       rate});
+                       Format("%.1f million rays/s, under 2 is slow", rate), rate,
+                       rate < 2.0 ? "use a Release build" : ""});
 }
 
 }  // namespace
@@ -65,19 +65,9 @@ void ExamineRays(core::Findings* findings) {
 core::Findings Examine() {
   core::Findings findings;
   ExamineMachine(&findings);
-  const bool wordnet = physics_params::WordNet::Installed() != nullptr;
-  findings.push_back({"wordnet", wordnet ? core::Severity::kInfo : core::Severity::kWarning, "",
-                      wordnet ? "names outside the knowledge base are resolved"
-                              : "missing: only known names are taken; install wordnet-base",
-                      wordnet ? 1.0 : 0.0});
   ExamineRays(&findings);
-  const sim::RigidBody ball = sim::SphereBody(0.03, 0.1);
-  const sim::DropResult drop = sim::DropInBullet(ball);
-  const bool sane = std::abs(drop.lowest_point) < 1e-3;
-  findings.push_back({"bullet", sane ? core::Severity::kInfo : core::Severity::kError, "",
-                      sane ? "a ball dropped from 1 cm lies on the floor"
-                           : "a dropped ball does not end on the floor: reinstall libbullet-dev",
-                      drop.lowest_point});
+  const core::Findings software = ExamineSoftware();
+  findings.insert(findings.end(), software.begin(), software.end());
   return findings;
 }
 

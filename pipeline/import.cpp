@@ -16,6 +16,7 @@
 #include "assets/urdf_meshes.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/finding_text.h"
 #include "core/parallel.h"
 #include "pipeline/articulated_import.h"
 #include "pipeline/articulated_preview.h"
@@ -23,6 +24,7 @@
 #include "pipeline/import_category.h"
 #include "pipeline/preview.h"
 #include "pipeline/rigid_urdf.h"
+#include "pipeline/up_axis.h"
 
 namespace simwright::pipeline {
 namespace fs = std::filesystem;
@@ -36,15 +38,6 @@ bool IsCatalogue(const fs::path& path) {
 
 bool IsUrdf(const fs::path& path) {
   return path.extension() == ".urdf";
-}
-
-char UpOf(const fs::path& mesh, char stated, char wanted) {
-  if (wanted != 0) return wanted;
-  if (IsUrdf(mesh)) return 'z';
-  if (stated != 0) return stated;
-  std::string ending = mesh.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), ::tolower);
-  return ending == ".stl" || ending == ".ply" ? 'z' : 'y';
 }
 
 std::string Unique(std::string name, std::set<std::string>* taken) {
@@ -158,6 +151,12 @@ core::TexturedMesh ReadRigidUrdf(const fs::path& urdf, const fs::path& root,
   return RigidVisual(model, findings);
 }
 
+// What was said so far stays: it may be why.
+void Refuse(const core::Error& error, ImportOutcome* outcome) {
+  outcome->refusal = error.what();
+  outcome->findings.push_back(core::FindingOf(error));
+}
+
 class Importer {
  public:
   Importer(const fs::path& output, const ImportOptions& options)
@@ -185,9 +184,13 @@ class Importer {
     options.category = options_.category;
     options.height = options_.height;
     options.unit = options_.unit;
+    options.unit_stated = options_.unit_stated;
+    options.size = options_.size;
+    options.stated = options_.stated;
     options.seed = options_.seed;
     const assets::ArticulatedAsset asset =
         ImportArticulated(std::move(source), options, progress);
+    outcome->findings = asset.findings;
     Keep(item, outcome, [&](const fs::path& folder) {
       assets::WriteArticulatedAsset(asset, folder);
       core::WritePng(folder / "preview.png", ArticulatedPreview(asset));
@@ -199,7 +202,7 @@ class Importer {
     BuildRequest request;
     request.name = item.name;
     request.seed = options_.seed;
-    core::Findings findings;
+    core::Findings& findings = outcome->findings;
     core::TexturedMesh visual;
     if (catalogue != nullptr) {
       const assets::CataloguePiece& piece = catalogue->pieces()[static_cast<size_t>(item.piece)];
@@ -207,17 +210,36 @@ class Importer {
       request.source = item.mesh.filename().string() + ":" + piece.id;
       request.category = ImportCategory(options_.category, piece.name);
     } else {
-      visual = ReadInWorld(item.mesh, options_, &findings, item.root);
       request.source = item.mesh.filename().string();
       request.category = ImportCategory(options_.category, MeantBy(item));
+      visual = ReadInWorld(item.mesh, *request.category.category, options_, &findings, item.root);
+      RequireMeantSize(*request.category.category, core::Bounds(visual.mesh).sizes(), item.mesh);
     }
+    request.stated = options_.stated;
     BuiltAsset built = BuildAsset(visual, request, progress);
     built.asset.findings.insert(built.asset.findings.begin(), findings.begin(), findings.end());
+    findings = built.asset.findings;
     outcome->seconds = built.seconds;
     Keep(item, outcome, [&](const fs::path& folder) {
       assets::WriteAsset(built.asset, folder);
       core::WritePng(folder / "preview.png", AssetPreview(built.asset));
     });
+  }
+
+  // Refuses a size that no one stated and that is absurd, and any that physics cannot hold.
+  void RequireMeantSize(const physics_params::Category& category, const Eigen::Vector3d& sides,
+                        const fs::path& mesh) const {
+    const bool stated = options_.unit_stated || options_.height > 0.0 || !options_.size.empty();
+    if (!stated) {
+      const double most = IsUrdf(mesh) ? kAbsurdUrdf : physics_params::kAbsurdFactor;
+      RequirePlausibleSize(category, sides, options_.unit, mesh.string(), most);
+    }
+    const double longest = sides.maxCoeff();
+    if (longest >= 1e-4 && longest <= 100.0) return;
+    char text[120];
+    std::snprintf(text, sizeof(text), "the mesh is %.3g m across", longest);
+    throw core::Error(text, mesh.string(),
+                      "0.1 mm to 100 m can be simulated: mend --unit, --height or --size");
   }
 
   // Writes the asset and keeps it where it passes its check.
@@ -226,7 +248,11 @@ class Importer {
     const fs::path target = output_ / item.name;
     core::StagedFolder staged(target, options_.force);
     write(staged.staging());
-    if (options_.check) outcome->check = CheckBeforeKeeping(staged.staging(), item.name);
+    if (options_.check) {
+      outcome->check = CheckBeforeKeeping(staged.staging(), item.name);
+      const core::Findings warnings = outcome->check->Warnings();
+      outcome->findings.insert(outcome->findings.end(), warnings.begin(), warnings.end());
+    }
     staged.Commit();
     outcome->folder = target;
   }
@@ -237,19 +263,22 @@ class Importer {
 
 }  // namespace
 
-core::TexturedMesh ReadInWorld(const fs::path& mesh_path, const ImportOptions& options,
-                               core::Findings* findings, const fs::path& root) {
+core::TexturedMesh ReadInWorld(const fs::path& mesh_path, const physics_params::Category& category,
+                               const ImportOptions& options, core::Findings* findings,
+                               const fs::path& root) {
   assets::MeshFile file;
   if (IsUrdf(mesh_path)) {
     file.mesh = ReadRigidUrdf(mesh_path, root, findings);
+    file.up = 'z';
   } else {
     file = assets::ReadMeshFile(mesh_path);
   }
   findings->insert(findings->end(), file.findings.begin(), file.findings.end());
   core::TexturedMesh mesh = std::move(file.mesh);
+  char up = options.up != 0 ? options.up : file.up;
+  if (up == 0) up = GuessUpAxis(mesh_path, mesh.mesh, category, findings);
   Eigen::Affine3d world_from_file = Eigen::Affine3d::Identity();
-  world_from_file.linear() =
-      options.unit * assets::ZUpFrom(UpOf(mesh_path, file.up, options.up));
+  world_from_file.linear() = options.unit * assets::ZUpFrom(up);
   core::Transform(world_from_file, &mesh.mesh);
   if (options.height > 0.0) {
     const double height = core::Bounds(mesh.mesh).sizes().z();
@@ -259,13 +288,7 @@ core::TexturedMesh ReadInWorld(const fs::path& mesh_path, const ImportOptions& o
     }
     core::Transform(Eigen::Affine3d(Eigen::Scaling(options.height / height)), &mesh.mesh);
   }
-  const double extent = core::Bounds(mesh.mesh).sizes().maxCoeff();
-  if (extent < 1e-4 || extent > 100.0) {
-    char text[120];
-    std::snprintf(text, sizeof(text), "the mesh is %.3g m across", extent);
-    throw core::Error(text, mesh_path.string(),
-                      "say its unit with --unit mm, cm, in ... or its height with --height");
-  }
+  ScaleToSize(options.size, mesh_path.string(), &mesh.mesh, findings);
   return mesh;
 }
 
@@ -323,10 +346,13 @@ std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items, const
       const auto found = catalogues.find(item.mesh);
       importer.Import(item, item.piece >= 0 ? found->second.get() : nullptr,
                       many ? &silent : progress, &outcome);
+    } catch (const CheckFailed& error) {
+      Refuse(error, &outcome);
+      outcome.findings.insert(outcome.findings.end(), error.rows().begin(), error.rows().end());
     } catch (const core::Error& error) {
-      outcome.refusal = error.what();
+      Refuse(error, &outcome);
     } catch (const core::Cancelled&) {
-      outcome.refusal = kStopped;
+      Refuse(core::Error(kStopped, item.name, "--resume imports what is left"), &outcome);
     }
     outcome.seconds["total"] =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -8,16 +8,20 @@
 #include "core/progress.h"
 #include "pipeline/asset_builder.h"
 #include "pipeline/check.h"
+#include "pipeline/true_size.h"
 
 namespace simwright::pipeline {
 
 struct ImportOptions {
   std::string category;  // empty: from the file's name, else the catch-all "object"
-  // 'x', 'y', 'z', or 0: as the file says (glTF, DAE), else y for OBJ and DAE, z for STL and PLY.
-  // URDFs have z up.
+  // 'x', 'y', 'z', or 0: as the file says (glTF, DAE), else y for OBJ and DAE, z for STL and PLY,
+  // unless the other suits the thing clearly better (up_axis.h). URDFs have z up.
   char up = 0;
   double unit = 1.0;    // metres a file unit; 1: the file is in metres (as glTF and DAE are)
+  bool unit_stated = false;  // by the user: any size that comes out is meant
   double height = 0.0;  // m, > 0: scale to this height instead (of a URDF: joints at zero)
+  StatedSize size;      // scale to this size instead
+  physics_params::StatedPhysics stated;
   std::uint64_t seed = 1;
   bool force = false;   // replace outputs that exist
   bool resume = false;  // keep outputs that exist, and import the others
@@ -39,6 +43,7 @@ struct ImportOutcome {
   std::string name;
   std::filesystem::path folder;  // where the asset is; empty when refused
   std::string refusal;           // the reason, when refused
+  core::Findings findings;       // what was guessed, left out or refused; place: the asset's name
   bool kept = false;             // was there already, and stays
   StageSeconds seconds;
   std::optional<CheckReport> check;
@@ -54,15 +59,18 @@ std::vector<ImportItem> ListImports(const std::vector<std::filesystem::path>& in
 
 // Imports all items in parallel, each into output/NAME. A mesh that cannot become an asset is
 // refused with its reason and does not stop the others. Catalogue pieces take the catalogue's
-// true sizes. After Ctrl-C what was done stays, and the others are refused as stopped. Throws
+// true sizes; of others, a size that is absurd for the category is refused, with what to do, unless
+// it is stated. After Ctrl-C what was done stays, and the others are refused as stopped. Throws
 // core::Error when an output exists and neither `force` nor `resume` is set.
 std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items,
                                      const std::filesystem::path& output,
                                      const ImportOptions& options, core::Progress* progress);
 
-// The mesh of an item in the world: metres, z up, as large as it is said to be. Of a URDF, all that
+// The mesh of an item in the world: metres, z up, as large as it is stated to be. Of a URDF, all that
 // it shows with its joints at zero; no file outside `root` is read for it.
-core::TexturedMesh ReadInWorld(const std::filesystem::path& mesh, const ImportOptions& options,
-                               core::Findings* findings, const std::filesystem::path& root = {});
+core::TexturedMesh ReadInWorld(const std::filesystem::path& mesh,
+                               const physics_params::Category& category,
+                               const ImportOptions& options, core::Findings* findings,
+                               const std::filesystem::path& root = {});
 
 }  // namespace simwright::pipeline

@@ -9,6 +9,7 @@
 #include "assets/asset_folder.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/finding_text.h"
 #include "core/parallel.h"
 #include "library/kinds.h"
 #include "library/rigid_kinds.h"
@@ -83,6 +84,7 @@ std::vector<Item> ItemsOf(const LibraryOptions& options) {
 
 void WriteJointed(const Item& item, const fs::path& folder, LibraryOutcome* outcome) {
   const assets::ArticulatedAsset asset = item.jointed->make(item.options);
+  outcome->findings = asset.findings;
   outcome->links = static_cast<int>(asset.links.size());
   for (const assets::UrdfJoint& joint : asset.joints) outcome->joints += joint.Moves();
   for (const assets::ArticulatedLink& link : asset.links) outcome->mass += link.inertial.mass;
@@ -100,6 +102,7 @@ void WriteRigid(const Item& item, const fs::path& folder, LibraryOutcome* outcom
   request.parts = thing.parts;
   core::Progress silent;
   const assets::Asset asset = BuildAsset(thing.visual, request, &silent).asset;
+  outcome->findings = asset.findings;
   outcome->links = 1;
   outcome->mass = asset.inertial.mass;
   assets::WriteAsset(asset, folder);
@@ -110,9 +113,18 @@ void Make(const Item& item, const fs::path& target, const LibraryOptions& option
           LibraryOutcome* outcome) {
   core::StagedFolder staged(target, options.force);
   (item.rigid != nullptr ? WriteRigid : WriteJointed)(item, staged.staging(), outcome);
-  if (options.check) outcome->check = CheckBeforeKeeping(staged.staging(), item.options.name);
+  if (options.check) {
+    outcome->check = CheckBeforeKeeping(staged.staging(), item.options.name);
+    const core::Findings warnings = outcome->check->Warnings();
+    outcome->findings.insert(outcome->findings.end(), warnings.begin(), warnings.end());
+  }
   staged.Commit();
   outcome->folder = target;
+}
+
+void Refuse(const core::Error& error, LibraryOutcome* outcome) {
+  outcome->refusal = error.what();
+  outcome->findings.push_back(core::FindingOf(error));
 }
 
 }  // namespace
@@ -138,10 +150,13 @@ std::vector<LibraryOutcome> MakeLibrary(const LibraryOptions& options, const fs:
     try {
       core::CheckCancelled();
       Make(item, output / item.options.name, options, &outcome);
+    } catch (const CheckFailed& error) {
+      Refuse(error, &outcome);
+      outcome.findings.insert(outcome.findings.end(), error.rows().begin(), error.rows().end());
     } catch (const core::Error& error) {
-      outcome.refusal = error.what();
+      Refuse(error, &outcome);
     } catch (const core::Cancelled&) {
-      outcome.refusal = "stopped before it was done";
+      Refuse(core::Error("stopped before it was done", outcome.name), &outcome);
     }
     outcome.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

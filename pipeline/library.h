@@ -27,6 +27,7 @@ struct LibraryOutcome {
   std::string name, kind;
   std::filesystem::path folder;  // where the asset is; empty when refused
   std::string refusal;           // the reason, when refused
+  core::Findings findings;       // what was assumed or refused
   int links = 0, joints = 0;     // joints that move; a rigid thing has one link and none
   double mass = 0.0;             // kg
   double seconds = 0.0;

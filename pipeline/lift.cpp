@@ -8,6 +8,7 @@
 #include "assets/asset_folder.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "physics_params/size_plausibility.h"
 #include "pipeline/camera_file.h"
 #include "pipeline/preview.h"
 #include "pipeline/prior_weights.h"
@@ -49,7 +50,7 @@ core::Image LiftSheet(const asset_lift::LiftedMesh& lifted, const core::Image& c
 // proportion over all sides.
 double ScaleOf(double height, const physics_params::PhysicalParameters& parameters,
                const core::TriangleMesh& mesh) {
-  const Eigen::Vector3d size = core::Bounds(mesh).sizes();
+  const Eigen::Vector3d size = GroundBoxOf(mesh).sides;
   if (height > 0.0) return height / size.z();
   const double wanted =
       parameters.length.sample * parameters.width.sample * parameters.height.sample;
@@ -82,9 +83,24 @@ struct Finishing {
   std::string source;
   physics_params::Resolution category;
   double height = 0.0;  // m; 0: see `metric`
+  StatedSize size;      // takes the place of `height`
+  physics_params::StatedPhysics stated;
   bool metric = false;  // the mesh is in metres already
   std::uint64_t seed = 1;
 };
+
+// A photo alone does not say how large a thing is.
+core::Finding SizeDrawn(const physics_params::Category& category, const Eigen::Vector3d& sides,
+                        const std::string& photo) {
+  const bool unknown = category.name == "object";
+  return {"size-drawn",
+          unknown ? core::Severity::kWarning : core::Severity::kInfo,
+          photo,
+          "its size was drawn from what is usual for '" + category.name +
+              "': " + physics_params::SizeText(sides),
+          sides.maxCoeff(),
+          "--height or --size states the true one"};
+}
 
 LiftOutcome Finish(const Finishing& finishing, double lift_seconds, asset_lift::LiftedMesh lifted,
                    core::StagedFolder* staged, core::Progress* progress) {
@@ -92,10 +108,17 @@ LiftOutcome Finish(const Finishing& finishing, double lift_seconds, asset_lift::
       *finishing.category.category, physics_params::KnowledgeBase::Shipped(), finishing.seed);
   const core::Image cut = CutOut(lifted);
   const core::Image sheet = LiftSheet(lifted, cut);
-  const double scale = finishing.metric && finishing.height <= 0.0
+  double scale = finishing.metric && finishing.height <= 0.0
                            ? 1.0
                            : ScaleOf(finishing.height, parameters, lifted.mesh.mesh);
   core::Transform(Eigen::Affine3d(Eigen::Scaling(scale)), &lifted.mesh.mesh);
+  const double before = core::Bounds(lifted.mesh.mesh).volume();
+  ScaleToSize(finishing.size, finishing.source, &lifted.mesh.mesh, &lifted.findings);
+  scale *= std::cbrt(core::Bounds(lifted.mesh.mesh).volume() / before);
+  if (finishing.height <= 0.0 && finishing.size.empty() && !finishing.metric) {
+    lifted.findings.push_back(SizeDrawn(*finishing.category.category,
+                                        GroundBoxOf(lifted.mesh.mesh).sides, finishing.source));
+  }
 
   BuildRequest build;
   build.name = finishing.output.filename().empty()
@@ -103,6 +126,7 @@ LiftOutcome Finish(const Finishing& finishing, double lift_seconds, asset_lift::
                    : finishing.output.filename().string();
   build.source = finishing.source;
   build.category = finishing.category;
+  build.stated = finishing.stated;
   build.seed = finishing.seed;
   BuiltAsset built = BuildAsset(lifted.mesh, build, progress);
   built.asset.scale = scale;
@@ -130,6 +154,8 @@ LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
                       request.photo.filename().string(),
                       physics_params::RequireCategory(request.category),
                       request.height,
+                      request.size,
+                      request.stated,
                       false,
                       request.seed};
   const std::string bytes = core::ReadFile(request.photo, 1ull << 30);
@@ -167,6 +193,8 @@ LiftOutcome LiftToFolder(const MultiLiftRequest& request, core::Progress* progre
                       request.cameras.filename().string(),
                       physics_params::RequireCategory(request.category),
                       request.height,
+                      request.size,
+                      request.stated,
                       true,
                       request.seed};
   const std::map<std::string, core::Camera> cameras = ReadCameraFile(request.cameras);

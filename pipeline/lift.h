@@ -9,6 +9,7 @@
 #include "core/progress.h"
 #include "pipeline/asset_builder.h"
 #include "pipeline/check.h"
+#include "pipeline/true_size.h"
 
 namespace simwright::pipeline {
 
@@ -17,6 +18,8 @@ struct LiftRequest {
   std::string category;  // required
   std::optional<std::filesystem::path> mask;
   double height = 0.0;              // m; 0: drawn from the category's range
+  StatedSize size;                  // takes the place of `height`
+  physics_params::StatedPhysics stated;
   double elevation_degrees = -1.0;  // negative: estimated
   double fov_degrees = 0.0;         // 0: EXIF or the default
   asset_lift::LiftEffort effort = asset_lift::LiftEffort::kFull;
@@ -32,6 +35,8 @@ struct MultiLiftRequest {
   std::filesystem::path cameras;  // cams.json, see camera_file.h
   std::string category;
   double height = 0.0;  // m; 0: as large as the cameras say
+  StatedSize size;      // takes the place of `height`
+  physics_params::StatedPhysics stated;
   asset_lift::LiftEffort effort = asset_lift::LiftEffort::kFull;
   std::uint64_t seed = 1;
   std::filesystem::path output;

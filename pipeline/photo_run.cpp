@@ -74,9 +74,9 @@ void Check(const PhotoRunFolder& folder, core::Progress* progress) {
     assets::AddFindings(folder.Asset(), report.Warnings());
     return;
   }
-  throw core::Error("the lifted asset fails its check: " + FailedRows(report),
-                    folder.Asset().string(),
-                    "look at its preview.png; a --mask or another photo may help");
+  throw core::Error(CheckFailed(report, "the lifted asset").what(), folder.Asset().string(),
+                    "`simwright check` says why; look at its preview.png: a --mask or another "
+                    "photo may help");
 }
 
 void Furnish(const PhotoRunRequest& request, const PhotoRunFolder& folder,
@@ -189,6 +189,7 @@ PhotoRunOutcome OutcomeOf(const PhotoRunFolder& folder, const Json& report) {
   outcome.page = folder.Page();
   outcome.picture = folder.Strip();
   outcome.trajectory = folder.Trajectory();
+  outcome.findings = assets::ReadAsset(folder.Asset()).findings;
   outcome.json = report.dump(2) + "\n";
   return outcome;
 }

@@ -38,7 +38,8 @@ struct PhotoRunOutcome {
   bool replayed = false;  // the trajectory repeats the task in simulation, from its file alone
   double seconds = 0.0;   // of all stages
   std::filesystem::path folder, page, picture, trajectory;
-  std::string json;  // report.json
+  core::Findings findings;  // of the asset
+  std::string json;         // report.json
 };
 
 // A photo to a trained skill and its trajectory, in the stages of docs/run.md, into request.output:

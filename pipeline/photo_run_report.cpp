@@ -2,8 +2,10 @@
 
 #include <cstdio>
 
+#include "assets/asset_folder.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/finding_json.h"
 
 namespace simwright::pipeline {
 namespace fs = std::filesystem;
@@ -95,6 +97,7 @@ Json PhotoRunReport(const PhotoRunRequest& request, const PhotoRunFolder& folder
     report["asset"].update(Some(ReadJson(folder.Asset() / "asset.json"),
                                 {"category", "size_m", "mass_kg", "material", "friction",
                                  "restitution", "mass", "findings"}));
+    report["findings"] = core::FindingsJson(assets::ReadAsset(folder.Asset()).findings);
     report["check"] = Some(ReadJson(folder.Check()), {"passed", "rows"});
     report["scene"] = ReadJson(folder.Scene());
     report["task"] = TaskJson(task);

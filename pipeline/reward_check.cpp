@@ -7,7 +7,8 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "pipeline/severity_name.h"
+#include "core/finding_json.h"
+#include "core/finding_text.h"
 #include "pipeline/task_assets.h"
 #include "tasks/reward/reward_program.h"
 #include "tasks/scene_state.h"
@@ -95,8 +96,7 @@ std::string RewardCheckText(const RewardCheckReport& report) {
   std::string text;
   for (const core::Finding& finding : report.findings) {
     text += InProgram(finding) ? report.subject + ":" + tasks::RenderFinding(finding, report.source)
-                               : finding.place + ": " + SeverityName(finding.severity) + ": " +
-                                     finding.sentence + "\n";
+                               : core::FindingText(finding, 0);
   }
   if (!report.passed()) {
     const int errors = Count(report.findings, core::Severity::kError);
@@ -119,13 +119,7 @@ std::string RewardCheckJson(const RewardCheckReport& report) {
   nlohmann::ordered_json json;
   json["program"] = report.subject;
   json["passed"] = report.passed();
-  json["findings"] = nlohmann::ordered_json::array();
-  for (const core::Finding& finding : report.findings) {
-    json["findings"].push_back({{"code", finding.code},
-                                {"severity", SeverityName(finding.severity)},
-                                {"place", finding.place},
-                                {"sentence", finding.sentence}});
-  }
+  json["findings"] = core::FindingsJson(report.findings);
   if (report.passed()) {
     json["function"] = report.entry;
     json["success"] = report.has_success;

@@ -5,6 +5,7 @@
 #include <map>
 #include <thread>
 
+#include "assets/articulated_folder.h"
 #include "assets/asset_folder.h"
 #include "core/content_hash.h"
 #include "core/error.h"
@@ -83,6 +84,45 @@ void MakeMissing(const std::vector<std::string>& slots, const fs::path& kept,
   }
 }
 
+std::string Listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+// What the folder of a user holds that scenes cannot take, as the reason why none of it is used.
+std::string HeldIn(const fs::path& folder) {
+  if (assets::IsAssetFolder(folder)) return "it is an asset itself, and no folder of assets";
+  int rigid = 0, jointed = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (!assets::IsAssetFolder(entry.path())) continue;
+    ++(assets::IsArticulatedAssetFolder(entry.path()) ? jointed : rigid);
+  }
+  if (rigid + jointed == 0) return "it holds no asset folders";
+  return "of its " + std::to_string(rigid) + " rigid assets none has the name or category of a slot" +
+         (jointed > 0 ? ", and its " + std::to_string(jointed) + " with joints are not taken" : "");
+}
+
+void ReportUse(const fs::path& folder, const scene::SlotFolders& used,
+               const std::vector<std::string>& slots, core::Findings* findings) {
+  if (findings == nullptr) return;
+  if (used.empty()) {
+    findings->push_back({"assets-unused", core::Severity::kWarning, folder.string(),
+                         "none of these assets is used: " + HeldIn(folder), 0.0,
+                         "--asset SLOT=FOLDER takes one; the slots are " + Listed(slots)});
+    return;
+  }
+  std::vector<std::string> taken;
+  for (const auto& [slot, path] : used) {
+    const std::string name = path.filename().string();
+    taken.push_back(slot == name ? slot : slot + " (" + name + ")");
+  }
+  findings->push_back({"assets-used", core::Severity::kInfo, folder.string(),
+                       "stands for " + std::to_string(used.size()) + " of " +
+                           std::to_string(slots.size()) + " slots: " + Listed(taken),
+                       static_cast<double>(used.size())});
+}
+
 }  // namespace
 
 scene::SlotFolders GatherSceneAssets(const SceneAssetsRequest& request, core::Progress* progress) {
@@ -96,7 +136,12 @@ scene::SlotFolders GatherSceneAssets(const SceneAssetsRequest& request, core::Pr
   }
   scene::SlotFolders found = request.chosen;
   for (const fs::path& folder : request.folders) {
-    found.merge(scene::FoldersForSlots(folder, request.slots));
+    scene::SlotFolders here = scene::FoldersForSlots(folder, request.slots);
+    scene::SlotFolders used;
+    for (const auto& [slot, path] : here) {
+      if (found.emplace(slot, path).second) used.emplace(slot, path);
+    }
+    ReportUse(folder, used, request.slots, request.findings);
   }
   scene::SlotFolders folders;
   for (const std::string& slot : request.slots) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/finding.h"
 #include "core/progress.h"
 #include "scene/palette_folder.h"
 
@@ -17,6 +18,9 @@ struct SceneAssetsRequest {
   // Where all of them are kept, each in a folder of its slot's name. What is here already stays,
   // unless something else is chosen for it.
   std::filesystem::path kept;
+  // Gets a note of what is taken of each of `folders`, and a warning for one of which nothing is:
+  // "assets-unused". May be null.
+  core::Findings* findings = nullptr;
 };
 
 // Makes what is asked for be in `kept`: copies what is chosen or found, and makes of the library

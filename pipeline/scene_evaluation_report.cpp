@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/finding_json.h"
 #include "pipeline/scene_evaluation.h"
 
 namespace simwright::pipeline {
@@ -118,9 +119,6 @@ std::string EvaluationTable(const SceneEvaluation& evaluation) {
       text += DistanceLine("held-out scenes", *evaluation.held_out_distance);
     }
   }
-  for (const core::Finding& one : evaluation.findings) {
-    text += "warning: " + one.place + ": " + one.sentence + "\n";
-  }
   return text;
 }
 
@@ -144,11 +142,7 @@ std::string EvaluationJson(const SceneEvaluation& evaluation) {
       nearest["held_out"] = DistanceJson(*evaluation.held_out_distance);
     }
   }
-  json["findings"] = Json::array();
-  for (const core::Finding& one : evaluation.findings) {
-    json["findings"].push_back(
-        {{"code", one.code}, {"place", one.place}, {"sentence", one.sentence}});
-  }
+  json["findings"] = core::FindingsJson(evaluation.findings);
   json["seconds"] = evaluation.seconds;
   return json.dump(2) + "\n";
 }

@@ -70,6 +70,7 @@ void MakePart(const scene::Generation& generation, int scenes, const fs::path& p
 SceneStatistics StatisticsOf(const std::vector<scene::SceneAttempt>& attempts) {
   const scene::FeasibilityOptions limits;
   SceneStatistics statistics;
+  double drawn = 0.0;  // of scenes
   const auto count = [](int objects, std::vector<int>* counts) {
     if (static_cast<size_t>(objects) >= counts->size()) counts->resize(objects + 1, 0);
     ++(*counts)[static_cast<size_t>(objects)];
@@ -86,6 +87,7 @@ SceneStatistics StatisticsOf(const std::vector<scene::SceneAttempt>& attempts) {
     statistics.mean_objects += one.kept;
     statistics.most_objects = std::max(statistics.most_objects, one.kept);
     statistics.dropped += one.dropped;
+    drawn += one.kept + one.dropped;
     statistics.moved += one.moved;
     statistics.penetration = std::max(statistics.penetration, one.penetration);
     statistics.drift = std::max(statistics.drift, one.drift);
@@ -95,6 +97,7 @@ SceneStatistics StatisticsOf(const std::vector<scene::SceneAttempt>& attempts) {
     statistics.yield = static_cast<double>(statistics.scenes) / statistics.attempts;
     statistics.mean_drawn /= statistics.attempts;
   }
+  if (drawn > 0.0) statistics.kept = 1.0 - statistics.dropped / drawn;
   if (statistics.scenes > 0) {
     statistics.mean_objects /= statistics.scenes;
     statistics.dropped /= statistics.scenes;
@@ -109,8 +112,10 @@ SceneStatistics GenerateScenes(const SceneGenerationRequest& request, core::Prog
   // The slots are the same whatever the sizes.
   const scene::Vocabulary vocabulary = VocabularyOf(type.make(scene::DefaultSlotSizes()));
   CheckHulls(request.hulls, vocabulary);
+  core::Findings findings;
   const scene::SlotFolders folders = GatherSceneAssets(
-      {vocabulary.slots, request.chosen, request.assets, request.output / "assets"}, progress);
+      {vocabulary.slots, request.chosen, request.assets, request.output / "assets", &findings},
+      progress);
   scene::Palette palette = scene::ReadPalette(folders);
   for (const std::string& slot : request.hulls) palette.TakeAsHull(slot);
   scene::Generation generation{type.make(palette.Sizes()), &palette, {}};
@@ -143,6 +148,9 @@ SceneStatistics GenerateScenes(const SceneGenerationRequest& request, core::Prog
   statistics.elsewhere = elsewhere;
   core::WriteFile(request.output / "statistics.json", StatisticsJson(statistics));
   WriteSceneSheet(dataset, palette, request.output / "scenes.png");
+  statistics.findings = std::move(findings);
+  const core::Findings dropped = DroppedFindings(statistics);
+  statistics.findings.insert(statistics.findings.end(), dropped.begin(), dropped.end());
   return statistics;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/finding.h"
 #include "core/progress.h"
 #include "scene/dataset/scene_part.h"
 #include "scene/feasible_scene.h"
@@ -40,7 +41,14 @@ struct SceneStatistics {
   // Draws and scenes by their number of objects: what the filter does to it.
   std::vector<int> drawn_counts, scene_counts;
   int elsewhere = 0;  // parts that other workers are making
+  // Of the objects of scenes as they were drawn, the share that was kept: what interpenetrated, fell
+  // or found no support is dropped.
+  double kept = 1.0;
+  core::Findings findings;
 };
+
+// "objects-dropped", a warning where more than a tenth of the objects was, with how many.
+core::Findings DroppedFindings(const SceneStatistics& statistics);
 
 SceneStatistics StatisticsOf(const std::vector<scene::SceneAttempt>& attempts);
 

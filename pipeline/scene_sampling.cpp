@@ -115,8 +115,10 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Prog
   }
   const scene::Vocabulary& vocabulary = model.facts().vocabulary;
   core::StagedFolder staged(request.output, request.force);
+  core::Findings findings;
   const scene::Palette palette = scene::ReadPalette(GatherSceneAssets(
-      {vocabulary.slots, request.added, request.assets, staged.staging() / "assets"}, progress));
+      {vocabulary.slots, request.added, request.assets, staged.staging() / "assets", &findings},
+      progress));
   SceneSamplingReport report;
   report.output = request.output;
   report.raw = request.raw;
@@ -131,6 +133,12 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Prog
   scene::WritePart(part, staged.staging() / scene::PartName(0));
   report.statistics = StatisticsOf(part.attempts);
   report.statistics.type = vocabulary.type;
+  report.statistics.findings = std::move(findings);
+  if (!request.raw) {
+    const core::Findings dropped = DroppedFindings(report.statistics);
+    report.statistics.findings.insert(report.statistics.findings.end(), dropped.begin(),
+                                      dropped.end());
+  }
   core::WriteFile(staged.staging() / "statistics.json", StatisticsJson(report.statistics));
   WriteSceneSheet(scene::SceneDataset(staged.staging()), palette, staged.staging() / "scenes.png");
   progress->Finish();

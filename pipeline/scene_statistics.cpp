@@ -37,14 +37,28 @@ std::string CountsTable(const SceneStatistics& statistics) {
 
 }  // namespace
 
+core::Findings DroppedFindings(const SceneStatistics& statistics) {
+  constexpr double kFew = 0.1;
+  const double share = 1.0 - statistics.kept;
+  if (share <= kFew) return {};
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%.0f %% of the objects of these scenes, %.1f a scene, were dropped: they "
+                "interpenetrated, fell or found no support",
+                100.0 * share, statistics.dropped);
+  return {{"objects-dropped", core::Severity::kWarning, statistics.type, text, share,
+           "more --steps where they are sampled, smaller assets, or --raw to look at what was "
+           "drawn"}};
+}
+
 std::string StatisticsTable(const SceneStatistics& statistics) {
   char text[640];
   std::snprintf(text, sizeof text,
-                "%d scenes of %s, %.1f %% of %d attempts\n"
+                "%d scenes of %s, %.1f %% of %d attempts, with %.1f %% of their objects kept\n"
                 "objects: %.1f in the mean (%.1f drawn), %d at most; %.2f a scene dropped\n"
                 "moved %.1f mm in the mean; worst penetration %.3f mm, worst drift %.2f mm\n",
                 statistics.scenes, statistics.type.c_str(), 100.0 * statistics.yield,
-                statistics.attempts, statistics.mean_objects, statistics.mean_drawn,
+                statistics.attempts, 100.0 * statistics.kept, statistics.mean_objects, statistics.mean_drawn,
                 statistics.most_objects, statistics.dropped, 1e3 * statistics.moved,
                 1e3 * statistics.penetration, 1e3 * statistics.drift);
   std::string table = text + CountsTable(statistics);
@@ -69,6 +83,7 @@ std::string StatisticsJson(const SceneStatistics& statistics) {
   json["objects_drawn_mean"] = statistics.mean_drawn;
   json["objects_max"] = statistics.most_objects;
   json["dropped_mean"] = statistics.dropped;
+  json["kept_share"] = statistics.kept;
   json["moved_mean_m"] = statistics.moved;
   json["penetration_max_m"] = statistics.penetration;
   json["drift_max_m"] = statistics.drift;

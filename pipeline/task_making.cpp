@@ -7,7 +7,8 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "pipeline/severity_name.h"
+#include "core/finding_json.h"
+#include "core/finding_text.h"
 #include "pipeline/task_assets.h"
 #include "pipeline/task_page.h"
 #include "tasks/language/task_generation.h"
@@ -29,6 +30,7 @@ void MakeByRules(const TasksRequest& request, const tasks::SceneModel& scene,
   tasks::RuleTasks made = tasks::GenerateTasksByRules(scene, options, progress);
   report->set.tasks = std::move(made.tasks);
   report->dropped = std::move(made.dropped);
+  report->findings.insert(report->findings.end(), made.findings.begin(), made.findings.end());
 }
 
 void MakeByModel(const TasksRequest& request, const TaskAssets& assets,
@@ -111,14 +113,11 @@ std::string TasksTable(const TasksReport& report) {
     table += row(task.name, figures + std::string(task.sound() ? "" : "  not sound"));
     for (const tasks::Subtask& subtask : task.subtasks) {
       for (const core::Finding& finding : subtask.findings) {
-        table += "    " + subtask.name + ": " + SeverityName(finding.severity) + ": " +
-                 finding.sentence + "\n";
+        core::Finding placed = finding;
+        placed.place = subtask.name + (finding.place.empty() ? "" : ":" + finding.place);
+        table += "    " + core::FindingText(placed, 0);
       }
     }
-  }
-  for (const core::Finding& finding : report.findings) {
-    table += finding.place + (finding.place.empty() ? "" : ": ") + SeverityName(finding.severity) +
-             ": " + finding.sentence + "\n";
   }
   return table;
 }
@@ -138,13 +137,7 @@ std::string TasksJson(const TasksReport& report) {
                              {"repairs", Repairs(task)}});
   }
   json["dropped"] = report.dropped;
-  json["findings"] = nlohmann::ordered_json::array();
-  for (const core::Finding& finding : report.findings) {
-    json["findings"].push_back({{"code", finding.code},
-                                {"severity", SeverityName(finding.severity)},
-                                {"place", finding.place},
-                                {"sentence", finding.sentence}});
-  }
+  json["findings"] = core::FindingsJson(report.findings);
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -38,7 +38,7 @@ struct TasksReport {
 // set, or a language model cannot be asked at all.
 TasksReport MakeTasks(const TasksRequest& request, core::Progress* progress);
 
-// A table for a terminal: task, subtasks, findings, repairs; then what was found.
+// A table for a terminal: task, subtasks, findings, repairs; below each what was found in it.
 std::string TasksTable(const TasksReport& report);
 std::string TasksJson(const TasksReport& report);
 

@@ -8,6 +8,10 @@
 namespace simwright::sim {
 namespace fs = std::filesystem;
 
+std::string MujocoVersion() {
+  return mj_versionString();
+}
+
 struct MujocoWorld::Model {
   Model(const fs::path& mjcf, const std::vector<double>& balls)
       : scene(mjcf, balls), model(scene.model()), data(scene.data()) {}

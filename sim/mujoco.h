@@ -12,6 +12,9 @@
 
 namespace simwright::sim {
 
+// The version of the library that is loaded, "2.2.2".
+std::string MujocoVersion();
+
 // MuJoCo as the second opinion on an asset: its MJCF file over the floor z = 0, beside any number
 // of probe balls. One thread a world.
 class MujocoWorld {

@@ -1,0 +1,57 @@
+#include "cli/findings_output.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "core/finding_json.h"
+#include "core/finding_text.h"
+
+namespace simwright::cli {
+
+std::size_t LineWidth() {
+  winsize size{};
+  if (isatty(STDERR_FILENO) == 0) return 0;
+  constexpr std::size_t kUsual = 80, kLeast = 40;
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsual;
+  return std::max<std::size_t>(size.ws_col, kLeast);
+}
+
+void PrintFindings(const core::Findings& findings, const CommonOptions& common) {
+  if (common.json) return;
+  std::fflush(stdout);
+  for (const core::Finding& finding : findings) {
+    if (common.quiet && finding.severity != core::Severity::kError) continue;
+    std::fputs(core::FindingText(finding, LineWidth()).c_str(), stderr);
+  }
+}
+
+void PrintWarnings(const core::Findings& findings, const CommonOptions& common, int* notes) {
+  core::Findings kept;
+  for (const core::Finding& finding : findings) {
+    if (finding.severity == core::Severity::kInfo) {
+      ++*notes;
+    } else {
+      kept.push_back(finding);
+    }
+  }
+  PrintFindings(kept, common);
+}
+
+void PrintJson(nlohmann::ordered_json object, const core::Findings& findings) {
+  object["findings"] = core::FindingsJson(findings);
+  // A name or an answer may hold what is no UTF-8.
+  std::printf(
+      "%s\n",
+      object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+}
+
+void PrintJson(const std::string& object, const core::Findings& findings) {
+  PrintJson(nlohmann::ordered_json::parse(object), findings);
+}
+
+}  // namespace simwright::cli

@@ -1,0 +1,27 @@
+#include "cli/stated_options.h"
+
+namespace simwright::cli {
+
+void AddStatedOptions(CLI::App* command, pipeline::StatedSize* size,
+                      physics_params::StatedPhysics* stated) {
+  command
+      ->add_option("--size", *size,
+                   "Its true size, m: the longest side, or length,width,height as it stands")
+      ->delimiter(',')
+      ->expected(1, 3)
+      ->allow_extra_args(false)
+      ->default_str("by the category");
+  command->add_option("--mass", stated->mass, "Its true mass, kg")
+      ->check(CLI::PositiveNumber)
+      ->default_str("by the category");
+  command
+      ->add_option("--density", stated->density,
+                   "Of its matter, kg/m3: fills the shape, or with --mass gives it walls")
+      ->check(CLI::PositiveNumber)
+      ->default_str("by the material");
+  command->add_option("--friction", stated->friction, "Coulomb coefficient")
+      ->check(CLI::Range(0.0, 10.0))
+      ->default_str("by the material");
+}
+
+}  // namespace simwright::cli

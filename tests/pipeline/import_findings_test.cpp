@@ -1,0 +1,121 @@
+// What import says: sizes that cannot be meant, names, axes, and that what a user states wins.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "assets/asset_folder.h"
+#include "assets/obj_file.h"
+#include "assets/primitive_meshes.h"
+#include "core/files.h"
+#include "program.h"
+
+namespace simwright {
+namespace {
+namespace fs = std::filesystem;
+
+class ImportFindings : public ::testing::Test {
+ protected:
+  std::string Mesh(const std::string& name, const core::TriangleMesh& mesh) const {
+    core::WriteFile(folder_.path() / name, assets::ObjText(mesh));
+    return (folder_.path() / name).string();
+  }
+  // A box with its height along y, as OBJ has it.
+  std::string Box(const std::string& name, double length, double height, double width) const {
+    return Mesh(name, assets::BoxMesh({length, height, width}));
+  }
+  Outcome Import(const std::string& arguments) const {
+    return RunProgram("import " + arguments + " --force -o " + (folder_.path() / "out").string());
+  }
+  assets::Asset Read(const std::string& name) const {
+    return assets::ReadAsset(folder_.path() / "out" / name);
+  }
+  static Eigen::Vector3d SizeOf(const assets::Asset& asset) {
+    return core::Bounds(asset.visual.mesh).sizes();
+  }
+  const core::TemporaryFolder folder_;
+};
+
+TEST_F(ImportFindings, AnAbsurdSizeIsRefusedWithItsUnit) {
+  const std::string mesh = Box("crate.obj", 40, 30, 30);
+  const Outcome refused = Import(mesh + " --category crate");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_NE(refused.text.find("40 x 30 x 30 m"), std::string::npos) << refused.text;
+  EXPECT_NE(refused.text.find("--unit cm makes it 0.4 x 0.3 x 0.3 m"), std::string::npos)
+      << refused.text;
+  EXPECT_FALSE(fs::exists(folder_.path() / "out/crate"));
+  const Outcome stated = Import(mesh + " --category crate --unit cm");
+  EXPECT_EQ(stated.code, 0) << stated.text;
+  EXPECT_NEAR(SizeOf(Read("crate")).z(), 0.3, 1e-9);
+}
+
+TEST_F(ImportFindings, AFarNameIsRefusedOrSaid) {
+  const std::string mesh = Box("duck.obj", 0.2, 0.15, 0.1);
+  const Outcome refused = Import(mesh + " --category duck");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_NE(refused.text.find("chicken"), std::string::npos) << refused.text;
+  EXPECT_NE(refused.text.find("'object'"), std::string::npos) << refused.text;
+  const Outcome taken = Import(mesh);
+  EXPECT_EQ(taken.code, 0) << taken.text;
+  EXPECT_NE(taken.text.find("[category-unknown]"), std::string::npos) << taken.text;
+  EXPECT_EQ(Read("duck").parameters.category, "object");
+}
+
+TEST_F(ImportFindings, WhatIsStatedWins) {
+  const std::string mesh = Box("box.obj", 0.3, 0.2, 0.2);
+  ASSERT_EQ(Import(mesh + " --category box --mass 1.25 --friction 0.9").code, 0);
+  assets::Asset asset = Read("box");
+  EXPECT_NEAR(asset.inertial.mass, 1.25, 1e-9);
+  EXPECT_EQ(asset.friction, 0.9);
+  EXPECT_EQ(asset.parameters.mass.source, "stated");
+  ASSERT_EQ(Import(mesh + " --category box --density 500").code, 0);
+  asset = Read("box");
+  EXPECT_NEAR(asset.inertial.mass, 500 * 0.3 * 0.2 * 0.2, 1e-3);
+  ASSERT_EQ(Import(mesh + " --category box --mass 60 --size 0.6").code, 0);
+  asset = Read("box");
+  EXPECT_NEAR(asset.inertial.mass, 60.0, 1e-9);  // far heavier than any cardboard box
+  EXPECT_NEAR(SizeOf(asset).maxCoeff(), 0.6, 1e-9);
+  const Outcome stretched = Import(mesh + " --category box --size 0.5,0.2,0.4");
+  ASSERT_EQ(stretched.code, 0) << stretched.text;
+  EXPECT_NE(stretched.text.find("[stretched]"), std::string::npos) << stretched.text;
+  EXPECT_TRUE(SizeOf(Read("box")).isApprox(Eigen::Vector3d(0.5, 0.2, 0.4), 1e-9));
+  EXPECT_EQ(Import(mesh + " --category box --mass 60 --density 100").code, 1);  // does not fit
+  EXPECT_EQ(Import(mesh + " --category box --mass -1").code, 2);
+}
+
+TEST_F(ImportFindings, TheUpAxisIsGuessedAndSaid) {
+  // A bottle that stands along z in a format whose usual axis is y.
+  core::TriangleMesh bottle = assets::BoxMesh({0.07, 0.07, 0.3});
+  const Outcome turned = Import(Mesh("bottle.obj", bottle) + " --category bottle");
+  ASSERT_EQ(turned.code, 0) << turned.text;
+  EXPECT_NE(turned.text.find("z was taken"), std::string::npos) << turned.text;
+  EXPECT_NEAR(SizeOf(Read("bottle")).z(), 0.3, 1e-9);
+  const Outcome usual = Import(Box("tall.obj", 0.07, 0.3, 0.07) + " --category bottle");
+  ASSERT_EQ(usual.code, 0) << usual.text;
+  EXPECT_NE(usual.text.find("y was taken, as is usual"), std::string::npos) << usual.text;
+  EXPECT_NEAR(SizeOf(Read("tall")).z(), 0.3, 1e-9);
+}
+
+TEST_F(ImportFindings, JsonHasOneArrayOfFindings) {
+  const Outcome outcome = Import(Box("duck.obj", 0.2, 0.15, 0.1) + " --json 2>/dev/null");
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  const auto json = nlohmann::json::parse(outcome.text);
+  ASSERT_EQ(json["assets"].size(), 1u);
+  EXPECT_EQ(json["assets"][0]["name"], "duck");
+  bool said = false;
+  for (const auto& finding : json["findings"]) {
+    for (const char* key : {"code", "severity", "place", "sentence", "remedy", "figure"}) {
+      EXPECT_TRUE(finding.contains(key)) << finding;
+    }
+    said = said || finding["code"] == "category-unknown";
+  }
+  EXPECT_TRUE(said) << json;
+  const Outcome refused = RunProgram("import none.obj -o x --json 2>/dev/null");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_EQ(nlohmann::json::parse(refused.text)["findings"][0]["severity"], "error");
+}
+
+}  // namespace
+}  // namespace simwright
