@@ -19,8 +19,8 @@ struct ArticulatedImportOptions {
   double height = 0.0;
   double unit = 1.0;
   bool unit_stated = false;  // by the user: any size that comes out is meant
-  StatedSize size;           // of the whole, its longest side; takes the place of `height`
-  physics_params::StatedPhysics stated;
+  StatedSize size = {};      // of the whole, its longest side; takes the place of `height`
+  physics_params::StatedPhysics stated = {};
   std::uint64_t seed = 1;
   std::filesystem::path root = {};  // no mesh is read from outside it; empty: as ReadUrdf has it
 };
