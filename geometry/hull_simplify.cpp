@@ -31,22 +31,38 @@ constexpr double kMostGrowth = 2.0;   // of what sticks out of a face
 constexpr int kGrowthSteps = 20;      // of the bisection for the volume
 
 // How far `points` stick out of each of the planes; each point counts for the one it is highest
-// over.
+// over, and for all that are as high within `tie`, so that the order of faces does not matter.
 std::vector<double> StickingOut(const std::vector<Eigen::Vector4d>& planes,
-                                const std::vector<Vector3d>& points) {
-  std::vector<double> out(planes.size(), 0.0);
+                                const std::vector<Vector3d>& points, double tie) {
+  std::vector<double> out(planes.size(), 0.0), height(planes.size(), 0.0);
   for (const Vector3d& p : points) {
-    std::size_t face = 0;
-    double height = 0.0;
+    double highest = 0.0;
     for (std::size_t f = 0; f < planes.size(); ++f) {
-      const double h = planes[f].head<3>().dot(p) - planes[f][3];
-      if (h <= height) continue;
-      height = h;
-      face = f;
+      height[f] = planes[f].head<3>().dot(p) - planes[f][3];
+      highest = std::max(highest, height[f]);
     }
-    out[face] = std::max(out[face], height);
+    if (highest <= 0.0) continue;
+    for (std::size_t f = 0; f < planes.size(); ++f) {
+      if (height[f] >= highest - tie) out[f] = std::max(out[f], height[f]);
+    }
   }
   return out;
+}
+
+// For each vertex the faces at it, of those in one plane only one.
+std::vector<std::vector<std::size_t>> PlanesAt(const core::TriangleMesh& hull,
+                                               const std::vector<Eigen::Vector4d>& planes) {
+  std::vector<std::vector<std::size_t>> at(hull.vertices.size());
+  for (std::size_t f = 0; f < planes.size(); ++f) {
+    for (const int v : hull.triangles[f]) {
+      std::vector<std::size_t>& faces = at[static_cast<std::size_t>(v)];
+      const bool known = std::any_of(faces.begin(), faces.end(), [&](std::size_t g) {
+        return planes[g].head<3>().dot(planes[f].head<3>()) > 1.0 - 1e-8;
+      });
+      if (!known) faces.push_back(f);
+    }
+  }
+  return at;
 }
 
 // The faces of each flat side: one plane with a good share of the surface.
@@ -224,11 +240,12 @@ core::TriangleMesh GrownToVolume(const core::TriangleMesh& picked,
                                  const std::vector<Vector3d>& points, double volume,
                                  double diagonal) {
   const std::vector<Eigen::Vector4d> planes = FacePlanes(picked);
-  const std::vector<double> out = StickingOut(planes, points);
+  const std::vector<double> out = StickingOut(planes, points, kThinnest * 1e-3 * diagonal);
   std::vector<Vector3d> push(picked.vertices.size(), Vector3d::Zero());
   std::vector<double> farthest(picked.vertices.size(), 0.0);
-  for (std::size_t f = 0; f < planes.size(); ++f) {
-    for (const int v : picked.triangles[f]) {
+  const auto planes_at = PlanesAt(picked, planes);
+  for (std::size_t v = 0; v < push.size(); ++v) {
+    for (const std::size_t f : planes_at[v]) {
       push[v] += out[f] * planes[f].head<3>();
       farthest[v] = std::max(farthest[v], out[f]);
     }
@@ -251,7 +268,16 @@ core::TriangleMesh GrownToVolume(const core::TriangleMesh& picked,
   }
   const auto grown = [&](double share) {
     std::vector<Vector3d> moved = picked.vertices;
-    for (std::size_t v = 0; v < moved.size(); ++v) moved[v] += share * push[v];
+    for (std::size_t v = 0; v < moved.size(); ++v) {
+      moved[v] += share * push[v];
+      // No flat side is passed: half of the distance to it stays.
+      for (const std::vector<int>& side : sides) {
+        const Eigen::Vector4d& plane = planes[static_cast<std::size_t>(side[0])];
+        const Vector3d normal = plane.head<3>();
+        const double most = 0.5 * (plane[3] + normal.dot(picked.vertices[v]));
+        moved[v] -= std::max(0.0, normal.dot(moved[v]) - most) * normal;
+      }
+    }
     return ThickenedConvexHull(moved, kThinnest * diagonal);
   };
   double low = 0.0, high = kMostGrowth;

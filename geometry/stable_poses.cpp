@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 constexpr double kSameAngle = 0.5 * std::numbers::pi / 180.0;
 constexpr double kSamePlane = 1e-4;  // of the diagonal
 constexpr double kInside = 1e-6;     // of the diagonal
-constexpr double kBarrier = 0.0355;  // of the height; 1 / cos(15 degrees) - 1 and some rounding
+constexpr double kBarrier = 0.0525;  // of the height; 1 / cos(18 degrees) - 1 and some rounding
 constexpr double kRolled = 75.0 * std::numbers::pi / 180.0;
 
 struct Edge {

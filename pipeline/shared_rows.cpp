@@ -24,10 +24,13 @@ void RowOrFailure(const std::string& code, CheckRows* rows, const std::function<
 
 namespace {
 
-// A rolling body slows down or keeps its speed; one that gains it is driven by its contacts.
+// A rolling body keeps its speed, loses it, or gains what its centre of mass fell by, which it does
+// from edge to facet: v^2 <= v0^2 + 2 g h. One that gains more is driven by its contacts.
 bool GainsSpeed(const sim::DropResult& drop) {
   constexpr double kNoise = 2e-3;  // m: rocking from facet to facet
-  return drop.late_drift > 1.5 * drop.early_drift + kNoise;
+  const double half = 0.5 * sim::DropOptions().watch_time;
+  const double fallen = std::sqrt(2.0 * 9.81 * drop.fall) * half;
+  return drop.late_drift > std::hypot(1.5 * drop.early_drift, fallen) + kNoise;
 }
 
 void AddRollingRow(const sim::DropResult& drop, const std::string& engine, double size,

@@ -48,6 +48,9 @@ void DropWatch::Observe(double time, const Eigen::Isometry3d& world_from_body) {
     result_.rest_pose = world_from_body;
     result_.rests = time - result_.rest_time >= options_.rest_window;
   }
+  const double height = (world_from_body * body_.inertial.center_of_mass).z();
+  highest_ = time <= options_.settle_time + 1e-9 ? height : std::max(highest_, height);
+  result_.fall = std::max(result_.fall, highest_ - height);
   if (time <= options_.settle_time + 0.5 * options_.watch_time + 1e-9) half_ = world_from_body;
   result_.final_pose = world_from_body;
 }

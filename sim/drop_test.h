@@ -27,6 +27,7 @@ struct DropResult {
   double drift = 0.0;         // m, of the centre of mass over watch_time
   double early_drift = 0.0;   // m, the same over its first half
   double late_drift = 0.0;    // m, and over its second half: less than before where it slows down
+  double fall = 0.0;          // m, how far the centre of mass sank below where it had been highest
   double turn = 0.0;          // rad, over watch_time, about any axis
   double lowest_point = 0.0;  // m, at the end: below 0 is penetration
   Eigen::Isometry3d rest_pose = Eigen::Isometry3d::Identity();   // world_from_body after settling
@@ -55,6 +56,7 @@ class DropWatch {
   Eigen::Isometry3d anchor_;  // where it was at the start of the window
   double anchor_time_ = 0.0;  // s
   Eigen::Isometry3d half_;    // where it was when half of the watching was over
+  double highest_ = 0.0;      // m, of the centre of mass since it was first watched
   DropResult result_;
 };
 
