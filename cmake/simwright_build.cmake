@@ -24,6 +24,7 @@ if(SIMWRIGHT_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize=vptr,function
                       -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
+  add_compile_definitions(SIMWRIGHT_SANITIZED)
 endif()
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)

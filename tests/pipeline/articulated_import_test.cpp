@@ -241,8 +241,8 @@ TEST_F(BoxUrdf, WhatCannotBeAnAssetIsOneLine) {
 
 TEST_F(BoxUrdf, JointsFollowOurConventions) {
   const ArticulatedAsset asset =
-      Import(Link("a", 0.05) + Link("down", 0.16) + Link("late", 0.28) + Link("mime", 0.40) +
-             Link("wheel", 0.52) + Joint("revolute", "a", "down", Range(-1.5, 0)) +
+      Import(Link("a", 0.05) + Link("down", 0.16) + Link("wheel", 0.28) + Link("mime", 0.40) +
+             Link("late", 0.52) + Joint("revolute", "a", "down", Range(-1.5, 0)) +
              Joint("prismatic", "a", "late", "<origin xyz='0 0 0'/>" + Range(0.1, 0.3)) +
              Joint("revolute", "a", "mime", "<mimic joint='j_down'/>" + Range(0, 1)) +
              Joint("continuous", "a", "wheel", ""));

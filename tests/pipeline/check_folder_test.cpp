@@ -27,7 +27,7 @@ TEST(CheckFolder, GivesALineAnAssetAndFailsWithTheWorst) {
   EXPECT_NE(good.text.find("2 of 2 pass"), std::string::npos) << good.text;
 
   std::ofstream(assets / "mugs/mug_2/mug_2.urdf") << "<robot";
-  const Outcome bad = RunProgram("check " + assets.string() + " --json 2>/dev/null");
+  const Outcome bad = RunProgram("check " + assets.string() + " --json", "/dev/null");
   EXPECT_EQ(bad.code, 1) << bad.text;
   const auto json = nlohmann::json::parse(bad.text);
   EXPECT_EQ(json["passed"], false);

@@ -10,13 +10,15 @@ namespace simwright {
 
 struct Outcome {
   int code = -1;
-  std::string text;  // stdout and stderr
+  std::string text;  // stdout, and stderr unless it went elsewhere
 };
 
-// The built program, with these arguments, as a shell runs it.
-inline Outcome RunProgram(const std::string& arguments) {
+// The built program, with these arguments, as a shell runs it. `errors_to` is where the shell
+// redirects stderr: "&1" beside stdout, "/dev/null" nowhere.
+inline Outcome RunProgram(const std::string& arguments, const std::string& errors_to = "&1") {
   Outcome outcome;
-  FILE* pipe = popen((std::string(SIMWRIGHT_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
+  FILE* pipe = popen((std::string(SIMWRIGHT_PROGRAM) + " " + arguments + " 2>" + errors_to).c_str(),
+                     "r");
   if (pipe == nullptr) return outcome;
   std::array<char, 4096> buffer;
   size_t count;

@@ -65,7 +65,7 @@ TEST(Usage, HelpGivesEveryDefaultAndNamesOfChoices) {
 TEST(Usage, JsonIsJson) {
   for (const char* command : {"version", "doctor", "scene generate --list", "library --list",
                               "physics --category mug", "import none -o x", "check none"}) {
-    const Outcome outcome = RunProgram(std::string(command) + " --json 2>/dev/null");
+    const Outcome outcome = RunProgram(std::string(command) + " --json", "/dev/null");
     ASSERT_TRUE(nlohmann::json::accept(outcome.text)) << command << ": " << outcome.text;
     EXPECT_TRUE(nlohmann::json::parse(outcome.text)["findings"].is_array()) << command;
   }
