@@ -33,9 +33,9 @@ std::vector<StablePose> StablePoses(const core::TriangleMesh& solid,
                                     const Eigen::Vector3d& center_of_mass);
 
 // Whether a body that rests with `down` (body frame, unit) pointing at the floor rolls there: from
-// face to face it turns by more than 75 degrees while its centre of mass stays within 3.5 % of the
-// height that it rests at, which is the barrier of an edge 15 degrees away. A ball, a lying
-// cylinder of 12 or more facets and a lying cone do; a die, an icosahedron and a hexagonal pencil
+// face to face it turns by more than 75 degrees while its centre of mass stays within 5 % of the
+// height that it rests at, which is the barrier of an edge 18 degrees away. A ball, a lying
+// cylinder of 10 or more facets and a lying cone do; a die, an icosahedron and a hexagonal pencil
 // do not, nor does a bowl on its round side, which rocks. Throws as StablePoses.
 bool Rolls(const core::TriangleMesh& solid, const Eigen::Vector3d& center_of_mass,
            const Eigen::Vector3d& down);

@@ -150,7 +150,7 @@ void LayDown(const BuildRequest& request, assets::Asset* asset) {
       KeepFoot(FindFoot(asset->solid, asset->inertial.center_of_mass, kFootCorners),
                request.decomposition.max_hull_vertices, &asset->parts);
     }
-    rest = FindRestPose(sim::BodyFromAsset(*asset));
+    rest = FindRestPose(sim::BodyFromAsset(*asset), asset->solid);
     PlaceInLinkFrame(rest.turn, asset);
     turn = rest.turn * turn;
     if (rest.turn.linear().isIdentity()) break;

@@ -10,13 +10,12 @@
 #include "assets/urdf_reader.h"
 #include "core/error.h"
 #include "geometry/concavity.h"
-#include "geometry/convex_hull.h"
 #include "geometry/mass_properties.h"
 #include "geometry/soundness.h"
-#include "geometry/stable_poses.h"
 #include "geometry/surface_distance.h"
 #include "pipeline/check_articulated.h"
 #include "pipeline/check_joints.h"
+#include "pipeline/rest_pose.h"
 #include "pipeline/shared_rows.h"
 #include "sim/drop_test.h"
 #include "sim/mujoco.h"
@@ -107,22 +106,13 @@ void CheckReaders(const assets::Asset& asset, const fs::path& folder, const Chec
   });
 }
 
-// Whether the parts roll as they lie, whatever asset.json says.
-bool PartsRoll(const assets::Asset& asset) {
-  std::vector<Eigen::Vector3d> points;
-  for (const core::TriangleMesh& part : asset.parts) {
-    points.insert(points.end(), part.vertices.begin(), part.vertices.end());
-  }
-  return geometry::Rolls(geometry::ConvexHull(points), asset.inertial.center_of_mass,
-                         -Eigen::Vector3d::UnitZ());
-}
-
 void CheckDynamics(const assets::Asset& asset, const fs::path& folder, const CheckLimits& limits,
                    CheckRows* rows) {
   const sim::RigidBody body = sim::BodyFromAsset(asset);
   sim::DropOptions options;
   const double size = core::Bounds(asset.solid).diagonal().norm();
-  const bool rolls = asset.rolls && PartsRoll(asset);
+  // Whatever asset.json says: what stands or falls is not judged as what rolls.
+  const bool rolls = asset.rolls && RollsAsItLies(body, asset.solid);
   const auto add = [&](const sim::DropResult& drop, const std::string& engine) {
     if (asset.rolls && !rolls) {
       AddRockingRows(drop, engine, size, limits, rows);

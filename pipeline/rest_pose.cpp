@@ -58,10 +58,9 @@ core::TriangleMesh HullOfParts(const sim::RigidBody& body) {
 }
 
 // Poses near the given one first (a fruit that lay a little aslant), then by probability.
-std::vector<geometry::StablePose> PosesToTry(const sim::RigidBody& body,
-                                             const core::TriangleMesh& hull) {
+std::vector<geometry::StablePose> PosesToTry(const sim::RigidBody& body) {
   std::vector<geometry::StablePose> poses =
-      geometry::StablePoses(hull, body.inertial.center_of_mass);
+      geometry::StablePoses(HullOfParts(body), body.inertial.center_of_mass);
   const auto tilt = [](const geometry::StablePose& pose) {
     return sim::TiltBetween(pose.resting_from_body, Eigen::Isometry3d::Identity());
   };
@@ -78,33 +77,43 @@ std::vector<geometry::StablePose> PosesToTry(const sim::RigidBody& body,
 
 }  // namespace
 
-RestPose FindRestPose(const sim::RigidBody& body) {
+bool RollsAsItLies(const sim::RigidBody& body, const core::TriangleMesh& solid,
+                   const Eigen::Isometry3d& turn) {
+  const Eigen::Vector3d& center = body.inertial.center_of_mass;
+  const Eigen::Vector3d down = -turn.linear().row(2).transpose();
+  return geometry::Rolls(solid, center, down) || geometry::Rolls(HullOfParts(body), center, down);
+}
+
+RestPose FindRestPose(const sim::RigidBody& body, const core::TriangleMesh& solid) {
   const Eigen::Isometry3d upright = Eigen::Isometry3d::Identity();
-  const core::TriangleMesh hull = HullOfParts(body);
   const auto rolls = [&](const Eigen::Isometry3d& turn) {
-    return geometry::Rolls(hull, body.inertial.center_of_mass,
-                           turn.linear().transpose() * -Eigen::Vector3d::UnitZ());
+    return RollsAsItLies(body, solid, turn);
   };
   const sim::DropResult given = Drop(body, upright, 2.0);
   if (Holds(given)) {
     const Eigen::Isometry3d turn = Settled(upright, given);
-    return {turn, rolls(turn)};
+    return {turn, rolls(turn), true};
   }
-  const std::vector<geometry::StablePose> poses = PosesToTry(body, hull);
+  const std::vector<geometry::StablePose> poses = PosesToTry(body);
   for (const geometry::StablePose& pose : poses) {
     Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
     start.linear() = pose.resting_from_body.linear();
     // A bottle that lies is not stood up because it rolls.
-    if (StandsAsGiven(start) && rolls(start)) return {start, true};
+    if (StandsAsGiven(start) && rolls(start)) return {start, true, false};
     const sim::DropResult drop = Drop(body, start, 2.0);
     if (!Holds(drop)) continue;
     const Eigen::Isometry3d turn = Settled(start, drop);
-    return {turn, rolls(turn)};
+    return {turn, rolls(turn), true};
   }
   // Nothing holds at once: give it time, and take the pose in which it ends.
   const sim::DropResult patient = Drop(body, upright, 15.0);
   const Eigen::Isometry3d turn = WithoutYaw(patient.rest_pose);
-  return {turn, !Holds(Drop(body, turn, 2.0)) || rolls(turn)};
+  const bool held = Holds(Drop(body, turn, 2.0));
+  return {turn, !held || rolls(turn), held};
+}
+
+RestPose FindRestPose(const sim::RigidBody& body) {
+  return FindRestPose(body, HullOfParts(body));
 }
 
 bool StandsAsGiven(const Eigen::Isometry3d& turn) {

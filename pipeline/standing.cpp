@@ -158,7 +158,7 @@ core::Findings LetStand(UrdfModel* model) {
   if (sim::DropInBullet(whole).tilt < kFalls) return findings;
   const RestPose rest = FindRestPose(whole);
   const double tilt = sim::TiltBetween(rest.turn, Eigen::Isometry3d::Identity());
-  if (rest.rolls) {
+  if (!rest.held) {
     findings.push_back({"rolls", core::Severity::kWarning, model->name,
                         "no pose holds it within 5 degrees: it is left as it was given", 0.0,
                         "lay it where something holds it"});
