@@ -19,6 +19,7 @@ constexpr double kRolling = 0.7e-3;       // m of drift in 2 s; the check allows
 constexpr double kNearUpright = 20.0 * kDegree;
 constexpr double kFirm = 4.0 * kDegree;
 constexpr int kPosesTried = 8;
+constexpr double kLeastTipping = 0.5 * kDegree;  // less is balancing: on an edge, on a tip
 
 // The orientation without its turn about the vertical, which is free.
 Eigen::Isometry3d WithoutYaw(const Eigen::Isometry3d& pose) {
@@ -57,6 +58,14 @@ core::TriangleMesh HullOfParts(const sim::RigidBody& body) {
   return geometry::ConvexHull(points);
 }
 
+// Whether the support bears some tilt; what is higher by less than the body rocks is part of it.
+bool Bears(const sim::RigidBody& body, const Eigen::Isometry3d& turn) {
+  const core::TriangleMesh hull = HullOfParts(body);
+  const double slack = std::sin(kRocks) * core::Bounds(hull).diagonal().norm();
+  const Eigen::Vector3d down = -turn.linear().row(2).transpose();
+  return geometry::TippingAngle(hull, body.inertial.center_of_mass, down, slack) > kLeastTipping;
+}
+
 // Poses near the given one first (a fruit that lay a little aslant), then by probability.
 std::vector<geometry::StablePose> PosesToTry(const sim::RigidBody& body) {
   std::vector<geometry::StablePose> poses =
@@ -90,9 +99,10 @@ RestPose FindRestPose(const sim::RigidBody& body, const core::TriangleMesh& soli
     return RollsAsItLies(body, solid, turn);
   };
   const sim::DropResult given = Drop(body, upright, 2.0);
-  if (Holds(given)) {
-    const Eigen::Isometry3d turn = Settled(upright, given);
-    return {turn, rolls(turn), true};
+  const Eigen::Isometry3d settled = Settled(upright, given);
+  // What is even on both sides may balance on an edge in one engine and tip in the other.
+  if (Holds(given) && (Bears(body, settled) || rolls(settled))) {
+    return {settled, rolls(settled), true};
   }
   const std::vector<geometry::StablePose> poses = PosesToTry(body);
   for (const geometry::StablePose& pose : poses) {

@@ -15,10 +15,11 @@ struct RestPose {
   bool held = true;    // a drop in that pose ended in it
 };
 
-// How `body` rests: dropped as it is given; where it falls over, in its stable poses, those within
-// 20 degrees of the given one first, then the most probable. A pose holds when the body comes to
-// rest within 5 degrees of it; where it rocks by more than half a degree the pose it rocked into
-// is taken. What rolls in a stable pose within 20 degrees of the given one stays so, held or not.
+// How `body` rests: dropped as it is given; where it falls over, or only balances on an edge, in its
+// stable poses, those within 20 degrees of the given one first, then the most probable. A pose
+// holds when the body comes to rest within 5 degrees of it; where it rocks by more than half a
+// degree the pose it rocked into is taken. What rolls in a stable pose within 20 degrees of the
+// given one stays so, held or not.
 // `solid`, in the body's frame, is what the parts stand for: few facets may hold what is round.
 RestPose FindRestPose(const sim::RigidBody& body, const core::TriangleMesh& solid);
 

@@ -129,6 +129,7 @@ TEST(RoundShapes, BallsEggsAndLyingCylindersRoll) {
 TEST(RoundShapes, DiceRingsAndBowlsRest) {
   const std::vector<std::pair<std::string, core::TriangleMesh>> things{
       {"die", shapes::Box(0.016, 0.016, 0.016)},
+      {"icosahedron", Scaled(shapes::Icosphere(0), Vector3d::Constant(0.02))},
       {"ring", shapes::Torus(0.04, 0.008, 48, 16)},
       {"bowl", shapes::Bowl(0.07, 0.006, 40)},
       {"bowl upside down", Turned(shapes::Bowl(0.07, 0.006, 40), shapes::kPi, Vector3d::UnitX())},
@@ -140,6 +141,19 @@ TEST(RoundShapes, DiceRingsAndBowlsRest) {
     const CheckReport report = Checked(Built(mesh, "object"));
     EXPECT_NE(report.grade(), Grade::kFail) << name << "\n" << CheckTable(report);
   }
+}
+
+// It comes on an edge, on which it balances in Bullet and from which it tips in MuJoCo.
+TEST(RoundShapes, WhatOnlyBalancesIsLaidOnAFace) {
+  const assets::Asset twenty =
+      Built(Scaled(shapes::Icosphere(0), Vector3d::Constant(0.02)), "object");
+  const Vector3d down = -Vector3d::UnitZ(), center = twenty.inertial.center_of_mass;
+  // The inner radius of a face over that of the body: atan(0.2887 / 0.7558).
+  EXPECT_NEAR(geometry::TippingAngle(twenty.solid, center, down, 1e-7), 0.3649, 1e-3);
+  const assets::Asset box =
+      Built(Turned(shapes::Box(0.03, 0.03, 0.03), shapes::kPi / 4, Vector3d::UnitX()), "object");
+  EXPECT_NEAR(geometry::TippingAngle(box.solid, box.inertial.center_of_mass, down, 1e-7),
+              shapes::kPi / 4, 1e-3);
 }
 
 // A lying bottle or a ball is not stood up, or turned over, to make it rest.
