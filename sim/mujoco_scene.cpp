@@ -53,8 +53,10 @@ class SceneFile {
         << "\"/><include file=\""
         // MuJoCo 2.2 puts the scene's folder before any include, also before an absolute one.
         << fs::relative(fs::canonical(mjcf), fs::canonical(path_.parent_path())).string()
-        << "\"/>" << assets::MjcfPhysicsText(geoms) << "<worldbody>"
-        << assets::MjcfGroundText();
+        << "\"/>";
+    // A model that states its own <option> and <size> keeps them.
+    if (model.find("<size") == std::string::npos) out << assets::MjcfPhysicsText(geoms);
+    out << "<worldbody>" << assets::MjcfGroundText();
     for (size_t i = 0; i < balls.size(); ++i) {
       out << "<body name=\"ball_" << i << "\"><freejoint/><geom type=\"sphere\" size=\"" << balls[i]
           << "\" condim=\"4\" solref=\"0.005 1\"/></body>";

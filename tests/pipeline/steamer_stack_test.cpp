@@ -5,8 +5,11 @@
 #include <cmath>
 #include <vector>
 
+#include <tinyxml2.h>
+
 #include "assets/asset_folder.h"
 #include "assets/model_writer.h"
+#include "assets/xml_element.h"
 #include "core/files.h"
 #include "pipeline/library.h"
 #include "sim/mujoco.h"
@@ -86,7 +89,6 @@ std::string Section(const assets::Asset& asset, const std::string& from, const s
 }
 
 double SteamerStack::DriftInMujoco(int count, bool lid) const {
-  const std::string text = assets::MjcfText(steamer_);
   std::string meshes = Section(steamer_, "<asset>", "</asset>"), bodies;
   if (lid) meshes += Section(lid_, "<asset>", "</asset>");
   for (int i = 0; i < count; ++i) {
@@ -94,11 +96,12 @@ double SteamerStack::DriftInMujoco(int count, bool lid) const {
     bodies += Replaced(body, "name=\"", "name=\"of_" + std::to_string(i) + "_");
   }
   if (lid) bodies += Section(lid_, "<worldbody>", "</worldbody>");
-  const std::string option =
-      text.substr(text.find("<compiler"), text.find("<size") - text.find("<compiler"));
   const fs::path file = folder_.path() / "stack.xml";
-  core::WriteFile(file, "<mujoco>" + option + "<size njmax=\"5000\" nconmax=\"800\"/><asset>" +
-                            meshes + "</asset><worldbody>" + bodies + "</worldbody></mujoco>");
+  tinyxml2::XMLPrinter option(nullptr, true);
+  assets::MjcfOption(&option);
+  core::WriteFile(file, std::string("<mujoco><compiler angle=\"radian\"/>") + option.CStr() +
+                            "<size njmax=\"5000\" nconmax=\"800\"/><asset>" + meshes +
+                            "</asset><worldbody>" + bodies + "</worldbody></mujoco>");
   sim::MujocoWorld world(file);
   const std::vector<Isometry3d> start = Poses(count, lid);
   for (size_t i = 0; i < start.size(); ++i) world.SetPose(static_cast<int>(i), start[i]);
