@@ -43,6 +43,10 @@ void AddRollout(CLI::App* app, CommonOptions* common, Run* run) {
                 ->add_option("--task", request->tasks,
                              "With --on: the task, or a pattern of tasks alike, in it")
                 ->needs(on));
+  command
+      ->add_option("--finger-friction", request->finger_friction,
+                   "Friction of the fingers in every episode; default: drawn as in training")
+      ->check(CLI::Range(0.05, 10.0));
   command->add_option("--pictures", request->pictures,
                       "A strip of pictures of one episode that succeeds, PNG");
   command->add_option("--poses", request->poses,

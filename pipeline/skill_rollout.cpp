@@ -33,11 +33,19 @@ void Show(const TrainedTask& task, const RolloutRequest& request,
   }
 }
 
+SkillRun ReadWithFriction(const std::filesystem::path& folder, std::optional<double> friction) {
+  SkillRun run = ReadRun(folder);
+  if (friction) run.options.finger_friction = rl::FactorRange{*friction, *friction};
+  return run;
+}
+
 }  // namespace
 
 TrainedTask::TrainedTask(const std::filesystem::path& folder,
-                         const std::optional<tasks::TaskSet>& on)
-    : run_(ReadRun(folder)), skills_(PrepareSkillsOn(on.value_or(run_.set), run_)) {
+                         const std::optional<tasks::TaskSet>& on,
+                         std::optional<double> finger_friction)
+    : run_(ReadWithFriction(folder, finger_friction)),
+      skills_(PrepareSkillsOn(on.value_or(run_.set), run_)) {
   if (on) run_.set = *on;
   policies_.reserve(skills_.size());
   for (const RunSkill& skill : skills_) {
@@ -57,7 +65,7 @@ RolloutReport Rollout(const RolloutRequest& request, core::Progress* progress) {
   if (!request.on.empty()) {
     on = ChooseTasks(tasks::ReadTaskFile(request.on), request.tasks, request.on.string());
   }
-  const TrainedTask task(request.run, on);
+  const TrainedTask task(request.run, on, request.finger_friction);
   RolloutReport report;
   for (const RunSkill& skill : task.skills()) report.subtasks.push_back(skill.name);
   progress->Stage("roll out");

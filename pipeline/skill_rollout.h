@@ -21,6 +21,8 @@ struct RolloutRequest {
   // names or patterns in it (ChooseTasks). Empty: the run's own.
   std::filesystem::path on;
   std::vector<std::string> tasks;
+  // Of the fingers' surfaces, the same in all episodes; none: drawn as in the training.
+  std::optional<double> finger_friction;
   // Of the first episode that succeeds, else of the first: pictures (PNG) and poses (JSON lines;
   // rollout_pictures.h). Empty: none.
   std::filesystem::path pictures, poses;
@@ -35,10 +37,12 @@ struct RolloutReport {
 // A run's skills and policies, ready to act. Not copied or moved: links point into it.
 class TrainedTask {
  public:
-  // `on`: other tasks to act in than the run's own. Throws core::Error where the folder holds no
-  // run, its assets have changed, a subtask has no policy, naming it, or `on` does not fit.
+  // `on`: other tasks to act in than the run's own; `finger_friction`: as RolloutRequest's. Throws
+  // core::Error where the folder holds no run, its assets have changed, a subtask has no policy,
+  // naming it, or `on` does not fit.
   explicit TrainedTask(const std::filesystem::path& run,
-                       const std::optional<tasks::TaskSet>& on = std::nullopt);
+                       const std::optional<tasks::TaskSet>& on = std::nullopt,
+                       std::optional<double> finger_friction = std::nullopt);
   TrainedTask(const TrainedTask&) = delete;
   TrainedTask& operator=(const TrainedTask&) = delete;
 

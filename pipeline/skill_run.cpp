@@ -3,8 +3,10 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -44,7 +46,17 @@ json RunJson(const SkillRun& run) {
   text["episode_seconds"] = run.options.episode_seconds;
   text["discount"] = run.options.discount;
   text["action"] = rl::NameOf(run.options.action);
+  if (run.options.finger_friction) {
+    text["finger_friction"] = {run.options.finger_friction->low, run.options.finger_friction->high};
+  }
   return text;
+}
+
+// Runs from before it was drawn had the robot's own.
+std::optional<rl::FactorRange> FingerFrictionOf(const json& text) {
+  if (!text.contains("finger_friction")) return std::nullopt;
+  const auto range = text["finger_friction"].get<std::array<double, 2>>();
+  return rl::FactorRange{range[0], range[1]};
 }
 
 std::vector<std::string> HashesOf(const tasks::TaskSet& set) {
@@ -126,6 +138,7 @@ SkillRun ReadRun(const fs::path& folder) {
     run.options.episode_seconds = text.at("episode_seconds").get<double>();
     run.options.discount = text.at("discount").get<double>();
     run.options.action = rl::ActionSpaceOf(text.at("action").get<std::string>());
+    run.options.finger_friction = FingerFrictionOf(text);
   } catch (const json::exception&) {
     throw core::Error("is damaged", file.string(), "train anew");
   }

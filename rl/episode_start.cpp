@@ -125,6 +125,8 @@ void DrawBodies(const SkillVariant& variant, const SkillOptions& options, core::
     start->joint.push_back(Draw(options.joint, rng));
   }
   start->delay = static_cast<int>(core::UniformIndex(rng, options.longest_delay + 1));
+  start->finger_friction.reset();
+  if (options.finger_friction) start->finger_friction = Draw(*options.finger_friction, rng);
 }
 
 // EpisodeStart::withdraw: back along the hand's own axis, until it is out of the room that it is

@@ -32,6 +32,7 @@ struct EpisodeStart {
   std::vector<double> friction;
   std::vector<double> joint;  // of friction and damping of joints
   int delay = 0;              // control steps
+  std::optional<double> finger_friction;  // of the fingers' surfaces; none: the robot's own
 };
 
 // Draws a start of the skill: one of its variants, its things moved and turned within the options'
@@ -46,7 +47,7 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng);
 int HeldThing(const SkillVariant& variant, const tasks::SceneState& state);
 
 enum class VariedParts {
-  kEverything,  // masses, frictions and delay drawn again, the arm moved a little if it is empty
+  kEverything,  // masses, frictions, delay drawn again, the arm moved a little if it is empty
   kNothing,     // only the work is planned anew
 };
 

@@ -80,6 +80,9 @@ bool SkillOptions::IsValid(std::string* error) const {
   if (!IsRange(mass) || !IsRange(friction) || !IsRange(joint)) {
     return fail("mass, friction and joint must be ranges of positive factors");
   }
+  if (finger_friction && !IsRange(*finger_friction)) {
+    return fail("finger_friction must be a range of positive coefficients");
+  }
   if (longest_delay < 0) return fail("longest_delay must not be negative");
   if (!IsShare(at_focus_share) || !IsShare(part_way_share) ||
       at_focus_share + part_way_share > 1.0) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace simwright::rl {
@@ -69,6 +70,8 @@ struct SkillOptions {
   FactorRange mass = {0.5, 2.0};
   FactorRange friction = {0.7, 1.3};  // of surfaces
   FactorRange joint = {0.7, 1.4};     // friction and damping of joints
+  // Coefficient of the fingers' surfaces; a pair's is the product. None: the robot's own.
+  std::optional<FactorRange> finger_friction = std::nullopt;
   int longest_delay = 1;              // control steps that a command comes late, 0 to this
 
   // Easier starts, as shares of the episodes; none in an evaluation.

@@ -44,8 +44,11 @@ SkillWorld::SkillWorld(const Skill& skill, const EpisodeStart& start)
       world_.SetPosition(bodies_[t], variant_.body_joints[t][j], start.state.joints[t][j]);
     }
   }
-  robot_ = std::make_unique<sim::DrivenRobot>(*skill.robot, skill.robot_body,
-                                              variant_.subtask.start.world_from_robot, &world_);
+  sim::MotorOptions motors;
+  motors.finger_friction = start.finger_friction;
+  robot_ =
+      std::make_unique<sim::DrivenRobot>(*skill.robot, skill.robot_body,
+                                         variant_.subtask.start.world_from_robot, &world_, motors);
   thing_of_.push_back(-1);
   for (auto& pressed : pressed_) pressed.assign(variant_.model.things.size(), 0.0);
   robot_->Place(start.arm, start.leader);

@@ -15,6 +15,7 @@ using nlohmann::json;
 constexpr size_t kMostStarts = 100000;
 constexpr size_t kLongestDetour = 16;
 constexpr double kFarthestWay = 10.0;  // m
+constexpr double kRoughest = 100.0;    // coefficient of friction
 
 json PoseJson(const Eigen::Isometry3d& pose) {
   json numbers = json::array();
@@ -119,6 +120,12 @@ EpisodeStart StartFrom(const json& text, const Skill& skill) {
       !std::isfinite(start.leader + start.pitch + start.closed_to.value_or(0.0))) {
     throw std::invalid_argument("a delay or position that cannot be");
   }
+  if (text.contains("finger_friction")) {
+    start.finger_friction = text["finger_friction"].get<double>();
+    if (!(*start.finger_friction > 0.0) || *start.finger_friction > kRoughest) {
+      throw std::invalid_argument("a friction that no fingers have");
+    }
+  }
   return start;
 }
 
@@ -144,6 +151,7 @@ std::string StartText(const EpisodeStart& start) {
   text["friction"] = start.friction;
   text["joint"] = start.joint;
   text["delay"] = start.delay;
+  if (start.finger_friction) text["finger_friction"] = *start.finger_friction;
   return text.dump();
 }
 

@@ -34,6 +34,13 @@ constexpr double kContactReach = 0.002;
 // two). Without it a hand's fingers drift as a pair.
 constexpr double kGearRecovery = 1.0;
 
+double FrictionOf(const RigidBody& link, int index, const Placement& placement) {
+  for (const auto& [given, friction] : placement.link_friction) {
+    if (given == index) return placement.friction_scale * friction;
+  }
+  return placement.friction_scale * link.friction;
+}
+
 // What drives and limits one joint that moves.
 struct LoadedJoint {
   double friction = 0.0;
@@ -249,7 +256,7 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const P
     if (!carries && link.parts.empty()) continue;
     auto collider = std::make_unique<btMultiBodyLinkCollider>(loaded->multi.get(), place.bullet);
     collider->setCollisionShape(loaded->Shape(static_cast<int>(i)).compound());
-    collider->setFriction(placement.friction_scale * link.friction);
+    collider->setFriction(FrictionOf(link, static_cast<int>(i), placement));
     collider->setRestitution(link.restitution);
     collider->setRollingFriction(link.rolling_friction);
     collider->setSpinningFriction(link.rolling_friction);

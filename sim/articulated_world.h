@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -43,6 +44,8 @@ struct Placement {
   // What this world's copy has of the body's own: mass (with inertia), friction of its surfaces,
   // friction and damping of its joints. Positive.
   double mass_scale = 1.0, friction_scale = 1.0, joint_scale = 1.0;
+  // Links whose surfaces have another friction than the body's own: link and coefficient.
+  std::vector<std::pair<int, double>> link_friction = {};
 };
 
 constexpr int kFloor = -1;  // in place of a body's index

@@ -39,6 +39,11 @@ DrivenRobot::DrivenRobot(const robot::RobotModel& model, std::shared_ptr<const P
   Placement placement;
   placement.world_from_root = world_from_robot;
   placement.through_floor = LinksInFloor(body->body(), model, world_from_robot);
+  if (options.finger_friction) {
+    for (const int link : model.gripper.links) {
+      placement.link_friction.emplace_back(link, *options.finger_friction);
+    }
+  }
   body_ = world_.Add(std::move(body), placement);
   for (const int joint : model.gripper.joints) {
     world_.LimitMimic(body_, joint, options.centring * model.gripper.grip_force);

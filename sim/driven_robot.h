@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -17,6 +18,8 @@ struct MotorOptions {
   // press on what is between them; this one is stiff, so that the hand gives way: with 1 or more
   // one finger alone presses on a handle that is a millimetre off the middle, and slides off it.
   double centring = 0.9;
+  // Coefficient of the fingers' surfaces; none: the URDF's.
+  std::optional<double> finger_friction = std::nullopt;
 };
 
 // A robot in a world, each joint held at its commanded position by a motor within the joint's

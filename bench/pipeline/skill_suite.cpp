@@ -32,6 +32,7 @@ struct Arguments {
   int instances = 0;     // 0: the cell's own
   std::int64_t imitated = pipeline::TrainRequest().imitated_samples;
   int episodes = 300;
+  double finger_friction = 0.0;  // of the evaluation; 0: the robot's own
   std::uint64_t seed = 1;
   fs::path output = "out/skill_suite";
   fs::path models = fs::path(SIMWRIGHT_SOURCE_DIR) / "models";
@@ -58,6 +59,10 @@ pipeline::SkillRun UnseenRun(const pipeline::SuiteCell& cell, rl::ActionSpace ac
   pipeline::SkillRun run;
   run.robot = cell.robot;
   run.options.action = action;
+  if (arguments.finger_friction > 0.0) {
+    run.options.finger_friction =
+        rl::FactorRange{arguments.finger_friction, arguments.finger_friction};
+  }
   run.folder = arguments.output / (photo ? "seen" : "unseen") / cell.name;
   run.set =
       tasks::ReadTaskFile(MakeCellTasks(cell, photo ? pipeline::kSeenSeed : pipeline::kUnseenSeed,
@@ -221,6 +226,8 @@ int main(int argc, char** argv) {
   app.add_option("--minutes", arguments.minutes, "Of training; 0: the cell's own");
   app.add_option("--instances", arguments.instances,
                  "Of the kind, to train on; 0: the cell's own number");
+  app.add_option("--finger-friction", arguments.finger_friction,
+                 "Of the evaluation; 0: the robot's own, 2");
   app.add_option("--episodes", arguments.episodes, "Of the evaluation")->capture_default_str();
   app.add_option("--seed", arguments.seed, "Of the training")->capture_default_str();
   app.add_option("-o", arguments.output, "Where assets and trainings are kept")

@@ -1,6 +1,8 @@
 // The Panda under motors: it stands still, lifts a cup, and its fingers stay a pair.
 #include "sim/driven_robot.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "assets/primitive_meshes.h"
@@ -123,6 +125,37 @@ TEST_P(DrivenRobotGrasp, LiftsACupByContactAloneAndHoldsIt) {
 INSTANTIATE_TEST_SUITE_P(Iterations, DrivenRobotGrasp, testing::Values(50, 20));
 
 // A push on one finger alone moves both, or neither.
+// m that a cup of 0.2 kg has been lifted by after it was gripped with 20 N and taken up by 0.2 m.
+double Lifted(double finger_friction) {
+  const robot::RobotModel& panda = robot::Panda(false);
+  WorldOptions options;
+  options.solver_iterations = 50;
+  ArticulatedWorld world(options);
+  const int cup =
+      world.Add(Cylinder(0.03, 0.1, 0.2), Eigen::Isometry3d(Eigen::Translation3d(0.45, 0.1, 0.0)));
+  MotorOptions motors;
+  motors.finger_friction = finger_friction;
+  DrivenRobot robot(panda, RobotBody(panda), Eigen::Isometry3d::Identity(), &world, motors);
+  const Eigen::VectorXd low = Above(panda, {0.45, 0.1, 0.085}),
+                        high = Above(panda, {0.45, 0.1, 0.285});
+  robot.Place(low, panda.gripper.open);
+  while (world.time() < 4.0) {
+    const double share = std::clamp((world.time() - 1.0) / 2.5, 0.0, 1.0);
+    robot.Command(low + share * (high - low), panda.gripper.closed);
+    robot.Drive();
+    world.Step();
+  }
+  return world.LinkPose(cup, 0).translation().z();
+}
+
+// The cup weighs 1.96 N, two fingers press with 20 N each, the friction of a pair is the product of
+// both, the cup's 0.6: fingers hold it from 1.96 / (2 x 20 x 0.6) = 0.082 on.
+TEST(DrivenRobot, FingersHoldFromTheFrictionThatCoulombAsksFor) {
+  EXPECT_LT(Lifted(0.05), 0.02);
+  EXPECT_GT(Lifted(0.13), 0.18);
+  EXPECT_GT(Lifted(2.0), 0.19);
+}
+
 TEST(DrivenRobot, FingersStayAPair) {
   const robot::RobotModel& panda = robot::Panda(false);
   ArticulatedWorld world;
