@@ -31,6 +31,10 @@ struct CommonOptions {
 // returns the exit code (0; 1 where a check failed). Errors are thrown.
 using Run = std::function<int()>;
 
+// Says that a run was stopped which `folder` keeps as far as it came and --resume goes on with;
+// returns kInterrupted.
+int StoppedWith(const std::filesystem::path& folder);
+
 void AddCommon(CLI::App* command, CommonOptions* common);
 void AddForce(CLI::App* command, CommonOptions* common);
 void AddLift(CLI::App* app, CommonOptions* common, Run* run);

@@ -1,6 +1,16 @@
 #include "cli/command.h"
 
+#include <cstdio>
+
 namespace simwright::cli {
+
+int StoppedWith(const std::filesystem::path& folder) {
+  std::fprintf(stderr,
+               "error: stopped; what was done is kept in %s, the same command with --resume goes "
+               "on\n",
+               folder.c_str());
+  return kInterrupted;
+}
 
 void AddCommon(CLI::App* command, CommonOptions* common) {
   command->add_option("--seed", common->seed, "Seed of every random choice")->capture_default_str();

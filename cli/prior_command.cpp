@@ -1,10 +1,13 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
+#include "core/error.h"
+#include "core/folder_lock.h"
 #include "pipeline/prior_training.h"
 
 namespace simwright::cli {
@@ -45,6 +48,12 @@ void PrintTrainedJson(const std::vector<pipeline::TrainedPrior>& trained) {
   PrintJson(nlohmann::ordered_json{{"priors", json}}, {});
 }
 
+// Whether a training has left what --resume goes on with, or weights that it had ended with.
+bool HoldsState(const std::filesystem::path& folder) {
+  return std::filesystem::exists(pipeline::ShapeWeights(folder).string() + ".state") ||
+         std::filesystem::exists(pipeline::ViewWeights(folder).string() + ".state");
+}
+
 int Train(Flags flags, const CommonOptions& common) {
   core::Progress progress(common.ProgressStyle());
   if (flags.request.catalogues.empty() && !flags.parametric_only) {
@@ -63,10 +72,21 @@ int Train(Flags flags, const CommonOptions& common) {
     flags.request.shape_options.start = pipeline::ShapeWeights(flags.from);
     flags.request.view_options.start = pipeline::ViewWeights(flags.from);
   }
-  const std::vector<pipeline::TrainedPrior> trained =
-      pipeline::TrainPriors(flags.request, &progress, [&](const pipeline::TrainedPrior& prior) {
-        if (!common.quiet && !common.json) PrintLine(prior);
-      });
+  std::optional<core::FolderLock> lock;
+  if (std::filesystem::exists(flags.request.output)) {
+    lock.emplace(flags.request.output, "a training");
+  }
+  std::vector<pipeline::TrainedPrior> trained;
+  try {
+    trained =
+        pipeline::TrainPriors(flags.request, &progress, [&](const pipeline::TrainedPrior& prior) {
+          if (!common.quiet && !common.json) PrintLine(prior);
+        });
+  } catch (const core::Cancelled&) {
+    if (!HoldsState(flags.request.output)) throw;
+    progress.Finish();
+    return StoppedWith(flags.request.output);
+  }
   if (common.json) {
     PrintTrainedJson(trained);
   } else {

@@ -33,11 +33,7 @@ int RunOnPhoto(const Flags& flags, const CommonOptions& common) {
     }
   } catch (const core::Cancelled&) {
     if (!std::filesystem::exists(request.output)) throw;
-    std::fprintf(stderr,
-                 "error: stopped; what was done is kept in %s, the same command with --resume goes "
-                 "on\n",
-                 request.output.c_str());
-    return kInterrupted;
+    return StoppedWith(request.output);
   }
   return 0;
 }

@@ -2,12 +2,14 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "cli/findings_output.h"
 #include "cli/slot_folders.h"
 #include "core/error.h"
+#include "core/folder_lock.h"
 #include "pipeline/scene_sampling.h"
 #include "pipeline/scene_shapes.h"
 #include "scene/dataset/scene_dataset.h"
@@ -61,9 +63,17 @@ int Train(TrainFlags flags, const CommonOptions& common) {
     flags.options.shapes = pipeline::ShapesOfDataset(flags.dataset, flags.assets,
                                                      dataset.vocabulary(), model.shape_points);
   }
+  std::optional<core::FolderLock> lock;
+  if (std::filesystem::exists(flags.output)) lock.emplace(flags.output, "a training");
   core::Progress progress(common.ProgressStyle());
-  const scene::SceneTrainingReport report =
-      scene::TrainSceneModel(dataset, model, flags.options, flags.output, &progress);
+  scene::SceneTrainingReport report;
+  try {
+    report = scene::TrainSceneModel(dataset, model, flags.options, flags.output, &progress);
+  } catch (const core::Cancelled&) {
+    if (!std::filesystem::exists(flags.output / scene::kStateFile)) throw;
+    progress.Finish();
+    return StoppedWith(flags.output);
+  }
   if (common.json) {
     PrintJson(ReportJson(report), {});
     return 0;

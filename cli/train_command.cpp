@@ -1,9 +1,11 @@
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/training_options.h"
+#include "core/error.h"
 #include "pipeline/skill_training.h"
 
 namespace simwright::cli {
@@ -13,7 +15,14 @@ int Train(const pipeline::TrainRequest& given, const CommonOptions& common) {
   pipeline::TrainRequest request = given;
   request.seed = common.seed;
   core::Progress progress(common.ProgressStyle());
-  const pipeline::TrainReport report = pipeline::TrainTask(request, &progress);
+  pipeline::TrainReport report;
+  try {
+    report = pipeline::TrainTask(request, &progress);
+  } catch (const core::Cancelled&) {
+    progress.Finish();
+    if (!std::filesystem::exists(request.output)) throw;  // it was stopped before it began
+    return StoppedWith(request.output);
+  }
   progress.Finish();
   if (common.json) {
     PrintJson(pipeline::TrainJson(report), {});
@@ -29,7 +38,7 @@ int Train(const pipeline::TrainRequest& given, const CommonOptions& common) {
 void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
   auto request = std::make_shared<pipeline::TrainRequest>();
   CLI::App* command =
-      app->add_subcommand("train", "A policy for each subtask of a task, by PPO in Bullet");
+      app->add_subcommand("train", "A policy for each subtask of a task, trained in Bullet");
   command->footer(
       "Examples:\n  simwright train tasks.json --task pick_up_cup_1 -o pick\n"
       "  simwright train tasks.json --task 'pick_up_cup_*' -o pick_any\n"

@@ -87,14 +87,13 @@ BackwardTuning TuneBackward(const TrainRequest& request, const SkillRun& run, co
   options.examine_from = 0.0;
   options.title = first.name + " for " + pair.second->name;
   const auto examined = ExaminedStarts(*first.evaluated, pair.pool, request.seed + 10);
-  progress->Stage("tune " + first.name + " for " + pair.second->name,
-                  static_cast<int>(options.max_samples / (options.ppo.horizon * run.environments)));
+  progress->Stage("tune " + first.name + " for " + pair.second->name);
   const fs::path folder = first.folder / "backward";
   const rl::TrainingResult result = rl::TrainPolicy(
       &environment, options, folder, true,
       [&](const rl::TrainingRecord& record) {
         RequireSoundPhysics(environment, first.name, record.samples);
-        progress->Advance();
+        SayHowFar(record, options, progress);
       },
       [&](const rl::Policy& policy) {
         return rl::Examination{SuccessesOfBoth(pair, policy, second, examined),

@@ -225,7 +225,7 @@ std::string TaskPart(const PhotoRunFolder& folder, const tasks::Task& task, cons
 std::string TrainingPart(const PhotoRunFolder& folder, const Json& report) {
   const Json& subtasks = report.at("training").at("subtasks");
   std::string html =
-      Section("Training") + "<p>One policy a subtask, by PPO in Bullet (docs/skills.md).</p>\n";
+      Section("Training") + "<p>One policy a subtask, trained in Bullet (docs/skills.md).</p>\n";
   int number = 0;
   for (const Json& subtask : subtasks) {
     const std::string name = subtask.at("name");
@@ -233,7 +233,9 @@ std::string TrainingPart(const PhotoRunFolder& folder, const Json& report) {
     html += Figure(
         trained / rl::kCurvesFile, "Success and return over the training's samples",
         MarkupSafe(name) + Format(": %.0f decisions in ", subtask.at("samples").get<double>()) +
-            Duration(subtask.at("seconds")) + ". Drawn actions and easier starts included.");
+            Duration(subtask.at("seconds")) + ", learnt by " +
+            Text(subtask.value("method", Json("training"))) +
+            ". Drawn actions and easier starts included.");
   }
   return html;
 }

@@ -80,6 +80,7 @@ PhotoRunRecord::PhotoRunRecord(const PhotoRunRequest& request) : folder_(request
     throw core::Error("is there already", folder_.string(),
                       "--resume goes on with it, --force begins anew");
   }
+  if (run) lock_.emplace(folder_, "a run");
   if (run && request.resume) {
     Read(file);
     RequireSame(wanted);
@@ -93,6 +94,7 @@ PhotoRunRecord::PhotoRunRecord(const PhotoRunRequest& request) : folder_(request
     throw core::Error("cannot create the folder: " + code.message(), folder_.string(),
                       "check that the place exists and may be written");
   }
+  if (!run || !request.resume) lock_.emplace(folder_, "a run");  // of the folder that is new
   inputs_ = wanted;
   Write();
 }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/folder_lock.h"
 #include "pipeline/photo_run.h"
 
 namespace simwright::pipeline {
@@ -21,9 +23,9 @@ struct RunStage {
 class PhotoRunRecord {
  public:
   // Begins a run, or takes up the one that is in request.output, where `resume` is set. Throws
-  // core::Error: a folder that is there already, that holds no run, or whose run was begun with
-  // other inputs, naming what differs. The bounds of the training (samples, minutes) may change
-  // until it is done.
+  // core::Error: a folder that is there already, that holds no run, in which another process is at
+  // work, or whose run was begun with other inputs, naming what differs. The bounds of the training
+  // (samples, minutes) may change until it is done.
   explicit PhotoRunRecord(const PhotoRunRequest& request);
 
   bool Done(const std::string& stage) const;
@@ -46,6 +48,7 @@ class PhotoRunRecord {
   std::filesystem::path folder_;
   Inputs inputs_;
   std::vector<RunStage> stages_;
+  std::optional<core::FolderLock> lock_;
 };
 
 }  // namespace simwright::pipeline

@@ -1,11 +1,13 @@
 #include "pipeline/skill_training.h"
 
 #include <cstdio>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/folder_lock.h"
 #include "pipeline/backward_tuning.h"
 #include "pipeline/subtask_training.h"
 #include "rl/policy_file.h"
@@ -46,6 +48,7 @@ SkillRun RunOf(const TrainRequest& request) {
   run.robot = request.robot;
   run.options.action = request.action;
   run.options.episode_seconds = request.episode_seconds;
+  run.options.finger_friction = request.finger_friction;
   run.environments = request.environments;
   run.seed = request.seed;
   return run;
@@ -60,7 +63,11 @@ class TaskTraining {
       throw core::Error("is there already", run_.folder.string(),
                         "go on with --resume, or give another folder");
     }
+    // A folder that is there is locked before anything else takes its time; one that is not yet
+    // appears only where all that is asked for fits.
+    if (fs::exists(run_.folder)) lock_.emplace(run_.folder, "a training");
     skills_ = PrepareSkills(run_);
+    if (!lock_) lock_.emplace(run_.folder, "a training");
     WriteRun(run_);
     report_.folder = run_.folder;
   }
@@ -87,6 +94,11 @@ class TaskTraining {
   std::vector<rl::EpisodeStart> PoolOf(size_t k) const {
     return k == 0 ? std::vector<rl::EpisodeStart>() : ends_[k - 1];
   }
+  // Beside a subtask's name, where there are several.
+  std::string Place(size_t k) const {
+    if (skills_.size() == 1) return "";
+    return ", subtask " + std::to_string(k + 1) + " of " + std::to_string(skills_.size());
+  }
   void Learn(size_t k);
   void Evaluate(size_t k);
   void Tune(size_t k);
@@ -94,6 +106,7 @@ class TaskTraining {
   const TrainRequest& request_;
   core::Progress* progress_;
   SkillRun run_;
+  std::optional<core::FolderLock> lock_;
   std::vector<RunSkill> skills_;
   std::vector<rl::Policy> policies_;
   std::vector<std::vector<rl::EpisodeStart>> ends_;  // by subtask: where its episodes ended well
@@ -105,12 +118,14 @@ void TaskTraining::Learn(size_t k) {
   // A successor that has begun to learn began where this one's episodes ended.
   const bool successor_begun =
       k + 1 < skills_.size() && fs::exists(skills_[k + 1].folder / rl::kCheckpointFile);
-  const Trained numbers = TrainOne(request_, run_, skill, PoolOf(k), successor_begun, progress_);
+  const Trained numbers =
+      TrainOne(request_, run_, skill, PoolOf(k), successor_begun, Place(k), progress_);
   TrainedSkill& trained = report_.skills.emplace_back();
   trained.name = skill.name;
   trained.folder = skill.folder;
   trained.samples = numbers.samples;
   trained.seconds = numbers.seconds;
+  trained.shares = numbers.shares;
   policies_.push_back(rl::ReadPolicy(skill.folder / rl::kPolicyFile));
   ends_.emplace_back();
   Evaluate(k);
@@ -124,7 +139,7 @@ void TaskTraining::Learn(size_t k) {
 void TaskTraining::Evaluate(size_t k) {
   const rl::Skill& skill = *skills_[k].evaluated;
   TrainedSkill& trained = report_.skills[k];
-  progress_->Stage("evaluate " + skills_[k].name);
+  progress_->Stage("evaluate " + skills_[k].name + Place(k));
   trained.own = rl::Evaluate(skill, policies_[k],
                              rl::DrawStarts(skill, request_.episodes, request_.seed + 1000));
   const std::vector<rl::EpisodeStart> pool = PoolOf(k);
@@ -149,6 +164,20 @@ void TaskTraining::Tune(size_t k) {
 
 }  // namespace
 
+std::string TrainedSkill::Method() const {
+  const auto decisions = [](std::int64_t count) {
+    char text[48];
+    std::snprintf(text, sizeof(text), " (%.0fk decisions)", 1e-3 * static_cast<double>(count));
+    return std::string(text);
+  };
+  const std::int64_t other = shares.imitated + shares.critic_alone;
+  std::string method;
+  if (shares.imitated > 0) method = "imitation of a script";
+  if (shares.critic_alone > 0) method = "the script";
+  if (method.empty()) return "PPO";
+  return other >= samples ? method : method + decisions(other) + ", then PPO";
+}
+
 double TrainReport::success() const {
   if (chain.outcomes.empty()) return skills.empty() ? 0.0 : skills.front().own.rate();
   return static_cast<double>(chain.successes) / static_cast<double>(chain.outcomes.size());
@@ -167,7 +196,7 @@ std::string TrainTable(const TrainReport& report) {
     std::snprintf(line, sizeof(line), "%-34.34s %8lld %8.1f  %-16s %s\n", skill.name.c_str(),
                   static_cast<long long>(skill.samples), skill.seconds / 60.0,
                   Percent(skill.own).c_str(), Percent(skill.handover).c_str());
-    table += line;
+    table += line + ("  learnt by " + skill.Method() + "\n");
     if (!skill.tuning) continue;
     std::snprintf(line, sizeof(line),
                   "  tuned for the one after it: both succeed in %.0f %%, before in %.0f %%%s\n",
@@ -193,6 +222,8 @@ std::string TrainJson(const TrainReport& report) {
     json one = {{"name", skill.name},
                 {"samples", skill.samples},
                 {"seconds", skill.seconds},
+                {"method", skill.Method()},
+                {"imitated", skill.shares.imitated},
                 {"own_starts", IntervalJson(skill.own)}};
     if (!skill.handover.episodes.empty()) {
       one["after_the_one_before"] = IntervalJson(skill.handover);

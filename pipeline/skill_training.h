@@ -19,6 +19,9 @@ struct TrainRequest {
   std::string robot = "panda";
   rl::ActionSpace action = rl::ActionSpace::kFocus;
   double episode_seconds = rl::SkillOptions().episode_seconds;
+  // Of the fingers' surfaces, drawn with each episode: from worn plastic to the rubber tips of the
+  // Panda's URDF.
+  rl::FactorRange finger_friction = {0.8, 2.0};
   int environments = 64;
   std::int64_t samples = 2'000'000;  // of one subtask, at most
   double minutes = 30.0;             // of one subtask, at most; 0: no end
@@ -45,15 +48,26 @@ struct BackwardTuning {
   bool kept = false;                 // it succeeds more often than before
 };
 
+// Which of a training's decisions were not learnt from by PPO: those in which the policy learnt
+// what a script does (DAgger), and those from which only the critic learnt, where a guided hand
+// followed the script as it is.
+struct LearningShares {
+  std::int64_t imitated = 0, critic_alone = 0;
+};
+
 // What came of one subtask.
 struct TrainedSkill {
   std::string name;
   std::filesystem::path folder;
   std::int64_t samples = 0;
   double seconds = 0.0;
+  LearningShares shares;
   rl::SkillEvaluation own;               // from its own starts
   rl::SkillEvaluation handover;          // from where the subtask before ended; empty for the first
   std::optional<BackwardTuning> tuning;  // for the subtask after it
+  // "imitation of a script", "the script", "PPO", or "imitation of a script (66k decisions), then
+  // PPO".
+  std::string Method() const;
   // What is lost by starting there: own rate less handover rate.
   double HandoverLoss() const { return own.rate() - handover.rate(); }
 };
@@ -66,10 +80,11 @@ struct TrainReport {
   double success() const;  // of the whole
 };
 
-// Trains a task's subtasks in order into request.output: each by PPO until it is learnt or its time
-// is over, the later ones mostly from where the one before ended well, then evaluates them, alone
-// and as a chain. A subtask that has been trained before is taken as it is; with `resume` one that
-// was stopped goes on. Throws core::Error (ChooseTasks, WriteRun, MakeSkill, TrainPolicy) and
+// Trains a task's subtasks in order into request.output: each by imitation of a script, where there
+// is one, and then by PPO until it is learnt or its time is over, the later ones mostly from where
+// the one before ended well, then evaluates them, alone and as a chain. A subtask that has been
+// trained before is taken as it is; with `resume` one that was stopped goes on. Throws core::Error
+// (ChooseTasks, WriteRun, MakeSkill, TrainPolicy, another process that trains there) and
 // core::Cancelled, with all that was trained kept.
 TrainReport TrainTask(const TrainRequest& request, core::Progress* progress);
 

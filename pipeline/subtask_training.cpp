@@ -1,5 +1,8 @@
 #include "pipeline/subtask_training.h"
 
+#include <algorithm>
+#include <cstdio>
+
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -23,8 +26,13 @@ constexpr int kExamined = 128;
 Trained ReadTrained(const fs::path& file) {
   try {
     const json text = json::parse(core::ReadFile(file, 1 << 20));
-    return {text.at("samples").get<std::int64_t>(), text.at("seconds").get<double>(),
-            text.at("learnt").get<bool>()};
+    Trained trained;
+    trained.samples = text.at("samples").get<std::int64_t>();
+    trained.seconds = text.at("seconds").get<double>();
+    trained.learnt = text.at("learnt").get<bool>();
+    trained.shares.imitated = text.value("imitated", std::int64_t{0});
+    trained.shares.critic_alone = text.value("critic_alone", std::int64_t{0});
+    return trained;
   } catch (const json::exception&) {
     throw core::Error("is damaged", file.string(), "remove it: the training then goes on");
   }
@@ -36,7 +44,45 @@ bool HasBudget(const TrainRequest& request, const Trained& before) {
          (request.minutes == 0.0 || before.seconds < 60.0 * request.minutes);
 }
 
+// The end of the batch in which `bound` decisions are reached.
+std::int64_t BatchEnd(std::int64_t bound, std::int64_t batch) {
+  return (bound + batch - 1) / batch * batch;
+}
+
 }  // namespace
+
+double TimeLeft(const rl::TrainingRecord& record, const rl::TrainingOptions& options) {
+  const double wanted = static_cast<double>(options.max_samples) - record.samples;
+  // Examinations cost time too: what the decisions so far have taken, all in all.
+  const double left = std::max(0.0, wanted) * record.seconds / std::max(1.0, record.samples);
+  if (options.max_seconds == 0.0) return left;
+  return std::min(left, std::max(0.0, options.max_seconds - record.seconds));
+}
+
+void SayHowFar(const rl::TrainingRecord& record, const rl::TrainingOptions& options,
+               core::Progress* progress) {
+  char text[96];
+  const int length =
+      std::snprintf(text, sizeof(text), "%.0fk of %.0fk decisions", 1e-3 * record.samples,
+                    1e-3 * static_cast<double>(options.max_samples));
+  if (record.episodes > 0.0) {
+    std::snprintf(text + length, sizeof(text) - static_cast<size_t>(length), ", %.0f %% succeed",
+                  100.0 * record.success);
+  }
+  progress->Say(text, TimeLeft(record, options));
+}
+
+LearningShares SharesOf(std::int64_t samples, const rl::PpoOptions& options, int environments,
+                        rl::ActionSpace action) {
+  const std::int64_t batch = static_cast<std::int64_t>(options.horizon) * environments;
+  LearningShares shares;
+  if (action == rl::ActionSpace::kFocus) {  // what SkillEnvironment demonstrates
+    shares.imitated = std::min(samples, BatchEnd(options.imitated_samples, batch));
+  }
+  // A batch whose end is beyond the bound is learnt from by both.
+  shares.critic_alone = std::min(samples, options.critic_samples / batch * batch);
+  return shares;
+}
 
 rl::TrainingOptions OptionsFor(const TrainRequest& request, const SkillRun& run,
                                const RunSkill& skill) {
@@ -102,7 +148,7 @@ std::vector<rl::EpisodeStart> ExaminedStarts(const rl::Skill& skill,
 
 Trained TrainOne(const TrainRequest& request, const SkillRun& run, const RunSkill& skill,
                  const std::vector<rl::EpisodeStart>& pool, bool successor_begun,
-                 core::Progress* progress) {
+                 const std::string& place, core::Progress* progress) {
   const fs::path done = skill.folder / kDoneFile;
   bool go_on = request.resume;
   if (fs::exists(done) && fs::exists(skill.folder / rl::kPolicyFile)) {
@@ -113,24 +159,27 @@ Trained TrainOne(const TrainRequest& request, const SkillRun& run, const RunSkil
   rl::SkillEnvironment environment(skill.skill, run.environments, pool);
   const std::vector<rl::EpisodeStart> starts = ExaminedStarts(*skill.evaluated, pool, request.seed);
   const rl::TrainingOptions options = OptionsFor(request, run, skill);
-  const int iterations =
-      static_cast<int>(request.samples / (options.ppo.horizon * run.environments));
-  progress->Stage("train " + skill.name, iterations);
+  progress->Stage("train " + skill.name + place);
   const rl::TrainingResult result = rl::TrainPolicy(
       &environment, options, skill.folder, go_on,
       [&](const rl::TrainingRecord& record) {
         RequireSoundPhysics(environment, skill.name, record.samples);
-        progress->Advance();
+        SayHowFar(record, options, progress);
       },
       [&](const rl::Policy& policy) {
         const rl::SkillEvaluation found = rl::Evaluate(*skill.evaluated, policy, starts);
         return rl::Examination{found.successes, kExamined};
       });
-  const Trained trained{static_cast<std::int64_t>(result.last.samples), result.last.seconds,
-                        result.end == rl::TrainingEnd::kSuccess};
+  Trained trained;
+  trained.samples = static_cast<std::int64_t>(result.last.samples);
+  trained.seconds = result.last.seconds;
+  trained.learnt = result.end == rl::TrainingEnd::kSuccess;
+  trained.shares = SharesOf(trained.samples, options.ppo, run.environments, run.options.action);
   json text = {{"samples", trained.samples},
                {"seconds", trained.seconds},
                {"learnt", trained.learnt},
+               {"imitated", trained.shares.imitated},
+               {"critic_alone", trained.shares.critic_alone},
                {"physics_failures", environment.failures()}};
   core::WriteFile(done, text.dump(2) + "\n");
   return trained;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/progress.h"
@@ -7,6 +8,7 @@
 #include "pipeline/skill_training.h"
 #include "rl/skill_environment.h"
 #include "rl/training_options.h"
+#include "rl/training_record.h"
 
 namespace simwright::pipeline {
 
@@ -14,12 +16,23 @@ struct Trained {
   std::int64_t samples = 0;
   double seconds = 0.0;
   bool learnt = false;  // the target was reached, not only the time or samples used up
+  LearningShares shares;
 };
+
+// What `samples` decisions in batches of options.horizon x environments were learnt from.
+LearningShares SharesOf(std::int64_t samples, const rl::PpoOptions& options, int environments,
+                        rl::ActionSpace action);
 
 // Options of PPO that fit skills at 20 Hz with 64 environments. The smaller deviation: zero is
 // already where the hand works, and what is drawn knocks things over.
 rl::TrainingOptions OptionsFor(const TrainRequest& request, const SkillRun& run,
                                const RunSkill& skill);
+
+// s that a training is still at work at most, as its samples and seconds bound it.
+double TimeLeft(const rl::TrainingRecord& record, const rl::TrainingOptions& options);
+// Decisions, success and the time left, beside the stage's name.
+void SayHowFar(const rl::TrainingRecord& record, const rl::TrainingOptions& options,
+               core::Progress* progress);
 
 // Throws core::Error, with what repeats it, where the physics failed in more than one of 100,000
 // decisions (`samples` so far): that is a broken scene. One failure may happen to anybody.
@@ -32,12 +45,13 @@ std::vector<rl::EpisodeStart> ExaminedStarts(const rl::Skill& skill,
                                              const std::vector<rl::EpisodeStart>& pool,
                                              std::uint64_t seed);
 
-// Trains one subtask by PPO into its folder, a share of its episodes beginning in `pool`, unless it
-// has been learnt before, or its successor has begun to learn from what it was. Throws core::Error
-// and core::Cancelled, as TrainTask.
+// Trains one subtask into its folder, by imitation and PPO as `request` says, a share of its
+// episodes beginning in `pool`, unless it has been learnt before, or its successor has begun to
+// learn from what it was. `place`: what progress says beside its name, ", subtask 2 of 4". Throws
+// core::Error and core::Cancelled, as TrainTask.
 Trained TrainOne(const TrainRequest& request, const SkillRun& run, const RunSkill& skill,
                  const std::vector<rl::EpisodeStart>& pool, bool successor_begun,
-                 core::Progress* progress);
+                 const std::string& place, core::Progress* progress);
 
 // Where the episodes that succeeded have ended.
 std::vector<rl::EpisodeStart> GoodEnds(const rl::SkillEvaluation& evaluation);

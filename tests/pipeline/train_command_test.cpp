@@ -2,6 +2,8 @@
 // written, gone on with, re-used and refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <string>
 
@@ -9,6 +11,7 @@
 
 #include "core/files.h"
 #include "program.h"
+#include "running_program.h"
 
 namespace simwright {
 namespace {
@@ -73,6 +76,46 @@ TEST_F(TrainCommand, WritesARunThatRolloutsReadAndResumeKeeps) {
   const Outcome gone = RunProgram("rollout " + Path("run"));
   EXPECT_EQ(gone.code, 1);
   EXPECT_NE(gone.text.find("'tin' is not there"), std::string::npos) << gone.text;
+}
+
+// One training writes into a folder at a time; one that is stopped says what it has kept, and what
+// is killed is in nobody's way.
+TEST_F(TrainCommand, OneTrainsInAFolderAndCtrlCKeepsWhatItLearnt) {
+  const std::string long_training =
+      "train " + Path("tasks.json") + " --task pick_up_tin -o " + Path("run") +
+      " --envs 8 --steps 2000000 --minutes 0 --episodes 6 --threads 1";
+  const auto begun = [&] { return fs::exists(Path("run/run.json")); };
+  RunningProgram first(long_training, Path("first.txt"));
+  ASSERT_TRUE(first.WaitFor(begun)) << core::ReadFile(Path("first.txt"));
+  const Outcome second = RunProgram(long_training + " --resume");
+  EXPECT_EQ(second.code, 1);
+  EXPECT_NE(second.text.find("process " + std::to_string(first.pid())), std::string::npos)
+      << second.text;
+  EXPECT_EQ(std::count(second.text.begin(), second.text.end(), '\n'), 1) << second.text;
+  first.EndBy(SIGKILL);
+  const std::string table = Path("run/1_pick_up_tin/training.csv");
+  fs::remove(table);
+
+  RunningProgram resumed(long_training + " --resume", Path("resumed.txt"));
+  const auto learns = [&] {  // the table has its first row
+    if (!fs::exists(table)) return false;
+    const std::string text = core::ReadFile(table);
+    return std::count(text.begin(), text.end(), '\n') >= 2;
+  };
+  ASSERT_TRUE(resumed.WaitFor(learns)) << core::ReadFile(Path("resumed.txt"));
+  EXPECT_EQ(core::ReadFile(Path("run/.lock")), std::to_string(resumed.pid()) + "\n");
+  const Outcome stopped = resumed.EndBy(SIGINT);
+  EXPECT_EQ(stopped.code, 130);
+  EXPECT_NE(stopped.text.find("kept in " + Path("run")), std::string::npos) << stopped.text;
+  EXPECT_NE(stopped.text.find("--resume"), std::string::npos) << stopped.text;
+  EXPECT_EQ(stopped.text.find("nothing was written"), std::string::npos) << stopped.text;
+
+  EXPECT_TRUE(fs::exists(Path("run/1_pick_up_tin/checkpoint.pt")));
+  const Outcome ended = Train("pick_up_tin", "--resume --json");
+  EXPECT_EQ(ended.code, 0) << ended.text;
+  const auto report = nlohmann::json::parse(core::ReadFile(Path("run/report.json")));
+  EXPECT_EQ(report["subtasks"][0].at("method"), "imitation of a script");  // 2048 of 65,536
+  EXPECT_EQ(report["subtasks"][0].at("imitated"), report["subtasks"][0].at("samples"));
 }
 
 TEST_F(TrainCommand, RefusesWithOneLine) {
