@@ -9,9 +9,8 @@
 namespace simwright::pipeline {
 
 // What is seen of a link in its frame: its visuals, or what collides where it has none. A colour is
-// the visual's own in the URDF, else its file's material times what its texture shows on the
-// triangle, where that is at most 16 colours, or times the texture's mean; equal colours are one
-// material. The files are read again for their materials.
+// the visual's own in the URDF, else its file's material, a texture taken at its mean colour; equal
+// colours are one material. The files are read again for their materials.
 core::TexturedMesh ColoredVisual(const assets::UrdfLink& link);
 
 // Convex, closed, outward parts of at most 64 vertices for the matter of each link, in its frame:

@@ -179,6 +179,7 @@ rl::EpisodeStart Continued(const rl::EpisodeStart& end, const rl::EpisodeStart& 
   start.pitch = planned.pitch;
   start.withdraw = planned.withdraw;
   start.at_work = planned.at_work;
+  start.via = planned.via;
   start.state.goal = planned.state.goal;
   return start;
 }

@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
+#include <mutex>
+#include <set>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/files.h"
-#include "core/parallel.h"
+#include "core/finding_json.h"
+#include "core/finding_text.h"
+#include "pipeline/file_replay.h"
 #include "pipeline/skill_demonstrations.h"
 #include "pipeline/skill_rollout.h"
 #include "robot/trajectory_file.h"
@@ -17,6 +23,9 @@ namespace fs = std::filesystem;
 namespace {
 
 using nlohmann::json;
+
+constexpr size_t kWidth = 100;    // characters of a line
+constexpr double kCloser = 0.25;  // of the deviation that motions have else
 
 std::vector<std::string> EndingsOf(ExportFormat format) {
   switch (format) {
@@ -91,21 +100,106 @@ void AddMargins(const SkillMotion& motion, const rl::Skill& skill, ExportReport*
   report->seconds += motion.retimed.trajectory.times.back() / report->episodes;
 }
 
-std::vector<SkillMotion> MotionsOf(const TrainedTask& task,
-                                   const std::vector<ChainRecording>& recordings,
-                                   std::uint64_t seed, core::Progress* progress) {
-  std::vector<SkillMotion> motions(recordings.size());
-  progress->Stage("retime", static_cast<int>(recordings.size()));
-  core::ParallelFor(static_cast<int>(recordings.size()), [&](int i) {
-    const ChainRecording& recording = recordings[static_cast<size_t>(i)];
-    SkillMotion& motion = motions[static_cast<size_t>(i)];
-    motion = MotionOf(recording, *task.skills().front().evaluated);
-    SkillNotes notes = NotesOf(task.run(), task.skills(), recording, seed);
+// Makes the motions of recordings that do their task again, and keeps them.
+class MotionProof {
+ public:
+  MotionProof(const TrainedTask& task, const ExportRequest& request)
+      : task_(task),
+        request_(request),
+        ending_(WritesFolder(request) ? EndingsOf(request.format).front()
+                                      : request.output.extension().string()),
+        replay_(task.run(), task.skills()) {}
+
+  // Whether a motion of `recording` is accepted, and does its task again from its file: the one as
+  // close as motions are, or else a slower one that is closer.
+  bool Keeps(const ChainRecording& recording) {
+    if (Try(recording, {})) return true;
+    try {
+      if (!Try(recording, Closer())) return false;
+    } catch (const core::Error&) {  // none is as close within the limits
+      return false;
+    }
+    const std::lock_guard lock(mutex_);
+    closer_.insert(recording.episode);
+    return true;
+  }
+
+  // How many of `recordings`, which were kept, needed the closer one.
+  int CountCloser(const std::vector<ChainRecording>& recordings) const {
+    return static_cast<int>(std::count_if(
+        recordings.begin(), recordings.end(),
+        [&](const ChainRecording& one) { return closer_.contains(one.episode); }));
+  }
+
+  // Of recordings that were kept.
+  std::vector<SkillMotion> MotionsOf(const std::vector<ChainRecording>& recordings) {
+    std::vector<SkillMotion> motions;
+    for (const ChainRecording& recording : recordings) {
+      motions.push_back(std::move(motions_.at(recording.episode)));
+    }
+    return motions;
+  }
+
+ private:
+  static robot::RetimingOptions Closer() {
+    robot::RetimingOptions options;
+    for (double* deviation : {&options.turning_deviation, &options.sliding_deviation,
+                              &options.tool_deviation}) {
+      *deviation *= kCloser;
+    }
+    return options;
+  }
+
+  bool Try(const ChainRecording& recording, const robot::RetimingOptions& options) {
+    SkillMotion motion = MotionOf(recording, *task_.skills().front().evaluated, options);
+    SkillNotes notes = NotesOf(task_.run(), task_.skills(), recording, request_.seed);
     notes.times = motion.subtasks;
     motion.retimed.trajectory.notes = NoteLines(notes);
-    progress->Advance();
-  });
-  return motions;
+    const fs::path file =
+        folder_.path() / ("episode_" + std::to_string(recording.episode) + ending_);
+    WriteMotion(motion.retimed.trajectory, file);
+    const bool again = replay_.Trajectories({file}).front().success;
+    fs::remove(file);
+    fs::remove(NotesBeside(file));
+    if (!again) return false;
+    const std::lock_guard lock(mutex_);
+    motions_.emplace(recording.episode, std::move(motion));
+    return true;
+  }
+
+  const TrainedTask& task_;
+  const ExportRequest& request_;
+  std::string ending_;
+  FileReplay replay_;
+  core::TemporaryFolder folder_;
+  std::mutex mutex_;
+  std::map<std::uint64_t, SkillMotion> motions_;  // by episode
+  std::set<std::uint64_t> closer_;                // episodes
+};
+
+bool DoesItsTaskAgain(const TrainedTask& task, const ChainRecording& recording,
+                      std::uint64_t seed) {
+  const robot::DemonstrationSet set =
+      DemonstrationsOf(task.run(), task.skills(), {recording}, seed);
+  const std::vector<bool> successes = ReplayDemonstration(
+      task.skills(), set.demonstrations.front(), PlansOf(set, "").front(), "a demonstration");
+  return successes.size() == task.skills().size() && successes.back();
+}
+
+void AddTally(const RecordingTally& tally, ExportReport* report) {
+  report->tried = tally.tried;
+  report->succeeded = tally.succeeded;
+  const int left_out = tally.succeeded - report->episodes;
+  if (left_out == 0) return;
+  core::Finding& finding = report->findings.emplace_back();
+  finding.code = "export-not-reproduced";
+  finding.severity = core::Severity::kWarning;
+  finding.sentence =
+      std::to_string(left_out) + " of " + std::to_string(tally.succeeded) +
+      " episodes that succeeded were left out: driven by the file alone, without the policy that "
+      "corrects, the robot did not do the task again";
+  finding.remedy = "others were tried in their place; nothing is to be done";
+  finding.figure = left_out;
 }
 
 std::string Deviation(const JointMargins& joint) {
@@ -135,16 +229,26 @@ ExportReport Export(const ExportRequest& request, core::Progress* progress) {
   const TrainedTask task(request.run);
   ExportReport report;
   report.output = request.output;
-  progress->Stage("roll out");
-  const std::vector<ChainRecording> recordings =
-      RecordSuccesses(task.links(), request.episodes, request.seed, &report.tried);
-  report.episodes = static_cast<int>(recordings.size());
+  report.episodes = request.episodes;
+  progress->Stage("roll out and replay", request.episodes);
+  RecordingTally tally;
   if (request.format == ExportFormat::kRobomimic) {
+    const std::vector<ChainRecording> recordings = RecordSuccesses(
+        task.links(), request.episodes, request.seed, &tally,
+        [&](const ChainRecording& one) { return DoesItsTaskAgain(task, one, request.seed); },
+        progress);
+    AddTally(tally, &report);
     robot::WriteDemonstrations(
         request.output, DemonstrationsOf(task.run(), task.skills(), recordings, request.seed));
     return report;
   }
-  const std::vector<SkillMotion> motions = MotionsOf(task, recordings, request.seed, progress);
+  MotionProof proof(task, request);
+  const std::vector<ChainRecording> recordings = RecordSuccesses(
+      task.links(), request.episodes, request.seed, &tally,
+      [&](const ChainRecording& one) { return proof.Keeps(one); }, progress);
+  AddTally(tally, &report);
+  report.closer = proof.CountCloser(recordings);
+  const std::vector<SkillMotion> motions = proof.MotionsOf(recordings);
   for (const SkillMotion& motion : motions) {
     AddMargins(motion, *task.skills().front().evaluated, &report);
   }
@@ -174,13 +278,23 @@ std::string ExportTable(const ExportReport& report) {
                   report.seconds, report.stretch, 1000.0 * report.tool_deviation);
     table += line;
   }
-  std::snprintf(line, sizeof(line), "%d of %d episodes succeeded\n", report.episodes, report.tried);
+  for (const core::Finding& finding : report.findings) {
+    table += core::FindingText(finding, kWidth);
+  }
+  std::snprintf(line, sizeof(line),
+                "%d of %d episodes succeeded; %d are written, each did its task again\n",
+                report.succeeded, report.tried, report.episodes);
   return table + line;
 }
 
 std::string ExportJson(const ExportReport& report) {
   json text = {
-      {"output", report.output.string()}, {"episodes", report.episodes}, {"tried", report.tried}};
+      {"output", report.output.string()}, {"episodes", report.episodes},
+               {"tried", report.tried},
+               {"succeeded", report.succeeded},
+               {"left_out", report.succeeded - report.episodes},
+               {"closer", report.closer}};
+  text["findings"] = core::FindingsJson(report.findings);
   if (report.joints.empty()) return text.dump(2) + "\n";
   text["mean_seconds"] = report.seconds;
   text["stretch"] = report.stretch;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/finding.h"
 #include "core/progress.h"
 #include "robot/limit_check.h"
 
@@ -20,7 +21,7 @@ struct ExportRequest {
   std::filesystem::path run;     // a folder that TrainTask wrote
   std::filesystem::path output;  // a file; of several trajectories a folder
   ExportFormat format = ExportFormat::kRos2;
-  int episodes = 1;  // that succeed
+  int episodes = 1;  // that succeed, and whose files do the task again
   std::uint64_t seed = 1;
   bool force = false;  // a folder that is there is replaced
 };
@@ -34,7 +35,10 @@ struct JointMargins {
 
 struct ExportReport {
   std::filesystem::path output;
-  int episodes = 0, tried = 0;
+  int episodes = 0;              // written
+  int tried = 0, succeeded = 0;  // rollouts
+  int closer = 0;  // trajectories that did their task again only closer to what was recorded
+  core::Findings findings;  // what was left out, and why
   // Of trajectories alone:
   std::vector<JointMargins> joints;
   double seconds = 0.0;         // mean length
@@ -43,9 +47,10 @@ struct ExportReport {
 };
 
 // Runs the whole task until so many episodes have succeeded and writes them: as motions retimed to
-// the robot's limits and checked, or as demonstrations. Throws core::Error: an ending that is not
-// the format's, RecordSuccesses, MotionOf, a file or folder that cannot be written. All or nothing
-// is written.
+// the robot's limits and checked, or as demonstrations. Each is repeated before it is written, as
+// Replay does it, from the very text of its file: one that does not do its task again is left out,
+// and said. Throws core::Error: an ending that is not the format's, RecordSuccesses, MotionOf, a
+// file or folder that cannot be written. All or nothing is written.
 ExportReport Export(const ExportRequest& request, core::Progress* progress);
 
 std::string ExportTable(const ExportReport& report);

@@ -91,7 +91,8 @@ MotionJoints MotionJointsOf(const robot::RobotModel& robot) {
   return joints;
 }
 
-SkillMotion MotionOf(const ChainRecording& recording, const rl::Skill& skill) {
+SkillMotion MotionOf(const ChainRecording& recording, const rl::Skill& skill,
+                     const robot::RetimingOptions& options) {
   const MotionJoints joints = MotionJointsOf(*skill.robot);
   CommandPath commands(skill, joints);
   std::vector<std::pair<size_t, size_t>> spans;  // places in the path
@@ -103,8 +104,8 @@ SkillMotion MotionOf(const ChainRecording& recording, const rl::Skill& skill) {
     spans.emplace_back(begin, commands.size() - 1);
   }
   SkillMotion motion;
-  motion.retimed =
-      robot::Retime(commands.Path(joints), joints.limits, joints.sliding, &skill.robot->arm);
+  motion.retimed = robot::Retime(commands.Path(joints), joints.limits, joints.sliding,
+                                 &skill.robot->arm, options);
   motion.limits = robot::CheckLimits(motion.retimed.trajectory, joints.limits);
   RequireAccepted(motion.limits);
   for (const auto& [begin, end] : spans) {

@@ -34,8 +34,10 @@ MotionJoints MotionJointsOf(const robot::RobotModel& robot);
 // arm that tracks them pushes and pulls as the simulated one did, and fingers that are sent to
 // where a thing does not let them go press on it: that is what a grasp is. After each subtask the
 // command rests for the skill's hold_seconds, which its success has to outlast, and then goes in
-// small steps to where the next one begins. Retimed to the robot's limits and checked against them.
-// Throws core::Error, naming joint, time and value, where limits cannot be met.
-SkillMotion MotionOf(const ChainRecording& recording, const rl::Skill& skill);
+// small steps to where the next one begins. Retimed to the robot's limits, as close to the commands
+// as `options` say, and checked against them. Throws core::Error, naming joint, time and value,
+// where limits cannot be met.
+SkillMotion MotionOf(const ChainRecording& recording, const rl::Skill& skill,
+                     const robot::RetimingOptions& options = {});
 
 }  // namespace simwright::pipeline

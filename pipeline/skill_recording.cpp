@@ -55,6 +55,17 @@ RecordedSubtask RecordSubtask(const rl::ChainLink& link, const rl::EpisodeStart&
   return recorded;
 }
 
+[[noreturn]] void FailOf(const RecordingTally& tally, int count, size_t kept) {
+  const std::string of = std::to_string(tally.succeeded) + " of " + std::to_string(tally.tried) +
+                         " episodes succeeded";
+  const bool lost = static_cast<int>(kept) < tally.succeeded;
+  throw core::Error(
+      lost ? of + ", and " + std::to_string(kept) + " of them did their task again, " +
+                 std::to_string(count) + " were asked for"
+           : "only " + of + ", " + std::to_string(count) + " were asked for",
+      "", "train it longer, or ask for fewer --episodes");
+}
+
 }  // namespace
 
 ChainRecording RecordEpisode(const std::vector<rl::ChainLink>& links, std::uint64_t seed,
@@ -75,31 +86,31 @@ ChainRecording RecordEpisode(const std::vector<rl::ChainLink>& links, std::uint6
 }
 
 std::vector<ChainRecording> RecordSuccesses(const std::vector<rl::ChainLink>& links, int count,
-                                            std::uint64_t seed, int* tried) {
+                                            std::uint64_t seed, RecordingTally* tally,
+                                            const KeepRecording& keep, core::Progress* progress) {
   if (links.empty()) throw core::Error("a chain needs a link");
   for (const rl::ChainLink& link : links) rl::RequireFits(*link.policy, *link.skill);
-  std::vector<ChainRecording> successes;
+  std::vector<ChainRecording> kept;
   const int batch = 2 * core::ThreadCount();
-  for (*tried = 0; static_cast<int>(successes.size()) < count;) {
+  for (*tally = {}; static_cast<int>(kept.size()) < count;) {
     core::CheckCancelled();
-    if (*tried >= kTriesForEach * count) {
-      throw core::Error("only " + std::to_string(successes.size()) + " of " +
-                            std::to_string(*tried) + " episodes succeeded, " +
-                            std::to_string(count) + " were asked for",
-                        "", "train it longer, or ask for fewer --episodes");
-    }
+    if (tally->tried >= kTriesForEach * count) FailOf(*tally, count, kept.size());
     std::vector<ChainRecording> recordings(static_cast<size_t>(batch));
+    std::vector<char> keeps(recordings.size());
     core::ParallelFor(batch, [&](int i) {
-      recordings[static_cast<size_t>(i)] =
-          RecordEpisode(links, seed, static_cast<std::uint64_t>(*tried + i));
+      const auto b = static_cast<size_t>(i);
+      recordings[b] = RecordEpisode(links, seed, static_cast<std::uint64_t>(tally->tried + i));
+      keeps[b] = recordings[b].success && (!keep || keep(recordings[b]));
     });
-    for (ChainRecording& recording : recordings) {
-      if (static_cast<int>(successes.size()) == count) break;
-      ++*tried;
-      if (recording.success) successes.push_back(std::move(recording));
+    for (size_t b = 0; b < recordings.size() && static_cast<int>(kept.size()) < count; ++b) {
+      ++tally->tried;
+      tally->succeeded += recordings[b].success;
+      if (!keeps[b]) continue;
+      kept.push_back(std::move(recordings[b]));
+      if (progress) progress->Advance();
     }
   }
-  return successes;
+  return kept;
 }
 
 }  // namespace simwright::pipeline

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "core/progress.h"
 #include "rl/chain.h"
 
 namespace simwright::pipeline {
@@ -44,9 +46,20 @@ struct ChainRecording {
 ChainRecording RecordEpisode(const std::vector<rl::ChainLink>& links, std::uint64_t seed,
                              std::uint64_t episode);
 
-// The first `count` of the seed's episodes in which the whole task succeeds; `tried` says how many
-// it took. Throws core::Error where they are fewer than one in twenty.
+// How many episodes it took to get those that were asked for.
+struct RecordingTally {
+  int tried = 0, succeeded = 0;  // as many as RecordSuccesses gives are kept of the latter
+};
+
+// Whether an episode that succeeded is kept; called from several threads.
+using KeepRecording = std::function<bool(const ChainRecording&)>;
+
+// The first `count` of the seed's episodes in which the whole task succeeds and which `keep` keeps
+// (none: all). Throws core::Error where they are fewer than one in twenty. Advances `progress`, if
+// any, by those that are kept.
 std::vector<ChainRecording> RecordSuccesses(const std::vector<rl::ChainLink>& links, int count,
-                                            std::uint64_t seed, int* tried);
+                                            std::uint64_t seed, RecordingTally* tally,
+                                            const KeepRecording& keep = {},
+                                            core::Progress* progress = nullptr);
 
 }  // namespace simwright::pipeline

@@ -41,6 +41,34 @@ TEST_F(SkillExport, ARecordingHasTheEvaluationsOutcomes) {
   }
 }
 
+// What does not do its task again is not among what is written, and is counted.
+TEST_F(SkillExport, OthersAreTriedInPlaceOfRecordingsThatAreNotKept) {
+  const TrainedTask task(Pick());
+  RecordingTally all, some;
+  const auto recordings = RecordSuccesses(task.links(), 6, 1, &all);
+  const auto odd = RecordSuccesses(task.links(), 3, 1, &some, [](const ChainRecording& recording) {
+    return recording.episode % 2 == 1;
+  });
+  ASSERT_EQ(odd.size(), 3u);
+  std::uint64_t last = 0;
+  for (const ChainRecording& recording : odd) {
+    EXPECT_EQ(recording.episode % 2, 1u);
+    EXPECT_GT(recording.episode, last);
+    last = recording.episode;
+  }
+  EXPECT_EQ(some.tried, static_cast<int>(last) + 1);
+  EXPECT_GE(some.succeeded, 5);  // of episodes 0 to 5, or more where one of them fails
+  EXPECT_EQ(all.succeeded, 6);
+  std::string refusal;
+  try {
+    RecordSuccesses(task.links(), 1, 1, &some, [](const ChainRecording&) { return false; });
+  } catch (const core::Error& error) {
+    refusal = error.what();
+  }
+  EXPECT_GE(some.tried, 20);
+  EXPECT_NE(refusal.find("0 of them did their task again"), std::string::npos) << refusal;
+}
+
 // The largest absolute value of the `order`-th differences of a column, over the step to that
 // power.
 double Largest(const Eigen::VectorXd& column, int order, double step) {
@@ -84,8 +112,8 @@ TEST_F(SkillExport, PositionsAloneKeepTheRobotsLimits) {
 // does not.
 TEST_F(SkillExport, SubtasksFollowEachOtherAfterARest) {
   const TrainedTask task(Move());
-  int tried = 0;
-  const ChainRecording recording = RecordSuccesses(task.links(), 1, 1, &tried).front();
+  RecordingTally tally;
+  const ChainRecording recording = RecordSuccesses(task.links(), 1, 1, &tally).front();
   const rl::Skill& skill = *task.skills().front().evaluated;
   const SkillMotion motion = MotionOf(recording, skill);
   ASSERT_EQ(motion.subtasks.size(), 2u);

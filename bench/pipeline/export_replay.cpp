@@ -1,0 +1,108 @@
+// Whether exported motions do their task again: the shipped policy of each cell of the suite
+// (pipeline/skill_suite.h) is exported on instances that it has not seen, and the files are
+// replayed.
+//   bench_export_replay                      100 motions a skill
+//   bench_export_replay --cell lift_lid --episodes 20
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "pipeline/skill_export.h"
+#include "pipeline/skill_replay.h"
+#include "pipeline/skill_run.h"
+#include "pipeline/skill_suite.h"
+#include "rl/policy_file.h"
+#include "rl/training.h"
+#include "tasks/task_file.h"
+
+namespace simwright {
+namespace {
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string cell = "all";
+  int episodes = 100;
+  int threads = 0;
+  std::uint64_t seed = 1;
+  fs::path output = "out/export_replay";
+  fs::path models = fs::path(SIMWRIGHT_SOURCE_DIR) / "models";
+};
+
+// The folder of a run that the shipped policy might have been trained in.
+fs::path MakeRun(const pipeline::SuiteCell& cell, const Arguments& arguments,
+                 core::Progress* progress) {
+  const bool photo = cell.kind == "photo";  // the one thing to pick is what it was trained on
+  const fs::path folder = arguments.output / cell.name;
+  const rl::Policy policy = rl::ReadPolicy(pipeline::ShippedPolicy(arguments.models, cell.name));
+  pipeline::SkillRun run;
+  run.robot = cell.robot;
+  run.options.action = pipeline::ActionSpaceOf(policy);
+  run.folder = folder / "run";
+  run.set = tasks::ReadTaskFile(
+      MakeCellTasks(cell, photo ? pipeline::kSeenSeed : pipeline::kUnseenSeed,
+                    pipeline::kUnseenInstances,
+                    fs::path(SIMWRIGHT_SOURCE_DIR) / "examples" / "coffee.png", folder, progress));
+  pipeline::WriteRun(run);
+  const fs::path skill = pipeline::PrepareSkills(run).front().folder;
+  fs::create_directories(skill);
+  rl::WritePolicy(policy, skill / rl::kPolicyFile);
+  return run.folder;
+}
+
+void Measure(const pipeline::SuiteCell& cell, const Arguments& arguments,
+             core::Progress* progress) {
+  pipeline::ExportRequest request;
+  request.run = MakeRun(cell, arguments, progress);
+  request.output = arguments.output / cell.name / "motions";
+  request.episodes = arguments.episodes;
+  request.seed = arguments.seed;
+  request.force = true;
+  const pipeline::ExportReport exported = pipeline::Export(request, progress);
+  const pipeline::ReplayReport replayed = pipeline::Replay({{request.output}, {}}, progress);
+  progress->Finish();
+  std::printf("| %-21s | %3d of %3d | %3d | %3d | %3d | %3d of %3zu | %.1f s | %.2f |\n",
+              cell.name.c_str(), exported.succeeded, exported.tried,
+              exported.episodes - exported.closer, exported.closer,
+              exported.succeeded - exported.episodes, replayed.successes, replayed.episodes.size(),
+              exported.seconds, exported.stretch);
+  std::fflush(stdout);
+}
+
+void Run(const Arguments& arguments) {
+  core::Progress progress(core::Progress::StyleForStderr());
+  std::printf(
+      "| skill                 | rollouts   | at once | closer | left out | replayed | mean | "
+      "stretch |\n|---|---|---|---|---|---|---|---|\n");
+  for (const pipeline::SuiteCell& cell : pipeline::SkillSuite()) {
+    if (arguments.cell == "all" || arguments.cell == cell.name) {
+      Measure(cell, arguments, &progress);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace simwright
+
+int main(int argc, char** argv) {
+  CLI::App app("How many exported motions do their task again");
+  simwright::Arguments arguments;
+  app.add_option("--cell", arguments.cell, "One cell, or all")->capture_default_str();
+  app.add_option("--episodes", arguments.episodes, "Motions to export of each, at least two")
+      ->check(CLI::Range(2, 100000))
+      ->capture_default_str();
+  app.add_option("--seed", arguments.seed, "Of the episodes")->capture_default_str();
+  app.add_option("--threads", arguments.threads, "0: all of the machine's")->capture_default_str();
+  app.add_option("-o", arguments.output, "Where assets and motions are kept")
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    if (arguments.cell != "all") simwright::pipeline::CellOf(arguments.cell);
+    simwright::core::SetThreadCount(arguments.threads);
+    simwright::Run(arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+}
