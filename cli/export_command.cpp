@@ -37,7 +37,7 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
   CLI::App* command =
       app->add_subcommand("export", "Trained skills as a robot's trajectories or demonstrations");
   command->footer(
-      "Examples:\n  simwright export open --format ros2 -o open.yaml\n"
+      "Examples:\n  simwright export open --format ros2 --joint-names fr3 -o open.yaml\n"
       "  simwright export open --format robomimic --episodes 50 -o open.hdf5\n"
       "Trajectories keep the robot's limits at 1 kHz from rest to rest. `simwright replay` proves\n"
       "them. docs/export.md says more.");
@@ -50,6 +50,15 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
       ->add_option("-o,--output", request->output,
                    "The file; of several trajectories a folder of them")
       ->required();
+  command->add_option("--joint-names", request->joint_names,
+                      "What the controller calls the joints: panda, fr3 (within that robot's "
+                      "limits, too), or a JSON file; default: the robot's own names");
+  command
+      ->add_option("--pace", request->at_recorded_pace,
+                   "limits: as fast as limits and task allow; recorded: never faster than recorded")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"limits", false},
+                                                                      {"recorded", true}}))
+      ->default_str("limits");
   command->add_option("--episodes", request->episodes, "Episodes that succeed")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();

@@ -1,43 +1,15 @@
 #include "pipeline/file_replay.h"
 
-#include <map>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
-#include "core/files.h"
 #include "core/parallel.h"
+#include "pipeline/motion_files.h"
 #include "pipeline/skill_demonstrations.h"
-#include "pipeline/skill_export.h"
 #include "pipeline/trajectory_replay.h"
-#include "robot/trajectory_file.h"
 
 namespace simwright::pipeline {
 namespace fs = std::filesystem;
-namespace {
-
-using nlohmann::json;
-
-robot::JointTrajectory ReadWithNotes(const fs::path& file) {
-  robot::JointTrajectory trajectory = robot::ReadTrajectory(file);
-  if (file.extension() != ".json") return trajectory;
-  const fs::path notes = NotesBeside(file);
-  if (!fs::exists(notes)) {
-    throw core::Error("its notes are not beside it", file.string(),
-                      "keep " + notes.filename().string() + " with it, or export YAML");
-  }
-  try {
-    trajectory.notes =
-        json::parse(core::ReadFile(notes, 1 << 24)).get<std::map<std::string, std::string>>();
-  } catch (const json::exception&) {
-    throw core::Error("holds no notes", notes.string(), "export it anew");
-  }
-  return trajectory;
-}
-
-}  // namespace
-
 FileReplay::FileReplay(const SkillRun& run, const std::vector<RunSkill>& skills)
     : run_(run), skills_(skills), fine_skills_(PrepareSkills(AtPhysicsRate(run))) {}
 
@@ -79,7 +51,7 @@ std::vector<ReplayedEpisode> FileReplay::Trajectories(const std::vector<fs::path
   std::vector<robot::JointTrajectory> trajectories;
   std::vector<SkillNotes> notes;
   for (const fs::path& file : files) {
-    trajectories.push_back(ReadWithNotes(file));
+    trajectories.push_back(ReadMotion(file));
     notes.push_back(NotesFrom(trajectories.back().notes, file.string()));
     Require(notes.back(), file.string());
   }

@@ -14,9 +14,9 @@
 #include "core/finding_json.h"
 #include "core/finding_text.h"
 #include "pipeline/file_replay.h"
+#include "pipeline/motion_files.h"
 #include "pipeline/skill_demonstrations.h"
 #include "pipeline/skill_rollout.h"
-#include "robot/trajectory_file.h"
 
 namespace simwright::pipeline {
 namespace fs = std::filesystem;
@@ -26,6 +26,8 @@ using nlohmann::json;
 
 constexpr size_t kWidth = 100;    // characters of a line
 constexpr double kCloser = 0.25;  // of the deviation that motions have else
+// Times the recording's pace at most: what the limits allow, somewhat faster, as recorded.
+constexpr double kPaces[] = {100.0, 2.0, 1.0};
 
 std::vector<std::string> EndingsOf(ExportFormat format) {
   switch (format) {
@@ -55,15 +57,10 @@ void RequireEnding(const ExportRequest& request) {
                     "let it end in " + endings.front());
 }
 
-void WriteMotion(const robot::JointTrajectory& trajectory, const fs::path& file) {
-  robot::WriteTrajectory(file, trajectory);
-  if (file.extension() != ".json") return;
-  core::WriteFile(NotesBeside(file), json(trajectory.notes).dump(2) + "\n");
-}
-
-void WriteMotions(const std::vector<SkillMotion>& motions, const ExportRequest& request) {
+void WriteMotions(const std::vector<SkillMotion>& motions, const ExportRequest& request,
+                  const robot::JointNames& names) {
   if (!WritesFolder(request)) {
-    WriteMotion(motions.front().retimed.trajectory, request.output);
+    WriteMotion(motions.front().retimed.trajectory, request.output, names);
     return;
   }
   core::StagedFolder folder(request.output, request.force);
@@ -71,7 +68,7 @@ void WriteMotions(const std::vector<SkillMotion>& motions, const ExportRequest& 
     char name[32];
     std::snprintf(name, sizeof(name), "episode_%04zu", i + 1);
     WriteMotion(motions[i].retimed.trajectory,
-                folder.staging() / (name + EndingsOf(request.format).front()));
+                folder.staging() / (name + EndingsOf(request.format).front()), names);
   }
   folder.Commit();
 }
@@ -108,12 +105,32 @@ class MotionProof {
         request_(request),
         ending_(WritesFolder(request) ? EndingsOf(request.format).front()
                                       : request.output.extension().string()),
-        replay_(task.run(), task.skills()) {}
+        replay_(task.run(), task.skills()) {
+    const MotionJoints joints = MotionJointsOf(*task.skills().front().evaluated->robot);
+    if (!request.joint_names.empty()) {
+      names_ = robot::JointNamesFor(request.joint_names, joints.names);
+    }
+  }
 
-  // Whether a motion of `recording` is accepted, and does its task again from its file: the one as
-  // close as motions are, or else a slower one that is closer.
+  const robot::JointNames& names() const { return names_; }
+
+  // Whether a motion of `recording` is accepted, and does its task again from its file: the fastest,
+  // or else slower ones, at last one that is closer to what was recorded.
   bool Keeps(const ChainRecording& recording) {
-    if (Try(recording, {})) return true;
+    for (const double pace : kPaces) {
+      if (request_.at_recorded_pace && pace != 1.0) continue;
+      robot::RetimingOptions options;
+      options.fastest = pace;
+      try {
+        if (!Try(recording, options)) continue;
+      } catch (const core::Error&) {  // the retimer found none at this pace
+        if (pace == 1.0) throw;
+        continue;
+      }
+      const std::lock_guard lock(mutex_);
+      if (pace != kPaces[0]) slowed_.insert(recording.episode);
+      return true;
+    }
     try {
       if (!Try(recording, Closer())) return false;
     } catch (const core::Error&) {  // none is as close within the limits
@@ -121,6 +138,7 @@ class MotionProof {
     }
     const std::lock_guard lock(mutex_);
     closer_.insert(recording.episode);
+    slowed_.insert(recording.episode);
     return true;
   }
 
@@ -129,6 +147,13 @@ class MotionProof {
     return static_cast<int>(std::count_if(
         recordings.begin(), recordings.end(),
         [&](const ChainRecording& one) { return closer_.contains(one.episode); }));
+  }
+
+  // How many are slower than the limits allow, of recordings that were kept.
+  int CountSlowed(const std::vector<ChainRecording>& recordings) const {
+    return static_cast<int>(std::count_if(
+        recordings.begin(), recordings.end(),
+        [&](const ChainRecording& one) { return slowed_.contains(one.episode); }));
   }
 
   // Of recordings that were kept.
@@ -151,16 +176,18 @@ class MotionProof {
   }
 
   bool Try(const ChainRecording& recording, const robot::RetimingOptions& options) {
-    SkillMotion motion = MotionOf(recording, *task_.skills().front().evaluated, options);
+    SkillMotion motion =
+        MotionOf(recording, *task_.skills().front().evaluated, options, names_.limits);
     SkillNotes notes = NotesOf(task_.run(), task_.skills(), recording, request_.seed);
     notes.times = motion.subtasks;
     motion.retimed.trajectory.notes = NoteLines(notes);
     const fs::path file =
         folder_.path() / ("episode_" + std::to_string(recording.episode) + ending_);
-    WriteMotion(motion.retimed.trajectory, file);
+    WriteMotion(motion.retimed.trajectory, file, names_);
     const bool again = replay_.Trajectories({file}).front().success;
     fs::remove(file);
     fs::remove(NotesBeside(file));
+    fs::remove(GripperBeside(file));
     if (!again) return false;
     const std::lock_guard lock(mutex_);
     motions_.emplace(recording.episode, std::move(motion));
@@ -170,11 +197,12 @@ class MotionProof {
   const TrainedTask& task_;
   const ExportRequest& request_;
   std::string ending_;
+  robot::JointNames names_;
   FileReplay replay_;
   core::TemporaryFolder folder_;
   std::mutex mutex_;
   std::map<std::uint64_t, SkillMotion> motions_;  // by episode
-  std::set<std::uint64_t> closer_;                // episodes
+  std::set<std::uint64_t> slowed_, closer_;       // episodes
 };
 
 bool DoesItsTaskAgain(const TrainedTask& task, const ChainRecording& recording,
@@ -202,6 +230,31 @@ void AddTally(const RecordingTally& tally, ExportReport* report) {
   finding.figure = left_out;
 }
 
+void AddSlowed(ExportReport* report) {
+  if (report->slowed == 0) return;
+  core::Finding& finding = report->findings.emplace_back();
+  finding.code = "export-slowed";
+  finding.severity = core::Severity::kInfo;
+  finding.sentence = std::to_string(report->slowed) + " of " + std::to_string(report->episodes) +
+                     " motions are slower than the limits allow: at these the robot did not do the "
+                     "task again";
+  finding.figure = report->slowed;
+}
+
+// robomimic's loader of "valid" drops what is less than a batch.
+void AddValidSteps(const robot::DemonstrationSet& set, ExportReport* report) {
+  const size_t steps = ValidSteps(set);
+  if (steps >= kRobomimicBatch) return;
+  core::Finding& finding = report->findings.emplace_back();
+  finding.code = "robomimic-valid";
+  finding.severity = core::Severity::kWarning;
+  finding.sentence = "the mask 'valid' has " + std::to_string(steps) +
+                     " steps, less than a batch of robomimic's defaults, " +
+                     std::to_string(kRobomimicBatch) + ": its loader would give none";
+  finding.remedy = "export more --episodes, or set train.batch_size to at most that";
+  finding.figure = static_cast<double>(steps);
+}
+
 std::string Deviation(const JointMargins& joint) {
   char text[32];
   std::snprintf(text, sizeof(text), "%6.2f %s", 1000.0 * joint.deviation,
@@ -215,10 +268,6 @@ json WorstJson(const robot::WorstValue& worst) {
 }
 
 }  // namespace
-
-fs::path NotesBeside(const fs::path& trajectory) {
-  return fs::path(trajectory).replace_extension(".notes.json");
-}
 
 ExportReport Export(const ExportRequest& request, core::Progress* progress) {
   RequireEnding(request);
@@ -238,8 +287,10 @@ ExportReport Export(const ExportRequest& request, core::Progress* progress) {
         [&](const ChainRecording& one) { return DoesItsTaskAgain(task, one, request.seed); },
         progress);
     AddTally(tally, &report);
-    robot::WriteDemonstrations(
-        request.output, DemonstrationsOf(task.run(), task.skills(), recordings, request.seed));
+    const robot::DemonstrationSet set =
+        DemonstrationsOf(task.run(), task.skills(), recordings, request.seed);
+    AddValidSteps(set, &report);
+    robot::WriteDemonstrations(request.output, set);
     return report;
   }
   MotionProof proof(task, request);
@@ -248,11 +299,13 @@ ExportReport Export(const ExportRequest& request, core::Progress* progress) {
       [&](const ChainRecording& one) { return proof.Keeps(one); }, progress);
   AddTally(tally, &report);
   report.closer = proof.CountCloser(recordings);
+  report.slowed = request.at_recorded_pace ? 0 : proof.CountSlowed(recordings);
+  AddSlowed(&report);
   const std::vector<SkillMotion> motions = proof.MotionsOf(recordings);
   for (const SkillMotion& motion : motions) {
     AddMargins(motion, *task.skills().front().evaluated, &report);
   }
-  WriteMotions(motions, request);
+  WriteMotions(motions, request, proof.names());
   return report;
 }
 
@@ -293,7 +346,8 @@ std::string ExportJson(const ExportReport& report) {
                {"tried", report.tried},
                {"succeeded", report.succeeded},
                {"left_out", report.succeeded - report.episodes},
-               {"closer", report.closer}};
+               {"closer", report.closer},
+               {"slowed", report.slowed}};
   text["findings"] = core::FindingsJson(report.findings);
   if (report.joints.empty()) return text.dump(2) + "\n";
   text["mean_seconds"] = report.seconds;

@@ -12,7 +12,8 @@
 namespace simwright::pipeline {
 
 enum class ExportFormat {
-  kRos2,       // trajectory_msgs/JointTrajectory, YAML or, of a file that ends in .json, JSON
+  kRos2,       // trajectory_msgs/JointTrajectory, one of the arm and one of the gripper, YAML or, of
+               // a file that ends in .json, JSON
   kCsv,        // a table
   kRobomimic,  // HDF5
 };
@@ -24,6 +25,8 @@ struct ExportRequest {
   int episodes = 1;  // that succeed, and whose files do the task again
   std::uint64_t seed = 1;
   bool force = false;  // a folder that is there is replaced
+  std::string joint_names;  // "panda", "fr3" or a file (robot::JointNamesFor); "": the robot's
+  bool at_recorded_pace = false;  // else as fast as limits and the task allow
 };
 
 // What the motions ask of one joint: the worst of all of them.
@@ -37,6 +40,7 @@ struct ExportReport {
   std::filesystem::path output;
   int episodes = 0;              // written
   int tried = 0, succeeded = 0;  // rollouts
+  int slowed = 0;  // trajectories that did their task again only at a pace below the limits'
   int closer = 0;  // trajectories that did their task again only closer to what was recorded
   core::Findings findings;  // what was left out, and why
   // Of trajectories alone:
@@ -55,8 +59,5 @@ ExportReport Export(const ExportRequest& request, core::Progress* progress);
 
 std::string ExportTable(const ExportReport& report);
 std::string ExportJson(const ExportReport& report);
-
-// Where the notes of a trajectory in JSON lie, whose form has no room for them: NAME.notes.json.
-std::filesystem::path NotesBeside(const std::filesystem::path& trajectory);
 
 }  // namespace simwright::pipeline

@@ -10,6 +10,7 @@ namespace {
 
 // What a command moves at most in one step from one subtask to the next; fingers at their speed.
 constexpr double kBridgeStep = 0.01;  // rad or m
+constexpr double kAnyPace = 1e3;      // times the recording's
 
 // A path that grows by one command a control step.
 class CommandPath {
@@ -23,14 +24,18 @@ class CommandPath {
   }
 
   size_t size() const { return commands_.size(); }
+  double seconds() const { return static_cast<double>(commands_.size()) / rate_; }
   void Add(const RecordedMoment& moment) {
     Eigen::VectorXd command(steps_.size());
     command << moment.arm_command, moment.leader_command;
     commands_.push_back(command);
   }
+  // A rest takes its time however fast the motion is.
   void Rest(double seconds) {
+    paces_.resize(commands_.size(), kAnyPace);
     commands_.insert(commands_.end(), static_cast<size_t>(std::ceil(seconds * rate_)),
                      Eigen::VectorXd(commands_.back()));
+    paces_.resize(commands_.size(), 1.0);
   }
   // Goes to where `moment` begins.
   void Bridge(const RecordedMoment& moment) {
@@ -51,6 +56,8 @@ class CommandPath {
       path.times.push_back(static_cast<double>(k) / rate_);
       path.positions.row(static_cast<Eigen::Index>(k)) = commands_[k].transpose();
     }
+    path.paces = paces_;
+    path.paces.resize(commands_.size(), kAnyPace);
     return path;
   }
 
@@ -62,6 +69,7 @@ class CommandPath {
   double rate_;
   Eigen::VectorXd steps_;  // of a bridge, by joint
   std::vector<Eigen::VectorXd> commands_;
+  std::vector<double> paces_;  // of the first commands; of the others any
 };
 
 void RequireAccepted(const robot::LimitReport& report) {
@@ -72,7 +80,7 @@ void RequireAccepted(const robot::LimitReport& report) {
 
 }  // namespace
 
-MotionJoints MotionJointsOf(const robot::RobotModel& robot) {
+MotionJoints MotionJointsOf(const robot::RobotModel& robot, const JointLimitsByName& tighter) {
   MotionJoints joints;
   for (int j = 0; j < robot.arm.size(); ++j) {
     const robot::ArmJoint& joint = robot.arm.joints[static_cast<size_t>(j)];
@@ -85,22 +93,31 @@ MotionJoints MotionJointsOf(const robot::RobotModel& robot) {
   joints.names.push_back(robot.urdf.joints[leader].name);
   joints.sliding.push_back(robot.urdf.joints[leader].type == assets::UrdfJointType::kPrismatic);
   joints.limits.push_back(robot.limits[leader]);
-  for (robot::JointLimits& limits : joints.limits) {
-    limits = robot::CommandLimits(limits, robot.margin);
+  for (size_t j = 0; j < joints.limits.size(); ++j) {
+    const auto found = tighter.find(joints.names[j]);
+    if (found != tighter.end()) {
+      joints.limits[j] = robot::TighterOf(joints.limits[j], found->second);
+    }
+    joints.limits[j] = robot::CommandLimits(joints.limits[j], robot.margin);
   }
   return joints;
 }
 
 SkillMotion MotionOf(const ChainRecording& recording, const rl::Skill& skill,
-                     const robot::RetimingOptions& options) {
-  const MotionJoints joints = MotionJointsOf(*skill.robot);
+                     const robot::RetimingOptions& options, const JointLimitsByName& limits) {
+  const MotionJoints joints = MotionJointsOf(*skill.robot, limits);
+  // At the recording's pace what was recorded has held its success for hold_seconds, and does so
+  // once more; a faster motion goes through that in no time, and rests as long.
+  const double rest = (options.fastest > 1.0 ? 2.0 : 1.0) * skill.options.hold_seconds;
   CommandPath commands(skill, joints);
   std::vector<std::pair<size_t, size_t>> spans;  // places in the path
   for (const RecordedSubtask& subtask : recording.subtasks) {
     if (commands.size() > 0) commands.Bridge(subtask.moments.front());
     const size_t begin = commands.size();
     for (const RecordedMoment& moment : subtask.moments) commands.Add(moment);
-    commands.Rest(skill.options.hold_seconds);
+    const bool last = &subtask == &recording.subtasks.back();
+    // A controller holds the last command by itself.
+    if (!last || options.fastest <= 1.0) commands.Rest(rest);
     spans.emplace_back(begin, commands.size() - 1);
   }
   SkillMotion motion;
@@ -112,6 +129,7 @@ SkillMotion MotionOf(const ChainRecording& recording, const rl::Skill& skill,
     motion.subtasks.push_back({begin == 0 ? 0.0 : motion.retimed.waypoint_times[begin],
                                motion.retimed.waypoint_times[end]});
   }
+  if (options.fastest > 1.0) motion.subtasks.back().end += rest;
   return motion;
 }
 

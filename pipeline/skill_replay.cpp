@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "pipeline/file_replay.h"
+#include "pipeline/motion_files.h"
 
 namespace simwright::pipeline {
 namespace fs = std::filesystem;
@@ -17,10 +18,6 @@ using nlohmann::json;
 
 bool IsDemonstrations(const fs::path& file) {
   return file.extension() == ".hdf5" || file.extension() == ".h5";
-}
-
-bool IsNotes(const fs::path& file) {
-  return file.string().ends_with(".notes.json");
 }
 
 // The files to replay, those of a folder in order of their names.
@@ -37,7 +34,7 @@ std::vector<fs::path> FilesOf(const ReplayRequest& request) {
       const std::string ending = entry.path().extension();
       const bool known =
           std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
-      if (known && !IsNotes(entry.path())) inside.push_back(entry.path());
+      if (known && !LiesBesideMotion(entry.path())) inside.push_back(entry.path());
     }
     if (inside.empty()) {
       throw core::Error("holds nothing that was exported", given.string(), "see simwright export");

@@ -128,7 +128,9 @@ std::vector<bool> ReplayTrajectory(const std::vector<RunSkill>& skills,
                                    const SkillNotes& notes, const std::string& where) {
   const rl::Skill& first = *skills.front().evaluated;
   const Commands commands(trajectory, *first.robot, where);
-  if (trajectory.times.back() < notes.times.back().end - 2.0 / first.options.control_rate) {
+  // The last command is held after the end (MotionOf).
+  const double held = 2.0 * first.options.hold_seconds;
+  if (trajectory.times.back() < notes.times.back().end - held - 2.0 / first.options.control_rate) {
     throw core::Error("ends before its last subtask does", where, "it was cut: export it anew");
   }
   rl::EpisodeStart start = rl::ParseStart(notes.start, first, where + ", note 'start'");

@@ -1,0 +1,115 @@
+#include "pipeline/motion_files.h"
+
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "robot/trajectory_file.h"
+#include "robot/trajectory_joints.h"
+
+namespace simwright::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+using robot::JointTrajectory;
+
+constexpr char kGripperNote[] = "gripper";     // of the arm's file: the gripper has one, too
+constexpr char kJointNote[] = "robot_joints";  // the robot's names, in the order of the columns
+
+bool IsRos(const fs::path& file) {
+  return robot::TrajectoryFormatOf(file) != robot::TrajectoryFormat::kCsv;
+}
+
+std::string WithSpaces(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
+  return text;
+}
+
+void WriteWithNotes(const JointTrajectory& trajectory, const fs::path& file) {
+  robot::WriteTrajectory(file, trajectory);
+  if (file.extension() != ".json") return;
+  core::WriteFile(NotesBeside(file), json(trajectory.notes).dump(2) + "\n");
+}
+
+std::map<std::string, std::string> NotesOfJson(const fs::path& file) {
+  const fs::path notes = NotesBeside(file);
+  if (!fs::exists(notes)) {
+    throw core::Error("its notes are not beside it", file.string(),
+                      "keep " + notes.filename().string() + " with it, or export YAML");
+  }
+  try {
+    return json::parse(core::ReadFile(notes, 1 << 24)).get<std::map<std::string, std::string>>();
+  } catch (const json::exception&) {
+    throw core::Error("holds no notes", notes.string(), "export it anew");
+  }
+}
+
+// The robot's own names, as the note has them.
+JointTrajectory UnderOwnNames(JointTrajectory trajectory, const fs::path& file) {
+  const auto note = trajectory.notes.find(kJointNote);
+  if (note == trajectory.notes.end()) return trajectory;
+  std::istringstream words(note->second);
+  std::vector<std::string> own;
+  for (std::string word; words >> word;) own.push_back(word);
+  if (own.size() != trajectory.joints.size()) {
+    throw core::Error("its note '" + std::string(kJointNote) + "' names " +
+                          std::to_string(own.size()) + " joints, it has " +
+                          std::to_string(trajectory.joints.size()),
+                      file.string(), "export it anew");
+  }
+  trajectory.joints = own;
+  trajectory.notes.erase(kJointNote);
+  return trajectory;
+}
+
+}  // namespace
+
+fs::path GripperBeside(const fs::path& motion) {
+  return fs::path(motion).replace_extension(".gripper" + motion.extension().string());
+}
+
+fs::path NotesBeside(const fs::path& motion) {
+  return fs::path(motion).replace_extension(".notes.json");
+}
+
+bool LiesBesideMotion(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  return stem.ends_with(".gripper") || stem.ends_with(".notes");
+}
+
+void WriteMotion(const JointTrajectory& trajectory, const fs::path& file,
+                 const robot::JointNames& names) {
+  JointTrajectory named = robot::Renamed(trajectory, names.names);
+  if (named.joints != trajectory.joints) named.notes[kJointNote] = WithSpaces(trajectory.joints);
+  if (!IsRos(file)) {
+    WriteWithNotes(named, file);
+    return;
+  }
+  const std::vector<std::string> arm(named.joints.begin(), named.joints.end() - 1);
+  JointTrajectory of_arm = robot::JointsOf(named, arm);
+  of_arm.notes[kGripperNote] = "beside";
+  WriteWithNotes(of_arm, file);
+  JointTrajectory gripper = robot::JointsOf(named, {named.joints.back()});
+  gripper.notes = {{"beside", file.filename().string()}};
+  robot::WriteTrajectory(GripperBeside(file), gripper);
+}
+
+JointTrajectory ReadMotion(const fs::path& file) {
+  JointTrajectory trajectory = robot::ReadTrajectory(file);
+  if (file.extension() == ".json") trajectory.notes = NotesOfJson(file);
+  if (trajectory.notes.erase(kGripperNote) > 0) {
+    const fs::path gripper = GripperBeside(file);
+    if (!fs::exists(gripper)) {
+      throw core::Error("the gripper's motion is not beside it", file.string(),
+                        "keep " + gripper.filename().string() + " with it, or export anew");
+    }
+    trajectory = robot::Joined(trajectory, robot::ReadTrajectory(gripper), gripper.string());
+  }
+  return UnderOwnNames(std::move(trajectory), file);
+}
+
+}  // namespace simwright::pipeline
