@@ -18,10 +18,11 @@ int Export(const pipeline::ExportRequest& given, const CommonOptions& common) {
   const pipeline::ExportReport report = pipeline::Export(request, &progress);
   progress.Finish();
   if (common.json) {
-    PrintJson(pipeline::ExportJson(report), {});
+    PrintJson(pipeline::ExportJson(report), report.findings);
     return 0;
   }
   if (!common.quiet) std::fputs(pipeline::ExportTable(report).c_str(), stdout);
+  PrintFindings(report.findings, common);
   std::printf("%s\n", report.output.c_str());
   return 0;
 }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "assets/asset_folder.h"
+#include "assets/asset_json.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/image.h"
@@ -190,6 +191,9 @@ PhotoRunOutcome OutcomeOf(const PhotoRunFolder& folder, const Json& report) {
   outcome.picture = folder.Strip();
   outcome.trajectory = folder.Trajectory();
   outcome.findings = assets::ReadAsset(folder.Asset()).findings;
+  const core::Findings exported =
+      assets::FindingsFrom(Json::parse(core::ReadFile(folder.Export())).at("findings"));
+  outcome.findings.insert(outcome.findings.end(), exported.begin(), exported.end());
   outcome.json = report.dump(2) + "\n";
   return outcome;
 }

@@ -12,7 +12,6 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/finding_json.h"
-#include "core/finding_text.h"
 #include "pipeline/file_replay.h"
 #include "pipeline/motion_files.h"
 #include "pipeline/skill_demonstrations.h"
@@ -24,7 +23,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr size_t kWidth = 100;    // characters of a line
 constexpr double kCloser = 0.25;  // of the deviation that motions have else
 // Times the recording's pace at most: what the limits allow, somewhat faster, as recorded.
 constexpr double kPaces[] = {100.0, 2.0, 1.0};
@@ -330,9 +328,6 @@ std::string ExportTable(const ExportReport& report) {
                   "%.2f mm off\n",
                   report.seconds, report.stretch, 1000.0 * report.tool_deviation);
     table += line;
-  }
-  for (const core::Finding& finding : report.findings) {
-    table += core::FindingText(finding, kWidth);
   }
   std::snprintf(line, sizeof(line),
                 "%d of %d episodes succeeded; %d are written, each did its task again\n",
