@@ -7,13 +7,13 @@ namespace simwright::assets {
 namespace {
 
 constexpr double kGravity = 9.81;        // m/s^2
-constexpr double kStiffModulus = 1e7;    // Pa, of what is no softer; Drake's own default
+constexpr double kStiffModulus = 5e7;    // Pa, of what is no softer
 constexpr double kLargestModulus = 1e8;  // Pa: above it Drake's contact solver loses digits
-constexpr double kDepthAtRest = 3e-4;    // m, of a round body under its own weight
+constexpr double kDepthAtRest = 1e-4;    // m, of a round body under its own weight
 constexpr double kSmallestHint = 1e-3;   // m
 
 // Young's moduli by their order, Pa: cushion foams 1e5, textiles and bread as much; flesh of fruit
-// 1e6; natural rubber and silicone 3e6; cork 2e7 is stiff enough to count as any other.
+// 1e6; natural rubber and silicone 3e6; what is stiffer counts as any other.
 constexpr struct {
   const char* material;
   double modulus;

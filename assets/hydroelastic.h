@@ -10,17 +10,17 @@ namespace simwright::assets {
 // which two bodies overlap. Point contact, which Drake falls back to, has one point for each pair
 // of parts: a thin flat body spins and sinks on it.
 struct HydroelasticContact {
-  double modulus = 1e7;          // Pa, the pressure at full depth
+  double modulus = 5e7;          // Pa, the pressure at full depth
   double resolution_hint = 0.1;  // m, the longest edge of what Drake meshes itself
   double dissipation = 20.0;     // s/m, Hunt and Crossley's
   double friction = 0.5;         // of Coulomb, static and sliding
 };
 
 // For a body of `mass` (kg) whose largest part in `material` (docs/formats.md) measures `extents`
-// (m). Soft matter has the order of its Young's modulus; everything else 10 MPa, stiff enough that
-// a gripper's 20 N on a square centimetre sink in by a fiftieth of the half thickness and soft
-// enough that the depth at which a domino rests is well above rounding. A heavy body is stiffer:
-// round below, where it touches in a point, it sinks in by 0.3 mm at most (up to 100 MPa).
+// (m). Soft matter has the order of its Young's modulus; everything else 50 MPa, stiff enough that
+// a lying spoon does not turn as it sinks in, and soft enough that the depth at which a domino rests
+// is well above rounding. A heavy body is stiffer: round below, where it touches in a point, it
+// sinks in by 0.1 mm at most (up to 100 MPa).
 HydroelasticContact HydroelasticContactOf(const std::string& material, double mass,
                                           const Eigen::Vector3d& extents, double friction);
 

@@ -21,17 +21,17 @@ TEST(HydroelasticContact, IsSoftWhereTheMaterialIs) {
   const double wood = HydroelasticContactOf("wood", 0.1, kExtents, 0.5).modulus;
   const double rubber = HydroelasticContactOf("rubber", 0.05, kExtents, 0.5).modulus;
   const double cushion = HydroelasticContactOf("upholstery", 0.001, kExtents, 0.5).modulus;
-  EXPECT_EQ(wood, 1e7);
+  EXPECT_EQ(wood, 5e7);
   EXPECT_LT(rubber, wood);
   EXPECT_LT(cushion, rubber);
   EXPECT_EQ(HydroelasticContactOf("wood", 0.1, kExtents, 0.5).resolution_hint, 0.02);
-  EXPECT_EQ(HydroelasticContactOf("", 0.1, {}, 0.5).modulus, 1e7);
+  EXPECT_EQ(HydroelasticContactOf("", 0.1, {}, 0.5).modulus, 5e7);
 }
 
 // A ball on a rigid floor, its pressure E * depth / r integrated over the patch in rings: the depth
 // at which that is the ball's weight.
-TEST(HydroelasticContact, ARoundBodySinksInByThreeTenthsOfAMillimetre) {
-  for (const double mass : {0.05, 0.5, 2.0}) {
+TEST(HydroelasticContact, ARoundBodySinksInByATenthOfAMillimetre) {
+  for (const double mass : {0.02, 0.1, 0.3}) {
     const double radius = 0.05;
     const double modulus = HydroelasticContactOf("fruit flesh", mass, kExtents, 0.5).modulus;
     const auto force = [&](double depth) {
@@ -50,7 +50,7 @@ TEST(HydroelasticContact, ARoundBodySinksInByThreeTenthsOfAMillimetre) {
       const double middle = 0.5 * (low + high);
       (force(middle) < mass * 9.81 ? low : high) = middle;
     }
-    EXPECT_LT(low, 4.5e-4) << mass;
+    EXPECT_LT(low, 1.5e-4) << mass;
   }
 }
 

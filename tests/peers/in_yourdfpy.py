@@ -23,8 +23,12 @@ def check_asset(folder):
     path = pathlib.Path(folder) / (text["name"] + ".urdf")
     heard = Heard()
     logging.getLogger().addHandler(heard)
+    # Without force_collision_mesh=False the parts of a link become one mesh.
     urdf = yourdfpy.URDF.load(
-        str(path), build_collision_scene_graph=True, load_collision_meshes=True
+        str(path),
+        build_collision_scene_graph=True,
+        load_collision_meshes=True,
+        force_collision_mesh=False,
     )
     logging.getLogger().removeHandler(heard)
     assert not heard.messages, (path, heard.messages)
@@ -38,5 +42,6 @@ def check_asset(folder):
         numbers = (inertial.mass, origin[:3, 3], inertial.inertia)
         inertials.require_same(numbers, wanted[link.name], (path, link.name))
         parts += len(link.collisions)
-    assert len(urdf.collision_scene.geometry) == parts, path
+    read = len(urdf.collision_scene.geometry)
+    assert read == parts, (path, read, parts)
     return {"collision meshes": str(parts)}
