@@ -11,6 +11,7 @@
 #include <tinyxml2.h>
 
 #include "assets/urdf_materials.h"
+#include "assets/urdf_numbers.h"
 #include "core/error.h"
 
 namespace simwright::assets {
@@ -96,6 +97,7 @@ class Mending {
     if (Attribute(*robot, "name").empty()) {
       robot->SetAttribute("name", std::filesystem::path(where_).stem().string().c_str());
     }
+    MendNumbers(robot, &findings_);
     ResolveMaterials(robot, &findings_);
     for (auto* link = robot->FirstChildElement("link"); link != nullptr;
          link = link->NextSiblingElement("link")) {

@@ -1,6 +1,7 @@
 #include "core/finding_text.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace simwright::core {
 namespace {
@@ -86,6 +87,12 @@ std::string FindingText(const Finding& finding, std::size_t width) {
   if (!finding.remedy.empty()) line += " (" + part(finding.remedy) + ")";
   if (!finding.code.empty() && finding.code != "error") line += " [" + finding.code + "]";
   return Wrapped(line, width) + "\n";
+}
+
+std::string Millimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g mm", 1e3 * metres);
+  return text;
 }
 
 Finding FindingOf(const Error& error) {

@@ -24,6 +24,9 @@ std::string Wrapped(std::string_view text, std::size_t width);
 // blanks.
 std::string FindingText(const Finding& finding, std::size_t width);
 
+// A length (m) in a sentence: "0.81 mm", of three digits.
+std::string Millimetres(double metres);
+
 // An error as a finding of severity kError, code "error": its place, fault and remedy.
 Finding FindingOf(const Error& error);
 

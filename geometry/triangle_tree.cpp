@@ -23,11 +23,12 @@ double BoxEntry(const Vector3d& origin, const Vector3d& inverse, const Vector3d&
   double enter = 0.0;
   double leave = reach;
   for (int axis = 0; axis < 3; ++axis) {
-    const double a = (low[axis] - origin[axis]) * inverse[axis];
-    const double b = (high[axis] - origin[axis]) * inverse[axis];
+    const bool backwards = inverse[axis] < 0.0;
+    const double near = ((backwards ? high : low)[axis] - origin[axis]) * inverse[axis];
+    const double far = ((backwards ? low : high)[axis] - origin[axis]) * inverse[axis];
     // NaN (a ray within a slab's plane) keeps the interval as it is.
-    enter = std::fmax(enter, std::fmin(a, b));
-    leave = std::fmin(leave, std::fmax(a, b));
+    enter = near > enter ? near : enter;
+    leave = far < leave ? far : leave;
   }
   // The margin keeps what rounding would lose at a box of no thickness.
   return enter <= leave * (1.0 + 1e-14) + 1e-300 ? enter : std::numeric_limits<double>::infinity();

@@ -9,6 +9,7 @@
 
 #include "assets/joint_poses.h"
 #include "assets/semantic_model.h"
+#include "core/finding_text.h"
 #include "core/error.h"
 #include "geometry/mass_properties.h"
 #include "physics_params/knowledge_base.h"
@@ -145,7 +146,8 @@ void MakeNamesSafe(SemanticModel* source) {
   std::map<std::string, std::string> renamed;
   std::set<std::string> taken;
   const auto safe = [&taken](const std::string& name) {
-    const std::string base = assets::FileSafeName(name);
+    // MuJoCo keeps "world" to itself.
+    const std::string base = name == "world" ? "world_link" : assets::FileSafeName(name);
     std::string unique = base;
     for (int i = 2; !taken.insert(unique).second; ++i) unique = base + "_" + std::to_string(i);
     return unique;
@@ -186,6 +188,28 @@ void MakeParts(core::Progress* progress, UrdfModel* model) {
   progress->Finish();
 }
 
+// Links of a robot overlap at its joints and meet on their ways by design: a line for each kind of
+// finding, with the worst of them, instead of one for each pair.
+core::Findings SummedUp(const core::Findings& findings, const std::string& name) {
+  core::Findings kept;
+  std::map<std::string, core::Findings> by_code;
+  for (const core::Finding& one : findings) by_code[one.code].push_back(one);
+  for (auto& [code, some] : by_code) {
+    const auto worst = std::max_element(
+        some.begin(), some.end(), [](const auto& a, const auto& b) { return a.figure < b.figure; });
+    core::Finding line = *worst;
+    line.severity = core::Severity::kInfo;
+    line.sentence = "'" + line.place + "': " + line.sentence;
+    if (some.size() > 1) {
+      line.sentence += "; so with " + std::to_string(some.size() - 1) + " more pairs, by less";
+    }
+    line.place = name;
+    line.remedy.clear();
+    kept.push_back(std::move(line));
+  }
+  return kept;
+}
+
 // Lets the whole stand and its joints move: what stands in their way is trimmed, ends their range,
 // or is excluded from contact. A thing whose joints reach below the floor that it would stand on is
 // held in place instead.
@@ -206,7 +230,8 @@ void ClearTheWay(bool robot, bool* fixed, UrdfModel* model) {
         model);
   }
   clearing.on_floor = !*fixed;
-  Add(ClearMovingParts(clearing, model), model);
+  const core::Findings cleared = ClearMovingParts(clearing, model);
+  Add(robot ? SummedUp(cleared, model->name) : cleared, model);
 }
 
 geometry::MassProperties Weighed(const ArticulatedLink& link) {
@@ -272,7 +297,8 @@ void GiveMass(const UrdfModel& model, bool metric, const physics_params::Categor
   }
   if (densest > kHeaviest) {
     asset->findings.push_back({"implausible-density", core::Severity::kWarning, asset->name,
-                               "its walls are thin for its mass: kg/m3 of the densest link",
+                               "its walls are thin for its mass: the densest link has " +
+                                   std::to_string(std::lround(densest)) + " kg/m3",
                                densest});
   }
   p.mass.sample = mass;
@@ -289,7 +315,8 @@ void HoldWhatTips(ArticulatedAsset* asset) {
   asset->findings.push_back(
       {"held", core::Severity::kWarning, asset->name,
        "free on the floor it would tip over while '" + least.joint +
-           "' is opened: it is held where it is; its centre of mass stays inside its foot by (mm)",
+           "' is opened: it is held where it is; its centre of mass stays inside its foot by " +
+           core::Millimetres(least.margin),
        1e3 * least.margin, "set `fixed` to false to let it stand free"});
 }
 
@@ -345,12 +372,13 @@ ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImport
   const std::string where = urdf.string();
   RequireJoints(source.model, where);
   FoldEmptyLinks(&source.model);
-  NormaliseJoints(&source.model);
+  const physics_params::Resolution category =
+      ImportCategory(options.category, source.category.empty() ? source.name : source.category);
+  const bool robot = IsRobot(source.model, *category.category);
+  NormaliseJoints(&source.model, robot);
   RequireJoints(source.model, where);
   MakeNamesSafe(&source);
 
-  const physics_params::Resolution category =
-      ImportCategory(options.category, source.category.empty() ? source.name : source.category);
   const auto& base = physics_params::KnowledgeBase::Shipped();
   physics_params::PhysicalParameters parameters =
       physics_params::SampleParameters(*category.category, base, options.seed);
@@ -360,8 +388,7 @@ ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImport
       ScaleOf(options, normalised, where, parameters, *category.category,
               SizeOf(BoundsAtZero(source.model)));
   StandOnOrigin(scale, &source.model);
-  const bool robot = IsRobot(source.model, *category.category);
-  bool fixed = robot || StandsFixed(source, category.category->name);
+  bool fixed = robot || HasMarkedRoot(source.model) || StandsFixed(source, category.category->name);
   MakeParts(progress, &source.model);
   ClearTheWay(robot, &fixed, &source.model);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <functional>
 #include <memory>
 #include <set>
@@ -18,6 +19,8 @@
 #include "core/files.h"
 #include "core/finding_text.h"
 #include "core/parallel.h"
+#include "geometry/convex_hull.h"
+#include "geometry/weld.h"
 #include "pipeline/articulated_import.h"
 #include "pipeline/articulated_preview.h"
 #include "pipeline/catalogue_meshes.h"
@@ -29,6 +32,9 @@
 namespace simwright::pipeline {
 namespace fs = std::filesystem;
 namespace {
+
+// kg/m3 of a URDF's hull: less than foam weighs, and osmium.
+constexpr double kLightest = 5.0, kOsmium = 22600.0;
 
 constexpr const char* kStopped = "stopped before it was done";
 
@@ -216,6 +222,7 @@ class Importer {
       RequireMeantSize(*request.category.category, core::Bounds(visual.mesh).sizes(), item.mesh);
     }
     request.stated = options_.stated;
+    if (IsUrdf(item.mesh)) TakeMassOfFile(item, visual.mesh, &request.stated, &findings);
     BuiltAsset built = BuildAsset(visual, request, progress);
     built.asset.findings.insert(built.asset.findings.begin(), findings.begin(), findings.end());
     findings = built.asset.findings;
@@ -224,6 +231,30 @@ class Importer {
       assets::WriteAsset(built.asset, folder);
       core::WritePng(folder / "preview.png", AssetPreview(built.asset));
     });
+  }
+
+  // A rigid URDF's own mass counts where nothing was stated or scaled and matter can weigh so much.
+  void TakeMassOfFile(const ImportItem& item, const core::TriangleMesh& visual,
+                      physics_params::StatedPhysics* stated, core::Findings* findings) const {
+    if (stated->mass || stated->density || options_.unit != 1.0 || options_.height > 0.0 ||
+        !options_.size.empty()) {
+      return;
+    }
+    const double mass = StatedMass(assets::ReadUrdf(item.mesh, {item.root, true}));
+    if (!(mass > 0.0)) return;
+    const double volume = geometry::SignedVolume(geometry::ConvexHull(visual.vertices));
+    const bool possible = mass > kLightest * volume && mass < kOsmium * volume;
+    char text[160];
+    std::snprintf(text, sizeof(text),
+                  possible ? "its mass, %.4g kg, is the file's"
+                           : "no matter of its size weighs what the file says, %.4g kg: its kind's "
+                             "mass is taken",
+                  mass);
+    findings->push_back({"urdf-mass",
+                         possible ? core::Severity::kInfo : core::Severity::kWarning,
+                         item.mesh.filename().string(), text, mass,
+                         possible ? "" : "mend the file's mass, or give --mass"});
+    if (possible) stated->mass = mass;
   }
 
   // Refuses a size that no one stated and that is absurd, and any that physics cannot hold.

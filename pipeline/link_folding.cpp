@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "assets/joint_poses.h"
+#include "assets/primitive_meshes.h"
 #include "core/error.h"
+#include "core/finding_text.h"
 
 namespace simwright::pipeline {
 namespace {
@@ -17,7 +19,11 @@ using assets::UrdfLink;
 using assets::UrdfModel;
 using assets::UrdfShape;
 
+constexpr double kMarkShare = 0.02;  // of what the links measure, the edge of a root's cube
+constexpr double kWater = 1000.0;     // kg/m3, of that cube
 constexpr double kRounding = 1e-12;  // of an axis, what turning by 1.5708 leaves
+
+constexpr const char* kRootMarked = "root-marked";
 
 bool HasShapes(const UrdfLink& link) {
   return !link.visuals.empty() || !link.collisions.empty();
@@ -67,10 +73,10 @@ class Folding {
     model_->joints.clear();
     for (Node& node : nodes_) {
       if (node.gone) continue;
+      if (!HasShapes(node.link) && node.parent < 0 && !node.children.empty()) MarkRoot(&node.link);
       if (!HasShapes(node.link)) {
-        throw core::Error("link '" + node.link.name + "' has no shape" +
-                              (node.parent < 0 ? ", and it is the root" : ", and it moves"),
-                          model_->name, "give it a mesh, or mend the file names of those it has");
+        throw core::Error("link '" + node.link.name + "' has no shape, and it moves", model_->name,
+                          "give it a mesh, or mend the file names of those it has");
       }
       if (node.parent >= 0) {
         node.joint.parent = nodes_[static_cast<size_t>(node.parent)].link.name;
@@ -112,6 +118,28 @@ class Folding {
     TransformShapes(Eigen::Affine3d(index_from_child), &nodes_[index].link);
     TransformInertial(index_from_child, 1.0, &nodes_[index].link);
     return true;
+  }
+
+  // A "world" that a hinge or slide hangs on: a small cube at its origin stands for it.
+  void MarkRoot(UrdfLink* root) {
+    Eigen::AlignedBox3d bounds;
+    for (const Node& node : nodes_) {
+      if (node.gone) continue;
+      for (const auto* shapes : {&node.link.visuals, &node.link.collisions}) {
+        for (const UrdfShape& shape : *shapes) bounds.extend(core::Bounds(shape.mesh));
+      }
+    }
+    if (bounds.isEmpty()) return;
+    const double edge = kMarkShare * bounds.diagonal().norm();
+    root->visuals.push_back({assets::BoxMesh(Eigen::Vector3d::Constant(edge)), ""});
+    const double mass = kWater * edge * edge * edge;
+    root->inertial = assets::Inertial{mass, Eigen::Vector3d::Zero(),
+                                      mass * edge * edge / 6.0 * Eigen::Matrix3d::Identity()};
+    model_->findings.push_back({kRootMarked, core::Severity::kWarning, root->name,
+                                "it is the root and has no shape: a cube of " +
+                                    core::Millimetres(edge) +
+                                    " stands for it, and the asset is held there",
+                                edge, "give it a mesh where there is one"});
   }
 
   void HandUpChildren(size_t index) {
@@ -175,6 +203,11 @@ void TakeFloatingBaseAsRoot(UrdfModel* model) {
 
 }  // namespace
 
+bool HasMarkedRoot(const UrdfModel& model) {
+  return std::any_of(model.findings.begin(), model.findings.end(),
+                     [](const core::Finding& finding) { return finding.code == kRootMarked; });
+}
+
 void FoldEmptyLinks(UrdfModel* model) {
   TakeFloatingBaseAsRoot(model);
   Folding folding(model);
@@ -182,7 +215,7 @@ void FoldEmptyLinks(UrdfModel* model) {
   folding.WriteBack();
 }
 
-void NormaliseJoints(UrdfModel* model) {
+void NormaliseJoints(UrdfModel* model, bool keep_directions) {
   for (UrdfJoint& joint : model->joints) {
     if (joint.type == UrdfJointType::kFloating || joint.type == UrdfJointType::kPlanar) {
       throw core::Error("joint '" + joint.name + "' is floating or planar", model->name,
@@ -201,7 +234,7 @@ void NormaliseJoints(UrdfModel* model) {
       FixWithoutRange(&joint, model);
     } else {
       BringZeroWithin(&joint, model);
-      OpenUpwards(&joint, model);
+      if (!keep_directions) OpenUpwards(&joint, model);
     }
   }
 }

@@ -8,14 +8,17 @@ namespace simwright::pipeline {
 // fixed child that has some (its name, its shapes, its children), and one on a fixed joint that
 // finds none goes, its children hanging on its parent. What is seen and how it moves stays as it
 // was. A link's frame may change: what took a place has the frame that it took.
-// Throws core::Error, naming the link, where the root or a link that moves is left without shapes.
+// A root without any to take on gets a small cube, a finding, and such an asset is to be held.
+// Throws core::Error, naming the link, where a link that moves is left without shapes.
 void FoldEmptyLinks(assets::UrdfModel* model);
+bool HasMarkedRoot(const assets::UrdfModel& model);
 
 // Brings the joints to our conventions and reports each change in model->findings: zero lies
 // within the limits and the greater part of the range above it; a hinge or slide without a range
-// is fixed; one that mimics another moves on its own.
+// is fixed; one that mimics another moves on its own. With `keep_directions` the greater part may
+// lie below zero.
 // Throws core::Error for floating and planar joints, which no one joint of an asset can be.
-void NormaliseJoints(assets::UrdfModel* model);
+void NormaliseJoints(assets::UrdfModel* model, bool keep_directions = false);
 
 // Scales all lengths (shapes, joint origins, the limits of slides) and turns and moves the links'
 // frames: at zero all are parallel to the root's, which lies in the middle below the whole, and

@@ -40,6 +40,19 @@ const std::vector<UrdfShape>& ShapesOf(const UrdfLink& link) {
   return link.visuals.empty() ? link.collisions : link.visuals;
 }
 
+// What the link is solid by: the collisions that its author made (primitives, or meshes that are no
+// visuals), else what is seen of it.
+const std::vector<UrdfShape>& SolidShapesOf(const UrdfLink& link) {
+  const bool made = std::any_of(
+      link.collisions.begin(), link.collisions.end(), [&](const UrdfShape& collision) {
+        return collision.file.empty() ||
+               std::none_of(link.visuals.begin(), link.visuals.end(), [&](const UrdfShape& visual) {
+                 return visual.file == collision.file;
+               });
+      });
+  return made ? link.collisions : ShapesOf(link);
+}
+
 Eigen::Vector4f MeanColor(const core::Image& image) {
   Eigen::Vector4d sum = Eigen::Vector4d::Zero();
   const int count = image.width * image.height;
@@ -267,7 +280,7 @@ std::vector<std::vector<core::TriangleMesh>> ConvexPartsOf(const std::vector<Urd
   };
   std::vector<Job> jobs;
   for (size_t i = 0; i < links.size(); ++i) {
-    for (const UrdfShape& shape : ShapesOf(links[i])) {
+    for (const UrdfShape& shape : SolidShapesOf(links[i])) {
       for (core::TriangleMesh& piece : PiecesOf(shape.mesh)) jobs.push_back({i, std::move(piece), {}});
     }
   }

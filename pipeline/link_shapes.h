@@ -14,8 +14,8 @@ namespace simwright::pipeline {
 core::TexturedMesh ColoredVisual(const assets::UrdfLink& link);
 
 // Convex, closed, outward parts of at most 64 vertices for the matter of each link, in its frame:
-// each connected piece of what is seen (or collides, where nothing is seen) that is convex is its
-// own hull; a flat one is given 2 mm; any other becomes a solid and is decomposed, so that hollows
+// each connected piece of its collisions, where these are primitives or meshes of their own, else
+// of what is seen, that is convex is its own hull; a flat one is given 2 mm; any other becomes a solid and is decomposed, so that hollows
 // stay open, the coarser the smaller it is beside the whole. Pieces shorter than a fiftieth of
 // `whole` (m, the asset's diagonal) are hulls, those inside another part go, and of more than 256
 // parts of a link the largest are kept; that is reported. Pieces of all links are worked on in

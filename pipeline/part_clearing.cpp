@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "assets/joint_poses.h"
+#include "core/finding_text.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "geometry/convex_cut.h"
@@ -190,12 +191,15 @@ class Clearing {
       model_->excluded_pairs.emplace_back(model_->links[link].name, model_->links[other].name);
       Say("contact-excluded", core::Severity::kWarning, link,
           "it and " + NameOf(against) +
-              " overlap where their joint holds or moves them (mm): no contact is made between "
-              "them, in any of the formats",
+              " overlap by " + core::Millimetres(depth) +
+              " where their joint holds or moves them: no contact is made between them, in any of "
+              "the formats",
           depth, "mend the file's meshes for contact between them");
     } else if (told_.insert({link, against}).second) {
       Say("overlap", core::Severity::kWarning, link,
-          "its collision parts overlap " + NameOf(against) + " on its way, by (mm)", depth,
+          "its collision parts overlap " + NameOf(against) + " by " +
+              core::Millimetres(depth) + " on its way",
+          depth,
           "move one joint at a time, or mend the file's meshes");
     }
   }
@@ -228,7 +232,10 @@ class Clearing {
         LeaveOverlapping(pair.first, pair.second, depth);
       } else {
         Say("trimmed", core::Severity::kInfo, pair.first,
-            "its collision parts were trimmed so that they clear " + NameOf(pair.second), depth);
+            "its collision parts were trimmed by at most " +
+                core::Millimetres(std::max(depth, 0.0) + options_.gap) + " so that they clear " +
+                NameOf(pair.second),
+            depth);
       }
     }
   }

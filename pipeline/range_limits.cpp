@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assets/joint_poses.h"
+#include "core/finding_text.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "pipeline/link_overlap.h"
@@ -52,9 +53,9 @@ class Ranges {
         model_->excluded_pairs.emplace_back(model_->links[a].name, model_->links[b].name);
         result_.findings.push_back(
             {"overlap-excluded", core::Severity::kWarning, model_->links[a].name,
-             "it overlaps '" + model_->links[b].name +
-                 "', which no joint joins it to, with all joints at zero (mm): no contact is made "
-                 "between them",
+             "it overlaps '" + model_->links[b].name + "', which no joint joins it to, by " +
+                 core::Millimetres(depth) +
+                 " with all joints at zero: no contact is made between them",
              1e3 * depth, "mend the file's meshes for contact between them"});
       }
     }

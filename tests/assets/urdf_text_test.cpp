@@ -235,6 +235,29 @@ TEST_F(UrdfText, InertiaOfALargerBodyIsSaid) {
   EXPECT_TRUE(box.findings.empty());
 }
 
+// Bullet's files have commas between numbers, and "-1.57." for -1.57.
+TEST_F(UrdfText, NumbersThatOtherReadersTakeAreMended) {
+  const UrdfModel model = Read(
+      "<link name='a'><visual><origin xyz='0.1, 0.2,0.3'/><geometry><box size='1f 1 1'/></geometry>"
+      "</visual></link>" + Box("", "b") +
+      Joint("revolute", "<axis xyz='0 0 1'/><limit lower='-1.57.' upper='1' effort='1' "
+                        "velocity='1'/>"));
+  EXPECT_NEAR(core::Bounds(model.links[0].visuals[0].mesh).center().y(), 0.2, 1e-12);
+  EXPECT_NEAR(core::Bounds(model.links[0].visuals[0].mesh).sizes().x(), 1.0, 1e-12);
+  EXPECT_DOUBLE_EQ(model.joints[0].lower, -1.57);
+  EXPECT_EQ(Count(model.findings, "urdf-numbers"), 3);
+}
+
+TEST_F(UrdfText, WhatIsNoNumberIsRefused) {
+  for (const char* lower : {"0.5m", "-1.57.1", "90deg", "one", "1,5x"}) {
+    EXPECT_FALSE(ErrorOf(Box("", "a") + Box("", "b") +
+                         Joint("revolute", std::string("<axis xyz='0 0 1'/><limit lower='") +
+                                               lower + "' upper='2' effort='1' velocity='1'/>"))
+                     .empty())
+        << lower;
+  }
+}
+
 TEST_F(UrdfText, HalfAnInertialIsLeftOut) {
   const UrdfModel model = Read(WithInertial("<inertial><mass value='2'/></inertial>", true));
   EXPECT_FALSE(model.links[0].inertial);

@@ -15,6 +15,7 @@
 #include "assets/semantic_model.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "geometry/weld.h"
 #include "library/kinds.h"
 #include "partnet_cabinet.h"
 #include "pipeline/joint_clearance.h"
@@ -228,7 +229,6 @@ TEST_F(BoxUrdf, WhatCannotBeAnAssetIsOneLine) {
   ExpectRefused(two + Joint("floating", "a", "b", ""), "floating");
   ExpectRefused(two + Joint("planar", "a", "b", ""), "planar");
   ExpectRefused(two + Joint("revolute", "a", "b", ""), "limits");
-  ExpectRefused("<link name='a'/>" + Link("b", 0.2) + Joint("continuous", "a", "b", ""), "root");
   ExpectRefused(Link("a", 0.05) + "<link name='b'/>" + Joint("continuous", "a", "b", ""), "'b'");
   ExpectRefused("<link name='a'/><link name='b'/>" + Joint("continuous", "a", "b", ""), "shape");
   std::string chain = Link("l0", 0.05);
@@ -237,6 +237,40 @@ TEST_F(BoxUrdf, WhatCannotBeAnAssetIsOneLine) {
              Joint("revolute", "l" + std::to_string(i - 1), "l" + std::to_string(i), Range(0, 1));
   }
   ExpectRefused(chain, "500 joints");
+}
+
+// Files hang a thing on an empty "world" by its first joint: it is held where that joint is.
+TEST_F(BoxUrdf, ARootWithoutShapeIsMarkedAndHeld) {
+  const ArticulatedAsset asset = Import("<link name='world'/>" + Link("b", 0.2) +
+                                        Joint("continuous", "world", "b", "<origin xyz='0 0 1'/>"));
+  ASSERT_EQ(asset.links.size(), 2u);
+  EXPECT_EQ(asset.links[0].name, "world_link");  // "world" is MuJoCo's own
+  EXPECT_TRUE(asset.fixed);
+  EXPECT_EQ(Count(asset.findings, "root-marked"), 1);
+  // One cube, small beside the box, round the file's origin, which the joint lies 1 m above.
+  const Eigen::AlignedBox3d cube = core::Bounds(asset.links[0].parts.at(0));
+  const Eigen::AlignedBox3d box = core::Bounds(asset.links[1].parts.at(0));
+  EXPECT_LT(cube.sizes().maxCoeff(), 0.05 * box.diagonal().norm());
+  const double joint_height = asset.joints[0].parent_from_joint.translation().z();
+  EXPECT_NEAR(joint_height - cube.center().z(), 1.0, 1e-9);
+}
+
+// The collisions that an author made are the parts; where they repeat the visuals, these are.
+TEST_F(BoxUrdf, CollisionsOfTheirOwnAreTheParts) {
+  const std::string seen =
+      "<link name='b'><visual><origin xyz='0 0 0.2'/><geometry><box size='0.1 0.1 0.1'/></geometry>"
+      "</visual>";
+  const auto volume = [&](const std::string& collision) {
+    const ArticulatedAsset asset = Import(Link("a", 0.05) + seen + collision + "</link>" +
+                                          Joint("continuous", "a", "b", ""));
+    double sum = 0.0;
+    for (const auto& part : asset.links[1].parts) sum += geometry::SignedVolume(part);
+    return sum;
+  };
+  EXPECT_NEAR(volume(""), 1e-3, 1e-6);
+  EXPECT_NEAR(volume("<collision><origin xyz='0 0 0.2'/><geometry><box size='0.08 0.05 0.1'/>"
+                     "</geometry></collision>"),
+              4e-4, 1e-6);
 }
 
 TEST_F(BoxUrdf, JointsFollowOurConventions) {

@@ -86,6 +86,26 @@ TEST_F(ImportFindings, WhatIsStatedWins) {
   EXPECT_EQ(Import(mesh + " --category box --mass -1").code, 2);
 }
 
+// A rigid URDF weighs what it says, where matter can, and what is stated wins.
+TEST_F(ImportFindings, ARigidUrdfKeepsItsMass) {
+  const auto urdf = [&](double mass) {
+    const fs::path file = folder_.path() / "brick.urdf";
+    std::ofstream(file) << "<robot name='brick'><link name='b'><inertial><mass value='" << mass
+                        << "'/><inertia ixx='0.01' iyy='0.01' izz='0.01' ixy='0' ixz='0' iyz='0'/>"
+                           "</inertial><visual><geometry><box size='0.2 0.1 0.06'/></geometry>"
+                           "</visual></link></robot>";
+    return file.string() + " --category object";
+  };
+  ASSERT_EQ(Import(urdf(2.5)).code, 0);
+  EXPECT_NEAR(Read("brick").inertial.mass, 2.5, 1e-6);
+  const Outcome heavy = Import(urdf(300.0));  // 250 t/m3
+  ASSERT_EQ(heavy.code, 0) << heavy.text;
+  EXPECT_NE(heavy.text.find("no matter of its size weighs"), std::string::npos) << heavy.text;
+  EXPECT_LT(Read("brick").inertial.mass, 10.0);
+  ASSERT_EQ(Import(urdf(2.5) + " --mass 3").code, 0);
+  EXPECT_NEAR(Read("brick").inertial.mass, 3.0, 1e-6);
+}
+
 TEST_F(ImportFindings, TheUpAxisIsGuessedAndSaid) {
   // A bottle that stands along z in a format whose usual axis is y.
   core::TriangleMesh bottle = assets::BoxMesh({0.07, 0.07, 0.3});
