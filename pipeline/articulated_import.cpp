@@ -173,11 +173,11 @@ void Add(const core::Findings& some, UrdfModel* model) {
 }
 
 // Replaces the links' collisions by convex parts.
-void MakeParts(core::Progress* progress, UrdfModel* model) {
+void MakeParts(bool robot, core::Progress* progress, UrdfModel* model) {
   const double whole = BoundsAtZero(*model).diagonal().norm();
   progress->Stage("collision parts", 1);
   std::vector<std::vector<core::TriangleMesh>> parts =
-      ConvexPartsOf(model->links, whole, &model->findings);
+      ConvexPartsOf(model->links, whole, robot, &model->findings);
   for (size_t i = 0; i < parts.size(); ++i) {
     assets::UrdfLink& link = model->links[i];
     if (link.visuals.empty()) link.visuals = link.collisions;
@@ -389,7 +389,7 @@ ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImport
               SizeOf(BoundsAtZero(source.model)));
   StandOnOrigin(scale, &source.model);
   bool fixed = robot || HasMarkedRoot(source.model) || StandsFixed(source, category.category->name);
-  MakeParts(progress, &source.model);
+  MakeParts(robot, progress, &source.model);
   ClearTheWay(robot, &fixed, &source.model);
 
   ArticulatedAsset asset = AssetFrom(source);
@@ -413,8 +413,8 @@ ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImport
     asset.features[assets::kKindFeature] = assets::kRobotKind;
     asset.findings.push_back(
         {"robot", core::Severity::kInfo, asset.name,
-         "it is taken for a robot: its root is held, and its motors hold its joints, whose friction "
-         "and damping stay as the file has them",
+         "it is taken for a robot: its root is held, its own collision meshes are convex hulls, and "
+         "its motors hold its joints, whose friction and damping stay as the file has them",
          static_cast<double>(MovingJoints(source.model)), "give --category where it is a thing"});
     return asset;
   }

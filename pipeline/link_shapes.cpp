@@ -40,17 +40,15 @@ const std::vector<UrdfShape>& ShapesOf(const UrdfLink& link) {
   return link.visuals.empty() ? link.collisions : link.visuals;
 }
 
-// What the link is solid by: the collisions that its author made (primitives, or meshes that are no
-// visuals), else what is seen of it.
-const std::vector<UrdfShape>& SolidShapesOf(const UrdfLink& link) {
-  const bool made = std::any_of(
+// Whether the link's author made its collisions: primitives, or meshes that are no visuals.
+bool HasOwnCollisions(const UrdfLink& link) {
+  return std::any_of(
       link.collisions.begin(), link.collisions.end(), [&](const UrdfShape& collision) {
         return collision.file.empty() ||
                std::none_of(link.visuals.begin(), link.visuals.end(), [&](const UrdfShape& visual) {
                  return visual.file == collision.file;
                });
       });
-  return made ? link.collisions : ShapesOf(link);
 }
 
 Eigen::Vector4f MeanColor(const core::Image& image) {
@@ -271,7 +269,7 @@ core::TexturedMesh ColoredVisual(const UrdfLink& link) {
 }
 
 std::vector<std::vector<core::TriangleMesh>> ConvexPartsOf(const std::vector<UrdfLink>& links,
-                                                           double whole,
+                                                           double whole, bool hulls,
                                                            core::Findings* findings) {
   struct Job {
     size_t link = 0;
@@ -280,7 +278,12 @@ std::vector<std::vector<core::TriangleMesh>> ConvexPartsOf(const std::vector<Urd
   };
   std::vector<Job> jobs;
   for (size_t i = 0; i < links.size(); ++i) {
-    for (const UrdfShape& shape : SolidShapesOf(links[i])) {
+    const bool own = HasOwnCollisions(links[i]);
+    for (const UrdfShape& shape : own ? links[i].collisions : ShapesOf(links[i])) {
+      if (own && hulls && !shape.mesh.empty() && !IsFlat(shape.mesh)) {
+        jobs.push_back({i, geometry::ConvexHull(shape.mesh.vertices), {}});
+        continue;
+      }
       for (core::TriangleMesh& piece : PiecesOf(shape.mesh)) jobs.push_back({i, std::move(piece), {}});
     }
   }

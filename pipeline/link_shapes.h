@@ -13,14 +13,16 @@ namespace simwright::pipeline {
 // colours are one material. The files are read again for their materials.
 core::TexturedMesh ColoredVisual(const assets::UrdfLink& link);
 
-// Convex, closed, outward parts of at most 64 vertices for the matter of each link, in its frame:
-// each connected piece of its collisions, where these are primitives or meshes of their own, else
-// of what is seen, that is convex is its own hull; a flat one is given 2 mm; any other becomes a solid and is decomposed, so that hollows
-// stay open, the coarser the smaller it is beside the whole. Pieces shorter than a fiftieth of
-// `whole` (m, the asset's diagonal) are hulls, those inside another part go, and of more than 256
-// parts of a link the largest are kept; that is reported. Pieces of all links are worked on in
-// parallel. (links)
+// Convex, closed, outward parts of at most 64 vertices for the matter of each link, in its frame.
+// The matter is the link's collisions where these are primitives or meshes of their own, else what
+// is seen. Each connected piece that is convex is its own hull; a flat one is given 2 mm; any other
+// becomes a solid and is decomposed, so that hollows stay open, the coarser the smaller it is beside
+// the whole. Pieces shorter than a fiftieth of `whole` (m, the asset's diagonal) are hulls, those
+// inside another part go, and of more than 256 parts of a link the largest are kept; that is
+// reported. With `hulls` each collision mesh of a link's own is one hull, as Bullet and MuJoCo take
+// it. Pieces of all links are worked on in parallel. (links)
 std::vector<std::vector<core::TriangleMesh>> ConvexPartsOf(
-    const std::vector<assets::UrdfLink>& links, double whole, core::Findings* findings);
+    const std::vector<assets::UrdfLink>& links, double whole, bool hulls,
+    core::Findings* findings);
 
 }  // namespace simwright::pipeline

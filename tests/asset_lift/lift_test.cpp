@@ -9,6 +9,7 @@
 #include "geometry/mass_properties.h"
 #include "geometry/soundness.h"
 #include "render/forward.h"
+#include "tests/sanitized.h"
 
 namespace simwright::asset_lift {
 namespace {
@@ -78,6 +79,7 @@ TEST(Lift, ACylinderComesBackAsOne) {
 }
 
 TEST(Lift, EstimatesTheElevationOfAPot) {
+  SKIP_UNDER_SANITIZERS();
   for (const double elevation : {0.2, 0.4, 0.6}) {
     core::Progress progress;
     const LiftedMesh lifted =

@@ -11,6 +11,7 @@
 #include "asset_lift/segmentation.h"
 #include "core/error.h"
 #include "core/random.h"
+#include "tests/sanitized.h"
 
 namespace simwright::asset_lift {
 namespace {
@@ -79,6 +80,7 @@ std::string Refusal(const core::Image& photo) {
 }
 
 TEST(SegmentationRefusals, AnEmptyTableIsNoObject) {
+  SKIP_UNDER_SANITIZERS();
   for (const auto& table : {Plain, Spot, WallAndTable}) {
     const std::string refusal = Refusal(Drawn(table, 4.0));
     EXPECT_NE(refusal.find("stands out"), std::string::npos) << refusal;

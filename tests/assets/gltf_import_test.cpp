@@ -34,7 +34,7 @@ class GltfImport : public MeshFolder {
                                 {{{"attributes", {{"POSITION", corners}, {"TEXCOORD_0", uvs}}},
                                   {"indices", faces},
                                   {"material", 0}}}}}};
-    builder.root["materials"] = {json::object()};
+    builder.root["materials"] = json::array({json::object()});
     return builder;
   }
   static json& Primitive(GltfBuilder* builder) {
@@ -327,7 +327,7 @@ TEST_F(GltfImport, CompressedTexturesAreNamed) {
 TEST_F(GltfImport, SpecularGlossinessUnlitAndGlowGiveColour) {
   GltfBuilder builder = Tetrahedron();
   Primitive(&builder)["material"] = 0;
-  builder.root["materials"] = {json::object()};
+  builder.root["materials"] = json::array({json::object()});
   builder.root["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {
       {"diffuseFactor", {0, 1, 0, 1}}};
   EXPECT_NEAR((Shown(Read(builder).mesh, 0) - Eigen::Vector4f(0, 1, 0, 1)).norm(), 0.0, 1e-6);
@@ -351,7 +351,7 @@ TEST_F(GltfImport, AlphaOfOpaqueMaterialsDoesNotCount) {
 TEST_F(GltfImport, WhatIsNotReadIsSaid) {
   GltfBuilder builder = Square();
   builder.root["materials"][0]["normalTexture"] = {{"index", 0}};
-  builder.root["animations"] = {json::object()};
+  builder.root["animations"] = json::array({json::object()});
   builder.root["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_clearcoat"};
   const MeshFile file = Read(builder);
   EXPECT_EQ(CountOf(file, "gltf-maps-not-read"), 1);

@@ -8,6 +8,7 @@
 #include "geometry/soundness.h"
 #include "geometry/weld.h"
 #include "tests/geometry/solid_shapes.h"
+#include "tests/sanitized.h"
 
 namespace simwright::geometry {
 namespace {
@@ -100,6 +101,7 @@ TEST(ExactHull, AgreesWithOurs) {
 
 // A loaf: dense points on surfaces that are flat but for their noise, joined by round edges.
 TEST(ConvexHull, OfALoafIsNotCalledFlat) {
+  SKIP_UNDER_SANITIZERS();
   for (int seed = 0; seed < 4; ++seed) {
     core::Rng rng = core::StreamRng(seed, 9);
     std::vector<Vector3d> points;

@@ -13,6 +13,7 @@
 #include "geometry/soundness.h"
 #include "geometry/weld.h"
 #include "tests/geometry/solid_shapes.h"
+#include "tests/sanitized.h"
 
 namespace simwright::geometry {
 namespace {
@@ -115,6 +116,7 @@ TEST(Decompose, BoxesAreFoundExactly) {
 }
 
 TEST(Decompose, MeetsTheThresholdCoversAndLeavesHollowsOpen) {
+  SKIP_UNDER_SANITIZERS();
   for (const core::TriangleMesh& mesh :
        {shapes::Torus(1, .3, 32, 16), shapes::Cup(.04, .1, .004, 24), shapes::Bowl(.08, .01, 24)}) {
     const ConvexDecomposition d = Decompose(mesh);

@@ -13,6 +13,7 @@
 #include "geometry/surface_distance.h"
 #include "geometry/weld.h"
 #include "tests/geometry/solid_shapes.h"
+#include "tests/sanitized.h"
 
 namespace simwright::geometry {
 namespace {
@@ -101,6 +102,7 @@ TEST(Solid, InnerShellsAreDroppedAndNeighboursKept) {
 }
 
 TEST(Solid, CrossingBoxesBecomeTheirUnion) {
+  SKIP_UNDER_SANITIZERS();
   TriangleMesh boxes = Box({0, 0, 0}, {2, 1, 1});
   core::Append(Box({1, 0.25, 0.5}, {3, 0.75, 2}), &boxes);
   const Solid solid = MakeSolid(boxes);
@@ -126,6 +128,7 @@ TEST(Solid, OpenSheetsGetAWall) {
 }
 
 TEST(Solid, ABoxWithoutALidIsAVessel) {
+  SKIP_UNDER_SANITIZERS();
   TriangleMesh open = Box({0, 0, 0}, {1, 1, 1});
   open.triangles.erase(open.triangles.begin() + 2, open.triangles.begin() + 4);
   const Solid solid = MakeSolid(open);
@@ -166,6 +169,7 @@ TEST(Solid, ASingleTriangleAndASoupBecomeSolids) {
 }
 
 TEST(Solid, ScaleAndPlaceDoNotMatter) {
+  SKIP_UNDER_SANITIZERS();
   TriangleMesh boxes = Box({0, 0, 0}, {2, 1, 1});
   core::Append(Box({1, 0.25, 0.5}, {3, 0.75, 2}), &boxes);
   for (const double scale : {1e-9, 1e9}) {
@@ -178,6 +182,7 @@ TEST(Solid, ScaleAndPlaceDoNotMatter) {
 }
 
 TEST(Solid, ThreadsDoNotMatter) {
+  SKIP_UNDER_SANITIZERS();
   TriangleMesh boxes = Box({0, 0, 0}, {2, 1, 1});
   core::Append(Torus(1.0, 0.3, 30, 12), &boxes);
   core::SetThreadCount(1);

@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "rl/ppo.h"
+#include "tests/sanitized.h"
 
 namespace simwright::rl {
 namespace {
@@ -38,6 +39,7 @@ TEST(InvertedPendulum, FallsAsTheEquationsOfMotionSay) {
 }
 
 TEST(Ppo, KeepsAPoleUpright) {
+  SKIP_UNDER_SANITIZERS();
   core::SetThreadCount(2);
   InvertedPendulum environment(16);
   PpoOptions options;

@@ -12,6 +12,7 @@
 #include "rl/ppo_learner.h"
 #include "rl/training_checkpoint.h"
 #include "tests/rl/reach_environment.h"
+#include "tests/sanitized.h"
 
 namespace simwright::rl {
 namespace {
@@ -56,6 +57,7 @@ Eigen::RowVector2d BestGain(double discount) {
 }
 
 TEST(Ppo, ComesWithinAFewPercentOfTheBestPolicy) {
+  SKIP_UNDER_SANITIZERS();
   core::SetThreadCount(2);
   ReachEnvironment environment(32);
   Ppo ppo(&environment, SmallOptions());
@@ -114,6 +116,7 @@ class ShownReach : public ReachEnvironment {
 };
 
 TEST(Ppo, ImitatesWhatIsShownAndKeepsItAfterwards) {
+  SKIP_UNDER_SANITIZERS();
   core::SetThreadCount(2);
   ShownReach environment(32);
   PpoOptions options = SmallOptions();

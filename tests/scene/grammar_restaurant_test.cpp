@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene/drawn_objects.h"
+#include "tests/sanitized.h"
 
 namespace simwright::scene {
 namespace {
@@ -41,6 +42,7 @@ int CountOf(const SceneDraw& draw, const std::string& slot) {
 }
 
 TEST(Restaurant, TablesChairsAndShelvesAreKeptApart) {
+  SKIP_UNDER_SANITIZERS();
   const std::map<std::string, double> radii = {
       {"table_restaurant", 0.8}, {"chair", 0.35}, {"shelf_living_room", 0.3}};
   for (const auto* draws : {&Highs(), &Lows()}) {

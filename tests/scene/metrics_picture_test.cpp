@@ -16,6 +16,7 @@
 #include "scene/metrics/frechet.h"
 #include "scene/metrics/penetration.h"
 #include "scene/metrics/scene_features.h"
+#include "tests/sanitized.h"
 
 namespace simwright::scene {
 namespace {
@@ -162,6 +163,7 @@ TEST(CountPicture, CountsByQuarters) {
 }
 
 TEST(SceneFeatures, LearnToCount) {
+  SKIP_UNDER_SANITIZERS();
   core::SetThreadCount(1);
   const Palette palette = Boxes();
   const core::Camera camera = LabelCamera("dimsum");

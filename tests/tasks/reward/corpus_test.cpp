@@ -15,6 +15,7 @@
 #include "core/files.h"
 #include "tasks/reward/reward_program.h"
 #include "tests/tasks/reward/sample_scene.h"
+#include "tests/sanitized.h"
 
 namespace simwright::tasks {
 namespace {
@@ -190,6 +191,7 @@ std::vector<CorpusRun> Programs() {
 }
 
 TEST(RewardCorpus, GivesTheNumbersOfPython) {
+  SKIP_UNDER_SANITIZERS();
   const std::vector<CorpusRun> runs = Programs();
   const core::TemporaryFolder temporary;
   const fs::path& folder = temporary.path();
