@@ -19,8 +19,6 @@
 #include "core/files.h"
 #include "core/finding_text.h"
 #include "core/parallel.h"
-#include "geometry/convex_hull.h"
-#include "geometry/weld.h"
 #include "pipeline/articulated_import.h"
 #include "pipeline/articulated_preview.h"
 #include "pipeline/catalogue_meshes.h"
@@ -33,8 +31,9 @@ namespace simwright::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
-// kg/m3 of a URDF's hull: less than foam weighs, and osmium.
-constexpr double kLightest = 5.0, kOsmium = 22600.0;
+// kg/m3 of a URDF's bounding box: less than an empty carton has, and osmium.
+constexpr double kLightest = 1.0, kOsmium = 22600.0;
+constexpr double kThinnest = 1e-3;  // m, a side of that box
 
 constexpr const char* kStopped = "stopped before it was done";
 
@@ -242,7 +241,7 @@ class Importer {
     }
     const double mass = StatedMass(assets::ReadUrdf(item.mesh, {item.root, true}));
     if (!(mass > 0.0)) return;
-    const double volume = geometry::SignedVolume(geometry::ConvexHull(visual.vertices));
+    const double volume = core::Bounds(visual).sizes().cwiseMax(kThinnest).prod();
     const bool possible = mass > kLightest * volume && mass < kOsmium * volume;
     char text[160];
     std::snprintf(text, sizeof(text),

@@ -278,7 +278,7 @@ std::vector<std::vector<core::TriangleMesh>> ConvexPartsOf(const std::vector<Urd
   };
   std::vector<Job> jobs;
   for (size_t i = 0; i < links.size(); ++i) {
-    const bool own = HasOwnCollisions(links[i]);
+    const bool own = hulls ? !links[i].collisions.empty() : HasOwnCollisions(links[i]);
     for (const UrdfShape& shape : own ? links[i].collisions : ShapesOf(links[i])) {
       if (own && hulls && !shape.mesh.empty() && !IsFlat(shape.mesh)) {
         jobs.push_back({i, geometry::ConvexHull(shape.mesh.vertices), {}});

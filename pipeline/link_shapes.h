@@ -19,8 +19,8 @@ core::TexturedMesh ColoredVisual(const assets::UrdfLink& link);
 // becomes a solid and is decomposed, so that hollows stay open, the coarser the smaller it is beside
 // the whole. Pieces shorter than a fiftieth of `whole` (m, the asset's diagonal) are hulls, those
 // inside another part go, and of more than 256 parts of a link the largest are kept; that is
-// reported. With `hulls` each collision mesh of a link's own is one hull, as Bullet and MuJoCo take
-// it. Pieces of all links are worked on in parallel. (links)
+// reported. With `hulls` a link's collision meshes are one hull each, as Bullet and MuJoCo take
+// them. Pieces of all links are worked on in parallel. (links)
 std::vector<std::vector<core::TriangleMesh>> ConvexPartsOf(
     const std::vector<assets::UrdfLink>& links, double whole, bool hulls,
     core::Findings* findings);
