@@ -17,6 +17,7 @@
 #include "pipeline/joint_feel.h"
 #include "pipeline/link_folding.h"
 #include "pipeline/link_shapes.h"
+#include "pipeline/link_weight.h"
 #include "pipeline/part_clearing.h"
 #include "pipeline/range_limits.h"
 #include "pipeline/standing.h"
@@ -234,15 +235,6 @@ void ClearTheWay(bool robot, bool* fixed, UrdfModel* model) {
   Add(robot ? SummedUp(cleared, model->name) : cleared, model);
 }
 
-geometry::MassProperties Weighed(const ArticulatedLink& link) {
-  geometry::MassProperties total;
-  for (size_t i = 0; i < link.parts.size(); ++i) {
-    const auto one = geometry::SolidMassProperties(link.parts[i], link.densities[i]);
-    total = total.mass > 0.0 ? geometry::Combined(total, one) : one;
-  }
-  return total;
-}
-
 // A stated mass or density for the whole.
 void Reweigh(const physics_params::StatedPhysics& stated, ArticulatedAsset* asset) {
   double before = 0.0;
@@ -257,8 +249,8 @@ void Reweigh(const physics_params::StatedPhysics& stated, ArticulatedAsset* asse
 }
 
 // Masses that the file gives for every link count where its lengths are metres too; else the
-// category's mass is split by volume. What is stated wins.
-void GiveMass(const UrdfModel& model, bool metric, const physics_params::Category& category,
+// category's mass is split by volume. What is stated wins. Returns whether the file's count.
+bool GiveMass(const UrdfModel& model, bool metric, const physics_params::Category& category,
               const physics_params::StatedPhysics& stated, ArticulatedAsset* asset) {
   double volume = 0.0;
   for (ArticulatedLink& link : asset->links) {
@@ -304,6 +296,7 @@ void GiveMass(const UrdfModel& model, bool metric, const physics_params::Categor
   p.mass.sample = mass;
   p.mass.min = std::min(p.mass.min, mass);
   p.mass.max = std::max(p.mass.max, mass);
+  return given;
 }
 
 // Large appliances are screwed to the wall, or their file leaves the weight in their base out.
@@ -400,8 +393,8 @@ ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImport
   asset.parameters = parameters;
   const core::Findings understood = physics_params::ResolutionFindings(category, asset.name);
   asset.findings.insert(asset.findings.end(), understood.begin(), understood.end());
-  GiveMass(source.model, !normalised && scale == options.unit, *category.category,
-           options.stated, &asset);
+  const bool given = GiveMass(
+      source.model, !normalised && scale == options.unit, *category.category, options.stated, &asset);
   Apply(options.stated, &asset.parameters);
   const physics_params::Material& material = *base.FindMaterial(parameters.material);
   for (ArticulatedLink& link : asset.links) {
@@ -418,6 +411,7 @@ ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImport
          static_cast<double>(MovingJoints(source.model)), "give --category where it is a thing"});
     return asset;
   }
+  if (!given) LightenHeavyHinges(&asset);
   if (!fixed) HoldWhatTips(&asset);
   core::Rng rng = core::StreamRng(options.seed, 1);
   GiveJointsFeel(rng, &asset);

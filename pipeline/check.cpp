@@ -142,17 +142,30 @@ void CheckDynamics(const assets::Asset& asset, const fs::path& folder, const Che
 
 }  // namespace
 
+namespace {
+
+// A row as a finding of its own: its figure stands before what it is the figure of.
+core::Finding InWords(core::Finding row) {
+  char figure[40];
+  std::snprintf(figure, sizeof(figure), "%.4g ", row.figure);
+  row.sentence = figure + row.sentence;
+  return row;
+}
+
+}  // namespace
+
 core::Findings CheckReport::Warnings() const {
   core::Findings warnings;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(warnings),
-               [](const core::Finding& row) { return row.severity == core::Severity::kWarning; });
+  for (const core::Finding& row : rows) {
+    if (row.severity == core::Severity::kWarning) warnings.push_back(InWords(row));
+  }
   return warnings;
 }
 
 core::Findings NotableRows(const CheckReport& report) {
   core::Findings rows;
   for (const core::Finding& row : report.rows) {
-    if (row.severity != core::Severity::kInfo) rows.push_back(row);
+    if (row.severity != core::Severity::kInfo) rows.push_back(InWords(row));
   }
   return rows;
 }
@@ -175,13 +188,10 @@ std::string FailureOf(const CheckReport& report) {
 
 CheckFailed::CheckFailed(const CheckReport& report, const std::string& name)
     : core::Error(FailureOf(report), name, "--no-check writes it all the same") {
-  for (core::Finding row : report.rows) {
+  for (const core::Finding& row : report.rows) {
     if (row.severity != core::Severity::kError) continue;
-    row.place = name;
-    char figure[40];
-    std::snprintf(figure, sizeof(figure), "%.4g ", row.figure);
-    row.sentence = figure + row.sentence;
-    rows_.push_back(row);
+    rows_.push_back(InWords(row));
+    rows_.back().place = name;
   }
 }
 
@@ -204,6 +214,7 @@ CheckReport CheckAsset(const fs::path& folder, const CheckLimits& limits) {
 CheckReport CheckBeforeKeeping(const fs::path& folder, const std::string& name,
                                const CheckLimits& limits) {
   CheckReport report = CheckAsset(folder, limits);
+  for (core::Finding& row : report.rows) row.place = name;  // the folder's name may be a passing one
   RequirePassed(report, name);
   assets::AddFindings(folder, report.Warnings());
   return report;

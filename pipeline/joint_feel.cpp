@@ -17,7 +17,6 @@ using assets::UrdfJoint;
 using assets::UrdfJointType;
 
 constexpr double kGravity = 9.81;     // m/s^2
-constexpr double kHoldFactor = 1.3;   // of the greatest weight on a joint, as in the library
 constexpr double kWeightShare = 0.1;  // of the whole's weight that a hand may need
 constexpr int kLoadSamples = 32;      // over a joint's range
 
@@ -51,16 +50,27 @@ double LeverOf(const ArticulatedAsset& asset, const std::vector<Eigen::Isometry3
 
 }  // namespace
 
+double GreatestLoad(const ArticulatedAsset& asset, size_t joint) {
+  const std::vector<int> parents = assets::ParentLinks(assets::ModelOf(asset));
+  std::vector<assets::Inertial> inertials;
+  for (const assets::ArticulatedLink& link : asset.links) inertials.push_back(link.inertial);
+  const UrdfJoint& j = asset.joints[joint];
+  double load = 0.0;
+  for (int k = 0; k <= kLoadSamples; ++k) {
+    const double position = LowerOf(j) + RangeOf(j) * k / kLoadSamples;
+    load = std::max(load, std::abs(assets::LoadOn(inertials, asset.joints, parents,
+                                                  static_cast<int>(joint), position)
+                                       .gravity));
+  }
+  return load;
+}
+
 void GiveJointsFeel(core::Rng& rng, ArticulatedAsset* asset) {
   const assets::UrdfModel model = assets::ModelOf(*asset);
   const std::vector<int> parents = assets::ParentLinks(model);
   const std::vector<Eigen::Isometry3d> poses = assets::LinkPosesAtZero(model);
-  std::vector<assets::Inertial> inertials;
   double mass = 0.0;
-  for (const assets::ArticulatedLink& link : asset->links) {
-    inertials.push_back(link.inertial);
-    mass += link.inertial.mass;
-  }
+  for (const assets::ArticulatedLink& link : asset->links) mass += link.inertial.mass;
   for (size_t i = 0; i < asset->joints.size(); ++i) {
     UrdfJoint& joint = asset->joints[i];
     if (!joint.Moves()) continue;
@@ -71,13 +81,7 @@ void GiveJointsFeel(core::Rng& rng, ArticulatedAsset* asset) {
       feel.damping *= most / feel.friction;
       feel.friction = most;
     }
-    double load = 0.0;
-    for (int k = 0; k <= kLoadSamples; ++k) {
-      const double position = LowerOf(joint) + RangeOf(joint) * k / kLoadSamples;
-      load = std::max(load, std::abs(assets::LoadOn(inertials, asset->joints, parents,
-                                                    static_cast<int>(i), position)
-                                         .gravity));
-    }
+    const double load = GreatestLoad(*asset, i);
     if (!(joint.damping > 0.0)) joint.damping = feel.damping;
     if (!(joint.friction > 0.0)) joint.friction = feel.friction;
     joint.friction = std::max(joint.friction, kHoldFactor * load);

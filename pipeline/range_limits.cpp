@@ -18,6 +18,7 @@ namespace {
 using assets::UrdfJoint;
 using assets::UrdfModel;
 
+constexpr double kOvershoot = 0.015;  // of a way that ends at an obstacle: engines overrun limits
 constexpr int kSteps = 48;      // over a joint's range: 2 degrees of a door
 constexpr int kBisections = 8;  // of one step
 
@@ -125,7 +126,7 @@ class Ranges {
         const double middle = 0.5 * (free + hit_at);
         (blocked(middle, &what) ? hit_at : free) = middle;
       }
-      ends[way < 0 ? 0 : 1] = free;
+      ends[way < 0 ? 0 : 1] = (1.0 - kOvershoot) * free;
     }
     if (worst.depth == 0.0) return;
     const double left = (ends[1] - ends[0]) / (upper - lower);
@@ -133,14 +134,15 @@ class Ranges {
       if (worst.floor) result_.floor_in_the_way = true;
       return;
     }
-    char figures[96];
+    char figures[96], share[32];
     std::snprintf(figures, sizeof(figures), " from [%.3g, %.3g] to [%.3g, %.3g]", lower, upper,
                   ends[0], ends[1]);
+    std::snprintf(share, sizeof(share), ": %.0f %% is left", 100.0 * left);
     const bool slides = joint.type == assets::UrdfJointType::kPrismatic;
     result_.findings.push_back(
         {"joint-cut", core::Severity::kWarning, joint.name,
          "its range was cut" + std::string(figures) + (slides ? " m" : " rad") +
-             ", where it would meet " + worst.name + "; share that is left",
+             ", where it would meet " + worst.name + share,
          left, worst.floor ? "stand it higher, and widen the limit" : ""});
     if (turns) joint.type = assets::UrdfJointType::kRevolute;
     joint.lower = ends[0];

@@ -17,6 +17,7 @@
 #include "core/files.h"
 #include "pipeline/articulated_import.h"
 #include "pipeline/joint_clearance.h"
+#include "pipeline/joint_feel.h"
 #include "program.h"
 #include "sim/articulated_world.h"
 #include "sim/joint_rig.h"
@@ -165,6 +166,26 @@ TEST_F(UrdfFaults, NestedDrawersAreExcludedByName) {
   EXPECT_EQ(Count(asset.findings, "overlap-excluded"), 1);
   EXPECT_NEAR(Figure(asset.findings, "overlap-excluded"), 9.0, 0.01);
   ASSERT_EQ(asset.excluded_pairs.size(), 1u);
+}
+
+// A drop-down door as thick as its cabinet's walls are thin has most of a mass that is split by
+// volume: a hand could not lift it. The whole weighs the same afterwards.
+TEST_F(UrdfFaults, ADoorThatNoHandCouldLiftIsLightened) {
+  const std::string file = Link("body", Box(-0.3, 0, 0.4, "0.02 0.6 0.8") +
+                                            Box(0, 0, 0.01, "0.6 0.6 0.02")) +
+                           Link("door", Box(0.05, 0, 0.35, "0.1 0.6 0.7")) +
+                           Joint("revolute", "door", "0.35 0 0.12", "0 1 0", 0.0, 1.4);
+  const ArticulatedAsset asset = Import(file, "dishwasher");
+  ASSERT_EQ(Count(asset.findings, "lightened"), 1);
+  const double moved = Figure(asset.findings, "lightened");
+  EXPECT_GT(moved, 1.0);
+  // 60 N m lift it with a tenth to spare: its weight, and friction of 1.3 times that.
+  EXPECT_NEAR(GreatestLoad(asset, 0), 0.9 * 60.0 / 2.3, 0.01);
+  const double whole = asset.links[0].inertial.mass + asset.links[1].inertial.mass;
+  EXPECT_NEAR(whole, asset.parameters.mass.sample, 1e-6);
+  // Split by volume the door had had this much, of the same whole.
+  const double share = 0.042 / (0.042 + 0.0096 + 0.0072);
+  EXPECT_NEAR(asset.links[1].inertial.mass + moved, share * whole, 0.02 * whole);
 }
 
 // A slider that would go on into another link, which stands free: it ends before it.
