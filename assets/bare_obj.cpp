@@ -47,7 +47,7 @@ bool ReadFace(std::string_view line, core::TriangleMesh* mesh) {
     // What is out of range is refused at the end.
     if (index >= 0 && index < count) corners.push_back(mesh->vertices[static_cast<size_t>(index)]);
   }
-  if (indices.size() < 3) return false;
+  if (indices.size() < 3) return !indices.empty();  // Blender writes loose edges as faces of two
   if (indices.size() == 3 || corners.size() != indices.size()) {
     for (size_t i = 1; i + 1 < indices.size(); ++i) {
       mesh->triangles.emplace_back(indices[0], indices[i], indices[i + 1]);

@@ -150,6 +150,8 @@ class Mending {
         ReplaceCapsule(link, shape, *what);
       } else if (name == "mesh") {
         MendMesh(link, shape, what);
+      } else if (name == "sphere" && what->DoubleAttribute("radius", -1.0) == 0.0) {
+        LeaveOut(link, shape, "a sphere of radius 0");
       } else if (name != "box" && name != "cylinder" && name != "sphere") {
         LeaveOut(link, shape, name.empty() ? "no geometry" : "the geometry <" + name + ">");
       }

@@ -35,6 +35,7 @@ constexpr int kMostJoints = 128;       // that move: a keyboard's keys; each is 
 constexpr double kSloppyShare = 0.02;  // of the diagonal: no more is trimmed of small things
 constexpr double kTippingMargin = 0.01;  // of the diagonal: what is nearer to tipping is jerked over
 constexpr int kRobotChain = 3;         // joints in a row
+constexpr int kArmChain = 5;
 constexpr int kRobotWheels = 4;
 constexpr double kHeaviest = 11000.0;  // kg/m^3: household metals are lighter
 
@@ -132,8 +133,10 @@ int LongestChain(const UrdfModel& model) {
 }
 
 // What is no household thing that we know and has an arm's or legs' joints, or many that turn
-// freely. A desk lamp has such a chain as well, and is known as a lamp.
+// freely. A desk lamp has such a chain as well, and is known as a lamp; no such thing has an arm's
+// whole chain.
 bool IsRobot(const UrdfModel& model, const physics_params::Category& category) {
+  if (LongestChain(model) >= kArmChain) return true;
   if (category.name != "object") return false;
   const auto wheels =
       std::count_if(model.joints.begin(), model.joints.end(), [](const auto& joint) {
@@ -365,9 +368,13 @@ ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImport
   const std::string where = urdf.string();
   RequireJoints(source.model, where);
   FoldEmptyLinks(&source.model);
-  const physics_params::Resolution category =
+  const bool known = !options.category.empty() || !source.category.empty();
+  physics_params::Resolution category =
       ImportCategory(options.category, source.category.empty() ? source.name : source.category);
-  const bool robot = IsRobot(source.model, *category.category);
+  const bool robot =
+      IsRobot(source.model, *category.category) && !(known && category.category->name != "object");
+  // What a robot's file is called says little of it ("model", "hand").
+  if (robot) category = ImportCategory("object", "");
   NormaliseJoints(&source.model, robot);
   RequireJoints(source.model, where);
   MakeNamesSafe(&source);

@@ -173,10 +173,12 @@ class Importer {
     // A URDF comes in as what it is: articulated, or rigid where no joint of it moves.
     if (IsUrdf(item.mesh)) {
       assets::SemanticModel source = assets::ReadSemanticModel(item.mesh, {item.root, true});
+      outcome->findings = source.model.findings;  // where it is refused, they say why
       if (HasMovingJoint(source)) {
         ImportJointed(item, std::move(source), progress, outcome);
         return;
       }
+      outcome->findings.clear();  // said again below
     }
     ImportRigid(item, catalogue, progress, outcome);
   }

@@ -19,7 +19,7 @@ using assets::UrdfLink;
 using assets::UrdfModel;
 using assets::UrdfShape;
 
-constexpr double kMarkShare = 0.02;  // of what the links measure, the edge of a root's cube
+constexpr double kMarkShare = 0.02;  // of what links and their ways measure, a root's cube
 constexpr double kWater = 1000.0;     // kg/m3, of that cube
 constexpr double kRounding = 1e-12;  // of an axis, what turning by 1.5708 leaves
 
@@ -75,7 +75,9 @@ class Folding {
       if (node.gone) continue;
       if (!HasShapes(node.link) && node.parent < 0 && !node.children.empty()) MarkRoot(&node.link);
       if (!HasShapes(node.link)) {
-        throw core::Error("link '" + node.link.name + "' has no shape, and it moves", model_->name,
+        throw core::Error("link '" + node.link.name + "' has no shape" +
+                              (node.parent < 0 ? "" : ", and it moves"),
+                          model_->name,
                           "give it a mesh, or mend the file names of those it has");
       }
       if (node.parent >= 0) {
@@ -123,14 +125,16 @@ class Folding {
   // A "world" that a hinge or slide hangs on: a small cube at its origin stands for it.
   void MarkRoot(UrdfLink* root) {
     Eigen::AlignedBox3d bounds;
+    double chain = 0.0;  // m, of joints' origins: links may be small beside the way between them
     for (const Node& node : nodes_) {
       if (node.gone) continue;
+      if (node.parent >= 0) chain += node.joint.parent_from_joint.translation().norm();
       for (const auto* shapes : {&node.link.visuals, &node.link.collisions}) {
         for (const UrdfShape& shape : *shapes) bounds.extend(core::Bounds(shape.mesh));
       }
     }
     if (bounds.isEmpty()) return;
-    const double edge = kMarkShare * bounds.diagonal().norm();
+    const double edge = kMarkShare * (bounds.diagonal().norm() + chain);
     root->visuals.push_back({assets::BoxMesh(Eigen::Vector3d::Constant(edge)), ""});
     const double mass = kWater * edge * edge * edge;
     root->inertial = assets::Inertial{mass, Eigen::Vector3d::Zero(),

@@ -66,7 +66,8 @@ TEST_F(MeshFiles, KeepsPartsMaterialsAndSharedVertices) {
 
 TEST_F(MeshFiles, ReadsItsOwnObjBitForBit) {
   core::TriangleMesh box = BoxMesh({0.1, 0.2, 1.0 / 3.0});
-  const core::TriangleMesh back = ReadBareObj(Write("box.obj", ObjText(box, true)));
+  const core::TriangleMesh back =
+      ReadBareObj(Write("box.obj", ObjText(box, true) + "f 1 2\nf 3\n"));  // an edge and a point
   for (size_t i = 0; i < box.vertices.size(); ++i) EXPECT_EQ(back.vertices[i], box.vertices[i]);
   EXPECT_EQ(back.triangles, box.triangles);
 }
