@@ -25,6 +25,8 @@ struct UnreadFormat {
 
 constexpr UnreadFormat kUnreadFormats[] = {
     {".fbx", "FBX", kByBlender},
+    {".xacro", "a xacro that was not expanded",
+     "expand it first: xacro FILE.xacro > FILE.urdf (ROS 2: ros2 run xacro xacro)"},
     {".blend", "a Blender file", "export it from Blender as GLB"},
     {".usd", "USD", kByBlender},
     {".usda", "USD", kByBlender},

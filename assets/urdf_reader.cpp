@@ -194,7 +194,7 @@ void Reader::AddInertial(const urdf::Inertial& from, UrdfLink* link) {
   if (!fault.sentence.empty()) {
     Warn("urdf-impossible-inertial",
          "link '" + link->name + "': " + fault.sentence + "; " +
-             (massive ? "that of a box of its size stands for it" : "it counts as none"),
+             (massive ? "it is not used" : "it counts as none"),
          fault.remedy);
     if (!massive) return;
     const Eigen::Vector3d s = shapes ? Eigen::Vector3d(box.sizes()) : Eigen::Vector3d(Eigen::Vector3d::Constant(0.01));

@@ -164,6 +164,7 @@ void AddImport(CLI::App* app, CommonOptions* common, Run* run) {
       ->check(CLI::PositiveNumber)
       ->default_str("by the unit");
   AddStatedOptions(command, &flags->options.size, &flags->options.stated);
+  command->get_option("--height")->excludes("--size");
   command->add_option("--only", flags->options.only, "Catalogues: pieces with this in the name")
       ->default_str("all");
   command->add_option("--limit", flags->options.limit, "Catalogues: at most so many pieces")

@@ -106,6 +106,7 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
       ->check(CLI::PositiveNumber)
       ->default_str("drawn by the category");
   AddStatedOptions(command, &flags->request.size, &flags->request.stated);
+  command->get_option("--height")->excludes("--size");
   command->add_option("--cameras", flags->cameras,
                       "JSON with the cameras of several photos of one thing (docs/formats.md)");
   command->add_option("--prior", flags->request.prior,

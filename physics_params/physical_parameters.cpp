@@ -97,7 +97,7 @@ std::string FollowSize(const Category& category, const Eigen::Vector3d& size, do
   }
   return "its size of " + Rounded(p->length.sample) + " x " + Rounded(p->width.sample) + " x " +
          Rounded(size.z()) + " m is unusual for '" + category.name +
-         "'; the mass was scaled with it";
+         "'; its kind's mass is scaled with it";
 }
 
 MassModel ReconcileMass(const PhysicalParameters& parameters, const Category& category,

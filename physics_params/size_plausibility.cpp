@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <tuple>
 
 #include "core/error.h"
 
@@ -72,21 +73,21 @@ std::string SizeSentence(const Category& category, const Eigen::Vector3d& size) 
          "', whose longest side is " + Rounded(usual.min) + " to " + Rounded(usual.max) + " m";
 }
 
-std::optional<std::string> UnitThatFits(const Category& category, const Eigen::Vector3d& numbers) {
+std::vector<std::string> UnitsThatFit(const Category& category, const Eigen::Vector3d& numbers) {
   const Interval usual = LongestSide(category);
   const double middle = std::sqrt(usual.min * usual.max);
-  std::optional<std::string> best;
-  double least = 0.0;
+  std::vector<std::tuple<bool, double, std::string>> fitting;
   for (const auto& unit : kUnits) {
     const double side = unit.metres * numbers.maxCoeff();
     // A tenth beyond the range is still the same kind of thing.
     if (side > 1.1 * usual.max || side < 0.9 * usual.min) continue;
-    const double distance = std::abs(std::log(side / middle));
-    if (best && distance >= least) continue;
-    best = unit.name;
-    least = distance;
+    const std::string name = unit.name;
+    fitting.emplace_back(name == "in" || name == "ft", std::abs(std::log(side / middle)), name);
   }
-  return best;
+  std::sort(fitting.begin(), fitting.end());
+  std::vector<std::string> names;
+  for (const auto& one : fitting) names.push_back(std::get<2>(one));
+  return names;
 }
 
 double MetresOfUnit(const std::string& unit) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -32,9 +32,9 @@ std::string SizeText(const Eigen::Vector3d& size);
 // 1.22 m"
 std::string SizeSentence(const Category& category, const Eigen::Vector3d& size);
 
-// The unit, one of m, cm, mm, in, ft, in which a thing whose sides are these numbers of a file has
-// a size of its category; the nearest to its middle where several do, none where none does.
-std::optional<std::string> UnitThatFits(const Category& category, const Eigen::Vector3d& numbers);
+// The units of m, cm, mm, in, ft in which a thing whose sides are these numbers of a file has a
+// size of its category: metric ones first, then those that bring it nearest to the middle.
+std::vector<std::string> UnitsThatFit(const Category& category, const Eigen::Vector3d& numbers);
 
 // Metres of one of these units. Throws core::Error for another name.
 double MetresOfUnit(const std::string& unit);

@@ -251,8 +251,37 @@ void Reweigh(const physics_params::StatedPhysics& stated, ArticulatedAsset* asse
   }
 }
 
-// Masses that the file gives for every link count where its lengths are metres too; else the
-// category's mass is split by volume. What is stated wins. Returns whether the file's count.
+// What the file says of a link's centre of mass and inertia, where the parts' integrals, which are
+// used, are far from it.
+void ReportReplacedInertials(const UrdfModel& model, ArticulatedAsset* asset) {
+  constexpr double kFar = 0.05;  // of the link's diagonal
+  double farthest = 0.0;
+  std::string worst;
+  int count = 0;
+  for (size_t i = 0; i < asset->links.size(); ++i) {
+    const auto& file = model.links[i].inertial;
+    if (!file) continue;
+    Eigen::AlignedBox3d box;
+    for (const core::TriangleMesh& part : asset->links[i].parts) box.extend(core::Bounds(part));
+    const double off = (file->center_of_mass - asset->links[i].inertial.center_of_mass).norm();
+    if (off <= kFar * box.diagonal().norm()) continue;
+    ++count;
+    if (off <= farthest) continue;
+    farthest = off;
+    worst = asset->links[i].name;
+  }
+  if (count == 0) return;
+  asset->findings.push_back(
+      {"inertial-replaced", core::Severity::kWarning, worst,
+       "its centre of mass lies " + core::Millimetres(farthest) +
+           " from the file's: inertials are made from the parts, of even density; so of " +
+           std::to_string(count) + " of " + std::to_string(asset->links.size()) + " links",
+       1e3 * farthest, "give a weight in it a shape of its own"});
+}
+
+// Masses that the file gives count where its lengths are metres too; a link that it gives none
+// has the mean density of the others. Else the category's mass is split by volume. What is stated
+// wins. Returns whether the file's count.
 bool GiveMass(const UrdfModel& model, bool metric, const physics_params::Category& category,
               const physics_params::StatedPhysics& stated, ArticulatedAsset* asset) {
   double volume = 0.0;
@@ -264,8 +293,23 @@ bool GiveMass(const UrdfModel& model, bool metric, const physics_params::Categor
   physics_params::PhysicalParameters& p = asset->parameters;
   const std::string unusual =
       physics_params::FollowSize(category, SizeOf(BoundsAtZero(model)), volume, &p);
-  const bool given = metric && std::all_of(model.links.begin(), model.links.end(),
-                                           [](const auto& link) { return link.inertial; });
+  double known = 0.0, known_volume = 0.0;
+  std::string guessed;
+  for (size_t i = 0; i < model.links.size(); ++i) {
+    if (model.links[i].inertial) {
+      known += model.links[i].inertial->mass;
+      known_volume += asset->links[i].volume;
+    } else {
+      guessed += (guessed.empty() ? "'" : "', '") + model.links[i].name;
+    }
+  }
+  const bool given = metric && known > 0.0;
+  if (given && !guessed.empty()) {
+    asset->findings.push_back({"urdf-mass-guessed", core::Severity::kWarning, asset->name,
+                               "the file gives no mass for " + guessed +
+                                   "': the mean density of the other links is taken",
+                               known / known_volume, "give each link an <inertial>"});
+  }
   if (!unusual.empty() && !given) {
     asset->findings.push_back(
         {"unusual-size", core::Severity::kWarning, asset->name, unusual, 0.0});
@@ -275,7 +319,10 @@ bool GiveMass(const UrdfModel& model, bool metric, const physics_params::Categor
   double mass = 0.0, densest = 0.0;
   for (size_t i = 0; i < asset->links.size(); ++i) {
     ArticulatedLink& link = asset->links[i];
-    const double density = given ? model.links[i].inertial->mass / link.volume : common;
+    const double density = !given ? common
+                           : model.links[i].inertial
+                               ? model.links[i].inertial->mass / link.volume
+                               : known / known_volume;
     link.densities.assign(link.parts.size(), density);
     const geometry::MassProperties total = Weighed(link);
     link.inertial = {total.mass, total.center_of_mass, total.inertia};
@@ -290,6 +337,7 @@ bool GiveMass(const UrdfModel& model, bool metric, const physics_params::Categor
       for (const double density : link.densities) densest = std::max(densest, density);
     }
   }
+  if (given) ReportReplacedInertials(model, asset);
   if (densest > kHeaviest) {
     asset->findings.push_back({"implausible-density", core::Severity::kWarning, asset->name,
                                "its walls are thin for its mass: the densest link has " +

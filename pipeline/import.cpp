@@ -23,6 +23,7 @@
 #include "pipeline/articulated_preview.h"
 #include "pipeline/catalogue_meshes.h"
 #include "pipeline/import_category.h"
+#include "pipeline/link_shapes.h"
 #include "pipeline/preview.h"
 #include "pipeline/rigid_urdf.h"
 #include "pipeline/up_axis.h"
@@ -151,6 +152,12 @@ core::TexturedMesh ReadRigidUrdf(const fs::path& urdf, const fs::path& root,
     if (finding.place == urdf.string()) finding.place = urdf.filename().string();
     findings->push_back(finding);
   }
+  if (std::any_of(model.links.begin(), model.links.end(), HasOwnCollisions)) {
+    findings->push_back({"urdf-collisions-left-out", core::Severity::kInfo,
+                         urdf.filename().string(),
+                         "its own collision shapes are left out: parts are made of what is seen",
+                         0.0});
+  }
   findings->push_back({"urdf-rigid", core::Severity::kInfo, urdf.filename().string(),
                        "no joint of it moves: it becomes one rigid thing", 0.0});
   return RigidVisual(model, findings);
@@ -247,7 +254,8 @@ class Importer {
     const bool possible = mass > kLightest * volume && mass < kOsmium * volume;
     char text[160];
     std::snprintf(text, sizeof(text),
-                  possible ? "its mass, %.4g kg, is the file's"
+                  possible ? "its mass, %.4g kg, is the file's; its centre and inertia are made from "
+                             "the shape"
                            : "no matter of its size weighs what the file says, %.4g kg: its kind's "
                              "mass is taken",
                   mass);

@@ -23,6 +23,19 @@ constexpr struct {
                      {"trashcan", "trash can"},
                      {"washingmachine", "washing machine"}};
 
+// "mug_cm" is a mug: the unit at the end of a file's name is no part of what it is.
+std::string WithoutUnit(std::string name) {
+  for (const char* unit : {"mm", "cm", "meters", "metres", "inches", "inch"}) {
+    const std::string ending = unit;
+    if (name.size() <= ending.size() + 1 || !name.ends_with(ending)) continue;
+    const char before = name[name.size() - ending.size() - 1];
+    if (before != '_' && before != '-' && before != ' ') continue;
+    name.resize(name.size() - ending.size() - 1);
+    break;
+  }
+  return name;
+}
+
 }  // namespace
 
 physics_params::Resolution ImportCategory(const std::string& wanted, const std::string& name) {
@@ -30,6 +43,7 @@ physics_params::Resolution ImportCategory(const std::string& wanted, const std::
   std::string known = name;
   std::transform(known.begin(), known.end(), known.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  known = WithoutUnit(known);
   for (const auto& row : kPartnetNames) {
     if (known == row.partnet) known = row.category;
   }

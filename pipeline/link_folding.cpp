@@ -136,9 +136,14 @@ class Folding {
     if (bounds.isEmpty()) return;
     const double edge = kMarkShare * (bounds.diagonal().norm() + chain);
     root->visuals.push_back({assets::BoxMesh(Eigen::Vector3d::Constant(edge)), ""});
+    const bool weighed = std::any_of(nodes_.begin(), nodes_.end(), [](const Node& node) {
+      return !node.gone && node.link.inertial.has_value();
+    });
     const double mass = kWater * edge * edge * edge;
-    root->inertial = assets::Inertial{mass, Eigen::Vector3d::Zero(),
-                                      mass * edge * edge / 6.0 * Eigen::Matrix3d::Identity()};
+    if (weighed) {
+      root->inertial = assets::Inertial{mass, Eigen::Vector3d::Zero(),
+                                        mass * edge * edge / 6.0 * Eigen::Matrix3d::Identity()};
+    }
     model_->findings.push_back({kRootMarked, core::Severity::kWarning, root->name,
                                 "it is the root and has no shape: a cube of " +
                                     core::Millimetres(edge) +

@@ -40,17 +40,6 @@ const std::vector<UrdfShape>& ShapesOf(const UrdfLink& link) {
   return link.visuals.empty() ? link.collisions : link.visuals;
 }
 
-// Whether the link's author made its collisions: primitives, or meshes that are no visuals.
-bool HasOwnCollisions(const UrdfLink& link) {
-  return std::any_of(
-      link.collisions.begin(), link.collisions.end(), [&](const UrdfShape& collision) {
-        return collision.file.empty() ||
-               std::none_of(link.visuals.begin(), link.visuals.end(), [&](const UrdfShape& visual) {
-                 return visual.file == collision.file;
-               });
-      });
-}
-
 Eigen::Vector4f MeanColor(const core::Image& image) {
   Eigen::Vector4d sum = Eigen::Vector4d::Zero();
   const int count = image.width * image.height;
@@ -252,6 +241,16 @@ void KeepOutermost(std::vector<core::TriangleMesh>* parts) {
 }
 
 }  // namespace
+
+bool HasOwnCollisions(const UrdfLink& link) {
+  return std::any_of(
+      link.collisions.begin(), link.collisions.end(), [&](const UrdfShape& collision) {
+        return collision.file.empty() ||
+               std::none_of(link.visuals.begin(), link.visuals.end(), [&](const UrdfShape& visual) {
+                 return visual.file == collision.file;
+               });
+      });
+}
 
 core::TexturedMesh ColoredVisual(const UrdfLink& link) {
   Painter painter;

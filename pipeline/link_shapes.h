@@ -13,6 +13,9 @@ namespace simwright::pipeline {
 // colours are one material. The files are read again for their materials.
 core::TexturedMesh ColoredVisual(const assets::UrdfLink& link);
 
+// Whether the link's author made its collisions: primitives, or meshes that are no visuals.
+bool HasOwnCollisions(const assets::UrdfLink& link);
+
 // Convex, closed, outward parts of at most 64 vertices for the matter of each link, in its frame.
 // The matter is the link's collisions where these are primitives or meshes of their own, else what
 // is seen. Each connected piece that is convex is its own hull; a flat one is given 2 mm; any other

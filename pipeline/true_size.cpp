@@ -81,12 +81,16 @@ void RequirePlausibleSize(const physics_params::Category& category, const Eigen:
                           double unit, const std::string& where, double most) {
   const double factor = physics_params::SizeFactor(category, sides);
   if (factor <= most && factor >= 1.0 / most) return;
-  const auto fits = physics_params::UnitThatFits(category, sides / unit);
+  std::vector<std::string> fits = physics_params::UnitsThatFit(category, sides / unit);
+  constexpr size_t kNamed = 2;
+  if (fits.size() > kNamed) fits.resize(kNamed);
   std::string remedy;
-  if (fits) {
-    remedy = "--unit " + *fits + " makes it " +
-             physics_params::SizeText(sides / unit * physics_params::MetresOfUnit(*fits)) +
-             "; or state --height or --size";
+  for (const std::string& one : fits) {
+    remedy += (remedy.empty() ? "" : ", ") + ("--unit " + one) + " makes it " +
+              physics_params::SizeText(sides / unit * physics_params::MetresOfUnit(one));
+  }
+  if (!fits.empty()) {
+    remedy += "; or state --height or --size";
   } else {
     remedy = "state its true size with --height or --size, or its unit with --unit";
   }
