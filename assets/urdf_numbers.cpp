@@ -42,7 +42,7 @@ std::string Cleaned(std::string text) {
   return cleaned;
 }
 
-// Whether `text` is numbers with white space between them, and nothing else.
+// True where `text` is numbers with white space between them, and nothing else.
 bool IsClean(const std::string& text) {
   std::istringstream words(text);
   for (std::string word; words >> word;) {

@@ -9,8 +9,8 @@
 
 #include "assets/joint_poses.h"
 #include "assets/semantic_model.h"
-#include "core/finding_text.h"
 #include "core/error.h"
+#include "core/finding_text.h"
 #include "geometry/mass_properties.h"
 #include "physics_params/knowledge_base.h"
 #include "pipeline/import_category.h"
@@ -251,8 +251,8 @@ void Reweigh(const physics_params::StatedPhysics& stated, ArticulatedAsset* asse
   }
 }
 
-// What the file says of a link's centre of mass and inertia, where the parts' integrals, which are
-// used, are far from it.
+// Reports links whose centre of mass in the file lies farther than 5 % of the link's diagonal from
+// the integral over its parts, which is the one that is used.
 void ReportReplacedInertials(const UrdfModel& model, ArticulatedAsset* asset) {
   constexpr double kFar = 0.05;  // of the link's diagonal
   double farthest = 0.0;
@@ -421,7 +421,7 @@ ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImport
       ImportCategory(options.category, source.category.empty() ? source.name : source.category);
   const bool robot =
       IsRobot(source.model, *category.category) && !(known && category.category->name != "object");
-  // What a robot's file is called says little of it ("model", "hand").
+  // The file name of a robot ("model", "hand") does not tell its category.
   if (robot) category = ImportCategory("object", "");
   NormaliseJoints(&source.model, robot);
   RequireJoints(source.model, where);

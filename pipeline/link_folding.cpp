@@ -148,7 +148,7 @@ class Folding {
                                 "it is the root and has no shape: a cube of " +
                                     core::Millimetres(edge) +
                                     " stands for it, and the asset is held there",
-                                edge, "give it a mesh where there is one"});
+                                1e3 * edge, "give it a mesh where there is one"});
   }
 
   void HandUpChildren(size_t index) {

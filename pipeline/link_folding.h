@@ -11,6 +11,8 @@ namespace simwright::pipeline {
 // A root without any to take on gets a small cube, a finding, and such an asset is to be held.
 // Throws core::Error, naming the link, where a link that moves is left without shapes.
 void FoldEmptyLinks(assets::UrdfModel* model);
+
+// True where FoldEmptyLinks gave the root that cube (finding `root-marked`).
 bool HasMarkedRoot(const assets::UrdfModel& model);
 
 // Brings the joints to our conventions and reports each change in model->findings: zero lies

@@ -9,11 +9,12 @@
 namespace simwright::pipeline {
 
 // What is seen of a link in its frame: its visuals, or what collides where it has none. A colour is
-// the visual's own in the URDF, else its file's material, a texture taken at its mean colour; equal
-// colours are one material. The files are read again for their materials.
+// the visual's own in the URDF, else its file's material times what its texture shows on the
+// triangle, where that is at most 16 colours, or times the texture's mean; equal colours are one
+// material. The files are read again for their materials.
 core::TexturedMesh ColoredVisual(const assets::UrdfLink& link);
 
-// Whether the link's author made its collisions: primitives, or meshes that are no visuals.
+// True where `link` has collision shapes of its own: primitives, or meshes that are no visuals.
 bool HasOwnCollisions(const assets::UrdfLink& link);
 
 // Convex, closed, outward parts of at most 64 vertices for the matter of each link, in its frame.

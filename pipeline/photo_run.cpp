@@ -191,8 +191,9 @@ PhotoRunOutcome OutcomeOf(const PhotoRunFolder& folder, const Json& report) {
   outcome.picture = folder.Strip();
   outcome.trajectory = folder.Trajectory();
   outcome.findings = assets::ReadAsset(folder.Asset()).findings;
-  const core::Findings exported =
-      assets::FindingsFrom(Json::parse(core::ReadFile(folder.Export())).at("findings"));
+  // An export of an earlier version has no findings.
+  const core::Findings exported = assets::FindingsFrom(
+      Json::parse(core::ReadFile(folder.Export())).value("findings", Json::array()));
   outcome.findings.insert(outcome.findings.end(), exported.begin(), exported.end());
   outcome.json = report.dump(2) + "\n";
   return outcome;

@@ -228,5 +228,31 @@ TEST_F(ObjImport, ColoursAtVerticesAreKept) {
               0.01);
 }
 
+// What an asset's folder gets, visual.obj with its materials and picture, shows the same colours.
+TEST_F(ObjImport, ColoursAtVerticesSurviveInVisualObj) {
+  const std::string faces = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  // Of the first the triangles' corners differ; the second is red all over.
+  for (const char* last : {" 1 1 0", " 1 0 0"}) {
+    const bool plain = std::string(last) == " 1 0 0";
+    std::string vertices = "v 0 0 0 1 0 0\n";
+    vertices += plain ? "v 1 0 0 1 0 0\nv 0 1 0 1 0 0\n" : "v 1 0 0 0 1 0\nv 0 1 0 0 0 1\n";
+    const MeshFile file =
+        ReadMeshFile(Write("c.obj", vertices + "v 0 0 1" + last + "\n" + faces));
+    EXPECT_EQ(file.mesh.textures.size(), plain ? 0u : 1u);
+    fs::create_directories(folder_ / "asset");
+    WriteVisual(file.mesh, folder_ / "asset");
+    const MeshFile back = ReadMeshFile(folder_ / "asset" / "visual.obj");
+    EXPECT_TRUE(back.findings.empty());
+    ASSERT_EQ(back.mesh.mesh.triangles.size(), 4u);
+    for (size_t t = 0; t < 4; ++t) {
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3f weights = Eigen::Vector3f::Unit(k);
+        EXPECT_NEAR((Shown(back.mesh, t, weights) - Shown(file.mesh, t, weights)).norm(), 0.0,
+                    0.01);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace simwright::assets
