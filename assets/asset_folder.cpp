@@ -28,6 +28,7 @@ Json AssetJson(const Asset& a) {
   json["volume_m3"] = a.volume;
   json["density_kg_m3"] = a.density;
   json["wall_thickness_m"] = a.wall_thickness;
+  json["wall_on_surface"] = a.wall_on_surface;
   json["mass_reconciled"] = a.mass_sentence;
   json["solid"] = {{"method", a.solid_method},
                    {"watertight", true},
@@ -58,6 +59,7 @@ Asset AssetFrom(const Json& json, const std::string& where) {
   a.volume = json.at("volume_m3");
   a.density = json.at("density_kg_m3");
   a.wall_thickness = json.at("wall_thickness_m");
+  a.wall_on_surface = json.value("wall_on_surface", a.wall_thickness > 0.0);
   a.mass_sentence = json.at("mass_reconciled");
   a.solid_method = json.at("solid").at("method");
   a.sheet_thickness = json.at("solid").at("sheet_thickness_m");

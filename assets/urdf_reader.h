@@ -74,6 +74,7 @@ struct UrdfModel {
   std::vector<UrdfJoint> joints;  // joints[i] leads to links[i + 1]
   std::vector<ExcludedPair> excluded_pairs = {};  // by <drake:collision_filter_group>
   core::Findings findings = {};                   // what was missing or mended
+  bool root_is_world = false;  // the root stands for the world: whoever simulates it holds it
 };
 
 struct UrdfReadOptions {

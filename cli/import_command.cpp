@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
+#include "cli/number_validators.h"
 #include "cli/stated_options.h"
 #include "core/error.h"
 #include "physics_params/size_plausibility.h"
@@ -161,7 +162,7 @@ void AddImport(CLI::App* app, CommonOptions* common, Run* run) {
       ->default_str("m")
       ->check(CLI::IsMember({"m", "cm", "mm", "in", "ft"}));
   command->add_option("--height", flags->options.height, "Scale to this height, m")
-      ->check(CLI::PositiveNumber)
+      ->check(Positive())
       ->default_str("by the unit");
   AddStatedOptions(command, &flags->options.size, &flags->options.stated);
   command->get_option("--height")->excludes("--size");

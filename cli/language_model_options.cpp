@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "cli/number_validators.h"
 #include "core/error.h"
 #include "llm/make_chat_model.h"
 
@@ -26,7 +27,7 @@ void AddLanguageModel(CLI::App* command, LanguageModelOptions* options) {
                    ->check(CLI::NonNegativeNumber));
   needs_server(command->add_option("--llm-timeout", options->timeout, "Seconds for one answer")
                    ->capture_default_str()
-                   ->check(CLI::PositiveNumber));
+                   ->check(Positive()));
   CLI::Option* record = needs_server(
       command->add_option("--record", options->record, "Write questions and answers to this file"));
   command->add_option("--replay", options->replay, "Answer from such a file; no network is used")

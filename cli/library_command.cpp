@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
+#include "cli/number_validators.h"
 #include "core/error.h"
 #include "core/image.h"
 #include "library/kinds.h"
@@ -130,7 +131,7 @@ void AddLibrary(CLI::App* app, CommonOptions* common, Run* run) {
       ->capture_default_str();
   command->add_option("--count", flags->options.count, "So many of each kind, seeds in a row")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(Positive());
   command->add_option("-o,--output", flags->output, "Folder for the assets, one folder each");
   command->add_option("--sheet", flags->sheet,
                       "Also a picture of all, what has joints closed and open");

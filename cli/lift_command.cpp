@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
+#include "cli/number_validators.h"
 #include "cli/stated_options.h"
 #include "core/error.h"
 #include "pipeline/lift.h"
@@ -103,7 +104,7 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_option("-o,--output", flags->request.output, "The asset's folder")->required();
   command->add_option("--mask", flags->mask, "Picture that is bright where the object is");
   command->add_option("--height", flags->request.height, "Its true height, m")
-      ->check(CLI::PositiveNumber)
+      ->check(Positive())
       ->default_str("drawn by the category");
   AddStatedOptions(command, &flags->request.size, &flags->request.stated);
   command->get_option("--height")->excludes("--size");

@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
+#include "cli/number_validators.h"
 #include "core/error.h"
 #include "core/folder_lock.h"
 #include "pipeline/prior_training.h"
@@ -125,13 +126,13 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
                    "Steps of the view prior")
       ->capture_default_str();
   command->add_option("--batch", flags->batch, "Photos a step")
-      ->check(CLI::PositiveNumber)
+      ->check(Positive())
       ->default_str("16");
   command->add_option("--pool", flags->pool, "Objects kept ready")
-      ->check(CLI::PositiveNumber)
+      ->check(Positive())
       ->default_str("160");
   command->add_option("--rate", flags->rate, "Learning rate")
-      ->check(CLI::PositiveNumber)
+      ->check(Positive())
       ->default_str("8e-4 shape, 1e-3 view");
   command->add_option("--from", flags->from,
                       "Folder of weights to begin with, to learn from a catalogue of one's own");

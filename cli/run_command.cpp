@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
+#include "cli/number_validators.h"
 #include "cli/training_options.h"
 #include "cli/usage.h"
 #include "core/error.h"
@@ -64,7 +65,7 @@ void AddRun(CLI::App* app, CommonOptions* common, Run* run) {
       ->default_str("pick it up");
   command->add_option("--mask", flags->mask, "Picture that is bright where the object is");
   command->add_option("--height", request->height, "Its true height, m")
-      ->check(CLI::PositiveNumber)
+      ->check(Positive())
       ->default_str("drawn by the category");
   AddChoice(command, "--lift", {"outline", "fast", "full"}, "fast", "How (docs/lift.md)",
             [flags](const std::string& name) { flags->request.effort = efforts.at(name); });

@@ -1,5 +1,7 @@
 #include "cli/stated_options.h"
 
+#include "cli/number_validators.h"
+
 namespace simwright::cli {
 
 void AddStatedOptions(CLI::App* command, pipeline::StatedSize* size,
@@ -12,12 +14,12 @@ void AddStatedOptions(CLI::App* command, pipeline::StatedSize* size,
       ->allow_extra_args(false)
       ->default_str("by the category");
   command->add_option("--mass", stated->mass, "Its true mass, kg")
-      ->check(CLI::PositiveNumber)
+      ->check(Positive())
       ->default_str("by the category");
   command
       ->add_option("--density", stated->density,
                    "Of its matter, kg/m3: fills the shape, or with --mass gives it walls")
-      ->check(CLI::PositiveNumber)
+      ->check(Positive())
       ->default_str("by the material");
   command->add_option("--friction", stated->friction, "Coulomb coefficient")
       ->check(CLI::Range(0.0, 10.0))

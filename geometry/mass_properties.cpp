@@ -105,6 +105,40 @@ MassProperties ShellMassProperties(const core::TriangleMesh& mesh, double wall_t
   return FromMoments(mesh, 2, wall_thickness, density, AreaMoments);
 }
 
+MassProperties HollowMassProperties(const core::TriangleMesh& mesh, double wall_thickness,
+                                    double density) {
+  const MassProperties solid = SolidMassProperties(mesh, density);
+  const MassProperties sheet = ShellMassProperties(mesh, wall_thickness, density);
+  const double wall_share = sheet.volume / (3.0 * solid.volume);
+  if (wall_share >= 1.0) {
+    throw core::Error("the wall is thicker than the body", "mass properties",
+                      "take the body as full");
+  }
+  // 1 - s^3 and 1 - s^5 as polynomials in u = 1 - s: no difference of nearly equal numbers.
+  const double u = wall_share;
+  const double cubic = 3.0 + u * (-3.0 + u);
+  const double quintic = 5.0 + u * (-10.0 + u * (10.0 + u * (-5.0 + u)));
+  const double sheet_weight = 1.5 * (quintic / cubic - 1.0);
+  MassProperties hollow;
+  hollow.volume = solid.volume * u * cubic;
+  hollow.mass = hollow.volume * density;
+  hollow.center_of_mass = sheet_weight * sheet.center_of_mass +
+                          (1.0 - sheet_weight) * solid.center_of_mass;
+  hollow.inertia = hollow.mass * (sheet_weight / sheet.mass * sheet.inertia +
+                                  (1.0 - sheet_weight) / solid.mass * solid.inertia);
+  return hollow;
+}
+
+double WallThickness(double fill, double volume, double area) {
+  RequirePositive(volume, "volume");
+  RequirePositive(area, "area");
+  if (!(fill > 0.0 && fill < 1.0)) {
+    throw core::Error("the filled share of a hollow body lies between 0 and 1", "wall thickness");
+  }
+  // 1 - cbrt(1 - fill) without cancellation.
+  return -3.0 * volume / area * std::expm1(std::log1p(-fill) / 3.0);
+}
+
 MassProperties Combined(const MassProperties& a, const MassProperties& b) {
   MassProperties sum;
   sum.volume = a.volume + b.volume;

@@ -22,11 +22,27 @@ struct MassProperties {
 // a volume that is not positive (an open or inside-out surface).
 MassProperties SolidMassProperties(const core::TriangleMesh& mesh, double density);
 
-// The same of a thin wall: the surface's area integrals times `wall_thickness` (m). The wall lies
-// on the surface; nothing is said of a wall that is thick against the body.
+// The mass properties of a sheet that lies on the surface: the area integrals times
+// `wall_thickness` (m), the limit of a thin wall.
 // Throws core::Error for an invalid mesh, no area, or a thickness or density that is not positive.
 MassProperties ShellMassProperties(const core::TriangleMesh& mesh, double wall_thickness,
                                    double density);
+
+// The mass properties of a hollow body: a wall of `wall_thickness` (m) inside the closed surface
+// `mesh`, of `density` (kg / m^3). With V and A the enclosed volume and the area, the cavity is
+// taken to hold s^3 V with s = 1 - thickness A / (3 V), and the centre and the inertia per mass to
+// be w of the sheet's and 1 - w of the solid's, w = 3/2 ((1 - s^5) / (1 - s^3) - 1). This is exact
+// for a surface whose faces all touch one inscribed sphere (sphere, cube, regular polyhedra), and
+// tends to the sheet for thin walls and to the solid for thick ones on any surface.
+// Throws core::Error as SolidMassProperties does, and for a thickness that is not in
+// (0, 3 V / A).
+MassProperties HollowMassProperties(const core::TriangleMesh& mesh, double wall_thickness,
+                                    double density);
+
+// The wall thickness (m) at which a hollow body of `volume` (m^3, enclosed) and `area` (m^2) holds
+// `fill` of its volume as matter, 0 < fill < 1: 3 V / A (1 - cbrt(1 - fill)); fill V / A for thin
+// walls. Throws core::Error for arguments outside of these ranges.
+double WallThickness(double fill, double volume, double area);
 
 // Several bodies taken as one rigid one; volumes and masses add. Throws core::Error when the total
 // mass is not positive.

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "geometry/mass_properties.h"
 
 namespace simwright::physics_params {
 namespace {
@@ -97,7 +98,7 @@ std::string FollowSize(const Category& category, const Eigen::Vector3d& size, do
   }
   return "its size of " + Rounded(p->length.sample) + " x " + Rounded(p->width.sample) + " x " +
          Rounded(size.z()) + " m is unusual for '" + category.name +
-         "'; its kind's mass is scaled with it";
+         "'";
 }
 
 MassModel ReconcileMass(const PhysicalParameters& parameters, const Category& category,
@@ -118,9 +119,8 @@ MassModel ReconcileMass(const PhysicalParameters& parameters, const Category& ca
     return model;
   }
   if (full_density < material.density.min) {
-    // Thin walls displace wall x area; the drawn density decides how thick that is.
     model.density = parameters.density.sample;
-    model.wall_thickness = model.mass / (model.density * area);
+    model.wall_thickness = geometry::WallThickness(full_density / model.density, volume, area);
     model.sentence = "shell: " + Rounded(full_density) + " kg/m3 over its volume is too light" +
                      against + ", so a wall of " + Rounded(model.wall_thickness * 1e3) +
                      " mm carries the mass";

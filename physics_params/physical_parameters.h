@@ -58,7 +58,7 @@ struct MassModel {
 };
 
 // Makes mass, volume and density agree. `volume` (m^3) and `area` (m^2) are those of the closed
-// solid at its true size;
+// solid at its true size.
 // A body whose sampled mass gives a density within the material's range is full. One that comes
 // out lighter is a shell, whose wall has the material's density; a frame is never full. One that
 // comes out heavier keeps the nearest density that the row's materials allow, and its mass

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "geometry/mass_properties.h"
 
 namespace simwright::physics_params {
 namespace {
@@ -40,7 +41,7 @@ MassModel WithBoth(double mass, double density, double volume, double area) {
     model.sentence = "full: the stated mass and density fill its volume";
     return model;
   }
-  model.wall_thickness = mass / (density * area);
+  model.wall_thickness = geometry::WallThickness(mass / full, volume, area);
   model.sentence = "shell: the stated mass at the stated density is a wall of " +
                    Rounded(model.wall_thickness * 1e3) + " mm";
   return model;

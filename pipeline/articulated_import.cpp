@@ -436,7 +436,7 @@ ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImport
       ScaleOf(options, normalised, where, parameters, *category.category,
               SizeOf(BoundsAtZero(source.model)));
   StandOnOrigin(scale, &source.model);
-  bool fixed = robot || HasMarkedRoot(source.model) || StandsFixed(source, category.category->name);
+  bool fixed = robot || source.model.root_is_world || StandsFixed(source, category.category->name);
   MakeParts(robot, progress, &source.model);
   ClearTheWay(robot, &fixed, &source.model);
 

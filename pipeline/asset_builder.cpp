@@ -73,8 +73,12 @@ void GiveMass(const BuildRequest& request, assets::Asset* asset) {
   const std::string unusual = physics_params::FollowSize(
       category, GroundBoxOf(asset->visual.mesh).sides, unit.volume, &asset->parameters);
   if (!unusual.empty()) {
-    asset->findings.push_back({"unusual-size", core::Severity::kWarning, asset->name, unusual, 0.0,
-                               "--height or --size states the true one, --mass what it weighs"});
+    const bool weighed = request.stated.mass || request.stated.density;
+    asset->findings.push_back(
+        {"unusual-size", core::Severity::kWarning, asset->name,
+         weighed ? unusual : unusual + "; the category's mass is scaled with it", 0.0,
+         weighed ? "--height or --size states the true one"
+                 : "--height or --size states the true one, --mass what it weighs"});
   }
   Apply(request.stated, &asset->parameters);
   const physics_params::MassModel model =
@@ -83,7 +87,7 @@ void GiveMass(const BuildRequest& request, assets::Asset* asset) {
   ReportDensity(model.density, asset);
   const geometry::MassProperties mass =
       model.wall_thickness > 0.0
-          ? geometry::ShellMassProperties(asset->solid, model.wall_thickness, model.density)
+          ? geometry::HollowMassProperties(asset->solid, model.wall_thickness, model.density)
           : geometry::SolidMassProperties(asset->solid, model.density);
   asset->inertial = {mass.mass, mass.center_of_mass, mass.inertia};
   asset->density = model.density;

@@ -58,11 +58,17 @@ void CheckParts(const assets::Asset& asset, const CheckLimits& limits, CheckRows
   rows->Require("parts-closed", bad == 0, bad, "parts open or above 64 vertices");
 }
 
+geometry::MassProperties ExactMassProperties(const assets::Asset& asset) {
+  if (asset.wall_thickness == 0.0) {
+    return geometry::SolidMassProperties(asset.solid, asset.density);
+  }
+  return asset.wall_on_surface
+             ? geometry::ShellMassProperties(asset.solid, asset.wall_thickness, asset.density)
+             : geometry::HollowMassProperties(asset.solid, asset.wall_thickness, asset.density);
+}
+
 void CheckInertia(const assets::Asset& asset, const CheckLimits& limits, CheckRows* rows) {
-  const geometry::MassProperties exact =
-      asset.wall_thickness > 0.0
-          ? geometry::ShellMassProperties(asset.solid, asset.wall_thickness, asset.density)
-          : geometry::SolidMassProperties(asset.solid, asset.density);
+  const geometry::MassProperties exact = ExactMassProperties(asset);
   const double size = core::Bounds(asset.solid).diagonal().norm();
   rows->AtMost(
       "inertia-exact",
@@ -220,6 +226,44 @@ CheckReport CheckBeforeKeeping(const fs::path& folder, const std::string& name,
   return report;
 }
 
+namespace {
+
+// True for a root link that stands for the world: it has neither shapes nor mass, and it is called
+// "world", as in ROS, or a joint that moves hangs on it.
+bool RootIsWorld(const assets::UrdfModel& model) {
+  const assets::UrdfLink& root = model.links[0];
+  if (root.inertial || !root.visuals.empty() || !root.collisions.empty()) return false;
+  return root.name == "world" ||
+         std::any_of(model.joints.begin(), model.joints.end(), [&](const assets::UrdfJoint& joint) {
+           return joint.parent == root.name && joint.Moves();
+         });
+}
+
+void AddShapeRows(const assets::UrdfModel& model, const CheckLimits& limits, CheckRows* rows) {
+  int shapes = 0, open = 0, bodies = 0;
+  for (const assets::UrdfLink& link : model.links) {
+    bodies += link.inertial.has_value();
+    for (const assets::UrdfShape& shape : link.collisions) {
+      ++shapes;
+      open += !geometry::Examine(shape.mesh).closed;
+    }
+  }
+  rows->Require("collision-shapes", shapes > 0, shapes, "collision shapes");
+  rows->Require("collision-closed", open == 0, open, "collision shapes that are open");
+  rows->Require("inertials", bodies > 0, bodies, "links with mass and a possible inertia");
+  if (shapes == 0 || bodies == 0) return;
+  if (RootIsWorld(model)) {
+    rows->Report("settles-bullet", 0.0,
+                 "not tried: the root '" + model.links[0].name + "' holds it to the world");
+    return;
+  }
+  const sim::RigidBody body = sim::BodyFromUrdf(model);
+  AddRestRows(sim::DropInBullet(body, sim::DropOptions()), "bullet", false,
+              2.0 * sim::Radius(body), limits, rows);
+}
+
+}  // namespace
+
 CheckReport CheckUrdf(const fs::path& urdf, const fs::path& root, const CheckLimits& limits) {
   CheckRows rows(urdf.filename().string());
   assets::UrdfModel model;
@@ -235,23 +279,7 @@ CheckReport CheckUrdf(const fs::path& urdf, const fs::path& root, const CheckLim
     if (finding.code == "urdf-impossible-inertial") finding.severity = core::Severity::kError;
     rows.Warn(finding);
   }
-  int shapes = 0, open = 0, bodies = 0;
-  for (const assets::UrdfLink& link : model.links) {
-    bodies += link.inertial.has_value();
-    for (const assets::UrdfShape& shape : link.collisions) {
-      ++shapes;
-      open += !geometry::Examine(shape.mesh).closed;
-    }
-  }
-  rows.Require("collision-shapes", shapes > 0, shapes, "collision shapes");
-  rows.Require("collision-closed", open == 0, open, "collision shapes that are open");
-  rows.Require("inertials", bodies > 0, bodies, "links with mass and a possible inertia");
-  if (shapes > 0 && bodies > 0) {
-    const sim::RigidBody body = sim::BodyFromUrdf(model);
-    sim::DropOptions options;
-    AddRestRows(sim::DropInBullet(body, options), "bullet", false, 2.0 * sim::Radius(body), limits,
-                &rows);
-  }
+  AddShapeRows(model, limits, &rows);
   RowOrFailure("joints", &rows, [&] { AddJointRowsOfUrdf(model, &rows); });
   return {urdf.string(), rows.Take()};
 }

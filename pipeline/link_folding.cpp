@@ -23,8 +23,6 @@ constexpr double kMarkShare = 0.02;  // of what links and their ways measure, a 
 constexpr double kWater = 1000.0;     // kg/m3, of that cube
 constexpr double kRounding = 1e-12;  // of an axis, what turning by 1.5708 leaves
 
-constexpr const char* kRootMarked = "root-marked";
-
 bool HasShapes(const UrdfLink& link) {
   return !link.visuals.empty() || !link.collisions.empty();
 }
@@ -144,7 +142,8 @@ class Folding {
       root->inertial = assets::Inertial{mass, Eigen::Vector3d::Zero(),
                                         mass * edge * edge / 6.0 * Eigen::Matrix3d::Identity()};
     }
-    model_->findings.push_back({kRootMarked, core::Severity::kWarning, root->name,
+    model_->root_is_world = true;
+    model_->findings.push_back({"root-marked", core::Severity::kWarning, root->name,
                                 "it is the root and has no shape: a cube of " +
                                     core::Millimetres(edge) +
                                     " stands for it, and the asset is held there",
@@ -211,11 +210,6 @@ void TakeFloatingBaseAsRoot(UrdfModel* model) {
 }
 
 }  // namespace
-
-bool HasMarkedRoot(const UrdfModel& model) {
-  return std::any_of(model.findings.begin(), model.findings.end(),
-                     [](const core::Finding& finding) { return finding.code == kRootMarked; });
-}
 
 void FoldEmptyLinks(UrdfModel* model) {
   TakeFloatingBaseAsRoot(model);

@@ -8,12 +8,10 @@ namespace simwright::pipeline {
 // fixed child that has some (its name, its shapes, its children), and one on a fixed joint that
 // finds none goes, its children hanging on its parent. What is seen and how it moves stays as it
 // was. A link's frame may change: what took a place has the frame that it took.
-// A root without any to take on gets a small cube, a finding, and such an asset is to be held.
+// A root without any to take on that a moving joint hangs on gets a small cube and a finding
+// (`root-marked`), and model->root_is_world is set: such an asset is to be held.
 // Throws core::Error, naming the link, where a link that moves is left without shapes.
 void FoldEmptyLinks(assets::UrdfModel* model);
-
-// True where FoldEmptyLinks gave the root that cube (finding `root-marked`).
-bool HasMarkedRoot(const assets::UrdfModel& model);
 
 // Brings the joints to our conventions and reports each change in model->findings: zero lies
 // within the limits and the greater part of the range above it; a hinge or slide without a range

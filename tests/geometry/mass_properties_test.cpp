@@ -138,6 +138,62 @@ TEST(ShellMassProperties, BoxAndSphereOfSheet) {
   ExpectNear(sphere.inertia, Matrix3d::Identity() * (2.0 / 3.0 * sphere.mass * 0.25), 2e-4);
 }
 
+// Independent truth: the body minus its cavity, both full.
+MassProperties WithoutCavity(const core::TriangleMesh& body, const core::TriangleMesh& cavity,
+                             double density) {
+  const MassProperties outer = SolidMassProperties(body, density);
+  const MassProperties inner = SolidMassProperties(cavity, density);
+  MassProperties hollow;
+  hollow.volume = outer.volume - inner.volume;
+  hollow.mass = outer.mass - inner.mass;
+  hollow.inertia = outer.inertia - inner.inertia;
+  return hollow;
+}
+
+TEST(HollowMassProperties, CubesAndSpheresMinusTheirCavities) {
+  for (const double wall : {1e-7, 0.001, 0.05, 0.2, 0.49}) {
+    const MassProperties box = HollowMassProperties(shapes::Box(1, 1, 1), wall, 700.0);
+    const double inside = 1.0 - 2.0 * wall;
+    const MassProperties expected =
+        WithoutCavity(shapes::Box(1, 1, 1), shapes::Box(inside, inside, inside), 700.0);
+    EXPECT_NEAR(box.mass / expected.mass, 1.0, 1e-8);
+    EXPECT_NEAR(box.volume, expected.volume, 1e-12);
+    ExpectNear(box.inertia, expected.inertia, 1e-8);
+    const MassProperties ball = HollowMassProperties(shapes::Sphere(0.6, 100), wall, 700.0);
+    const MassProperties hollow_ball =
+        WithoutCavity(shapes::Sphere(0.6, 100), shapes::Sphere(0.6 - wall, 100), 700.0);
+    EXPECT_NEAR(ball.mass / hollow_ball.mass, 1.0, 1e-3);
+    ExpectNear(ball.inertia, hollow_ball.inertia, 1e-3);
+  }
+}
+
+TEST(HollowMassProperties, TendsToTheSheetAndToTheSolid) {
+  const core::TriangleMesh body = shapes::BoxUnion(
+      {shapes::BoxAt(0, 0, 0, 2, 1, 1), shapes::BoxAt(2, 0, 0, 3, 1, 4)});
+  const MassProperties solid = SolidMassProperties(body, 500.0);
+  const MassProperties sheet = ShellMassProperties(body, 1e-9, 500.0);
+  const MassProperties thin = HollowMassProperties(body, 1e-9, 500.0);
+  EXPECT_NEAR(thin.mass / sheet.mass, 1.0, 1e-8);
+  EXPECT_LT((thin.center_of_mass - sheet.center_of_mass).norm(), 1e-8);
+  ExpectNear(thin.inertia, sheet.inertia, 1e-8);
+  const double full = 3.0 * solid.volume / core::SurfaceArea(body);
+  const MassProperties thick = HollowMassProperties(body, full * (1.0 - 1e-9), 500.0);
+  EXPECT_NEAR(thick.mass / solid.mass, 1.0, 1e-12);
+  ExpectNear(thick.inertia, solid.inertia, 1e-12);
+  EXPECT_THROW(HollowMassProperties(body, full, 500.0), core::Error);
+}
+
+TEST(WallThickness, HoldsTheShareOfMatter) {
+  // A cube of side 1: 1 - (1 - 2 wall)^3 of it is matter.
+  for (const double wall : {1e-9, 0.01, 0.3, 0.499}) {
+    const double fill = 2.0 * wall * (3.0 - 6.0 * wall + 4.0 * wall * wall);
+    EXPECT_NEAR(WallThickness(fill, 1.0, 6.0) / wall, 1.0, 1e-9);
+  }
+  EXPECT_THROW(WallThickness(1.0, 1.0, 6.0), core::Error);
+  EXPECT_THROW(WallThickness(0.0, 1.0, 6.0), core::Error);
+  EXPECT_THROW(WallThickness(0.5, 0.0, 6.0), core::Error);
+}
+
 TEST(PrincipalInertia, RebuildsTheMatrixAndIsARotation) {
   const MassProperties p = SolidMassProperties(
       shapes::BoxUnion({shapes::BoxAt(0, 0, 0, 2, 1, 1), shapes::BoxAt(2, 0, 0, 3, 1, 4)}), 1.0);

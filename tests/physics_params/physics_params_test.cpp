@@ -107,7 +107,11 @@ TEST(Reconciliation, MassVolumeAndDensityAlwaysAgree) {
       for (double filling : {0.02, 0.3, 1.0}) {
         const MassModel m = ReconcileMass(p, category, Base(), filling * box, area);
         const Material& material = *Base().FindMaterial(m.material);
-        const double matter = m.wall_thickness > 0 ? m.wall_thickness * area : filling * box;
+        // A hollow body's cavity is the body scaled by 1 - wall A / (3 V).
+        const double cavity = m.wall_thickness > 0
+                                  ? 1.0 - m.wall_thickness * area / (3.0 * filling * box)
+                                  : 0.0;
+        const double matter = filling * box * (1.0 - std::pow(cavity, 3));
         EXPECT_NEAR(m.density * matter, m.mass, 1e-9 * m.mass) << category.name;
         EXPECT_TRUE(m.density >= material.density.min * (1 - 1e-12) &&
                     m.density <= material.density.max * (1 + 1e-12))
