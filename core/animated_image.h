@@ -7,8 +7,8 @@
 
 namespace simwright::core {
 
-// The first frame of a GIF or of an animated WebP, as it is shown: on its canvas, RGBA.
-// Neither is read by OpenCV 4.6. Throws core::Error, naming `where`, when damaged.
+// Decodes the first frame of a GIF or of an animated WebP, composed on its canvas, as RGBA. OpenCV
+// 4.6 reads neither format. Throws core::Error, naming `where`, for damaged data.
 Image DecodeFirstGifFrame(std::string_view bytes, const std::string& where);
 Image DecodeFirstWebpFrame(std::string_view bytes, const std::string& where);
 

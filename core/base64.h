@@ -6,11 +6,11 @@
 
 namespace simwright::core {
 
-// RFC 4648 with padding.
+// Encodes `bytes` as Base64 (RFC 4648) with padding.
 std::string Base64(std::string_view bytes);
 
-// The bytes that `text` stands for; line breaks are passed over, padding may be missing, '-' and
-// '_' stand for '+' and '/'. Nothing where it is no Base64.
+// Decodes `text`. Line breaks are skipped, padding may be missing, and the URL-safe '-' and '_' are
+// accepted for '+' and '/'. Returns nothing if `text` is not Base64.
 std::optional<std::string> FromBase64(std::string_view text);
 
 }  // namespace simwright::core

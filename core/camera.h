@@ -5,8 +5,8 @@
 
 namespace simwright::core {
 
-// Pinhole camera. Looks along +z, x right, y down (OpenCV). Pixel (i, j) covers
-// [i, i+1) x [j, j+1): its centre is at (i + 0.5, j + 0.5).
+// A pinhole camera that looks along +z, with x right and y down (OpenCV). Pixel (i, j) covers [i,
+// i+1) x [j, j+1): its centre is at (i + 0.5, j + 0.5).
 struct Camera {
   int width = 0;              // pixels
   int height = 0;             // pixels
@@ -16,24 +16,24 @@ struct Camera {
 
   Eigen::Vector3d position() const { return world_from_camera.translation(); }
 
-  // Direction of the ray through image point `pixel`, in the world; its component along the
-  // optical axis is 1, so position() + depth * Ray(pixel) has that depth.
+  // Returns the direction of the ray through image point `pixel` in the world frame. Its component
+  // along the optical axis is 1, so position() + depth * Ray(pixel) has that depth.
   Eigen::Vector3d Ray(const Eigen::Vector2d& pixel) const {
     return world_from_camera.linear() *
            Eigen::Vector3d((pixel.x() - cx) / fx, (pixel.y() - cy) / fy, 1.0);
   }
 
-  // Image point (x, y, in pixels) and depth (z, along the axis, metres) of a world point.
-  // Only points with depth > 0 are in front of the camera.
+  // Projects a world point: returns the image point (x, y, pixels) and the depth (z, along the
+  // optical axis, metres). Only points with depth > 0 are in front of the camera.
   Eigen::Vector3d Project(const Eigen::Vector3d& point) const {
     const Eigen::Vector3d p = world_from_camera.inverse() * point;
     return {fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy, p.z()};
   }
 };
 
-// A camera at `distance` (m) from `target`, `elevation` (rad) above the horizontal plane and
-// `azimuth` (rad) from the world's +x axis, looking at `target` with the world's z up in the
-// image. `vertical_fov` in rad. Requires |elevation| < pi/2, distance > 0, width and height > 0.
+// Returns a camera at `distance` (m) from `target`, `elevation` (rad) above the horizontal plane
+// and `azimuth` (rad) from the world's +x axis, that looks at `target` with the world's z up in the
+// image. `vertical_fov` is in rad. Requires |elevation| < pi/2, distance > 0, width and height > 0.
 // Throws core::Error otherwise.
 Camera OrbitCamera(const Eigen::Vector3d& target, double distance, double elevation, double azimuth,
                    double vertical_fov, int width, int height);

@@ -6,13 +6,13 @@
 
 namespace simwright::core {
 
-// 32 hexadecimal digits: FNV-1a, 128 bits. Not proof against forgery, so what is found by it is
-// compared in full where that matters.
+// Returns the 128-bit FNV-1a hash as 32 hexadecimal digits. It does not resist forgery: compare the
+// full contents where a collision would matter.
 std::string ContentHash(std::string_view bytes);
 
-// Of a file over its content; of a folder over the hashes and the names, from the folder on, of all
-// files in it and in its folders, in order of their names. Links to folders are not followed.
-// Throws core::Error where something cannot be read.
+// Returns the hash of a file's contents, or, for a folder, the hash over the relative names and
+// hashes of all files in it and its subfolders, in order of their names. Links to folders are not
+// followed. Throws core::Error if something cannot be read.
 std::string ContentHashOf(const std::filesystem::path& path);
 
 }  // namespace simwright::core

@@ -5,8 +5,8 @@
 
 namespace simwright::core {
 
-// What a person can act on: what went wrong, where, and what to do about it.
-// `what()` is one line, "WHERE: WHAT (REMEDY)", fit to follow "error: ".
+// An error that a person can act on: what went wrong, where, and what to do about it. `what()` is
+// one line, "WHERE: WHAT (REMEDY)", which may follow "error: ".
 class Error : public std::runtime_error {
  public:
   // `what`   the fault, e.g. "the file is empty".
@@ -21,7 +21,7 @@ class Error : public std::runtime_error {
   std::string where_;
 };
 
-// Thrown from `CheckCancelled` after Ctrl-C: unwinds to the command line, which cleans up.
+// Thrown by `CheckCancelled` after Ctrl-C; it unwinds to the command line, which cleans up.
 class Cancelled : public std::runtime_error {
  public:
   Cancelled() : std::runtime_error("cancelled") {}

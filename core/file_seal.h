@@ -4,19 +4,19 @@
 
 namespace simwright::core {
 
-// The last line of a file that says what the hash (core/content_hash) of all before it is: for
-// files whose format lets other bytes follow (HDF5) and whose library is no match for a flipped
-// bit. Against accidents: whoever means harm can seal anew.
+// The state of a file's seal: a last line with the hash (core/content_hash) of everything before
+// it. Meant for files whose format allows trailing bytes (HDF5) and whose library does not survive
+// flipped bits. It protects against accidents only: anyone can recompute a seal.
 enum class FileSeal {
-  kNone,  // of another program, or cut off
+  kNone,  // no seal: written by another program, or cut off
   kHolds,
-  kBroken,  // something in the file is not as it was written
+  kBroken,  // the content differs from what was sealed
 };
 
-// Appends one. Throws core::Error where the file cannot be read or written.
+// Appends a seal. Throws core::Error if the file cannot be read or written.
 void SealFile(const std::filesystem::path& path);
 
-// Throws core::Error where the file cannot be read.
+// Checks a file's seal. Throws core::Error if the file cannot be read.
 FileSeal SealOf(const std::filesystem::path& path);
 
 }  // namespace simwright::core

@@ -7,15 +7,16 @@
 
 namespace simwright::core {
 
-// The whole file. Throws core::Error when it is missing, no regular file, or over `limit` bytes.
+// Returns the whole file. Throws core::Error if it is missing, not a regular file, or larger than
+// `limit` bytes.
 std::string ReadFile(const std::filesystem::path& path, std::uint64_t limit = 2ull << 30);
 
-// Writes beside `path` and renames in: afterwards the file holds all of `bytes`, or what it held
-// before. Throws core::Error (a full disk, a folder that is missing or not writable).
+// Writes to a sibling of `path` and renames it: afterwards the file holds either all of `bytes` or
+// its former content. Throws core::Error (disk full, folder missing or not writable).
 void WriteFile(const std::filesystem::path& path, std::string_view bytes);
 
-// An output file that a library writes by its name. It is written at `staging()`, a hidden sibling;
-// `Commit` renames it into place. Destroyed before that, nothing is left behind.
+// An output file that a library writes by name. It is written at `staging()`, a hidden sibling, and
+// `Commit` renames it into place. If destroyed before `Commit`, it leaves nothing behind.
 class StagedFile {
  public:
   explicit StagedFile(const std::filesystem::path& target);
@@ -24,49 +25,50 @@ class StagedFile {
   StagedFile& operator=(const StagedFile&) = delete;
 
   const std::filesystem::path& staging() const { return staging_; }
-  // Throws core::Error where the file cannot be moved. The library must have closed it.
+  // Moves the file into place; the library must have closed it. Throws core::Error on failure.
   void Commit();
 
  private:
   std::filesystem::path target_, staging_;
 };
 
-// `relative` below `root`, following links. Throws core::Error when it leads outside `root`.
+// Resolves `relative` below `root`, following links. Throws core::Error if it leads outside `root`.
 // The file need not exist.
 std::filesystem::path ResolveInside(const std::filesystem::path& root,
                                     const std::filesystem::path& relative);
 
-// An output folder that appears whole or not at all. Files are written into `staging()`, a hidden
-// sibling; `Commit` renames it into place. Destroyed before that, nothing is left behind.
+// An output folder that appears complete or not at all. Files are written into `staging()`, a
+// hidden sibling, and `Commit` renames it into place. If destroyed before `Commit`, it leaves
+// nothing behind.
 class StagedFolder {
  public:
-  // Throws core::Error when `target` exists and `force` is not set, or its parent (created where
-  // missing) cannot be written.
+  // Throws core::Error if `target` exists and `force` is not set, or if its parent (created if
+  // missing) is not writable.
   StagedFolder(const std::filesystem::path& target, bool force);
   ~StagedFolder();
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
 
   const std::filesystem::path& staging() const { return staging_; }
-  // Moves the folder into place; an older one (force) is removed only after that.
+  // Moves the folder into place; the folder that it replaces (`force`) is removed only afterwards.
   void Commit();
 
  private:
   std::filesystem::path target_;
   std::filesystem::path staging_;
-  std::filesystem::path created_parent_;  // topmost folder that had to be made, or empty
+  std::filesystem::path created_parent_;  // topmost folder that had to be created, or empty
   bool force_;
   bool committed_ = false;
 };
 
-// Removes what writers above left in `folder` and below when the program was killed. Nobody else
-// may be writing there.
+// Removes the staging files and folders that a killed program left in `folder` and below. No other
+// process may be writing there.
 void RemoveHalfWritten(const std::filesystem::path& folder);
 
-// A new folder below the system's temporary one that is gone when this is.
+// A new folder below the system's temporary folder; the destructor deletes it.
 class TemporaryFolder {
  public:
-  TemporaryFolder();  // throws core::Error where none can be made
+  TemporaryFolder();  // throws core::Error if the folder cannot be created
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;

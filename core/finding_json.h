@@ -6,8 +6,9 @@
 
 namespace simwright::core {
 
-// The array `findings` of every command's --json: an object a finding with "code", "severity"
-// (note, warning, error), "place", "sentence", "remedy" and "figure" (null where not finite).
+// Returns the array `findings` of every command's --json output: one object per finding with
+// "code", "severity" (note, warning, error), "place", "sentence", "remedy" and "figure" (null if
+// not finite).
 nlohmann::ordered_json FindingsJson(const Findings& findings);
 
 }  // namespace simwright::core

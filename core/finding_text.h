@@ -9,25 +9,27 @@
 
 namespace simwright::core {
 
-// "note", "warning" or "error", as the terminal and --json say it.
+// Returns "note", "warning" or "error", as printed on the terminal and in --json.
 const char* SeverityName(Severity severity);
 
-// `text` in at most `most` bytes, whole characters of UTF-8, with "..." where it was cut.
+// Truncates `text` to at most `most` bytes at a UTF-8 character boundary, with "..." where it was
+// cut.
 std::string Bounded(std::string_view text, std::size_t most);
 
-// `text` broken at blanks into lines of at most `width` characters, the second and later ones
-// indented by two; one line where `width` is 0.
+// Wraps `text` at blanks into lines of at most `width` characters, with lines after the first
+// indented by two. Returns one line if `width` is 0.
 std::string Wrapped(std::string_view text, std::size_t width);
 
-// How every command prints a finding: "SEVERITY: PLACE: SENTENCE (REMEDY) [CODE]", bounded to 600
-// bytes a part and wrapped to `width`, with a line break at the end. Control characters become
-// blanks.
+// Formats a finding as every command prints it: "SEVERITY: PLACE: SENTENCE (REMEDY) [CODE]", with
+// each part limited to 600 bytes, wrapped to `width` and ended by a line break. Control characters
+// become blanks.
 std::string FindingText(const Finding& finding, std::size_t width);
 
-// A length (m) in a sentence: "0.81 mm", of three digits.
+// Formats a length (m) in millimetres with three digits: "0.81 mm".
 std::string Millimetres(double metres);
 
-// An error as a finding of severity kError, code "error": its place, fault and remedy.
+// Converts an error to a finding of severity kError and code "error", with its place, fault and
+// remedy.
 Finding FindingOf(const Error& error);
 
 }  // namespace simwright::core

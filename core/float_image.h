@@ -5,8 +5,8 @@
 
 namespace simwright::core {
 
-// A picture of numbers: rows from the top, channels interleaved. What the values mean (sRGB in
-// [0, 1], metres, a gradient) says whoever holds it.
+// A floating-point image: rows from the top, channels interleaved. Its owner defines what the
+// values mean (sRGB in [0, 1], metres, a gradient).
 struct FloatImage {
   int width = 0;
   int height = 0;

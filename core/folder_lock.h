@@ -5,14 +5,14 @@
 
 namespace simwright::core {
 
-// Keeps a folder for this process: a lock on FOLDER/.lock (flock) that the system lets go of when
-// the process ends, however it does, so that a crash leaves nothing behind that is in the way. The
-// file stays and says who held it last. Where the file system knows no locks (some network ones)
-// nothing is kept.
+// Locks a folder for this process through flock on FOLDER/.lock. The system releases the lock when
+// the process ends, even by a crash, so no stale lock blocks the next run. The file stays and names
+// its last holder. On file systems without locks (some network ones) nothing is locked.
 class FolderLock {
  public:
-  // Makes the folder where it is missing. `work` is what is done in it, as "a training". Throws
-  // core::Error where another process has it, naming that, or the folder cannot be written.
+  // Creates the folder if it is missing. `work` names the activity, such as "a training". Throws
+  // core::Error if another process holds the lock, naming that process, or the folder is not
+  // writable.
   FolderLock(const std::filesystem::path& folder, const std::string& work);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

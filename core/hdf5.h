@@ -10,23 +10,24 @@
 
 namespace simwright::core {
 
-// Numbers of any shape, the last index running fastest.
+// An array of any shape, with the last index contiguous.
 template <typename T>
 struct Hdf5Array {
   std::vector<std::size_t> shape;
-  std::vector<T> values;  // the product of `shape`
+  std::vector<T> values;  // as many as the product of `shape`
 };
 
-// How a dataset lies in its file.
+// The storage layout of a dataset.
 struct Hdf5Storage {
-  std::size_t rows_per_chunk = 0;  // of the first index; 0: in one piece, which gzip cannot be
+  std::size_t rows_per_chunk = 0;  // along the first index; 0: contiguous, which excludes gzip
   int gzip = 0;                    // 0 (none) to 9
 };
 
 // A group of an HDF5 file: named groups, datasets and attributes. T is float, double, std::uint8_t
-// or std::int64_t. Everything throws core::Error, naming file and place, where the library fails,
-// a name is missing or taken, or something is of another kind than asked for. Lives no longer than
-// its file. libhdf5 keeps state of its own: one thread at a time, whatever the file.
+// or std::int64_t. Every method throws core::Error, naming the file and the path in it, if the
+// library fails, a name is missing or taken, or an object is of another kind than requested. A
+// group must not outlive its file. libhdf5 has global state: use it from one thread at a time,
+// whatever the file.
 class Hdf5Group {
  public:
   std::vector<std::string> Children() const;  // names, sorted as bytes
@@ -39,24 +40,25 @@ class Hdf5Group {
   std::int64_t IntegerAttribute(const std::string& name) const;
   std::string TextAttribute(const std::string& name) const;
 
-  // `values`: the product of `shape`, which has 1 to 32 dimensions.
+  // Writes a dataset. `values` holds as many numbers as the product of `shape`, which has 1 to 32
+  // dimensions.
   template <typename T>
   void Write(const std::string& name, const std::vector<std::size_t>& shape, const T* values,
              const Hdf5Storage& storage = {});
-  // Bytes of one length, shorter ones padded with zeros: numpy's type S. None may be empty or hold
-  // a zero.
+  // Writes fixed-length strings, padded with zeros (numpy's type S). No string may be empty or
+  // contain a zero byte.
   void WriteTexts(const std::string& name, const std::vector<std::string>& texts);
 
   std::vector<std::size_t> Shape(const std::string& name) const;
-  // Integers from integers, floating point from either of its precisions that fits T. At most
-  // `limit` bytes.
+  // Reads a dataset of at most `limit` bytes: integers from integers, floating point from whichever
+  // precision fits T.
   template <typename T>
   Hdf5Array<T> Read(const std::string& name, std::uint64_t limit = 4ull << 30) const;
-  // The same of `count` indices of the first dimension from `first` on, which have to be there.
+  // Reads `count` indices of the first dimension from `first` on, which must exist.
   template <typename T>
   Hdf5Array<T> ReadRows(const std::string& name, std::size_t first, std::size_t count,
                         std::uint64_t limit = 4ull << 30) const;
-  // Texts of fixed or variable length.
+  // Reads strings of fixed or variable length.
   std::vector<std::string> ReadTexts(const std::string& name) const;
 
  private:
@@ -67,17 +69,18 @@ class Hdf5Group {
       : group_(std::move(group)), place_(std::move(place)) {}
   std::string At(const std::string& name) const;
   std::shared_ptr<Handle> Dataset(const std::string& name) const;
-  // Rows `first` and on, as many as array->shape says.
+  // Reads rows from `first` on, as many as array->shape says.
   template <typename T>
   void ReadInto(const std::string& name, std::size_t first, std::uint64_t limit,
                 Hdf5Array<T>* array) const;
 
   std::shared_ptr<Handle> group_;
-  std::string place_;  // file and path, for errors
+  std::string place_;  // file and path in it, for errors
 };
 
-// An HDF5 file to be read. libhdf5 1.10 is no match for a flipped bit (of 3000 damaged files 73
-// made it crash and 15 run on): read what you trust, or what is sealed (core/file_seal).
+// An HDF5 file opened for reading. libhdf5 1.10 does not survive corrupt files (of 3000 damaged
+// files 73 made it crash and 15 never returned): read only trusted or sealed (core/file_seal)
+// files.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::filesystem::path& path);
@@ -88,13 +91,15 @@ class Hdf5Reader {
   Hdf5Group root_;
 };
 
-// An HDF5 file that appears whole, by `Commit`, or not at all. The same calls, the same bytes.
+// An HDF5 file that `Commit` puts in place as a whole; without it no file appears. The same calls
+// write the same bytes.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(const std::filesystem::path& path);
   Hdf5Group& root() { return root_; }
-  // Closes the file with all its groups and moves it into place; with a seal (core/file_seal),
-  // which other programs pass over, as it follows all that the file's own length speaks of.
+  // Closes the file with all its groups and moves it into place. CommitSealed adds a seal
+  // (core/file_seal), which other programs ignore, since it follows the length that the file
+  // states.
   void Commit();
   void CommitSealed();
 

@@ -8,8 +8,8 @@
 
 namespace simwright::core {
 
-// 8-bit picture, channels interleaved, rows from the top. 1 (grey), 3 (RGB) or 4 (RGBA) channels,
-// sRGB.
+// An 8-bit sRGB image, channels interleaved, rows from the top, with 1 (grey), 3 (RGB) or 4 (RGBA)
+// channels.
 struct Image {
   int width = 0;
   int height = 0;
@@ -30,35 +30,36 @@ struct Image {
 };
 
 struct ImageReadOptions {
-  // Refuses more than this by the header, before any memory is taken. A 200-megapixel phone
-  // photo still fits.
+  // Larger images are refused from the header, before any memory is allocated. A 200-megapixel
+  // phone photo still fits.
   std::int64_t max_pixels = 220'000'000;
-  // Larger pictures are scaled down (area average) so that the longer side fits; 0 keeps them.
+  // Larger images are scaled down (area average) so that the longer side fits; 0 keeps their size.
   int max_side = 0;
 };
 
-// Decodes PNG, JPEG (grey, YCbCr, CMYK), WebP, TIFF, BMP, GIF, PNM and what else OpenCV reads.
-// 16-bit and float pictures become 8-bit; of an animated or paged one the first frame is taken;
-// the EXIF orientation is applied. `where` is named in errors.
-// Throws core::Error: empty, unknown, truncated or too large.
+// Decodes PNG, JPEG (grey, YCbCr, CMYK), WebP, TIFF, BMP, GIF, PNM and the other formats that
+// OpenCV reads. 16-bit and float images become 8-bit, only the first frame or page is read, and the
+// EXIF orientation is applied. Errors name `where`. Throws core::Error for an empty, unknown,
+// truncated or too large image.
 Image DecodeImage(std::string_view bytes, const std::string& where,
                   const ImageReadOptions& options = {});
 Image ReadImage(const std::filesystem::path& path, const ImageReadOptions& options = {});
 
-// PNG with fixed settings: the same pixels give the same bytes.
+// Encodes a PNG with fixed settings: the same pixels give the same bytes.
 std::string EncodePng(const Image& image);
 void WritePng(const std::filesystem::path& path, const Image& image);
-// JPEG at `quality` 1..100, for textures that came as JPEG.
+// Encodes a JPEG at `quality` 1..100, for textures that came as JPEG.
 std::string EncodeJpeg(const Image& image, int quality);
 
-// Width / 35 mm-equivalent focal length as EXIF tells it, in mm on a 36 mm wide frame; 0 where
-// the file says nothing. Reads JPEG, TIFF and PNG through the EXIF block.
+// Returns the 35 mm-equivalent focal length from the EXIF block of a JPEG, TIFF or PNG, in mm for a
+// 36 mm wide frame; 0 if the file has none.
 double ExifFocalLength35mm(std::string_view bytes);
 
-// Area-averaged (down) or bicubic (up) copy of the given size. Requires a non-empty image.
+// Returns a copy of the given size, by area averaging (down) or bicubic interpolation (up).
+// Requires a non-empty image.
 Image Resize(const Image& image, int width, int height);
 
-// Pictures side by side in `columns`, on white, each cell as large as the largest picture.
+// Arranges images in `columns` on white; each cell has the size of the largest image.
 Image ContactSheet(const std::vector<Image>& pictures, int columns);
 
 }  // namespace simwright::core

@@ -18,7 +18,7 @@ enum class ImageFormat {
   kOther
 };
 
-// What a picture file says of itself before anything is decoded.
+// The format and size that an image file states, read without decoding.
 struct ImageHeader {
   ImageFormat format = ImageFormat::kUnknown;
   std::int64_t width = 0;  // 0 where the header was not understood
@@ -26,7 +26,7 @@ struct ImageHeader {
   bool truncated = false;  // the format's end marker is missing (PNG, JPEG)
 };
 
-// Reads magic bytes and sizes; never throws, never reads beyond `bytes`.
+// Reads magic bytes and sizes. Never throws and never reads beyond `bytes`.
 ImageHeader ReadImageHeader(std::string_view bytes);
 
 }  // namespace simwright::core

@@ -4,14 +4,14 @@
 
 namespace simwright::core {
 
-// Threads that long work may use: `--threads`, at the start all that the machine gives to this
-// process. >= 1.
+// Returns the number of threads for long work, >= 1: `--threads`, by default all that this process
+// may use.
 int ThreadCount();
-void SetThreadCount(int count);  // count <= 0: as at the start
+void SetThreadCount(int count);  // count <= 0: the default
 
-// Calls body(i) once for each i in [0, count), from up to ThreadCount() threads, and waits.
-// Work is handed out in ascending order. The first exception is thrown again here after all
-// threads have stopped. Calls from inside a body run on the calling thread alone.
+// Calls body(i) once for each i in [0, count), from up to ThreadCount() threads, and waits. Indices
+// are handed out in ascending order. The first exception is rethrown here after all threads have
+// stopped. Nested calls run on the calling thread alone.
 void ParallelFor(int count, const std::function<void(int)>& body);
 
 }  // namespace simwright::core

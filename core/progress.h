@@ -8,51 +8,52 @@
 
 namespace simwright::core {
 
-// How far a stage has come, as a line says it.
+// The progress of a stage, as a progress line shows it.
 struct ProgressState {
   std::string name;
-  std::string detail;       // what it has to say beside its count; may be empty
+  std::string detail;       // shown beside the count; may be empty
   int done = 0, total = 0;  // steps; total 0: unknown
   double elapsed = 0.0;     // s
-  std::optional<double> most_left;  // s that it takes at most from now on, as with a time limit
+  std::optional<double> most_left;  // s, upper bound of the remaining time, e.g. a time limit
 };
 
-// "train open_door: 12/488, 46 % succeed, 80 s left". The time left is that of the steps so far, at
-// most `most_left`; where neither is known the line says the time so far.
+// Formats a line such as "train open_door: 12/488, 46 % succeed, 80 s left". The remaining time is
+// extrapolated from the steps so far and bounded by `most_left`; if neither is known, the line
+// shows the elapsed time.
 std::string ProgressLine(const ProgressState& state);
 
-// Says how far long work has come. On a terminal one line that is drawn over, with the time left;
-// elsewhere a plain line every ten seconds and one at the end of a stage. Writes to stderr; a
-// silent one writes nothing.
-// Also where long work notices Ctrl-C: every call that advances may throw core::Cancelled.
+// Reports the progress of long work to stderr. On a terminal it redraws one line with the remaining
+// time; elsewhere it prints a plain line every ten seconds and one at the end of a stage. kSilent
+// prints nothing. Long work also notices Ctrl-C here: every call that advances may throw
+// core::Cancelled.
 class Progress {
  public:
   enum class Style { kSilent, kPlain, kTerminal };
 
-  // `plain_interval`: s between two plain lines of a stage.
+  // `plain_interval`: seconds between two plain lines of a stage.
   explicit Progress(Style style = Style::kSilent, double plain_interval = 10.0);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // kTerminal where stderr is one, else kPlain.
+  // Returns kTerminal if stderr is a terminal, else kPlain.
   static Style StyleForStderr();
 
-  // Starts a stage of `total` steps (0: unknown). Ends the one before. Throws Cancelled.
+  // Starts a stage of `total` steps (0: unknown) and ends the previous one. Throws Cancelled.
   void Stage(const std::string& name, int total = 0);
-  // What the stage has to say from now on beside its count, as "46 % succeed", and s that it takes
-  // at most from now on (none: unknown). Safe from several threads.
+  // Sets the detail shown beside the count, such as "46 % succeed", and the upper bound of the
+  // remaining time in seconds (none: unknown). Thread-safe.
   void Say(const std::string& detail, std::optional<double> most_left = std::nullopt);
-  // One step done; safe from several threads. Throws Cancelled.
+  // Counts one step. Thread-safe. Throws Cancelled.
   void Advance();
   // Ends the last stage.
   void Finish();
 
  private:
-  struct Shared;  // with the thread that draws while no step is done
+  struct Shared;  // shared with the thread that redraws between steps
 
   Style style_;
-  std::unique_ptr<Shared> shared_;  // none where silent
+  std::unique_ptr<Shared> shared_;  // null if silent
   std::atomic<int> done_{0};
 };
 

@@ -7,7 +7,7 @@
 
 namespace simwright::core {
 
-// Brings `items` into a random order, each as likely as any other (Fisher and Yates 1938).
+// Shuffles `items` uniformly (Fisher and Yates 1938).
 template <typename T>
 void Shuffle(std::vector<T>* items, Rng& rng) {
   for (std::size_t i = items->size(); i > 1; --i) {

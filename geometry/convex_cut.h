@@ -6,8 +6,8 @@
 
 namespace simwright::geometry {
 
-// What the half-space normal . x <= offset leaves of a convex mesh, as a hull of at most
-// `max_vertices` vertices; empty where that is nothing with a volume.
+// Returns the intersection of a convex mesh with the half-space normal . x <= offset, as a hull of
+// at most `max_vertices` vertices; empty if it has no volume.
 core::TriangleMesh CutConvex(const core::TriangleMesh& convex, const Eigen::Vector3d& normal,
                              double offset, int max_vertices = 64);
 

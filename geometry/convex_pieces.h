@@ -9,9 +9,9 @@
 
 namespace simwright::geometry {
 
-// A piece of the solid on its way to becoming a convex part.
+// A piece of the solid during the decomposition into convex parts.
 struct Piece {
-  core::TriangleMesh mesh;   // closed; empty once pieces were merged
+  core::TriangleMesh mesh;   // closed; empty after the piece was merged
   core::TriangleMesh hull;   // of all of its vertices
   double volume = 0.0;       // m^3, of the piece
   double hull_volume = 0.0;  // m^3
@@ -20,27 +20,28 @@ struct Piece {
   double Excess() const { return hull_volume > volume ? hull_volume - volume : 0.0; }
 };
 
-// What the steps of one decomposition share.
+// The data shared by the steps of one decomposition.
 struct CutContext {
   const DecompositionOptions* options;
   const HullFit* fit;
   double diagonal = 0.0;      // m, of the solid
   double solid_volume = 0.0;  // m^3
-  double excess = 0.0;        // m^3, of the whole solid's hull over it
+  double excess = 0.0;        // m^3, excess of the whole solid's hull over the solid
 };
 
-// The piece with its hull and volumes; a flat one gets a hull of the options' least thickness.
+// Returns the piece with its hull and volumes. A flat piece gets a hull of the options' minimum
+// thickness.
 Piece MakePiece(core::TriangleMesh mesh, const CutContext& context);
 
-// What a cut makes of a piece; empty where it does not cut. Crumbs that no part can stand for are
-// left out.
+// Cuts a piece and returns the resulting pieces; empty if the plane does not cut it. Fragments too
+// small for a convex part are dropped.
 std::vector<Piece> CutPiece(const Piece& piece, const CutPlane& plane, const CutContext& context);
 
-// The plane that serves best (see ConvexDecomposition), already cut. Empty when none helps.
+// Returns the pieces from the best cutting plane (see ConvexDecomposition); empty if no cut helps.
 std::vector<Piece> BestCut(const Piece& piece, const CutContext& context);
 
-// Joins neighbours: always where the common hull's concavity is at most `threshold`, and beyond it
-// while there are more than `max_parts` (> 0). Hulls alone are kept up to date.
+// Merges neighbours: always if the common hull's concavity is at most `threshold`, and beyond that
+// while there are more than `max_parts` (> 0). Only hulls are kept up to date.
 void MergePieces(const CutContext& context, double threshold, int max_parts,
                  std::vector<Piece>* pieces);
 

@@ -9,21 +9,22 @@
 namespace simwright::geometry {
 
 struct HiddenSightOptions {
-  double reach = 0.0;   // > 0, in the mesh's unit: what is seen farther than this from the solid
-  int rays = 2000000;   // random chords among which such sights are looked for; >= 0
-  int places = 60;      // at most so many of them are looked into; >= 0
-  int sights = 400;     // lines of sight tried at each; >= 0
-  int generations = 2;  // of places: what is found is looked into again; >= 0
-  double radius = 0.0;  // > 0: how far up a known line of sight others pass, in the mesh's unit
+  double reach = 0.0;   // > 0, in the mesh's unit: only hits farther than this from the solid count
+  int rays = 2000000;   // random chords in the initial search for such hits; >= 0
+  int places = 60;      // largest number of hits to refine per generation; >= 0
+  int sights = 400;     // rays tried around each; >= 0
+  int generations = 2;  // refinement rounds: new hits are refined again; >= 0
+  double radius = 0.0;  // > 0: distance from the hit to the point of its line of sight through
+                        // which new rays pass, in the mesh's unit
   std::uint64_t seed = 1;
 };
 
-// Random lines of sight seldom enter a slit. Where some are found to end farther than `reach` from
-// `solid`, many more are sent through points of them, turned a little. Returned are all first hits
-// on `visual` from outside that lie farther than `reach` from `solid`; the first ones returned are
-// the random ones, of which `*random_count` (may be null) says how many there are.
-// Deterministic for a seed, whatever the threads. Throws core::Error where one of the meshes has no
-// faces or is not valid, a length is not positive or a number negative.
+// Samples first hits on `visual` from outside that lie farther than `reach` from `solid`. Random
+// rays seldom enter a slit, so where some of them end farther than `reach` from `solid`, many more
+// rays are sent through points of the same line of sight at small angles to it. The random hits
+// come first in the result; `*random_count` (may be null) receives their number. Deterministic for
+// a seed, whatever the thread count. Throws core::Error if one of the meshes has no faces or is
+// invalid, a length is not positive or a number negative.
 std::vector<OuterHit> HiddenSights(const core::TriangleMesh& visual,
                                    const core::TriangleMesh& solid,
                                    const HiddenSightOptions& options, int* random_count = nullptr);

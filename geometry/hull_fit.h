@@ -11,21 +11,23 @@
 
 namespace simwright::geometry {
 
-// Measures how far a hull that stands for a part of one solid departs from that solid: CoACD's
-// concavity, with the solid itself in the place of the piece, so that the caps between pieces
-// count for nothing. Queries are const and safe from several threads.
+// Measures how far the hull of a part of one solid deviates from that solid: CoACD's concavity,
+// computed against the solid instead of the piece, so that the caps between pieces do not count.
+// Queries are const and thread-safe.
 class HullFit {
  public:
-  // `solid` closed and outward. `samples` points on it serve as what a hull may bury.
+  // `solid` must be closed and oriented outward. `samples` points on it serve to measure how deep a
+  // hull buries the surface.
   HullFit(const core::TriangleMesh& solid, int samples, std::uint64_t seed);
 
-  // max(Hausdorff distance, 0.3 Rv), in units of half the solid's longest side. The Hausdorff
-  // distance is that of points on `hull` outside the solid to the solid's surface, and of points
-  // on the solid's surface inside `hull` to the hull's. `volume` (m^3) is that of the piece.
-  // Once above `enough` the search for a larger distance ends.
+  // Returns max(Hausdorff distance, 0.3 Rv), in units of half the solid's longest side. The
+  // Hausdorff distance is the larger of that from points on `hull` outside the solid to the solid's
+  // surface and that from points on the solid's surface inside `hull` to the hull's. `volume` (m^3)
+  // is the piece's. The search stops early once the distance exceeds `enough`.
   double Concavity(const core::TriangleMesh& hull, double volume, double enough) const;
 
-  // 0.3 Rv alone, Rv the radius of a ball of the volume that the hull adds, in the same units.
+  // Returns 0.3 Rv only, where Rv is the radius of a ball of the volume that the hull adds, in the
+  // same units.
   double VolumeConcavity(double excess_volume) const;
 
   double unit() const { return unit_; }  // m, half the longest side
@@ -41,14 +43,14 @@ class HullFit {
   double unit_ = 1.0;
 };
 
-// Planes along the faces of a convex mesh that support it: normal . x <= offset inside. (F x 4)
+// Returns the supporting planes of a convex mesh's faces: normal . x <= offset inside. (F x 4)
 std::vector<Eigen::Vector4d> FacePlanes(const core::TriangleMesh& hull);
 
-// Largest signed height of `p` over any of the planes: negative inside, minus the depth then.
+// Returns the largest signed distance of `p` to any of the planes; inside it is minus the depth.
 double HeightOver(const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d& p);
 
-// Whether `p` is inside the closed, outward surface under `tree`: the first face that a ray from
-// it meets is seen from behind.
+// Returns true if `p` is inside the closed surface under `tree`, oriented outward: the first face
+// that a ray from `p` hits is seen from behind.
 bool InsideSurface(const core::TriangleMesh& mesh, const TriangleTree& tree,
                    const Eigen::Vector3d& p);
 

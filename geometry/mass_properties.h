@@ -14,41 +14,41 @@ struct MassProperties {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();         // kg m^2, about center_of_mass
 };
 
-// Mass properties of the solid that `mesh` bounds, filled with `density` (kg / m^3): the volume
-// integrals of 1, x and x x^T turned into sums over triangles by the divergence theorem (exact for
-// a polyhedron: F. Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia tensor", 2004),
-// taken about the middle of the bounds so that a far origin costs no digits.
-// Throws core::Error for an invalid or empty mesh, a density that is not positive and finite, or
-// a volume that is not positive (an open or inside-out surface).
+// Computes the mass properties of the solid bounded by `mesh` at `density` (kg / m^3): the volume
+// integrals of 1, x and x x^T as sums over triangles by the divergence theorem (exact for a
+// polyhedron: F. Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia tensor", 2004),
+// taken about the centre of the AABB so that a far origin costs no digits. Throws core::Error for
+// an invalid or empty mesh, a density that is not positive and finite, or a volume that is not
+// positive (an open or inside-out surface).
 MassProperties SolidMassProperties(const core::TriangleMesh& mesh, double density);
 
-// The mass properties of a sheet that lies on the surface: the area integrals times
-// `wall_thickness` (m), the limit of a thin wall.
-// Throws core::Error for an invalid mesh, no area, or a thickness or density that is not positive.
+// Computes the mass properties of a sheet on the surface: the area integrals times `wall_thickness`
+// (m), the limit of a thin wall. Throws core::Error for an invalid mesh, no area, or a thickness or
+// density that is not positive.
 MassProperties ShellMassProperties(const core::TriangleMesh& mesh, double wall_thickness,
                                    double density);
 
-// The mass properties of a hollow body: a wall of `wall_thickness` (m) inside the closed surface
-// `mesh`, of `density` (kg / m^3). With V and A the enclosed volume and the area, the cavity is
-// taken to hold s^3 V with s = 1 - thickness A / (3 V), and the centre and the inertia per mass to
-// be w of the sheet's and 1 - w of the solid's, w = 3/2 ((1 - s^5) / (1 - s^3) - 1). This is exact
-// for a surface whose faces all touch one inscribed sphere (sphere, cube, regular polyhedra), and
-// tends to the sheet for thin walls and to the solid for thick ones on any surface.
-// Throws core::Error as SolidMassProperties does, and for a thickness that is not in
-// (0, 3 V / A).
+// Computes the mass properties of a hollow body: a wall of `wall_thickness` (m) inside the closed
+// surface `mesh`, of `density` (kg / m^3). With V and A the enclosed volume and the area, the
+// cavity is assumed to have volume s^3 V with s = 1 - thickness A / (3 V), and the centre and the
+// inertia per mass to be w times the sheet's plus 1 - w times the solid's, w = 3/2 ((1 - s^5) / (1
+// - s^3) - 1). This is exact for a surface whose faces all touch one inscribed sphere (sphere,
+// cube, regular polyhedra), and tends to the sheet for thin walls and to the solid for thick ones
+// on any surface. Throws core::Error as SolidMassProperties does, and for a thickness outside (0, 3
+// V / A).
 MassProperties HollowMassProperties(const core::TriangleMesh& mesh, double wall_thickness,
                                     double density);
 
-// The wall thickness (m) at which a hollow body of `volume` (m^3, enclosed) and `area` (m^2) holds
-// `fill` of its volume as matter, 0 < fill < 1: 3 V / A (1 - cbrt(1 - fill)); fill V / A for thin
-// walls. Throws core::Error for arguments outside of these ranges.
+// Returns the wall thickness (m) at which the walls of a hollow body of enclosed `volume` (m^3) and
+// `area` (m^2) fill the share `fill` of its volume, 0 < fill < 1: 3 V / A (1 - cbrt(1 - fill));
+// fill V / A for thin walls. Throws core::Error for arguments out of these ranges.
 double WallThickness(double fill, double volume, double area);
 
-// Several bodies taken as one rigid one; volumes and masses add. Throws core::Error when the total
-// mass is not positive.
+// Returns the mass properties of two bodies rigidly joined; volumes and masses add. Throws
+// core::Error if the total mass is not positive.
 MassProperties Combined(const MassProperties& a, const MassProperties& b);
 
-// The same body after a rigid motion of its frame.
+// Returns the mass properties after a rigid transform of the frame.
 MassProperties Transformed(const Eigen::Isometry3d& target_from_source,
                            const MassProperties& properties);
 
@@ -57,12 +57,13 @@ struct PrincipalInertia {
   Eigen::Quaterniond axes = Eigen::Quaterniond::Identity();  // body_from_principal
 };
 
-// inertia = R diag(moments) R^T with R = axes (right-handed). Throws core::Error when `inertia` is
-// not finite or not symmetric to 1e-6 of its norm.
+// Diagonalises `inertia` = R diag(moments) R^T with R = axes (right-handed). Throws core::Error if
+// `inertia` is not finite or not symmetric to 1e-6 of its norm.
 PrincipalInertia PrincipalInertiaOf(const Eigen::Matrix3d& inertia);
 
-// Whether a rigid body can have these principal moments: all positive, and none above the sum of
-// the other two (to `tolerance` of the largest; a flat plate meets it with equality).
+// Returns true if a rigid body can have these principal moments: all are positive, and none exceeds
+// the sum of the other two (to `tolerance` of the largest; a flat plate satisfies it with
+// equality).
 bool SatisfiesTriangleInequality(const Eigen::Vector3d& moments, double tolerance = 1e-9);
 
 }  // namespace simwright::geometry

@@ -14,15 +14,15 @@ struct CutPlane {
   double offset = 0.0;  // m
 };
 
-// Both sides of `mesh` (closed, outward), each closed again by a cap in the plane, taken apart
-// into connected bodies. Vertices within `tolerance` (m) of the plane count as on it, faces within
-// it are made anew with the cap.
-// Returns nothing where the plane leaves one side empty or where the volumes of the pieces do not
-// add up to the mesh's: the caller takes another plane then.
+// Splits `mesh` (closed, oriented outward) into connected bodies on both sides of the plane, each
+// closed again by a cap. Vertices within `tolerance` (m) of the plane count as on it; faces within
+// it are rebuilt with the cap. Returns nothing if one side of the plane is empty or the volumes of
+// the pieces do not add up to the mesh's; the caller then tries another plane.
 std::vector<core::TriangleMesh> CutApart(const core::TriangleMesh& mesh, const CutPlane& plane,
                                          double tolerance);
 
-// Bodies that share no vertex. An inward surface (a void) stays with the body round it.
+// Splits a mesh into bodies that share no vertex. An inward surface (a void) stays with the body
+// around it.
 std::vector<core::TriangleMesh> ConnectedBodies(const core::TriangleMesh& mesh);
 
 }  // namespace simwright::geometry

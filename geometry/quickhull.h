@@ -12,17 +12,18 @@
 
 namespace simwright::geometry {
 
-// Incremental hull with a list of outside points to each face (Barber, Dobkin and Huhdanpaa,
-// "The quickhull algorithm for convex hulls", 1996). Of points that lie equally far out of a face
-// the one farthest from the middle is taken: the largest value of a strictly convex function over
-// a convex set is at a corner of it, so no vertex lies inside an edge or a facet of the hull.
+// The incremental Quickhull algorithm with a list of outside points per face (Barber, Dobkin and
+// Huhdanpaa, "The quickhull algorithm for convex hulls", 1996). Among points equally far above a
+// face, the one farthest from the centroid is taken: the maximum of a strictly convex function over
+// a convex set is at one of its corners, so no vertex lies inside an edge or a facet of the hull.
 class Quickhull {
   using Vector3d = Eigen::Vector3d;
 
   static constexpr double kFlatPoints = 1e-6;  // of the diagonal: a set this thin is flat
-  static constexpr double kTie = 1e-10;        // of the diagonal: points that lie equally far out
-  static constexpr double kThin = 1e-3;        // of the diagonal: a face whose plane may be off
-  static constexpr double kThinnest = 1e-8;    // of the diagonal: least height of a triangle
+  static constexpr double kTie = 1e-10;        // of the diagonal: points equally far above a face
+  static constexpr double kThin = 1e-3;        // of the diagonal: a face whose plane may be
+                                               // inaccurate
+  static constexpr double kThinnest = 1e-8;    // of the diagonal: smallest height of a triangle
 
  public:
   Quickhull(const std::vector<Vector3d>& points, double diagonal, double tolerance)
@@ -32,7 +33,7 @@ class Quickhull {
     middle_ = sum / static_cast<double>(points_.size());
   }
 
-  // False when the points are flat.
+  // Returns false if the points are flat.
   bool Start() {
     std::array<int, 4> corner;
     if (!FirstTetrahedron(&corner)) return false;
@@ -87,8 +88,8 @@ class Quickhull {
 
   enum class Verdict { kSound, kNeedle, kFolded };
 
-  // Whether no triangle is a needle or upside down and no two neighbours fold inward by more than
-  // the tolerance. `needle` receives the point in the middle of a thin triangle that is at fault.
+  // Checks that no triangle is a needle or inverted and that no two neighbours fold inward by more
+  // than the tolerance. `needle` receives the middle point of a faulty thin triangle.
   Verdict Judge(int* needle) const {
     if (skipped_ > 4 * tolerance_) return Verdict::kFolded;
     std::vector<int> corners;
@@ -103,7 +104,7 @@ class Quickhull {
       int apex = 0;
       const double height = face.twice_area / LongestEdge(face, &apex);
       bool good = height > kThinnest * diagonal_ && face.Height(inside_) < -tolerance_;
-      // A thin face's plane says little of its neighbourhood: it is held against all corners.
+      // A thin face's plane says little about its neighbourhood: test it against all corners.
       if (height < kThin * diagonal_) {
         for (const int v : corners) good = good && face.Height(points_[v]) <= 8 * tolerance_;
         if (!good) {
@@ -139,10 +140,10 @@ class Quickhull {
   };
 
   struct HorizonEdge {
-    int from, to, face, edge;  // `face` stays, `edge` is its side towards what is seen
+    int from, to, face, edge;  // `face` stays, `edge` is its side towards the visible faces
   };
 
-  // `apex` receives the corner across from it.
+  // Returns the length of the longest edge; `apex` receives the corner opposite to it.
   double LongestEdge(const Face& face, int* apex) const {
     double longest = 0.0;
     for (int k = 0; k < 3; ++k) {
@@ -177,7 +178,7 @@ class Quickhull {
     Vector3d normal = along.cross(points_[c] - points_[a]);
     if (normal.norm() < kFlatPoints * diagonal_) return false;
     normal.normalize();
-    // Of all as far away as the farthest the one farthest from the middle: a true corner.
+    // Among all equally far points, take the one farthest from the centroid: a true corner.
     const auto height = [&](const Vector3d& p) { return std::abs(normal.dot(p - points_[a])); };
     const double top = height(points_[argmax(height)]);
     if (top < kFlatPoints * diagonal_) return false;
@@ -211,7 +212,7 @@ class Quickhull {
     return index;
   }
 
-  // Hands each point to the face that it lies farthest out of; what is inside all of them goes.
+  // Assigns each point to the face that it is farthest above; points inside all faces are dropped.
   void Distribute(const std::vector<int>& candidates, const std::vector<int>& faces) {
     for (const int p : candidates) {
       int best = -1;
@@ -259,7 +260,8 @@ class Quickhull {
     return best;
   }
 
-  // Faces seen from `p`, connected to `face`, into seen_; their border into horizon_.
+  // Collects into seen_ the faces visible from `p` and connected to `face`, and into horizon_ their
+  // border.
   void Look(int face, const Vector3d& p) {
     seen_.assign(1, face);
     horizon_.clear();
@@ -288,7 +290,7 @@ class Quickhull {
     }
   }
 
-  // Puts the horizon in order; false when it is not one simple loop.
+  // Orders the horizon; returns false if it is not one simple loop.
   bool OrderHorizon() {
     for (std::size_t i = 0; i + 1 < horizon_.size(); ++i) {
       std::size_t next = i + 1;
@@ -312,8 +314,8 @@ class Quickhull {
     Distribute(rest, {face});
   }
 
-  // Looks from the point farthest out of `face`, and from the one farther still, or as far but
-  // nearer a corner, that another face in sight has in its list.
+  // Looks from the point farthest above `face`; then from any farther point, or equally far one
+  // nearer a corner, in the list of another visible face.
   int Outermost(int face) {
     int apex = faces_[face].farthest;
     Look(face, points_[apex]);

@@ -6,33 +6,35 @@
 
 namespace simwright::geometry {
 
-// What stands in the way of a mesh being a solid.
+// The criteria for a mesh to bound a solid.
 struct Soundness {
-  bool closed = false;    // each edge has as many faces running one way as the other, none is open
-  bool oriented = false;  // neighbours agree, and each component that no other encloses faces out
+  bool closed = false;    // each edge has as many faces in one direction as in the other
+  bool oriented = false;  // neighbours agree, and each component that no other encloses faces
+                          // outward
   bool manifold = false;  // each edge has two faces, each vertex one fan of faces
   int open_edges = 0;     // edges with one face
   int non_manifold_edges = 0;     // edges with three or more faces
   int non_manifold_vertices = 0;  // vertices with more than one fan
-  int self_intersections = 0;     // pairs of faces that meet elsewhere than in what they share
+  int self_intersections = 0;     // pairs of faces that meet elsewhere than in shared vertices and
+                                  // edges
   int components = 0;             // connected through edges
   int degenerate_triangles = 0;   // repeated vertex, or area zero in exact arithmetic
   double signed_volume = 0.0;     // m^3, by the divergence theorem; negative when inside out
 
-  // A solid: everything holds and the volume is positive.
+  // Returns true if all criteria hold and the volume is positive: the mesh bounds a solid.
   bool Sound() const {
     return closed && oriented && manifold && self_intersections == 0 && degenerate_triangles == 0 &&
            signed_volume > 0.0;
   }
 };
 
-// Vertices are told apart by index: weld first where a file repeats them.
+// Checks a mesh. Vertices are distinguished by index: weld first if a file repeats them.
 // Self-intersections are decided with exact predicates; `self_intersections` stops counting at
-// `intersection_limit`. 50k faces take under a second.
-// Throws core::Error on an index out of range or a coordinate that is not finite.
+// `intersection_limit`. 50k faces take under a second. Throws core::Error for an index out of range
+// or a coordinate that is not finite.
 Soundness Examine(const core::TriangleMesh& mesh, int intersection_limit = 1000);
 
-// One line for a person, e.g. "closed, oriented, 12 self-intersections, 3 components".
+// Formats one line for a person, e.g. "closed, oriented, 12 self-intersections, 3 components".
 std::string Describe(const Soundness& soundness);
 
 }  // namespace simwright::geometry

@@ -15,45 +15,46 @@ struct SurfaceDistanceOptions {
   std::uint64_t seed = 1;
 };
 
-// Distances both ways, in metres and as a share of the visual mesh's bounding-box diagonal.
+// Distances in both directions, in metres and as a share of the visual mesh's AABB diagonal.
 struct SurfaceDistance {
   double visual_to_solid_max = 0.0;  // from points of the visual's outer surface to the solid
   double visual_to_solid_p99 = 0.0;
   double solid_to_visual_max = 0.0;  // from points of the solid to the visual (all of it)
   double solid_to_visual_p99 = 0.0;
   double diagonal = 0.0;  // m
-  int outer_points = 0;   // hits that sampled the outer surface
+  int outer_points = 0;   // ray hits that sample the outer surface
 
   double MaxRatio() const;  // the larger of both maxima over the diagonal
 };
 
-// The outer surface is what a ray from outside can meet: the first hits of `rays` random chords of
-// the bounding sphere, from both ends (isotropic: each piece of the surface is drawn in proportion
-// to area times visibility). Deterministic for a seed, whatever the threads.
-// Throws core::Error where one of the meshes has no faces or is not valid.
+// Measures the distances between the outer surface of `visual` and `solid`. The outer surface is
+// what a ray from outside can hit: the first hits of `rays` random chords of the bounding sphere,
+// from both ends (isotropic: each piece of the surface is sampled in proportion to area times
+// visibility). Deterministic for a seed, whatever the thread count. Throws core::Error if one of
+// the meshes has no faces or is invalid.
 SurfaceDistance OuterSurfaceDistance(const core::TriangleMesh& visual,
                                      const core::TriangleMesh& solid,
                                      const SurfaceDistanceOptions& options = {});
 
-// A point of the outer surface, and from where it was seen.
+// A point of the outer surface and the direction from which it was seen.
 struct OuterHit {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   Eigen::Vector3d to_eye = Eigen::Vector3d::UnitX();  // unit
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  // unit, of the face, towards the eye
 };
 
-// First hits of chords from outside, as in OuterSurfaceDistance; at most 2 `rays` of them.
+// Returns the first hits of chords from outside, as in OuterSurfaceDistance; at most 2 `rays`.
 std::vector<OuterHit> SampleOuterHits(const core::TriangleMesh& mesh, int rays, std::uint64_t seed);
 
-// The same, points alone. (K x 3)
+// Returns only the points of SampleOuterHits. (K x 3)
 std::vector<Eigen::Vector3d> SampleOuterSurface(const core::TriangleMesh& mesh, int rays,
                                                 std::uint64_t seed);
 
-// Points drawn uniformly by area. (count x 3). Throws core::Error for a mesh without area.
+// Samples points uniformly by area. (count x 3). Throws core::Error for a mesh without area.
 std::vector<Eigen::Vector3d> SampleSurface(const core::TriangleMesh& mesh, int count,
                                            std::uint64_t seed);
 
-// Unsigned distance from each point to the mesh, metres.
+// Returns the unsigned distance from each point to the mesh, metres.
 std::vector<double> DistancesToSurface(const std::vector<Eigen::Vector3d>& points,
                                        const core::TriangleMesh& mesh);
 

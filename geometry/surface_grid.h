@@ -11,16 +11,16 @@
 
 namespace simwright::geometry {
 
-// Triangles entered into a regular grid of nodes: how far each node near the surface is from it,
-// which piece is nearest, and which grid edges a triangle crosses.
+// Triangles rasterised into a regular grid of nodes: the distance of each node near the surface,
+// the nearest piece, and the grid edges that a triangle crosses.
 class SurfaceGrid {
  public:
-  // `band`: distances are exact up to this, and kFar beyond. `margin` cells lie free all round.
+  // `band`: distances are exact up to this, and kFar beyond. `margin` cells on each side are empty.
   SurfaceGrid(const core::TriangleMesh& mesh, double cell, double band, int margin);
 
   static constexpr float kFar = 3.0e38f;
 
-  // Nodes along each axis for these arguments.
+  // Returns the number of nodes along each axis for these arguments.
   static std::array<int, 3> Size(const core::TriangleMesh& mesh, double cell, double band,
                                  int margin);
 
@@ -31,9 +31,9 @@ class SurfaceGrid {
   const Eigen::Vector3d& origin() const { return origin_; }
 
   float Distance(std::size_t node) const { return distance_[node]; }
-  // The surface's point nearest to a node within the band.
+  // Returns the surface point nearest to a node within the band.
   Eigen::Vector3d Nearest(std::size_t node) const;
-  // Whether a triangle crosses the edge from `node` to the next node along `axis`.
+  // Returns true if a triangle crosses the edge from `node` to the next node along `axis`.
   bool Crossed(std::size_t node, int axis) const { return (crossed_[node] >> axis) & 1; }
   Eigen::Vector3d Position(std::size_t node) const;
 
@@ -45,7 +45,7 @@ class SurfaceGrid {
   void Subdivide(const core::TriangleMesh& mesh);
   void EnterDistances(const Piece& piece, int index, int low_k, int high_k);
   void EnterCrossings(const Piece& piece, int low_k, int high_k);
-  // The grid lines along `axis` that meet the piece.
+  // Marks the crossings of the grid lines along `axis` with the piece.
   void EnterCrossingsAlong(int axis, const Piece& piece, const Eigen::Vector3d& normal, int low_k,
                            int high_k);
 
@@ -54,7 +54,7 @@ class SurfaceGrid {
   Eigen::Vector3d origin_;
   std::array<int, 3> size_;
   std::array<std::size_t, 3> stride_;
-  std::vector<Piece> pieces_;  // triangles cut until a few cells across; in cells from the origin
+  std::vector<Piece> pieces_;  // triangles subdivided to a few cells; in cells from the origin
   std::vector<float> distance_;
   std::vector<int> nearest_;
   std::vector<std::uint8_t> crossed_;

@@ -6,8 +6,9 @@
 
 namespace simwright::geometry {
 
-// A CGAL::Surface_mesh (a template, since no header here includes CGAL) without removed elements
-// (collect_garbage), all faces triangles, as ours: the same vertices and faces in the same order.
+// Converts a CGAL::Surface_mesh (a template parameter, since no header here includes CGAL) of
+// triangles without removed elements (collect_garbage) to a TriangleMesh with the same vertices and
+// faces in the same order.
 template <typename SurfaceMesh>
 core::TriangleMesh FromSurfaceMesh(const SurfaceMesh& surface) {
   core::TriangleMesh mesh;

@@ -7,11 +7,11 @@
 
 namespace simwright::geometry {
 
-// Vertices within `tolerance` (metres; 0: equal bit for bit) become one, unused ones go, and so do
-// triangles that repeat a vertex or repeat another triangle's three (either way round).
+// Merges vertices within `tolerance` (metres; 0: bit for bit equal) and removes unused vertices and
+// triangles that repeat a vertex or another triangle's three (in either orientation).
 core::TriangleMesh Weld(const core::TriangleMesh& mesh, double tolerance);
 
-// The same triangles; vertices that none of them uses go.
+// Returns the same triangles without the unused vertices.
 core::TriangleMesh WithoutUnusedVertices(const core::TriangleMesh& mesh);
 
 // A triangle at an edge.
@@ -21,18 +21,18 @@ struct EdgeUse {
   bool forward;  // from the lower vertex to the higher
 };
 
-// Every use of every edge (3M), by key, then by triangle.
+// Returns every use of every edge (3M), sorted by key, then by triangle.
 std::vector<EdgeUse> SortedEdgeUses(const core::TriangleMesh& mesh);
 
-// The number of each triangle's component, connected through shared edges; components are
-// numbered by their first triangle. (M). `count` receives how many.
+// Returns the component of each triangle, connected through shared edges; components are numbered
+// by their first triangle. (M). `count` receives their number.
 std::vector<int> EdgeComponents(const core::TriangleMesh& mesh, int* count);
 
-// Faces turned so that neighbours across two-faced edges agree, as far as that can be; each closed
-// component then faces outward. Returns whether all neighbours agree.
+// Flips faces so that neighbours across two-faced edges agree, as far as possible; each closed
+// component then faces outward. Returns true if all neighbours agree.
 bool OrientConsistently(core::TriangleMesh* mesh);
 
-// m^3, by the divergence theorem.
+// Returns the signed volume in m^3, by the divergence theorem.
 double SignedVolume(const core::TriangleMesh& mesh);
 
 }  // namespace simwright::geometry

@@ -8,14 +8,14 @@
 
 namespace simwright::llm {
 
-// Keeps the answers of another model in a folder, one file a request, so that an equal request of
-// the same model (ChatModel::name, `identity`) is sent once. Files are written beside and renamed
-// in; several programs may share a folder. A damaged entry is asked anew and replaced, with the
-// finding "llm-cache-damaged". Answers that are empty or were cut off by max_tokens are not kept.
+// Caches another model's answers in a folder, one file per request, so that equal requests to the
+// same model (ChatModel::name, `identity`) are sent once. Files are written beside and renamed into
+// place; several programs may share a folder. A damaged entry is requested again and replaced, with
+// the finding "llm-cache-damaged". Empty answers and those cut off by max_tokens are not cached.
 class CachingChatModel final : public ChatModel {
  public:
-  // `identity` tells models of the same name apart, e.g. the address of a server whose only model
-  // has none; no secret. Throws core::Error when the folder cannot be made.
+  // `identity` distinguishes models of the same name, e.g. by the address of a server whose only
+  // model has no name; it holds no secret. Throws core::Error if the folder cannot be created.
   CachingChatModel(std::unique_ptr<ChatModel> inner, const std::filesystem::path& folder,
                    const std::string& identity);
 

@@ -6,10 +6,10 @@
 
 namespace simwright::llm {
 
-// An answer as cache and transcript keep it: text, finish_reason, tokens.
+// Returns an answer's JSON form in cache and transcript: text, finish_reason, tokens.
 nlohmann::ordered_json AnswerToJson(const ChatAnswer& answer);
 
-// False, and `answer` untouched, where `json` is no such object.
+// Parses an answer. Returns false and leaves `answer` unchanged if `json` is not such an object.
 bool AnswerFromJson(const nlohmann::json& json, ChatAnswer* answer);
 
 }  // namespace simwright::llm

@@ -7,14 +7,14 @@
 
 namespace simwright::llm {
 
-// The value of `text`, discarded (is_discarded()) where it is not JSON or nested deeper than 64
-// levels: what is deeper is nobody's answer, and writing it out again would exhaust the stack.
-// `too_deep` (may be null) says which.
+// Parses `text`; returns a discarded value (is_discarded()) if it is not JSON or nested deeper than
+// 64 levels, which no valid answer needs and which would exhaust the stack when written out.
+// `too_deep` (may be null) tells which.
 nlohmann::json ParseJson(std::string_view text, bool* too_deep = nullptr);
 
-// The JSON objects and arrays of an answer, in order, whatever stands around them: prose, Markdown
-// fences. Comments and commas before a closing bracket are forgiven. What an object or array holds
-// is not listed again. Numbers alone and texts are no JSON here.
+// Returns the JSON objects and arrays in an answer, in order, whatever surrounds them: prose,
+// Markdown fences. Accepts comments and commas before a closing bracket. Nested values are not
+// listed separately; bare numbers and strings are not JSON here.
 std::vector<nlohmann::json> JsonInText(std::string_view text);
 
 }  // namespace simwright::llm

@@ -7,9 +7,9 @@
 
 namespace simwright::llm {
 
-// The model that `options` describe: a transcript's (replay), else the server's, through the cache
-// and onto the record where those are given. Sends nothing. Throws core::Error where the options
-// are not valid, or a folder or transcript is not there.
+// Creates the model that `options` describe: a transcript's (replay), else the server's, with cache
+// and recording if those are set. Sends nothing. Throws core::Error if the options are invalid, or
+// a folder or transcript is missing.
 std::unique_ptr<ChatModel> MakeChatModel(const ChatModelOptions& options);
 
 }  // namespace simwright::llm

@@ -12,15 +12,15 @@
 
 namespace simwright::llm {
 
-// A server that speaks OpenAI's chat completions: llama.cpp, Ollama, vLLM, OpenAI and others.
-// Status 429 and 5xx, connections that break and answers that are cut off are asked again, with
-// growing waits or as Retry-After says; every other refusal ends at once with the server's words.
-// An optional field that the server refuses (JSON mode, seed, temperature) is left out from then
-// on. The key is sent to `options.url`'s own scheme, host and port only, and is in no answer,
-// error or finding.
+// A client of OpenAI's chat completions protocol: llama.cpp, Ollama, vLLM, OpenAI and others.
+// Status 429 and 5xx, broken connections and truncated answers are retried, with growing waits or
+// as Retry-After says; every other refusal fails at once with the server's message. An optional
+// field that the server refuses (JSON mode, seed, temperature) is omitted from then on. The key is
+// sent to `options.url`'s own scheme, host and port only, and appears in no answer, error or
+// finding.
 class OpenAiChatModel final : public ChatModel {
  public:
-  // Throws core::Error unless the options are valid. Sends nothing. `clock` outlives the model.
+  // Throws core::Error unless the options are valid. Sends nothing. `clock` must outlive the model.
   explicit OpenAiChatModel(const ChatModelOptions& options, Clock& clock = SystemClock());
 
   ChatAnswer Ask(const ChatRequest& request, core::Progress* progress = nullptr) override;
@@ -29,12 +29,12 @@ class OpenAiChatModel final : public ChatModel {
   core::Findings TakeFindings() override;
 
  private:
-  // What to do about a reply.
+  // The action after a reply.
   struct Verdict {
     enum class Kind { kAnswer, kAgainAtOnce, kAgainLater, kFail };
     Kind kind = Kind::kFail;
     ChatAnswer answer;
-    std::string sentence;     // why, unless answered
+    std::string sentence;     // the reason, unless answered
     std::string remedy;       // may be empty
     std::string retry_after;  // the header; may be empty
   };
@@ -55,8 +55,8 @@ class OpenAiChatModel final : public ChatModel {
   std::vector<std::string> secrets_;
   Clock& clock_;
   core::Rng rng_;
-  std::string address_;  // endpoint_.address, or where that has moved to within its origin
-  int redirects_ = 0;    // of the question under way
+  std::string address_;  // endpoint_.address, or its redirect within the same origin
+  int redirects_ = 0;    // of the current question
   Dialect dialect_;
   Usage usage_;
   core::Findings findings_;

@@ -7,21 +7,22 @@
 
 namespace simwright::llm {
 
-// Time as the client meets it; tests put one in its place that takes none.
+// The client's clock; tests replace it by one that does not wait.
 class Clock {
  public:
   virtual ~Clock() = default;
   virtual double UnixSeconds() = 0;
-  // Returns after `seconds`, or earlier where Cancelled() has become true.
+  // Returns after `seconds`, or as soon as Cancelled() becomes true.
   virtual void Sleep(double seconds) = 0;
   virtual bool Cancelled() = 0;
 };
 
-// The system's clock; cancelled by Ctrl-C (core::CancelRequested).
+// Returns the system's clock; Ctrl-C cancels it (core::CancelRequested).
 Clock& SystemClock();
 
-// Waits before the second, third ... attempt: first_wait 2^n, at most longest_wait, of which a
-// random half at most is left out, so that clients that failed together do not return together.
+// The waits before the second, third ... attempt: exponential backoff, first_wait 2^n, at most
+// longest_wait, minus a random share of up to half, so that clients that failed together do not
+// return together.
 class RetrySchedule {
  public:
   RetrySchedule(double first_wait, double longest_wait, core::Rng rng)
@@ -33,8 +34,8 @@ class RetrySchedule {
   core::Rng rng_;
 };
 
-// Seconds that a Retry-After header asks for: a number, or an HTTP date counted from `now` (s
-// since 1970). Never negative; unset where `header` is neither.
+// Returns the seconds that a Retry-After header asks for: a number, or an HTTP date counted from
+// `now` (s since 1970). Never negative; unset if `header` is neither.
 std::optional<double> RetryAfterSeconds(const std::string& header, double now);
 
 }  // namespace simwright::llm

@@ -4,13 +4,13 @@
 
 namespace simwright::nn {
 
-// Sines and cosines of `values` (B) at `size` / 2 frequencies from 1 down to 1 / max_period:
-// (B x size). Vaswani et al. 2017.
+// Returns sines and cosines of `values` (B) at `size` / 2 frequencies from 1 down to 1 /
+// max_period: (B x size). Vaswani et al. 2017.
 torch::Tensor SinusoidalEmbedding(const torch::Tensor& values, int size,
                                   double max_period = 10000.0);
 
-// Two 3 x 3 convolutions with group norms about a skip; an embedding (B x embedding_size) scales
-// and shifts between them (FiLM, Perez et al. 2018). embedding_size 0: none.
+// Two 3 x 3 convolutions with group norms and a skip connection; an embedding (B x embedding_size)
+// scales and shifts between them (FiLM, Perez et al. 2018). embedding_size 0: none.
 class ResidualBlockImpl : public torch::nn::Module {
  public:
   ResidualBlockImpl(int in, int out, int embedding_size);
@@ -24,7 +24,7 @@ class ResidualBlockImpl : public torch::nn::Module {
 };
 TORCH_MODULE(ResidualBlock);
 
-// Self-attention over the places of a feature map, with a skip (Vaswani et al. 2017).
+// Self-attention over the positions of a feature map, with a skip connection (Vaswani et al. 2017).
 class SpatialAttentionImpl : public torch::nn::Module {
  public:
   SpatialAttentionImpl(int channels, int heads);

@@ -8,19 +8,20 @@
 
 namespace simwright::nn {
 
-// What a weights file says of itself: its kind and sizes, so that the right network is built.
+// The metadata of a weights file: the kind and sizes from which the network is built.
 using CheckpointFacts = std::map<std::string, std::string>;
 
-// Writes the module's parameters and buffers in half precision (what ships is half as large and as
-// good), beside and renamed in. `facts` must hold "kind".
+// Writes the module's parameters and buffers in half precision, at half the size and without loss
+// of quality, to a sibling file that is renamed into place. `facts` must contain "kind".
 void SaveCheckpoint(const torch::nn::Module& module, const CheckpointFacts& facts,
                     const std::filesystem::path& path);
 
-// What a weights file says of itself, before a network is built for it. Throws as LoadCheckpoint.
+// Reads the metadata of a weights file before a network is built. Throws like LoadCheckpoint.
 CheckpointFacts ReadCheckpointFacts(const std::filesystem::path& path, const std::string& kind);
 
-// Fills the module and returns the facts. Throws core::Error where the file is missing, damaged, of
-// another kind than `kind`, or holds other names or shapes than the module, naming the first.
+// Loads the module's weights and returns the metadata. Throws core::Error if the file is missing,
+// damaged, of another kind than `kind`, or holds other names or shapes than the module, naming the
+// first mismatch.
 CheckpointFacts LoadCheckpoint(const std::filesystem::path& path, const std::string& kind,
                                torch::nn::Module* module);
 

@@ -6,15 +6,15 @@
 
 namespace simwright::nn {
 
-// CUDA where libtorch finds it, else the CPU.
+// Returns CUDA if libtorch finds it, else the CPU.
 torch::Device BestDevice();
 
-// Gives libtorch core::ThreadCount() threads (it starts with one where two hyperthreads are one
-// core), and keeps for it the memory that a step frees. Call before heavy work.
+// Gives libtorch core::ThreadCount() threads (its default is one where two hyperthreads share a
+// core), and keeps memory freed by a step for the next one. Call it before heavy work.
 void PrepareForWork();
 
-// While it lives, loops of the thread that made it are done by that thread alone: waking another
-// one takes longer than a loop over some ten thousand numbers.
+// A scope guard that makes libtorch's loops on the constructing thread single-threaded: waking
+// another thread takes longer than a loop over some ten thousand numbers.
 class LoopsAlone {
  public:
   LoopsAlone();
@@ -26,11 +26,11 @@ class LoopsAlone {
   int before_;
 };
 
-// Into how many shares to split `items` of a batch that is on `device`: one a thread of the CPU's,
-// at most one an item; a GPU takes all at once.
+// Returns the number of shares into which to split `items` of a batch on `device`: one per CPU
+// thread and at most one per item; one for a GPU.
 int ShareCount(const torch::Device& device, std::int64_t items);
 
-// The items of share `i` of `shares`, as even as they can be: [first, first + count).
+// The items of share `i` of `shares`, split as evenly as possible: [first, first + count).
 struct Share {
   std::int64_t first, count;
 };
@@ -39,11 +39,10 @@ inline Share ShareOf(std::int64_t items, int shares, int i) {
   return {first, items * (i + 1) / shares - first};
 }
 
-// Calls body(i) once for each i in [0, count), each on a thread of its own with no other threads in
-// its loops and products, and waits; whether gradients are recorded is as it is here. Loops over
-// the layers of a small network are too short to be split: two threads in each made an update of 32
-// scenes 1.1 times as fast as one, a thread for each half of the batch 1.5 times
-// (bench_training_speed). Throws what a body threw.
+// Calls body(i) once for each i in [0, count), each on a thread of its own whose loops and products
+// are single-threaded, and waits. Gradient mode is inherited from the caller. The layers of a small
+// network are too short to split, so one thread per share is faster than several threads per layer
+// (bench_training_speed). Rethrows what a body threw.
 void ForEachShare(int count, const std::function<void(int)>& body);
 
 }  // namespace simwright::nn

@@ -7,17 +7,17 @@
 
 namespace simwright::nn {
 
-// Exponential moving average of a module's parameters: what is kept after training.
+// The exponential moving average of a module's parameters, which is kept after training.
 class Ema {
  public:
-  // `decay` in [0, 1): the share of the average that a step keeps once warm; before, (1 + n) /
-  // (10 + n) after n steps, so that the random start is forgotten.
+  // `decay` in [0, 1) is the share of the average that a step keeps after warm-up; before, it is (1
+  // + n) / (10 + n) after n steps, so that the random initial weights are forgotten.
   Ema(const torch::nn::Module& module, double decay);
   void Update(const torch::nn::Module& module);
-  // Writes the average into the module's parameters.
+  // Copies the average into the module's parameters.
   void CopyTo(torch::nn::Module* module) const;
 
-  // All of it as tensors, and back. Load returns false where they are another module's.
+  // Save and restore the state as tensors. Load returns false if they belong to another module.
   void Collect(NamedTensors* tensors) const;
   bool Load(const NamedTensors& tensors);
 

@@ -4,13 +4,13 @@
 
 namespace simwright::nn {
 
-// While it lives, products of matrices and convolutions on `device` are done in bfloat16
-// (libtorch's autocast, this thread): a GPU does them several times as fast, weights and sums stay
-// in single precision, and its range is the same, so that no loss has to be scaled. Keep it to a
-// network's forward pass and its loss.
+// A scope guard that runs matrix products and convolutions on `device` in bfloat16 (libtorch's
+// autocast, this thread). A GPU does them several times as fast; weights and sums stay in single
+// precision, and bfloat16 has the same range, so the loss needs no scaling. Use it around a
+// network's forward pass and its loss only.
 class MixedPrecision {
  public:
-  // Does nothing where it is not `wanted`.
+  // Does nothing unless `wanted`.
   MixedPrecision(const torch::Device& device, bool wanted);
   ~MixedPrecision();
   MixedPrecision(const MixedPrecision&) = delete;

@@ -3,12 +3,12 @@
 #include <filesystem>
 
 #include "nn/torch.h"
-// After nn/torch.h, and only where a user's module is run.
+// Include only after nn/torch.h, and only to run a user's module.
 #include <torch/script.h>
 
 namespace simwright::nn {
 
-// A TorchScript module of a user's. Throws core::Error: missing, or no TorchScript.
+// Loads a user's TorchScript module. Throws core::Error if the file is missing or not TorchScript.
 torch::jit::script::Module LoadScript(const std::filesystem::path& path);
 
 }  // namespace simwright::nn

@@ -11,31 +11,32 @@
 
 namespace simwright::nn {
 
-// The part of a training that is the same for every network: the optimiser and its rate, the
-// averaged weights, what is written down to go on from.
+// The part of training that is common to all networks: the optimiser and its learning rate, the
+// averaged weights, and the state from which a run resumes.
 class Trainer {
  public:
-  // Trains `module`, which must outlive the trainer. `state`: where the training's state is kept;
-  // a file of an earlier run is read where `options.resume` is set. Throws core::Error for options
-  // that are not valid, or a state of another network.
+  // Trains `module`, which must outlive the trainer. `state` is the path of the training state; an
+  // earlier run's is loaded if `options.resume` is set. Throws core::Error for invalid options or
+  // another network's state.
   Trainer(torch::nn::Module* module, const TrainerOptions& options,
           const std::filesystem::path& state);
 
-  // The step to begin with: 0, or where the earlier run stopped.
+  // Returns the first step: 0, or where the earlier run stopped.
   int first_step() const { return first_; }
   double LearningRate(int step) const;
-  // One descent along the gradient of `loss`. A loss that is not finite is left out.
+  // Takes one optimiser step along the gradient of `loss`. Skips a loss that is not finite.
   void Descend(int step, const torch::Tensor& loss);
-  // The same for a loss that is the sum of `shares` terms, each worked out on a thread of its own
-  // (ForEachShare): term(i) gives a scalar over the module's parameters. Returns the sum; the same
-  // for the same shares, bit for bit. Throws core::Error for fewer than 1, and what a term throws.
+  // Takes one optimiser step for a loss that is the sum of `shares` terms, each computed on its own
+  // thread (ForEachShare): term(i) returns a scalar that depends on the module's parameters.
+  // Returns the sum. For the same number of shares the result is the same bit for bit. Throws
+  // core::Error for fewer than 1 share, and rethrows what a term throws.
   double Descend(int step, int shares, const std::function<torch::Tensor(int)>& term);
-  // Whether the state is due after `step`.
+  // Returns true if the state is due to be saved after `step`.
   bool SaveDue(int step) const;
   void SaveState(int step) const;
-  // The averaged weights, written into `module`.
+  // Copies the averaged weights into `module`.
   void CopyAverageTo(torch::nn::Module* module) const { average_->CopyTo(module); }
-  // The training is done: nothing to go on from is kept.
+  // Ends the training: deletes the state from which it would resume.
   void Finish() const;
 
  private:

@@ -4,19 +4,19 @@
 
 namespace simwright::nn {
 
-// Free of libtorch, so that whoever passes it on is too.
+// The training options. This header does not depend on libtorch, so its users need not either.
 struct TrainerOptions {
   int steps = 1000;
-  double learning_rate = 1e-3;  // at the top of the warm-up; then a cosine down to a twentieth
-  double warm_share = 0.03;     // of the steps
+  double learning_rate = 1e-3;  // peak after warm-up; then a cosine decay to a twentieth
+  double warm_share = 0.03;     // share of the steps that are warm-up
   double weight_decay = 0.01;   // AdamW (Loshchilov and Hutter 2019)
-  double ema_decay = 0.998;     // of the weights that are kept
-  double largest_norm = 1.0;    // of the gradient, over all parameters
-  // Steps between states written to disk: what a run that was stopped goes on from.
+  double ema_decay = 0.998;     // of the averaged weights
+  double largest_norm = 1.0;    // gradient clipping: largest norm over all parameters
+  // Steps between saved states, from which a stopped run resumes.
   int save_every = 250;
-  bool resume = false;  // go on from the state that an earlier run left
+  bool resume = false;  // resume from the state of an earlier run
 
-  // False, with the reason, for values that no training can have.
+  // Returns false, with the reason, for invalid values.
   bool IsValid(std::string* error) const;
 };
 

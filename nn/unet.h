@@ -11,30 +11,31 @@ namespace simwright::nn {
 struct UNetOptions {
   int in_channels = 4;
   int out_channels = 4;
-  // Pixels that are folded into channels first and unfolded last: 2 quarters the cost of the
-  // finest level, where a convolution learns least.
+  // The patch size folded into channels at the input and unfolded at the output: 2 quarters the
+  // cost of the finest level, where a convolution learns least.
   int patch = 2;
-  std::vector<int> channels = {48, 96, 192, 192};  // a level each, half as large as the one before
-  int blocks = 1;                                  // residual blocks a level, each way
-  int attention_from = 2;                          // levels from here on attend (8 x 8 for 64 / 2)
+  std::vector<int> channels = {48, 96, 192, 192};  // one per level, each at half the resolution of
+                                                   // the one before
+  int blocks = 1;                                  // residual blocks per level, in each direction
+  int attention_from = 2;                          // first level with attention (8 x 8 for 64 / 2)
   int heads = 4;
   int embedding = 0;  // size of the conditioning vector; 0: none
 
-  // False, with the reason, for sizes that no network can have.
+  // Returns false, with the reason, for sizes that no network can have.
   bool IsValid(std::string* error) const;
 };
 
-// The U-Net of diffusion models (Ronneberger et al. 2015; Ho et al. 2020), smaller.
+// The U-Net of diffusion models (Ronneberger et al. 2015; Ho et al. 2020), at a smaller size.
 class UNetImpl : public torch::nn::Module {
  public:
   // Throws core::Error for options that are not valid.
   explicit UNetImpl(const UNetOptions& options);
 
-  // x (B x in_channels x H x W), H and W divisible by patch * 2^(levels - 1);
-  // embedding (B x embedding) or undefined. Returns (B x out_channels x H x W).
+  // Returns (B x out_channels x H x W) for x (B x in_channels x H x W), H and W divisible by patch
+  // * 2^(levels - 1), and embedding (B x embedding) or undefined.
   torch::Tensor forward(const torch::Tensor& x, const torch::Tensor& embedding = {});
 
-  // As forward; `bottleneck` becomes the coarsest features' mean, (B x channels.back()).
+  // Runs forward; `bottleneck` receives the mean of the coarsest features, (B x channels.back()).
   torch::Tensor ForwardWithBottleneck(const torch::Tensor& x, const torch::Tensor& embedding,
                                       torch::Tensor* bottleneck);
 

@@ -11,14 +11,14 @@
 
 namespace simwright::physics_params {
 
-// The question about one kind of thing: ranges of mass in grams and of length, width and height in
-// centimetres, as Gen2Sim asks for them, and materials out of the knowledge base's.
+// Returns the question about one category: ranges of mass in grams and of length, width and height
+// in centimetres, as in Gen2Sim, and materials from the knowledge base's list.
 llm::ChatRequest PhysicsQuestion(std::string_view name, const KnowledgeBase& base);
 
-// What `model` says of `name`, joined with what is known (ReconcileAnswer, CategoryFromAnswer). An
-// answer that cannot be used is asked for once more; where that is none either, a known kind stays
-// as it is ("llm-unreadable", a warning), and an unknown one is a core::Error. `wordnet` may be
-// null. Throws also what `model` throws.
+// Combines `model`'s answer about `name` with the knowledge base (ReconcileAnswer,
+// CategoryFromAnswer). An unusable answer is requested once more; if the second is unusable too, a
+// known category stays unchanged ("llm-unreadable", a warning), and an unknown one is a
+// core::Error. `wordnet` may be null. Rethrows what `model` throws.
 EstimatedCategory EstimateCategory(std::string_view name, const KnowledgeBase& base,
                                    const WordNet* wordnet, llm::ChatModel* model,
                                    core::Progress* progress = nullptr);

@@ -15,14 +15,14 @@ struct MeaningMatch {
   int steps = 0;  // 0: a synonym; n: the category lies n steps above the name in WordNet
 };
 
-// The row that means the same as `name`, or the nearest one of which it is a kind, at most three
-// steps up. The name's first sense counts, and its first artifact and food senses unless the first
-// is an animal ("dog" is no sausage). None for a name WordNet does not know, and for one whose
-// nearest rows are siblings.
+// Returns the row that is a synonym of `name`, or its nearest hypernym, at most three steps up.
+// Uses the name's first sense, and its first artifact and food senses unless the first is an animal
+// ("dog" is not the sausage). Returns nothing for a name that WordNet does not have, and for one
+// whose nearest rows are siblings.
 std::optional<MeaningMatch> MatchByMeaning(std::string_view name, const KnowledgeBase& base,
                                            const WordNet& wordnet);
 
-// Rows to suggest, by Wu and Palmer's similarity, the nearest first; none below 0.6.
+// Returns rows to suggest, by Wu and Palmer's similarity, nearest first; none below 0.6.
 std::vector<const Category*> NearestByMeaning(std::string_view name, const KnowledgeBase& base,
                                               const WordNet& wordnet);
 

@@ -11,31 +11,31 @@
 namespace simwright::physics_params {
 
 struct Resolution {
-  const Category* category = nullptr;  // null: no kind is near enough
+  const Category* category = nullptr;  // null: no category is near enough
   bool exact = false;                  // the name itself is in the base
-  std::string sentence;                // how the name led to the category
-  std::vector<std::string> closest;    // names to suggest, nearest first, where none was found
+  std::string sentence;                // how the name was resolved
+  std::vector<std::string> closest;    // names to suggest, nearest first, if none was found
 };
 
-// The category meant by `name`, by the first of these that gives one:
-//   the name itself, its singular, its words written together or apart ("coffeetable");
-//   "toy" for what is said to be one ("toy truck" is none of the trucks);
-//   a row whose meaning in WordNet is that of the name or, up to three steps, above it ("skillet"
-//   is a synonym of "frying pan", a "loveseat" is a sofa); siblings such as duck and chicken are
-//   never taken for each other (docs/physics.md);
-//   the same of its head: its last words ("red coffee mug"), or what stands before "of" or "with"
-//   ("bottle of wine"), where the whole is no word of its own ("hot plate" is no plate).
-// Numbers ("chair_01") and capitals ("CoffeeMug") of file names are understood. `wordnet` may be
-// null: its steps are left out. Never throws for an unknown name.
+// Resolves `name` to a category by the first of these rules that gives one:
+//   the name itself, its singular, its words joined or split ("coffeetable");
+//   "toy" for a name that says so ("toy truck" is not a truck);
+//   a row that is in WordNet a synonym of the name or a hypernym up to three steps up ("skillet" is
+//   a synonym of "frying pan", a "loveseat" is a sofa); siblings such as duck and chicken never match
+//   (docs/physics.md);
+//   the same for its head: its last words ("red coffee mug"), or the words before "of" or "with"
+//   ("bottle of wine"), unless the whole name is a word of its own ("hot plate" is not a plate).
+// Accepts the numbers ("chair_01") and capitals ("CoffeeMug") of file names. If `wordnet` is null,
+// its rules are skipped. Never throws for an unknown name.
 Resolution ResolveCategory(std::string_view name, const KnowledgeBase& base,
                            const WordNet* wordnet);
 
-// As above, with the shipped base and the installed WordNet. Throws core::Error, which names the
-// three closest kinds and "object", when there is none.
+// Resolves with the shipped base and the installed WordNet. Throws core::Error, which names the
+// three closest categories and "object", if there is none.
 Resolution RequireCategory(std::string_view name);
 
-// What a person should know of how a name was understood: nothing where it is exact, a note where
-// it was taken for another, a warning where nothing was near and "object" stands for it.
+// Reports how a name was resolved: nothing if exact, a note if it was taken for another name, a
+// warning if nothing was near and "object" stands in.
 core::Findings ResolutionFindings(const Resolution& resolution, const std::string& place);
 
 }  // namespace simwright::physics_params

@@ -12,15 +12,15 @@ struct Interval {
   bool Contains(double value) const { return value >= min && value <= max; }
 };
 
-// How matter fills the outline of a kind of thing.
+// How material fills an object's outline.
 enum class Fill {
-  kSolid,   // full of its material
+  kSolid,   // solid material
   kHollow,  // a closed wall
   kOpen,    // a wall, open above
-  kFrame    // parts with air between them
+  kFrame    // parts with gaps between them
 };
 
-// The kind's usual outline: what a lifted or imported shape may be expected to look like.
+// The category's usual shape, expected of a reconstructed or imported mesh.
 enum class Shape { kRound, kRevolved, kBox, kFlat, kLong, kFree };
 
 struct Material {
@@ -31,32 +31,32 @@ struct Material {
   std::string source;
 };
 
-// One kind of household thing. `length` >= `width` are its sides on the ground, `height` as it
-// stands.
+// A category of household objects. `length` >= `width` are its horizontal sides, `height` is
+// vertical, in its upright pose.
 struct Category {
   std::string name;
   Interval length, width, height;      // m
   Interval mass;                       // kg
-  std::vector<std::string> materials;  // likeliest first; each is in the base
+  std::vector<std::string> materials;  // most likely first; each is in the base
   Fill fill = Fill::kSolid;
   Shape shape = Shape::kFree;
   std::string source;  // a sentence
 };
 
-// What is known of household things. Constant after construction; safe from several threads.
+// The knowledge base of household objects. Immutable after construction; thread-safe.
 class KnowledgeBase {
  public:
-  // Parses the three tables (formats: the comments at their heads). Throws core::Error, naming
-  // table and line, on a malformed row, an unknown material or source, or min > max.
+  // Parses the three tables (formats: the comments at their tops). Throws core::Error, naming table
+  // and line, for a malformed row, an unknown material or source, or min > max.
   KnowledgeBase(std::string_view categories, std::string_view materials, std::string_view sources);
 
-  // The base that is shipped with the program.
+  // Returns the base that ships with the program.
   static const KnowledgeBase& Shipped();
 
   const std::vector<Category>& categories() const { return categories_; }
   const std::vector<Material>& materials() const { return materials_; }
 
-  // Exact match of the normalised name (see NormaliseName), or null.
+  // Returns the exact match of the normalised name (see NormaliseName), or null.
   const Category* FindCategory(std::string_view name) const;
   const Material* FindMaterial(std::string_view name) const;
 
@@ -65,7 +65,8 @@ class KnowledgeBase {
   std::vector<Material> materials_;
 };
 
-// Lower case, with '_', '-' and runs of blanks as one blank, and blanks at the ends removed.
+// Converts to lower case, with '_', '-' and runs of blanks as one blank, and strips blanks at the
+// ends.
 std::string NormaliseName(std::string_view name);
 
 const char* FillName(Fill fill);

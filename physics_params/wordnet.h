@@ -13,32 +13,32 @@ namespace simwright::physics_params {
 // The noun taxonomy of WordNet 3.0 (Debian package wordnet-base), read from its data files.
 class WordNet {
  public:
-  using Synset = std::int32_t;  // byte offset in data.noun, the identifier WordNet uses itself
+  using Synset = std::int32_t;  // byte offset in data.noun, WordNet's own identifier
 
-  // Reads `index.noun` and `data.noun` of `folder`. Throws core::Error when they are missing or
+  // Reads `index.noun` and `data.noun` from `folder`. Throws core::Error if they are missing or
   // malformed.
   explicit WordNet(const std::filesystem::path& folder);
 
-  // The reader of the installed files, or null where the package is not installed.
+  // Returns the reader of the installed files, or null if the package is not installed.
   static const WordNet* Installed();
 
-  // The senses of a noun that are things one can touch (artifact, food, plant, animal, object,
-  // person: WordNet's lexicographer files 5, 6, 13, 17, 18, 20), most frequent first.
-  // Tries the name as given, then its singular.
+  // Returns the senses of a noun that are physical objects (artifact, food, plant, animal, object,
+  // person: WordNet's lexicographer files 5, 6, 13, 17, 18, 20), most frequent first. Tries the
+  // name as given, then its singular.
   std::vector<Synset> PhysicalSenses(std::string_view normalised_name) const;
 
-  // The lexicographer file of a synset: 5 animal, 6 artifact, 13 food, 17 natural object, 18
-  // person, 20 plant; 0 for an unknown one.
+  // Returns the lexicographer file of a synset: 5 animal, 6 artifact, 13 food, 17 natural object,
+  // 18 person, 20 plant; 0 for an unknown one.
   int LexicographerFile(Synset synset) const;
 
-  // How many steps `of` lies above `kind`: 0 for the same synset, none where it is not above.
+  // Returns how many steps `of` lies above `kind`: 0 for the same synset, unset if it is not above.
   std::optional<int> StepsUp(Synset kind, Synset of) const;
 
-  // Wu and Palmer's similarity, 2 depth(c) / (depth(a) + depth(b)), c the deepest common
+  // Returns Wu and Palmer's similarity, 2 depth(c) / (depth(a) + depth(b)), c the deepest common
   // hypernym; 1 for a == b. Depths count from `entity`, which has 1.
   double Similarity(Synset a, Synset b) const;
 
-  // Singulars of a normalised name, the likeliest first: regular plurals as WordNet's own
+  // Returns the singulars of a normalised name, most likely first: regular plurals as WordNet's own
   // morphology undoes them, and "knives".
   static std::vector<std::string> Singulars(std::string_view name);
 

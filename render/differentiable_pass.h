@@ -9,8 +9,9 @@
 
 namespace simwright::render {
 
-// One picture and its gradients: what DifferentiableRenderer does between a camera and the sums.
-// Remembers what each ray met, so that gradients trace only the edges' rays again.
+// Renders one image and its gradients for DifferentiableRenderer, between the camera and the
+// gradient sums. It stores what each ray hit, so that the gradient pass retraces only the edges'
+// rays.
 class DifferentiablePass {
  public:
   DifferentiablePass(std::vector<PreparedObject>* objects, const RayTree* tree,
@@ -24,15 +25,15 @@ class DifferentiablePass {
   void Backpropagate(const DifferentiableBuffers& gradient, SceneGradients* gradients);
 
  private:
-  // Points in the camera's frame, facing sides and normals.
+  // Computes camera-frame points, front-facing flags and normals.
   void Prepare();
   void DrawRow(int y, DifferentiableBuffers* buffers);
-  // Image coordinates of a sample.
+  // Returns the image coordinates of a sample.
   Eigen::Vector2d SamplePosition(int x, int y, int sample) const;
   Eigen::Vector3d RayThrough(const Eigen::Vector2d& pixel) const {
     return {(pixel.x() - camera_.cx) / camera_.fx, (pixel.y() - camera_.cy) / camera_.fy, 1.0};
   }
-  // Traces a row's rays, in its order of samples.
+  // Traces a row's rays in sample order.
   void TraceRow(int y, SeenPoint* seen) const;
 
   void BackpropagateRow(int y, const DifferentiableBuffers& gradient, GradientSums* sums) const;
@@ -40,8 +41,9 @@ class DifferentiablePass {
                           GradientSums* sums) const;
   void BackpropagateEdgePoint(const EdgePoint& point, double weight,
                               const DifferentiableBuffers& gradient, GradientSums* sums) const;
-  // Of the edge's faces on one side of it in the picture the nearest one, as a seen point; object
-  // -1: there is none. `towards`: in the camera's frame, along the picture, into that side.
+  // Returns, as a seen point, the nearest of the edge's faces on one side of it in the image;
+  // object -1 if there is none. `towards` points into that side, along the image plane, in the
+  // camera's frame.
   SeenPoint NearestFace(const ScreenEdge& edge, const EdgePoint& point, const Eigen::Vector3f& ray,
                         const Eigen::Vector3f& towards, bool positive_side) const;
 
@@ -55,7 +57,7 @@ class DifferentiablePass {
   Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();
   std::vector<SeenPoint> seen_;  // (height x width x samples)
   SilhouetteEdges edges_;
-  std::vector<GradientSums> sums_;  // one a thread
+  std::vector<GradientSums> sums_;  // one per thread
   bool summing_ = false;
 };
 

@@ -8,42 +8,42 @@
 
 namespace simwright::render {
 
-// An object with all that its picture from one camera needs.
+// An object with the data for rendering it from one camera.
 struct PreparedObject {
   DifferentiableObject object;
   EdgeTopology topology;
   std::vector<Eigen::Vector3f> world;    // (N x 3)
   std::vector<Eigen::Vector3f> camera;   // (N x 3), the camera's frame
-  std::vector<Eigen::Vector3f> normals;  // world, unit; of welded vertices, or of faces if flat
-  std::vector<float> normal_lengths;     // of their sums of area vectors
-  std::vector<std::uint8_t> front;       // (M) 1: the face's outer side is seen
+  std::vector<Eigen::Vector3f> normals;  // world, unit; per welded vertex, or per face if flat
+  std::vector<float> normal_lengths;     // lengths of their area-vector sums
+  std::vector<std::uint8_t> front;       // (M) 1: the face is front-facing
 };
 
-// A point of a surface that is seen.
+// A visible surface point.
 struct SeenPoint {
-  int object = -1;  // -1: nothing is there
+  int object = -1;  // -1: no hit
   int triangle = 0;
   float b1 = 0.0f, b2 = 0.0f;  // barycentric weights of corners 1 and 2
   float depth = 0.0f;          // along the optical axis, m
 };
 
-// What a pixel's buffers average, or dL/d of it.
+// The values that a pixel's buffers average, or dL/d of them.
 struct SurfaceValue {
   Eigen::Vector3f color = Eigen::Vector3f::Zero();
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   float depth = 0.0f;
 };
 
-// Sums of gradients by one thread. Texels are cleared and read by blocks, since a picture touches
-// few of a large texture's.
+// Gradient sums of one thread. Texels are cleared and read in blocks, since an image touches few of
+// a large texture's texels.
 struct ObjectSums {
   static constexpr std::size_t kTexelBlock = 3 * 512;
 
   std::vector<Eigen::Vector3d> points;   // (N x 3), the camera's frame
-  std::vector<Eigen::Vector3d> normals;  // as PreparedObject::normals
-  std::vector<Eigen::Vector3f> colors;   // as the object's
-  std::vector<float> texels;             // as the object's
-  std::vector<std::uint8_t> touched;     // a block of texels each
+  std::vector<Eigen::Vector3d> normals;  // like PreparedObject::normals
+  std::vector<Eigen::Vector3f> colors;   // like the object's
+  std::vector<float> texels;             // like the object's
+  std::vector<std::uint8_t> touched;     // one flag per block of texels
   bool normals_touched = false;
 };
 
@@ -53,18 +53,19 @@ struct GradientSums {
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
 };
 
-// The value at seen points, and ordinary derivatives through them.
+// Evaluates shading at seen points, and the ordinary derivatives through them.
 class SurfaceShading {
  public:
   SurfaceShading(const std::vector<PreparedObject>& objects, const SphericalHarmonicsLight& light,
                  const DifferentiableOptions& options)
       : objects_(objects), light_(light), options_(options) {}
 
-  // Requires point.object >= 0. Normals only where the options ask for them.
+  // Returns the shaded value. Requires point.object >= 0. Normals are filled only if the options
+  // request them.
   SurfaceValue Value(const SeenPoint& point) const;
 
-  // Adds what the gradient of the value at `point`, seen along `ray` (the camera's frame, its
-  // third component 1), means for vertices, normals, colours, texels, light and focal length.
+  // Backpropagates the gradient of the value at `point`, seen along `ray` (in the camera's frame,
+  // third component 1), to vertices, normals, colours, texels, light and focal length.
   void Backpropagate(const SeenPoint& point, const Eigen::Vector3f& ray,
                      const SurfaceValue& gradient, const core::Camera& camera,
                      GradientSums* sums) const;
@@ -72,7 +73,7 @@ class SurfaceShading {
  private:
   struct Albedo;
   Albedo AlbedoAt(const PreparedObject& of, const SeenPoint& point) const;
-  // The smooth or flat normal towards the camera, before it has unit length; world.
+  // Returns the smooth or flat normal towards the camera, not normalised; world.
   Eigen::Vector3f RawNormal(const PreparedObject& of, const SeenPoint& point) const;
   void BackpropagateColor(const SeenPoint& point, const Eigen::Vector3f& gradient,
                           const Eigen::Vector3f& normal, Eigen::Vector3f* normal_gradient,

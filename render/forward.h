@@ -11,20 +11,20 @@
 namespace simwright::render {
 
 struct ForwardOptions {
-  int samples_per_side = 1;  // N x N rays a pixel, on a regular sub-grid
+  int samples_per_side = 1;  // N x N rays per pixel, on a regular sub-grid
   bool shaded = false;       // fill `color`
-  // Off: `color` holds the albedo itself.
+  // If false, `color` holds the albedo itself.
   bool lit = true;
   SphericalHarmonicsLight light = SphericalHarmonicsLight::Studio({0.4f, -0.5f, 0.75f});
-  int occlusion_rays = 0;         // ambient occlusion a hit; 0: none. Previews use 8
-  float occlusion_reach = 0.25f;  // of the scene's diagonal: how far a neighbour darkens
+  int occlusion_rays = 0;         // ambient occlusion rays per hit; 0: none. Previews use 8
+  float occlusion_reach = 0.25f;  // share of the scene's diagonal within which geometry occludes
 };
 
-// One value a pixel, rows from the top, (height x width).
+// One value per pixel, rows from the top, (height x width).
 struct ForwardBuffers {
   int width = 0, height = 0;
-  std::vector<float> depth;             // along the optical axis, m; 0 where nothing is
-  std::vector<Eigen::Vector3f> normal;  // world, unit, facing the camera; 0 where nothing is
+  std::vector<float> depth;             // along the optical axis, m; 0 where nothing is hit
+  std::vector<Eigen::Vector3f> normal;  // world, unit, facing the camera; 0 where nothing is hit
   std::vector<float> mask;              // covered share of the pixel, [0, 1]
   std::vector<std::int32_t> label;      // instance, or -1
   std::vector<std::int32_t> triangle;   // of the instance's mesh, or -1
@@ -33,10 +33,10 @@ struct ForwardBuffers {
   std::size_t Index(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 };
 
-// Draws the scene. `depth`, `normal`, `label` and `triangle` are those of one ray a pixel, through
-// sub-sample (N/2, N/2): the pixel's centre for odd N. Rows are shared among threads; the same
-// scene gives the same buffers for any number of them. Throws core::Error for a camera without
-// pixels or samples_per_side < 1.
+// Renders the scene. `depth`, `normal`, `label` and `triangle` come from one ray per pixel, through
+// sub-sample (N/2, N/2): the pixel's centre for odd N. Rows are distributed over threads; the
+// buffers do not depend on their number. Throws core::Error for a camera without pixels or
+// samples_per_side < 1.
 ForwardBuffers RenderForward(const Scene& scene, const core::Camera& camera,
                              const ForwardOptions& options = {});
 

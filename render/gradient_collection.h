@@ -6,11 +6,11 @@
 
 namespace simwright::render {
 
-// Gives `sums` the sizes of the objects; what is new is zero.
+// Resizes `sums` to fit the objects; new elements are zero.
 void FitSums(const std::vector<PreparedObject>& objects, GradientSums* sums);
 
-// Adds the threads' sums to `gradients` (made to fit, and zero, where its sizes differ) in the
-// threads' order, carries gradients of normals on to vertices, and sets the sums to zero.
+// Adds the threads' sums to `gradients` (resized and zeroed if its sizes differ) in thread order,
+// propagates gradients of normals to vertices, and zeroes the sums.
 void Collect(const std::vector<PreparedObject>& objects, const core::Camera& camera,
              bool smooth_normals, std::vector<GradientSums>* sums, SceneGradients* gradients);
 

@@ -11,9 +11,8 @@
 
 namespace simwright::render {
 
-// Meshes placed in the world, ready to be met by rays (RayTree). Vertices may move
-// afterwards (`MoveVertices`): the tree is refitted, not rebuilt.
-// Queries are const and safe from several threads.
+// Meshes placed in the world for ray queries (RayTree). If vertices move (`MoveVertices`), the tree
+// is refitted, not rebuilt. Queries are const and thread-safe.
 class Scene {
  public:
   Scene();
@@ -27,27 +26,28 @@ class Scene {
   int Add(const core::TexturedMesh* mesh,
           const Eigen::Isometry3d& world_from_mesh = Eigen::Isometry3d::Identity());
 
-  // Replaces the vertices of an instance (N x 3, as many as before, mesh frame). Call Commit after.
+  // Replaces the vertices of an instance (N x 3, the same number, mesh frame). Call Commit
+  // afterwards.
   void MoveVertices(int instance, const std::vector<Eigen::Vector3d>& vertices);
 
-  // Builds or refits the trees; needed after Add and MoveVertices, before any query.
+  // Builds or refits the trees; required after Add and MoveVertices, before any query.
   void Commit();
 
-  // The nearest hit of origin + t * direction with t in (near, far).
+  // Returns the nearest hit of origin + t * direction with t in (near, far).
   Hit Intersect(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near = 0.0f,
                 float far = 1e30f) const;
-  // Whether anything is met with t in (near, far).
+  // Returns true if anything is hit with t in (near, far).
   bool Occluded(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near,
                 float far) const;
 
   int size() const;
   const core::TexturedMesh& mesh(int instance) const;
-  // Corner positions of a triangle, in the world. (3 x 3), a corner a column.
+  // Returns a triangle's corner positions in the world, one per column. (3 x 3)
   Eigen::Matrix3f Corners(int instance, int triangle) const;
-  // Smooth shading normal (area-weighted vertex normals where the surface is smooth within 40
+  // Returns the shading normal (area-weighted vertex normals where the surface is smooth within 40
   // degrees, else the face's own), unit, in the world.
   Eigen::Vector3f ShadingNormal(const Hit& hit) const;
-  // RGBA albedo, sRGB, at the hit.
+  // Returns the RGBA albedo, sRGB, at the hit.
   Eigen::Vector4f Albedo(const Hit& hit) const;
 
   Eigen::AlignedBox3f bounds() const;

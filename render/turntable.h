@@ -8,18 +8,18 @@
 namespace simwright::render {
 
 struct TurntableOptions {
-  int views = 4;                // equally spaced about the vertical
-  int size = 360;               // pixels a side
+  int views = 4;                // evenly spaced around the vertical
+  int size = 360;               // pixels per side
   double elevation = 0.42;      // rad above the horizon
   double first_azimuth = -1.2;  // rad from +x
   int samples_per_side = 3;
 };
 
-// The mesh seen from all round, framed to its bounds, shaded with ambient occlusion. RGBA.
+// Renders the mesh from all sides, framed to its bounds, with ambient occlusion. RGBA.
 std::vector<core::Image> Turntable(const core::TexturedMesh& mesh,
                                    const TurntableOptions& options = {});
 
-// The turntable's views in one row on white: an asset's preview.png.
+// Renders the turntable's views in one row on white: an asset's preview.png.
 core::Image Preview(const core::TexturedMesh& mesh, const TurntableOptions& options = {});
 
 }  // namespace simwright::render

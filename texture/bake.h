@@ -10,7 +10,7 @@
 
 namespace simwright::texture {
 
-// A point of the surface that one texel shows.
+// The surface point of one texel.
 struct SurfacePoint {
   int triangle = 0;
   Eigen::Vector3f barycentric{1, 0, 0};
@@ -18,9 +18,9 @@ struct SurfacePoint {
   Eigen::Vector3d normal{0, 0, 1};  // of the face, unit
 };
 
-// Fills a texture of `size` pixels a side by asking `color` (RGB in [0, 1], sRGB; called from
-// several threads) for each texel that a triangle covers, then grows the charts' edges by
-// `dilation` texels so that bilinear lookups meet no gap. Uncovered texels take the mean colour.
+// Fills a texture of `size` pixels per side by calling `color` (RGB in [0, 1], sRGB; called from
+// several threads) for each texel that a triangle covers, then dilates the charts by `dilation`
+// texels so that bilinear lookups meet no gap. Uncovered texels take the mean colour.
 core::Image BakeTexture(const core::TriangleMesh& mesh,
                         const std::vector<Eigen::Vector2f>& corner_uvs, int size, int dilation,
                         const std::function<Eigen::Vector3f(const SurfacePoint&)>& color);

@@ -12,11 +12,11 @@
 namespace simwright::texture {
 
 struct ProjectionOptions {
-  int texture_size = 1024;  // pixels a side; doubled where the surface's pieces do not fit
-  // Photo colours fade out between these cosines of the angle to the viewer: at the rim a pixel
-  // smears over much surface and mixes with the background.
+  int texture_size = 1024;  // pixels per side; doubled if the charts do not fit
+  // Photo colours fade out between these cosines of the angle to the viewer: near the silhouette a
+  // pixel covers much surface and mixes with the background.
   double fade_from = 0.35, fade_to = 0.12;
-  // Pixels next to the matte's edge are mixed with the background: so many are left out.
+  // The width of the band at the matte's edge that is left out, since it mixes with the background.
   int edge_pixels = 2;
 };
 
@@ -27,20 +27,20 @@ struct PhotoView {
   core::Image alpha;
 };
 
-// The mesh textured from one photo: what the camera sees takes the photo's colours; the rest takes
-// those of the mirror image across `mirror` (a plane through the object: the back repeats the
-// front), and what even the mirror does not show takes the colours around it, spread over the
-// surface. `alpha` (1 channel, the photo's size) is the object's matte.
-// Throws core::Error when the camera sees nothing of the mesh, or sizes do not fit.
+// Textures the mesh from one photo. Surfaces that the camera sees take the photo's colours; the
+// rest takes those of the mirror image across `mirror` (a plane through the object: the back
+// repeats the front); surfaces that the mirror image misses too take the surrounding colours,
+// diffused over the surface. `alpha` (1 channel, the photo's size) is the object's matte. Throws
+// core::Error if the camera sees nothing of the mesh, or sizes do not match.
 core::TexturedMesh ProjectPhoto(const core::TriangleMesh& mesh, const core::Camera& camera,
                                 const core::Image& photo, const core::Image& alpha,
                                 const Eigen::Hyperplane<double, 3>& mirror,
                                 const ProjectionOptions& options = {});
 
-// The mesh textured from one or more photos: what several cameras see takes their colours weighed
-// by how squarely they look; what none sees takes `hidden` (N x 3, sRGB in [0, 1], a colour a
-// vertex), blended in where the photos fade. Throws core::Error when no camera sees anything of the
-// mesh, there is no photo, or sizes do not fit.
+// Textures the mesh from one or more photos. Surfaces that several cameras see take their colours,
+// weighted by how squarely they face the surface; unseen surfaces take `hidden` (N x 3, sRGB in [0,
+// 1], one colour per vertex), blended in where the photos fade. Throws core::Error if no camera
+// sees anything of the mesh, there is no photo, or sizes do not match.
 core::TexturedMesh ProjectPhotos(const core::TriangleMesh& mesh,
                                  const std::vector<PhotoView>& views,
                                  const std::vector<Eigen::Vector3f>& hidden,
