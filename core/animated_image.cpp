@@ -29,7 +29,7 @@ int ReadFromView(GifFileType* gif, GifByteType* buffer, int count) {
   return static_cast<int>(taken);
 }
 
-// Reads records up to the first image; `transparent` is the index that shows through, or -1.
+// Reads records up to the first image; `transparent` receives the transparent index, or -1.
 bool SeekFirstImage(GifFileType* gif, int* transparent) {
   *transparent = NO_TRANSPARENT_COLOR;
   for (;;) {

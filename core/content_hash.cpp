@@ -11,12 +11,12 @@ namespace simwright::core {
 namespace fs = std::filesystem;
 namespace {
 
-// 128 bits as two words: the multiplication needs no compiler extension.
+// A 128-bit integer as two words, so that no compiler extension is needed.
 struct Wide {
   std::uint64_t high, low;
 };
 
-// The FNV prime of 128 bits is 2^88 + 0x13b.
+// Multiplies by the 128-bit FNV prime, 2^88 + 0x13b.
 Wide TimesPrime(Wide value) {
   constexpr std::uint64_t kSmall = 0x13b;
   const std::uint64_t low_half = (value.low & 0xffffffffu) * kSmall;
@@ -42,7 +42,7 @@ std::vector<fs::path> FilesIn(const fs::path& folder) {
 }  // namespace
 
 std::string ContentHash(std::string_view bytes) {
-  Wide hash{0x6c62272e07bb0142u, 0x62b821756295c58du};  // the offset basis of 128 bits
+  Wide hash{0x6c62272e07bb0142u, 0x62b821756295c58du};  // the 128-bit offset basis
   for (const char c : bytes) {
     hash.low ^= static_cast<unsigned char>(c);
     hash = TimesPrime(hash);

@@ -21,7 +21,7 @@ void SealFile(const std::filesystem::path& path) {
   const std::string seal = std::string(kBegin) + ContentHash(ReadFile(path)) + std::string(kEnd);
   std::ofstream file(path, std::ios::binary | std::ios::app);
   file << seal << std::flush;
-  if (!file) throw Error("cannot write the file to its end", path.string());
+  if (!file) throw Error("cannot finish writing the file", path.string());
 }
 
 FileSeal SealOf(const std::filesystem::path& path) {

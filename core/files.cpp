@@ -15,7 +15,7 @@ namespace simwright::core {
 namespace fs = std::filesystem;
 namespace {
 
-// A name beside `path` that no other process or thread uses.
+// Returns a sibling name of `path` that no other process or thread uses.
 fs::path SiblingName(const fs::path& path, const char* purpose) {
   static std::atomic<int> counter{0};
   return path.parent_path() / ("." + path.filename().string() + "." + purpose + "-" +
@@ -24,7 +24,7 @@ fs::path SiblingName(const fs::path& path, const char* purpose) {
 
 fs::path Normalised(const fs::path& path) {
   fs::path absolute = fs::absolute(path).lexically_normal();
-  // "dir/" has an empty file name: the folder itself is meant.
+  // "dir/" has an empty file name: use the folder itself.
   return absolute.has_filename() ? absolute : absolute.parent_path();
 }
 
@@ -149,7 +149,7 @@ StagedFolder::~StagedFolder() {
   if (committed_) return;
   std::error_code code;
   fs::remove_all(staging_, code);
-  // Only folders that this object made, and only where nothing else has moved in since.
+  // Remove only folders that this object created, and only if they are still empty.
   if (!created_parent_.empty()) {
     for (fs::path parent = target_.parent_path(); fs::is_empty(parent, code) && !code;
          parent = parent.parent_path()) {
@@ -182,16 +182,16 @@ void StagedFolder::Commit() {
 }
 
 void RemoveHalfWritten(const fs::path& folder) {
-  std::vector<fs::path> left;
+  std::vector<fs::path> leftovers;
   std::error_code code;
   for (fs::recursive_directory_iterator at(folder, code), end; !code && at != end;
        at.increment(code)) {
     const std::string name = at->path().filename().string();
     if (name.front() != '.' || name.find(".part-") == std::string::npos) continue;
-    left.push_back(at->path());
+    leftovers.push_back(at->path());
     at.disable_recursion_pending();
   }
-  for (const fs::path& path : left) fs::remove_all(path, code);
+  for (const fs::path& path : leftovers) fs::remove_all(path, code);
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -6,7 +6,7 @@
 namespace simwright::core {
 namespace {
 
-constexpr std::size_t kLongestPart = 600;  // bytes; what is longer is a listing and not a sentence
+constexpr std::size_t kLongestPart = 600;  // bytes; longer text is a listing and not a sentence
 
 std::string OneLine(std::string line) {
   std::replace_if(
@@ -23,8 +23,8 @@ std::size_t Characters(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return !Continues(c); }));
 }
 
-// Where the " (" of core::Error's "(REMEDY)" is, which ends the message and may hold brackets
-// itself; npos without one.
+// Returns the position of the " (" of core::Error's "(REMEDY)", which ends the message and may
+// contain brackets itself; npos if there is none.
 std::size_t RemedyAt(std::string_view message) {
   if (!message.ends_with(')')) return std::string_view::npos;
   int open = 0;

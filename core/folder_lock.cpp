@@ -14,7 +14,7 @@
 namespace simwright::core {
 namespace {
 
-// Empty where the file does not say.
+// Returns the holder's process number; empty if the file states none.
 std::string HolderOf(int file) {
   char text[24] = {};
   const ssize_t count = pread(file, text, sizeof(text) - 1, 0);
@@ -47,13 +47,13 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& w
     }
     const std::string fault = std::strerror(errno);
     close(file_);
-    throw Error("cannot be written: " + fault, path.string(), "make room on the disk");
+    throw Error("cannot be written: " + fault, path.string(), "free some disk space");
   }
   if (errno != EWOULDBLOCK) return;
   const std::string holder = HolderOf(file_);
   close(file_);
-  throw Error(work + " is at work there already" + (holder.empty() ? "" : ", process " + holder),
-              folder.string(), "wait until it ends, or give another folder");
+  throw Error(work + " is already running there" + (holder.empty() ? "" : ", process " + holder),
+              folder.string(), "wait until it ends, or choose another folder");
 }
 
 FolderLock::~FolderLock() {

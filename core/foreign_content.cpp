@@ -6,7 +6,7 @@
 namespace simwright::core {
 namespace {
 
-constexpr size_t kHead = 512;  // bytes that tell what a file is
+constexpr size_t kHead = 512;  // bytes that identify a file
 
 std::string LowerHead(std::string_view bytes) {
   std::string head(bytes.substr(0, kHead));
@@ -38,7 +38,7 @@ bool IsEncrypted(std::string_view bytes) {
   return false;
 }
 
-// The brand of an ISO base media file ("ftyp" box), as HEIC and AVIF are; else empty.
+// Returns the brand of an ISO base media file ("ftyp" box), such as HEIC and AVIF; else empty.
 std::string_view MediaBrand(std::string_view bytes) {
   return bytes.size() >= 12 && bytes.substr(4, 4) == "ftyp" ? bytes.substr(8, 4) : "";
 }
@@ -66,7 +66,7 @@ std::optional<ForeignContent> FindForeignContent(std::string_view bytes) {
   if (IsEncrypted(bytes)) return ForeignContent{"this file is encrypted", "decrypt it first"};
   const std::string_view first = bytes.substr(0, kHead);
   if (first.size() == kHead && first.find_first_not_of('\0') == std::string_view::npos) {
-    return ForeignContent{"this file begins with nothing but zeros",
+    return ForeignContent{"this file contains only zeros at its start",
                           "the copy or download was cut short: copy it again"};
   }
   return std::nullopt;

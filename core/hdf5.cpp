@@ -14,9 +14,9 @@ namespace simwright::core {
 namespace {
 
 constexpr std::size_t kMostDimensions = 32;      // H5S_MAX_RANK
-constexpr std::size_t kMaxTextBytes = 16 << 20;  // of an attribute, or of all texts of a dataset
+constexpr std::size_t kMaxTextBytes = 16 << 20;  // for an attribute, or all strings of a dataset
 
-// The deepest thing that the library has to say of its last failure.
+// Returns the innermost error message of the library's last failure.
 std::string LibraryReason() {
   std::string reason;
   const auto keep = [](unsigned, const H5E_error2_t* error, void* out) -> herr_t {
@@ -32,7 +32,7 @@ std::string LibraryReason() {
   throw Error(what + LibraryReason(), where);
 }
 
-// The library prints its errors unless told not to, in each thread anew.
+// Disables the library's error printing, a per-thread setting.
 void Silence() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
@@ -50,7 +50,7 @@ hid_t NativeType() {
   }
 }
 
-// The same in a file, whatever machine writes it.
+// Returns the type stored in the file, independent of the machine's byte order.
 template <typename T>
 hid_t FileType() {
   if constexpr (std::is_same_v<T, float>) {
@@ -66,7 +66,7 @@ hid_t FileType() {
 
 }  // namespace
 
-// An identifier of the library and how it is given back.
+// An identifier of the library and the function that releases it.
 class Hdf5Group::Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -78,7 +78,7 @@ class Hdf5Group::Handle {
   Handle& operator=(const Handle&) = delete;
   hid_t id() const { return id_; }
 
-  // Throws where the library gave no identifier.
+  // Throws core::Error if the library returned no identifier.
   static std::shared_ptr<Handle> Of(hid_t id, Close close, const std::string& what,
                                     const std::string& where) {
     if (id < 0) Fail(what, where);
@@ -101,7 +101,7 @@ std::vector<std::string> Hdf5Group::Children() const {
     return 0;
   };
   if (H5Literate(group_->id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, keep, &names) < 0) {
-    Fail("cannot list what is here", place_);
+    Fail("cannot list the group", place_);
   }
   return names;
 }
@@ -113,13 +113,13 @@ bool Hdf5Group::Has(const std::string& name) const {
 
 Hdf5Group Hdf5Group::Create(const std::string& name) {
   const hid_t id = H5Gcreate2(group_->id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  return Hdf5Group(Handle::Of(id, H5Gclose, "cannot make the group", At(name)), At(name));
+  return Hdf5Group(Handle::Of(id, H5Gclose, "cannot create the group", At(name)), At(name));
 }
 
 Hdf5Group Hdf5Group::Open(const std::string& name) const {
   if (!Has(name)) throw Error("there is no such group", At(name));
   const hid_t id = H5Gopen2(group_->id(), name.c_str(), H5P_DEFAULT);
-  return Hdf5Group(Handle::Of(id, H5Gclose, "this is no group", At(name)), At(name));
+  return Hdf5Group(Handle::Of(id, H5Gclose, "this is not a group", At(name)), At(name));
 }
 
 void Hdf5Group::SetAttribute(const std::string& name, std::int64_t value) {
@@ -154,7 +154,7 @@ std::int64_t Hdf5Group::IntegerAttribute(const std::string& name) const {
   std::int64_t value = 0;
   if (H5Tget_class(type->id()) != H5T_INTEGER || H5Sget_simple_extent_npoints(space->id()) != 1 ||
       H5Aread(attribute->id(), H5T_NATIVE_INT64, &value) < 0) {
-    Fail("the attribute is no whole number", At(name));
+    Fail("the attribute is not an integer", At(name));
   }
   return value;
 }
@@ -165,7 +165,7 @@ std::string Hdf5Group::TextAttribute(const std::string& name) const {
   const auto type = Handle::Of(H5Aget_type(attribute->id()), H5Tclose, "no type", At(name));
   const auto space = Handle::Of(H5Aget_space(attribute->id()), H5Sclose, "no space", At(name));
   if (H5Tget_class(type->id()) != H5T_STRING || H5Sget_simple_extent_npoints(space->id()) != 1) {
-    Fail("the attribute is no text", At(name));
+    Fail("the attribute is not a string", At(name));
   }
   if (H5Tis_variable_str(type->id()) > 0) {
     char* text = nullptr;
@@ -175,7 +175,7 @@ std::string Hdf5Group::TextAttribute(const std::string& name) const {
     return copy;
   }
   const std::size_t size = H5Tget_size(type->id());
-  if (size > kMaxTextBytes) throw Error("the text is too long", At(name));
+  if (size > kMaxTextBytes) throw Error("the string is too long", At(name));
   std::string bytes(size, '\0');
   if (H5Aread(attribute->id(), type->id(), bytes.data()) < 0) {
     Fail("cannot read the text", At(name));
@@ -192,14 +192,14 @@ void Hdf5Group::Write(const std::string& name, const std::vector<std::size_t>& s
   const std::vector<hsize_t> sizes(shape.begin(), shape.end());
   const auto rank = static_cast<int>(sizes.size());
   const auto space = Handle::Of(H5Screate_simple(rank, sizes.data(), nullptr), H5Sclose,
-                                "cannot make the dataset's shape", At(name));
+                                "cannot create the dataset's shape", At(name));
   const auto layout =
       Handle::Of(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "no properties", At(name));
-  H5Pset_obj_track_times(layout->id(), false);  // the same bytes, whenever
+  H5Pset_obj_track_times(layout->id(), false);  // no timestamps: the same bytes in every run
   const bool holds_any =
       std::all_of(sizes.begin(), sizes.end(), [](hsize_t size) { return size > 0; });
   if (storage.gzip > 0 && storage.rows_per_chunk == 0) {
-    throw Error("a dataset in one piece cannot be compressed", At(name), "give rows_per_chunk");
+    throw Error("a contiguous dataset cannot be compressed", At(name), "give rows_per_chunk");
   }
   if (storage.rows_per_chunk > 0 && holds_any) {
     std::vector<hsize_t> chunk = sizes;
@@ -207,7 +207,7 @@ void Hdf5Group::Write(const std::string& name, const std::vector<std::size_t>& s
     if (H5Pset_chunk(layout->id(), rank, chunk.data()) < 0 ||
         (storage.gzip > 0 &&
          H5Pset_deflate(layout->id(), static_cast<unsigned>(storage.gzip)) < 0)) {
-      Fail("cannot lay out the dataset", At(name));
+      Fail("cannot set the dataset's layout", At(name));
     }
   }
   const auto dataset = Handle::Of(H5Dcreate2(group_->id(), name.c_str(), FileType<T>(), space->id(),
@@ -223,7 +223,7 @@ void Hdf5Group::WriteTexts(const std::string& name, const std::vector<std::strin
   std::size_t longest = 1;
   for (const std::string& text : texts) {
     if (text.empty() || text.find('\0') != std::string::npos) {
-      throw Error("a text is empty or holds a zero", At(name));
+      throw Error("a string is empty or contains a zero byte", At(name));
     }
     longest = std::max(longest, text.size());
   }
@@ -253,14 +253,14 @@ void Hdf5Group::WriteTexts(const std::string& name, const std::vector<std::strin
 std::shared_ptr<Hdf5Group::Handle> Hdf5Group::Dataset(const std::string& name) const {
   if (!Has(name)) throw Error("there is no such dataset", At(name));
   return Handle::Of(H5Dopen2(group_->id(), name.c_str(), H5P_DEFAULT), H5Dclose,
-                    "this is no dataset", At(name));
+                    "this is not a dataset", At(name));
 }
 
 std::vector<std::size_t> Hdf5Group::Shape(const std::string& name) const {
   const auto dataset = Dataset(name);
   const auto space = Handle::Of(H5Dget_space(dataset->id()), H5Sclose, "no space", At(name));
   const int rank = H5Sget_simple_extent_ndims(space->id());
-  if (rank < 0) Fail("cannot tell the dataset's shape", At(name));
+  if (rank < 0) Fail("cannot read the dataset's shape", At(name));
   std::vector<hsize_t> sizes(static_cast<std::size_t>(rank));
   if (rank > 0) H5Sget_simple_extent_dims(space->id(), sizes.data(), nullptr);
   return {sizes.begin(), sizes.end()};
@@ -327,12 +327,12 @@ std::vector<std::string> Hdf5Group::ReadTexts(const std::string& name) const {
   const auto type = Handle::Of(H5Dget_type(dataset->id()), H5Tclose, "no type", At(name));
   const auto space = Handle::Of(H5Dget_space(dataset->id()), H5Sclose, "no space", At(name));
   if (H5Tget_class(type->id()) != H5T_STRING || shape.size() > 1) {
-    throw Error("the dataset is no list of texts", At(name));
+    throw Error("the dataset is not a list of strings", At(name));
   }
   const std::size_t count = shape.empty() ? 1 : shape[0];
   const bool variable = H5Tis_variable_str(type->id()) > 0;
   const std::size_t size = variable ? sizeof(char*) : H5Tget_size(type->id());
-  if (size == 0 || count > kMaxTextBytes / size) throw Error("the texts are too long", At(name));
+  if (size == 0 || count > kMaxTextBytes / size) throw Error("the strings are too long", At(name));
   std::vector<std::string> texts;
   if (count == 0) return texts;
   if (variable) {
@@ -380,7 +380,7 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : root_(nullptr, path.
   Silence();
   if (!std::filesystem::is_regular_file(path)) throw Error("no such file", path.string());
   file_ = Hdf5Group::Handle::Of(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
-                                "this is no HDF5 file, or it is cut off", path.string());
+                                "this is not an HDF5 file, or it is truncated", path.string());
   root_.group_ = Hdf5Group::Handle::Of(H5Gopen2(file_->id(), "/", H5P_DEFAULT), H5Gclose,
                                        "the file has no root", path.string());
 }
@@ -390,7 +390,7 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& path)
   Silence();
   const auto access =
       Hdf5Group::Handle::Of(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "no properties", path.string());
-  // What is still open is closed with the file: a group may outlive it, but does nothing more.
+  // Objects that are still open are closed with the file: a group may outlive it, but is unusable.
   H5Pset_fclose_degree(access->id(), H5F_CLOSE_STRONG);
   file_ = Hdf5Group::Handle::Of(
       H5Fcreate(staged_.staging().c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access->id()), H5Fclose,
@@ -400,7 +400,7 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& path)
 }
 
 void Hdf5Writer::Close() {
-  if (H5Fclose(file_->id()) < 0) Fail("cannot write the file to its end", root_.place_);
+  if (H5Fclose(file_->id()) < 0) Fail("cannot finish writing the file", root_.place_);
 }
 
 void Hdf5Writer::Commit() {

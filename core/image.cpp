@@ -32,7 +32,7 @@ Image FromMat(const cv::Mat& mat) {
   return image;
 }
 
-// 16-bit and float pictures in 8 bits; full range kept.
+// Converts 16-bit and float images to 8 bits over their full range.
 cv::Mat ToEightBit(const cv::Mat& mat) {
   if (mat.depth() == CV_8U) return mat;
   double scale = 1.0;
@@ -48,7 +48,7 @@ cv::Mat ToRgbOrder(const cv::Mat& mat) {
   switch (mat.channels()) {
     case 1:
       return mat;
-    case 2: {  // grey and alpha, which OpenCV's PNG reader may hand on
+    case 2: {  // grey and alpha, possible from OpenCV's PNG reader
       cv::Mat planes[2];
       cv::split(mat, planes);
       cv::merge(std::vector<cv::Mat>{planes[0], planes[0], planes[0], planes[1]}, result);
@@ -67,7 +67,7 @@ Image DecodeStill(std::string_view bytes, ImageFormat format, const std::string&
   const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
   // IMREAD_COLOR honours the EXIF orientation and converts CMYK; alpha needs UNCHANGED.
   const int flags = format == ImageFormat::kJpeg ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED;
-  // What its readers log of a damaged file is said below, in one line.
+  // The error below replaces the messages that OpenCV's readers log for a damaged file.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::Mat decoded;
   try {
@@ -130,7 +130,7 @@ Image ReadImage(const std::filesystem::path& path, const ImageReadOptions& optio
 }
 
 std::string EncodePng(const Image& image) {
-  // A Mat of its own: AsMat shares the caller's pixels.
+  // A separate Mat, since AsMat shares the caller's pixels.
   cv::Mat mat = AsMat(image);
   if (image.channels == 3) cv::cvtColor(AsMat(image), mat = cv::Mat(), cv::COLOR_RGB2BGR);
   if (image.channels == 4) cv::cvtColor(AsMat(image), mat = cv::Mat(), cv::COLOR_RGBA2BGRA);

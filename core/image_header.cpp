@@ -20,7 +20,8 @@ std::uint32_t LittleEndian(std::string_view bytes, size_t at, int count) {
   return value;
 }
 
-// PNG specification, 5.2 and 11.2.2: signature, then IHDR with width and height.
+// Reads a PNG header (PNG specification, 5.2 and 11.2.2): signature, then IHDR with width and
+// height.
 void ReadPng(std::string_view bytes, ImageHeader* header) {
   header->format = ImageFormat::kPng;
   header->truncated = bytes.find("IEND") == std::string_view::npos;
@@ -29,7 +30,8 @@ void ReadPng(std::string_view bytes, ImageHeader* header) {
   header->height = BigEndian(bytes, 20, 4);
 }
 
-// ITU T.81, B.1.1.3: segments up to the first frame header (SOF0..15 but DHT, JPG and DAC).
+// Reads a JPEG header (ITU T.81, B.1.1.3): segments up to the first frame header (SOF0..15 except
+// DHT, JPG and DAC).
 void ReadJpeg(std::string_view bytes, ImageHeader* header) {
   header->format = ImageFormat::kJpeg;
   header->truncated = bytes.find("\xFF\xD9") == std::string_view::npos ||
@@ -51,7 +53,7 @@ void ReadJpeg(std::string_view bytes, ImageHeader* header) {
   }
 }
 
-// RIFF container of WebP: VP8X carries canvas size and the animation flag.
+// Reads a WebP header (RIFF container): VP8X carries canvas size and the animation flag.
 void ReadWebp(std::string_view bytes, ImageHeader* header) {
   header->format = ImageFormat::kWebp;
   if (bytes.size() < 30) return;
@@ -63,7 +65,7 @@ void ReadWebp(std::string_view bytes, ImageHeader* header) {
   }
 }
 
-// "P5 width height maxval", with comments between.
+// Reads a PNM header: "P5 width height maxval", with comments between.
 void ReadPnm(std::string_view bytes, ImageHeader* header) {
   header->format = ImageFormat::kPnm;
   const std::string head(bytes.substr(2, 512));

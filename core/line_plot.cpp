@@ -8,8 +8,8 @@ namespace simwright::core {
 namespace {
 
 constexpr double kWidth = 760.0;
-constexpr double kStroke = 6.0;           // half of a lone point's
-constexpr std::size_t kMostPoints = 600;  // of a curve
+constexpr double kStroke = 6.0;           // half the stroke of a single point
+constexpr std::size_t kMostPoints = 600;  // per curve
 
 std::string Format(const char* format, double a, double b = 0.0, double c = 0.0) {
   char buffer[256];
@@ -32,7 +32,7 @@ std::string Escaped(const std::string& text) {
   return out;
 }
 
-// 1, 2 or 5 times a power of ten, so that about five steps span the range.
+// Returns 1, 2 or 5 times a power of ten, so that about five steps span the range.
 double TickStep(double range) {
   const double rough = range / 5.0, power = std::pow(10.0, std::floor(std::log10(rough)));
   for (const double factor : {1.0, 2.0, 5.0}) {
@@ -47,7 +47,8 @@ std::string CountLabel(double count) {
   return Format("%.0f", count);
 }
 
-// Of a lone point from its left end to its right one or, with `sense` -1, back.
+// Returns SVG coordinates. A single point becomes a segment from left to right or, with `sense` -1,
+// back.
 std::string Points(const PlotPanel& panel, const PlotPoints& points, double sense) {
   std::string out;
   const auto add = [&](const std::pair<double, double>& point, double aside) {

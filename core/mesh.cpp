@@ -17,7 +17,7 @@ void RequireValid(const TriangleMesh& mesh, const std::string& where) {
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Eigen::Vector3i& triangle = mesh.triangles[i];
     if (triangle.minCoeff() < 0 || triangle.maxCoeff() >= count) {
-      throw Error("triangle " + std::to_string(i) + " names a vertex that does not exist", where);
+      throw Error("triangle " + std::to_string(i) + " refers to a missing vertex", where);
     }
   }
 }
@@ -35,7 +35,7 @@ void RequireValid(const TexturedMesh& textured, const std::string& where) {
   }
   for (int material : textured.triangle_material) {
     if (material < 0 || material >= static_cast<int>(textured.materials.size())) {
-      throw Error("a triangle names a material that does not exist", where);
+      throw Error("a triangle refers to a missing material", where);
     }
   }
 }
@@ -88,7 +88,7 @@ void Append(const TriangleMesh& addition, TriangleMesh* mesh) {
 
 Eigen::Vector4f SampleTexture(const Image& texture, const Eigen::Vector2f& uv) {
   const auto wrap = [](int i, int n) { return ((i % n) + n) % n; };
-  // Texel centres lie at half-integers; image rows run downwards, v upwards.
+  // Texel centres are at half-integers; image rows run downwards, v upwards.
   const float x = (uv.x() - std::floor(uv.x())) * static_cast<float>(texture.width) - 0.5f;
   const float y =
       (1.0f - (uv.y() - std::floor(uv.y()))) * static_cast<float>(texture.height) - 0.5f;

@@ -15,8 +15,9 @@ namespace {
 std::atomic<int> thread_count{0};
 thread_local bool inside_parallel_for = false;
 
-// Not std::thread::hardware_concurrency: it counts processors that `taskset` or a container
-// withholds, and more threads than processors wait for each other at every loop's end.
+// Returns the processors available to this process. std::thread::hardware_concurrency also counts
+// those that `taskset` or a container withholds, and more threads than processors wait for each
+// other at every loop's end.
 int MachineThreads() {
   cpu_set_t allowed;
   CPU_ZERO(&allowed);

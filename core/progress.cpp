@@ -17,9 +17,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kTerminalInterval = 1.0;  // s between two drawings while no step is done
-constexpr double kShortestInterval = 0.1;  // s between two drawings of steps that are done
-constexpr double kSayMinutesFrom = 120.0;  // s
+constexpr double kTerminalInterval = 1.0;    // s between redraws while no step completes
+constexpr double kShortestInterval = 0.1;    // s between redraws of completed steps
+constexpr double kMinutesThreshold = 120.0;  // s
 
 volatile std::sig_atomic_t cancel_requested = 0;
 
@@ -34,7 +34,7 @@ double SecondsSince(Clock::time_point start) {
 
 std::string Duration(double seconds) {
   char text[32];
-  if (seconds >= kSayMinutesFrom) {
+  if (seconds >= kMinutesThreshold) {
     std::snprintf(text, sizeof(text), "%.0f min", seconds / 60.0);
   } else {
     std::snprintf(text, sizeof(text), "%.0f s", seconds);
@@ -62,15 +62,16 @@ std::string ProgressLine(const ProgressState& state) {
   return line + Duration(std::min(*left, most)) + " left";
 }
 
-// The stage, and the thread that draws it in between. All of it is guarded by `mutex`.
+// The current stage, and the thread that redraws it between steps. All members are guarded by
+// `mutex`.
 struct Progress::Shared {
   Shared(Style drawn, double interval, const std::atomic<int>& steps)
       : style(drawn), seconds(interval), done(steps) {
-    // Signals are for the thread that works: they wake it where it waits.
+    // Block signals in the redraw thread: they must wake the working thread where it waits.
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    drawer = std::thread([this] { DrawInBetween(); });
+    redraw_thread = std::thread([this] { RedrawBetweenSteps(); });
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
   }
   ~Shared() {
@@ -79,10 +80,10 @@ struct Progress::Shared {
       stopped = true;
     }
     changed.notify_all();
-    drawer.join();
+    redraw_thread.join();
   }
 
-  void DrawInBetween() {
+  void RedrawBetweenSteps() {
     std::unique_lock lock(mutex);
     while (!stopped) {
       const long stage = stages;
@@ -112,10 +113,10 @@ struct Progress::Shared {
   std::mutex mutex;
   std::condition_variable changed;
   bool stopped = false;
-  long stages = 0;      // that have begun
+  long stages = 0;      // stages started
   ProgressState state;  // its name is empty between stages
   Clock::time_point start{}, said{}, drawn{};
-  std::thread drawer;
+  std::thread redraw_thread;
 };
 
 void InstallCancelHandler() {

@@ -11,7 +11,7 @@ double Normal(Rng& rng) {
 }
 
 Eigen::Vector3d UniformDirection(Rng& rng) {
-  // Archimedes: the height of a uniform point on the sphere is uniform.
+  // The height of a uniform point on the sphere is uniform (Archimedes).
   const double z = Uniform(rng, -1.0, 1.0);
   const double azimuth = Uniform(rng, 0.0, 2.0 * std::numbers::pi);
   const double radius = std::sqrt(std::max(0.0, 1.0 - z * z));

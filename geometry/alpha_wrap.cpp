@@ -38,7 +38,7 @@ core::TriangleMesh AlphaWrap(const core::TriangleMesh& mesh, const AlphaWrapOpti
   try {
     CGAL::alpha_wrap_3(points, faces, options.alpha_ratio, options.offset_ratio, wrap);
   } catch (const std::exception& e) {
-    throw core::Error(std::string("no wrap could be made: ") + e.what(), "alpha wrap");
+    throw core::Error(std::string("alpha wrapping failed: ") + e.what(), "alpha wrap");
   }
   if (wrap.has_garbage()) wrap.collect_garbage();
   core::TriangleMesh result = FromSurfaceMesh(wrap);

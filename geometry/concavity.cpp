@@ -21,14 +21,14 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector4d;
 
-constexpr int kBlock = 1024;  // samples a task: the same whatever the threads
+constexpr int kBlock = 1024;  // samples per task, independent of the thread count
 
 void RequireMesh(const core::TriangleMesh& mesh, const char* where) {
   core::RequireValid(mesh, where);
   if (mesh.empty()) throw core::Error("the mesh has no triangles", where);
 }
 
-// Convex parts, ready for the question which of them a point is in.
+// Convex parts with point-containment queries.
 class PartSet {
  public:
   explicit PartSet(const std::vector<core::TriangleMesh>& parts) {
@@ -38,8 +38,9 @@ class PartSet {
     }
   }
 
-  // Whether some part other than `except` holds `p` deeper than `depth` (m, may be negative).
-  bool Holds(const Vector3d& p, double depth, int except) const {
+  // Returns true if some part other than `except` contains `p` deeper than `depth` (m, may be
+  // negative).
+  bool Contains(const Vector3d& p, double depth, int except) const {
     for (int i = 0; i < static_cast<int>(planes_.size()); ++i) {
       if (i == except || boxes_[i].exteriorDistance(p) > std::max(0.0, -depth)) continue;
       if (HeightOver(planes_[i], p) < -depth) return true;
@@ -47,16 +48,16 @@ class PartSet {
     return false;
   }
 
-  // Distance from `p` inside the union to its surface, where that is less than `best`: along the
-  // normal of a face of a part that holds it, to where no other part holds the way's end.
-  double WayOut(const Vector3d& p, double step, double best) const {
+  // Returns the distance from `p` inside the union to its surface if it is less than `best`: along
+  // a face normal of a part that contains `p`, to a point that no other part contains.
+  double ExitDistance(const Vector3d& p, double step, double best) const {
     for (int i = 0; i < static_cast<int>(planes_.size()); ++i) {
       if (!boxes_[i].contains(p) || HeightOver(planes_[i], p) > 0.0) continue;
       for (const Vector4d& plane : planes_[i]) {
         const double depth = plane[3] - plane.head<3>().dot(p);
         if (depth >= best) continue;
         const Vector3d end = p + (depth + step) * plane.head<3>();
-        if (HeightOver(planes_[i], end) <= 2.0 * step && !Holds(end, 0.0, i)) best = depth;
+        if (HeightOver(planes_[i], end) <= 2.0 * step && !Contains(end, 0.0, i)) best = depth;
       }
     }
     return best;
@@ -67,7 +68,7 @@ class PartSet {
   std::vector<Eigen::AlignedBox3d> boxes_;
 };
 
-// Nearest of a fixed set of points: buckets of a grid, searched ring by ring.
+// Finds the nearest of a fixed set of points: a bucket grid, searched ring by ring.
 class PointGrid {
  public:
   explicit PointGrid(std::vector<Vector3d> points) : points_(std::move(points)) {
@@ -133,7 +134,7 @@ class PointGrid {
   std::vector<std::vector<int>> buckets_;
 };
 
-// Points on the parts' surfaces that no other part holds.
+// Samples points on the parts' surfaces that no other part contains.
 std::vector<Vector3d> SampleUnion(const std::vector<core::TriangleMesh>& parts, const PartSet& set,
                                   double diagonal, const ConcavityOptions& options) {
   double area = 0.0;
@@ -148,10 +149,10 @@ std::vector<Vector3d> SampleUnion(const std::vector<core::TriangleMesh>& parts, 
           std::max_element(planes.begin(), planes.end(), [&](const auto& a, const auto& b) {
             return a.template head<3>().dot(p) - a[3] < b.template head<3>().dot(p) - b[3];
           });
-      // A step outward tells a face shared back to back (inside the union) from two faces that
-      // lie on one another (on its surface); a crack thinner than the step is none.
+      // A step outward distinguishes a face shared back to back (inside the union) from two
+      // coincident faces on the union's surface; cracks thinner than the step are ignored.
       const Vector3d outward = p + options.coverage_tolerance * diagonal * face->head<3>();
-      if (!set.Holds(outward, 0.0, i)) kept[i].push_back(p);
+      if (!set.Contains(outward, 0.0, i)) kept[i].push_back(p);
     }
   });
   std::vector<Vector3d> all;
@@ -173,7 +174,7 @@ void MeasureVolumes(const core::TriangleMesh& solid, const TriangleTree& tree, c
       Vector3d p;
       for (int k = 0; k < 3; ++k) p[k] = core::Uniform(rng, box.min()[k], box.max()[k]);
       const bool in_solid = InsideSurface(solid, tree, p);
-      const bool in_parts = set.Holds(p, 0.0, -1);
+      const bool in_parts = set.Contains(p, 0.0, -1);
       counts[b][0] += in_solid;
       counts[b][1] += in_parts && !in_solid;
       counts[b][2] += in_solid && !in_parts;
@@ -184,7 +185,7 @@ void MeasureVolumes(const core::TriangleMesh& solid, const TriangleTree& tree, c
     excess += c[1];
     missing += c[2];
   }
-  // Against the exact volume: the count inside a thin solid is noisy.
+  // Relative to the exact volume: the count inside a thin solid is noisy.
   const double volume = std::max(std::abs(SignedVolume(solid)), 1e-300);
   const double each = box.volume() / options.volume_samples / volume;
   quality->excess_volume = excess * each;
@@ -198,7 +199,7 @@ double CoveredShare(const std::vector<Vector3d>& points, const PartSet& set, dou
   std::vector<int> covered(blocks, 0);
   core::ParallelFor(blocks, [&](int b) {
     for (int i = b * kBlock; i < std::min(n, (b + 1) * kBlock); ++i) {
-      covered[b] += set.Holds(points[i], -tolerance, -1);
+      covered[b] += set.Contains(points[i], -tolerance, -1);
     }
   });
   return std::accumulate(covered.begin(), covered.end(), 0.0) / std::max(1, n);
@@ -238,8 +239,8 @@ DecompositionQuality MeasureDecomposition(const core::TriangleMesh& solid,
     const std::size_t end = std::min(on_solid.size(), static_cast<std::size_t>(b + 1) * kBlock);
     for (std::size_t i = static_cast<std::size_t>(b) * kBlock; i < end; ++i) {
       const Vector3d& p = on_solid[i];
-      if (set.Holds(p, 0.0, -1)) {
-        to_parts[i] = set.WayOut(p, options.coverage_tolerance * diagonal, grid.Distance(p));
+      if (set.Contains(p, 0.0, -1)) {
+        to_parts[i] = set.ExitDistance(p, options.coverage_tolerance * diagonal, grid.Distance(p));
       } else {
         to_parts[i] = outside[i] = parts_tree.Closest(p).distance;
       }

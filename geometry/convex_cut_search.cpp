@@ -15,21 +15,21 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kOnPlane = 1e-9;     // of the solid's diagonal
-constexpr double kCrumb = 1e-9;       // of the solid's volume
-constexpr double kSlab = 5e-3;        // of the solid's diagonal: thinnest slab cut off
-constexpr double kWorthAhead = 2e-3;  // of the solid's excess: what less of it is cut greedily
-constexpr int kFeatures = 8;          // feature heights tried along a direction
+constexpr double kOnPlane = 1e-9;      // of the solid's diagonal
+constexpr double kMinFragment = 1e-9;  // of the solid's volume
+constexpr double kSlab = 5e-3;         // of the solid's diagonal: thinnest slab cut off
+constexpr double kWorthAhead = 2e-3;   // of the solid's excess: less is cut greedily
+constexpr int kFeatures = 8;           // feature heights tried along a direction
 
-// The excess that is left, in the unit of the search: the volume that hulls add.
+// Returns the remaining excess, the objective of the search: the volume that the hulls add.
 double Excess(const std::vector<Piece>& pieces) {
   double sum = 0.0;
   for (const Piece& piece : pieces) sum += piece.Excess();
   return sum;
 }
 
-// Heights along `axis` where the surface has flat faces across it or creases inward, weightiest
-// first: a cut there leaves no remainder.
+// Returns the heights along `axis` at which the surface has flat faces perpendicular to it or
+// concave creases, by descending weight: a cut there leaves no remainder.
 std::vector<double> FeatureHeights(const core::TriangleMesh& mesh, const Vector3d& axis,
                                    double width, int most) {
   std::map<long, double> weight, moment;
@@ -79,7 +79,7 @@ void AddPlanes(const Piece& piece, const Vector3d& axis, int count, const CutCon
   }
 }
 
-// Directions to cut across: the axes, and the piece's own where they are others.
+// Returns the normals of candidate cuts: the axes, and the piece's principal axes if they differ.
 std::vector<Vector3d> Directions(const Piece& piece, bool own) {
   std::vector<Vector3d> directions{Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
   if (!own) return directions;
@@ -109,7 +109,7 @@ struct Trial {
   std::vector<Piece> pieces;
 };
 
-// The `beam` best trials, no two of them nearly the same plane.
+// Returns the `beam` best trials, excluding nearly equal planes.
 std::vector<int> BestTrials(const std::vector<Trial>& trials, double apart, int beam) {
   std::vector<int> order(trials.size());
   std::iota(order.begin(), order.end(), 0);
@@ -127,12 +127,12 @@ std::vector<int> BestTrials(const std::vector<Trial>& trials, double apart, int 
   return best;
 }
 
-// The least excess to which `depth` further cuts bring a piece.
+// Returns the smallest excess that `depth` further cuts can reach for a piece.
 double ExcessAhead(const Piece& piece, int depth, double negligible, const CutContext& context) {
   const double now = piece.Excess();
   if (depth == 0 || now <= negligible) return now;
   double best = now;
-  // Coarser than the cuts that are made: it only has to tell good beginnings from bad ones.
+  // Fewer candidates than for the actual cuts: the estimate only has to rank first cuts.
   const int count = std::max(3, context.options->candidates / 3);
   for (const CutPlane& plane : Candidates(piece, count, false, context)) {
     const std::vector<Piece> pieces = CutPiece(piece, plane, context);
@@ -161,7 +161,7 @@ std::vector<Piece> CutPiece(const Piece& piece, const CutPlane& plane, const Cut
   std::vector<Piece> pieces;
   for (core::TriangleMesh& mesh : CutApart(piece.mesh, plane, kOnPlane * context.diagonal)) {
     const double size = core::Bounds(mesh).diagonal().norm();
-    if (SignedVolume(mesh) < kCrumb * context.solid_volume &&
+    if (SignedVolume(mesh) < kMinFragment * context.solid_volume &&
         size < 10 * context.options->min_thickness * context.diagonal) {
       continue;
     }
@@ -203,7 +203,7 @@ std::vector<Piece> BestCut(const Piece& piece, const CutContext& context) {
   int chosen = best[0];
   double least = std::numeric_limits<double>::infinity();
   for (const int t : best) {
-    // Equal futures: the cut that helps more at once.
+    // Tie-breaker: the cut with the larger immediate gain.
     double sum = 0.05 * trials[t].excess;
     for (const Item& item : items) sum += item.trial == t ? item.ahead : 0.0;
     if (sum < least) {

@@ -20,10 +20,10 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMostParts = 256;
-constexpr int kSearchFaces = 3000;     // the cuts are sought on a thinned solid of so many
-constexpr double kSearchError = 2e-3;  // of the diagonal, by which that may differ
+constexpr int kSearchFaces = 3000;     // faces of the simplified solid on which cuts are searched
+constexpr double kSearchError = 2e-3;  // of the diagonal: its largest deviation
 constexpr int kSolidSamples = 4000;
-constexpr double kUncovered = 1e-4;  // of the diagonal: a vertex that far out is taken in
+constexpr double kUncovered = 1e-4;  // of the diagonal: a vertex farther outside enlarges the hull
 
 void RequireOptions(const DecompositionOptions& options) {
   const bool good = options.threshold > 0.0 && options.threshold <= 2.0 && options.max_parts >= 0 &&
@@ -33,8 +33,8 @@ void RequireOptions(const DecompositionOptions& options) {
   if (!good) throw core::Error("a decomposition option is out of range", "convex decomposition");
 }
 
-// What the cuts are sought on: the solid itself, or a thinned one close to it.
-core::TriangleMesh Thinned(const core::TriangleMesh& solid, double diagonal) {
+// Returns the mesh on which cuts are searched: the solid itself, or a simplified mesh close to it.
+core::TriangleMesh SearchMesh(const core::TriangleMesh& solid, double diagonal) {
   if (static_cast<int>(solid.triangles.size()) <= kSearchFaces) return solid;
   SimplifyOptions options;
   options.face_budget = kSearchFaces;
@@ -43,7 +43,7 @@ core::TriangleMesh Thinned(const core::TriangleMesh& solid, double diagonal) {
     core::TriangleMesh thin = Simplify(solid, options);
     if (SignedVolume(thin) > 0.0) return thin;
   } catch (const core::Error&) {
-    // Not a manifold: the search takes longer, but works on the solid as it is.
+    // Not a manifold: search on the unchanged solid, which takes longer.
   }
   return solid;
 }
@@ -54,11 +54,12 @@ void MeasureConcavity(const CutContext& context, Piece* piece) {
       context.fit->Concavity(piece->hull, piece->volume, std::numeric_limits<double>::infinity());
 }
 
-// Cuts the most concave piece again and again until all meet the threshold or there are as many as
-// the last of `limits` (ascending). The pieces as they were when each limit was reached; those met
-// after the work was done hold its end once.
-std::vector<std::vector<Piece>> CutDown(const core::TriangleMesh& solid, double threshold,
-                                        const std::vector<int>& limits, const CutContext& context) {
+// Cuts the most concave piece repeatedly until all pieces meet the threshold or their number
+// reaches the last of `limits` (ascending). Returns the pieces at each limit; limits that were not
+// reached share one final stage.
+std::vector<std::vector<Piece>> CutRepeatedly(const core::TriangleMesh& solid, double threshold,
+                                              const std::vector<int>& limits,
+                                              const CutContext& context) {
   std::vector<Piece> pieces, done;
   for (core::TriangleMesh& body : ConnectedBodies(solid)) {
     pieces.push_back(MakePiece(std::move(body), context));
@@ -68,7 +69,7 @@ std::vector<std::vector<Piece>> CutDown(const core::TriangleMesh& solid, double 
   const auto keep = [&] {
     stages.push_back(done);
     stages.back().insert(stages.back().end(), pieces.begin(), pieces.end());
-    for (Piece& piece : stages.back()) piece.mesh = {};  // joining needs the hulls alone
+    for (Piece& piece : stages.back()) piece.mesh = {};  // merging needs the hulls only
   };
   std::size_t limit = 0;
   while (!pieces.empty()) {
@@ -98,8 +99,8 @@ std::vector<std::vector<Piece>> CutDown(const core::TriangleMesh& solid, double 
   return stages;
 }
 
-// Stages of the cutting, joined to at most `max_parts`, and of those the least concave one.
-std::vector<Piece> BestJoined(std::vector<std::vector<Piece>> stages, int max_parts,
+// Merges the pieces of each stage to at most `max_parts` and returns the least concave result.
+std::vector<Piece> BestMerged(std::vector<std::vector<Piece>> stages, int max_parts,
                               const CutContext& context) {
   const DecompositionOptions& options = *context.options;
   std::vector<Piece>* best = nullptr;
@@ -120,9 +121,9 @@ std::vector<Piece> BestJoined(std::vector<std::vector<Piece>> stages, int max_pa
   return std::move(*best);
 }
 
-// Grows the hulls by the solid's own vertices that the thinned solid left outside.
-void TakeInVertices(const core::TriangleMesh& solid, const CutContext& context,
-                    std::vector<Piece>* pieces) {
+// Grows the hulls by the solid's own vertices that lie outside of the simplified solid's parts.
+void GrowHulls(const core::TriangleMesh& solid, const CutContext& context,
+               std::vector<Piece>* pieces) {
   const double reach = kUncovered * context.diagonal;
   std::vector<std::vector<Eigen::Vector4d>> planes;
   std::vector<Eigen::AlignedBox3d> boxes;
@@ -161,15 +162,15 @@ ConvexDecomposition DecomposeUnit(const core::TriangleMesh& solid,
   CutContext context{&options, &fit, diagonal, volume, 0.0};
   context.excess = MakePiece(solid, context).Excess();
 
-  // More pieces than are wanted are cut, then joined: joining looks at all neighbours, cutting
-  // only at one piece at a time. How many more serves best differs; several are tried.
+  // Cut more pieces than needed, then merge: merging considers all neighbours, cutting only one
+  // piece at a time. The best surplus varies, so several are tried.
   const int p = options.max_parts;
   std::vector<int> limits{kMostParts};
   if (p > 0) limits = {p, p + p / 4 + 1, p + p / 2 + 2, 2 * p + 6};
   std::vector<Piece> pieces =
-      BestJoined(CutDown(Thinned(solid, diagonal), options.threshold, limits, context),
+      BestMerged(CutRepeatedly(SearchMesh(solid, diagonal), options.threshold, limits, context),
                  p > 0 ? p : kMostParts, context);
-  TakeInVertices(solid, context, &pieces);
+  GrowHulls(solid, context, &pieces);
 
   ConvexDecomposition result;
   std::stable_sort(pieces.begin(), pieces.end(),
@@ -200,7 +201,7 @@ ConvexDecomposition Decompose(const core::TriangleMesh& solid,
     throw core::Error("the mesh encloses no positive volume", "convex decomposition",
                       "close it and turn its faces outward");
   }
-  // In a frame of its own, of unit size by a power of two: nothing is rounded differently for a
+  // Work in a normalised frame, with the scale a power of two: rounding is then the same for a
   // solid that is tiny, huge or far away.
   const Vector3d middle = core::Bounds(welded).center();
   const double scale = std::exp2(-std::ceil(std::log2(diagonal)));

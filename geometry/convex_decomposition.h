@@ -12,10 +12,10 @@ struct DecompositionOptions {
                             // solid's longest side counts 2. CoACD's default too; lower values give
                             // more parts
   int max_parts = 0;        // 0: as many as the threshold requires, at most 256
-  int max_hull_vertices = 64;  // Bullet slows down and MuJoCo warns above
-  int candidates = 12;  // cut positions tried per axis, in addition to the piece's features
-  int beam = 6;         // best cuts kept for the lookahead
-  int depth = 2;        // cuts to look ahead; 1 is greedy
+  int max_hull_vertices = 64;   // Bullet slows down and MuJoCo warns above
+  int candidates = 12;          // cut positions tried per axis, in addition to the piece's features
+  int beam = 6;                 // best cuts kept for the lookahead
+  int depth = 2;                // cuts to look ahead; 1 is greedy
   bool principal_axes = true;   // also cut across the piece's own principal axes
   bool merge = true;            // merge neighbours while their common hull meets the threshold
   double min_thickness = 1e-3;  // of the diagonal: a flatter part is thickened or merged

@@ -19,8 +19,8 @@ using Eigen::Vector3d;
 
 constexpr double kOnFace = 1e-7;  // of the diagonal; stated in the header
 constexpr double kFlat = 1e-6;    // of the diagonal; stated in the header
-constexpr int kMostLeftOut = 40;  // at each tolerance
-// Of so many points the exact hull is sooner made than a rounded one is mended.
+constexpr int kMostLeftOut = 40;  // per tolerance
+// For this many points the exact hull is faster than repairing a rounded one.
 constexpr std::size_t kMany = 1000;
 
 double DiagonalOf(const std::vector<Vector3d>& points) {
@@ -34,7 +34,7 @@ double DiagonalOf(const std::vector<Vector3d>& points) {
   return points.empty() ? 0.0 : box.diagonal().norm();
 }
 
-// Principal directions of the points, thinnest first (columns), right-handed.
+// Returns the principal directions of the points, thinnest first (columns), right-handed.
 Eigen::Matrix3d Directions(const std::vector<Vector3d>& points) {
   Vector3d middle = Vector3d::Zero();
   for (const Vector3d& p : points) middle += p;
@@ -51,8 +51,8 @@ Eigen::Matrix3d Directions(const std::vector<Vector3d>& points) {
 
 std::optional<core::TriangleMesh> TryHullAsIs(std::vector<Vector3d> points, double diagonal,
                                               int max_vertices) {
-  // A nearly degenerate set is mended by leaving out points that lie all but on the line between
-  // two others; where that does not do, by a coarser notion of "on the face".
+  // A nearly degenerate set is repaired by removing points that are almost collinear with two
+  // others or, if that fails, by a larger on-face tolerance.
   const int most_left_out = points.size() > kMany ? 1 : kMostLeftOut;
   for (const double tolerance : {kOnFace, 1e-6, 1e-5, 1e-4, 1e-3}) {
     if (tolerance > 1e-6 && points.size() > kMany) break;
@@ -70,11 +70,11 @@ std::optional<core::TriangleMesh> TryHullAsIs(std::vector<Vector3d> points, doub
   return std::nullopt;
 }
 
-// Empty where the points are flat.
+// Returns nothing if the points are flat.
 std::optional<core::TriangleMesh> TryHull(const std::vector<Vector3d>& points, double diagonal,
                                           int max_vertices) {
   if (auto hull = TryHullAsIs(points, diagonal, max_vertices)) return hull;
-  // An affine map keeps a hull a hull: noise on a thin sheet is no matter once it is stretched.
+  // An affine map of a hull is a hull, and noise on a thin sheet is harmless after stretching.
   const Eigen::Matrix3d frame = Directions(points);
   Eigen::AlignedBox3d box;
   for (const Vector3d& p : points) box.extend(Vector3d(frame.transpose() * p));
@@ -89,7 +89,7 @@ std::optional<core::TriangleMesh> TryHull(const std::vector<Vector3d>& points, d
     }
     return hull;
   }
-  // Thousands of points on nearly flat faces are past what rounded planes can tell.
+  // Planes in rounded arithmetic cannot resolve thousands of points on nearly flat faces.
   core::TriangleMesh exact = ExactHull(points, max_vertices);
   if (exact.empty()) return std::nullopt;
   return exact;
@@ -108,7 +108,7 @@ core::TriangleMesh ConvexHull(const std::vector<Vector3d>& points, int max_verti
   RequireLimit(max_vertices);
   const double diagonal = DiagonalOf(points);
   if (points.size() < 4) {
-    throw core::Error("fewer than 4 points bound no volume", "convex hull");
+    throw core::Error("fewer than 4 points enclose no volume", "convex hull");
   }
   std::optional<core::TriangleMesh> hull;
   if (diagonal > 0.0) hull = TryHull(points, diagonal, max_vertices);
@@ -124,7 +124,7 @@ core::TriangleMesh ThickenedConvexHull(const std::vector<Vector3d>& points, doub
   const double diagonal = DiagonalOf(points);
   if (points.empty()) throw core::Error("there are no points", "convex hull");
   if (!(min_thickness > 0.0) || !std::isfinite(min_thickness)) {
-    throw core::Error("the least thickness is not positive", "convex hull");
+    throw core::Error("the minimum thickness is not positive", "convex hull");
   }
   const Eigen::Matrix3d directions = Directions(points);
   std::vector<Vector3d> grown = points;
@@ -138,7 +138,7 @@ core::TriangleMesh ThickenedConvexHull(const std::vector<Vector3d>& points, doub
     }
     if (high - low >= min_thickness) continue;
     thickened = true;
-    // Both sides get the outline of the whole set: a slab, not a ridge.
+    // Give both sides the outline of the whole set: a slab, not a ridge.
     std::vector<Vector3d> slab;
     for (const Vector3d& p : grown) {
       const Vector3d flat = p - direction * (direction.dot(p) - 0.5 * (low + high));
@@ -151,7 +151,7 @@ core::TriangleMesh ThickenedConvexHull(const std::vector<Vector3d>& points, doub
     const double size = thickened ? DiagonalOf(grown) : diagonal;
     if (auto hull = TryHull(grown, size, max_vertices)) return *std::move(hull);
   }
-  // What is left is a set whose thickness vanishes against its length: its oriented box.
+  // The remaining case is a set whose thickness vanishes against its length: use its OBB.
   Vector3d low = directions.transpose() * points[0], high = low;
   for (const Vector3d& p : points) {
     low = low.cwiseMin(directions.transpose() * p);

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTouching = 2e-3;  // of the diagonal: parts that near to each other are neighbours
+constexpr double kTouching = 2e-3;  // of the diagonal: parts within this distance are neighbours
 
 struct Join {
   int a = 0, b = 0;
@@ -37,23 +37,23 @@ Piece Joined(const Piece& a, const Piece& b, const CutContext& context) {
   return joined;
 }
 
-// Above `enough` the cost is a lower bound only.
+// Returns the cost of merging, or only a lower bound if it is above `enough`.
 double JoinCost(const Piece& a, const Piece& b, double enough, const CutContext& context) {
   const Piece joined = Joined(a, b, context);
   return context.fit->Concavity(joined.hull, joined.volume, enough);
 }
 
-// Each piece that is left with the few whose boxes lie nearest.
-std::vector<Join> NearestPairs(const std::vector<Piece>& pieces, const std::vector<bool>& gone) {
+// Pairs each remaining piece with the few whose AABBs are nearest.
+std::vector<Join> NearestPairs(const std::vector<Piece>& pieces, const std::vector<bool>& merged) {
   constexpr std::size_t kNearest = 4;
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Piece& piece : pieces) boxes.push_back(core::Bounds(piece.hull));
   std::vector<Join> joins;
   for (int i = 0; i < static_cast<int>(pieces.size()); ++i) {
-    if (gone[i]) continue;
+    if (merged[i]) continue;
     std::vector<std::pair<double, int>> others;
     for (int j = 0; j < static_cast<int>(pieces.size()); ++j) {
-      if (j != i && !gone[j]) others.emplace_back(boxes[i].exteriorDistance(boxes[j]), j);
+      if (j != i && !merged[j]) others.emplace_back(boxes[i].exteriorDistance(boxes[j]), j);
     }
     const std::size_t count = std::min(kNearest, others.size());
     std::partial_sort(others.begin(), others.begin() + count, others.end());
@@ -76,7 +76,7 @@ void MergePieces(const CutContext& context, double threshold, int max_parts,
                  std::vector<Piece>* pieces) {
   const double infinity = std::numeric_limits<double>::infinity();
   std::vector<Join> joins;
-  // Costs of the pairs of joins[first..], measured in parallel.
+  // Measures the costs of the pairs joins[first..] in parallel.
   const auto measure = [&](std::size_t first) {
     const bool all = max_parts > 0 && static_cast<int>(pieces->size()) > max_parts;
     core::ParallelFor(static_cast<int>(joins.size() - first), [&](int i) {
@@ -96,13 +96,13 @@ void MergePieces(const CutContext& context, double threshold, int max_parts,
   }
   measure(0);
   int alive = static_cast<int>(pieces->size());
-  std::vector<bool> gone(pieces->size(), false);
+  std::vector<bool> merged(pieces->size(), false);
   while (true) {
     core::CheckCancelled();
     if (joins.empty()) {
       if (max_parts == 0 || alive <= max_parts) break;
-      // Bodies that do not touch: the limit joins what lies apart, too.
-      joins = NearestPairs(*pieces, gone);
+      // If no bodies touch, the limit requires merging separated ones, too.
+      joins = NearestPairs(*pieces, merged);
       if (joins.empty()) break;
       measure(0);
     }
@@ -112,28 +112,28 @@ void MergePieces(const CutContext& context, double threshold, int max_parts,
     const Join join = *best;
     Piece joined = Joined((*pieces)[join.a], (*pieces)[join.b], context);
     joined.concavity = join.cost;
-    gone[join.a] = gone[join.b] = true;
+    merged[join.a] = merged[join.b] = true;
     --alive;
     std::vector<int> neighbours;
     for (const Join& other : joins) {
       for (const auto& [mine, far] : {std::pair{other.a, other.b}, std::pair{other.b, other.a}}) {
-        if ((mine == join.a || mine == join.b) && !gone[far]) neighbours.push_back(far);
+        if ((mine == join.a || mine == join.b) && !merged[far]) neighbours.push_back(far);
       }
     }
     std::sort(neighbours.begin(), neighbours.end());
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
-    std::erase_if(joins, [&](const Join& other) { return gone[other.a] || gone[other.b]; });
+    std::erase_if(joins, [&](const Join& other) { return merged[other.a] || merged[other.b]; });
     pieces->push_back(std::move(joined));
-    gone.push_back(false);
+    merged.push_back(false);
     const std::size_t first = joins.size();
     for (const int n : neighbours) joins.push_back({n, static_cast<int>(pieces->size()) - 1});
     measure(first);
   }
-  std::vector<Piece> left;
+  std::vector<Piece> remaining;
   for (std::size_t i = 0; i < pieces->size(); ++i) {
-    if (!gone[i]) left.push_back(std::move((*pieces)[i]));
+    if (!merged[i]) remaining.push_back(std::move((*pieces)[i]));
   }
-  *pieces = std::move(left);
+  *pieces = std::move(remaining);
 }
 
 }  // namespace simwright::geometry

@@ -42,7 +42,7 @@ struct Pair {
   }
 };
 
-// Some corners with the weights of the point of their hull closest to the origin.
+// Up to four corners, with the weights of the point of their hull closest to the origin.
 struct Simplex {
   std::array<Corner, 4> corner;
   std::array<double, 4> weight;
@@ -67,8 +67,8 @@ struct Simplex {
   }
 };
 
-// Reductions to the feature closest to the origin by Voronoi regions (Ericson, Real-Time Collision
-// Detection, 2005, 5.1 and 9.5).
+// The following functions reduce a simplex to the feature closest to the origin by Voronoi regions
+// (Ericson, Real-Time Collision Detection, 2005, 5.1 and 9.5).
 void ReduceSegment(Simplex* s) {
   const Vector3d ab = s->corner[1].point - s->corner[0].point;
   const double length = ab.squaredNorm();
@@ -110,7 +110,7 @@ void ReduceTriangle(Simplex* s) {
   s->weight = {va / sum, vb / sum, vc / sum, 0.0};
 }
 
-// True when the origin is inside; then the simplex is left whole.
+// Returns true if the origin is inside; the simplex is then unchanged.
 bool ReduceTetrahedron(Simplex* s) {
   static constexpr int kFaces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};
   Simplex best;
@@ -121,7 +121,7 @@ bool ReduceTetrahedron(Simplex* s) {
     const Vector3d normal = (s->corner[f[1]].point - a).cross(s->corner[f[2]].point - a);
     const double origin_side = -normal.dot(a);
     const double inner_side = normal.dot(s->corner[f[3]].point - a);
-    // A flat tetrahedron has no inside: each of its faces is tried.
+    // A flat tetrahedron has no interior: try each of its faces.
     const double flat = 1e-14 * normal.norm() * (s->corner[f[3]].point - a).norm();
     if (std::abs(inner_side) > flat && origin_side * inner_side >= 0.0) continue;
     outside = true;
@@ -138,9 +138,9 @@ bool ReduceTetrahedron(Simplex* s) {
   return !outside;
 }
 
-// GJK. True when the cores are apart by more than rounding; `simplex` then holds the closest
-// feature of the Minkowski difference.
-bool CoresApart(const Pair& pair, Simplex* simplex) {
+// Runs GJK. Returns true if the cores are separated by more than rounding; `simplex` then holds the
+// closest feature of the Minkowski difference.
+bool CoresSeparated(const Pair& pair, Simplex* simplex) {
   const double touching = 1e-12 * pair.size;
   simplex->size = 1;
   simplex->corner[0] = pair.Support(Vector3d::UnitX());
@@ -150,7 +150,7 @@ bool CoresApart(const Pair& pair, Simplex* simplex) {
     const double distance = v.norm();
     if (distance <= touching) return false;
     const Corner w = pair.Support(-v);
-    // |v| - w.v/|v| bounds the error from above.
+    // v| - w.v/|v| bounds the error from above.
     if (distance - w.point.dot(v) / distance <= 1e-13 * pair.size + 1e-12 * distance) return true;
     for (int i = 0; i < simplex->size; ++i) {
       if (w.point == simplex->corner[i].point) return true;
@@ -165,7 +165,7 @@ bool CoresApart(const Pair& pair, Simplex* simplex) {
       return false;
     }
     const Vector3d next = simplex->Sum(&Corner::point);
-    if (!(next.squaredNorm() < v.squaredNorm())) {  // no progress left in double precision
+    if (!(next.squaredNorm() < v.squaredNorm())) {  // no further progress in double precision
       *simplex = before;
       return true;
     }
@@ -174,12 +174,12 @@ bool CoresApart(const Pair& pair, Simplex* simplex) {
   return true;
 }
 
-// The expanding polytope about an origin inside the Minkowski difference.
+// The expanding polytope algorithm around an origin inside the Minkowski difference.
 class ExpandingPolytope {
  public:
   explicit ExpandingPolytope(const Pair& pair) : pair_(pair) {}
 
-  // False where the difference is flat; then `normal` is across it.
+  // Returns false if the difference is flat; then `normal` is perpendicular to it.
   bool Start(Vector3d* normal) {
     const double flat = 1e-10 * pair_.size;
     corners_.push_back(pair_.Support(Vector3d::UnitX()));
@@ -207,7 +207,7 @@ class ExpandingPolytope {
     return true;
   }
 
-  // The face closest to the origin once none can be pushed further out.
+  // Returns the face closest to the origin once no face can be expanded further.
   ConvexDistance Depth() {
     const double tolerance = 1e-11 * pair_.size;
     std::size_t nearest = 0;
@@ -250,7 +250,7 @@ class ExpandingPolytope {
     const Vector3d& a = corners_[f[0]].point;
     Vector3d normal = (corners_[f[1]].point - a).cross(corners_[f[2]].point - a);
     const double norm = normal.norm();
-    // A needle has no normal of its own; it may never be the nearest.
+    // A needle has no reliable normal; exclude it from the nearest-face search.
     if (!(norm > 1e-20 * pair_.size * pair_.size)) {
       faces_.push_back({f, Vector3d::Zero(), std::numeric_limits<double>::infinity()});
       return;
@@ -308,7 +308,7 @@ class ExpandingPolytope {
     }
     ReduceTriangle(&s);
     ConvexDistance result;
-    // The nearest point n d of a - b says: b has to move by n d to come free of a.
+    // The nearest point n d of a - b means: b must move by n d to separate from a.
     result.distance = -std::max(0.0, face.offset);
     result.normal = face.normal;
     result.point_a = s.Sum(&Corner::on_a);
@@ -344,14 +344,14 @@ ConvexDistance SignedDistance(const ConvexShape& a, const Eigen::Isometry3d& wor
   Eigen::AlignedBox3d bounds_a, bounds_b;
   AddPlaced(a, world_from_a, &pair.a, &bounds_a);
   AddPlaced(b, world_from_b, &pair.b, &bounds_b);
-  // Digits are those of the bodies, not of how far they lie from the origin.
+  // Centre the bodies: precision then depends on their size, not on their distance from the origin.
   const Vector3d middle = bounds_a.center();
   for (Vector3d& v : pair.a) v -= middle;
   for (Vector3d& v : pair.b) v -= middle;
   pair.size = std::max(bounds_a.diagonal().norm() + bounds_b.diagonal().norm(), 1e-300);
   ConvexDistance result;
   Simplex simplex;
-  if (CoresApart(pair, &simplex)) {
+  if (CoresSeparated(pair, &simplex)) {
     const Vector3d v = simplex.Sum(&Corner::point);
     result.distance = v.norm();
     result.normal = -v / result.distance;

@@ -17,7 +17,7 @@ struct ConvexShape {
 };
 
 struct ConvexDistance {
-  double distance = 0.0;  // m; negative: penetration depth
+  double distance = 0.0;                              // m; negative: penetration depth
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit, from a towards b, world frame
   Eigen::Vector3d point_a = Eigen::Vector3d::Zero();  // witness on a's surface, world frame
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();  // point_b = point_a + distance * normal

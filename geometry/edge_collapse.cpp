@@ -15,7 +15,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Sum over planes of weight * (n . x - d)^2: x A x - 2 b x + c.
+// The sum over planes of weight * (n . x - d)^2: x A x - 2 b x + c.
 struct Quadric {
   Matrix3d a = Matrix3d::Zero();
   Vector3d b = Vector3d::Zero();
@@ -43,8 +43,8 @@ struct Candidate {
   int version_a, version_b;
 };
 
-// Candidates by cost, an eighth of an octave a bucket, first in first out within one: near enough
-// to the order of costs, and several times as fast as a heap.
+// A bucket queue of candidates by cost, an eighth of an octave per bucket, first in first out
+// within one: close enough to the order of costs, and several times as fast as a heap.
 class CostQueue {
  public:
   void Push(double cost, const Candidate& candidate) {
@@ -83,7 +83,7 @@ class Collapser {
  public:
   Collapser(const core::TriangleMesh& mesh, const std::vector<char>& locked)
       : source_(mesh), vertices_(mesh.vertices), triangles_(mesh.triangles), locked_(locked) {
-    // Sums of squares lose digits far from the origin.
+    // Centred coordinates: sums of squares lose digits far from the origin.
     center_ = core::Bounds(mesh).center();
     for (Vector3d& v : vertices_) v -= center_;
     around_.resize(vertices_.size());
@@ -152,13 +152,14 @@ class Collapser {
     return (vertices_[t[1]] - vertices_[t[0]]).cross(vertices_[t[2]] - vertices_[t[0]]);
   }
 
-  // Where the two planes' sums are least; held near the middle where they leave it free.
+  // Returns the minimiser of the two quadrics' sum, regularised towards the edge's midpoint where
+  // they leave it free.
   Vector3d Best(int a, int b, const Quadric& sum) const {
     const Vector3d middle = 0.5 * (vertices_[a] + vertices_[b]);
     Matrix3d matrix = sum.a;
     matrix.diagonal().array() += 1e-4 * sum.weight;
     const Vector3d gradient = sum.b - sum.a * middle;
-    // Cramer's rule; the held matrix is positive definite.
+    // Cramer's rule; the regularised matrix is positive definite.
     const Vector3d yz = matrix.col(1).cross(matrix.col(2));
     const Vector3d step =
         Vector3d(gradient.dot(yz), gradient.dot(matrix.col(2).cross(matrix.col(0))),
@@ -176,12 +177,13 @@ class Collapser {
     const Vector3d at = Best(a, b, sum);
     const double error = sum.At(at);
     if (error > limit_ * sum.weight) return;
-    // The little added length sorts what is flat: short edges first.
+    // The small length term orders flat edges: short ones first.
     const double length = (vertices_[a] - vertices_[b]).squaredNorm();
     queue_.Push(error + 1e-9 * length * sum.weight, {a, b, version_[a], version_[b]});
   }
 
-  // Exactly two common neighbours, neither left with two faces: the topology stays.
+  // Returns true if the edge's ends have exactly two common neighbours and neither of these would
+  // be left with two faces: the topology is then preserved.
   bool KeepsTopology(int a, int b) {
     ++stamp_;
     for (const int t : around_[a]) {
@@ -201,7 +203,8 @@ class Collapser {
     return common == 2 && around_[common_[0]].size() > 3 && around_[common_[1]].size() > 3;
   }
 
-  // Whether the faces at `v` but not at `other` keep their side and some shape with v at `at`.
+  // Returns true if the faces at `v` but not at `other` keep their orientation and some quality
+  // with v at `at`.
   bool KeepsFaces(int v, int other, const Vector3d& at) const {
     for (const int t : around_[v]) {
       const Eigen::Vector3i& corner = triangles_[t];
@@ -287,7 +290,7 @@ class Collapser {
 Thinned CollapseEdges(const core::TriangleMesh& mesh, const std::vector<char>& locked, int budget,
                       double max_error) {
   if (locked.size() != mesh.vertices.size()) {
-    throw core::Error("a lock is needed for each vertex", "edge collapse");
+    throw core::Error("each vertex needs a lock flag", "edge collapse");
   }
   Collapser collapser(mesh, locked);
   collapser.Run(budget, max_error);

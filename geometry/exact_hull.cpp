@@ -20,13 +20,13 @@ core::TriangleMesh HullOfAll(const std::vector<Vector3d>& points) {
   for (const Vector3d& p : points) given.emplace_back(p.x(), p.y(), p.z());
   CGAL::Surface_mesh<Kernel::Point_3> surface;
   CGAL::convex_hull_3(given.begin(), given.end(), surface);
-  // Three corners or fewer, or a polygon: the points were flat.
+  // Three corners or fewer, or a polygon: the points are flat.
   if (surface.number_of_vertices() < 4 || surface.number_of_faces() < 4) return {};
   return FromSurfaceMesh(surface);
 }
 
-// Farthest-first: the first is the farthest from the mean.
-std::vector<Vector3d> FarApart(const std::vector<Vector3d>& points, std::size_t count) {
+// Selects points by farthest-point sampling; the first is the farthest from the mean.
+std::vector<Vector3d> FarthestPoints(const std::vector<Vector3d>& points, std::size_t count) {
   Vector3d mean = Vector3d::Zero();
   for (const Vector3d& p : points) mean += p / static_cast<double>(points.size());
   std::vector<double> distance(points.size());
@@ -49,7 +49,7 @@ core::TriangleMesh ExactHull(const std::vector<Vector3d>& points, int max_vertic
   core::TriangleMesh hull = HullOfAll(points);
   const std::size_t most = static_cast<std::size_t>(std::max(max_vertices, 0));
   if (most == 0 || hull.vertices.size() <= most) return hull;
-  return HullOfAll(FarApart(hull.vertices, most));
+  return HullOfAll(FarthestPoints(hull.vertices, most));
 }
 
 }  // namespace simwright::geometry

@@ -14,11 +14,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kHalvings = 8.0;    // down to 0.4 % of a radius, or of a radian
+constexpr double kHalvings = 8.0;    // down to 0.4 % of a radius or of a radian
 constexpr int kRaysAtOnce = 500000;  // at most 72 MB of hits
 
-void AppendFar(const std::vector<OuterHit>& hits, const TriangleTree& solid, double reach,
-               std::vector<OuterHit>* far) {
+void AppendDistant(const std::vector<OuterHit>& hits, const TriangleTree& solid, double reach,
+                   std::vector<OuterHit>* far) {
   constexpr int kBlock = 1024;
   const int count = static_cast<int>(hits.size());
   std::vector<char> near(hits.size());
@@ -41,12 +41,11 @@ std::vector<OuterHit> Spread(const std::vector<OuterHit>& all, int most) {
   return some;
 }
 
-// Lines that pass a known line of sight closely. Each goes through a point that is known to be
-// free: one on the line that got in. How wide the slit is, and from how far round one sees in, is
-// not known: scales are drawn log-uniformly, along the wall that was seen and away from it on
-// their own.
-std::vector<OuterHit> LookInto(const OuterHit& known, const TriangleTree& visual, double outside,
-                               const HiddenSightOptions& options, core::Rng* rng) {
+// Traces rays close to a known line of sight. Each passes through a point on that line, which is
+// known to be free. The slit's width and the angle from which it is visible are unknown, so scales
+// are sampled log-uniformly, independently along the wall that was hit and away from it.
+std::vector<OuterHit> TraceNear(const OuterHit& known, const TriangleTree& visual, double outside,
+                                const HiddenSightOptions& options, core::Rng* rng) {
   std::vector<OuterHit> found;
   const auto scale = [&] { return std::exp2(-kHalvings * core::Uniform(*rng)); };
   for (int i = 0; i < options.sights; ++i) {
@@ -81,9 +80,9 @@ std::vector<OuterHit> HiddenSights(const core::TriangleMesh& visual,
   const TriangleTree solid_tree(solid);
   std::vector<OuterHit> all;
   for (int done = 0; done < options.rays; done += kRaysAtOnce) {
-    AppendFar(SampleOuterHits(visual, std::min(kRaysAtOnce, options.rays - done),
-                              options.seed + static_cast<std::uint64_t>(done)),
-              solid_tree, options.reach, &all);
+    AppendDistant(SampleOuterHits(visual, std::min(kRaysAtOnce, options.rays - done),
+                                  options.seed + static_cast<std::uint64_t>(done)),
+                  solid_tree, options.reach, &all);
   }
   if (random_count != nullptr) *random_count = static_cast<int>(all.size());
   const TriangleTree tree(visual);
@@ -96,10 +95,10 @@ std::vector<OuterHit> HiddenSights(const core::TriangleMesh& visual,
       core::CheckCancelled();
       core::Rng rng = core::StreamRng(options.seed + 1 + static_cast<std::uint64_t>(generation),
                                       static_cast<std::uint64_t>(k));
-      found[k] = LookInto(known[k], tree, outside, options, &rng);
+      found[k] = TraceNear(known[k], tree, outside, options, &rng);
     });
     known.clear();
-    for (const auto& some : found) AppendFar(some, solid_tree, options.reach, &known);
+    for (const auto& some : found) AppendDistant(some, solid_tree, options.reach, &known);
     all.insert(all.end(), known.begin(), known.end());
   }
   return all;

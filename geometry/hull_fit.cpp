@@ -15,15 +15,15 @@ using Eigen::Vector3d;
 using Eigen::Vector4d;
 
 constexpr double kVolumeWeight = 0.3;  // k of CoACD
-constexpr int kHullPoints = 500;       // on a hull: a spacing of about 5% of its size
+constexpr int kHullPoints = 500;       // per hull: a spacing of about 5% of its size
 
-// A direction that no flat or turned face is parallel to.
+// Returns a direction that no axis-aligned or regularly rotated face is parallel to.
 const Vector3d& SkewDirection() {
   static const Vector3d direction = Vector3d(0.5377, 0.2893, 0.7920).normalized();
   return direction;
 }
 
-// Calls visit(p) for points spread evenly over each triangle, by area, the middle at least;
+// Calls visit(p) for points spread evenly over each triangle, by area, at least at its centroid;
 // stops when it returns false.
 template <typename Visit>
 void VisitSurface(const core::TriangleMesh& mesh, int count, Visit visit) {
@@ -32,7 +32,7 @@ void VisitSurface(const core::TriangleMesh& mesh, int count, Visit visit) {
     const Vector3d a = mesh.vertices[t[0]];
     const Vector3d ab = mesh.vertices[t[1]] - a, ac = mesh.vertices[t[2]] - a;
     const double area = 0.5 * ab.cross(ac).norm();
-    // Centroids of the n^2 similar triangles; as many along a needle as its length asks for.
+    // Centroids of the n^2 similar triangles; a needle gets as many as its length requires.
     const double length = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
     const int by_area = static_cast<int>(std::ceil(std::sqrt(area) / spacing));
     const int by_length = static_cast<int>(std::ceil(0.25 * length / spacing));
@@ -55,7 +55,8 @@ std::vector<Vector4d> FacePlanes(const core::TriangleMesh& hull) {
   for (int t = 0; t < static_cast<int>(hull.triangles.size()); ++t) {
     const Vector3d normal = core::TriangleAreaVector(hull, t).normalized();
     Vector4d plane;
-    // A thin triangle's normal may be off; a plane that supports all vertices is right anyway.
+    // A thin triangle's normal may be inaccurate; a plane that supports all vertices is still
+    // correct.
     double offset = -std::numeric_limits<double>::infinity();
     for (const Vector3d& v : hull.vertices) offset = std::max(offset, normal.dot(v));
     plane << normal, offset;
@@ -95,7 +96,8 @@ bool HullFit::Outside(const Vector3d& p) const {
 double HullFit::Overhang(const core::TriangleMesh& hull, double enough) const {
   double farthest = 0.0;
   VisitSurface(hull, kHullPoints, [&](const Vector3d& p) {
-    // Most points are nearer than the farthest so far, which takes less to find than how near.
+    // Most points are nearer than the farthest so far, which is cheaper to test than their
+    // distance.
     if (!tree_.Within(p, farthest) && Outside(p)) farthest = tree_.Closest(p).distance;
     return farthest <= enough;
   });

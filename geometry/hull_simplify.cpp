@@ -21,18 +21,19 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kLeast = 16;
+constexpr int kMinVertices = 16;
 constexpr double kThinnest = 1e-4;    // of the diagonal
 constexpr double kSamePlane = 1e-5;   // of the diagonal: faces of one flat side
-constexpr double kFlatShare = 0.04;   // of the surface: a flat side that is kept
-constexpr double kSideLoss = 0.005;   // of a flat side's area that its corners may leave out
-constexpr double kMirrored = 1e-3;    // of the diagonal: how far a vertex may lie off its image
-constexpr double kMostGrowth = 2.0;   // of what sticks out of a face
-constexpr int kGrowthSteps = 20;      // of the bisection for the volume
+constexpr double kFlatShare = 0.04;   // of the surface: smallest flat side that is kept
+constexpr double kSideLoss = 0.005;   // of a flat side's area that its corners may cut off
+constexpr double kMirrored = 1e-3;    // of the diagonal: largest distance of a vertex from its
+                                      // image
+constexpr double kMostGrowth = 2.0;   // of the protrusion above a face
+constexpr int kGrowthSteps = 20;      // bisection steps for the volume
 
-// How far `points` stick out of each of the planes; each point counts for the one it is highest
-// over, and for all that are as high within `tie`, so that the order of faces does not matter.
-std::vector<double> StickingOut(const std::vector<Eigen::Vector4d>& planes,
+// Returns how far `points` protrude from each plane. Each point counts for the plane that it is
+// highest above, and for all within `tie` of that, so that the order of faces does not matter.
+std::vector<double> Protrusions(const std::vector<Eigen::Vector4d>& planes,
                                 const std::vector<Vector3d>& points, double tie) {
   std::vector<double> out(planes.size(), 0.0), height(planes.size(), 0.0);
   for (const Vector3d& p : points) {
@@ -49,7 +50,7 @@ std::vector<double> StickingOut(const std::vector<Eigen::Vector4d>& planes,
   return out;
 }
 
-// For each vertex the faces at it, of those in one plane only one.
+// Returns for each vertex its faces, one per plane.
 std::vector<std::vector<std::size_t>> PlanesAt(const core::TriangleMesh& hull,
                                                const std::vector<Eigen::Vector4d>& planes) {
   std::vector<std::vector<std::size_t>> at(hull.vertices.size());
@@ -65,7 +66,7 @@ std::vector<std::vector<std::size_t>> PlanesAt(const core::TriangleMesh& hull,
   return at;
 }
 
-// The faces of each flat side: one plane with a good share of the surface.
+// Returns the faces of each flat side: one plane with a sufficient share of the surface.
 std::vector<std::vector<int>> FlatSides(const core::TriangleMesh& hull,
                                         const std::vector<Eigen::Vector4d>& planes, double same) {
   const double whole = core::SurfaceArea(hull);
@@ -89,10 +90,10 @@ std::vector<std::vector<int>> FlatSides(const core::TriangleMesh& hull,
   return sides;
 }
 
-// For each vertex its image under each of the mirrors, -1 where it has none.
+// For each mirror plane the image of each vertex, or -1.
 using Images = std::vector<std::vector<int>>;
 
-// The images under one reflection; empty where some vertex has none.
+// Returns the images under one reflection; empty if some vertex has none.
 std::vector<int> ImagesUnder(const std::vector<Vector3d>& vertices, const Vector3d& center,
                              const Vector3d& normal, double tolerance) {
   std::vector<int> images(vertices.size(), -1);
@@ -110,8 +111,8 @@ std::vector<int> ImagesUnder(const std::vector<Vector3d>& vertices, const Vector
   return images;
 }
 
-// Under the mirror planes through the centre across the axes of the frame, or across the principal
-// axes where more of these are planes of symmetry.
+// Returns the images under the mirror planes through the centre and perpendicular to the frame's
+// axes, or to the principal axes if more of these are symmetry planes.
 Images MirrorImages(const core::TriangleMesh& hull, double diagonal) {
   const MassProperties mass = SolidMassProperties(hull, 1.0);
   const Eigen::Matrix3d principal =
@@ -129,13 +130,13 @@ Images MirrorImages(const core::TriangleMesh& hull, double diagonal) {
   return best;
 }
 
-// Vertices of a hull, picked with their mirror images.
+// The selected vertices of a hull, each with its mirror images.
 class Selection {
  public:
   Selection(const core::TriangleMesh& hull, const Images& images, int most)
       : hull_(hull), images_(images), most_(most) {}
 
-  // False where there is no room for it and its images.
+  // Returns false if the vertex and its images exceed the limit.
   bool Add(int vertex) {
     std::set<int> orbit{vertex};
     for (std::size_t size = 0; size != orbit.size();) {
@@ -167,7 +168,7 @@ class Selection {
   std::set<int> picked_;
 };
 
-// The corners of a flat side that keep its area, at most so many.
+// Returns at most `most` corners of a flat side that preserve its area.
 std::vector<int> CornersOfSide(const core::TriangleMesh& hull, const std::vector<int>& side,
                                const Vector3d& normal, int most) {
   const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
@@ -188,7 +189,7 @@ std::vector<int> CornersOfSide(const core::TriangleMesh& hull, const std::vector
   return corners;
 }
 
-// Always that which sticks out farthest of what there is, as long as there is room.
+// Adds the vertex that protrudes farthest, repeatedly, while there is room.
 void AddFarthest(const core::TriangleMesh& hull, double diagonal, Selection* selection) {
   const std::size_t count = hull.vertices.size();
   std::vector<bool> too_many(count, false);
@@ -212,7 +213,8 @@ void AddFarthest(const core::TriangleMesh& hull, double diagonal, Selection* sel
   }
 }
 
-// Vertices of `hull`: corners of its flat sides first, then always that which sticks out farthest.
+// Selects vertices of `hull`: first the corners of its flat sides, then the farthest protruding
+// ones.
 std::vector<Vector3d> PickVertices(const core::TriangleMesh& hull, double diagonal,
                                    int max_vertices) {
   const std::vector<Eigen::Vector4d> planes = FacePlanes(hull);
@@ -234,13 +236,14 @@ std::vector<Vector3d> PickVertices(const core::TriangleMesh& hull, double diagon
   return selection.Points();
 }
 
-// What fewer vertices cut off is given back: each moves out along the normals of its faces by what
-// sticks out of them, in the planes of the flat sides, all by the share that gives `volume`.
+// Restores the volume lost with the removed vertices: each vertex moves outward along its faces'
+// normals by their protrusion, projected onto the planes of the flat sides, scaled to reach
+// `volume`.
 core::TriangleMesh GrownToVolume(const core::TriangleMesh& picked,
                                  const std::vector<Vector3d>& points, double volume,
                                  double diagonal) {
   const std::vector<Eigen::Vector4d> planes = FacePlanes(picked);
-  const std::vector<double> out = StickingOut(planes, points, kThinnest * 1e-3 * diagonal);
+  const std::vector<double> out = Protrusions(planes, points, kThinnest * 1e-3 * diagonal);
   std::vector<Vector3d> push(picked.vertices.size(), Vector3d::Zero());
   std::vector<double> farthest(picked.vertices.size(), 0.0);
   const auto planes_at = PlanesAt(picked, planes);
@@ -262,7 +265,7 @@ core::TriangleMesh GrownToVolume(const core::TriangleMesh& picked,
     }
   }
   for (std::size_t v = 0; v < push.size(); ++v) {
-    // What the planes leave of it may be nothing.
+    // The projection onto the planes may vanish.
     push[v] = push[v].norm() <= 0.1 * farthest[v] ? Vector3d(Vector3d::Zero())
                                                   : Vector3d(farthest[v] * push[v].normalized());
   }
@@ -270,7 +273,7 @@ core::TriangleMesh GrownToVolume(const core::TriangleMesh& picked,
     std::vector<Vector3d> moved = picked.vertices;
     for (std::size_t v = 0; v < moved.size(); ++v) {
       moved[v] += share * push[v];
-      // No flat side is passed: half of the distance to it stays.
+      // Stay within the flat sides: move at most half of the distance to each.
       for (const std::vector<int>& side : sides) {
         const Eigen::Vector4d& plane = planes[static_cast<std::size_t>(side[0])];
         const Vector3d normal = plane.head<3>();
@@ -292,7 +295,7 @@ core::TriangleMesh GrownToVolume(const core::TriangleMesh& picked,
 }  // namespace
 
 core::TriangleMesh SimplifyHull(const core::TriangleMesh& hull, int max_vertices) {
-  if (max_vertices < kLeast) {
+  if (max_vertices < kMinVertices) {
     throw core::Error("a simplified hull needs at least 16 vertices", "convex hull");
   }
   if (static_cast<int>(hull.vertices.size()) <= max_vertices) return hull;

@@ -13,15 +13,16 @@ namespace {
 
 constexpr double kEndClearance = 0.01;
 
-// The polygons of one cube for one pattern of inside corners (corner c at x = c & 1, y = c & 2,
-// z = c & 4): edge numbers, each polygon counter-clockwise seen from outside.
+// The polygons of one cube for one pattern of inside corners (corner c at x = c & 1, y = c & 2, z =
+// c & 4): edge numbers, each polygon counter-clockwise seen from outside.
 struct CubePolygons {
   int count = 0;
   std::array<int, 4> size{};
   std::array<std::array<int, 12>, 4> edges{};
 };
 
-// Edge number: 4 * axis + the two other coordinates of its lower corner, in cyclic order.
+// Returns the edge number: 4 * axis + the two other coordinates of its lower corner, in cyclic
+// order.
 int EdgeOf(int corner_a, int corner_b) {
   const int axis = (corner_a ^ corner_b) == 1 ? 0 : (corner_a ^ corner_b) == 2 ? 1 : 2;
   const int low = std::min(corner_a, corner_b);
@@ -55,7 +56,7 @@ CubePolygons BuildPolygons(int pattern) {
       if (from_inside && !to_inside) leaves = EdgeOf(from, to);
       cut_edges += from_inside != to_inside;
     }
-    if (cut_edges > 2) return {};  // alternating corners: Sides leaves none of these
+    if (cut_edges > 2) return {};  // alternating corners: eliminated by Sides
     cut_edges = 0;
     if (enters >= 0) next[enters] = leaves;
   }
@@ -82,7 +83,7 @@ const std::array<CubePolygons, 256>& PolygonTable() {
   return table;
 }
 
-// Which side each node lies on, with no face left whose corners alternate.
+// The side of each node after all faces with alternating corners were eliminated.
 class Sides {
  public:
   Sides(const ScalarGrid& field, float level) : field_(field), level_(level) {
@@ -102,7 +103,7 @@ class Sides {
 
   bool Inside(std::size_t node) const { return inside_[node] & kInside; }
 
-  // The field's value, or the level itself where the side is not the one the value says.
+  // Returns the field's value, or the level itself if the node's side was flipped.
   float Value(std::size_t node) const {
     const float value = field_.values[node];
     return (value < level_) == Inside(node) ? value : level_;
@@ -133,8 +134,8 @@ class Sides {
            k + 1 == field_.nz;
   }
 
-  // Each node turns inside at most once, and turning outside only shrinks: so this ends.
-  void TurnOneNode(const Face& face) {
+  // Terminates: each node flips inside at most once, and flips to outside only shrink the inside.
+  void FlipOneNode(const Face& face) {
     const std::size_t u = stride_[(face.axis + 1) % 3];
     const std::size_t v = stride_[(face.axis + 2) % 3];
     const std::array<std::size_t, 4> nodes = {face.node, face.node + u, face.node + v,
@@ -185,11 +186,11 @@ class Sides {
         }
       }
     }
-    // A node that turns lies off the border, so the faces around it stay within the grid.
+    // A flipped node is not on the border, so the faces around it are within the grid.
     while (!pending_.empty()) {
       const Face face = pending_.back();
       pending_.pop_back();
-      if (Alternates(face)) TurnOneNode(face);
+      if (Alternates(face)) FlipOneNode(face);
     }
   }
 
@@ -274,7 +275,7 @@ class Extractor {
   const float level_;
   const Sides sides_;
   std::size_t layer_;
-  // Vertices on the edges that start in the lower and in the upper layer of the current cubes.
+  // The vertices on the edges that start in the lower and in the upper layer of the current cubes.
   std::array<std::vector<int>, 2> vertex_;
   core::TriangleMesh mesh_;
 };

@@ -13,14 +13,14 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Integrals of 1, x and x x^T over a body, about some origin.
+// The integrals of 1, x and x x^T over a body, about some origin.
 struct Moments {
   double zeroth = 0.0;
   Vector3d first = Vector3d::Zero();
   Matrix3d second = Matrix3d::Zero();
 };
 
-// Over the signed tetrahedra that the triangles span with `origin` (Tonon 2004).
+// Sums over the signed tetrahedra that the triangles span with `origin` (Tonon 2004).
 Moments VolumeMoments(const core::TriangleMesh& mesh, const Vector3d& origin) {
   Moments m;
   for (const auto& t : mesh.triangles) {
@@ -53,7 +53,7 @@ Moments AreaMoments(const core::TriangleMesh& mesh, const Vector3d& origin) {
   return m;
 }
 
-// tr(S) 1 - S: the inertia that belongs to the second moment S of the mass.
+// Returns tr(S) 1 - S, the inertia for the second moment S of the mass.
 Matrix3d InertiaOf(const Matrix3d& second) {
   return second.trace() * Matrix3d::Identity() - second;
 }
@@ -65,7 +65,8 @@ void RequirePositive(double value, const char* name) {
   }
 }
 
-// `thickness` is what turns the integrals' measure into a volume, `dimension` the measure's.
+// Computes mass properties from moments. `thickness` turns the integrals' measure (area or volume,
+// given by `dimension`) into a volume.
 template <typename MomentsAbout>
 MassProperties FromMoments(const core::TriangleMesh& mesh, int dimension, double thickness,
                            double density, MomentsAbout moments_about) {
@@ -75,7 +76,7 @@ MassProperties FromMoments(const core::TriangleMesh& mesh, int dimension, double
   if (mesh.empty()) throw core::Error("the mesh has no triangles", "mass properties");
   const Eigen::AlignedBox3d bounds = core::Bounds(mesh);
   const Moments rough = moments_about(mesh, bounds.center());
-  // Below this what is left of the sum is rounding.
+  // Below this threshold the sum is only rounding error.
   if (!(rough.zeroth > 1e-14 * std::pow(bounds.diagonal().norm(), dimension)) ||
       !std::isfinite(rough.zeroth)) {
     throw core::Error(
@@ -84,7 +85,7 @@ MassProperties FromMoments(const core::TriangleMesh& mesh, int dimension, double
   }
   MassProperties properties;
   properties.center_of_mass = bounds.center() + rough.first / rough.zeroth;
-  // A second pass about the centre itself: no difference of large numbers.
+  // A second pass about the centre of mass avoids differences of large numbers.
   const Moments m = moments_about(mesh, properties.center_of_mass);
   properties.volume = m.zeroth * thickness;
   properties.mass = properties.volume * density;
@@ -112,9 +113,9 @@ MassProperties HollowMassProperties(const core::TriangleMesh& mesh, double wall_
   const double wall_share = sheet.volume / (3.0 * solid.volume);
   if (wall_share >= 1.0) {
     throw core::Error("the wall is thicker than the body", "mass properties",
-                      "take the body as full");
+                      "treat the body as solid");
   }
-  // 1 - s^3 and 1 - s^5 as polynomials in u = 1 - s: no difference of nearly equal numbers.
+  // 1 - s^3 and 1 - s^5 as polynomials in u = 1 - s, without cancellation.
   const double u = wall_share;
   const double cubic = 3.0 + u * (-3.0 + u);
   const double quintic = 5.0 + u * (-10.0 + u * (10.0 + u * (-5.0 + u)));
@@ -133,7 +134,7 @@ double WallThickness(double fill, double volume, double area) {
   RequirePositive(volume, "volume");
   RequirePositive(area, "area");
   if (!(fill > 0.0 && fill < 1.0)) {
-    throw core::Error("the filled share of a hollow body lies between 0 and 1", "wall thickness");
+    throw core::Error("the filled share must lie between 0 and 1", "wall thickness");
   }
   // 1 - cbrt(1 - fill) without cancellation.
   return -3.0 * volume / area * std::expm1(std::log1p(-fill) / 3.0);
@@ -144,10 +145,10 @@ MassProperties Combined(const MassProperties& a, const MassProperties& b) {
   sum.volume = a.volume + b.volume;
   sum.mass = a.mass + b.mass;
   RequirePositive(sum.mass, "total mass");
-  const Vector3d apart = b.center_of_mass - a.center_of_mass;
-  sum.center_of_mass = a.center_of_mass + b.mass / sum.mass * apart;
+  const Vector3d offset = b.center_of_mass - a.center_of_mass;
+  sum.center_of_mass = a.center_of_mass + b.mass / sum.mass * offset;
   const double reduced = a.mass * b.mass / sum.mass;
-  sum.inertia = a.inertia + b.inertia + reduced * InertiaOf(apart * apart.transpose());
+  sum.inertia = a.inertia + b.inertia + reduced * InertiaOf(offset * offset.transpose());
   return sum;
 }
 

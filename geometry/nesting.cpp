@@ -16,14 +16,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A turn that no mesh is aligned with: lines along its z axis meet edges by chance alone.
-Eigen::Matrix3d OddTurn() {
+// Returns a rotation that no mesh is aligned with: rays along its z axis hit edges only by chance.
+Eigen::Matrix3d SkewRotation() {
   return Eigen::AngleAxisd(0.9371, Vector3d(0.3217, -0.7411, 0.5893).normalized())
       .toRotationMatrix();
 }
 
-// Which side of the line through the edge (i, j) a point lies on, the same whichever of the two
-// triangles at the edge asks: a line never slips between them, nor counts both.
+// Returns the side of the line through the edge (i, j) on which a point lies, consistently for both
+// triangles at the edge: a ray never slips between them, nor counts both.
 bool LeftOf(int i, int j, const std::vector<Vector3d>& vertices, const Vector3d& point) {
   const Vector3d& a = vertices[std::min(i, j)];
   const Vector3d& b = vertices[std::max(i, j)];
@@ -32,7 +32,7 @@ bool LeftOf(int i, int j, const std::vector<Vector3d>& vertices, const Vector3d&
   return i < j ? left : !left;
 }
 
-// Points binned by x and y.
+// A grid of points binned by x and y.
 class PointGrid {
  public:
   explicit PointGrid(const std::vector<Vector3d>& points) {
@@ -48,7 +48,7 @@ class PointGrid {
     }
   }
 
-  // Calls visit(point's index) for all points in cells that meet the box, and maybe more.
+  // Calls visit(point index) for all points in cells that overlap the box, and possibly more.
   template <typename Visit>
   void ForPointsIn(const Eigen::AlignedBox2d& box, const Visit& visit) const {
     if (!box.intersects(box_)) return;
@@ -81,7 +81,7 @@ class PointGrid {
   std::vector<int> order_;
 };
 
-// +1 where the line upward from the point leaves through the triangle, -1 where it enters.
+// Returns +1 if the ray upward from the point leaves through the triangle, -1 if it enters.
 int Crossing(const Eigen::Vector3i& t, const std::vector<Vector3d>& vertices,
              const Vector3d& point) {
   const bool left = LeftOf(t[0], t[1], vertices, point);
@@ -89,7 +89,7 @@ int Crossing(const Eigen::Vector3i& t, const std::vector<Vector3d>& vertices,
   if (LeftOf(t[2], t[0], vertices, point) != left) return 0;
   const Vector3d& a = vertices[t[0]];
   const Vector3d normal = (vertices[t[1]] - a).cross(vertices[t[2]] - a);
-  // The plane's height over the point, times normal.z, whose sign is that of `left`.
+  // The plane's height above the point, times normal.z, whose sign is that of `left`.
   const double above = normal.dot(a - point);
   if (left) return above > 0.0 ? 1 : 0;
   return above < 0.0 ? -1 : 0;
@@ -100,7 +100,7 @@ int Crossing(const Eigen::Vector3i& t, const std::vector<Vector3d>& vertices,
 std::vector<int> EnclosingWinding(const core::TriangleMesh& mesh, const std::vector<int>& component,
                                   int count) {
   if (count <= 1) return std::vector<int>(count, 0);
-  const Eigen::Matrix3d turn = OddTurn();
+  const Eigen::Matrix3d turn = SkewRotation();
   std::vector<Vector3d> vertices(mesh.vertices.size());
   for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = turn * mesh.vertices[v];
   std::vector<Vector3d> points(count, Vector3d::Zero());

@@ -37,7 +37,7 @@ using FaceBase =
 using Cdt = CGAL::Constrained_Delaunay_triangulation_2<
     Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>, CGAL::Exact_predicates_tag>;
 
-// Edges of the rim in the plane that are left once opposite ones have cancelled.
+// The rim edges in the plane that remain after opposite ones cancel.
 class Rim {
  public:
   void Add(int from, int to) {
@@ -45,8 +45,8 @@ class Rim {
     net_[{std::min(from, to), std::max(from, to)}] += from < to ? 1 : -1;
   }
 
-  // Undirected edges that the cap's border crosses an odd number of times. Where a crack left by
-  // rounding breaks a loop open, its two ends are joined.
+  // Returns the undirected edges that the cap's border crosses an odd number of times. If a crack
+  // from rounding breaks a loop open, joins its two ends.
   std::vector<std::array<int, 2>> Borders() const {
     std::vector<std::array<int, 2>> borders;
     std::map<int, int> degree;
@@ -69,7 +69,7 @@ class Rim {
   std::map<std::pair<int, int>, int> net_;
 };
 
-// Parity of borders crossed from the outside, face by face.
+// Marks faces with the parity of borders crossed from the outside.
 void MarkNesting(Cdt* cdt) {
   for (auto face = cdt->all_faces_begin(); face != cdt->all_faces_end(); ++face) {
     face->info().nesting = -1;
@@ -92,10 +92,10 @@ void MarkNesting(Cdt* cdt) {
   }
 }
 
-// One side of the cut under way. `sign` +1 keeps what lies on the normal's side.
+// One side of the current cut. `sign` +1 keeps the side of the normal.
 struct Side {
   int sign;
-  core::TriangleMesh mesh;  // over the vertices of the whole cut
+  core::TriangleMesh mesh;  // indexes the vertices of the whole cut
   Rim rim;
 
   void AddPolygon(const int* corner, const bool* on_plane, int count) {
@@ -150,7 +150,7 @@ class Cut {
       above += heights_[t[k]] > 0.0;
       below += heights_[t[k]] < 0.0;
     }
-    if (above + below == 0) return;  // made anew with the cap
+    if (above + below == 0) return;  // rebuilt with the cap
     for (Side* side : {&above_, &below_}) {
       if ((side->sign > 0 ? above : below) == 0) continue;
       int corner[4];
@@ -188,7 +188,7 @@ class Cut {
     const auto borders = side->rim.Borders();
     Cdt cdt;
     std::unordered_map<int, Cdt::Vertex_handle> handles;
-    std::unordered_map<int, int> same;  // vertices that fall together in the plane
+    std::unordered_map<int, int> same;  // vertices that coincide in the plane
     const auto handle = [&](int i) {
       const auto [entry, added] = handles.try_emplace(i);
       if (added) {
@@ -230,7 +230,7 @@ class Cut {
 
   int IndexOf(Cdt::Vertex_handle vertex) {
     int& index = vertex->info().index;
-    if (index < 0) {  // where two borders cross
+    if (index < 0) {  // intersection of two borders
       index = static_cast<int>(vertices_.size());
       vertices_.push_back(plane_.normal * plane_.offset + u_ * vertex->point().x() +
                           v_ * vertex->point().y());

@@ -49,7 +49,7 @@ core::TriangleMesh RemeshIsotropic(const core::TriangleMesh& mesh, const RemeshO
   for (const auto e : surface.edges()) {
     if (surface.is_border(e)) fixed[e] = true;
   }
-  // Fixed edges are cut to length first: the remesher may not touch them.
+  // Split constrained edges to length first: the remesher must not touch them.
   std::vector<Mesh::Edge_index> long_edges;
   for (const auto e : surface.edges()) {
     if (fixed[e]) long_edges.push_back(e);

@@ -21,13 +21,15 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kOffBall = 0.02;      // of its radius: how far a vertex of a ball may lie off it
-constexpr double kOffProfile = 0.02;   // of the largest radius: the same of a solid of revolution
+constexpr double kBallTolerance = 0.02;     // of its radius: largest deviation of an ellipsoid's
+                                            // vertex
+constexpr double kProfileTolerance = 0.02;  // of the largest radius: largest deviation of a solid
+                                            // of revolution's vertex
 constexpr double kSweptShare = 0.96;   // of the swept profile's volume: a prism of 13 corners
 constexpr double kNearAxis = 1e-3;     // of the largest radius: a vertex on the axis
 constexpr double kSameRing = 1e-5;     // of the largest radius: rounding within a ring
-constexpr int kVolumeSteps = 30;       // of a bisection
-constexpr std::array<int, 7> kCorners{32, 24, 16, 12, 10, 8, 6};  // of a ring
+constexpr int kVolumeSteps = 30;       // bisection steps
+constexpr std::array<int, 7> kCorners{32, 24, 16, 12, 10, 8, 6};  // corners per ring
 
 // The hull's centre and principal axes (columns, right-handed), and the spread along each.
 struct Frame {
@@ -52,8 +54,8 @@ Frame FrameOf(const core::TriangleMesh& hull) {
   return frame;
 }
 
-// The directions of the icosahedron's corners, faces and edges, as many of these as there is room
-// for: 62, 42 or 32 that lie evenly and alike in 120 turns and reflections.
+// Returns the directions of the icosahedron's corners, faces and edges, as many of these sets as
+// fit: 62, 42 or 32 evenly distributed directions with 120 symmetries.
 std::vector<Vector3d> IcosahedralDirections(int max_vertices) {
   const double g = std::numbers::phi;
   std::vector<Vector3d> corners, faces, edges;
@@ -92,7 +94,7 @@ std::vector<Vector3d> IcosahedralDirections(int max_vertices) {
   return directions;
 }
 
-// About `center`, so that it has the volume.
+// Scales the mesh about `center` to the given volume.
 void ScaleToVolume(double volume, const Vector3d& center, core::TriangleMesh* mesh) {
   const double factor = std::cbrt(volume / SignedVolume(*mesh));
   for (Vector3d& v : mesh->vertices) v = center + factor * (v - center);
@@ -100,15 +102,16 @@ void ScaleToVolume(double volume, const Vector3d& center, core::TriangleMesh* me
 
 std::optional<core::TriangleMesh> AsEllipsoid(const core::TriangleMesh& hull, const Frame& frame,
                                               int max_vertices) {
-  const Vector3d radii = std::sqrt(5.0) * frame.spread;  // a ball's is sqrt(5) times its spread
+  const Vector3d radii = std::sqrt(5.0) * frame.spread;  // a ball's radius is sqrt(5) times its
+                                                         // spread
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
   for (const Vector3d& v : hull.vertices) {
     const double r = frame.ToFrame(v).cwiseQuotient(radii).norm();
     nearest = std::min(nearest, r);
     farthest = std::max(farthest, r);
   }
-  if (farthest - nearest > kOffBall * farthest) return std::nullopt;
-  // Few vertices may lie on a ball and bound half of one, or a box.
+  if (farthest - nearest > kBallTolerance * farthest) return std::nullopt;
+  // A few vertices may lie on a ball and yet bound half of one, or a cuboid.
   const double ball = 4.0 / 3.0 * std::numbers::pi * radii.prod() * std::pow(farthest, 3);
   if (SignedVolume(hull) < 0.9 * ball) return std::nullopt;
   std::vector<Vector3d> points;
@@ -120,14 +123,14 @@ std::optional<core::TriangleMesh> AsEllipsoid(const core::TriangleMesh& hull, co
   return round;
 }
 
-// A hull seen along one of its principal axes, stretched so that its section is round.
+// A hull viewed along one of its principal axes, scaled so that its cross-section is round.
 struct Revolution {
   Frame frame;
   int axis = 2;                    // column of frame.axes
   double stretch_u = 1.0, stretch_v = 1.0;
-  std::vector<Vector2d> profile;   // (radius, height), from the bottom up, radius 0 where it ends
+  std::vector<Vector2d> profile;   // (radius, height), ascending height, radius 0 at closed ends
   double radius = 0.0;             // m, the largest
-  double phase = 0.0;              // rad, of the corner that is farthest out
+  double phase = 0.0;              // rad, of the outermost corner
 
   Vector3d ToRound(const Vector3d& p) const {
     const Vector3d q = frame.ToFrame(p);
@@ -142,7 +145,7 @@ struct Revolution {
   }
 };
 
-// Of the profile turned about the axis, by frustums.
+// Returns the volume of the profile's solid of revolution, summed over frustums.
 double SweptVolume(const std::vector<Vector2d>& profile) {
   double volume = 0.0;
   for (size_t i = 1; i < profile.size(); ++i) {
@@ -153,7 +156,7 @@ double SweptVolume(const std::vector<Vector2d>& profile) {
   return volume;
 }
 
-double OffProfile(const std::vector<Vector2d>& profile, const Vector2d& p) {
+double DistanceToProfile(const std::vector<Vector2d>& profile, const Vector2d& p) {
   double least = std::numeric_limits<double>::infinity();
   for (size_t i = 1; i < profile.size(); ++i) {
     const Vector2d along = profile[i] - profile[i - 1];
@@ -164,7 +167,8 @@ double OffProfile(const std::vector<Vector2d>& profile, const Vector2d& p) {
   return least;
 }
 
-// The outline of (radius, height), mirrored so that the hull closes over the axis.
+// Returns the convex profile of the points (radius, height), mirrored so that the hull closes at
+// the axis.
 std::vector<Vector2d> ProfileOf(const std::vector<Vector2d>& points, double near_axis) {
   std::vector<Vector2d> both = points;
   for (const Vector2d& p : points) both.emplace_back(-p.x(), p.y());
@@ -205,11 +209,11 @@ std::optional<Revolution> AsRevolution(const core::TriangleMesh& hull, const Fra
   if (round.profile.size() < 2) return std::nullopt;
   const auto [lowest, highest] = std::minmax_element(
       points.begin(), points.end(), [](const auto& a, const auto& b) { return a.y() < b.y(); });
-  round.profile.front().y() = lowest->y();  // ends stay in their planes to the last digit
+  round.profile.front().y() = lowest->y();  // keep the ends exactly in their planes
   round.profile.back().y() = highest->y();
   if (SignedVolume(hull) < kSweptShare * SweptVolume(round.profile)) return std::nullopt;
   for (const Vector2d& p : points) {
-    if (OffProfile(round.profile, p) > kOffProfile * round.radius) return std::nullopt;
+    if (DistanceToProfile(round.profile, p) > kProfileTolerance * round.radius) return std::nullopt;
   }
   return round;
 }
@@ -220,14 +224,14 @@ int CountVertices(const std::vector<Vector2d>& profile, int corners) {
   return count;
 }
 
-// Volume that the profile loses without its point `i`.
+// Returns the volume that the profile loses without its point `i`.
 double LossWithout(const std::vector<Vector2d>& profile, size_t i) {
   const std::vector<Vector2d> part{profile[i - 1], profile[i], profile[i + 1]};
   return SweptVolume(part) - SweptVolume({profile[i - 1], profile[i + 1]});
 }
 
-// The profile without the points that cost least, until its rings of so many corners fit. The ends
-// stay. Empty where they do not fit.
+// Removes the points that cost the least volume until the profile's rings of `corners` corners fit.
+// Keeps the ends. Returns an empty profile if they do not fit.
 std::vector<Vector2d> FittingProfile(std::vector<Vector2d> profile, int corners, int max_vertices) {
   while (CountVertices(profile, corners) > max_vertices) {
     size_t least = 0;
@@ -244,7 +248,7 @@ std::vector<Vector2d> FittingProfile(std::vector<Vector2d> profile, int corners,
   return profile;
 }
 
-// Flat ends are `end` times, rings between them `inner` times as wide.
+// Builds the polyhedron of a profile. Flat ends are scaled by `end`, rings between them by `inner`.
 core::TriangleMesh Swept(const Revolution& round, const std::vector<Vector2d>& profile, int corners,
                          double end, double inner) {
   std::vector<Vector3d> points;
@@ -264,7 +268,7 @@ core::TriangleMesh Swept(const Revolution& round, const std::vector<Vector2d>& p
   return ConvexHull(points);
 }
 
-// Polygon of so many corners against the circle of its area: how far its corners stick out.
+// Returns how far the corners of a regular polygon stick out of the circle of the same area.
 double CornerExcess(int corners) {
   const double step = 2.0 * std::numbers::pi / corners;
   return std::sqrt(step / std::sin(step)) - 1.0;
@@ -279,14 +283,14 @@ std::optional<core::TriangleMesh> Simplified(const Revolution& round, double vol
     std::vector<Vector2d> profile = FittingProfile(round.profile, corners, max_vertices);
     if (profile.size() < 2) continue;
     double error = CornerExcess(corners) * round.radius;
-    for (const Vector2d& p : round.profile) error = std::max(error, OffProfile(profile, p));
+    for (const Vector2d& p : round.profile) error = std::max(error, DistanceToProfile(profile, p));
     if (error >= least) continue;
     least = error;
     best = std::move(profile);
     best_corners = corners;
   }
   if (best.empty()) return std::nullopt;
-  // Ends keep their area, which is less than the circle's by the share of the volume.
+  // Ends keep their area, which is the circle's times the volume share.
   const double share = volume / SweptVolume(round.profile);
   const double end = std::sqrt(share) * (1.0 + CornerExcess(best_corners));
   double low = 0.9 * end, high = 1.5 * end;

@@ -27,7 +27,7 @@ Corners CornersOf(const core::TriangleMesh& mesh, int triangle) {
   return {ToPoint(mesh.vertices[t[0]]), ToPoint(mesh.vertices[t[1]]), ToPoint(mesh.vertices[t[2]])};
 }
 
-// Whether all of `points` lie strictly on one side of the plane of `t`.
+// Returns true if all of `points` lie strictly on one side of the plane of `t`.
 template <std::size_t N>
 bool OnOneSide(const Corners& t, const std::array<Point, N>& points) {
   const CGAL::Orientation first = CGAL::orientation(t[0], t[1], t[2], points[0]);

@@ -24,22 +24,22 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kTries = 8;
-constexpr int kPairLimit = 5000;       // places mended a try: crossing pairs,
-constexpr int kFarLimit = 5000;        // and points too far off
-constexpr int kFewestSamples = 10000;  // of a surface, to see how far it lies from another
+constexpr int kAttempts = 8;
+constexpr int kPairLimit = 5000;       // limits per attempt on repaired intersecting pairs
+constexpr int kFarLimit = 5000;        // and on repaired points that are too far off
+constexpr int kFewestSamples = 10000;  // per surface, to measure its distance from another
 
 using Boxes = std::vector<Eigen::AlignedBox3d>;
 
-// How much a descent may take away.
+// The limits of one simplification pass.
 struct Limits {
   int budget = 0;             // faces
-  double max_error = 0.0;     // as in SimplifyOptions
-  double max_distance = 0.0;  // likewise
+  double max_error = 0.0;     // see SimplifyOptions
+  double max_distance = 0.0;  // see SimplifyOptions
 };
 
-// Where faces of `mesh` cross.
-Boxes Crossings(const core::TriangleMesh& mesh) {
+// Returns the AABBs of intersecting faces of `mesh`.
+Boxes IntersectingRegions(const core::TriangleMesh& mesh) {
   Boxes boxes;
   for (const auto& [s, t] : SelfIntersections(mesh, kPairLimit)) {
     Eigen::AlignedBox3d first, second;
@@ -53,9 +53,10 @@ Boxes Crossings(const core::TriangleMesh& mesh) {
   return boxes;
 }
 
-// Boxes from points farther than `limit` from `mesh` to the nearest point of it.
-void AppendFar(const std::vector<Vector3d>& points, const core::TriangleMesh& mesh, double limit,
-               Boxes* boxes) {
+// Appends AABBs that span each point farther than `limit` from `mesh` and its nearest surface
+// point.
+void AppendDistant(const std::vector<Vector3d>& points, const core::TriangleMesh& mesh,
+                   double limit, Boxes* boxes) {
   const TriangleTree tree(mesh);
   std::vector<char> far(points.size());
   constexpr int kBlock = 4096;
@@ -75,27 +76,27 @@ void AppendFar(const std::vector<Vector3d>& points, const core::TriangleMesh& me
   }
 }
 
-// Where the two surfaces lie farther apart than `limit`.
-Boxes FarApart(const core::TriangleMesh& source, const Thinned& result, double limit) {
+// Returns the AABBs at which the two surfaces are farther apart than `limit`.
+Boxes DistantRegions(const core::TriangleMesh& source, const Thinned& result, double limit) {
   std::vector<char> kept(source.vertices.size());
   for (const int s : result.sources) {
     if (s >= 0) kept[s] = 1;
   }
-  std::vector<Vector3d> gone;
+  std::vector<Vector3d> removed;
   for (std::size_t v = 0; v < kept.size(); ++v) {
-    if (!kept[v]) gone.push_back(source.vertices[v]);
+    if (!kept[v]) removed.push_back(source.vertices[v]);
   }
-  // Large faces have insides, too.
-  const int samples = std::max<int>(kFewestSamples, static_cast<int>(gone.size()));
+  // Sample the interior of large faces, too.
+  const int samples = std::max<int>(kFewestSamples, static_cast<int>(removed.size()));
   const std::vector<Vector3d> inside = SampleSurface(source, kFewestSamples, 2);
-  gone.insert(gone.end(), inside.begin(), inside.end());
+  removed.insert(removed.end(), inside.begin(), inside.end());
   Boxes boxes;
-  AppendFar(gone, result.mesh, limit, &boxes);
-  AppendFar(SampleSurface(result.mesh, samples, 1), source, limit, &boxes);
+  AppendDistant(removed, result.mesh, limit, &boxes);
+  AppendDistant(SampleSurface(result.mesh, samples, 1), source, limit, &boxes);
   return boxes;
 }
 
-// Vertices of `source` within `reach` of one of the boxes stay put in the next try.
+// Locks the vertices of `source` within `reach` of one of the boxes.
 void LockAround(const core::TriangleMesh& source, const Boxes& boxes, double reach,
                 std::vector<char>* locked) {
   Boxes wider;
@@ -117,38 +118,41 @@ void LockAround(const core::TriangleMesh& source, const Boxes& boxes, double rea
   }
 }
 
-Thinned AsItWas(const core::TriangleMesh& source) {
+Thinned Unchanged(const core::TriangleMesh& source) {
   Thinned same{source, std::vector<int>(source.vertices.size())};
   std::iota(same.sources.begin(), same.sources.end(), 0);
   return same;
 }
 
-// One descent, tried again with more vertices held until nothing crosses or lies far off.
-Thinned Descend(const core::TriangleMesh& source, const Limits& limits, std::vector<char> locked) {
+// Runs one simplification pass, repeated with more locked vertices until no faces intersect and no
+// point is too far off.
+Thinned SimplifyPass(const core::TriangleMesh& source, const Limits& limits,
+                     std::vector<char> locked) {
   double edge = 0.0;
   for (const Eigen::Vector3i& t : source.triangles) {
     edge += (source.vertices[t[0]] - source.vertices[t[1]]).norm();
   }
   double reach = 2.0 * edge / static_cast<double>(source.triangles.size());
-  for (int tries = 0; tries < kTries; ++tries, reach *= 1.6) {
+  for (int tries = 0; tries < kAttempts; ++tries, reach *= 1.6) {
     Thinned result = CollapseEdges(source, locked, limits.budget, limits.max_error);
     for (int t = 0; t < static_cast<int>(result.mesh.triangles.size()); ++t) {
-      if (IsDegenerate(result.mesh, t)) return AsItWas(source);
+      if (IsDegenerate(result.mesh, t)) return Unchanged(source);
     }
-    Boxes wrong = Crossings(result.mesh);
+    Boxes wrong = IntersectingRegions(result.mesh);
     if (limits.max_distance > 0.0) {
-      const Boxes far = FarApart(source, result, limits.max_distance);
+      const Boxes far = DistantRegions(source, result, limits.max_distance);
       wrong.insert(wrong.end(), far.begin(), far.end());
     }
     if (wrong.empty()) return result;
     LockAround(source, wrong, reach, &locked);
   }
-  return AsItWas(source);
+  return Unchanged(source);
 }
 
-constexpr int kBlockFaces = 40000;  // what a core's cache holds with its quadrics
+constexpr int kBlockFaces = 40000;  // fits into a core's cache with its quadrics
 
-// Faces in blocks that lie together: along a space-filling curve (Morton) over their centres.
+// Groups faces into blocks that are close in space: along a space-filling curve (Morton) over their
+// centroids.
 std::vector<std::vector<int>> Blocks(const core::TriangleMesh& mesh) {
   const Eigen::AlignedBox3d box = core::Bounds(mesh);
   const double scale = 1023.0 / std::max(box.sizes().maxCoeff(), 1e-300);
@@ -173,10 +177,10 @@ std::vector<std::vector<int>> Blocks(const core::TriangleMesh& mesh) {
   return blocks;
 }
 
-// A mesh in blocks of faces that are thinned apart from each other.
-class BlockThinner {
+// Simplifies a mesh in independent blocks of faces.
+class BlockSimplifier {
  public:
-  explicit BlockThinner(const core::TriangleMesh& mesh)
+  explicit BlockSimplifier(const core::TriangleMesh& mesh)
       : mesh_(mesh), blocks_(Blocks(mesh)), owner_(mesh.vertices.size(), kNobody) {
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       for (const int t : blocks_[b]) {
@@ -188,14 +192,14 @@ class BlockThinner {
     }
   }
 
-  // Each block to its limits; the blocks' common vertices stay. Where faces of two blocks come to
-  // cross, both blocks are left as they were.
+  // Simplifies each block to its limits and keeps the blocks' shared vertices. If faces of two
+  // blocks come to intersect, both blocks stay unchanged.
   core::TriangleMesh Run(const Limits& limits) {
     std::vector<Thinned> thinned(blocks_.size());
     core::ParallelFor(static_cast<int>(blocks_.size()),
-                      [&](int b) { thinned[b] = Descended(b, limits); });
-    for (int tries = 0; tries < kTries; ++tries) {
-      std::vector<int> block;  // of each face
+                      [&](int b) { thinned[b] = SimplifiedBlock(b, limits); });
+    for (int tries = 0; tries < kAttempts; ++tries) {
+      std::vector<int> block;  // block of each face
       core::TriangleMesh joined = Join(thinned, &block);
       const auto pairs = SelfIntersections(joined, kPairLimit);
       if (pairs.empty()) return joined;
@@ -210,7 +214,7 @@ class BlockThinner {
   static constexpr int kNobody = -1;
   static constexpr int kShared = -2;
 
-  // One block on its own, and for each vertex which of the mesh's it is.
+  // One block, and for each of its vertices the index in the mesh.
   struct BlockPart {
     core::TriangleMesh mesh;
     std::vector<int> original;
@@ -237,11 +241,11 @@ class BlockThinner {
 
   static Thinned Whole(BlockPart part) { return {std::move(part.mesh), std::move(part.original)}; }
 
-  Thinned Descended(int b, const Limits& limits) const {
+  Thinned SimplifiedBlock(int b, const Limits& limits) const {
     const BlockPart part = Part(b);
     std::vector<char> locked;
     for (const int v : part.original) locked.push_back(owner_[v] == kShared);
-    Thinned thinned = Descend(part.mesh, limits, locked);
+    Thinned thinned = SimplifyPass(part.mesh, limits, locked);
     for (int& s : thinned.sources) s = s < 0 ? -1 : part.original[s];
     return thinned;
   }
@@ -268,7 +272,7 @@ class BlockThinner {
 
   const core::TriangleMesh& mesh_;
   const std::vector<std::vector<int>> blocks_;
-  std::vector<int> owner_;  // of each vertex: its block, or kShared
+  std::vector<int> owner_;  // block of each vertex, or kShared
 };
 
 }  // namespace
@@ -277,15 +281,15 @@ core::TriangleMesh Simplify(const core::TriangleMesh& mesh, const SimplifyOption
   const Soundness state = Examine(mesh, 0);
   if (mesh.empty() || !state.closed || !state.manifold) {
     throw core::Error("only a closed, manifold mesh can be simplified", "simplify",
-                      "make a solid of it first");
+                      "make it a solid first");
   }
-  // In steps: one that has to be tried again is then a cheap one. The first takes what is nearly
-  // flat, which hardly ever makes faces cross.
+  // Simplify in steps, so that repeating one is cheap. The first step collapses nearly flat
+  // regions, which hardly ever makes faces intersect.
   const double error = options.max_error;
   const double distance = options.max_distance;
   core::TriangleMesh result = mesh;
   if (error > 0.0 && static_cast<int>(mesh.triangles.size()) > 2 * kBlockFaces) {
-    result = BlockThinner(mesh).Run({0, 0.15 * error, distance});
+    result = BlockSimplifier(mesh).Run({0, 0.15 * error, distance});
   }
   const int halfway = std::max(4 * options.face_budget, 4);
   const int budget = std::max(options.face_budget, 4);
@@ -294,7 +298,7 @@ core::TriangleMesh Simplify(const core::TriangleMesh& mesh, const SimplifyOption
                                        Limits{budget, error, distance}};
   for (const Limits& limits : steps) {
     if (static_cast<int>(result.triangles.size()) <= limits.budget) continue;
-    result = Descend(result, limits, std::vector<char>(result.vertices.size(), 0)).mesh;
+    result = SimplifyPass(result, limits, std::vector<char>(result.vertices.size(), 0)).mesh;
   }
   return result;
 }

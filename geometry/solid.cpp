@@ -29,43 +29,44 @@ void Add(Solid* solid, const char* code, Severity severity, const std::string& s
   solid->findings.push_back({code, severity, "solid", sentence, figure});
 }
 
-// Faces of the outermost shells alone; false where some shell is not closed or they cross.
+// Keeps the faces of the outermost shells; returns false if some shell is not closed or shells
+// intersect.
 bool KeepOuterShells(TriangleMesh* mesh, int* dropped) {
   *dropped = 0;
-  TriangleMesh turned = *mesh;
-  if (!OrientConsistently(&turned)) return false;
-  const Soundness state = Examine(turned, 1);
+  TriangleMesh oriented = *mesh;
+  if (!OrientConsistently(&oriented)) return false;
+  const Soundness state = Examine(oriented, 1);
   if (!state.closed || !state.manifold || state.self_intersections > 0 ||
       state.degenerate_triangles > 0) {
     return false;
   }
   int count = 0;
-  const std::vector<int> component = EdgeComponents(turned, &count);
-  const std::vector<int> winding = EnclosingWinding(turned, component, count);
+  const std::vector<int> component = EdgeComponents(oriented, &count);
+  const std::vector<int> winding = EnclosingWinding(oriented, component, count);
   TriangleMesh kept;
-  kept.vertices = turned.vertices;
+  kept.vertices = oriented.vertices;
   for (std::size_t t = 0; t < component.size(); ++t) {
-    if (winding[component[t]] == 0) kept.triangles.push_back(turned.triangles[t]);
+    if (winding[component[t]] == 0) kept.triangles.push_back(oriented.triangles[t]);
   }
   for (const int w : winding) *dropped += w != 0;
   *mesh = *dropped > 0 ? Weld(kept, 0.0) : kept;
   return Examine(*mesh, 1).Sound();
 }
 
-// Flat closed shells have no inside worth the name: their volume is rounding.
-bool HasBody(const TriangleMesh& mesh, double diagonal) {
+// Flat closed shells enclose no real volume, only rounding errors.
+bool EnclosesVolume(const TriangleMesh& mesh, double diagonal) {
   return SignedVolume(mesh) > 1e-9 * diagonal * diagonal * diagonal;
 }
 
-bool TryAsItIs(const TriangleMesh& visual, const TriangleMesh& welded, double diagonal,
-               const SolidOptions& options, Solid* solid) {
+bool TryUnchanged(const TriangleMesh& visual, const TriangleMesh& welded, double diagonal,
+                  const SolidOptions& options, Solid* solid) {
   for (const double tolerance : {0.0, 1e-6, 1e-4}) {
     TriangleMesh mesh = tolerance > 0.0 ? Weld(welded, tolerance * diagonal) : welded;
     if (mesh.empty() || static_cast<double>(mesh.triangles.size()) > 10.0 * options.face_budget) {
       return false;
     }
     int shells = 0;
-    if (!KeepOuterShells(&mesh, &shells) || !HasBody(mesh, diagonal)) continue;
+    if (!KeepOuterShells(&mesh, &shells) || !EnclosesVolume(mesh, diagonal)) continue;
     const int repeated =
         static_cast<int>(visual.triangles.size()) - static_cast<int>(welded.triangles.size());
     if (repeated > 0) {
@@ -96,40 +97,43 @@ TriangleMesh Normalized(const TriangleMesh& mesh, const Vector3d& center, double
   return unit;
 }
 
-constexpr int kThinFirst = 300000;  // more faces than this are thinned before the grid
-// What simplification may move, root mean square: half of it is left for the grid's own steps.
+constexpr int kThinFirst = 300000;  // larger meshes are clustered before the grid
+// The error allowed in simplification as a share of the tolerance, root mean square: half of the
+// tolerance is left for the grid's own steps.
 constexpr double kSimplifyShare = 0.15;
-constexpr double kSimplifyMost = 0.35;  // and at most
+constexpr double kSimplifyMost = 0.35;  // and its maximum
 
 struct Wrapped {
   TriangleMesh mesh;  // in the unit box
   double sheet_share = 0.0;
-  double wall = 0.0;      // given to sheets, a share of the diagonal
-  double distance = 0.0;  // largest of both directions, a share of the diagonal
-  int beyond = 0;         // of the random sights of HiddenSights, those farther than the tolerance
+  double wall = 0.0;      // given to sheets, share of the diagonal
+  double distance = 0.0;  // the larger of both directions, share of the diagonal
+  int beyond = 0;         // random hits of HiddenSights beyond the tolerance
 };
 
-// The farthest single sight is chance; how many are beyond the tolerance is what a check meets.
+// Compares by the number of hits beyond the tolerance, which a check is likely to find; the
+// distance of the farthest single hit is a matter of chance.
 bool Closer(const Wrapped& a, const Wrapped& b) {
   return a.beyond != b.beyond ? a.beyond < b.beyond : a.distance < b.distance;
 }
 
-// How hard a wrap tries. Each next one also knows the slits in which the one before was found
-// short.
+// The settings of one wrap attempt. Each attempt also uses the slits in which the previous one
+// failed.
 struct Effort {
-  double fineness;  // divides the cell, the wall (which would close gaps between sheets) and what
-                    // simplification may move
-  int rays;         // lines of sight: more find hollows that few of them enter
-  bool carves;      // opens lines of sight that the walls of sheets buried, too
+  double fineness;  // divisor of the cell, the wall (which would close gaps between sheets) and the
+                    // simplification error
+  int rays;         // lines of sight: more find hollows that few rays enter
+  bool carves;      // also opens lines of sight through the walls given to sheets
 };
 constexpr Effort kEfforts[] = {
     {1.0, 100000, false}, {1.6, 200000, false}, {1.6, 500000, true}, {2.0, 500000, true}};
-// Share of the tolerance at which a wrap is good enough: other rays find somewhat more.
+// The share of the tolerance at which a wrap is accepted: other rays find somewhat larger
+// distances.
 constexpr double kGoodEnough = 0.9;
-constexpr double kDoubtful = 0.7;   // share of the tolerance from which a place is looked into
-constexpr double kSlitDepth = 0.3;  // share of the diagonal up which a known sight is followed
+constexpr double kProbeFrom = 0.7;  // share of the tolerance from which a region is probed
+constexpr double kSlitDepth = 0.3;  // share of the diagonal along which a line of sight is followed
 
-// One wrap of `unit`, a mesh of diagonal 1. `sights` are lines of sight beyond the random ones.
+// Wraps `unit`, a mesh of diagonal 1. `sights` are lines of sight besides the random ones.
 Wrapped WrapOnce(const TriangleMesh& unit, const Effort& effort,
                  const std::vector<OuterHit>& sights, const SolidOptions& options) {
   const double fineness = effort.fineness;
@@ -143,34 +147,35 @@ Wrapped WrapOnce(const TriangleMesh& unit, const Effort& effort,
   if (effort.carves) wrap_options.reach = 0.7 * options.tolerance_ratio;
   const SurfaceWrap wrap = WrapSurface(unit, wrap_options);
   if (wrap.mesh.empty()) {
-    throw core::Error("no surface could be wrapped round the mesh", "solid");
+    throw core::Error("no surface could be wrapped around the mesh", "solid");
   }
   Wrapped wrapped;
   wrapped.mesh =
       Simplify(wrap.mesh, {options.face_budget, kSimplifyShare * options.tolerance_ratio / fineness,
                            kSimplifyMost * options.tolerance_ratio / fineness});
-  // A speck that thinning moved into its neighbour.
+  // Removes specks that simplification moved into a neighbour.
   DropBuried(&wrapped.mesh);
   wrapped.sheet_share = wrap.sheet_share;
   wrapped.wall = wrap_options.wall;
   SurfaceDistanceOptions check;
-  check.seed = 11;  // other rays than those the wrap was led by
+  check.seed = 11;  // rays that differ from those used for the wrap
   check.rays = 400000;
   check.solid_samples = 200000;
   wrapped.distance = OuterSurfaceDistance(unit, wrapped.mesh, check).MaxRatio();
   return wrapped;
 }
 
-// Lines of sight into the places where a wrap is no longer close: what is beyond the tolerance is
-// often nearby, and so narrow that random lines miss it. What they show counts in `wrapped`.
-std::vector<OuterHit> Doubtful(const TriangleMesh& unit, std::uint64_t seed,
-                               const SolidOptions& options, Wrapped* wrapped) {
-  // The solid lies farthest from what is seen at one of its corners, as a rule.
+// Returns lines of sight into the regions where a wrap is barely within the tolerance: points
+// beyond it are often nearby, in slits too narrow for random rays. Updates the distances of
+// `wrapped`.
+std::vector<OuterHit> ProbeDoubtfulRegions(const TriangleMesh& unit, std::uint64_t seed,
+                                           const SolidOptions& options, Wrapped* wrapped) {
+  // The solid's largest distance from the visible surface is usually at one of its corners.
   for (const double d : DistancesToSurface(wrapped->mesh.vertices, unit)) {
     wrapped->distance = std::max(wrapped->distance, d);
   }
   HiddenSightOptions hidden;
-  hidden.reach = kDoubtful * options.tolerance_ratio;
+  hidden.reach = kProbeFrom * options.tolerance_ratio;
   if (wrapped->distance <= hidden.reach) return {};
   hidden.radius = kSlitDepth;
   hidden.seed = seed;
@@ -197,7 +202,8 @@ void WrapSolid(const TriangleMesh& welded, const Vector3d& center, double diagon
   std::vector<OuterHit> sights;
   for (const Effort& effort : kEfforts) {
     Wrapped next = WrapOnce(unit, effort, sights, options);
-    const std::vector<OuterHit> more = Doubtful(unit, 100 + sights.size(), options, &next);
+    const std::vector<OuterHit> more =
+        ProbeDoubtfulRegions(unit, 100 + sights.size(), options, &next);
     sights.insert(sights.end(), more.begin(), more.end());
     if (Closer(next, wrapped)) wrapped = std::move(next);
     if (wrapped.distance <= kGoodEnough * options.tolerance_ratio) break;
@@ -207,7 +213,7 @@ void WrapSolid(const TriangleMesh& welded, const Vector3d& center, double diagon
   solid->method = SolidMethod::kWrapped;
   if (!Examine(mesh, 1).Sound()) {
     Add(solid, "solid-alpha-wrap", Severity::kWarning,
-        "the wrapped surface was not sound, so a coarser wrap was made", 0.0);
+        "the wrapped surface was not a valid solid; alpha wrapping replaced it", 0.0);
     mesh = AlphaWrap(welded);
     if (!Examine(mesh, 1).Sound()) {
       throw core::Error("no closed surface free of self-intersections could be made", "solid",
@@ -229,8 +235,8 @@ void WrapSolid(const TriangleMesh& welded, const Vector3d& center, double diagon
   }
   if (wrapped.distance > options.tolerance_ratio) {
     Add(solid, "solid-off-tolerance", Severity::kWarning,
-        "somewhere the solid lies " + std::to_string(100.0 * wrapped.distance) +
-            "% of the diagonal from what is seen",
+        "the solid deviates by up to " + std::to_string(100.0 * wrapped.distance) +
+            "% of the diagonal from the visible surface",
         wrapped.distance);
   }
   solid->mesh = std::move(mesh);
@@ -263,11 +269,11 @@ Solid MakeSolid(const TriangleMesh& visual, const SolidOptions& options) {
   const Eigen::AlignedBox3d bounds = core::Bounds(welded);
   const double diagonal = bounds.diagonal().norm();
   if (!(diagonal > 1e-100) || !(diagonal < 1e100)) {
-    throw core::Error("the mesh has no extent that can be worked with", "solid",
+    throw core::Error("the mesh's extent is out of range", "solid",
                       "check its unit and its vertices");
   }
   Solid solid;
-  if (!TryAsItIs(visual, welded, diagonal, options, &solid)) {
+  if (!TryUnchanged(visual, welded, diagonal, options, &solid)) {
     WrapSolid(welded, bounds.center(), diagonal, options, &solid);
   }
   return solid;

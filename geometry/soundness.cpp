@@ -30,7 +30,7 @@ void ExamineEdges(const core::TriangleMesh& mesh, Soundness* result) {
   }
 }
 
-// Vertices whose faces fall into more than one fan, joined through edges at the vertex.
+// Counts the vertices whose faces form more than one fan, joined through edges at the vertex.
 int CountNonManifoldVertices(const core::TriangleMesh& mesh) {
   std::vector<int> start(mesh.vertices.size() + 1, 0);
   for (const Eigen::Vector3i& t : mesh.triangles) {
@@ -74,7 +74,7 @@ int CountNonManifoldVertices(const core::TriangleMesh& mesh) {
   return bad;
 }
 
-// Each component faces out in the open, and inward where it bounds a hollow of another.
+// Returns true if each component faces outward, or inward if it bounds a hollow of another.
 bool FacesOutward(const core::TriangleMesh& mesh, const std::vector<int>& component, int count) {
   const std::vector<double> volumes = ComponentVolumes(mesh, component, count);
   const std::vector<int> winding = EnclosingWinding(mesh, component, count);
@@ -103,7 +103,7 @@ Soundness Examine(const core::TriangleMesh& mesh, int intersection_limit) {
     result.self_intersections =
         static_cast<int>(SelfIntersections(mesh, intersection_limit).size());
   }
-  // Who encloses whom is settled only between closed surfaces that do not cross.
+  // Enclosure is only defined between closed surfaces that do not intersect.
   if (result.closed && result.oriented) {
     result.oriented = result.self_intersections == 0
                           ? FacesOutward(mesh, component, result.components)

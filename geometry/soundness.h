@@ -8,12 +8,12 @@ namespace simwright::geometry {
 
 // The criteria for a mesh to bound a solid.
 struct Soundness {
-  bool closed = false;    // each edge has as many faces in one direction as in the other
-  bool oriented = false;  // neighbours agree, and each component that no other encloses faces
-                          // outward
-  bool manifold = false;  // each edge has two faces, each vertex one fan of faces
-  int open_edges = 0;     // edges with one face
-  int non_manifold_edges = 0;     // edges with three or more faces
+  bool closed = false;         // each edge has as many faces in one direction as in the other
+  bool oriented = false;       // neighbours agree, and each component that no other encloses faces
+                               // outward
+  bool manifold = false;       // each edge has two faces, each vertex one fan of faces
+  int open_edges = 0;          // edges with one face
+  int non_manifold_edges = 0;  // edges with three or more faces
   int non_manifold_vertices = 0;  // vertices with more than one fan
   int self_intersections = 0;     // pairs of faces that meet elsewhere than in shared vertices and
                                   // edges

@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 constexpr double kSameAngle = 0.5 * std::numbers::pi / 180.0;
 constexpr double kSamePlane = 1e-4;  // of the diagonal
 constexpr double kInside = 1e-6;     // of the diagonal
-constexpr double kBarrier = 0.0525;  // of the height; 1 / cos(18 degrees) - 1 and some rounding
+constexpr double kBarrier = 0.0525;  // of the height; 1 / cos(18 degrees) - 1 plus rounding
 constexpr double kRolled = 75.0 * std::numbers::pi / 180.0;
 
 struct Edge {
@@ -29,12 +29,12 @@ struct Edge {
   int across = -1;  // facet
 };
 
-// Coplanar triangles of the hull taken together.
+// A facet: coplanar triangles of the hull.
 struct Facet {
   Vector3d normal = Vector3d::Zero();
   std::vector<Edge> edges;
   double solid_angle = 0.0;  // sr, seen from the centre of mass
-  double height = 0.0;       // m, of the centre of mass over it
+  double height = 0.0;       // m, of the centre of mass above it
   double margin = 0.0;       // m, inside the nearest edge; negative outside
   int nearest_edge = -1;
 };
@@ -45,8 +45,8 @@ double SegmentDistance(const Vector3d& p, const Vector3d& a, const Vector3d& b) 
   return (p - a - t * ab).norm();
 }
 
-// Of triangle abc seen from the origin, positive where it faces away (Van Oosterom and Strackee,
-// "The solid angle of a plane triangle", 1983).
+// Returns the solid angle of triangle abc seen from the origin, positive if it faces away (Van
+// Oosterom and Strackee, "The solid angle of a plane triangle", 1983).
 double SolidAngle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
   return 2.0 * std::atan2(a.dot(b.cross(c)),
@@ -63,7 +63,7 @@ std::map<std::pair<int, int>, int> TriangleOfEdge(const core::TriangleMesh& hull
   return triangle_of_edge;
 }
 
-// The facet of each triangle, grown from the largest triangle on.
+// Assigns each triangle to a facet, grown from the largest triangle on.
 std::vector<int> FacetOfTriangle(const core::TriangleMesh& hull, double diagonal,
                                  const std::map<std::pair<int, int>, int>& triangle_of_edge,
                                  int* count) {
@@ -151,7 +151,7 @@ std::vector<Facet> Facets(const core::TriangleMesh& hull, const Vector3d& center
   return facets;
 }
 
-// Corners in order round the facet.
+// Returns the corners in order around the facet.
 std::vector<Vector3d> Corners(const Facet& facet) {
   Vector3d middle = Vector3d::Zero();
   for (const Edge& edge : facet.edges) middle += edge.from;
@@ -185,7 +185,7 @@ StablePose PoseOn(const Facet& facet, const Vector3d& center) {
   return pose;
 }
 
-// The facets of the convex hull, the centre of mass above each of them.
+// Returns the facets of the convex hull. Throws core::Error unless the centre of mass is inside.
 std::vector<Facet> RequireFacets(const core::TriangleMesh& solid, const Vector3d& center) {
   core::RequireValid(solid, "stable poses");
   if (!center.allFinite()) throw core::Error("the centre of mass is not finite", "stable poses");
@@ -200,8 +200,8 @@ std::vector<Facet> RequireFacets(const core::TriangleMesh& solid, const Vector3d
   return facets;
 }
 
-// The height that the centre of mass has to pass when the body turns over `edge` from one facet to
-// another: that over the edge, where it comes to stand above it, else the higher facet's.
+// Returns the height that the centre of mass must pass when the body rolls over `edge` from one
+// facet to another: its height above the edge if it passes over it, else the higher facet's.
 double Barrier(const Facet& from, const Facet& to, const Edge& edge, const Vector3d& center) {
   const Vector3d along = (edge.to - edge.from).normalized();
   const Vector3d arm = edge.from - center;
@@ -248,7 +248,7 @@ std::vector<StablePose> StablePoses(const core::TriangleMesh& solid, const Vecto
   std::vector<double> share(count, 0.0);
   for (int f = 0; f < count; ++f) {
     int at = f;
-    // Each roll lowers the centre of mass, so the way is no longer than the facets are many.
+    // Each roll lowers the centre of mass, so the sequence is no longer than the number of facets.
     for (int step = 0; step < count && !stable(at); ++step) {
       if (facets[at].nearest_edge < 0) break;
       at = facets[at].edges[facets[at].nearest_edge].across;
@@ -280,7 +280,7 @@ double TippingAngle(const core::TriangleMesh& solid, const Vector3d& center, con
   const Vector3d v = n.cross(u);
   double lowest = -std::numeric_limits<double>::infinity();
   for (const Vector3d& p : solid.vertices) lowest = std::max(lowest, n.dot(p - center));
-  std::vector<Vector2d> support;  // about the centre of mass
+  std::vector<Vector2d> support;  // relative to the centre of mass
   for (const Vector3d& p : solid.vertices) {
     if (n.dot(p - center) >= lowest - slack)
       support.emplace_back(u.dot(p - center), v.dot(p - center));

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kBlock = 1024;  // points a task; also the unit of the random streams
+constexpr int kBlock = 1024;  // points per task; also the unit of the random streams
 
 void RequireFaces(const core::TriangleMesh& mesh, const char* where) {
   core::RequireValid(mesh, where);
@@ -56,7 +56,7 @@ std::vector<OuterHit> OuterHits(const core::TriangleMesh& mesh, const TriangleTr
     core::Rng rng = core::StreamRng(seed, block);
     const int count = std::min(kBlock, rays - block * kBlock);
     for (int i = 0; i < count; ++i) {
-      // Two uniform points of a sphere span an isotropic uniform chord (Santalo 1976).
+      // The chord through two uniform points of a sphere is uniform and isotropic (Santalo 1976).
       const Vector3d from = center + radius * core::UniformDirection(rng);
       const Vector3d to = center + radius * core::UniformDirection(rng);
       if (const auto hit = tree.FirstHit(from, to - from, 1.0)) {

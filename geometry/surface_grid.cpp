@@ -12,10 +12,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPieceCells = 6.0;  // pieces this long keep a slanted one's box mostly band
-constexpr int kSlab = 8;             // layers a task
+constexpr double kPieceCells = 6.0;  // length at which most of a slanted piece's AABB is still in
+                                     // the band
+constexpr int kSlab = 8;             // layers per task
 // Rounding of a coordinate in cells is below 1e-12; a line this close to a triangle's edge counts
-// as met, so none slips between two neighbours.
+// as a crossing, so that none slips between two neighbours.
 constexpr double kSlack = 1e-7;
 
 constexpr int kLanes = 4;
@@ -25,8 +26,8 @@ Lanes Lesser(Lanes a, Lanes b) {
   return a < b ? a : b;
 }
 
-// Squared distances from a row of nodes to one triangle, several at a time. All in cells, relative
-// to the triangle's corner, so that single precision is good for 1e-6 of a cell.
+// Computes squared distances from a row of nodes to one triangle, several at a time. In cells,
+// relative to the triangle's corner, so that single precision is accurate to 1e-6 of a cell.
 struct LaneTriangle {
   LaneTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) : corner(a) {
     normal = (b - a).cross(c - a);
@@ -99,7 +100,7 @@ std::array<int, 3> SurfaceGrid::Size(const core::TriangleMesh& mesh, double cell
 SurfaceGrid::SurfaceGrid(const core::TriangleMesh& mesh, double cell, double band, int margin)
     : cell_(cell), band_(band / cell), size_(Size(mesh, cell, band, margin)) {
   const Eigen::AlignedBox3d bounds = core::Bounds(mesh);
-  // An odd share of a cell keeps axis-aligned faces off the nodes.
+  // A fractional offset keeps axis-aligned faces off the nodes.
   for (int axis = 0; axis < 3; ++axis) {
     const double slack = (size_[axis] - 1) * cell - bounds.sizes()[axis];
     origin_[axis] = bounds.min()[axis] - 0.5 * slack + cell * (0.0371 + 0.0113 * axis);
@@ -129,7 +130,7 @@ SurfaceGrid::SurfaceGrid(const core::TriangleMesh& mesh, double cell, double ban
       EnterDistances(pieces_[p], p, low_k, high_k);
       EnterCrossings(pieces_[p], low_k, high_k);
     }
-    // Distances were squared, in cells.
+    // Convert squared distances in cells to distances.
     for (std::size_t node = low_k * stride_[2]; node < (high_k + 1) * stride_[2]; ++node) {
       if (distance_[node] < kFar) {
         distance_[node] = static_cast<float>(std::sqrt(distance_[node]) * cell_);
@@ -178,7 +179,7 @@ void SurfaceGrid::EnterDistances(const Piece& piece, int index, int low_k, int h
   const LaneTriangle triangle(piece.a, piece.b, piece.c);
   for (int k = from[2]; k <= to[2]; ++k) {
     for (int j = from[1]; j <= to[1]; ++j) {
-      // Where the row runs within the band round the triangle's plane.
+      // The range of the row within the band around the triangle's plane.
       const double in_row = triangle.normal.y() * j + triangle.normal.z() * k - triangle.offset;
       int first = from[0];
       int last = to[0];
@@ -211,7 +212,7 @@ void SurfaceGrid::EnterDistances(const Piece& piece, int index, int low_k, int h
 void SurfaceGrid::EnterCrossings(const Piece& piece, int low_k, int high_k) {
   const Vector3d normal = (piece.b - piece.a).cross(piece.c - piece.a);
   for (int axis = 0; axis < 3; ++axis) {
-    // A triangle seen edge-on: its neighbours and its own edges mark what matters.
+    // Skip a triangle seen edge-on: its neighbours and its own edges mark the crossings.
     if (std::abs(normal[axis]) > 1e-9 * normal.norm()) {
       EnterCrossingsAlong(axis, piece, normal, low_k, high_k);
     }

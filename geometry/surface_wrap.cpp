@@ -25,18 +25,18 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMargin = 3;
-// Cells from a seen point to the outside node that counts as meeting it: in a corner of three walls
-// the nearest can be sqrt(3) off.
-constexpr double kMet = 1.75;
-constexpr int kLooks = 100;          // lines about a hidden point
-constexpr int kLookBudget = 200000;  // lines a round: about a second
-constexpr int kLookRounds = 4;
-constexpr double kLookSpread = 8.0;  // cells
-constexpr double kTubeRadius = 0.6;  // cells: of what is opened round a line of sight
-constexpr double kTubeLeast = 0.15;  // cells from the surface of the nodes nearest to it
+// The largest distance in cells between a visible point and the outside node that reaches it: in a
+// corner of three walls the nearest node can be sqrt(3) away.
+constexpr double kReached = 1.75;
+constexpr int kProbes = 100;          // rays around a hidden point
+constexpr int kProbeBudget = 200000;  // rays per round: about a second
+constexpr int kProbeRounds = 4;
+constexpr double kProbeSpread = 8.0;  // cells
+constexpr double kTubeRadius = 0.6;   // cells: radius opened around a line of sight
+constexpr double kTubeMin = 0.15;     // cells from the surface, for the nodes nearest to the line
 
 double Band(const SurfaceWrapOptions& options) {
-  // A cell beyond the wall: both ends of the edges that its surface crosses have their distance.
+  // One cell beyond the wall: both ends of the edges that its surface crosses have a distance.
   return std::max(options.closing, 0.5 * options.wall + options.cell) + 0.05 * options.cell;
 }
 
@@ -52,7 +52,7 @@ class Wrapper {
     Creep(Front(), options_.creep_steps);
     if (!MeetsAll()) {
       Creep(Front(), std::numeric_limits<int>::max());
-      CarveSight();
+      CarveLinesOfSight();
     }
     SurfaceWrap wrap;
     ScalarGrid field = Field(&wrap.sheet_share);
@@ -81,7 +81,7 @@ class Wrapper {
     }
   }
 
-  // An edge between two nodes that are both farther than half a cell crosses nothing.
+  // An edge between two nodes that are both farther than half a cell crosses no triangle.
   void FloodFromBorder() {
     const float clear = static_cast<float>(std::max(options_.closing, 0.5 * options_.cell));
     std::vector<std::size_t> queue{0};
@@ -101,8 +101,8 @@ class Wrapper {
     }
   }
 
-  // Outside nodes with a neighbour that is not. Every such neighbour is near the surface and so
-  // has its distance; a node may stand there twice.
+  // Returns the outside nodes with a neighbour that is not outside, possibly with repetitions.
+  // Every such neighbour is near the surface and so has a distance.
   std::vector<std::size_t> Front() const {
     std::vector<std::size_t> front;
     for (std::size_t node = 0; node < grid_.count(); ++node) {
@@ -130,8 +130,8 @@ class Wrapper {
     }
   }
 
-  // Whether an outside node stands within `reach` cells (at most 2) of a point given in cells, on
-  // the side of the point that `front` points to.
+  // Returns true if an outside node is within `reach` cells (at most 2) of a point given in cells,
+  // on the side of the point that `front` points to.
   bool NearOutside(const Vector3d& at, const Vector3d& front, double reach) const {
     std::array<int, 3> low;
     for (int axis = 0; axis < 3; ++axis) {
@@ -157,26 +157,26 @@ class Wrapper {
 
   bool MeetsAll() const {
     return std::all_of(options_.seen.begin(), options_.seen.end(), [&](const OuterHit& hit) {
-      return NearOutside(InCells(hit.point), hit.normal, kMet);
+      return NearOutside(InCells(hit.point), hit.normal, kReached);
     });
   }
 
-  // Opens the lines of sight to points that no outside node is near, then looks about each of them
-  // for more: a slit that one line in ten thousand enters is carved along its whole mouth.
-  void CarveSight() {
+  // Opens the lines of sight to points that no outside node is near, then probes around each of
+  // them for more: a slit that one ray in ten thousand enters is carved along its whole mouth.
+  void CarveLinesOfSight() {
     std::vector<OuterHit> hidden;
     for (const OuterHit& hit : options_.seen) {
       if (Carve(hit)) hidden.push_back(hit);
     }
     if (hidden.empty()) return;
     const TriangleTree tree(mesh_);
-    for (int round = 0; round < kLookRounds && !hidden.empty(); ++round) {
-      const int looks = std::min(kLooks, kLookBudget / static_cast<int>(hidden.size()));
+    for (int round = 0; round < kProbeRounds && !hidden.empty(); ++round) {
+      const int looks = std::min(kProbes, kProbeBudget / static_cast<int>(hidden.size()));
       std::vector<std::vector<OuterHit>> found(hidden.size());
       core::ParallelFor(static_cast<int>(hidden.size()), [&](int h) {
         core::Rng rng = core::StreamRng(static_cast<std::uint64_t>(round), h);
         for (int look = 0; look < looks; ++look)
-          found[h].push_back(LookAbout(tree, hidden[h], rng));
+          found[h].push_back(ProbeNear(tree, hidden[h], rng));
       });
       hidden.clear();
       for (const auto& some : found) {
@@ -189,11 +189,11 @@ class Wrapper {
     }
   }
 
-  // What a line close to that of `hit` meets first, from beyond the mesh.
-  OuterHit LookAbout(const TriangleTree& tree, const OuterHit& hit, core::Rng& rng) const {
-    const double spread = kLookSpread * grid_.cell();
+  // Returns the first hit of a random ray close to that of `hit`, from beyond the mesh.
+  OuterHit ProbeNear(const TriangleTree& tree, const OuterHit& hit, core::Rng& rng) const {
+    const double spread = kProbeSpread * grid_.cell();
     const double away = 2.0 * grid_.cell() * (grid_.size()[0] + grid_.size()[1] + grid_.size()[2]);
-    // Lines that turn about the hit, and lines that run beside it.
+    // Perturb the direction about the hit, and the hit point itself.
     const Vector3d target = hit.point + spread * core::Uniform(rng) * core::UniformDirection(rng);
     const Vector3d eye = hit.point + 30.0 * spread * hit.to_eye +
                          10.0 * spread * core::Uniform(rng) * core::UniformDirection(rng);
@@ -209,12 +209,12 @@ class Wrapper {
     return result;
   }
 
-  // Opens one line of sight: the nodes nearest to it become outside, back to where the outside is.
-  // What it crosses in the open is a hollow that is seen into, and is entered. Returns whether
-  // there was anything to open.
+  // Opens one line of sight: the nodes nearest to it become outside, back to the outside region.
+  // Also enters hollows that the line crosses away from the surface. Returns true if anything was
+  // opened.
   bool Carve(const OuterHit& hit) {
     Vector3d at = InCells(hit.point);
-    if (NearOutside(at, hit.normal, kMet)) return false;
+    if (NearOutside(at, hit.normal, kReached)) return false;
     std::vector<std::size_t> hollow;
     const int steps = 2 * (grid_.size()[0] + grid_.size()[1] + grid_.size()[2]);
     for (int step = 0; step < steps && !NearOutside(at, hit.to_eye, 1.25);
@@ -228,7 +228,8 @@ class Wrapper {
     return true;
   }
 
-  // Lines of sight to seen points that the walls of sheets buried; whether there were any.
+  // Carves the lines of sight to visible points that the walls of sheets cover; returns true if
+  // there were any.
   bool CarveWalls(const core::TriangleMesh& mesh, ScalarGrid* field) const {
     const TriangleTree tree(mesh);
     const int count = static_cast<int>(options_.seen.size());
@@ -248,9 +249,9 @@ class Wrapper {
     return carved;
   }
 
-  // Opens a round tube along a line of sight, from what is seen to the grid's border: tubes side by
-  // side make a smooth slot. The nodes nearest to the line are open in any case, each a neighbour
-  // of the one before, so that the tube is one with the outside.
+  // Opens a round tube along a line of sight, from the visible point to the grid's border: adjacent
+  // tubes form a smooth slot. The nodes nearest to the line are always opened, each a neighbour of
+  // the previous one, so that the tube is connected to the outside.
   void OpenTube(const OuterHit& hit, ScalarGrid* field) const {
     const Vector3d start = InCells(hit.point);
     const Vector3d last(grid_.size()[0] - 2.0, grid_.size()[1] - 2.0, grid_.size()[2] - 2.0);
@@ -261,7 +262,7 @@ class Wrapper {
     const int u = (main_axis + 1) % 3;
     const int v = (main_axis + 2) % 3;
     std::array<int, 3> previous = RoundedNode(start);
-    Open(field, Index(previous), kTubeLeast);
+    Open(field, Index(previous), kTubeMin);
     const double first = sign * std::ceil(sign * start[main_axis]);
     Vector3d at = start + std::abs(first - start[main_axis]) * step;
     for (; (at.array() >= 1.0).all() && (at.array() <= last.array()).all(); at += step) {
@@ -283,12 +284,12 @@ class Wrapper {
       for (int axis = 0; axis < 3; ++axis) {
         if (previous[axis] == next[axis]) continue;
         previous[axis] = next[axis];
-        Open(field, Index(previous), kTubeLeast);
+        Open(field, Index(previous), kTubeMin);
       }
     }
   }
 
-  // `value` in cells.
+  // Raises the field at `node` to `value`, in cells.
   void Open(ScalarGrid* field, std::size_t node, double value) const {
     field->values[node] = std::max(field->values[node], static_cast<float>(value * grid_.cell()));
   }
@@ -303,8 +304,8 @@ class Wrapper {
 
   std::size_t NodeAt(const Vector3d& at) const { return Index(RoundedNode(at)); }
 
-  // Whether there is something behind the surface, seen from an outside node: an inside node deep
-  // enough that the part is no thinner than a cell there.
+  // Returns true if there is solid behind the surface, seen from an outside node: an inside node
+  // deep enough that the part is at least a cell thick there.
   bool SolidBehind(std::size_t node) const {
     const Vector3d position = grid_.Position(node);
     const Vector3d surface = grid_.Nearest(node);
@@ -367,8 +368,8 @@ class Wrapper {
     return field;
   }
 
-  // Hollows that the outside reached through gaps that the wall closed again: those that are seen
-  // into stay, as hollows; the others go.
+  // Removes the hollows that the outside reached through gaps which the wall closed again, except
+  // those that are visible from outside.
   void DropBubbles(core::TriangleMesh* mesh) const {
     if (mesh->empty()) return;
     int count = 0;
@@ -386,13 +387,13 @@ class Wrapper {
     DropBuried(mesh);
   }
 
-  // A bubble is seen where a seen point has a vertex of it, and none of the outer surface, within
+  // Keeps the bubbles of which a visible point has a vertex, and none of the outer surface, within
   // about a cell.
   void KeepSeenBubbles(const core::TriangleMesh& mesh, const std::vector<int>& component,
                        std::vector<char>* keep) const {
     constexpr int kNone = -1;
     constexpr int kOuter = -2;
-    std::unordered_map<std::size_t, int> owner;  // by the node below
+    std::unordered_map<std::size_t, int> owner;  // by lower node
     for (std::size_t t = 0; t < component.size(); ++t) {
       const bool outer = (*keep)[component[t]];
       for (int c = 0; c < 3; ++c) {

@@ -17,7 +17,7 @@ double BoxDistanceSquared(const Vector3d& p, const Vector3d& low, const Vector3d
   return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
 }
 
-// Where the ray enters the box, or infinity.
+// Returns the ray parameter at which the ray enters the AABB, or infinity.
 double BoxEntry(const Vector3d& origin, const Vector3d& inverse, const Vector3d& low,
                 const Vector3d& high, double reach) {
   double enter = 0.0;
@@ -26,15 +26,15 @@ double BoxEntry(const Vector3d& origin, const Vector3d& inverse, const Vector3d&
     const bool backwards = inverse[axis] < 0.0;
     const double near = ((backwards ? high : low)[axis] - origin[axis]) * inverse[axis];
     const double far = ((backwards ? low : high)[axis] - origin[axis]) * inverse[axis];
-    // NaN (a ray within a slab's plane) keeps the interval as it is.
+    // NaN (a ray within a slab's plane) keeps the interval unchanged.
     enter = near > enter ? near : enter;
     leave = far < leave ? far : leave;
   }
-  // The margin keeps what rounding would lose at a box of no thickness.
+  // The margin compensates for rounding at an AABB of zero thickness.
   return enter <= leave * (1.0 + 1e-14) + 1e-300 ? enter : std::numeric_limits<double>::infinity();
 }
 
-// Moeller and Trumbore 1997, both sides, borders included.
+// Intersects a ray with a triangle from either side, borders included (Moeller and Trumbore 1997).
 bool HitTriangle(const Vector3d& origin, const Vector3d& direction, const Vector3d& a,
                  const Vector3d& b, const Vector3d& c, double* t) {
   const Vector3d ab = b - a;
@@ -149,7 +149,7 @@ void TriangleTree::Build() {
     nodes_.push_back(node);
     int axis = 0;
     spread.maxCoeff(&axis);
-    // The median keeps the depth logarithmic whatever the input; ties go by index.
+    // The median split keeps the depth logarithmic for any input; ties go by index.
     const int half = task.count / 2;
     std::nth_element(order_.begin() + task.first, order_.begin() + task.first + half,
                      order_.begin() + task.first + task.count, [&](int a, int b) {

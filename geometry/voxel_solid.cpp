@@ -13,16 +13,17 @@ namespace {
 constexpr int kMargin = 2;
 constexpr double kBandCells = 2.0;
 
-// A walk over the grid's nodes along edges that no triangle crosses.
-class Walk {
+// A flood fill over the grid's nodes along edges that no triangle crosses.
+class FloodFill {
  public:
-  // `floor`: the layer of nodes below which nobody walks, or 0.
-  Walk(const SurfaceGrid& grid, int floor)
+  // `floor` is the lowest layer of nodes that is entered, or 0.
+  FloodFill(const SurfaceGrid& grid, int floor)
       : grid_(grid), floor_(floor), reached_(grid.count(), 0) {}
 
-  // From the top corner, which the margin keeps free, past nodes farther than `gap` (cells) from
-  // the surface; then from all of them on to the surface, and as far into what is narrower.
-  void Go(double gap) {
+  // Starts from the top corner, which the margin keeps free, and passes nodes farther than `gap`
+  // (cells) from the surface; then continues from all of them to the surface, and as far into
+  // narrower gaps.
+  void Run(double gap) {
     const std::size_t start = grid_.count() - 1;
     reached_[start] = 1;
     std::vector<std::size_t> front = {start}, shore;
@@ -40,7 +41,7 @@ class Walk {
       });
       if (!inner) shore.push_back(node);
     }
-    // A way of length `gap` takes up to sqrt(3) times as many steps along the axes.
+    // A path of length `gap` takes up to sqrt(3) times as many steps along the axes.
     for (int step = 0; step < static_cast<int>(std::ceil(std::sqrt(3.0) * gap)); ++step) {
       std::vector<std::size_t> next_shore;
       for (const std::size_t node : shore) {
@@ -58,7 +59,7 @@ class Walk {
   const std::vector<std::uint8_t>& reached() const { return reached_; }
 
  private:
-  // Those not reached yet.
+  // Calls visit for the neighbours that are not reached yet.
   template <typename Visit>
   void ForNeighbours(std::size_t node, const Visit& visit) const {
     const auto& size = grid_.size();
@@ -79,9 +80,9 @@ class Walk {
   std::vector<std::uint8_t> reached_;
 };
 
-// Whether one of the 26 neighbours of an inner node lies on the other side of the surface.
-bool BesideOtherSide(const std::vector<std::uint8_t>& reached, const SurfaceGrid& grid,
-                     std::size_t node) {
+// Returns true if one of the 26 neighbours of an inner node is on the other side of the surface.
+bool HasNeighbourAcrossSurface(const std::vector<std::uint8_t>& reached, const SurfaceGrid& grid,
+                               std::size_t node) {
   const auto& stride = grid.stride();
   for (int z = -1; z <= 1; ++z) {
     for (int y = -1; y <= 1; ++y) {
@@ -101,12 +102,12 @@ bool BesideOtherSide(const std::vector<std::uint8_t>& reached, const SurfaceGrid
 bool VoxelSolidOptions::IsValid(std::string* error) const {
   const char* fault = nullptr;
   if (resolution < 8 || resolution > 512) {
-    fault = "a voxel solid has 8 to 512 cells along its longest side";
+    fault = "a voxel solid needs 8 to 512 cells along its longest side";
   }
   if (!(sheet_cells >= 0.0) || !(growth_cells >= 0.0 && growth_cells <= 1.0)) {
-    fault = "a sheet's thickness is not negative, and growth lies in [0, 1] cells";
+    fault = "sheet thickness must be at least 0 and growth in [0, 1] cells";
   }
-  if (!(gap_cells >= 0.0 && gap_cells <= 16.0)) fault = "gaps of 0 to 16 cells are closed";
+  if (!(gap_cells >= 0.0 && gap_cells <= 16.0)) fault = "the gap must be 0 to 16 cells";
   if (fault != nullptr && error != nullptr) *error = fault;
   return fault == nullptr;
 }
@@ -123,9 +124,9 @@ VoxelSolid::VoxelSolid(const core::TriangleMesh& mesh, const VoxelSolidOptions& 
   const SurfaceGrid grid(mesh, cell_, band * cell_, margin);
   const double bottom = core::Bounds(mesh).min().z() - grid.origin().z();
   // The first layer of nodes that is not below the mesh.
-  Walk walk(grid, options.on_floor ? static_cast<int>(std::ceil(bottom / cell_ - 1e-6)) : 0);
-  walk.Go(options.gap_cells);
-  const std::vector<std::uint8_t>& reached = walk.reached();
+  FloodFill fill(grid, options.on_floor ? static_cast<int>(std::ceil(bottom / cell_ - 1e-6)) : 0);
+  fill.Run(options.gap_cells);
+  const std::vector<std::uint8_t>& reached = fill.reached();
   origin_ = grid.origin();
   nx_ = grid.size()[0];
   ny_ = grid.size()[1];
@@ -138,10 +139,11 @@ VoxelSolid::VoxelSolid(const core::TriangleMesh& mesh, const VoxelSolidOptions& 
                                  static_cast<std::size_t>(j) * grid.stride()[1] +
                                  static_cast<std::size_t>(k) * grid.stride()[2];
         const double distance = std::min<double>(grid.Distance(node) / cell_, kBandCells);
-        // Beside the other side the surface is a solid's, and its distance is right as it is. A
-        // surface without one is a sheet outside, and buried inside.
+        // With the other side adjacent, the surface bounds a solid, and its distance is used as is.
+        // Otherwise it is a sheet next to an outside node, or buried next to an inside node.
         double outside = distance;
-        if (distance < 0.5 * options.sheet_cells + 0.5 && !BesideOtherSide(reached, grid, node)) {
+        if (distance < 0.5 * options.sheet_cells + 0.5 &&
+            !HasNeighbourAcrossSurface(reached, grid, node)) {
           outside = reached[node] ? distance - 0.5 * options.sheet_cells : -kBandCells;
         } else if (!reached[node]) {
           outside = -distance;

@@ -44,7 +44,8 @@ std::vector<int> ExactRepresentatives(const std::vector<Vector3d>& vertices) {
   return to;
 }
 
-// Each vertex joins the first kept vertex within reach; kept ones are farther apart than that.
+// Maps each vertex to the first kept vertex within reach; kept vertices are farther apart than
+// that.
 std::vector<int> NearRepresentatives(const std::vector<Vector3d>& vertices, double tolerance) {
   std::unordered_map<std::array<std::int64_t, 3>, std::vector<int>, CellHash> cells;
   cells.reserve(vertices.size());

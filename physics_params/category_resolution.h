@@ -21,9 +21,9 @@ struct Resolution {
 //   the name itself, its singular, its words joined or split ("coffeetable");
 //   "toy" for a name that says so ("toy truck" is not a truck);
 //   a row that is in WordNet a synonym of the name or a hypernym up to three steps up ("skillet" is
-//   a synonym of "frying pan", a "loveseat" is a sofa); siblings such as duck and chicken never match
-//   (docs/physics.md);
-//   the same for its head: its last words ("red coffee mug"), or the words before "of" or "with"
+//   a synonym of "frying pan", a "loveseat" is a sofa); siblings such as duck and chicken never
+//   match (docs/physics.md); the same for its head: its last words ("red coffee mug"), or the words
+//   before "of" or "with"
 //   ("bottle of wine"), unless the whole name is a word of its own ("hot plate" is not a plate).
 // Accepts the numbers ("chair_01") and capitals ("CoffeeMug") of file names. If `wordnet` is null,
 // its rules are skipped. Never throws for an unknown name.

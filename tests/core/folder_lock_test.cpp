@@ -28,9 +28,9 @@ TEST(FolderLock, ASecondHolderIsRefusedAndTheFirstIsNamed) {
   {
     const FolderLock lock(folder, "a training");  // makes the folder
     const std::string refusal = Refusal(folder);
-    EXPECT_NE(refusal.find("a training is at work there already, process " +
-                           std::to_string(getpid())),
-              std::string::npos)
+    EXPECT_NE(
+        refusal.find("a training is already running there, process " + std::to_string(getpid())),
+        std::string::npos)
         << refusal;
   }
   EXPECT_EQ(Refusal(folder), "");
