@@ -17,7 +17,7 @@ struct GifCloser {
 };
 
 [[noreturn]] void ThrowDamaged(const std::string& where) {
-  throw Error("the picture cannot be decoded: it is damaged or truncated", where,
+  throw Error("the image cannot be decoded: it is damaged or truncated", where,
               "save it again as PNG or JPEG");
 }
 

@@ -75,21 +75,21 @@ std::optional<ForeignContent> FindForeignContent(std::string_view bytes) {
 std::optional<ForeignContent> FindUnreadPicture(std::string_view bytes) {
   using namespace std::literals;
   const auto named = [](const char* format) {
-    return ForeignContent{std::string("this is ") + format + ", which is not read",
+    return ForeignContent{std::string("this is ") + format + ", which cannot be read",
                           "convert it to PNG or JPEG"};
   };
   const std::string_view brand = MediaBrand(bytes);
   for (const std::string_view heic : {"heic"sv, "heix"sv, "hevc"sv, "mif1"sv, "msf1"sv, "heim"sv,
                                       "heis"sv}) {
-    if (brand == heic) return named("an HEIC picture (as iPhones take them)");
+    if (brand == heic) return named("an HEIC image (the iPhone default)");
   }
-  if (brand == "avif" || brand == "avis") return named("an AVIF picture");
+  if (brand == "avif" || brand == "avis") return named("an AVIF image");
   if (bytes.starts_with("\xabKTX 20\xbb"sv)) return named("a KTX2 (Basis Universal) texture");
   if (bytes.starts_with("\xabKTX 11\xbb"sv)) return named("a KTX texture");
   if (bytes.starts_with("DDS "sv)) return named("a DDS texture");
-  if (bytes.starts_with("8BPS"sv)) return named("a Photoshop picture");
+  if (bytes.starts_with("8BPS"sv)) return named("a Photoshop image");
   if (bytes.starts_with("\xff\x0a"sv) || bytes.starts_with("\0\0\0\x0cJXL "sv)) {
-    return named("a JPEG XL picture");
+    return named("a JPEG XL image");
   }
   if (LowerHead(bytes).find("<svg") != std::string::npos) return named("an SVG drawing");
   return std::nullopt;

@@ -76,7 +76,7 @@ Image DecodeStill(std::string_view bytes, ImageFormat format, const std::string&
     decoded.release();
   }
   if (decoded.empty()) {
-    throw Error("the picture cannot be decoded: it is damaged, truncated or of an unknown kind",
+    throw Error("the image cannot be decoded: it is damaged, truncated or of an unknown kind",
                 where, "save it again as PNG or JPEG");
   }
   return FromMat(ToRgbOrder(ToEightBit(decoded)));
@@ -86,27 +86,27 @@ Image DecodeStill(std::string_view bytes, ImageFormat format, const std::string&
 
 Image DecodeImage(std::string_view bytes, const std::string& where,
                   const ImageReadOptions& options) {
-  if (bytes.empty()) throw Error("the picture file is empty", where);
+  if (bytes.empty()) throw Error("the image file is empty", where);
   if (bytes.size() > static_cast<size_t>(INT32_MAX)) {
-    throw Error("the picture file is larger than 2 GiB", where);
+    throw Error("the image file is larger than 2 GiB", where);
   }
   const ImageHeader header = ReadImageHeader(bytes);
   std::optional<ForeignContent> foreign = FindForeignContent(bytes);
   if (!foreign) foreign = FindUnreadPicture(bytes);
   if (foreign) throw Error(foreign->what, where, foreign->remedy);
   if (header.format == ImageFormat::kUnknown) {
-    throw Error("this is not a picture that can be read", where,
+    throw Error("this is not a readable image", where,
                 "use PNG, JPEG, WebP, TIFF, BMP, GIF or PNM");
   }
   if (header.width > 0 && header.height > 0 && header.width > options.max_pixels / header.height) {
     throw Error(
-        "the picture claims " + std::to_string(header.width) + " x " +
-            std::to_string(header.height) + " pixels",
+        "the image claims " + std::to_string(header.width) + " x " + std::to_string(header.height) +
+            " pixels",
         where,
         "scale it down below " + std::to_string(options.max_pixels / 1'000'000) + " megapixels");
   }
   if (header.truncated) {
-    throw Error("the picture is truncated: its end is missing", where, "copy or export it again");
+    throw Error("the image is truncated: its end is missing", where, "copy or export it again");
   }
   Image image;
   if (header.format == ImageFormat::kGif) {
@@ -167,7 +167,7 @@ double ExifFocalLength35mm(std::string_view bytes) {
 }
 
 Image Resize(const Image& image, int width, int height) {
-  if (image.empty() || width <= 0 || height <= 0) throw Error("cannot resize an empty picture");
+  if (image.empty() || width <= 0 || height <= 0) throw Error("cannot resize an empty image");
   if (width == image.width && height == image.height) return image;
   cv::Mat result;
   const bool shrinks = width <= image.width && height <= image.height;
@@ -177,7 +177,7 @@ Image Resize(const Image& image, int width, int height) {
 }
 
 Image ContactSheet(const std::vector<Image>& pictures, int columns) {
-  if (pictures.empty() || columns < 1) throw Error("a contact sheet needs at least one picture");
+  if (pictures.empty() || columns < 1) throw Error("a contact sheet needs at least one image");
   int cell_width = 0, cell_height = 0;
   for (const Image& picture : pictures) {
     cell_width = std::max(cell_width, picture.width);

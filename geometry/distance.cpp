@@ -301,10 +301,10 @@ class ExpandingPolytope {
   ConvexDistance Result(const Face& face) const {
     Simplex s;
     s.size = 3;
-    const Vector3d foot = face.normal * face.offset;
+    const Vector3d projection = face.normal * face.offset;
     for (int k = 0; k < 3; ++k) {
       s.corner[k] = corners_[face.corner[k]];
-      s.corner[k].point -= foot;
+      s.corner[k].point -= projection;
     }
     ReduceTriangle(&s);
     ConvexDistance result;

@@ -132,15 +132,15 @@ std::vector<Facet> Facets(const core::TriangleMesh& hull, const Vector3d& center
       height = std::max(height, facet.normal.dot(edge.from - center));
     }
     facet.height = height;
-    const Vector3d foot = center + height * facet.normal;
+    const Vector3d projection = center + height * facet.normal;
     double inner = std::numeric_limits<double>::infinity();
     double outer = std::numeric_limits<double>::infinity();
     for (int e = 0; e < static_cast<int>(facet.edges.size()); ++e) {
       const Edge& edge = facet.edges[e];
       const Vector3d inward = facet.normal.cross(edge.to - edge.from).normalized();
-      const double inside = inward.dot(foot - edge.from);
+      const double inside = inward.dot(projection - edge.from);
       inner = std::min(inner, inside);
-      const double distance = SegmentDistance(foot, edge.from, edge.to);
+      const double distance = SegmentDistance(projection, edge.from, edge.to);
       if (inside < kInside * diagonal && distance < outer) {
         outer = distance;
         facet.nearest_edge = e;
@@ -296,8 +296,8 @@ double TippingAngle(const core::TriangleMesh& solid, const Vector3d& center, con
     const double length = (b - a).norm();
     if (length > 0.0) inside = std::min(inside, (a.x() * b.y() - a.y() * b.x()) / length);
   }
-  const bool stands = count >= 3 && inside > 0.0;
-  return std::atan2(stands ? inside : -outside, std::max(lowest, 0.0));
+  const bool is_supported = count >= 3 && inside > 0.0;
+  return std::atan2(is_supported ? inside : -outside, std::max(lowest, 0.0));
 }
 
 }  // namespace simwright::geometry

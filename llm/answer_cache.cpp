@@ -27,7 +27,7 @@ CachingChatModel::CachingChatModel(std::unique_ptr<ChatModel> inner, const fs::p
   std::error_code code;
   fs::create_directories(folder_, code);
   if (!fs::is_directory(folder_, code)) {
-    throw core::Error("the cache's folder cannot be made", folder_.string(),
+    throw core::Error("the cache folder cannot be created", folder_.string(),
                       "check that the place exists and may be written");
   }
 }
@@ -51,11 +51,11 @@ ChatAnswer CachingChatModel::Ask(const ChatRequest& request, core::Progress* pro
 bool CachingChatModel::Read(const fs::path& file, const std::string& content, ChatAnswer* answer) {
   std::error_code code;
   if (!fs::exists(file, code)) return false;
-  std::string fault = "is no entry of the cache";
+  std::string fault = "is not a cache entry";
   try {
     const Json json = ParseJson(core::ReadFile(file, kLargestEntry));
     if (json.is_object() && json.contains("content") && json.contains("answer")) {
-      // Another request of the same hash: asked anew, and this entry gives way to it.
+      // Another request has the same hash: ask again and replace this entry.
       if (json["content"] != content) return false;
       if (AnswerFromJson(json["answer"], answer)) return true;
     }
@@ -63,7 +63,7 @@ bool CachingChatModel::Read(const fs::path& file, const std::string& content, Ch
     fault = error.what();
   }
   findings_.push_back({"llm-cache-damaged", core::Severity::kWarning, file.string(),
-                       "a kept answer cannot be read and is asked anew: " + fault, 0.0});
+                       "a cached answer cannot be read and is requested again: " + fault, 0.0});
   return false;
 }
 
@@ -73,9 +73,9 @@ void CachingChatModel::Write(const fs::path& file, const std::string& content,
   try {
     core::WriteFile(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   } catch (const core::Error& error) {
-    // The answer is there and may have cost money: no reason to lose it.
+    // The answer exists and may have cost money: do not lose it.
     findings_.push_back({"llm-cache-not-written", core::Severity::kWarning, file.string(),
-                         std::string("the answer could not be kept: ") + error.what(), 0.0});
+                         std::string("the answer could not be cached: ") + error.what(), 0.0});
   }
 }
 

@@ -22,7 +22,7 @@ void RequireValid(const ChatRequest& request) {
     for (const ChatImage& image : message.images) {
       if (image.bytes.empty()) throw core::Error("an image is empty", where);
       if (image.mime_type.rfind("image/", 0) != 0) {
-        throw core::Error("'" + image.mime_type + "' is no type of image", where);
+        throw core::Error("'" + image.mime_type + "' is not an image type", where);
       }
     }
   }

@@ -28,9 +28,9 @@ std::string Fault(const ChatModelOptions& o) {
   constexpr double kDay = 86400.0;  // s
   if (!o.record.empty() && !o.replay.empty()) return "record and replay exclude each other";
   if (HasControlCharacter(o.key) || o.key.find(' ') != std::string::npos) {
-    return "the key holds a blank or a line break";
+    return "the key contains a blank or a line break";
   }
-  if (HasControlCharacter(o.model)) return "the model's name holds a line break";
+  if (HasControlCharacter(o.model)) return "the model's name contains a line break";
   if (!InRange(o.connect_timeout, 0.001, kDay) || !InRange(o.stall_timeout, 0.001, kDay) ||
       !InRange(o.total_timeout, 0.001, kDay)) {
     return "the timeouts must lie between a millisecond and a day";
@@ -47,7 +47,7 @@ std::string Fault(const ChatModelOptions& o) {
   }
   if (o.input_price &&
       (!InRange(*o.input_price, 0.0, 1e9) || !InRange(*o.output_price, 0.0, 1e9))) {
-    return "a price is negative or no number";
+    return "a price is negative or not a number";
   }
   if (o.replay.empty()) {
     if (o.url.empty()) return "no server is given";
@@ -60,7 +60,7 @@ std::string Fault(const ChatModelOptions& o) {
   return "";
 }
 
-// "/v1" + "/chat/completions"; a bare host means /v1, as all these servers answer there.
+// Returns "/v1" + "/chat/completions"; a bare host means /v1, where all these servers answer.
 std::string OperationPath(std::string path) {
   while (!path.empty() && path.back() == '/') path.pop_back();
   if (path.ends_with(kOperation)) return path;

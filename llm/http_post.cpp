@@ -14,7 +14,7 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-// Closes one of curl's handles with the function that is for it; CURL and CURLM are both void.
+// Closes a curl handle with its own function; CURL and CURLM are both void.
 template <auto Close>
 struct Closer {
   template <typename Handle>
@@ -32,7 +32,7 @@ void InitialiseOnce() {
   if (code != CURLE_OK) throw core::Error("the network library does not start", "libcurl");
 }
 
-// A part of the address, or `missing` where it has none. Never throws for a missing one.
+// Returns a part of the address, or `missing` if it has none. Never throws for a missing part.
 std::string Part(CURLU* url, CURLUPart part, unsigned flags, const std::string& missing = "") {
   char* text = nullptr;
   if (curl_url_get(url, part, &text, flags) != CURLUE_OK || text == nullptr) return missing;
@@ -48,13 +48,13 @@ UrlHandle ParseUrl(const std::string& url) {
   const CURLUcode code = curl_url_set(handle.get(), CURLUPART_URL, url.c_str(), 0);
   const std::string scheme = code == CURLUE_OK ? Part(handle.get(), CURLUPART_SCHEME, 0) : "";
   if (url.find('\0') != std::string::npos || (scheme != "http" && scheme != "https")) {
-    throw core::Error("is no http or https address", "the LLM server's URL",
+    throw core::Error("is not an http or https address", "the LLM server's URL",
                       "for example http://localhost:8080/v1");
   }
   return handle;
 }
 
-// What one exchange collects; curl's callbacks write into it.
+// The data of one exchange, filled by curl's callbacks.
 struct Exchange {
   HttpReply* reply;
   std::size_t limit;
@@ -144,11 +144,11 @@ void Configure(CURL* easy, const std::string& url, curl_slist* headers, const st
   curl_easy_setopt(easy, CURLOPT_HEADERDATA, exchange);
   if (limits.no_proxy) curl_easy_setopt(easy, CURLOPT_PROXY, "");
 #if CURL_AT_LEAST_VERSION(7, 87, 0)
-  curl_easy_setopt(easy, CURLOPT_QUICK_EXIT, 1L);  // a cancelled name look-up is not waited for
+  curl_easy_setopt(easy, CURLOPT_QUICK_EXIT, 1L);  // do not wait for a cancelled name look-up
 #endif
 }
 
-// Runs the transfer to its end. Throws Cancelled; `stalled` says that it went quiet.
+// Runs the transfer to its end. Throws Cancelled; `stalled` is set if the connection went silent.
 CURLcode Transfer(CURLM* multi, const HttpLimits& limits, const Exchange& exchange,
                   const std::function<bool()>& cancelled, bool* stalled) {
   constexpr int kPollMilliseconds = 100;
@@ -174,14 +174,14 @@ void Conclude(CURL* easy, CURLcode code, bool stalled, const HttpLimits& limits,
     reply->outcome = HttpOutcome::kTooLarge;
     reply->fault = "the answer is larger than " + std::to_string(limits.max_body_bytes) + " bytes";
   } else if (stalled) {
-    reply->fault = "the connection went quiet in the middle of the answer";
+    reply->fault = "the connection went silent in the middle of the answer";
   } else if (code == CURLE_OPERATION_TIMEDOUT) {
     double connected = 0.0;
     curl_easy_getinfo(easy, CURLINFO_CONNECT_TIME, &connected);
     if (connected <= 0.0) reply->outcome = HttpOutcome::kBroken;
-    reply->fault = connected <= 0.0 ? "no connection in time" : "no whole answer in time";
+    reply->fault = connected <= 0.0 ? "no connection in time" : "no complete answer in time";
   } else if (code == CURLE_UNSUPPORTED_PROTOCOL) {
-    reply->fault = "what answers there does not speak HTTP";  // or is https, asked as http
+    reply->fault = "the server does not speak HTTP";  // or speaks https but was asked over http
   } else if (code != CURLE_OK) {
     reply->fault = curl_easy_strerror(code);
   }
@@ -228,7 +228,7 @@ HttpReply HttpPost(const std::string& url, const std::vector<std::string>& heade
   const MultiHandle multi(curl_multi_init());
   if (easy == nullptr || multi == nullptr) throw std::bad_alloc();
   Configure(easy.get(), url, list.get(), body, limits, &exchange);
-  // The easy handle leaves the multi handle before either is closed, also when cancelled.
+  // Removes the easy handle from the multi handle before either is closed, also when cancelled.
   struct Membership {
     CURLM* multi;
     CURL* easy;

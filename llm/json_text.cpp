@@ -21,7 +21,8 @@ Json ParseBounded(std::string_view text, bool comments, bool* too_deep) {
   return *too_deep ? Json(Json::value_t::discarded) : json;
 }
 
-// The length of the bracketed text at the start of `text`, quotes respected; 0: it does not close.
+// Returns the length of the bracketed text at the start of `text`, respecting quotes; 0 if
+// unclosed.
 std::size_t BracketedLength(std::string_view text) {
   int depth = 0;
   bool quoted = false;

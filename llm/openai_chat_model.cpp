@@ -25,13 +25,13 @@ std::string Seconds(double seconds) {
   return text;
 }
 
-// An address without user, query and fragment.
+// Returns an address without user, query and fragment.
 std::string ShownAddress(const std::string& url) {
   try {
     const UrlParts parts = SplitUrl(url);
     return parts.scheme + "://" + parts.host + ":" + parts.port + parts.path;
   } catch (const core::Error&) {
-    return "no http or https address";
+    return "not an http or https address";
   }
 }
 
@@ -59,7 +59,7 @@ OpenAiChatModel::OpenAiChatModel(const ChatModelOptions& options, Clock& clock)
   if (options_.input_price) usage_.cost = 0.0;
   if (!secrets_.empty() && !endpoint_.https && !endpoint_.loopback) {
     Report("llm-key-in-clear", core::Severity::kWarning,
-           "the key goes to " + endpoint_.host + " over http, readable on the way; use https");
+           "the key goes to " + endpoint_.host + " over http, readable in transit; use https");
   }
 }
 
@@ -67,7 +67,7 @@ ChatAnswer OpenAiChatModel::Ask(const ChatRequest& request, core::Progress* prog
   RequireValid(request);
   for (const ChatMessage& message : request.messages) {
     if (Redact(message.text, secrets_) != message.text) {
-      Fail(request.task, "the question itself holds the server's key", "take it out");
+      Fail(request.task, "the question itself contains the server's key", "remove it");
     }
   }
   if (progress != nullptr) {
@@ -103,7 +103,7 @@ ChatAnswer OpenAiChatModel::Ask(const ChatRequest& request, core::Progress* prog
 }
 
 HttpReply OpenAiChatModel::Post(const ChatRequest& request) {
-  // No "Expect: 100-continue": some servers never answer it, and a second goes by.
+  // Disable "Expect: 100-continue": some servers never answer it, which costs a second.
   std::vector<std::string> headers = {"Content-Type: application/json", "Accept: application/json",
                                       "Expect:"};
   if (!options_.key.empty()) headers.push_back("Authorization: Bearer " + options_.key);
@@ -129,7 +129,7 @@ OpenAiChatModel::Verdict OpenAiChatModel::Judge(const HttpReply& reply,
       return verdict;
     case HttpOutcome::kTimedOut:
       verdict.sentence = reply.fault + " (" + Seconds(options_.total_timeout) + ")";
-      verdict.remedy = "allow more time, or take a smaller model";
+      verdict.remedy = "allow more time, or use a smaller model";
       return verdict;
     case HttpOutcome::kTooLarge:
     case HttpOutcome::kRefused:
@@ -149,7 +149,7 @@ OpenAiChatModel::Verdict OpenAiChatModel::Judge(const HttpReply& reply,
     verdict.sentence = response.message;
   } else if (response.kind == ReadResponse::Kind::kNoResponse) {
     verdict.sentence = response.message + ": " + Shortened(Redact(reply.body, secrets_), 80);
-    verdict.remedy = "is this the address of a chat server? It mostly ends in /v1";
+    verdict.remedy = "is this the address of a chat server? It usually ends in /v1";
   } else {
     verdict.kind = Verdict::Kind::kAnswer;
     verdict.answer = std::move(response.answer);
@@ -162,10 +162,10 @@ OpenAiChatModel::Verdict OpenAiChatModel::Judge(const HttpReply& reply,
 OpenAiChatModel::Verdict OpenAiChatModel::JudgeRedirect(const HttpReply& reply) {
   Verdict verdict;
   if (reply.redirect.empty()) {
-    verdict.sentence = "the server redirects without saying where to";
+    verdict.sentence = "the server redirects without an address";
   } else if (OriginOf(reply.redirect) != endpoint_.origin) {
     verdict.sentence = "the server redirects to " + ShownAddress(reply.redirect) +
-                       ", another place than the key is for";
+                       ", which is not the server that the key is for";
     verdict.remedy = "give that address if you trust it";
   } else if (++redirects_ > options_.max_redirects) {
     verdict.sentence =
@@ -196,11 +196,11 @@ OpenAiChatModel::Verdict OpenAiChatModel::JudgeRefusal(const HttpReply& reply,
   const std::string quote = Shortened(Redact(message, secrets_), kLongestQuote);
   verdict.sentence = status == 0 ? "the server refuses" : "status " + std::to_string(status);
   if (!quote.empty()) verdict.sentence += ": " + quote;
-  // Money that is used up does not come back by waiting.
+  // Waiting does not restore a used-up quota.
   const bool spent = response.error_code == "insufficient_quota";
   if (WorthAnotherTry(status) && !spent) verdict.kind = Verdict::Kind::kAgainLater;
-  if (status == 401 || status == 403) verdict.remedy = "set SIMWRIGHT_LLM_KEY to a key it takes";
-  if (status == 404) verdict.remedy = "check the address, mostly .../v1, and the model's name";
+  if (status == 401 || status == 403) verdict.remedy = "set SIMWRIGHT_LLM_KEY to a valid key";
+  if (status == 404) verdict.remedy = "check the address, usually .../v1, and the model's name";
   return verdict;
 }
 
@@ -211,8 +211,8 @@ void OpenAiChatModel::WaitBeforeNext(const Verdict& verdict, const std::string& 
       RetryAfterSeconds(verdict.retry_after, clock_.UnixSeconds()).value_or(planned);
   if (wait > options_.longest_retry_after) {
     Fail(task,
-         verdict.sentence + "; it wants to be asked again in " + Seconds(wait) +
-             ", longer than the " + Seconds(options_.longest_retry_after) + " that are waited",
+         verdict.sentence + "; it asks for a retry in " + Seconds(wait) + ", beyond the " +
+             Seconds(options_.longest_retry_after) + " limit",
          "try again later");
   }
   clock_.Sleep(wait);

@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t kRun = 12;
 constexpr std::string_view kInstead = "[redacted]";
 
-// Marks what `window` characters of `secret` cover in `text`.
+// Marks the characters of `text` that are covered by runs of `window` characters of `secret`.
 std::vector<bool> Covered(std::string_view text, std::string_view secret) {
   const std::size_t window = std::min(secret.size(), kRun);
   std::vector<bool> covered(text.size(), false);

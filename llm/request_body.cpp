@@ -65,15 +65,15 @@ std::string Narrow(const std::string& message, const ChatRequest& request, Diale
   if (request.json && dialect->json_mode &&
       (names("response_format") || names("json_object") || names("json mode"))) {
     dialect->json_mode = false;
-    return "the server has no JSON mode; it is asked for JSON in words alone";
+    return "the server has no JSON mode; JSON is requested in the prompt only";
   }
   if (request.temperature && dialect->temperature && names("temperature")) {
     dialect->temperature = false;
-    return "the model allows no temperature but its own";
+    return "the model allows only its default temperature";
   }
   if (request.seed && dialect->seed && names("seed")) {
     dialect->seed = false;
-    return "the server takes no seed: its answers cannot be repeated";
+    return "the server accepts no seed: its answers are not repeatable";
   }
   return "";
 }

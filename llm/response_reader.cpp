@@ -27,11 +27,11 @@ std::int64_t CountMember(const Json* object, const char* name) {
   const Json* member = object == nullptr ? nullptr : Member(*object, name);
   if (member == nullptr || !member->is_number()) return 0;
   const double count = member->get<double>();
-  constexpr double kMost = 1e12;  // no model reads more; what is above is no count
+  constexpr double kMost = 1e12;  // no model reads more; larger values are not counts
   return count >= 0.0 && count <= kMost ? static_cast<std::int64_t>(count) : 0;
 }
 
-// A string, or the texts of an array of parts.
+// Returns a string, or the texts of an array of parts.
 std::string ContentText(const Json& content) {
   if (content.is_string()) return content.get<std::string>();
   std::string text;
@@ -47,7 +47,8 @@ ReadResponse NoResponse(const std::string& message) {
   return response;
 }
 
-// {"error": {"message", "type", "code"}}, {"error": "text"}, and vLLM's {"object": "error", ...}.
+// Reads {"error": {"message", "type", "code"}}, {"error": "text"}, and vLLM's {"object": "error",
+// ...}.
 ReadResponse ErrorResponse(const Json& error) {
   ReadResponse response;
   response.kind = ReadResponse::Kind::kError;
@@ -94,13 +95,13 @@ ReadResponse ReadChatResponse(std::string_view body) {
   }
   bool too_deep = false;
   const Json json = ParseJson(body, &too_deep);
-  if (too_deep) return NoResponse("the answer is nested deeper than any server's");
+  if (too_deep) return NoResponse("the answer is nested deeper than 64 levels");
   if (json.is_discarded()) {
     if (body[first] == '<') return NoResponse("the answer is HTML, not JSON");
     ReadResponse response = NoResponse("the answer is not JSON");
     if (body[first] == '{') {
       response.kind = ReadResponse::Kind::kTruncated;
-      response.message = "the answer is cut off or damaged JSON";
+      response.message = "the answer is truncated or damaged JSON";
     }
     return response;
   }
@@ -110,7 +111,7 @@ ReadResponse ReadChatResponse(std::string_view body) {
   const Json* choices = Member(json, "choices");
   if (choices == nullptr || !choices->is_array() || choices->empty()) {
     ReadResponse response = NoResponse("the answer is JSON without choices");
-    // FastAPI's servers (vLLM) put what they dislike into "detail".
+    // FastAPI servers (vLLM) report errors in "detail".
     const Json* detail = Member(json, "detail");
     if (detail != nullptr) {
       response.kind = ReadResponse::Kind::kError;

@@ -21,7 +21,7 @@ class RealClock final : public Clock {
 
   void Sleep(double seconds) override {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-    constexpr std::chrono::duration<double> kSlice(0.1);  // how late Ctrl-C may be noticed
+    constexpr std::chrono::duration<double> kSlice(0.1);  // delay after which Ctrl-C is noticed
     while (!Cancelled()) {
       const std::chrono::duration<double> left = end - std::chrono::steady_clock::now();
       if (left.count() <= 0.0) return;

@@ -39,7 +39,7 @@ std::string StringOf(const Json& object, const char* name) {
 
 void ReadHead(const Json& json, const std::string& where) {
   if (!json.is_object() || StringOf(json, "transcript") != kFormat) {
-    throw core::Error("is no transcript: its first line says something else", where,
+    throw core::Error("is not a transcript: its first line is different", where,
                       "make one with --record");
   }
   if (!json.contains("version") || json["version"] != kVersion) {
@@ -49,7 +49,7 @@ void ReadHead(const Json& json, const std::string& where) {
 }
 
 TranscriptEntry ReadEntry(const Json& json, const std::string& where) {
-  if (!json.is_object()) throw core::Error("the line is cut off or damaged", where);
+  if (!json.is_object()) throw core::Error("the line is truncated or damaged", where);
   TranscriptEntry entry;
   entry.task = StringOf(json, "task");
   entry.model = StringOf(json, "model");
@@ -58,10 +58,10 @@ TranscriptEntry ReadEntry(const Json& json, const std::string& where) {
     throw core::Error("the line has no request", where);
   }
   entry.request = Dump(*request);
-  const auto hash = json.find("hash");  // a transcript written by hand need not have it
+  const auto hash = json.find("hash");  // a hand-written transcript need not have it
   if (hash != json.end() && *hash != core::ContentHash(entry.request)) {
     throw core::Error("the request was changed after it was recorded", where,
-                      "take its hash out if that was meant");
+                      "remove its hash if that was intended");
   }
   const auto answer = json.find("answer");
   if (answer == json.end() || !AnswerFromJson(*answer, &entry.answer)) {
@@ -70,7 +70,7 @@ TranscriptEntry ReadEntry(const Json& json, const std::string& where) {
   return entry;
 }
 
-// All texts of a canonical request, one after the other.
+// Returns all texts of a canonical request, concatenated.
 std::string TextOf(const std::string& canonical) {
   const Json json = ParseJson(canonical);
   std::string text;
@@ -89,22 +89,22 @@ std::set<std::string> WordsOf(const std::string& text) {
   return words;
 }
 
-// Words in common over words in all, in [0, 1].
-double Likeness(const std::set<std::string>& a, const std::set<std::string>& b) {
+// Returns the number of common words over that of all words, in [0, 1].
+double Similarity(const std::set<std::string>& a, const std::set<std::string>& b) {
   const auto common =
       std::count_if(a.begin(), a.end(), [&](const std::string& word) { return b.contains(word); });
   const double all = static_cast<double>(a.size() + b.size()) - static_cast<double>(common);
   return all == 0.0 ? 1.0 : static_cast<double>(common) / all;
 }
 
-// Where two texts part: a few words of `recorded` from there.
-std::string Parting(const std::string& asked, const std::string& recorded) {
-  if (asked == recorded) return "its text is the same, its settings or pictures differ";
+// Describes where two texts diverge, with a few words of each.
+std::string Divergence(const std::string& asked, const std::string& recorded) {
+  if (asked == recorded) return "its text is the same, its settings or images differ";
   const auto parting = std::mismatch(asked.begin(), asked.end(), recorded.begin(), recorded.end());
   std::size_t at = static_cast<std::size_t>(parting.second - recorded.begin());
   while (at > 0 && !std::isspace(static_cast<unsigned char>(recorded[at - 1]))) --at;
-  return "there it goes '" + Shortened(std::string_view(recorded).substr(at), 40) +
-         "' where now it is '" + Shortened(std::string_view(asked).substr(at), 40) + "'";
+  return "it reads '" + Shortened(std::string_view(recorded).substr(at), 40) +
+         "' where the request reads '" + Shortened(std::string_view(asked).substr(at), 40) + "'";
 }
 
 }  // namespace
@@ -182,13 +182,13 @@ ChatAnswer ReplayChatModel::Ask(const ChatRequest& request, core::Progress* prog
                             core::ContentHash(key).substr(0, kShortHash);
   const auto found = of_request_.find(key);
   if (found == of_request_.end()) {
-    throw core::Error("holds no answer to " + asked + "; " + Nearest(request), file_.string(),
+    throw core::Error("has no answer to " + asked + "; " + Nearest(request), file_.string(),
                       "record it again with --record");
   }
   std::size_t& given = given_[key];
   if (given == found->second.size()) {
     throw core::Error(
-        "holds " + std::to_string(given) + " answers to " + asked + ", and one more is asked for",
+        "holds " + std::to_string(given) + " answers to " + asked + ", and one more was requested",
         file_.string(), "record it again with --record");
   }
   const ChatAnswer& answer = entries_[found->second[given++]].answer;
@@ -205,17 +205,17 @@ std::string ReplayChatModel::Nearest(const ChatRequest& request) const {
   std::string text;
   for (const TranscriptEntry& entry : entries_) {
     const std::string recorded = TextOf(entry.request);
-    const double like = Likeness(words, WordsOf(recorded));
+    const double like = Similarity(words, WordsOf(recorded));
     if (like > likeness) {
       likeness = like;
       nearest = &entry;
       text = recorded;
     }
   }
-  if (nearest == nullptr) return "it holds no answer at all";
-  return "the nearest recorded is line " + std::to_string(nearest->line) + " (" + nearest->task +
-         ", request " + core::ContentHash(nearest->request).substr(0, kShortHash) +
-         "): " + Parting(asked, text);
+  if (nearest == nullptr) return "it has no answers at all";
+  return "the nearest recorded one is line " + std::to_string(nearest->line) + " (" +
+         nearest->task + ", request " + core::ContentHash(nearest->request).substr(0, kShortHash) +
+         "): " + Divergence(asked, text);
 }
 
 }  // namespace simwright::llm

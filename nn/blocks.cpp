@@ -6,7 +6,7 @@
 namespace simwright::nn {
 namespace {
 
-// Groups of about 8 channels that divide the channels evenly.
+// Returns a group norm with groups of about 8 channels that divide the channels evenly.
 torch::nn::GroupNorm Norm(int channels) {
   return torch::nn::GroupNorm(
       torch::nn::GroupNormOptions(std::gcd(channels, std::max(1, channels / 8)), channels));
@@ -32,7 +32,7 @@ ResidualBlockImpl::ResidualBlockImpl(int in, int out, int embedding_size) {
   conv1_ = register_module("conv1", Conv(in, out, 3));
   norm2_ = register_module("norm2", Norm(out));
   conv2_ = register_module("conv2", Conv(out, out, 3));
-  torch::nn::init::zeros_(conv2_->weight);  // a block starts as its skip
+  torch::nn::init::zeros_(conv2_->weight);  // a block starts as its skip connection
   torch::nn::init::zeros_(conv2_->bias);
   if (in != out) skip_ = register_module("skip", Conv(in, out, 1));
   if (embedding_size > 0) {
@@ -60,11 +60,11 @@ SpatialAttentionImpl::SpatialAttentionImpl(int channels, int heads) : heads_(hea
 }
 
 torch::Tensor SpatialAttentionImpl::forward(const torch::Tensor& x) {
-  const auto batch = x.size(0), channels = x.size(1), places = x.size(2) * x.size(3);
+  const auto batch = x.size(0), channels = x.size(1), positions = x.size(2) * x.size(3);
   const auto size = channels / heads_;
-  // (3, B, heads, places, size)
+  // (3, B, heads, positions, size)
   const torch::Tensor qkv =
-      qkv_(norm_(x)).reshape({batch, 3, heads_, size, places}).permute({1, 0, 2, 4, 3});
+      qkv_(norm_(x)).reshape({batch, 3, heads_, size, positions}).permute({1, 0, 2, 4, 3});
   const torch::Tensor weights = torch::softmax(
       torch::matmul(qkv[0], qkv[1].transpose(-2, -1)) / std::sqrt(static_cast<double>(size)), -1);
   const torch::Tensor mixed =

@@ -10,7 +10,7 @@ namespace {
 
 constexpr char kFacts[] = "facts";
 
-// Facts as lines "key=value", kept as a tensor of bytes: the file holds tensors.
+// Encodes the metadata as lines "key=value" in a tensor of bytes: the file holds only tensors.
 torch::Tensor Packed(const CheckpointFacts& facts) {
   std::string text;
   for (const auto& [key, value] : facts) text += key + "=" + value + "\n";
@@ -22,7 +22,7 @@ CheckpointFacts FactsOf(const NamedTensors& tensors, const std::string& kind,
                         const std::filesystem::path& path) {
   const auto found = tensors.find(kFacts);
   if (found == tensors.end() || found->second.scalar_type() != torch::kUInt8) {
-    throw core::Error("holds no facts: is no weights file of this program", path.string());
+    throw core::Error("has no metadata: not a weights file of this program", path.string());
   }
   const torch::Tensor packed = found->second.contiguous();
   std::istringstream text(std::string(reinterpret_cast<const char*>(packed.data_ptr()),
@@ -33,7 +33,7 @@ CheckpointFacts FactsOf(const NamedTensors& tensors, const std::string& kind,
     if (equals != std::string::npos) facts[line.substr(0, equals)] = line.substr(equals + 1);
   }
   if (facts["kind"] != kind) {
-    throw core::Error("holds weights of kind '" + facts["kind"] + "', wanted is '" + kind + "'",
+    throw core::Error("holds weights of kind '" + facts["kind"] + "', expected '" + kind + "'",
                       path.string());
   }
   return facts;
@@ -43,7 +43,7 @@ CheckpointFacts FactsOf(const NamedTensors& tensors, const std::string& kind,
 
 void SaveCheckpoint(const torch::nn::Module& module, const CheckpointFacts& facts,
                     const std::filesystem::path& path) {
-  if (!facts.contains("kind")) throw core::Error("a checkpoint says its kind", path.string());
+  if (!facts.contains("kind")) throw core::Error("a checkpoint must state its kind", path.string());
   NamedTensors tensors;
   CollectTensors(module, "", &tensors);
   for (auto& [name, tensor] : tensors) tensor = tensor.detach().to(torch::kHalf);
@@ -62,7 +62,7 @@ CheckpointFacts LoadCheckpoint(const std::filesystem::path& path, const std::str
   const std::string missing = RestoreTensors(tensors, "", module);
   if (!missing.empty()) {
     throw core::Error("has no '" + missing + "' of the network's shape", path.string(),
-                      "train the weights anew");
+                      "train the weights again");
   }
   return facts;
 }

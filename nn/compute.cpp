@@ -8,8 +8,8 @@
 
 #include "core/parallel.h"
 
-// Of the OpenMP that libtorch came with, and of OpenBLAS, where that is what libblas stands for: its
-// threads are others.
+// Functions of the OpenMP that libtorch uses, and of OpenBLAS if it provides libblas: it has its
+// own threads.
 extern "C" {
 __attribute__((weak)) void omp_set_num_threads(int count);
 __attribute__((weak)) void openblas_set_num_threads(int count);
@@ -19,19 +19,19 @@ __attribute__((weak)) int openblas_get_num_threads(void);
 namespace simwright::nn {
 namespace {
 
-// While it lives, products of any thread are done by the thread alone.
-class ProductsAlone {
+// A scope guard that makes matrix products of all threads single-threaded.
+class SingleThreadedProducts {
  public:
-  ProductsAlone() {
+  SingleThreadedProducts() {
     if (openblas_set_num_threads == nullptr || openblas_get_num_threads == nullptr) return;
     before_ = openblas_get_num_threads();
     openblas_set_num_threads(1);
   }
-  ~ProductsAlone() {
+  ~SingleThreadedProducts() {
     if (before_ > 1) openblas_set_num_threads(before_);
   }
-  ProductsAlone(const ProductsAlone&) = delete;
-  ProductsAlone& operator=(const ProductsAlone&) = delete;
+  SingleThreadedProducts(const SingleThreadedProducts&) = delete;
+  SingleThreadedProducts& operator=(const SingleThreadedProducts&) = delete;
 
  private:
   int before_ = 0;
@@ -45,16 +45,15 @@ torch::Device BestDevice() {
 
 void PrepareForWork() {
   at::set_num_threads(core::ThreadCount());
-  // A step's tensors, some tens of MB, are freed at its end and wanted again by the next. Until
-  // something as large has been freed, glibc hands them back to the system in between: an update
-  // of the scenes' model took 205 ms of a core, and takes 175.
+  // The tensors of a step, some tens of MB, are freed at its end and needed again by the next. By
+  // default glibc returns such memory to the system in between.
   constexpr int kKept = 1 << 30, kGrowth = 64 << 20;  // bytes
   mallopt(M_MMAP_THRESHOLD, kKept);
   mallopt(M_TRIM_THRESHOLD, kKept);
   mallopt(M_TOP_PAD, kGrowth);
 }
 
-// libtorch sets a thread's number when that is first asked for.
+// libtorch sets a thread's number of workers on first use.
 LoopsAlone::LoopsAlone() : before_(at::get_num_threads()) {
   if (omp_set_num_threads != nullptr) omp_set_num_threads(1);
 }
@@ -71,7 +70,7 @@ int ShareCount(const torch::Device& device, std::int64_t items) {
 void ForEachShare(int count, const std::function<void(int)>& body) {
   if (count == 1) return body(0);
   const at::ThreadLocalState state;
-  const ProductsAlone products;
+  const SingleThreadedProducts products;
   core::ParallelFor(count, [&](int i) {
     const at::ThreadLocalStateGuard as_here(state);
     const LoopsAlone loops;

@@ -24,7 +24,7 @@ DiffusionSchedule::DiffusionSchedule(const torch::Tensor& betas) {
 }
 
 DiffusionSchedule DiffusionSchedule::Cosine(int steps) {
-  if (steps < 2) throw core::Error("a diffusion has at least two steps");
+  if (steps < 2) throw core::Error("a diffusion needs at least two steps");
   const torch::Tensor time = torch::arange(steps + 1, torch::kDouble) / static_cast<double>(steps);
   const torch::Tensor kept = torch::pow(torch::cos((time + 0.008) / 1.008 * (0.5 * M_PI)), 2);
   const torch::Tensor betas = 1.0 - kept.slice(0, 1, steps + 1) / kept.slice(0, 0, steps);
@@ -77,7 +77,7 @@ torch::Tensor DiffusionSchedule::StochasticStep(const torch::Tensor& noisy,
   if (previous < 0) return clean;
   const double signal = SignalAt(t), spread = NoiseAt(t);
   const double earlier = SignalAt(previous), earlier_spread = NoiseAt(previous);
-  const double kept = signal / earlier;  // signal from `previous` to t
+  const double kept = signal / earlier;  // signal kept from `previous` to t
   const double deviation = eta * earlier_spread / spread * std::sqrt(1.0 - kept * kept);
   const torch::Tensor noise = (noisy - signal * clean) / spread;
   const double direct =

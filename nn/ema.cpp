@@ -7,7 +7,7 @@
 namespace simwright::nn {
 
 Ema::Ema(const torch::nn::Module& module, double decay) : decay_(decay) {
-  if (!(decay >= 0.0 && decay < 1.0)) throw core::Error("an average's decay lies in [0, 1)");
+  if (!(decay >= 0.0 && decay < 1.0)) throw core::Error("the average's decay must lie in [0, 1)");
   for (const torch::Tensor& p : module.parameters()) average_.push_back(p.detach().clone());
 }
 

@@ -20,7 +20,7 @@ MixedPrecision::MixedPrecision(const torch::Device& device, bool wanted)
 
 MixedPrecision::~MixedPrecision() {
   if (!wanted_) return;
-  // What it keeps of weights in half their width would outlive their next step.
+  // The cache of half-precision weights must not outlive their next update.
   at::autocast::clear_cache();
   on_gpu_ ? at::autocast::set_enabled(before_) : at::autocast::set_cpu_enabled(before_);
 }

@@ -12,7 +12,7 @@ torch::jit::script::Module LoadScript(const std::filesystem::path& path) {
   try {
     return torch::jit::load(bytes, torch::kCPU);
   } catch (const std::exception&) {
-    throw core::Error("is no TorchScript module", path.string(),
+    throw core::Error("is not a TorchScript module", path.string(),
                       "save it with torch.jit.script(model).save(FILE)");
   }
 }

@@ -14,8 +14,8 @@ void ForEachTensor(const torch::nn::Module& module, const Visit& visit) {
   for (const auto& item : module.named_buffers()) visit(item.key(), item.value());
 }
 
-// Whether a zip archive's last record, of 22 bytes without a comment, stands at the end: libtorch
-// reads past the end of a file that was cut within it.
+// Returns true if a zip archive ends with its last record, of 22 bytes without a comment: libtorch
+// reads past the end of a file that was truncated within it.
 bool EndsWhole(const std::string& archive) {
   constexpr std::size_t kEndRecord = 22;
   return archive.size() >= kEndRecord &&
@@ -37,13 +37,13 @@ NamedTensors ReadTensors(const std::filesystem::path& path) {
   const std::string bytes = core::ReadFile(path, 1ull << 34);
   NamedTensors tensors;
   try {
-    if (!EndsWhole(bytes)) throw std::runtime_error("cut short");
+    if (!EndsWhole(bytes)) throw std::runtime_error("truncated");
     const c10::IValue value = torch::pickle_load(std::vector<char>(bytes.begin(), bytes.end()));
     for (const auto& entry : value.toGenericDict()) {
       tensors[entry.key().toStringRef()] = entry.value().toTensor();
     }
   } catch (const std::exception&) {
-    throw core::Error("is no weights file of this program, or a damaged one", path.string());
+    throw core::Error("is not a weights file of this program, or is damaged", path.string());
   }
   return tensors;
 }

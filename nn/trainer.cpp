@@ -14,14 +14,14 @@ bool TrainerOptions::IsValid(std::string* error) const {
     if (error != nullptr) *error = why;
     return false;
   };
-  if (steps < 1 || save_every < 1) return fail("a training takes at least one step");
+  if (steps < 1 || save_every < 1) return fail("steps and save_every must be at least 1");
   if (!(learning_rate > 0.0) || !(largest_norm > 0.0)) {
-    return fail("the learning rate and the gradient's largest norm are positive");
+    return fail("the learning rate and the gradient's largest norm must be positive");
   }
   if (!(weight_decay >= 0.0) || !(warm_share >= 0.0 && warm_share < 1.0)) {
-    return fail("the weight decay is not negative and the warm-up shorter than the training");
+    return fail("the weight decay must not be negative, the warm-up shorter than the training");
   }
-  if (!(ema_decay >= 0.0 && ema_decay < 1.0)) return fail("an average's decay lies in [0, 1)");
+  if (!(ema_decay >= 0.0 && ema_decay < 1.0)) return fail("the average's decay must lie in [0, 1)");
   return true;
 }
 
@@ -52,7 +52,7 @@ void Trainer::Descend(int step, const torch::Tensor& loss) {
 }
 
 double Trainer::Descend(int step, int shares, const std::function<torch::Tensor(int)>& term) {
-  if (shares < 1) throw core::Error("a loss has at least one share", std::to_string(shares));
+  if (shares < 1) throw core::Error("a loss needs at least one share", std::to_string(shares));
   const std::vector<torch::Tensor> parameters = module_->parameters();
   std::vector<double> losses(static_cast<size_t>(shares));
   std::vector<torch::autograd::variable_list> gradients(losses.size());
@@ -96,7 +96,7 @@ void Trainer::SaveState(int step) const {
   tensors["step"] = torch::tensor(step);
   CollectTensors(*module_, "module.", &tensors);
   average_->Collect(&tensors);
-  // AdamW's moments, by the parameters' order.
+  // AdamW's moments, in the order of the parameters.
   const std::vector<torch::Tensor> parameters = module_->parameters();
   for (size_t i = 0; i < parameters.size(); ++i) {
     const auto found =
@@ -115,7 +115,7 @@ void Trainer::LoadState() {
   const NamedTensors tensors = ReadTensors(state_);
   if (!tensors.contains("step") || !RestoreTensors(tensors, "module.", module_).empty() ||
       !average_->Load(tensors)) {
-    throw core::Error("is no training state of this network", state_.string(),
+    throw core::Error("is not a training state of this network", state_.string(),
                       "remove it, or train without --resume");
   }
   const std::vector<torch::Tensor> parameters = module_->parameters();

@@ -20,13 +20,13 @@ bool UNetOptions::IsValid(std::string* error) const {
     if (error != nullptr) *error = why;
     return false;
   };
-  if (in_channels < 1 || out_channels < 1) return fail("a U-Net needs channels in and out");
-  if (patch < 1) return fail("a U-Net's patch is at least one pixel");
-  if (channels.empty() || blocks < 1) return fail("a U-Net needs a level and a block");
-  if (heads < 1 || embedding < 0) return fail("a U-Net needs a head and no negative embedding");
+  if (in_channels < 1 || out_channels < 1) return fail("a U-Net needs input and output channels");
+  if (patch < 1) return fail("a U-Net's patch must be at least one pixel");
+  if (channels.empty() || blocks < 1) return fail("a U-Net needs at least one level and one block");
+  if (heads < 1 || embedding < 0) return fail("heads must be positive and embedding not negative");
   for (const int count : channels) {
     if (count < 8 || count % 8 != 0 || count % heads != 0) {
-      return fail("a U-Net's channels are multiples of 8 and of its heads");
+      return fail("a U-Net's channels must be multiples of 8 and of its heads");
     }
   }
   return true;

@@ -39,7 +39,7 @@ bool HasDigit(std::string_view text) {
   return std::any_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// A label that says what kind of value follows.
+// Returns true if a label names a quantity.
 bool IsQuantity(std::string_view text) {
   constexpr std::array kWords = {"mass", "weight",   "length",   "width",     "height",   "depth",
                                  "size", "diameter", "material", "dimension", "l x w x h"};
@@ -52,7 +52,7 @@ bool IsNaming(std::string_view label) {
   return std::find(kWords.begin(), kWords.end(), label) != kWords.end();
 }
 
-// "mass_g" -> "mass (g)", "Height [cm]" -> "height (cm)": a unit in brackets is found as such.
+// Converts "mass_g" to "mass (g)" and "Height [cm]" to "height (cm)": the unit is then in brackets.
 std::string Label(std::string_view key) {
   std::string label = PlainText(key);
   std::replace(label.begin(), label.end(), '_', ' ');
@@ -81,7 +81,7 @@ const Json* Member(const Json& object, std::initializer_list<const char*> names)
   return nullptr;
 }
 
-// A value as text, e.g. "200-300 g"; empty where it is no value but holds others.
+// Returns a value as text, e.g. "200-300 g"; empty if it is a container of other values.
 std::string ValueText(const Json& json) {
   if (json.is_number()) return NumberText(json.get<double>());
   if (json.is_string()) return PlainText(json.get<std::string>());
@@ -110,18 +110,19 @@ std::string ValueText(const Json& json) {
   return text;
 }
 
-// `above` is the label of the quantity that `json` is a part of: {"mass": {"grams": [1, 2]}}.
+// Converts JSON to lines. `above` is the label of the quantity that `json` is a part of: {"mass":
+// {"grams": [1, 2]}}.
 void JsonLines(const Json& json, const std::string& above, std::vector<std::string>* lines) {
   if (json.is_array()) {
     for (const Json& element : json) {
-      // Objects of a list without names are told apart by an empty one.
+      // An empty name separates the unnamed objects of a list.
       if (element.is_object() && above.empty()) lines->push_back("object:");
       JsonLines(element, above, lines);
     }
     return;
   }
   if (!json.is_object()) return;
-  // The name first, wherever it stands among the members.
+  // The name first, wherever it is among the members.
   for (const auto& [key, value] : json.items()) {
     if (IsNaming(Label(key)) && value.is_string()) lines->push_back("object: " + ValueText(value));
   }
@@ -151,7 +152,8 @@ bool IsRule(const std::string& row) {
   return row.find_first_not_of("|-: +=") == std::string::npos;
 }
 
-// A row a quantity ("mass | 200 g") or, under a head of labels, a row an object.
+// Converts a table: one quantity per row ("mass | 200 g") or, under a header of labels, one object
+// per row.
 void TableLines(const std::vector<std::string>& rows, std::vector<std::string>* lines) {
   std::vector<std::string> head;
   for (const std::string& row : rows) {
@@ -162,7 +164,7 @@ void TableLines(const std::vector<std::string>& rows, std::vector<std::string>* 
       const auto labels = std::count_if(head.begin() + 1, head.end(),
                                         [](const std::string& cell) { return IsQuantity(cell); });
       if (labels > 0) continue;
-      head.assign(1, "");  // no head: each row is a quantity
+      head.assign(1, "");  // no header: each row is a quantity
     }
     if (head.size() == 1) {
       std::string line = Label(cells[0]) + ":";
@@ -177,7 +179,8 @@ void TableLines(const std::vector<std::string>& rows, std::vector<std::string>* 
   }
 }
 
-// A heading, or a line that only names what follows, becomes "object: NAME". List marks go.
+// Converts a heading, or a line that only names the next object, to "object: NAME". Removes list
+// markers.
 std::string ProseLine(const std::string& raw) {
   const std::string plain = Trimmed(PlainText(raw));
   const bool bold = Trimmed(raw).starts_with("**") && Trimmed(raw).ends_with("**");
@@ -208,7 +211,7 @@ std::vector<std::string> AnswerLines(std::string_view answer) {
   answer = answer.substr(0, kMostRead);
   std::vector<std::string> lines;
   for (const Json& json : llm::JsonInText(answer)) JsonLines(json, "", &lines);
-  // Brackets in prose ("[approximate]") may parse as nothing of use: then the prose counts.
+  // Brackets in prose ("[approximate]") may parse as useless JSON; then read the prose.
   if (std::any_of(lines.begin(), lines.end(),
                   [](const std::string& line) { return IsQuantity(line) && HasDigit(line); })) {
     return lines;

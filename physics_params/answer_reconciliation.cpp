@@ -16,10 +16,10 @@ constexpr double kLightest = 5.0, kHeaviest = 12000.0;  // kg/m^3 over the bound
 constexpr double kSmallest = 1e-3, kLargest = 20.0;     // m
 constexpr double kRounding = 1.05;  // of handbook densities, as in the knowledge base's own tests
 
-// How far apart two ranges may lie.
+// The tolerated ratio between two ranges.
 struct Tolerance {
-  double exact;  // beyond it a disagreement with the very kind is worth a warning
-  double near;   // up to it the model knows better than a near kind
+  double exact;  // beyond it, a disagreement with the exact category is a warning
+  double near;   // up to it, the model overrides a related category
 };
 constexpr Tolerance kSizeTolerance{1.5, 2.0}, kMassTolerance{2.5, 4.0};
 
@@ -38,8 +38,8 @@ double Middle(const Interval& range) {
   return std::sqrt(range.min * range.max);
 }
 
-// 1 where they overlap, else the nearer ends' ratio, > 1.
-double Apart(const Interval& a, const Interval& b) {
+// Returns 1 if the ranges overlap, else the ratio of the nearer ends, > 1.
+double RangeRatio(const Interval& a, const Interval& b) {
   return std::max({1.0, a.min / b.max, b.min / a.max});
 }
 
@@ -48,7 +48,7 @@ void Report(EstimatedCategory* estimate, const std::string& code, core::Severity
   estimate->findings.push_back({code, severity, estimate->category.name, sentence, figure});
 }
 
-// One quantity: what is known of it becomes what both say, or the winner's.
+// Merges one quantity: the known range becomes the intersection, or the winner's range.
 struct Quantity {
   const char* name;
   double unit;
@@ -61,7 +61,7 @@ void Join(const Quantity& quantity, const std::optional<Interval>& said, bool ex
           EstimatedCategory* estimate) {
   if (!said) return;
   const Interval range = Spread(*said);
-  const double apart = Apart(range, *known);
+  const double apart = RangeRatio(range, *known);
   if (apart <= 1.0) {
     const Interval both{std::max(range.min, known->min), std::min(range.max, known->max)};
     const bool narrower = both.min > known->min || both.max < known->max;
@@ -75,7 +75,7 @@ void Join(const Quantity& quantity, const std::optional<Interval>& said, bool ex
                             " of the knowledge base: ";
   if (!exact && apart <= quantity.tolerance.near) {
     Report(estimate, "llm-disagrees", core::Severity::kInfo,
-           words + "the model wins, since the base knows a near kind only", apart);
+           words + "the model wins, since the base has only a related category", apart);
     *known = range;
     *source = model;
     return;
@@ -86,27 +86,28 @@ void Join(const Quantity& quantity, const std::optional<Interval>& said, bool ex
   *source += "; " + model + " disagreed";
 }
 
-// Sum over the sides of how far they are from the known ones.
-double Strangeness(const std::array<Interval, 3>& sides, const Category& known) {
-  return std::log(Apart(sides[0], known.length)) + std::log(Apart(sides[1], known.width)) +
-         std::log(Apart(sides[2], known.height));
+// Returns the sum over the sides of their log distance from the known ranges.
+double OrderMisfit(const std::array<Interval, 3>& sides, const Category& known) {
+  return std::log(RangeRatio(sides[0], known.length)) +
+         std::log(RangeRatio(sides[1], known.width)) + std::log(RangeRatio(sides[2], known.height));
 }
 
-// Models give a bottle's height as its length: the order of the sides that fits what is known.
-void Turn(const Category& known, ObjectAnswer* answer, EstimatedCategory* estimate) {
+// Permutes the sides to the order that fits the known ranges best: models give a bottle's height as
+// its length.
+void PermuteSides(const Category& known, ObjectAnswer* answer, EstimatedCategory* estimate) {
   if (!answer->length || !answer->width || !answer->height) return;
   const std::array<Interval, 3> said = {Spread(*answer->length), Spread(*answer->width),
                                         Spread(*answer->height)};
   std::array<Interval, 3> best = said;
   std::array<int, 3> order = {0, 1, 2};
   do {
-    const std::array<Interval, 3> turned = {said[static_cast<std::size_t>(order[0])],
-                                            said[static_cast<std::size_t>(order[1])],
-                                            said[static_cast<std::size_t>(order[2])]};
-    if (Strangeness(turned, known) < Strangeness(best, known)) best = turned;
+    const std::array<Interval, 3> permuted = {said[static_cast<std::size_t>(order[0])],
+                                              said[static_cast<std::size_t>(order[1])],
+                                              said[static_cast<std::size_t>(order[2])]};
+    if (OrderMisfit(permuted, known) < OrderMisfit(best, known)) best = permuted;
   } while (std::next_permutation(order.begin(), order.end()));
-  constexpr double kClearly = 0.1;  // a tenth of a side: less is no reason
-  if (Strangeness(said, known) - Strangeness(best, known) < kClearly) return;
+  constexpr double kClearly = 0.1;  // a tenth of a side: less is no reason to permute
+  if (OrderMisfit(said, known) - OrderMisfit(best, known) < kClearly) return;
   Report(estimate, "llm-turned", core::Severity::kInfo,
          "length, width and height of the answer fit in another order", 0.0);
   answer->length = best[0];
@@ -114,7 +115,7 @@ void Turn(const Category& known, ObjectAnswer* answer, EstimatedCategory* estima
   answer->height = best[2];
 }
 
-// Mass over the bounding box, kg/m^3.
+// Returns the mass over the bounding box, kg/m^3.
 double MiddleDensity(const ObjectAnswer& answer) {
   return Middle(*answer.mass) /
          (Middle(*answer.length) * Middle(*answer.width) * Middle(*answer.height));
@@ -124,7 +125,8 @@ bool IsWhole(const ObjectAnswer& answer) {
   return answer.mass && answer.length && answer.width && answer.height;
 }
 
-// Materials of the base that `words` name, the longest names first ("cast iron" before "iron").
+// Returns the base's materials that `words` name, the longest names first ("cast iron" before
+// "iron").
 std::vector<std::string> MaterialsIn(const std::string& words, const KnowledgeBase& base) {
   static constexpr std::array<std::array<const char*, 2>, 14> kOtherNames = {
       {{"wooden", "wood"},
@@ -145,7 +147,7 @@ std::vector<std::string> MaterialsIn(const std::string& words, const KnowledgeBa
   std::replace_if(
       left.begin(), left.end(), [](char c) { return c == ',' || c == '/' || c == ';' || c == '.'; },
       ' ');
-  std::vector<std::pair<std::string, std::string>> names;  // as said -> as known
+  std::vector<std::pair<std::string, std::string>> names;  // as stated -> as known
   for (const Material& material : base.materials())
     names.emplace_back(material.name, material.name);
   for (const auto& [said, known] : kOtherNames) {
@@ -153,7 +155,7 @@ std::vector<std::string> MaterialsIn(const std::string& words, const KnowledgeBa
   }
   std::stable_sort(names.begin(), names.end(),
                    [](const auto& a, const auto& b) { return a.first.size() > b.first.size(); });
-  std::vector<std::pair<std::size_t, std::string>> found;  // by where they stand
+  std::vector<std::pair<std::size_t, std::string>> found;  // by position
   for (const auto& [said, known] : names) {
     const std::size_t at = left.find(" " + said + " ");
     if (at == std::string::npos) continue;
@@ -170,7 +172,7 @@ std::vector<std::string> MaterialsIn(const std::string& words, const KnowledgeBa
   return materials;
 }
 
-// The materials that both know come first, in the model's order.
+// Moves the materials that both know to the front, in the model's order.
 void PreferMaterials(const std::vector<std::string>& said, Category* category) {
   std::stable_sort(category->materials.begin(), category->materials.end(),
                    [&](const std::string& a, const std::string& b) {
@@ -197,7 +199,7 @@ void CheckMass(const Category& category, const KnowledgeBase& base, ObjectAnswer
   answer->mass.reset();
 }
 
-// Length is the longer side on the ground.
+// Makes length the longer horizontal side.
 void OrderSides(EstimatedCategory* estimate) {
   Category& category = estimate->category;
   if (Middle(category.length) >= Middle(category.width)) return;
@@ -205,13 +207,14 @@ void OrderSides(EstimatedCategory* estimate) {
   std::swap(estimate->length_source, estimate->width_source);
 }
 
-// Throws unless sizes and mass are those of some thing. Returns its density over the bounding box.
+// Throws core::Error unless sizes and mass are possible. Returns the density over the bounding box.
 double RequirePlausible(const Category& category, const ObjectAnswer& answer,
                         const std::string& where, const char* remedy) {
   for (const Interval& side : {category.length, category.width, category.height}) {
     if (side.min < kSmallest || side.max > kLargest) {
-      throw core::Error("a size of " + Text(side, 1e-2, "cm") + " is that of no household thing",
-                        where, remedy);
+      throw core::Error(
+          "a size of " + Text(side, 1e-2, "cm") + " is not that of a household object", where,
+          remedy);
     }
   }
   const double density = MiddleDensity(answer);
@@ -225,8 +228,8 @@ double RequirePlausible(const Category& category, const ObjectAnswer& answer,
   return density;
 }
 
-// Those that the answer names and that are dense enough; else the lightest of all that are: what
-// is known least assumes least. Empty: there is none.
+// Returns the stated materials that are dense enough, else the lightest of all that are: the
+// weakest assumption. Empty if there is none.
 std::vector<std::string> ChooseMaterials(const std::string& words, double density,
                                          const KnowledgeBase& base, EstimatedCategory* estimate) {
   std::vector<std::string> chosen;
@@ -239,7 +242,7 @@ std::vector<std::string> ChooseMaterials(const std::string& words, double densit
     }
   }
   if (!chosen.empty()) return chosen;
-  constexpr double kFirm = 400.0;  // kg/m^3; foams and textiles are not guessed
+  constexpr double kFirm = 400.0;  // kg/m^3; foams and textiles are never guessed
   const Material* fitting = nullptr;
   for (const Material& material : base.materials()) {
     if (material.density.max * kRounding < density || material.density.min < kFirm) continue;
@@ -260,7 +263,7 @@ EstimatedCategory ReconcileAnswer(const Resolution& known, const ObjectAnswer& s
   estimate.length_source = estimate.width_source = estimate.height_source = estimate.mass_source =
       category.source;
   ObjectAnswer answer = said;
-  Turn(*known.category, &answer, &estimate);
+  PermuteSides(*known.category, &answer, &estimate);
   CheckMass(category, base, &answer, &estimate);
   const auto side = [&](const char* name) { return Quantity{name, 1e-2, "cm", kSizeTolerance}; };
   Join(side("a length"), answer.length, known.exact, model, &category.length,
@@ -279,7 +282,7 @@ EstimatedCategory ReconcileAnswer(const Resolution& known, const ObjectAnswer& s
 EstimatedCategory CategoryFromAnswer(const std::string& name, const ObjectAnswer& answer,
                                      const KnowledgeBase& base, const std::string& model) {
   const std::string where = "'" + name + "', as " + model + " describes it";
-  const char* const remedy = "name a known kind with --category, or ask another model";
+  const char* const remedy = "name a known category with --category, or ask another model";
   if (!IsWhole(answer)) {
     throw core::Error("the answer lacks its mass or one of its sizes", where, remedy);
   }
@@ -300,14 +303,15 @@ EstimatedCategory CategoryFromAnswer(const std::string& name, const ObjectAnswer
   for (const std::string& material : category.materials) {
     densest = std::max(densest, base.FindMaterial(material)->density.max);
   }
-  // A solid ball fills half of its box, a bowl a few hundredths; given ranges are mostly wide.
+  // A solid ball fills half of its box, a bowl a few hundredths; stated ranges are mostly wide.
   category.fill = density > 0.2 * densest ? Fill::kSolid : Fill::kHollow;
   category.shape = Shape::kFree;
   category.source = "estimated by " + model + ", within plausible densities";
   estimate.length_source = estimate.width_source = estimate.height_source = estimate.mass_source =
       category.source;
-  estimate.resolution = "'" + category.name + "' is not in the knowledge base, nor a near kind; " +
-                        model + " was asked";
+  estimate.resolution = "'" + category.name +
+                        "' is not in the knowledge base, nor a related category; " + model +
+                        " was asked";
   return estimate;
 }
 

@@ -7,13 +7,13 @@
 namespace simwright::physics_params {
 namespace {
 
-constexpr int kAttempts = 2;  // who does not understand twice will not the third time
+constexpr int kAttempts = 2;  // a third attempt would not help
 
 bool SaysSomething(const ObjectAnswer& object) {
   return object.mass || object.length || object.width || object.height;
 }
 
-// The object asked for out of the model's answer; unset where there is none.
+// Returns the requested object from the model's answer; unset if there is none.
 std::optional<ObjectAnswer> Usable(const PhysicsAnswer& answer, const std::string& name,
                                    bool known) {
   const ObjectAnswer* object = FindObject(answer, name);
@@ -25,13 +25,13 @@ std::optional<ObjectAnswer> Usable(const PhysicsAnswer& answer, const std::strin
 }  // namespace
 
 llm::ChatRequest PhysicsQuestion(std::string_view name, const KnowledgeBase& base) {
-  const std::string thing = NormaliseName(name);
+  const std::string object_name = NormaliseName(name);
   std::string materials;
   for (const Material& material : base.materials()) {
     materials += (materials.empty() ? "" : ", ") + material.name;
   }
   llm::ChatRequest request;
-  request.task = "physics of " + thing;
+  request.task = "physics of " + object_name;
   request.temperature = 0.0;
   request.messages.push_back(
       {llm::Role::kSystem,
@@ -40,12 +40,12 @@ llm::ChatRequest PhysicsQuestion(std::string_view name, const KnowledgeBase& bas
        {}});
   request.messages.push_back(
       {llm::Role::kUser,
-       "How large and how heavy is the usual thing called '" + thing +
+       "How large and how heavy is the usual thing called '" + object_name +
            "', as it stands in a home or shop? Give ranges that hold most of them. Length is its "
            "longer side on the ground, width the shorter one, height goes up from the ground. "
            "Answer in four lines:\n"
            "object: " +
-           thing +
+           object_name +
            "\n"
            "mass in grams: LEAST-MOST\n"
            "length, width, height in centimeters: LEAST-MOST, LEAST-MOST, LEAST-MOST\n"
@@ -58,15 +58,15 @@ llm::ChatRequest PhysicsQuestion(std::string_view name, const KnowledgeBase& bas
 EstimatedCategory EstimateCategory(std::string_view name, const KnowledgeBase& base,
                                    const WordNet* wordnet, llm::ChatModel* model,
                                    core::Progress* progress) {
-  const std::string thing = NormaliseName(name);
-  const Resolution known = ResolveCategory(thing, base, wordnet);
-  llm::ChatRequest request = PhysicsQuestion(thing, base);
+  const std::string object_name = NormaliseName(name);
+  const Resolution known = ResolveCategory(object_name, base, wordnet);
+  llm::ChatRequest request = PhysicsQuestion(object_name, base);
   PhysicsAnswer answer;
   std::optional<ObjectAnswer> object;
   for (int attempt = 0; attempt < kAttempts && !object; ++attempt) {
     const llm::ChatAnswer said = model->Ask(request, progress);
     answer = ReadPhysicsAnswer(said.text);
-    object = Usable(answer, thing, known.category != nullptr);
+    object = Usable(answer, object_name, known.category != nullptr);
     request.messages.push_back({llm::Role::kAssistant, said.text, {}});
     request.messages.push_back({llm::Role::kUser,
                                 "That lacks a mass or a size that can be read. Give the four lines "
@@ -77,12 +77,12 @@ EstimatedCategory EstimateCategory(std::string_view name, const KnowledgeBase& b
       model->name().empty() ? "the language model" : "the language model " + model->name();
   EstimatedCategory estimate;
   if (known.category == nullptr) {
-    estimate = CategoryFromAnswer(thing, object.value_or(ObjectAnswer()), base, source);
+    estimate = CategoryFromAnswer(object_name, object.value_or(ObjectAnswer()), base, source);
   } else {
     estimate = ReconcileAnswer(known, object.value_or(ObjectAnswer()), base, source);
     if (!object) {
-      estimate.findings.push_back({"llm-unreadable", core::Severity::kWarning, thing,
-                                   source + " gave no size or mass that can be read", 0.0});
+      estimate.findings.push_back({"llm-unreadable", core::Severity::kWarning, object_name,
+                                   source + " gave no readable size or mass", 0.0});
     }
   }
   estimate.findings.insert(estimate.findings.begin(), answer.findings.begin(),

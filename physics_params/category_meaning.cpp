@@ -6,11 +6,11 @@
 namespace simwright::physics_params {
 namespace {
 
-constexpr int kHighest = 3;  // steps; further up are kinds such as "container"
+constexpr int kHighest = 3;  // steps; further up are categories such as "container"
 constexpr int kAnimal = 5, kArtifact = 6, kFood = 13;
 
-// Which of its artifact and food senses a row means, where it is not the first: WordNet's first
-// plate lies on a baseball field. -1: none of them.
+// The artifact or food sense that a row means if it is not the first: WordNet's first plate lies on
+// a baseball field. -1: none of them.
 constexpr struct {
   std::string_view category;
   int sense;
@@ -42,7 +42,7 @@ std::optional<WordNet::Synset> SenseOf(const Category& category, const WordNet& 
   return goods == 0 ? std::optional(senses[0]) : std::nullopt;
 }
 
-// The senses that a user may mean by a name.
+// Returns the senses that a user may mean by a name.
 std::vector<WordNet::Synset> SensesOf(std::string_view name, const WordNet& wordnet) {
   const std::vector<WordNet::Synset> all = wordnet.PhysicalSenses(name);
   if (all.empty()) return {};

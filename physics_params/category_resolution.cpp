@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t kSuggestions = 3;
 
-// What WordNet does not know, or knows by a rarer sense.
+// Names that WordNet lacks or knows by a rarer sense.
 constexpr struct {
   std::string_view name, category;
 } kAliases[] = {{"torch", "flashlight"},     {"lorry", "truck"},         {"cafetiere", "french press"},
@@ -41,7 +41,7 @@ class Resolver {
   Resolution Resolve(std::string_view name) const;
 
  private:
-  const Category* Spelled(const std::string& name) const;
+  const Category* FindSpelled(const std::string& name) const;
   const Category* Known(const std::string& name) const;
   Resolution Meant(const std::string& name) const;
   Resolution OfHead(const std::string& name) const;
@@ -52,13 +52,13 @@ class Resolver {
   const WordNet* wordnet_;
 };
 
-// Its sentence is the reason alone, until Resolve puts the names before it.
+// Returns a resolution whose sentence is only the reason; Resolve prepends the names.
 Resolution Taken(const Category* category, const std::string& why) {
   return {category, false, why, {}};
 }
 
-// The name or its singular.
-const Category* Resolver::Spelled(const std::string& name) const {
+// Finds the name or its singular.
+const Category* Resolver::FindSpelled(const std::string& name) const {
   if (const Category* exact = base_.FindCategory(name)) return exact;
   for (const std::string& singular : WordNet::Singulars(name)) {
     if (const Category* found = base_.FindCategory(singular)) return found;
@@ -66,15 +66,15 @@ const Category* Resolver::Spelled(const std::string& name) const {
   return nullptr;
 }
 
-// Also written together ("screw driver") or apart ("coffeetable"), or by another name of it.
+// Also finds the name joined ("screw driver") or split ("coffeetable"), or by an alias.
 const Category* Resolver::Known(const std::string& name) const {
-  if (const Category* spelled = Spelled(name)) return spelled;
+  if (const Category* spelled = FindSpelled(name)) return spelled;
   const std::vector<std::string> words = WordsOf(name);
   if (words.size() > 1) {
-    if (const Category* joined = Spelled(Joined(words, 0, words.size(), ""))) return joined;
+    if (const Category* joined = FindSpelled(Joined(words, 0, words.size(), ""))) return joined;
   }
   for (size_t i = 2; i + 2 < name.size(); ++i) {
-    if (const Category* apart = Spelled(name.substr(0, i) + " " + name.substr(i))) return apart;
+    if (const Category* apart = FindSpelled(name.substr(0, i) + " " + name.substr(i))) return apart;
   }
   for (const auto& alias : kAliases) {
     if (name == alias.name) return base_.FindCategory(alias.category);
@@ -94,7 +94,7 @@ Resolution Resolver::Meant(const std::string& name) const {
                match->steps == 0 ? ", a synonym by WordNet" : ", of which it is a kind by WordNet");
 }
 
-// A compound that WordNet has as one means something else than its last word.
+// A compound that WordNet lists as one word differs in meaning from its last word.
 bool Resolver::IsWordOfItsOwn(const std::string& name) const {
   if (wordnet_ == nullptr) return false;
   const std::vector<std::string> words = WordsOf(name);
@@ -102,13 +102,13 @@ bool Resolver::IsWordOfItsOwn(const std::string& name) const {
                               !wordnet_->PhysicalSenses(Joined(words, 0, words.size(), "")).empty());
 }
 
-// "red coffee mug" -> "coffee mug" -> "mug": English puts the head last.
+// Resolves by the head: "red coffee mug" -> "coffee mug" -> "mug", since English puts it last.
 Resolution Resolver::OfHead(const std::string& name) const {
   const std::vector<std::string> words = WordsOf(name);
   for (size_t first = 1; first < words.size(); ++first) {
     const std::string head = Joined(words, first, words.size(), " ");
     const Resolution of_head = Meant(head);
-    // Who drives a screw is a person, but no one names an asset so.
+    // A "screw driver" would resolve to a person, but no asset is a person by its last word.
     if (of_head.category != nullptr && of_head.category->name != "person") {
       return Taken(of_head.category, " by its last word");
     }
@@ -119,27 +119,27 @@ Resolution Resolver::OfHead(const std::string& name) const {
 
 Resolution Resolver::Resolve(std::string_view name) const {
   const std::string wanted = NormaliseName(name);
-  if (const Category* spelled = Spelled(wanted)) {
+  if (const Category* spelled = FindSpelled(wanted)) {
     return {spelled, true, "'" + wanted + "' is in the knowledge base", {}};
   }
   const std::string plain = PlainName(name);
-  const std::string thing = WithoutComplement(plain);
-  Resolution found = Meant(thing);
-  if (found.category == nullptr && IsSmallCopy(thing)) {
+  const std::string head = WithoutComplement(plain);
+  Resolution found = Meant(head);
+  if (found.category == nullptr && IsSmallCopy(head)) {
     found = Taken(base_.FindCategory("toy"), ", a small copy");
-  } else if (found.category == nullptr && !IsWordOfItsOwn(thing)) {
-    found = OfHead(thing);
+  } else if (found.category == nullptr && !IsWordOfItsOwn(head)) {
+    found = OfHead(head);
   }
   if (found.category != nullptr) {
     found.sentence = "'" + wanted + "' is taken for '" + found.category->name + "'" + found.sentence;
     return found;
   }
   found.closest = Suggestions(plain);
-  found.sentence = "no known kind is near '" + wanted + "'";
+  found.sentence = "no known category is near '" + wanted + "'";
   return found;
 }
 
-// By spelling where it is a slip of two letters, then by meaning, of the whole or its head.
+// Suggests by spelling for up to two wrong letters, then by meaning, of the whole or its head.
 std::vector<std::string> Resolver::Suggestions(const std::string& name) const {
   std::vector<std::pair<int, std::string>> by_spelling;
   for (const Category& category : base_.categories()) {
@@ -182,10 +182,9 @@ Resolution ResolveCategory(std::string_view name, const KnowledgeBase& base,
 Resolution RequireCategory(std::string_view name) {
   Resolution result = ResolveCategory(name, KnowledgeBase::Shipped(), WordNet::Installed());
   if (result.category == nullptr) {
-    throw core::Error("no kind of thing is known by this name or near it",
-                      "category '" + std::string(name) + "'",
-                      "the closest known: " + Listed(result.closest) +
-                          "; 'object' takes anything of a size that you give" +
+    throw core::Error("no known category is near this name", "category '" + std::string(name) + "'",
+                      "the closest: " + Listed(result.closest) +
+                          "; 'object' accepts any object of stated size" +
                           (WordNet::Installed() ? "" : "; install wordnet-base for more names"));
   }
   return result;
@@ -195,11 +194,11 @@ core::Findings ResolutionFindings(const Resolution& resolution, const std::strin
   if (resolution.exact) return {};
   if (resolution.closest.empty()) {
     return {{"category", core::Severity::kInfo, place, resolution.sentence, 0.0,
-             "--category names another"}};
+             "--category sets another"}};
   }
   return {{"category-unknown", core::Severity::kWarning, place, resolution.sentence, 0.0,
-           "--category names one, the closest known: " + Listed(resolution.closest) +
-               "; --mass or --density gives what it weighs"}};
+           "name one with --category, the closest: " + Listed(resolution.closest) +
+               "; --mass or --density sets its mass"}};
 }
 
 }  // namespace simwright::physics_params

@@ -27,7 +27,7 @@ std::vector<std::string> Split(std::string_view text, char separator) {
   }
 }
 
-// One row of a table, with what is needed to say where a fault stands.
+// A row of a table, with its location for errors.
 struct Row {
   std::vector<std::string> cells;
   std::string where;
@@ -62,7 +62,7 @@ int Row::Choice(size_t cell, const char* const (&names)[N]) const {
   for (size_t i = 0; i < N; ++i) {
     if (cells[cell] == names[i]) return static_cast<int>(i);
   }
-  Fail("'" + cells[cell] + "' is none of the known words");
+  Fail("'" + cells[cell] + "' is not a known word");
 }
 
 std::vector<Row> Rows(std::string_view table, const std::string& name, size_t columns) {
@@ -89,12 +89,12 @@ const T* FindNamed(const std::vector<T>& entries, std::string_view name) {
   return found == entries.end() ? nullptr : &*found;
 }
 
-// "std [EN 13698]" -> the sentence of "std", with the note.
+// Converts "std [EN 13698]" to the sentence of "std", with the note.
 std::string SourceSentence(const Row& row, const std::string& cell,
                            const std::map<std::string, std::string>& sources) {
   const size_t blank = cell.find(' ');
   const auto found = sources.find(cell.substr(0, blank));
-  if (found == sources.end()) row.Fail("'" + cell + "' names no known source");
+  if (found == sources.end()) row.Fail("'" + cell + "' is not a known source");
   return blank == std::string::npos ? found->second : found->second + cell.substr(blank);
 }
 
@@ -123,7 +123,7 @@ KnowledgeBase::KnowledgeBase(std::string_view categories, std::string_view mater
     category.fill = static_cast<Fill>(row.Choice(6, kFillNames));
     category.shape = static_cast<Shape>(row.Choice(7, kShapeNames));
     category.source = SourceSentence(row, row.cells[8], source_of);
-    if (FindCategory(category.name) != nullptr) row.Fail("the name stands twice");
+    if (FindCategory(category.name) != nullptr) row.Fail("the name is repeated");
     categories_.push_back(std::move(category));
   }
 }

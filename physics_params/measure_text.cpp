@@ -19,11 +19,11 @@ bool IsLetter(char c) {
   return c >= 'a' && c <= 'z';
 }
 
-// One number with what is written right behind it.
+// A number with its unit.
 struct Number {
   std::size_t begin, end;
   double value;
-  bool minus;  // a '-' stands before it: a sign, unless it joins two numbers
+  bool minus;  // a '-' before it: a sign, unless it joins two numbers
   std::optional<Unit> unit;
 };
 
@@ -39,8 +39,7 @@ std::string_view WordAt(std::string_view text, std::size_t at) {
   return text.substr(at, end - at);
 }
 
-// Digits with a decimal point, an exponent, and commas as `comma` takes them. Returns where it
-// ends.
+// Reads digits with a decimal point, an exponent, and commas as `comma` says. Returns the end.
 std::size_t NumberEnd(std::string_view text, std::size_t at, Comma comma, std::string* digits) {
   const auto digits_from = [&](std::size_t from) {
     std::size_t end = from;
@@ -75,7 +74,8 @@ std::size_t NumberEnd(std::string_view text, std::size_t at, Comma comma, std::s
   return at;
 }
 
-// "10 in" is ten inches; "10 in height" and "in grams" are not.
+// Returns true if "in" is a preposition: "10 in" is ten inches; "10 in height" and "in grams" are
+// not.
 bool IsPreposition(std::string_view text, std::size_t behind) {
   const std::size_t next = text.find_first_not_of(' ', behind);
   if (next == std::string_view::npos) return false;
@@ -104,7 +104,7 @@ std::vector<Number> ReadNumbers(std::string_view text, Comma comma) {
   std::vector<Number> numbers;
   for (std::size_t at = 0; at < text.size();) {
     if (IsLetter(text[at])) {
-      // A word; 'x' may stand between numbers.
+      // A word; 'x' may be between numbers.
       const bool cross = text[at] == 'x' && WordAt(text, at).size() == 1;
       ++at;
       if (!cross) {
@@ -179,7 +179,7 @@ std::vector<TextRange> ReadRanges(std::string_view text, Comma comma) {
       const Number& second = numbers[i + 1];
       const bool spread = Trimmed(text.substr(first.end, second.begin - first.end)) == "+/-";
       if (spread || Joins(text, first, second)) {
-        // "200 g - 0.3 kg": the first number is brought to the second's unit.
+        // "200 g - 0.3 kg": convert the first number to the second's unit.
         double from = low;
         if (first.unit && second.unit) from *= first.unit->factor / second.unit->factor;
         range.unit = second.unit ? second.unit : first.unit;

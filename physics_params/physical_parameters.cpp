@@ -15,11 +15,12 @@ double Lerp(const Interval& range, double t) {
   return std::clamp(range.min + t * (range.max - range.min), range.min, range.max);
 }
 
-Estimate Drawn(const Interval& range, double t, const std::string& source) {
+Estimate Sampled(const Interval& range, double t, const std::string& source) {
   return {range.min, range.max, Lerp(range, t), source};
 }
 
-const Material& DrawMaterial(const Category& category, const KnowledgeBase& base, core::Rng& rng) {
+const Material& SampleMaterial(const Category& category, const KnowledgeBase& base,
+                               core::Rng& rng) {
   double total = 0.0;
   for (size_t i = 0; i < category.materials.size(); ++i) total += 1.0 / static_cast<double>(i + 1);
   double left = core::Uniform(rng) * total;
@@ -46,30 +47,30 @@ PhysicalParameters SampleParameters(const Category& category, const KnowledgeBas
   p.category = category.name;
   p.fill = category.fill;
   p.shape = category.shape;
-  const Material& material = DrawMaterial(category, base, rng);
+  const Material& material = SampleMaterial(category, base, rng);
   p.material = material.name;
-  // Sizes cluster about the middle: the mean of two uniforms.
+  // Sizes cluster around the middle: use the mean of two uniform samples.
   const double size = 0.5 * (core::Uniform(rng) + core::Uniform(rng));
   const auto near_size = [&](double freedom) {
     return std::clamp(size + core::Uniform(rng, -freedom, freedom), 0.0, 1.0);
   };
-  p.length = Drawn(category.length, near_size(0.15), category.source);
-  p.width = Drawn(category.width, near_size(0.15), category.source);
-  // The category's ranges overlap: keep length the longer side, inside its own range.
+  p.length = Sampled(category.length, near_size(0.15), category.source);
+  p.width = Sampled(category.width, near_size(0.15), category.source);
+  // The category's ranges may overlap: keep length the longer side, inside its own range.
   if (p.width.sample > p.length.sample) {
     p.width.sample = std::max(p.width.min, p.length.sample);
     p.length.sample = std::max(p.length.sample, p.width.sample);
   }
-  p.height = Drawn(category.height, near_size(0.15), category.source);
-  // Mass spans decades: interpolate its logarithm, led by the size.
+  p.height = Sampled(category.height, near_size(0.15), category.source);
+  // Mass spans decades: interpolate its logarithm, driven by the size.
   p.mass = {category.mass.min, category.mass.max,
             std::clamp(
                 category.mass.min * std::pow(category.mass.max / category.mass.min, near_size(0.2)),
                 category.mass.min, category.mass.max),
             category.source};
-  p.density = Drawn(material.density, core::Uniform(rng), material.source);
-  p.friction = Drawn(material.friction, core::Uniform(rng), material.source);
-  p.restitution = Drawn(material.restitution, core::Uniform(rng), material.source);
+  p.density = Sampled(material.density, core::Uniform(rng), material.source);
+  p.friction = Sampled(material.friction, core::Uniform(rng), material.source);
+  p.restitution = Sampled(material.restitution, core::Uniform(rng), material.source);
   return p;
 }
 
@@ -87,7 +88,7 @@ std::string FollowSize(const Category& category, const Eigen::Vector3d& size, do
     return "";
   }
   p->mass.sample *= size.prod() / sampled_box;
-  // A tenth beyond the range is still the same kind of thing.
+  // A tenth beyond the range is still the same category.
   const auto fits = [](const Interval& range, double value) {
     return value >= 0.9 * range.min && value <= 1.1 * range.max;
   };
@@ -104,7 +105,7 @@ std::string FollowSize(const Category& category, const Eigen::Vector3d& size, do
 MassModel ReconcileMass(const PhysicalParameters& parameters, const Category& category,
                         const KnowledgeBase& base, double volume, double area) {
   if (!(volume > 0.0) || !(area > 0.0)) {
-    throw core::Error("the mass of a thing needs a solid with a volume", parameters.category);
+    throw core::Error("the mass needs a solid with a volume", parameters.category);
   }
   const Material& material = *base.FindMaterial(parameters.material);
   MassModel model;
@@ -126,7 +127,7 @@ MassModel ReconcileMass(const PhysicalParameters& parameters, const Category& ca
                      " mm carries the mass";
     return model;
   }
-  // Too heavy for the drawn material: another of the row's materials may fit, else clamp.
+  // Too heavy for the sampled material: another of the row's materials may fit, else clamp.
   for (const std::string& name : category.materials) {
     const Material& other = *base.FindMaterial(name);
     if (other.density.Contains(full_density)) {

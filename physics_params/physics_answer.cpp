@@ -11,14 +11,14 @@
 namespace simwright::physics_params {
 namespace {
 
-constexpr double kGram = 1e-3, kCentimetre = 1e-2;  // what is asked for
+constexpr double kGram = 1e-3, kCentimetre = 1e-2;  // the default units
 
 enum class Quantity { kMass, kLength, kWidth, kHeight, kSides, kDimensions };
 
 struct Keyword {
   std::size_t begin, end;
   Quantity quantity;
-  bool follows;  // "10 cm long": the value stands before the word
+  bool follows;  // "10 cm long": the value precedes the word
 };
 
 struct Word {
@@ -74,8 +74,8 @@ Dimension DimensionOf(Quantity quantity) {
   return quantity == Quantity::kMass ? Dimension::kMass : Dimension::kLength;
 }
 
-// "mass of mug in grams (g)": the last unit of `dimension` in a label; letters alone count in
-// brackets or after "in" only.
+// Returns the last unit of `dimension` in a label such as "mass of mug in grams (g)"; single
+// letters count only in brackets or after "in".
 std::optional<Unit> LabelUnit(std::string_view label, Dimension dimension) {
   std::optional<Unit> unit;
   for (std::size_t at = 0; at < label.size();) {
@@ -93,7 +93,7 @@ std::optional<Unit> LabelUnit(std::string_view label, Dimension dimension) {
   return unit;
 }
 
-// "200-300 g (0.44-0.66 lb)": bracketed conversions go, where a value stands outside.
+// Removes bracketed conversions as in "200-300 g (0.44-0.66 lb)" if there is a value outside.
 std::string WithoutConversions(const std::string& line) {
   std::string kept = line;
   const auto has_digit = [](std::string_view text) {
@@ -112,13 +112,13 @@ std::string WithoutConversions(const std::string& line) {
   return kept;
 }
 
-// A quantity and the values meant for it.
+// A quantity and its values.
 struct Statement {
   Quantity quantity;
   Interval value;  // SI, as written
 };
 
-// Reads the statements of one line with commas taken in one way.
+// Reads the statements of one line for one meaning of commas.
 class LineReading {
  public:
   LineReading(std::string_view line, Comma comma) : line_(line) {
@@ -167,7 +167,7 @@ class LineReading {
     });
     std::vector<TextRange> mine;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      // In "mass, length, width, height: 300, 10, 8, 7" bare numbers go by their place.
+      // In "mass, length, width, height: 300, 10, 8, 7" bare numbers are matched by position.
       const bool bare_mine =
           !mixed || (values.size() == group.size() && DimensionOf(group[i].quantity) == dimension);
       if (values[i].unit ? values[i].unit->dimension == dimension : bare_mine) {
@@ -180,17 +180,17 @@ class LineReading {
     std::optional<Unit> unit = mine.back().unit;
     if (!unit) unit = LabelUnit(label, dimension);
     const bool each = mine.size() == 1;
-    // "20,100,300" for three sizes is no number of eight digits.
+    // "20,100,300" for three sizes is not an eight-digit number.
     const std::string_view first = line_.substr(mine[0].begin, mine[0].end - mine[0].begin);
     if (each && quantities.size() > 1 && first.find(',') != std::string_view::npos) clear_ = false;
     if (!each && mine.size() != quantities.size()) clear_ = false;
-    if (!each && mine.size() < quantities.size()) return;  // which one is missing?
+    if (!each && mine.size() < quantities.size()) return;  // ambiguous: which one is missing?
     for (std::size_t i = 0; i < quantities.size(); ++i) {
       Add(quantities[i], mine[each ? 0 : i], unit);
     }
   }
 
-  // The group's quantities of one dimension; "dimensions" means three where none is spelt out.
+  // Returns the group's quantities of one dimension; "dimensions" means three if none is named.
   static std::vector<Quantity> QuantitiesOf(const std::vector<Keyword>& group,
                                             Dimension dimension) {
     std::vector<Quantity> quantities;
@@ -242,7 +242,7 @@ std::string Trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
 }
 
-// "object: red mug" -> "red mug" in `name`; false for every other line.
+// Reads "object: red mug" into `name`; returns false for every other line.
 bool IsNaming(const std::string& line, std::string* name) {
   for (const std::string_view label : {"object:", "name:", "item:", "category:"}) {
     if (line.starts_with(label)) {
@@ -253,7 +253,7 @@ bool IsNaming(const std::string& line, std::string* name) {
   return false;
 }
 
-// "average mass of red mug in grams: ..." -> "red mug"; empty where no object is named.
+// Returns "red mug" for "average mass of red mug in grams: ..."; empty if no object is named.
 std::string NameInLabel(std::string_view line) {
   std::string_view label = line.substr(0, line.find(':'));
   const std::size_t of = label.find(" of ");
@@ -268,7 +268,7 @@ std::string NameInLabel(std::string_view line) {
   return NormaliseName(Trimmed(label));
 }
 
-// "mass of 2-liter bottle: 2000": what stands in the label is no value.
+// Removes numbers in the label, as in "mass of 2-liter bottle: 2000": they are not values.
 std::string WithoutLabelNumbers(std::string line) {
   const std::size_t of = line.find(" of "), colon = line.find(':');
   const bool valued =
@@ -308,7 +308,7 @@ class AnswerReading {
            !object.material.empty();
   }
 
-  // Another object, unless nothing was said yet of the one under way.
+  // Starts another object, unless the current one is still empty.
   void Begin(const std::string& name) {
     if (Says(object_)) result_.objects.push_back(object_);
     object_ = {};
@@ -322,7 +322,7 @@ class AnswerReading {
     if (!reading.statements().empty()) {
       const std::string name = NameInLabel(line);
       if (!name.empty() && name != object_.name) {
-        // A name in a label wins over a heading's, of which nothing was said yet.
+        // A name in a label overrides that of a heading without data.
         if (object_.name.empty() && Says(object_)) {
           object_.name = name;
         } else {
@@ -332,7 +332,7 @@ class AnswerReading {
     }
     if (!reading.clear()) {
       Report("answer-unclear",
-             "'" + line.substr(0, 80) + "' gives fewer or more values than it names");
+             "'" + line.substr(0, 80) + "' has another number of values than of quantities");
     }
     for (const Statement& statement : reading.statements()) Set(statement, line);
     const std::string material = MaterialIn(line);
@@ -342,15 +342,15 @@ class AnswerReading {
   void Set(const Statement& statement, const std::string& line) {
     Interval value = statement.value;
     if (!(value.min > 0.0) || !(value.max > 0.0) || !std::isfinite(value.min + value.max)) {
-      Report("answer-negative", "'" + line.substr(0, 80) + "' is no positive size or mass");
+      Report("answer-negative", "'" + line.substr(0, 80) + "' is not a positive size or mass");
       return;
     }
     if (value.min > value.max) {
-      Report("answer-swapped", "'" + line.substr(0, 80) + "' begins with its larger end");
+      Report("answer-swapped", "'" + line.substr(0, 80) + "' starts with its larger end");
       std::swap(value.min, value.max);
     }
     const auto set = [&](std::optional<Interval>* quantity) {
-      if (!*quantity) *quantity = value;  // the first word counts; more are conversions
+      if (!*quantity) *quantity = value;  // the first value counts; more are conversions
     };
     if (statement.quantity == Quantity::kMass) set(&object_.mass);
     if (statement.quantity == Quantity::kHeight) set(&object_.height);

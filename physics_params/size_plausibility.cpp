@@ -44,7 +44,8 @@ double ProportionMisfit(const Category& category, const Eigen::Vector3d& size) {
   const Interval ranges[] = {category.length, category.width, category.height};
   const double sides[] = {std::max(size.x(), size.y()), std::min(size.x(), size.y()), size.z()};
   double least = HUGE_VAL;
-  // The sum is piecewise linear in the logarithm of the scale: least where a side meets an end.
+  // The sum is piecewise linear in the logarithm of the scale: its minimum is where a side meets an
+  // end.
   for (int i = 0; i < 6; ++i) {
     const double end = i % 2 == 0 ? ranges[i / 2].min : ranges[i / 2].max;
     const double scale = end / sides[i / 2];
@@ -79,7 +80,7 @@ std::vector<std::string> UnitsThatFit(const Category& category, const Eigen::Vec
   std::vector<std::tuple<bool, double, std::string>> fitting;
   for (const auto& unit : kUnits) {
     const double side = unit.metres * numbers.maxCoeff();
-    // A tenth beyond the range is still the same kind of thing.
+    // A tenth beyond the range is still the same category.
     if (side > 1.1 * usual.max || side < 0.9 * usual.min) continue;
     const std::string name = unit.name;
     fitting.emplace_back(name == "in" || name == "ft", std::abs(std::log(side / middle)), name);
@@ -94,7 +95,7 @@ double MetresOfUnit(const std::string& unit) {
   for (const auto& one : kUnits) {
     if (unit == one.name) return one.metres;
   }
-  throw core::Error("this unit is not known", unit, "one of m, cm, mm, in, ft");
+  throw core::Error("unknown unit", unit, "one of m, cm, mm, in, ft");
 }
 
 }  // namespace simwright::physics_params

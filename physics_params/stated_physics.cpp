@@ -21,11 +21,11 @@ Estimate Stated(double value) {
 
 void RequirePositive(const std::optional<double>& value, const char* option) {
   if (value && !(*value > 0.0 && std::isfinite(*value))) {
-    throw core::Error("has to be above 0", std::string(option) + " " + Rounded(*value));
+    throw core::Error("must be above 0", std::string(option) + " " + Rounded(*value));
   }
 }
 
-// Both stated: the matter that makes the mass, spread over the solid or its surface.
+// Both are stated: the material's volume is spread over the solid or its surface.
 MassModel WithBoth(double mass, double density, double volume, double area) {
   MassModel model;
   model.mass = mass;
@@ -54,7 +54,7 @@ void Validate(const StatedPhysics& stated) {
   RequirePositive(stated.density, "--density");
   constexpr double kSlowest = 10.0;
   if (stated.friction && !(*stated.friction >= 0.0 && *stated.friction <= kSlowest)) {
-    throw core::Error("a friction coefficient lies in 0 to 10",
+    throw core::Error("a friction coefficient must lie in 0 to 10",
                       "--friction " + Rounded(*stated.friction));
   }
 }

@@ -26,8 +26,8 @@ bool IsUpper(char c) {
   return std::isupper(static_cast<unsigned char>(c)) != 0;
 }
 
-// "CoffeeMug01" -> "Coffee Mug "; dots and numbers part words.
-std::string Parted(std::string_view name) {
+// Splits "CoffeeMug01" into "Coffee Mug "; dots and numbers separate words.
+std::string SplitWords(std::string_view name) {
   std::string parted;
   for (size_t i = 0; i < name.size(); ++i) {
     const char c = name[i];
@@ -40,7 +40,7 @@ std::string Parted(std::string_view name) {
 }  // namespace
 
 std::string PlainName(std::string_view name) {
-  const std::string parted = NormaliseName(Parted(name));
+  const std::string parted = NormaliseName(SplitWords(name));
   // "v2" leaves a "v", "mug_a" an "a".
   std::vector<std::string> words = WordsOf(parted);
   while (words.size() > 1 && words.back().size() == 1) words.pop_back();
@@ -70,14 +70,14 @@ std::string Joined(const std::vector<std::string>& words, size_t first, size_t l
 std::string WithoutComplement(std::string_view name) {
   static constexpr std::array<std::string_view, 7> kPrepositions = {"of", "with", "without", "for",
                                                                     "in", "on",   "from"};
-  // Of one thing or of many: neither is the thing that is named after it.
-  static constexpr std::array<std::string_view, 13> kPartsAndHeaps = {
-      "piece", "slice", "half",  "part",  "chunk", "lump", "bit",
-      "set",   "stack", "pile",  "bunch", "heap",  "group"};
+  // Words for a part or a quantity: neither is the object that it is named after.
+  static constexpr std::array<std::string_view, 13> kPartsAndAmounts = {
+      "piece", "slice", "half", "part",  "chunk", "lump", "bit",
+      "set",   "stack", "pile", "bunch", "heap",  "group"};
   const std::vector<std::string> words = WordsOf(name);
   for (size_t i = 1; i + 1 < words.size(); ++i) {
     if (!Among(words[i], kPrepositions)) continue;
-    if (words[i] == "of" && Among(words[i - 1], kPartsAndHeaps)) return "";
+    if (words[i] == "of" && Among(words[i - 1], kPartsAndAmounts)) return "";
     if (words[i] == "of" && words[i - 1] == "pair") return Joined(words, i + 1, words.size(), " ");
     return Joined(words, 0, i, " ");
   }

@@ -12,7 +12,7 @@
 namespace simwright::physics_params {
 namespace {
 
-// Calls `handle` with the blank-separated fields of each line that is no licence line (those
+// Calls `handle` with the blank-separated fields of each line that is not a licence line (those
 // start with blanks), up to `max_fields`.
 template <typename Handle>
 void ForEachRecord(std::string_view text, const Handle& handle) {
@@ -91,7 +91,7 @@ WordNet::WordNet(const std::filesystem::path& folder) {
     }
   });
   if (nodes_.empty() || senses_.empty()) {
-    throw core::Error("holds no WordNet noun data", folder.string(), "install wordnet-base");
+    throw core::Error("has no WordNet noun data", folder.string(), "install wordnet-base");
   }
 }
 
@@ -146,8 +146,8 @@ std::vector<WordNet::Synset> WordNet::Ancestors(Synset synset) const {
 }
 
 int WordNet::Depth(Synset synset) const {
-  // Longest of the few paths to the root, by climbing; the noun graph has no loops, the bound
-  // keeps a damaged file from hanging the program.
+  // The longest of the few paths to the root. The noun graph has no loops; the bound keeps a
+  // damaged file from hanging the program.
   std::vector<Synset> level{synset};
   int depth = 0;
   while (!level.empty() && depth < 64) {
@@ -181,7 +181,7 @@ int WordNet::LexicographerFile(Synset synset) const {
 }
 
 std::optional<int> WordNet::StepsUp(Synset kind, Synset of) const {
-  constexpr int kHighest = 64;  // a damaged file may hold a loop
+  constexpr int kHighest = 64;  // a damaged file may contain a loop
   std::set<Synset> level{kind};
   for (int steps = 0; steps < kHighest && !level.empty(); ++steps) {
     if (level.contains(of)) return steps;

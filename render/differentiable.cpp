@@ -9,7 +9,7 @@
 namespace simwright::render {
 namespace {
 
-// m; products of three such lengths still are finite in single precision.
+// m; products of three such lengths are still finite in single precision.
 constexpr double kLargest = 1e12;
 
 template <typename Vectors>
@@ -27,9 +27,9 @@ void RequireFinite(const core::FloatImage& image, const char* what) {
 
 void RequireValid(const DifferentiableObject& object) {
   core::RequireValid(object.mesh, "renderer");
-  if (object.mesh.triangles.empty()) throw core::Error("a mesh without faces cannot be drawn");
+  if (object.mesh.triangles.empty()) throw core::Error("a mesh without faces cannot be rendered");
   if (!object.vertex_colors.empty() && object.vertex_colors.size() != object.mesh.vertices.size()) {
-    throw core::Error("there has to be one colour a vertex, or none", "renderer");
+    throw core::Error("there must be one colour per vertex, or none", "renderer");
   }
   RequireFinite(object.vertex_colors, "a vertex's colour");
   if (!object.world_from_object.matrix().allFinite()) {
@@ -39,10 +39,10 @@ void RequireValid(const DifferentiableObject& object) {
   if (texture.empty()) return;
   if (texture.channels != 3 ||
       texture.values.size() != static_cast<std::size_t>(texture.width) * texture.height * 3) {
-    throw core::Error("a texture has three channels, width x height of them", "renderer");
+    throw core::Error("a texture must have three channels and width x height texels", "renderer");
   }
   if (object.corner_uvs.size() != 3 * object.mesh.triangles.size()) {
-    throw core::Error("a texture needs texture coordinates, three a triangle", "renderer");
+    throw core::Error("a texture needs three texture coordinates per triangle", "renderer");
   }
   RequireFinite(texture, "a texel");
   RequireFinite(object.corner_uvs, "a texture coordinate");
@@ -62,8 +62,8 @@ void RequireValid(const core::Camera& camera) {
 void RequireShape(const core::FloatImage& image, const core::FloatImage& like, const char* what) {
   if (image.empty()) return;
   if (image.width != like.width || image.height != like.height || image.channels != like.channels) {
-    throw core::Error(std::string("the gradient has another size than the picture: ") + what,
-                      "renderer", "normals need the option draw_normals");
+    throw core::Error(std::string("the gradient and the image differ in size: ") + what, "renderer",
+                      "normals need the option draw_normals");
   }
 }
 
@@ -75,11 +75,11 @@ bool DifferentiableOptions::IsValid(std::string* error) const {
     return false;
   };
   if (samples_per_side < 1 || samples_per_side > 1024) {
-    return fail("samples_per_side has to be 1 to 1024");
+    return fail("samples_per_side must be 1 to 1024");
   }
-  if (edge_samples < 0) return fail("edge_samples cannot be negative");
-  if (!(near > 0.0) || !std::isfinite(near)) return fail("near has to be positive");
-  if (!light.radiance.allFinite()) return fail("the light has to be finite");
+  if (edge_samples < 0) return fail("edge_samples must not be negative");
+  if (!(near > 0.0) || !std::isfinite(near)) return fail("near must be positive");
+  if (!light.radiance.allFinite()) return fail("the light must be finite");
   return true;
 }
 
@@ -136,12 +136,12 @@ class DifferentiableRenderer::Implementation {
     if (refit_) tree_.Commit();
     refit_ = false;
     pass_.Draw(camera, seed, &buffers_);
-    drawn_ = true;
+    rendered_ = true;
     return buffers_;
   }
 
   void Backward(const DifferentiableBuffers& gradient, SceneGradients* gradients) {
-    if (!drawn_) throw core::Error("gradients need a picture first", "renderer");
+    if (!rendered_) throw core::Error("Backward needs a rendered image", "renderer");
     RequireShape(gradient.color, buffers_.color, "color");
     RequireShape(gradient.mask, buffers_.mask, "mask");
     RequireShape(gradient.depth, buffers_.depth, "depth");
@@ -157,7 +157,7 @@ class DifferentiableRenderer::Implementation {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const Eigen::Vector3d placed = pose * vertices[i];
       if (!(placed.cwiseAbs().maxCoeff() < kLargest)) {
-        throw core::Error("a vertex lies too far out to be drawn", "renderer");
+        throw core::Error("a vertex is too far away to be rendered", "renderer");
       }
       prepared->world[i] = placed.cast<float>();
     }
@@ -167,7 +167,7 @@ class DifferentiableRenderer::Implementation {
   std::vector<PreparedObject> objects_;
   RayTree tree_;
   std::vector<bool> moved_;
-  bool refit_ = false, drawn_ = false;
+  bool refit_ = false, rendered_ = false;
   DifferentiableBuffers buffers_;
   DifferentiablePass pass_;
 };
@@ -196,7 +196,7 @@ const std::vector<int>& DifferentiableRenderer::WeldedVertices(int object) const
 
 void DifferentiableRenderer::SetVertices(int object, const std::vector<Eigen::Vector3d>& vertices) {
   if (vertices.size() != this->object(object).mesh.vertices.size()) {
-    throw core::Error("the number of vertices may not change", "renderer");
+    throw core::Error("the number of vertices must not change", "renderer");
   }
   RequireFinite(vertices, "a vertex");
   implementation_->Change(object, true)->mesh.vertices = vertices;
@@ -212,7 +212,7 @@ void DifferentiableRenderer::SetPose(int object, const Eigen::Isometry3d& world_
 void DifferentiableRenderer::SetVertexColors(int object,
                                              const std::vector<Eigen::Vector3f>& colors) {
   if (colors.size() != this->object(object).vertex_colors.size()) {
-    throw core::Error("the number of colours may not change", "renderer");
+    throw core::Error("the number of colours must not change", "renderer");
   }
   RequireFinite(colors, "a vertex's colour");
   implementation_->Change(object, false)->vertex_colors = colors;
@@ -222,7 +222,7 @@ void DifferentiableRenderer::SetTexture(int object, const core::FloatImage& text
   const core::FloatImage& old = this->object(object).texture;
   if (texture.width != old.width || texture.height != old.height ||
       texture.values.size() != old.values.size()) {
-    throw core::Error("the texture's size may not change", "renderer");
+    throw core::Error("the texture's size must not change", "renderer");
   }
   RequireFinite(texture, "a texel");
   implementation_->Change(object, false)->texture = texture;

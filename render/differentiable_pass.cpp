@@ -10,7 +10,8 @@
 namespace simwright::render {
 namespace {
 
-// Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators": the mixer.
+// Hashes `x` (the mixer of Steele, Lea and Flood 2014, "Fast splittable pseudorandom number
+// generators").
 std::uint64_t Mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ull;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -29,7 +30,7 @@ double Low(std::uint64_t bits) {
 constexpr float kFar = 1e30f;
 constexpr std::uint64_t kEdgeStream = 0x5851f42d4c957f2dull;
 
-// dL/d(what a pixel averages): the mask's gradient apart.
+// dL/d(the values that a pixel averages); the mask's gradient is separate.
 struct PixelGradient {
   SurfaceValue value;
   float mask = 0.0f;
@@ -45,7 +46,7 @@ struct PixelGradient {
     if (!images.mask.empty()) mask = *images.mask.At(x, y);
   }
 
-  // Whether anything but the coverage matters.
+  // Returns true if any gradient besides the coverage's is not zero.
   bool Any() const {
     return value.depth != 0.0f || !value.color.isZero(0.0f) || !value.normal.isZero(0.0f);
   }
@@ -212,8 +213,8 @@ SeenPoint DifferentiablePass::NearestFace(const ScreenEdge& edge, const EdgePoin
   float steepest = 0.0f;
   for (int i = 0; i < ends.count; ++i) {
     const EdgeFace& face = of.topology.faces[ends.first + i];
-    // Seen from the camera, corners run round a back face so that the face lies on the positive
-    // side of an edge that it runs forward along.
+    // Seen from the camera, corners of a back face run so that the face lies on the positive side
+    // of an edge along which it runs forward.
     const bool on_positive = (of.front[face.triangle] == 0) == face.forward;
     if (on_positive != positive_side) continue;
     const Eigen::Vector3i& t = of.object.mesh.triangles[face.triangle];
@@ -221,7 +222,7 @@ SeenPoint DifferentiablePass::NearestFace(const ScreenEdge& edge, const EdgePoin
     const Eigen::Vector3f normal = (of.camera[t[1]] - p).cross(of.camera[t[2]] - p);
     const float across = normal.dot(ray);
     if (across == 0.0f) continue;
-    // Its plane's depth along ray + e * towards is z (1 - e * rise) to first order.
+    // The face plane's depth along ray + e * towards is z (1 - e * rise) to first order.
     const float rise = normal.dot(towards) / across;
     if (nearest.object >= 0 && rise <= steepest) continue;
     steepest = rise;
@@ -258,13 +259,13 @@ void DifferentiablePass::BackpropagateEdgePoint(const EdgePoint& at, double weig
                               static_cast<float>(options_.near), kFar, {edge.object, faces, count});
   if (behind.instance >= 0 && behind.depth < p.z()) return;  // occluded
 
-  // Across the edge in the picture, into the side that a x b points to.
+  // The direction across the edge in the image, into the side that a x b points to.
   const Eigen::Vector3d plane = a.cross(b - a);
   const Eigen::Vector2d normal =
       Eigen::Vector2d(plane.x() / camera_.fx, plane.y() / camera_.fy).stableNormalized();
   const Eigen::Vector3f towards(static_cast<float>(normal.x() / camera_.fx),
                                 static_cast<float>(normal.y() / camera_.fy), 0.0f);
-  float step = 0.0f;  // L's density before the edge less that behind it
+  float step = 0.0f;  // L's density before the edge minus that behind it
   for (const bool positive : {false, true}) {
     SeenPoint seen = NearestFace(edge, at, ray.cast<float>(),
                                  positive ? towards : Eigen::Vector3f(-towards), positive);
@@ -306,7 +307,7 @@ void DifferentiablePass::BackpropagateEdges(int slice, int slices,
 void DifferentiablePass::Backpropagate(const DifferentiableBuffers& gradient,
                                        SceneGradients* gradients) {
   const int slices = core::ThreadCount();
-  if (summing_) sums_.clear();  // left half way, by Ctrl-C
+  if (summing_) sums_.clear();  // an earlier pass was interrupted by Ctrl-C
   summing_ = true;
   sums_.resize(static_cast<std::size_t>(slices));
   for (GradientSums& sums : sums_) FitSums(objects_, &sums);

@@ -5,7 +5,7 @@
 namespace simwright::render {
 namespace {
 
-// The four texels about a texture coordinate; core::SampleTexture's convention.
+// The four texels around a texture coordinate, in core::SampleTexture's convention.
 struct Bilinear {
   int x[2], y[2];
   float fx, fy;
@@ -165,7 +165,7 @@ void SurfaceShading::Backpropagate(const SeenPoint& point, const Eigen::Vector3f
                                    GradientSums* sums) const {
   const PreparedObject& of = objects_[point.object];
   ObjectSums& own = sums->objects[point.object];
-  float g1 = 0.0f, g2 = 0.0f;  // dL/d(b1), dL/d(b2); b0 gives what they take
+  float g1 = 0.0f, g2 = 0.0f;  // dL/d(b1), dL/d(b2); b0 = 1 - b1 - b2
   Eigen::Vector3f raw = Eigen::Vector3f::Zero(), unit = Eigen::Vector3f::Zero();
   const bool needs_normal = options_.lit || options_.draw_normals;
   if (needs_normal) {
@@ -175,14 +175,14 @@ void SurfaceShading::Backpropagate(const SeenPoint& point, const Eigen::Vector3f
   Eigen::Vector3f normal_gradient = gradient.normal;
   BackpropagateColor(point, gradient.color, unit, &normal_gradient, &g1, &g2, sums);
   if (needs_normal) BackpropagateNormal(point, raw, normal_gradient, &g1, &g2, &own);
-  // The surface moves by q at the ray: b1 e1 + b2 e2 - t ray = -q, to first order, solved by
+  // If the surface moves by q at the ray, b1 e1 + b2 e2 - t ray = -q to first order, solved by
   // Cramer's rule; `pull` is dL/dq.
   const Eigen::Vector3i& t = of.object.mesh.triangles[point.triangle];
   const Eigen::Vector3f& p = of.camera[t[0]];
   const Eigen::Vector3f e1 = of.camera[t[1]] - p, e2 = of.camera[t[2]] - p;
   const Eigen::Vector3f normal = e1.cross(e2);
   const float determinant = normal.dot(ray);
-  // A face seen exactly from its edge has no area in the picture.
+  // A face seen exactly edge-on has no area in the image.
   if (!(std::abs(determinant) > 1e-6f * normal.norm() * ray.norm())) return;
   const Eigen::Vector3f pull =
       (gradient.depth * normal - g1 * e2.cross(ray) - g2 * ray.cross(e1)) / determinant;

@@ -7,7 +7,7 @@
 namespace simwright::render {
 namespace {
 
-std::vector<int> FirstAtPlace(const std::vector<Eigen::Vector3d>& points) {
+std::vector<int> FirstAtPosition(const std::vector<Eigen::Vector3d>& points) {
   std::vector<int> order(points.size());
   std::iota(order.begin(), order.end(), 0);
   const auto before = [&](int i, int j) {
@@ -51,13 +51,13 @@ std::vector<EdgeUse> SortedUses(const EdgeTopology& topology) {
   return uses;
 }
 
-// Whether two texture coordinates name different places, whole turns aside.
+// Returns true if two texture coordinates differ by more than an integer.
 bool Differs(const Eigen::Vector2f& p, const Eigen::Vector2f& q) {
   const Eigen::Vector2f d = p - q;
   return std::abs(d.x() - std::round(d.x())) > 1e-5f || std::abs(d.y() - std::round(d.y())) > 1e-5f;
 }
 
-// Corners of a use's face at the edge's lower and higher end.
+// Returns the corners of a use's face at the edge's lower and higher end.
 std::pair<int, int> Corners(const EdgeUse& use, const EdgeTopology& topology) {
   const int next = (use.corner + 1) % 3;
   const bool forward = topology.welded_triangles[use.face][use.corner] == use.low;
@@ -87,7 +87,7 @@ bool ColorSteps(const DifferentiableObject& object, const EdgeTopology& topology
 
 EdgeTopology FindEdges(const DifferentiableObject& object, bool steps_at_faces) {
   EdgeTopology topology;
-  topology.welded = FirstAtPlace(object.mesh.vertices);
+  topology.welded = FirstAtPosition(object.mesh.vertices);
   topology.welded_triangles.reserve(object.mesh.triangles.size());
   for (const Eigen::Vector3i& t : object.mesh.triangles) {
     topology.welded_triangles.emplace_back(topology.welded[t[0]], topology.welded[t[1]],

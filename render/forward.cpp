@@ -8,7 +8,7 @@
 namespace simwright::render {
 namespace {
 
-// A well-mixed hash (Wellons, "lowbias32"): sub-pixel directions that differ between neighbours.
+// Hashes `x` (Wellons, "lowbias32"), so that sub-pixel directions differ between neighbours.
 std::uint32_t Mixed(std::uint32_t x) {
   x = (x ^ (x >> 16)) * 0x7feb352du;
   x = (x ^ (x >> 15)) * 0x846ca68bu;
@@ -22,7 +22,7 @@ class Shader {
     reach_ = box.isEmpty() ? 0.0f : options.occlusion_reach * box.diagonal().norm();
   }
 
-  // Linear RGB of a hit at `point`, whose shading normal faces the eye.
+  // Returns the linear RGB of a hit at `point`, whose shading normal faces the camera.
   Eigen::Vector3f Color(const Hit& hit, const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
                         std::uint32_t seed) const {
     const Eigen::Vector4f albedo = scene_.Albedo(hit);
@@ -35,7 +35,7 @@ class Shader {
   }
 
  private:
-  // Share of cosine-weighted directions that leave the neighbourhood.
+  // Returns the share of cosine-weighted directions that are not occluded within reach.
   float Openness(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
                  std::uint32_t seed) const {
     const Eigen::Vector3f tangent = normal.unitOrthogonal();
@@ -44,7 +44,7 @@ class Shader {
     const Eigen::Vector3f start = point + 1e-3f * reach_ * normal;
     int open = 0;
     for (int i = 0; i < options_.occlusion_rays; ++i) {
-      // Fibonacci disc, turned by a hash of the pixel, lifted to the hemisphere (Malley).
+      // A Fibonacci disc, rotated by a hash of the pixel and lifted to the hemisphere (Malley).
       const float radius =
           std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(options_.occlusion_rays));
       const float angle = 6.2831853f * (turn + 0.618034f * static_cast<float>(i));
@@ -76,7 +76,7 @@ class RowRenderer {
     at_zero_ = turn * Eigen::Vector3d(-camera.cx / camera.fx, -camera.cy / camera.fy, 1.0);
   }
 
-  // Depth, normal, mask and labels of one ray a pixel need neither sums nor colours.
+  // With one ray per pixel, depth, normal, mask and labels need neither sums nor colours.
   void Draw(int y) const {
     if (options_.samples_per_side == 1 && !options_.shaded) {
       const Eigen::Vector3f start = RowStart(y + 0.5);
@@ -94,19 +94,20 @@ class RowRenderer {
   }
 
  private:
-  // The ray through image point (0, y), world; a pixel to the right adds `per_x_`.
+  // Returns the ray through image point (0, y), world; the next pixel to the right adds `per_x_`.
   Eigen::Vector3f RowStart(double y) const { return (at_zero_ + y * per_y_).cast<float>(); }
 
-  // The shading normal on the side from which the ray comes.
+  // Returns the shading normal on the side from which the ray comes.
   Eigen::Vector3f FacingNormal(const Hit& hit, const Eigen::Vector3f& ray) const {
     const Eigen::Vector3f normal = scene_.ShadingNormal(hit);
-    return normal.dot(ray) > 0.0f ? TurnedNormal(hit, normal, ray) : normal;
+    return normal.dot(ray) > 0.0f ? OrientedNormal(hit, normal, ray) : normal;
   }
 
-  // A back face turns its normal round. A front face that is seen so flatly that its smooth normal
-  // looks away keeps its side: the normal is brought to the horizon, not behind the face.
-  Eigen::Vector3f TurnedNormal(const Hit& hit, Eigen::Vector3f normal,
-                               const Eigen::Vector3f& ray) const {
+  // Orients the normal towards the camera: flips it for a back face. If the smooth normal of a
+  // front face seen at a grazing angle points away, it is moved to the horizon, not behind the
+  // face.
+  Eigen::Vector3f OrientedNormal(const Hit& hit, Eigen::Vector3f normal,
+                                 const Eigen::Vector3f& ray) const {
     const Eigen::Matrix3f c = scene_.Corners(hit.instance, hit.triangle);
     const Eigen::Vector3f face = (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0));
     if (face.dot(ray) > 0.0f) normal = -normal;
@@ -162,8 +163,8 @@ class RowRenderer {
   Shader shader_;
   ForwardBuffers& buffers_;
   Eigen::Vector3f origin_;
-  Eigen::Vector3f per_x_;            // the ray's change from a pixel to the next
-  Eigen::Vector3d per_y_, at_zero_;  // ... from a row to the next, and the ray through (0, 0)
+  Eigen::Vector3f per_x_;            // the ray's change per pixel
+  Eigen::Vector3d per_y_, at_zero_;  // the ray's change per row, and the ray through (0, 0)
 };
 
 }  // namespace
@@ -171,7 +172,7 @@ class RowRenderer {
 ForwardBuffers RenderForward(const Scene& scene, const core::Camera& camera,
                              const ForwardOptions& options) {
   if (camera.width < 1 || camera.height < 1 || options.samples_per_side < 1) {
-    throw core::Error("a picture needs at least one pixel and one sample a pixel");
+    throw core::Error("an image needs at least one pixel and one sample per pixel");
   }
   ForwardBuffers buffers;
   buffers.width = camera.width;

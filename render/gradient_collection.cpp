@@ -29,11 +29,11 @@ void FitGradients(const std::vector<PreparedObject>& objects, SceneGradients* gr
   }
 }
 
-// Entries that one thread handles at a time; their sums are added in order, so that the result does
-// not depend on who came first.
+// Entries per task; the tasks' sums are added in order, so that the result does not depend on
+// scheduling.
 constexpr std::size_t kChunk = 4096;
 
-// Totals over an object's vertices.
+// The totals over an object's vertices.
 struct RigidSums {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
@@ -48,7 +48,7 @@ struct RigidSums {
   }
 };
 
-// Calls body(first, last, sums) for chunks of [0, count) from several threads; the sums' total.
+// Calls body(first, last, sums) for chunks of [0, count) from several threads; returns the total.
 template <typename Body>
 RigidSums OverChunks(std::size_t count, const Body& body) {
   std::vector<RigidSums> parts((count + kChunk - 1) / kChunk);
@@ -61,11 +61,11 @@ RigidSums OverChunks(std::size_t count, const Body& body) {
   return total;
 }
 
-// The threads' point gradients, summed and turned into the world, stay in the first thread's; what
-// they do to the camera is added to `camera_gradients`.
-void TurnIntoWorld(const PreparedObject& of, std::size_t object, const core::Camera& camera,
-                   std::vector<GradientSums>* sums, CameraGradients* camera_gradients) {
-  const Eigen::Matrix3d turn = camera.world_from_camera.linear();
+// Sums the threads' point gradients and transforms them to the world, in the first thread's sums;
+// adds their effect on the camera to `camera_gradients`.
+void TransformToWorld(const PreparedObject& of, std::size_t object, const core::Camera& camera,
+                      std::vector<GradientSums>* sums, CameraGradients* camera_gradients) {
+  const Eigen::Matrix3d rotation = camera.world_from_camera.linear();
   std::vector<Eigen::Vector3d>& points = (*sums)[0].objects[object].points;
   const RigidSums total =
       OverChunks(points.size(), [&](std::size_t first, std::size_t last, RigidSums* part) {
@@ -78,18 +78,18 @@ void TurnIntoWorld(const PreparedObject& of, std::size_t object, const core::Cam
         }
         for (std::size_t i = first; i < last; ++i) {
           part->Add(of.camera[i].cast<double>(), points[i]);
-          points[i] = turn * points[i];
+          points[i] = rotation * points[i];
         }
       });
-  // Points stand still in the world: seen from the camera they move the other way.
-  camera_gradients->pose.translation -= turn * total.force;
-  camera_gradients->pose.rotation -= turn * total.moment;
+  // Points are fixed in the world: relative to the camera they move oppositely.
+  camera_gradients->pose.translation -= rotation * total.force;
+  camera_gradients->pose.rotation -= rotation * total.moment;
 }
 
-// Gradients of unit normals, by threads, become gradients of world points in the first thread's:
-// a normal is the sum s of its faces' area vectors e1 x e2, over its length.
-void CarryNormals(const PreparedObject& of, std::size_t object, bool smooth,
-                  std::vector<GradientSums>* sums) {
+// Propagates the threads' gradients of unit normals to world points in the first thread's sums: a
+// normal is the sum s of its faces' area vectors e1 x e2, divided by its length.
+void PropagateNormals(const PreparedObject& of, std::size_t object, bool smooth,
+                      std::vector<GradientSums>* sums) {
   std::vector<Eigen::Vector3d>& normals = (*sums)[0].objects[object].normals;
   std::vector<Eigen::Vector3d>& points = (*sums)[0].objects[object].points;
   for (std::size_t i = 0; i < normals.size(); ++i) {
@@ -146,7 +146,7 @@ void TakeColors(std::size_t object, std::vector<GradientSums>* sums,
   }
 }
 
-void TakeTexels(std::size_t object, std::vector<GradientSums>* sums, core::FloatImage* to) {
+void CollectTexels(std::size_t object, std::vector<GradientSums>* sums, core::FloatImage* to) {
   for (GradientSums& of : *sums) {
     ObjectSums& from = of.objects[object];
     for (std::size_t block = 0; block < from.touched.size(); ++block) {
@@ -182,17 +182,17 @@ void Collect(const std::vector<PreparedObject>& objects, const core::Camera& cam
              bool smooth_normals, std::vector<GradientSums>* sums, SceneGradients* gradients) {
   FitGradients(objects, gradients);
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    TurnIntoWorld(objects[i], i, camera, sums, &gradients->camera);
+    TransformToWorld(objects[i], i, camera, sums, &gradients->camera);
     bool normals = false;
     for (GradientSums& of : *sums) {
       normals = normals || of.objects[i].normals_touched;
       of.objects[i].normals_touched = false;
     }
-    if (normals) CarryNormals(objects[i], i, smooth_normals, sums);
+    if (normals) PropagateNormals(objects[i], i, smooth_normals, sums);
     ObjectGradients& to = gradients->objects[i];
     TakePoints(objects[i], i, sums, &to);
     TakeColors(i, sums, &to.vertex_colors);
-    TakeTexels(i, sums, &to.texture);
+    CollectTexels(i, sums, &to.texture);
   }
   for (GradientSums& of : *sums) {
     gradients->light += of.light;

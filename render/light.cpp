@@ -5,7 +5,7 @@
 namespace simwright::render {
 namespace {
 
-// Orthonormal constants of the real basis.
+// The orthonormal constants of the real basis.
 constexpr float kBand0 = 0.282095f, kBand1 = 0.488603f, kBand2 = 1.092548f, kBand2z = 0.315392f,
                 kBand2xx = 0.546274f;
 

@@ -26,7 +26,7 @@ Hit Answer(const RTCRayHit& query) {
           query.hit.u, query.hit.v};
 }
 
-// Embree hands the context to the filter; its first member has to be Embree's own.
+// Embree passes the context to the filter; its first member must be Embree's own.
 struct IgnoringContext {
   RTCIntersectContext context;
   const IgnoredFaces* ignored;
@@ -51,9 +51,9 @@ struct RayTree::Embree {
 
   bool dynamic = false;
 
-  // Only a dynamic scene of low quality keeps a tree for each geometry, and only such a one is
-  // refitted (with either alone Embree 3.13 rebuilds: 35 ms instead of 2 at 100k triangles). The
-  // geometry's own tree is of full quality even so: rays are as fast.
+  // Embree keeps a refittable tree per geometry only in a dynamic scene of low build quality;
+  // otherwise Embree 3.13 rebuilds. The geometry's own tree still has full quality, so rays are as
+  // fast.
   void MakeDynamic() {
     if (dynamic) return;
     dynamic = true;
@@ -104,7 +104,7 @@ int RayTree::Add(const std::vector<Eigen::Vector3f>& vertices,
   rtcCommitGeometry(geometry);
   const int index = static_cast<int>(embree_->geometries.size());
   rtcAttachGeometryByID(embree_->scene, geometry, static_cast<unsigned>(index));
-  rtcReleaseGeometry(geometry);  // the scene holds it on
+  rtcReleaseGeometry(geometry);  // the scene keeps a reference
   embree_->geometries.push_back(geometry);
   return index;
 }

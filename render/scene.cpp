@@ -44,7 +44,7 @@ Scene::~Scene() = default;
 
 int Scene::Add(const core::TexturedMesh* mesh, const Eigen::Isometry3d& world_from_mesh) {
   core::RequireValid(*mesh, "scene");
-  if (mesh->mesh.triangles.empty()) throw core::Error("a mesh without faces cannot be drawn");
+  if (mesh->mesh.triangles.empty()) throw core::Error("a mesh without faces cannot be rendered");
   Instance instance{mesh, world_from_mesh, {}, {}};
   Content::Place(&instance, mesh->mesh.vertices);
   const int index = content_->tree.Add(instance.vertices, mesh->mesh.triangles, false);
@@ -55,7 +55,7 @@ int Scene::Add(const core::TexturedMesh* mesh, const Eigen::Isometry3d& world_fr
 void Scene::MoveVertices(int instance, const std::vector<Eigen::Vector3d>& vertices) {
   Instance& moved = content_->instances.at(static_cast<size_t>(instance));
   if (vertices.size() != moved.vertices.size()) {
-    throw core::Error("the number of vertices may not change");
+    throw core::Error("the number of vertices must not change");
   }
   Content::Place(&moved, vertices);
   content_->tree.Move(instance, moved.vertices);

@@ -5,20 +5,20 @@
 namespace simwright::render {
 namespace {
 
-// Whether the picture may step at the edge. Seen along the edge from `a` to `b`, a face lies on one
-// side where it is seen from outside and runs forward, or from inside and backward. (Meshes that
-// are not oriented are therefore no special case.)
-bool MayStep(const PreparedObject& of, const MeshEdge& edge) {
+// Returns true if the image may be discontinuous at the edge. Seen along the edge from `a` to `b`,
+// a face lies on one side if it is front-facing and runs forward, or back-facing and runs backward.
+// (Meshes that are not oriented are therefore no special case.)
+bool MayBeDiscontinuous(const PreparedObject& of, const MeshEdge& edge) {
   const EdgeFace* faces = &of.topology.faces[edge.first];
   if (edge.count != 2) return true;
   const bool front0 = of.front[faces[0].triangle] != 0, front1 = of.front[faces[1].triangle] != 0;
   if ((front0 == faces[0].forward) == (front1 == faces[1].forward)) return true;
-  // The inner side of a closed mesh is not seen.
+  // The inner side of a closed mesh is not visible.
   return edge.crease && (front0 || front1 || !of.topology.closed);
 }
 
-// Keeps of [lo, hi] where start + s * change >= 0; false where nothing is left.
-bool Keep(double start, double change, double* lo, double* hi) {
+// Clips [lo, hi] to where start + s * change >= 0; returns false if nothing is left.
+bool ClipInterval(double start, double change, double* lo, double* hi) {
   if (change == 0.0) return start >= 0.0;
   const double s = -start / change;
   if (change > 0.0) {
@@ -33,20 +33,22 @@ Eigen::Vector2d Projected(const core::Camera& camera, const Eigen::Vector3d& p) 
   return {camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy};
 }
 
-// Clips the edge from `a` to `b` (the camera's frame); returns its length in the picture.
+// Clips the edge from `a` to `b` (camera frame); returns its length in the image.
 double Clip(const core::Camera& camera, double near, const Eigen::Vector3d& a,
             const Eigen::Vector3d& b, ScreenEdge* edge) {
   edge->t0 = 0.0;
   edge->t1 = 1.0;
-  if (!Keep(a.z() - near, b.z() - a.z(), &edge->t0, &edge->t1)) return 0.0;
+  if (!ClipInterval(a.z() - near, b.z() - a.z(), &edge->t0, &edge->t1)) return 0.0;
   const Eigen::Vector3d from = a + edge->t0 * (b - a), to = a + edge->t1 * (b - a);
   const Eigen::Vector2d p = Projected(camera, from), d = Projected(camera, to) - p;
-  double lo = 0.0, hi = 1.0;  // along the picture's segment
-  if (!Keep(p.x(), d.x(), &lo, &hi) || !Keep(camera.width - p.x(), -d.x(), &lo, &hi) ||
-      !Keep(p.y(), d.y(), &lo, &hi) || !Keep(camera.height - p.y(), -d.y(), &lo, &hi)) {
+  double lo = 0.0, hi = 1.0;  // along the image segment
+  if (!ClipInterval(p.x(), d.x(), &lo, &hi) ||
+      !ClipInterval(camera.width - p.x(), -d.x(), &lo, &hi) ||
+      !ClipInterval(p.y(), d.y(), &lo, &hi) ||
+      !ClipInterval(camera.height - p.y(), -d.y(), &lo, &hi)) {
     return 0.0;
   }
-  // Equal steps in the picture are equal steps of 1/z.
+  // Equal steps in the image are equal steps of 1/z.
   const auto in_space = [&](double s) {
     return s * from.z() / ((1.0 - s) * to.z() + s * from.z());
   };
@@ -68,7 +70,7 @@ void SilhouetteEdges::Find(const std::vector<PreparedObject>& objects, const cor
     const PreparedObject& of = objects[o];
     for (std::size_t e = 0; e < of.topology.edges.size(); ++e) {
       const MeshEdge& edge = of.topology.edges[e];
-      if (!MayStep(of, edge)) continue;
+      if (!MayBeDiscontinuous(of, edge)) continue;
       ScreenEdge on_screen;
       const double pixels = Clip(camera, near, of.camera[edge.a].cast<double>(),
                                  of.camera[edge.b].cast<double>(), &on_screen);

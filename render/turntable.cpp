@@ -26,7 +26,7 @@ std::vector<core::Image> Turntable(const core::TexturedMesh& mesh,
     const double azimuth = options.first_azimuth + 2.0 * std::numbers::pi * i / options.views;
     const core::Camera camera = core::OrbitCamera(box.center(), distance, options.elevation,
                                                   azimuth, kFov, options.size, options.size);
-    // The key light turns with the camera: every view is lit from its upper left.
+    // The key light rotates with the camera: every view is lit from its upper left.
     const Eigen::Vector3f right = camera.world_from_camera.linear().col(0).cast<float>();
     const Eigen::Vector3f back = -camera.world_from_camera.linear().col(2).cast<float>();
     forward.light = SphericalHarmonicsLight::Studio(

@@ -9,7 +9,7 @@
 namespace simwright::texture {
 namespace {
 
-// Barycentric coordinates of p in (a, b, c); sum 1, negative outside.
+// Returns the barycentric coordinates of p in (a, b, c); sum 1, negative outside.
 Eigen::Vector3f Barycentric(const Eigen::Vector2f& p, const Eigen::Vector2f& a,
                             const Eigen::Vector2f& b, const Eigen::Vector2f& c) {
   const Eigen::Vector2f ab = b - a, ac = c - a, ap = p - a;
@@ -20,7 +20,7 @@ Eigen::Vector3f Barycentric(const Eigen::Vector2f& p, const Eigen::Vector2f& a,
   return {1.0f - v - w, v, w};
 }
 
-// Which triangle each texel shows, -1 for none. Texel rows run downwards.
+// Returns the triangle that covers each texel, or -1. Texel rows run downwards.
 std::vector<int> OwnerMap(const std::vector<Eigen::Vector2f>& uvs, int size) {
   std::vector<int> owner(static_cast<size_t>(size) * size, -1);
   const float scale = static_cast<float>(size);
@@ -45,7 +45,7 @@ std::vector<int> OwnerMap(const std::vector<Eigen::Vector2f>& uvs, int size) {
   return owner;
 }
 
-// One ring of texels round what is filled takes the mean of its filled neighbours.
+// Fills one ring of texels around the filled ones with the mean of their filled neighbours.
 void DilateOnce(core::Image* image, std::vector<std::uint8_t>* filled) {
   const std::vector<std::uint8_t> before = *filled;
   const int size = image->width;

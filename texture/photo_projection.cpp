@@ -11,15 +11,15 @@
 namespace simwright::texture {
 namespace {
 
-constexpr int kLargestTexture = 4096;  // pixels a side
+constexpr int kLargestTexture = 4096;  // pixels per side
 
 struct Sample {
   Eigen::Vector3f color{0, 0, 0};
-  float weight = 0.0f;  // 0: not seen
+  float weight = 0.0f;  // 0: not visible
 };
 
-// The photo's colours inside the matte, grown outwards over its edge so that no lookup meets the
-// background. Shrinks the matte by `edge` pixels first, unless it would vanish.
+// Returns the photo's colours inside the matte, extended beyond its edge so that no lookup meets
+// the background. Erodes the matte by `edge` pixels first, unless it would vanish.
 core::Image ForegroundColors(const core::Image& photo, const core::Image& alpha, int edge) {
   const int w = photo.width, h = photo.height;
   std::vector<int> known(static_cast<size_t>(w) * h);
@@ -43,7 +43,7 @@ core::Image ForegroundColors(const core::Image& photo, const core::Image& alpha,
       for (int c = 0; c < 3; ++c) colors.At(x, y)[c] = photo.At(x, y)[photo.channels < 3 ? 0 : c];
     }
   }
-  // Breadth first: each unknown pixel takes the colour of the neighbour that reached it.
+  // Breadth-first: each unknown pixel takes the colour of the neighbour that reached it.
   for (size_t i = 0; i < frontier.size(); ++i) {
     const int x = frontier[i] % w, y = frontier[i] / w;
     constexpr int kDx[] = {1, -1, 0, 0}, kDy[] = {0, 0, 1, -1};
@@ -60,7 +60,7 @@ core::Image ForegroundColors(const core::Image& photo, const core::Image& alpha,
   return colors;
 }
 
-// A photo's foreground colours, and the camera they were seen by.
+// A photo's foreground colours and its camera.
 struct SeenColors {
   core::Camera camera;
   core::Image colors;
@@ -80,18 +80,18 @@ class PhotoPainter {
     reach_ = static_cast<float>(core::Bounds(mesh).diagonal().norm());
   }
 
-  // What no camera sees repeats the front across the plane, and then its surroundings.
-  void HideBehindMirror(const Eigen::Hyperplane<double, 3>& mirror) {
+  // Fills unseen surfaces with the mirror image of the front, then with their surroundings.
+  void FillHiddenByMirror(const Eigen::Hyperplane<double, 3>& mirror) {
     mirror_ = &mirror;
     vertex_colors_ = SpreadColors();
   }
 
-  // What no camera sees has these colours.
-  void HideBehind(const std::vector<Eigen::Vector3f>& vertex_colors) {
+  // Fills unseen surfaces with these colours.
+  void FillHidden(const std::vector<Eigen::Vector3f>& vertex_colors) {
     vertex_colors_ = vertex_colors;
   }
 
-  // Whether a camera sees anything of the mesh.
+  // Returns true if a camera sees anything of the mesh.
   bool SeesAnything() const {
     const std::vector<Eigen::Vector3d> normals = core::VertexNormals(mesh_);
     for (size_t v = 0; v < normals.size(); ++v) {
@@ -109,7 +109,8 @@ class PhotoPainter {
   }
 
  private:
-  // Front, and where it fades the mirror image of it; weight 1 where either shows fully.
+  // Blends the front view with its mirror image where it fades; weight 1 where either is fully
+  // visible.
   Sample Blend(const Eigen::Vector3d& position, const Eigen::Vector3d& normal) const {
     Sample front = See(position, normal);
     if (front.weight >= 1.0f || mirror_ == nullptr) return front;
@@ -124,7 +125,7 @@ class PhotoPainter {
     return {(front.weight * front.color + rest * back.color) / total, std::min(1.0f, total)};
   }
 
-  // All cameras' view of a point: the squarest counts most.
+  // Combines all cameras' views of a point; the most frontal view counts most.
   Sample See(const Eigen::Vector3d& position, const Eigen::Vector3d& normal) const {
     Sample all;
     float total = 0.0f;
@@ -164,8 +165,8 @@ class PhotoPainter {
             static_cast<float>(fade * fade * (3.0 - 2.0 * fade))};
   }
 
-  // A colour for each vertex: seen ones keep theirs, the rest relax to the mean of their
-  // neighbours (Laplace's equation on the mesh, Gauss-Seidel from a breadth-first start).
+  // Returns a colour for each vertex: seen vertices keep theirs, the rest relax to the mean of
+  // their neighbours (Laplace's equation on the mesh, Gauss-Seidel from a breadth-first start).
   std::vector<Eigen::Vector3f> SpreadColors() const;
 
   const core::TriangleMesh& mesh_;
@@ -204,8 +205,8 @@ std::vector<Eigen::Vector3f> PhotoPainter::SpreadColors() const {
       queue.push_back(n);
     }
   }
-  constexpr int kSweeps = 60;  // spreads over about as many edges; finer is not seen
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  constexpr int kIterations = 60;  // diffuses over about as many edges; finer detail is not visible
+  for (int sweep = 0; sweep < kIterations; ++sweep) {
     for (const int v : queue) {
       if (fixed[v] || neighbours[v].empty()) continue;
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
@@ -220,7 +221,7 @@ void RequireFit(const PhotoView& view) {
   if (view.photo.width != view.alpha.width || view.photo.height != view.alpha.height ||
       view.photo.width != view.camera.width || view.photo.height != view.camera.height ||
       view.alpha.channels != 1) {
-    throw core::Error("photo, matte and camera differ in size");
+    throw core::Error("photo, matte and camera must have the same size");
   }
 }
 
@@ -230,7 +231,7 @@ core::TexturedMesh Painted(const core::TriangleMesh& mesh, const PhotoPainter& p
   textured.mesh = mesh;
   AtlasOptions atlas;
   atlas.size = options.texture_size;
-  // A rough surface falls into more charts than a small texture has room for.
+  // A rough surface may need more charts than a small texture can hold.
   while (textured.corner_uvs.empty()) {
     try {
       textured.corner_uvs = UnwrapToAtlas(mesh, atlas);
@@ -258,7 +259,7 @@ core::TexturedMesh ProjectPhoto(const core::TriangleMesh& mesh, const core::Came
   const PhotoView view{camera, photo, alpha};
   RequireFit(view);
   PhotoPainter painter(mesh, {view}, options);
-  painter.HideBehindMirror(mirror);
+  painter.FillHiddenByMirror(mirror);
   return Painted(mesh, painter, options);
 }
 
@@ -268,12 +269,12 @@ core::TexturedMesh ProjectPhotos(const core::TriangleMesh& mesh,
                                  const ProjectionOptions& options) {
   if (views.empty()) throw core::Error("a texture needs at least one photo");
   if (hidden.size() != mesh.vertices.size()) {
-    throw core::Error("the hidden side needs a colour a vertex");
+    throw core::Error("the hidden side needs one colour per vertex");
   }
   for (const PhotoView& view : views) RequireFit(view);
   PhotoPainter painter(mesh, views, options);
   if (!painter.SeesAnything()) throw core::Error("no camera sees anything of the mesh");
-  painter.HideBehind(hidden);
+  painter.FillHidden(hidden);
   return Painted(mesh, painter, options);
 }
 

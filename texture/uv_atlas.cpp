@@ -10,13 +10,13 @@
 namespace simwright::texture {
 namespace {
 
-// The projection planes of the six directions: u and v axes, right-handed with the normal.
+// The u and v axes of the projection planes for the three axes, right-handed with the normal.
 constexpr int kUAxis[3] = {1, 2, 0}, kVAxis[3] = {2, 0, 1};
 
 struct Chart {
   std::vector<int> triangles;
   Eigen::Vector2d low{0, 0}, high{0, 0};  // metres, in the projection plane
-  int x = 0, y = 0;                       // place in the atlas, pixels
+  int x = 0, y = 0;                       // position in the atlas, pixels
 };
 
 int DirectionOf(const Eigen::Vector3d& normal) {
@@ -34,8 +34,8 @@ class Unwrapper {
     Classify();
     std::vector<int> rest(mesh_.triangles.size());
     std::iota(rest.begin(), rest.end(), 0);
-    // Each pass makes charts of what is left and takes out what would overlap; the last makes a
-    // chart of every triangle that is still left.
+    // Each pass makes charts of the remaining triangles and removes overlapping ones; the last pass
+    // makes a chart of every remaining triangle.
     constexpr int kPasses = 12;
     for (int pass = 0; pass < kPasses && !rest.empty(); ++pass) rest = MakeCharts(rest);
     for (const int t : rest) AddChart({t});
@@ -83,10 +83,10 @@ class Unwrapper {
   const AtlasOptions& options_;
   std::vector<int> direction_;
   std::vector<Chart> charts_;
-  double density_ = 0.0;  // pixels a metre
+  double density_ = 0.0;  // pixels per metre
 };
 
-// Pieces joined over edges within one direction, each in ascending order.
+// Returns the connected pieces within one direction, each in ascending order.
 std::vector<std::vector<int>> Unwrapper::ConnectedPieces(const std::vector<int>& triangles) const {
   std::vector<int> root(mesh_.triangles.size());
   std::iota(root.begin(), root.end(), 0);
@@ -121,9 +121,9 @@ std::vector<int> Unwrapper::MakeCharts(const std::vector<int>& triangles) {
   return left_over;
 }
 
-// Removes from `piece`, and returns, triangles that cover a cell which another one has already.
-// Drawn on a grid of about four cells a triangle; a triangle that covers no cell centre overlaps
-// by less than a cell and stays.
+// Removes from `piece`, and returns, triangles that cover a grid cell which another one covers. The
+// grid has about four cells per triangle; a triangle that covers no cell centre overlaps by less
+// than a cell and stays.
 std::vector<int> Unwrapper::TakeOverlaps(std::vector<int>* piece) const {
   if (piece->size() < 3) return {};
   Eigen::Vector2d low = Flat((*piece)[0], 0), high = low;
@@ -164,7 +164,7 @@ std::vector<int> Unwrapper::TakeOverlaps(std::vector<int>* piece) const {
     for (const int at : touched) owner[static_cast<size_t>(at)] = t;
     kept.push_back(t);
   }
-  // A piece that folds over as a whole would never shrink: its first triangle stays.
+  // A piece that folds over as a whole would never shrink: keep its first triangle.
   if (kept.empty()) {
     kept.push_back(taken.front());
     taken.erase(taken.begin());

@@ -106,7 +106,7 @@ void ExpectRefused(const std::filesystem::path& path, const std::string& part) {
 TEST(ScriptedViewPrior, RefusesWhatIsNoneAndSaysWhatWasExpected) {
   const core::TemporaryFolder folder;
   core::WriteFile(folder.path() / "text.pt", "not a module");
-  ExpectRefused(folder.path() / "text.pt", "no TorchScript");
+  ExpectRefused(folder.path() / "text.pt", "not a TorchScript");
   ExpectRefused(Save(folder, "two", "def forward(self, a, b):\n    return a\n", 8),
                 "expected forward(image");
   ExpectRefused(Save(folder, "shape", R"(

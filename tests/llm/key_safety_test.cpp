@@ -65,7 +65,7 @@ TEST(KeySafety, RedirectsStayWithTheServerTheKeyIsFor) {
     response.set_redirect("file:///etc/passwd", 307);
   });
   OpenAiChatModel curious(OptionsFor(local.url()));
-  ExpectHas(ErrorOf(&curious), "another place");
+  ExpectHas(ErrorOf(&curious), "not the server that the key is for");
 }
 
 }  // namespace

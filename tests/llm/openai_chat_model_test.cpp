@@ -316,7 +316,7 @@ TEST(OpenAiChatModel, TooSlowAnAnswerEndsAtTheTotalTime) {
   ChatModelOptions options = OptionsFor(server->url());
   options.total_timeout = 0.05;
   OpenAiChatModel model(options, clock);
-  ExpectHas(ErrorOf(&model), "no whole answer in time");
+  ExpectHas(ErrorOf(&model), "no complete answer in time");
   done = true;
   EXPECT_EQ(server->bodies().size(), 1u);
 }

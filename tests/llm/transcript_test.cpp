@@ -112,7 +112,7 @@ TEST_F(Transcript, AMissingRequestIsNamedWithTheNearest) {
   ExpectHas(error, "'mug in grams?");
   asked = mug;
   asked.seed = 5;
-  ExpectHas(ErrorOf([&] { model.Ask(asked); }), "its settings or pictures differ");
+  ExpectHas(ErrorOf([&] { model.Ask(asked); }), "its settings or images differ");
 }
 
 TEST_F(Transcript, DamagedLinesAreNamed) {

@@ -82,7 +82,7 @@ TEST_F(CommandLine, BadPhotosAreRefused) {
   };
   const std::string png = core::EncodePng(DiscPhoto(64));
   ExpectRefused(lift(folder_ / "none.png"), "no such file");
-  ExpectRefused(lift(Write("text.png", "this is a text")), "not a picture");
+  ExpectRefused(lift(Write("text.png", "this is a text")), "not a readable image");
   ExpectRefused(lift(Write("empty.png", "")), "empty");
   ExpectRefused(lift(Write("cut.png", png.substr(0, png.size() / 2))), "truncated");
   ExpectRefused(lift(Write("one.png", core::EncodePng(core::Image(1, 1, 3, 90)))), "1 x 1");

@@ -257,7 +257,7 @@ TEST_F(RunCommand, StoppedAndKilledInTrainingItGoesOnWhereItWas) {
 TEST_F(RunCommand, BadInputIsRefusedBeforeAnythingIsWritten) {
   ExpectRefused(Arguments(Path("none.png"), "apple", ""), "no such file");
   core::WriteFile(Path("text.png"), "no picture");
-  ExpectRefused(Arguments(Path("text.png"), "apple", ""), "not a picture");
+  ExpectRefused(Arguments(Path("text.png"), "apple", ""), "not a readable image");
   ExpectRefused(Arguments(Photo("apple.jpg"), "qwertyuiop", ""), "qwertyuiop");
   EXPECT_FALSE(fs::exists(Path("out")));
   fs::create_directories(Path("out"));
