@@ -9,7 +9,7 @@ namespace simwright::core {
 namespace {
 namespace fs = std::filesystem;
 
-// draft-eastlake-fnv, appendix: FNV-1a of 128 bits over "" and "a".
+// 128-bit FNV-1a of "" and "a" from the appendix of draft-eastlake-fnv.
 TEST(ContentHash, IsFnv1a) {
   EXPECT_EQ(ContentHash(""), "6c62272e07bb014262b821756295c58d");
   EXPECT_EQ(ContentHash("a"), "d228cb696f1a8caf78912b704e4a8964");

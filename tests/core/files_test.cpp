@@ -36,7 +36,7 @@ TEST_F(Files, WritesWholeAndReadsBack) {
 
 TEST_F(Files, FullDiskKeepsTheOldFile) {
   if (!fs::exists("/dev/full")) GTEST_SKIP();
-  // /dev/full answers every write with "no space"; the rename target is never touched.
+  // /dev/full fails every write with "no space"; the rename target is never touched.
   EXPECT_THROW(WriteFile("/dev/full/x", "bytes"), Error);
   WriteFile(root_ / "a", "old");
   EXPECT_THROW(WriteFile(root_ / "none" / "a", "new"), Error);

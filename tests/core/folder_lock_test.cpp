@@ -26,7 +26,7 @@ TEST(FolderLock, ASecondHolderIsRefusedAndTheFirstIsNamed) {
   const TemporaryFolder temporary;
   const std::filesystem::path folder = temporary.path() / "run";
   {
-    const FolderLock lock(folder, "a training");  // makes the folder
+    const FolderLock lock(folder, "a training");  // creates the folder
     const std::string refusal = Refusal(folder);
     EXPECT_NE(
         refusal.find("a training is already running there, process " + std::to_string(getpid())),
@@ -36,7 +36,7 @@ TEST(FolderLock, ASecondHolderIsRefusedAndTheFirstIsNamed) {
   EXPECT_EQ(Refusal(folder), "");
 }
 
-// A process that is killed cannot clean up: nobody is kept out by what it leaves.
+// A killed process cannot clean up, but what it leaves blocks nobody.
 TEST(FolderLock, IsFreeAfterItsHolderWasKilled) {
   const TemporaryFolder folder;
   int ready[2];
@@ -58,7 +58,7 @@ TEST(FolderLock, IsFreeAfterItsHolderWasKilled) {
   close(ready[1]);
 }
 
-// What an older holder's longer number left over does not belong to the next one's.
+// The rest of an older holder's longer number must not be read as part of the next one's.
 TEST(FolderLock, SaysOnlyTheLastHolder) {
   const TemporaryFolder folder;
   WriteFile(folder.path() / ".lock", "99999999999999\n");

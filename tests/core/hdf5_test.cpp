@@ -60,7 +60,7 @@ TEST(Hdf5, ReadsBackWhatItWrote) {
   EXPECT_EQ(group.Read<double>("packed").values, numbers);
   EXPECT_EQ(group.Read<double>("packed").shape, (std::vector<std::size_t>{5, 3, 4}));
   EXPECT_EQ(group.Read<float>("floats").values, std::vector<float>(numbers.begin(), numbers.end()));
-  // A float is also a double; a double is no float, and no number an integer.
+  // A float reads as a double, but a double not as a float, and no number as an integer.
   EXPECT_EQ(group.Read<double>("floats").values[7], static_cast<float>(numbers[7]));
   EXPECT_THROW(group.Read<float>("plain"), Error);
   EXPECT_THROW(group.Read<std::int64_t>("plain"), Error);
@@ -96,7 +96,7 @@ TEST(Hdf5, ReadsRowsOfADataset) {
 TEST(Hdf5, SameCallsSameBytesWhenever) {
   const TemporaryFolder folder;
   WriteSample(folder.path() / "a.hdf5");
-  // The library would stamp datasets with the second of their making.
+  // By default the library stores the time of creation of a dataset.
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   WriteSample(folder.path() / "b.hdf5");
   EXPECT_EQ(ReadFile(folder.path() / "a.hdf5"), ReadFile(folder.path() / "b.hdf5"));

@@ -42,7 +42,7 @@ TEST(Image, RefusesEveryTruncation) {
 
 TEST(Image, RefusesHugeSizeByItsHeader) {
   std::string png = EncodePng(Checker(8, 8, 3));
-  // 100000 x 100000 pixels in IHDR: refused before memory is taken.
+  // 100000 x 100000 pixels in IHDR: refused before memory is allocated.
   const std::string side("\x00\x01\x86\xA0", 4);
   png.replace(16, 4, side);
   png.replace(20, 4, side);

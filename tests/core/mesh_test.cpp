@@ -47,7 +47,7 @@ TEST(Camera, ProjectsWhatItsRaysHit) {
   const Eigen::Vector3d projected = camera.Project(point);
   EXPECT_NEAR((projected.head<2>() - pixel).norm(), 0.0, 1e-9);
   EXPECT_NEAR(projected.z(), 1.7, 1e-12);
-  // Up in the world is up in the picture.
+  // Up in the world is up in the image.
   EXPECT_LT(camera.Project({0.1, 0.2, 0.4}).y(), 240);
 }
 

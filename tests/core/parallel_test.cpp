@@ -1,4 +1,4 @@
-// As many threads as processors that the process may run on.
+// By default as many threads as processors that the process may use.
 #include "core/parallel.h"
 
 #include <gtest/gtest.h>

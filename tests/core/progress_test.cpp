@@ -22,11 +22,11 @@ TEST(ProgressLine, SaysCountDetailAndTimeLeft) {
   state.total = 100;
   state.detail = "46 % succeed";
   EXPECT_EQ(ProgressLine(state), "train open: 50/100, 46 % succeed, 100 s left");
-  state.total = 500;  // 2 s a step, 450 steps
+  state.total = 500;  // 2 s per step, 450 steps
   EXPECT_EQ(ProgressLine(state), "train open: 50/500, 46 % succeed, 15 min left");
 }
 
-// A training that ends after --minutes does not take as long as all its steps would.
+// A training that ends after --minutes does not take the time of all its steps.
 TEST(ProgressLine, TimeLeftKeepsToALimit) {
   ProgressState state = Training();
   state.done = 50;
@@ -37,7 +37,7 @@ TEST(ProgressLine, TimeLeftKeepsToALimit) {
   EXPECT_EQ(ProgressLine(state), "train open: 499/500, 0 s left");
   state.done = state.total = 0;
   EXPECT_EQ(ProgressLine(state), "train open: at most 30 s left");
-  state.most_left = -5.0;  // over: it is at its last step
+  state.most_left = -5.0;  // overdue: it is at its last step
   EXPECT_EQ(ProgressLine(state), "train open: at most 0 s left");
 }
 
@@ -51,7 +51,7 @@ int Lines(const std::string& text, const std::string& with) {
   return count;
 }
 
-// A stage that does no steps for long still says every interval that it is at work.
+// A stage without completed steps still reports every interval.
 TEST(Progress, WithoutATerminalALineComesEveryInterval) {
   Progress progress(Progress::Style::kPlain, 0.02);
   progress.Stage("wait", 3);

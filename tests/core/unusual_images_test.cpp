@@ -1,5 +1,5 @@
-// Pictures as cameras, printers and the web leave them: CMYK, 16 bits a channel, animated. Each is
-// written by the format's own library.
+// Images as written by cameras, printers and web tools: CMYK, 16 bits per channel, animated. Each
+// is written by the format's own library.
 #include <gif_lib.h>
 #include <gtest/gtest.h>
 #include <jpeglib.h>
@@ -31,7 +31,7 @@ void ExpectColour(const Image& image, std::array<int, 3> rgb, int tolerance) {
   }
 }
 
-// As Adobe writes it: inverted, with its marker.
+// Adobe's variant: inverted, with its marker.
 std::string CmykJpeg(std::array<int, 4> ink) {
   jpeg_compress_struct jpeg;
   jpeg_error_mgr errors;
@@ -61,7 +61,7 @@ std::string CmykJpeg(std::array<int, 4> ink) {
 }
 
 TEST(UnusualImage, CmykBecomesRgb) {
-  // Half cyan on nothing else: (1 - 0.5) red, full green and blue.
+  // Half cyan alone: (1 - 0.5) red, full green and blue.
   ExpectColour(DecodeImage(CmykJpeg({128, 0, 0, 0}), "cmyk.jpg"), {127, 255, 255}, 4);
   ExpectColour(DecodeImage(CmykJpeg({0, 255, 255, 0}), "cmyk.jpg"), {255, 0, 0}, 4);
   ExpectColour(DecodeImage(CmykJpeg({0, 0, 0, 128}), "cmyk.jpg"), {127, 127, 127}, 4);
@@ -127,7 +127,7 @@ TEST(UnusualImage, AnAnimatedWebpGivesItsFirstFrame) {
   ExpectColour(DecodeImage(bytes, "moving.webp"), {0x1E, 0x90, 0xC8}, 0);
 }
 
-// Formats that are known and not read are named, with what to do.
+// Known formats that cannot be read are named, with a remedy.
 TEST(UnusualImages, UnreadFormatsAreNamed) {
   using namespace std::literals;
   const std::pair<std::string, const char*> cases[] = {

@@ -20,7 +20,7 @@ TEST(CutConvex, LeavesWhatLiesWithin) {
   EXPECT_TRUE(Examine(slab).closed);
   EXPECT_NEAR(SignedVolume(slab), 0.25, 1e-12);
   EXPECT_NEAR(core::Bounds(slab).max().z(), 0.25, 1e-12);
-  // A corner cut off: a pyramid of three edges 0.3 long.
+  // Cuts off a corner: a pyramid of three edges of length 0.3.
   const Eigen::Vector3d diagonal = Eigen::Vector3d::Ones().normalized();
   const core::TriangleMesh rest = CutConvex(UnitCube(), -diagonal, -0.3 * diagonal.x());
   EXPECT_NEAR(SignedVolume(rest), 1.0 - 0.3 * 0.3 * 0.3 / 6.0, 1e-12);

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The farthest that any point sticks out of a face, relative to the diagonal.
+// Returns the largest distance of a point outside of a face, relative to the diagonal.
 double Outside(const core::TriangleMesh& hull, const std::vector<Vector3d>& points) {
   double worst = 0.0;
   for (int t = 0; t < static_cast<int>(hull.triangles.size()); ++t) {
@@ -99,7 +99,7 @@ TEST(ExactHull, AgreesWithOurs) {
   EXPECT_TRUE(ExactHull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 3, 0}}, 0).empty());
 }
 
-// A loaf: dense points on surfaces that are flat but for their noise, joined by round edges.
+// A loaf: dense points on noisy flat surfaces joined by round edges.
 TEST(ConvexHull, OfALoafIsNotCalledFlat) {
   SKIP_UNDER_SANITIZERS();
   for (int seed = 0; seed < 4; ++seed) {

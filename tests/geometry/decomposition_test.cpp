@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 using shapes::BoxAt;
 using shapes::BoxUnion;
 
-// Closed, outward, of at most 64 vertices, and no vertex above any face.
+// Expects a closed hull, oriented outward, of at most 64 vertices, with no vertex above any face.
 void ExpectConvexParts(const ConvexDecomposition& decomposition) {
   ASSERT_FALSE(decomposition.parts.empty());
   for (const ConvexPart& part : decomposition.parts) {
@@ -65,7 +65,7 @@ TEST(CutApart, VolumesAddUpAndPiecesAreClosed) {
 }
 
 TEST(CutApart, ThroughVerticesAndFacesAndAcrossHoles) {
-  // Level with the notch of the U: the plane holds faces of it; two legs and a base remain.
+  // At the height of the U's notch the plane contains faces; two legs and a base remain.
   const core::TriangleMesh u =
       BoxUnion({BoxAt(0, 0, 0, 3, 1, 1), BoxAt(0, 0, 0, 1, 1, 3), BoxAt(2, 0, 0, 3, 1, 3)});
   const auto pieces = CutApart(u, {Vector3d::UnitZ(), 1.0}, 1e-9);
@@ -74,7 +74,7 @@ TEST(CutApart, ThroughVerticesAndFacesAndAcrossHoles) {
     EXPECT_TRUE(Examine(piece).closed);
     EXPECT_NEAR(SignedVolume(piece), SignedVolume(ConvexHull(piece.vertices)), 1e-9);
   }
-  // Across the ring: caps are rings, too. Along it: two C shapes, two discs each.
+  // Across the ring: caps are rings, too. Along it: two C shapes, with two discs each.
   EXPECT_EQ(CutApart(shapes::Torus(1, .3, 32, 16), {Vector3d::UnitZ(), 0.05}, 1e-9).size(), 2u);
   EXPECT_EQ(CutApart(shapes::Torus(1, .3, 32, 16), {Vector3d::UnitX(), 0.0}, 1e-9).size(), 2u);
   EXPECT_TRUE(CutApart(u, {Vector3d::UnitZ(), 3.0}, 1e-9).empty());
@@ -147,7 +147,7 @@ TEST(Decompose, SameForAnyThreadCountAndLimitHolds) {
   }
 }
 
-// What a mug is for: a ball of 1 cm goes in and stays in, a rod of 6 mm goes through the handle.
+// A mug's function: a ball of 1 cm fits inside and stays, a rod of 6 mm passes through the handle.
 TEST(Decompose, MugHoldsABallAndItsHandleARod) {
   SimplifyOptions thin;
   thin.face_budget = 3000;
@@ -159,7 +159,7 @@ TEST(Decompose, MugHoldsABallAndItsHandleARod) {
   for (double z = 0.012; z < 0.12; z += 0.004) {
     EXPECT_GT(SignedDistanceToParts(parts, {{Vector3d(0, 0, z)}, 0.005}).distance, 0.0) << z;
   }
-  // On the floor beside the wall, too, and the floor and the walls hold it.
+  // The same on the floor beside the wall; floor and walls support it.
   for (int i = 0; i < 16; ++i) {
     const double a = 2 * shapes::kPi * i / 16;
     const Vector3d side(std::cos(a), std::sin(a), 0.0);
@@ -184,7 +184,7 @@ TEST(Decompose, FlatAndDisconnectedAndAwkwardSolids) {
   DecompositionOptions one;
   one.max_parts = 1;
   EXPECT_EQ(Decompose(two, one).parts.size(), 1u);
-  // Two boxes through one another: not free of self-intersections, but closed.
+  // Two intersecting boxes: self-intersecting, but closed.
   core::TriangleMesh crossing = shapes::Box(3, 1, 1), bar = shapes::Box(1, 3, 1);
   core::Transform(Eigen::Affine3d(Eigen::Translation3d(1, -1, 0.1)), &bar);
   core::Append(bar, &crossing);
@@ -216,15 +216,15 @@ TEST(Decompose, RefusesBadInput) {
   EXPECT_THROW(Decompose(box), core::Error);
 }
 
-// A cube as the part of an L: the arm that sticks out is missing, and nothing else.
+// A cube as the only part of an L: just the protruding arm is missing.
 TEST(MeasureDecomposition, KnowsExcessAndMissingVolume) {
   const core::TriangleMesh l = BoxUnion({BoxAt(0, 0, 0, 2, 1, 1), BoxAt(0, 0, 0, 1, 1, 2)});
   const double diagonal = 3.0;
   const DecompositionQuality hull = MeasureDecomposition(l, {ConvexHull(l.vertices)});
   EXPECT_NEAR(hull.excess_volume, 0.5 / 3.0, 0.01);
   EXPECT_EQ(hull.missing_volume, 0.0);
-  // The crease's middle lies 0.5 from the hull's ends, and 1 / sqrt(2) from its slope; the middle
-  // of that slope 0.5 from either arm.
+  // The crease's midpoint is 0.5 from the hull's ends and 1 / sqrt(2) from its slope; the midpoint
+  // of that slope is 0.5 from either arm.
   EXPECT_NEAR(hull.solid_to_parts, 0.5 / diagonal, 0.01);
   EXPECT_NEAR(hull.parts_to_solid, 0.5 / diagonal, 0.01);
   EXPECT_LT(hull.uncovered, 1e-12);
@@ -233,7 +233,7 @@ TEST(MeasureDecomposition, KnowsExcessAndMissingVolume) {
   EXPECT_EQ(cube.excess_volume, 0.0);
   EXPECT_NEAR(cube.solid_to_parts, 1.0 / diagonal, 0.01);
   EXPECT_NEAR(cube.uncovered, 1.0 / diagonal, 0.01);
-  // Five of an L's fourteen unit squares touch the cube, less those that face the arms.
+  // Five of an L's fourteen unit squares touch the cube, minus those that face the arms.
   EXPECT_NEAR(cube.coverage, 4.0 / 14.0, 0.01);
 }
 

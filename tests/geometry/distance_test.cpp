@@ -21,7 +21,7 @@ ConvexShape BoxShape(const Vector3d& half) {
   return box;
 }
 
-// Signed distance of two axis-aligned boxes in closed form.
+// Returns the signed distance of two axis-aligned boxes in closed form.
 double BoxDistance(const Vector3d& half_a, const Vector3d& half_b, const Vector3d& apart) {
   const Vector3d gap = apart.cwiseAbs() - half_a - half_b;
   return gap.maxCoeff() > 0.0 ? gap.cwiseMax(0.0).norm() : gap.maxCoeff();
@@ -76,8 +76,8 @@ TEST(SignedDistance, BallsCapsulesAndPoints) {
   EXPECT_NEAR(std::abs(d.normal.z()), 1.0, 1e-9);
 }
 
-// Moving b along the normal by what is missing makes them touch; the distance is a minimum over
-// all directions of the separation, which random directions never undercut.
+// Moving b by the distance along the normal makes them touch. The distance is the maximum
+// separation over all directions, which random directions never exceed.
 TEST(SignedDistance, IsTheSupportBoundForRandomHulls) {
   core::Rng rng(9);
   for (int i = 0; i < 300; ++i) {

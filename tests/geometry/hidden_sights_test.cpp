@@ -43,7 +43,7 @@ TEST_F(Slit, IsLookedIntoFarMoreOftenThanByChance) {
   EXPECT_GT(std::ssize(sights), 8 * by_chance);
 }
 
-// Each is a first hit of a line from outside.
+// Each is the first hit of a ray from outside.
 TEST_F(Slit, SightsAreTrue) {
   const TriangleTree tree(visual_), solid(solid_);
   const std::vector<OuterHit> sights = HiddenSights(visual_, solid_, options_);

@@ -21,7 +21,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using shapes::kPi;
 
-// Area of the face that looks down at height z.
+// Returns the area of the downward face at height z.
 double FaceArea(const core::TriangleMesh& mesh, double z) {
   std::vector<Vector2d> points;
   for (const Vector3d& v : mesh.vertices) {
@@ -41,7 +41,7 @@ struct Simplified {
   MassProperties mass;
 };
 
-// Sound, within the limit, of the volume, its centre where it was.
+// Expects a valid hull within the limit, with the same volume and centre.
 Simplified ExpectStandsFor(const core::TriangleMesh& shape, int most, double volume,
                            double center_share) {
   Simplified s;
@@ -73,7 +73,7 @@ TEST(SimplifyHull, CylindersAndDiscsKeepVolumeFootAndRoundness) {
         EXPECT_NEAR(FaceArea(s.simple, 0.0) / area, 1.0, 0.01);
         EXPECT_NEAR(FaceArea(s.simple, height) / area, 1.0, 0.01);
         EXPECT_NEAR(core::Bounds(s.simple).sizes().z(), height, 1e-12);
-        // As round as it was: both moments across the axis are one.
+        // Still round: both moments perpendicular to the axis are equal.
         EXPECT_NEAR(s.mass.inertia(0, 0) / s.mass.inertia(1, 1), 1.0, 1e-6);
       }
     }
@@ -114,7 +114,7 @@ TEST(SimplifyHull, ConesAndFrustums) {
   }
 }
 
-// Balls of a few hundred faces are 1 to 4 % smaller than the ball that they stand for.
+// Polyhedra of a few hundred faces are 1 to 4 % smaller than the ball that they approximate.
 TEST(SimplifyHull, BallsAndEllipsoids) {
   for (const Vector3d& radii : {Vector3d(1, 1, 1), Vector3d(1, 1, 1.4), Vector3d(3, 2, 1)}) {
     for (core::TriangleMesh ball :
@@ -123,7 +123,7 @@ TEST(SimplifyHull, BallsAndEllipsoids) {
       for (Vector3d& v : ball.vertices) v = v.cwiseProduct(radii);
       for (const int most : {64, 56, 52}) {
         const Simplified s = ExpectStandsFor(ball, most, SignedVolume(ball), 2e-3);
-        // Of the closed form's moments, (b^2 + c^2) / 5 and so on, to the share that facets cost.
+        // Compares with the closed form's moments, (b^2 + c^2) / 5 etc., up to the faceting error.
         for (int k = 0; k < 3; ++k) {
           const double b = radii[(k + 1) % 3], c = radii[(k + 2) % 3];
           EXPECT_NEAR(s.mass.inertia(k, k) / s.mass.mass / ((b * b + c * c) / 5.0), 1.0, 0.06);
@@ -154,7 +154,7 @@ TEST(SimplifyHull, CapsulesBowlsAndRings) {
     EXPECT_NEAR(core::Bounds(s.simple).sizes().z(), core::Bounds(hull).sizes().z(),
                 1e-4 * core::Bounds(hull).sizes().z());
     EXPECT_NEAR(s.mass.inertia(0, 0) / s.mass.inertia(1, 1), 1.0, 1e-6);
-    // The rim that a bowl lies on upside down, the ring's flats.
+    // The rim on which an inverted bowl rests, and the ring's flat ends.
     const double top = core::Bounds(hull).max().z();
     if (FaceArea(hull, top) > 0.5) {
       EXPECT_NEAR(FaceArea(s.simple, top) / FaceArea(hull, top), 1.0, 0.02);
@@ -198,7 +198,7 @@ TEST(SimplifyHull, RoundedBoxKeepsItsSidesAndItsMirrors) {
             1e-6 * s.mass.inertia.norm());
 }
 
-// Nothing about it is even.
+// An asymmetric hull.
 TEST(SimplifyHull, UnevenHullsKeepTheirVolume) {
   core::Rng rng(7);
   for (int shape = 0; shape < 6; ++shape) {
@@ -208,7 +208,7 @@ TEST(SimplifyHull, UnevenHullsKeepTheirVolume) {
       points.push_back(d.cwiseProduct(Vector3d(1.0, 0.8, 0.5)) * (1.0 + 0.05 * core::Uniform(rng)) +
                        (d.x() > 0.0 ? Vector3d(0.4, 0.1, 0.0) : Vector3d(0.0, 0.0, 0.0)));
     }
-    for (Vector3d& p : points) p.z() = std::max(p.z(), -0.3);  // it stands on a flat
+    for (Vector3d& p : points) p.z() = std::max(p.z(), -0.3);  // it stands on a flat side
     const core::TriangleMesh hull = ConvexHull(points);
     const Simplified s = ExpectStandsFor(hull, 56, SignedVolume(hull), 5e-3);
     EXPECT_NEAR(FaceArea(s.simple, -0.3) / FaceArea(hull, -0.3), 1.0, 0.05);
@@ -222,7 +222,7 @@ TEST(SimplifyHull, WhatFitsStaysAndLimitsAreChecked) {
   EXPECT_THROW(SimplifyHull(box, 15), core::Error);
 }
 
-// Through the whole decomposition: one part that stands as the solid does.
+// The whole decomposition gives one part that has the solid's support.
 TEST(Decompose, RoundSolidsBecomeOnePartOfTheirVolume) {
   for (const int n : {33, 64, 128, 256}) {
     for (const core::TriangleMesh& solid :

@@ -39,7 +39,7 @@ TEST(Isosurface, SphereHasItsVolume) {
   for (const Eigen::Vector3d& v : mesh.vertices) EXPECT_NEAR(v.norm(), 0.7, 0.001);
 }
 
-// Every pattern of signs, the ambiguous ones too, and a surface that runs into the border.
+// Every pattern of signs, including ambiguous ones, and a surface that meets the border.
 TEST(Isosurface, NoiseGivesASoundMesh) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     core::Rng rng(seed);

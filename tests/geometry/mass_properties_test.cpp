@@ -29,8 +29,8 @@ TEST(SolidMassProperties, BoxIsExact) {
   ExpectNear(p.inertia, 250.0 * Diagonal(4 + 9, 1 + 9, 1 + 4), 1e-12);
 }
 
-// A regular n-gon drawn out: area n/2 r^2 sin(2 pi/n), polar second moment of area
-// n/12 r^4 sin(2 pi/n) (2 + cos(2 pi/n)).
+// An extruded regular n-gon: area n/2 r^2 sin(2 pi/n), polar second moment of area n/12 r^4 sin(2
+// pi/n) (2 + cos(2 pi/n)).
 TEST(SolidMassProperties, PrismOfTheTessellatedCylinderIsExact) {
   const int n = 24;
   const double r = 0.3, h = 0.8, a = 2.0 * kPi / n;
@@ -47,7 +47,7 @@ struct Truth {
   Vector3d inertia;  // density 1
 };
 
-// Halving the facets divides the error by four: second order towards the closed form.
+// Halving the facets divides the error by four: second-order convergence to the closed form.
 void ExpectConverges(const std::function<core::TriangleMesh(int)>& mesh, const Truth& truth) {
   double last = 0.0;
   for (const int n : {32, 64, 128}) {
@@ -77,7 +77,7 @@ TEST(SolidMassProperties, ConvergeToClosedForms) {
 }
 
 TEST(SolidMassProperties, SphereByItsOwnTetrahedra) {
-  // Independent of the closed surface's origin: summed about a far vertex in long double.
+  // Independent of the origin: summed about a far vertex in long double.
   const core::TriangleMesh mesh = shapes::Sphere(0.5, 40);
   long double volume = 0.0L;
   Eigen::Matrix<long double, 3, 3> second = Eigen::Matrix<long double, 3, 3>::Zero();
@@ -131,14 +131,14 @@ TEST(SolidMassProperties, TurnsAndMovesWithTheBodyAlsoFarAway) {
 TEST(ShellMassProperties, BoxAndSphereOfSheet) {
   const MassProperties box = ShellMassProperties(shapes::Box(1, 1, 1), 0.01, 100.0);
   EXPECT_NEAR(box.mass, 6.0, 1e-12);
-  // Hollow cube: 5/18 m a^2.
+  // A hollow cube: 5/18 m a^2.
   ExpectNear(box.inertia, Matrix3d::Identity() * (6.0 * 5.0 / 18.0), 1e-12);
   const MassProperties sphere = ShellMassProperties(shapes::Sphere(0.5, 400), 0.002, 1000.0);
   EXPECT_NEAR(sphere.mass / (4 * kPi * 0.25 * 2.0), 1.0, 1e-4);
   ExpectNear(sphere.inertia, Matrix3d::Identity() * (2.0 / 3.0 * sphere.mass * 0.25), 2e-4);
 }
 
-// Independent truth: the body minus its cavity, both full.
+// Independent reference: the body minus its cavity, both solid.
 MassProperties WithoutCavity(const core::TriangleMesh& body, const core::TriangleMesh& cavity,
                              double density) {
   const MassProperties outer = SolidMassProperties(body, density);
@@ -184,7 +184,7 @@ TEST(HollowMassProperties, TendsToTheSheetAndToTheSolid) {
 }
 
 TEST(WallThickness, HoldsTheShareOfMatter) {
-  // A cube of side 1: 1 - (1 - 2 wall)^3 of it is matter.
+  // A cube of side 1 is filled by 1 - (1 - 2 wall)^3.
   for (const double wall : {1e-9, 0.01, 0.3, 0.499}) {
     const double fill = 2.0 * wall * (3.0 - 6.0 * wall + 4.0 * wall * wall);
     EXPECT_NEAR(WallThickness(fill, 1.0, 6.0) / wall, 1.0, 1e-9);

@@ -46,7 +46,7 @@ TEST(PlaneHull, OfALineHasNoArea) {
 }
 
 TEST(FewerCorners, DropsWhatCostsLeastArea) {
-  // A square with two corners cut off by 1 %: four corners hold it within 5 % of its area.
+  // A square with two corners cut by 1 %: four corners keep its area within 5 %.
   const std::vector<Vector2d> cut{{0.1, 0}, {0.9, 0}, {1, 0.1}, {1, 1}, {0, 1}, {0, 0.1}};
   EXPECT_EQ(FewerCorners(cut, 8, 0.0).size(), 6u);
   const std::vector<Vector2d> few = FewerCorners(cut, 8, 0.2);
@@ -58,7 +58,7 @@ TEST(FewerCorners, KeepsToTheNumberWhateverTheLoss) {
   const std::vector<Vector2d> disc = RegularPolygon(64);
   const std::vector<Vector2d> few = FewerCorners(disc, 8, 0.05);
   EXPECT_EQ(few.size(), 8u);
-  // No polygon of eight corners in a disc has more area than the regular one.
+  // No octagon in a disc has more area than the regular one.
   EXPECT_LE(Area(few), Area(RegularPolygon(8)) + 1e-12);
   EXPECT_GT(Area(few), 0.9 * Area(RegularPolygon(8)));
 }

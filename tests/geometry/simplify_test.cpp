@@ -64,7 +64,7 @@ TEST(Simplify, TheErrorLimitHoldsBeforeTheBudget) {
   EXPECT_LT(OuterSurfaceDistance(fine, close).visual_to_solid_p99, 5e-4);
 }
 
-// A box with a trench 2.4 cells wide and 0.5 deep: little area, so the mean does not mind it.
+// A box with a trench 2.4 cells wide and 0.5 deep: its area is small, so the mean error ignores it.
 TriangleMesh TrenchedBox() {
   ScalarGrid grid;
   grid.nx = grid.ny = grid.nz = 81;
@@ -95,7 +95,7 @@ TEST(Simplify, TheDistanceLimitKeepsWhatTheMeanHides) {
   const TriangleMesh kept = Simplify(fine, both);
   EXPECT_TRUE(Examine(kept).Sound());
   EXPECT_LT(kept.triangles.size(), fine.triangles.size() / 3);
-  // Three descents at most, each within the limit.
+  // At most three passes, each within the limit.
   EXPECT_LT(farthest(fine, kept), 3 * 0.05);
   EXPECT_LT(farthest(kept, fine), 3 * 0.05);
 }
@@ -156,7 +156,7 @@ TEST(Remesh, EdgesComeNearTheTarget) {
 
 TEST(Weld, JoinsDropsAndOrients) {
   TriangleMesh soup;
-  // A tetrahedron's faces with corners of their own, one face twice, one turned.
+  // A tetrahedron's faces with separate corners, one face repeated, one flipped.
   const Vector3d p[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (const Eigen::Vector3i& t :
        {Eigen::Vector3i(0, 2, 1), Eigen::Vector3i(0, 3, 1), Eigen::Vector3i(0, 3, 2),

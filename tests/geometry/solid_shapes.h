@@ -16,7 +16,7 @@
 #include "geometry/convex_hull.h"
 #include "geometry/isosurface.h"
 
-// Closed solids whose volume, hollows and holes are known by construction: for tests and benches.
+// Closed solids of known volume, hollows and holes, for tests and benchmarks.
 namespace simwright::shapes {
 
 using core::TriangleMesh;
@@ -25,7 +25,7 @@ using Eigen::Vector3d;
 
 inline constexpr double kPi = std::numbers::pi;
 
-// Vertices used by no triangle removed.
+// Removes the vertices that no triangle uses.
 inline TriangleMesh Compacted(const TriangleMesh& mesh) {
   TriangleMesh out;
   std::vector<int> index(mesh.vertices.size(), -1);
@@ -42,8 +42,8 @@ inline TriangleMesh Compacted(const TriangleMesh& mesh) {
   return out;
 }
 
-// The profile (r, z), a closed counter-clockwise polygon with r >= 0, turned about z. Where it
-// touches the axis, it closes there.
+// Returns the solid of revolution of the profile (r, z), a closed counter-clockwise polygon with r
+// >= 0, about z. It closes where the profile touches the axis.
 inline TriangleMesh Revolved(const std::vector<Vector2d>& profile, int segments) {
   TriangleMesh mesh;
   const int n = static_cast<int>(profile.size());
@@ -83,7 +83,7 @@ inline TriangleMesh Sphere(double radius, int segments) {
   return Revolved(profile, segments);
 }
 
-// Each triangle in four, the new corners in the middle of its edges.
+// Splits each triangle into four, with new corners at its edges' midpoints.
 inline TriangleMesh Subdivided(const TriangleMesh& mesh) {
   TriangleMesh fine;
   fine.vertices = mesh.vertices;
@@ -103,7 +103,7 @@ inline TriangleMesh Subdivided(const TriangleMesh& mesh) {
   return fine;
 }
 
-// 20 * 4^levels faces on the unit ball.
+// Returns a sphere of 20 * 4^levels faces with radius 1.
 inline TriangleMesh Icosphere(int levels) {
   const double g = std::numbers::phi;
   std::vector<Vector3d> points;
@@ -133,7 +133,7 @@ inline TriangleMesh Cone(double radius, double height, int segments) {
   return Revolved({{0.0, 0.0}, {radius, 0.0}, {0.0, height}}, segments);
 }
 
-// About z, the tube's centre at distance `major` from the axis.
+// Returns a torus about z, the tube's centre at distance `major` from the axis.
 inline TriangleMesh Torus(double major, double minor, int segments, int tube_segments) {
   std::vector<Vector2d> profile;
   for (int i = 0; i < tube_segments; ++i) {
@@ -143,7 +143,7 @@ inline TriangleMesh Torus(double major, double minor, int segments, int tube_seg
   return Revolved(profile, segments);
 }
 
-// A cup without a handle: wall and floor of `wall`, standing on z = 0.
+// Returns a cup without a handle: wall and floor of thickness `wall`, standing on z = 0.
 inline TriangleMesh Cup(double radius, double height, double wall, int segments) {
   return Revolved({{0.0, 0.0},
                    {radius, 0.0},
@@ -154,7 +154,7 @@ inline TriangleMesh Cup(double radius, double height, double wall, int segments)
                   segments);
 }
 
-// A spherical shell's lower half.
+// Returns the lower half of a spherical shell.
 inline TriangleMesh Bowl(double radius, double wall, int segments) {
   std::vector<Vector2d> profile;
   const int rings = segments / 4;
@@ -170,7 +170,7 @@ inline TriangleMesh Bowl(double radius, double wall, int segments) {
   return Revolved(profile, segments);
 }
 
-// The union of axis-aligned boxes, on the grid that all their sides make; boxes may overlap.
+// Returns the union of axis-aligned boxes, which may overlap, on the grid of all their sides.
 inline TriangleMesh BoxUnion(const std::vector<Eigen::AlignedBox3d>& boxes) {
   std::array<std::vector<double>, 3> at;
   for (int k = 0; k < 3; ++k) {
@@ -230,12 +230,12 @@ inline Eigen::AlignedBox3d BoxAt(double x0, double y0, double z0, double x1, dou
   return {Vector3d(x0, y0, z0), Vector3d(x1, y1, z1)};
 }
 
-// With one corner at the origin.
+// Returns a box with one corner at the origin.
 inline TriangleMesh Box(double x, double y, double z) {
   return BoxUnion({BoxAt(0, 0, 0, x, y, z)});
 }
 
-// Of twelve triangles, between two corners.
+// Returns a box of twelve triangles between two corners.
 inline TriangleMesh Box(const Vector3d& low, const Vector3d& high) {
   TriangleMesh mesh;
   for (int c = 0; c < 8; ++c) {
@@ -247,7 +247,7 @@ inline TriangleMesh Box(const Vector3d& low, const Vector3d& high) {
   return mesh;
 }
 
-// A star-shaped polygon (round its origin) drawn out along z.
+// Returns the extrusion along z of a star-shaped polygon (about its origin).
 inline TriangleMesh Prism(const std::vector<Vector2d>& polygon, double height) {
   TriangleMesh mesh;
   const int n = static_cast<int>(polygon.size());
@@ -266,7 +266,7 @@ inline TriangleMesh Prism(const std::vector<Vector2d>& polygon, double height) {
   return mesh;
 }
 
-// The solid where `distance` (m, about a signed distance) is negative, on a grid of `cell`.
+// Returns the solid where `distance` (m, about a signed distance) is negative, on a grid of `cell`.
 inline TriangleMesh Implicit(const Eigen::AlignedBox3d& box, double cell,
                              const std::function<double(const Vector3d&)>& distance) {
   geometry::ScalarGrid grid;
@@ -288,9 +288,9 @@ inline TriangleMesh Implicit(const Eigen::AlignedBox3d& box, double cell,
   return geometry::ExtractIsosurface(grid, 0.0f);
 }
 
-// A mug 95 mm high and 80 mm wide on z = 0, wall 4 mm, floor 5 mm, with a handle at +x: an upright
-// elliptical ring in the plane y = 0, its middle at x = 42 mm, z = 48 mm, half axes 27 and 30 mm,
-// 8 mm thick, so that the hole between it and the body is 19 mm wide.
+// Returns a mug 95 mm high and 80 mm wide on z = 0, wall 4 mm, floor 5 mm, with a handle at +x: an
+// upright elliptical ring in the plane y = 0, its centre at x = 42 mm, z = 48 mm, half axes 27 and
+// 30 mm, 8 mm thick, so that the hole between it and the body is 19 mm wide.
 inline TriangleMesh Mug(double cell) {
   const auto distance = [](const Vector3d& p) {
     const double r = std::hypot(p.x(), p.y());

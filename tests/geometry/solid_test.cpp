@@ -51,7 +51,7 @@ void ExpectAccepted(const TriangleMesh& visual, const Solid& solid, double toler
   EXPECT_LE(OuterSurfaceDistance(visual, solid.mesh).MaxRatio(), tolerance);
 }
 
-// An eighth of the grid: for what does not depend on its fineness.
+// An eighth of the grid's nodes, for properties that do not depend on its resolution.
 SolidOptions Coarse() {
   SolidOptions options;
   options.face_budget = 5000;
@@ -70,7 +70,7 @@ TEST(Solid, ClosedMeshesStayAsTheyAre) {
   const TriangleMesh torus = Torus(1.0, 0.3, 96, 48);
   const Solid ring = MakeSolid(torus);
   EXPECT_EQ(ring.method, SolidMethod::kAsItIs);
-  // Of polygons inscribed in the tube; 2 pi^2 R r^2 in the limit.
+  // For polygons inscribed in the tube; 2 pi^2 R r^2 in the limit.
   EXPECT_NEAR(SignedVolume(ring.mesh), 2.0 * std::pow(std::numbers::pi, 2) * 0.09, 0.01);
   EXPECT_EQ(SignedVolume(ring.mesh), SignedVolume(torus));
 }
@@ -120,7 +120,7 @@ TEST(Solid, OpenSheetsGetAWall) {
   EXPECT_EQ(solid.method, SolidMethod::kWrapped);
   EXPECT_NEAR(solid.sheet_thickness, 0.005 * std::sqrt(2.0), 1e-12);
   ExpectAccepted(sheet, solid);
-  // The plate and its rounded rim: area * wall + half a tube round it.
+  // The plate and its rounded rim: area * wall + half a tube around it.
   const double w = solid.sheet_thickness;
   const double expected = w + 4.0 * std::numbers::pi * w * w / 8.0;
   EXPECT_NEAR(SignedVolume(solid.mesh), expected, 0.05 * expected);
@@ -139,7 +139,7 @@ TEST(Solid, ABoxWithoutALidIsAVessel) {
 
 TEST(Solid, ACrackTooNarrowToSeeIntoStaysClosed) {
   TriangleMesh box = Box({0, 0, 0}, {1, 1, 1});
-  // The lid shifted by 2e-5 of the diagonal: no vertex is shared with the sides any more.
+  // The lid is shifted by 2e-5 of the diagonal and shares no vertex with the sides any more.
   const int first = static_cast<int>(box.vertices.size());
   for (const int c : {4, 5, 6, 7}) {
     box.vertices.push_back(box.vertices[c] + Vector3d(2e-5, 3e-5, 1e-5));

@@ -17,7 +17,7 @@ std::vector<StablePose> Poses(const core::TriangleMesh& mesh) {
   return StablePoses(mesh, SolidMassProperties(mesh, 1.0).center_of_mass);
 }
 
-// What every pose promises: the centre of mass over the origin, the body on z = 0.
+// Checks the invariants of a pose: the centre of mass over the origin, the body on z = 0.
 void ExpectRests(const core::TriangleMesh& mesh, const StablePose& pose) {
   const Vector3d center = SolidMassProperties(mesh, 1.0).center_of_mass;
   core::TriangleMesh laid = mesh;
@@ -30,7 +30,7 @@ void ExpectRests(const core::TriangleMesh& mesh, const StablePose& pose) {
   }
 }
 
-// The solid angle of a rectangle a x b seen from height h over its middle.
+// Returns the solid angle of a rectangle a x b seen from height h above its centre.
 double RectangleAngle(double a, double b, double h) {
   return 4.0 * std::asin(a * b / std::sqrt((a * a + 4 * h * h) * (b * b + 4 * h * h)));
 }
@@ -68,14 +68,14 @@ TEST(StablePoses, RegularTetrahedronHasFourEqual) {
   }
 }
 
-// A slender handle through a heavy head: it lies, and does not stand on the handle's end.
+// A slender handle through a heavy head: it lies down, and does not stand on the handle's end.
 TEST(StablePoses, HammerLies) {
   const core::TriangleMesh hammer =
       shapes::BoxUnion({shapes::BoxAt(-.01, -.01, 0, .01, .01, .3),
                         shapes::BoxAt(-.05, -.015, .26, .05, .015, .29)});
   const auto poses = Poses(hammer);
   ASSERT_GE(poses.size(), 2u);
-  // On its side: the head's flank and the handle's end carry it.
+  // On its side the head's flank and the handle's end support it.
   EXPECT_GT(std::abs(poses[0].face_normal.y()), 0.99);
   EXPECT_GT(poses[0].probability, 0.3);
   for (const auto& pose : poses) {
@@ -98,11 +98,12 @@ TEST(StablePoses, ConeStandsOnItsBaseOrLies) {
     ExpectRests(cone, pose);
   }
   EXPECT_NEAR(base, 0.5 * (1.0 - 0.5 / std::hypot(0.5, 0.5)), 2e-3);
-  // The sides share the rest alike: a cone of half angle atan(1/4) lies stably on each facet.
+  // The sides share the rest equally: a cone of half angle atan(1/4) is stable on each facet.
   EXPECT_EQ(poses.size(), 65u);
 }
 
-// A tall leaning prism whose base does not carry it: that share goes to where it falls.
+// A tall leaning prism that is unstable on its base: that share goes to the face that it falls
+// onto.
 TEST(StablePoses, UnstableFaceHandsItsShareOn) {
   core::TriangleMesh leaning = shapes::Box(1, 1, 3);
   for (Vector3d& v : leaning.vertices) v.x() += 0.8 * v.z();

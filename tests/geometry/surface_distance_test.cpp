@@ -30,13 +30,13 @@ TEST(SurfaceDistance, OffsetBoxesLieTheirOffsetApart) {
   EXPECT_NEAR(d.diagonal, 2.0 * std::sqrt(3.0), 1e-12);
   EXPECT_NEAR(d.visual_to_solid_max, 0.1, 1e-9);
   EXPECT_NEAR(d.visual_to_solid_p99, 0.1, 1e-9);
-  // The larger box's corners are sqrt(3) * 0.1 off; samples come near them.
+  // The larger box's corners are sqrt(3) * 0.1 away; samples come near them.
   EXPECT_GT(d.solid_to_visual_max, 0.15);
   EXPECT_LE(d.solid_to_visual_max, 0.1 * std::sqrt(3.0) + 1e-12);
   EXPECT_DOUBLE_EQ(d.MaxRatio(), d.solid_to_visual_max / d.diagonal);
 }
 
-// What is inside is not met from outside, but is part of the visual mesh all the same.
+// Inner surfaces are not hit from outside, but are part of the visual mesh all the same.
 TEST(SurfaceDistance, InnerShellsAreNotSeen) {
   TriangleMesh nested = Box(1.0);
   core::Append(Box(0.5), &nested);
@@ -59,7 +59,7 @@ TEST(SurfaceDistance, ThreadsDoNotMatterAndBadInputIsRefused) {
   EXPECT_THROW(SampleSurface({}, 10, 1), core::Error);
 }
 
-// Against every triangle in turn.
+// The reference tests every triangle.
 TEST(TriangleTree, AgreesWithBruteForce) {
   core::Rng rng(2);
   TriangleMesh soup;
@@ -110,7 +110,8 @@ TEST(TriangleTree, ClosestPointsOnOneTriangle) {
   EXPECT_EQ(ClosestPointOnTriangle({6, -1, 0}, a, b, c), b);
   EXPECT_EQ(ClosestPointOnTriangle({1, 1, 5}, a, b, c), Vector3d(1, 1, 0));
   EXPECT_EQ(ClosestPointOnTriangle({2, -3, 0}, a, b, c), Vector3d(2, 0, 0));
-  // Off the slanted side, 3 x + 4 y = 12: the foot of (3.5, 3.5) is (3.5, 3.5) - 12.5 (3, 4) / 25.
+  // From the slanted side, 3 x + 4 y = 12: the projection of (3.5, 3.5) is (3.5, 3.5) - 12.5 (3, 4)
+  // / 25.
   EXPECT_TRUE(ClosestPointOnTriangle({3.5, 3.5, 0}, a, b, c).isApprox(Vector3d(2, 1.5, 0), 1e-12));
 }
 

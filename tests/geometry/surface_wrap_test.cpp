@@ -50,7 +50,7 @@ TEST_F(HairlineSlit, ObliqueLinesOfSightOpenIt) {
   for (const OuterHit& hit : options_.seen) {
     EXPECT_LT(tree.Closest(hit.point).distance, options_.reach) << hit.point.transpose();
   }
-  // And nothing else has moved.
+  // Nothing else has moved.
   for (const double d : DistancesToSurface(wrap.mesh.vertices, mesh_)) EXPECT_LT(d, 0.02);
 }
 

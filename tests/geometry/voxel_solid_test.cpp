@@ -23,7 +23,7 @@ TEST(VoxelSolid, FillsABoxToItsVolume) {
   EXPECT_EQ(solid.Occupancy({50, 0, 0}), 0.0f);
 }
 
-// A cube of side 1 about the origin without its face towards `sign` z.
+// Returns a cube of side 1 about the origin without its face towards `sign` z.
 core::TriangleMesh OpenBox(double sign) {
   core::TriangleMesh box = shapes::Box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
   std::erase_if(box.triangles, [&](const Eigen::Vector3i& t) {
@@ -60,7 +60,7 @@ TEST(VoxelSolid, NarrowOpeningsAreClosedWhereAskedFor) {
   const VoxelSolid closed(box, {.resolution = 48, .gap_cells = 3.0});
   EXPECT_EQ(closed.Occupancy({0, 0, 0}), 1.0f);
   EXPECT_NEAR(closed.Volume(), 1.0, 0.05);
-  // A ball keeps its volume: closing gaps adds nothing to what is convex.
+  // A ball keeps its volume: closing gaps does not enlarge convex shapes.
   const core::TriangleMesh ball = shapes::Sphere(0.5, 32);
   EXPECT_NEAR(VoxelSolid(ball, {.resolution = 48, .gap_cells = 3.0}).Volume(),
               VoxelSolid(ball, {.resolution = 48}).Volume(), 1e-12);

@@ -24,7 +24,7 @@ namespace simwright::llm {
 
 inline constexpr const char* kKey = "sk-test-0123456789abcdefghij";
 
-// What a server of chat completions says to a question.
+// Returns a chat completions server's response to a question.
 inline std::string GoodBody(const std::string& text, int input = 11, int output = 7) {
   return nlohmann::json{
       {"choices",
@@ -33,7 +33,7 @@ inline std::string GoodBody(const std::string& text, int input = 11, int output 
       .dump();
 }
 
-// An HTTP server on a port of its own. `handler` gets each POST and its number, from 0.
+// An HTTP server on its own port. `handler` gets each POST and its number, from 0.
 class ChatServer {
  public:
   using Handler = std::function<void(int, const httplib::Request&, httplib::Response&)>;
@@ -90,8 +90,8 @@ class ChatServer {
   std::thread thread_;
 };
 
-// A server that takes each connection, reads its request, writes `reply` and closes: what no HTTP
-// library will do.
+// A server that accepts each connection, reads its request, writes `reply` and closes, which no
+// HTTP library does.
 class RawServer {
  public:
   explicit RawServer(std::string reply) : reply_(std::move(reply)) {
@@ -151,7 +151,7 @@ class RawServer {
   std::thread thread_;
 };
 
-// Time that passes only by sleeping; cancelled on request.
+// A clock that advances only by sleeping; cancelled on request.
 class StillClock final : public Clock {
  public:
   double UnixSeconds() override { return now; }

@@ -19,7 +19,7 @@ inline ChatServer::Handler Always(int status, const std::string& body,
   };
 }
 
-// `first` to the first request, then a good answer.
+// Answers the first request with `first`, later ones with a good answer.
 inline ChatServer::Handler Once(const std::function<void(httplib::Response&)>& first) {
   return [=](int number, const httplib::Request&, httplib::Response& response) {
     if (number == 0) {
@@ -30,7 +30,7 @@ inline ChatServer::Handler Once(const std::function<void(httplib::Response&)>& f
   };
 }
 
-// The error of a question that must fail.
+// Returns the error of a question that must fail.
 inline std::string ErrorOf(ChatModel* model, const ChatRequest& request = Question("hello")) {
   try {
     const ChatAnswer answer = model->Ask(request);

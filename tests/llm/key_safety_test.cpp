@@ -1,4 +1,4 @@
-// The key: sent to the server it is for and seen nowhere else.
+// The key is sent only to its own server and appears nowhere else.
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -23,7 +23,7 @@ TEST(KeySafety, TheKeyIsInNoAnswerErrorOrFinding) {
     OpenAiChatModel refused(OptionsFor(refusing.url()));
     ExpectHas(ErrorOf(&refused), "[redacted] is no good key");
   }
-  // Where the quote is cut, no half of the key stays behind.
+  // Truncating the quote must not leave half of the key.
   for (std::size_t lead = 270; lead < 310; ++lead) {
     ChatServer long_winded(Always(403, std::string(lead, 'x') + key));
     OpenAiChatModel refused(OptionsFor(long_winded.url()));

@@ -1,4 +1,4 @@
-// The client against servers that answer well, late, in pieces, wrongly, too much or not at all.
+// Tests the client with servers that answer well, late, in pieces, wrongly, too much or not at all.
 #include "llm/openai_chat_model.h"
 
 #include <gtest/gtest.h>
@@ -106,7 +106,7 @@ TEST(OpenAiChatModel, AServerErrorIsAskedAgainAfterGrowingWaits) {
     EXPECT_GE(clock.sleeps[static_cast<std::size_t>(i)], 0.5 * most);
     EXPECT_LE(clock.sleeps[static_cast<std::size_t>(i)], most);
   }
-  // The same seed waits the same, another seed otherwise.
+  // Equal seeds give equal waits, different seeds different ones.
   StillClock again, other;
   ErrorOf(std::make_unique<OpenAiChatModel>(OptionsFor(server.url()), again).get());
   ChatModelOptions options = OptionsFor(server.url());
@@ -302,7 +302,7 @@ TEST(OpenAiChatModel, AnAnswerJustWithinTheLimitIsTaken) {
   ExpectHas(ErrorOf(&model), "larger");
 }
 
-// Silent until the client has gone away, so that its own limits decide and no clock of the test's.
+// Silent until the client disconnects, so that the client's limits decide and not the test's clock.
 void WaitWhile(const ChatServer* server, const std::atomic<bool>& done) {
   while (!done && !server->stopping()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
 }
@@ -347,7 +347,7 @@ TEST(OpenAiChatModel, CancelEndsTheTransferAndTheWait) {
   std::unique_ptr<ChatServer> server;
   StillClock clock;
   server = std::make_unique<ChatServer>([&](int, const Request&, Response&) {
-    clock.cancelled = true;  // as Ctrl-C would, once the question is under way
+    clock.cancelled = true;  // simulates Ctrl-C once the question is sent
     WaitWhile(server.get(), false);
   });
   OpenAiChatModel model(OptionsFor(server->url()), clock);
@@ -363,7 +363,7 @@ TEST(OpenAiChatModel, CancelEndsTheTransferAndTheWait) {
   EXPECT_EQ(waiting.sleeps.size(), 1u);
 }
 
-// The real clock: Ctrl-C is what core/progress.h takes it for.
+// The real clock: Ctrl-C is reported by core/progress.h.
 TEST(OpenAiChatModelDeathTest, CtrlCIsNoticedBeforeAnythingIsSent) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(

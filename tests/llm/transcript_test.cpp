@@ -18,7 +18,7 @@ namespace simwright::llm {
 namespace {
 namespace fs = std::filesystem;
 
-// Numbers its answers, and holds the key in each as a server might that echoes it.
+// Numbers its answers, and includes the key in each like a server that echoes it.
 ChatServer::Handler Counting() {
   return [](int number, const httplib::Request&, httplib::Response& response) {
     response.set_content(GoodBody("answer " + std::to_string(number) + " for " + kKey),
@@ -183,7 +183,7 @@ TEST_F(Cache, AnEqualRequestIsSentOnce) {
   EXPECT_EQ(model->usage().answers, 2);
   EXPECT_EQ(model->usage().from_cache, 1);
   EXPECT_EQ(model->usage().tokens.input, 11);
-  // Another key or address is the same question; another model or seed is not.
+  // Another key or address gives the same question; another model or seed does not.
   options.key = "another-key";
   EXPECT_TRUE(MakeChatModel(options)->Ask(Question("one")).from_cache);
   options.key = kKey;
@@ -214,7 +214,7 @@ TEST_F(Cache, DamagedEntriesAreAskedAnew) {
     const std::unique_ptr<ChatModel> model = MakeChatModel(options);
     EXPECT_FALSE(model->Ask(Question("one")).from_cache) << damaged;
     const core::Findings findings = model->TakeFindings();
-    // An entry of another request is no damage.
+    // An entry of another request is not damage.
     EXPECT_EQ(findings.size(), damaged.rfind("{\"content\":1", 0) == 0 ? 0u : 1u) << damaged;
     for (const core::Finding& finding : findings) EXPECT_EQ(finding.code, "llm-cache-damaged");
     EXPECT_TRUE(model->Ask(Question("one")).from_cache);

@@ -1,4 +1,4 @@
-// Memory that a step of a training frees is there for the next one.
+// Memory freed by a training step is reused by the next one.
 #include "nn/compute.h"
 
 #include <gtest/gtest.h>
@@ -9,14 +9,14 @@
 namespace simwright::nn {
 namespace {
 
-// Pages that the system had to hand out so far.
+// Returns the number of pages that the system has handed out.
 long PageFaults() {
   rusage usage;
   getrusage(RUSAGE_SELF, &usage);
   return usage.ru_minflt;
 }
 
-// A step's tensors: freed together at its end, 24 MB, none smaller than what glibc maps alone.
+// The tensors of a step: freed together at its end, 24 MB, each larger than glibc's mmap threshold.
 void Step() {
   torch::NoGradGuard no_gradient;
   std::vector<torch::Tensor> kept;
@@ -31,8 +31,8 @@ TEST(PrepareForWork, KeepsTheMemoryThatAStepFrees) {
   for (int i = 0; i < 10; ++i) Step();
   const long before = PageFaults();
   for (int i = 0; i < 10; ++i) Step();
-  // 10 x 24 MB are 61440 pages of 4 kB, and glibc's own way is twice as many. The system may take a
-  // page back that has not been used for a while.
+  // 10 x 24 MB are 61440 pages of 4 kB, and glibc's default takes twice as many. The system may
+  // reclaim a page that has not been used for a while.
   EXPECT_LT(PageFaults() - before, 30000);
 }
 

@@ -1,4 +1,4 @@
-// What is written to disk comes back: weights, and all that a training goes on from.
+// State written to disk is restored: weights, and everything from which a training resumes.
 #include <gtest/gtest.h>
 
 #include "core/error.h"

@@ -1,4 +1,4 @@
-// What is known and what a language model says, joined; and the asking itself.
+// Tests combining the knowledge base with a language model's answers, and the questions.
 #include "physics_params/answer_reconciliation.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST(Reconciliation, OverlapsNarrow) {
 }
 
 TEST(Reconciliation, TheBaseWinsAboutItsOwnKind) {
-  // 700 g is within 2.5 of 480 g, 1.9 kg is not.
+  // 700 g is within a factor of 2.5 of 480 g, 1.9 kg is not.
   EstimatedCategory estimate = Reconciled("mass: 700-900 g");
   ExpectRange(estimate.category.mass, 0.23, 0.48);
   EXPECT_EQ(Count(estimate.findings, "llm-disagrees", core::Severity::kInfo), 1);
@@ -127,7 +127,7 @@ TEST(Reconciliation, UnknownKindsRestOnAPlausibleAnswer) {
   // A length shorter than the width is the width.
   ExpectRange(from("mass: 1 kg\nlength, width, height: 10-11, 20-21, 5-6").category.length, 0.20,
               0.21);
-  // 8500 kg/m^3: no glass, but there is brass.
+  // 8500 kg/m^3: not glass, but brass fits.
   const EstimatedCategory weight = from("mass: 8.5 kg\ndimensions: 10, 10, 10\nmaterial: glass");
   EXPECT_EQ(Count(weight.findings, "llm-density", core::Severity::kWarning), 1);
   EXPECT_EQ(weight.category.fill, Fill::kSolid);
@@ -142,7 +142,7 @@ TEST(Reconciliation, UnknownKindsRestOnAPlausibleAnswer) {
   }
 }
 
-// Says what it is told to, in order.
+// Returns given answers in order.
 class Scripted final : public llm::ChatModel {
  public:
   explicit Scripted(std::deque<std::string> texts) : texts_(std::move(texts)) {}
@@ -163,8 +163,8 @@ class Scripted final : public llm::ChatModel {
   std::deque<std::string> texts_;
 };
 
-// Gen2Sim's table I as answers to our own question. Papaya and raspberry are in no row of the
-// base; without WordNet there is no near kind, so that the table's own figures come out.
+// Gen2Sim's table I as answers to our own question. Papaya and raspberry are in no row of the base;
+// without WordNet there is no related category, so that the table's own values result.
 TEST(Estimate, Gen2SimTableOneOfUnknownKindsComesOutExactly) {
   Scripted model(
       {"object: papaya\nmass in grams: 500-1000\n"
@@ -194,7 +194,7 @@ TEST(Estimate, TheQuestionNamesTheThingAndTheMaterials) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   }
   EXPECT_TRUE(ReadPhysicsAnswer(text).objects.empty() ||
-              !ReadPhysicsAnswer(text).objects[0].mass);  // it suggests no figure itself
+              !ReadPhysicsAnswer(text).objects[0].mass);  // it suggests no value itself
 }
 
 TEST(Estimate, AnUnusableAnswerIsAskedForOnceMore) {

@@ -1,5 +1,5 @@
-// The bar of what a name may be taken for: a table of names that have to be understood, and one of
-// names for which the nearest row is another thing.
+// Acceptance tables for name resolution: names that must resolve, and names whose nearest row is a
+// different object.
 #include "physics_params/category_resolution.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ struct Row {
   const char* category;
 };
 
-// Plurals, words of a file's name, compounds whose head is known: no WordNet is needed.
+// Plurals, words of a file's name, compounds with a known head: no WordNet is needed.
 constexpr Row kSpelled[] = {{"Mug", "mug"},
                             {"mugs", "mug"},
                             {"knives", "knife"},
@@ -60,8 +60,8 @@ constexpr Row kMeant[] = {{"skillet", "frying pan"},   {"spanner", "wrench"},
                           {"tea kettle", "kettle"},    {"bread knife", "knife"},
                           {"candle holder", "candlestick"}};
 
-// Siblings, parts, holders and tools of a thing are not that thing; what WordNet knows as one word
-// is not its last word.
+// Siblings, parts, holders and tools of an object are not that object; what WordNet knows as one
+// word is not its last word.
 constexpr const char* kFar[] = {
     "domino",      "duck",          "garlic press",  "book holder",     "puzzle cube", "goose",
     "rubber duck", "bookend",       "cup holder",    "mug rack",        "hot plate",   "license plate",
@@ -113,7 +113,7 @@ TEST(CategoryResolution, FarNamesAreRefusedWithTheThreeNearest) {
   EXPECT_EQ(slip.empty() ? "" : slip[0], "mug");
 }
 
-// Each row is found by its own name, and in the plural where that is regular.
+// Each row is found by its own name, and by its regular plural.
 TEST(CategoryResolution, EveryRowIsItself) {
   for (const Category& category : KnowledgeBase::Shipped().categories()) {
     const Resolution found = Resolve(category.name);

@@ -1,4 +1,4 @@
-// What language models answer when asked for masses and sizes, in every form met.
+// Language models' answers to questions about masses and sizes, in every form seen so far.
 #include "physics_params/physics_answer.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace simwright::physics_params {
 namespace {
 
-// The only object of an answer.
+// Returns the only object of an answer.
 ObjectAnswer Only(const std::string& text) {
   const PhysicsAnswer answer = ReadPhysicsAnswer(text);
   EXPECT_EQ(answer.objects.size(), 1u) << text;
@@ -40,7 +40,7 @@ void ExpectSizes(const std::string& text, const std::array<double, 6>& sizes) {
   ExpectRange(object.height, 1e-2 * sizes[4], 1e-2 * sizes[5], text);
 }
 
-// Gen2Sim, table I: its answers of a language model, in grams and centimetres.
+// Gen2Sim, table I: a language model's answers in grams and centimetres.
 struct TableRow {
   const char* name;
   std::array<double, 8> values;
@@ -224,7 +224,7 @@ TEST(PhysicsAnswer, LongTextsAreReadInLinearTime) {
   for (const std::string piece : {"mass: 1-", "{\"mass\":", "|mass|1", "length, ", "1,1,1 "}) {
     std::string text;
     while (text.size() < (1u << 20)) text += piece;
-    ReadPhysicsAnswer(text);  // the test's time limit is what it must keep
+    ReadPhysicsAnswer(text);  // bounded by the test's time limit
   }
 }
 

@@ -34,7 +34,7 @@ TEST(KnowledgeBase, MassesArePossibleForTheirSizes) {
     const double smallest_box = c.length.min * c.width.min * c.height.min;
     EXPECT_LE(c.mass.max, 1.05 * densest * largest_box) << c.name;
     EXPECT_LE(c.mass.min, densest * smallest_box * 1.3) << c.name;
-    EXPECT_GE(c.mass.max, 0.5 * smallest_box) << c.name;  // half of air's density is no thing
+    EXPECT_GE(c.mass.max, 0.5 * smallest_box) << c.name;  // half of air's density is impossible
   }
 }
 

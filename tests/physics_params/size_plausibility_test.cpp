@@ -24,7 +24,7 @@ TEST(SizePlausibility, AChairReadInAWrongUnitIsAbsurdAndItsUnitIsFound) {
   EXPECT_NEAR(SizeFactor(Named("chair"), metres * 100.0), 90.0 / 1.22, 1e-9);
   EXPECT_NEAR(SizeFactor(Named("chair"), metres / 10.0), 0.09 / 0.72, 1e-9);
   EXPECT_TRUE(UnitsThatFit(Named("chair"), Eigen::Vector3d(7, 7, 7)).empty());
-  // 8 x 8 x 10 are centimetres or inches: people mean the former.
+  // 8 x 8 x 10 may be centimetres or inches: people mean the former.
   EXPECT_EQ(UnitsThatFit(Named("object"), Eigen::Vector3d(8, 8, 10)).front(), "cm");
 }
 

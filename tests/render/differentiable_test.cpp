@@ -46,7 +46,7 @@ TEST(Differentiable, ValuesOfASquare) {
   options.draw_normals = true;
   DifferentiableRenderer renderer({square}, options);
   const DifferentiableBuffers& picture = renderer.Render(camera, 1);
-  // 10 pixels a metre: the square covers 20 x 20 pixels about the middle.
+  // 10 pixels per metre: the square covers 20 x 20 pixels around the centre.
   EXPECT_EQ(*picture.mask.At(20, 20), 1.0f);
   EXPECT_EQ(*picture.mask.At(5, 20), 0.0f);
   EXPECT_NEAR(*picture.depth.At(20, 20), 2.0f, 1e-6f);
@@ -79,7 +79,7 @@ TEST(Differentiable, TheAreaOfASquareGrowsAsItsFormulaSays) {
   EXPECT_NEAR(gradients.objects[0].pose.translation.x(), 0.0, 0.01 * area);
 }
 
-// Mean depth over a tilted plane that fills the picture: interior derivatives alone.
+// The mean depth of a tilted plane that fills the image: interior derivatives only.
 TEST(Differentiable, DepthOfAPlaneThatFillsThePicture) {
   const core::Camera camera = FromAbove(2.0, 16, 32.0);
   DifferentiableOptions options;
@@ -108,7 +108,7 @@ TEST(GradientGate, ABumpySphere) {
   ExpectGate(CompareFields(scene, 6, 32, 1, gradients), "6 fields", 0.03);
 }
 
-// The step along every visible edge of a flat-shaded mesh moves with the edge.
+// The discontinuity at every visible edge of a flat-shaded mesh moves with the edge.
 TEST(GradientGate, AFlatShadedSphere) {
   GateScene scene = BumpySphereScene(24, 3);
   scene.options.smooth_normals = false;
@@ -116,7 +116,7 @@ TEST(GradientGate, AFlatShadedSphere) {
   ExpectGate(CompareFields(scene, 4, 32, 1, gradients), "flat", 0.03);
 }
 
-// The inner side of a bowl: its far wall's rim is an outline, and what is seen are back faces.
+// The inside of a bowl: its far rim is a silhouette, and the visible faces are back faces.
 TEST(GradientGate, AnOpenMeshSeenFromInside) {
   GateScene scene = BumpySphereScene(24, 6);
   core::TriangleMesh& mesh = scene.objects[0].mesh;
@@ -140,7 +140,7 @@ TEST(GradientGate, AnEdgeOfThreeFaces) {
   ExpectGate(CompareFields(scene, 4, 32, 1, gradients), "three faces", 0.03);
 }
 
-// The picture is linear in colours, texels and light: differences are exact but for rounding.
+// The image is linear in colours, texels and light: differences are exact up to rounding.
 TEST(Differentiable, ColorsTexelsAndLight) {
   GateScene quad = TexturedQuadScene(24);
   Paint(&quad.objects[0]);
@@ -188,8 +188,9 @@ TEST(Differentiable, ColorsTexelsAndLight) {
   }
 }
 
-// A textured square cut along its middle, both halves with vertices of their own and texture
-// coordinates that jump there: closed up, the cut is no outline; the texture's step is sampled.
+// A textured square cut along its middle, both halves with their own vertices and discontinuous
+// texture coordinates: the welded cut is not a silhouette, but the texture's discontinuity is
+// sampled.
 TEST(GradientGate, ASeamIsNoOutlineButMayStep) {
   GateScene scene = TexturedQuadScene(24);
   DifferentiableObject& quad = scene.objects[0];

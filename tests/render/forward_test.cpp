@@ -96,7 +96,7 @@ TEST(Forward, TextureAppearsWhereItsCoordinatesSay) {
   options.shaded = true;
   options.lit = false;
   const ForwardBuffers buffers = RenderForward(scene, FromAbove(2.0, 40, 40.0), options);
-  // World (-0.5, 0.5) is texture's upper left, seen at image (10, 10).
+  // World (-0.5, 0.5) is the texture's upper left, seen at image (10, 10).
   EXPECT_GT(buffers.color.At(10, 10)[0], 200);
   EXPECT_LT(buffers.color.At(30, 30)[0], 60);
 }
@@ -129,8 +129,8 @@ TEST(Light, IrradianceOfAClampedCosineLobe) {
   EXPECT_NEAR(SrgbFromLinear(LinearFromSrgb(0.37f)), 0.37f, 1e-5f);
 }
 
-// The corner normals of a box lean over its edges: on a side that is seen flatly they look away
-// from the eye, and still belong to that side, which is lit.
+// A box's corner normals lean over its edges: on a side seen at a grazing angle they point away
+// from the camera, yet belong to that side, which is lit.
 TEST(Forward, NormalsStayOnTheirSideOfAFaceSeenFlatly) {
   core::TexturedMesh box;
   for (int c = 0; c < 8; ++c) {
@@ -147,7 +147,7 @@ TEST(Forward, NormalsStayOnTheirSideOfAFaceSeenFlatly) {
   options.occlusion_rays = 8;
   int flat = 0;
   for (const double azimuth : {-0.1, -0.05, 0.05, 0.1}) {
-    // From the front, past the side: the orbit starts where its azimuth says.
+    // From the front, past the side: the orbit starts at its azimuth.
     const core::Camera camera = core::OrbitCamera({0, 0, 0.5}, 3.0, 0.3, azimuth, 0.4, 200, 200);
     const ForwardBuffers buffers = RenderForward(scene, camera, options);
     for (size_t at = 0; at < buffers.triangle.size(); ++at) {

@@ -8,10 +8,10 @@
 
 #include "tests/render/gradient_gate.h"
 
-// The scenes on which gradients are held against finite differences.
+// The scenes on which gradients are compared with finite differences.
 namespace simwright::render {
 
-constexpr double kSceneScale = 0.4;  // things are about 0.6 m across
+constexpr double kSceneScale = 0.4;  // objects are about 0.6 m across
 
 inline core::Camera GateCamera(int size) {
   return core::OrbitCamera(Eigen::Vector3d::Zero(), 3.0 * kSceneScale, 0.35, 0.6, 0.75, size, size);
@@ -39,7 +39,7 @@ inline GateScene TriangleScene(int size) {
   return scene;
 }
 
-// Reaches out of the picture on two sides.
+// Extends beyond the image on two sides.
 inline GateScene ClippedTriangleScene(int size) {
   GateScene scene = TriangleScene(size);
   scene.objects[0].mesh.vertices[1] = kSceneScale * Eigen::Vector3d(0.1, 2.6, -0.5);
@@ -47,7 +47,7 @@ inline GateScene ClippedTriangleScene(int size) {
   return scene;
 }
 
-// One corner lies behind the camera.
+// One corner is behind the camera.
 inline GateScene NearTriangleScene(int size) {
   GateScene scene = TriangleScene(size);
   const Eigen::Vector3d eye = scene.camera.position();
@@ -67,7 +67,7 @@ inline GateScene OccludingTrianglesScene(int size) {
   return scene;
 }
 
-// Points of a triangle's grid, `n` steps a side, as an icosahedron's face is divided: a bumpy
+// The points of a triangle's grid with `n` steps per side, as on an icosahedron's face: a bumpy
 // sphere of 20 n^2 faces.
 inline core::TriangleMesh BumpySphere(int n) {
   const double g = std::numbers::phi;

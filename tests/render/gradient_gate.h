@@ -17,12 +17,12 @@
 #include "core/random.h"
 #include "render/differentiable.h"
 
-// Finite differences with common random numbers against DifferentiableRenderer's gradients.
+// Compares DifferentiableRenderer's gradients with finite differences under common random numbers.
 namespace simwright::render {
 
-constexpr double kStep = 4e-3;  // of finite differences, world units; relative for lenses
-// Of single vertices of fine meshes: a vertex that moves by a share of its edges turns faces at the
-// outline from and to the camera, where the picture's derivative jumps.
+constexpr double kStep = 4e-3;  // step of finite differences, world units; relative for lenses
+// The step for single vertices of fine meshes: a vertex that moves by a share of its edges flips
+// faces at the silhouette, where the image's derivative jumps.
 constexpr double kFineStep = 2e-4;
 
 enum Output { kColor, kMask, kDepth, kNormal, kOutputs };
@@ -34,7 +34,7 @@ struct GateScene {
   core::Camera camera;
 };
 
-// A smooth random function of place, about 1 in size.
+// A smooth random function of position, about 1 in magnitude.
 class SmoothFunction {
  public:
   SmoothFunction(std::uint64_t seed, double frequency) {
@@ -71,7 +71,7 @@ inline core::FloatImage SmoothImage(const core::Camera& camera, int channels, st
   return image;
 }
 
-// dL/d(picture) of four losses, one an output.
+// dL/d(image) of four losses, one per output.
 inline DifferentiableBuffers LossImages(const GateScene& scene) {
   DifferentiableBuffers images;
   images.color = SmoothImage(scene.camera, 3, 1);
@@ -103,7 +103,7 @@ inline Losses LossesOf(const DifferentiableBuffers& picture, const Differentiabl
           Dot(images.depth, picture.depth), Dot(images.normal, picture.normal)};
 }
 
-// A window of the camera's picture, same pixels.
+// A crop of the camera's image, with the same pixels.
 inline core::Camera Window(const core::Camera& camera, int x0, int y0, int x1, int y1) {
   core::Camera window = camera;
   window.width = x1 - x0;
@@ -130,7 +130,7 @@ inline DifferentiableBuffers Window(const DifferentiableBuffers& images, int x0,
           Window(images.depth, x0, y0, x1, y1), Window(images.normal, x0, y0, x1, y1)};
 }
 
-// Gradients of the four losses from one picture of many samples.
+// The gradients of the four losses from one image with many samples.
 inline std::array<SceneGradients, kOutputs> Gradients(const GateScene& scene, int samples_per_side,
                                                       int edge_samples, std::uint64_t seed = 5) {
   DifferentiableOptions options = scene.options;
@@ -144,10 +144,10 @@ inline std::array<SceneGradients, kOutputs> Gradients(const GateScene& scene, in
   return gradients;
 }
 
-// How far finite differences and predictions are apart, for each output.
+// The difference between finite differences and predictions for each output.
 struct Agreement {
   double error = 0.0;   // |difference - prediction| / |difference|, over all components
-  double cosine = 1.0;  // between them
+  double cosine = 1.0;  // of the angle between them
   double size = 0.0;    // |difference|
 };
 
@@ -174,7 +174,7 @@ class Comparison {
   Losses dd_{}, pp_{}, dp_{}, off_{};
 };
 
-// (L(+step) - L(-step)) / (2 step) with the same samples in both pictures. `apply` sets the
+// Returns (L(+step) - L(-step)) / (2 step) with the same samples in both images. `apply` sets the
 // renderer's parameter (and may change the camera).
 inline Losses CentralDifference(DifferentiableRenderer* renderer, const core::Camera& camera,
                                 const DifferentiableBuffers& images, double step, int seeds,
@@ -193,7 +193,7 @@ inline Losses CentralDifference(DifferentiableRenderer* renderer, const core::Ca
   return difference;
 }
 
-// Along `fields` smooth random displacements of all vertices of all objects.
+// Compares along `fields` smooth random displacements of all vertices of all objects.
 inline Comparison CompareFields(const GateScene& scene, int fields, int samples_per_side, int seeds,
                                 const std::array<SceneGradients, kOutputs>& gradients) {
   DifferentiableOptions options = scene.options;
@@ -236,8 +236,8 @@ inline Comparison CompareFields(const GateScene& scene, int fields, int samples_
   return comparison;
 }
 
-// The pixels within which moving a vertex of the first object a little changes the picture: those
-// of its faces and of the faces of their vertices. (x0, y0, x1, y1), empty where x0 >= x1.
+// Returns the pixels in which a small move of a vertex of the first object changes the image: those
+// of its faces and of the faces of their vertices. (x0, y0, x1, y1), empty if x0 >= x1.
 inline Eigen::Vector4i Reach(const GateScene& scene, int vertex) {
   const core::TriangleMesh& mesh = scene.objects[0].mesh;
   std::vector<bool> near(mesh.vertices.size(), false);
@@ -267,7 +267,8 @@ inline Eigen::Vector4i Reach(const GateScene& scene, int vertex) {
           within(std::ceil(box.max().y()) + 1.0, scene.camera.height)};
 }
 
-// Vertices to try: the ones at steps first (largest mask gradient, every n-th), then others.
+// Returns the vertices to test: first those at discontinuities (largest mask gradient, every n-th),
+// then others.
 inline std::vector<int> ChosenVertices(const SceneGradients& of_mask, int count) {
   const std::vector<Eigen::Vector3d>& gradient = of_mask.objects[0].vertices;
   std::vector<int> steps, others, chosen;
@@ -285,8 +286,9 @@ inline std::vector<int> ChosenVertices(const SceneGradients& of_mask, int count)
   return chosen;
 }
 
-// For up to `vertices` single ones of the first object, each axis; half of them where the picture
-// steps, if there are so many. Each picture has about `rays` rays, all where the vertex matters.
+// Compares up to `vertices` single vertices of the first object, along each axis; half of them at
+// discontinuities, if there are enough. Each image has about `rays` rays, all where the vertex
+// matters.
 inline Comparison CompareVertices(const GateScene& scene, int vertices, double step, int rays,
                                   const std::array<SceneGradients, kOutputs>& gradients) {
   const DifferentiableBuffers images = LossImages(scene);
@@ -320,8 +322,8 @@ inline Eigen::Isometry3d Turned(const Eigen::Isometry3d& pose, int axis, double 
   return turned;
 }
 
-// The camera's translation (axes 0-2) and rotation (3-5), or the first object's (6-11). Rotations
-// are measured by how far they move what is about 0.3 m from the object's origin.
+// Compares the camera's translation (axes 0-2) and rotation (3-5), or the first object's (6-11).
+// Rotations are scaled by the displacement of points about 0.3 m from the object's origin.
 inline Comparison ComparePose(const GateScene& scene, int first_axis, int last_axis,
                               int samples_per_side, int seeds,
                               const std::array<SceneGradients, kOutputs>& gradients) {
@@ -362,7 +364,7 @@ inline Comparison ComparePose(const GateScene& scene, int first_axis, int last_a
   return comparison;
 }
 
-// Of focal lengths and principal point, a relative step each (of the width for the point).
+// Compares focal lengths and principal point with relative steps (of the width for the point).
 inline Comparison CompareLens(const GateScene& scene, int samples_per_side, int seeds,
                               const std::array<SceneGradients, kOutputs>& gradients) {
   DifferentiableOptions options = scene.options;

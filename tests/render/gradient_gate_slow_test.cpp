@@ -1,5 +1,5 @@
 // The gates of the differentiable renderer: finite differences with common random numbers, 1024
-// samples a pixel, 32 smooth displacement fields, up to 64 single vertices, camera, lens, light.
+// samples per pixel, 32 smooth displacement fields, up to 64 single vertices, camera, lens, light.
 #include <gtest/gtest.h>
 
 #include "tests/render/gate_scenes.h"
@@ -7,7 +7,7 @@
 namespace simwright::render {
 namespace {
 
-constexpr int kSamples = 32;  // a pixel's side
+constexpr int kSamples = 32;  // per pixel side
 
 void RunGates(const GateScene& scene, int fields, int vertices) {
   const auto gradients = Gradients(scene, kSamples, 400000);
@@ -41,7 +41,7 @@ TEST(GradientGateSlow, ATexturedQuad) {
 
 TEST(GradientGateSlow, ABumpySphereOfTenThousandTriangles) {
   RunGates(BumpySphereScene(32, 22), 32, 0);
-  // Differences of single vertices are noisy, a few rays at the outline: their cosine counts.
+  // Differences of single vertices are noisy, with few rays at the silhouette: test their cosine.
   const GateScene large = BumpySphereScene(128, 22);
   ExpectGate(CompareVertices(large, 64, kFineStep, 200000, Gradients(large, 8, 1000000)),
              "64 vertices", 0.15);
@@ -86,7 +86,7 @@ TEST(GradientGateSlow, FourThousandEdgeSamplesAreEnoughUpToAHundredThousandTrian
   }
 }
 
-// At a hundred thousand triangles single vertices take a day: fields alone, against differences.
+// At a hundred thousand triangles single vertices take a day: test only fields.
 TEST(GradientGateSlow, FieldsOnAHundredThousandTriangles) {
   const GateScene scene = BumpySphereScene(32, 71);
   const auto gradients = Gradients(scene, kSamples, 4000000);

@@ -57,7 +57,7 @@ TEST(UvAtlas, NoTwoTrianglesShareATexel) {
         const auto side = [&](const Eigen::Vector2f& m, const Eigen::Vector2f& n) {
           return (n - m).x() * (p - m).y() - (n - m).y() * (p - m).x();
         };
-        // Strictly inside: edges are shared by right.
+        // Strictly inside: edges may be shared.
         if (side(a, b) <= 1e-3f || side(b, c) <= 1e-3f || side(c, a) <= 1e-3f) continue;
         ++covered;
         int& at = owner[static_cast<size_t>(y * 512 + x)];
@@ -124,7 +124,7 @@ TEST(PhotoProjection, FrontTakesThePhotoAndTheBackMirrorsIt) {
   }
 }
 
-// The colour of the texture at the middle of the face that is nearest to `p`.
+// Returns the texture's colour at the centroid of the face nearest to `p`.
 Eigen::Vector3f ColorNear(const core::TexturedMesh& textured, const Eigen::Vector3d& p) {
   size_t best = 0;
   double nearest = 1e9;
@@ -156,7 +156,7 @@ TEST(PhotoProjection, EachPhotoColoursItsSideAndTheRestIsAsTold) {
   EXPECT_LT((ColorNear(textured, {0.8, 0.5, 0}) - Eigen::Vector3f::UnitY()).norm(), 0.05f);
   EXPECT_LT((ColorNear(textured, {-0.7, 0.7, 0}) - Eigen::Vector3f::UnitZ()).norm(), 0.05f);
   const Eigen::Vector3f between = ColorNear(textured, {0.7, -0.7, 0});
-  EXPECT_NEAR(between.x(), 0.5f, 0.15f);  // both look as squarely
+  EXPECT_NEAR(between.x(), 0.5f, 0.15f);  // both face it equally
   EXPECT_NEAR(between.y(), 0.5f, 0.15f);
   EXPECT_THROW(ProjectPhotos(ball, {}, blue), core::Error);
   EXPECT_THROW(ProjectPhotos(ball, views, {}), core::Error);
