@@ -34,7 +34,7 @@ torch::Tensor PictureTensor(const ObjectPicture& picture) {
 torch::Tensor DrawnTensor(const PredictionPicture& drawn, const core::Camera& camera,
                           double radius) {
   const torch::Tensor opacity = TensorFromImage(drawn.picture.opacity);
-  // Depth times opacity, about the middle times opacity: 0 where nothing is.
+  // Depth times opacity, minus the centre's depth times opacity: 0 for background.
   const torch::Tensor depth =
       (TensorFromImage(drawn.depth) - camera.position().norm() * opacity) / std::max(radius, 1e-6);
   return torch::cat({PictureTensor(drawn.picture), depth}, 1);
