@@ -8,7 +8,7 @@
 namespace simwright::assets {
 namespace {
 
-// MuJoCo takes one texture of a mesh.
+// Returns true if the mesh has one texture, the most that MuJoCo supports.
 bool IsTextured(const Asset& asset) {
   return asset.visual.textures.size() == 1 && VisualSuitsMujoco(asset.visual.mesh);
 }

@@ -15,17 +15,19 @@ namespace simwright::assets {
 namespace {
 
 constexpr char kGround[] = "ground";
-// That of most floors. Drake takes 2 a b / (a + b) of two frictions, Gazebo the smaller.
+// The friction of most floors. Drake combines two frictions as 2 a b / (a + b), Gazebo takes the
+// smaller.
 constexpr double kGroundFriction = 0.8;
-// s. At the 2 ms of a single asset, contacts of 5 ms ring in stacks of four or five, whose upper
-// ones creep by millimetres a second; at 1 ms nothing moves by more than 0.1 mm.
+// The step in s. At the 2 ms of a single asset, contacts with a time constant of 5 ms oscillate in
+// stacks of four or five, whose upper objects creep by millimetres per second; at 1 ms no object
+// moves by more than 0.1 mm.
 constexpr double kMjcfStep = 1e-3;
 
 void RequireName(const std::string& name) {
-  if (FileSafeName(name) != name) throw core::Error("this is no name for a file", name);
+  if (FileSafeName(name) != name) throw core::Error("this is not a valid file name", name);
 }
 
-// The assets of the things, each once, by key.
+// Returns the assets of the objects, each once, by key.
 std::map<std::string, const WorldAsset*> AssetsOf(const std::vector<WorldThing>& things) {
   std::map<std::string, const WorldAsset*> assets;
   std::set<std::string> names = {kGround};
@@ -33,19 +35,19 @@ std::map<std::string, const WorldAsset*> AssetsOf(const std::vector<WorldThing>&
     RequireName(thing.name);
     RequireName(thing.asset->key);
     if (!names.insert(thing.name).second) {
-      throw core::Error("two things of a world have one name", thing.name);
+      throw core::Error("two objects of a world have the same name", thing.name);
     }
     if (assets.emplace(thing.asset->key, thing.asset).first->second != thing.asset) {
-      throw core::Error("two assets of a world have one key", thing.asset->key);
+      throw core::Error("two assets of a world have the same key", thing.asset->key);
     }
   }
   return assets;
 }
 
-// MuJoCo 2.2 reserves contacts and rows of constraints, six a contact, beforehand, and memory for
-// the square of the rows, 0.8 GB for 8000; from 15 000 on it fails. Scenes of tables and shelves
-// had up to two contacts a part of what is free. What it works with, `nstack`, it would reserve by
-// the square too: fifty things with 5500 rows took half a million numbers.
+// Writes <size>. MuJoCo 2.2 reserves contacts and constraint rows, six per contact, in advance, and
+// memory for the square of the rows, 0.8 GB for 8000; above 15 000 it fails. Scenes of tables and
+// shelves have up to two contacts per part of a free object. `nstack`, its working memory, would
+// also be reserved by the square.
 void MjcfSize(tinyxml2::XMLPrinter* printer, const std::vector<WorldThing>& things) {
   int contacts = 100, free = 0;
   for (const WorldThing& thing : things) {
@@ -61,8 +63,9 @@ void MjcfSize(tinyxml2::XMLPrinter* printer, const std::vector<WorldThing>& thin
       .Set("nstack", std::to_string(working));
 }
 
-// A box: Drake's contact of meshes with the half space that a plane becomes failed in scenes. Rigid,
-// for what stands on it is compliant, and two rigid bodies have no hydroelastic contact.
+// Writes the ground as a box, because Drake's contact of meshes with a plane's half space failed in
+// scenes. The box is rigid, because the objects on it are compliant, and two rigid bodies have no
+// hydroelastic contact.
 void SdfGround(tinyxml2::XMLPrinter* printer) {
   Element model(printer, "model");
   model.Set("name", kGround);
@@ -118,7 +121,7 @@ void SdfPhysics(tinyxml2::XMLPrinter* printer) {
   Leaf(printer, "real_time_factor", "1");
 }
 
-// Without a light nothing is seen.
+// Writes a light, without which the scene is dark.
 void SdfSun(tinyxml2::XMLPrinter* printer) {
   Element light(printer, "light");
   light.Set("name", "sun").Set("type", "directional");
@@ -147,7 +150,7 @@ std::string WorldMjcf(const std::string& name, const std::vector<WorldThing>& th
       }
     }
     Element worldbody(&printer, "worldbody");
-    // MuJoCo takes the greater friction of two: the things' own counts.
+    // MuJoCo uses the greater friction of two, so the objects' own applies.
     Element(&printer, "geom")
         .Set("name", kGround)
         .Set("type", "plane")

@@ -33,9 +33,9 @@ TEST_F(MeshFormats, WhatStandsInForAFileIsNamed) {
   expect("\x1f\x8b\x08rest", "archive");
   expect("Salted__0123456789", "encrypted");
   expect(std::string(2000, '\0'), "zeros");
-  expect("glTF\2\0\0\0", "call it .glb");
-  expect("ply\nformat ascii 1.0\n", "call it .ply");
-  expect("<?xml version=\"1.0\"?>\n<COLLADA>", "call it .dae");
+  expect("glTF\2\0\0\0", "rename it to .glb");
+  expect("ply\nformat ascii 1.0\n", "rename it to .ply");
+  expect("<?xml version=\"1.0\"?>\n<COLLADA>", "rename it to .dae");
   expect("", "empty");
 }
 
