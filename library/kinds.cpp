@@ -32,7 +32,7 @@ const Kind& KindNamed(const std::string& name) {
   if (found != Kinds().end()) return *found;
   std::string known;
   for (const Kind& kind : Kinds()) known += (known.empty() ? "" : ", ") + kind.name;
-  throw core::Error("the library has no such kind", name, "choose of " + known);
+  throw core::Error("the library has no such kind", name, "choose one of " + known);
 }
 
 }  // namespace simwright::library
