@@ -24,9 +24,9 @@ cv::Mat SolvePoisson(const cv::Mat& mask, double c) {
     u = cv::Mat::zeros(mask.size(), CV_32F);
   }
   u.setTo(0.0f, mask == 0);
-  constexpr int kSweeps = 60;
+  constexpr int kIterations = 60;
   constexpr float kOmega = 1.6f;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
     for (int y = 0; y < u.rows; ++y) {
       for (int x = 0; x < u.cols; ++x) {
         if (mask.at<uchar>(y, x) == 0) continue;

@@ -63,10 +63,10 @@ class SilhouetteScore {
   // views.
   double Iou(const core::TriangleMesh& mesh) const {
     if (mesh.empty()) return 0.0;
-    core::TexturedMesh drawn;
-    drawn.mesh = mesh;
+    core::TexturedMesh textured;
+    textured.mesh = mesh;
     render::Scene scene;
-    scene.Add(&drawn);
+    scene.Add(&textured);
     scene.Commit();
     render::ForwardOptions options;
     options.samples_per_side = 2;

@@ -190,7 +190,8 @@ class Inflater {
 }  // namespace
 
 const char* Name(ShapeForm form) {
-  constexpr const char* kNames[] = {"turned upright", "turned lying", "inflated"};
+  constexpr const char* kNames[] = {"an upright solid of revolution", "a lying solid of revolution",
+                                    "an inflated shape"};
   return kNames[static_cast<int>(form)];
 }
 
@@ -218,10 +219,10 @@ core::Camera PhotoCamera(const Matte& matte, double focal, double elevation) {
 
 double SilhouetteIou(const core::TriangleMesh& mesh, const core::Camera& camera,
                      const Matte& matte) {
-  core::TexturedMesh drawn;
-  drawn.mesh = mesh;
+  core::TexturedMesh textured;
+  textured.mesh = mesh;
   render::Scene scene;
-  scene.Add(&drawn);
+  scene.Add(&textured);
   scene.Commit();
   const render::ForwardBuffers buffers = render::RenderForward(scene, camera);
   double both = 0.0, either = 0.0;

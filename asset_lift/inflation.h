@@ -18,7 +18,7 @@ enum class ShapeForm {
   kInflated  // smooth inflation of the silhouette
 };
 
-const char* Name(ShapeForm form);  // "turned upright", "turned lying", "inflated"
+const char* Name(ShapeForm form);  // for findings
 
 struct InflationOptions {
   int resolution = 104;             // grid cells along the longest side of the initial mesh

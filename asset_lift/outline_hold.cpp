@@ -77,7 +77,7 @@ void MeasureRims(std::vector<Column>* columns) {
 void SmoothCenters(std::vector<Column>* columns) {
   const std::vector<Column> read = *columns;
   constexpr float kStiffness = 1.0f / (kSlope * kSlope);
-  for (int sweep = 0; sweep < kIterations; ++sweep) {
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
         const size_t pixel = static_cast<size_t>(y) * kSide + static_cast<size_t>(x);

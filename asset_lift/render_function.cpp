@@ -64,9 +64,9 @@ class RenderNode : public torch::autograd::Function<RenderNode> {
                                                 const c10::intrusive_ptr<Shot>& shot) {
     context->save_for_backward({vertices, colors});
     context->saved_data["shot"] = c10::IValue::make_capsule(shot);
-    const render::DifferentiableBuffers& drawn = shot->Draw(vertices, colors);
-    return {FromImage(drawn.color), FromImage(drawn.mask).squeeze(-1),
-            FromImage(drawn.depth).squeeze(-1)};
+    const render::DifferentiableBuffers& rendered = shot->Draw(vertices, colors);
+    return {FromImage(rendered.color), FromImage(rendered.mask).squeeze(-1),
+            FromImage(rendered.depth).squeeze(-1)};
   }
 
   static torch::autograd::variable_list backward(torch::autograd::AutogradContext* context,
@@ -104,9 +104,9 @@ DrawnTensors DrawTensors(render::DifferentiableRenderer* renderer, const torch::
   shot->renderer = renderer;
   shot->camera = camera;
   shot->seed = seed;
-  const torch::autograd::variable_list drawn =
+  const torch::autograd::variable_list rendered =
       RenderNode::apply(vertices, colored ? vertex_colors : torch::empty({0, 3}), shot);
-  return {drawn[0], drawn[1], drawn[2]};
+  return {rendered[0], rendered[1], rendered[2]};
 }
 
 }  // namespace simwright::asset_lift

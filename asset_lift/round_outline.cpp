@@ -80,9 +80,9 @@ double RimSupport(const cv::RotatedRect& e, const Gradient& gradient) {
 }
 
 double Covered(const cv::RotatedRect& e, const cv::Mat& mask) {
-  cv::Mat drawn = cv::Mat::zeros(mask.size(), CV_8U);
-  cv::ellipse(drawn, e, cv::Scalar(255), -1);
-  return cv::countNonZero(drawn & mask) /
+  cv::Mat ellipse_mask = cv::Mat::zeros(mask.size(), CV_8U);
+  cv::ellipse(ellipse_mask, e, cv::Scalar(255), -1);
+  return cv::countNonZero(ellipse_mask & mask) /
          std::max(1.0, static_cast<double>(cv::countNonZero(mask)));
 }
 

@@ -133,12 +133,12 @@ Eigen::AlignedBox3d FilledBox(const ShapePrediction& prediction) {
 
 PredictionPicture DrawPrediction(const ShapePrediction& prediction, const core::Camera& camera,
                                  int samples) {
-  PredictionPicture drawn;
-  drawn.picture.color = core::FloatImage(camera.width, camera.height, 3);
-  drawn.picture.opacity = core::FloatImage(camera.width, camera.height, 1);
-  drawn.depth = core::FloatImage(camera.width, camera.height, 1);
+  PredictionPicture rendered;
+  rendered.picture.color = core::FloatImage(camera.width, camera.height, 3);
+  rendered.picture.opacity = core::FloatImage(camera.width, camera.height, 1);
+  rendered.depth = core::FloatImage(camera.width, camera.height, 1);
   const Eigen::AlignedBox3d box = prediction.box;
-  if (box.isEmpty() || samples < 1) return drawn;
+  if (box.isEmpty() || samples < 1) return rendered;
   // A cell of even odds transmits half the light; other step lengths follow Beer-Lambert.
   const double cell = 2.0 * kDepthReach / kDepthCells * prediction.frame.Radius();
   core::ParallelFor(camera.height, [&](int y) {
@@ -162,12 +162,12 @@ PredictionPicture DrawPrediction(const ShapePrediction& prediction, const core::
         depth += through * opacity * static_cast<float>(t);
         through *= 1.0f - opacity;
       }
-      for (int c = 0; c < 3; ++c) drawn.picture.color.At(x, y)[c] = color[c];
-      drawn.picture.opacity.At(x, y)[0] = 1.0f - through;
-      drawn.depth.At(x, y)[0] = depth;
+      for (int c = 0; c < 3; ++c) rendered.picture.color.At(x, y)[c] = color[c];
+      rendered.picture.opacity.At(x, y)[0] = 1.0f - through;
+      rendered.depth.At(x, y)[0] = depth;
     }
   });
-  return drawn;
+  return rendered;
 }
 
 core::TriangleMesh PredictedSurface(const ShapePrediction& prediction, int resolution) {

@@ -112,11 +112,11 @@ PriorTrainingReport TrainShapeNetwork(const std::vector<core::TexturedMesh>& mes
       "shape", {"volume IoU", "elevation error, deg"}, 0, network.get(), kept.get()};
   return TrainPrior(training, meshes, options, weights, progress, report,
                     [&](const TrainingPool& pool, int step) -> PriorBatch {
-                      const Batch drawn = SampleBatch(pool, options.batch, options.seed,
-                                                      static_cast<std::uint64_t>(step));
-                      return [&network, device, drawn] {
-                        const Batch batch{drawn.pictures.to(device), drawn.occupancy.to(device),
-                                          drawn.back.to(device), drawn.elevation.to(device)};
+                      const Batch sampled = SampleBatch(pool, options.batch, options.seed,
+                                                        static_cast<std::uint64_t>(step));
+                      return [&network, device, sampled] {
+                        const Batch batch{sampled.pictures.to(device), sampled.occupancy.to(device),
+                                          sampled.back.to(device), sampled.elevation.to(device)};
                         const Losses losses = LossesOf(network(batch.pictures), batch);
                         return PriorLoss{losses.total, {losses.iou, losses.elevation_error}};
                       };

@@ -24,8 +24,8 @@ class ViewNetworkImpl : public torch::nn::Module {
  public:
   explicit ViewNetworkImpl(const ViewNetworkOptions& options = {});
 
-  // noisy (B x 4 x S x S), drawn (B x 5 x S x S), taken (B x 4 x S x S), camera (B x 5), t (B).
-  torch::Tensor forward(const torch::Tensor& noisy, const torch::Tensor& drawn,
+  // noisy (B x 4 x S x S), rendered (B x 5 x S x S), taken (B x 4 x S x S), camera (B x 5), t (B).
+  torch::Tensor forward(const torch::Tensor& noisy, const torch::Tensor& rendered,
                         const torch::Tensor& taken, const torch::Tensor& camera,
                         const torch::Tensor& t);
 
@@ -40,7 +40,7 @@ TORCH_MODULE(ViewNetwork);
 torch::Tensor PictureTensor(const ObjectPicture& picture);
 // Returns a (1 x 5 x S x S) tensor: the prediction's colour and opacity in [-1, 1], and its depth
 // relative to the object's centre in units of the object's radius.
-torch::Tensor DrawnTensor(const PredictionPicture& drawn, const core::Camera& camera,
+torch::Tensor DrawnTensor(const PredictionPicture& rendered, const core::Camera& camera,
                           double radius);
 // Returns a (1 x 5) tensor: the relative elevation, sine and cosine of the azimuth, and distance,
 // and the elevation of the reference.

@@ -25,7 +25,7 @@ constexpr double kElevationMin = -0.17, kElevationMax = 1.4;  // rad
 
 struct ViewBatch {
   torch::Tensor clean;   // (B x 4 x S x S)
-  torch::Tensor drawn;   // (B x 5 x S x S)
+  torch::Tensor rendered;  // (B x 5 x S x S)
   torch::Tensor taken;   // (B x 4 x S x S)
   torch::Tensor camera;  // (B x 5)
 };
@@ -76,7 +76,7 @@ ViewBatch SampleViews(const TrainingPool& pool, const ShapePrior& shape, int siz
   }
   const std::vector<ShapePrediction> predictions = shape.Predict(crops, frames);
   const auto views = static_cast<size_t>(photos) * kViewsPerPhoto;
-  std::vector<torch::Tensor> clean(views), drawn(views), taken(views), camera(views);
+  std::vector<torch::Tensor> clean(views), rendered(views), taken(views), camera(views);
   core::ParallelFor(static_cast<int>(views), [&](int i) {
     const auto at = static_cast<size_t>(i), photo = at / kViewsPerPhoto;
     core::Rng rng =
@@ -86,13 +86,13 @@ ViewBatch SampleViews(const TrainingPool& pool, const ShapePrior& shape, int siz
     clean[at] = PictureTensor(TrueView(*objects[photo], from, examples[photo].light));
     const bool blind = core::Uniform(rng) < kUnconditionedShare;
     camera[at] = CameraTensor(frames[photo].camera, from);
-    drawn[at] =
+    rendered[at] =
         blind ? torch::zeros({1, 5, kViewSide, kViewSide})
               : DrawnTensor(DrawPrediction(predictions[photo], from), from, frames[photo].Radius());
     taken[at] = blind ? torch::zeros({1, 4, kCropSide, kCropSide})
                       : PicturesFromRgba(examples[photo].picture.data(), 1, kCropSide);
   });
-  return {torch::cat(clean), torch::cat(drawn), torch::cat(taken), torch::cat(camera)};
+  return {torch::cat(clean), torch::cat(rendered), torch::cat(taken), torch::cat(camera)};
 }
 
 // Returns the network's mean squared error of the noise. Its metrics, in the noisy image's scale,
@@ -104,11 +104,11 @@ PriorLoss DenoisingLoss(ViewNetwork network, const nn::DiffusionSchedule& schedu
                                          batch.clean.options().dtype(torch::kLong));
   const torch::Tensor noise = torch::randn_like(batch.clean);
   const torch::Tensor noisy = schedule.AddNoise(batch.clean, noise, t);
-  const torch::Tensor off = network(noisy, batch.drawn, batch.taken, batch.camera, t) - noise;
-  const torch::Tensor drawn_off = batch.drawn.slice(1, 0, 4) - batch.clean;
+  const torch::Tensor off = network(noisy, batch.rendered, batch.taken, batch.camera, t) - noise;
+  const torch::Tensor rendered_off = batch.rendered.slice(1, 0, 4) - batch.clean;
   return {off.square().mean(),
           {(schedule.Noise(t) * off).square().mean().item<double>(),
-           (schedule.Signal(t) * drawn_off).square().mean().item<double>()}};
+           (schedule.Signal(t) * rendered_off).square().mean().item<double>()}};
 }
 
 }  // namespace
@@ -132,12 +132,13 @@ PriorTrainingReport TrainViewNetwork(const std::vector<core::TexturedMesh>& mesh
       "view", {"picture error", "picture error of the drawing"}, 77, network.get(), kept.get()};
   return TrainPrior(training, meshes, options, weights, progress, report,
                     [&](const TrainingPool& pool, int step) -> PriorBatch {
-                      const ViewBatch drawn = SampleViews(pool, shape, options.batch, options.seed,
-                                                          static_cast<std::uint64_t>(step));
-                      return [&network, &schedule, device, drawn] {
+                      const ViewBatch sampled =
+                          SampleViews(pool, shape, options.batch, options.seed,
+                                      static_cast<std::uint64_t>(step));
+                      return [&network, &schedule, device, sampled] {
                         return DenoisingLoss(network, schedule,
-                                             {drawn.clean.to(device), drawn.drawn.to(device),
-                                              drawn.taken.to(device), drawn.camera.to(device)});
+                                             {sampled.clean.to(device), sampled.rendered.to(device),
+                                              sampled.taken.to(device), sampled.camera.to(device)});
                       };
                     });
 }

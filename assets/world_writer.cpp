@@ -28,17 +28,17 @@ void RequireName(const std::string& name) {
 }
 
 // Returns the assets of the objects, each once, by key.
-std::map<std::string, const WorldAsset*> AssetsOf(const std::vector<WorldThing>& things) {
+std::map<std::string, const WorldAsset*> AssetsOf(const std::vector<WorldThing>& objects) {
   std::map<std::string, const WorldAsset*> assets;
   std::set<std::string> names = {kGround};
-  for (const WorldThing& thing : things) {
-    RequireName(thing.name);
-    RequireName(thing.asset->key);
-    if (!names.insert(thing.name).second) {
-      throw core::Error("two objects of a world have the same name", thing.name);
+  for (const WorldThing& object : objects) {
+    RequireName(object.name);
+    RequireName(object.asset->key);
+    if (!names.insert(object.name).second) {
+      throw core::Error("two objects of a world have the same name", object.name);
     }
-    if (assets.emplace(thing.asset->key, thing.asset).first->second != thing.asset) {
-      throw core::Error("two assets of a world have the same key", thing.asset->key);
+    if (assets.emplace(object.asset->key, object.asset).first->second != object.asset) {
+      throw core::Error("two assets of a world have the same key", object.asset->key);
     }
   }
   return assets;
@@ -48,12 +48,12 @@ std::map<std::string, const WorldAsset*> AssetsOf(const std::vector<WorldThing>&
 // memory for the square of the rows, 0.8 GB for 8000; above 15 000 it fails. Scenes of tables and
 // shelves have up to two contacts per part of a free object. `nstack`, its working memory, would
 // also be reserved by the square.
-void MjcfSize(tinyxml2::XMLPrinter* printer, const std::vector<WorldThing>& things) {
+void MjcfSize(tinyxml2::XMLPrinter* printer, const std::vector<WorldThing>& objects) {
   int contacts = 100, free = 0;
-  for (const WorldThing& thing : things) {
-    if (thing.welded) continue;
+  for (const WorldThing& object : objects) {
+    if (object.welded) continue;
     ++free;
-    contacts += std::min(8 + 2 * static_cast<int>(thing.asset->asset.parts.size()), 60);
+    contacts += std::min(8 + 2 * static_cast<int>(object.asset->asset.parts.size()), 60);
   }
   const int rows = std::min(6 * contacts, 12'000);
   const int working = 1'000'000 + 2 * rows * std::min(6 * free, 600);
@@ -91,14 +91,14 @@ void SdfGround(tinyxml2::XMLPrinter* printer) {
   }
 }
 
-void SdfModel(tinyxml2::XMLPrinter* printer, const WorldThing& thing) {
-  const Asset& asset = thing.asset->asset;
+void SdfModel(tinyxml2::XMLPrinter* printer, const WorldThing& object) {
+  const Asset& asset = object.asset->asset;
   Element model(printer, "model");
-  model.Set("name", thing.name);
-  if (thing.welded) Leaf(printer, "static", "true");
+  model.Set("name", object.name);
+  if (object.welded) Leaf(printer, "static", "true");
   {
-    const Eigen::Vector3d& place = thing.world_from_thing.translation();
-    const Eigen::Quaterniond turn(thing.world_from_thing.linear());
+    const Eigen::Vector3d& place = object.world_from_thing.translation();
+    const Eigen::Quaterniond turn(object.world_from_thing.linear());
     Element(printer, "pose")
         .Set("rotation_format", "quat_xyzw")
         .Text(Numbers({place.x(), place.y(), place.z(), turn.x(), turn.y(), turn.z(), turn.w()}));
@@ -106,11 +106,11 @@ void SdfModel(tinyxml2::XMLPrinter* printer, const WorldThing& thing) {
   Element link(printer, "link");
   link.Set("name", asset.name);
   SdfInertial(printer, asset.inertial);
-  SdfVisual(printer, "visual", thing.asset->folder + "visual.obj");
+  SdfVisual(printer, "visual", object.asset->folder + "visual.obj");
   const HydroelasticContact contact = ContactOf(asset);
   for (size_t i = 0; i < asset.parts.size(); ++i) {
     const std::string file = CollisionFileName(static_cast<int>(i));
-    SdfCollision(printer, file.substr(0, file.find('.')), thing.asset->folder + file, contact);
+    SdfCollision(printer, file.substr(0, file.find('.')), object.asset->folder + file, contact);
   }
 }
 
@@ -134,15 +134,15 @@ void SdfSun(tinyxml2::XMLPrinter* printer) {
 
 }  // namespace
 
-std::string WorldMjcf(const std::string& name, const std::vector<WorldThing>& things) {
-  const std::map<std::string, const WorldAsset*> assets = AssetsOf(things);
+std::string WorldMjcf(const std::string& name, const std::vector<WorldThing>& objects) {
+  const std::map<std::string, const WorldAsset*> assets = AssetsOf(objects);
   tinyxml2::XMLPrinter printer;
   {
     Element mujoco(&printer, "mujoco");
     mujoco.Set("model", name);
     Element(&printer, "compiler").Set("angle", "radian");
     MjcfOption(&printer, kMjcfStep);
-    MjcfSize(&printer, things);
+    MjcfSize(&printer, objects);
     {
       Element meshes(&printer, "asset");
       for (const auto& [key, asset] : assets) {
@@ -157,17 +157,17 @@ std::string WorldMjcf(const std::string& name, const std::vector<WorldThing>& th
         .Set("size", "0 0 1")
         .Set("condim", "6")
         .Set("friction", "0.01 1e-5 1e-5");
-    for (const WorldThing& thing : things) {
-      MjcfBody(&printer, thing.asset->asset, {thing.asset->key, thing.asset->folder},
-               {thing.name, &thing.world_from_thing, !thing.welded});
+    for (const WorldThing& object : objects) {
+      MjcfBody(&printer, object.asset->asset, {object.asset->key, object.asset->folder},
+               {object.name, &object.world_from_thing, !object.welded});
     }
   }
   return printer.CStr();
 }
 
-std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& things,
+std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& objects,
                      SdfReader reader) {
-  AssetsOf(things);
+  AssetsOf(objects);
   tinyxml2::XMLPrinter printer;
   printer.PushHeader(false, true);
   {
@@ -181,7 +181,7 @@ std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& thi
       SdfSun(&printer);
     }
     SdfGround(&printer);
-    for (const WorldThing& thing : things) SdfModel(&printer, thing);
+    for (const WorldThing& object : objects) SdfModel(&printer, object);
   }
   return printer.CStr();
 }
