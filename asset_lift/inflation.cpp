@@ -190,8 +190,7 @@ class Inflater {
 }  // namespace
 
 const char* Name(ShapeForm form) {
-  constexpr const char* kNames[] = {"an upright solid of revolution", "a lying solid of revolution",
-                                    "an inflated shape"};
+  constexpr const char* kNames[] = {"revolved upright", "revolved lying", "inflated"};
   return kNames[static_cast<int>(form)];
 }
 

@@ -18,7 +18,7 @@ enum class ShapeForm {
   kInflated  // smooth inflation of the silhouette
 };
 
-const char* Name(ShapeForm form);  // for findings
+const char* Name(ShapeForm form);  // "revolved upright", "revolved lying", "inflated"
 
 struct InflationOptions {
   int resolution = 104;             // grid cells along the longest side of the initial mesh

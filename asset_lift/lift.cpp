@@ -91,7 +91,7 @@ double PadWhereCutOff(core::Image* photo, Matte* matte) {
 // Textures the inflated silhouette from the photo and its mirror image.
 void FinishOutline(const InflatedShape& shape, const texture::ProjectionOptions& projection,
                    LiftedMesh* lifted) {
-  lifted->start = std::string("the silhouette as ") + Name(shape.form);
+  lifted->start = std::string("the silhouette, ") + Name(shape.form);
   lifted->silhouette_iou = shape.silhouette_iou;
   lifted->mesh = texture::ProjectPhoto(shape.mesh, lifted->camera, lifted->photo,
                                        lifted->matte.alpha, shape.mirror, projection);
@@ -126,7 +126,7 @@ void FitAndPaint(const InflatedShape& outline, const LiftPriors& priors, const L
   const bool learned = prediction && !prediction->box.isEmpty();
   const FirstGuess guess = learned ? GuessFrom(*prediction) : GuessFrom(outline.mesh);
   lifted->start =
-      learned ? "the learned prior" : std::string("the silhouette as ") + Name(outline.form);
+      learned ? "the learned prior" : std::string("the silhouette, ") + Name(outline.form);
   std::unique_ptr<ScoreDistillation> in_field, in_mesh;
   if (priors.view != nullptr) {
     in_field = std::make_unique<ScoreDistillation>(priors.view, frame, lifted->photo,
