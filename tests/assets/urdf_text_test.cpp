@@ -149,8 +149,8 @@ TEST_F(UrdfText, ControllersAndEmptyDynamicsArePassedOver) {
   EXPECT_EQ(model.joints[0].upper, 1.0);
 }
 
-// The capsule's volume and inertia are known in closed form; its pieces overlap, so that volumes are
-// compared by their hull.
+// The capsule's volume and inertia are known in closed form; its pieces overlap, so that volumes
+// are compared by their hull.
 TEST_F(UrdfText, CapsulesAreACylinderAndTwoBalls) {
   const UrdfModel model =
       Read("<link name='a'><collision><origin xyz='1 2 3' rpy='0 1.5707963267948966 0'/>"
