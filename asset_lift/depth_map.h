@@ -4,13 +4,13 @@
 
 namespace simwright::asset_lift {
 
-// Returns the squared half depth over a mask, pixels^2 (CV_32F): positive inside, zero on the edge
-// and falling outside, so that the zero level set is the silhouette with subpixel accuracy. It
-// solves the Poisson equation Laplace(u) = -c with u = 0 on the edge. A disc becomes a ball (c =
-// 4); c falls to 2 for a long strip, whose half depth then equals its half width.
+// The depth maps below are squared half depths over a mask, pixels^2 (CV_32F): positive inside,
+// zero on the edge and falling outside, so that the zero level set is the silhouette with subpixel
+// accuracy.
 
-// Solution of the Poisson equation Laplace(u) = -c with u = 0 on the edge: a disc becomes a ball
-// (c = 4); c falls to 2 for a long strip, whose half width then is its half depth.
+// Returns the solution of the Poisson equation Laplace(u) = -c with u = 0 on the edge. A disc
+// becomes a ball (c = 4); c falls to 2 for a long strip, whose half depth then equals its half
+// width.
 cv::Mat PoissonDepth(const cv::Mat& mask);
 
 // Returns the squared half depth of a solid of revolution about the line through `center` with unit

@@ -221,7 +221,7 @@ inline void Encode(const HashGridLayout& layout, int stride, const Real* table,
   }
 }
 
-// The transpose of Encode: adds feature gradients to the table entries they came from. The loop
+// Adds feature gradients to the table entries they came from, as the transpose of Encode. The loop
 // takes points eight apart: neighbours share a cell, and each would wait for the store of the one
 // before.
 template <typename Real, int kFeatures>
@@ -339,7 +339,7 @@ inline void OutputGradient(const FieldModel<Real>& model, const FieldBatch<Real>
   }
 }
 
-// The backward pass of Evaluate.
+// Computes the backward pass of Evaluate.
 template <typename Shape, typename Real>
 inline void AddGradient(const FieldModel<Real>& model, const FieldBatch<Real>& batch,
                         const FieldBatchGradient<Real>& gradient, Real* sum) {
@@ -407,7 +407,8 @@ void Adam(const AdamStep<Real>& step, std::size_t count, Real* __restrict gradie
   }
 }
 
-// The default field's sizes are compile-time constants; other sizes use the general code.
+// Evaluates a batch. The default field's sizes are compile-time constants; other sizes use the
+// general code.
 template <typename Real>
 void EvaluateBatch(const FieldModel<Real>& model, FieldBatch<Real>* batch) {
   switch (model.layout->features()) {

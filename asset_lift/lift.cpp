@@ -220,9 +220,9 @@ void PlaceCamera(double focal, const CategoryPrior& prior, const ShapePrior* sha
 
 }  // namespace
 
-// With our small view prior the published weights make the Chamfer distance worse; these change it
-// little (docs/lift.md). One photo does not constrain the hidden side, so the initial shape has
-// more weight than with many views.
+// Sets gentle score distillation. With our small view prior the published weights make the Chamfer
+// distance worse; these change it little (docs/lift.md). One photo does not constrain the hidden
+// side, so the initial shape has more weight than with many views.
 LiftOptions::LiftOptions() {
   fit.guess_scale = 6.0;
   fit.field.weights.objective = 0.02;

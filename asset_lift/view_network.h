@@ -24,7 +24,8 @@ class ViewNetworkImpl : public torch::nn::Module {
  public:
   explicit ViewNetworkImpl(const ViewNetworkOptions& options = {});
 
-  // noisy (B x 4 x S x S), rendered (B x 5 x S x S), taken (B x 4 x S x S), camera (B x 5), t (B).
+  // Predicts the noise. noisy (B x 4 x S x S), rendered (B x 5 x S x S), taken (B x 4 x S x S),
+  // camera (B x 5), t (B).
   torch::Tensor forward(const torch::Tensor& noisy, const torch::Tensor& rendered,
                         const torch::Tensor& taken, const torch::Tensor& camera,
                         const torch::Tensor& t);

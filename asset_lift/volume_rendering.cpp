@@ -22,7 +22,7 @@ constexpr int kTaps = 4;
 constexpr std::array<std::array<int, 3>, kTaps> kTap = {
     {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};
 
-// A well-mixed hash (Wellons, "lowbias32").
+// Computes a well-mixed hash (Wellons, "lowbias32").
 std::uint32_t Mixed(std::uint32_t x) {
   x = (x ^ (x >> 16)) * 0x7feb352du;
   x = (x ^ (x >> 15)) * 0x846ca68bu;

@@ -21,7 +21,7 @@ std::vector<ColoredPiece> ColoredPieces(const ArticulatedLink& link);
 // Returns the link's hydroelastic contact properties for Drake.
 HydroelasticContact ContactOf(const ArticulatedAsset& asset, const ArticulatedLink& link);
 
-// "door_collision_007.obj"
+// Returns "door_collision_007.obj".
 std::string LinkCollisionFileName(const std::string& link, int part);
 
 // Return the asset as a tree of links, with the same numbers in both formats. Mesh files are named

@@ -31,7 +31,7 @@ std::vector<size_t> Indices(const json& object, const char* name) {
   return indices;
 }
 
-// parent_from_node
+// Returns parent_from_node.
 Eigen::Affine3d LocalTransform(const json& node) {
   Eigen::Affine3d transform = Eigen::Affine3d::Identity();
   const json* matrix = Member(node, "matrix");

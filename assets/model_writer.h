@@ -20,7 +20,7 @@ std::string MjcfText(const Asset& asset);
 // Returns the asset's hydroelastic contact properties for Drake.
 HydroelasticContact ContactOf(const Asset& asset);
 
-// "collision_007.obj"
+// Returns "collision_007.obj".
 std::string CollisionFileName(int part);
 // Returns true if MuJoCo's mesh compiler accepts the visual mesh.
 bool VisualSuitsMujoco(const core::TriangleMesh& visual);

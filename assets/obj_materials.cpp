@@ -45,7 +45,7 @@ class LibraryReader {
   bool any() const { return read_ > 0; }
 
  private:
-  // The line holds one name with spaces, or several names.
+  // Reads a line that holds one name with spaces, or several names.
   void ReadLine(const std::string& line) {
     if (const auto found = FindFileBeside(folder_, line)) {
       Say(*found, line);
