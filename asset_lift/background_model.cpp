@@ -13,11 +13,12 @@
 namespace simwright::asset_lift {
 namespace {
 
-// Pixels nearer than this to the border's colours, in standard deviations, look like background.
+// The distance to the border's colours, in standard deviations, below which a pixel looks like
+// background.
 constexpr double kAlike = 3.0;
 
-// The photo in BGR at the working size, slightly smoothed: sensor noise and print screens would
-// otherwise dominate the colour models.
+// Returns the photo in BGR at the working size, slightly smoothed: sensor noise and halftone
+// screens would otherwise dominate the colour models.
 cv::Mat WorkingCopy(const core::Image& photo, int side) {
   const double scale =
       std::min(1.0, static_cast<double>(side) / std::max(photo.width, photo.height));
@@ -37,8 +38,9 @@ cv::Mat WorkingCopy(const core::Image& photo, int side) {
   return smooth;
 }
 
-// Distance of each pixel from the border's colours: Mahalanobis to the nearest of the clusters of
-// CIELAB along the frame, clusters spread by at least a just noticeable difference.
+// Returns each pixel's distance from the border's colours: the Mahalanobis distance to the nearest
+// cluster of the CIELAB colours along the frame, where clusters spread by at least a just
+// noticeable difference.
 cv::Mat DistanceFromBorder(const cv::Mat& bgr, std::uint64_t seed) {
   cv::Mat lab;
   bgr.convertTo(lab, CV_32F, 1.0 / 255.0);
@@ -47,7 +49,8 @@ cv::Mat DistanceFromBorder(const cv::Mat& bgr, std::uint64_t seed) {
   std::vector<cv::Vec3f> border;
   for (int y = 0; y < lab.rows; ++y) {
     for (int x = 0; x < lab.cols; ++x) {
-      // The lower corners count, the middle of the lower edge less: things stand there.
+      // The middle of the lower edge is excluded, because objects stand there; the lower corners
+      // are included.
       const bool frame = x < band || y < band || x >= lab.cols - band;
       const bool below = y >= lab.rows - band && std::abs(x - lab.cols / 2) > lab.cols / 4;
       if (frame || below) border.push_back(lab.at<cv::Vec3f>(y, x));
@@ -75,12 +78,12 @@ cv::Mat DistanceFromBorder(const cv::Mat& bgr, std::uint64_t seed) {
     for (int x = 0; x < lab.cols; ++x) {
       float nearest = 1e30f;
       for (int k = 0; k < clusters; ++k) {
-        // A cluster of a few pixels is the object reaching the frame, not background.
+        // A cluster of a few pixels is the object touching the frame, not background.
         if (count[static_cast<size_t>(k)] < 0.02 * samples.rows) continue;
         float sum = 0.0f;
         for (int c = 0; c < 3; ++c) {
           const float d = lab.at<cv::Vec3f>(y, x)[c] - centers.at<float>(k, c);
-          // Lightness varies with shade over one surface: it counts half.
+          // Lightness varies with shading over one surface: it has half the weight.
           const float spread = variance[static_cast<size_t>(k)][c] /
                                    static_cast<float>(count[static_cast<size_t>(k)]) +
                                (c == 0 ? 30.0f : 8.0f);
@@ -106,7 +109,7 @@ cv::Mat Saliency(const cv::Mat& bgr) {
   return high > 0.0 ? map / high : map;
 }
 
-// Photographers put the thing in the middle.
+// Returns a prior that favours the image centre, where photographers place the object.
 cv::Mat CentrePrior(const cv::Size& size) {
   cv::Mat prior(size, CV_32F);
   for (int y = 0; y < size.height; ++y) {
@@ -119,8 +122,8 @@ cv::Mat CentrePrior(const cv::Size& size) {
   return prior;
 }
 
-// GrabCut's start: sure background along the frame, probable foreground where the evidence is
-// above Otsu's threshold, sure foreground where it is far above and central.
+// Returns GrabCut's initial trimap: certain background along the frame, probable foreground where
+// the evidence is above Otsu's threshold, certain foreground where it is far above and central.
 cv::Mat Trimap(const cv::Mat& distance, const cv::Mat& saliency) {
   cv::Mat evidence;
   cv::min(distance / 8.0, 1.0, evidence);
@@ -149,16 +152,16 @@ cv::Mat ForegroundOf(const cv::Mat& trimap) {
   return (trimap == cv::GC_FGD) | (trimap == cv::GC_PR_FGD);
 }
 
-// Pixels that GrabCut gave to the background, of the border's colours and brighter than the thing:
-// no shade on it looks like that.
+// Returns the pixels that GrabCut labels background, that have the border's colours and are
+// brighter than the object: shading of the object does not look like that.
 cv::Mat BrightBackground(const cv::Mat& bgr, const cv::Mat& distance, const cv::Mat& foreground) {
   cv::Mat grey;
   cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
   return ~foreground & (distance < kAlike) & (grey > cv::mean(grey, foreground)[0]);
 }
 
-// GrabCut again between a smaller and a larger copy of the round outline. Towards the rim a thing
-// may be flatter than its ellipse: bright background there stays undecided.
+// Runs GrabCut again between a smaller and a larger copy of the round outline. Towards the rim an
+// object may be flatter than its ellipse: bright background there stays undecided.
 void CompleteRound(const cv::Mat& bgr, const cv::Mat& distance, const SegmentationOptions& options,
                    cv::Mat* trimap) {
   const std::optional<cv::RotatedRect> outline =
@@ -211,14 +214,14 @@ cv::Mat FindForeground(const core::Image& photo, const SegmentationOptions& opti
   const cv::Mat disc =
       cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * radius + 1, 2 * radius + 1));
   cv::morphologyEx(mask, mask, cv::MORPH_OPEN, disc);
-  // A handle's hole is kept; highlights and prints on the thing are smaller.
+  // Handle holes are kept; highlights and prints on the object are smaller and are filled.
   mask = FilledHoles(mask, 0.012 * cv::countNonZero(mask));
   cv::Mat soft, guided, full;
   mask.convertTo(soft, CV_32F, 1.0 / 255.0);
   cv::Mat guide;
   bgr.convertTo(guide, CV_32F, 1.0 / 255.0);
   cv::ximgproc::guidedFilter(guide, soft, guided, 2 * radius, 1e-3);
-  // The filter moves edges, it does not open the inside or reach far outside.
+  // The filter moves edges; it must not open the inside or reach far outside.
   cv::Mat inside, outside;
   cv::erode(mask, inside, disc);
   cv::dilate(mask, outside, disc);

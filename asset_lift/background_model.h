@@ -7,9 +7,9 @@
 
 namespace simwright::asset_lift {
 
-// Soft foreground (CV_8U, the photo's size) of a photo without mask or alpha: pixels unlike the
-// border's colours, weighed with saliency, grown by GrabCut, edges refined by a guided filter.
-// Throws core::Error where foreground and background cannot be told apart.
+// Returns the soft foreground (CV_8U, the photo's size) of a photo without mask or alpha channel:
+// pixels unlike the border's colours, weighted by saliency, grown by GrabCut, with edges refined by
+// a guided filter. Throws core::Error where foreground and background cannot be separated.
 cv::Mat FindForeground(const core::Image& photo, const SegmentationOptions& options);
 
 }  // namespace simwright::asset_lift

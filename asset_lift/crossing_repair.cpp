@@ -16,11 +16,11 @@ std::vector<std::vector<int>> Neighbours(const core::TriangleMesh& mesh) {
   return neighbours;
 }
 
-// Vertices of crossing or degenerate faces.
-std::vector<char> AtFault(const core::TriangleMesh& mesh) {
-  std::vector<char> at_fault(mesh.vertices.size(), 0);
+// Returns flags for the vertices of intersecting or degenerate faces.
+std::vector<char> FaultyVertices(const core::TriangleMesh& mesh) {
+  std::vector<char> faulty(mesh.vertices.size(), 0);
   const auto mark = [&](int triangle) {
-    for (int k = 0; k < 3; ++k) at_fault[mesh.triangles[triangle][k]] = 1;
+    for (int k = 0; k < 3; ++k) faulty[mesh.triangles[triangle][k]] = 1;
   };
   for (const auto& [one, other] : geometry::SelfIntersections(mesh, 100000)) {
     mark(one);
@@ -29,7 +29,7 @@ std::vector<char> AtFault(const core::TriangleMesh& mesh) {
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     if (geometry::IsDegenerate(mesh, static_cast<int>(f))) mark(static_cast<int>(f));
   }
-  return at_fault;
+  return faulty;
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ bool SmoothCrossings(core::TriangleMesh* mesh, int rounds) {
   const std::vector<std::vector<int>> neighbours = Neighbours(*mesh);
   for (int round = 0;; ++round) {
     core::CheckCancelled();
-    std::vector<char> moving = AtFault(*mesh);
+    std::vector<char> moving = FaultyVertices(*mesh);
     bool any = false;
     for (const char m : moving) any = any || m;
     if (!any) return true;

@@ -4,9 +4,10 @@
 
 namespace simwright::asset_lift {
 
-// Smooths a closed mesh where it crosses itself, and only there: vertices of crossing faces and of
-// their neighbours move to the mean of theirs, wider round each time, at most `rounds` times.
-// Returns whether no faces cross or are degenerate any more. Faces stay as they are.
+// Smooths a closed mesh locally where it intersects itself: the vertices of intersecting faces and
+// of their neighbours move to the mean of their neighbours. The neighbourhood grows each round, for
+// at most `rounds` rounds. Returns true if no face intersects another or is degenerate any more.
+// The connectivity is unchanged.
 bool SmoothCrossings(core::TriangleMesh* mesh, int rounds);
 
 }  // namespace simwright::asset_lift

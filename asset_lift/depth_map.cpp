@@ -9,7 +9,8 @@
 namespace simwright::asset_lift {
 namespace {
 
-// Successive over-relaxation of Laplace(u) = -c on the mask, coarse to fine: a few sweeps a level.
+// Solves Laplace(u) = -c on the mask by successive over-relaxation, coarse to fine, with a few
+// iterations per level.
 cv::Mat SolvePoisson(const cv::Mat& mask, double c) {
   cv::Mat u;
   if (std::min(mask.rows, mask.cols) > 24) {
@@ -18,14 +19,14 @@ cv::Mat SolvePoisson(const cv::Mat& mask, double c) {
                cv::INTER_AREA);
     const cv::Mat coarse = SolvePoisson(coarse_mask > 127, c);
     cv::resize(coarse, u, mask.size(), 0, 0, cv::INTER_LINEAR);
-    u *= 4.0;  // pixels are half as wide here
+    u *= 4.0;  // pixels are half as wide at this level
   } else {
     u = cv::Mat::zeros(mask.size(), CV_32F);
   }
   u.setTo(0.0f, mask == 0);
-  constexpr int kSweeps = 60;
+  constexpr int kIterations = 60;
   constexpr float kOmega = 1.6f;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
     for (int y = 0; y < u.rows; ++y) {
       for (int x = 0; x < u.cols; ++x) {
         if (mask.at<uchar>(y, x) == 0) continue;
@@ -42,7 +43,7 @@ cv::Mat SolvePoisson(const cv::Mat& mask, double c) {
   return u;
 }
 
-// Minor over major half axis of the mask's second moments, in (0, 1].
+// Returns the minor over the major half axis of the mask's second moments, in (0, 1].
 double Roundness(const cv::Mat& mask) {
   const cv::Moments m = cv::moments(mask, true);
   if (m.m00 <= 0.0) return 1.0;
@@ -51,8 +52,8 @@ double Roundness(const cv::Mat& mask) {
   return std::sqrt(std::max(1e-6, (mean - spread) / (mean + spread)));
 }
 
-// Outside, the field falls with the distance at the rate of a ball's edge, so that its zero level
-// is interpolated and not a staircase.
+// Extends the field outside the mask: it falls with the distance at the rate of a ball's edge, so
+// that its zero level is interpolated without staircase artefacts.
 void ContinueOutside(const cv::Mat& mask, cv::Mat* u) {
   const cv::Mat distance = SignedEdgeDistance(mask);
   double deepest = 0.0;
@@ -62,7 +63,7 @@ void ContinueOutside(const cv::Mat& mask, cv::Mat* u) {
     for (int x = 0; x < u->cols; ++x) {
       const float d = distance.at<float>(y, x);
       if (d <= 0.0f) u->at<float>(y, x) = slope * d;
-      // The first pixels inside: at least as deep as a round edge would be.
+      // The first pixels inside are at least as deep as those of a round edge.
       if (d > 0.0f) u->at<float>(y, x) = std::max(u->at<float>(y, x), 0.5f * slope * d * 0.25f);
     }
   }
@@ -74,7 +75,7 @@ cv::Mat SignedEdgeDistance(const cv::Mat& mask) {
   cv::Mat inside, outside;
   cv::distanceTransform(mask, inside, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   cv::distanceTransform(mask == 0, outside, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  // Distances count from pixel centres; the edge runs half way between them.
+  // Distances are measured from pixel centres; the edge runs half way between them.
   cv::Mat distance = inside - outside;
   for (int y = 0; y < distance.rows; ++y) {
     for (int x = 0; x < distance.cols; ++x) {
@@ -86,7 +87,7 @@ cv::Mat SignedEdgeDistance(const cv::Mat& mask) {
 
 cv::Mat PoissonDepth(const cv::Mat& mask) {
   const double roundness = Roundness(mask);
-  // An ellipse's solution is c / (2 (1/A^2 + 1/B^2)) in the middle; this c makes that B^2.
+  // The solution for an ellipse is c / (2 (1/A^2 + 1/B^2)) at the centre; this c makes it B^2.
   const double c = 2.0 * (1.0 + roundness * roundness);
   cv::Mat u = SolvePoisson(mask, c);
   ContinueOutside(mask, &u);
@@ -94,7 +95,7 @@ cv::Mat PoissonDepth(const cv::Mat& mask) {
 }
 
 cv::Mat LyingDepth(const cv::Mat& mask, const cv::Point2d& center, const cv::Point2d& axis) {
-  // Half width of each slice across the axis: its area over two, which needs no edge.
+  // The half width of each slice across the axis is half its area, which needs no edge.
   const int reach = static_cast<int>(std::hypot(mask.cols, mask.rows)) + 2;
   std::vector<double> width(static_cast<size_t>(2 * reach + 1), 0.0);
   for (int y = 0; y < mask.rows; ++y) {
@@ -117,7 +118,7 @@ cv::Mat LyingDepth(const cv::Mat& mask, const cv::Point2d& center, const cv::Poi
       u.at<float>(y, x) = static_cast<float>(r * r - t * t);
     }
   }
-  // The outline itself decides where the body ends.
+  // The silhouette itself bounds the body's ends.
   const cv::Mat edge = SignedEdgeDistance(mask);
   for (int y = 0; y < mask.rows; ++y) {
     for (int x = 0; x < mask.cols; ++x) {

@@ -28,8 +28,8 @@ double LogNormal(double x, double mean, double deviation) {
   return -0.5 * z * z;
 }
 
-// Height over width of the outline of a box or a cylinder from elevation `e` at yaw `yaw`,
-// orthographic.
+// Returns the height over width of the orthographic silhouette of a box or a cylinder from
+// elevation `e` at yaw `yaw`.
 double OutlineRatio(double length, double width, double height, bool revolved, double e,
                     double yaw) {
   if (revolved) {
@@ -40,8 +40,8 @@ double OutlineRatio(double length, double width, double height, bool revolved, d
   return (height * std::cos(e) + (length * s + width * c) * std::sin(e)) / (length * c + width * s);
 }
 
-// log p(observed ratio | elevation), sizes and yaw integrated out. The outline of a real thing is
-// not a box's: 12 % of slack.
+// Returns log p(observed ratio | elevation), with sizes and yaw integrated out. A real object's
+// silhouette is not a box's: 12 % of slack.
 std::vector<double> SizeLikelihood(double observed, const CategoryPrior& prior) {
   constexpr int kDraws = 200;
   constexpr double kSlack = 0.12;
@@ -49,7 +49,7 @@ std::vector<double> SizeLikelihood(double observed, const CategoryPrior& prior) 
   for (int degrees = 0; degrees < kElevations; ++degrees) {
     double sum = 1e-6;
     for (int i = 1; i <= kDraws; ++i) {
-      // Sides grow together: one draw for the size, small ones for the proportions.
+      // Sides are correlated: one sample sets the size, and three small ones vary the proportions.
       const double size = Halton(i, 2);
       const auto draw = [&](double low, double high, int base) {
         const double t = std::clamp(size + 0.5 * (Halton(i, base) - 0.5), 0.0, 1.0);
@@ -58,7 +58,7 @@ std::vector<double> SizeLikelihood(double observed, const CategoryPrior& prior) 
       const double length = draw(prior.length_min, prior.length_max, 3);
       const double width = std::min(length, draw(prior.width_min, prior.width_max, 5));
       const double height = draw(prior.height_min, prior.height_max, 7);
-      // Photos show a thing's broad side more often than its end.
+      // Photos show an object's broad side more often than its end.
       const double yaw = 0.5 * std::numbers::pi * std::pow(Halton(i, 11), 1.3);
       const double ratio = OutlineRatio(length, width, height, prior.revolved || prior.round,
                                         degrees * kDegree, yaw);
@@ -69,7 +69,7 @@ std::vector<double> SizeLikelihood(double observed, const CategoryPrior& prior) 
   return log_likelihood;
 }
 
-// The last object pixel of each column, from the chosen end; -1 where the column is empty.
+// Returns the last object pixel of each column, from the chosen end; -1 where the column is empty.
 std::vector<int> EndProfile(const Matte& matte, bool lower_end) {
   std::vector<int> profile;
   for (int x = matte.left; x < matte.right; ++x) {
@@ -89,7 +89,7 @@ double EndArcRatio(const Matte& matte, bool lower_end) {
   const std::vector<int> profile = EndProfile(matte, lower_end);
   const double sign = lower_end ? 1.0 : -1.0;
   const int height = matte.bottom - matte.top;
-  // The base is where the profile stays within a quarter of the height of the very end.
+  // The base is the part of the profile within a quarter of the height of the extreme end.
   const int extreme = lower_end ? matte.bottom - 1 : matte.top;
   int first = -1, last = -1;
   for (size_t i = 0; i < profile.size(); ++i) {
@@ -100,7 +100,7 @@ double EndArcRatio(const Matte& matte, bool lower_end) {
   const int span = last - first + 1;
   if (first < 0 || span < 12) return -1.0;
   // y = c + b sqrt(1 - ((x - m) / a)^2) with a, m from the span: linear in c and b. The outer
-  // eighths, where sides begin, are left out.
+  // eighths, where the sides begin, are excluded.
   const double a = 0.5 * span, middle = 0.5 * (first + last);
   const int from = first + span / 8, to = last - span / 8;
   Eigen::MatrixX2d system(to - from + 1, 2);
@@ -128,7 +128,7 @@ ElevationEstimate EstimateElevation(const Matte& matte, const CategoryPrior& pri
   if (prior.revolved && !prior.round) {
     const double base = EndArcRatio(matte, true);
     if (base >= 0.0) {
-      // Rounded feet and perspective widen the arc: an upper bound more than a reading.
+      // Rounded bases and perspective widen the arc: it is an upper bound more than an estimate.
       arcs.emplace_back(std::asin(base) / kDegree - 3.0, 8.0);
       cues += ", curve of the base";
     }
@@ -142,7 +142,7 @@ ElevationEstimate EstimateElevation(const Matte& matte, const CategoryPrior& pri
   for (int i = 0; i < kElevations; ++i) {
     log_posterior[i] += LogNormal(i, habit, habit_deviation);
     for (const auto& [elevation, deviation] : arcs) {
-      // Heavy tails: a lip, a foot or a leaf can make an arc that means nothing.
+      // Heavy tails: a lip, a foot ring or a leaf can make an unrelated arc.
       const double z = (i - elevation) / deviation;
       log_posterior[i] += -1.5 * std::log1p(z * z / 2.0);
     }

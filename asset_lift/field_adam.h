@@ -8,21 +8,21 @@
 namespace simwright::asset_lift {
 
 struct FieldAdamOptions {
-  // Kingma and Ba, "Adam", 2015; the figures of threestudio's Zero-1-to-3.
+  // Kingma and Ba, "Adam", 2015, with the hyperparameters of threestudio's Zero-1-to-3.
   double beta1 = 0.9;
   double beta2 = 0.99;
   double epsilon = 1e-8;
 };
 
-// Adam over all of a field's parameters. Dense, not sparse: a step over the default field's 442
-// thousand numbers takes about a millisecond, and entries that a step does not touch follow
-// their momentum as published.
+// The Adam optimizer over all parameters of a field. It is dense, not sparse: a step over the
+// default field's 442 thousand parameters takes about a millisecond, and entries without a gradient
+// follow their momentum as published.
 class FieldAdam {
  public:
   explicit FieldAdam(const FieldAdamOptions& options = {}) : options_(options) {}
 
-  // One step at `rate` against the sum of the gradient's parts, which become zero. False, and
-  // nothing is moved, where the sum is not finite.
+  // Takes one step at `rate` against the sum of the gradient's parts and zeroes the parts. Returns
+  // false and changes no parameter if the sum is not finite.
   bool Step(double rate, RadianceField* field, FieldGradient<float>* gradient);
 
  private:

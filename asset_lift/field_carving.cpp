@@ -13,9 +13,10 @@ namespace {
 
 constexpr int kSide = OccupancyGrid::kSide;
 constexpr int kCells = kSide * kSide * kSide;
-constexpr double kLeastSeen = 0.8;
+constexpr double kMinMaskCoverage = 0.8;
 
-// Distance of each pixel to the nearest one of the mask, in pixels: along columns, then along rows.
+// Returns each pixel's distance to the nearest mask pixel, in pixels: along columns, then along
+// rows.
 std::vector<float> DistanceToMask(const core::FloatImage& opacity) {
   const int width = opacity.width, height = opacity.height;
   constexpr float kFar = 1e6f;
@@ -49,9 +50,9 @@ std::vector<float> DistanceToMask(const core::FloatImage& opacity) {
   return distance;
 }
 
-// 1 where the view rules the cell out.
-std::vector<std::uint8_t> RuledOut(const ObservedView& view, const Eigen::Vector3d& center,
-                                   double half_side, double margin) {
+// Returns 1 for the cells that the view excludes.
+std::vector<std::uint8_t> ExcludedCells(const ObservedView& view, const Eigen::Vector3d& center,
+                                        double half_side, double margin) {
   const std::vector<float> distance = DistanceToMask(view.opacity);
   const core::Camera& camera = view.camera;
   const Eigen::Isometry3d camera_from_world = camera.world_from_camera.inverse();
@@ -72,7 +73,7 @@ std::vector<std::uint8_t> RuledOut(const ObservedView& view, const Eigen::Vector
             std::clamp(static_cast<int>(std::floor(std::clamp(x, -1e6, 1e6))), 0, camera.width - 1);
         const int py = std::clamp(static_cast<int>(std::floor(std::clamp(y, -1e6, 1e6))), 0,
                                   camera.height - 1);
-        // A pixel's centre is up to 0.71 from where the cell projects to.
+        // A pixel's centre is up to 0.71 from the cell's projection.
         if (distance[static_cast<std::size_t>(py) * camera.width + px] > reach + 0.75) {
           out[i + kSide * (j + kSide * k)] = 1;
         }
@@ -82,9 +83,11 @@ std::vector<std::uint8_t> RuledOut(const ObservedView& view, const Eigen::Vector
   return out;
 }
 
-// The least share of a view's mask (of every third row and column) that sees an allowed cell.
-double LeastSeen(const std::vector<ObservedView>& views, const std::vector<std::uint8_t>& allowed,
-                 const Eigen::Vector3d& center, double half_side) {
+// Returns the minimum over the views of the share of a view's mask (every third row and column)
+// whose rays meet an allowed cell.
+double MinMaskCoverage(const std::vector<ObservedView>& views,
+                       const std::vector<std::uint8_t>& allowed, const Eigen::Vector3d& center,
+                       double half_side) {
   OccupancyGrid grid;
   grid.Restrict(allowed);
   double least = 1.0;
@@ -122,14 +125,14 @@ Carving CarveByMasks(const std::vector<ObservedView>& views, const Eigen::Vector
   }
   for (const ObservedView& view : agreeing) {
     core::CheckCancelled();
-    const std::vector<std::uint8_t> out = RuledOut(view, center, half_side, margin);
+    const std::vector<std::uint8_t> out = ExcludedCells(view, center, half_side, margin);
     for (int c = 0; c < kCells; ++c) carving.allowed[c] &= out[c] == 0;
   }
-  if (const double seen = LeastSeen(agreeing, carving.allowed, center, half_side);
-      seen < kLeastSeen) {
+  if (const double seen = MinMaskCoverage(agreeing, carving.allowed, center, half_side);
+      seen < kMinMaskCoverage) {
     carving.allowed.assign(kCells, 1);
     carving.findings.push_back({"field-beside-object", core::Severity::kWarning, "",
-                                "much of a mask lies outside of the cube that is looked at", seen});
+                                "much of a mask lies outside the field's cube", seen});
   }
   return carving;
 }

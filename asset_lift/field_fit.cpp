@@ -13,7 +13,7 @@ namespace simwright::asset_lift {
 namespace {
 
 constexpr int kSnapshotInterval = 10;  // steps
-constexpr int kMaxSetbacks = 3;
+constexpr int kMaxRollbacks = 3;
 
 int TotalSteps(const FieldFitOptions& options) {
   int steps = 0;
@@ -21,7 +21,7 @@ int TotalSteps(const FieldFitOptions& options) {
   return steps;
 }
 
-// The picture that rays of a whole camera saw.
+// Converts the rays of a whole camera to an image.
 ObjectPicture ToPicture(const core::Camera& camera, const PixelRays& pixels,
                         const RayPictures<float>& seen) {
   ObjectPicture picture;
@@ -36,7 +36,7 @@ ObjectPicture ToPicture(const core::Camera& camera, const PixelRays& pixels,
   return picture;
 }
 
-void RequireDrawable(const core::Camera& camera) {
+void RequireRenderable(const core::Camera& camera) {
   if (camera.width < 1 || camera.height < 1 || !(camera.fx > 0.0) || !(camera.fy > 0.0) ||
       !std::isfinite(camera.fx + camera.fy + camera.cx + camera.cy) ||
       !camera.world_from_camera.matrix().allFinite()) {
@@ -71,7 +71,7 @@ class Fitter {
         Step(&deck);
         if (progress != nullptr) progress->Advance();
         core::CheckCancelled();
-        if (setbacks_ == kMaxSetbacks) return Finished();
+        if (rollbacks_ == kMaxRollbacks) return Finished();
       }
     }
     return Finished();
@@ -106,7 +106,7 @@ class Fitter {
 
   void Step(TargetDeck* deck) {
     const double rate = options_.rate * std::pow(options_.last_rate / options_.rate, Done()) *
-                        std::pow(0.5, setbacks_);
+                        std::pow(0.5, rollbacks_);
     double loss = ObservationGradient(deck);
     if (std::isfinite(loss)) {
       if (objective_ != nullptr) {
@@ -119,43 +119,43 @@ class Fitter {
     fit_.losses.push_back(loss);
     const int steps = static_cast<int>(fit_.losses.size());
     if (!stepped) {
-      StepBack();
+      RollBack();
     } else if (steps % kSnapshotInterval == 0) {
-      // The steps since the last snapshot have shown that it was good.
+      // The steps since the last snapshot have shown that the candidate is finite.
       good_ = candidate_;
       candidate_ = fit_.field.parameters();
     }
     if (steps % options_.occupancy_interval == 0) UpdateOccupancy();
   }
 
-  void StepBack() {
-    ++setbacks_;
+  void RollBack() {
+    ++rollbacks_;
     fit_.field.parameters() = good_;
     candidate_ = good_;
     adam_ = FieldAdam();
     gradient_ = FieldGradient<float>();
-    if (setbacks_ < kMaxSetbacks) return;
-    fit_.findings.push_back(
-        {"field-fit-unstable", core::Severity::kWarning, "radiance field",
-         "the fit met numbers that are not finite three times and stopped at step " +
-             std::to_string(fit_.losses.size()) + " of " + std::to_string(total_),
-         static_cast<double>(fit_.losses.size())});
+    if (rollbacks_ < kMaxRollbacks) return;
+    fit_.findings.push_back({"field-fit-unstable", core::Severity::kWarning, "radiance field",
+                             "the fit became non-finite three times and stopped at step " +
+                                 std::to_string(fit_.losses.size()) + " of " +
+                                 std::to_string(total_),
+                             static_cast<double>(fit_.losses.size())});
   }
 
   double ObservationGradient(TargetDeck* deck) {
-    deck->Deal(options_.rays_per_step, &rng_, &hand_);
-    if (hand_.pixels.rays.empty()) return 0.0;
-    view_renderer_.Render(fit_.field, fit_.occupancy, hand_.pixels.rays, rng_(), &seen_);
-    of_seen_.Resize(hand_.pixels.rays.size());
+    deck->Deal(options_.rays_per_step, &rng_, &batch_);
+    if (batch_.pixels.rays.empty()) return 0.0;
+    view_renderer_.Render(fit_.field, fit_.occupancy, batch_.pixels.rays, rng_(), &seen_);
+    of_seen_.Resize(batch_.pixels.rays.size());
     const Eigen::Vector3f background(static_cast<float>(core::Uniform(rng_)),
                                      static_cast<float>(core::Uniform(rng_)),
                                      static_cast<float>(core::Uniform(rng_)));
-    double loss = AddObservationLoss(hand_, seen_, background, options_.field.half_side,
+    double loss = AddObservationLoss(batch_, seen_, background, options_.field.half_side,
                                      options_.weights, &of_seen_);
-    loss += AddShapeLoss(hand_.pixels, seen_, options_.weights, &of_seen_);
+    loss += AddShapeLoss(batch_.pixels, seen_, options_.weights, &of_seen_);
     double squares = 0.0;
     for (std::size_t i = 0; i < seen_.color.size(); ++i) {
-      squares += std::pow(seen_.color[i] - hand_.color[i], 2);
+      squares += std::pow(seen_.color[i] - batch_.color[i], 2);
     }
     errors_.push_back(squares / static_cast<double>(seen_.color.size()));
     if (std::isfinite(loss)) view_renderer_.AddGradient(fit_.field, of_seen_, &gradient_);
@@ -164,7 +164,7 @@ class Fitter {
 
   double ObjectiveGradient() {
     const core::Camera camera = objective_->NextCamera(Done(), &rng_);
-    RequireDrawable(camera);
+    RequireRenderable(camera);
     pixels_.Clear();
     pixels_.AppendPicture(camera);
     picture_renderer_.Render(fit_.field, fit_.occupancy, pixels_.rays, rng_(), &seen_);
@@ -174,7 +174,7 @@ class Fitter {
         objective_->Evaluate(camera, ToPicture(camera, pixels_, seen_), Done(), &rng_, &of_picture);
     const std::size_t count = pixels_.rays.size();
     if (of_picture.color.values.size() != 3 * count || of_picture.opacity.values.size() != count) {
-      throw core::Error("the objective's gradient is not of its picture's size", "field fit");
+      throw core::Error("the objective's gradient has another size than its image", "field fit");
     }
     const auto weight = static_cast<float>(options_.weights.objective);
     of_seen_.Resize(count);
@@ -190,7 +190,8 @@ class Fitter {
     return loss;
   }
 
-  // From where a view could have been taken: about the cube's centre, as far off as the first.
+  // Adds the shape losses of an image from a random direction, at the first view's distance from
+  // the cube's centre.
   double ShapeGradient() {
     const core::Camera& like = views_[0].camera;
     const double distance = (like.position() - options_.field.center).norm();
@@ -227,11 +228,11 @@ class Fitter {
   FieldGradient<float> gradient_;
   core::Rng rng_;
   const int total_;
-  int setbacks_ = 0;
-  // Parameters that a later step proved good, and ones that no step has looked at yet.
+  int rollbacks_ = 0;
+  // Parameters that a later step confirmed, and parameters that no step has used yet.
   std::vector<float> good_, candidate_;
   std::vector<double> errors_;
-  RayTargets hand_;
+  RayTargets batch_;
   PixelRays pixels_;
   RayPictures<float> seen_, of_seen_;
 };
@@ -242,18 +243,20 @@ bool FieldFitOptions::IsValid(std::string* error) const {
   if (!field.IsValid(error) || !weights.IsValid(error) || !render.IsValid(error)) return false;
   const char* fault = nullptr;
   for (const FieldFitStage& stage : stages) {
-    if (stage.steps < 0 || stage.view_side < 8) fault = "a stage has steps and 8 pixels at least";
+    if (stage.steps < 0 || stage.view_side < 8) {
+      fault = "a stage needs steps and a view_side of at least 8";
+    }
   }
-  if (TotalSteps(*this) < 1) fault = "a fit has a step at least";
-  if (rays_per_step < 1) fault = "a step has a ray at least";
+  if (TotalSteps(*this) < 1) fault = "a fit needs at least one step";
+  if (rays_per_step < 1) fault = "rays_per_step must be at least 1";
   if (!(rate > 0.0 && rate < 1.0) || !(last_rate > 0.0 && last_rate < 1.0)) {
-    fault = "the rates lie in (0, 1)";
+    fault = "the rates must be in (0, 1)";
   }
-  if (occupancy_interval < 1) fault = "the occupancy grid is updated every so many steps";
+  if (occupancy_interval < 1) fault = "occupancy_interval must be at least 1";
   if (!(occupancy.decay >= 0.0 && occupancy.decay <= 1.0) || !(occupancy.threshold >= 0.0)) {
-    fault = "the occupancy's decay lies in [0, 1], its threshold is not negative";
+    fault = "the occupancy decay must be in [0, 1] and its threshold not negative";
   }
-  if (!(carve_margin >= 0.0)) fault = "the margin of carving is not negative";
+  if (!(carve_margin >= 0.0)) fault = "carve_margin must not be negative";
   if (fault != nullptr && error != nullptr) *error = fault;
   return fault == nullptr;
 }
@@ -269,7 +272,7 @@ FieldFit FitField(const std::vector<ObservedView>& views, PictureObjective* obje
 
 ObjectPicture DrawField(const FieldFit& fit, const core::Camera& camera,
                         core::FloatImage* normals) {
-  RequireDrawable(camera);
+  RequireRenderable(camera);
   PixelRays pixels;
   pixels.AppendPicture(camera);
   VolumeRenderOptions options;

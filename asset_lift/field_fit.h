@@ -15,34 +15,35 @@
 
 namespace simwright::asset_lift {
 
-// A part of the fit, on observed views of one size.
+// A stage of the fit, on observed views of one size.
 struct FieldFitStage {
   int steps = 0;
-  int view_side = 0;  // pixels of a view's longer side at most
+  int view_side = 0;  // maximum pixels of a view's longer side
 };
 
 struct FieldFitOptions {
-  // The cube in which the object lies, and the field's sizes.
+  // The cube that contains the object, and the field's sizes.
   RadianceFieldOptions field;
-  // The published schedule (600 steps; 128, 256, 512 pixels) shrunk to two cores.
+  // The published schedule (600 steps; 128, 256, 512 pixels) reduced for two cores.
   std::vector<FieldFitStage> stages = {{200, 64}, {100, 128}};
-  // Rays of observed views a step: one view of 64 pixels, or random patches of more.
+  // Rays of observed views per step: one view of 64 pixels, or random patches of larger views.
   int rays_per_step = 4096;
-  // Adam's rate, falling geometrically to the last. The published 0.01 is for 600 steps: in 200,
-  // a chair from 8 views reaches a volume IoU of 0.46 with it and of 0.54 with these.
+  // Adam's learning rate, which decays geometrically to `last_rate`. The published 0.01 is for 600
+  // steps and gives a lower volume IoU in 200.
   double rate = 0.02;
   double last_rate = 0.004;
   FieldLossWeights weights;
   VolumeRenderOptions render;
   OccupancyOptions occupancy;
-  int occupancy_interval = 16;  // steps from an update of the occupancy grid to the next
-  // Space that projects beside a mask is ruled out from the start: what the masks say need not be
-  // learned, and rays through nothing cost nothing.
+  int occupancy_interval = 16;  // steps between updates of the occupancy grid
+  // True if space that projects outside a mask is excluded from the start, so that the fit need not
+  // learn the masks and rays through empty space cost nothing.
   bool carve = true;
-  // Where there is no objective, a picture of so many pixels a side from a random direction takes
-  // the shape's losses each step, as the objective's pictures do; 0: none.
+  // The side in pixels of a random image that takes the shape losses each step where there is no
+  // objective, as the objective's images do. 0: none.
   int shape_picture_side = 48;
-  double carve_margin = 1.0;  // pixels at the last stage's size, for masks that are a little small
+  double carve_margin = 1.0;  // pixels at the last stage's size, for masks that are slightly too
+                              // small
   std::uint64_t seed = 1;
 
   bool IsValid(std::string* error) const;
@@ -50,23 +51,23 @@ struct FieldFitOptions {
 
 struct FieldFit {
   RadianceField field;
-  OccupancyGrid occupancy;     // what is ruled out, and what the fit left empty
-  std::vector<double> losses;  // a value a step done: all terms together
-  double color_error = 0.0;    // root mean square over the last steps' rays, sRGB over black
+  OccupancyGrid occupancy;     // cells that are excluded or that the fit left empty
+  std::vector<double> losses;  // the total loss of each step
+  double color_error = 0.0;    // RMS over the last steps' rays, sRGB over black
   core::Findings findings;     // field_carving.h's; "field-fit-unstable"
 };
 
-// A radiance field that shows what the views show and, between them, what `objective` (may be null)
-// asks for: each step draws rays of the views and one picture from the objective's next camera.
-// Space that no mask allows stays empty. Where a loss or a gradient is not finite, the fit goes
-// back to its last good parameters and halves the rate; the third time it stops there and says so
-// in the findings. Views that the others contradict are named and left out. Throws core::Error for
-// views or options that are not valid, or an objective whose gradient does not fit its picture;
-// core::Cancelled.
+// Fits a radiance field to the views, regularized between them by `objective` (may be null). Each
+// step samples rays of the views and renders one image from the objective's next camera. Space
+// outside every mask stays empty. Where a loss or a gradient is not finite, the fit returns to its
+// last finite parameters and halves the rate; the third time it stops and reports this in the
+// findings. Views that contradict the others are excluded and named in the findings. Throws
+// core::Error for invalid views or options, or an objective whose gradient does not match its
+// image; core::Cancelled.
 FieldFit FitField(const std::vector<ObservedView>& views, PictureObjective* objective,
                   const FieldFitOptions& options, core::Progress* progress);
 
-// The field as `camera` sees it; normals (H x W x 3, world) where `normals` is not null.
+// Renders the field from `camera`. Writes normals (H x W x 3, world) where `normals` is not null.
 ObjectPicture DrawField(const FieldFit& fit, const core::Camera& camera,
                         core::FloatImage* normals = nullptr);
 

@@ -2,12 +2,13 @@
 
 // The radiance field's inner loops over one batch of points, compiled for the instruction set whose
 // namespace SIMWRIGHT_FIELD_ISA names (field_kernels_avx2.cpp, field_kernels_plain.cpp). All loops
-// run over contiguous numbers, which the compiler vectorises; the matrix products name their vector
-// registers, which it does not find by itself. Template arguments of 0 stand for sizes known at run
-// time only.
+// run over contiguous numbers, which the compiler vectorises; the matrix products use explicit
+// vector registers, because the compiler does not vectorise them by itself. Template arguments of 0
+// stand for sizes known at run time only.
 namespace simwright::asset_lift::SIMWRIGHT_FIELD_ISA {
 
-// e^x within 2e-7 of its value, for floats; x is clamped to [-87, 88]. Doubles: std::exp.
+// Returns e^x with a relative error below 2e-7 for floats; x is clamped to [-87, 88]. Doubles use
+// std::exp.
 template <typename Real>
 inline Real Exp(Real x) {
   if constexpr (std::is_same_v<Real, float>) {
@@ -16,7 +17,7 @@ inline Real Exp(Real x) {
     const float turns = x * 1.44269504f;
     const auto n = static_cast<std::int32_t>(turns + (turns < 0.0f ? -0.5f : 0.5f));
     const auto whole = static_cast<float>(n);
-    // ln 2 in two parts, so that the remainder keeps its digits; then its Taylor series.
+    // ln 2 is split in two parts to keep the remainder's digits; its Taylor series follows.
     const float r = (x - whole * 0.693359375f) + whole * 2.12194440e-4f;
     const float p =
         1.0f +
@@ -29,7 +30,7 @@ inline Real Exp(Real x) {
   }
 }
 
-// log(1 + u) for u in [0, 1], within 1e-7: 2 artanh(u / (2 + u)) by its series.
+// Returns log(1 + u) for u in [0, 1], within 1e-7: 2 artanh(u / (2 + u)) by its series.
 template <typename Real>
 inline Real Log1p(Real u) {
   if constexpr (std::is_same_v<Real, float>) {
@@ -44,7 +45,7 @@ inline Real Log1p(Real u) {
   }
 }
 
-// log(1 + e^x); its slope is 1 - e^-Softplus(x).
+// Returns log(1 + e^x). Its derivative is 1 - e^-Softplus(x).
 template <typename Real>
 inline Real Softplus(Real x) {
   const Real size = x < 0 ? -x : x;
@@ -56,22 +57,22 @@ struct RegisterOf {
   typedef Real Type __attribute__((vector_size(32)));
 };
 
-// What a pass over a batch keeps between its steps; a row a point.
+// The intermediate results of a pass over a batch, one row per point.
 template <typename Real>
 struct Scratch {
-  alignas(64) std::uint32_t index[8][kFieldBatch];  // a cell's corners: entries of the table
+  alignas(64) std::uint32_t index[8][kFieldBatch];  // the table entries of a cell's corners
   alignas(64) Real weight[8][kFieldBatch];
   alignas(64) Real unit[3][kFieldBatch];  // positions in [0, 1]
   alignas(64) Real hidden[kFieldBatch * kMaxFieldHidden];
-  alignas(64) Real outputs[kFieldBatch * 8];  // or their gradients; four of eight in use
+  alignas(64) Real outputs[kFieldBatch * 8];  // or their gradients; four of eight are used
   alignas(64) Real hidden_gradient[kFieldBatch * kMaxFieldHidden];
   alignas(64) Real feature_gradient[kFieldBatch * kMaxFieldInputs];
-  alignas(64) Real turned_weights[kMaxFieldHidden * kMaxFieldInputs];
+  alignas(64) Real transposed_weights[kMaxFieldHidden * kMaxFieldInputs];
 };
 
-// c = a b, or c += a b, for kRows rows of a and c and kRegisters * lanes columns of b and c.
-// `a_row`, `a_inner`: from a row of a to the next, and from a column to the next; `stride`: from a
-// row of b or c to the next.
+// Computes c = a b, or c += a b, for kRows rows of a and c and kRegisters * lanes columns of b and
+// c. `a_row` and `a_inner` are the strides between rows and between columns of a; `stride` is that
+// between rows of b and c.
 template <int kRows, int kRegisters, typename Real>
 inline void MultiplyTile(int inner, const Real* a, int a_row, int a_inner, const Real* b,
                          int stride, bool add, Real* c) {
@@ -104,7 +105,7 @@ inline void MultiplyTile(int inner, const Real* a, int a_row, int a_inner, const
   }
 }
 
-// All columns of kRows rows.
+// Multiplies all columns of kRows rows.
 template <int kRows, typename Real>
 inline void MultiplyRows(int inner, int columns, const Real* a, int a_row, int a_inner,
                          const Real* b, bool add, Real* c) {
@@ -119,9 +120,9 @@ inline void MultiplyRows(int inner, int columns, const Real* a, int a_row, int a
   }
 }
 
-// c = a b, or c += a b: a is (rows x inner), its rows `a_stride` apart; b (inner x columns), c
-// (rows x columns). Where `transposed`, a is (inner x rows). `columns` is a multiple of 8. Eight
-// sums are kept in registers, which hides the latency of their additions.
+// Computes c = a b, or c += a b. a is (rows x inner) with row stride `a_stride`, or (inner x rows)
+// where `transposed`; b is (inner x columns) and c (rows x columns). `columns` is a multiple of 8.
+// Eight sums are kept in registers, which hides the latency of their additions.
 template <typename Real>
 inline void Multiply(int rows, int inner, int columns, const Real* a, int a_stride, bool transposed,
                      const Real* b, bool add, Real* c) {
@@ -156,7 +157,7 @@ inline void UnitPositions(const FieldBatch<Real>& batch, Scratch<Real>* scratch)
   }
 }
 
-// The cell of each point, its corners' entries and their trilinear weights.
+// Computes each point's cell, the table entries of its corners and their trilinear weights.
 template <typename Real>
 inline void Corners(const HashGridLevel& level, Scratch<Real>* scratch) {
   const Real cells = static_cast<Real>(level.cells);
@@ -164,8 +165,8 @@ inline void Corners(const HashGridLevel& level, Scratch<Real>* scratch) {
   const bool hashed = level.hashed();
   const std::uint32_t step[3] = {1, hashed ? 2654435761u : level.row,
                                  hashed ? 805459861u : level.slice};
-  // Along an axis: what the lower and the upper corner add to the index, and their weights.
-  alignas(64) std::uint32_t part[3][2][kFieldBatch];
+  // Per axis, the index offsets and the weights of the lower and the upper corner.
+  alignas(64) std::uint32_t offset[3][2][kFieldBatch];
   alignas(64) Real share[3][2][kFieldBatch];
   for (int a = 0; a < 3; ++a) {
     for (int s = 0; s < kFieldBatch; ++s) {
@@ -173,16 +174,16 @@ inline void Corners(const HashGridLevel& level, Scratch<Real>* scratch) {
       std::int32_t i = static_cast<std::int32_t>(at);
       i = i < last ? i : last;
       const Real upper = at - static_cast<Real>(i);
-      part[a][0][s] = static_cast<std::uint32_t>(i) * step[a];
-      part[a][1][s] = static_cast<std::uint32_t>(i) * step[a] + step[a];
+      offset[a][0][s] = static_cast<std::uint32_t>(i) * step[a];
+      offset[a][1][s] = static_cast<std::uint32_t>(i) * step[a] + step[a];
       share[a][0][s] = Real(1) - upper;
       share[a][1][s] = upper;
     }
   }
   for (int c = 0; c < 8; ++c) {
-    const std::uint32_t* x = part[0][c & 1];
-    const std::uint32_t* y = part[1][(c >> 1) & 1];
-    const std::uint32_t* z = part[2][c >> 2];
+    const std::uint32_t* x = offset[0][c & 1];
+    const std::uint32_t* y = offset[1][(c >> 1) & 1];
+    const std::uint32_t* z = offset[2][c >> 2];
     if (hashed) {
       for (int s = 0; s < kFieldBatch; ++s) {
         scratch->index[c][s] = (x[s] ^ y[s] ^ z[s]) & level.mask;
@@ -197,7 +198,7 @@ inline void Corners(const HashGridLevel& level, Scratch<Real>* scratch) {
   }
 }
 
-// Features of a batch, (points x stride).
+// Computes the features of a batch, (points x stride).
 template <typename Real, int kFeatures>
 inline void Encode(const HashGridLayout& layout, int stride, const Real* table,
                    Scratch<Real>* scratch, Real* features) {
@@ -220,8 +221,9 @@ inline void Encode(const HashGridLayout& layout, int stride, const Real* table,
   }
 }
 
-// The transpose of Encode: feature gradients added to the entries they came from. Points are taken
-// eight apart: neighbours share a cell, and each would wait for the store of the one before.
+// Adds feature gradients to the table entries they came from, as the transpose of Encode. The loop
+// takes points eight apart: neighbours share a cell, and each would wait for the store of the one
+// before.
 template <typename Real, int kFeatures>
 inline void Scatter(const HashGridLayout& layout, int stride, Scratch<Real>* scratch, Real* table) {
   typedef Real Entry __attribute__((vector_size(kFeatures * sizeof(Real))));
@@ -246,7 +248,7 @@ inline void Scatter(const HashGridLayout& layout, int stride, Scratch<Real>* scr
   }
 }
 
-// Adds the blob that biases the density, or the trilinear reading of a table, to batch->raw.
+// Adds the density bias, a blob or a trilinearly interpolated table, to batch->raw.
 template <typename Real>
 inline void AddBias(const FieldBias<Real>& bias, Scratch<Real>* scratch, FieldBatch<Real>* batch) {
   if (bias.table == nullptr) {
@@ -268,11 +270,11 @@ inline void AddBias(const FieldBias<Real>& bias, Scratch<Real>* scratch, FieldBa
   }
 }
 
-// Sizes of a field: constants where the template says them.
+// The sizes of a field, constant where the template gives them.
 template <int kInputs, int kHidden, int kFeatures>
 struct Sizes {
   int inputs, hidden;
-  int stride;  // inputs, in eights
+  int stride;  // inputs, rounded up to a multiple of 8
   template <typename Real>
   explicit Sizes(const FieldModel<Real>& model)
       : inputs(kInputs ? kInputs : model.inputs),
@@ -281,7 +283,7 @@ struct Sizes {
   static constexpr int kPerEntry = kFeatures;
 };
 
-// Hidden units of a batch from its features.
+// Computes the hidden units of a batch from its features.
 template <typename Shape, typename Real>
 inline void ToHidden(const FieldModel<Real>& model, const Shape& shape,
                      const FieldBatch<Real>& batch, Scratch<Real>* scratch) {
@@ -300,7 +302,7 @@ inline void Evaluate(const FieldModel<Real>& model, FieldBatch<Real>* batch) {
   Encode<Real, Shape::kPerEntry>(*model.layout, shape.stride, model.table, &scratch,
                                  batch->features);
   ToHidden(model, shape, *batch, &scratch);
-  Real* weights = scratch.turned_weights;  // (hidden x 8)
+  Real* weights = scratch.transposed_weights;  // (hidden x 8)
   for (int j = 0; j < shape.hidden; ++j) {
     for (int o = 0; o < 8; ++o) {
       weights[j * 8 + o] = o < kFieldOutputs ? model.output_weights[o * shape.hidden + j] : Real(0);
@@ -322,7 +324,7 @@ inline void Evaluate(const FieldModel<Real>& model, FieldBatch<Real>* batch) {
   }
 }
 
-// Gradients before the activations, (points x kFieldOutputs).
+// Computes the gradients before the activations, (points x kFieldOutputs).
 template <typename Real>
 inline void OutputGradient(const FieldModel<Real>& model, const FieldBatch<Real>& batch,
                            const FieldBatchGradient<Real>& gradient, Real* outputs) {
@@ -337,7 +339,7 @@ inline void OutputGradient(const FieldModel<Real>& model, const FieldBatch<Real>
   }
 }
 
-// Reverse of Evaluate.
+// Computes the backward pass of Evaluate.
 template <typename Shape, typename Real>
 inline void AddGradient(const FieldModel<Real>& model, const FieldBatch<Real>& batch,
                         const FieldBatchGradient<Real>& gradient, Real* sum) {
@@ -357,7 +359,7 @@ inline void AddGradient(const FieldModel<Real>& model, const FieldBatch<Real>& b
   }
   Multiply(inputs, kFieldBatch, hidden, batch.features, stride, true, scratch.hidden_gradient, true,
            hidden_sum);
-  Real* weights = scratch.turned_weights;  // (hidden x stride)
+  Real* weights = scratch.transposed_weights;  // (hidden x stride)
   for (int i = 0; i < stride; ++i) {
     for (int j = 0; j < hidden; ++j) {
       weights[j * stride + i] = i < inputs ? model.hidden_weights[i * hidden + j] : Real(0);
@@ -405,7 +407,8 @@ void Adam(const AdamStep<Real>& step, std::size_t count, Real* __restrict gradie
   }
 }
 
-// The default field's sizes are known to the compiler; others take the general code.
+// Evaluates a batch. The default field's sizes are compile-time constants; other sizes use the
+// general code.
 template <typename Real>
 void EvaluateBatch(const FieldModel<Real>& model, FieldBatch<Real>* batch) {
   switch (model.layout->features()) {

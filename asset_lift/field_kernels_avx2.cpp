@@ -1,5 +1,5 @@
-// The field's inner loops for processors with AVX2 and FMA. Every header that they need comes
-// before the switch: code that other files share must not be compiled for these alone.
+// The field's inner loops for processors with AVX2 and FMA. All headers that they need are included
+// before the target pragma: code shared with other files must not be compiled for AVX2.
 #include <bit>
 #include <cmath>
 #include <cstdint>

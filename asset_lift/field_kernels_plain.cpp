@@ -8,7 +8,7 @@
 #include "asset_lift/field_model.h"
 
 #define SIMWRIGHT_FIELD_ISA field_plain
-// A square root that reports negative numbers is a call, which no vector code makes.
+// A square root that sets errno for negative numbers is a call, which is not vectorised.
 #if !defined(__clang__)
 #pragma GCC push_options
 #pragma GCC optimize("no-math-errno")

@@ -9,7 +9,8 @@ namespace {
 using Vector = Eigen::Map<const Eigen::Vector3f>;
 using Target = Eigen::Map<Eigen::Vector3f>;
 
-// Half the squared distance of the normals of rays a and b, with opacities as they are.
+// Adds half the squared distance of the normals of rays a and b, weighted by their opacities as
+// constants.
 double AddSmoothness(const RayPictures<float>& pictures, int a, int b, float scale,
                      RayPictures<float>* gradient) {
   if (b < 0) return 0.0;
@@ -31,7 +32,7 @@ bool FieldLossWeights::IsValid(std::string* error) const {
   for (const double weight :
        {color, mask, depth, objective, orientation, sparsity, opaque, normal_smoothness}) {
     if (std::isfinite(weight) && weight >= 0.0) continue;
-    if (error != nullptr) *error = "the weights of losses are finite and not negative";
+    if (error != nullptr) *error = "loss weights must be finite and not negative";
     return false;
   }
   return true;

@@ -11,13 +11,13 @@ namespace simwright::asset_lift {
 
 inline constexpr int kFieldOutputs = 4;  // density, red, green, blue
 inline constexpr int kMaxFieldHidden = 128;
-inline constexpr int kBiasCells = 64;  // a side of a tabulated bias
+inline constexpr int kBiasCells = 64;  // per side of a tabulated bias
 
-// What is added to the density before its softplus.
+// The term added to the density before its softplus.
 template <typename Real>
 struct FieldBias {
   Real blob_scale = 0, blob_slope = 0;  // scale - slope * distance from the centre
-  const Real* table = nullptr;          // in place of the blob: (kBiasCells + 1)^3, x fastest
+  const Real* table = nullptr;          // replaces the blob: (kBiasCells + 1)^3, x fastest
 };
 
 template <typename Real>
@@ -25,13 +25,13 @@ struct FieldModel {
   const HashGridLayout* layout = nullptr;
   int inputs = 0, hidden = 0;
   const Real* table = nullptr;
-  const Real* hidden_weights = nullptr;  // (inputs x hidden), behind the table
-  const Real* output_weights = nullptr;  // (kFieldOutputs x hidden), behind those
+  const Real* hidden_weights = nullptr;  // (inputs x hidden), after the table
+  const Real* output_weights = nullptr;  // (kFieldOutputs x hidden), after the hidden weights
   Real density_scale = 1;
   FieldBias<Real> bias;
 };
 
-// x -= rate m / (root_scale sqrt(v) + epsilon).
+// The factors of one step x -= rate m / (root_scale sqrt(v) + epsilon).
 template <typename Real>
 struct AdamStep {
   Real beta1, beta2, rate, root_scale, epsilon;
@@ -39,24 +39,26 @@ struct AdamStep {
 
 template <typename Real>
 struct FieldKernels {
-  // Fills all of `batch` but its positions.
+  // Fills all fields of `batch` except its positions.
   void (*evaluate)(const FieldModel<Real>& model, FieldBatch<Real>* batch);
-  // Adds the parameters' gradients to `sum`, laid out like them.
+  // Adds the parameters' gradients to `sum`, which has the same layout as the parameters.
   void (*add_gradient)(const FieldModel<Real>& model, const FieldBatch<Real>& batch,
                        const FieldBatchGradient<Real>& gradient, Real* sum);
-  // sum += part, part = 0, over `count` numbers. False where a sum is not finite.
+  // Adds `part` to `sum` and zeroes `part`, over `count` numbers. Returns false if a sum is not
+  // finite.
   bool (*take_part)(std::size_t count, Real* part, Real* sum);
-  // A step of Adam; `gradient` becomes zero.
+  // Takes a step of Adam; `gradient` becomes zero.
   void (*adam)(const AdamStep<Real>& step, std::size_t count, Real* gradient, Real* mean,
                Real* square, Real* parameters);
 };
 
-// `Real` is float or double. FastestFieldKernels are those that this processor runs best.
+// `Real` is float or double. FastestFieldKernels returns the kernels that run fastest on this
+// processor.
 template <typename Real>
 const FieldKernels<Real>& FastestFieldKernels();
 template <typename Real>
 FieldKernels<Real> PlainFieldKernels();
 template <typename Real>
-FieldKernels<Real> Avx2FieldKernels();  // the plain ones on another processor family
+FieldKernels<Real> Avx2FieldKernels();  // the plain kernels on other processor families
 
 }  // namespace simwright::asset_lift

@@ -15,10 +15,10 @@
 namespace simwright::asset_lift {
 namespace {
 
-// Levels that agree within this with the best are as good: the middle one of them is taken.
+// The silhouette IoU difference within which levels tie; the middle one of them is used.
 constexpr double kTie = 0.004;
 
-// Densities (per half side) at the nodes, negated: inside is below the level.
+// Returns the negated densities (per half side) at the grid nodes: inside is below the level.
 geometry::ScalarGrid SampleDensity(const FieldFit& fit, int resolution) {
   const RadianceFieldOptions& cube = fit.field.options();
   geometry::ScalarGrid grid;
@@ -52,20 +52,21 @@ geometry::ScalarGrid SampleDensity(const FieldFit& fit, int resolution) {
   return grid;
 }
 
-// Draws silhouettes from the views' cameras and compares them with the masks.
-class SilhouetteJudge {
+// Renders silhouettes from the views' cameras and compares them with the masks.
+class SilhouetteScore {
  public:
-  SilhouetteJudge(const std::vector<ObservedView>& views, int side) {
+  SilhouetteScore(const std::vector<ObservedView>& views, int side) {
     for (const ObservedView& view : views) views_.push_back(ScaledView(view, side));
   }
 
-  // Sum of the lesser over sum of the larger of coverage and opacity, the mean over the views.
+  // Returns the sum of the minima over the sum of the maxima of coverage and opacity, mean over the
+  // views.
   double Iou(const core::TriangleMesh& mesh) const {
     if (mesh.empty()) return 0.0;
-    core::TexturedMesh drawn;
-    drawn.mesh = mesh;
+    core::TexturedMesh textured;
+    textured.mesh = mesh;
     render::Scene scene;
-    scene.Add(&drawn);
+    scene.Add(&textured);
     scene.Commit();
     render::ForwardOptions options;
     options.samples_per_side = 2;
@@ -97,8 +98,8 @@ core::TriangleMesh WithComponents(const core::TriangleMesh& mesh, const std::vec
   return geometry::WithoutUnusedVertices(chosen);
 }
 
-// The largest component and those that the masks want; cavities filled.
-core::TriangleMesh Chosen(const core::TriangleMesh& mesh, const SilhouetteJudge& judge,
+// Returns the largest component and the components that the masks require, with cavities filled.
+core::TriangleMesh Chosen(const core::TriangleMesh& mesh, const SilhouetteScore& score,
                           double gain) {
   int count = 0;
   const std::vector<int> component = geometry::EdgeComponents(mesh, &count);
@@ -108,15 +109,15 @@ core::TriangleMesh Chosen(const core::TriangleMesh& mesh, const SilhouetteJudge&
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return volume[a] > volume[b]; });
   std::vector<bool> kept(count, false);
   kept[order[0]] = true;
-  // Only a few can matter to a silhouette; crumbs below a thousandth of the largest do not.
+  // Only a few components can affect a silhouette; those below a thousandth of the largest do not.
   constexpr int kMostTried = 8;
   core::TriangleMesh chosen = WithComponents(mesh, component, kept);
-  double iou = count > 1 ? judge.Iou(chosen) : 0.0;
+  double iou = count > 1 ? score.Iou(chosen) : 0.0;
   for (int n = 1; n < std::min(count, kMostTried); ++n) {
     if (volume[order[n]] < 1e-3 * volume[order[0]]) break;
     kept[order[n]] = true;
     core::TriangleMesh more = WithComponents(mesh, component, kept);
-    const double with = judge.Iou(more);
+    const double with = score.Iou(more);
     if (with > iou + gain) {
       iou = with;
       chosen = std::move(more);
@@ -124,7 +125,7 @@ core::TriangleMesh Chosen(const core::TriangleMesh& mesh, const SilhouetteJudge&
       kept[order[n]] = false;
     }
   }
-  // A part within another's filled cavity bounds nothing any more.
+  // A component inside another's filled cavity bounds no volume any more.
   geometry::DropBuried(&chosen);
   return chosen;
 }
@@ -136,20 +137,20 @@ struct Candidate {
 };
 
 std::vector<Candidate> Candidates(const geometry::ScalarGrid& grid,
-                                  const std::vector<double>& levels, const SilhouetteJudge& judge) {
+                                  const std::vector<double>& levels, const SilhouetteScore& score) {
   std::vector<Candidate> candidates;
   for (const double level : levels) {
     Candidate candidate;
     candidate.level = level;
     candidate.mesh = geometry::ExtractIsosurface(grid, static_cast<float>(-level));
     if (candidate.mesh.empty()) continue;
-    candidate.iou = judge.Iou(candidate.mesh);
+    candidate.iou = score.Iou(candidate.mesh);
     candidates.push_back(std::move(candidate));
   }
   return candidates;
 }
 
-// The best, or the middle one of neighbours that are as good.
+// Returns the best candidate, or the middle one of neighbours that tie.
 const Candidate& Best(const std::vector<Candidate>& candidates) {
   std::size_t best = 0;
   for (std::size_t i = 1; i < candidates.size(); ++i) {
@@ -162,8 +163,8 @@ const Candidate& Best(const std::vector<Candidate>& candidates) {
   return candidates[(first + last) / 2];
 }
 
-// What the masks leave of the cube, or the cube.
-Candidate Carved(const FieldFit& fit, geometry::ScalarGrid grid, const SilhouetteJudge& judge) {
+// Returns the part of the cube that the masks allow, or the cube.
+Candidate Carved(const FieldFit& fit, geometry::ScalarGrid grid, const SilhouetteScore& score) {
   const int last = grid.nx - 1;
   for (int k = 0; k <= last; ++k) {
     for (int j = 0; j <= last; ++j) {
@@ -180,38 +181,39 @@ Candidate Carved(const FieldFit& fit, geometry::ScalarGrid grid, const Silhouett
     std::fill(grid.values.begin(), grid.values.end(), -1.0f);
     candidate.mesh = geometry::ExtractIsosurface(grid, 0.0f);
   }
-  candidate.iou = judge.Iou(candidate.mesh);
+  candidate.iou = score.Iou(candidate.mesh);
   return candidate;
 }
 
 Candidate FaintSurface(const FieldFit& fit, const geometry::ScalarGrid& grid,
-                       const SilhouetteJudge& judge, core::Findings* findings) {
+                       const SilhouetteScore& score, core::Findings* findings) {
   float largest = 0.0f;
   for (const float value : grid.values) largest = std::max(largest, -value);
   std::vector<Candidate> candidates;
   if (largest > 0.0f) {
     candidates =
-        Candidates(grid, {0.05 * largest, 0.1 * largest, 0.25 * largest, 0.5 * largest}, judge);
+        Candidates(grid, {0.05 * largest, 0.1 * largest, 0.25 * largest, 0.5 * largest}, score);
   }
   const bool nothing = candidates.empty();
-  findings->push_back({"field-surface-faint", core::Severity::kWarning, "radiance field",
-                       nothing ? "the field is empty: its surface is what the masks' cones leave"
-                               : "the field is nearly empty: its surface is a share of its "
-                                 "largest density",
-                       largest});
-  return nothing ? Carved(fit, grid, judge) : Best(candidates);
+  findings->push_back(
+      {"field-surface-faint", core::Severity::kWarning, "radiance field",
+       nothing ? "the field is empty: the surface is the intersection of the masks' cones"
+               : "the field is nearly empty: the surface is at a fraction of its "
+                 "maximum density",
+       largest});
+  return nothing ? Carved(fit, grid, score) : Best(candidates);
 }
 
 }  // namespace
 
 bool FieldSurfaceOptions::IsValid(std::string* error) const {
   const char* fault = nullptr;
-  if (resolution < 8 || resolution > 512) fault = "a surface's grid has 8 to 512 cells a side";
-  if (levels.empty()) fault = "a surface needs a level to try";
+  if (resolution < 8 || resolution > 512) fault = "the resolution must be 8 to 512 cells per side";
+  if (levels.empty()) fault = "levels must not be empty";
   for (const double level : levels) {
-    if (!(level > 0.0) || !std::isfinite(level)) fault = "a surface's levels are positive";
+    if (!(level > 0.0) || !std::isfinite(level)) fault = "levels must be positive";
   }
-  if (silhouette_side < 8) fault = "silhouettes have 8 pixels a side at least";
+  if (silhouette_side < 8) fault = "silhouette_side must be at least 8";
   if (fault != nullptr && error != nullptr) *error = fault;
   return fault == nullptr;
 }
@@ -221,22 +223,22 @@ FieldSurface ExtractSurface(const FieldFit& fit, const std::vector<ObservedView>
   std::string error;
   if (!options.IsValid(&error)) throw core::Error(error, "field surface");
   RequireValidViews(views);
-  const SilhouetteJudge judge(views, options.silhouette_side);
+  const SilhouetteScore score(views, options.silhouette_side);
   const geometry::ScalarGrid grid = SampleDensity(fit, options.resolution);
   std::vector<double> levels = options.levels;
   std::sort(levels.begin(), levels.end());
-  const std::vector<Candidate> candidates = Candidates(grid, levels, judge);
+  const std::vector<Candidate> candidates = Candidates(grid, levels, score);
   FieldSurface surface;
   const Candidate chosen =
-      candidates.empty() ? FaintSurface(fit, grid, judge, &surface.findings) : Best(candidates);
+      candidates.empty() ? FaintSurface(fit, grid, score, &surface.findings) : Best(candidates);
   const double half_side = fit.field.options().half_side;
   surface.level = chosen.level / half_side;
-  surface.mesh = Chosen(chosen.mesh, judge, options.component_gain);
-  surface.iou = judge.Iou(surface.mesh);
+  surface.mesh = Chosen(chosen.mesh, score, options.component_gain);
+  surface.iou = score.Iou(surface.mesh);
   if (surface.iou < options.good_iou) {
-    surface.findings.push_back(
-        {"field-surface-silhouette", core::Severity::kWarning, "radiance field",
-         "the surface's silhouette agrees badly with the mask", surface.iou});
+    surface.findings.push_back({"field-surface-silhouette", core::Severity::kWarning,
+                                "radiance field",
+                                "the surface's silhouette disagrees with the mask", surface.iou});
   }
   surface.colors = SurfaceColors(fit.field, surface.mesh.vertices,
                                  core::VertexNormals(surface.mesh), 2.0 * grid.cell);
@@ -248,7 +250,7 @@ std::vector<Eigen::Vector3f> SurfaceColors(const RadianceField& field,
                                            const std::vector<Eigen::Vector3d>& normals,
                                            double depth) {
   if (points.size() != normals.size()) {
-    throw core::Error("each point has a normal", "surface colours");
+    throw core::Error("points and normals must be equal in number", "surface colours");
   }
   constexpr int kSteps = 9;
   const double step = 2.0 * depth / (kSteps - 1);
@@ -261,7 +263,7 @@ std::vector<Eigen::Vector3f> SurfaceColors(const RadianceField& field,
   const std::vector<Eigen::Vector3f> color = field.ColorAt(along);
   std::vector<Eigen::Vector3f> colors(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    // The last step takes what light is left, so that the weights sum to one.
+    // The last step takes the remaining transmittance, so that the weights sum to one.
     float left = 1.0f;
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     for (int k = 0; k < kSteps; ++k) {

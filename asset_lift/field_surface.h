@@ -12,14 +12,15 @@
 namespace simwright::asset_lift {
 
 struct FieldSurfaceOptions {
-  int resolution = 96;  // cells a side of the cube
-  // Levels tried, as the density's 1/m times the cube's half side: from a haze to a solid.
+  int resolution = 96;  // cells per side of the cube
+  // The candidate density levels, in 1/m times the cube's half side, from a haze to a solid.
   std::vector<double> levels = {0.5, 1.0, 2.0, 4.0, 7.0, 10.0, 15.0, 25.0, 40.0, 80.0};
   // Pixels of a view's longer side at which silhouettes are compared.
   int silhouette_side = 128;
-  // Below this agreement the surface is returned with a finding.
+  // The silhouette IoU below which the surface is returned with a finding.
   double good_iou = 0.8;
-  // A component beside the largest stays where the agreement would lose more than this without it.
+  // A component other than the largest is kept if removing it lowers the silhouette IoU by more
+  // than this.
   double component_gain = 0.005;
 
   bool IsValid(std::string* error) const;
@@ -30,23 +31,23 @@ struct FieldSurface {
   core::TriangleMesh mesh;
   std::vector<Eigen::Vector3f> colors;  // (N x 3) sRGB of the field at the vertices
   double level = 0.0;                   // density, 1/m
-  double iou = 0.0;         // of the silhouettes with the masks, the mean over the views
-  core::Findings findings;  // "field-surface-faint", "field-surface-silhouette"
+  double iou = 0.0;                     // silhouette IoU with the masks, mean over the views
+  core::Findings findings;              // "field-surface-faint", "field-surface-silhouette"
 };
 
-// The surface of a fitted field at the density at which its silhouettes agree best with the masks
-// of `views` (at least one), each silhouette drawn from the view's camera. Of the surface's
-// components the largest is kept, and those without which the agreement suffers; cavities that
-// no mask can see are filled. A field that is empty at each level tried is cut at a share of its
-// own largest density; if even this is zero, where the masks' cones meet stands in for it.
-// Throws core::Error for views or options that are not valid; core::Cancelled.
+// Returns the isosurface of a fitted field at the density whose silhouettes agree best with the
+// masks of `views` (at least one). Each silhouette is rendered from the view's camera. The largest
+// component is kept, and so are components without which the agreement drops; cavities that no mask
+// can see are filled. If the field is empty at every candidate level, the surface is extracted at a
+// fraction of the field's maximum density; if that is zero too, the intersection of the masks'
+// cones replaces it. Throws core::Error for invalid views or options; core::Cancelled.
 FieldSurface ExtractSurface(const FieldFit& fit, const std::vector<ObservedView>& views,
                             const FieldSurfaceOptions& options = {});
 
-// Colours (sRGB) of the field as a surface shows them: at each point the field is looked at along
-// the normal, from `depth` (m) outside to `depth` within, and what is in front covers what is
-// behind. So a point that is a little off the fitted surface still meets it, and the field's
-// inside, which no view has ever shown, stays hidden. `normals` are unit, outward. (N x 3).
+// Returns the field's colours (sRGB) as a surface shows them, (N x 3). At each point the field is
+// rendered along the normal, from `depth` (m) outside to `depth` inside, with occlusion. A point
+// slightly off the fitted surface therefore still meets it, and the field's interior, which no view
+// has shown, stays hidden. `normals` are unit vectors pointing outward.
 std::vector<Eigen::Vector3f> SurfaceColors(const RadianceField& field,
                                            const std::vector<Eigen::Vector3d>& points,
                                            const std::vector<Eigen::Vector3d>& normals,

@@ -29,7 +29,7 @@ const char* FaultOf(const ObservedView& view) {
   }
   if (!Fits(view.color, camera, 3) || !Fits(view.opacity, camera, 1) ||
       (!view.depth.empty() && !Fits(view.depth, camera, 1))) {
-    return "colour, opacity, depth and camera are not of one size";
+    return "colour, opacity, depth and camera have different sizes";
   }
   if (!Finite(view.color) || !Finite(view.opacity) || !Finite(view.depth)) {
     return "a pixel is not finite";
@@ -41,7 +41,7 @@ const char* FaultOf(const ObservedView& view) {
   return nullptr;
 }
 
-// Shares of the source pixels [first, first + share.size()) that target pixel `i` covers.
+// The shares of the source pixels [first, first + share.size()) that target pixel `i` covers.
 struct Cover {
   int first;
   std::vector<double> share;
@@ -119,7 +119,7 @@ void PixelRays::AppendPicture(const core::Camera& camera) {
 }
 
 void RequireValidViews(const std::vector<ObservedView>& views) {
-  if (views.empty()) throw core::Error("a fit needs a view of the object at least");
+  if (views.empty()) throw core::Error("a fit needs at least one view of the object");
   for (std::size_t v = 0; v < views.size(); ++v) {
     const char* fault = FaultOf(views[v]);
     if (fault != nullptr) throw core::Error(fault, "view " + std::to_string(v + 1));
@@ -180,36 +180,36 @@ int TargetDeck::size() const {
   return static_cast<int>(patches_.size()) * PixelRays::kPatch * PixelRays::kPatch;
 }
 
-void TargetDeck::Deal(int rays, core::Rng* rng, RayTargets* hand) {
-  hand->pixels.Clear();
-  hand->color.clear();
-  hand->opacity.clear();
-  hand->depth.clear();
+void TargetDeck::Deal(int rays, core::Rng* rng, RayTargets* batch) {
+  batch->pixels.Clear();
+  batch->color.clear();
+  batch->opacity.clear();
+  batch->depth.clear();
   const std::size_t wanted = std::max<std::size_t>(
       1, static_cast<std::size_t>(rays) / (PixelRays::kPatch * PixelRays::kPatch));
   for (std::size_t n = 0; n < std::min(wanted, patches_.size()); ++n) {
     if (next_ == patches_.size()) {
-      // What this hand holds already lies at the end and stays out of the shuffle's reach.
+      // The patches of this batch are at the end already and are excluded from the shuffle.
       for (std::size_t i = patches_.size() - n; i > 1; --i) {
         std::swap(patches_[i - 1],
                   patches_[core::UniformIndex(*rng, static_cast<std::int64_t>(i))]);
       }
       next_ = 0;
     }
-    Append(patches_[next_++], rng, hand);
+    Append(patches_[next_++], rng, batch);
   }
 }
 
-void TargetDeck::Append(const Patch& patch, core::Rng* rng, RayTargets* hand) const {
+void TargetDeck::Append(const Patch& patch, core::Rng* rng, RayTargets* batch) const {
   const ObservedView& view = views_[patch.view];
-  const std::size_t first = hand->pixels.rays.size();
-  hand->pixels.AppendPatch(view.camera, patch.x, patch.y, rng);
-  for (std::size_t r = first; r < hand->pixels.rays.size(); ++r) {
-    const int pixel = hand->pixels.pixel[r];
+  const std::size_t first = batch->pixels.rays.size();
+  batch->pixels.AppendPatch(view.camera, patch.x, patch.y, rng);
+  for (std::size_t r = first; r < batch->pixels.rays.size(); ++r) {
+    const int pixel = batch->pixels.pixel[r];
     const float opacity = view.opacity.values[pixel];
-    for (int c = 0; c < 3; ++c) hand->color.push_back(opacity * view.color.values[3 * pixel + c]);
-    hand->opacity.push_back(opacity);
-    hand->depth.push_back(view.depth.empty() ? 0.0f : view.depth.values[pixel]);
+    for (int c = 0; c < 3; ++c) batch->color.push_back(opacity * view.color.values[3 * pixel + c]);
+    batch->opacity.push_back(opacity);
+    batch->depth.push_back(view.depth.empty() ? 0.0f : view.depth.values[pixel]);
   }
 }
 

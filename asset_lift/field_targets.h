@@ -8,24 +8,24 @@
 
 namespace simwright::asset_lift {
 
-// Rays through pixels of pictures, taken by square patches, so that most have their neighbours
+// Rays through pixels of images, sampled in square patches, so that most rays have their neighbours
 // beside them.
 struct PixelRays {
   std::vector<FieldRay> rays;
   std::vector<int> right, below;  // the neighbouring pixel's ray, or -1
-  std::vector<int> pixel;         // y * width + x in the picture that the ray belongs to
+  std::vector<int> pixel;         // y * width + x in the ray's image
 
-  static constexpr int kPatch = 8;  // pixels a side
+  static constexpr int kPatch = 8;  // pixels per side
 
   void Clear();
-  // Appends the patch with its upper left at (x, y), as far as it lies in the picture. With `rng`,
-  // each ray goes through a random point of its pixel, else through its centre.
+  // Appends the patch with its upper left corner at (x, y), clipped to the image. With `rng`, each
+  // ray passes through a random point of its pixel, otherwise through its centre.
   void AppendPatch(const core::Camera& camera, int x, int y, core::Rng* rng);
-  // Appends the whole picture.
+  // Appends all pixels of the image.
   void AppendPicture(const core::Camera& camera);
 };
 
-// What rays of observed views should see.
+// The target values for rays of observed views.
 struct RayTargets {
   PixelRays pixels;
   std::vector<float> color;    // (n x 3), premultiplied by opacity
@@ -33,32 +33,34 @@ struct RayTargets {
   std::vector<float> depth;    // (n), m along the optical axis, 0 unknown
 };
 
-// Throws core::Error, naming the view's number, where sizes do not fit, a value or the camera is
-// not finite, or nothing of the object is seen.
+// Throws core::Error, naming the view's index, where sizes do not match, a value or the camera is
+// not finite, or the mask is empty.
 void RequireValidViews(const std::vector<ObservedView>& views);
 
-// The view at `longer_side` pixels or its own size, if that is smaller: areas averaged, colours
-// weighed by opacity, depths averaged where they are known to lie on the object.
+// Returns the view scaled down to `longer_side` pixels, or unchanged if it is smaller: areas are
+// averaged, colours weighted by opacity, and depths averaged where they are known to lie on the
+// object.
 ObservedView ScaledView(const ObservedView& view, int longer_side);
 
-// A shuffled pack of all patches of some views that can show the object, dealt some at a time.
+// A shuffled list of all patches of some views that can show the object, returned in batches.
 class TargetDeck {
  public:
-  // Patches without any of the object, nor within a patch of it, are left out unless `everything`.
+  // Excludes patches that neither contain the object nor have it within a patch's distance, unless
+  // `everything`.
   TargetDeck(std::vector<ObservedView> views, bool everything);
 
-  // The next patches, of `rays` rays at most (one patch at least); reshuffled when the pack ends.
-  // No patch comes twice in one hand.
-  void Deal(int rays, core::Rng* rng, RayTargets* hand);
+  // Writes the next patches to `batch`, at most `rays` rays but at least one patch; reshuffles at
+  // the end of the list. No patch appears twice in one batch.
+  void Deal(int rays, core::Rng* rng, RayTargets* batch);
 
-  // Rays of the whole pack.
+  // Returns the number of rays in all patches.
   int size() const;
 
  private:
   struct Patch {
     int view, x, y;
   };
-  void Append(const Patch& patch, core::Rng* rng, RayTargets* hand) const;
+  void Append(const Patch& patch, core::Rng* rng, RayTargets* batch) const;
 
   std::vector<ObservedView> views_;
   std::vector<Patch> patches_;

@@ -10,7 +10,7 @@
 namespace simwright::asset_lift {
 namespace {
 
-constexpr double kSure = 4.0;
+constexpr double kCertainLogOdds = 4.0;
 constexpr int kSurfaceCells = 80;
 constexpr int kSignCells = 96;
 
@@ -21,7 +21,7 @@ FirstGuess GuessFrom(const ShapePrediction& prediction) {
   guess.surface = PredictedSurface(prediction, kSurfaceCells);
   guess.box = core::Bounds(guess.surface);
   guess.odds = [prediction](const Eigen::Vector3d& point) -> double {
-    return std::clamp<double>(prediction.Logit(point), -kSure, kSure);
+    return std::clamp<double>(prediction.Logit(point), -kCertainLogOdds, kCertainLogOdds);
   };
   return guess;
 }
@@ -36,14 +36,15 @@ FirstGuess GuessFrom(const core::TriangleMesh& mesh) {
   const double sure_at = guess.box.diagonal().norm() / 40.0;
   guess.odds = [tree, solid, sure_at](const Eigen::Vector3d& point) {
     const double distance = std::min(tree->Closest(point).distance / sure_at, 1.0);
-    return solid->Occupancy(point) > 0.5f ? kSure * distance : -kSure * distance;
+    return solid->Occupancy(point) > 0.5f ? kCertainLogOdds * distance
+                                          : -kCertainLogOdds * distance;
   };
   return guess;
 }
 
 FirstGuess EllipsoidGuess(const ViewFrame& frame, const Eigen::Vector2d& half_axes_uv) {
   if (!(half_axes_uv.minCoeff() > 0.0)) throw core::Error("an ellipsoid needs half axes");
-  // As deep as its smaller half axis in the picture.
+  // The ellipsoid is as deep as its smaller half axis in the image.
   const Eigen::Vector3d axes(half_axes_uv.x(), half_axes_uv.y(), half_axes_uv.minCoeff());
   constexpr int kLatitudes = 24, kLongitudes = 48;
   core::TriangleMesh ball;

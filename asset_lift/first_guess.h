@@ -9,22 +9,23 @@
 
 namespace simwright::asset_lift {
 
-// What is known of the shape before a fit begins.
+// The initial shape of a fit.
 struct FirstGuess {
-  // Log odds that a world point lies inside; about +-4 where it is sure.
+  // The log odds that a world point lies inside; about +-4 where the shape is certain.
   std::function<double(const Eigen::Vector3d&)> odds;
   core::TriangleMesh surface;  // closed
-  Eigen::AlignedBox3d box;     // world: holds the surface
+  Eigen::AlignedBox3d box;     // world AABB of the surface
 };
 
-// The learned prediction. Throws core::Error where it sees nothing.
+// Converts a learned prediction. Throws core::Error where the prediction is empty.
 FirstGuess GuessFrom(const ShapePrediction& prediction);
 
-// A closed mesh: odds by the signed distance to it, 4 at a fortieth of its diagonal.
+// Converts a closed mesh: the log odds follow the signed distance and reach 4 at 1/40 of the
+// diagonal.
 FirstGuess GuessFrom(const core::TriangleMesh& mesh);
 
-// An ellipsoid that fills the outline: what a fit starts from when nothing is known. `frame` says
-// where the outline lies.
+// Returns an ellipsoid that fills the silhouette: the initial shape without prior knowledge.
+// `frame` locates the silhouette.
 FirstGuess EllipsoidGuess(const ViewFrame& frame, const Eigen::Vector2d& half_axes_uv);
 
 }  // namespace simwright::asset_lift

@@ -8,19 +8,19 @@ namespace simwright::asset_lift {
 
 bool HashGridOptions::IsValid(std::string* error) const {
   const char* fault = nullptr;
-  if (levels < 1 || levels > 16) fault = "a hash grid has 1 to 16 levels";
+  if (levels < 1 || levels > 16) fault = "a hash grid must have 1 to 16 levels";
   if (features != 1 && features != 2 && features != 4) {
-    fault = "a hash grid's entry has 1, 2 or 4 features";
+    fault = "a hash grid's entry must have 1, 2 or 4 features";
   }
   if (log2_table_size < 4 || log2_table_size > 22) {
-    fault = "a hash grid's table has 2^4 to 2^22 entries a level";
+    fault = "a hash grid's table must have 2^4 to 2^22 entries per level";
   }
   if (base_resolution < 1 || base_resolution > 1024) {
-    fault = "a hash grid's coarsest level has 1 to 1024 cells a side";
+    fault = "a hash grid's coarsest level must have 1 to 1024 cells per side";
   }
-  // Finer cells than 2^20 a side cannot be told apart in single precision.
+  // Single precision cannot resolve more than 2^20 cells per side.
   if (!(scale >= 1.0) || !(base_resolution * std::pow(scale, levels - 1) <= 0x1p20)) {
-    fault = "a hash grid grows by a factor >= 1 a level, to 2^20 cells a side at most";
+    fault = "a hash grid must grow by a factor >= 1 per level, to at most 2^20 cells per side";
   }
   if (fault != nullptr && error != nullptr) *error = fault;
   return fault == nullptr;

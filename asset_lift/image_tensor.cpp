@@ -16,7 +16,7 @@ torch::Tensor TensorFromImage(const core::FloatImage& image) {
 void ImageFromTensor(const torch::Tensor& planes, int first_channel, core::FloatImage* image) {
   if (planes.dim() != 4 || planes.size(1) < first_channel + image->channels ||
       planes.size(2) != image->height || planes.size(3) != image->width) {
-    throw core::Error("a tensor and its picture differ in size");
+    throw core::Error("a tensor and its image differ in size");
   }
   const torch::Tensor rows = planes[0]
                                  .slice(0, first_channel, first_channel + image->channels)

@@ -28,8 +28,9 @@ cv::Mat MaskOf(const Matte& matte) {
   return mask;
 }
 
-// What the turned body leaves of the mask, but specks: a handle, a spout, a rim that is not quite
-// round; grown into the body so that it joins.
+// Returns the part of the mask that the solid of revolution does not cover, without specks: a
+// handle, a spout, a rim that is not quite round. It is dilated into the body so that the parts
+// join.
 cv::Mat Residual(const cv::Mat& mask, const cv::Mat& body, double width) {
   cv::Mat rest = mask & ~body;
   cv::Mat opened;
@@ -57,9 +58,10 @@ double Reach(const core::TriangleMesh& mesh, const Eigen::Vector3d& direction) {
   return reach;
 }
 
-// The direction, near straight down, in which the surface is nearest to the centre of mass: a body
-// lies with its centre as low as it can be. Straight down where there is none within 25 degrees.
-Eigen::Vector3d RestingDirection(const core::TriangleMesh& mesh, const Eigen::Vector3d& center) {
+// Returns the direction, near straight down, in which the surface is nearest to the centre of mass:
+// a body at rest has a locally lowest centre of mass. Returns straight down if there is none within
+// 25 degrees.
+Eigen::Vector3d SupportDirection(const core::TriangleMesh& mesh, const Eigen::Vector3d& center) {
   const Eigen::Vector3d straight = -Eigen::Vector3d::UnitZ();
   Eigen::Vector3d down = straight;
   double height = Reach(mesh, down) - down.dot(center);
@@ -71,7 +73,7 @@ Eigen::Vector3d RestingDirection(const core::TriangleMesh& mesh, const Eigen::Ve
       const Eigen::Vector3d tried =
           (down + step * (std::cos(angle) * u + std::sin(angle) * v)).normalized();
       const double lower = Reach(mesh, tried) - tried.dot(center);
-      // A gain too small to turn a real body is a roll about its own axis, not a settling.
+      // A gain too small to turn a real body is a roll about its own axis, not settling.
       if (lower < height - 0.02 * step * std::abs(height)) {
         height = lower;
         best = tried;
@@ -92,7 +94,7 @@ class Inflater {
 
   InflatedShape Inflate() const {
     std::vector<InflatedShape> shapes;
-    // Fruit and balls are round at both ends, whichever way they lie: no discs, no rim.
+    // Fruit and balls are round at both ends in every pose: no discs, no rim.
     if (!prior_.round) {
       const UprightBody body = FitUprightBody(mask_, camera_);
       if (body.coverage >=
@@ -109,7 +111,7 @@ class Inflater {
     if (shapes.empty() || shapes.back().silhouette_iou < 0.97) {
       shapes.push_back(Flat(ShapeForm::kInflated, PoissonDepth(mask_)));
     }
-    // The first form that fits well is the most specific one; else the best fit.
+    // The first form that fits well is the most specific one; otherwise the best fit is used.
     for (InflatedShape& shape : shapes) {
       if (shape.silhouette_iou >= 0.97) return std::move(shape);
     }
@@ -132,8 +134,8 @@ class Inflater {
     }
     const Eigen::Hyperplane<double, 3> mirror(Eigen::Vector3d::UnitY(),
                                               Eigen::Vector3d(0, body.axis_y, 0));
-    // It stands on its foot: what of the outline lies below is cut level, as much of it as the
-    // silhouette can spare.
+    // The body stands on a flat base: the silhouette below it is cut off level, at the highest
+    // level that keeps the silhouette IoU.
     InflatedShape shape;
     for (int lowered = 0; lowered < 4 && shape.silhouette_iou < 0.97; ++lowered) {
       const double spare = 0.025 * lowered * (body.top() - body.bottom);
@@ -147,9 +149,9 @@ class Inflater {
     OutlineField field(camera_, mask_);
     field.AddDepthMap(depth, Eigen::Vector3d::Zero());
     core::TriangleMesh mesh = field.Extract(options_.resolution);
-    // What lay in the photo has a flat to lie on: under its centre of mass, a little is cut off.
+    // A lying object needs a flat face to rest on: a little is cut off below its centre of mass.
     const Eigen::Vector3d center = geometry::SolidMassProperties(mesh, 1.0).center_of_mass;
-    const Eigen::Vector3d down = RestingDirection(mesh, center);
+    const Eigen::Vector3d down = SupportDirection(mesh, center);
     const double height = core::Bounds(mesh).sizes().z(), reach = Reach(mesh, down);
     for (double ratio = options_.foot_ratio; ratio < 2.6 * options_.foot_ratio; ratio *= 1.5) {
       field.Cut(down, reach - ratio * height);
@@ -188,7 +190,7 @@ class Inflater {
 }  // namespace
 
 const char* Name(ShapeForm form) {
-  constexpr const char* kNames[] = {"turned upright", "turned lying", "inflated"};
+  constexpr const char* kNames[] = {"revolved upright", "revolved lying", "inflated"};
   return kNames[static_cast<int>(form)];
 }
 
@@ -201,7 +203,8 @@ core::Camera PhotoCamera(const Matte& matte, double focal, double elevation) {
   camera.cy = 0.5 * camera.height;
   const Eigen::Vector3d sight((0.5 * (matte.left + matte.right) - camera.cx) / focal,
                               (0.5 * (matte.top + matte.bottom) - camera.cy) / focal, 1.0);
-  // The optical axis points lower than the sight line where the object is above the middle.
+  // The optical axis points lower than the line of sight where the object is above the image
+  // centre.
   const double axis = elevation - std::atan(sight.y());
   const double c = std::cos(axis), s = std::sin(axis);
   Eigen::Matrix3d rotation;
@@ -215,10 +218,10 @@ core::Camera PhotoCamera(const Matte& matte, double focal, double elevation) {
 
 double SilhouetteIou(const core::TriangleMesh& mesh, const core::Camera& camera,
                      const Matte& matte) {
-  core::TexturedMesh drawn;
-  drawn.mesh = mesh;
+  core::TexturedMesh textured;
+  textured.mesh = mesh;
   render::Scene scene;
-  scene.Add(&drawn);
+  scene.Add(&textured);
   scene.Commit();
   const render::ForwardBuffers buffers = render::RenderForward(scene, camera);
   double both = 0.0, either = 0.0;
@@ -246,7 +249,7 @@ ElevationEstimate RefineElevation(const Matte& matte, double focal,
         *std::max_element(body.radius.begin(), body.radius.begin() + static_cast<long>(third));
     const double foot = widest > 0.0 ? body.radius.front() / widest : 0.0;
     const double z = (elevation - estimate.elevation) / std::max(0.05, estimate.deviation);
-    // A percent of the outline left out weighs as much as a foot narrower by a sixth.
+    // One percent less silhouette coverage weighs as much as a base narrower by a sixth.
     const double score = -0.5 * z * z + 60.0 * body.coverage + 4.0 * foot;
     if (score > best_score) {
       best_score = score;
@@ -254,7 +257,7 @@ ElevationEstimate RefineElevation(const Matte& matte, double focal,
     }
   }
   best.deviation = std::min(estimate.deviation, 0.1);
-  best.sentence = estimate.sentence + ", narrowed by its foot to " +
+  best.sentence = estimate.sentence + ", refined by its base to " +
                   std::to_string(std::lround(best.elevation * 180.0 / M_PI));
   return best;
 }

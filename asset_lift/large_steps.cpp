@@ -46,12 +46,12 @@ LargeSteps::LargeSteps(const core::TriangleMesh& mesh, double lambda)
     : factor_(std::make_unique<Factor>()) {
   core::RequireValid(mesh, "large steps");
   if (!(lambda >= 0.0) || !std::isfinite(lambda)) {
-    throw core::Error("the smoothing has to be a number, 0 or more", "large steps");
+    throw core::Error("the smoothing must be finite and not negative", "large steps");
   }
   factor_->matrix = SystemMatrix(mesh, lambda);
   factor_->cholesky.compute(factor_->matrix);
   if (factor_->cholesky.info() != Eigen::Success) {
-    throw core::Error("the smoothing system has no factors", "large steps");
+    throw core::Error("the smoothing system cannot be factored", "large steps");
   }
 }
 

@@ -8,10 +8,11 @@
 
 namespace simwright::asset_lift {
 
-// The coordinates in which a mesh is fitted: u = (I + lambda L) v, L the mesh's combinatorial
-// Laplacian. A step in u moves v by (I + lambda L)^-1 of it: smoothly, near and far, so that noisy
-// gradients at outlines carry the surface along without folds (Nicolet, Jacobson and Jakob 2021,
-// "Large steps in inverse rendering of geometry", eq. 8). Factored once a topology.
+// The coordinates in which a mesh is fitted: u = (I + lambda L) v, with L the mesh's combinatorial
+// Laplacian. A step du in u moves v by (I + lambda L)^-1 du: a smooth displacement with global
+// support, so that noisy gradients at silhouettes move the surface without folds (Nicolet, Jacobson
+// and Jakob 2021, "Large steps in inverse rendering of geometry", eq. 8). The matrix is factored
+// once per topology.
 class LargeSteps {
  public:
   // Throws core::Error for lambda < 0 or an invalid mesh.
@@ -20,9 +21,10 @@ class LargeSteps {
   LargeSteps(const LargeSteps&) = delete;
   LargeSteps& operator=(const LargeSteps&) = delete;
 
-  // (I + lambda L) v. (N x 3)
+  // Returns (I + lambda L) v. (N x 3)
   Eigen::MatrixX3d Apply(const Eigen::MatrixX3d& v) const;
-  // (I + lambda L)^-1 u: v of u, and dL/du of dL/dv, since the matrix is symmetric. (N x 3)
+  // Returns (I + lambda L)^-1 u. It maps u to v, and dL/dv to dL/du, since the matrix is symmetric.
+  // (N x 3)
   Eigen::MatrixX3d Solve(const Eigen::MatrixX3d& u) const;
 
  private:
@@ -30,13 +32,13 @@ class LargeSteps {
   std::unique_ptr<Factor> factor_;
 };
 
-// Adam that divides by one number for all coordinates, the largest second moment, so that steps
+// The Adam optimizer with one divisor for all coordinates, the largest second moment, so that steps
 // keep the gradient's direction (the same paper, section 3.3).
 class AdamUniform {
  public:
   explicit AdamUniform(Eigen::Index rows) : mean_(Eigen::MatrixX3d::Zero(rows, 3)) {}
 
-  // What to add to the parameters, for a step of size `rate`.
+  // Returns the increment of the parameters for a step of size `rate`.
   Eigen::MatrixX3d Step(const Eigen::MatrixX3d& gradient, double rate);
 
  private:

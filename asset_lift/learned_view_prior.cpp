@@ -37,7 +37,7 @@ class LearnedViewPrior : public ViewPrior {
   torch::Tensor PredictNoise(const torch::Tensor& noisy, const torch::Tensor& t,
                              const std::vector<core::Camera>& cameras, bool conditioned) override {
     if (prediction_.logits.empty()) throw core::Error("a view prior needs a reference first");
-    std::vector<torch::Tensor> drawn, camera;
+    std::vector<torch::Tensor> rendered, camera;
     for (core::Camera at : cameras) {
       camera.push_back(CameraTensor(prediction_.frame.camera, at));
       if (!conditioned) continue;
@@ -47,12 +47,13 @@ class LearnedViewPrior : public ViewPrior {
       at.fy *= scale;
       at.cx *= scale;
       at.cy *= scale;
-      drawn.push_back(DrawnTensor(DrawPrediction(prediction_, at), at, prediction_.frame.Radius()));
+      rendered.push_back(
+          DrawnTensor(DrawPrediction(prediction_, at), at, prediction_.frame.Radius()));
     }
     const auto batch = noisy.size(0);
     const torch::Tensor empty = torch::zeros({batch, 5, kViewSide, kViewSide}, device_);
     const torch::Tensor none = torch::zeros({batch, 4, kViewSide, kViewSide}, device_);
-    return network_(noisy, conditioned ? torch::cat(drawn).to(device_) : empty,
+    return network_(noisy, conditioned ? torch::cat(rendered).to(device_) : empty,
                     conditioned ? taken_.expand({batch, 4, kViewSide, kViewSide}) : none,
                     torch::cat(camera).to(device_), t.to(device_));
   }

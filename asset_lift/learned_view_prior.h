@@ -9,8 +9,8 @@ namespace simwright::asset_lift {
 
 class ViewPrior;
 
-// Our own view prior (see view_network.h); `shape` answers for the reference. Throws core::Error
-// where the weights are missing, damaged or of another kind.
+// Loads our own view prior (see view_network.h); `shape` predicts the reference's shape. Throws
+// core::Error where the weights are missing, damaged or of another kind.
 std::shared_ptr<ViewPrior> LoadLearnedViewPrior(const std::filesystem::path& weights,
                                                 std::shared_ptr<const ShapePrior> shape);
 

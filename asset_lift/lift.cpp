@@ -21,7 +21,7 @@ core::Image ScaledDown(const core::Image& photo, int max_side) {
                       std::max(1, static_cast<int>(std::lround(photo.height * scale))));
 }
 
-// Focal length in pixels of `photo`, and where it comes from.
+// Returns the focal length in pixels of `photo` and writes its source to `sentence`.
 double FocalLength(const core::Image& photo, const LiftOptions& options, std::string* sentence) {
   const double longer = std::max(photo.width, photo.height);
   double fov = options.field_of_view;
@@ -35,7 +35,7 @@ double FocalLength(const core::Image& photo, const LiftOptions& options, std::st
     *sentence = "assumed";
   }
   if (!(fov > 0.02 && fov < 2.8)) {
-    throw core::Error("a field of view lies between 1 and 160 degrees", "", "mend --fov");
+    throw core::Error("the field of view must be between 1 and 160 degrees", "", "correct --fov");
   }
   char text[64];
   std::snprintf(text, sizeof(text), "field of view %.0f degrees, %s", fov * 180.0 / M_PI,
@@ -44,7 +44,7 @@ double FocalLength(const core::Image& photo, const LiftOptions& options, std::st
   return 0.5 * longer / std::tan(0.5 * fov);
 }
 
-// Photos under 200 pixels give a staircase for an outline: drawn larger, smoothly.
+// Enlarges the matte of photos under 200 pixels smoothly, because their silhouettes are staircases.
 Matte Enlarged(const Matte& matte, int factor) {
   if (factor == 1) return matte;
   Matte larger = matte;
@@ -56,8 +56,8 @@ Matte Enlarged(const Matte& matte, int factor) {
   return larger;
 }
 
-// An outline that runs into the picture's border goes on beyond it: the picture grows so that the
-// shape can. Returns the share of the border that the object touches.
+// Pads the image where the object touches its border, so that the shape can continue beyond it.
+// Returns the share of the border that the object touches.
 double PadWhereCutOff(core::Image* photo, Matte* matte) {
   const int w = photo->width, h = photo->height;
   int touched = 0;
@@ -88,23 +88,23 @@ double PadWhereCutOff(core::Image* photo, Matte* matte) {
   return touched / (2.0 * (w + h));
 }
 
-// The outline's inflation, textured from the photo and its mirror image.
+// Textures the inflated silhouette from the photo and its mirror image.
 void FinishOutline(const InflatedShape& shape, const texture::ProjectionOptions& projection,
                    LiftedMesh* lifted) {
-  lifted->start = std::string("the outline, ") + Name(shape.form);
+  lifted->start = std::string("the silhouette, ") + Name(shape.form);
   lifted->silhouette_iou = shape.silhouette_iou;
   lifted->mesh = texture::ProjectPhoto(shape.mesh, lifted->camera, lifted->photo,
                                        lifted->matte.alpha, shape.mirror, projection);
 }
 
-// A body of revolution is known all round from its outline: no guess about its back is as good. But
-// a box's outline, or that of a thing lying flat, only looks like one.
-bool KnownAllRound(ShapeForm form, const CategoryPrior& prior) {
+// Returns true if the silhouette determines the whole surface, as for a solid of revolution. The
+// silhouette of a box or of an object lying flat only resembles one.
+bool IsSolidOfRevolution(ShapeForm form, const CategoryPrior& prior) {
   if (form == ShapeForm::kInflated || prior.angular) return false;
   return form == ShapeForm::kUpright || !prior.flat;
 }
 
-// A colour a vertex for what the photo does not show.
+// Returns one colour per vertex for the regions that the photo does not show.
 std::vector<Eigen::Vector3f> HiddenColors(const ShapeFit& fit,
                                           const std::optional<ShapePrediction>& prediction) {
   if (!prediction) return fit.colors;
@@ -113,7 +113,7 @@ std::vector<Eigen::Vector3f> HiddenColors(const ShapeFit& fit,
   return colors;
 }
 
-// The first guess, then the stages, then the texture.
+// Computes the initial shape, runs the fit's stages and textures the result.
 void FitAndPaint(const InflatedShape& outline, const LiftPriors& priors, const LiftOptions& options,
                  const texture::ProjectionOptions& projection, core::Progress* progress,
                  LiftedMesh* lifted) {
@@ -125,7 +125,8 @@ void FitAndPaint(const InflatedShape& outline, const LiftPriors& priors, const L
   }
   const bool learned = prediction && !prediction->box.isEmpty();
   const FirstGuess guess = learned ? GuessFrom(*prediction) : GuessFrom(outline.mesh);
-  lifted->start = learned ? "the learned prior" : std::string("the outline, ") + Name(outline.form);
+  lifted->start =
+      learned ? "the learned prior" : std::string("the silhouette, ") + Name(outline.form);
   std::unique_ptr<ScoreDistillation> in_field, in_mesh;
   if (priors.view != nullptr) {
     in_field = std::make_unique<ScoreDistillation>(priors.view, frame, lifted->photo,
@@ -151,12 +152,13 @@ void FitAndPaint(const InflatedShape& outline, const LiftPriors& priors, const L
                                    hidden, projection);
 }
 
-void Tell(const std::string& code, const std::string& sentence, double figure, LiftedMesh* lifted) {
+void AddFinding(const std::string& code, const std::string& sentence, double figure,
+                LiftedMesh* lifted) {
   lifted->findings.push_back({code, core::Severity::kInfo, "", sentence, figure});
 }
 
-// Scales the photo, cuts the object out and gives it room. Returns the focal length in pixels of
-// the photo as it is then.
+// Scales the photo, segments the object and pads the image. Returns the focal length in pixels of
+// the resulting photo.
 double CutOut(const core::Image& photo, const CategoryPrior& prior, const LiftOptions& options,
               LiftedMesh* lifted) {
   lifted->photo = ScaledDown(photo, options.max_side);
@@ -173,25 +175,25 @@ double CutOut(const core::Image& photo, const CategoryPrior& prior, const LiftOp
     lifted->matte = Enlarged(lifted->matte, factor);
     focal *= factor;
   }
-  Tell("segmentation", "the object was cut out by " + lifted->matte.method, lifted->matte.area,
-       lifted);
-  Tell("camera", camera_sentence, focal, lifted);
+  AddFinding("segmentation", "the object was cut out by " + lifted->matte.method,
+             lifted->matte.area, lifted);
+  AddFinding("camera", camera_sentence, focal, lifted);
   if (const double touched = PadWhereCutOff(&lifted->photo, &lifted->matte); touched > 0.0) {
-    lifted->findings.push_back({"border", core::Severity::kWarning, "",
-                                "the object touches the photo's border: what is cut off is guessed",
-                                touched});
+    lifted->findings.push_back(
+        {"border", core::Severity::kWarning, "",
+         "the object touches the photo's border: the cut-off part is extrapolated", touched});
   }
   return focal;
 }
 
-// What the shape prior reads from the crop, which looks the same from wherever it was taken.
+// Returns the shape prior's estimate from the crop, which does not depend on the assumed elevation.
 ElevationEstimate LearnedElevation(const ShapePrior& shape, const LiftedMesh& lifted,
                                    double focal) {
   const ViewFrame frame =
       FrameAround(lifted.matte, PhotoCamera(lifted.matte, focal, lifted.elevation.elevation), 1.0);
   const ShapePrediction prediction =
       shape.Predict(CropPicture(lifted.photo, lifted.matte.alpha, frame), frame);
-  // The network states the mean absolute error of a Laplace distribution.
+  // The network predicts the mean absolute error of a Laplace distribution.
   ElevationEstimate estimate{prediction.elevation, M_SQRT2 * prediction.elevation_deviation, ""};
   char text[80];
   std::snprintf(text, sizeof(text), "%.0f +- %.0f from the learned prior",
@@ -210,18 +212,17 @@ void PlaceCamera(double focal, const CategoryPrior& prior, const ShapePrior* sha
   } else if (shape != nullptr) {
     lifted->elevation = Combined(lifted->elevation, LearnedElevation(*shape, *lifted, focal));
   }
-  // Level sight lines never cross the planes in which a turned body's discs lie.
+  // Horizontal sight lines never cross the planes of a solid of revolution's discs.
   const double elevation = std::clamp(lifted->elevation.elevation, 0.03, 1.5);
   lifted->camera = PhotoCamera(lifted->matte, focal, elevation);
-  Tell("elevation", "elevation " + lifted->elevation.sentence, elevation, lifted);
+  AddFinding("elevation", "elevation " + lifted->elevation.sentence, elevation, lifted);
 }
 
 }  // namespace
 
-// On the first 11 pieces of bench/asset_lift/tuning.txt the published weights with the small view
-// prior make the Chamfer distance an eighth worse than no view prior, these change it little
-// (docs/lift.md). One photo says nothing of the hidden side, so the guess is held more firmly than
-// among many views.
+// Sets gentle score distillation. With our small view prior the published weights make the Chamfer
+// distance worse; these change it little (docs/lift.md). One photo does not constrain the hidden
+// side, so the initial shape has more weight than with many views.
 LiftOptions::LiftOptions() {
   fit.guess_scale = 6.0;
   fit.field.weights.objective = 0.02;
@@ -252,16 +253,16 @@ LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior, const
   lifted.form = outline.form;
   texture::ProjectionOptions projection;
   projection.texture_size = options.texture_size;
-  const bool turned = KnownAllRound(outline.form, prior);
+  const bool revolved = IsSolidOfRevolution(outline.form, prior);
   const bool nothing_learned = priors.shape == nullptr && priors.view == nullptr;
-  if (options.effort == LiftEffort::kOutline || turned || nothing_learned) {
+  if (options.effort == LiftEffort::kOutline || revolved || nothing_learned) {
     progress->Stage("texture");
     FinishOutline(outline, projection, &lifted);
   } else {
     FitAndPaint(outline, priors, options, projection, progress, &lifted);
   }
   progress->Finish();
-  Tell("shape", "the shape began as " + lifted.start, lifted.silhouette_iou, &lifted);
+  AddFinding("shape", "the shape began as " + lifted.start, lifted.silhouette_iou, &lifted);
   return lifted;
 }
 

@@ -20,35 +20,38 @@ namespace simwright::asset_lift {
 class ShapePrior;
 class ViewPrior;
 
-// The learned parts of a lift; each may be null. Shared: loading takes longer than a crop.
+// The learned priors of a reconstruction; each may be null. They are shared because loading takes
+// longer than a crop's inference.
 struct LiftPriors {
-  std::shared_ptr<const ShapePrior> shape;  // the first guess, and the hidden side's colours
-  std::shared_ptr<ViewPrior> view;          // what score distillation asks
+  std::shared_ptr<const ShapePrior> shape;  // the initial shape and the hidden side's colours
+  std::shared_ptr<ViewPrior> view;          // the score model of score distillation
 };
 
-// How much is done to find the shape.
+// The amount of work spent on the shape.
 enum class LiftEffort {
-  kOutline,  // the inflated outline as it is: a few seconds, no learned prior
-  kFast,     // the first guess, refined as a mesh: under a minute
-  kFull      // a radiance field about the first guess, then the mesh stage
+  kOutline,  // the inflated silhouette, unrefined: a few seconds, no learned prior
+  kFast,     // the initial shape, refined as a mesh: under a minute
+  kFull      // a radiance field started from the initial shape, then the mesh stage
 };
 
 struct LiftOptions {
   LiftEffort effort = LiftEffort::kFull;
   ShapeFitOptions fit;
-  // Score distillation of either stage: gentle, as suits our own view prior; TrustViewPrior changes
-  // that.
+  // Score distillation of the two stages. The defaults are gentle, to suit our own view prior;
+  // TrustViewPrior changes them.
   ScoreDistillationOptions field_distillation, mesh_distillation;
-  int fit_side = 128;  // pixels a side of the crop that the stages fit
+  int fit_side = 128;  // pixels per side of the crop that the stages fit
 
-  std::optional<core::Image> mask;  // the object's mask, of the photo's proportions
+  std::optional<core::Image> mask;  // the object's mask, with the photo's aspect ratio
   double elevation = -1.0;          // rad; negative: estimated
-  // Field of view over the photo's longer side, rad; 0: from `focal_35mm`, else the default.
+  // The field of view over the photo's longer side, rad; 0: from `focal_35mm`, otherwise the
+  // default.
   double field_of_view = 0.0;
   double focal_35mm = 0.0;  // 35 mm-equivalent focal length, mm; 0: unknown
-  // A picture of one thing is mostly a crop or taken from a few steps away: narrower than a lens.
+  // A photo of one object is mostly cropped or taken from a distance: its field of view is narrower
+  // than a lens's.
   double default_field_of_view = 0.61;  // rad, 35 degrees
-  int texture_size = 1024;              // pixels a side
+  int texture_size = 1024;              // pixels per side
   int max_side = 1024;                  // a larger photo is scaled down first
   std::uint64_t seed = 1;
   SegmentationOptions segmentation;
@@ -57,29 +60,30 @@ struct LiftOptions {
   LiftOptions();
 };
 
-// Score distillation with the published weights, guidance and noise (Zero-1-to-3 in threestudio;
-// the mesh stage's noise is that of its second stage), and a first guess that gives way: for a view
-// prior that was trained at their size. Leaves everything else as it is.
+// Sets score distillation to the published weights, guidance and noise (Zero-1-to-3 in threestudio;
+// the mesh stage's noise is that of its second stage), and reduces the weight of the initial shape:
+// for a view prior trained at their size. All other options are unchanged.
 void TrustViewPrior(LiftOptions* options);
 
-// A photo's object as a textured, closed mesh. In the world: z up, the camera on the side of -y,
-// arbitrary scale (the camera one unit away).
+// A photo's object as a textured, closed mesh in the world frame: z up, the camera on the side of
+// -y, arbitrary scale (the camera one unit away).
 struct LiftedMesh {
   core::TexturedMesh mesh;
-  core::Camera camera;  // of the photo as it was used (scaled down)
-  core::Image photo;    // as it was used
+  core::Camera camera;  // of the photo as used (scaled down)
+  core::Image photo;    // as used
   Matte matte;
   ElevationEstimate elevation;
-  ShapeForm form = ShapeForm::kInflated;  // of the outline
-  std::string start;                      // what the fit started from, in words
+  ShapeForm form = ShapeForm::kInflated;  // of the silhouette
+  std::string start;                      // a description of the initial shape
   double silhouette_iou = 0.0;
   core::Findings findings;
 };
 
-// Segments, estimates the camera, guesses the shape, fits it and textures it: the front from the
-// photo, the hidden side from the priors. What is turned on a wheel stays as its outline turned,
-// and so does everything where nothing learned is given. Throws core::Error with the reason where
-// no single object stands out, and core::Cancelled.
+// Reconstructs the photo's object: segments it, estimates the camera, predicts the initial shape,
+// fits it and textures it, the front from the photo and the hidden side from the priors. A solid of
+// revolution keeps the shape revolved from its silhouette, and so does every object where no
+// learned prior is given. Throws core::Error with the reason where no single object stands out, and
+// core::Cancelled.
 LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior, const LiftPriors& priors,
                      const LiftOptions& options, core::Progress* progress);
 

@@ -103,7 +103,8 @@ double MeshDescent::AddObjective(PictureObjective* objective, double progress, c
   const ObjectPicture shown{picture.color, picture.mask};
   ObjectPicture gradient;
   const double loss = objective->Evaluate(camera, shown, progress, rng, &gradient);
-  // Where the mask has no edge its gradient moves nothing and would not show.
+  // A mask without an edge passes no gradient to the vertices, so a non-finite one would go
+  // unnoticed.
   if (!AllFinite(gradient.color) || !AllFinite(gradient.opacity)) return kNotFinite;
   const auto weight = static_cast<float>(options_.objective_weight);
   Scale(weight, &gradient.color);
@@ -156,7 +157,7 @@ void MeshDescent::Recolor() {
     square = kBeta2 * square + (1.0f - kBeta2) * g.cwiseProduct(g);
     for (int c = 0; c < 3; ++c) {
       const float size = std::sqrt(square[c] / square_share);
-      if (!(size > 1e-12f)) continue;  // not seen yet
+      if (!(size > 1e-12f)) continue;  // not visible yet
       colors_[i][c] = std::clamp(colors_[i][c] - rate * mean[c] / mean_share / size, 0.0f, 1.0f);
     }
   }

@@ -12,20 +12,21 @@
 
 namespace simwright::asset_lift {
 
-// The descent of FitMesh while the topology stays.
+// The gradient descent of FitMesh at a fixed topology.
 class MeshDescent {
  public:
-  // `colors` one a vertex, or none. `diagonal` m, of the start: the measure of steps and depths.
+  // `colors` has one entry per vertex, or is empty. `diagonal` (m) is that of the initial mesh: the
+  // unit of steps and depths.
   MeshDescent(const core::TriangleMesh& mesh, const std::vector<Eigen::Vector3f>& colors,
               double diagonal, const MeshFitOptions& options);
 
-  // One step down the mean loss of `views` and of the objective's next picture (may be null).
-  // `progress` in [0, 1); `rate` m. Returns the loss before the step. Where that or a gradient is
-  // not finite nothing moves, and the answer is not finite.
+  // Takes one step down the mean loss of `views` and of the objective's next image (may be null).
+  // `progress` in [0, 1); `rate` in m. Returns the loss before the step. If the loss or a gradient
+  // is not finite, no parameter changes and the returned value is not finite.
   double Step(const std::vector<const ViewTarget*>& views, PictureObjective* objective,
               double progress, double rate, core::Rng* rng);
 
-  // Remembers the state; goes back to it, with the moments of the steps forgotten.
+  // Saves the state; GoBack restores it and resets the optimizer's moments.
   void Keep();
   void GoBack();
 
@@ -49,7 +50,7 @@ class MeshDescent {
   render::SceneGradients gradients_;
   render::DifferentiableBuffers pixel_gradient_;
 
-  Eigen::MatrixX3d smooth_;  // u of the vertices
+  Eigen::MatrixX3d smooth_;  // the vertices' u coordinates (LargeSteps)
   AdamUniform adam_;
   std::vector<Eigen::Vector3f> color_mean_, color_square_;  // Adam's moments
   int color_steps_ = 0;

@@ -18,10 +18,10 @@
 namespace simwright::asset_lift {
 namespace {
 
-constexpr int kMostStepsBack = 5;
-constexpr int kKeepEvery = 10;  // steps
+constexpr int kMaxRollbacks = 5;
+constexpr int kSaveInterval = 10;  // steps
 
-// Colours of a mesh at the vertices of another, from the nearest point of its surface.
+// Returns a mesh's colours at the vertices of another mesh, from the nearest point of its surface.
 std::vector<Eigen::Vector3f> ColorsAt(const std::vector<Eigen::Vector3d>& points,
                                       const core::TriangleMesh& mesh,
                                       const std::vector<Eigen::Vector3f>& colors) {
@@ -46,7 +46,7 @@ std::vector<Eigen::Vector3f> ColorsAt(const std::vector<Eigen::Vector3d>& points
   return found;
 }
 
-// The mean colour of what the views show.
+// Returns the mean colour of the views' object pixels.
 Eigen::Vector3f MeanColor(const std::vector<ViewTarget>& targets) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double area = 0.0;
@@ -76,7 +76,7 @@ class Fit {
     mesh_ = geometry::Weld(start, 0.0);
     geometry::OrientConsistently(&mesh_);
     diagonal_ = core::Bounds(mesh_).diagonal().norm();
-    if (!(diagonal_ > 0.0)) throw core::Error("the start has no extent", "mesh fit");
+    if (!(diagonal_ > 0.0)) throw core::Error("the initial mesh has no extent", "mesh fit");
     if (colored) colors_.assign(mesh_.vertices.size(), MeanColor(targets_));
   }
 
@@ -88,7 +88,7 @@ class Fit {
       Remesh(round);
       Descend(round);
     }
-    MakeSound();
+    MakeValid();
     Measure();
     result_.mesh = mesh_;
     result_.vertex_colors = colors_;
@@ -110,16 +110,17 @@ class Fit {
     try {
       SmoothCrossings(&mesh_, 6);
       const core::TriangleMesh even = geometry::RemeshIsotropic(mesh_, remesh);
-      if (even.empty()) throw core::Error("nothing was left");
+      if (even.empty()) throw core::Error("the result is empty");
       colors_ = ColorsAt(even.vertices, mesh_, colors_);
       mesh_ = even;
     } catch (const core::Error& error) {
       Report("remesh-left-out", core::Severity::kWarning,
-             std::string("a round went on without remeshing: ") + error.what());
+             std::string("a round continued without remeshing: ") + error.what());
     }
   }
 
-  // Views for a step, each in turn, in an order that is drawn anew after each pass.
+  // Returns the views of the next step, in rotation, in an order that is reshuffled after each
+  // pass.
   std::vector<const ViewTarget*> NextViews() {
     std::vector<const ViewTarget*> views;
     const int count = std::min<int>(options_.views_per_step, static_cast<int>(targets_.size()));
@@ -150,48 +151,50 @@ class Fit {
       core::CheckCancelled();
       if (std::isfinite(loss)) {
         ++result_.steps;
-        if (step % kKeepEvery == 0) descent.Keep();
+        if (step % kSaveInterval == 0) descent.Keep();
         continue;
       }
-      StepBack(&descent);
+      RollBack(&descent);
     }
     mesh_ = descent.mesh();
     colors_ = descent.colors();
   }
 
-  void StepBack(MeshDescent* descent) {
+  void RollBack(MeshDescent* descent) {
     descent->GoBack();
     damping_ *= 0.5;
-    if (++steps_back_ < kMostStepsBack) {
+    if (++rollbacks_ < kMaxRollbacks) {
       Report("stepped-back", core::Severity::kWarning,
-             "a loss or gradient was not finite: went back and halved the step", damping_);
+             "a loss or gradient was not finite: restored the last state and halved the step",
+             damping_);
       return;
     }
     result_.complete = false;
     Report("stopped-early", core::Severity::kError,
-           "losses or gradients were not finite again and again: stopped with the last good mesh",
+           "losses or gradients were repeatedly not finite: stopped with the last finite mesh",
            result_.steps);
   }
 
-  // Closed, oriented, free of crossings: by smoothing them away, else from a grid.
-  void MakeSound() {
+  // Makes the mesh closed, oriented and free of self-intersections: by local smoothing, otherwise
+  // by remeshing on a grid.
+  void MakeValid() {
     if (geometry::Examine(mesh_, 1).Sound()) return;
     core::TriangleMesh smoothed = mesh_;
     SmoothCrossings(&smoothed, 15);
     if (geometry::Examine(smoothed, 1).Sound()) {
       Report("crossings-smoothed", core::Severity::kInfo,
-             "the surface crossed itself: smoothed there");
+             "the surface intersected itself: smoothed locally");
       mesh_ = smoothed;
       return;
     }
-    // The fit's own error is larger than what a fine wrap would keep, at a tenth of the time.
+    // The fit's own error exceeds the detail of a fine wrap, which takes ten times as long.
     geometry::SolidOptions coarse;
     coarse.cell_ratio = 0.006;
     coarse.tolerance_ratio = 0.012;
     coarse.sheet_thickness_ratio = 0.0108;
     geometry::Solid solid = geometry::MakeSolid(mesh_, coarse);
     Report("made-solid", core::Severity::kInfo,
-           std::string("the surface was no solid: ") + geometry::Name(solid.method));
+           std::string("the surface was not a solid: ") + geometry::Name(solid.method));
     colors_ = ColorsAt(solid.mesh.vertices, mesh_, colors_);
     mesh_ = std::move(solid.mesh);
   }
@@ -221,7 +224,7 @@ class Fit {
   std::vector<Eigen::Vector3f> colors_;
   double diagonal_ = 0.0;
   double damping_ = 1.0;
-  int steps_back_ = 0;
+  int rollbacks_ = 0;
   MeshFitResult result_;
 };
 
@@ -232,23 +235,27 @@ bool MeshFitOptions::IsValid(std::string* error) const {
     if (error != nullptr) *error = why;
     return false;
   };
-  if (rounds < 1 || steps_per_round < 1) return fail("there has to be a round and a step");
+  if (rounds < 1 || steps_per_round < 1) {
+    return fail("rounds and steps_per_round must be at least 1");
+  }
   if (!(first_edge_ratio > 0.0) || !(last_edge_ratio > 0.0) || first_edge_ratio > 1.0 ||
       last_edge_ratio > 1.0) {
-    return fail("edge ratios have to be within (0, 1]");
+    return fail("edge ratios must be in (0, 1]");
   }
-  if (!(feature_angle_deg > 0.0)) return fail("feature_angle_deg has to be positive");
-  if (max_side < 8) return fail("max_side has to be 8 or more");
+  if (!(feature_angle_deg > 0.0)) return fail("feature_angle_deg must be positive");
+  if (max_side < 8) return fail("max_side must be at least 8");
   if (views_per_step < 1 || samples_per_side < 1 || edge_samples < 0) {
-    return fail("a step needs a view and a sample");
+    return fail("views_per_step and samples_per_side must be at least 1");
   }
   for (const double weight :
        {mask_weight, color_weight, depth_weight, normal_weight, objective_weight, smoothing}) {
-    if (!(weight >= 0.0) || !std::isfinite(weight)) return fail("weights are numbers, 0 or more");
+    if (!(weight >= 0.0) || !std::isfinite(weight)) {
+      return fail("weights must be finite and not negative");
+    }
   }
   if (!(step_ratio > 0.0) || !(color_rate >= 0.0) || !std::isfinite(step_ratio) ||
       !std::isfinite(color_rate)) {
-    return fail("rates have to be positive");
+    return fail("rates must be positive");
   }
   return true;
 }
@@ -259,10 +266,10 @@ MeshFitResult FitMesh(const core::TriangleMesh& start, const std::vector<Observe
   std::string error;
   if (!options.IsValid(&error)) throw core::Error(error, "mesh fit");
   core::RequireValid(start, "mesh fit");
-  if (start.empty()) throw core::Error("the start has no faces", "mesh fit");
+  if (start.empty()) throw core::Error("the initial mesh has no faces", "mesh fit");
   RequireValid(views);
   if (views.empty() && objective == nullptr) {
-    throw core::Error("there is neither a view nor an objective to fit to", "mesh fit");
+    throw core::Error("a fit needs a view or an objective", "mesh fit");
   }
   MeshFitResult result = Fit(start, views, objective, options, progress).Run();
   if (views.size() >= 2) {

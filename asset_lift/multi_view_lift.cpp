@@ -12,7 +12,7 @@
 namespace simwright::asset_lift {
 namespace {
 
-// The photos that the others do not contradict, and their views.
+// The photos without contradiction, and their views.
 struct Agreeing {
   std::vector<texture::PhotoView> photos;
   std::vector<Matte> mattes;
@@ -33,7 +33,7 @@ Agreeing CutOutAll(const std::vector<PosedPhoto>& photos, const CategoryPrior& p
       throw core::Error(error.what(), photo.name);
     }
     all.photos.push_back({photo.camera, photo.photo, all.mattes.back().alpha});
-    // The depth of a frame matters to the learned priors alone.
+    // Only the learned priors use a frame's depth.
     all.views.push_back(CropView(photo.photo, all.mattes.back().alpha,
                                  FrameAround(all.mattes.back(), photo.camera, 1.0),
                                  options.fit_side));
@@ -42,15 +42,15 @@ Agreeing CutOutAll(const std::vector<PosedPhoto>& photos, const CategoryPrior& p
   return all;
 }
 
-void LeaveOutContradicting(const std::vector<PosedPhoto>& photos, Agreeing* all,
-                           core::Findings* findings) {
-  if (all->views.size() < 3) return;  // of two that disagree none is right by majority
+void ExcludeContradicting(const std::vector<PosedPhoto>& photos, Agreeing* all,
+                          core::Findings* findings) {
+  if (all->views.size() < 3) return;  // two views have no majority
   const ViewAgreement agreement = ExamineViews(all->views);
   for (auto i = agreement.contradicting.rbegin(); i != agreement.contradicting.rend(); ++i) {
     const auto at = static_cast<std::ptrdiff_t>(*i);
     findings->push_back({"view-contradicts", core::Severity::kWarning, photos[*i].name,
                          "the camera of " + photos[static_cast<size_t>(*i)].name +
-                             " contradicts those of the others: the photo is left out",
+                             " contradicts those of the others: the photo is excluded",
                          0.0});
     all->views.erase(all->views.begin() + at);
     all->photos.erase(all->photos.begin() + at);
@@ -65,10 +65,12 @@ void LeaveOutContradicting(const std::vector<PosedPhoto>& photos, Agreeing* all,
 
 LiftedMesh LiftPhotos(const std::vector<PosedPhoto>& photos, const CategoryPrior& prior,
                       const MultiViewOptions& options, core::Progress* progress) {
-  if (photos.size() < 2) throw core::Error("cameras go with at least two photos of one thing");
+  if (photos.size() < 2) {
+    throw core::Error("posed reconstruction needs at least two photos of one object");
+  }
   LiftedMesh lifted;
   Agreeing agreeing = CutOutAll(photos, prior, options, progress);
-  LeaveOutContradicting(photos, &agreeing, &lifted.findings);
+  ExcludeContradicting(photos, &agreeing, &lifted.findings);
   progress->Stage("visual hull");
   const core::TriangleMesh hull = VisualHull(agreeing.views);
   ShapeFitOptions stages = options.fit;

@@ -8,27 +8,28 @@
 
 namespace simwright::asset_lift {
 
-// A photo whose camera is known. RGBA where the object is cut out already.
+// A photo with a known camera. RGBA where the object is already cut out.
 struct PosedPhoto {
   core::Image photo;
   core::Camera camera;  // m, z up
-  std::string name;     // for what there is to say of it
+  std::string name;     // used in findings
 };
 
 struct MultiViewOptions {
-  bool field_stage = false;  // between the visual hull and the mesh stage: fills hollows that no
-                             // outline shows, from the colours
+  bool field_stage = false;  // runs a radiance field between visual hull and mesh stage: carves
+                             // concavities that no silhouette shows, from the colours
   ShapeFitOptions fit;
-  int fit_side = 160;  // pixels a side of each photo's crop
+  int fit_side = 160;  // pixels per side of each photo's crop
   int texture_size = 1024;
   std::uint64_t seed = 1;
 };
 
-// One thing from several photos with known cameras: the visual hull of its outlines, fitted to
-// masks and colours, textured from all photos. In the cameras' world and metres; the camera and
-// photo of the result are the first's. Photos whose cameras contradict the others are named in the
-// findings and left out. Throws core::Error: fewer than two photos that agree, a photo without one
-// object that stands out, cameras that see no common place; core::Cancelled.
+// Reconstructs one object from several photos with known cameras: the visual hull of its
+// silhouettes, fitted to masks and colours, textured from all photos. The result is in the cameras'
+// world frame and metres; its camera and photo are the first's. Photos whose cameras contradict the
+// others are named in the findings and excluded. Throws core::Error for fewer than two photos that
+// agree, a photo without a single salient object, or cameras without a common field of view;
+// core::Cancelled.
 LiftedMesh LiftPhotos(const std::vector<PosedPhoto>& photos, const CategoryPrior& prior,
                       const MultiViewOptions& options, core::Progress* progress);
 

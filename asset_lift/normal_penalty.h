@@ -7,13 +7,13 @@
 
 namespace simwright::asset_lift {
 
-// How much neighbouring faces turn against each other, for a fixed topology.
+// A penalty on the angle between neighbouring faces, for a fixed topology.
 class NormalPenalty {
  public:
   explicit NormalPenalty(const core::TriangleMesh& mesh);
 
-  // The mean over two-faced edges of 1 - n0 . n1; `weight` times its derivative is added to
-  // `gradient` (N x 3). Faces without area count for nothing.
+  // Returns the mean of 1 - n0 . n1 over interior edges and adds `weight` times its derivative to
+  // `gradient` (N x 3). Zero-area faces are ignored.
   double Add(const std::vector<Eigen::Vector3d>& vertices, double weight,
              std::vector<Eigen::Vector3d>* gradient) const;
 

@@ -14,7 +14,7 @@ OccupancyGrid::OccupancyGrid() : allowed_(kSide * kSide, ~std::uint64_t{0}), occ
 
 void OccupancyGrid::Restrict(const std::vector<std::uint8_t>& allowed) {
   if (allowed.size() != std::size_t{kSide} * kSide * kSide) {
-    throw core::Error("a restriction of an occupancy grid has 64^3 values", "occupancy grid");
+    throw core::Error("an occupancy grid's restriction must have 64^3 values", "occupancy grid");
   }
   for (std::size_t row = 0; row < allowed_.size(); ++row) {
     std::uint64_t bits = 0;
@@ -40,7 +40,7 @@ void OccupancyGrid::Update(const BasicRadianceField<Real>& field, const Occupanc
       if (allowed_[row] == 0) continue;
       static_assert(kSide == kFieldBatch);
       for (int i = 0; i < kSide; ++i) {
-        const std::uint64_t bits = rng();  // 21 bits an axis
+        const std::uint64_t bits = rng();  // 21 bits per axis
         const auto at = [&](int cell, int shift) {
           const double within = static_cast<double>((bits >> shift) & 0x1fffff) * 0x1p-21;
           return static_cast<Real>((cell + within) * kCell - 1.0);

@@ -9,9 +9,9 @@
 namespace simwright::asset_lift {
 namespace {
 
-constexpr double kAlike = 6.0;    // CIELAB: what is seen side by side as one colour
+constexpr double kAlike = 6.0;    // CIELAB: colours that look alike side by side
 constexpr double kAside = 0.012;  // of the longer side, from the outline
-constexpr int kTangent = 5;       // outline points to each side that give its direction
+constexpr int kTangent = 5;       // outline points on each side that give its direction
 constexpr int kFewest = 20;
 
 cv::Mat SmoothLab(const core::Image& photo) {

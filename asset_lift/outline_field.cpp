@@ -11,7 +11,8 @@
 namespace simwright::asset_lift {
 namespace {
 
-// Bilinear lookup at an image point; clamped at the frame and falling off beyond it.
+// Interpolates bilinearly at an image point; the lookup is clamped at the frame and falls off
+// beyond it.
 double Lookup(const cv::Mat& map, double px, double py) {
   const double x = std::clamp(px - 0.5, 0.0, map.cols - 1.001);
   const double y = std::clamp(py - 0.5, 0.0, map.rows - 1.001);
@@ -43,8 +44,8 @@ void OutlineField::AddUprightBody(const UprightBody& body) {
 }
 
 void OutlineField::HollowUprightBody(const UprightBody& body, double wall) {
-  // Parallel to the outer wall: the least radius within a wall's height, so that slanted walls
-  // stay as thick as upright ones.
+  // The inner wall is parallel to the outer wall: it takes the minimum radius within a wall's
+  // height, so that slanted walls stay as thick as upright ones.
   std::vector<double> inner(body.radius.size());
   const int reach = static_cast<int>(std::ceil(wall / body.step));
   for (int i = 0; i < static_cast<int>(inner.size()); ++i) {
@@ -60,7 +61,7 @@ void OutlineField::HollowUprightBody(const UprightBody& body, double wall) {
   hollows_.push_back([cavity, floor, rim](const Eigen::Vector3d& p) {
     const double radial = std::hypot(p.x() - cavity.axis_x, p.y() - cavity.axis_y);
     const double side = radial - cavity.RadiusAt(std::clamp(p.z(), cavity.bottom, rim));
-    // Open above: nothing bounds it there.
+    // The hollow is unbounded above.
     return std::max(side, floor - p.z());
   });
 }
@@ -68,7 +69,7 @@ void OutlineField::HollowUprightBody(const UprightBody& body, double wall) {
 void OutlineField::AddDepthMap(const cv::Mat& squared_depth, const Eigen::Vector3d& anchor) {
   const Eigen::Isometry3d camera_from_world = camera_.world_from_camera.inverse();
   const double depth = (camera_from_world * anchor).z();
-  const double metres = depth / camera_.fy;  // a pixel at that depth
+  const double metres = depth / camera_.fy;  // metres per pixel at that depth
   const core::Camera camera = camera_;
   double deepest = 0.0;
   cv::minMaxLoc(squared_depth, nullptr, &deepest);
@@ -81,7 +82,7 @@ void OutlineField::AddDepthMap(const cv::Mat& squared_depth, const Eigen::Vector
                                 camera.fy * local.y() / local.z() + camera.cy) *
                          metres * metres;
         const double d = local.z() - depth;
-        // (d^2 - u) over its slope: about a distance.
+        // (d^2 - u) over its slope approximates a distance.
         return (d * d - u) / (2.0 * std::max(0.15 * half, std::sqrt(std::max(0.0, u))));
       });
   for (int y = 0; y < squared_depth.rows; ++y) {
@@ -98,7 +99,7 @@ double OutlineField::Value(const Eigen::Vector3d& point) const {
   double value = bodies_[0](point);
   for (const auto& hollow : hollows_) value = std::max(value, -hollow(point));
   for (size_t i = 1; i < bodies_.size(); ++i) value = std::min(value, bodies_[i](point));
-  // A handle may not grow into the hollow that it is joined to.
+  // A handle must not grow into the hollow of its vessel.
   if (bodies_.size() > 1) {
     for (const auto& hollow : hollows_) value = std::max(value, -hollow(point));
   }

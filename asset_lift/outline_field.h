@@ -11,28 +11,29 @@
 
 namespace simwright::asset_lift {
 
-// An implicit solid in the world whose picture stays inside an outline: the union of the bodies
-// added, cut by the outline's cone. Values are about metres, negative inside.
+// An implicit solid in the world whose silhouette stays inside a mask: the union of the added
+// bodies, intersected with the mask's cone. Values are approximate metres, negative inside.
 class OutlineField {
  public:
-  // `mask` CV_8U, of the camera's size.
+  // `mask` is CV_8U and has the camera's image size.
   OutlineField(const core::Camera& camera, const cv::Mat& mask);
 
   void AddUprightBody(const UprightBody& body);
-  // Opens the last upright body from above, leaving `wall` (m) round and below.
+  // Hollows the last upright body from above, leaving `wall` (m) at the sides and the bottom.
   void HollowUprightBody(const UprightBody& body, double wall);
-  // A squared half depth (pixels^2, see depth_map.h) about the plane through `anchor` that faces
-  // the camera.
+  // Adds a squared half depth map (pixels^2, see depth_map.h) about the plane through `anchor` that
+  // faces the camera.
   void AddDepthMap(const cv::Mat& squared_depth, const Eigen::Vector3d& anchor);
 
-  // Nothing remains where direction.dot(point) > reach; `direction` unit, world.
+  // Removes the half space direction.dot(point) > reach; `direction` is a unit vector in the world
+  // frame.
   void Cut(const Eigen::Vector3d& direction, double reach) {
     cut_direction_ = direction;
     cut_reach_ = reach;
   }
 
-  // The closed surface; `resolution` cells along the longest side of the bodies' box. Throws
-  // core::Error where nothing lies inside.
+  // Extracts the closed surface; `resolution` is the number of cells along the longest side of the
+  // bodies' AABB. Throws core::Error where the solid is empty.
   core::TriangleMesh Extract(int resolution) const;
 
  private:

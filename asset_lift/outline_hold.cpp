@@ -11,12 +11,12 @@ namespace {
 constexpr int kSide = kCropSide;
 constexpr size_t kPixels = static_cast<size_t>(kSide) * kSide;
 constexpr float kEmpty = -8.0f;
-constexpr float kSheetPeak = 0.7f;  // log odds in a sheet's middle
+constexpr float kSheetPeak = 0.7f;  // log odds in the middle of a sheet
 constexpr float kPixel = 2.0f / kSide;
 constexpr float kCell = static_cast<float>(2.0 * kDepthReach / kDepthCells);
-// How far a sheet's depth may change from a pixel to the next: one standard deviation.
+// The standard deviation of a sheet's depth change between neighbouring pixels.
 constexpr float kSlope = 0.7f * kPixel;
-constexpr int kSweeps = 200;
+constexpr int kIterations = 200;
 
 float DepthOf(int cell) {
   return static_cast<float>(kDepthReach * ((cell + 0.5) * 2.0 / kDepthCells - 1.0));
@@ -24,11 +24,11 @@ float DepthOf(int cell) {
 
 // One pixel's column of the volume.
 struct Column {
-  bool seen = false;       // within the outline
-  bool sure = false;       // the network says that something is there
+  bool seen = false;       // inside the silhouette
+  bool sure = false;       // the network is certain that the column is occupied
   float center = 0.0f;     // w of the middle
-  float precision = 0.0f;  // of the middle, where it is not sure: one over its variance
-  float rim = 0.0f;        // distance to the outline's edge
+  float precision = 0.0f;  // of the centre, where it is uncertain: one over its variance
+  float rim = 0.0f;        // distance to the silhouette's edge
 };
 
 Column Read(const ShapePrediction& prediction, size_t pixel) {
@@ -50,7 +50,7 @@ Column Read(const ShapePrediction& prediction, size_t pixel) {
   return column;
 }
 
-// Distance to what is not seen, by sweeps with the steps 1 and sqrt(2) (Borgefors 1986).
+// Computes the distance to the background by passes with the steps 1 and sqrt(2) (Borgefors 1986).
 void MeasureRims(std::vector<Column>* columns) {
   const auto at = [&](int x, int y) -> float {
     if (x < 0 || y < 0 || x >= kSide || y >= kSide) return 0.0f;
@@ -72,12 +72,12 @@ void MeasureRims(std::vector<Column>* columns) {
   for (Column& column : *columns) column.rim *= kPixel;
 }
 
-// The middles of unsure columns, drawn towards their neighbours': Gauss-Seidel on the posterior of
-// independent readings and a membrane through them.
-void SmoothMiddles(std::vector<Column>* columns) {
+// Smooths the centres of uncertain columns towards their neighbours': Gauss-Seidel on the posterior
+// of independent measurements and a membrane through them.
+void SmoothCenters(std::vector<Column>* columns) {
   const std::vector<Column> read = *columns;
   constexpr float kStiffness = 1.0f / (kSlope * kSlope);
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
         const size_t pixel = static_cast<size_t>(y) * kSide + static_cast<size_t>(x);
@@ -108,7 +108,7 @@ void HoldToOutline(ShapePrediction* prediction) {
   std::vector<Column> columns(kPixels);
   for (size_t pixel = 0; pixel < kPixels; ++pixel) columns[pixel] = Read(*prediction, pixel);
   MeasureRims(&columns);
-  SmoothMiddles(&columns);
+  SmoothCenters(&columns);
   prediction->front_w.assign(kPixels, 0.0f);
   prediction->back_w.assign(kPixels, 0.0f);
   for (size_t pixel = 0; pixel < kPixels; ++pixel) {
@@ -118,7 +118,8 @@ void HoldToOutline(ShapePrediction* prediction) {
     int first = -1, last = -1;
     for (int k = 0; k < kDepthCells; ++k) {
       float& logit = prediction->logits[static_cast<size_t>(k) * kPixels + pixel];
-      // Beside the outline the volume goes on smoothly; Logit() cuts it at the outline itself.
+      // Outside the silhouette the volume continues smoothly; Logit() cuts it at the silhouette
+      // itself.
       logit = std::max(kEmpty, logit);
       if (sheet) {
         const float off = (DepthOf(k) - column.center) / half;

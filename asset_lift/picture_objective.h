@@ -6,22 +6,23 @@
 
 namespace simwright::asset_lift {
 
-// The object as a fit shows it, or the gradient of a loss with respect to that.
+// A rendering of the fitted object, or the gradient of a loss with respect to it.
 struct ObjectPicture {
   core::FloatImage color;    // (H x W x 3), sRGB, premultiplied by opacity: the object over black
   core::FloatImage opacity;  // (H x W x 1)
 };
 
-// A loss on pictures of the object from cameras that the loss itself picks. Score distillation is
-// one; a fit (of a radiance field, of a mesh) draws what is asked for and descends.
+// A loss on images of the object from cameras that the loss itself chooses. Score distillation is
+// one. A fit (of a radiance field or of a mesh) renders the requested image and descends.
 class PictureObjective {
  public:
   virtual ~PictureObjective() = default;
 
-  // The camera of the next picture; `progress` in [0, 1) says how far the fit has come.
+  // Returns the camera of the next image; `progress` in [0, 1) is that of the fit.
   virtual core::Camera NextCamera(double progress, core::Rng* rng) = 0;
 
-  // The loss of `picture`, seen from `camera`; `gradient` becomes dL/d(picture), of its size.
+  // Returns the loss of `picture`, rendered from `camera`; sets `gradient` to dL/d(picture), of the
+  // same size.
   virtual double Evaluate(const core::Camera& camera, const ObjectPicture& picture, double progress,
                           core::Rng* rng, ObjectPicture* gradient) = 0;
 };

@@ -38,16 +38,16 @@ bool RadianceFieldOptions::IsValid(std::string* error) const {
   if (!grid.IsValid(error)) return false;
   const char* fault = nullptr;
   if (grid.levels * grid.features > kMaxFieldInputs) {
-    fault = "a field takes 64 features of its grid at most: fewer levels, or fewer a level";
+    fault = "a field's grid must have at most 64 features: use fewer levels or features per level";
   }
   if (hidden < 8 || hidden > kMaxFieldHidden || hidden % 8 != 0) {
-    fault = "a field has 8 to 128 hidden units, in eights";
+    fault = "a field must have 8 to 128 hidden units, a multiple of 8";
   }
   if (!(half_side > 0.0) || !std::isfinite(half_side) || !center.allFinite()) {
     fault = "a field's cube needs a finite centre and a positive size";
   }
   if (!(density_scale > 0.0) || !std::isfinite(density_scale)) {
-    fault = "the density's scale is positive";
+    fault = "density_scale must be positive";
   }
   if (!std::isfinite(blob_scale) || !(blob_std > 0.0)) {
     fault = "the density's blob needs a finite scale and a positive width";

@@ -33,14 +33,14 @@ torch::Tensor FromImage(const core::FloatImage& image) {
 }
 
 core::FloatImage ToImage(const torch::Tensor& gradient, int channels, const core::Camera& camera) {
-  if (!gradient.defined()) return {};  // stands for zeros
+  if (!gradient.defined()) return {};  // means zero
   core::FloatImage image(camera.width, camera.height, channels);
   const torch::Tensor rows = gradient.to(torch::kCPU, torch::kFloat).contiguous();
   std::memcpy(image.values.data(), rows.data_ptr(), image.values.size() * sizeof(float));
   return image;
 }
 
-// What a picture was drawn from.
+// The inputs of a rendered image.
 struct Shot : torch::CustomClassHolder {
   render::DifferentiableRenderer* renderer = nullptr;
   core::Camera camera;
@@ -56,7 +56,7 @@ struct Shot : torch::CustomClassHolder {
   }
 };
 
-class DrawFunction : public torch::autograd::Function<DrawFunction> {
+class RenderNode : public torch::autograd::Function<RenderNode> {
  public:
   static torch::autograd::variable_list forward(torch::autograd::AutogradContext* context,
                                                 const torch::Tensor& vertices,
@@ -64,9 +64,9 @@ class DrawFunction : public torch::autograd::Function<DrawFunction> {
                                                 const c10::intrusive_ptr<Shot>& shot) {
     context->save_for_backward({vertices, colors});
     context->saved_data["shot"] = c10::IValue::make_capsule(shot);
-    const render::DifferentiableBuffers& drawn = shot->Draw(vertices, colors);
-    return {FromImage(drawn.color), FromImage(drawn.mask).squeeze(-1),
-            FromImage(drawn.depth).squeeze(-1)};
+    const render::DifferentiableBuffers& rendered = shot->Draw(vertices, colors);
+    return {FromImage(rendered.color), FromImage(rendered.mask).squeeze(-1),
+            FromImage(rendered.depth).squeeze(-1)};
   }
 
   static torch::autograd::variable_list backward(torch::autograd::AutogradContext* context,
@@ -74,7 +74,7 @@ class DrawFunction : public torch::autograd::Function<DrawFunction> {
     const torch::autograd::variable_list saved = context->get_saved_variables();
     const auto shot =
         c10::static_intrusive_pointer_cast<Shot>(context->saved_data["shot"].toCapsule());
-    // Another picture may have been drawn since.
+    // Another image may have been rendered since.
     shot->Draw(saved[0], saved[1]);
     render::DifferentiableBuffers pixels;
     pixels.color = ToImage(gradients[0], 3, shot->camera);
@@ -97,15 +97,16 @@ DrawnTensors DrawTensors(render::DifferentiableRenderer* renderer, const torch::
   const bool colored = vertex_colors.defined() && vertex_colors.numel() > 0;
   if (vertices.dim() != 2 || vertices.size(0) != count || vertices.size(1) != 3 ||
       (colored && !vertex_colors.sizes().equals(vertices.sizes()))) {
-    throw core::Error("vertices and their colours are (N x 3), N that of the renderer's mesh");
+    throw core::Error(
+        "vertices and their colours must be (N x 3), with N that of the renderer's mesh");
   }
   auto shot = c10::make_intrusive<Shot>();
   shot->renderer = renderer;
   shot->camera = camera;
   shot->seed = seed;
-  const torch::autograd::variable_list drawn =
-      DrawFunction::apply(vertices, colored ? vertex_colors : torch::empty({0, 3}), shot);
-  return {drawn[0], drawn[1], drawn[2]};
+  const torch::autograd::variable_list rendered =
+      RenderNode::apply(vertices, colored ? vertex_colors : torch::empty({0, 3}), shot);
+  return {rendered[0], rendered[1], rendered[2]};
 }
 
 }  // namespace simwright::asset_lift

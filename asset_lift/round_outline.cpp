@@ -39,7 +39,7 @@ Gradient ImageGradient(const cv::Mat& bgr) {
       magnitudes.push_back(std::hypot(gradient.x.at<float>(y, x), gradient.y.at<float>(y, x)));
     }
   }
-  // An edge is what the strongest sixth of the picture's changes are like.
+  // Edges are the strongest sixth of the image's gradients.
   const size_t rank = magnitudes.size() * 5 / 6;
   std::nth_element(magnitudes.begin(), magnitudes.begin() + static_cast<long>(rank),
                    magnitudes.end());
@@ -47,7 +47,8 @@ Gradient ImageGradient(const cv::Mat& bgr) {
   return gradient;
 }
 
-// Share of the ellipse's rim, inside the picture, with an edge along it within two pixels.
+// Returns the share of the ellipse's rim, inside the image, that has a parallel edge within two
+// pixels.
 double RimSupport(const cv::RotatedRect& e, const Gradient& gradient) {
   constexpr int kSteps = 120;
   const double turn = e.angle * std::numbers::pi / 180.0;
@@ -79,9 +80,9 @@ double RimSupport(const cv::RotatedRect& e, const Gradient& gradient) {
 }
 
 double Covered(const cv::RotatedRect& e, const cv::Mat& mask) {
-  cv::Mat drawn = cv::Mat::zeros(mask.size(), CV_8U);
-  cv::ellipse(drawn, e, cv::Scalar(255), -1);
-  return cv::countNonZero(drawn & mask) /
+  cv::Mat ellipse_mask = cv::Mat::zeros(mask.size(), CV_8U);
+  cv::ellipse(ellipse_mask, e, cv::Scalar(255), -1);
+  return cv::countNonZero(ellipse_mask & mask) /
          std::max(1.0, static_cast<double>(cv::countNonZero(mask)));
 }
 
@@ -103,7 +104,8 @@ std::optional<cv::RotatedRect> FindRoundOutline(const cv::Mat& bgr, const cv::Ma
   double best_score = 0.0;
   constexpr int kTrials = 3000;
   for (int trial = 0; trial < kTrials; ++trial) {
-    // Points of two arcs: a stretch of the true rim, whatever the rest of the outline does.
+    // The points of two arcs sample a stretch of the true rim, whatever the rest of the outline
+    // does.
     std::vector<cv::Point> points;
     for (int arc = 0; arc < 2; ++arc) {
       const std::int64_t start = core::UniformIndex(rng, count);

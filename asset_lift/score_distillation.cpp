@@ -15,7 +15,8 @@ double Annealed(double first, double last, double anneal, double progress) {
   return first + (last - first) * std::min(1.0, progress / std::max(anneal, 1e-6));
 }
 
-// Noise from our own generator: the same seed gives the same fit whatever libtorch draws.
+// Samples noise from our own generator: the same seed gives the same fit, independent of libtorch's
+// generator.
 torch::Tensor NormalLike(const torch::Tensor& like, core::Rng* rng) {
   torch::Tensor noise = torch::empty(like.sizes(), torch::kFloat);
   float* value = noise.data_ptr<float>();
@@ -33,16 +34,18 @@ bool ScoreDistillationOptions::IsValid(std::string* error) const {
     return false;
   };
   for (const double t : {t_min_first, t_min_last, t_max_first, t_max_last}) {
-    if (!(t >= 0.0 && t <= 1.0)) return fail("shares of the diffusion lie in [0, 1]");
+    if (!(t >= 0.0 && t <= 1.0)) return fail("t_min and t_max must be in [0, 1]");
   }
   if (t_min_first > t_max_first || t_min_last > t_max_last) {
-    return fail("t_min lies below t_max");
+    return fail("t_min must be below t_max");
   }
   if (!(elevation_min < elevation_max) || std::abs(elevation_min) > 1.55 ||
       std::abs(elevation_max) > 1.55) {
-    return fail("elevations rise within -1.55 .. 1.55 rad");
+    return fail("elevation_min must be below elevation_max, both within -1.55 .. 1.55 rad");
   }
-  if (!(largest_gradient > 0.0) || side < 0) return fail("sides and gradients are not negative");
+  if (!(largest_gradient > 0.0) || side < 0) {
+    return fail("side must not be negative and largest_gradient must be positive");
+  }
   return true;
 }
 

@@ -11,7 +11,7 @@
 namespace simwright::asset_lift {
 namespace {
 
-// The first line of what libtorch has to say; the rest is its stack.
+// Returns the first line of libtorch's message; the rest is its stack.
 std::string FirstLine(const std::string& text) {
   return text.substr(0, std::min(text.find('\n'), static_cast<size_t>(200)));
 }
@@ -22,7 +22,7 @@ std::string Shape(const torch::Tensor& tensor) {
   return text.str();
 }
 
-// (1 x 3 x side x side) in [-1, 1] of the crop of a picture, over white.
+// Returns the crop of an image as (1 x 3 x side x side) in [-1, 1], over white.
 torch::Tensor OverWhite(const ReferenceView& reference, int side) {
   const ObservedView view = CropView(reference.photo, reference.alpha, reference.frame, side);
   torch::Tensor picture = torch::empty({1, 3, side, side});
@@ -82,7 +82,7 @@ class ScriptedViewPrior : public ViewPrior {
       image = image_.expand({batch, 3, side_, side_});
       for (std::int64_t i = 0; i < batch; ++i) {
         const RelativeCamera r = RelativeTo(reference_, cameras[static_cast<size_t>(i)]);
-        // Zero-1-to-3 counts the polar angle from the zenith and the azimuth clockwise.
+        // Zero-1-to-3 measures the polar angle from the zenith and the azimuth clockwise.
         camera[i] = torch::tensor({-r.elevation, std::sin(-r.azimuth), std::cos(-r.azimuth), 0.0},
                                   torch::kFloat);
       }
@@ -96,7 +96,7 @@ class ScriptedViewPrior : public ViewPrior {
     const c10::IValue value = module_.attr(name);
     if (value.isInt()) return static_cast<double>(value.toInt());
     if (value.isDouble()) return value.toDouble();
-    throw core::Error(std::string("its attribute `") + name + "` is no number", where_);
+    throw core::Error(std::string("its attribute `") + name + "` is not a number", where_);
   }
 
   torch::Tensor Tensor(const c10::IValue& value, const char* method) const {
@@ -106,7 +106,8 @@ class ScriptedViewPrior : public ViewPrior {
         where_);
   }
 
-  // One call on zeros: another signature is found before a lift has run for minutes.
+  // Makes one call on zeros, so that a wrong signature fails before a reconstruction has run for
+  // minutes.
   void TryOut() {
     const char* expected =
         "expected forward(image [B,3,S,S], camera [B,4], noisy [B,C,h,w], t [B] int64) -> noise "

@@ -31,7 +31,7 @@ Regions FindRegions(const cv::Mat& mask) {
   return regions;
 }
 
-// The largest region alone; a second large one is an error, specks are dropped.
+// Returns the largest region alone. Throws if a second region is large; specks are dropped.
 cv::Mat OneObject(const cv::Mat& mask, const SegmentationOptions& options) {
   const Regions regions = FindRegions(mask);
   const double pixels = static_cast<double>(mask.total());
@@ -49,19 +49,21 @@ cv::Mat OneObject(const cv::Mat& mask, const SegmentationOptions& options) {
   return regions.labels == regions.by_area[0].second;
 }
 
-// What colours cut out of an empty table, or of a thing that shows what is behind it, has no edge.
+// Throws where much of the outline has no contrast, as for a segment of an empty table or of a
+// transparent object.
 void RequireOutline(const core::Image& photo, const cv::Mat& object,
                     const SegmentationOptions& options) {
   const double weak = WeakOutlineShare(photo, object);
   if (weak <= options.most_weak_outline) return;
-  throw core::Error("nothing stands out from the background: " +
-                        std::to_string(std::lround(100.0 * weak)) +
-                        " % of what might be an outline looks the same on both sides, as of an "
-                        "empty table, or of glass that shows what is behind it",
-                    "", "take it before another background, or give --mask");
+  throw core::Error(
+      "no object stands out from the background: " + std::to_string(std::lround(100.0 * weak)) +
+          " % of the candidate outline looks the same on both sides, as for an "
+          "empty table or for clear glass",
+      "", "take it before another background, or give --mask");
 }
 
-// A smaller second thing beside the first, which its outline tells from a reflection or a shadow.
+// Throws if there is a smaller second object. The contrast of its outline distinguishes it from a
+// reflection or a shadow.
 void RequireAlone(const core::Image& photo, const cv::Mat& mask,
                   const SegmentationOptions& options) {
   const Regions regions = FindRegions(mask);
@@ -79,12 +81,12 @@ void RequireAlone(const core::Image& photo, const cv::Mat& mask,
 Matte LargeEnough(Matte matte, const SegmentationOptions& options) {
   const int width = matte.right - matte.left, height = matte.bottom - matte.top;
   if (std::max(width, height) >= options.least_side) return matte;
-  throw core::Error("the object is only " + std::to_string(width) + " x " +
-                        std::to_string(height) + " pixels",
-                    "", "use a photo that shows it at least 64 pixels large");
+  throw core::Error(
+      "the object is only " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
+      "", "use a photo that shows it at least 64 pixels large");
 }
 
-// Share of the border that the mask covers, by side: left, top, right, bottom.
+// Returns the share of the border that the mask covers, per side: left, top, right, bottom.
 std::array<double, 4> BorderShares(const cv::Mat& mask) {
   const auto share = [](const cv::Mat& line) {
     return static_cast<double>(cv::countNonZero(line)) / static_cast<double>(line.total());
@@ -156,7 +158,7 @@ Matte FromMask(const core::Image& photo, const core::Image& mask,
     throw core::Error("the mask is " + std::to_string(mask.width) + " x " +
                           std::to_string(mask.height) + " pixels and the photo " +
                           std::to_string(photo.width) + " x " + std::to_string(photo.height),
-                      "", "draw the mask over the photo itself");
+                      "", "make the mask at the photo's aspect ratio");
   }
   const core::Image fitted = core::Resize(mask, photo.width, photo.height);
   cv::Mat bright = Channel(fitted, fitted.channels == 4 ? 3 : 0);
@@ -176,7 +178,7 @@ Matte SegmentObject(const core::Image& photo, const std::optional<core::Image>& 
   if (photo.width < 16 || photo.height < 16) {
     throw core::Error("the photo is only " + std::to_string(photo.width) + " x " +
                           std::to_string(photo.height) + " pixels",
-                      "", "use one of at least 64 pixels a side");
+                      "", "use one of at least 64 pixels per side");
   }
   if (mask) return LargeEnough(FromMask(photo, *mask, options), options);
   if (HasCutOut(photo)) return LargeEnough(FromAlpha(photo, options), options);

@@ -10,33 +10,33 @@ namespace simwright::asset_lift {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-// Grown so that no wall is thinner than the network's depth cells: what aliasing leaves of a
-// thinner one no network can learn.
+// Dilates walls to at least the network's depth cells: no network can learn the aliasing of thinner
+// ones.
 geometry::VoxelSolidOptions FilledOptions() {
   geometry::VoxelSolidOptions options;
   options.resolution = 80;
   options.sheet_cells = 2.0;
   options.growth_cells = 0.6;
-  // Most catalogue pieces are shells with cracks and without an underside. What they stand for is
-  // solid, and so is what a simulation makes of them.
+  // Most catalogue meshes are shells with cracks and without an underside. They represent solids,
+  // and a simulation treats them as solids.
   options.gap_cells = 2.5;
   options.on_floor = true;
   return options;
 }
 
-constexpr int kPictureSide = 96;  // of the picture that the crop is cut from
+constexpr int kRenderSide = 96;  // of the image from which the crop is cut
 
 core::TexturedMesh Normalised(core::TexturedMesh mesh, const Eigen::Vector3d& stretch) {
   core::Transform(Eigen::Affine3d(Eigen::Scaling(stretch)), &mesh.mesh);
   const Eigen::AlignedBox3d box = core::Bounds(mesh.mesh);
   const double reach = box.isEmpty() ? 0.0 : 0.5 * box.diagonal().norm();
-  if (!(reach > 0.0)) throw core::Error("a mesh without extent is no training object");
+  if (!(reach > 0.0)) throw core::Error("a training object must have an extent");
   const Eigen::Affine3d place = Eigen::Scaling(1.0 / reach) * Eigen::Translation3d(-box.center());
   core::Transform(place, &mesh.mesh);
   return mesh;
 }
 
-// Colour of a surface in the light, seen from outside: (RGB, sRGB bytes).
+// Returns the colour of a lit surface, seen from outside: (RGB, sRGB bytes).
 void Shade(const render::Scene& scene, const render::Hit& hit, const Eigen::Vector3f& normal,
            const render::SphericalHarmonicsLight& light, std::uint8_t* pixel) {
   const Eigen::Vector4f albedo = scene.Albedo(hit);
@@ -48,7 +48,7 @@ void Shade(const render::Scene& scene, const render::Hit& hit, const Eigen::Vect
   }
 }
 
-// The farthest surface along a ray from beyond the object, and its normal as seen from there.
+// Shades the farthest surface along a ray, seen from beyond the object.
 void ShadeBack(const render::Scene& scene, const Eigen::Vector3f& eye, const Eigen::Vector3f& ray,
                const render::SphericalHarmonicsLight& light, std::uint8_t* pixel) {
   const float far = 2.5f * eye.norm() / ray.norm();
@@ -76,7 +76,7 @@ Matte MatteOf(const render::ForwardBuffers& buffers) {
   return matte;
 }
 
-// Middle of the object's depths along the central ray.
+// Returns the middle of the object's depths along the central ray.
 double MiddleDepth(const core::TriangleMesh& mesh, const ViewFrame& frame) {
   const Eigen::Vector3d eye = frame.camera.position(), direction = frame.Direction();
   double near = 1e30, far = -1e30;
@@ -125,7 +125,7 @@ render::SphericalHarmonicsLight RandomLight(core::Rng* rng) {
 
 ShapeExample MakeShapeExample(const TrainingObject& object, core::Rng* rng) {
   ShapeExample example;
-  core::Camera camera = RandomPhotoCamera(rng, kPictureSide, &example.elevation);
+  core::Camera camera = RandomPhotoCamera(rng, kRenderSide, &example.elevation);
   const render::SphericalHarmonicsLight light = example.light = RandomLight(rng);
   const Matte matte = MatteOf(render::RenderForward(object.scene(), camera));
   example.frame = FrameAround(matte, camera, 1.0);

@@ -15,17 +15,17 @@
 
 namespace simwright::asset_lift {
 
-// Sizes that the shape network and what it learns from agree on.
-inline constexpr int kCropSide = 64;         // pixels of the crop that the network sees
-inline constexpr int kDepthCells = 64;       // cells of its volume along w
+// The sizes that the shape network and its training data share.
+inline constexpr int kCropSide = 64;         // pixels per side of the network's input crop
+inline constexpr int kDepthCells = 64;       // cells of its output volume along w
 inline constexpr double kDepthReach = 1.25;  // the volume spans w in [-reach, reach]
 
-// A mesh made ready to be photographed often: one unit from its middle to its farthest corner, the
-// middle at the origin.
+// A mesh prepared for repeated rendering: normalized to one unit from its centre to its farthest
+// corner, with the centre at the origin.
 class TrainingObject {
  public:
-  // `stretch` scales the axes first: more forms from few meshes. Throws core::Error for a mesh
-  // without extent.
+  // `stretch` scales the axes first, which varies the shapes of few meshes. Throws core::Error for
+  // a mesh with zero extent.
   TrainingObject(core::TexturedMesh mesh, const Eigen::Vector3d& stretch);
 
   const core::TexturedMesh& mesh() const { return mesh_; }
@@ -38,29 +38,30 @@ class TrainingObject {
   std::unique_ptr<geometry::VoxelSolid> solid_;
 };
 
-// A camera on a random orbit about a training object, the way people photograph: from -5 to 70
-// degrees above, mostly 5 to 45; field of view 12 to 50 degrees; the object whole in the picture.
+// Returns a random orbit camera about a training object, with the distribution of people's photos:
+// from -5 to 70 degrees above, mostly 5 to 45; field of view 12 to 50 degrees; the whole object in
+// the image.
 core::Camera RandomPhotoCamera(core::Rng* rng, int side, double* elevation);
 
-// Light from above with a random key.
+// Returns light from above with a random key light.
 render::SphericalHarmonicsLight RandomLight(core::Rng* rng);
 
-// What the network sees and what it should say. Pixels (kCropSide^2), rows from the top.
+// The network's input and its ground truth. Pixels (kCropSide^2), rows from the top.
 struct ShapeExample {
   ViewFrame frame;
-  double elevation = 0.0;  // rad, of the sight line to the object's middle
+  double elevation = 0.0;  // rad, of the line of sight to the object's centre
   render::SphericalHarmonicsLight light;
   std::vector<std::uint8_t> picture;    // RGBA, sRGB
   std::vector<std::uint8_t> back;       // RGB of the last surface behind each pixel, as seen from
-                                        // behind, in the same light; 0 where nothing is
+                                        // behind, in the same light; 0 for background
   std::vector<std::uint8_t> occupancy;  // (kDepthCells x side x side): 255 full; nearest w first
 };
 
-// A photo of the object from a random camera, in random light, and the truth behind it.
+// Renders the object from a random camera in random light, with the ground truth.
 ShapeExample MakeShapeExample(const TrainingObject& object, core::Rng* rng);
 
-// The crop of `frame` out of a picture of the object: RGBA, kCropSide pixels a side. `photo` and
-// `alpha` as large as the camera's picture.
+// Returns the crop of `frame` from an image of the object: RGBA, kCropSide pixels per side. `photo`
+// and `alpha` have the camera's image size.
 core::Image CropPicture(const core::Image& photo, const core::Image& alpha, const ViewFrame& frame);
 
 }  // namespace simwright::asset_lift

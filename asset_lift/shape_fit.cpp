@@ -5,16 +5,16 @@
 namespace simwright::asset_lift {
 namespace {
 
-// A bias beyond this is as good as solid, or as empty.
-constexpr double kSureBias = 10.0;
+// The bias at which a point is certainly solid, or empty.
+constexpr double kCertainBias = 10.0;
 
-// The guess's cube with room to grow, about its middle.
+// Sets the field's cube to the initial shape's, enlarged about its centre.
 void PlaceField(const FirstGuess& guess, double scale, RadianceFieldOptions* field) {
   field->center = guess.box.center();
   field->half_side = 0.5 * 1.3 * guess.box.sizes().maxCoeff();
   const auto odds = guess.odds;
   field->density_bias = [odds, scale](const Eigen::Vector3d& point) {
-    return std::clamp(scale * odds(point), -kSureBias, kSureBias);
+    return std::clamp(scale * odds(point), -kCertainBias, kCertainBias);
   };
 }
 
@@ -25,7 +25,7 @@ void Append(const core::Findings& from, core::Findings* to) {
 }  // namespace
 
 ShapeFitOptions::ShapeFitOptions() {
-  // What stage 1 leaves needs no coarse rounds: the mesh stage refines.
+  // The result of stage 1 needs no coarse rounds.
   mesh.rounds = 2;
   mesh.steps_per_round = 60;
   mesh.first_edge_ratio = 0.03;

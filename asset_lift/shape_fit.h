@@ -18,28 +18,29 @@
 namespace simwright::asset_lift {
 
 struct ShapeFitOptions {
-  bool field_stage = true;  // stage 1: a radiance field about the first guess
-  bool mesh_stage = true;   // stage 2: the surface of stage 1, or of the first guess, refined
-  FieldFitOptions field;    // its cube and bias are taken from the guess
+  bool field_stage = true;  // stage 1: a radiance field started from the initial shape
+  bool mesh_stage = true;   // stage 2: refines the surface of stage 1, or of the initial shape
+  FieldFitOptions field;    // its cube and bias come from the initial shape
   FieldSurfaceOptions surface;
   MeshFitOptions mesh;
-  // How much of the guess stage 1 starts with: log odds times this are added to the density. 2.5
-  // makes what is sure as dense as the middle of the published blob.
+  // The weight of the initial shape in stage 1: log odds times this are added to the density. 2.5
+  // makes certain cells as dense as the centre of the published blob.
   double guess_scale = 2.5;
 
   ShapeFitOptions();
 };
 
-// A shape that shows what the views show. Closed, oriented, free of self-intersections where the
-// mesh stage ran; world, m.
+// A shape fitted to the views. Closed, oriented and free of self-intersections where the mesh stage
+// ran; world, m.
 struct ShapeFit {
   core::TriangleMesh mesh;
-  std::vector<Eigen::Vector3f> colors;  // (N x 3) sRGB, a colour a vertex; empty: none were fitted
+  std::vector<Eigen::Vector3f> colors;  // (N x 3) sRGB, one per vertex; empty: not fitted
   core::Findings findings;
 };
 
-// The two stages of the lift. `field_objective` and `mesh_objective` (each may be null) are what
-// score distillation asks of either stage. Throws what FitField and FitMesh throw.
+// Runs the two stages of the reconstruction. `field_objective` and `mesh_objective` (each may be
+// null) are the score-distillation losses of the two stages. Throws the exceptions of FitField and
+// FitMesh.
 ShapeFit FitShape(const std::vector<ObservedView>& views, const FirstGuess& guess,
                   PictureObjective* field_objective, PictureObjective* mesh_objective,
                   const ShapeFitOptions& options, core::Progress* progress);

@@ -7,7 +7,7 @@
 namespace simwright::asset_lift {
 namespace {
 
-// Rings of `segments` vertices joined one to the next, both ends closed by a fan.
+// Joins rings of `segments` vertices one to the next and closes both ends by a fan.
 core::TriangleMesh JoinedRings(std::vector<Eigen::Vector3d> rings, int segments,
                                const Eigen::Vector3d& first, const Eigen::Vector3d& last) {
   core::TriangleMesh mesh;
@@ -49,7 +49,9 @@ core::TriangleMesh BoxPart(const Eigen::Vector3d& size) {
 }
 
 core::TriangleMesh RevolvedPart(const std::vector<Eigen::Vector2d>& profile, int segments) {
-  if (profile.size() < 2 || segments < 3) throw core::Error("a turned part needs a profile");
+  if (profile.size() < 2 || segments < 3) {
+    throw core::Error("a solid of revolution needs a profile");
+  }
   std::vector<Eigen::Vector3d> rings;
   for (const Eigen::Vector2d& p : profile) {
     for (int s = 0; s < segments; ++s) {
@@ -80,13 +82,15 @@ core::TriangleMesh SuperquadricPart(const Eigen::Vector3d& half_size, double exp
 }
 
 core::TriangleMesh TubePart(const std::vector<Eigen::Vector3d>& path, double radius, int segments) {
-  if (path.size() < 2 || segments < 3) throw core::Error("a tube needs a path of two points");
+  if (path.size() < 2 || segments < 3) {
+    throw core::Error("a tube needs a path of at least two points");
+  }
   std::vector<Eigen::Vector3d> rings;
   Eigen::Vector3d side = (path[1] - path[0]).unitOrthogonal();
   for (size_t i = 0; i < path.size(); ++i) {
     const Eigen::Vector3d along =
         (path[std::min(i + 1, path.size() - 1)] - path[i > 0 ? i - 1 : 0]).normalized();
-    side = (side - side.dot(along) * along).normalized();  // carried along without twist
+    side = (side - side.dot(along) * along).normalized();  // parallel transport, without twist
     const Eigen::Vector3d up = along.cross(side);
     for (int s = 0; s < segments; ++s) {
       const double angle = 2.0 * M_PI * s / segments;

@@ -9,20 +9,22 @@
 
 namespace simwright::asset_lift {
 
-// Closed parts of which training shapes are put together. All centred on the origin unless said.
+// The closed parts from which training shapes are assembled. All are centred on the origin unless
+// noted.
 
 core::TriangleMesh BoxPart(const Eigen::Vector3d& size);
 
-// Turned about z: (radius, z) from the lower end of the axis to its upper end; where the first or
-// last radius is not 0 the end is closed by a disc. A profile that runs up outside and down inside
-// is a vessel.
+// Returns a solid of revolution about z. The profile holds (radius, z) from the lower end of the
+// axis to its upper end; where the first or last radius is not 0, a disc closes the end. A profile
+// that runs up outside and down inside makes a vessel.
 core::TriangleMesh RevolvedPart(const std::vector<Eigen::Vector2d>& profile, int segments);
 
-// |x/a|^(2/e2) ... (Barr 1981): round at exponents of 1, a box towards 0, an octahedron at 2.
+// Returns a superquadric |x/a|^(2/e2) ... (Barr 1981): round at exponents of 1, a box towards 0, an
+// octahedron at 2.
 core::TriangleMesh SuperquadricPart(const Eigen::Vector3d& half_size, double exponent_z,
                                     double exponent_xy, int segments);
 
-// A tube of `radius` along a polyline of at least two points, closed by discs.
+// Returns a tube of `radius` along a polyline of at least two points, closed by discs.
 core::TriangleMesh TubePart(const std::vector<Eigen::Vector3d>& path, double radius, int segments);
 
 }  // namespace simwright::asset_lift

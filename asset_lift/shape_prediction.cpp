@@ -1,4 +1,4 @@
-// What a shape prior's answer says of points, rays and surfaces.
+// Evaluates a shape prior's prediction at points, along rays and as a surface.
 #include <algorithm>
 #include <cmath>
 
@@ -13,11 +13,11 @@ namespace {
 
 constexpr float kOutside = -8.0f;
 constexpr size_t kPixels = static_cast<size_t>(kCropSide) * kCropSide;
-// Log odds a unit of alpha: the outline is as sharp as a crop's pixel, and its half level is the
-// surface's.
+// Log odds per unit of alpha: the silhouette is as sharp as a crop's pixel, and its half level
+// coincides with the surface's.
 constexpr float kOutlineSharpness = 10.0f;
 
-// Where a value between samples at cell centres lies: cells `low` and `low` + 1, share of the
+// The interpolation position between cell centres: cells `low` and `low` + 1, and the share of the
 // upper.
 struct Between {
   int low, high;
@@ -34,8 +34,8 @@ float Mix(float a, float b, float share) {
   return a + share * (b - a);
 }
 
-// The picture's value at (u, v), bilinear. `Value(pixel index)` returns a number or a vector, which
-// is named: Eigen's unevaluated sums would point to what is gone.
+// Returns the image's value at (u, v), bilinear. `Value(pixel index)` returns a number or a vector
+// of a declared type: Eigen's lazy sums would refer to expired temporaries.
 template <typename Value>
 auto OverPicture(double u, double v, const Value& value) {
   using Result = decltype(value(size_t{0}));
@@ -68,7 +68,7 @@ float LogitAt(const ShapePrediction& prediction, const Eigen::Vector3d& uvw) {
 
 Eigen::Vector3f ColorAt(const ShapePrediction& prediction, const Eigen::Vector3d& uvw) {
   const double u = std::clamp(uvw.x(), -1.0, 1.0), v = std::clamp(uvw.y(), -1.0, 1.0);
-  // Weighed by alpha: what lies beside the outline has no colour.
+  // Weighted by alpha: pixels outside the silhouette have no colour.
   const Eigen::Vector4f front = OverPicture(u, v, [&](size_t pixel) -> Eigen::Vector4f {
     const std::uint8_t* p = &prediction.crop.pixels[4 * pixel];
     const float alpha = static_cast<float>(p[3]) / 255.0f + 1e-4f;
@@ -90,7 +90,7 @@ struct Span {
   double near = 0.0, far = -1.0;
 };
 
-// Where a ray crosses a box.
+// Returns the intersection of a ray with an AABB.
 Span Crossing(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin,
               const Eigen::Vector3d& ray) {
   Span span{0.0, 1e30};
@@ -133,13 +133,13 @@ Eigen::AlignedBox3d FilledBox(const ShapePrediction& prediction) {
 
 PredictionPicture DrawPrediction(const ShapePrediction& prediction, const core::Camera& camera,
                                  int samples) {
-  PredictionPicture drawn;
-  drawn.picture.color = core::FloatImage(camera.width, camera.height, 3);
-  drawn.picture.opacity = core::FloatImage(camera.width, camera.height, 1);
-  drawn.depth = core::FloatImage(camera.width, camera.height, 1);
+  PredictionPicture rendered;
+  rendered.picture.color = core::FloatImage(camera.width, camera.height, 3);
+  rendered.picture.opacity = core::FloatImage(camera.width, camera.height, 1);
+  rendered.depth = core::FloatImage(camera.width, camera.height, 1);
   const Eigen::AlignedBox3d box = prediction.box;
-  if (box.isEmpty() || samples < 1) return drawn;
-  // A cell of even odds lets half through; steps of other lengths as Beer-Lambert says.
+  if (box.isEmpty() || samples < 1) return rendered;
+  // A cell of even odds transmits half the light; other step lengths follow Beer-Lambert.
   const double cell = 2.0 * kDepthReach / kDepthCells * prediction.frame.Radius();
   core::ParallelFor(camera.height, [&](int y) {
     for (int x = 0; x < camera.width; ++x) {
@@ -156,24 +156,24 @@ PredictionPicture DrawPrediction(const ShapePrediction& prediction, const core::
         const float logit = LogitAt(prediction, uvw);
         if (logit < -1.5f) continue;
         // 1 - (1 - p)^cells with 1 - p = 1 / (1 + e^logit), sharpened: walls are opaque, and a ray
-        // that grazes what is less likely than not passes.
+        // passes through cells that are less likely filled than not.
         const float opacity = 1.0f - std::pow(1.0f + std::exp(4.0f * logit), -cells);
         color += through * opacity * ColorAt(prediction, uvw);
         depth += through * opacity * static_cast<float>(t);
         through *= 1.0f - opacity;
       }
-      for (int c = 0; c < 3; ++c) drawn.picture.color.At(x, y)[c] = color[c];
-      drawn.picture.opacity.At(x, y)[0] = 1.0f - through;
-      drawn.depth.At(x, y)[0] = depth;
+      for (int c = 0; c < 3; ++c) rendered.picture.color.At(x, y)[c] = color[c];
+      rendered.picture.opacity.At(x, y)[0] = 1.0f - through;
+      rendered.depth.At(x, y)[0] = depth;
     }
   });
-  return drawn;
+  return rendered;
 }
 
 core::TriangleMesh PredictedSurface(const ShapePrediction& prediction, int resolution) {
   const Eigen::AlignedBox3d box = prediction.box;
   if (box.isEmpty()) throw core::Error("the shape prior sees nothing in the picture");
-  if (resolution < 8) throw core::Error("a surface takes at least 8 cells");
+  if (resolution < 8) throw core::Error("a surface needs at least 8 cells");
   geometry::ScalarGrid grid;
   grid.cell = box.sizes().maxCoeff() / resolution;
   grid.origin = box.min() - Eigen::Vector3d::Constant(grid.cell);

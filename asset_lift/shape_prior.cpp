@@ -37,18 +37,18 @@ ShapePrediction ShapePrior::Predict(const core::Image& crop, const ViewFrame& fr
 
 std::vector<ShapePrediction> ShapePrior::Predict(const std::vector<core::Image>& crops,
                                                  const std::vector<ViewFrame>& frames) const {
-  if (crops.size() != frames.size()) throw core::Error("a crop has one frame");
+  if (crops.size() != frames.size()) throw core::Error("crops and frames must be equal in number");
   nn::PrepareForWork();
   std::vector<torch::Tensor> pictures;
   for (const core::Image& crop : crops) {
     if (crop.width != kCropSide || crop.height != kCropSide || crop.channels != 4) {
-      throw core::Error("the shape prior sees RGBA crops of 64 x 64 pixels");
+      throw core::Error("the shape prior needs RGBA crops of 64 x 64 pixels");
     }
     pictures.push_back(PicturesFromRgba(crop.pixels.data(), 1, kCropSide));
   }
   const torch::NoGradGuard no_grad;
-  // A mirrored photo is a photo of the mirrored object: both answers count, and their errors
-  // differ.
+  // A mirrored photo is a photo of the mirrored object: the two predictions are averaged, because
+  // their errors differ.
   const torch::Tensor seen = torch::cat(pictures).to(network_->device);
   const ShapeNetworkOutput output = network_->module(seen);
   const ShapeNetworkOutput mirrored = network_->module(seen.flip(3));

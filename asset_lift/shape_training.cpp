@@ -22,8 +22,8 @@ torch::Tensor Bytes(std::vector<std::uint8_t>* values, at::IntArrayRef shape) {
   return torch::from_blob(values->data(), shape, torch::kUInt8).to(torch::kFloat).div(255.0);
 }
 
-// Photos of random objects of the pool. A mirrored photo is a photo of a mirrored object.
-Batch DrawBatch(const TrainingPool& pool, int size, std::uint64_t seed, std::uint64_t step) {
+// Samples photos of random objects of the pool. A mirrored photo is a photo of a mirrored object.
+Batch SampleBatch(const TrainingPool& pool, int size, std::uint64_t seed, std::uint64_t step) {
   std::vector<ShapeExample> examples(static_cast<size_t>(size));
   std::vector<std::uint8_t> mirrored(static_cast<size_t>(size));
   core::ParallelFor(size, [&](int i) {
@@ -61,10 +61,10 @@ struct Losses {
   double elevation_error = 0.0;  // degrees
 };
 
-// Cross-entropy and Dice of the volume, where the outline leaves room for it; L1 of the hidden
-// side's colour; Laplace likelihood of the elevation.
+// Computes the losses: cross-entropy and Dice of the volume where the silhouette permits occupancy,
+// L1 of the hidden side's colour, and the Laplace likelihood of the elevation.
 Losses LossesOf(const ShapeNetworkOutput& output, const Batch& batch) {
-  // Columns with no share of the outline are empty beyond doubt: they teach little.
+  // Columns outside the silhouette are certainly empty: they carry little information.
   const torch::Tensor seen = (batch.pictures.slice(1, 3, 4) > 0.02).to(torch::kFloat);
   const torch::Tensor weight = 0.05 + 0.95 * seen;
   const torch::Tensor entropy =
@@ -112,11 +112,11 @@ PriorTrainingReport TrainShapeNetwork(const std::vector<core::TexturedMesh>& mes
       "shape", {"volume IoU", "elevation error, deg"}, 0, network.get(), kept.get()};
   return TrainPrior(training, meshes, options, weights, progress, report,
                     [&](const TrainingPool& pool, int step) -> PriorBatch {
-                      const Batch drawn = DrawBatch(pool, options.batch, options.seed,
-                                                    static_cast<std::uint64_t>(step));
-                      return [&network, device, drawn] {
-                        const Batch batch{drawn.pictures.to(device), drawn.occupancy.to(device),
-                                          drawn.back.to(device), drawn.elevation.to(device)};
+                      const Batch sampled = SampleBatch(pool, options.batch, options.seed,
+                                                        static_cast<std::uint64_t>(step));
+                      return [&network, device, sampled] {
+                        const Batch batch{sampled.pictures.to(device), sampled.occupancy.to(device),
+                                          sampled.back.to(device), sampled.elevation.to(device)};
                         const Losses losses = LossesOf(network(batch.pictures), batch);
                         return PriorLoss{losses.total, {losses.iou, losses.elevation_error}};
                       };

@@ -10,13 +10,13 @@
 namespace simwright::asset_lift {
 namespace {
 
-// A view whose colours count only where the pixel and its neighbours are the object's.
+// A view whose colours count only where the pixel and its neighbours belong to the object.
 struct ColorView {
   const ObservedView* view;
   Eigen::Isometry3d camera_from_world;
   Eigen::Vector3f eye;
 
-  // Bilinear; false where the point is not safely within the mask.
+  // Interpolates bilinearly. Returns false where the point is not safely inside the mask.
   bool At(const Eigen::Vector3d& point, Eigen::Vector3f* color) const {
     const core::Camera& camera = view->camera;
     const Eigen::Vector3d p = camera_from_world * point;
@@ -38,7 +38,7 @@ struct ColorView {
   }
 };
 
-// Nodes inside with a neighbour outside.
+// Returns the inside nodes with a neighbour outside.
 std::vector<Eigen::Vector3i> SurfaceNodes(const geometry::ScalarGrid& field) {
   std::vector<Eigen::Vector3i> nodes;
   const auto outside = [&](int i, int j, int k) {
@@ -59,7 +59,7 @@ std::vector<Eigen::Vector3i> SurfaceNodes(const geometry::ScalarGrid& field) {
   return nodes;
 }
 
-// Standard deviation of the colours, all channels together; -1 for fewer than two.
+// Returns the standard deviation of the colours, all channels together; -1 for fewer than two.
 double Deviation(const std::vector<Eigen::Vector3f>& colors) {
   if (colors.size() < 2) return -1.0;
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
@@ -70,10 +70,10 @@ double Deviation(const std::vector<Eigen::Vector3f>& colors) {
   return std::sqrt(sum / static_cast<double>(colors.size() - 1));
 }
 
-// Nodes that carving has left standing out into the air it made, in the minority of their
-// surroundings (5 x 5 x 5): colours agreed there by chance. Only near what was carved.
-std::vector<std::size_t> Rubble(const geometry::ScalarGrid& field,
-                                const std::vector<char>& carved) {
+// Returns the nodes near carved ones that are a minority of their 5 x 5 x 5 neighbourhood:
+// protrusions whose colours agree by chance.
+std::vector<std::size_t> Protrusions(const geometry::ScalarGrid& field,
+                                     const std::vector<char>& carved) {
   std::vector<std::size_t> rubble;
   for (const Eigen::Vector3i& node : SurfaceNodes(field)) {
     int air = 0, made = 0, all = 0;
@@ -94,7 +94,7 @@ std::vector<std::size_t> Rubble(const geometry::ScalarGrid& field,
   return rubble;
 }
 
-// Whether there is something behind nearly all pixels of each mask.
+// Returns true if at least 97% of the pixels of each mask have the surface behind them.
 bool Explains(const std::vector<ObservedView>& views, const geometry::ScalarGrid& field) {
   core::TexturedMesh surface;
   surface.mesh = geometry::ExtractIsosurface(field, 0.0f);
@@ -131,7 +131,7 @@ class Carver {
     }
   }
 
-  // Takes a layer away; how many nodes.
+  // Carves one layer and returns the number of its nodes.
   std::size_t CarveLayer() {
     core::TexturedMesh surface;
     surface.mesh = geometry::ExtractIsosurface(field_, 0.0f);
@@ -146,7 +146,7 @@ class Carver {
       std::vector<Eigen::Vector3f> colors;
       const std::size_t first = static_cast<std::size_t>(chunk) * kChunk;
       for (std::size_t n = first; n < std::min(nodes.size(), first + kChunk); ++n) {
-        LookAt(scene, field_.origin + field_.cell * nodes[n].cast<double>(), &colors);
+        CollectColors(scene, field_.origin + field_.cell * nodes[n].cast<double>(), &colors);
         differs[n] = Deviation(colors) > tolerance_;
       }
     });
@@ -163,7 +163,7 @@ class Carver {
     std::size_t count = 0;
     for (;;) {
       core::CheckCancelled();
-      const std::vector<std::size_t> rubble = Rubble(field_, carved_);
+      const std::vector<std::size_t> rubble = Protrusions(field_, carved_);
       for (const std::size_t at : rubble) TakeAway(at);
       count += rubble.size();
       if (rubble.empty()) return count;
@@ -176,14 +176,14 @@ class Carver {
     field_.values[at] = 0.5f * static_cast<float>(field_.cell);
   }
 
-  // The colours in which the views that see the place show it.
-  void LookAt(const render::Scene& scene, const Eigen::Vector3d& place,
-              std::vector<Eigen::Vector3f>* colors) const {
+  // Collects the point's colours in the views that see it.
+  void CollectColors(const render::Scene& scene, const Eigen::Vector3d& place,
+                     std::vector<Eigen::Vector3f>* colors) const {
     colors->clear();
     for (const ColorView& view : looking_) {
       Eigen::Vector3f color;
       if (!view.At(place, &color)) continue;
-      // The node lies up to a cell below the surface that the ray is stopped by.
+      // The node lies up to a cell below the surface that the ray hits.
       const Eigen::Vector3f to_eye = view.eye - place.cast<float>();
       const float skip = 1.5f * static_cast<float>(field_.cell) / to_eye.norm();
       if (!scene.Occluded(place.cast<float>(), to_eye, skip, 1.0f)) colors->push_back(color);

@@ -10,9 +10,9 @@
 namespace simwright::asset_lift {
 namespace {
 
-constexpr int kStepsAReport = 50;
+constexpr int kStepsPerReport = 50;
 
-// Sums what each step says, and reports the means every so often and at the end.
+// Accumulates the metrics of the steps and reports their means at intervals and at the end.
 class TrainingMeans {
  public:
   TrainingMeans(std::vector<std::string> names, int steps, const PriorTrainingListener& listener)
@@ -22,7 +22,7 @@ class TrainingMeans {
     loss_ += loss.total.item<double>();
     for (size_t i = 0; i < sums_.size(); ++i) sums_[i] += loss.metrics[i];
     ++count_;
-    if ((step + 1) % kStepsAReport != 0 && step + 1 != steps_) return;
+    if ((step + 1) % kStepsPerReport != 0 && step + 1 != steps_) return;
     last_ = {step + 1, loss_ / count_, {}, 0.0};
     last_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -56,10 +56,10 @@ bool PriorTrainingOptions::IsValid(std::string* error) const {
     return false;
   };
   if (!trainer.IsValid(error)) return false;
-  if (batch < 1) return fail("training needs a photo a step");
+  if (batch < 1) return fail("training needs at least one photo per step");
   if (pool < 1 || exchange < 0 || exchange > pool) return fail("the pool is too small");
   if (!(parametric_share >= 0.0 && parametric_share <= 1.0)) {
-    return fail("the share of parametric shapes lies in [0, 1]");
+    return fail("parametric_share must be in [0, 1]");
   }
   return true;
 }
@@ -76,7 +76,7 @@ PriorTrainingReport TrainPrior(const PriorTraining& training,
   nn::Trainer trainer(training.network, options.trainer, weights.string() + ".state");
   const int first = trainer.first_step(), steps = options.trainer.steps;
   progress->Stage("preparing shapes");
-  // A training that goes on takes up new objects.
+  // A resumed training uses new objects.
   TrainingPool pool(
       &meshes, options.pool, options.parametric_share,
       options.seed + training.seed_offset + 1000003ull * static_cast<std::uint64_t>(first));
@@ -86,7 +86,7 @@ PriorTrainingReport TrainPrior(const PriorTraining& training,
     pool.Exchange(options.exchange);
     return source(pool, step);
   };
-  // One batch ahead: neither photographing nor the network alone keeps all cores busy.
+  // One batch is prepared ahead: neither rendering nor the network alone keeps all cores busy.
   std::future<PriorBatch> next = std::async(std::launch::async, draw, first);
   for (int i = first; i < steps; ++i) {
     const PriorBatch batch = next.get();

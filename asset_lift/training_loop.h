@@ -11,13 +11,13 @@
 
 namespace simwright::asset_lift {
 
-// What sets the training of one network apart from another's.
+// The network-specific part of a training.
 struct PriorTraining {
-  std::string kind;                  // "shape": of the checkpoint's card, and named in the progress
-  std::vector<std::string> metrics;  // names with units
-  std::uint64_t seed_offset = 0;     // of the objects, so that no two trainings see the same
+  std::string kind;                      // "shape": in the checkpoint's card and in the progress
+  std::vector<std::string> metrics;      // names with units
+  std::uint64_t seed_offset = 0;         // of the objects, so that no two trainings share them
   torch::nn::Module* network = nullptr;  // trained
-  torch::nn::Module* kept = nullptr;     // another of its kind: takes the averaged weights
+  torch::nn::Module* kept = nullptr;     // a copy that takes the averaged weights
 };
 
 struct PriorLoss {
@@ -25,14 +25,14 @@ struct PriorLoss {
   std::vector<double> metrics;  // as named
 };
 
-// A batch: says what the network makes of it.
+// Evaluates the network on one batch.
 using PriorBatch = std::function<PriorLoss()>;
-// Photographs the pool's objects for a step. Called ahead of time from another thread, while the
-// network learns from the batch before: it must leave the network alone.
+// Renders the pool's objects for a step. It is called ahead of time from another thread, while the
+// network trains on the previous batch: it must not access the network.
 using PriorBatchSource = std::function<PriorBatch(const TrainingPool& pool, int step)>;
 
-// The loop around a network's steps: objects, optimiser, reports, weights and the state to go on
-// from, as promised in prior_training.h.
+// Runs the training loop of a network: objects, optimizer, reports, weights and the resume state,
+// as specified in prior_training.h.
 PriorTrainingReport TrainPrior(const PriorTraining& training,
                                const std::vector<core::TexturedMesh>& meshes,
                                const PriorTrainingOptions& options,

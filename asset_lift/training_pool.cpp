@@ -26,7 +26,7 @@ void TrainingPool::Exchange(int count) {
 }
 
 std::unique_ptr<TrainingObject> TrainingPool::Make(std::uint64_t number) const {
-  // A mesh that turns out to have no extent gives way to another draw.
+  // A mesh without extent is replaced by another sample.
   for (int attempt = 0; attempt < 10; ++attempt) {
     core::Rng rng = core::StreamRng(seed_, number * 16 + static_cast<std::uint64_t>(attempt));
     Eigen::Vector3d stretch;

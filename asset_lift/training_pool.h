@@ -9,11 +9,11 @@
 
 namespace simwright::asset_lift {
 
-// Objects ready to be photographed: stretched catalogue meshes and parametric shapes, exchanged
-// little by little, since making one ready costs as much as many photos of it.
+// The objects prepared for rendering: stretched catalogue meshes and parametric shapes. They are
+// exchanged gradually, since preparing one costs as much as many renderings of it.
 class TrainingPool {
  public:
-  // `meshes` must outlive the pool. Deterministic for a seed, whatever the threads.
+  // `meshes` must outlive the pool. Deterministic for a seed, regardless of the number of threads.
   TrainingPool(const std::vector<core::TexturedMesh>* meshes, int size, double parametric_share,
                std::uint64_t seed);
 

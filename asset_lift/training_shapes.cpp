@@ -12,7 +12,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 Eigen::Vector4f RandomColor(core::Rng* rng) {
-  // Half of what stands about is grey, white, black or brown.
+  // Half of household objects are grey, white, black or brown.
   const double value = core::Uniform(*rng, 0.05, 1.0), tint = core::Uniform(*rng);
   Eigen::Vector4f color(0, 0, 0, 1);
   for (int c = 0; c < 3; ++c) {
@@ -23,7 +23,7 @@ Eigen::Vector4f RandomColor(core::Rng* rng) {
   return color;
 }
 
-// Stripes, checks, dots or grain in two colours.
+// Returns stripes, checks, dots or grain in two colours.
 core::Image RandomTexture(core::Rng* rng) {
   constexpr int kSide = 64;
   const Eigen::Vector4f a = RandomColor(rng), b = RandomColor(rng);
@@ -49,7 +49,7 @@ core::Image RandomTexture(core::Rng* rng) {
   return image;
 }
 
-// Puts parts together and paints them.
+// Assembles parts and paints them.
 class Assembly {
  public:
   explicit Assembly(core::Rng* rng) : rng_(rng) {
@@ -69,7 +69,7 @@ class Assembly {
 
   double Draw(double low, double high) { return core::Uniform(*rng_, low, high); }
   int Pick(int count) { return static_cast<int>(core::UniformIndex(*rng_, count)); }
-  bool Chance(double share) { return core::Uniform(*rng_) < share; }
+  bool Bernoulli(double share) { return core::Uniform(*rng_) < share; }
 
   void Add(core::TriangleMesh part, const Vector3d& at = Vector3d::Zero(),
            const Eigen::Matrix3d& turn = Eigen::Matrix3d::Identity(), int material = -1) {
@@ -78,7 +78,7 @@ class Assembly {
     place.translation() = at;
     const int chosen = material >= 0 ? material % static_cast<int>(shape_.materials.size())
                                      : Pick(static_cast<int>(shape_.materials.size()));
-    // Mapped by position before placing: what goes round a part goes round its texture.
+    // UVs follow the position before placing: the texture wraps around the part.
     const double scale = 1.5;
     for (const Eigen::Vector3i& t : part.triangles) {
       const Vector3d n = (part.vertices[t[1]] - part.vertices[t[0]])
@@ -96,9 +96,9 @@ class Assembly {
     core::Append(part, &shape_.mesh);
   }
 
-  // Four legs at (+-x, +-y), from the floor up.
+  // Adds four legs at (+-x, +-y), from the floor up.
   void AddLegs(double x, double y, double height, double thick, int material) {
-    const bool round = Chance(0.4);
+    const bool round = Bernoulli(0.4);
     const double taper = Draw(0.5, 1.0);
     for (int i = 0; i < 4; ++i) {
       const Vector3d at((i & 1 ? 1 : -1) * x, (i & 2 ? 1 : -1) * y, 0.5 * height);
@@ -118,11 +118,11 @@ class Assembly {
   core::TexturedMesh shape_;
 };
 
-Eigen::Matrix3d TurnedAbout(const Vector3d& axis, double angle) {
+Eigen::Matrix3d RotationAbout(const Vector3d& axis, double angle) {
   return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
 }
 
-// Radii between the heights 0 and `height`, smooth, for bottles, vases, turned legs.
+// Returns smooth radii between the heights 0 and `height`, for bottles, vases and turned legs.
 std::vector<Vector2d> SmoothProfile(Assembly* a, double height, double wide) {
   const int knots = 3 + a->Pick(4);
   std::vector<double> radius;
@@ -149,13 +149,13 @@ void AddHandle(Assembly* a, double radius, double low, double high, double angle
                       0.5 * (low + high) - 0.5 * (high - low) * std::cos(t));
   }
   a->Add(TubePart(path, a->Draw(0.06, 0.13) * (high - low), 10), Vector3d::Zero(),
-         TurnedAbout(Vector3d::UnitZ(), angle), 0);
+         RotationAbout(Vector3d::UnitZ(), angle), 0);
 }
 
 void Vessel(Assembly* a) {
   const double height = a->Draw(0.25, 1.2), wide = a->Draw(0.25, 0.6), wall = a->Draw(0.02, 0.06);
   std::vector<Vector2d> outside;
-  if (a->Chance(0.5)) {
+  if (a->Bernoulli(0.5)) {
     const double foot = wide * a->Draw(0.45, 1.05), bulge = a->Draw(-0.1, 0.25) * wide;
     for (int i = 0; i <= 16; ++i) {
       const double t = i / 16.0;
@@ -170,25 +170,25 @@ void Vessel(Assembly* a) {
     profile.emplace_back(std::max(0.01, outside[i].x() - wall), z);
   }
   a->Add(RevolvedPart(profile, 32), Vector3d::Zero(), Eigen::Matrix3d::Identity(), 0);
-  if (a->Chance(0.6)) {
+  if (a->Bernoulli(0.6)) {
     const double turn = a->Draw(0, 2 * M_PI), low = height * a->Draw(0.1, 0.35),
                  high = height * a->Draw(0.65, 0.92);
     AddHandle(a, outside[outside.size() / 2].x(), low, high, turn);
-    if (a->Chance(0.25)) AddHandle(a, outside[outside.size() / 2].x(), low, high, turn + M_PI);
+    if (a->Bernoulli(0.25)) AddHandle(a, outside[outside.size() / 2].x(), low, high, turn + M_PI);
   }
-  if (a->Chance(0.15)) {  // a saucer or a tray
+  if (a->Bernoulli(0.15)) {  // a saucer or a tray
     a->Add(
         RevolvedPart({{0.6 * wide, -0.03}, {1.6 * wide, 0.02}, {1.6 * wide, 0.04}, {0.0, 0.0}}, 32),
         {0, 0, -0.01});
   }
 }
 
-void TurnedBody(Assembly* a) {
+void SolidOfRevolution(Assembly* a) {
   const double height = a->Draw(0.3, 1.4);
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  if (a->Chance(0.2)) turn = TurnedAbout(Vector3d::UnitX(), 0.5 * M_PI);
+  if (a->Bernoulli(0.2)) turn = RotationAbout(Vector3d::UnitX(), 0.5 * M_PI);
   a->Add(RevolvedPart(SmoothProfile(a, height, a->Draw(0.12, 0.6)), 28), Vector3d::Zero(), turn);
-  if (a->Chance(0.3)) {
+  if (a->Bernoulli(0.3)) {
     a->Add(SuperquadricPart(Vector3d::Constant(a->Draw(0.08, 0.3)), 1, 1, 20),
            turn * Vector3d(0, 0, height));
   }
@@ -197,7 +197,7 @@ void TurnedBody(Assembly* a) {
 void Bunch(Assembly* a) {
   const int count = 1 + a->Pick(5);
   Vector3d at = Vector3d::Zero(), half = Vector3d::Zero();
-  const bool mirrored = a->Chance(0.5);
+  const bool mirrored = a->Bernoulli(0.5);
   for (int i = 0; i < count; ++i) {
     const Vector3d size{a->Draw(0.08, 0.5), a->Draw(0.08, 0.5), a->Draw(0.08, 0.5)};
     if (i > 0) {
@@ -206,8 +206,9 @@ void Bunch(Assembly* a) {
       at += 0.8 * direction.cwiseProduct(half + 0.7 * size);
     }
     half = size;
-    const Eigen::Matrix3d turn = a->Chance(0.3) ? TurnedAbout(Vector3d::UnitZ(), a->Draw(0, M_PI))
-                                                : Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d turn = a->Bernoulli(0.3)
+                                     ? RotationAbout(Vector3d::UnitZ(), a->Draw(0, M_PI))
+                                     : Eigen::Matrix3d::Identity();
     const core::TriangleMesh part =
         SuperquadricPart(size, a->Draw(0.15, 1.3), a->Draw(0.15, 1.3), 24);
     a->Add(part, at, turn, i);
@@ -218,21 +219,21 @@ void Bunch(Assembly* a) {
 void Table(Assembly* a) {
   const double x = a->Draw(0.25, 0.8), y = a->Draw(0.25, 0.6), height = a->Draw(0.25, 1.0),
                thick = a->Draw(0.03, 0.12);
-  const bool round = a->Chance(0.35);
+  const bool round = a->Bernoulli(0.35);
   const double radius = 0.5 * (x + y);
   if (round) {
     a->Add(RevolvedPart({{radius, -0.5 * thick}, {radius, 0.5 * thick}}, 32), {0, 0, height});
   } else {
     a->Add(BoxPart({2 * x, 2 * y, thick}), {0, 0, height});
   }
-  if (round && a->Chance(0.6)) {
+  if (round && a->Bernoulli(0.6)) {
     const double stem = a->Draw(0.04, 0.15), foot = a->Draw(0.3, 0.8) * radius;
     a->Add(RevolvedPart({{foot, 0.0}, {foot, 0.04}, {stem, 0.1}, {stem, height}}, 24));
   } else {
     const double inside = round ? 0.65 : a->Draw(0.8, 0.95);
     a->AddLegs(inside * (round ? radius : x), inside * (round ? radius : y), height,
                a->Draw(0.04, 0.12), 1);
-    if (a->Chance(0.3))
+    if (a->Bernoulli(0.3))
       a->Add(BoxPart({2 * x * inside, 2 * y * inside, 0.04}), {0, 0, 0.3 * height});
   }
 }
@@ -240,12 +241,12 @@ void Table(Assembly* a) {
 void Chair(Assembly* a) {
   const double x = a->Draw(0.22, 0.5), y = a->Draw(0.22, 0.4), seat = a->Draw(0.25, 0.55),
                back = a->Draw(0.2, 0.8), thick = a->Draw(0.04, 0.2);
-  a->Add(a->Chance(0.6) ? BoxPart({2 * x, 2 * y, thick})
-                        : SuperquadricPart({x, y, 0.6 * thick}, 0.4, a->Draw(0.3, 1.0), 24),
+  a->Add(a->Bernoulli(0.6) ? BoxPart({2 * x, 2 * y, thick})
+                           : SuperquadricPart({x, y, 0.6 * thick}, 0.4, a->Draw(0.3, 1.0), 24),
          {0, 0, seat}, Eigen::Matrix3d::Identity(), 0);
   const double lean = a->Draw(0.0, 0.3), back_thick = a->Draw(0.03, 0.18);
-  const Eigen::Matrix3d turn = TurnedAbout(Vector3d::UnitX(), -lean);
-  const int bars = a->Chance(0.4) ? 2 + a->Pick(4) : 0;
+  const Eigen::Matrix3d turn = RotationAbout(Vector3d::UnitX(), -lean);
+  const int bars = a->Bernoulli(0.4) ? 2 + a->Pick(4) : 0;
   const Vector3d foot(0, y - 0.5 * back_thick, seat);
   if (bars == 0) {
     a->Add(BoxPart({2 * x, back_thick, back}), foot + turn * Vector3d(0, 0, 0.5 * back), turn, 0);
@@ -256,15 +257,15 @@ void Chair(Assembly* a) {
     }
     a->Add(BoxPart({2 * x, 0.06, 0.1}), foot + turn * Vector3d(0, 0, back), turn, 1);
   }
-  if (a->Chance(0.35)) {
+  if (a->Bernoulli(0.35)) {
     const double high = seat + a->Draw(0.12, 0.3), wide = a->Draw(0.05, 0.2);
-    const bool panel = a->Chance(0.5);  // down to the floor, or a rail in the air
+    const bool panel = a->Bernoulli(0.5);  // a panel down to the floor, or a raised rail
     for (const int side : {-1, 1}) {
       a->Add(BoxPart({wide, 2 * y, panel ? high : 0.06}), {side * x, 0, panel ? 0.5 * high : high},
              Eigen::Matrix3d::Identity(), 1);
     }
   }
-  if (a->Chance(0.75)) {
+  if (a->Bernoulli(0.75)) {
     a->AddLegs(0.88 * x, 0.88 * y, seat, a->Draw(0.04, 0.1), 1);
   } else {
     a->Add(BoxPart({1.9 * x, 1.9 * y, seat}), {0, 0, 0.5 * seat});
@@ -273,10 +274,10 @@ void Chair(Assembly* a) {
 
 void Cabinet(Assembly* a) {
   const double x = a->Draw(0.15, 0.7), y = a->Draw(0.12, 0.5), height = a->Draw(0.2, 1.4),
-               wall = a->Draw(0.03, 0.06), lift = a->Chance(0.3) ? a->Draw(0.08, 0.3) : 0.0;
+               wall = a->Draw(0.03, 0.06), lift = a->Bernoulli(0.3) ? a->Draw(0.08, 0.3) : 0.0;
   const double middle = lift + 0.5 * height;
   if (lift > 0.0) a->AddLegs(0.85 * x, 0.85 * y, lift, a->Draw(0.04, 0.1), 1);
-  if (a->Chance(0.55)) {  // closed, with doors or drawers
+  if (a->Bernoulli(0.55)) {  // closed, with doors or drawers
     a->Add(BoxPart({2 * x, 2 * y, height}), {0, 0, middle}, Eigen::Matrix3d::Identity(), 0);
     const int rows = 1 + a->Pick(4), columns = 1 + a->Pick(2);
     for (int r = 0; r < rows; ++r) {
@@ -293,7 +294,7 @@ void Cabinet(Assembly* a) {
   for (const int side : {-1, 1}) {
     a->Add(BoxPart({wall, 2 * y, height}), {side * x, 0, middle}, Eigen::Matrix3d::Identity(), 0);
   }
-  if (a->Chance(0.7)) {
+  if (a->Bernoulli(0.7)) {
     a->Add(BoxPart({2 * x, wall, height}), {0, y, middle}, Eigen::Matrix3d::Identity(), 0);
   }
   const int boards = 2 + a->Pick(4);
@@ -305,19 +306,19 @@ void Cabinet(Assembly* a) {
 
 void Appliance(Assembly* a) {
   const Vector3d half{a->Draw(0.15, 0.6), a->Draw(0.05, 0.5), a->Draw(0.1, 0.7)};
-  a->Add(a->Chance(0.6) ? BoxPart(2 * half)
-                        : SuperquadricPart(half, a->Draw(0.1, 0.4), a->Draw(0.1, 0.4), 32),
+  a->Add(a->Bernoulli(0.6) ? BoxPart(2 * half)
+                           : SuperquadricPart(half, a->Draw(0.1, 0.4), a->Draw(0.1, 0.4), 32),
          {0, 0, half.z()}, Eigen::Matrix3d::Identity(), 0);
-  if (a->Chance(0.7)) {
+  if (a->Bernoulli(0.7)) {
     a->Add(BoxPart({1.7 * half.x(), 0.04, 1.5 * half.z()}), {0, -half.y(), half.z()},
            Eigen::Matrix3d::Identity(), 1);
   }
-  if (a->Chance(0.3)) {
+  if (a->Bernoulli(0.3)) {
     const double stand = a->Draw(0.05, 0.3);
     a->Add(BoxPart({0.15, 0.1, stand}), {0, 0, -0.5 * stand});
     a->Add(BoxPart({0.9 * half.x(), a->Draw(0.2, 0.5), 0.04}), {0, 0, -stand});
   }
-  if (a->Chance(0.3)) {
+  if (a->Bernoulli(0.3)) {
     a->Add(RevolvedPart({{0.08, 0.0}, {0.1, 0.15}}, 16), {0, 0, 2 * half.z()});
   }
 }
@@ -340,8 +341,8 @@ void Stack(Assembly* a) {
   for (int i = 0; i < count; ++i) {
     a->Add(BoxPart({a->Draw(0.08, 0.8), a->Draw(0.08, 0.8), a->Draw(0.05, 0.8)}),
            {a->Draw(-0.4, 0.4), a->Draw(-0.4, 0.4), a->Draw(0.0, 0.7)},
-           a->Chance(0.3) ? TurnedAbout(Vector3d::UnitZ(), a->Draw(0, M_PI))
-                          : Eigen::Matrix3d::Identity());
+           a->Bernoulli(0.3) ? RotationAbout(Vector3d::UnitZ(), a->Draw(0, M_PI))
+                             : Eigen::Matrix3d::Identity());
   }
 }
 
@@ -350,9 +351,9 @@ void Stack(Assembly* a) {
 core::TexturedMesh MakeTrainingShape(core::Rng* rng) {
   Assembly assembly(rng);
   using Kind = void (*)(Assembly*);
-  // Vessels and bunches twice: what is photographed for a robot is mostly these.
-  constexpr Kind kKinds[] = {Vessel, Vessel,  TurnedBody, Bunch, Bunch, Table,
-                             Chair,  Cabinet, Appliance,  Lamp,  Stack};
+  // Vessels and bunches are listed twice: most objects photographed for a robot are of these kinds.
+  constexpr Kind kKinds[] = {Vessel, Vessel,  SolidOfRevolution, Bunch, Bunch, Table,
+                             Chair,  Cabinet, Appliance,         Lamp,  Stack};
   kKinds[core::UniformIndex(*rng, std::size(kKinds))](&assembly);
   return assembly.Take();
 }

@@ -5,10 +5,10 @@
 
 namespace simwright::asset_lift {
 
-// A random thing such as stands about in houses, about one unit large, z up: vessels with cavity
-// and handles, bodies of revolution, superquadrics and bunches of them, tables, chairs, shelves,
-// boxes with doors, lamps; each part with a colour or a procedural texture. What the learned
-// priors see beside catalogue meshes: no catalogue has enough forms.
+// Returns a random household object, about one unit large, z up: vessels with a hollow and handles,
+// solids of revolution, superquadrics and bunches of them, tables, chairs, shelves, boxes with
+// doors, lamps; each part has a colour or a procedural texture. The learned priors train on them
+// beside catalogue meshes, because no catalogue has enough shapes.
 core::TexturedMesh MakeTrainingShape(core::Rng* rng);
 
 }  // namespace simwright::asset_lift

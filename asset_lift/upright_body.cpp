@@ -12,7 +12,8 @@ namespace {
 constexpr int kLevels = 110;
 
 struct Sights {
-  std::vector<Eigen::Vector3d> outline;  // ray directions through background next to the mask
+  std::vector<Eigen::Vector3d> outline;  // ray directions through background pixels next to the
+                                         // mask
   std::vector<Eigen::Vector3d> inside;   // through sampled mask pixels
 };
 
@@ -35,7 +36,7 @@ Sights CollectSights(const cv::Mat& mask, const core::Camera& camera) {
   return sights;
 }
 
-// Radius by level for one axis.
+// Computes the radius per level for one axis.
 void FillRadii(const Sights& sights, const cv::Mat& mask, const core::Camera& camera,
                UprightBody* body) {
   const Eigen::Vector3d eye = camera.position();
@@ -59,8 +60,8 @@ void FillRadii(const Sights& sights, const cv::Mat& mask, const core::Camera& ca
   }
 }
 
-// For each sampled inside ray, the range of levels that cover it, as [first, last] and whether
-// any does.
+// Returns the share of the sampled inside rays that the body covers. Per ray it finds the range of
+// levels that cover it, as [first, last], and whether any does.
 double Coverage(const Sights& sights, const core::Camera& camera, const UprightBody& body,
                 size_t first, size_t last) {
   const Eigen::Vector3d eye = camera.position();
@@ -73,7 +74,7 @@ double Coverage(const Sights& sights, const core::Camera& camera, const UprightB
       if (!(t > 0.0)) continue;
       const double dx = eye.x() + t * ray.x() - body.axis_x;
       const double dy = eye.y() + t * ray.y() - body.axis_y;
-      // Half a level's depth of slack: levels are samples of a continuous body.
+      // Half a level's depth of slack: levels sample a continuous body.
       const double slack = 0.5 * body.step * std::abs(ray.head<2>().norm() / ray.z());
       const double reach = body.radius[level] + std::min(slack, 0.5 * body.radius[level]);
       if (dx * dx + dy * dy <= reach * reach) {
@@ -86,7 +87,7 @@ double Coverage(const Sights& sights, const core::Camera& camera, const UprightB
          static_cast<double>(std::max<size_t>(1, sights.inside.size()));
 }
 
-// Cuts levels from one end while the silhouette stays; binary search on the number cut.
+// Cuts levels from one end while the silhouette is unchanged; binary search on the number cut.
 void TrimEnds(const Sights& sights, const core::Camera& camera, UprightBody* body) {
   size_t first = 0, last = body->radius.size() - 1;
   while (first < last && body->radius[first] <= 0.0) ++first;
@@ -112,7 +113,8 @@ void TrimEnds(const Sights& sights, const core::Camera& camera, UprightBody* bod
   body->bottom = bottom;
 }
 
-// The middle, in pixels, of the mask's run around column `x` of a row; negative where there is none.
+// Returns the middle, in pixels, of the mask's run around column `x` of a row; negative where there
+// is none.
 double MiddleOfRun(const cv::Mat& mask, int row, int x) {
   if (row < 0 || row >= mask.rows || x < 0 || x >= mask.cols || mask.at<uchar>(row, x) == 0) {
     return -1.0;
@@ -123,15 +125,16 @@ double MiddleOfRun(const cv::Mat& mask, int row, int x) {
   return 0.5 * (left + right + 1);
 }
 
-// Where the axis is in the middle of most levels' rows: those that a handle widens on one side are
-// fewer, as the hole beside its bow ends the row.
+// Returns the axis position that is in the middle of most levels' rows. Rows that a handle widens
+// on one side are a minority, since the hole inside the handle ends the row's run.
 double MiddleAxis(const cv::Mat& mask, const core::Camera& camera, const UprightBody& body) {
   std::vector<double> shifts;  // world
   for (size_t level = 0; level < body.radius.size(); ++level) {
     if (body.radius[level] <= 0.0) continue;
     const double z = body.bottom + body.step * static_cast<double>(level);
     const Eigen::Vector3d pixel = camera.Project({body.axis_x, body.axis_y, z});
-    const double middle = MiddleOfRun(mask, static_cast<int>(pixel.y()), static_cast<int>(pixel.x()));
+    const double middle =
+        MiddleOfRun(mask, static_cast<int>(pixel.y()), static_cast<int>(pixel.x()));
     if (middle < 0.0) continue;
     const Eigen::Vector3d aside = camera.Project({body.axis_x + body.step, body.axis_y, z});
     shifts.push_back((middle - pixel.x()) * body.step / (aside.x() - pixel.x()));
@@ -142,7 +145,7 @@ double MiddleAxis(const cv::Mat& mask, const core::Camera& camera, const Upright
   return body.axis_x + shifts[shifts.size() / 2];
 }
 
-// The uppermost row, in pixels, that a disc reaches.
+// Returns the uppermost row, in pixels, that a disc reaches.
 double TopRow(const core::Camera& camera, const UprightBody& body, double z, double radius) {
   double top = std::numeric_limits<double>::infinity();
   constexpr int kSides = 72;
@@ -172,7 +175,8 @@ double UprightBody::MaxRadius() const {
 UprightBody FitUprightBody(const cv::Mat& mask, const core::Camera& camera) {
   const Sights sights = CollectSights(mask, camera);
   const cv::Rect box = cv::boundingRect(mask);
-  // The outline's box at the object's distance bounds the body; discs reach before and behind.
+  // The mask's bounding box at the object's distance bounds the body; discs extend in front and
+  // behind.
   const double unit = camera.position().norm();
   const double pixel = unit / camera.fy;
   const double half = pixel * std::max(box.width, box.height);
@@ -183,7 +187,7 @@ UprightBody FitUprightBody(const cv::Mat& mask, const core::Camera& camera) {
   UprightBody best = body;
   const double left = pixel * (box.x - 0.5 * mask.cols), width = pixel * box.width;
   const Eigen::Vector3d middle = camera.world_from_camera.inverse() * Eigen::Vector3d::Zero();
-  const double center_x = middle.x();  // the origin's sideways place before the camera
+  const double center_x = middle.x();  // lateral position of the origin before the camera
   const double left_world = left - (camera.cx - 0.5 * mask.cols) * pixel - center_x;
   double from = left_world + 0.15 * width, to = left_world + 0.85 * width;
   for (int round_of_search = 0; round_of_search < 3; ++round_of_search) {
@@ -210,7 +214,7 @@ UprightBody FitUprightBody(const cv::Mat& mask, const core::Camera& camera) {
 bool SharpenRim(const cv::Mat& mask, const core::Camera& camera, UprightBody* body) {
   const double height = body->top() - body->bottom;
   const auto at = [&](double share) { return body->RadiusAt(body->bottom + share * height); };
-  // The wall, as a line through the radii at 0.6 and 0.82 of the height.
+  // The wall is a line through the radii at 0.6 and 0.82 of the height.
   constexpr double kLow = 0.6, kHigh = 0.82, kShoulder = 0.97;
   const double slope = (at(kHigh) - at(kLow)) / ((kHigh - kLow) * height);
   const auto wall = [&](double z) {

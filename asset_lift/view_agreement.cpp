@@ -12,19 +12,19 @@
 namespace simwright::asset_lift {
 namespace {
 
-constexpr int kSide = 64;  // of the pictures in which masks are compared
-constexpr int kNobody = -1;
+constexpr int kSide = 64;  // of the images in which masks are compared
+constexpr int kNoView = -1;
 
-// A node that all views but `against` (or all) have within their masks.
+// A node that lies inside the masks of all views, or of all views but `against`.
 struct Place {
   Eigen::Vector3d point;
   int against;
 };
 
-// Nodes of a grid over `box` that at most one of `used` views has outside its mask, by more than
-// half a cell.
-std::vector<Place> Places(const std::vector<MaskCone>& cones, const std::vector<int>& used,
-                          const Eigen::AlignedBox3d& box, int cells, double* cell) {
+// Returns the nodes of a grid over `box` that at most one of the `used` views has outside its mask
+// by more than half a cell.
+std::vector<Place> ConsistentNodes(const std::vector<MaskCone>& cones, const std::vector<int>& used,
+                                   const Eigen::AlignedBox3d& box, int cells, double* cell) {
   *cell = box.sizes().maxCoeff() / cells;
   const int n = cells + 1;
   std::vector<std::vector<Place>> layers(n);
@@ -33,7 +33,7 @@ std::vector<Place> Places(const std::vector<MaskCone>& cones, const std::vector<
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i) {
         const Eigen::Vector3d p = box.min() + *cell * Eigen::Vector3d(i, j, k);
-        int outside = 0, against = kNobody;
+        int outside = 0, against = kNoView;
         for (std::size_t u = 0; u < used.size() && outside < 2; ++u) {
           if (cones[used[u]].At(p) <= 0.5 * *cell) continue;
           ++outside;
@@ -48,7 +48,7 @@ std::vector<Place> Places(const std::vector<MaskCone>& cones, const std::vector<
   return places;
 }
 
-// A view's mask, small, and which of its pixels places explain.
+// A scaled-down mask of a view, and its pixels that nodes explain.
 class Explained {
  public:
   Explained(const ObservedView& view, double cell)
@@ -73,7 +73,7 @@ class Explained {
 
   std::vector<std::uint8_t> Nothing() const { return std::vector<std::uint8_t>(mask_.size(), 0); }
 
-  // Marks the pixels that a cell about the place covers.
+  // Marks the pixels covered by a cell around the node.
   void Mark(const Eigen::Vector3d& place, std::vector<std::uint8_t>* seen) const {
     const Eigen::Vector3d p = camera_from_world_ * place;
     if (!(p.z() > 0.0)) return;
@@ -89,7 +89,7 @@ class Explained {
     }
   }
 
-  // The share of the mask that neither `seen` nor `more` marks.
+  // Returns the share of the mask that neither `seen` nor `more` marks.
   double Unexplained(const std::vector<std::uint8_t>& seen,
                      const std::vector<std::uint8_t>& more) const {
     std::int64_t left = 0;
@@ -107,7 +107,8 @@ class Explained {
   std::int64_t mask_size_;
 };
 
-// unexplained[v][u]: of view u's mask, by places that all views but v agree on (v = used: all).
+// Returns unexplained[v][u]: the share of view u's mask not explained by the nodes that all views
+// but v agree on (v = used: all).
 std::vector<std::vector<double>> Unexplained(const std::vector<ObservedView>& views,
                                              const std::vector<int>& used,
                                              const std::vector<Place>& places, double cell) {
@@ -119,7 +120,7 @@ std::vector<std::vector<double>> Unexplained(const std::vector<ObservedView>& vi
     std::vector<std::uint8_t> agreed = view.Nothing();
     std::vector<std::vector<std::uint8_t>> without(n, agreed);
     for (const Place& place : places) {
-      view.Mark(place.point, place.against == kNobody ? &agreed : &without[place.against]);
+      view.Mark(place.point, place.against == kNoView ? &agreed : &without[place.against]);
     }
     for (int v = 0; v < n; ++v) shares[v][u] = view.Unexplained(agreed, without[v]);
     shares[n][u] = view.Unexplained(agreed, agreed);
@@ -139,7 +140,7 @@ double Worst(const std::vector<double>& shares, int but) {
 
 ViewAgreement ExamineViews(const std::vector<ObservedView>& views, double tolerance, int cells) {
   RequireValid(views);
-  if (views.size() < 2) throw core::Error("agreement needs two views at least");
+  if (views.size() < 2) throw core::Error("a consistency check needs at least two views");
   std::vector<MaskCone> cones;
   for (const ObservedView& view : views) cones.emplace_back(view);
   ViewAgreement agreement;
@@ -150,7 +151,7 @@ ViewAgreement ExamineViews(const std::vector<ObservedView>& views, double tolera
     char sentence[160];
     std::snprintf(sentence, sizeof sentence,
                   "the camera or mask of view %d contradicts the other views: %.0f%% of a mask "
-                  "are explained by no place that all agree on",
+                  "have no point that all views agree on",
                   index, 100.0 * share);
     agreement.findings.push_back({"view-contradicts", core::Severity::kWarning,
                                   "view " + std::to_string(index), sentence, share});
@@ -159,23 +160,24 @@ ViewAgreement ExamineViews(const std::vector<ObservedView>& views, double tolera
     std::vector<ObservedView> of_used;
     for (const int i : used) of_used.push_back(views[i]);
     double cell = 0.0;
-    const std::vector<Place> places = Places(cones, used, ReachBox(of_used), cells, &cell);
+    const std::vector<Place> places = ConsistentNodes(cones, used, ReachBox(of_used), cells, &cell);
     const auto shares = Unexplained(views, used, places, cell);
     const int n = static_cast<int>(used.size());
     if (agreement.unexplained.empty()) agreement.unexplained = shares[n];
-    const double worst = Worst(shares[n], kNobody);
+    const double worst = Worst(shares[n], kNoView);
     if (worst <= tolerance) break;
     int best = 0;
     for (int v = 1; v < n; ++v) {
       if (Worst(shares[v], v) < Worst(shares[best], best)) best = v;
     }
-    // With two views each may be the wrong one.
+    // With two views either may be the wrong one.
     if (n == 2) {
       for (const int i : used) blame(i, worst);
       break;
     }
     if (Worst(shares[best], best) > 0.9 * worst) {
-      // Leaving out any one helps little: the one with the least in common goes first.
+      // If excluding any single view helps little, the view with the least in common is excluded
+      // first.
       for (int v = 0; v < n; ++v) {
         if (shares[v][v] > shares[best][best]) best = v;
       }

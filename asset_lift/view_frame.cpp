@@ -57,7 +57,7 @@ ObservedView CropView(const core::Image& photo, const core::Image& alpha, const 
                       int side) {
   if (photo.width != alpha.width || photo.height != alpha.height || alpha.channels != 1 ||
       side < 1) {
-    throw core::Error("a crop wants a photo and a matte of one size");
+    throw core::Error("a crop needs a photo and a matte of the same size");
   }
   ObservedView view;
   view.camera = frame.CropCamera(side);

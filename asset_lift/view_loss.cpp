@@ -6,7 +6,7 @@
 namespace simwright::asset_lift {
 namespace {
 
-// The weight with which each source pixel along one axis counts for a target pixel.
+// The weights of the source pixels along one axis for a target pixel.
 struct Span {
   int first = 0, last = 0;
   double from = 0.0, to = 0.0;

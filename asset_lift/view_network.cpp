@@ -18,12 +18,12 @@ ViewNetworkImpl::ViewNetworkImpl(const ViewNetworkOptions& options)
   mixed_ = register_module("mixed", torch::nn::Linear(embedding_, embedding_));
 }
 
-torch::Tensor ViewNetworkImpl::forward(const torch::Tensor& noisy, const torch::Tensor& drawn,
+torch::Tensor ViewNetworkImpl::forward(const torch::Tensor& noisy, const torch::Tensor& rendered,
                                        const torch::Tensor& taken, const torch::Tensor& camera,
                                        const torch::Tensor& t) {
   const torch::Tensor embedding =
       mixed_(torch::silu(time_(nn::SinusoidalEmbedding(t, embedding_)) + camera_(camera)));
-  return body_(torch::cat({noisy, drawn, taken}, 1), embedding);
+  return body_(torch::cat({noisy, rendered, taken}, 1), embedding);
 }
 
 torch::Tensor PictureTensor(const ObjectPicture& picture) {
@@ -31,13 +31,14 @@ torch::Tensor PictureTensor(const ObjectPicture& picture) {
          1.0;
 }
 
-torch::Tensor DrawnTensor(const PredictionPicture& drawn, const core::Camera& camera,
+torch::Tensor DrawnTensor(const PredictionPicture& rendered, const core::Camera& camera,
                           double radius) {
-  const torch::Tensor opacity = TensorFromImage(drawn.picture.opacity);
-  // Depth times opacity, about the middle times opacity: 0 where nothing is.
+  const torch::Tensor opacity = TensorFromImage(rendered.picture.opacity);
+  // Depth times opacity, minus the centre's depth times opacity: 0 for background.
   const torch::Tensor depth =
-      (TensorFromImage(drawn.depth) - camera.position().norm() * opacity) / std::max(radius, 1e-6);
-  return torch::cat({PictureTensor(drawn.picture), depth}, 1);
+      (TensorFromImage(rendered.depth) - camera.position().norm() * opacity) /
+      std::max(radius, 1e-6);
+  return torch::cat({PictureTensor(rendered.picture), depth}, 1);
 }
 
 torch::Tensor CameraTensor(const core::Camera& reference, const core::Camera& camera) {

@@ -9,7 +9,7 @@
 
 namespace simwright::asset_lift {
 
-inline constexpr int kViewSide = 64;  // pixels of the pictures of our view prior
+inline constexpr int kViewSide = 64;  // pixels per side of our view prior's images
 inline constexpr int kViewDiffusionSteps = 1000;
 
 struct ViewNetworkOptions {
@@ -17,15 +17,16 @@ struct ViewNetworkOptions {
   int embedding = 128;
 };
 
-// Predicts the noise in a picture (RGBA in [-1, 1], premultiplied) from another camera. It sees,
-// beside the noisy picture, the shape prior's prediction drawn from that camera (what direct
-// prediction gives for nothing, aligned pixel by pixel), and the picture that was taken.
+// The network that predicts the noise in an image (RGBA in [-1, 1], premultiplied) from another
+// camera. Its inputs are the noisy image, the shape prior's prediction rendered from that camera
+// (aligned pixel by pixel, at no cost in learning), and the reference photo.
 class ViewNetworkImpl : public torch::nn::Module {
  public:
   explicit ViewNetworkImpl(const ViewNetworkOptions& options = {});
 
-  // noisy (B x 4 x S x S), drawn (B x 5 x S x S), taken (B x 4 x S x S), camera (B x 5), t (B).
-  torch::Tensor forward(const torch::Tensor& noisy, const torch::Tensor& drawn,
+  // Predicts the noise. noisy (B x 4 x S x S), rendered (B x 5 x S x S), taken (B x 4 x S x S),
+  // camera (B x 5), t (B).
+  torch::Tensor forward(const torch::Tensor& noisy, const torch::Tensor& rendered,
                         const torch::Tensor& taken, const torch::Tensor& camera,
                         const torch::Tensor& t);
 
@@ -36,14 +37,14 @@ class ViewNetworkImpl : public torch::nn::Module {
 };
 TORCH_MODULE(ViewNetwork);
 
-// (1 x 4 x S x S) in [-1, 1] of a picture as a fit shows it.
+// Returns a fit's rendering as a (1 x 4 x S x S) tensor in [-1, 1].
 torch::Tensor PictureTensor(const ObjectPicture& picture);
-// (1 x 5 x S x S): the prediction's colour and opacity in [-1, 1], and its depth about the object's
-// middle in units of the object's radius.
-torch::Tensor DrawnTensor(const PredictionPicture& drawn, const core::Camera& camera,
+// Returns a (1 x 5 x S x S) tensor: the prediction's colour and opacity in [-1, 1], and its depth
+// relative to the object's centre in units of the object's radius.
+torch::Tensor DrawnTensor(const PredictionPicture& rendered, const core::Camera& camera,
                           double radius);
-// (1 x 5): elevation, sine and cosine of the azimuth, distance, all relative, and the elevation of
-// the reference.
+// Returns a (1 x 5) tensor: the relative elevation, sine and cosine of the azimuth, and distance,
+// and the elevation of the reference.
 torch::Tensor CameraTensor(const core::Camera& reference, const core::Camera& camera);
 
 }  // namespace simwright::asset_lift

@@ -11,14 +11,14 @@
 
 namespace simwright::asset_lift {
 
-// The picture that was taken, as a view prior is told of it.
+// The reference photo of a view prior.
 struct ReferenceView {
-  ViewFrame frame;    // where the crop lies and what camera took it
-  core::Image photo;  // RGB or RGBA, as large as frame.camera's picture
-  core::Image alpha;  // 1 channel, likewise: the object's matte
+  ViewFrame frame;    // the crop and the reference camera
+  core::Image photo;  // RGB or RGBA, of frame.camera's image size
+  core::Image alpha;  // 1 channel, same size: the object's matte
 };
 
-// A camera as seen from the reference camera, both looking at the object at the origin of a world
+// A camera relative to the reference camera, both looking at the object at the origin of a world
 // with z up.
 struct RelativeCamera {
   double elevation = 0.0;  // rad, of this camera minus that of the reference
@@ -27,25 +27,25 @@ struct RelativeCamera {
 };
 RelativeCamera RelativeTo(const core::Camera& reference, const core::Camera& camera);
 
-// A view-conditioned diffusion model of pictures of one object: given the picture that was taken
-// and where another camera stands, the noise in a noisy picture from there.
+// A view-conditioned diffusion model of images of one object: predicts the noise in a noisy image
+// from another camera, given the reference photo and that camera's relative pose.
 class ViewPrior {
  public:
   virtual ~ViewPrior() = default;
 
-  // Pixels a side of the pictures it sees.
+  // Returns the pixels per side of its images.
   virtual int side() const = 0;
   virtual const nn::DiffusionSchedule& schedule() const = 0;
 
-  // The object that the next calls are about.
+  // Sets the object of the following calls.
   virtual void SetReference(const ReferenceView& view) = 0;
 
-  // What is noised: from pictures (B x 4 x side x side), RGB premultiplied by alpha and alpha, in
-  // [0, 1], to (B x C x h x w), differentiable. Pixel models rescale; latent models encode.
+  // Encodes images (B x 4 x side x side), RGB premultiplied by alpha and alpha, in [0, 1], to the
+  // space of the noise (B x C x h x w), differentiably. Pixel models rescale; latent models encode.
   virtual torch::Tensor Encode(const torch::Tensor& pictures) = 0;
 
-  // The noise in `noisy` (B x C x h x w) at t (B, int64), seen by `cameras` (B). Not conditioned:
-  // as if nothing were known of the object, for classifier-free guidance (Ho and Salimans 2022).
+  // Predicts the noise in `noisy` (B x C x h x w) at t (B, int64), seen by `cameras` (B). If not
+  // `conditioned`, the reference is ignored, for classifier-free guidance (Ho and Salimans 2022).
   virtual torch::Tensor PredictNoise(const torch::Tensor& noisy, const torch::Tensor& t,
                                      const std::vector<core::Camera>& cameras,
                                      bool conditioned) = 0;

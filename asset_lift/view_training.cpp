@@ -16,16 +16,16 @@
 namespace simwright::asset_lift {
 namespace {
 
-// Other views asked for of one photo: the shape prior's answer is used as often.
-constexpr int kViewsAPhoto = 4;
-// Of the pictures no condition is told, so that guidance has something to lead away from.
-constexpr double kBlindShare = 0.1;
-// What score distillation asks for: ScoreDistillationOptions.
+// The number of other views per photo: the shape prior's prediction is reused for them.
+constexpr int kViewsPerPhoto = 4;
+// The share of images without conditioning, as classifier-free guidance requires.
+constexpr double kUnconditionedShare = 0.1;
+// The elevation range of ScoreDistillationOptions.
 constexpr double kElevationMin = -0.17, kElevationMax = 1.4;  // rad
 
 struct ViewBatch {
   torch::Tensor clean;   // (B x 4 x S x S)
-  torch::Tensor drawn;   // (B x 5 x S x S)
+  torch::Tensor rendered;  // (B x 5 x S x S)
   torch::Tensor taken;   // (B x 4 x S x S)
   torch::Tensor camera;  // (B x 5)
 };
@@ -36,7 +36,7 @@ core::Image RgbaImage(const std::vector<std::uint8_t>& pixels) {
   return image;
 }
 
-// The object as a fit would show it, from another camera in the same light.
+// Renders the object like a fit, from another camera in the same light.
 ObjectPicture TrueView(const TrainingObject& object, const core::Camera& camera,
                        const render::SphericalHarmonicsLight& light) {
   render::ForwardOptions options;
@@ -57,9 +57,9 @@ ObjectPicture TrueView(const TrainingObject& object, const core::Camera& camera,
   return picture;
 }
 
-ViewBatch DrawViews(const TrainingPool& pool, const ShapePrior& shape, int size, std::uint64_t seed,
-                    std::uint64_t step) {
-  const int photos = std::max(1, size / kViewsAPhoto);
+ViewBatch SampleViews(const TrainingPool& pool, const ShapePrior& shape, int size,
+                      std::uint64_t seed, std::uint64_t step) {
+  const int photos = std::max(1, size / kViewsPerPhoto);
   std::vector<ShapeExample> examples(static_cast<size_t>(photos));
   std::vector<const TrainingObject*> objects(static_cast<size_t>(photos));
   core::ParallelFor(photos, [&](int i) {
@@ -75,40 +75,40 @@ ViewBatch DrawViews(const TrainingPool& pool, const ShapePrior& shape, int size,
     frames.push_back(example.frame);
   }
   const std::vector<ShapePrediction> predictions = shape.Predict(crops, frames);
-  const auto views = static_cast<size_t>(photos) * kViewsAPhoto;
-  std::vector<torch::Tensor> clean(views), drawn(views), taken(views), camera(views);
+  const auto views = static_cast<size_t>(photos) * kViewsPerPhoto;
+  std::vector<torch::Tensor> clean(views), rendered(views), taken(views), camera(views);
   core::ParallelFor(static_cast<int>(views), [&](int i) {
-    const auto at = static_cast<size_t>(i), photo = at / kViewsAPhoto;
+    const auto at = static_cast<size_t>(i), photo = at / kViewsPerPhoto;
     core::Rng rng =
         core::StreamRng(seed ^ 0x0c0ffeeull, step * 4096 + static_cast<std::uint64_t>(i));
     const core::Camera from =
         RandomCameraAround(frames[photo], kElevationMin, kElevationMax, kViewSide, &rng);
     clean[at] = PictureTensor(TrueView(*objects[photo], from, examples[photo].light));
-    const bool blind = core::Uniform(rng) < kBlindShare;
+    const bool blind = core::Uniform(rng) < kUnconditionedShare;
     camera[at] = CameraTensor(frames[photo].camera, from);
-    drawn[at] =
+    rendered[at] =
         blind ? torch::zeros({1, 5, kViewSide, kViewSide})
               : DrawnTensor(DrawPrediction(predictions[photo], from), from, frames[photo].Radius());
     taken[at] = blind ? torch::zeros({1, 4, kCropSide, kCropSide})
                       : PicturesFromRgba(examples[photo].picture.data(), 1, kCropSide);
   });
-  return {torch::cat(clean), torch::cat(drawn), torch::cat(taken), torch::cat(camera)};
+  return {torch::cat(clean), torch::cat(rendered), torch::cat(taken), torch::cat(camera)};
 }
 
-// The network's mean squared error of the noise. As its metrics, in the noisy picture's scale, the
-// squared error of the clean picture that follows from it, and that of taking the shape prior's
-// drawing for the clean picture.
+// Returns the network's mean squared error of the noise. Its metrics, in the noisy image's scale,
+// are the squared error of the clean image that follows from it, and that of the shape prior's
+// rendering used as the clean image.
 PriorLoss DenoisingLoss(ViewNetwork network, const nn::DiffusionSchedule& schedule,
                         const ViewBatch& batch) {
   const torch::Tensor t = torch::randint(0, schedule.steps(), {batch.clean.size(0)},
                                          batch.clean.options().dtype(torch::kLong));
   const torch::Tensor noise = torch::randn_like(batch.clean);
   const torch::Tensor noisy = schedule.AddNoise(batch.clean, noise, t);
-  const torch::Tensor off = network(noisy, batch.drawn, batch.taken, batch.camera, t) - noise;
-  const torch::Tensor drawn_off = batch.drawn.slice(1, 0, 4) - batch.clean;
+  const torch::Tensor off = network(noisy, batch.rendered, batch.taken, batch.camera, t) - noise;
+  const torch::Tensor rendered_off = batch.rendered.slice(1, 0, 4) - batch.clean;
   return {off.square().mean(),
           {(schedule.Noise(t) * off).square().mean().item<double>(),
-           (schedule.Signal(t) * drawn_off).square().mean().item<double>()}};
+           (schedule.Signal(t) * rendered_off).square().mean().item<double>()}};
 }
 
 }  // namespace
@@ -132,12 +132,13 @@ PriorTrainingReport TrainViewNetwork(const std::vector<core::TexturedMesh>& mesh
       "view", {"picture error", "picture error of the drawing"}, 77, network.get(), kept.get()};
   return TrainPrior(training, meshes, options, weights, progress, report,
                     [&](const TrainingPool& pool, int step) -> PriorBatch {
-                      const ViewBatch drawn = DrawViews(pool, shape, options.batch, options.seed,
-                                                        static_cast<std::uint64_t>(step));
-                      return [&network, &schedule, device, drawn] {
+                      const ViewBatch sampled =
+                          SampleViews(pool, shape, options.batch, options.seed,
+                                      static_cast<std::uint64_t>(step));
+                      return [&network, &schedule, device, sampled] {
                         return DenoisingLoss(network, schedule,
-                                             {drawn.clean.to(device), drawn.drawn.to(device),
-                                              drawn.taken.to(device), drawn.camera.to(device)});
+                                             {sampled.clean.to(device), sampled.rendered.to(device),
+                                              sampled.taken.to(device), sampled.camera.to(device)});
                       };
                     });
 }

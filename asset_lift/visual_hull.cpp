@@ -26,8 +26,8 @@ void RequireImage(const core::FloatImage& image, const core::Camera& camera, int
   }
 }
 
-// The masks' rays through their middles meet here, in the least squares.
-Eigen::Vector3d MeetingPoint(const std::vector<ObservedView>& views) {
+// Returns the least-squares intersection of the rays through the masks' centres.
+Eigen::Vector3d RayIntersection(const std::vector<ObservedView>& views) {
   Eigen::Matrix3d sum = 1e-9 * Eigen::Matrix3d::Identity();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const ObservedView& view : views) {
@@ -48,7 +48,7 @@ Eigen::Vector3d MeetingPoint(const std::vector<ObservedView>& views) {
   return sum.ldlt().solve(right);
 }
 
-// The farthest that the mask reaches from the picture of `point`, at the point's distance, m.
+// Returns the mask's greatest distance from the projection of `point`, at the point's depth, m.
 double Reach(const ObservedView& view, const Eigen::Vector3d& point) {
   const Eigen::Vector3d at = view.camera.Project(point);
   double most = 0.0;
@@ -80,8 +80,8 @@ Eigen::AlignedBox3d InsideBounds(const geometry::ScalarGrid& field) {
   return box;
 }
 
-// Without specks and bubbles: parts of less than a hundredth of the largest one's volume.
-core::TriangleMesh LargeParts(const core::TriangleMesh& mesh) {
+// Returns the mesh without components of less than a hundredth of the largest one's volume.
+core::TriangleMesh LargeComponents(const core::TriangleMesh& mesh) {
   int count = 0;
   const std::vector<int> part = geometry::EdgeComponents(mesh, &count);
   std::vector<double> volume(count, 0.0);
@@ -102,7 +102,7 @@ core::TriangleMesh LargeParts(const core::TriangleMesh& mesh) {
 [[noreturn]] void ThrowNothingLeft(const std::vector<ObservedView>& views) {
   std::string which;
   for (const int i : ExamineViews(views).contradicting) which += " " + std::to_string(i);
-  throw core::Error("no place lies within all the masks", "visual hull",
+  throw core::Error("no point lies inside all the masks", "visual hull",
                     which.empty() ? "the cameras contradict each other or the grid is too coarse"
                                   : "these views contradict the others:" + which);
 }
@@ -114,8 +114,8 @@ bool VisualHullOptions::IsValid(std::string* error) const {
     if (error != nullptr) *error = why;
     return false;
   };
-  if (cells < 8 || cells > 512) return fail("cells has to be 8 to 512");
-  if (!(color_tolerance >= 0.0)) return fail("color_tolerance cannot be negative");
+  if (cells < 8 || cells > 512) return fail("cells must be 8 to 512");
+  if (!(color_tolerance >= 0.0)) return fail("color_tolerance must not be negative");
   return true;
 }
 
@@ -136,7 +136,7 @@ void RequireValid(const std::vector<ObservedView>& views) {
     if (!view.depth.empty()) RequireImage(view.depth, camera, 1, where, "depth");
     if (std::none_of(view.opacity.values.begin(), view.opacity.values.end(),
                      [](float v) { return v >= 0.5f; })) {
-      throw core::Error("its mask is empty", where, "leave the view out");
+      throw core::Error("its mask is empty", where, "remove the view");
     }
   }
 }
@@ -190,13 +190,13 @@ core::FloatImage MaskDistance(const core::FloatImage& opacity) {
   cv::Mat to_outside, to_inside;
   cv::distanceTransform(inside, to_outside, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   cv::distanceTransform(outside, to_inside, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  // Without any pixel of the other kind OpenCV gives a huge number.
+  // Without any pixel of the other kind OpenCV returns a huge number.
   const float most = static_cast<float>(opacity.width + opacity.height);
   core::FloatImage distance(opacity.width, opacity.height, 1);
   for (int y = 0; y < opacity.height; ++y) {
     for (int x = 0; x < opacity.width; ++x) {
       const float share = *opacity.At(x, y);
-      // The outline runs between pixel centres, through pixels that are partly covered.
+      // The outline runs between pixel centres, through partly covered pixels.
       float d = share >= 0.5f ? 0.5f - std::min(to_outside.at<float>(y, x), most)
                               : std::min(to_inside.at<float>(y, x), most) - 0.5f;
       if (share > 0.02f && share < 0.98f && std::abs(d) < 1.0f) d = 0.5f - share;
@@ -235,7 +235,7 @@ geometry::ScalarGrid HullField(const std::vector<ObservedView>& views,
 }
 
 Eigen::AlignedBox3d ReachBox(const std::vector<ObservedView>& views) {
-  const Eigen::Vector3d middle = MeetingPoint(views);
+  const Eigen::Vector3d middle = RayIntersection(views);
   double reach = 0.0;
   for (const ObservedView& view : views) reach = std::max(reach, Reach(view, middle));
   reach *= 1.3;
@@ -268,7 +268,7 @@ core::TriangleMesh VisualHull(const std::vector<ObservedView>& views,
   }
   const core::TriangleMesh hull = geometry::ExtractIsosurface(field, 0.0f);
   if (hull.empty()) ThrowNothingLeft(views);
-  return LargeParts(hull);
+  return LargeComponents(hull);
 }
 
 }  // namespace simwright::asset_lift

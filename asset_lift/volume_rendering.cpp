@@ -11,17 +11,18 @@ namespace simwright::asset_lift {
 namespace {
 
 constexpr int kTileRays = 64;
-constexpr int kSlots = 64;  // samples kept of a ray
-// Samples of a ray that are looked at together: a ray that ends at a surface wastes few.
+constexpr int kMaxSamples = 64;  // maximum samples kept per ray
+// The number of samples per ray that are evaluated together: a ray that ends at a surface wastes
+// few.
 constexpr int kRound = 8;
 constexpr double kLeastOpacityOfNormal = 0.1;
-// Corners of a tetrahedron about the origin; the differences between them give a gradient:
-// sum of e_k f(x + h e_k) = 4 h grad f + O(h^2).
+// The corners of a tetrahedron about the origin; the differences between them give a gradient: sum
+// of e_k f(x + h e_k) = 4 h grad f + O(h^2).
 constexpr int kTaps = 4;
 constexpr std::array<std::array<int, 3>, kTaps> kTap = {
     {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};
 
-// A well-mixed hash (Wellons, "lowbias32").
+// Computes a well-mixed hash (Wellons, "lowbias32").
 std::uint32_t Mixed(std::uint32_t x) {
   x = (x ^ (x >> 16)) * 0x7feb352du;
   x = (x ^ (x >> 15)) * 0x846ca68bu;
@@ -43,11 +44,11 @@ struct Ray {
   Real delta;                         // a stratum's length, half sides
   Real transmittance;
   std::uint32_t seed;
-  int strata, next;  // how many, and the first not yet looked at
+  int strata, next;  // the number of strata, and the first unevaluated one
   int count;         // samples kept
 };
 
-// The density's raw value around a ray's median point, and the normal made of it.
+// The density's raw values around a ray's median point, and the resulting normal.
 template <typename Real>
 struct Taps {
   Real position[kTaps][3];
@@ -60,21 +61,21 @@ struct Tile {
   int first = 0, rays = 0;
   std::array<Ray<Real>, kTileRays> ray;
   int stride = 0;                     // numbers in a row of features
-  std::vector<Sample<Real>> samples;  // (kTileRays x kSlots)
-  std::vector<Real> features;         // (kTileRays x kSlots x stride)
-  std::vector<Taps<Real>> taps;       // (kTileRays), empty where no normals were asked for
+  std::vector<Sample<Real>> samples;  // (kTileRays x kMaxSamples)
+  std::vector<Real> features;         // (kTileRays x kMaxSamples x stride)
+  std::vector<Taps<Real>> taps;       // (kTileRays), empty if normals are off
   std::vector<Real> tap_features;     // (kTileRays x kTaps x stride)
-  std::int64_t looked_at = 0;
+  std::int64_t evaluated = 0;
 };
 
-// Gathers points with gradients into batches and passes them on as these fill up.
+// Collects points with gradients into batches and flushes them as they fill up.
 template <typename Real>
 class GradientBatches {
  public:
   GradientBatches(const BasicRadianceField<Real>& field, Real* sum)
       : field_(field), sum_(sum), batch_{}, gradient_{} {}
 
-  // Where the next point goes, whose features are these.
+  // Returns the index of the next point, whose features are `features`.
   int Next(const Real* features) {
     if (count_ == kFieldBatch) Flush();
     std::copy_n(features, field_.feature_stride(),
@@ -107,11 +108,11 @@ class TileRenderer {
 
   void Render(const std::vector<FieldRay>& rays, std::uint32_t seed, RayPictures<Real>* pictures) {
     tile_.stride = field_.feature_stride();
-    tile_.samples.resize(kTileRays * kSlots);
-    tile_.features.resize(static_cast<std::size_t>(kTileRays * kSlots) * tile_.stride);
-    tile_.looked_at = 0;
+    tile_.samples.resize(kTileRays * kMaxSamples);
+    tile_.features.resize(static_cast<std::size_t>(kTileRays * kMaxSamples) * tile_.stride);
+    tile_.evaluated = 0;
     for (int r = 0; r < tile_.rays; ++r) Start(rays[tile_.first + r], seed, r);
-    while (LookFurther()) {
+    while (EvaluateNextSamples()) {
     }
     for (int r = 0; r < tile_.rays; ++r) Composite(r, pictures);
     tile_.taps.clear();
@@ -137,12 +138,12 @@ class TileRenderer {
     ray.delta = static_cast<Real>(length / ray.strata);
   }
 
-  // The next few samples of each ray that goes on. False where none does.
-  bool LookFurther() {
+  // Evaluates the next few samples of each unfinished ray. Returns false if there is none.
+  bool EvaluateNextSamples() {
     pending_.clear();
     for (int r = 0; r < tile_.rays; ++r) {
       Ray<Real>& ray = tile_.ray[r];
-      int slot = r * kSlots + ray.count;
+      int slot = r * kMaxSamples + ray.count;
       for (int taken = 0; taken < kRound && ray.next < ray.strata;) {
         const std::uint32_t jitter = Mixed(ray.seed ^ (static_cast<std::uint32_t>(ray.next) << 20));
         const double t = ray.near + (ray.next++ + jitter * 0x1p-32) * ray.step;
@@ -156,7 +157,7 @@ class TileRenderer {
       }
     }
     if (pending_.empty()) return false;
-    tile_.looked_at += static_cast<std::int64_t>(pending_.size());
+    tile_.evaluated += static_cast<std::int64_t>(pending_.size());
     for (std::size_t i = 0; i < pending_.size(); i += kFieldBatch) EvaluatePending(i);
     for (const auto& [slot, r] : pending_) {
       Ray<Real>& ray = tile_.ray[r];
@@ -190,7 +191,7 @@ class TileRenderer {
     const Ray<Real>& ray = tile_.ray[r];
     Real transmittance = 1, color[3] = {0, 0, 0}, depth = 0;
     for (int k = 0; k < ray.count; ++k) {
-      const Sample<Real>& sample = tile_.samples[r * kSlots + k];
+      const Sample<Real>& sample = tile_.samples[r * kMaxSamples + k];
       const Real through = std::exp(-sample.density * ray.delta);
       const Real weight = transmittance * (1 - through);
       for (int c = 0; c < 3; ++c) color[c] += weight * sample.color[c];
@@ -203,14 +204,14 @@ class TileRenderer {
     pictures->depth[at] = depth;
   }
 
-  // The sample at which half of the ray's opacity is reached.
+  // Returns the sample at which half of the ray's opacity is reached.
   const Sample<Real>& Median(int r) const {
     const Ray<Real>& ray = tile_.ray[r];
     const Real half = (1 + ray.transmittance) / 2;
     Real transmittance = 1;
     int k = 0;
     while (true) {
-      const Sample<Real>& sample = tile_.samples[r * kSlots + k];
+      const Sample<Real>& sample = tile_.samples[r * kMaxSamples + k];
       transmittance *= std::exp(-sample.density * ray.delta);
       if (transmittance <= half || k + 1 == ray.count) return sample;
       ++k;
@@ -280,8 +281,8 @@ class TileRenderer {
   FieldBatch<Real> batch_;
 };
 
-// dL/d(density, colour) of a ray's samples: with g_i = dL/dw_i, dL/dsigma_i = delta (T_{i+1} g_i -
-// sum over j > i of w_j g_j).
+// Computes dL/d(density, colour) of a ray's samples: with g_i = dL/dw_i, dL/dsigma_i = delta
+// (T_{i+1} g_i - sum over j > i of w_j g_j).
 template <typename Real>
 void AddSampleGradients(const Tile<Real>& tile, int r, const RayPictures<Real>& gradient,
                         GradientBatches<Real>* batches) {
@@ -290,8 +291,8 @@ void AddSampleGradients(const Tile<Real>& tile, int r, const RayPictures<Real>& 
   const Real* color = &gradient.color[3 * at];
   const Real opacity = gradient.opacity[at], depth = gradient.depth[at];
   if (color[0] == 0 && color[1] == 0 && color[2] == 0 && opacity == 0 && depth == 0) return;
-  const Sample<Real>* samples = &tile.samples[r * kSlots];
-  Real weight[kSlots], after[kSlots];  // w_i and T_{i+1}
+  const Sample<Real>* samples = &tile.samples[r * kMaxSamples];
+  Real weight[kMaxSamples], after[kMaxSamples];  // w_i and T_{i+1}
   Real transmittance = 1;
   for (int k = 0; k < ray.count; ++k) {
     after[k] = transmittance * std::exp(-samples[k].density * ray.delta);
@@ -304,7 +305,7 @@ void AddSampleGradients(const Tile<Real>& tile, int r, const RayPictures<Real>& 
     const Real of_weight = color[0] * sample.color[0] + color[1] * sample.color[1] +
                            color[2] * sample.color[2] + opacity + depth * sample.t;
     const int s =
-        batches->Next(&tile.features[static_cast<std::size_t>(r * kSlots + k) * tile.stride]);
+        batches->Next(&tile.features[static_cast<std::size_t>(r * kMaxSamples + k) * tile.stride]);
     for (int a = 0; a < 3; ++a) batches->batch().position[a][s] = sample.position[a];
     batches->batch().density[s] = sample.density;
     batches->gradient().density[s] = ray.delta * (after[k] * of_weight - behind);
@@ -343,12 +344,12 @@ void AddNormalGradients(const Tile<Real>& tile, int r, const RayPictures<Real>& 
 
 bool VolumeRenderOptions::IsValid(std::string* error) const {
   const char* fault = nullptr;
-  if (max_samples < 1 || max_samples > kSlots) fault = "a ray has 1 to 64 samples";
-  if (!(finest_step > 0.0)) fault = "the finest step along a ray is positive";
+  if (max_samples < 1 || max_samples > kMaxSamples) fault = "max_samples must be 1 to 64";
+  if (!(finest_step > 0.0)) fault = "finest_step must be positive";
   if (!(least_transmittance >= 0.0 && least_transmittance < 1.0)) {
-    fault = "the least transmittance lies in [0, 1)";
+    fault = "least_transmittance must be in [0, 1)";
   }
-  if (!(normal_step > 0.0 && normal_step < 1.0)) fault = "the normals' step lies in (0, 1)";
+  if (!(normal_step > 0.0 && normal_step < 1.0)) fault = "normal_step must be in (0, 1)";
   if (fault != nullptr && error != nullptr) *error = fault;
   return fault == nullptr;
 }
@@ -414,10 +415,10 @@ void VolumeRenderer<Real>::AddGradient(const BasicRadianceField<Real>& field,
   const std::size_t rays = tiles.empty() ? 0 : tiles.back().first + tiles.back().rays;
   if (gradient.color.size() != 3 * rays || gradient.opacity.size() != rays ||
       gradient.depth.size() != rays || gradient.normal.size() != 3 * rays) {
-    throw core::Error("the gradient is not of the size of what was rendered", "volume rendering");
+    throw core::Error("the gradient has another size than the rendering", "volume rendering");
   }
   sum->Prepare(field);
-  // Each worker has its own tiles, by number: the sums do not depend on who is faster.
+  // Each worker has its own tiles, by index: the sums do not depend on the workers' speed.
   const int workers = static_cast<int>(sum->parts.size());
   core::ParallelFor(workers, [&](int w) {
     GradientBatches<Real> batches(field, sum->parts[w].data());
@@ -434,7 +435,7 @@ void VolumeRenderer<Real>::AddGradient(const BasicRadianceField<Real>& field,
 template <typename Real>
 std::int64_t VolumeRenderer<Real>::samples() const {
   std::int64_t sum = 0;
-  for (const auto& tile : tiles_->tiles) sum += tile.looked_at;
+  for (const auto& tile : tiles_->tiles) sum += tile.evaluated;
   return sum;
 }
 

@@ -13,26 +13,25 @@
 namespace simwright::asset_lift {
 
 struct VolumeRenderOptions {
-  int max_samples = 64;        // a ray; more than 64 are not kept
+  int max_samples = 64;        // per ray; at most 64
   double finest_step = 0.016;  // half sides: half a cell of the occupancy grid
-  // A ray ends where less than this share of the light comes through: what lies behind a surface
-  // costs nothing.
+  // A ray ends where its transmittance falls below this: regions behind a surface cost nothing.
   double least_transmittance = 1e-3;
-  // Normals are finite differences over this distance (half sides): about a cell of the finest
-  // level that pictures of 128 pixels can train.
+  // The step of the finite differences for normals (half sides): about a cell of the finest level
+  // that images of 128 pixels can train.
   double normal_step = 0.02;
   bool normals = false;
 
   bool IsValid(std::string* error) const;
 };
 
-// Points origin + t * direction, t > 0, in the world (m). With a direction of core::Camera::Ray,
-// t is the depth along the optical axis.
+// The points origin + t * direction, t > 0, in the world (m). With a direction of
+// core::Camera::Ray, t is the depth along the optical axis.
 struct FieldRay {
   Eigen::Vector3d origin, direction;
 };
 
-// What n rays saw, or the gradient of a loss with respect to it.
+// The rendered values of n rays, or the gradient of a loss with respect to them.
 template <typename Real>
 struct RayPictures {
   std::vector<Real> color;        // (n x 3), sum of w c: sRGB, premultiplied by opacity
@@ -42,35 +41,36 @@ struct RayPictures {
   void Resize(std::size_t rays);  // all zero
 };
 
-// Gradients of a field's parameters, summed apart by each worker: no locks, and the same sums for
-// the same number of threads.
+// The gradients of a field's parameters, summed separately by each worker: no locks, and the same
+// sums for the same number of threads.
 template <typename Real>
 struct FieldGradient {
   std::vector<std::vector<Real>> parts;
-  // One part a thread, zero, where they do not fit the field yet.
+  // Allocates one zeroed part per thread, unless the parts already fit the field.
   void Prepare(const BasicRadianceField<Real>& field);
 };
 
-// Draws a field along rays and takes losses on the pictures back to its parameters.
+// Renders a field along rays and backpropagates losses on the rendered values to its parameters.
 //
-// Max 1995; Mildenhall et al., "NeRF", 2020: a ray is cut into strata, one random point in each;
-// alpha_i = 1 - exp(-sigma_i delta), w_i = alpha_i prod_{j<i} (1 - alpha_j), and all that is seen
-// is a sum with these weights. Strata in empty cells of the occupancy grid are left out.
-// The normal is that of the density around the ray's median point (where half of its opacity is
-// reached): minus the gradient of the density's logit-like raw value, whose direction is the
-// density's own, by differences between the corners of a small tetrahedron.
-// Gradients are exact derivatives of what was drawn, at the points where it was drawn.
+// Max 1995; Mildenhall et al., "NeRF", 2020: a ray is divided into strata with one random point in
+// each; alpha_i = 1 - exp(-sigma_i delta), w_i = alpha_i prod_{j<i} (1 - alpha_j), and each
+// rendered value is a sum with these weights. Strata in empty cells of the occupancy grid are
+// skipped. The normal is that of the density around the ray's median point (where half of its
+// opacity is reached): minus the gradient of the density's raw value before softplus, whose
+// direction is the density's own, by differences between the corners of a small tetrahedron.
+// Gradients are exact derivatives of the rendering at its sample points.
 template <typename Real>
 class VolumeRenderer {
  public:
-  // Throws core::Error for options that are not valid.
+  // Throws core::Error for invalid options.
   explicit VolumeRenderer(const VolumeRenderOptions& options);
   ~VolumeRenderer();
   VolumeRenderer(const VolumeRenderer&) = delete;
   VolumeRenderer& operator=(const VolumeRenderer&) = delete;
 
-  // Points within the strata are drawn from `seed`; the pictures do not depend on the threads.
-  // Keeps what AddGradient needs. Throws core::Error for a ray that is not finite.
+  // Renders `rays`. Points within the strata are sampled from `seed`; the result does not depend on
+  // the threads. Keeps the state that AddGradient needs. Throws core::Error for a ray that is not
+  // finite.
   void Render(const BasicRadianceField<Real>& field, const OccupancyGrid& occupancy,
               const std::vector<FieldRay>& rays, std::uint64_t seed, RayPictures<Real>* pictures);
 
@@ -78,7 +78,7 @@ class VolumeRenderer {
   void AddGradient(const BasicRadianceField<Real>& field, const RayPictures<Real>& gradient,
                    FieldGradient<Real>* sum) const;
 
-  // Points of the field that the last Render looked at.
+  // Returns the number of field evaluations of the last Render.
   std::int64_t samples() const;
 
  private:

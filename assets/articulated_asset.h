@@ -13,55 +13,60 @@
 
 namespace simwright::assets {
 
-// ArticulatedAsset::features: the kind of a foreign URDF that is a robot, no thing for one.
+// The key and value in ArticulatedAsset::features that mark an imported URDF as a robot rather than
+// an object.
 inline constexpr const char* kKindFeature = "kind";
 inline constexpr const char* kRobotKind = "robot";
 
-// One rigid part of a jointed thing. Meshes are in the link's frame, metres.
+// A rigid link of an articulated object. Meshes are in the link's frame, metres.
 struct ArticulatedLink {
   std::string name;           // "door", "handle_0": letters, digits, '_'
-  std::string label;          // what it is: "door", "handle" (docs/formats.md lists them)
+  std::string label;          // the part's role: "door", "handle" (docs/formats.md lists them)
   core::TexturedMesh visual;  // colours by material, no textures
   std::vector<core::TriangleMesh> parts;  // closed, convex, outward
-  std::vector<double> densities;          // kg/m^3, a part each; they give the inertial
+  std::vector<double> densities;          // kg/m^3, one per part; they determine the inertial
   Inertial inertial;
-  double volume = 0.0;   // m^3, of its matter
-  std::string material;  // that most of its mass is made of
+  double volume = 0.0;   // m^3, of its material
+  std::string material;  // the material of most of its mass
   double friction = 0.5;
   double restitution = 0.1;
 };
 
-// A jointed, simulation-ready thing. The root's frame: z up, z = 0 where it stands, the origin at
-// the centre of its base, the front towards -x. Every joint at zero is closed, off or up.
+// An articulated, simulation-ready object. The root's frame: z up, z = 0 at the supporting surface,
+// the origin at the centre of its base, the front towards -x. At position zero every joint is
+// closed, off or up.
 struct ArticulatedAsset {
-  std::string name;    // of its folder and files: letters, digits, '_', '-'
-  std::string source;  // what made it, e.g. "library/microwave"
+  std::string name;    // name of its folder and files: letters, digits, '_', '-'
+  std::string source;  // the generator, e.g. "library/microwave"
   physics_params::PhysicalParameters parameters;  // ranges and samples by category
-  // Held to a wall, a floor or a counter (doors, faucets); else it stands on the floor, free.
+  // True if it is mounted on a wall, a floor or a counter (doors, faucets); otherwise it stands
+  // free on the floor.
   bool fixed = false;
-  std::vector<ArticulatedLink> links;  // the root first; a parent stands before its children
+  std::vector<ArticulatedLink> links;  // the root first; parents precede their children
   std::vector<UrdfJoint> joints;       // joints[i] leads to links[i + 1]
-  // Links that overlap where their joint has them overlap: no contact is made of them, in any
-  // format (MuJoCo and SAPIEN make none between a parent and its child by default).
+  // The pairs of links that overlap at their joint by design: contacts between them are disabled in
+  // every format (MuJoCo and SAPIEN disable contacts between a parent and its child by default).
   std::vector<ExcludedPair> excluded_pairs = {};
-  std::map<std::string, std::string> features;  // what was drawn: "handle" -> "bar"
+  std::map<std::string, std::string> features;  // sampled features: "handle" -> "bar"
   std::uint64_t seed = 0;
-  core::Findings findings;  // what a person should know of its making
+  core::Findings findings;  // notes on its generation for the user
 };
 
 bool IsRobot(const ArticulatedAsset& asset);
 
-// The same thing as a model for the engines: collision parts, inertials, joints; no visuals.
+// Returns the asset as a model for physics engines: collision parts, inertials and joints; no
+// visuals.
 UrdfModel ModelOf(const ArticulatedAsset& asset);
 
-// Mass, centre and inertia of all links as one body, in the root's frame.
+// Returns mass, centre of mass and inertia of all links as one body, in the root's frame.
 Inertial WholeInertial(const UrdfModel& model, const std::map<std::string, double>& positions = {});
 
-// All visuals as one mesh in the root's frame, joints at `positions` (by name; rad or m).
+// Returns all visuals as one mesh in the root's frame, with the joints at `positions` (by name; rad
+// or m).
 core::TexturedMesh PosedVisual(const ArticulatedAsset& asset,
                                const std::map<std::string, double>& positions = {});
 
-// All visuals' bounds in the root's frame, joints at zero.
+// Returns the AABB of all visuals in the root's frame, with the joints at zero.
 Eigen::AlignedBox3d BoundsAtZero(const ArticulatedAsset& asset);
 
 }  // namespace simwright::assets

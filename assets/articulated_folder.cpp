@@ -114,12 +114,12 @@ ArticulatedLink LinkFrom(const Json& json, const fs::path& folder) {
   link.volume = json.at("volume_m3");
   const int parts = json.at("parts");
   if (FileSafeName(link.name) != link.name || parts < 0 || parts > kMostParts) {
-    throw core::Error("names a link that cannot be", (folder / "asset.json").string(),
+    throw core::Error("names an invalid link", (folder / "asset.json").string(),
                       "make the asset again");
   }
   link.densities = json.at("densities_kg_m3").get<std::vector<double>>();
   if (link.densities.size() != static_cast<size_t>(parts)) {
-    throw core::Error("has not a density a part", (folder / "asset.json").string(),
+    throw core::Error("does not have one density per part", (folder / "asset.json").string(),
                       "make the asset again");
   }
   for (int i = 0; i < parts; ++i) {
@@ -129,7 +129,7 @@ ArticulatedLink LinkFrom(const Json& json, const fs::path& folder) {
   return link;
 }
 
-// Joint i leads to link i + 1, from a link before it.
+// Requires that joint i connects an earlier link to link i + 1.
 void RequireTree(const ArticulatedAsset& asset, const std::string& where) {
   bool tree = !asset.links.empty() && asset.joints.size() + 1 == asset.links.size();
   for (size_t i = 0; tree && i < asset.joints.size(); ++i) {
@@ -181,7 +181,7 @@ ArticulatedAsset ReadArticulatedAsset(const fs::path& folder) {
       throw core::Error("was written by a newer version", file.string(), "update simwright");
     }
     if (!json.value("articulated", false)) {
-      throw core::Error("is of a rigid asset", file.string(), "give an articulated one");
+      throw core::Error("describes a rigid asset", file.string(), "use an articulated one");
     }
     asset.name = json.at("name");
     if (FileSafeName(asset.name) != asset.name) {

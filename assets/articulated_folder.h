@@ -6,16 +6,16 @@
 
 namespace simwright::assets {
 
-// Writes every file of the asset but preview.png (whoever draws it adds it) into `folder`, which
-// exists: meshes, URDF, MJCF, semantics.txt, asset.json (docs/formats.md). The same asset gives
+// Writes all files of the asset except preview.png (its renderer adds it) into the existing
+// `folder`: meshes, URDF, MJCF, semantics.txt, asset.json (docs/formats.md). The same asset gives
 // the same bytes. Throws core::Error when something cannot be written.
 void WriteArticulatedAsset(const ArticulatedAsset& asset, const std::filesystem::path& folder);
 
-// Reads a folder back from asset.json and its meshes. Throws core::Error when asset.json is
+// Reads an asset from a folder's asset.json and its meshes. Throws core::Error if asset.json is
 // missing, malformed, of a newer format, of a rigid asset, or names a missing mesh.
 ArticulatedAsset ReadArticulatedAsset(const std::filesystem::path& folder);
 
-// True where the folder holds an asset.json that says `articulated: true`.
+// Returns true if the folder holds an asset.json with `articulated: true`.
 bool IsArticulatedAssetFolder(const std::filesystem::path& folder);
 
 }  // namespace simwright::assets

@@ -6,9 +6,9 @@
 
 namespace simwright::assets {
 
-// The asset as SDF 1.9, with the numbers of ArticulatedUrdfText: a model of links that stand in
-// their parents' frames, joints whose frames are their children's; what is fixed is held to the
-// world.
+// Returns the asset as SDF 1.9, with the numbers of ArticulatedUrdfText: a model whose links have
+// poses in their parents' frames, with joint frames at their children. A fixed asset is attached to
+// the world by a fixed joint.
 std::string ArticulatedSdfText(const ArticulatedAsset& asset);
 
 }  // namespace simwright::assets

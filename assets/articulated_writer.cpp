@@ -127,7 +127,8 @@ void MjcfJoint(Printer* printer, const UrdfJoint& joint) {
       .Set("damping", Number(joint.damping))
       .Set("frictionloss", Number(joint.friction))
       // MuJoCo's friction is a soft constraint: with the default impedance of 0.9 and 0.02 s a lid
-      // of g / l = 40 / s^2 creeps by 0.04 rad/s. The stiffest that it allows make that 1e-5.
+      // of g / l = 40 / s^2 creeps by 0.04 rad/s. The stiffest permitted values reduce that to
+      // 1e-5.
       .Set("solreffriction", "0.004 1")
       .Set("solimpfriction", "0.9999 0.9999 0.001 0.5 2");
 }
@@ -155,7 +156,7 @@ void MjcfBodies(Printer* printer, const ArticulatedAsset& asset, size_t link) {
 
 std::vector<ColoredPiece> ColoredPieces(const ArticulatedLink& link) {
   if (!link.visual.textures.empty()) {
-    throw core::Error("links are written with colours, not textures", link.name);
+    throw core::Error("links must have colours, not textures", link.name);
   }
   std::vector<ColoredPiece> pieces;
   for (size_t m = 0; m < link.visual.materials.size(); ++m) {
@@ -187,7 +188,7 @@ std::vector<ColoredPiece> ColoredPieces(const ArticulatedLink& link) {
 }
 
 HydroelasticContact ContactOf(const ArticulatedAsset& asset, const ArticulatedLink& link) {
-  double mass = 0.0;  // any link may carry the whole
+  double mass = 0.0;  // any link may bear the whole weight
   for (const ArticulatedLink& one : asset.links) mass += one.inertial.mass;
   Eigen::AlignedBox3d bounds;
   for (const core::TriangleMesh& part : link.parts) bounds.extend(core::Bounds(part));
@@ -245,7 +246,7 @@ UrdfJointType JointTypeNamed(const std::string& name) {
   for (const auto& row : kJointTypes) {
     if (row.urdf == name) return row.type;
   }
-  throw core::Error("is no type of joint", name, "fixed, revolute, continuous, prismatic");
+  throw core::Error("is not a joint type", name, "fixed, revolute, continuous, prismatic");
 }
 
 std::string SemanticsText(const ArticulatedAsset& asset) {

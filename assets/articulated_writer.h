@@ -8,36 +8,37 @@
 
 namespace simwright::assets {
 
-// A visual of one colour, as it is written to a file of its own: every viewer of URDF and MJCF
-// then shows its colour.
+// A visual of one colour, written to a file of its own, so that every viewer of URDF and MJCF shows
+// its colour.
 struct ColoredPiece {
   std::string stem;  // "door_visual_000"
   core::TexturedMesh mesh;
 };
 
-// The link's visual, a piece a material. Throws core::Error where it has textures.
+// Returns the link's visual, one piece per material. Throws core::Error if it has textures.
 std::vector<ColoredPiece> ColoredPieces(const ArticulatedLink& link);
 
-// How the link touches others in Drake.
+// Returns the link's hydroelastic contact properties for Drake.
 HydroelasticContact ContactOf(const ArticulatedAsset& asset, const ArticulatedLink& link);
 
-// "door_collision_007.obj"
+// Returns "door_collision_007.obj".
 std::string LinkCollisionFileName(const std::string& link, int part);
 
-// The asset as a tree of links, with the same numbers in both formats. Mesh files are named
-// relative to the model. In MJCF a link on a fixed joint stays a body of its own, so that its pose
-// can be asked for; joint friction holds what is below it to less than 1e-4 rad/s; there is no
-// <option> or <size>, so that it can be attached to any model (mjcf_scene.h).
+// Return the asset as a tree of links, with the same numbers in both formats. Mesh files are named
+// relative to the model. In MJCF a link on a fixed joint remains a separate body, so that its pose
+// can be queried; joint friction limits the creep of what it carries to less than 1e-4 rad/s; there
+// is no <option> or <size>, so that the model can be attached to any other (mjcf_scene.h).
 std::string ArticulatedUrdfText(const ArticulatedAsset& asset);
 std::string ArticulatedMjcfText(const ArticulatedAsset& asset);
 
-// PartNet-Mobility's semantics.txt: "door hinge door", a line a link. The root is "free" or, where
-// the asset is fixed, "static".
+// Returns PartNet-Mobility's semantics.txt: one line "door hinge door" per link. The root is
+// "free", or "static" if the asset is fixed.
 std::string SemanticsText(const ArticulatedAsset& asset);
 
-// "hinge", "slider", "fixed" ... as semantics.txt calls a joint.
+// Returns a joint's type as named in semantics.txt: "hinge", "slider", "fixed" ...
 std::string SemanticsKind(UrdfJointType type);
-// "revolute" ... as URDF calls it; the other way round throws core::Error for an unknown one.
+// Convert between a joint's type and its URDF name ("revolute" ...). JointTypeNamed throws
+// core::Error for an unknown name.
 std::string JointTypeName(UrdfJointType type);
 UrdfJointType JointTypeNamed(const std::string& name);
 

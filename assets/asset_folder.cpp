@@ -45,7 +45,8 @@ Json AssetJson(const Asset& a) {
 
 Asset AssetFrom(const Json& json, const std::string& where) {
   if (json.value("articulated", false)) {
-    throw core::Error("has joints and is no single body", where, "read it as an articulated asset");
+    throw core::Error("has joints and is not a single body", where,
+                      "read it as an articulated asset");
   }
   Asset a;
   a.name = json.at("name");

@@ -8,8 +8,8 @@
 #include "core/finding.h"
 #include "physics_params/physical_parameters.h"
 
-// The values of asset.json (docs/formats.md), written and read alike for rigid and articulated
-// assets. The readers throw nlohmann::json::exception for what is missing or of another type.
+// The conversions of asset.json's values (docs/formats.md), shared by rigid and articulated assets.
+// The readers throw nlohmann::json::exception for missing values and wrong types.
 namespace simwright::assets {
 
 using Json = nlohmann::ordered_json;
@@ -21,8 +21,8 @@ Json ToJson(const Eigen::Matrix3d& m);       // rows
 Json ToJson(const Eigen::Isometry3d& pose);  // rotation_wxyz, translation
 Json ToJson(const Inertial& inertial);       // mass, center_of_mass, inertia
 Json ToJson(const core::Findings& findings);
-// What the category's row tells: category, category_resolution, size_m, mass_kg, material,
-// friction, restitution.
+// Returns the category's row: category, category_resolution, size_m, mass_kg, material, friction,
+// restitution.
 Json ToJson(const physics_params::PhysicalParameters& parameters);
 
 physics_params::Estimate EstimateFrom(const Json& json);

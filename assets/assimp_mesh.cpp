@@ -28,8 +28,8 @@ namespace {
 
 constexpr std::uint64_t kMaxMeshBytes = 4ull << 30;
 
-// Assimp tries every reader that it has on a file whose own reader does not know it. Only those of
-// the formats that come here stay, so that a broken file meets no other code.
+// Removes all readers but those of the supported formats. Assimp tries each of its readers on a
+// file that the format's own reader rejects, and a broken file must not reach other code.
 void KeepKnownFormats(Assimp::Importer* importer) {
   static const std::set<std::string> kKept{"obj", "stl", "dae"};
   for (size_t i = importer->GetImporterCount(); i-- > 0;) {
@@ -41,16 +41,16 @@ void KeepKnownFormats(Assimp::Importer* importer) {
   }
 }
 
-// A file held in memory. Some of Assimp's readers wait for ever for the rest of a file that was cut
-// short: reading again and again at the end is an error here.
-class HeldFile : public Assimp::IOStream {
+// A file in memory. Some of Assimp's readers loop forever at the end of a truncated file: repeated
+// reads at the end are an error here.
+class MemoryFile : public Assimp::IOStream {
  public:
-  explicit HeldFile(const std::string& bytes) : bytes_(bytes) {}
+  explicit MemoryFile(const std::string& bytes) : bytes_(bytes) {}
   size_t Read(void* buffer, size_t size, size_t count) override {
     if (size == 0 || count == 0) return 0;
     const size_t whole = std::min(count, (bytes_.size() - at_) / size);
     if (whole == 0 && ++reads_at_end_ > kMostReadsAtEnd) {
-      throw std::runtime_error("the file ends in the middle of something");
+      throw std::runtime_error("the file ends prematurely");
     }
     std::memcpy(buffer, bytes_.data() + at_, whole * size);
     at_ += whole * size;
@@ -58,7 +58,7 @@ class HeldFile : public Assimp::IOStream {
   }
   aiReturn Seek(size_t offset, aiOrigin origin) override {
     const size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at_ : bytes_.size();
-    const size_t target = base + offset;  // an offset backwards wraps round, as Assimp passes it
+    const size_t target = base + offset;  // a negative offset wraps around, as Assimp passes it
     if (target > bytes_.size()) return aiReturn_FAILURE;
     at_ = target;
     return aiReturn_SUCCESS;
@@ -75,35 +75,38 @@ class HeldFile : public Assimp::IOStream {
   int reads_at_end_ = 0;
 };
 
-// Shows Assimp the files given here and nothing on the disk.
-class HeldFiles : public Assimp::DefaultIOSystem {
+// Gives Assimp the files set here and nothing on the disk.
+class MemoryFiles : public Assimp::DefaultIOSystem {
  public:
-  explicit HeldFiles(std::map<std::string, std::string> files) : files_(std::move(files)) {}
+  explicit MemoryFiles(std::map<std::string, std::string> files) : files_(std::move(files)) {}
   bool Exists(const char* file) const override {
     return files_.contains(fs::path(file).filename().string());
   }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     if (std::strchr(mode, 'w') != nullptr) return nullptr;
     const auto found = files_.find(fs::path(file).filename().string());
-    // Assimp closes, and so deletes it.
-    return found == files_.end() ? nullptr : new HeldFile(found->second);
+    // Assimp closes and deletes it.
+    return found == files_.end() ? nullptr : new MemoryFile(found->second);
   }
 
  private:
   std::map<std::string, std::string> files_;  // by file name
 };
 
-// What an OBJ's own text says beside what Assimp hands on.
-struct ObjFacts {
+// The properties of an OBJ's text that Assimp does not import.
+struct ObjProperties {
   std::vector<MtlMaterial> materials;
   bool colors_in_bytes = false;
 };
 
-// Collects Assimp's nodes into one mesh with exactly equal positions shared.
+// Merges Assimp's nodes into one mesh with exactly equal positions shared.
 class Collector {
  public:
-  Collector(const aiScene& scene, fs::path folder, const ObjFacts* obj, FindingList* findings)
-      : scene_(scene), folder_(std::move(folder)), obj_(obj), findings_(*findings),
+  Collector(const aiScene& scene, fs::path folder, const ObjProperties* obj, FindingList* findings)
+      : scene_(scene),
+        folder_(std::move(folder)),
+        obj_(obj),
+        findings_(*findings),
         vertices_(&raw_.mesh.mesh) {}
 
   RawMesh Collect() {
@@ -119,7 +122,7 @@ class Collector {
   }
 
  private:
-  // How the coordinates of a material's texture come from the mesh's.
+  // The mapping from the mesh's coordinates to those of a material's texture.
   struct UvSource {
     unsigned channel = 0;
     Eigen::Vector2f scale{1.0f, 1.0f}, offset{0.0f, 0.0f};
@@ -136,11 +139,11 @@ class Collector {
 
   const aiScene& scene_;
   fs::path folder_;
-  const ObjFacts* obj_;
+  const ObjProperties* obj_;
   FindingList& findings_;
   RawMesh raw_;
   VertexIndexer vertices_;
-  std::vector<UvSource> uv_of_;  // of the materials
+  std::vector<UvSource> uv_of_;  // per material
   std::map<std::string, int> texture_of_;
   bool any_uv_ = false, any_outside_ = false;
 };
@@ -193,7 +196,7 @@ void Collector::ReadMaterial(const aiMaterial& source, unsigned index) {
     if (obj_ == nullptr) ReadOwnMaterial(source, &material, &uv);
   }
   if (material.name.empty()) material.name = "material_" + std::to_string(index);
-  // Writers often leave the colour black beside a texture: the texture is meant as it is.
+  // Writers often leave the colour black beside a texture; the texture is then used unmodulated.
   if (material.texture >= 0 && material.base_color.head<3>().maxCoeff() < 0.01f) {
     material.base_color.head<3>().setOnes();
   }
@@ -274,7 +277,7 @@ void Collector::AddNode(const aiNode& node, const aiMatrix4x4& parent, int depth
   for (unsigned i = 0; i < node.mNumChildren; ++i) AddNode(*node.mChildren[i], placed, depth + 1);
 }
 
-// The file as Assimp is to see it, with what an OBJ or a DAE says that Assimp does not hand on.
+// The file as input for Assimp, with the properties of an OBJ or a DAE that Assimp does not import.
 class Source {
  public:
   Source(const fs::path& path, FindingList* findings) : path_(path) {
@@ -288,7 +291,7 @@ class Source {
     files_[path.filename().string()] = std::move(bytes);
   }
 
-  const ObjFacts* obj() const { return is_obj_ ? &obj_ : nullptr; }
+  const ObjProperties* obj() const { return is_obj_ ? &obj_ : nullptr; }
   char up() const { return up_; }
   std::map<std::string, std::string> TakeFiles() { return std::move(files_); }
 
@@ -299,7 +302,7 @@ class Source {
     obj_.colors_in_bytes = text.colors_in_bytes;
     if (text.has_surfaces) {
       findings->Add(core::Severity::kWarning, "obj-surfaces",
-                    "free-form curves and surfaces are left out: only polygons are read",
+                    "free-form curves and surfaces are ignored: only polygons are read",
                     "convert them to a mesh and export again");
     }
     files_["materials.mtl"] = NumberedLibrary(obj_.materials);
@@ -316,7 +319,7 @@ class Source {
 
   fs::path path_;
   bool is_obj_ = false;
-  ObjFacts obj_;
+  ObjProperties obj_;
   char up_ = 0;
   std::map<std::string, std::string> files_;
 };
@@ -327,10 +330,10 @@ RawMesh ReadByAssimp(const fs::path& path, FindingList* findings) {
   Source source(path, findings);
   Assimp::Importer importer;
   KeepKnownFormats(&importer);
-  importer.SetIOHandler(new HeldFiles(source.TakeFiles()));  // the importer owns it
+  importer.SetIOHandler(new MemoryFiles(source.TakeFiles()));  // the importer owns it
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  // Else a DAE is turned until y is up, and nobody is told.
+  // Otherwise Assimp rotates a DAE to y up silently.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = nullptr;
   try {

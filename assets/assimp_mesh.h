@@ -6,8 +6,8 @@
 
 namespace simwright::assets {
 
-// Reads OBJ, STL and DAE with Assimp, in the file's own axes, metres where a DAE says its unit.
-// Throws core::Error where it is damaged.
+// Reads OBJ, STL and DAE with Assimp, in the file's own axes, in metres if a DAE gives its unit.
+// Throws core::Error for a damaged file.
 RawMesh ReadByAssimp(const std::filesystem::path& path, FindingList* findings);
 
 }  // namespace simwright::assets

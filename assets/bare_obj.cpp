@@ -44,7 +44,7 @@ bool ReadFace(std::string_view line, core::TriangleMesh* mesh) {
     if (!Parse(token, &index) || index == 0) return false;
     index = index > 0 ? index - 1 : count + index;
     indices.push_back(index);
-    // What is out of range is refused at the end.
+    // Indices out of range are rejected at the end.
     if (index >= 0 && index < count) corners.push_back(mesh->vertices[static_cast<size_t>(index)]);
   }
   if (indices.size() < 3) return !indices.empty();  // Blender writes loose edges as faces of two

@@ -19,7 +19,7 @@ std::string GroupOf(const std::string& link) {
   return "group_" + link;
 }
 
-// The links that each link ignores; every link that is in a pair has an entry.
+// Returns the links that each link ignores; every link of a pair has an entry.
 std::map<std::string, std::set<std::string>> IgnoredBy(const std::vector<ExcludedPair>& pairs) {
   std::map<std::string, std::set<std::string>> ignored;
   for (const auto& [a, b] : pairs) {

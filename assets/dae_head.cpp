@@ -11,7 +11,7 @@ constexpr size_t kHead = 1 << 16;  // <asset> comes first
 
 }  // namespace
 
-// By the text, so that a document of 500 MB is not parsed twice.
+// Scans the text, so that a document of 500 MB is not parsed twice.
 DaeHead ReadDaeHead(std::string_view text) {
   DaeHead head;
   const std::string_view start = text.substr(0, kHead);

@@ -5,10 +5,10 @@
 
 namespace simwright::assets {
 
-// What a COLLADA file says of itself in <asset>.
+// The metadata in a COLLADA file's <asset>.
 struct DaeHead {
   char up = 0;  // 'x', 'y', 'z', or 0 without <up_axis>
-  // Elements that Assimp does not hand on: "controllers" (skins), "animations", "physics" ...
+  // The elements that Assimp does not import: "controllers" (skins), "animations", "physics" ...
   std::string unread;
 };
 

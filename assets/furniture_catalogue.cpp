@@ -23,7 +23,7 @@ constexpr zip_int64_t kMaxEntries = 20'000;
 
 using Properties = std::map<int, std::map<std::string, std::string>>;
 
-// Java properties: "key#N=value", latin-1 with \uXXXX escapes, '#' and '!' start comments.
+// Decodes Java properties: "key#N=value", latin-1 with \uXXXX escapes, '#' and '!' start comments.
 std::string Unescaped(const std::string& text) {
   std::string result;
   for (size_t i = 0; i < text.size(); ++i) {
@@ -61,7 +61,7 @@ std::string WithoutLeadingSlash(std::string entry) {
   return entry;
 }
 
-bool ClimbsOut(const std::string& entry) {
+bool LeavesFolder(const std::string& entry) {
   const fs::path path = fs::path(entry).lexically_normal();
   return entry.empty() || entry[0] == '/' || entry.find('\\') != std::string::npos ||
          (!path.empty() && *path.begin() == "..");
@@ -85,8 +85,8 @@ CataloguePiece PieceFrom(int index, std::map<std::string, std::string> values) {
   return piece;
 }
 
-// Names a Git LFS pointer, a web page and the like; a zip is what is wanted.
-void RequireOwnContent(const fs::path& path) {
+// Throws for a file that is not a zip, naming its content (a Git LFS pointer, a web page).
+void RequireZip(const fs::path& path) {
   std::array<char, 1024> bytes{};
   std::ifstream in(path, std::ios::binary);
   in.read(bytes.data(), bytes.size());
@@ -101,7 +101,7 @@ void RequireOwnContent(const fs::path& path) {
 struct FurnitureCatalogue::Zip {
   zip_t* archive = nullptr;
   std::vector<std::string> names;
-  mutable std::mutex mutex;  // libzip's archives are not safe from several threads
+  mutable std::mutex mutex;  // libzip's archives are not thread-safe
   ~Zip() {
     if (archive != nullptr) zip_discard(archive);
   }
@@ -130,7 +130,7 @@ struct FurnitureCatalogue::Zip {
 FurnitureCatalogue::FurnitureCatalogue(const fs::path& path)
     : zip_(std::make_unique<Zip>()), path_(path) {
   if (!fs::exists(path)) throw core::Error("no such file", path.string());
-  RequireOwnContent(path);
+  RequireZip(path);
   int code = 0;
   zip_->archive = zip_open(path.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, &code);
   if (zip_->archive == nullptr) {
@@ -141,7 +141,7 @@ FurnitureCatalogue::FurnitureCatalogue(const fs::path& path)
   for (zip_int64_t i = 0; i < count; ++i) {
     const char* name = zip_get_name(zip_->archive, static_cast<zip_uint64_t>(i), 0);
     zip_->names.emplace_back(name == nullptr ? "" : name);
-    if (ClimbsOut(zip_->names.back())) {
+    if (LeavesFolder(zip_->names.back())) {
       throw core::Error(
           "an entry of the catalogue leads outside its folder: '" + zip_->names.back() + "'",
           path.string(), "do not use this file");
@@ -175,7 +175,7 @@ fs::path FurnitureCatalogue::Extract(const CataloguePiece& piece, const fs::path
     found = found || is_model;
   }
   if (!found) {
-    throw core::Error("the catalogue names a model that it does not hold", piece.model);
+    throw core::Error("the catalogue names a model that it does not contain", piece.model);
   }
   return folder / fs::path(piece.model).filename();
 }

@@ -9,16 +9,17 @@
 
 namespace simwright::assets {
 
-// One piece of a Sweet Home 3D furniture catalogue (.sh3f: a zip with a properties file).
+// A piece of a Sweet Home 3D furniture catalogue (.sh3f: a zip with a properties file).
 struct CataloguePiece {
-  std::string id;        // unique in the catalogue, else "#N"
+  std::string id;        // unique in the catalogue, otherwise "#N"
   std::string name;      // e.g. "Coffee cup"
-  std::string category;  // the catalogue's own, e.g. "Kitchen"
+  std::string category;  // the catalogue's category, e.g. "Kitchen"
   std::string creator;
   std::string license;
-  std::string model;                // entry of the zip, e.g. "blendswap-cc-0/cup/cup.obj"
-  Eigen::Vector3d size_m{0, 0, 0};  // width (x), depth (y), height (z) in metres, as it stands
-  // Turns the model's vectors (y up) before they are scaled to the size; identity without one.
+  std::string model;                // the zip entry, e.g. "blendswap-cc-0/cup/cup.obj"
+  Eigen::Vector3d size_m{0, 0, 0};  // upright width (x), depth (y), height (z), m
+  // The rotation of the model (y up) applied before scaling to the size; identity if the catalogue
+  // has none.
   Eigen::Matrix3d model_rotation = Eigen::Matrix3d::Identity();
 };
 
@@ -26,8 +27,8 @@ struct CataloguePiece {
 // the folder given to Extract.
 class FurnitureCatalogue {
  public:
-  // Throws core::Error: missing, no zip, no properties file, more than 20,000 entries, or an entry
-  // whose name climbs out ("../", absolute).
+  // Throws core::Error if the file is missing, is not a zip, has no properties file or more than
+  // 20,000 entries, or if an entry's name leaves the folder ("../", absolute).
   explicit FurnitureCatalogue(const std::filesystem::path& path);
   ~FurnitureCatalogue();
   FurnitureCatalogue(const FurnitureCatalogue&) = delete;
@@ -35,9 +36,9 @@ class FurnitureCatalogue {
 
   const std::vector<CataloguePiece>& pieces() const { return pieces_; }
 
-  // Unpacks the piece's model and the files beside it (materials, textures) into `folder`, which
-  // exists; returns the model's path there. Throws core::Error when an entry is missing, damaged
-  // or unpacks to more than 512 MiB.
+  // Unpacks the piece's model and the files beside it (materials, textures) into the existing
+  // `folder`; returns the model's path there. Throws core::Error if an entry is missing, damaged or
+  // unpacks to more than 512 MiB.
   std::filesystem::path Extract(const CataloguePiece& piece,
                                 const std::filesystem::path& folder) const;
 

@@ -52,7 +52,7 @@ Value As(const char* bytes) {
   return value;
 }
 
-// One component, normalised by the rule of the specification (signed ones never below -1).
+// Returns one component, normalised as in the specification (signed ones never below -1).
 double Component(const char* bytes, int type, bool normalized) {
   switch (type) {
     case 5120: {
@@ -182,7 +182,7 @@ void GltfDocument::ReadContainer(std::string bytes) {
 void GltfDocument::RequireVersion() const {
   const json* asset = Member(root_, "asset");
   const std::string version = asset == nullptr ? "" : TextMember(*asset, "version");
-  if (version.empty()) Fail("the glTF does not say its version", "export it again");
+  if (version.empty()) Fail("the glTF does not declare its version", "export it again");
   if (!version.starts_with("2.")) {
     Fail("this is glTF " + version + ", only 2.0 is read",
          "convert it (gltf-pipeline, or Blender and export as GLB)");
@@ -204,7 +204,7 @@ std::string GltfDocument::BytesOfUri(const std::string& uri, const std::string& 
     const std::string_view data = std::string_view(uri).substr(comma + 1);
     if (uri.substr(0, comma).ends_with(";base64")) {
       auto bytes = core::FromBase64(data);
-      if (!bytes) Fail("the data URI of " + what + " is no Base64");
+      if (!bytes) Fail("the data URI of " + what + " is not Base64");
       return std::move(*bytes);
     }
     return PercentDecoded(data);
@@ -296,7 +296,7 @@ std::vector<double> GltfDocument::Numbers(size_t index, size_t components) const
   const size_t size = BytesOfType(type);
   const size_t count = SizeMember(accessor, "count", 0);
   if (size == 0 || ComponentsOf(index) != components) {
-    Fail(place + " is not of " + std::to_string(components) + " known numbers");
+    Fail(place + " does not have " + std::to_string(components) + " known numbers");
   }
   if (count > kMaxNumbers / components) Fail(place + " has too many elements", "decimate the mesh");
   const json* flag = Member(accessor, "normalized");
@@ -319,7 +319,7 @@ std::vector<double> GltfDocument::Numbers(size_t index, size_t components) const
       }
     }
   } else {
-    // Without a buffer all are zero, but for sparse values, which take room in the file.
+    // Without a buffer all values are zero, except sparse values, which take space in the file.
     if (count > kMaxZeros / components) Fail(place + " has too many elements");
     numbers.assign(count * components, 0.0);
   }
@@ -335,7 +335,7 @@ std::vector<float> GltfDocument::Floats(size_t accessor, size_t components) cons
 std::vector<std::uint32_t> GltfDocument::Integers(size_t accessor, size_t components) const {
   std::vector<std::uint32_t> integers;
   for (const double number : Numbers(accessor, components)) {
-    if (!(number >= 0.0) || number > 4294967295.0) Fail("an index is not one");
+    if (!(number >= 0.0) || number > 4294967295.0) Fail("an index is not a non-negative integer");
     integers.push_back(static_cast<std::uint32_t>(number));
   }
   return integers;

@@ -11,31 +11,31 @@
 
 namespace simwright::assets {
 
-// A glTF 2.0 file (.gltf or .glb) with its buffers: numbers by the specification, whatever way they
-// are stored. All members throw core::Error, naming the place, where the file breaks its own rules.
+// A glTF 2.0 file (.gltf or .glb) with its buffers. It decodes numbers in every storage format of
+// the specification. All members throw core::Error, naming the location, for an inconsistent file.
 class GltfDocument {
  public:
-  // Reads the file and the buffers that it names, which lie beside it or inside it.
+  // Reads the file and its buffers, which are embedded or lie beside it.
   explicit GltfDocument(const std::filesystem::path& path);
 
   const nlohmann::json& root() const { return root_; }
   const std::filesystem::path& path() const { return path_; }
 
-  // Element `index` of a top-level list ("meshes"), an object.
+  // Returns element `index` of a top-level list ("meshes"), an object.
   const nlohmann::json& At(const char* list, size_t index) const;
 
-  // An accessor's elements one after the other, `components` numbers each; integers are normalised
-  // where it says so, sparse values are put in.
+  // Returns an accessor's elements in sequence, `components` numbers each; normalised integers are
+  // converted and sparse values substituted.
   std::vector<float> Floats(size_t accessor, size_t components) const;
-  // Indices of vertices or joints; `components` of each element.
+  // Returns indices of vertices or joints, `components` per element.
   std::vector<std::uint32_t> Integers(size_t accessor, size_t components) const;
   size_t CountOf(size_t accessor) const;
-  // Components of an element of the accessor: 3 of "VEC3".
+  // Returns the components per element of the accessor: 3 for "VEC3".
   size_t ComponentsOf(size_t accessor) const;
 
   std::string_view BufferView(size_t index) const;
-  // A picture's bytes, from a buffer or a data URI; nothing where it is a file, whose name goes to
-  // `file`.
+  // Returns an image's bytes from a buffer or a data URI. Returns nothing if the image is a file,
+  // and writes its name to `file`.
   std::optional<std::string> ImageBytes(size_t image, std::string* file) const;
 
   [[noreturn]] void Fail(const std::string& what, const std::string& remedy = "") const;
@@ -51,20 +51,20 @@ class GltfDocument {
 
   std::filesystem::path path_;
   nlohmann::json root_;
-  std::string binary_;                // the GLB's own buffer
+  std::string binary_;                // the GLB's embedded buffer
   std::vector<std::string> buffers_;  // by index
 };
 
-// The member of an object, or null.
+// Returns the member of an object, or null.
 const nlohmann::json* Member(const nlohmann::json& object, const char* name);
-// A member that is an index, if it is there.
+// Returns a member that is an index, if present.
 std::optional<size_t> IndexMember(const nlohmann::json& object, const char* name);
 double NumberMember(const nlohmann::json& object, const char* name, double otherwise);
 std::string TextMember(const nlohmann::json& object, const char* name);
-// A member that is `count` numbers, else `otherwise`.
+// Returns a member of `count` numbers, or `otherwise`.
 std::vector<double> NumbersMember(const nlohmann::json& object, const char* name,
                                   const std::vector<double>& otherwise);
-// The object of an extension of `object`, or null.
+// Returns the extension object of `object`, or null.
 const nlohmann::json* Extension(const nlohmann::json& object, const char* name);
 
 }  // namespace simwright::assets

@@ -26,7 +26,7 @@ std::unique_ptr<draco::Mesh> Decode(std::string_view bytes, const std::string& w
     return std::move(decoded).value();
   } catch (const core::Error&) {
     throw;
-  } catch (const std::exception& error) {  // out of memory by a count that lies
+  } catch (const std::exception& error) {  // out of memory from a forged count
     Fail(std::string("is damaged: ") + error.what(), where);
   }
 }

@@ -8,7 +8,7 @@
 
 namespace simwright::assets {
 
-// One attribute that KHR_draco_mesh_compression is asked for.
+// An attribute to decode from KHR_draco_mesh_compression.
 struct DracoAttribute {
   std::uint32_t unique_id = 0;  // in the compressed mesh
   size_t components = 0;
@@ -16,12 +16,12 @@ struct DracoAttribute {
 
 struct DracoMesh {
   std::vector<std::uint32_t> indices;                // of triangles
-  std::map<std::string, std::vector<float>> values;  // by name, `components` a vertex
+  std::map<std::string, std::vector<float>> values;  // by name, `components` per vertex
   size_t vertices = 0;
 };
 
-// Decompresses a mesh with Google's Draco. Throws core::Error, naming `where`, where it is damaged
-// or lacks an attribute.
+// Decompresses a mesh with Google's Draco. Throws core::Error, naming `where`, if it is damaged or
+// lacks an attribute.
 DracoMesh DecodeDraco(std::string_view bytes,
                       const std::map<std::string, DracoAttribute>& attributes,
                       const std::string& where);

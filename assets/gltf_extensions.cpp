@@ -17,8 +17,8 @@ bool IsRead(std::string_view name) {
   return std::find(std::begin(kRead), std::end(kRead), name) != std::end(kRead);
 }
 
-// Those that change how a surface shines, what lights it or what is said about it, not its shape.
-bool ConcernsLooksAlone(std::string_view name) {
+// Returns true for extensions that affect appearance, lights or metadata, not geometry.
+bool AffectsAppearanceOnly(std::string_view name) {
   for (const std::string_view start :
        {"KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "KHR_lights_",
         "EXT_lights_", "KHR_xmp", "KHR_animation_", "MSFT_packing_", "AGI_", "ADOBE_materials_",
@@ -53,7 +53,7 @@ std::string RemedyFor(std::string_view name) {
 
 void RequireReadableExtensions(const json& root, const std::string& where) {
   for (const std::string& name : Names(root, "extensionsRequired")) {
-    if (IsRead(name) || ConcernsLooksAlone(name)) continue;
+    if (IsRead(name) || AffectsAppearanceOnly(name)) continue;
     throw core::Error("requires the glTF extension " + name + ", which is not read", where,
                       RemedyFor(name));
   }

@@ -7,11 +7,11 @@
 
 namespace simwright::assets {
 
-// Throws core::Error, naming the extension and what to do, where a glTF requires one without which
-// its geometry cannot be read. Extensions of looks alone are no reason to refuse a file.
+// Throws core::Error, naming the extension and a remedy, if a glTF requires an extension without
+// which its geometry cannot be read. Extensions that affect only appearance do not cause an error.
 void RequireReadableExtensions(const nlohmann::json& root, const std::string& where);
 
-// Extensions that the file uses and that are not read, by name.
+// Returns the names of the extensions that the file uses and the reader ignores.
 std::vector<std::string> UnreadExtensions(const nlohmann::json& root);
 
 }  // namespace simwright::assets

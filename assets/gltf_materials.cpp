@@ -73,7 +73,7 @@ int GltfMaterials::ReadImage(size_t image, bool opaque) {
     }
   } catch (const core::Error& error) {
     findings_.Add(core::Severity::kWarning, "texture-unreadable",
-                  std::string("a texture is left out: ") + error.what(), "");
+                  std::string("a texture is ignored: ") + error.what(), "");
     return -1;
   }
   entry->second = static_cast<int>(mesh_.textures.size());
@@ -92,8 +92,8 @@ void GltfMaterials::ReadTexture(const json& info, GltfMaterial* material, core::
   if (!image) {
     const json* basis = Extension(texture, "KHR_texture_basisu");
     findings_.Add(core::Severity::kWarning, "texture-unreadable",
-                  basis != nullptr ? "a texture is left out: it is KTX2 (Basis Universal)"
-                                   : "a texture is left out: it names no picture that is read",
+                  basis != nullptr ? "a texture is ignored: it is KTX2 (Basis Universal)"
+                                   : "a texture is ignored: it names no supported image",
                   "export with PNG or JPEG textures (gltf-transform, or Blender)");
     return;
   }
@@ -104,7 +104,7 @@ void GltfMaterials::ReadTexture(const json& info, GltfMaterial* material, core::
     const std::vector<double> offset = NumbersMember(*transform, "offset", {0, 0});
     const std::vector<double> scale = NumbersMember(*transform, "scale", {1, 1});
     const double angle = NumberMember(*transform, "rotation", 0.0);
-    // Counter-clockwise as the picture is seen, its v pointing down.
+    // The rotation is counter-clockwise in the image, whose v points down.
     Eigen::Matrix2d turn;
     turn << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
     material->uv_turn = (turn * Eigen::Vector2d(scale[0], scale[1]).asDiagonal()).cast<float>();
@@ -129,7 +129,7 @@ void GltfMaterials::SayUnreadMaps(const json& source) {
   say(Member(source, "emissiveTexture") != nullptr, "emission");
   if (maps.empty()) return;
   findings_.Add(core::Severity::kInfo, "gltf-maps-not-read",
-                "of textures only the base colour is kept; not read: " + maps,
+                "only base colour textures are read; ignored: " + maps,
                 "bake them into the base colour where they matter");
 }
 
@@ -145,7 +145,7 @@ GltfMaterial GltfMaterials::Read(const json& source, const std::string& name) {
   target.base_color = Factor(colors, glossy != nullptr ? "diffuseFactor" : "baseColorFactor");
   ReadTexture(ObjectMember(colors, glossy != nullptr ? "diffuseTexture" : "baseColorTexture"),
               &material, &target);
-  // What glows only is seen by its glow.
+  // A purely emissive surface is visible by its emission.
   const bool black = target.base_color.head<3>().maxCoeff() < 0.01f;
   const json& glow = ObjectMember(source, "emissiveTexture");
   const std::vector<double> glow_factor = NumbersMember(source, "emissiveFactor", {0, 0, 0});
@@ -155,9 +155,10 @@ GltfMaterial GltfMaterials::Read(const json& source, const std::string& name) {
     }
     target.texture = -1;
     ReadTexture(glow, &material, &target);
-    findings_.Add(core::Severity::kInfo, "gltf-emission-as-color",
-                  "material '" + name + "' is black and glows: its glow is taken as its colour",
-                  "give it a base colour in the file");
+    findings_.Add(
+        core::Severity::kInfo, "gltf-emission-as-color",
+        "material '" + name + "' is black and emissive: its emission is used as its colour",
+        "give it a base colour in the file");
   }
   if (material.opaque) {
     target.base_color.w() = 1.0f;

@@ -11,26 +11,26 @@
 
 namespace simwright::assets {
 
-// A glTF material as far as it is kept, and how its texture's coordinates are made.
+// The supported part of a glTF material, and its texture coordinate transform.
 struct GltfMaterial {
   int index = 0;                 // into the mesh's materials
   size_t texcoord = 0;           // TEXCOORD_n of its base colour
   Eigen::Matrix2f uv_turn = Eigen::Matrix2f::Identity();  // KHR_texture_transform
   Eigen::Vector2f uv_offset = Eigen::Vector2f::Zero();
   bool wraps = true;             // false: its sampler clamps or mirrors
-  bool opaque = true;            // alphaMode OPAQUE: no alpha counts
+  bool opaque = true;            // alphaMode OPAQUE: alpha is ignored
 
-  // Coordinates with the origin at the picture's upper left become ours, lower left.
+  // Converts glTF coordinates (origin at the image's upper left) to ours (lower left).
   Eigen::Vector2f Uv(const Eigen::Vector2f& read) const;
 };
 
-// Makes materials and textures of a document as they are asked for.
+// Creates a document's materials and textures on demand.
 class GltfMaterials {
  public:
   GltfMaterials(const GltfDocument& document, core::TexturedMesh* mesh, FindingList* findings)
       : document_(document), mesh_(*mesh), findings_(*findings) {}
 
-  // Of a primitive's "material"; none: the default, white.
+  // Returns a primitive's material; without one the white default.
   const GltfMaterial& Find(std::optional<size_t> material);
 
  private:
@@ -46,7 +46,7 @@ class GltfMaterials {
   std::map<std::pair<size_t, bool>, int> textures_;  // (image, opaque) -> texture or -1
 };
 
-// Linear light to sRGB, [0, 1].
+// Converts linear light to sRGB, [0, 1].
 float ToSrgb(float linear);
 
 }  // namespace simwright::assets

@@ -31,7 +31,7 @@ std::vector<size_t> Indices(const json& object, const char* name) {
   return indices;
 }
 
-// parent_from_node
+// Returns parent_from_node.
 Eigen::Affine3d LocalTransform(const json& node) {
   Eigen::Affine3d transform = Eigen::Affine3d::Identity();
   const json* matrix = Member(node, "matrix");
@@ -64,9 +64,9 @@ class GltfReader {
   }
 
   RawMesh Read() {
-    SayWhatIsNotRead();
+    ReportUnreadContent();
     const std::vector<size_t> roots = Roots();
-    // All transforms come first: skins need those of joints anywhere.
+    // All transforms are computed first: skins need those of joints anywhere.
     world_.assign(SizeOf(document_.root(), "nodes"), Eigen::Affine3d::Identity());
     Walk(roots);
     for (const size_t node : order_) AddNode(node);
@@ -80,7 +80,7 @@ class GltfReader {
   }
 
  private:
-  void SayWhatIsNotRead();
+  void ReportUnreadContent();
   std::vector<size_t> Roots();
   void Walk(const std::vector<size_t>& roots);
   void AddNode(size_t index);
@@ -96,11 +96,11 @@ class GltfReader {
   VertexIndexer vertices_;
   GltfMaterials materials_;
   std::vector<Eigen::Affine3d> world_;  // world_from_node
-  std::vector<size_t> order_;           // nodes of the scene
+  std::vector<size_t> order_;           // the scene's nodes
   bool any_uv_ = false, any_outside_ = false;
 };
 
-void GltfReader::SayWhatIsNotRead() {
+void GltfReader::ReportUnreadContent() {
   const json& root = document_.root();
   std::string unread;
   const auto say = [&](bool there, const std::string& name) {
@@ -117,7 +117,7 @@ void GltfReader::SayWhatIsNotRead() {
   if (std::find(extensions.begin(), extensions.end(), "EXT_mesh_gpu_instancing") !=
       extensions.end()) {
     findings_.Add(core::Severity::kWarning, "gltf-instances-left-out",
-                  "instances by EXT_mesh_gpu_instancing are left out: one of each is read",
+                  "instances by EXT_mesh_gpu_instancing are ignored: one of each is read",
                   "make them real (gltf-transform, or Blender: Make Instances Real)");
   }
 }
@@ -135,7 +135,7 @@ std::vector<size_t> GltfReader::Roots() {
     }
     return Indices(document_.At("scenes", chosen), "nodes");
   }
-  // Without scenes: every node that is nobody's child.
+  // Without scenes the roots are the nodes without a parent.
   std::set<size_t> children;
   const size_t nodes = SizeOf(root, "nodes");
   for (size_t i = 0; i < nodes; ++i) {
@@ -233,7 +233,7 @@ void GltfReader::AddNode(size_t index) {
                                        skin.has_value());
     if (!primitive) continue;
     const size_t before = raw_.mesh.mesh.triangles.size();
-    // Joints place a skinned mesh, not its node.
+    // Joints place a skinned mesh; its node's transform is ignored.
     const bool posed = skin && primitive->influences > 0;
     if (posed) Pose(joints, &*primitive);
     AddPrimitive(*primitive, material, posed ? Eigen::Affine3d::Identity() : world_[index],
@@ -258,7 +258,7 @@ void GltfReader::AddPrimitive(const GltfPrimitive& primitive, const GltfMaterial
     if (mirrored) std::swap(corners[1], corners[2]);
     Eigen::Vector3i t;
     for (int k = 0; k < 3; ++k) {
-      // Files hold single precision: equal corners of two primitives stay equal.
+      // Files store single precision: equal corners of two primitives stay equal.
       const Eigen::Vector3f position = (placed * primitive.positions[corners[k]]).cast<float>();
       t[k] = vertices_.Index(position.cast<double>());
     }

@@ -111,13 +111,13 @@ void Reader::Morph(const std::vector<double>& weights) {
   }
 }
 
-// COLOR_0 is linear light; alpha counts where the material blends.
+// Reads COLOR_0, which is linear light; alpha is used if the material blends.
 void Reader::ReadColors() {
   const std::optional<size_t> accessor = IndexMember(*attributes_, "COLOR_0");
   if (!accessor) return;
   const size_t components = document_.ComponentsOf(*accessor);
   std::vector<float> values;
-  if (components != 3 && components != 4) document_.Fail("COLOR_0 is of neither RGB nor RGBA");
+  if (components != 3 && components != 4) document_.Fail("COLOR_0 is neither RGB nor RGBA");
   ReadFloats("COLOR_0", components, &values);
   for (size_t i = 0; i + components <= values.size(); i += components) {
     Eigen::Vector4f color(ToSrgb(values[i]), ToSrgb(values[i + 1]), ToSrgb(values[i + 2]), 1.0f);
@@ -149,7 +149,7 @@ void Reader::ReadInfluences() {
       read = document_.Integers(*accessor, 4);
     }
     if (read.size() != weights.size()) document_.Fail(joints + " has another length than weights");
-    // Sets stand one after the other for each vertex.
+    // The sets are concatenated per vertex.
     const size_t before = result_.influences, now = before + 4;
     std::vector<std::uint32_t> all_joints;
     std::vector<float> all_weights;
@@ -182,7 +182,7 @@ void Reader::ReadTriangles(int mode) {
     std::iota(indices.begin(), indices.end(), 0u);
   }
   for (const std::uint32_t index : indices) {
-    if (index >= result_.positions.size()) document_.Fail("an index names no vertex");
+    if (index >= result_.positions.size()) document_.Fail("an index is out of range");
   }
   if (mode == 4) {
     indices.resize(indices.size() / 3 * 3);

@@ -18,13 +18,14 @@ struct GltfPrimitive {
   std::vector<Eigen::Vector2f> uvs;      // of the material's TEXCOORD, or empty
   std::vector<CornerColor> colors;       // COLOR_0, sRGB, or empty
   std::vector<std::uint32_t> triangles;  // three indices each
-  // Joints and weights of a vertex, `influences` each; empty without a skin.
+  // The joints and weights, `influences` per vertex; empty without a skin.
   std::vector<std::uint32_t> joints;
   std::vector<float> weights;
   size_t influences = 0;
 };
 
-// `weights` of the morph targets. Nothing where it has no triangles (points, lines).
+// Reads a primitive with the morph target `weights`. Returns nothing if it has no triangles
+// (points, lines).
 std::optional<GltfPrimitive> ReadGltfPrimitive(const GltfDocument& document,
                                                const nlohmann::json& source,
                                                const GltfMaterial& material,

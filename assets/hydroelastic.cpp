@@ -7,13 +7,13 @@ namespace simwright::assets {
 namespace {
 
 constexpr double kGravity = 9.81;        // m/s^2
-constexpr double kStiffModulus = 5e7;    // Pa, of what is no softer
+constexpr double kStiffModulus = 5e7;    // Pa, for all other materials
 constexpr double kLargestModulus = 1e8;  // Pa: above it Drake's contact solver loses digits
 constexpr double kDepthAtRest = 1e-4;    // m, of a round body under its own weight
 constexpr double kSmallestHint = 1e-3;   // m
 
-// Young's moduli by their order, Pa: cushion foams 1e5, textiles and bread as much; flesh of fruit
-// 1e6; natural rubber and silicone 3e6; what is stiffer counts as any other.
+// Young's moduli by order of magnitude, Pa: cushion foams 1e5, textiles and bread likewise; flesh
+// of fruit 1e6; natural rubber and silicone 3e6; stiffer materials use the default.
 constexpr struct {
   const char* material;
   double modulus;
@@ -35,8 +35,8 @@ double ModulusOf(const std::string& material) {
 HydroelasticContact HydroelasticContactOf(const std::string& material, double mass,
                                           const Eigen::Vector3d& extents, double friction) {
   HydroelasticContact contact;
-  // A ball of radius r that sinks in by d touches in a circle of area 2 pi r d, under a pressure
-  // that rises to modulus * d / r: it carries pi * modulus * d^2.
+  // A ball of radius r that sinks in by d has a contact circle of area 2 pi r d, under a pressure
+  // that rises to modulus * d / r: it bears a load of pi * modulus * d^2.
   const double carries = mass * kGravity / (M_PI * kDepthAtRest * kDepthAtRest);
   contact.modulus = std::min(std::max(ModulusOf(material), carries), kLargestModulus);
   contact.resolution_hint = std::max(kSmallestHint, 0.5 * extents.minCoeff());

@@ -7,15 +7,17 @@
 
 namespace simwright::assets {
 
-// What a joint carries, and what it has to be held against.
+// The load on a joint.
 struct JointLoad {
   double mass = 0.0;     // kg, of all links beyond the joint
   double inertia = 0.0;  // kg m^2 about the axis, or kg along it
-  double gravity = 0.0;  // N m or N, by which weight drives the joint up (+) or down (-)
+  double gravity = 0.0;  // N m or N, positive where the weight drives the joint towards larger
+                         // positions
 };
 
-// Of joint `joint` at `position` (rad or m), all others at zero, the root upright. `links` are the
-// inertials in their frames, joints[i] leads to links[i + 1] from links[parents[i]].
+// Returns the load on joint `joint` at `position` (rad or m), with all others at zero and the root
+// upright. `links` are the inertials in their frames; joints[i] connects links[parents[i]] to
+// links[i + 1].
 JointLoad LoadOn(const std::vector<Inertial>& links, const std::vector<UrdfJoint>& joints,
                  const std::vector<int>& parents, int joint, double position);
 

@@ -10,21 +10,21 @@
 
 namespace simwright::assets {
 
-// Positions of joints by name, rad or m. A joint that is not named stands at zero.
+// Joint positions by name, rad or m. A joint that is not named is at zero.
 using JointPositions = std::map<std::string, double>;
 
-// The motion of a joint: joint-at-zero from joint-at-`position`. Fixed, floating and planar joints
-// stay where they are.
+// Returns the motion of a joint: joint-at-zero from joint-at-`position`. It is the identity for
+// fixed, floating and planar joints.
 Eigen::Isometry3d JointMotion(const UrdfJoint& joint, double position);
 
-// Pose of each link in the frame of the root. (links)
-// Joints that mimic another follow it, whatever `positions` says of them.
+// Returns the pose of each link in the root's frame. (links) Mimic joints follow their leader,
+// regardless of their entry in `positions`.
 std::vector<Eigen::Isometry3d> LinkPoses(const UrdfModel& model, const JointPositions& positions);
 
-// The same with all joints at zero, also those that mimic.
+// Returns the same with all joints at zero, including mimic joints.
 std::vector<Eigen::Isometry3d> LinkPosesAtZero(const UrdfModel& model);
 
-// Index of each joint's parent link. (joints)
+// Returns the index of each joint's parent link. (joints)
 std::vector<int> ParentLinks(const UrdfModel& model);
 
 }  // namespace simwright::assets

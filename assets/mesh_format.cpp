@@ -51,7 +51,7 @@ constexpr UnreadFormat kUnreadFormats[] = {
     {".sldprt", "a SolidWorks part", "export it from SolidWorks as STL"},
     {".ipt", "an Inventor part", "export it from Inventor as STL"},
     {".drc", "a bare Draco file", "decode it with draco_decoder to OBJ or PLY"},
-    {".vrm", "VRM", "it is a GLB by another name: call it .glb"},
+    {".vrm", "VRM", "it is a GLB: rename it to .glb"},
     {".mtl", "an OBJ's materials", "import the .obj beside it"},
     {".bin", "a glTF's buffer", "import the .gltf beside it"},
 };
@@ -76,7 +76,7 @@ std::string FirstWord(std::string_view head) {
   return std::string(head.substr(start, end - start));
 }
 
-// The format that the first bytes are of for certain, else kUnknown.
+// Returns the format that the first bytes identify with certainty, otherwise kUnknown.
 MeshFormat FormatByContent(std::string_view head) {
   if (head.starts_with("glTF")) return MeshFormat::kGlb;
   if (FirstWord(head) == "ply") return MeshFormat::kPly;
@@ -145,8 +145,8 @@ void RequireMeshFile(const fs::path& path) {
   }
   const MeshFormat found = FormatByContent(head);
   if (found != MeshFormat::kUnknown && found != format) {
-    throw core::Error("this is another format than its ending says", path.string(),
-                      std::string("call it ") + EndingOf(found));
+    throw core::Error("the format does not match the file's extension", path.string(),
+                      std::string("rename it to ") + EndingOf(found));
   }
 }
 

@@ -14,7 +14,8 @@ namespace simwright::assets {
 namespace fs = std::filesystem;
 namespace {
 
-// Exporters that mix up opacity and transparency leave things that nobody would see.
+// Makes fully transparent materials opaque: exporters that confuse opacity and transparency produce
+// invisible objects.
 void ShowInvisibleMaterials(core::TexturedMesh* mesh, FindingList* findings) {
   std::vector<bool> used(mesh->materials.size(), false);
   for (const int material : mesh->triangle_material) used[static_cast<size_t>(material)] = true;
@@ -23,8 +24,8 @@ void ShowInvisibleMaterials(core::TexturedMesh* mesh, FindingList* findings) {
     if (!used[m] || material.base_color.w() > 0.0f) continue;
     material.base_color.w() = 1.0f;
     findings->Add(core::Severity::kWarning, "material-invisible",
-                  "material '" + material.name + "' is wholly transparent: it is taken as opaque",
-                  "correct its opacity in the file (MTL: d 1), or delete what is not to be seen");
+                  "material '" + material.name + "' is fully transparent: it is made opaque",
+                  "correct its opacity in the file (MTL: d 1), or delete what should be invisible");
   }
 }
 
@@ -56,11 +57,11 @@ Eigen::Matrix3d ZUpFrom(char up) {
 MeshFile ReadMeshFile(const fs::path& path) {
   RequireMeshFile(path);
   FindingList findings(path.filename().string());
-  // Without "." and "..", so that the folder's parent is what lies above it.
+  // The path must not contain "." and "..", so that its parent is the folder above.
   RawMesh raw = ReadRaw(fs::absolute(path).lexically_normal(), &findings);
   if (raw.mesh.mesh.triangles.empty()) {
     throw core::Error("the mesh has no faces", path.string(),
-                      "export its surface: points and lines have none (of a point cloud make a "
+                      "export its surface: points and lines have none (convert a point cloud to a "
                       "mesh first, in MeshLab or CloudCompare)");
   }
   ApplyVertexColors(&raw, &findings);

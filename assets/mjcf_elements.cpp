@@ -8,12 +8,12 @@
 namespace simwright::assets {
 namespace {
 
-// MuJoCo takes one texture of a mesh.
+// Returns true if the mesh has one texture, the most that MuJoCo supports.
 bool IsTextured(const Asset& asset) {
   return asset.visual.textures.size() == 1 && VisualSuitsMujoco(asset.visual.mesh);
 }
 
-// "cup_collision_007"
+// Returns "cup_collision_007".
 std::string PartName(const MjcfNames& names, size_t part) {
   const std::string file = CollisionFileName(static_cast<int>(part));
   return names.prefix + "_" + file.substr(0, file.find('.'));

@@ -12,24 +12,24 @@ class XMLPrinter;
 
 namespace simwright::assets {
 
-// How a rigid asset's meshes are called in an MJCF file, and where they lie.
+// The names of a rigid asset's meshes in an MJCF file, and their folder.
 struct MjcfNames {
-  std::string prefix;  // of meshes, texture and material: "cup" of "cup_visual"
-  std::string folder;  // before each file's name: "" or "../assets/cup/"
+  std::string prefix;  // prefix of meshes, texture and material: "cup" of "cup_visual"
+  std::string folder;  // prepended to file names: "" or "../assets/cup/"
 };
 
-// The children of <asset>: visual and collision meshes, and the texture where there is one that
-// MuJoCo takes.
+// Writes the children of <asset>: visual and collision meshes, and the texture if MuJoCo supports
+// it.
 void MjcfMeshes(tinyxml2::XMLPrinter* printer, const Asset& asset, const MjcfNames& names);
 
-// One of the things that share these meshes.
+// An instance of the asset.
 struct MjcfPlace {
   std::string body;                         // its name
-  const Eigen::Isometry3d* pose = nullptr;  // world_from_body; null: none is written
-  bool free = true;                         // has a free joint; else it is part of the world
+  const Eigen::Isometry3d* pose = nullptr;  // world_from_body; null: not written
+  bool free = true;                         // has a free joint; otherwise it is part of the world
 };
 
-// <body> on principal axes: what is seen in group 2, what touches in group 3.
+// Writes <body> on principal axes: visuals in group 2, collision geoms in group 3.
 void MjcfBody(tinyxml2::XMLPrinter* printer, const Asset& asset, const MjcfNames& names,
               const MjcfPlace& place);
 

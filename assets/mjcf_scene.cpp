@@ -13,9 +13,9 @@ using Printer = tinyxml2::XMLPrinter;
 
 void Physics(Printer* printer, int parts) {
   MjcfOption(printer);
-  // MuJoCo 2.2 reserves 500 rows of constraints and 100 contacts, which a thing of many parts
-  // overflows (three contacts of six rows a part on a plane), and memory for their square: not
-  // more rows than a lying comb needs. MuJoCo 3 passes both over.
+  // MuJoCo 2.2 reserves 500 constraint rows and 100 contacts, which an object of many parts
+  // overflows (three contacts of six rows per part on a plane), and memory for their square: not
+  // more rows than a lying comb needs. MuJoCo 3 ignores both.
   Element(printer, "size")
       .Set("njmax", std::to_string(std::min(500 + 40 * parts, 2500)))
       .Set("nconmax", std::to_string(200 + 4 * parts));

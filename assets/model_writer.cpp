@@ -24,7 +24,7 @@ HydroelasticContact ContactOf(const Asset& asset) {
 
 bool VisualSuitsMujoco(const core::TriangleMesh& visual) {
   if (visual.triangles.size() > 200'000) return false;
-  // MuJoCo 2.2 sums |volume| of the cones over all faces from their centre and refuses < 1e-15.
+  // MuJoCo 2.2 sums |volume| of the cones over all faces from their centre and rejects < 1e-15.
   double volume = 0.0;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& vertex : visual.vertices) centre += vertex;

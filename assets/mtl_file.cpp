@@ -46,7 +46,7 @@ std::optional<float> Number(std::string_view word) {
   return value;
 }
 
-// Up to `most` numbers from the front of `rest`.
+// Returns up to `most` numbers from the front of `rest`.
 std::vector<float> TakeNumbers(std::string_view* rest, size_t most) {
   std::vector<float> numbers;
   while (numbers.size() < most) {
@@ -66,7 +66,7 @@ struct TextureStatement {
   std::set<std::string> unread;
 };
 
-// "[-option values]... name": the name is what is left, spaces and all.
+// Parses "[-option values]... name": the name is the rest, including spaces.
 TextureStatement ReadTextureStatement(std::string_view rest) {
   TextureStatement statement;
   while (rest.starts_with('-')) {
@@ -198,7 +198,7 @@ std::vector<MtlMaterial> ReadMtl(std::string_view text) {
     const size_t end = std::min(text.find_first_of("\n\r"), text.size());
     std::string_view line = Trimmed(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
-    // A '#' begins a comment only as a word of its own: file names have it.
+    // A '#' begins a comment only as a separate word, because file names may contain it.
     if (!line.starts_with('#')) reader.Read(line);
   }
   return reader.Take();

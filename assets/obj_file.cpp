@@ -20,7 +20,7 @@ void Print(std::string* text, const char* format, Values... values) {
   text->append(line, static_cast<size_t>(length));
 }
 
-// File-safe, distinct names for the materials, in order.
+// Returns file-safe, distinct names for the materials, in order.
 std::vector<std::string> MaterialNames(const core::TexturedMesh& visual) {
   std::vector<std::string> names;
   std::set<std::string> taken;
@@ -52,7 +52,7 @@ std::string MtlText(const core::TexturedMesh& visual, const std::vector<std::str
   return text;
 }
 
-// Triangles sorted by part, then material, the order within kept.
+// Returns the triangles sorted by part, then material; the sort is stable.
 std::vector<int> GroupedOrder(const core::TexturedMesh& visual) {
   std::vector<int> order(visual.mesh.triangles.size());
   std::iota(order.begin(), order.end(), 0);
@@ -71,7 +71,7 @@ std::string VisualObjText(const core::TexturedMesh& visual,
   for (const Eigen::Vector3d& v : visual.mesh.vertices) {
     Print(&text, "v %.9g %.9g %.9g\n", v.x(), v.y(), v.z());
   }
-  // UVs are shared where they repeat, so that viewers can index them.
+  // Repeated UVs are shared, so that viewers can index them.
   std::map<std::pair<float, float>, int> uv_index;
   std::vector<int> corner_uv(visual.corner_uvs.size());
   for (size_t i = 0; i < visual.corner_uvs.size(); ++i) {

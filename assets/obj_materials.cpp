@@ -45,7 +45,7 @@ class LibraryReader {
   bool any() const { return read_ > 0; }
 
  private:
-  // One name with spaces, or several names.
+  // Reads a line that holds one name with spaces, or several names.
   void ReadLine(const std::string& line) {
     if (const auto found = FindFileBeside(folder_, line)) {
       Say(*found, line);
@@ -72,7 +72,7 @@ class LibraryReader {
     if (found.as_named) return;
     findings_.Add(core::Severity::kInfo, "mtl-elsewhere",
                   "the material library '" + name + "' was found beside the mesh",
-                  "if it is another one, correct its name in the OBJ");
+                  "if it is the wrong one, correct its name in the OBJ");
   }
 
   void Read(const fs::path& library) {
@@ -83,7 +83,7 @@ class LibraryReader {
       ++read_;
     } catch (const core::Error& error) {
       findings_.Add(core::Severity::kWarning, "mtl-unreadable",
-                    std::string("a material library is left out: ") + error.what(),
+                    std::string("a material library is ignored: ") + error.what(),
                     "export the OBJ again");
     }
   }
@@ -113,16 +113,15 @@ std::vector<MtlMaterial> ReadObjMaterials(const fs::path& path, const ObjText& o
   if (!missing.empty()) {
     findings->Add(core::Severity::kWarning, "material-missing",
                   (missing.size() == 1 ? "the material " : "the materials ") + Joined(missing) +
-                      (reader.any() ? " is in no library: grey" : " has no library: grey"),
+                      (reader.any() ? " is in no library: grey" : " are in no library: grey"),
                   "put the .mtl beside the OBJ, or correct the names",
                   static_cast<double>(missing.size()));
   }
   if (!unread.empty()) {
     findings->Add(core::Severity::kInfo, "mtl-not-read",
-                  "of the materials is not read: " +
+                  "not read from the materials: " +
                       Joined(std::vector<std::string>(unread.begin(), unread.end())),
-                  "bake the look into map_Kd where it matters",
-                  static_cast<double>(unread.size()));
+                  "bake the look into map_Kd where it matters", static_cast<double>(unread.size()));
   }
   return materials;
 }

@@ -9,12 +9,12 @@
 
 namespace simwright::assets {
 
-// The materials that an OBJ at `path` uses, in the order of obj.materials, from the libraries that
-// it names (or STEM.mtl beside it). A library or a material that is missing is a finding.
+// Returns the materials that an OBJ at `path` uses, in the order of obj.materials, from the
+// libraries that it names (or STEM.mtl beside it). A missing library or material is a finding.
 std::vector<MtlMaterial> ReadObjMaterials(const std::filesystem::path& path, const ObjText& obj,
                                           FindingList* findings);
 
-// A library for Assimp that names them "m0", "m1" ..., as obj.text does.
+// Returns a library for Assimp that names them "m0", "m1" ..., as in obj.text.
 std::string NumberedLibrary(const std::vector<MtlMaterial>& materials);
 
 }  // namespace simwright::assets

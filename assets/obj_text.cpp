@@ -26,7 +26,7 @@ std::string Trimmed(std::string_view text) {
   return std::string(text);
 }
 
-// The next statement: a line, joined with those that a backslash at its end carries on to.
+// Reads the next statement: a line, joined with the following lines while it ends in a backslash.
 class Statements {
  public:
   explicit Statements(std::string_view text) : rest_(text) {}
@@ -81,7 +81,7 @@ class Rewriter {
   ObjText Rewrite() {
     FindColors();
     result_.text.reserve(text_.size() + 64);
-    // Assimp reads this name through the caller, who writes it.
+    // Assimp reads this name through the caller, who provides it.
     result_.text += "mtllib materials.mtl\n";
     Statements statements(text_);
     for (std::string_view statement; statements.Next(&statement);) Add(statement);
@@ -119,7 +119,7 @@ void Rewriter::FindColors() {
 void Rewriter::AddVertex(std::string_view rest) {
   const std::vector<std::string_view> words = Words(rest, 7);
   result_.text += "v";
-  // A fourth number alone is a weight, as rational curves have it: no part of the position.
+  // A fourth number alone is a rational curve's weight, not part of the position.
   const size_t positions = std::min<size_t>(3, words.size());
   for (size_t k = 0; k < positions; ++k) result_.text.append(" ").append(words[k]);
   if (result_.has_colors) {
@@ -157,7 +157,7 @@ void Rewriter::Add(std::string_view statement) {
   } else if (IsSurfaceKeyword(keyword)) {
     result_.has_surfaces = true;
   }
-  // Points, lines and what only changes how faces are rendered are left out.
+  // Points, lines and statements that affect only rendering are dropped.
 }
 
 }  // namespace

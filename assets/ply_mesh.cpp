@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::uint64_t kMaxMeshBytes = 4ull << 30;
 
-// Columns of one element that make a colour, with what their full value is.
+// The columns of one element that make a colour, with their full-scale value.
 struct ColorColumns {
-  const PlyColumn* channels[4] = {};  // the last may be missing
+  const PlyColumn* channels[4] = {};  // the last one is optional
   double full = 1.0;
 
   CornerColor At(size_t row) const {
@@ -130,7 +130,7 @@ void PlyReader::FindVertices() {
   }
 }
 
-// "comment TextureFile x.png": material k is the k-th of them.
+// Reads "comment TextureFile x.png": material k is the k-th of them.
 void PlyReader::ReadTextures() {
   for (const std::string& comment : table_.comments) {
     constexpr std::string_view kKeyword = "TextureFile ";
@@ -221,7 +221,7 @@ void PlyReader::AddFaces(const PlyElement& faces) {
   }
 }
 
-// Strips end at -1; every second triangle turns the other way.
+// Adds strips, which end at -1; every second triangle has the opposite orientation.
 void PlyReader::AddStrips(const PlyElement& strips) {
   const PlyColumn* indices = strips.Find("vertex_indices");
   if (indices == nullptr || !indices->is_list) return;

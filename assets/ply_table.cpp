@@ -14,7 +14,7 @@ namespace {
 
 enum class Layout { kAscii, kLittle, kBig };
 
-// Old and new names of one type become one.
+// Returns the canonical name of a type that has an old and a new name.
 std::string PlainType(const std::string& type) {
   static constexpr const char* kNames[][2] = {
       {"int8", "char"},   {"uint8", "uchar"}, {"int16", "short"},   {"uint16", "ushort"},
@@ -49,7 +49,7 @@ double Decode(std::string_view type, const unsigned char* bytes) {
 }
 
 struct CountType {
-  std::string type;  // of the list's length; empty: no list
+  std::string type;  // of the list's length; empty: not a list
 };
 
 class Reader {
@@ -81,7 +81,7 @@ class Reader {
   std::string_view rest_;
   std::string where_;
   PlyTable table_;
-  std::vector<std::vector<CountType>> counts_;  // of the elements' columns
+  std::vector<std::vector<CountType>> counts_;  // per element and column
   Layout layout_ = Layout::kAscii;
 };
 
@@ -132,7 +132,7 @@ void Reader::ReadHeader() {
       PlyElement element;
       long long rows = -1;
       words >> element.name >> rows;
-      if (rows < 0) Fail("the number of '" + element.name + "' is not one", "export it again");
+      if (rows < 0) Fail("the count of '" + element.name + "' is not a number", "export it again");
       element.rows = static_cast<size_t>(rows);
       table_.elements.push_back(element);
       counts_.emplace_back();
@@ -171,7 +171,8 @@ bool Reader::TakeValue(const std::string& type, double* value) {
 void Reader::ReadElement(size_t e) {
   PlyElement& element = table_.elements[e];
   if (element.columns.empty() && element.rows > 0) return;
-  // A row takes at least a byte: more rows than bytes are a lie, found before memory is taken.
+  // A row takes at least one byte: a row count above the byte count is forged and is rejected
+  // before memory is allocated.
   if (element.rows > rest_.size()) FailShort(element, 0);
   for (size_t row = 0; row < element.rows; ++row) {
     for (size_t c = 0; c < element.columns.size(); ++c) {

@@ -6,13 +6,13 @@
 
 namespace simwright::assets {
 
-// One column of a PLY element. Lists lie end to end: row i's from starts[i] to starts[i + 1].
+// A column of a PLY element. Lists are concatenated: row i spans starts[i] to starts[i + 1].
 struct PlyColumn {
   std::string name;
-  std::string type;                // of its values: "uchar", "float" ..., as PLY calls them
+  std::string type;  // PLY type of its values: "uchar", "float" ...
   bool is_list = false;
-  std::vector<double> values;      // a value a row, or the lists'
-  std::vector<size_t> starts{0};   // lists alone: (rows + 1)
+  std::vector<double> values;     // one value per row, or the lists' values
+  std::vector<size_t> starts{0};  // lists only: (rows + 1)
 };
 
 struct PlyElement {
@@ -30,8 +30,9 @@ struct PlyTable {
   const PlyElement* Find(std::string_view element) const;
 };
 
-// A PLY's header and all its rows: ascii, binary of either byte order. Throws core::Error, naming
-// `where`: no PLY, an unknown type, rows that are missing or not numbers.
+// Reads a PLY's header and all its rows: ascii, binary of either byte order. Throws core::Error,
+// naming `where`, if the text is not a PLY, has an unknown type, or rows are missing or not
+// numbers.
 PlyTable ReadPlyTable(std::string_view bytes, const std::string& where);
 
 }  // namespace simwright::assets

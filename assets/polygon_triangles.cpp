@@ -8,7 +8,7 @@
 namespace simwright::assets {
 namespace {
 
-constexpr size_t kMostCorners = 2000;  // clipped one by one, each against all others
+constexpr size_t kMostCorners = 2000;  // ear clipping tests each against all others
 
 std::vector<Eigen::Vector2d> Flattened(const std::vector<Eigen::Vector3d>& corners) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
@@ -30,8 +30,8 @@ double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Ve
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-// Whether the corner in the middle of three can be cut off: it is convex and none of the others
-// lies inside.
+// Returns true if the middle of three corners can be clipped: it is convex and no other corner lies
+// inside.
 bool IsEar(const std::vector<Eigen::Vector2d>& flat, const std::vector<int>& left, size_t at) {
   const size_t n = left.size();
   const int ids[3] = {left[(at + n - 1) % n], left[at], left[(at + 1) % n]};
@@ -42,7 +42,7 @@ bool IsEar(const std::vector<Eigen::Vector2d>& flat, const std::vector<int>& lef
   for (const int other : left) {
     if (other == ids[0] || other == ids[1] || other == ids[2]) continue;
     const Eigen::Vector2d& p = flat[static_cast<size_t>(other)];
-    if (p == a || p == b || p == c) continue;  // a slit's corner, twice there
+    if (p == a || p == b || p == c) continue;  // a slit's corner occurs twice
     if (Cross(a, b, p) >= 0.0 && Cross(b, c, p) >= 0.0 && Cross(c, a, p) >= 0.0) return false;
   }
   return true;

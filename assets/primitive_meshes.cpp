@@ -49,7 +49,7 @@ struct Ring {
   double radius, z;
 };
 
-// The rings from top to bottom, closed by a point above the first and one below the last.
+// Meshes the rings from top to bottom, closed by a point above the first and one below the last.
 core::TriangleMesh RoundMesh(double top, const std::vector<Ring>& rings, double bottom,
                              int segments) {
   core::TriangleMesh mesh;

@@ -25,7 +25,7 @@ void RawMesh::AddCornerColor(const CornerColor* color) {
 }
 
 int VertexIndexer::Index(const Eigen::Vector3d& position) {
-  // + 0.0 makes -0.0 and 0.0 one position.
+  // Adding 0.0 makes -0.0 and 0.0 the same position.
   const std::array<double, 3> key{position.x() + 0.0, position.y() + 0.0, position.z() + 0.0};
   const auto [entry, fresh] = index_of_.try_emplace(key, static_cast<int>(mesh_.vertices.size()));
   if (fresh) mesh_.vertices.emplace_back(key[0], key[1], key[2]);
@@ -37,7 +37,7 @@ bool ReadTextureFile(const fs::path& folder, const std::string& name, FindingLis
   const auto found = FindTextureFile(folder, name);
   if (!found) {
     findings->Add(core::Severity::kWarning, "texture-missing",
-                  "the texture '" + name + "' is not there: its colour is left out",
+                  "the texture '" + name + "' is missing: its colour is ignored",
                   "put it beside the mesh or into a folder 'textures' beside it");
     return false;
   }
@@ -45,7 +45,7 @@ bool ReadTextureFile(const fs::path& folder, const std::string& name, FindingLis
     findings->Add(core::Severity::kInfo, "texture-elsewhere",
                   "the texture '" + name + "' was found as '" +
                       found->path.lexically_relative(folder).string() + "'",
-                  "if it is another picture, correct its name in the file");
+                  "if it is the wrong image, correct its name in the file");
   }
   core::ImageReadOptions options;
   options.max_side = kMaxTextureSide;
@@ -54,7 +54,7 @@ bool ReadTextureFile(const fs::path& folder, const std::string& name, FindingLis
     return true;
   } catch (const core::Error& error) {
     findings->Add(core::Severity::kWarning, "texture-unreadable",
-                  std::string("a texture is left out: ") + error.what(), "");
+                  std::string("a texture is ignored: ") + error.what(), "");
     return false;
   }
 }

@@ -12,28 +12,29 @@
 
 namespace simwright::assets {
 
-// What the readers of mesh files share; private to assets/.
+// The shared types of the mesh readers; private to assets/.
 
 using CornerColor = std::array<std::uint8_t, 4>;  // RGBA, sRGB
 
 constexpr size_t kMaxMeshFaces = 20'000'000;
-constexpr int kMaxTextureSide = 4096;  // what every GPU and simulator still loads
+constexpr int kMaxTextureSide = 4096;  // the size that every GPU and simulator supports
 
-// A mesh as a reader collects it, before colours at its corners become materials or a texture.
+// A mesh under construction, before corner colours become materials or a texture.
 struct RawMesh {
   core::TexturedMesh mesh;
-  // (3 M) where the file has colours at vertices or faces, else empty. White where a part has none.
+  // (3 M) if the file has vertex or face colours, otherwise empty. White for parts without colours.
   std::vector<CornerColor> corner_colors;
-  // Whether these colours multiply the material's (glTF) or take its place (OBJ, PLY, STL, DAE).
+  // True if these colours multiply the material's (glTF), false if they replace it (OBJ, PLY, STL,
+  // DAE).
   bool colors_multiply = false;
   char up = 0;  // as in MeshFile
 
-  // The colour of the corner whose coordinates were put in last, or none: white where others have
-  // one. Nothing is stored before the first colour.
+  // Sets the colour of the last added corner; null: white if other corners have a colour. Nothing
+  // is stored before the first colour.
   void AddCornerColor(const CornerColor* color);
 };
 
-// Adds findings about one file; a code is said once for each place in it.
+// Collects findings about one file; each code is reported once per location.
 class FindingList {
  public:
   explicit FindingList(std::string file) : file_(std::move(file)) {}
@@ -46,7 +47,7 @@ class FindingList {
   core::Findings findings_;
 };
 
-// Gives equal positions one index, as solids need them.
+// Assigns one index to equal positions, as solids require.
 class VertexIndexer {
  public:
   explicit VertexIndexer(core::TriangleMesh* mesh) : mesh_(*mesh) {}
@@ -64,11 +65,12 @@ class VertexIndexer {
   std::unordered_map<std::array<double, 3>, int, Hash> index_of_;
 };
 
-// Reads a picture that a mesh in `folder` names. False, with a finding, where it cannot be read.
+// Reads an image that a mesh in `folder` names. Returns false, with a finding, if it cannot be
+// read.
 bool ReadTextureFile(const std::filesystem::path& folder, const std::string& name,
                      FindingList* findings, core::Image* image);
 
-// (r, g, b, a) in [0, 1], rounded.
+// Converts (r, g, b, a) in [0, 1], with rounding.
 CornerColor ToCornerColor(const Eigen::Vector4f& color);
 
 }  // namespace simwright::assets

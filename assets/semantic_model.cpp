@@ -20,9 +20,10 @@ namespace {
 
 constexpr std::uint64_t kMostBytes = 4 << 20;
 constexpr size_t kMostNamed = 8;  // URDFs in a message
-constexpr int kMostDepth = 8;     // of folders that are searched
+constexpr int kMostDepth = 8;     // maximum folder depth of the search
 
-// "switch_off" has no number at its end, "handle_0" and "drawer2" have: what is left is the label.
+// Returns the link's name without a trailing number as the label: "handle_0" and "drawer2" have
+// one, "switch_off" has not.
 std::string LabelFromName(const std::string& link) {
   std::string label = link;
   while (!label.empty() && std::isdigit(static_cast<unsigned char>(label.back()))) label.pop_back();
@@ -30,8 +31,8 @@ std::string LabelFromName(const std::string& link) {
   return label == "link" ? "" : label;
 }
 
-// The first of `files` that is there; empty where none is.
-fs::path FirstThere(const fs::path& folder, std::initializer_list<const char*> files) {
+// Returns the first existing one of `files`; empty if there is none.
+fs::path FirstExisting(const fs::path& folder, std::initializer_list<const char*> files) {
   for (const char* file : files) {
     if (fs::is_regular_file(folder / file)) return folder / file;
   }
@@ -41,7 +42,7 @@ fs::path FirstThere(const fs::path& folder, std::initializer_list<const char*> f
 std::string CategoryIn(const fs::path& folder, core::Findings* findings) {
   for (const auto& [file, key] :
        {std::pair{"asset.json", "category"}, {"meta.json", "model_cat"}}) {
-    const fs::path path = FirstThere(folder, {file});
+    const fs::path path = FirstExisting(folder, {file});
     if (path.empty()) continue;
     const auto json = nlohmann::json::parse(core::ReadFile(path, kMostBytes), nullptr, false);
     if (json.is_object() && json.contains(key) && json.at(key).is_string()) {
@@ -73,18 +74,18 @@ void ReadSemantics(const fs::path& file, SemanticModel* model) {
     const std::vector<std::string> word{std::istream_iterator<std::string>(words), {}};
     if (word.empty()) continue;
     if (word.size() != 3) {
-      warn("has " + std::to_string(word.size()) + " words: LINK JOINT LABEL are three");
+      warn("has " + std::to_string(word.size()) + " words instead of three: LINK JOINT LABEL");
     } else if (!links.contains(word[0])) {
-      warn("names the link '" + word[0] + "', which the URDF has not");
+      warn("names the link '" + word[0] + "', which is not in the URDF");
     } else if (!kKinds.contains(word[1])) {
-      warn("'" + word[1] + "' is no kind of joint");
+      warn("'" + word[1] + "' is not a joint kind");
     } else if (!model->semantics.emplace(word[0], LinkSemantics{word[1], word[2]}).second) {
-      warn("tells of the link '" + word[0] + "' again");
+      warn("describes the link '" + word[0] + "' again");
     }
   }
 }
 
-// What the file leaves open: the kind from the joint, the label from the link's name.
+// Fills missing semantics: the kind from the joint, the label from the link's name.
 void FillFromNames(SemanticModel* model) {
   for (size_t i = 0; i < model->model.links.size(); ++i) {
     const std::string& name = model->model.links[i].name;
@@ -100,7 +101,7 @@ void FillFromNames(SemanticModel* model) {
 fs::path UrdfIn(const fs::path& folder) {
   const fs::path own = folder / (fs::weakly_canonical(folder).filename().string() + ".urdf");
   if (fs::is_regular_file(own)) return own;
-  const fs::path known = FirstThere(folder, {"mobility.urdf", kGapartnetUrdf});
+  const fs::path known = FirstExisting(folder, {"mobility.urdf", kGapartnetUrdf});
   if (!known.empty()) return known;
   std::vector<fs::path> found;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -154,17 +155,18 @@ SemanticModel ReadSemanticModel(const fs::path& path, const UrdfReadOptions& opt
   const bool is_folder = fs::is_directory(path);
   model.urdf = is_folder ? UrdfIn(path) : path;
   const fs::path folder = is_folder ? path : fs::absolute(path).parent_path();
-  const bool asset = !FirstThere(folder, {"asset.json", "meta.json"}).empty();
+  const bool asset = !FirstExisting(folder, {"asset.json", "meta.json"}).empty();
   model.name =
       is_folder || asset ? fs::weakly_canonical(folder).filename().string() : path.stem().string();
   model.model = ReadUrdf(model.urdf, options);
   model.category = CategoryIn(folder, &model.model.findings);
-  // GAPartNet keeps its own beside PartNet-Mobility's: each tells of its own URDF's links.
+  // GAPartNet keeps its own semantics beside PartNet-Mobility's; each describes the links of its
+  // own URDF.
   const char* const own = "semantics.txt";
   const char* const gapartnet = "semantics_gapartnet.txt";
   const bool annotated = model.urdf.filename() == kGapartnetUrdf;
   const fs::path semantics =
-      annotated ? FirstThere(folder, {gapartnet, own}) : FirstThere(folder, {own, gapartnet});
+      annotated ? FirstExisting(folder, {gapartnet, own}) : FirstExisting(folder, {own, gapartnet});
   if (!semantics.empty()) ReadSemantics(semantics, &model);
   FillFromNames(&model);
   return model;

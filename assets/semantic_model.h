@@ -9,39 +9,39 @@
 
 namespace simwright::assets {
 
-// GAPartNet's URDF, in which handles are links of their own.
+// GAPartNet's URDF, in which handles are separate links.
 constexpr const char* kGapartnetUrdf = "mobility_annotation_gapartnet.urdf";
 
-// What a link is, as PartNet-Mobility's semantics.txt says it.
+// A link's semantics as in PartNet-Mobility's semantics.txt.
 struct LinkSemantics {
   std::string joint;  // hinge, slider, slider+, free, heavy, static, fixed; may be empty
   std::string label;  // door, handle, drawer, lid, knob, button ...
 };
 
-// A URDF with what is known of its meaning.
+// A URDF with its semantic annotations.
 struct SemanticModel {
-  std::string name;      // of its folder; of the file where it is no asset's folder
-  std::string category;  // "microwave", by asset.json or meta.json; may be empty
+  std::string name;      // name of the asset's folder, otherwise of the file
+  std::string category;  // "microwave", from asset.json or meta.json; may be empty
   std::filesystem::path urdf;
   UrdfModel model;
-  std::map<std::string, LinkSemantics> semantics;  // by link; links without any are left out
+  std::map<std::string, LinkSemantics> semantics;  // by link; links without any are omitted
 };
 
-// The URDF of an asset's folder (ours, PartNet-Mobility's, GAPartNet's): the one of the folder's
-// name, mobility.urdf, mobility_annotation_gapartnet.urdf, or the only one; of a ROS or Gazebo
-// package, or a folder with none of its own, the only one in the folders below. Throws core::Error
-// where there is none (it says so where there is a xacro) or several, which it names.
+// Returns the URDF of an asset's folder (ours, PartNet-Mobility's, GAPartNet's): the one with the
+// folder's name, mobility.urdf, mobility_annotation_gapartnet.urdf, or the only one. For a ROS or
+// Gazebo package, or a folder without a URDF of its own, returns the only one in its subfolders.
+// Throws core::Error if there is none (it reports a xacro) or if there are several, which it names.
 std::filesystem::path UrdfIn(const std::filesystem::path& folder);
 
-// All files with that ending in the folder and below it, sorted; links and hidden folders are not
-// followed. `ending` has its dot.
+// Returns all files with that extension in the folder and its subfolders, sorted; links and hidden
+// folders are not followed. `ending` includes its dot.
 std::vector<std::filesystem::path> FilesBelow(const std::filesystem::path& folder,
                                               const std::string& ending);
 
-// Reads a folder or a URDF, and beside it asset.json or meta.json, semantics.txt or
-// semantics_gapartnet.txt (the latter first for GAPartNet's URDF), where they are there. Labels
-// that no file gives come from the names of links (docs/formats.md). Lines of the semantics that
-// cannot be read, or name no link, are reported in model.findings. Throws what ReadUrdf throws.
+// Reads a folder or a URDF, and, if present, asset.json or meta.json, semantics.txt or
+// semantics_gapartnet.txt beside it (the latter first for GAPartNet's URDF). Labels that no file
+// gives are derived from link names (docs/formats.md). Lines of the semantics that cannot be read,
+// or name no link, are reported in model.findings. Throws the exceptions of ReadUrdf.
 SemanticModel ReadSemanticModel(const std::filesystem::path& path,
                                 const UrdfReadOptions& options = {});
 

@@ -12,7 +12,7 @@ namespace simwright::assets {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kMostEntries = 20'000;  // of a folder that are looked at for another case
+constexpr int kMostEntries = 20'000;  // maximum folder entries compared case-insensitively
 
 std::string Lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -27,7 +27,7 @@ bool IsTextureFolder(const std::string& name) {
   return std::find(std::begin(kNames), std::end(kNames), lower) != std::end(kNames);
 }
 
-// A path with '/' alone, without quotes, a "file://" or a drive letter before it.
+// Returns the path with '/' separators only, without quotes, a "file://" prefix or a drive letter.
 std::string Portable(std::string name) {
   std::replace(name.begin(), name.end(), '\\', '/');
   const auto is_padding = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '"'; };
@@ -40,7 +40,8 @@ std::string Portable(std::string name) {
   return name;
 }
 
-// `relative` below `root`, component by component, by its own case or else by another.
+// Finds `relative` below `root`, component by component, with the exact case first and then
+// case-insensitively.
 std::optional<fs::path> FindBelow(const fs::path& root, const fs::path& relative) {
   std::error_code code;
   fs::path at = root;
@@ -65,11 +66,11 @@ std::optional<fs::path> FindBelow(const fs::path& root, const fs::path& relative
   try {
     return core::ResolveInside(root, fs::relative(at, root));
   } catch (const std::exception&) {
-    return std::nullopt;  // a link that leads out
+    return std::nullopt;  // a link that leads outside
   }
 }
 
-// Folders of textures directly in `parent`, by name.
+// Returns the texture folders directly in `parent`, by name.
 std::vector<fs::path> TextureFoldersIn(const fs::path& parent) {
   std::vector<fs::path> folders;
   std::error_code code;
@@ -83,7 +84,7 @@ std::vector<fs::path> TextureFoldersIn(const fs::path& parent) {
   return folders;
 }
 
-// FindFileBeside for a name as it is written.
+// Implements FindFileBeside for a name as written.
 std::optional<FileBeside> FindWritten(const fs::path& folder, const std::string& name) {
   const fs::path named = Portable(name);
   if (named.filename().empty()) return std::nullopt;
@@ -94,7 +95,7 @@ std::optional<FileBeside> FindWritten(const fs::path& folder, const std::string&
   return std::nullopt;
 }
 
-// FindTextureFile for a name as it is written.
+// Implements FindTextureFile for a name as written.
 std::optional<FileBeside> FindWrittenTexture(const fs::path& folder, const std::string& name) {
   if (auto found = FindWritten(folder, name); found && found->as_named) return found;
   const fs::path named = fs::path(Portable(name)).lexically_normal();

@@ -23,7 +23,7 @@ struct Paint {
   bool defined() const { return !rgba.empty() || !texture.empty(); }
 };
 
-// Four numbers; of three the fourth is 1. Empty for anything else.
+// Returns four numbers; with three the fourth is 1. Returns an empty string for anything else.
 std::string Rgba(const std::string& text) {
   std::istringstream words(text);
   std::string rgba;
@@ -45,7 +45,7 @@ class Materials {
  public:
   explicit Materials(core::Findings* findings) : findings_(findings) {}
 
-  // `global`: stands beside the links, where a name has one meaning.
+  // `global`: defined beside the links, where a name must be unique.
   void Define(const XMLElement& material, bool global) {
     const std::string name = Attribute(&material, "name");
     const Paint paint = PaintOf(material);
@@ -54,7 +54,7 @@ class Materials {
     const Paint& first = known->second;
     if (is_new || !global || (first.rgba == paint.rgba && first.texture == paint.texture)) return;
     findings_->push_back({"urdf-material-twice", core::Severity::kWarning, name,
-                          "this material is defined twice and differently: the first counts", 0.0,
+                          "this material has two different definitions: the first is used", 0.0,
                           "give one of them another name"});
   }
 
@@ -68,18 +68,18 @@ class Materials {
     visual->DeleteChild(material);
     if (!paint.defined()) {
       if (!name.empty() && unknown_.insert(name).second) {
-        findings_->push_back({"urdf-unknown-material", core::Severity::kInfo, link,
-                              "nothing defines the material '" + name +
-                                  "': the mesh's own, or grey, is shown",
-                              0.0, "give it a <color rgba>"});
+        findings_->push_back(
+            {"urdf-unknown-material", core::Severity::kInfo, link,
+             "the material '" + name + "' is not defined: the mesh's own, or grey, is used", 0.0,
+             "give it a <color rgba>"});
       }
       return;
     }
     if (!paint.texture.empty() && textures_.insert(paint.texture).second) {
       findings_->push_back({"urdf-texture", core::Severity::kWarning, link,
                             "the texture '" + paint.texture +
-                                "' of its <material> is not read: the mesh's own is shown",
-                            0.0, "let the mesh file name the texture"});
+                                "' of its <material> is ignored: the mesh's own is used",
+                            0.0, "name the texture in the mesh file"});
     }
     XMLElement* own = visual->InsertNewChildElement("material");
     own->SetAttribute("name", ("material_" + std::to_string(count_++)).c_str());

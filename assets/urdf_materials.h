@@ -8,10 +8,10 @@ class XMLElement;
 
 namespace simwright::assets {
 
-// Gives each <visual> of a URDF the colour that its <material> means, under a name of its own:
-// urdfdom refuses a whole file where a name is defined twice, or where one has no name. A name may
-// be defined beside the links or in any visual; of two definitions the first counts, and a finding
-// says so where they differ. A material that nothing defines is left out, also with a finding.
+// Replaces the <material> of each URDF <visual> by its resolved colour under a unique name: urdfdom
+// refuses a whole file if a name is defined twice or is missing. A name may be defined beside the
+// links or in any visual; of two definitions the first wins, and a finding reports a difference. An
+// undefined material is removed, also with a finding.
 void ResolveMaterials(tinyxml2::XMLElement* robot, core::Findings* findings);
 
 }  // namespace simwright::assets

@@ -10,8 +10,8 @@
 namespace simwright::assets {
 namespace {
 
-// What fits better only by less than this share of the meshes' size is no evidence.
-constexpr double kClearly = 0.05;
+// A smaller advantage, as a share of the meshes' size, is no evidence.
+constexpr double kMinAdvantage = 0.05;
 
 bool IsOf(const UrdfShape& shape, bool gltf) {
   if (shape.up != 'x' && shape.up != 'y') return false;
@@ -19,7 +19,7 @@ bool IsOf(const UrdfShape& shape, bool gltf) {
   return gltf == (format == MeshFormat::kGlb || format == MeshFormat::kGltf);
 }
 
-// link_from_file with the file's axes turned first.
+// Returns link_from_file preceded by the rotation to z up.
 Eigen::Affine3d Turned(const UrdfShape& shape) {
   Eigen::Affine3d turn = Eigen::Affine3d::Identity();
   turn.linear() = ZUpFrom(shape.up);
@@ -46,8 +46,8 @@ Eigen::AlignedBox3d BoxOf(const std::vector<UrdfShape>& shapes, bool gltf, bool 
   return box;
 }
 
-// How badly the links' meshes fit what is known of the links otherwise: the joints at their
-// children should touch them, collisions of other origin cover the same room. Metres.
+// Returns the misfit of the links' meshes to their other data, metres: the child joints should
+// touch the meshes, and collisions from other sources should fill the same AABB.
 double Mismatch(const UrdfModel& model, bool gltf, bool turn) {
   double sum = 0.0;
   for (const UrdfLink& link : model.links) {
@@ -87,22 +87,23 @@ void Decide(bool gltf, UrdfModel* model) {
     }
   }
   if (count == 0) return;
-  const double as_said = Mismatch(*model, gltf, true);
-  const double as_lying = Mismatch(*model, gltf, false);
-  const bool turn = as_said <= as_lying + kClearly * size;
+  const double rotated_misfit = Mismatch(*model, gltf, true);
+  const double unrotated_misfit = Mismatch(*model, gltf, false);
+  const bool turn = rotated_misfit <= unrotated_misfit + kMinAdvantage * size;
   const std::string kind = gltf ? "glTF" : "DAE";
   char figures[100];
   std::snprintf(figures, sizeof(figures), " (%.3g m against %.3g m of misfit)",
-                turn ? as_said : as_lying, turn ? as_lying : as_said);
+                turn ? rotated_misfit : unrotated_misfit, turn ? unrotated_misfit : rotated_misfit);
   core::Finding finding{"urdf-mesh-up", core::Severity::kInfo, "", "",
                         static_cast<double>(count)};
-  finding.sentence =
-      turn ? kind + " meshes say that another axis than z points up and were turned to z up"
-           : kind + " meshes say that another axis than z points up; they were left as they lie, "
-                    "because joints and collisions fit better so" + figures;
-  finding.remedy = gltf ? "Drake and Gazebo turn glTF, others do not: look at the preview"
-                        : "PyBullet turns them, RViz, MoveIt and Gazebo do not: look at the "
-                          "preview, and export with z up to be read alike";
+  finding.sentence = turn ? kind + " meshes declare another up axis than z and were rotated to z up"
+                          : kind +
+                                " meshes declare another up axis than z; they were not rotated, "
+                                "because joints and collisions fit better without" +
+                                figures;
+  finding.remedy = gltf ? "Drake and Gazebo rotate glTF, others do not: check the preview"
+                        : "PyBullet rotates them, RViz, MoveIt and Gazebo do not: check the "
+                          "preview, and export with z up for the same result everywhere";
   if (!turn) finding.severity = core::Severity::kWarning;
   model->findings.push_back(finding);
   if (!turn) return;

@@ -14,7 +14,7 @@ namespace simwright::assets {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kMostLevels = 4;  // that a package's root lies above its URDF
+constexpr int kMostLevels = 4;  // levels of the package's root above its URDF
 
 std::string LowerCase(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -22,7 +22,7 @@ std::string LowerCase(std::string text) {
   return text;
 }
 
-// As folders of meshes are called that lie beside a URDF's.
+// Returns true for the usual names of mesh folders beside a URDF's.
 bool HoldsMeshes(const std::string& name) {
   static const std::set<std::string> kNames{
       "mesh", "meshes", "dae",       "obj",    "objs",   "stl",          "stls", "glb",
@@ -52,15 +52,14 @@ std::string Slashed(std::string text) {
   return text;
 }
 
-// "C:/x" leads as little to a file here as "/home/other/x".
+// Returns true for a drive letter: "C:/x" is as foreign as "/home/other/x".
 bool HasDrive(const std::string& name) {
   return name.size() > 2 && std::isalpha(static_cast<unsigned char>(name[0])) && name[1] == ':' &&
          name[2] == '/';
 }
 
-// The file below `root` by `relative`, whatever the case of its letters; empty where none or
-// several are called so.
-fs::path AnyCase(const fs::path& root, const fs::path& relative) {
+// Returns the file at `relative` below `root`, case-insensitively; empty if none or several match.
+fs::path FindIgnoringCase(const fs::path& root, const fs::path& relative) {
   fs::path at = root;
   for (const fs::path& part : relative) {
     if (fs::exists(at / part)) {
@@ -115,13 +114,13 @@ MeshFinder::MeshFinder(const fs::path& urdf, const fs::path& root)
     : folder_(fs::weakly_canonical(fs::absolute(urdf)).parent_path()),
       root_(fs::weakly_canonical(fs::absolute(root))) {}
 
-// A regular file inside the root, in any case of letters. Throws for a path that leaves the root:
-// such a file is refused, not skipped.
+// Returns a regular file inside the root, case-insensitively. Throws for a path that leaves the
+// root instead of skipping it.
 std::optional<fs::path> MeshFinder::Existing(const fs::path& path) const {
   const fs::path candidate = core::ResolveInside(root_, path);
   if (fs::is_regular_file(candidate)) return candidate;
   const fs::path relative = candidate.lexically_relative(root_);
-  const fs::path found = AnyCase(root_, relative);
+  const fs::path found = FindIgnoringCase(root_, relative);
   if (found.empty()) return std::nullopt;
   const fs::path inside = core::ResolveInside(root_, found);
   return fs::is_regular_file(inside) ? std::optional(inside) : std::nullopt;
@@ -210,10 +209,10 @@ std::optional<FoundMesh> MeshFinder::Find(const std::string& name) const {
   const std::string path = slashed.starts_with("file://") ? slashed.substr(7) : slashed;
   if (absolute && !(fs::exists(path) && fs::equivalent(path, *found))) {
     mesh.mended = "'" + name + "' is not in this folder: '" +
-                  found->lexically_relative(root_).string() + "' of it is taken";
+                  found->lexically_relative(root_).string() + "' is used instead";
   } else if (wanted != found->filename() && name.find("://") == std::string::npos &&
              LowerCase(wanted) == LowerCase(found->filename().string())) {
-    mesh.mended = "'" + name + "' is called '" + found->filename().string() + "' here";
+    mesh.mended = "'" + name + "' was found as '" + found->filename().string() + "'";
   }
   return mesh;
 }

@@ -6,34 +6,35 @@
 
 namespace simwright::assets {
 
-// The folder that a URDF may read from: the ROS or Gazebo package it lies in (the nearest folder
-// above, at most four up, that holds a package.xml or model.config); else the folder above one that
-// is called as those which hold URDFs are (urdf, robots, model, xacro ...); else its own folder.
+// Returns the folder that a URDF may read from: its ROS or Gazebo package (the nearest folder
+// above, at most four levels up, that holds a package.xml or model.config); otherwise the parent of
+// a folder with a usual name for URDFs (urdf, robots, model, xacro ...); otherwise its own folder.
 std::filesystem::path PackageRootOf(const std::filesystem::path& urdf);
 
-// A ROS or Gazebo package: it holds a package.xml or model.config.
+// Returns true for a ROS or Gazebo package: a folder with a package.xml or model.config.
 bool IsPackage(const std::filesystem::path& folder);
-// Called as the folders are that hold a package's URDFs: urdf, robots, model ...
+// Returns true if the folder has a usual name for a package's URDFs: urdf, robots, model ...
 bool HoldsUrdfs(const std::filesystem::path& folder);
 
 struct FoundMesh {
   std::filesystem::path file;
-  std::string mended;  // how the name had to be read, for a person; empty where it was plain
+  std::string mended;  // how the name was resolved, for the user; empty if found as written
 };
 
-// Finds the files that a URDF names, nowhere but inside `root`: links are followed, and what leads
-// outside is refused.
+// Finds the files that a URDF names, only inside `root`: links are followed, and a path that leads
+// outside is an error.
 class MeshFinder {
  public:
   MeshFinder(const std::filesystem::path& urdf, const std::filesystem::path& root);
 
-  // A name may be relative to the URDF or to the root; "package://NAME/x" or "model://NAME/x",
-  // where NAME is the root, a folder above the URDF or one in it, or unknown here; "file://x" or
-  // absolute. Backslashes are slashes, %20 a blank, and letters' case is not heeded where no file
-  // has the exact name. Of an absolute name that leads elsewhere ("/home/me/ws/pkg/meshes/x") the
-  // longest end that exists inside the root is taken. "../meshes/x" is read from the folder of that
-  // name beside the URDF's, also where that lies outside the root.
-  // Nothing where no such file is there. Throws core::Error where the name leads outside.
+  // Finds a file by name. A name may be relative to the URDF or to the root; "package://NAME/x" or
+  // "model://NAME/x", where NAME is the root, a folder above the URDF or one in it, or unknown;
+  // "file://x" or absolute. Backslashes are slashes, %20 is a space, and the match is
+  // case-insensitive if no file has the exact name. For an absolute name elsewhere
+  // ("/home/me/ws/pkg/meshes/x") the longest suffix that exists inside the root is used.
+  // "../meshes/x" is resolved in the folder of that name beside the URDF's, even if that lies
+  // outside the root. Returns nothing if there is no such file. Throws core::Error if the name
+  // leads outside.
   std::optional<FoundMesh> Find(const std::string& name) const;
 
  private:

@@ -23,7 +23,7 @@ bool IsNumeric(std::string_view attribute) {
   return kNames.contains(attribute);
 }
 
-// `text` with its numbers alone, a space between two; empty where a word is no number.
+// Returns the numbers of `text` separated by spaces; empty if a word is not a number.
 std::string Cleaned(std::string text) {
   std::replace_if(text.begin(), text.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
   std::istringstream words(text);
@@ -42,7 +42,7 @@ std::string Cleaned(std::string text) {
   return cleaned;
 }
 
-// True where `text` is numbers with white space between them, and nothing else.
+// Returns true if `text` consists of numbers separated by white space.
 bool IsClean(const std::string& text) {
   std::istringstream words(text);
   for (std::string word; words >> word;) {

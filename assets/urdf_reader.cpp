@@ -36,7 +36,7 @@ Eigen::Isometry3d ToIsometry(const urdf::Pose& pose) {
   return result;
 }
 
-// Collects what urdfdom says, which it would print otherwise.
+// Collects urdfdom's messages, which it would print otherwise.
 class UrdfdomMessages : public console_bridge::OutputHandler {
  public:
   UrdfdomMessages() : previous_(console_bridge::getOutputHandler()) {
@@ -54,7 +54,7 @@ class UrdfdomMessages : public console_bridge::OutputHandler {
 
 struct MeshShape {
   core::TriangleMesh mesh;
-  char up = 0;  // as UrdfShape::up
+  char up = 0;  // see UrdfShape::up
 };
 
 class Reader {
@@ -78,7 +78,7 @@ class Reader {
   void AddJoint(const urdf::Joint& joint);
   void AddShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
                 const urdf::MaterialSharedPtr& material, std::vector<UrdfShape>* shapes);
-  // The mesh of a file, in its own coordinates; nothing, and a finding, where it is left out.
+  // Returns the mesh of a file, in its own coordinates; null, with a finding, if it is skipped.
   const MeshShape* MeshNamed(const std::string& name, std::string* file);
   void ReadContacts(const std::string& text);
 
@@ -86,8 +86,8 @@ class Reader {
   UrdfReadOptions options_;
   MeshFinder finder_;
   std::map<std::string, MeshShape> meshes_;   // by file: visual and collision share them
-  std::map<std::string, std::string> files_;  // by name; empty where it is left out
-  std::string text_;  // as urdfdom is given it
+  std::map<std::string, std::string> files_;  // by name; empty if skipped
+  std::string text_;                          // the input of urdfdom
   UrdfModel model_;
 };
 
@@ -97,7 +97,7 @@ const MeshShape* Reader::MeshNamed(const std::string& name, std::string* file) {
     std::string& place = files_[name];
     const std::optional<FoundMesh> found = finder_.Find(name);
     if (!found) {
-      Warn("urdf-missing-mesh", "the mesh '" + name + "' is missing and left out",
+      Warn("urdf-missing-mesh", "the mesh '" + name + "' is missing and skipped",
            "put it into the URDF's folder or package, or give the folder that holds both");
       return nullptr;
     }
@@ -115,7 +115,7 @@ const MeshShape* Reader::MeshNamed(const std::string& name, std::string* file) {
       }
       place = found->file.string();
     } catch (const core::Error& error) {
-      Warn("urdf-unreadable-mesh", std::string("a mesh is left out: ") + error.what());
+      Warn("urdf-unreadable-mesh", std::string("a mesh is skipped: ") + error.what());
     }
   }
   *file = files_.at(name);
@@ -168,7 +168,7 @@ void Reader::AddShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
   shapes->push_back(std::move(shape));
 }
 
-// The inertial as the file has it, or what stands for one that no body can have.
+// Adds the file's inertial, or a replacement for an impossible one.
 void Reader::AddInertial(const urdf::Inertial& from, UrdfLink* link) {
   const std::string where = path_.string() + " link '" + link->name + "'";
   const bool shapes = !link->visuals.empty() || !link->collisions.empty();
@@ -194,7 +194,7 @@ void Reader::AddInertial(const urdf::Inertial& from, UrdfLink* link) {
   if (!fault.sentence.empty()) {
     Warn("urdf-impossible-inertial",
          "link '" + link->name + "': " + fault.sentence + "; " +
-             (massive ? "it is not used" : "it counts as none"),
+             (massive ? "it is replaced" : "it is ignored"),
          fault.remedy);
     if (!massive) return;
     const Eigen::Vector3d s = shapes ? Eigen::Vector3d(box.sizes()) : Eigen::Vector3d(Eigen::Vector3d::Constant(0.01));
@@ -203,7 +203,7 @@ void Reader::AddInertial(const urdf::Inertial& from, UrdfLink* link) {
                        Eigen::Vector3d(q.y() + q.z(), q.x() + q.z(), q.x() + q.y()).asDiagonal();
     if (shapes) inertial.center_of_mass = box.center();
   } else if (shapes) {
-    // No matter inside the box gives more than half its diagonal.
+    // The radius of gyration inside the box is at most half its diagonal.
     const double reach = std::sqrt(
         geometry::PrincipalInertiaOf(inertial.inertia).moments.maxCoeff() / inertial.mass);
     if (reach > 0.5 * box.diagonal().norm()) {
@@ -236,7 +236,7 @@ void Reader::AddLink(const urdf::Link& source) {
   model_.links.push_back(std::move(link));
 }
 
-// urdfdom does not hand on <contact>, so it is read from the text.
+// Reads <contact> from the text, because urdfdom does not provide it.
 void Reader::ReadContacts(const std::string& text) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) return;
@@ -323,7 +323,7 @@ UrdfModel Reader::Read() {
     text_ = std::move(mended.text);
     model_.findings = std::move(mended.findings);
   } else {
-    text_ = written;  // refused below
+    text_ = written;  // rejected below
   }
   RequireHarmlessUrdfText(text_, path_.string());
   urdf::ModelInterfaceSharedPtr parsed;
@@ -333,7 +333,7 @@ UrdfModel Reader::Read() {
     if (!parsed || !parsed->getRoot()) {
       throw core::Error("this is not a valid URDF" +
                             (heard.messages.empty() ? "" : ": " + heard.messages.front()),
-                        path_.string(), "mend the file as said");
+                        path_.string(), "correct the file accordingly");
     }
     for (const std::string& message : heard.messages) Warn("urdfdom", message);
   }

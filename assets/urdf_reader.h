@@ -21,11 +21,11 @@ enum class UrdfGeometry { kMesh, kBox, kCylinder, kSphere };
 struct UrdfShape {
   core::TriangleMesh mesh;  // metres, scale and origin applied
   std::string file;         // the mesh file, absolute; empty for a primitive
-  // What the file's vertices went through, scale and origin; identity for a primitive.
+  // The transform of the file's vertices, scale and origin; identity for a primitive.
   Eigen::Affine3d link_from_file = Eigen::Affine3d::Identity();
-  char up = 0;  // axis that points up by the file's own word (MeshFile), before any turn
+  char up = 0;  // the up axis declared by the file (MeshFile), before any rotation
   std::optional<Eigen::Vector4f> color = std::nullopt;  // RGBA of a visual's <material>
-  // What the file says of a primitive, for engines that know it exactly.
+  // The exact primitive, for engines that support it.
   UrdfGeometry geometry = UrdfGeometry::kMesh;
   double radius = 0.0, length = 0.0;  // m, of a cylinder (along z) or sphere
   Eigen::Isometry3d link_from_primitive = Eigen::Isometry3d::Identity();
@@ -33,17 +33,17 @@ struct UrdfShape {
 
 struct UrdfLink {
   std::string name;
-  std::optional<Inertial> inertial;  // in the link's frame; none where the file gives none
+  std::optional<Inertial> inertial;  // in the link's frame; none if the file gives none
   std::vector<UrdfShape> visuals;
   std::vector<UrdfShape> collisions;
-  double friction = 0.5;  // <contact><lateral_friction>, where given
+  double friction = 0.5;  // <contact><lateral_friction>, if given
   double restitution = 0.0;
   double rolling_friction = 0.0;  // <contact><rolling_friction>, m
 };
 
 enum class UrdfJointType { kFixed, kRevolute, kContinuous, kPrismatic, kFloating, kPlanar };
 
-// A joint that follows another: position = multiplier * leader's + offset.
+// A mimic relation: position = multiplier * leader's + offset.
 struct UrdfMimic {
   std::string joint;  // the leader
   double multiplier = 1.0;
@@ -57,43 +57,43 @@ struct UrdfJoint {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();                      // joint frame, unit
   double lower = 0.0, upper = 0.0;                                      // rad or m
   double damping = 0.0;   // <dynamics>, N m s/rad or N s/m
-  double friction = 0.0;  // <dynamics>, N m or N: below it a loaded joint holds still
-  double effort = 0.0;    // <limit>, N m or N; 0 where the file gives none
-  double velocity = 0.0;  // <limit>, rad/s or m/s; 0 where the file gives none
+  double friction = 0.0;  // <dynamics>, N m or N: a smaller load does not move the joint
+  double effort = 0.0;    // <limit>, N m or N; 0 if the file gives none
+  double velocity = 0.0;  // <limit>, rad/s or m/s; 0 if the file gives none
   std::optional<UrdfMimic> mimic = std::nullopt;
 
   bool Moves() const { return type != UrdfJointType::kFixed; }
 };
 
-// Two links, by name, that never touch each other.
+// Two links, by name, whose contacts are disabled.
 using ExcludedPair = std::pair<std::string, std::string>;
 
 struct UrdfModel {
   std::string name;
-  std::vector<UrdfLink> links;    // the root first; a parent stands before its children
+  std::vector<UrdfLink> links;    // the root first; parents precede their children
   std::vector<UrdfJoint> joints;  // joints[i] leads to links[i + 1]
   std::vector<ExcludedPair> excluded_pairs = {};  // by <drake:collision_filter_group>
-  core::Findings findings = {};                   // what was missing or mended
-  bool root_is_world = false;  // the root stands for the world: whoever simulates it holds it
+  core::Findings findings = {};                   // missing and repaired content
+  bool root_is_world = false;  // the root is the world frame: a simulator must fix it
 };
 
 struct UrdfReadOptions {
-  // No file outside this folder is read. Empty: PackageRootOf the URDF (urdf_meshes.h).
+  // The folder outside of which no file is read. Empty: PackageRootOf the URDF (urdf_meshes.h).
   std::filesystem::path root;
-  // For readers that make inertials anew: what no body can have is a finding, not an error. A mass
-  // that is not positive leaves the link without an inertial; an impossible inertia is replaced by
-  // that of the box around the link's shapes, of the same mass.
+  // If true, an impossible inertial is a finding, not an error, for callers that recompute
+  // inertials. A mass that is not positive leaves the link without an inertial; an impossible
+  // inertia is replaced by that of the bounding box of the link's shapes with the same mass.
   bool mend_inertials = false;
 };
 
-// Reads a URDF with urdfdom, which is given what MendUrdfText makes of the text; meshes are found by
-// MeshFinder. A mesh that is missing or cannot be read is left out with a warning; a missing
-// inertial and a joint that mimics another are reported. A link without shapes may have mass zero:
-// it is a frame. Collision filter groups of Drake that name one link each become excluded pairs.
-// Throws core::Error: no XML or no URDF, an unexpanded xacro, larger than 16 MiB, a DOCTYPE or
-// entity, a loop, a joint to a missing link, no root, a mass that is not positive, an inertia that
-// no body can have, joint damping, friction or limits that are not finite, negative damping or
-// friction, a mesh path that leads outside the root.
+// Reads a URDF with urdfdom, which parses the output of MendUrdfText; meshes are found by
+// MeshFinder. A mesh that is missing or cannot be read is skipped with a warning; a missing
+// inertial and a mimic joint are reported. A link without shapes may have mass zero: it is a frame.
+// Drake's collision filter groups that name one link each become excluded pairs. Throws core::Error
+// for: no XML or no URDF, an unexpanded xacro, more than 16 MiB, a DOCTYPE or entity, a loop, a
+// joint to a missing link, no root, a mass that is not positive, a physically impossible inertia,
+// joint damping, friction or limits that are not finite, negative damping or friction, a mesh path
+// that leads outside the root.
 UrdfModel ReadUrdf(const std::filesystem::path& path, const UrdfReadOptions& options = {});
 
 }  // namespace simwright::assets

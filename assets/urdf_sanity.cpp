@@ -35,7 +35,7 @@ void RequireTree(const tinyxml2::XMLElement& robot, const std::string& where) {
       if (!links.contains(link)) {
         throw core::Error("joint '" + std::string(name ? name : "") + "' names the link '" + link +
                               "', which does not exist",
-                          where, "add the link or mend the joint");
+                          where, "add the link or correct the joint");
       }
     }
     if (!parent_of.emplace(child, parent).second) {
@@ -65,10 +65,10 @@ void RequireHarmlessUrdfText(const std::string& text, const std::string& where) 
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     throw core::Error("this is not XML: line " + std::to_string(document.ErrorLineNum()), where,
-                      "mend the file there");
+                      "correct the file there");
   }
   const auto* robot = document.FirstChildElement("robot");
-  if (robot == nullptr) throw core::Error("this is no URDF: it has no <robot>", where);
+  if (robot == nullptr) throw core::Error("this is not a URDF: it has no <robot>", where);
   RequireTree(*robot, where);
 }
 
@@ -76,7 +76,7 @@ InertialFault FaultOf(const Inertial& inertial) {
   if (!(inertial.mass > 0.0) || !std::isfinite(inertial.mass)) {
     char text[60];
     std::snprintf(text, sizeof(text), "the mass is %g kg", inertial.mass);
-    return {text, "a mass is above zero"};
+    return {text, "a mass must be above zero"};
   }
   if (!inertial.inertia.allFinite() || !inertial.center_of_mass.allFinite()) {
     return {"the inertia is not finite", "compute the inertia from the shape"};

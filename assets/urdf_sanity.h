@@ -6,22 +6,22 @@
 
 namespace simwright::assets {
 
-// What is wrong with a URDF before or beside urdfdom's own parsing; each throws core::Error naming
-// `where`.
+// The validity checks of a URDF before and beside urdfdom's own parsing; each throws core::Error
+// naming `where`.
 
-// Text without a DOCTYPE or entities (they can grow without bound or name other files), that is
-// XML with a <robot> root, whose joints name links that exist, with no link its own ancestor.
+// Requires text without a DOCTYPE or entities (they can grow without bound or name other files)
+// that is XML with a <robot> root, whose joints name existing links, with no link its own ancestor.
 void RequireHarmlessUrdfText(const std::string& text, const std::string& where);
 
-// What is wrong with an inertial, and what to do; empty sentences where a rigid body can have it: a
-// mass above zero, an inertia that is finite and positive definite, principal moments that satisfy
-// the triangle inequality to 1e-3 (files round their digits).
+// The fault of an inertial and its remedy; both are empty if a rigid body can have it: a mass above
+// zero, an inertia that is finite and positive definite, principal moments that satisfy the
+// triangle inequality to 1e-3 (files round their digits).
 struct InertialFault {
   std::string sentence, remedy;
 };
 InertialFault FaultOf(const Inertial& inertial);
 
-// Throws that fault, if there is one.
+// Throws core::Error if the inertial has a fault.
 void RequirePhysical(const Inertial& inertial, const std::string& where);
 
 }  // namespace simwright::assets

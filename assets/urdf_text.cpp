@@ -27,7 +27,7 @@ std::string Attribute(const XMLElement& element, const char* name) {
   return value == nullptr ? "" : value;
 }
 
-// The numbers of an attribute; none where one of its words is no finite number.
+// Returns the numbers of an attribute; none if one of its words is not a finite number.
 std::vector<double> NumbersOf(const std::string& text) {
   std::istringstream words(text);
   std::vector<double> numbers;
@@ -40,8 +40,8 @@ std::vector<double> NumbersOf(const std::string& text) {
   return numbers;
 }
 
-// Blank lines and licences stand before some files' <?xml ...?>, where it may not be: it is blanked,
-// so that lines keep their numbers.
+// Blanks the <?xml ...?> declaration, because some files have blank lines and licences before it,
+// where it is invalid; lines keep their numbers.
 std::string WithoutDeclaration(std::string text) {
   const size_t start = text.find("<?xml");
   const size_t end = start == std::string::npos ? start : text.find("?>", start);
@@ -53,23 +53,24 @@ std::string WithoutDeclaration(std::string text) {
   return text;
 }
 
-// Elements and attributes that only xacro understands. `said` is the first, empty where none is.
-void FindXacro(const XMLElement& element, std::string* said) {
-  if (!said->empty()) return;
+// Finds elements and attributes that only xacro understands. `found` is the first, empty if there
+// are none.
+void FindXacro(const XMLElement& element, std::string* found) {
+  if (!found->empty()) return;
   const std::string line = ", line " + std::to_string(element.GetLineNum());
   if (std::string_view(element.Name()).starts_with("xacro:")) {
-    *said = "<" + std::string(element.Name()) + ">" + line;
+    *found = "<" + std::string(element.Name()) + ">" + line;
     return;
   }
   if (std::string_view(element.Name()) == "gazebo") return;  // plugins have macros of their own
   for (auto* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
     const std::string_view value = a->Value();
     if (value.find("${") == value.npos && value.find("$(") == value.npos) continue;
-    *said = std::string(a->Name()) + "=\"" + std::string(value.substr(0, 60)) + "\"" + line;
+    *found = std::string(a->Name()) + "=\"" + std::string(value.substr(0, 60)) + "\"" + line;
     return;
   }
   for (auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
-    FindXacro(*child, said);
+    FindXacro(*child, found);
   }
 }
 
@@ -82,13 +83,13 @@ class Mending {
     const std::string body = WithoutDeclaration(text);
     if (document_.Parse(body.data(), body.size()) != tinyxml2::XML_SUCCESS) {
       throw core::Error("this is not XML: line " + std::to_string(document_.ErrorLineNum()), where,
-                        "mend the file there");
+                        "correct the file there");
     }
   }
 
   MendedUrdf Mend() {
     XMLElement* robot = document_.FirstChildElement("robot");
-    if (robot == nullptr) throw core::Error("this is no URDF: it has no <robot>", where_);
+    if (robot == nullptr) throw core::Error("this is not a URDF: it has no <robot>", where_);
     std::string xacro;
     FindXacro(*robot, &xacro);
     if (!xacro.empty()) {
@@ -120,7 +121,7 @@ class Mending {
     findings_.push_back({code, severity, place, sentence, figure, remedy});
   }
 
-  // urdfdom refuses the file where one is not whole.
+  // Repairs incomplete inertials, for which urdfdom rejects the file.
   void MendInertial(XMLElement* link) {
     XMLElement* inertial = link->FirstChildElement("inertial");
     if (inertial == nullptr) return;
@@ -135,7 +136,7 @@ class Mending {
     }
     if (whole) return;
     Say("urdf-bad-inertial", core::Severity::kWarning, Attribute(*link, "name"),
-        "its inertial lacks a mass or an inertia that can be read, and is left out", 0.0,
+        "its inertial lacks a readable mass or inertia and is ignored", 0.0,
         "give <mass value> and all of <inertia>");
     link->DeleteChild(inertial);
   }
@@ -151,24 +152,24 @@ class Mending {
       } else if (name == "mesh") {
         MendMesh(link, shape, what);
       } else if (name == "sphere" && what->DoubleAttribute("radius", -1.0) == 0.0) {
-        LeaveOut(link, shape, "a sphere of radius 0");
+        Skip(link, shape, "a sphere of radius 0");
       } else if (name != "box" && name != "cylinder" && name != "sphere") {
-        LeaveOut(link, shape, name.empty() ? "no geometry" : "the geometry <" + name + ">");
+        Skip(link, shape, name.empty() ? "no geometry" : "the geometry <" + name + ">");
       }
       shape = next;
     }
   }
 
-  void LeaveOut(XMLElement* link, XMLElement* shape, const std::string& what) {
+  void Skip(XMLElement* link, XMLElement* shape, const std::string& what) {
     Say("urdf-unknown-geometry", core::Severity::kWarning, Attribute(*link, "name"),
-        std::string("a <") + shape->Name() + "> has " + what + ", and is left out", 0.0,
+        std::string("a <") + shape->Name() + "> has " + what + " and is skipped", 0.0,
         "use a mesh, box, cylinder, sphere or capsule");
     link->DeleteChild(shape);
   }
 
   void MendMesh(XMLElement* link, XMLElement* shape, XMLElement* mesh) {
     if (Attribute(*mesh, "filename").empty()) {
-      LeaveOut(link, shape, "a mesh without a file");
+      Skip(link, shape, "a mesh without a file");
       return;
     }
     const std::string scale = Attribute(*mesh, "scale");
@@ -177,13 +178,13 @@ class Mending {
     }
   }
 
-  // Two balls and a cylinder along z, `length` between the balls' middles: Bullet's and Gazebo's
-  // <capsule>.
+  // Replaces Bullet's and Gazebo's <capsule> by two balls and a cylinder along z, with `length`
+  // between the balls' centres.
   void ReplaceCapsule(XMLElement* link, XMLElement* shape, const XMLElement& capsule) {
     const double radius = capsule.DoubleAttribute("radius", 0.0);
     const double length = capsule.DoubleAttribute("length", 0.0);
     if (!(radius > 0.0) || !(length >= 0.0)) {
-      LeaveOut(link, shape, "a capsule without a size");
+      Skip(link, shape, "a capsule without a size");
       return;
     }
     const XMLElement* origin = shape->FirstChildElement("origin");
@@ -232,10 +233,11 @@ class Mending {
     static const std::set<std::string> kTypes{"fixed",     "revolute", "continuous",
                                               "prismatic", "floating", "planar"};
     if (!kTypes.contains(type)) {
-      throw core::Error("joint '" + name + "' is of the type '" + type + "', which URDF has not",
-                        where_, "make it revolute, continuous, prismatic or fixed");
+      throw core::Error(
+          "joint '" + name + "' is of the type '" + type + "', which is not a URDF type", where_,
+          "make it revolute, continuous, prismatic or fixed");
     }
-    // What they tell concerns a controller alone; urdfdom refuses those that are not whole.
+    // These elements concern only a controller, and urdfdom rejects incomplete ones.
     for (const char* unused : {"safety_controller", "calibration"}) {
       while (auto* element = joint->FirstChildElement(unused)) joint->DeleteChild(element);
     }
@@ -252,15 +254,15 @@ class Mending {
       return;
     }
     const std::vector<double> xyz = NumbersOf(Attribute(*axis, "xyz"));
-    if (xyz.size() != 3) return;  // urdfdom says what is wrong
+    if (xyz.size() != 3) return;  // urdfdom reports the error
     const double length = std::hypot(xyz[0], xyz[1], xyz[2]);
     if (!(length > 1e-9)) {
       throw core::Error("joint '" + name + "' moves about an axis of length zero", where_,
                         "give <axis xyz> a direction, or make the joint fixed");
     }
     if (std::abs(length - 1.0) > 1e-3) {
-      Say("urdf-axis", core::Severity::kInfo, name, "its axis has not length 1 and was normalised",
-          length);
+      Say("urdf-axis", core::Severity::kInfo, name,
+          "its axis is not a unit vector and was normalised", length);
     }
   }
 
@@ -273,7 +275,7 @@ class Mending {
         limit->DoubleAttribute("upper", 0.0) - limit->DoubleAttribute("lower", 0.0);
     if (range != 0.0) {
       Say("urdf-continuous-limits", core::Severity::kInfo, name,
-          "it is continuous: it turns freely, and its limits are not heeded", range,
+          "it is continuous: it rotates freely and its limits are ignored", range,
           "make it revolute where it should stop");
     }
     limit->DeleteAttribute("lower");

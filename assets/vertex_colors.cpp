@@ -9,7 +9,7 @@ namespace simwright::assets {
 namespace {
 
 constexpr CornerColor kWhite{255, 255, 255, 255};
-constexpr size_t kMostMaterials = 32;  // colours that become materials rather than a texture
+constexpr size_t kMostMaterials = 32;  // maximum number of colours that become materials
 
 using TriangleColors = std::array<CornerColor, 3>;
 
@@ -66,7 +66,7 @@ class Painter {
   const std::vector<CornerColor>& colors_;
   bool multiply_;
   FindingList& findings_;
-  std::vector<int> paintable_;  // triangles whose colours are to be kept
+  std::vector<int> paintable_;  // triangles whose colours are kept
 };
 
 core::Material Painter::Painted(int material, const CornerColor& color) const {
@@ -85,7 +85,8 @@ void Painter::MultiplyAll(int material, const CornerColor& color) {
   }
 }
 
-// Materials with a texture keep it, as long as the colours do not vary they are taken as well.
+// Finds the triangles to paint. Materials with a texture keep it; a uniform colour is multiplied
+// into them.
 void Painter::FindPaintable() {
   struct Seen {
     CornerColor color = kWhite;
@@ -106,7 +107,7 @@ void Painter::FindPaintable() {
     if (seen[m].varies) {
       findings_.Add(core::Severity::kWarning, "vertex-colors-left-out",
                     "material '" + mesh_.materials[m].name +
-                        "' has a texture and colours at vertices: the texture is kept",
+                        "' has a texture and vertex colours: the texture is kept",
                     "bake both into one texture (Blender: Bake, Diffuse, Color)");
     } else if (multiply_) {
       MultiplyAll(static_cast<int>(m), seen[m].color);
@@ -126,11 +127,11 @@ bool Painter::PaintMaterials() {
     material_of.try_emplace({mesh_.triangle_material[static_cast<size_t>(t)], colors[0]}, -1);
     if (material_of.size() > kMostMaterials) return false;
   }
-  std::map<int, int> colors_of;  // a source material's number of colours
+  std::map<int, int> colors_of;  // the number of colours of a source material
   for (const auto& [key, unused] : material_of) ++colors_of[key.first];
   for (auto& [key, index] : material_of) {
     core::Material painted = Painted(key.first, key.second);
-    if (colors_of[key.first] == 1) {  // stays the material that it is
+    if (colors_of[key.first] == 1) {  // keeps the original material
       mesh_.materials[static_cast<size_t>(key.first)] = painted;
       index = key.first;
       continue;
@@ -146,7 +147,7 @@ bool Painter::PaintMaterials() {
   return true;
 }
 
-// Blocks of texels in one picture, row by row.
+// Blocks of texels in one image, row by row.
 class Atlas {
  public:
   Atlas(size_t blocks, int side) : side_(side) {
@@ -159,7 +160,7 @@ class Atlas {
     std::uint8_t* texel = image_.At(block % columns_ * side_ + x, block / columns_ * side_ + y);
     std::copy_n(color.begin(), 3, texel);
   }
-  // The middle of a block's texel, origin at the picture's lower left.
+  // Returns the centre of a block's texel, origin at the image's lower left.
   Eigen::Vector2f Uv(int block, int x, int y) const {
     const double u = (block % columns_ * side_ + x + 0.5) / image_.width;
     const double v = 1.0 - (block / columns_ * side_ + y + 0.5) / image_.height;
@@ -173,7 +174,8 @@ class Atlas {
   core::Image image_;
 };
 
-// Corners lie on texels (0, 0), (1, 0) and (0, 1); the fourth continues the plane through them.
+// Fills a block: corners lie on texels (0, 0), (1, 0) and (0, 1); the fourth texel extends the
+// plane through them.
 void FillBlock(int block, const TriangleColors& colors, Atlas* atlas) {
   CornerColor fourth;
   for (size_t k = 0; k < 4; ++k) {
@@ -217,8 +219,8 @@ void Painter::PaintTexture() {
       block_of.try_emplace(key_of(t), static_cast<int>(block_of.size()));
     }
     findings_.Add(core::Severity::kInfo, "vertex-colors-rounded",
-                  "colours at vertices are kept as one rounded colour a triangle",
-                  "decimate the mesh and bake its colours into a texture to keep them finer");
+                  "vertex colours are reduced to one rounded colour per triangle",
+                  "decimate the mesh and bake its colours into a texture for more detail");
   }
   Atlas atlas(block_of.size(), 2);
   for (const auto& [colors, block] : block_of) FillBlock(block, colors, &atlas);

@@ -4,11 +4,11 @@
 
 namespace simwright::assets {
 
-// Turns colours at corners into what OBJ and every simulator show. Where all triangles are of one
-// colour each and few differ, they become materials; else a texture of 2 x 2 texels a triangle,
-// whose bilinear interpolation is the colours' own; above some 4 million different triangles their
-// mean, rounded to 5 bits a channel. A part with a texture of its own keeps that: one colour for
-// all of it goes into its material, others are left out with a finding.
+// Converts corner colours to what OBJ and every simulator display. If each triangle has one colour
+// and few colours differ, they become materials; otherwise a texture of 2 x 2 texels per triangle,
+// whose bilinear interpolation equals that of the colours; above about 4 million different
+// triangles their mean, rounded to 5 bits per channel. A part with a texture keeps it: one colour
+// for the whole part goes into its material, other colours are dropped with a finding.
 void ApplyVertexColors(RawMesh* raw, FindingList* findings);
 
 }  // namespace simwright::assets

@@ -15,43 +15,45 @@ namespace simwright::assets {
 namespace {
 
 constexpr char kGround[] = "ground";
-// That of most floors. Drake takes 2 a b / (a + b) of two frictions, Gazebo the smaller.
+// The friction of most floors. Drake combines two frictions as 2 a b / (a + b), Gazebo takes the
+// smaller.
 constexpr double kGroundFriction = 0.8;
-// s. At the 2 ms of a single asset, contacts of 5 ms ring in stacks of four or five, whose upper
-// ones creep by millimetres a second; at 1 ms nothing moves by more than 0.1 mm.
+// The step in s. At the 2 ms of a single asset, contacts with a time constant of 5 ms oscillate in
+// stacks of four or five, whose upper objects creep by millimetres per second; at 1 ms no object
+// moves by more than 0.1 mm.
 constexpr double kMjcfStep = 1e-3;
 
 void RequireName(const std::string& name) {
-  if (FileSafeName(name) != name) throw core::Error("this is no name for a file", name);
+  if (FileSafeName(name) != name) throw core::Error("this is not a valid file name", name);
 }
 
-// The assets of the things, each once, by key.
-std::map<std::string, const WorldAsset*> AssetsOf(const std::vector<WorldThing>& things) {
+// Returns the assets of the objects, each once, by key.
+std::map<std::string, const WorldAsset*> AssetsOf(const std::vector<WorldThing>& objects) {
   std::map<std::string, const WorldAsset*> assets;
   std::set<std::string> names = {kGround};
-  for (const WorldThing& thing : things) {
-    RequireName(thing.name);
-    RequireName(thing.asset->key);
-    if (!names.insert(thing.name).second) {
-      throw core::Error("two things of a world have one name", thing.name);
+  for (const WorldThing& object : objects) {
+    RequireName(object.name);
+    RequireName(object.asset->key);
+    if (!names.insert(object.name).second) {
+      throw core::Error("two objects of a world have the same name", object.name);
     }
-    if (assets.emplace(thing.asset->key, thing.asset).first->second != thing.asset) {
-      throw core::Error("two assets of a world have one key", thing.asset->key);
+    if (assets.emplace(object.asset->key, object.asset).first->second != object.asset) {
+      throw core::Error("two assets of a world have the same key", object.asset->key);
     }
   }
   return assets;
 }
 
-// MuJoCo 2.2 reserves contacts and rows of constraints, six a contact, beforehand, and memory for
-// the square of the rows, 0.8 GB for 8000; from 15 000 on it fails. Scenes of tables and shelves
-// had up to two contacts a part of what is free. What it works with, `nstack`, it would reserve by
-// the square too: fifty things with 5500 rows took half a million numbers.
-void MjcfSize(tinyxml2::XMLPrinter* printer, const std::vector<WorldThing>& things) {
+// Writes <size>. MuJoCo 2.2 reserves contacts and constraint rows, six per contact, in advance, and
+// memory for the square of the rows, 0.8 GB for 8000; above 15 000 it fails. Scenes of tables and
+// shelves have up to two contacts per part of a free object. `nstack`, its working memory, would
+// also be reserved by the square.
+void MjcfSize(tinyxml2::XMLPrinter* printer, const std::vector<WorldThing>& objects) {
   int contacts = 100, free = 0;
-  for (const WorldThing& thing : things) {
-    if (thing.welded) continue;
+  for (const WorldThing& object : objects) {
+    if (object.welded) continue;
     ++free;
-    contacts += std::min(8 + 2 * static_cast<int>(thing.asset->asset.parts.size()), 60);
+    contacts += std::min(8 + 2 * static_cast<int>(object.asset->asset.parts.size()), 60);
   }
   const int rows = std::min(6 * contacts, 12'000);
   const int working = 1'000'000 + 2 * rows * std::min(6 * free, 600);
@@ -61,8 +63,9 @@ void MjcfSize(tinyxml2::XMLPrinter* printer, const std::vector<WorldThing>& thin
       .Set("nstack", std::to_string(working));
 }
 
-// A box: Drake's contact of meshes with the half space that a plane becomes failed in scenes. Rigid,
-// for what stands on it is compliant, and two rigid bodies have no hydroelastic contact.
+// Writes the ground as a box, because Drake's contact of meshes with a plane's half space failed in
+// scenes. The box is rigid, because the objects on it are compliant, and two rigid bodies have no
+// hydroelastic contact.
 void SdfGround(tinyxml2::XMLPrinter* printer) {
   Element model(printer, "model");
   model.Set("name", kGround);
@@ -88,14 +91,14 @@ void SdfGround(tinyxml2::XMLPrinter* printer) {
   }
 }
 
-void SdfModel(tinyxml2::XMLPrinter* printer, const WorldThing& thing) {
-  const Asset& asset = thing.asset->asset;
+void SdfModel(tinyxml2::XMLPrinter* printer, const WorldThing& object) {
+  const Asset& asset = object.asset->asset;
   Element model(printer, "model");
-  model.Set("name", thing.name);
-  if (thing.welded) Leaf(printer, "static", "true");
+  model.Set("name", object.name);
+  if (object.welded) Leaf(printer, "static", "true");
   {
-    const Eigen::Vector3d& place = thing.world_from_thing.translation();
-    const Eigen::Quaterniond turn(thing.world_from_thing.linear());
+    const Eigen::Vector3d& place = object.world_from_thing.translation();
+    const Eigen::Quaterniond turn(object.world_from_thing.linear());
     Element(printer, "pose")
         .Set("rotation_format", "quat_xyzw")
         .Text(Numbers({place.x(), place.y(), place.z(), turn.x(), turn.y(), turn.z(), turn.w()}));
@@ -103,11 +106,11 @@ void SdfModel(tinyxml2::XMLPrinter* printer, const WorldThing& thing) {
   Element link(printer, "link");
   link.Set("name", asset.name);
   SdfInertial(printer, asset.inertial);
-  SdfVisual(printer, "visual", thing.asset->folder + "visual.obj");
+  SdfVisual(printer, "visual", object.asset->folder + "visual.obj");
   const HydroelasticContact contact = ContactOf(asset);
   for (size_t i = 0; i < asset.parts.size(); ++i) {
     const std::string file = CollisionFileName(static_cast<int>(i));
-    SdfCollision(printer, file.substr(0, file.find('.')), thing.asset->folder + file, contact);
+    SdfCollision(printer, file.substr(0, file.find('.')), object.asset->folder + file, contact);
   }
 }
 
@@ -118,7 +121,7 @@ void SdfPhysics(tinyxml2::XMLPrinter* printer) {
   Leaf(printer, "real_time_factor", "1");
 }
 
-// Without a light nothing is seen.
+// Writes a light, without which the scene is dark.
 void SdfSun(tinyxml2::XMLPrinter* printer) {
   Element light(printer, "light");
   light.Set("name", "sun").Set("type", "directional");
@@ -131,15 +134,15 @@ void SdfSun(tinyxml2::XMLPrinter* printer) {
 
 }  // namespace
 
-std::string WorldMjcf(const std::string& name, const std::vector<WorldThing>& things) {
-  const std::map<std::string, const WorldAsset*> assets = AssetsOf(things);
+std::string WorldMjcf(const std::string& name, const std::vector<WorldThing>& objects) {
+  const std::map<std::string, const WorldAsset*> assets = AssetsOf(objects);
   tinyxml2::XMLPrinter printer;
   {
     Element mujoco(&printer, "mujoco");
     mujoco.Set("model", name);
     Element(&printer, "compiler").Set("angle", "radian");
     MjcfOption(&printer, kMjcfStep);
-    MjcfSize(&printer, things);
+    MjcfSize(&printer, objects);
     {
       Element meshes(&printer, "asset");
       for (const auto& [key, asset] : assets) {
@@ -147,24 +150,24 @@ std::string WorldMjcf(const std::string& name, const std::vector<WorldThing>& th
       }
     }
     Element worldbody(&printer, "worldbody");
-    // MuJoCo takes the greater friction of two: the things' own counts.
+    // MuJoCo uses the greater friction of two, so the objects' own applies.
     Element(&printer, "geom")
         .Set("name", kGround)
         .Set("type", "plane")
         .Set("size", "0 0 1")
         .Set("condim", "6")
         .Set("friction", "0.01 1e-5 1e-5");
-    for (const WorldThing& thing : things) {
-      MjcfBody(&printer, thing.asset->asset, {thing.asset->key, thing.asset->folder},
-               {thing.name, &thing.world_from_thing, !thing.welded});
+    for (const WorldThing& object : objects) {
+      MjcfBody(&printer, object.asset->asset, {object.asset->key, object.asset->folder},
+               {object.name, &object.world_from_thing, !object.welded});
     }
   }
   return printer.CStr();
 }
 
-std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& things,
+std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& objects,
                      SdfReader reader) {
-  AssetsOf(things);
+  AssetsOf(objects);
   tinyxml2::XMLPrinter printer;
   printer.PushHeader(false, true);
   {
@@ -178,7 +181,7 @@ std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& thi
       SdfSun(&printer);
     }
     SdfGround(&printer);
-    for (const WorldThing& thing : things) SdfModel(&printer, thing);
+    for (const WorldThing& object : objects) SdfModel(&printer, object);
   }
   return printer.CStr();
 }

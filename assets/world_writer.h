@@ -9,37 +9,37 @@
 
 namespace simwright::assets {
 
-// A rigid asset that things of a world are made of.
+// A rigid asset that objects of a world instantiate.
 struct WorldAsset {
-  std::string key;     // names its meshes, unlike any other asset's of the world: "cup"
-  std::string folder;  // of its files, as the world's file finds it: "../assets/cup/"
+  std::string key;     // mesh name prefix, unique in the world: "cup"
+  std::string folder;  // folder of its files relative to the world's file: "../assets/cup/"
   Asset asset;
 };
 
-// One thing of a world.
+// An object of a world.
 struct WorldThing {
-  std::string name;                   // unlike any other's, a name for files
-  const WorldAsset* asset = nullptr;  // not null; things that are alike share it
+  std::string name;                   // unique, valid as a file name
+  const WorldAsset* asset = nullptr;  // not null; equal objects share it
   Eigen::Isometry3d world_from_thing = Eigen::Isometry3d::Identity();
-  bool welded = false;  // part of the world, as furniture is
+  bool welded = false;  // part of the world, like furniture
 };
 
-// The world as one file, over the floor z = 0, with the numbers of the assets' own files (17
-// digits) and their options. `name` is the world's. Throws core::Error where two things share a
-// name, two assets a key, or a name is none for files.
+// Returns the world as one file, over the floor z = 0, with the numbers of the assets' own files
+// (17 digits) and their options. `name` is the world's. Throws core::Error if two objects share a
+// name, two assets a key, or a name is not a valid file name.
 //
-// MJCF: one mesh a file however many things share it; what is free has a free joint, what is welded
-// has none; room for the contacts of all parts; steps of 1 ms, for at an asset's own 2 stacks
-// creep.
-std::string WorldMjcf(const std::string& name, const std::vector<WorldThing>& things);
-// Who reads an SDF world: Drake warns of gravity, physics and light in it, without which Gazebo
-// shows things in the dark.
+// MJCF: one mesh per file for all objects that share it; free objects have a free joint, welded
+// ones none; capacity for the contacts of all parts; steps of 1 ms, because stacks creep at an
+// asset's own 2 ms.
+std::string WorldMjcf(const std::string& name, const std::vector<WorldThing>& objects);
+// The reader of an SDF world. Drake warns about gravity, physics and light in it; Gazebo needs them
+// to light the objects.
 enum class SdfReader { kAny, kGazebo };
-// SDF 1.9: models in the world, poses with quaternions, so that none loses digits near the poles;
-// what is welded is static; the ground is a box whose top is z = 0.
-std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& things,
+// Returns the world as SDF 1.9: models in the world, poses as quaternions, which keep all digits
+// near gimbal lock; welded objects are static; the ground is a box whose top is z = 0.
+std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& objects,
                      SdfReader reader = SdfReader::kAny);
-// The same ground as a model of its own.
+// Returns the same ground as a separate model.
 std::string GroundSdf();
 
 }  // namespace simwright::assets

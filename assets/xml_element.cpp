@@ -155,9 +155,9 @@ void SdfSurface(tinyxml2::XMLPrinter* printer, double friction) {
 
 void MjcfOption(tinyxml2::XMLPrinter* printer, double time_step) {
   Element option(printer, "option");
-  // The default tolerance lets light things with many contacts tremble; at 1e-14 a cup of a
-  // few grams rests still. Elliptic cones tremble less than pyramids, and with impratio 10
-  // held things slip less.
+  // With the default tolerance light objects with many contacts jitter; at 1e-14 a cup of a few
+  // grams rests. Elliptic cones jitter less than pyramids, and with impratio 10 grasped objects
+  // slip less.
   option.Set("timestep", Number(time_step))
       .Set("solver", "Newton")
       .Set("tolerance", "1e-14")
@@ -167,7 +167,7 @@ void MjcfOption(tinyxml2::XMLPrinter* printer, double time_step) {
 }
 
 void MjcfInertial(tinyxml2::XMLPrinter* printer, const Inertial& inertial) {
-  // Principal axes found by MuJoCo 2.2 itself were off by up to 1e-6 of the inertia.
+  // The principal axes computed by MuJoCo 2.2 itself were off by up to 1e-6 of the inertia.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(inertial.inertia);
   Eigen::Matrix3d rotation = axes.eigenvectors();
   if (rotation.determinant() < 0.0) rotation.col(0) *= -1.0;

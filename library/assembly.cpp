@@ -12,10 +12,11 @@
 namespace simwright::library {
 namespace {
 
-constexpr double kHoldFactor = 1.3;  // of the greatest weight on a joint
-constexpr int kLoadSamples = 32;     // over a joint's range
+constexpr double kHoldFactor = 1.3;  // of the maximum gravity load on a joint
+constexpr int kLoadSamples = 32;     // samples over a joint's range
 
-// A stream a kind, so that a seed draws afresh for each: FNV-1a, the same on every library.
+// Returns a random stream per kind, so that a seed gives independent samples for each: FNV-1a, the
+// same on every standard library.
 std::uint64_t StreamOf(const std::string& kind) {
   std::uint64_t hash = 14695981039346656037ull;
   for (const char c : kind) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
@@ -199,7 +200,7 @@ assets::ArticulatedAsset Assembly::Finish(const std::string& fitted) {
   physics_params::Estimate& range = asset_.parameters.mass;
   if (mass < range.min || mass > range.max) {
     asset_.findings.push_back({"library-mass", core::Severity::kInfo, asset_.name,
-                               "its pieces weigh what the category's range does not hold", mass});
+                               "the mass of its pieces is outside the category's range", mass});
   }
   range.sample = mass;
   range.min = std::min(range.min, mass);

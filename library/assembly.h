@@ -12,21 +12,21 @@
 
 namespace simwright::library {
 
-// What a generator is given. The same options give the same asset.
+// The input of a generator. The same options give the same asset.
 struct Options {
   std::uint64_t seed = 1;
-  std::string name;  // of the asset; empty: the kind's name
+  std::string name;  // name of the asset; empty: the kind's name
 };
 
-// How a joint feels to a hand.
+// The friction and damping of a joint.
 struct Feel {
   double friction = 0.0;  // N m or N
   double damping = 0.0;   // N m s/rad or N s/m
 };
 
-// A thing that a hand works at `lever` (m) from a hinge, or straight (lever 1): it takes 1.5 to
-// 8 N, and as much again by damping at 1 to 4 m/s or rad/s. Operable parts are to work with at
-// most 22.2 N (ADA Standards for Accessible Design, 2010, 309.4).
+// Samples the resistance of a part that a hand operates at `lever` (m) from a hinge, or linearly
+// (lever 1): friction of 1.5 to 8 N, and as much again by damping at 1 to 4 m/s or rad/s. Operable
+// parts must require at most 22.2 N (ADA Standards for Accessible Design, 2010, 309.4).
 Feel DrawFeel(core::Rng& rng, double lever = 1.0);
 
 struct JointPlan {
@@ -37,42 +37,43 @@ struct JointPlan {
   Feel feel;
 };
 
-// Puts an articulated asset together from convex pieces, all given in the root's frame with every
-// joint at zero. Pieces of one link may touch but not overlap: then volumes and masses add.
+// Assembles an articulated asset from convex pieces, all given in the root's frame with every joint
+// at zero. Pieces of one link may touch but must not overlap, so that volumes and masses add.
 class Assembly {
  public:
-  // `category` of the knowledge base gives sizes, mass and contact; see parameters().
+  // Constructs an assembly whose sizes, mass and contact come from `category` of the knowledge
+  // base; see parameters().
   Assembly(const std::string& kind, const std::string& category, const Options& options);
-  // What the knowledge base has no row for brings its own.
+  // Constructs an assembly with its own parameters, for kinds without a row in the knowledge base.
   Assembly(const std::string& kind, const physics_params::PhysicalParameters& parameters,
            const Options& options);
 
   core::Rng& rng() { return rng_; }
-  // Sampled from the category; a generator may narrow the sizes.
+  // Returns the parameters sampled from the category; a generator may narrow the sizes.
   physics_params::PhysicalParameters& parameters() { return asset_.parameters; }
   double Draw(double low, double high) { return core::Uniform(rng_, low, high); }
   bool Chance(double probability) { return core::Uniform(rng_) < probability; }
-  // What was drawn, for asset.json.
+  // Records a sampled feature for asset.json.
   void Note(const std::string& feature, const std::string& value);
   void HoldFixed() { asset_.fixed = true; }
 
-  // The root, then children; return the link's index. A link on a fixed joint has its frame at
-  // the plan's origin.
+  // Add the root, then its children, and return the link's index. A link on a fixed joint has its
+  // frame at the plan's origin.
   int AddRoot(const std::string& name, const std::string& label);
   int AddLink(const std::string& name, const std::string& label, int parent, const JointPlan& plan);
-  // Seen, collides and weighs.
+  // Adds a piece with visual, collision and mass.
   void Add(int link, const Matter& matter, const core::TriangleMesh& piece);
   void Add(int link, const Matter& matter, const std::vector<core::TriangleMesh>& pieces);
-  // Seen alone: print, keys, burners.
+  // Adds a visual-only piece: print, keys, burners.
   void Paint(int link, const Matter& matter, const core::TriangleMesh& piece);
-  // A handle as a link of its own, fixed to `parent`, with its frame at the grip.
+  // Adds a handle as a separate link, fixed to `parent`, with its frame at the grip.
   int AddHandle(const std::string& name, int parent, HandleKind kind, const HandlePlace& place,
                 const Matter& matter);
 
-  // Densities of `fitted` materials (empty: none) are scaled, within the material's range, so that
-  // the whole weighs what was sampled; friction of each joint is raised to hold 1.3 times the
-  // greatest weight on it, as the hinges of lids and oven doors do. A mass outside the category's
-  // range is reported as a finding.
+  // Returns the finished asset. Densities of pieces of the material `fitted` (empty: none) are
+  // scaled, within the material's range, so that the total mass is the sampled one. The friction of
+  // each joint is raised to support 1.3 times its maximum gravity load, as in the hinges of lids
+  // and oven doors. A mass outside the category's range is reported as a finding.
   assets::ArticulatedAsset Finish(const std::string& fitted = "");
 
  private:
@@ -87,8 +88,8 @@ class Assembly {
 
   assets::ArticulatedAsset asset_;
   core::Rng rng_;
-  std::vector<std::vector<Piece>> pieces_;  // by link
-  std::vector<Eigen::Vector3d> origins_;    // of links, root frame
+  std::vector<std::vector<Piece>> pieces_;  // per link
+  std::vector<Eigen::Vector3d> origins_;    // per link, root frame
 };
 
 }  // namespace simwright::library

@@ -12,7 +12,7 @@ namespace {
 constexpr double kSame = 1e-9;  // m
 constexpr int kEmpty = -1;
 
-// Space cut by the planes of all faces: a cell lies in a plank wholly or not at all.
+// The cells of space cut by the planes of all faces: a cell lies in a plank entirely or not at all.
 class CellGrid {
  public:
   explicit CellGrid(const std::vector<Plank>& planks) : planks_(planks) {
@@ -37,7 +37,7 @@ class CellGrid {
             cuts_[2][static_cast<size_t>(at.z())]};
   }
 
-  // Of the first plank that fills the cell; kEmpty outside of all.
+  // Returns the look of the first plank that fills the cell; kEmpty outside all planks.
   int LookAt(const Eigen::Vector3i& cell) const {
     for (int axis = 0; axis < 3; ++axis) {
       if (cell[axis] < 0 || cell[axis] >= Cells(axis)) return kEmpty;
@@ -54,12 +54,12 @@ class CellGrid {
   std::array<std::vector<double>, 3> cuts_;
 };
 
-// Gathers faces of cells; a corner that several share is one vertex.
+// Collects faces of cells; shared corners become one vertex.
 class SurfaceOfCells {
  public:
   SurfaceOfCells(const CellGrid& grid, core::TexturedMesh* mesh) : grid_(grid), mesh_(mesh) {}
 
-  // The cell's face across `axis`, above or below.
+  // Adds the cell's face perpendicular to `axis`, above or below.
   void AddFace(const Eigen::Vector3i& cell, int axis, bool above, int look) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     std::array<int, 4> corners;

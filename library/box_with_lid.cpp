@@ -11,7 +11,7 @@ constexpr double kLidGap = 0.002;  // m, between the lid and the rim
 
 assets::ArticulatedAsset MakeBoxWithLid(const Options& options) {
   Assembly a("box_with_lid", "box", options);
-  // A chest for a table: the row spans boxes from 14 to 110 cm.
+  // The box is a table-top chest, although the row spans boxes from 14 to 110 cm.
   const double across = a.Draw(0.22, 0.48), deep = a.Draw(0.6, 0.8) * across;
   const double high = a.Draw(0.45, 0.75) * deep + 0.04;
   a.parameters().length.sample = across;

@@ -8,7 +8,7 @@ namespace {
 constexpr double kDialGap = 0.001;       // m, between a dial and its panel
 constexpr double kDialRange = 4.7;       // rad, 270 degrees
 constexpr double kButtonTravel = 0.003;  // m
-constexpr double kButtonRaise = 0.004;   // m, the button's back stands so far off its panel
+constexpr double kButtonRaise = 0.004;   // m, the distance of the button's back from its panel
 
 }  // namespace
 

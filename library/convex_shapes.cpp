@@ -9,7 +9,8 @@
 namespace simwright::library {
 namespace {
 
-// Points of a circle about `center`, across `direction`, cut by the plane with `normal`.
+// Adds the points of a circle about `center`, perpendicular to `direction`, projected along it onto
+// the plane with `normal`.
 void AddRing(const Eigen::Vector3d& center, const Eigen::Vector3d& direction, double radius,
              const Eigen::Vector3d& normal, int segments, std::vector<Eigen::Vector3d>* points) {
   const Eigen::Vector3d side = direction.unitOrthogonal();
@@ -17,7 +18,7 @@ void AddRing(const Eigen::Vector3d& center, const Eigen::Vector3d& direction, do
   for (int i = 0; i < segments; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / segments;
     const Eigen::Vector3d spoke = radius * (std::cos(angle) * side + std::sin(angle) * other);
-    // Along the leg to the cutting plane.
+    // Shift along the segment to the cutting plane.
     const double shift = -spoke.dot(normal) / direction.dot(normal);
     points->push_back(center + spoke + shift * direction);
   }
@@ -40,7 +41,7 @@ core::TriangleMesh Box(const Eigen::Vector3d& a, const Eigen::Vector3d& b, doubl
       points.push_back(tip);
       continue;
     }
-    // One point on each of the three faces that meet here.
+    // One point on each of the three faces that meet at this corner.
     for (int axis = 0; axis < 3; ++axis) {
       Eigen::Vector3d point = tip + inward;
       point[axis] = tip[axis];

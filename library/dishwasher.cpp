@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kDoor = 0.045;   // m, thickness
 constexpr double kWall = 0.025;   // m
-constexpr double kPlinth = 0.14;  // m: the open door and its handle stay above the floor
+constexpr double kPlinth = 0.14;  // m: keeps the open door and its handle above the floor
 constexpr double kPanel = 0.075;  // m, height of the control panel
 
 }  // namespace
@@ -21,7 +21,7 @@ assets::ArticulatedAsset MakeDishwasher(const Options& options) {
   const double front = -0.5 * deep, rear = 0.5 * deep, inner = front + kDoor + kGap;
   const Matter casing = Casing(a.rng());
   const int body = a.AddRoot("body", "body");
-  // The pump and the counterweight lie in the plinth.
+  // The pump and the counterweight are in the plinth.
   a.Add(body, BlackPlastic(),
         Box({inner + 0.04, -0.48 * across, 0.0}, {inner + 0.05, 0.48 * across, kPlinth}, 0.0));
   a.Add(body, casing, Box({inner + 0.05, -0.5 * across, 0.0}, {rear, 0.5 * across, kPlinth}));
@@ -29,7 +29,7 @@ assets::ArticulatedAsset MakeDishwasher(const Options& options) {
   a.Add(body, casing,
         CarcassPanels(Bounds(inner, rear, -0.5 * across, 0.5 * across, kPlinth, shell_top), kWall));
   a.Add(body, casing, Box({front, -0.5 * across, shell_top}, {rear, 0.5 * across, high}));
-  // Two baskets of wire, as trays.
+  // The two wire baskets are modelled as trays.
   for (const double share : {0.12, 0.55}) {
     const double z = kPlinth + kWall + share * (shell_top - kPlinth - 2 * kWall);
     a.Add(body, BrushedSteel(),

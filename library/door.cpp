@@ -10,20 +10,20 @@ namespace {
 
 constexpr double kLeaf = 0.040;        // m, thickness of the leaf
 constexpr double kJamb = 0.045;        // m, width of the frame's bars
-constexpr double kStop = 0.012;        // m, how far the stop reaches over the leaf
+constexpr double kStop = 0.012;        // m, overlap of the stop over the leaf
 constexpr double kFloorGap = 0.008;    // m, under the leaf
 constexpr double kHandleHeight = 1.0;  // m; 0.86 to 1.22 by ADA Standards 2010, 404.2.7
 constexpr double kBackset = 0.065;     // m, from the leaf's edge to the spindle
 constexpr double kTurn = 0.75;         // rad, of a lever or knob
 
-// A lever or a knob on one face of the leaf, that turns about the spindle.
+// Adds a lever or a knob on one face of the leaf; it rotates about the spindle.
 void AddTurningHandle(Assembly* a, int leaf, int index, const Eigen::Vector3d& mount,
                       const Eigen::Vector3d& out, double side, bool lever, const Matter& metal) {
   a->Add(leaf, metal, Rod(mount, mount + 0.008 * out, 0.026));
   JointPlan plan;
   plan.type = assets::UrdfJointType::kRevolute;
   plan.origin = mount + 0.05 * out;
-  // Turning presses the lever's end down, whichever way it points.
+  // Rotation presses the lever's end down, in either direction of the lever.
   plan.axis = Eigen::Vector3d(side, 0.0, 0.0);
   plan.upper = kTurn;
   plan.feel = DrawFeel(a->rng(), lever ? 0.1 : 0.026);
@@ -45,7 +45,7 @@ void AddTurningHandle(Assembly* a, int leaf, int index, const Eigen::Vector3d& m
 
 void AddFrame(Assembly* a, int frame, double deep, double across, double high, const Matter& wood) {
   const double x = 0.5 * deep, y = 0.5 * across;
-  const double stop = -x + kLeaf + kGap;  // the leaf shuts against it
+  const double stop = -x + kLeaf + kGap;  // the leaf closes against it
   for (const double s : {-1.0, 1.0}) {
     a->Add(frame, wood, Box({-x, s * y, 0.0}, {x, s * (y - kJamb), high - kJamb}, 0.003));
     a->Add(frame, wood,
@@ -76,7 +76,7 @@ assets::ArticulatedAsset MakeDoor(const Options& options) {
       SideHinge(front, side * edge, 0.5 * high, a.Draw(1.5, 1.9), DrawFeel(a.rng(), across)));
   const double top = high - kJamb - kGap;
   a.Add(leaf, leaf_wood, Box({front, -edge, kFloorGap}, {front + kLeaf, edge, top}, 0.002));
-  // Panels, as a moulding a shade darker.
+  // The panels are mouldings a shade darker.
   Matter shade = leaf_wood;
   shade.look += "_moulding";
   shade.color.head<3>() *= 0.82f;

@@ -13,7 +13,7 @@ constexpr double kThin = 0.012;        // m, of the drawers' sides
 constexpr double kBottom = 0.009;      // m, of the drawers' bottoms
 constexpr double kRunner = 0.006;      // m, between a drawer and the carcass's sides
 constexpr double kPlinth = 0.05;       // m
-constexpr double kDrawerHeight = 0.2;  // m, about what fronts are high
+constexpr double kDrawerHeight = 0.2;  // m, approximate height of the fronts
 
 struct Cell {
   double front, rear;  // m, x of the unit

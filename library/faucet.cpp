@@ -8,14 +8,16 @@
 namespace simwright::library {
 namespace {
 
-// m; retail basin and kitchen taps: bodies 40 to 55 mm thick, spouts 18 to 25 mm.
+// The dimensions in m, from retail basin and kitchen taps: bodies 40 to 55 mm thick, spouts 18 to
+// 25 mm.
 constexpr double kPlate = 0.008;
 
 struct Tap {
   double reach, high, body_high, body_radius, spout_radius;
 };
 
-// Up out of the body's top, over in a half circle, and a little down.
+// Adds a spout that rises from the body's top, bends over in a half circle and ends slightly
+// downwards.
 void AddSpout(Assembly* a, int link, const Tap& t, double x, const Matter& metal) {
   const double foot = t.body_high + 0.001, bend = 0.5 * t.reach;
   const double rise = std::max(foot + 0.02, t.high - bend - t.spout_radius);
@@ -29,7 +31,7 @@ void AddSpout(Assembly* a, int link, const Tap& t, double x, const Matter& metal
 }
 
 void AddLever(Assembly* a, int body, const Tap& t, double x, const Matter& metal) {
-  // On the body's side (+y): it lifts about x.
+  // The lever is on the body's side (+y) and rotates up about x.
   const double z = 0.72 * t.body_high;
   const Eigen::Vector3d hub(x, t.body_radius + 0.001, z);
   JointPlan plan;
@@ -41,7 +43,7 @@ void AddLever(Assembly* a, int body, const Tap& t, double x, const Matter& metal
   const int lever = a->AddLink("lever", "lever", body, plan);
   const Eigen::Vector3d end = hub + Eigen::Vector3d(0.0, 0.028, 0.0);
   a->Add(lever, metal, Rod(hub, end, 0.017));
-  // The grip points forwards, and turns up.
+  // The grip points forwards and rotates upwards.
   a->Add(lever, metal,
          Box(end + Eigen::Vector3d(-0.105, 0.0, -0.006), end + Eigen::Vector3d(0.008, 0.012, 0.006),
              0.003));
@@ -62,7 +64,7 @@ void AddKnobs(Assembly* a, int body, const Tap& t, double x, double apart, const
     const int knob = a->AddLink("knob_" + std::to_string(i), "knob", body, plan);
     a->Add(knob, metal, Rod(plan.origin, plan.origin + Eigen::Vector3d(0, 0, 0.014), 0.010));
     const Eigen::Vector3d middle = plan.origin + Eigen::Vector3d(0, 0, 0.014);
-    // Two wings, as of a cross handle.
+    // Two wings make a cross handle.
     a->Add(knob, metal,
            Box(middle - Eigen::Vector3d(0.007, 0.026, 0.0),
                middle + Eigen::Vector3d(0.007, 0.026, 0.014), 0.003));
@@ -99,7 +101,7 @@ assets::ArticulatedAsset MakeFaucet(const Options& options) {
   if (swivel) {
     plan.type = assets::UrdfJointType::kRevolute;
     plan.upper = a.Draw(0.8, 1.2);
-    // Away from a lever, which lifts into the other half.
+    // The spout swivels away from a lever, whose range is the other half.
     plan.lower = single ? 0.0 : -plan.upper;
     plan.feel = DrawFeel(a.rng(), t.reach);
   }

@@ -5,8 +5,8 @@
 #include "library/rigid_shapes.h"
 #include "library/turned_parts.h"
 
-// What the scenes of grammars stand on and in. Sizes are those that grammars count on, in metres;
-// the seed draws the finish and how heavy the wood is.
+// The furniture that supports the scenes of grammars. Sizes are those that the grammars assume, in
+// metres; the seed samples the finish and the density of the wood.
 namespace simwright::library {
 namespace {
 
@@ -27,11 +27,11 @@ core::TexturedMesh OfPlanks(RigidDraft* d, const std::vector<Plank>& planks,
   return BoxUnion(planks, looks);
 }
 
-constexpr int kTopCorners = 32;  // of a round table's top, as a part
+constexpr int kTopCorners = 32;  // corners of a round table top's part
 
 constexpr double kRoundRadius = 0.625, kRoundHeight = 0.785, kRoundTop = 0.028;  // m
 
-// A waisted column on a broad foot.
+// Returns a round table: a waisted column on a broad foot.
 core::TexturedMesh RoundTable(RigidDraft* d) {
   const double under = kRoundHeight - kRoundTop;
   const ProfilePoint foot{0.30, 0.0}, edge{0.30, 0.025}, low{0.075, 0.08}, waist{0.05, 0.42},
@@ -43,7 +43,7 @@ core::TexturedMesh RoundTable(RigidDraft* d) {
                   {Finish(d)});
 }
 
-// A straight column between a flat foot and a plate.
+// Returns a restaurant table: a straight column between a flat foot and a plate.
 core::TexturedMesh RestaurantTable(RigidDraft* d) {
   constexpr double kColumn = 0.045, kFootEdge = 0.02, kFootHigh = 0.045, kPlate = 0.015;
   const double under = kRoundHeight - kRoundTop, plate = under - kPlate;
@@ -59,7 +59,7 @@ core::TexturedMesh RestaurantTable(RigidDraft* d) {
 
 constexpr double kBreakfastX = 0.3575, kBreakfastY = 0.7, kBreakfastHeight = 0.75;  // m, half sides
 
-// Four legs and an apron.
+// Returns a breakfast table: four legs and an apron.
 core::TexturedMesh BreakfastTable(RigidDraft* d) {
   constexpr double kTop = 0.025, kLeg = 0.06, kInset = 0.04, kApron = 0.08, kThick = 0.02;
   const double under = kBreakfastHeight - kTop;
@@ -72,7 +72,7 @@ core::TexturedMesh BreakfastTable(RigidDraft* d) {
                                std::min(sy * y, sy * (y - kLeg)), std::max(sy * y, sy * (y - kLeg)),
                                0.0, under));
     }
-    // In the middle of the legs' sides.
+    // The apron is centred on the legs' sides.
     const double ax = sx * (x - 0.5 * kLeg), ay = sx * (y - 0.5 * kLeg);
     planks.push_back(
         Between(ax - 0.5 * kThick, ax + 0.5 * kThick, -y + kLeg, y - kLeg, under - kApron, under));
@@ -82,11 +82,12 @@ core::TexturedMesh BreakfastTable(RigidDraft* d) {
   return OfPlanks(d, planks, {Finish(d)});
 }
 
-// Of 0.6 m; sides of 0.783 m between the lowest board and the uppermost.
+// The shelf is 0.6 m wide, with sides of 0.783 m between the lowest and the uppermost board.
 constexpr double kShelfX = 0.15, kShelfY = 0.3, kShelfBoard = 0.017, kShelfWall = 0.015;  // m
-constexpr double kShelfSurfaces[] = {0.017, 0.287, 0.547, 0.817};  // m, of its boards' upper sides
+constexpr double kShelfSurfaces[] = {0.017, 0.287, 0.547, 0.817};  // m, height of its boards' upper
+                                                                   // sides
 
-// Four boards, two sides, a back; open to -x.
+// Returns a shelf of four boards, two sides and a back, open to -x.
 core::TexturedMesh Shelf(RigidDraft* d) {
   const double bottom = kShelfSurfaces[0], top = kShelfSurfaces[3] - kShelfBoard;
   const double inside = kShelfY - kShelfWall, front = kShelfX - kShelfWall;
@@ -105,7 +106,7 @@ core::TexturedMesh Shelf(RigidDraft* d) {
 
 constexpr double kChairX = 0.22, kChairY = 0.24, kChairHeight = 0.9;  // m, half sides
 
-// Faces x, as a setting at a table does; its posts and rails are behind.
+// Returns a chair that faces x, like a table setting; its posts and rails are behind.
 core::TexturedMesh Chair(RigidDraft* d) {
   constexpr double kSeat = 0.46, kThick = 0.03, kLeg = 0.04, kOut = 0.23, kRail = 0.02;
   const double rear = -kChairX + kLeg, rail = -kChairX + 0.5 * (kLeg - kRail);

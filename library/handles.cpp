@@ -13,9 +13,9 @@ constexpr double kHalfBar = 0.006;     // m
 constexpr double kPostRadius = 0.005;  // m
 constexpr double kKnobRadius = 0.016;  // m
 constexpr double kKnobHead = 0.016;    // m, thickness of the head
-constexpr int kBendSteps = 3;          // legs of a quarter bend
+constexpr int kBendSteps = 3;          // segments of a quarter bend
 
-// Boxes stand along the axes, and so do handles: `out` and `along` are axes.
+// Boxes and handles are axis-aligned: `out` and `along` are axes.
 std::vector<core::TriangleMesh> Bar(const HandlePlace& p) {
   const Eigen::Vector3d across = p.out.cross(p.along);
   const Eigen::Vector3d middle = p.mount + p.standoff * p.out;

@@ -13,14 +13,14 @@ const std::vector<Kind>& Kinds() {
       {"refrigerator", "one or two doors on side hinges", MakeRefrigerator},
       {"dishwasher", "a door that folds down, buttons", MakeDishwasher},
       {"drawer_unit", "two to five drawers", MakeDrawerUnit},
-      {"cabinet", "one or two doors on side hinges, held to a wall", MakeCabinet},
+      {"cabinet", "one or two doors on side hinges, fixed to a wall", MakeCabinet},
       {"box_with_lid", "a lid on a hinge behind", MakeBoxWithLid},
-      {"door", "a leaf in its frame, levers or knobs that turn, held", MakeDoor},
-      {"faucet", "a lever or two knobs, a spout that may swivel, held", MakeFaucet},
+      {"door", "a leaf in its frame, levers or knobs that rotate, fixed", MakeDoor},
+      {"faucet", "a lever or two knobs, a spout that may swivel, fixed", MakeFaucet},
       {"laptop", "a lid with a screen, a keyboard", MakeLaptop},
       {"toaster", "a lever that slides down, a dial", MakeToaster},
-      {"light_switch", "one or two rockers or toggles, held to a wall", MakeLightSwitch},
-      {"window", "a sash that slides or swings, held", MakeWindow},
+      {"light_switch", "one or two rockers or toggles, fixed to a wall", MakeLightSwitch},
+      {"window", "a sash that slides or swings, fixed", MakeWindow},
       {"trash_can", "a lid on a hinge behind", MakeTrashCan},
   };
   return kKinds;
@@ -32,7 +32,7 @@ const Kind& KindNamed(const std::string& name) {
   if (found != Kinds().end()) return *found;
   std::string known;
   for (const Kind& kind : Kinds()) known += (known.empty() ? "" : ", ") + kind.name;
-  throw core::Error("the library has no such kind", name, "choose of " + known);
+  throw core::Error("the library has no such kind", name, "choose one of " + known);
 }
 
 }  // namespace simwright::library

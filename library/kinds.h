@@ -8,8 +8,8 @@
 
 namespace simwright::library {
 
-// Every generator: the same options give the same asset; the seed draws sizes, sides, handles,
-// looks and how the joints feel.
+// The generators. The same options give the same asset; the seed determines sizes, sides, handles,
+// looks, and joint friction and damping.
 assets::ArticulatedAsset MakeMicrowave(const Options& options);
 assets::ArticulatedAsset MakeOven(const Options& options);
 assets::ArticulatedAsset MakeRefrigerator(const Options& options);
@@ -27,13 +27,13 @@ assets::ArticulatedAsset MakeTrashCan(const Options& options);
 
 struct Kind {
   std::string name;  // "microwave"
-  std::string what;  // one line: its links and joints
+  std::string what;  // one line that names its links and joints
   assets::ArticulatedAsset (*make)(const Options&);
 };
 
 const std::vector<Kind>& Kinds();
 
-// Throws core::Error, naming the kinds there are, for an unknown one.
+// Returns the kind of that name. Throws core::Error, listing the known kinds, for an unknown one.
 const Kind& KindNamed(const std::string& name);
 
 }  // namespace simwright::library

@@ -8,14 +8,14 @@ namespace simwright::library {
 namespace {
 
 constexpr double kLidGap = 0.0012;  // m, between the closed lid and the deck
-constexpr double kRecess = 0.0025;  // m, the keyboard lies so deep in the deck
+constexpr double kRecess = 0.0025;  // m, depth of the keyboard's recess in the deck
 constexpr double kBezel = 0.009;    // m
 
 struct Plan {
   double deep, across, base, lid;  // m; the last two are thicknesses
 };
 
-// The deck leaves a well for the keyboard; the touchpad is painted.
+// Adds the deck with a well for the keyboard; the touchpad is visual only.
 void AddBase(Assembly* a, int body, const Plan& p, const Eigen::AlignedBox2d& well,
              const Matter& shell) {
   const double x = 0.5 * p.deep, y = 0.5 * p.across, floor = p.base - kRecess;
@@ -53,7 +53,7 @@ void AddKeys(Assembly* a, int keyboard, const Eigen::AlignedBox2d& well, double 
 
 assets::ArticulatedAsset MakeLaptop(const Options& options) {
   Assembly a("laptop", "laptop", options);
-  // The row's heights span open ones: closed ones are 14 to 26 mm thick.
+  // The row's heights span open laptops: closed ones are 14 to 26 mm thick.
   const double thick = a.Draw(0.016, 0.026);
   const Plan p{a.parameters().width.sample, a.parameters().length.sample, 0.64 * thick,
                0.36 * thick - kLidGap};
@@ -83,7 +83,7 @@ assets::ArticulatedAsset MakeLaptop(const Options& options) {
   const int lid = a.AddLink("lid", "lid", body, hinge);
   const double low = p.base + kLidGap, high = low + p.lid;
   a.Add(lid, shell, Box({-x, -y, low + 0.001}, {x, y, high}, 0.001));
-  // A rim round the screen, which lies a little back.
+  // A bezel surrounds the screen, which is slightly recessed.
   a.Add(lid, BlackPlastic(), Box({-x, -y, low}, {-x + kBezel, y, low + 0.001}, 0.0));
   a.Add(lid, BlackPlastic(), Box({x - 2 * kBezel, -y, low}, {x, y, low + 0.001}, 0.0));
   a.Add(lid, BlackPlastic(),

@@ -13,8 +13,9 @@ constexpr double kSlack = 0.0012;  // m, between a rocker and the plate
 constexpr double kTilt = 0.10;     // rad, of a rocker to either side
 constexpr double kThrow = 0.45;    // rad, of a toggle to either side
 
-// Wall plates: 80 mm in Europe (DIN 49073 boxes), 86 mm (BS 4662), 70 x 114 mm (NEMA WD 6); a gang
-// more adds 46 to 71 mm. The knowledge base has no row for them.
+// Returns the parameters of standard wall plates: 80 mm in Europe (DIN 49073 boxes), 86 mm (BS
+// 4662), 70 x 114 mm (NEMA WD 6); each further gang adds 46 to 71 mm. The knowledge base has no row
+// for them.
 physics_params::PhysicalParameters SwitchParameters() {
   const std::string source = "standard wall plates, 70 to 157 mm";
   physics_params::PhysicalParameters p;
@@ -36,14 +37,14 @@ physics_params::PhysicalParameters SwitchParameters() {
   return p;
 }
 
-// A plate with an opening for each switch: bars around and between.
+// Adds a plate with an opening for each switch: bars around and between.
 void AddPlate(Assembly* a, int body, double across, double high, int gangs, double wide,
               double tall, const Matter& plate) {
   const double x0 = -0.5 * kPlate, x1 = 0.5 * kPlate, y = 0.5 * across;
   const double low = 0.5 * (high - tall), top = 0.5 * (high + tall);
   a->Add(body, plate, Box({x0, -y, 0.0}, {x1, y, low}, 0.001));
   a->Add(body, plate, Box({x0, -y, top}, {x1, y, high}, 0.001));
-  // The back, behind whatever tilts.
+  // The back, behind the tilting parts.
   a->Add(body, BlackPlastic(), Box({x1 + 0.003, -y, 0.0}, {x1 + 0.005, y, high}, 0.0));
   for (const double s : {-1.0, 1.0}) {
     a->Add(body, plate, Box({x1, s * y, 0.0}, {x1 + 0.003, s * (y - 0.002), high}, 0.0));
@@ -57,7 +58,7 @@ void AddPlate(Assembly* a, int body, double across, double high, int gangs, doub
   a->Add(body, plate, Box({x0, from, low}, {x1, y, top}, 0.0004));
 }
 
-// Tilted about y by `angle`, about the middle of the opening.
+// Returns the mesh rotated about y by `angle` at `pivot`, the centre of the opening.
 core::TriangleMesh Tilted(core::TriangleMesh mesh, const Eigen::Vector3d& pivot, double angle) {
   core::Transform(Eigen::Translation3d(pivot) * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()) *
                       Eigen::Translation3d(-pivot) * Eigen::Affine3d::Identity(),
@@ -96,7 +97,7 @@ assets::ArticulatedAsset MakeLightSwitch(const Options& options) {
     plan.feel = DrawFeel(a.rng(), toggle ? 0.015 : 0.4 * tall);
     const std::string name = gangs > 1 ? "switch_" + std::to_string(i) : "switch";
     const int link = a.AddLink(name, "switch", body, plan);
-    // Drawn at mid-throw, then turned back to "off".
+    // The switch is modelled at mid-throw, then rotated back to "off".
     const double half = toggle ? 0.004 : 0.5 * wide - kSlack;
     const Eigen::Vector3d low =
         pivot + (toggle ? Eigen::Vector3d(-0.022, -half, -0.004)

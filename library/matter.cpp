@@ -12,7 +12,7 @@ struct Paint {
 };
 
 template <size_t Count>
-Matter Draw(core::Rng& rng, const char* material, const Paint (&paints)[Count]) {
+Matter SamplePaint(core::Rng& rng, const char* material, const Paint (&paints)[Count]) {
   const Paint& p = paints[core::UniformIndex(rng, Count)];
   return MatterOf(material, p.look, p.r, p.g, p.b);
 }
@@ -31,7 +31,7 @@ Matter Casing(core::Rng& rng) {
                                {"cream_enamel", 0.90f, 0.86f, 0.76f},
                                {"black_enamel", 0.16f, 0.16f, 0.17f},
                                {"grey_enamel", 0.62f, 0.64f, 0.66f}};
-  return Draw(rng, "appliance", kPaints);
+  return SamplePaint(rng, "appliance", kPaints);
 }
 
 Matter BrushedSteel() {
@@ -56,7 +56,7 @@ Matter Board(core::Rng& rng) {
                                {"white_paint", 0.93f, 0.93f, 0.90f},
                                {"grey_paint", 0.58f, 0.61f, 0.63f},
                                {"green_paint", 0.48f, 0.58f, 0.50f}};
-  return Draw(rng, "plywood", kPaints);
+  return SamplePaint(rng, "plywood", kPaints);
 }
 
 Matter FurnitureMetal(core::Rng& rng) {

@@ -8,22 +8,23 @@
 
 namespace simwright::library {
 
-// What a piece is made of and how it looks.
+// The material and appearance of a piece.
 struct Matter {
   std::string look;      // name of its colour in files, e.g. "white_enamel"
-  std::string material;  // of the knowledge base: density, friction, restitution
+  std::string material;  // name in the knowledge base: density, friction, restitution
   double density = 0.0;  // kg/m^3
   Eigen::Vector4f color{0.8f, 0.8f, 0.8f, 1.0f};
 };
 
-// A knowledge base material at the middle of its densities. Throws core::Error for an unknown one.
+// Returns a knowledge base material at its mean density. Throws core::Error for an unknown one.
 Matter MatterOf(const std::string& material, const std::string& look, float r, float g, float b);
 
-// Looks that recur. Casing is "appliance": its density is fitted to the appliance's mass.
+// The common appearances. Casing has the material "appliance": its density is fitted to the
+// appliance's mass.
 Matter Casing(core::Rng& rng);  // white, cream, black or grey
 Matter BrushedSteel();
 Matter BlackPlastic();
-Matter DarkGlass();                     // of an oven's door
+Matter DarkGlass();                     // for an oven's door
 Matter ClearGlass();                    // pale blue
 Matter Board(core::Rng& rng);           // plywood: oak, walnut, white, grey or green
 Matter FurnitureMetal(core::Rng& rng);  // steel or brass, for handles

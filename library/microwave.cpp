@@ -14,7 +14,7 @@ constexpr double kWall = 0.022;  // m
 
 struct Plan {
   double deep, across, high;  // m
-  double side;                // +1: the hinge is at +y, the panel at -y; -1: the other way
+  double side;                // +1: the hinge is at +y, the panel at -y; -1: mirrored
   double panel;               // m, width of the panel
   double split;               // |y| where door and panel meet, on the panel's side
 };
@@ -31,7 +31,7 @@ void AddFeet(Assembly* a, int body, const Plan& p) {
 void AddBody(Assembly* a, int body, const Plan& p, const Matter& casing) {
   const double front = -0.5 * p.deep, rear = 0.5 * p.deep, inner = front + kDoor + kGap;
   const double y_panel = -p.side * 0.5 * p.across, y_split = -p.side * p.split;
-  // The panel's side is full of electronics and reaches to the front.
+  // The panel's side is solid with electronics and extends to the front.
   a->Add(body, casing, Box({front, y_panel, kFoot}, {rear, y_split, p.high}));
   const double y0 = std::min(y_split, p.side * 0.5 * p.across);
   const double y1 = std::max(y_split, p.side * 0.5 * p.across);

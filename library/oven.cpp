@@ -10,15 +10,15 @@ namespace {
 
 constexpr double kDoor = 0.034;        // m, thickness
 constexpr double kWall = 0.045;        // m, with its insulation
-constexpr double kTallestDoor = 0.46;  // m: taller ones are too heavy for a hand
-constexpr double kPlinth = 0.13;       // m: the open door and its handle stay above the floor
+constexpr double kTallestDoor = 0.46;  // m: taller doors are too heavy to lift by hand
+constexpr double kPlinth = 0.13;       // m: keeps the open door and its handle above the floor
 
-void AddRack(Assembly* a, int body, const Eigen::AlignedBox3d& cavity, double z) {
+void AddRack(Assembly* a, int body, const Eigen::AlignedBox3d& chamber, double z) {
   constexpr int kWires = 7;
   for (int i = 0; i < kWires; ++i) {
-    const double y = cavity.min().y() + (i + 0.5) / kWires * cavity.sizes().y();
+    const double y = chamber.min().y() + (i + 0.5) / kWires * chamber.sizes().y();
     a->Add(body, BrushedSteel(),
-           Rod({cavity.min().x() + 0.02, y, z}, {cavity.max().x(), y, z}, 0.002, 6));
+           Rod({chamber.min().x() + 0.02, y, z}, {chamber.max().x(), y, z}, 0.002, 6));
   }
 }
 
@@ -49,9 +49,9 @@ assets::ArticulatedAsset MakeOven(const Options& options) {
       Bounds(inner, rear, -0.5 * across, 0.5 * across, plinth, shell_top);
   a.Add(body, casing, CarcassPanels(shell, kWall));
   a.Add(body, casing, Box({front, -0.5 * across, shell_top}, {rear, 0.5 * across, high}));
-  const Eigen::AlignedBox3d cavity =
+  const Eigen::AlignedBox3d chamber =
       Bounds(inner, rear - kWall, -0.5 * across + kWall, 0.5 * across - kWall, plinth, shell_top);
-  AddRack(&a, body, cavity, plinth + 0.4 * (shell_top - plinth));
+  AddRack(&a, body, chamber, plinth + 0.4 * (shell_top - plinth));
   const bool stove = high > 0.75;
   if (stove) AddBurners(&a, body, deep, across, high);
   a.Note("cooktop", stove ? "four burners" : "none");
@@ -81,7 +81,7 @@ assets::ArticulatedAsset MakeOven(const Options& options) {
   const int dials = 2 * static_cast<int>(a.Draw(1.0, 2.999));
   const Matter look = a.Chance(0.5) ? BlackPlastic() : BrushedSteel();
   for (int i = 0; i < dials; ++i) {
-    // In two groups, left and right of the display.
+    // The dials are in two groups, left and right of the display.
     const int half = dials / 2, place_in_half = i % half;
     const double y = (i < half ? -1.0 : 1.0) * (0.20 + 0.12 * place_in_half) * across;
     AddDial(&a, "knob_" + std::to_string(i), body, {front, y, high - 0.5 * panel}, 0.020, 0.026,

@@ -34,7 +34,7 @@ assets::ArticulatedAsset MakeRefrigerator(const Options& options) {
   std::vector<Compartment> cells;
   const bool two = high > 1.1;
   if (two) {
-    // The freezer below or above.
+    // The freezer is below or above.
     const double split = kFoot + (a.Chance(0.5) ? 0.36 : 0.66) * (high - kFoot);
     cells = {{kFoot, split, split < 0.5 * high ? 1 : 3}, {split, high, split < 0.5 * high ? 3 : 1}};
   } else {

@@ -5,7 +5,7 @@
 #include "library/rigid_kinds.h"
 #include "library/rigid_shapes.h"
 
-// Boxes, closed and open above, and slabs.
+// Boxes, closed or open at the top, and slabs.
 namespace simwright::library {
 namespace {
 
@@ -14,13 +14,13 @@ core::TexturedMesh Plain(RigidDraft* d, const core::Material& look, double bevel
                     [](const Eigen::Vector3d&) { return 0; });
 }
 
-// Printed round its sides, plain above and below.
+// Returns a package printed around its sides, plain above and below.
 core::TexturedMesh Package(RigidDraft* d) {
   return PaintedBox(d->size, 0.02 * d->size.minCoeff(), {Print(d), Look("board", .86f, .80f, .68f)},
                     [](const Eigen::Vector3d& n) { return std::abs(n.z()) > 0.8 ? 1 : 0; });
 }
 
-// Lies flat; covered above, below and along its spine.
+// Returns a book lying flat, covered above, below and along its spine.
 core::TexturedMesh Book(RigidDraft* d) {
   return PaintedBox(
       d->size, 0.03 * d->size.minCoeff(), {Print(d), Look("pages", .94f, .92f, .85f)},
@@ -78,7 +78,8 @@ core::TexturedMesh Soap(RigidDraft* d) {
   return Plain(d, Look("soap", .90f, .84f, .78f), 0.24);
 }
 
-// Open above: walls and a floor of `wall` (m), sides leaning out by `lean` of the half width.
+// Returns a box open at the top: walls and a floor of `wall` (m), with sides leaning outwards by
+// `lean` of the half width.
 core::TexturedMesh OpenBox(RigidDraft* d, double wall, double lean, double corner,
                            const core::Material& look) {
   const double x = 0.5 * d->size.x(), y = 0.5 * d->size.y(), h = d->size.z();
@@ -100,7 +101,7 @@ core::TexturedMesh Tray(RigidDraft* d) {
   return OpenBox(d, 0.006, 0.05, 0.15, d->look);
 }
 
-// A carton with a gable on top.
+// Returns a carton with a gable top.
 core::TexturedMesh MilkCarton(RigidDraft* d) {
   const double x = 0.5 * d->size.x(), y = 0.5 * d->size.y(), h = d->size.z();
   const std::vector<core::Material> looks{Look("carton", .93f, .94f, .95f), Print(d)};
@@ -114,7 +115,7 @@ core::TexturedMesh MilkCarton(RigidDraft* d) {
               RoundedSquareOutline(0.03, 3), looks);
 }
 
-// A carton whose lid goes down over its lower part, with a picture on top.
+// Returns a carton whose lid overlaps its lower part, with a picture on top.
 core::TexturedMesh BoardGame(RigidDraft* d) {
   const double x = 0.5 * d->size.x(), y = 0.5 * d->size.y(), h = d->size.z(), board = 0.0015;
   const core::Material side = Print(d);
@@ -129,7 +130,8 @@ core::TexturedMesh BoardGame(RigidDraft* d) {
               RoundedSquareOutline(0.02, 3), {Look("board", .86f, .80f, .68f), side, Print(d)});
 }
 
-// The hull of rectangular rings: four corners stand firmer than a chamfered outline's many.
+// Returns the convex hull of rectangular rings: four corners stand more stably than a chamfered
+// outline's many.
 core::TriangleMesh SquarePart(const std::vector<Ring>& rings) {
   std::vector<Eigen::Vector3d> points;
   for (const Ring& ring : rings) {
@@ -140,7 +142,7 @@ core::TriangleMesh SquarePart(const std::vector<Ring>& rings) {
   return Hull(points);
 }
 
-// A case for a small cartridge, lying, its printed sheet up.
+// Returns a case for a small cartridge, lying with its printed sheet up.
 core::TexturedMesh ConsoleGame(RigidDraft* d) {
   const double x = 0.5 * d->size.x(), y = 0.5 * d->size.y(), h = d->size.z(), edge = 0.0012;
   const Ring foot{x - edge, y - edge, 0}, low{x, y, edge}, high{x, y, h - edge},
@@ -150,7 +152,8 @@ core::TexturedMesh ConsoleGame(RigidDraft* d) {
               RoundedSquareOutline(0.05, 4), {Look("case", .20f, .21f, .24f), Print(d)});
 }
 
-// Its front faces x: the surround of a cone stands out of it, with the cone and its cap inside.
+// Returns a loudspeaker driver that faces x: the surround of a cone protrudes, with the cone and
+// its cap inside.
 core::TexturedMesh Driver(double radius, const Eigen::Vector3d& at, RigidDraft* d) {
   constexpr double kInside = 0.004, kOut = 0.003;  // m, of the front
   const std::vector<core::Material> looks{Look("surround", .10f, .10f, .11f),
@@ -172,7 +175,7 @@ core::TexturedMesh Driver(double radius, const Eigen::Vector3d& at, RigidDraft* 
 }
 
 core::TexturedMesh Speaker(RigidDraft* d) {
-  constexpr double kOut = 0.003;  // m, as far as the drivers stand out
+  constexpr double kOut = 0.003;  // m, protrusion of the drivers
   const Eigen::Vector3d box = d->size - Eigen::Vector3d(kOut, 0, 0);
   const core::Material veneer =
       d->Draw(0, 1) < 0.5 ? Look("veneer", .42f, .27f, .17f) : Look("black", .16f, .16f, .17f);
@@ -187,7 +190,7 @@ core::TexturedMesh Speaker(RigidDraft* d) {
   return mesh;
 }
 
-// A slice of a loaf, lying: two straight sides, a waist and a crown.
+// Returns a slice of a loaf, lying: two straight sides, a waist and a crown.
 core::TexturedMesh Toast(RigidDraft* d) {
   const double x = 0.5 * d->size.x(), y = 0.5 * d->size.y(), h = d->size.z();
   const std::vector<ProfilePoint> half = Smooth({{0.8, -1.0},
@@ -199,7 +202,7 @@ core::TexturedMesh Toast(RigidDraft* d) {
                                                  {0.94, 0.82},
                                                  {0.6, 0.98},
                                                  {0.2, 1.0}});
-  std::vector<Eigen::Vector2d> outline;  // the crown at x: a slice is a little longer than wide
+  std::vector<Eigen::Vector2d> outline;  // crown at x: a slice is slightly longer than wide
   for (const ProfilePoint& p : half) outline.emplace_back(p.z, -p.r);
   std::reverse(outline.begin(), outline.end());
   for (const ProfilePoint& p : half) outline.emplace_back(p.z, p.r);

@@ -9,9 +9,9 @@ namespace simwright::library {
 namespace {
 
 constexpr double kLeastHandle = 0.025;  // m: two fingers
-constexpr std::uint64_t kStream = 20;   // where the streams of shapes and colours begin
+constexpr std::uint64_t kStream = 20;   // first random stream of shapes and colours
 
-// What a material usually looks like; glazes and plastics come in several colours.
+// Returns the usual appearance of a material; glazes and plastics come in several colours.
 core::Material LookOf(const std::string& material, core::Rng& rng) {
   struct Paint {
     const char* material;
@@ -35,7 +35,7 @@ core::Material LookOf(const std::string& material, core::Rng& rng) {
   return Look(p.material, p.r, p.g, p.b);
 }
 
-// `value` in what all the ranges share, or as near as can be.
+// Returns `value` clamped to the intersection of the ranges, or the nearest value.
 double Shared(double value, std::initializer_list<const physics_params::Estimate*> ranges) {
   double low = 0.0, high = 1e9;
   for (const physics_params::Estimate* range : ranges) {
@@ -121,7 +121,7 @@ RigidThing MakeRigidThing(const RigidKind& kind, std::uint64_t seed) {
   RigidThing thing;
   thing.parameters = physics_params::SampleParameters(*row, base, seed);
   RigidDraft draft;
-  std::uint64_t stream = kStream;  // of the kind: things of one seed differ in colour
+  std::uint64_t stream = kStream;  // per kind: objects of one seed differ in colour
   for (const char c : kind.name) stream = 31 * stream + static_cast<unsigned char>(c);
   draft.rng = core::StreamRng(seed, stream);
   draft.look = LookOf(thing.parameters.material, draft.rng);

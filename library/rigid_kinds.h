@@ -11,20 +11,20 @@
 
 namespace simwright::library {
 
-// A rigid thing as it is seen: closed surfaces (which may cross) in plain colours, metres, z up,
-// standing on z = 0.
+// A rigid object's visual geometry: closed surfaces (which may intersect) in plain colours, metres,
+// z up, standing on z = 0.
 struct RigidThing {
   core::TexturedMesh visual;
-  // Closed and convex, covering `visual`, where the kind knows its own; else empty.
+  // Closed and convex parts that cover `visual`, if the kind defines its own; otherwise empty.
   std::vector<core::TriangleMesh> parts;
   Eigen::Vector3d size;                           // m; the bounds of `visual`
-  physics_params::PhysicalParameters parameters;  // as drawn for the category
+  physics_params::PhysicalParameters parameters;  // as sampled for the category
 };
 
-// What a generator is given, and where it leaves its collision parts if it has its own.
+// The input of a generator, and the output of its collision parts if it has its own.
 struct RigidDraft {
   Eigen::Vector3d size;  // m
-  core::Material look;   // by the material that was drawn
+  core::Material look;   // from the sampled material
   core::Rng rng;
   std::vector<core::TriangleMesh> parts;
   double Draw(double low, double high) { return core::Uniform(rng, low, high); }
@@ -32,13 +32,13 @@ struct RigidDraft {
 
 void AddParts(const std::vector<core::TriangleMesh>& parts, RigidDraft* draft);
 
-// How the sampled length, width and height are made one thing's.
+// The symmetry imposed on the sampled length, width and height.
 enum class RigidSides {
   kFree,    // each as sampled
-  kRound,   // about z: length and width are one
-  kSquat,   // the same, and not as high as wide
-  kBall,    // all three are one
-  kLying,   // about x: width and height are one
+  kRound,   // about z: length equals width
+  kSquat,   // the same, and not higher than wide
+  kBall,    // all three are equal
+  kLying,   // about x: width equals height
   kHandled  // round about z, but longer along x by a handle, at least 25 mm
 };
 
@@ -47,18 +47,19 @@ struct RigidKind {
   std::string category;  // row of the knowledge base
   std::string what;      // one line
   RigidSides sides;
-  core::TexturedMesh (*make)(RigidDraft*);         // of any size: it is stretched to the draft's
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();  // m, of every one of them; zero: as sampled
+  core::TexturedMesh (*make)(RigidDraft*);         // of any size: it is scaled to the draft's
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  // m, fixed size of the kind; zero: as sampled
 };
 
-// All of them: vessels, tableware, boxes, fruit and balls, long things, toys.
+// Returns all kinds of objects: vessels, tableware, boxes, fruit and balls, long objects, toys.
 const std::vector<RigidKind>& RigidKinds();
-// What scenes stand on and in, each of one size: tables, shelves, a chair, a floor.
+// Returns the furniture that supports and contains scenes, each of one size: tables, shelves, a
+// chair, a floor.
 const std::vector<RigidKind>& FurnitureKinds();
-// Of both; null for an unknown one.
+// Returns the kind of that name in either list; null for an unknown one.
 const RigidKind* FindRigidKind(const std::string& name);
 
-// The families, each in its own file.
+// The kind families, each in its own file.
 std::vector<RigidKind> VesselKinds();
 std::vector<RigidKind> TablewareKinds();
 std::vector<RigidKind> BoxKinds();
@@ -66,13 +67,14 @@ std::vector<RigidKind> RoundKinds();
 std::vector<RigidKind> LongKinds();
 std::vector<RigidKind> ToyKinds();
 
-// A thing of the kind; size and look are drawn from the knowledge base's category by the seed, and
-// the same seed gives the same thing. Throws core::Error where the base has no such category.
+// Returns an object of the kind; size and look are sampled from the knowledge base's category by
+// the seed, and the same seed gives the same object. Throws core::Error if the base has no such
+// category.
 RigidThing MakeRigidThing(const RigidKind& kind, std::uint64_t seed);
 
-// A plain colour.
+// Returns a material of plain colour.
 core::Material Look(const std::string& name, float r, float g, float b);
-// The colour of a label or of paint, which come in several: one of five, drawn.
+// Samples one of five colours for a label or for paint.
 core::Material Print(RigidDraft* draft);
 
 }  // namespace simwright::library

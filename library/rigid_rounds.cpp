@@ -4,14 +4,14 @@
 #include "library/rigid_shapes.h"
 #include "library/turned_parts.h"
 
-// Fruit, eggs and balls. Fruit is flat where it lies, as it is a little soft: else it would roll.
+// Fruit, eggs and balls. Fruit is flattened at its base, like soft fruit, so that it does not roll.
 namespace simwright::library {
 namespace {
 
 constexpr int kSteps = 24;  // from pole to pole
 
-// A ball whose radius and height are bent: `bend` takes the angle from the lower pole (0 to pi) to
-// a factor of the radius and a shift of the height, in radii.
+// Returns a ball of modified radius and height: `bend` maps the angle from the lower pole (0 to pi)
+// to a factor of the radius and a shift of the height, in radii.
 core::TexturedMesh Bent(const core::Material& look, Eigen::Vector2d (*bend)(double)) {
   std::vector<ProfilePoint> profile;
   for (int k = 0; k <= kSteps; ++k) {
@@ -23,26 +23,26 @@ core::TexturedMesh Bent(const core::Material& look, Eigen::Vector2d (*bend)(doub
   return Revolved(profile, {look});
 }
 
-// As it lies on its lower pole, or on its side.
+// Flattens fruit that lies on its lower pole or on its side.
 core::TexturedMesh Fruit(core::TexturedMesh mesh) {
   Flatten(0.02, &mesh);
   return mesh;
 }
 
-// Upright fruit with dimples as one hull: nothing reaches into them.
+// Returns upright fruit with dimples as one hull: no object enters the dimples.
 core::TexturedMesh DimpledFruit(RigidDraft* d, core::TexturedMesh mesh) {
-  constexpr int kRound = 48, kCorners = 10;  // of Revolved; of a ring
+  constexpr int kRound = 48, kCorners = 10;  // per ring of Revolved; per ring of the part
   mesh = Fruit(std::move(mesh));
   const std::vector<Eigen::Vector3d>& vertices = mesh.mesh.vertices;
   const double ground = core::Bounds(mesh.mesh).min().z();
-  // The pole comes first, then ring after ring, each with a corner at x first.
+  // Vertices start with the pole, then ring after ring, each with a corner at x first.
   std::vector<ProfilePoint> rings;
   for (size_t first = 1; first + kRound < vertices.size(); first += kRound) {
     const ProfilePoint ring{vertices[first].x(), vertices[first].z()};
     if (ring.z <= ground + 1e-12 && !rings.empty()) rings.clear();
     rings.push_back(ring);
   }
-  std::vector<ProfilePoint> few;  // the foot, and five more
+  std::vector<ProfilePoint> few;  // the base and five more
   for (size_t i = 0; i < 6; ++i) few.push_back(rings[i * (rings.size() - 1) / 5]);
   d->parts = {TurnedPart(few, kCorners, 8)};
   return mesh;
@@ -52,31 +52,31 @@ Eigen::Vector2d Ball(double) {
   return {1.0, 0.0};
 }
 
-// Dimples about the stalk and, shallower, below.
+// Returns a bend with dimples at the stalk and, shallower, at the bottom.
 Eigen::Vector2d Dimpled(double angle) {
   const double top = std::exp(-std::pow((M_PI - angle) / 0.42, 2));
   const double bottom = std::exp(-std::pow(angle / 0.35, 2));
   return {1.0, -0.36 * top + 0.14 * bottom};
 }
 
-// Slimmer towards one end.
+// Returns a bend that is slimmer towards one end.
 Eigen::Vector2d Egg(double angle) {
   return {1.0 + 0.12 * std::cos(angle), 0.0};
 }
 
-// With a neck above.
+// Returns a bend with a neck at the top.
 Eigen::Vector2d Pear(double angle) {
   const double up = -std::cos(angle);
   return {1.0 - 0.32 / (1.0 + std::exp(-6.0 * (up - 0.25))), 0.0};
 }
 
-// Slimmer above, without a neck.
+// Returns a bend that is slimmer at the top, without a neck.
 Eigen::Vector2d Avocado(double angle) {
   const double up = -std::cos(angle);
   return {1.0 - 0.30 / (1.0 + std::exp(-4.0 * (up - 0.35))), 0.0};
 }
 
-// Drawn out at both ends.
+// Returns a bend that is pointed at both ends.
 Eigen::Vector2d Lemon(double angle) {
   const double up = -std::cos(angle);
   return {1.0 - 0.16 * std::pow(up, 4), 0.18 * std::pow(up, 9)};
@@ -137,8 +137,8 @@ std::vector<RigidKind> RoundKinds() {
           {"orange", "orange", "round", S::kSquat, Orange},
           {"peach", "peach", "dimpled", S::kSquat, Peach},
           {"pear", "pear", "with a neck", S::kRound, PearShape},
-          {"lemon", "lemon", "drawn out at both ends", S::kLying, LemonShape},
-          {"lime", "lime", "drawn out at both ends", S::kLying, Lime},
+          {"lemon", "lemon", "pointed at both ends", S::kLying, LemonShape},
+          {"lime", "lime", "pointed at both ends", S::kLying, Lime},
           {"avocado", "avocado", "lying, slimmer at one end", S::kLying, AvocadoShape},
           {"tomato", "tomato", "dimpled", S::kSquat, Tomato},
           {"potato", "potato", "longish", S::kFree, Potato},

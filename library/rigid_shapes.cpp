@@ -15,7 +15,7 @@ bool IsPoint(const Ring& ring) {
   return ring.x <= 0.0 && ring.y <= 0.0;
 }
 
-// Adds the triangle where its corners differ.
+// Adds the triangle if its corners differ.
 void AddTriangle(int a, int b, int c, int look, core::TexturedMesh* mesh) {
   if (a == b || b == c || c == a) return;
   mesh->mesh.triangles.push_back({a, b, c});
@@ -115,7 +115,7 @@ std::vector<ProfilePoint> VesselProfile(const std::vector<ProfilePoint>& outer, 
   for (auto p = outer.rbegin(); p != outer.rend() && p->z > bottom + 1e-9; ++p) {
     profile.push_back({std::max(p->r - thickness, 0.2 * p->r), p->z, p->look});
   }
-  // Where the outside passes the floor's height.
+  // Finds the outer point above the floor's height.
   size_t above = 1;
   while (above + 1 < outer.size() && outer[above].z <= bottom) ++above;
   const ProfilePoint &low = outer[above - 1], &high = outer[above];
@@ -141,7 +141,7 @@ core::TexturedMesh Sheet(const std::vector<Station>& stations, double thickness,
   constexpr int kAcross = 8;
   core::TexturedMesh mesh;
   mesh.materials = looks;
-  std::vector<std::vector<int>> loops;  // round each station: below from -y to y, then back above
+  std::vector<std::vector<int>> loops;  // around each station: below from -y to y, then back above
   for (const Station& s : stations) {
     std::vector<int>& loop = loops.emplace_back();
     for (int k = 0; k < 2 * (kAcross + 1); ++k) {
@@ -155,7 +155,7 @@ core::TexturedMesh Sheet(const std::vector<Station>& stations, double thickness,
   for (size_t i = 0; i + 1 < loops.size(); ++i) {
     AddBand(loops[i], loops[i + 1], stations[i + 1].look, &mesh);
   }
-  for (int k = 0; k < kAcross; ++k) {  // the ends, a quad between below and above
+  for (int k = 0; k < kAcross; ++k) {  // the ends, one quad between below and above
     const auto cap = [&](const std::vector<int>& loop, bool front, int look) {
       const int a = loop[static_cast<size_t>(k)], b = loop[static_cast<size_t>(k + 1)];
       const int c = loop[static_cast<size_t>(2 * kAcross - k)];
@@ -216,7 +216,7 @@ core::TexturedMesh Bar(const std::vector<BarSection>& sections,
   }
   rings.push_back({0, 0, sections.back().x, sections.back().look});
   core::TexturedMesh mesh = AlongX(Loft(rings, outline, looks));
-  // A loft's rings are about its axis; the first and the last vertex are the ends' middles.
+  // A loft's rings are about its axis; the first and the last vertex are the ends' centres.
   for (size_t i = 0; i < mesh.mesh.vertices.size(); ++i) {
     const size_t section = i == 0 ? 0 : std::min((i - 1) / outline.size(), sections.size() - 1);
     const BarSection& s = sections[section];

@@ -6,7 +6,7 @@
 #include "library/rigid_shapes.h"
 #include "library/turned_parts.h"
 
-// What is turned and stands on a laid table or beside it, beyond cups and plates.
+// Solids of revolution of a laid table, other than cups and plates.
 namespace simwright::library {
 namespace {
 
@@ -14,11 +14,11 @@ double Radius(const RigidDraft& d) {
   return 0.5 * d.size.y();
 }
 
-constexpr int kWedges = 10;  // of a wall, as parts
-constexpr int kFoot = 8;     // corners of what stands on one part
+constexpr int kWedges = 10;  // wedges of a wall, as parts
+constexpr int kFoot = 8;     // base corners of objects that stand on one part
 
-// Three small feet, which stand still in every engine, where a round foot rocks from corner to
-// corner.
+// Adds three small feet, which are stable in every engine, whereas a round base rocks from corner
+// to corner.
 void AddFeet(double out, double radius, double height, double into, RigidDraft* d,
              core::TexturedMesh* mesh) {
   for (int k = 0; k < 3; ++k) {
@@ -34,7 +34,7 @@ void AddFeet(double out, double radius, double height, double into, RigidDraft* 
   }
 }
 
-// The body, above feet that are `under` high, and its lid.
+// Returns the body, above feet of height `under`, and its lid.
 core::TexturedMesh TeapotBody(RigidDraft* d, double r, double h, double under) {
   const ProfilePoint bottom{0.54 * r, under}, low{0.92 * r, 0.20 * h}, belly{r, 0.38 * h},
       shoulder{0.86 * r, 0.60 * h}, neck{0.52 * r, 0.75 * h};
@@ -60,7 +60,7 @@ core::TexturedMesh TeapotBody(RigidDraft* d, double r, double h, double under) {
   return Revolved(profile, {d->look, {"lid", 0.86f * d->look.base_color, -1}});
 }
 
-// Body and lid in one, a spout at x and a handle to reach through opposite.
+// Returns a teapot: body and lid in one, a spout at x and a handle loop on the opposite side.
 core::TexturedMesh Teapot(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z(), beyond = d->size.x() - d->size.y();
   const double spout = 0.5 * beyond, loop = 0.5 * beyond, under = 0.03 * h;
@@ -98,13 +98,14 @@ const core::Material kHoop{"hoop", {.66f, .49f, .28f, 1.0f}, -1};
 
 constexpr int kBasketWedges = 8;
 constexpr double kClear = 5e-4;      // m
-constexpr double kHoopOut = 0.0006;  // m: a hoop stands out of the wall between them
+constexpr double kHoopOut = 0.0006;  // m: protrusion of a hoop from the wall
 
-// Baskets stand on each other: the hoops at foot and rim have one radius, rim and foot are level.
-// The floor hangs in the wall, so that the wall alone bears, rim on foot.
+// Returns a stackable basket: the hoops at base and rim have the same radius, and rim and base are
+// level. The floor is raised inside the wall, so that only the wall bears the load, rim on base.
 core::TexturedMesh Steamer(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z(), wall = 0.0065, under = 0.012, floor = 0.017;
-  // Every other wedge bears: a solver's time goes by the pairs of parts that touch.
+  // Only every other wedge bears the load, because the solver's time depends on the number of part
+  // pairs in contact.
   const std::vector<core::TriangleMesh> bearing =
       WallParts({{r, 0}, {r, h}}, {{r - wall, 0}, {r - wall, h}}, kBasketWedges);
   const std::vector<core::TriangleMesh> hanging =
@@ -128,9 +129,9 @@ core::TexturedMesh Steamer(RigidDraft* d) {
                   {kBamboo, kHoop});
 }
 
-// On the rim of the basket of the same seed, whose diameter it has: both rows of the knowledge base
-// hold one range, and a seed draws one place in it. A woven sheet in a hoop, flat below out to
-// where it bears on the rim.
+// Returns the lid for the basket of the same seed, with its diameter: both rows of the knowledge
+// base have the same range, and a seed samples the same position in it. A woven sheet in a hoop,
+// flat on the underside out to where it rests on the rim.
 core::TexturedMesh SteamerLid(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z(), slant = 0.003;
   d->parts = {TurnedPart({{0.98 * r, 0}, {r, slant}, {r, h}}, 20, kFoot)};
@@ -148,7 +149,7 @@ core::TexturedMesh UtensilCrock(RigidDraft* d) {
 
 constexpr int kJugWedges = 8;
 
-// A lip towards -x: both sides of the wall alike.
+// Forms a lip towards -x, on the inside and the outside of the wall alike.
 void PullLip(double r, double h, core::TriangleMesh* mesh) {
   for (Eigen::Vector3d& v : mesh->vertices) {
     const double up = (v.z() / h - 0.8) / 0.2, away = v.head<2>().norm();
@@ -157,7 +158,7 @@ void PullLip(double r, double h, core::TriangleMesh* mesh) {
   }
 }
 
-// Bellied, open above, a lip opposite its handle.
+// Returns a bellied jug, open at the top, with a lip opposite its handle.
 core::TexturedMesh Jug(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z(), wall = 0.005;
   const double neck = 0.66 * r, out = d->size.x() - d->size.y();
@@ -169,13 +170,14 @@ core::TexturedMesh Jug(RigidDraft* d) {
                                                   {0.76 * r, h}});
   core::TexturedMesh mesh = Revolved(VesselProfile(outer, wall, 0.007), {d->look});
   PullLip(r, h, &mesh.mesh);
-  // As wide inside as the neck lets anything in.
+  // The inside of the parts is as wide as the neck.
   d->parts = VesselParts(outer, wall, 0.007, kJugWedges, 4);
   for (core::TriangleMesh& part : d->parts) {
     PullLip(r, h, &part);
     part = Hull(part.vertices);
   }
-  // It meets the wall level, at the neck and at the belly, where the wall is upright.
+  // The handle meets the wall horizontally, at the neck and at the belly, where the wall is
+  // vertical.
   std::vector<Eigen::Vector2d> path;
   for (const ProfilePoint& p : Smooth({{neck - 0.4 * wall, 0.84 * h},
                                        {neck + 0.3 * (r - neck), 0.845 * h},
@@ -192,7 +194,7 @@ core::TexturedMesh Jug(RigidDraft* d) {
   return mesh;
 }
 
-// Of clear plastic, full: what is seen is the tea.
+// Returns a full bottle of clear plastic: the visible surface is the tea.
 core::TexturedMesh TeaBottle(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z(), neck = 0.40 * r;
   const core::Material tea =
@@ -217,7 +219,7 @@ core::TexturedMesh TeaBottle(RigidDraft* d) {
                   {tea, Print(d), Look("cap", .93f, .93f, .92f)});
 }
 
-// Drawn thin, necked in below and above.
+// Returns a thin-walled can, necked in at the bottom and the top.
 core::TexturedMesh SodaCan(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z(), end = 0.82 * r;
   d->parts = {TurnedPart({{0.76 * r, 0}, {r, 0.06 * h}, {r, 0.9 * h}}, 20, kFoot),
@@ -236,7 +238,7 @@ core::TexturedMesh SodaCan(RigidDraft* d) {
                   {Look("aluminium", .78f, .79f, .81f), Print(d)});
 }
 
-// A turned foot and, on a rod, a shade that is closed below.
+// Returns a lamp: a revolved foot and, on a rod, a shade that is closed at the bottom.
 core::TexturedMesh Lamp(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z();
   std::vector<ProfilePoint> profile{

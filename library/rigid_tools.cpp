@@ -4,7 +4,7 @@
 #include "library/rigid_kinds.h"
 #include "library/rigid_shapes.h"
 
-// Long things, lying along x: cutlery, pens, tools.
+// Long objects lying along x: cutlery, pens, tools.
 namespace simwright::library {
 namespace {
 
@@ -12,14 +12,14 @@ const core::Material kSteel{"steel", {.74f, .75f, .77f, 1.0f}, -1};
 const core::Material kWood{"wood", {.70f, .50f, .30f, 1.0f}, -1};
 const core::Material kDark{"dark", {.14f, .14f, .15f, 1.0f}, -1};
 
-core::TexturedMesh Turned(const std::vector<ProfilePoint>& profile,
-                          const std::vector<core::Material>& looks) {
+core::TexturedMesh Revolve(const std::vector<ProfilePoint>& profile,
+                           const std::vector<core::Material>& looks) {
   core::TexturedMesh mesh = AlongX(Revolved(profile, looks));
-  Flatten(0.02, &mesh);  // else it would roll
+  Flatten(0.02, &mesh);  // prevents rolling
   return mesh;
 }
 
-// A spoon's bowl at x = 0.72 ... 1 of its length, hollow above; drawn in metres.
+// Returns a spoon with its bowl at x = 0.72 ... 1 of its length, hollow above; in metres.
 core::TexturedMesh SpoonOf(RigidDraft* d, double thickness, const core::Material& look) {
   const double l = d->size.x(), w = 0.5 * d->size.y(), dip = 0.65 * d->size.z();
   return Sheet({{0.00 * l, 0.30 * w, dip},
@@ -39,7 +39,8 @@ core::TexturedMesh Spoon(RigidDraft* d) {
   return SpoonOf(d, 0.0018, kSteel);
 }
 
-// It lies on its handle's end and on the belly of its head, from which four tines go up.
+// Returns a fork, lying on its handle's end and on the belly of its head, from which four tines
+// rise.
 core::TexturedMesh Fork(RigidDraft* d) {
   const double l = d->size.x(), w = 0.5 * d->size.y(), thick = 0.0024, up = d->size.z() - thick;
   core::TexturedMesh mesh = Sheet({{0.00 * l, 0.36 * w, 0.02 * up},
@@ -51,7 +52,8 @@ core::TexturedMesh Fork(RigidDraft* d) {
                                    {0.76 * l, 0.94 * w, 0.04 * up},
                                    {0.81 * l, 0.97 * w, 0}},
                                   thick, {kSteel});
-  // Thinner than the head, so that no face of theirs lies in one of its own.
+  // The tines are thinner than the head, so that none of their faces is coplanar with one of its
+  // faces.
   const double half = 0.15 * w;
   for (int k = 0; k < 4; ++k) {
     core::TexturedMesh tine = Sheet({{0.79 * l, half, 0.02 * up + 0.06 * thick},
@@ -65,7 +67,7 @@ core::TexturedMesh Fork(RigidDraft* d) {
   return mesh;
 }
 
-// The hull of a bar's corners, flat below where the bar is.
+// Returns the convex hull of a bar's corners, flat below if the bar is.
 core::TriangleMesh BarPart(const std::vector<BarSection>& bar) {
   std::vector<Eigen::Vector3d> points;
   for (const BarSection& s : bar) {
@@ -77,9 +79,9 @@ core::TriangleMesh BarPart(const std::vector<BarSection>& bar) {
   return Hull(points);
 }
 
-// A handle and a thin blade, its tip at x. It lies on the handle's end and on the blade's. Those
-// are parts of their own: engines pass over contacts that are near to each other for a part's
-// length, and of a long narrow part keep one side's.
+// Returns a knife: a handle and a thin blade with its tip at x. It lies on the ends of the handle
+// and of the blade, which are separate parts: engines discard contacts that are close to each other
+// relative to a part's length, and keep those of only one side of a long narrow part.
 core::TexturedMesh Knife(RigidDraft* d) {
   const double l = d->size.x(), w = 0.5 * d->size.y(), h = d->size.z();
   const double up = 0.0006, thin = 0.0026;
@@ -117,15 +119,15 @@ core::TexturedMesh Ruler(RigidDraft* d) {
 
 core::TexturedMesh Pen(RigidDraft* d) {
   const double l = d->size.x(), r = 0.5 * d->size.y();
-  return Turned({{0, 0},
-                 {0.8 * r, 0},
-                 {r, 0.03 * l},
-                 {r, 0.82 * l},
-                 {0.75 * r, 0.84 * l, 1},
-                 {0.3 * r, 0.98 * l, 1},
-                 {0.12 * r, l, 1},
-                 {0, l, 1}},
-                {d->look, kSteel});
+  return Revolve({{0, 0},
+                  {0.8 * r, 0},
+                  {r, 0.03 * l},
+                  {r, 0.82 * l},
+                  {0.75 * r, 0.84 * l, 1},
+                  {0.3 * r, 0.98 * l, 1},
+                  {0.12 * r, l, 1},
+                  {0, l, 1}},
+                 {d->look, kSteel});
 }
 
 core::TexturedMesh Pencil(RigidDraft* d) {
@@ -144,44 +146,44 @@ core::TexturedMesh Marker(RigidDraft* d) {
   const double l = d->size.x(), r = 0.5 * d->size.y();
   const std::vector<core::Material> looks{Look("barrel", .92f, .92f, .92f),
                                           Look("cap", .16f, .30f, .62f)};
-  return Turned({{0, 0},
-                 {0.9 * r, 0},
-                 {0.94 * r, 0.02 * l},
-                 {0.94 * r, 0.64 * l},
-                 {r, 0.65 * l, 1},
-                 {r, 0.95 * l, 1},
-                 {0.7 * r, l, 1},
-                 {0, l, 1}},
-                looks);
+  return Revolve({{0, 0},
+                  {0.9 * r, 0},
+                  {0.94 * r, 0.02 * l},
+                  {0.94 * r, 0.64 * l},
+                  {r, 0.65 * l, 1},
+                  {r, 0.95 * l, 1},
+                  {0.7 * r, l, 1},
+                  {0, l, 1}},
+                 looks);
 }
 
 core::TexturedMesh Screwdriver(RigidDraft* d) {
   const double l = d->size.x(), r = 0.5 * d->size.y(), grip = 0.42 * l;
   const std::vector<core::Material> looks{Look("grip", .78f, .20f, .14f), kSteel};
-  return Turned({{0, 0},
-                 {0.75 * r, 0},
-                 {r, 0.12 * grip},
-                 {0.88 * r, 0.6 * grip},
-                 {r, 0.9 * grip},
-                 {0.5 * r, grip},
-                 {0.24 * r, grip, 1},
-                 {0.24 * r, 0.95 * l, 1},
-                 {0.16 * r, l, 1},
-                 {0, l, 1}},
-                looks);
+  return Revolve({{0, 0},
+                  {0.75 * r, 0},
+                  {r, 0.12 * grip},
+                  {0.88 * r, 0.6 * grip},
+                  {r, 0.9 * grip},
+                  {0.5 * r, grip},
+                  {0.24 * r, grip, 1},
+                  {0.24 * r, 0.95 * l, 1},
+                  {0.16 * r, l, 1},
+                  {0, l, 1}},
+                 looks);
 }
 
 core::TexturedMesh Hammer(RigidDraft* d) {
   const double l = d->size.x(), w = d->size.y(), h = d->size.z(), r = 0.36 * h;
-  core::TexturedMesh mesh = Turned({{0, 0},
-                                    {0.9 * r, 0},
-                                    {1.1 * r, 0.05 * l},
-                                    {r, 0.3 * l},
-                                    {0.8 * r, 0.6 * l},
-                                    {0.8 * r, l - 0.3 * h},
-                                    {0, l - 0.3 * h}},
-                                   {kWood});
-  // The head lies across, along y: a face, a neck and a wedge.
+  core::TexturedMesh mesh = Revolve({{0, 0},
+                                     {0.9 * r, 0},
+                                     {1.1 * r, 0.05 * l},
+                                     {r, 0.3 * l},
+                                     {0.8 * r, 0.6 * l},
+                                     {0.8 * r, l - 0.3 * h},
+                                     {0, l - 0.3 * h}},
+                                    {kWood});
+  // The head lies along y: a face, a neck and a wedge.
   core::TexturedMesh head = Loft({{0, 0, 0},
                                   {0.46 * h, 0.46 * h, 0},
                                   {0.5 * h, 0.5 * h, 0.03 * w},
@@ -198,7 +200,8 @@ core::TexturedMesh Hammer(RigidDraft* d) {
   return mesh;
 }
 
-// A handle and a block of bristles on its end; it rests on both ends of the handle.
+// Returns a brush: a handle with a block of bristles on its end; it rests on both ends of the
+// handle.
 core::TexturedMesh Brush(RigidDraft* d) {
   const double l = d->size.x(), w = d->size.y(), h = d->size.z(), thick = 0.4 * h;
   const double head = 0.42 * l, grip = 0.22 * w, up = 0.1 * thick;
@@ -221,32 +224,32 @@ core::TexturedMesh Brush(RigidDraft* d) {
 
 core::TexturedMesh RollingPin(RigidDraft* d) {
   const double l = d->size.x(), r = 0.5 * d->size.y();
-  return Turned({{0, 0},
-                 {0.3 * r, 0},
-                 {0.45 * r, 0.03 * l},
-                 {0.4 * r, 0.18 * l},
-                 {0.96 * r, 0.19 * l},
-                 {r, 0.21 * l},
-                 {r, 0.79 * l},
-                 {0.96 * r, 0.81 * l},
-                 {0.4 * r, 0.82 * l},
-                 {0.45 * r, 0.97 * l},
-                 {0.3 * r, l},
-                 {0, l}},
-                {kWood});
+  return Revolve({{0, 0},
+                  {0.3 * r, 0},
+                  {0.45 * r, 0.03 * l},
+                  {0.4 * r, 0.18 * l},
+                  {0.96 * r, 0.19 * l},
+                  {r, 0.21 * l},
+                  {r, 0.79 * l},
+                  {0.96 * r, 0.81 * l},
+                  {0.4 * r, 0.82 * l},
+                  {0.45 * r, 0.97 * l},
+                  {0.3 * r, l},
+                  {0, l}},
+                 {kWood});
 }
 
 core::TexturedMesh Battery(RigidDraft* d) {
   const double l = d->size.x(), r = 0.5 * d->size.y();
   const std::vector<core::Material> looks{kDark, Look("copper", .76f, .48f, .26f), kSteel};
-  core::TexturedMesh mesh = Turned({{0, 0, 2},
-                                    {r, 0, 2},
-                                    {r, 0.66 * l},
-                                    {r, 0.97 * l, 1},
-                                    {0.4 * r, 0.97 * l, 2},
-                                    {0.4 * r, l, 2},
-                                    {0, l, 2}},
-                                   looks);
+  core::TexturedMesh mesh = Revolve({{0, 0, 2},
+                                     {r, 0, 2},
+                                     {r, 0.66 * l},
+                                     {r, 0.97 * l, 1},
+                                     {0.4 * r, 0.97 * l, 2},
+                                     {0.4 * r, l, 2},
+                                     {0, l, 2}},
+                                    looks);
   Flatten(0.04, &mesh);
   return mesh;
 }
@@ -254,16 +257,16 @@ core::TexturedMesh Battery(RigidDraft* d) {
 core::TexturedMesh Flashlight(RigidDraft* d) {
   const double l = d->size.x(), r = 0.5 * d->size.y();
   const std::vector<core::Material> looks{kDark, Look("lens", .85f, .90f, .92f)};
-  return Turned({{0, 0},
-                 {0.62 * r, 0},
-                 {0.68 * r, 0.03 * l},
-                 {0.68 * r, 0.64 * l},
-                 {r, 0.78 * l},
-                 {r, l},
-                 {0.88 * r, l},
-                 {0.88 * r, 0.985 * l, 1},
-                 {0, 0.985 * l, 1}},
-                looks);
+  return Revolve({{0, 0},
+                  {0.62 * r, 0},
+                  {0.68 * r, 0.03 * l},
+                  {0.68 * r, 0.64 * l},
+                  {r, 0.78 * l},
+                  {r, l},
+                  {0.88 * r, l},
+                  {0.88 * r, 0.985 * l, 1},
+                  {0, 0.985 * l, 1}},
+                 looks);
 }
 
 core::TexturedMesh BaseballBat(RigidDraft* d) {
@@ -278,7 +281,7 @@ core::TexturedMesh BaseballBat(RigidDraft* d) {
     profile.push_back(p);
   }
   profile.push_back({0, l});
-  return Turned(profile, {kWood});
+  return Revolve(profile, {kWood});
 }
 
 }  // namespace

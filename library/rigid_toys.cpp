@@ -6,11 +6,11 @@
 #include "library/rigid_shapes.h"
 #include "library/turned_parts.h"
 
-// Toys put together from several pieces, each one solid.
+// Toys assembled from several solid pieces.
 namespace simwright::library {
 namespace {
 
-// Rings of falling size on a foot, a ball on top; the rod between them is hidden.
+// Returns rings of decreasing size on a base with a ball on top; the rod between them is hidden.
 core::TexturedMesh StackingRing(RigidDraft* d) {
   constexpr int kRings = 5, kSteps = 10;
   const double r = 0.5 * d->size.y(), h = d->size.z();
@@ -18,13 +18,13 @@ core::TexturedMesh StackingRing(RigidDraft* d) {
   std::vector<ProfilePoint> profile{{0, 0}, {0.82 * r, 0}, {0.82 * r, foot}};
   d->parts = {TurnedPart({profile[1], profile[2]}, 20, 8)};
   const auto arc = [&](double middle, double z, double across, double up, double end, int look) {
-    std::vector<ProfilePoint> rings;  // every other of them, of a part
+    std::vector<ProfilePoint> rings;  // every other ring of a part
     for (int k = 0; k <= kSteps; ++k) {
       const double angle = end * (2.0 * k / kSteps - 1.0);
       profile.push_back({middle + across * std::cos(angle), z + up * std::sin(angle), look});
       if (k % 2 == 0) rings.push_back(profile.back());
     }
-    rings.front().z = z - up;  // on what is below and above it
+    rings.front().z = z - up;  // on the rings below and above it
     rings.back().z = z + up;
     d->parts.push_back(TurnedPart(rings, 10));
   };
@@ -51,7 +51,7 @@ core::TexturedMesh Block(const Eigen::Vector3d& low, const Eigen::Vector3d& high
   return mesh;
 }
 
-// A turned piece between two ends of its axis, with rounded edges, and its part.
+// Returns a wheel with rounded edges between two ends of its axis, and its part.
 core::TexturedMesh Wheel(double radius, double width, const core::Material& tread,
                          const core::Material& hub, core::TriangleMesh* part) {
   *part = TurnedPart(
@@ -69,7 +69,7 @@ core::TexturedMesh Wheel(double radius, double width, const core::Material& trea
                          {tread, hub}));
 }
 
-// Pieces and their parts.
+// The pieces of an engine and their parts.
 class Engine {
  public:
   explicit Engine(RigidDraft* draft) : draft_(draft) {}
@@ -91,7 +91,7 @@ class Engine {
   core::TexturedMesh mesh_;
 };
 
-// Behind its cap is the boiler, along x.
+// Adds the boiler, behind its cap, along x.
 void AddBoiler(double radius, double length, double height, const core::Material& paint,
                const core::Material& cap, Engine* engine) {
   const ProfilePoint rear{radius, -0.16 * length}, front{radius, 0.38 * length},
@@ -104,7 +104,7 @@ void AddBoiler(double radius, double length, double height, const core::Material
               part, {0, 0, height});
 }
 
-// An engine of wood, its front at x; wheels that do not turn reach a little into the frame.
+// Returns a wooden engine with its front at x; the fixed wheels extend slightly into the frame.
 core::TexturedMesh ToyTrain(RigidDraft* d) {
   const double l = d->size.x(), w = d->size.y(), h = d->size.z(), wheel = 0.17 * h;
   const core::Material wood = Look("wood", .78f, .60f, .38f), paint = Print(d), roof = Print(d),

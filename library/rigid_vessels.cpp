@@ -4,16 +4,17 @@
 #include "library/rigid_shapes.h"
 #include "library/turned_parts.h"
 
-// Bodies of revolution: what holds food and drink, and what else is turned.
+// Solids of revolution: containers for food and drink, and others.
 namespace simwright::library {
 namespace {
 
-// All are drawn with their true radius and height, so that walls have a thickness in metres.
+// Returns the true radius. All vessels are modelled at their true radius and height, so that walls
+// have a thickness in metres.
 double Radius(const RigidDraft& d) {
   return 0.5 * d.size.y();
 }
 
-constexpr int kWedges = 10;  // of a wall, as parts
+constexpr int kWedges = 10;  // wedges of a wall, as parts
 
 core::TexturedMesh Vessel(RigidDraft* d, const std::vector<ProfilePoint>& outer, double thickness,
                           double floor) {
@@ -64,7 +65,7 @@ core::TexturedMesh Plate(RigidDraft* d) {
 
 core::TexturedMesh Vase(RigidDraft* d) {
   const double r = Radius(*d), h = d->size.z(), neck = d->Draw(0.4, 0.6) * r;
-  // Its parts are found: a wedge from foot to rim would fill belly and neck.
+  // Its parts come from convex decomposition: a wedge from base to rim would fill belly and neck.
   return Revolved(VesselProfile(Smooth({{0.6 * r, 0},
                                         {0.9 * r, 0.2 * h},
                                         {r, 0.42 * h},
@@ -168,7 +169,7 @@ core::TexturedMesh ToiletPaper(RigidDraft* d) {
   return Revolved({{hole, 0, 1}, {r, 0}, {r, h}, {hole, h}}, looks);
 }
 
-// A round pan with a level handle along x, at the height `at`.
+// Returns a round pan with a horizontal handle along x, at the height `at`.
 core::TexturedMesh Pan(RigidDraft* d, double foot, double at) {
   const double r = Radius(*d), h = d->size.z(), wall = 0.003, rod = std::min(0.009, 0.12 * h);
   core::TexturedMesh mesh = Vessel(d, {{foot * r, 0}, {r, at * h + rod}, {r, h}}, wall, 0.004);

@@ -15,7 +15,7 @@ constexpr double kLeverGap = 0.003;  // m, between the lever and the front
 
 assets::ArticulatedAsset MakeToaster(const Options& options) {
   Assembly a("toaster", "toaster", options);
-  // Its long side lies along x, so that the lever's end faces whoever stands at negative x.
+  // The long side lies along x, so that the lever's end faces a user at negative x.
   const double lever_deep = 0.028;
   const double deep = a.parameters().length.sample - lever_deep;
   const double across = std::max(a.parameters().width.sample, 2 * kSlot + 0.06);
@@ -36,7 +36,7 @@ assets::ArticulatedAsset MakeToaster(const Options& options) {
   for (const double from : {-y, -0.5 * wall, y - wall}) {
     a.Add(body, casing, Box({x0 + kEnd, from, low}, {x1 - kEnd, from + wall, high - 0.004}, 0.003));
   }
-  // The slit that the lever runs along.
+  // The slit in which the lever slides.
   const double top = high - 0.045, travel = a.Draw(0.40, 0.48) * high;
   a.Paint(body, BlackPlastic(),
           Box({x0 - 0.0008, -0.005, top - travel - 0.01}, {x0 + 0.001, 0.005, top + 0.01}, 0.0));

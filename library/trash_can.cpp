@@ -8,12 +8,13 @@
 namespace simwright::library {
 namespace {
 
-constexpr int kStaves = 16;          // straight walls in a round
+constexpr int kStaves = 16;          // number of straight walls around the can
 constexpr double kLidGap = 0.003;    // m
 constexpr double kLid = 0.012;       // m, thickness
 constexpr double kOverhang = 0.006;  // m, of the lid over the rim
 
-// A wall of staves between two circles; each is a wedge, so that neighbours share their sides.
+// Returns a wall of staves between two circles; each is a wedge, so that neighbours share their
+// sides.
 std::vector<core::TriangleMesh> RoundWall(double low_radius, double high_radius, double wall,
                                           double low, double high) {
   std::vector<core::TriangleMesh> staves;
@@ -41,7 +42,7 @@ assets::ArticulatedAsset MakeTrashCan(const Options& options) {
   const double wall = 0.004, rim = high - kLid - kLidGap;
   const Matter shell =
       a.Chance(0.5) ? BrushedSteel() : MatterOf("plastic", "green_plastic", 0.30f, 0.45f, 0.36f);
-  // Steel sheet is 0.6 mm: walls are drawn 4 mm thick and weigh as much as the sheet.
+  // Steel sheet is 0.6 mm thick: walls are modelled 4 mm thick with the sheet's mass.
   Matter thin = shell;
   if (shell.material == "steel") thin.density *= 0.15;
   const int body = a.AddRoot("body", "body");

@@ -13,9 +13,9 @@ Eigen::Vector3d At(const ProfilePoint& ring, double angle) {
   return {ring.r * std::cos(angle), ring.r * std::sin(angle), ring.z};
 }
 
-constexpr double kOffGround = 5e-4;  // m, of a wall: what its foot bears does not bear on it too
+constexpr double kOffGround = 5e-4;  // m, clearance of a wall: the base alone bears the load
 
-// At most seven of them, the ends among them: of a wedge 35 corners.
+// Returns at most seven of the points, including the ends: a wedge then has 35 corners.
 std::vector<ProfilePoint> Few(const std::vector<ProfilePoint>& points) {
   const size_t last = std::min<size_t>(points.size(), 7) - 1;
   std::vector<ProfilePoint> few;
@@ -56,7 +56,8 @@ std::vector<core::TriangleMesh> WallParts(const std::vector<ProfilePoint>& outer
 std::vector<core::TriangleMesh> VesselParts(const std::vector<ProfilePoint>& outer,
                                             double thickness, double floor, int count,
                                             int foot_corners) {
-  // Of VesselProfile: between its middle points the outside, then the inside down to the floor.
+  // The profile of VesselProfile has the outside between its middle points, then the inside down to
+  // the floor.
   const std::vector<ProfilePoint> profile = VesselProfile(outer, thickness, floor);
   const std::vector<ProfilePoint> inner(
       profile.begin() + static_cast<std::ptrdiff_t>(outer.size()) + 1, profile.end() - 1);
@@ -71,9 +72,10 @@ std::vector<core::TriangleMesh> VesselParts(const std::vector<ProfilePoint>& out
 }
 
 std::vector<core::TriangleMesh> TubeParts(const core::TexturedMesh& tube, int count) {
-  constexpr int kRound = 16, kEvery = 2;  // of TaperedTube, and what a hull takes of it
+  constexpr int kRound = 16, kEvery = 2;  // points per section of TaperedTube, and the stride a
+                                          // hull takes
   const std::vector<Eigen::Vector3d>& vertices = tube.mesh.vertices;
-  const int sections = static_cast<int>(vertices.size() - 2) / kRound;  // two are the ends' middles
+  const int sections = static_cast<int>(vertices.size() - 2) / kRound;  // two are the ends' centres
   std::vector<core::TriangleMesh> parts;
   for (int part = 0; part < count; ++part) {
     std::vector<Eigen::Vector3d> points;

@@ -29,14 +29,14 @@ void AddGrip(Assembly* a, int sash, HandleKind kind, const Eigen::Vector3d& moun
   a->AddHandle("handle_0", sash, kind, place, metal);
 }
 
-// Two sashes one behind the other; the front one slides along y over the other.
+// Adds two sashes one behind the other; the front one slides along y over the other.
 void AddSliding(Assembly* a, int body, const Eigen::AlignedBox3d& hole, HandleKind kind,
                 const Matter& bars, const Matter& metal) {
   const double middle = 0.5 * kSashBar, side = a->Chance(0.5) ? 1.0 : -1.0;
   a->Note("moves", side > 0.0 ? "left sash" : "right sash");
   const double y_edge = side * (0.5 * hole.sizes().y() - kGap), y_meet = -side * middle;
   const double z0 = hole.min().z() + kGap, z1 = hole.max().z() - kGap;
-  // Front track and rear track.
+  // The front track and the rear track.
   const double front = -kSash - 0.004, rear = 0.004;
   AddSash(a, body,
           Bounds(rear, rear + kSash, std::min(-side * 0.5 * hole.sizes().y(), -y_meet),
@@ -55,7 +55,7 @@ void AddSliding(Assembly* a, int body, const Eigen::AlignedBox3d& hole, HandleKi
   AddGrip(a, sash, kind, {front, y_edge - side * 0.5 * kSashBar, 0.5 * (z0 + z1)}, metal);
 }
 
-// A sash in front of the frame, on a side hinge.
+// Adds a sash in front of the frame, on a side hinge.
 void AddCasement(Assembly* a, int body, const Eigen::AlignedBox3d& hole, double front,
                  HandleKind kind, const Matter& bars, const Matter& metal) {
   const double side = a->Chance(0.5) ? 1.0 : -1.0, lap = 0.018;
@@ -76,11 +76,11 @@ assets::ArticulatedAsset MakeWindow(const Options& options) {
   a.HoldFixed();
   const bool sliding = a.Chance(0.5);
   a.Note("opens", sliding ? "slides" : "swings");
-  // A casement of more than 0.9 m hangs badly: wider ones slide.
+  // A casement is at most 0.9 m wide, because wider ones sag: wider windows slide.
   const double across =
       std::clamp(a.parameters().length.sample, sliding ? 0.8 : 0.48, sliding ? 1.6 : 0.9);
   const double high = std::clamp(a.parameters().height.sample, 0.5, 1.4);
-  const double half = 0.045;  // of the frame's depth
+  const double half = 0.045;  // half of the frame's depth
   const Matter bars = a.Chance(0.6) ? MatterOf("plastic", "white_frame", 0.93f, 0.93f, 0.91f)
                                     : MatterOf("wood", "oak", 0.72f, 0.53f, 0.34f);
   const int body = a.AddRoot("frame", "frame");

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kFov = 0.5;
 
-// A ball of radius 0.15 about `center`, red where x > center.x, blue elsewhere, as it is seen
-// without light; 3 x 3 rays a pixel.
+// Renders an unlit ball of radius 0.15 about `center`, red where x > center.x, blue elsewhere, with
+// 3 x 3 rays per pixel.
 ObservedView BallView(double azimuth, double elevation, int size,
                       const Eigen::Vector3d& center = Eigen::Vector3d::Zero()) {
   constexpr double kRadius = 0.15;
@@ -80,8 +80,9 @@ FieldSurface QuickSurface(const FieldFit& fit, const std::vector<ObservedView>& 
   return ExtractSurface(fit, views, options);
 }
 
-// Of the ball of radius 0.15 about `center` and a closed mesh around it, at 40^3 points; a point is
-// within the mesh if the field's density there is above the surface's level.
+// Returns the volume IoU of the ball of radius 0.15 about `center` and a closed mesh around it, at
+// 40^3 points; a point is inside the mesh if the field's density there is above the surface's
+// level.
 double BallIou(const FieldFit& fit, double level, const Eigen::Vector3d& center) {
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < 64000; ++i) {
@@ -125,7 +126,8 @@ TEST(FieldFit, EightViewsOfABallGiveItsShapeAndColours) {
   EXPECT_LT(error / counted, 0.1);
 }
 
-// Wants each picture to be the ball's; broken from step `nan_from` on, `nan_count` times.
+// An objective whose target is the ball's image; non-finite from step `nan_from` on, `nan_count`
+// times.
 class BallObjective : public PictureObjective {
  public:
   core::Camera NextCamera(double progress, core::Rng* rng) override {
@@ -171,7 +173,7 @@ class BallObjective : public PictureObjective {
 
 TEST(FieldFit, OneViewAndAnObjectiveGiveTheBackToo) {
   SKIP_UNDER_SANITIZERS();
-  // Further off than the blob from which the field starts: a view alone cannot tell.
+  // The ball is farther away than the initial blob, which one view alone cannot determine.
   const Eigen::Vector3d center(0.0, 0.07, 0.0);
   const std::vector<ObservedView> views = {BallView(-M_PI / 2, 0.3, 32, center)};
   FieldFitOptions options = QuickOptions(70, 32);
@@ -231,7 +233,7 @@ TEST(FieldFit, NamesTheViewThatContradictsTheOthers) {
   ASSERT_EQ(fit.findings.size(), 1u);
   EXPECT_EQ(fit.findings[0].code, "view-contradicts");
   EXPECT_EQ(fit.findings[0].place, "view 3");
-  // Of two, nothing says which is wrong.
+  // With two views it is undecidable which is wrong.
   const Carving two = CarveByMasks({views[0], views[3]}, Eigen::Vector3d::Zero(), 0.25, 1.0);
   EXPECT_EQ(two.findings.size(), 2u);
   EXPECT_TRUE(two.contradicting.empty());
@@ -258,7 +260,7 @@ TEST(FieldCarving, LeavesTheConesAndAllOfTheObject) {
   EXPECT_EQ(beside.findings[0].code, "field-beside-object");
 }
 
-// A fit that knows nothing, and whose density is that of `bias` everywhere.
+// Returns an untrained fit whose density is that of `bias` everywhere.
 FieldFit Bare(double bias) {
   RadianceFieldOptions options;
   options.half_side = 0.25;
@@ -281,13 +283,13 @@ TEST(FieldSurface, HasFacesHoweverEmptyTheField) {
     ASSERT_FALSE(surface.findings.empty());
     EXPECT_EQ(surface.findings[0].code, "field-surface-faint");
   }
-  // Nothing is allowed, nothing is there: the cube stands in.
+  // No cell is allowed and none is occupied: the cube replaces the surface.
   FieldFit nothing = Bare(-1000.0);
   nothing.occupancy.Restrict(std::vector<std::uint8_t>(64 * 64 * 64, 0));
   EXPECT_FALSE(QuickSurface(nothing, views).mesh.empty());
 }
 
-// Two balls, of which the mask shows one or both.
+// Returns two balls, of which the mask shows one or both.
 TEST(FieldSurface, KeepsTheComponentsThatTheMaskWants) {
   RadianceFieldOptions options;
   options.half_side = 0.3;
@@ -320,7 +322,8 @@ TEST(FieldSurface, KeepsTheComponentsThatTheMaskWants) {
   EXPECT_NEAR(box.max().x(), 0.0, 0.01);
 }
 
-// Central differences of `loss` in each number of `values`, against what it adds to `gradient`.
+// Compares central differences of `loss` in each number of `values` with the gradient that it adds
+// to `gradient`.
 template <typename Loss>
 void ExpectSlopes(std::vector<float>* values, const std::vector<float>& gradient,
                   const Loss& loss) {

@@ -17,7 +17,7 @@
 namespace simwright::asset_lift {
 namespace {
 
-// Small, with dense and hashed levels.
+// A small grid with dense and hashed levels.
 RadianceFieldOptions SmallField(int features = 2) {
   RadianceFieldOptions options;
   options.grid.levels = 4;
@@ -28,7 +28,7 @@ RadianceFieldOptions SmallField(int features = 2) {
   return options;
 }
 
-// Features as large as training makes them, so that every part of the chain matters.
+// Makes features as large as training does, so that every part of the chain matters.
 template <typename Real>
 void Stir(BasicRadianceField<Real>* field) {
   core::Rng rng(5);
@@ -66,8 +66,8 @@ double Dot(const FieldBatchGradient<double>& weights, const FieldBatch<double>& 
   return sum;
 }
 
-// The derivative of `loss` along random directions against `gradient`, by central differences.
-// `parts`: ranges of parameters that are moved alone.
+// Compares the derivative of `loss` along random directions with `gradient`, by central
+// differences. `parts`: ranges of parameters that are perturbed separately.
 template <typename Loss>
 void ExpectGradient(std::vector<double>* parameters, const std::vector<double>& gradient,
                     const std::vector<std::size_t>& bounds, const Loss& loss) {
@@ -92,7 +92,8 @@ void ExpectGradient(std::vector<double>* parameters, const std::vector<double>& 
       }
       *parameters = start;
       ASSERT_GT(size, 0.0);
-      // Of the gradient's length: a direction may happen to be level.
+      // The tolerance is relative to the gradient's length, because a direction may be orthogonal
+      // to it.
       EXPECT_NEAR((sides[1] - sides[0]) / (2 * kStep), expected, 1e-3 * std::sqrt(size))
           << "part " << part << ", trial " << trial;
     }
@@ -230,7 +231,7 @@ TEST(RadianceField, RefusesOptionsThatCannotBe) {
   EXPECT_THROW(RadianceField(options, 1), core::Error);
 }
 
-// Rays from outside towards points within the cube.
+// Returns rays from outside towards points within the cube.
 std::vector<FieldRay> RaysThrough(int count, double spread) {
   core::Rng rng(9);
   std::vector<FieldRay> rays;
@@ -281,7 +282,7 @@ TEST(VolumeRendering, GradientOfARayIsThatOfFiniteDifferences) {
   }
 }
 
-// A field that is its bias alone.
+// Returns a field whose density is the bias alone.
 RadianceField OnlyBias(const RadianceFieldOptions& options) {
   RadianceField field(options, 1);
   for (float& p : field.parameters()) p = 0.0f;
@@ -352,8 +353,8 @@ TEST(VolumeRendering, HomogeneousSphereLosesLightWithTheChord) {
   EXPECT_LT(sum / rays.size(), 0.01);
 }
 
-// The light that the default blob takes: log(1 + e^(scale (1 - r / std))) integrated along the
-// chord in ten thousand steps.
+// Returns the light absorbed by the default blob: log(1 + e^(scale (1 - r / std))) integrated along
+// the chord in ten thousand steps.
 TEST(VolumeRendering, BlobLosesLightAndFacesOutward) {
   RadianceFieldOptions options;
   options.half_side = 1.0;

@@ -10,10 +10,11 @@
 #include "geometry/isosurface.h"
 #include "render/differentiable.h"
 
-// Things of known shape and their pictures, for the fits' tests.
+// Objects of known shape and their images, for the tests of the fits.
 namespace simwright::asset_lift {
 
-// The surface of what is negative, in a cube of half side `half` about the origin.
+// Returns the zero isosurface of a function (negative inside) in a cube of half side `half` about
+// the origin.
 inline core::TriangleMesh SurfaceOf(const std::function<double(const Eigen::Vector3d&)>& field,
                                     double half, int cells) {
   geometry::ScalarGrid grid;
@@ -45,7 +46,7 @@ inline core::TriangleMesh BumpySphere() {
       0.13, 48);
 }
 
-// No turn maps it onto itself: two boxes.
+// Two boxes without rotational symmetry.
 inline core::TriangleMesh Hook() {
   const auto box = [](const Eigen::Vector3d& p, const Eigen::Vector3d& low,
                       const Eigen::Vector3d& high) {
@@ -59,7 +60,7 @@ inline core::TriangleMesh Hook() {
       0.13, 40);
 }
 
-// Pictures from all round, colours a smooth pattern of place, with depths.
+// Returns images from all sides with depths; colours are a smooth function of position.
 inline std::vector<ObservedView> ViewsOf(const core::TriangleMesh& mesh, int count, int size) {
   render::DifferentiableObject object;
   object.mesh = mesh;

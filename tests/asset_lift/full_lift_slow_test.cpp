@@ -1,4 +1,5 @@
-// The whole way, small: both priors trained for a few steps, a photo lifted with them.
+// The whole pipeline at a small size: trains both priors for a few steps and reconstructs a photo
+// with them.
 #include <gtest/gtest.h>
 
 #include "asset_lift/learned_view_prior.h"
@@ -13,7 +14,7 @@
 namespace simwright::asset_lift {
 namespace {
 
-// Three boxes, not symmetric: nothing that the outline alone would turn.
+// Three asymmetric boxes, so that the silhouette alone does not yield a solid of revolution.
 core::TexturedMesh Steps() {
   core::TexturedMesh mesh;
   const auto add = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
@@ -109,7 +110,7 @@ TEST_F(FullLift, BothStagesGiveASolidThatShowsThePhoto) {
     const LiftedMesh lifted = LiftPhoto(photo, {}, priors, options, &silent);
     EXPECT_EQ(lifted.start, "the learned prior");
     EXPECT_TRUE(geometry::Examine(lifted.mesh.mesh).Sound());
-    // Even four steps of training cannot lead the shape away from its outline.
+    // Even four steps of training must not lead the shape away from its silhouette.
     EXPECT_GT(lifted.silhouette_iou, 0.85);
     EXPECT_EQ(lifted.mesh.textures.size(), 1u);
   }

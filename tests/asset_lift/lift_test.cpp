@@ -143,8 +143,8 @@ TEST(Segmentation, FindsABrightDiscOnATexturedGround) {
   EXPECT_GT(both / either, 0.95);
 }
 
-// The apple is red, the wall behind it green: an ellipse about the apple's flat top must not take
-// the wall beside the stem along, and none of the red may be left out for it.
+// The apple is red, the wall behind it green: an ellipse about the apple's flat top must exclude
+// the wall beside the stem and include all of the red.
 TEST(Segmentation, ARoundThingMayBeFlatOnTop) {
   const core::Image photo = core::ReadImage(SIMWRIGHT_SOURCE_DIR "/examples/apple.jpg");
   SegmentationOptions options;

@@ -47,7 +47,7 @@ TEST(LargeSteps, SolveUndoesApplyAndKeepsTranslations) {
   EXPECT_LT((steps.Solve(steps.Apply(v)) - v).norm(), 1e-9 * v.norm());
   const Eigen::MatrixX3d one = Eigen::MatrixX3d::Ones(v.rows(), 3);
   EXPECT_LT((steps.Apply(one) - one).norm(), 1e-9);
-  // A spike at one vertex is spread: the matrix' inverse smooths.
+  // A spike at one vertex spreads, because the inverse matrix smooths.
   Eigen::MatrixX3d spike = Eigen::MatrixX3d::Zero(v.rows(), 3);
   spike(7, 0) = 1.0;
   const Eigen::MatrixX3d spread = steps.Solve(spike);
@@ -149,7 +149,7 @@ TEST(MeshFit, ABumpySphereFromASphere) {
   EXPECT_EQ(result.vertex_colors.size(), result.mesh.vertices.size());
 }
 
-// One camera cannot tell size from distance; depths can.
+// One camera cannot distinguish size from distance; depths can.
 TEST(MeshFit, DepthsPlaceWhatMasksAloneCannot) {
   std::vector<ObservedView> views = ViewsOf(Sphere(0.1), 1, 48);
   views[0].color = {};
@@ -159,7 +159,7 @@ TEST(MeshFit, DepthsPlaceWhatMasksAloneCannot) {
   for (Eigen::Vector3d& v : start.vertices) v += 0.2 * eye;
   MeshFitOptions options = Quick();
   options.views_per_step = 1;
-  // How far the front of the mesh is from where it should be.
+  // The distance of the mesh's front from its target.
   const auto miss = [&](const core::TriangleMesh& mesh) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Eigen::Vector3d& v : mesh.vertices) nearest = std::min(nearest, (v - eye).norm());
@@ -173,7 +173,7 @@ TEST(MeshFit, DepthsPlaceWhatMasksAloneCannot) {
   EXPECT_GT(without, 0.05);
 }
 
-// Asks for a picture like a view's, from the view's camera; may go wrong on the way.
+// An objective whose target is a view's image, from the view's camera; may become non-finite.
 class LikeAView : public PictureObjective {
  public:
   LikeAView(const std::vector<ObservedView>& views, int wrong_from, int wrong_to)

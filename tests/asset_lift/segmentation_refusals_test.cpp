@@ -1,5 +1,5 @@
-// What is said, and not lifted: an empty table, clear glass, a second object, an object of a few
-// pixels. Each picture is drawn here; the same with one opaque thing in it is taken.
+// The photos that segmentation rejects: an empty table, clear glass, a second object, an object of
+// a few pixels. Each image is synthetic; the same image with one opaque object is accepted.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ Color WallAndTable(double x, double y) {
   return {1.1 * grain, 0.8 * grain, 0.55 * grain};
 }
 
-// A clear tumbler: faint lines and a highlight, else what is behind it.
+// A clear tumbler: faint lines and a highlight over the background.
 Color Glass(double x, double y) {
   const Color behind = {222, 224, 226};
   const bool inside = x > 155 && x < 245 && y > 70 && y < 250;
@@ -69,7 +69,7 @@ Color Ball(double x, double y, double to_x, double to_y, double radius, const Co
   return Squared(x, y, to_x, to_y) < radius * radius ? Color{190, 50, 40} : behind;
 }
 
-// The message of the refusal; empty where an object was cut out.
+// Returns the error message; empty if an object was segmented.
 std::string Refusal(const core::Image& photo) {
   try {
     SegmentObject(photo, {});
@@ -106,7 +106,7 @@ TEST(SegmentationRefusals, ASmallerSecondObjectIsOneAllTheSame) {
   };
   EXPECT_NE(Refusal(Drawn(two(32), 3.0)).find("two objects"), std::string::npos);
   EXPECT_NE(Refusal(Drawn(two(60), 3.0)).find("two objects"), std::string::npos);
-  EXPECT_EQ(Refusal(Drawn(two(6), 3.0)), "");  // a crumb
+  EXPECT_EQ(Refusal(Drawn(two(6), 3.0)), "");  // a speck
   // A shadow as large beside it has no edge.
   const auto shadow = [](double x, double y) {
     const double grey = 225.0 - 45.0 * std::exp(-Squared(x, y, 320, 190) / (2.0 * 26.0 * 26.0));

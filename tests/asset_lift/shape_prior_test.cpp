@@ -1,4 +1,5 @@
-// What the shape prior learns from, and what its answer says of points, pictures and surfaces.
+// The training examples of the shape prior, and the evaluation of its predictions at points, as
+// images and as surfaces.
 #include "asset_lift/shape_prior.h"
 
 #include <gtest/gtest.h>
@@ -18,8 +19,8 @@ namespace {
 
 constexpr size_t kPixels = static_cast<size_t>(kCropSide) * kCropSide;
 
-// A ball of radius 0.5 at the origin, from ten radii away: the answer a
-// perfect prior would give. The front is red, the hidden side blue.
+// A ball of radius 0.5 at the origin, from ten radii away: the prediction of a perfect prior. The
+// front is red, the hidden side blue.
 ShapePrediction BallPrediction() {
   ShapePrediction ball;
   ball.frame.camera = core::OrbitCamera(Eigen::Vector3d::Zero(), 5.0, 0.3, -1.2, 0.3, 128, 128);
@@ -85,7 +86,7 @@ TEST(ShapePrediction, ABallIsABallInOddsSurfaceAndPicture) {
   EXPECT_NEAR(drawn.depth.At(24, 24)[0], 4.5, 0.05);
 }
 
-// The filled cells of a pixel's column: first, last and how many.
+// Returns the first and the last filled cell of a pixel's column, and the count.
 Eigen::Vector3i FilledCells(const ShapePrediction& prediction, int x, int y) {
   Eigen::Vector3i cells(-1, -1, 0);
   for (int k = 0; k < kDepthCells; ++k) {
@@ -99,8 +100,8 @@ Eigen::Vector3i FilledCells(const ShapePrediction& prediction, int x, int y) {
   return cells;
 }
 
-// Every pixel of a band is seen; the network is sure of its left half, and about its right half
-// knows only about where it is, a different place for each row.
+// Every pixel of a band is in the mask; the network is certain of its left half, and about its
+// right half knows only an approximate depth, different in each row.
 TEST(OutlineHold, UnsureColumnsGetASmoothSheetAndSureOnesKeepTheirWord) {
   constexpr int kTop = 20, kBottom = 44, kLeft = 10, kMiddle = 32, kRight = 54;
   ShapePrediction held;
@@ -126,14 +127,14 @@ TEST(OutlineHold, UnsureColumnsGetASmoothSheetAndSureOnesKeepTheirWord) {
   HoldToOutline(&held);
   EXPECT_EQ(FilledCells(held, 20, 30), Eigen::Vector3i(28, 31, 4));
   EXPECT_EQ(FilledCells(held, 4, 30), Eigen::Vector3i(-1, -1, 0));  // beside the outline
-  // One piece, near where the rows' readings meet, however they alternate.
+  // The sheet is one piece, near the mean of the rows' readings, although they alternate.
   for (int y = kTop + 4; y < kBottom - 4; ++y) {
     const Eigen::Vector3i cells = FilledCells(held, 44, y);
     ASSERT_GT(cells[2], 0) << y;
     EXPECT_EQ(cells[1] - cells[0] + 1, cells[2]) << y;
     EXPECT_NEAR(0.5 * (cells[0] + cells[1]), 30.0, 1.5) << y;
   }
-  // As thick as the band is wide there: more in its middle than at its edge.
+  // The sheet is as thick as the band is wide there: more in its middle than at its edge.
   EXPECT_GT(FilledCells(held, 44, 32)[2], FilledCells(held, 44, kTop)[2] + 2);
   const size_t at = 32 * kCropSide + 44;
   EXPECT_LT(held.front_w[at], held.back_w[at]);
@@ -155,7 +156,8 @@ TEST(TrainingShapes, AreSeenWholeAndFillTheirTruth) {
     core::Rng rng = core::StreamRng(7, static_cast<std::uint64_t>(i));
     const TrainingObject object(MakeTrainingShape(&rng), {1.1, 0.9, 1.0});
     const ShapeExample example = MakeShapeExample(object, &rng);
-    // The outline touches the margin's inside, and each pixel of it has something behind it.
+    // The silhouette touches the inside of the margin, and each of its pixels has occupied cells
+    // behind it.
     int covered = 0, explained = 0;
     for (size_t p = 0; p < kPixels; ++p) {
       if (example.picture[4 * p + 3] < 255) continue;
@@ -169,7 +171,7 @@ TEST(TrainingShapes, AreSeenWholeAndFillTheirTruth) {
     EXPECT_GT(covered, 60) << i;
     EXPECT_GT(explained, 0.9 * covered) << i;
     EXPECT_EQ(example.picture[3], 0) << i;  // the corner is free
-    // What the frame says of the truth agrees with the mesh: its vertices lie in the block.
+    // The frame and the mesh agree: the mesh's vertices lie in the block.
     for (const Eigen::Vector3d& v : object.mesh().mesh.vertices) {
       EXPECT_LT(example.frame.Locate(v).head<2>().cwiseAbs().maxCoeff(), 1.0) << i;
     }

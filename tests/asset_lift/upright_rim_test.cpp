@@ -1,5 +1,5 @@
-// A straight-walled vessel keeps its walls: no shoulder where the camera's elevation was estimated a
-// little too low, no bulge where a handle widens the outline on one side.
+// A straight-walled vessel keeps its walls: no shoulder if the camera's elevation is estimated
+// slightly too low, no bulge if a handle widens the silhouette on one side.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,7 +49,7 @@ TEST(UprightRim, AWronglyEstimatedElevationMakesNoShoulder) {
       EXPECT_NEAR(RadiusAtShare(body, share), RadiusAtShare(body, 0.5), 0.05 * kRadius)
           << estimated << " " << share;
     }
-    // And its picture covers the mask as before.
+    // Its silhouette covers the mask as before.
     const cv::Mat drawn = Silhouette(body, CameraAt(estimated));
     const double both = cv::countNonZero(drawn & mask), either = cv::countNonZero(drawn | mask);
     EXPECT_GT(both / either, 0.94) << estimated;

@@ -39,12 +39,12 @@ TEST(RelativeCamera, CountsFromTheReferenceRoundTheVertical) {
   const core::Camera to = core::OrbitCamera(Eigen::Vector3d::Zero(), 1.5, 0.7, 3.0, 0.6, 8, 8);
   const RelativeCamera relative = RelativeTo(from, to);
   EXPECT_NEAR(relative.elevation, 0.4, 1e-12);
-  EXPECT_NEAR(relative.azimuth, 6.0 - 2 * M_PI, 1e-12);  // the short way
+  EXPECT_NEAR(relative.azimuth, 6.0 - 2 * M_PI, 1e-12);  // the shorter arc
   EXPECT_NEAR(relative.distance, 0.5, 1e-12);
 }
 
-// A model that knows the answer, a picture of one grey, g: its noise is (x_t - a_t g) / s_t, with
-// the a_t of the scaled-linear schedule. Distillation must lead any picture there.
+// A perfect model of an image of one grey, g: its noise is (x_t - a_t g) / s_t, with the a_t of the
+// scaled-linear schedule. Distillation must lead any image there.
 TEST(ScoreDistillation, LeadsToThePictureThatTheModelKnows) {
   const core::TemporaryFolder folder;
   const std::filesystem::path path = Save(folder, "grey", R"(

@@ -50,7 +50,7 @@ TEST(VisualHull, OfASphereIsASphere) {
   EXPECT_LT(geometry::SignedVolume(hull), 1.15 * ball);
 }
 
-// No outline shows a bowl's hollow; depths do, and so do patterned colours.
+// No silhouette shows a bowl's hollow; depths do, and so do patterned colours.
 TEST(VisualHull, DepthsAndColoursOpenAHollow) {
   const core::TriangleMesh bowl = SurfaceOf(
       [](const Eigen::Vector3d& p) {
@@ -73,7 +73,7 @@ TEST(VisualHull, DepthsAndColoursOpenAHollow) {
   EXPECT_GT(by_colours, 0.8 * volume);
 }
 
-// Where no colours agree, carving is left out rather than eating the thing.
+// Where no colours agree, carving is skipped instead of eroding the object.
 TEST(VisualHull, ColoursThatNeverAgreeCarveNothing) {
   std::vector<ObservedView> views = WithoutDepths(ViewsOf(Sphere(0.1), 8, 48));
   VisualHullOptions options;
@@ -147,7 +147,7 @@ TEST(ViewAgreement, TwoWrongCamerasAreNamed) {
   EXPECT_EQ(ExamineViews(views).contradicting, (std::vector<int>{2, 5}));
 }
 
-// Of two that contradict each other nobody knows which is wrong.
+// If two views contradict each other, it is undecidable which is wrong.
 TEST(ViewAgreement, OfTwoViewsBothAreNamed) {
   std::vector<ObservedView> views = ViewsOf(Hook(), 2, 64);
   EXPECT_TRUE(ExamineViews(views).contradicting.empty());

@@ -50,7 +50,7 @@ TEST_F(ArticulatedFolder, ReadsBackWhatItWrote) {
   EXPECT_TRUE(a.parent_from_joint.isApprox(b.parent_from_joint, 1e-15));
 }
 
-// As on a command line: from the folder above.
+// The path is relative to the folder above, as on a command line.
 TEST_F(ArticulatedFolder, ReadsBackByARelativePath) {
   const fs::path before = fs::current_path();
   fs::current_path(folder_.path().parent_path());
@@ -126,7 +126,7 @@ TEST_F(ArticulatedFolder, SameAssetSameBytes) {
 
 TEST_F(ArticulatedFolder, DamagedDescriptionsAreOneError) {
   EXPECT_TRUE(IsArticulatedAssetFolder(folder_.path()));
-  EXPECT_THROW(ReadAsset(folder_.path()), core::Error);  // it is no rigid one
+  EXPECT_THROW(ReadAsset(folder_.path()), core::Error);  // it is not rigid
   const std::string good = core::ReadFile(folder_.path() / "asset.json");
   const auto refuses = [&](std::string text, const std::string& from, const std::string& to) {
     const size_t at = text.find(from);

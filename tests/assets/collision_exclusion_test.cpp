@@ -1,4 +1,4 @@
-// Pairs that make no contact, in each format that is written.
+// The excluded collision pairs in each output format.
 #include "assets/collision_exclusion.h"
 
 #include <gtest/gtest.h>

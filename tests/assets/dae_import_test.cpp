@@ -86,7 +86,7 @@ TEST_F(DaeImport, CoordinatesStayInTheirAxesAndBecomeMetres) {
   }
   EXPECT_EQ(ReadMeshFile(Write("b.dae", Dae("", low, high))).up, 0);
   EXPECT_EQ(ReadMeshFile(Write("c.dae", Dae("<up_axis> Z_UP </up_axis>", low, high))).up, 'z');
-  // The turns that make the axis z.
+  // The rotations that map the axis to z.
   EXPECT_NEAR((ZUpFrom('y') * Eigen::Vector3d::UnitY()).z(), 1.0, 1e-12);
   EXPECT_NEAR((ZUpFrom('x') * Eigen::Vector3d::UnitX()).z(), 1.0, 1e-12);
   for (const char up : {'x', 'y', 'z'}) EXPECT_NEAR(ZUpFrom(up).determinant(), 1.0, 1e-12);
@@ -152,7 +152,7 @@ TEST_F(DaeImport, PicturesByUriAreFound) {
   }
 }
 
-// Inside a URDF z is up: a file that says z stays as it lies, one that says y or x is turned.
+// Inside a URDF z is up: a file with z up is unchanged, one with y or x up is rotated.
 TEST_F(DaeImport, UrdfsTurnMeshesToZUp) {
   const auto size = [&](const std::string& asset, const Eigen::Vector3d& high, int said) {
     Write("m.dae", Dae(asset, {0, 0, 0}, high));

@@ -10,7 +10,7 @@
 
 namespace simwright::assets {
 
-// Puts a small glTF together: accessors one after the other in one buffer.
+// Builds a small glTF: accessors one after the other in one buffer.
 class GltfBuilder {
  public:
   nlohmann::json root = {{"asset", {{"version", "2.0"}}},

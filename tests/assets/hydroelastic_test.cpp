@@ -1,4 +1,5 @@
-// How assets touch others in Drake: what is written, and how deep a body sinks in with it.
+// The hydroelastic contact of assets in Drake: the written values, and the resulting penetration
+// depth.
 #include "assets/hydroelastic.h"
 
 #include <gtest/gtest.h>
@@ -28,8 +29,8 @@ TEST(HydroelasticContact, IsSoftWhereTheMaterialIs) {
   EXPECT_EQ(HydroelasticContactOf("", 0.1, {}, 0.5).modulus, 5e7);
 }
 
-// A ball on a rigid floor, its pressure E * depth / r integrated over the patch in rings: the depth
-// at which that is the ball's weight.
+// Returns the depth at which a ball on a rigid floor bears its weight, with its pressure E * depth
+// / r integrated over the patch in rings.
 TEST(HydroelasticContact, ARoundBodySinksInByATenthOfAMillimetre) {
   for (const double mass : {0.02, 0.1, 0.3}) {
     const double radius = 0.05;

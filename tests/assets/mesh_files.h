@@ -50,7 +50,7 @@ class MeshFolder : public ::testing::Test {
     return image;
   }
 
-  // What went wrong, in words; "" where nothing did.
+  // Returns the error message; "" if there was none.
   static std::string Refusal(const std::filesystem::path& path) {
     try {
       ReadMeshFile(path);
@@ -72,7 +72,7 @@ class MeshFolder : public ::testing::Test {
     }
     return volume;
   }
-  // The colour, RGBA in [0, 1], that a triangle shows at barycentric weights.
+  // Returns the colour, RGBA in [0, 1], of a triangle at barycentric weights.
   static Eigen::Vector4f Shown(const core::TexturedMesh& mesh, size_t triangle,
                                const Eigen::Vector3f& weights) {
     const core::Material& material =

@@ -1,4 +1,4 @@
-// Files that are not what their name says, and formats that are not read: named, with what to do.
+// Files with a wrong extension and unsupported formats: both are named with a remedy.
 #include "assets/mesh_format.h"
 
 #include "mesh_files.h"
@@ -33,9 +33,9 @@ TEST_F(MeshFormats, WhatStandsInForAFileIsNamed) {
   expect("\x1f\x8b\x08rest", "archive");
   expect("Salted__0123456789", "encrypted");
   expect(std::string(2000, '\0'), "zeros");
-  expect("glTF\2\0\0\0", "call it .glb");
-  expect("ply\nformat ascii 1.0\n", "call it .ply");
-  expect("<?xml version=\"1.0\"?>\n<COLLADA>", "call it .dae");
+  expect("glTF\2\0\0\0", "rename it to .glb");
+  expect("ply\nformat ascii 1.0\n", "rename it to .ply");
+  expect("<?xml version=\"1.0\"?>\n<COLLADA>", "rename it to .dae");
   expect("", "empty");
 }
 
@@ -61,7 +61,7 @@ TEST_F(MeshFormats, EndingsCountInAnyCase) {
   EXPECT_FALSE(HasMeshEnding("a.fbx"));
 }
 
-// Every prefix of a file is refused or read, never more than was there.
+// Every prefix of a file is rejected or read, never with more content than it has.
 TEST_F(MeshFormats, FilesCutShortAreRefusedInWords) {
   const std::string whole = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty "
                             "float y\nproperty float z\nelement face 1\nproperty list uchar int "

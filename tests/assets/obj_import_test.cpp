@@ -27,7 +27,7 @@ class ObjImport : public MeshFolder {
 struct Naming {
   const char* written;
   const char* place;     // below the mesh's folder
-  bool elsewhere;        // a finding says that it lay elsewhere
+  bool elsewhere;        // a finding reports another location
 };
 
 TEST_F(ObjImport, TexturesAreFoundByNamesOfOtherMachines) {
@@ -102,7 +102,7 @@ TEST(MtlFile, OptionsOpacityAndNamesAreRead) {
   ASSERT_EQ(materials.size(), 3u);
   EXPECT_EQ(materials[0].name, "my wood");
   EXPECT_FLOAT_EQ(materials[0].diffuse.x(), 0.5f);
-  EXPECT_FLOAT_EQ(materials[0].diffuse.z(), 0.5f);  // one number stands for all
+  EXPECT_FLOAT_EQ(materials[0].diffuse.z(), 0.5f);  // one number applies to all channels
   EXPECT_FLOAT_EQ(materials[0].opacity, 0.25f);     // d before Tr
   EXPECT_EQ(materials[0].texture, "a b.png");
   EXPECT_EQ(materials[0].uv_scale, Eigen::Vector2f(2, 3));
@@ -122,7 +122,7 @@ TEST_F(ObjImport, TextureOptionsMoveCoordinates) {
   EXPECT_NEAR((mesh.corner_uvs[2] - Eigen::Vector2f(2.5f, 3.25f)).norm(), 0.0, 1e-6);
 }
 
-// "./a.obj", as shells complete it: the textures beside its folder are found all the same.
+// Shells complete "./a.obj": the textures beside its folder must be found.
 TEST_F(ObjImport, PathsWithDotsFindTheSameTextures) {
   WriteRedBlue("../textures/wood.png");
   WriteSquare("newmtl wood\nKd 1 1 1\nmap_Kd ..\\textures\\wood.png\n");
@@ -148,7 +148,7 @@ TEST_F(ObjImport, WhollyTransparentMaterialsAreShownAndSaid) {
     EXPECT_EQ(CountOf(file, "material-invisible"), 1) << line;
     EXPECT_FLOAT_EQ(Shown(file.mesh, 0)[3], 1.0f) << line;
   }
-  // One that nothing has is nobody's concern.
+  // An unused invisible material is not reported.
   EXPECT_TRUE(ReadMeshFile(WriteSquare("newmtl air\nd 0\nnewmtl wood\nKd 1 0 0\n"))
                   .findings.empty());
 }
@@ -160,7 +160,7 @@ TEST_F(ObjImport, MaterialsThatAreMissingAreSaid) {
   EXPECT_EQ(CountOf(file, "material-missing"), 1);
   EXPECT_EQ(file.mesh.materials[static_cast<size_t>(file.mesh.triangle_material[0])].name,
             "my paint");
-  // A library of the mesh's own name is taken, and said.
+  // A library with the mesh's own name is used and reported.
   Write("own.mtl", "newmtl my paint\nKd 0 1 0\n");
   file = ReadMeshFile(Write("own.obj", square));
   EXPECT_EQ(CountOf(file, "mtl-guessed"), 1);
@@ -228,10 +228,10 @@ TEST_F(ObjImport, ColoursAtVerticesAreKept) {
               0.01);
 }
 
-// What an asset's folder gets, visual.obj with its materials and picture, shows the same colours.
+// The files in an asset's folder, visual.obj with its materials and image, show the same colours.
 TEST_F(ObjImport, ColoursAtVerticesSurviveInVisualObj) {
   const std::string faces = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
-  // Of the first the triangles' corners differ; the second is red all over.
+  // The first triangle's corners differ; the second is red all over.
   for (const char* last : {" 1 1 0", " 1 0 0"}) {
     const bool plain = std::string(last) == " 1 0 0";
     std::string vertices = "v 0 0 0 1 0 0\n";

@@ -22,7 +22,7 @@ inline Asset SampleAsset() {
   asset.parts = {asset.solid};
   const geometry::MassProperties m = geometry::SolidMassProperties(asset.solid, 1250.0);
   asset.inertial = {m.mass, m.center_of_mass, m.inertia};
-  // A full tensor, as of a turned body.
+  // A full tensor, as for a rotated body.
   const Eigen::Matrix3d R =
       Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   asset.inertial.inertia = R * asset.inertial.inertia * R.transpose();

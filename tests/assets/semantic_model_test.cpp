@@ -61,7 +61,7 @@ TEST(SemanticModel, WhatNoFileTellsComesFromNames) {
   EXPECT_EQ(model.category, "");
   EXPECT_EQ(model.semantics.at("lid_2").label, "lid");
   EXPECT_EQ(model.semantics.at("lid_2").joint, "fixed");
-  EXPECT_FALSE(model.semantics.contains("link_0"));  // a number says nothing
+  EXPECT_FALSE(model.semantics.contains("link_0"));  // a number is no label
 }
 
 TEST(SemanticModel, DamagedLinesAreReportedAndPassedOver) {

@@ -1,4 +1,4 @@
-// Where meshes lie beside a URDF, as packages in the wild lay them out, and where they may not lie.
+// The locations of meshes beside a URDF in common package layouts, and the forbidden ones.
 #include "assets/urdf_meshes.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,8 @@ class UrdfMeshes : public ::testing::Test {
     std::ofstream(file) << "<robot name='r'><link name='a'/></robot>";
     return file;
   }
-  // The file that `name` means in `urdf`, relative to the temporary folder; "none" or "refused".
+  // Returns the file that `name` refers to in `urdf`, relative to the temporary folder; "none" or
+  // "refused".
   std::string Found(const std::string& urdf, const std::string& name,
                     const std::string& root = "") const {
     const fs::path file = folder_.path() / urdf;

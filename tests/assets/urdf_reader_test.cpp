@@ -176,7 +176,7 @@ TEST_F(Urdf, SaysWhereAVisualCameFromAndItsColour) {
   ASSERT_EQ(model.links[0].visuals.size(), 1u);
   const UrdfShape& shape = model.links[0].visuals[0];
   EXPECT_TRUE(shape.color->isApprox(Eigen::Vector4f(0.25f, 0.5f, 0.75f, 1.0f)));
-  // A corner of the file's unit cube: stretched, then turned by a quarter, then moved.
+  // A corner of the file's unit cube: scaled, then rotated by 90 degrees, then translated.
   const Eigen::Vector3d corner(0.5, 0.5, 0.5), wanted(1.0 - 2.0, 2.0 + 1.0, 3.0 + 3.0);
   EXPECT_LT((shape.link_from_file * corner - wanted).norm(), 1e-12);
   double nearest = 1.0;

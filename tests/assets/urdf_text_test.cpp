@@ -1,5 +1,5 @@
-// What other readers take and urdfdom alone refuses: each file here loads, and means what its author
-// meant.
+// The defects that other readers tolerate and urdfdom alone rejects: each file here loads with its
+// author's intended meaning.
 #include "assets/urdf_text.h"
 
 #include <gtest/gtest.h>
@@ -149,8 +149,8 @@ TEST_F(UrdfText, ControllersAndEmptyDynamicsArePassedOver) {
   EXPECT_EQ(model.joints[0].upper, 1.0);
 }
 
-// The capsule's volume and inertia are known in closed form; its pieces overlap, so that volumes are
-// compared by their hull.
+// The capsule's volume and inertia are known in closed form; its pieces overlap, so that volumes
+// are compared by their hull.
 TEST_F(UrdfText, CapsulesAreACylinderAndTwoBalls) {
   const UrdfModel model =
       Read("<link name='a'><collision><origin xyz='1 2 3' rpy='0 1.5707963267948966 0'/>"
@@ -158,7 +158,7 @@ TEST_F(UrdfText, CapsulesAreACylinderAndTwoBalls) {
   ASSERT_EQ(model.links[0].collisions.size(), 3u);
   Eigen::AlignedBox3d box;
   for (const UrdfShape& shape : model.links[0].collisions) box.extend(core::Bounds(shape.mesh));
-  // Turned about y by a quarter, z lies along x: 0.4 + 2 * 0.1 long.
+  // Rotated about y by 90 degrees, z lies along x: 0.4 + 2 * 0.1 long.
   EXPECT_NEAR(box.sizes().x(), 0.6, 1e-9);
   EXPECT_NEAR(box.sizes().y(), 0.2, 2e-3);  // meshed balls
   EXPECT_LT((box.center() - Eigen::Vector3d(1, 2, 3)).norm(), 1e-9);
@@ -185,7 +185,7 @@ TEST_F(UrdfText, UnexpandedXacroSaysHowToExpandIt) {
     EXPECT_NE(error.find("expand"), std::string::npos) << error;
     EXPECT_NE(error.find("line"), std::string::npos) << error;
   }
-  // What was expanded keeps the namespace.
+  // An expanded xacro may keep the namespace.
   EXPECT_EQ(ReadWhole("<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'>" + Box("") +
                       "</robot>")
                 .links.size(),

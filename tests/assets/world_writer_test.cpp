@@ -1,4 +1,4 @@
-// Worlds of several things as SDF, as libsdformat reads them; names that would clash.
+// Worlds of several objects as SDF, read by libsdformat; names that would clash.
 #include "assets/world_writer.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ TEST(WorldSdf, LibsdformatFindsTheSameWorld) {
   }
 }
 
-// Top at z = 0; rigid, beside compliant things.
+// The ground's top is at z = 0; it is rigid, beside compliant objects.
 TEST(WorldSdf, TheGroundIsABoxForDrake) {
   const core::TemporaryFolder folder;
   const SampleWorld sample(folder.path());

@@ -1,4 +1,4 @@
-// Furniture has the surfaces that grammars count on, and is made of few convex parts.
+// Furniture has the surfaces that grammars assume, and consists of few convex parts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,8 +54,8 @@ TEST_P(EveryFurniture, IsOfFewClosedConvexPartsThatReachAsFarAsIsSeen) {
   EXPECT_LT((all.min() - box.min()).norm() + (all.max() - box.max()).norm(), 1e-9);
 }
 
-// Its matter weighs what the knowledge base says, at a density that its material may have: nothing
-// has to be taken for hollow.
+// Its mass is within the knowledge base's range, at a density that its material may have, without
+// assuming hollow parts.
 TEST_P(EveryFurniture, WeighsAsMuchAsItsMatter) {
   const auto& base = physics_params::KnowledgeBase::Shipped();
   const physics_params::Category& row = *base.FindCategory(FindRigidKind(GetParam())->category);
@@ -85,7 +85,8 @@ INSTANTIATE_TEST_SUITE_P(Library, EveryFurniture, ::testing::ValuesIn([] {
                          }()),
                          [](const auto& info) { return info.param; });
 
-// m, the level tops of parts that a plumb line through (x, y) meets, rounded to 0.1 mm.
+// Returns the horizontal tops, m, of parts that a plumb line through (x, y) meets, rounded to 0.1
+// mm.
 std::set<long> LevelsAt(const RigidThing& thing, double x, double y) {
   std::set<long> levels;
   for (const core::TriangleMesh& part : thing.parts) {
@@ -120,7 +121,7 @@ TEST(Furniture, ShelvesHaveTheirBoardsWhereThingsStand) {
         EXPECT_EQ(LevelsAt(shelf, x, y), (std::set<long>{170, 2870, 5470, 8170})) << x << " " << y;
       }
     }
-    // Open to -x: nothing stands between the boards before the back.
+    // Open to -x: the space between the boards is empty up to the back.
     for (const core::TriangleMesh& part : shelf.parts) {
       const Eigen::AlignedBox3d box = core::Bounds(part);
       if (box.sizes().z() < 0.1) continue;
@@ -152,7 +153,8 @@ TEST(Furniture, SeatAndFloorAreAtTheirHeights) {
   EXPECT_EQ(*LevelsAt(MakeRigidThing(*FindRigidKind("floor"), 1), 4.9, -4.8).rbegin(), 500);
 }
 
-// Two crossing planks fill their sum less what they share; a third that only touches adds itself.
+// The volume of two overlapping planks is their sum minus the overlap; a third that only touches
+// adds its own.
 TEST(BoxUnion, IsClosedAndCountsSharedMatterOnce) {
   const auto plank = [](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
     return Plank{Eigen::AlignedBox3d(low, high), 0};

@@ -21,8 +21,8 @@ class EveryKind : public ::testing::TestWithParam<std::string> {
   ArticulatedAsset Make(std::uint64_t seed) const { return KindNamed(GetParam()).make({seed, ""}); }
 };
 
-// Links that a joint moves against each other stay apart, by GJK on the parts at random positions
-// of all joints at once.
+// Links that a joint moves relative to each other do not interpenetrate, by GJK on the parts at
+// random positions of all joints at once.
 TEST_P(EveryKind, LinksStayApartAtRandomPositions) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const ArticulatedAsset asset = Make(seed);
@@ -36,7 +36,7 @@ TEST_P(EveryKind, LinksStayApartAtRandomPositions) {
       const auto poses = assets::LinkPoses(model, positions);
       for (size_t i = 0; i < asset.joints.size(); ++i) {
         if (!asset.joints[i].Moves()) continue;
-        // The joint's own two links: others are the check's part.
+        // The joint's own two links; other pairs are tested by the asset check.
         const size_t parent = static_cast<size_t>(assets::ParentLinks(model)[i]);
         for (const core::TriangleMesh& a : asset.links[i + 1].parts) {
           for (const core::TriangleMesh& b : asset.links[parent].parts) {

@@ -29,7 +29,7 @@ TEST_P(EveryRigidKind, IsClosedAndOfTheSampledSize) {
     EXPECT_TRUE(s.closed && s.oriented && s.manifold) << geometry::Describe(s);
     EXPECT_EQ(s.degenerate_triangles, 0);
     EXPECT_GT(s.signed_volume, 0.0);
-    // Only what has a handle or a head of its own may cross itself.
+    // Only kinds with a handle or a separate head may self-intersect.
     if (s.components == 1) {
       EXPECT_EQ(s.self_intersections, 0) << seed;
     }
@@ -53,7 +53,7 @@ TEST_P(EveryRigidKind, IsAsLargeAsItsKind) {
   }
 }
 
-// Parts that a kind brings itself: closed, convex, small, and as far out as what is seen.
+// Parts that a kind defines itself: closed, convex, small, and with the extent of the visual mesh.
 TEST_P(EveryRigidKind, OwnPartsAreSoundAndReachAsFar) {
   for (const std::uint64_t seed : {1, 2, 5}) {
     const RigidThing thing = Make(seed);
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Library, EveryRigidKind, ::testing::ValuesIn([] {
                          }()),
                          [](const auto& info) { return info.param; });
 
-// m, the greatest distance from the z axis of what lies at height z.
+// Returns the greatest distance, m, from the z axis at height z.
 double RadiusAt(const core::TriangleMesh& mesh, double z) {
   double radius = -1.0;
   for (const Eigen::Vector3d& v : mesh.vertices) {
@@ -102,8 +102,8 @@ double RadiusAt(const core::TriangleMesh& mesh, double z) {
   return radius;
 }
 
-// Baskets stack: foot and rim are level rings of one radius, and the inside is open to its floor,
-// which hangs 12 mm over what the foot stands on.
+// Baskets stack: base and rim are level rings of the same radius, and the inside is open down to
+// its floor, which is 12 mm above the base.
 TEST(RigidKinds, SteamersStackAndAreHollow) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const RigidThing steamer = MakeRigidThing(*FindRigidKind("steamer"), seed);
@@ -127,7 +127,7 @@ TEST(RigidKinds, SteamersStackAndAreHollow) {
   }
 }
 
-// The spout is at x and ends high; the handle is opposite, and its hole is to be reached through.
+// The spout is at x and ends high; the handle is opposite, and its hole is open.
 TEST(RigidKinds, TeapotsHaveASpoutAndAHandle) {
   const RigidThing teapot = MakeRigidThing(*FindRigidKind("teapot"), 1);
   const double body = 0.5 * teapot.size.y(), high = teapot.size.z();
@@ -143,7 +143,7 @@ TEST(RigidKinds, TeapotsHaveASpoutAndAHandle) {
   EXPECT_GT(handle_high - handle_low, 0.2 * high);
 }
 
-// Few enough for scenes of dozens of them.
+// The number of parts is small enough for scenes of dozens of objects.
 TEST(RigidKinds, WhatGrammarsUseOftenBringsFewParts) {
   for (const auto& [kind, most] : std::map<std::string, size_t>{{"steamer", 9},
                                                                 {"steamer_lid", 1},

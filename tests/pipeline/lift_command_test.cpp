@@ -112,7 +112,7 @@ TEST(LiftCommand, ABoxIsNoTurnedBody) {
     EXPECT_EQ(outcome.code, 0) << outcome.text;
     return outcome.text;
   };
-  EXPECT_NE(lift("bottle").find("turned upright"), std::string::npos);
+  EXPECT_NE(lift("bottle").find("revolved upright"), std::string::npos);
   EXPECT_NE(lift("box").find("the learned prior"), std::string::npos);
 }
 
