@@ -21,7 +21,7 @@ bool AsksForGoal(const Subtask& subtask) {
   return subtask.goal && std::regex_search(subtask.program, GoalCall());
 }
 
-// `program` with its goal as a constant.
+// Returns `program` with its goal as a constant.
 std::string WithGoal(const std::string& program, const Eigen::Vector3d& goal) {
   char point[96];
   std::snprintf(point, sizeof(point), "[%.9g, %.9g, %.9g]", goal.x(), goal.y(), goal.z());
@@ -30,7 +30,7 @@ std::string WithGoal(const std::string& program, const Eigen::Vector3d& goal) {
                                 ", device=$1.device).unsqueeze(0).repeat($1.num_envs, 1)");
 }
 
-// The subtask's program inside a function `name` of its own, so that no names meet.
+// Returns the subtask's program inside a function `name`, which keeps its names local.
 std::string AsFunction(const Subtask& subtask, const std::string& name, bool goal_of_task) {
   const BlockPrograms found = SplitProgramBlock(LinesOf(subtask.program));
   if (found.programs.size() != 1 || found.programs.front().function.empty()) {
@@ -45,7 +45,8 @@ std::string AsFunction(const Subtask& subtask, const std::string& name, bool goa
   return text + kIndent + "return " + found.programs.front().function + "(env)\n\n";
 }
 
-// "a", "torch.logical_and(a, b)", "torch.logical_and(torch.logical_and(a, b), c)" ...
+// Returns the conjunction: "a", "torch.logical_and(a, b)", "torch.logical_and(torch.logical_and(a,
+// b), c)" ...
 std::string All(const std::vector<std::string>& flags) {
   std::string text = flags.front();
   for (size_t i = 1; i < flags.size(); ++i) {

@@ -14,7 +14,7 @@ struct Step {
   std::string name;         // "open_microwave_door"
   std::string description;  // "Open the door of the microwave."
   std::string program;
-  std::string success;                  // "door_joint of microwave at least 70 % open"
+  std::string success;                  // "door_joint of microwave past 70 % of its way"
   std::optional<Eigen::Vector3d> goal;  // m, world
   Action action;                        // the action of an ideal gripper
 };
