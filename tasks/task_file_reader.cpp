@@ -40,7 +40,7 @@ class Value {
       const auto same = [&](const char* name) { return key == name; };
       const bool known = std::any_of(names.begin(), names.end(), same) ||
                          std::any_of(optional.begin(), optional.end(), same);
-      if (!known) Fail("'" + key.substr(0, 40) + "' is no member that is known here");
+      if (!known) Fail("'" + key.substr(0, 40) + "' is not a known member");
     }
     for (const char* name : names) {
       if (!json_.contains(name)) Fail(std::string("'") + name + "' is missing");
@@ -164,7 +164,7 @@ class TaskReader {
     for (const Value& entry : value["subtasks"].Elements()) {
       task.subtasks.push_back(SubtaskFrom(entry));
       if (!names.insert(task.subtasks.back().name).second) {
-        entry["name"].Fail("another subtask of the task is called so");
+        entry["name"].Fail("another subtask of the task has this name");
       }
     }
     task.findings = FindingsFrom(value["findings"]);
@@ -260,7 +260,7 @@ TaskSet ReadTaskFileText(std::string_view text, const std::string& where, const 
   const Json json = Parsed(text, where);
   const Value root(json, "", where);
   if (!json.is_object() || !json.contains("format")) {
-    root.Fail("is no file of tasks: 'format' is missing");
+    root.Fail("is not a task file: 'format' is missing");
   }
   const double format = root["format"].Number();
   if (format > task_file::kFormat) {
@@ -275,7 +275,7 @@ TaskSet ReadTaskFileText(std::string_view text, const std::string& where, const 
   for (const Value& entry : root["assets"].Elements()) {
     set.assets.push_back(TaskAssetFrom(entry, folder));
     if (!names.insert(set.assets.back().name).second) {
-      entry["name"].Fail("another asset is called so");
+      entry["name"].Fail("another asset has this name");
     }
   }
   const TaskReader reader(set.assets);
@@ -283,7 +283,7 @@ TaskSet ReadTaskFileText(std::string_view text, const std::string& where, const 
   for (const Value& entry : root["tasks"].Elements()) {
     set.tasks.push_back(reader.TaskFrom(entry));
     if (!names.insert(set.tasks.back().name).second) {
-      entry["name"].Fail("another task is called so");
+      entry["name"].Fail("another task has this name");
     }
   }
   return set;

@@ -52,7 +52,7 @@ bool Strip(std::string_view open, std::string_view close, std::string_view* text
 std::string PlainAnswer(std::string_view answer, core::Findings* findings) {
   if (answer.size() > kMostRead) {
     findings->push_back({"answer-cut", core::Severity::kWarning, "",
-                         "of the answer only the first MiB is read",
+                         "only the first MiB of the answer is read",
                          static_cast<double>(answer.size())});
     answer = answer.substr(0, kMostRead);
   }

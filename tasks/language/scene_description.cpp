@@ -153,7 +153,7 @@ std::string AssetText(const NamedModel& asset, const std::vector<Part>& parts, i
 
 core::Finding Cut(const std::string& place, std::size_t left_out, const std::string& what) {
   return {"description-cut", core::Severity::kWarning, place,
-          std::to_string(left_out) + " " + what + " left out of what the language model is told",
+          std::to_string(left_out) + " " + what + " omitted from the prompt for the language model",
           static_cast<double>(left_out)};
 }
 

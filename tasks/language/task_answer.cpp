@@ -67,7 +67,7 @@ std::string ClaimName(const std::string& title, const std::string& kind, std::si
   const std::string unique = UniqueName(name, taken);
   if (unique != name && !numbered) {
     findings->push_back({"task-renamed", core::Severity::kWarning, unique,
-                         "another " + kind + " is called " + name + " already", 0.0});
+                         "another " + kind + " already has the name " + name, 0.0});
   }
   return unique;
 }

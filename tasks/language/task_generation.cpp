@@ -31,11 +31,11 @@ void RequireNames(std::span<const NamedModel> scene) {
   std::set<std::string> names;
   for (const NamedModel& asset : scene) {
     if (!IsAssetName(asset.name)) {
-      throw core::Error("programs cannot call an asset so", asset.name,
+      throw core::Error("the name is not valid for an asset", asset.name,
                         "a letter, then letters, digits, '_', '-'");
     }
     if (!names.insert(asset.name).second) {
-      throw core::Error("two assets are called so", asset.name, "give one another name");
+      throw core::Error("two assets have this name", asset.name, "give one another name");
     }
   }
 }
@@ -102,7 +102,7 @@ class TaskGeneration {
       Report(model_.TakeFindings(), request->task);
       if (answer.finish_reason == "length") {
         Report("llm-answer-cut", core::Severity::kWarning, request->task,
-               "the server ended the answer before it was whole", 0.0);
+               "the server ended the answer before it was complete", 0.0);
       }
       request->messages.push_back(
           {llm::Role::kAssistant, answer.text.substr(0, kLongestKeptAnswer), {}});
@@ -148,7 +148,7 @@ class TaskGeneration {
       const std::string unique = UniqueName(task.name, &names_);
       if (unique != task.name) {
         Report("task-renamed", core::Severity::kWarning, unique,
-               "another task is called " + task.name + " already", 0.0);
+               "another task already has the name " + task.name, 0.0);
       }
       task.name = unique;
       task.source = model_.name().empty() ? "language model" : model_.name();
@@ -253,11 +253,11 @@ bool TaskGenerationOptions::IsValid(std::string* error) const {
     if (error != nullptr) *error = why;
     return false;
   };
-  if (count < 1 || count > 200) return refuse("1 to 200 tasks can be asked for");
+  if (count < 1 || count > 200) return refuse("the number of tasks must be between 1 and 200");
   if (most_in_a_question < 1 || most_in_a_question > 100) {
-    return refuse("a question asks for 1 to 100 tasks");
+    return refuse("a question must ask for 1 to 100 tasks");
   }
-  if (repairs < 0 || repairs > 10) return refuse("0 to 10 repairs are made");
+  if (repairs < 0 || repairs > 10) return refuse("the number of repairs must be between 0 and 10");
   return true;
 }
 

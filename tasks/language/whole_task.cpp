@@ -34,7 +34,8 @@ std::string WithGoal(const std::string& program, const Eigen::Vector3d& goal) {
 std::string AsFunction(const Subtask& subtask, const std::string& name, bool goal_of_task) {
   const BlockPrograms found = SplitProgramBlock(LinesOf(subtask.program));
   if (found.programs.size() != 1 || found.programs.front().function.empty()) {
-    throw core::Error("its program is not of one reward function", "subtask " + subtask.name);
+    throw core::Error("its program does not hold exactly one reward function",
+                      "subtask " + subtask.name);
   }
   const bool replaced = AsksForGoal(subtask) && !goal_of_task;
   const std::string program = replaced ? WithGoal(subtask.program, *subtask.goal) : subtask.program;
@@ -67,7 +68,7 @@ void RequireParts(const Task& task, const WholeTaskParts& parts) {
                       "task " + task.name);
   }
   if (!any(parts.rewarded) || !any(parts.required)) {
-    throw core::Error("nothing of it is rewarded, or required", "task " + task.name);
+    throw core::Error("no reward or no success condition of it is selected", "task " + task.name);
   }
 }
 

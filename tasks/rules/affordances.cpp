@@ -10,14 +10,14 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr double kPushable = 8.0;      // kg
-constexpr double kRimHeight = 0.3;     // m; a higher object is not grasped by its rim
-constexpr double kLongest = 0.5;       // m; longest object that one gripper carries
-constexpr double kMargin = 0.01;        // m
+constexpr double kPushable = 8.0;     // kg
+constexpr double kRimHeight = 0.3;    // m; a higher object is not grasped by its rim
+constexpr double kLongest = 0.5;      // m; longest object that one gripper carries
+constexpr double kMargin = 0.01;      // m
 constexpr double kMinHeight = 0.015;  // m; lowest object that fingers can grasp from the floor
-constexpr double kMinTurn = 0.6;     // rad; smallest range of a door
-constexpr double kMinSlide = 0.06;   // m; smallest range of a drawer
-constexpr double kMinPress = 0.002;  // m
+constexpr double kMinTurn = 0.6;      // rad; smallest range of a door
+constexpr double kMinSlide = 0.06;    // m; smallest range of a drawer
+constexpr double kMinPress = 0.002;   // m
 
 template <std::size_t N>
 bool Holds(const std::string& text, const std::array<const char*, N>& words) {
@@ -143,25 +143,25 @@ NoUse WhyOfNoUse(const Thing& thing) {
         thing.joints.begin(), thing.joints.end(),
         [&](const ThingJoint& joint) { return UseOf(thing, joint) != JointUse::kNone; });
     if (used) return {};
-    return {"none of its joints moves far enough for a hand: a turn of 0.1 rad, a slide of 2 mm",
+    return {"none of its joints moves far enough for the gripper: 0.1 rad or 2 mm",
             "widen its limits"};
   }
   if (CanBeLifted(thing) || CanBePushed(thing)) return {};
   const Eigen::Vector3d size = thing.box.sizes();
   if (thing.box.isEmpty()) return {"it has no shape", "give it collision shapes"};
   if (thing.mass > kPushable) {
-    std::snprintf(text, sizeof(text), "its %.3g kg are more than the %.3g kg that a hand pushes",
+    std::snprintf(text, sizeof(text), "its mass of %.3g kg exceeds the pushable %.3g kg",
                   thing.mass, kPushable);
-    return {text, "state its true --mass or --size where it is imported"};
+    return {text, "give its true --mass or --size on import"};
   }
   if (size.maxCoeff() > 2.0 * kLongest) {
-    std::snprintf(text, sizeof(text), "its %.3g m are more than the %.3g m that a hand pushes",
+    std::snprintf(text, sizeof(text), "its size of %.3g m exceeds the pushable %.3g m",
                   size.maxCoeff(), 2.0 * kLongest);
-    return {text, "state its true --size where it is imported"};
+    return {text, "give its true --size on import"};
   }
-  std::snprintf(text, sizeof(text), "it is %.3g m high, too flat for fingers to take or to push",
+  std::snprintf(text, sizeof(text), "it is %.3g m high, too flat to grasp or to push",
                 size.z());
-  return {text, "stand it on something, or make it thicker"};
+  return {text, "place it on a support, or make it thicker"};
 }
 
 bool CanBePushed(const Thing& thing) {

@@ -115,9 +115,9 @@ core::Findings FindUnusedObjects(const SceneModel& model, const RuleTasks& gener
     if (why.sentence.empty()) {
       const std::string dropped = DroppedText(generated.dropped);
       why = dropped.empty()
-                ? NoUse{"other assets took up the count of tasks", "a larger --count"}
-                : NoUse{"no task with it held on verification; dropped: " + dropped,
-                        "docs/tasks.md says what the codes mean; another --seed lays out anew"};
+                ? NoUse{"the tasks of other assets reach the requested count", "a larger --count"}
+                : NoUse{"no task with it passed verification; dropped: " + dropped,
+                        "docs/tasks.md explains the codes; another --seed gives another layout"};
     }
     findings.push_back(
         {"no-task", core::Severity::kWarning, thing.name, why.sentence, 0.0, why.remedy});
@@ -131,7 +131,7 @@ RuleTasks Generate(const SceneModel& model, const RuleOptions& options, core::Pr
 
 bool RuleOptions::IsValid(std::string* error) const {
   if (count >= 0 && count <= 1'000'000) return true;
-  if (error != nullptr) *error = "the count of tasks must lie between 0 and 1000000";
+  if (error != nullptr) *error = "the number of tasks must be between 0 and 1000000";
   return false;
 }
 
