@@ -10,12 +10,12 @@ namespace {
 
 constexpr int kResolution = 40;
 constexpr int kShieldedSides = 5;
-constexpr double kShallowest = 0.08;  // m: a niche less deep, such as a window's, holds nothing
-constexpr double kLargest = 1000.0;   // m: what is larger has no rooms for a hand
+constexpr double kMinSideDepth = 0.08;  // m; a shallower niche, as of a window, holds no object
+constexpr double kMaxSize = 1000.0;     // m; a larger link has no receptacles for the gripper
 
 using Cell = Eigen::Vector3i;
 
-// A convex part as half-spaces, for asking whether a point is inside.
+// A convex part as half-spaces, for point containment tests.
 struct HalfSpaces {
   Eigen::AlignedBox3d box;
   std::vector<Eigen::Vector4d> planes;  // outward normal, offset
@@ -45,7 +45,7 @@ HalfSpaces SpacesOf(const core::TriangleMesh& part) {
   return spaces;
 }
 
-// Cells that the parts fill, on a grid with an empty border.
+// The cells that the parts occupy, on a grid with an empty border.
 class Grid {
  public:
   explicit Grid(const std::vector<core::TriangleMesh>& parts) {
@@ -70,8 +70,8 @@ class Grid {
   Eigen::Vector3d Corner(const Cell& c) const { return origin_ + cell_ * c.cast<double>(); }
 
  private:
-  // A wall thinner than a cell fills the cells that it passes: points a third of a cell apart are
-  // asked, within the part's bounds.
+  // Marks the cells that `part` occupies. Samples points a third of a cell apart within the part's
+  // bounds, so a wall thinner than a cell fills the cells it crosses.
   void Fill(const core::TriangleMesh& part) {
     const HalfSpaces spaces = SpacesOf(part);
     const Eigen::Vector3d extent = spaces.box.sizes();
@@ -103,13 +103,13 @@ Cell Side(int side) {
   return Cell(kSides[static_cast<std::size_t>(side)].data());
 }
 
-// For each free cell the sides on which the link stands in the way, as bits.
+// Returns for each free cell the sides on which the link shields it, as bits.
 std::vector<unsigned char> Shields(const Grid& grid) {
   const Cell size = grid.size();
   std::vector<unsigned char> shields(static_cast<std::size_t>(size.prod()), 0);
   for (int side = 0; side < 6; ++side) {
     const Cell step = Side(side);
-    // From the side inwards: what was met on the way shields all that follows.
+    // The scan runs from the side inwards: the first occupied cell shields all cells behind it.
     const int axis = side / 2;
     const int across = (axis + 1) % 3, along = (axis + 2) % 3;
     for (int u = 0; u < size[across]; ++u) {
@@ -129,29 +129,30 @@ std::vector<unsigned char> Shields(const Grid& grid) {
   return shields;
 }
 
-// The open side that most cells of a room share.
-int OpenSide(const std::vector<Cell>& room, const Grid& grid,
+// Returns the side that is open for most of the cells.
+int OpenSide(const std::vector<Cell>& cells, const Grid& grid,
              const std::vector<unsigned char>& shields) {
   std::array<int, 6> open{};
-  for (const Cell& c : room) {
+  for (const Cell& c : cells) {
     for (int side = 0; side < 6; ++side) open[side] += !((shields[grid.Index(c)] >> side) & 1);
   }
   return static_cast<int>(std::max_element(open.begin(), open.end()) - open.begin());
 }
 
-// Grows a box from the room's middle, side by side, while all cells that it takes in are the
-// room's.
-Eigen::AlignedBox3d FreeBox(const std::vector<Cell>& room, const Grid& grid) {
-  std::vector<char> in_room(static_cast<std::size_t>(grid.size().prod()), 0);
+// Grows a box from the centre of the cells, side by side, while every cell it covers is one of
+// them.
+Eigen::AlignedBox3d FreeBox(const std::vector<Cell>& cells, const Grid& grid) {
+  std::vector<char> is_member(static_cast<std::size_t>(grid.size().prod()), 0);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Cell& c : room) {
-    in_room[grid.Index(c)] = 1;
+  for (const Cell& c : cells) {
+    is_member[grid.Index(c)] = 1;
     mean += c.cast<double>();
   }
-  mean /= static_cast<double>(room.size());
-  const Cell start = *std::min_element(room.begin(), room.end(), [&](const Cell& a, const Cell& b) {
-    return (a.cast<double>() - mean).squaredNorm() < (b.cast<double>() - mean).squaredNorm();
-  });
+  mean /= static_cast<double>(cells.size());
+  const Cell start =
+      *std::min_element(cells.begin(), cells.end(), [&](const Cell& a, const Cell& b) {
+        return (a.cast<double>() - mean).squaredNorm() < (b.cast<double>() - mean).squaredNorm();
+      });
   Cell low = start, high = start;
   const auto layer_is_free = [&](int side) {
     Cell from = low, to = high;
@@ -161,7 +162,7 @@ Eigen::AlignedBox3d FreeBox(const std::vector<Cell>& room, const Grid& grid) {
     for (int k = from.z(); k <= to.z(); ++k) {
       for (int j = from.y(); j <= to.y(); ++j) {
         for (int i = from.x(); i <= to.x(); ++i) {
-          if (!in_room[grid.Index({i, j, k})]) return false;
+          if (!is_member[grid.Index({i, j, k})]) return false;
         }
       }
     }
@@ -187,7 +188,7 @@ std::vector<Cavity> FindCavities(int link, const std::vector<core::TriangleMesh>
   Eigen::AlignedBox3d whole;
   for (const core::TriangleMesh& part : parts) whole.extend(core::Bounds(part));
   const double longest = whole.sizes().maxCoeff();
-  if (!(longest >= least && longest <= kLargest)) return cavities;
+  if (!(longest >= least && longest <= kMaxSize)) return cavities;
   const Grid grid(parts);
   const std::vector<unsigned char> shields = Shields(grid);
   std::vector<char> seen(shields.size(), 0);
@@ -200,22 +201,22 @@ std::vector<Cavity> FindCavities(int link, const std::vector<core::TriangleMesh>
       for (int i = 0; i < size.x(); ++i) {
         const Cell seed(i, j, k);
         if (seen[grid.Index(seed)] || !shielded(seed)) continue;
-        std::vector<Cell> room{seed};
+        std::vector<Cell> cells{seed};
         seen[grid.Index(seed)] = 1;
-        for (std::size_t at = 0; at < room.size(); ++at) {
+        for (std::size_t at = 0; at < cells.size(); ++at) {
           for (int side = 0; side < 6; ++side) {
-            const Cell next = room[at] + Side(side);
+            const Cell next = cells[at] + Side(side);
             if (!grid.Inside(next) || seen[grid.Index(next)] || !shielded(next)) continue;
             seen[grid.Index(next)] = 1;
-            room.push_back(next);
+            cells.push_back(next);
           }
         }
         Cavity cavity;
         cavity.link = link;
-        cavity.box = FreeBox(room, grid);
-        cavity.opening = Side(OpenSide(room, grid, shields)).cast<double>();
+        cavity.box = FreeBox(cells, grid);
+        cavity.opening = Side(OpenSide(cells, grid, shields)).cast<double>();
         const double depth = std::abs(cavity.box.sizes().dot(cavity.opening));
-        const bool niche = std::abs(cavity.opening.z()) < 0.5 && depth < kShallowest;
+        const bool niche = std::abs(cavity.opening.z()) < 0.5 && depth < kMinSideDepth;
         if (niche || cavity.box.sizes().minCoeff() < least) continue;
         cavities.push_back(cavity);
       }
@@ -228,12 +229,12 @@ std::vector<Cavity> FindCavities(int link, const std::vector<core::TriangleMesh>
 
 namespace {
 
-constexpr double kCovers = 0.2;  // of an opening's area, from which a link counts as its door
-constexpr double kFilled = 0.3;  // of a room's volume, from which another link fills it
+constexpr double kDoorShare = 0.2;    // of an opening's area; a link that covers more is its door
+constexpr double kFilledShare = 0.3;  // of the volume; a receptacle filled more is removed
 
-// The box of link `other` about its outline, in the frame of link `link`.
-Eigen::AlignedBox3d BoxSeenFrom(const Thing& thing, const std::vector<Eigen::Isometry3d>& poses,
-                                int link, int other) {
+// Returns the AABB of the extreme points of link `other` in the frame of link `link`.
+Eigen::AlignedBox3d BoxInFrameOf(const Thing& thing, const std::vector<Eigen::Isometry3d>& poses,
+                                 int link, int other) {
   const Eigen::Isometry3d link_from_other =
       poses[static_cast<std::size_t>(link)].inverse() * poses[static_cast<std::size_t>(other)];
   Eigen::AlignedBox3d box;
@@ -243,7 +244,7 @@ Eigen::AlignedBox3d BoxSeenFrom(const Thing& thing, const std::vector<Eigen::Iso
   return box;
 }
 
-// The joint nearest above a link that moves it; -1: none.
+// Returns the nearest joint above a link, which moves it; -1: none.
 int MovedBy(const Thing& thing, int link) {
   for (int at = link; at >= 0; at = thing.links[static_cast<std::size_t>(at)].parent) {
     const int joint = thing.links[static_cast<std::size_t>(at)].joint;
@@ -252,9 +253,9 @@ int MovedBy(const Thing& thing, int link) {
   return -1;
 }
 
-// What share of the slab before the opening a box covers, seen along the opening.
-double Covered(const Eigen::AlignedBox3d& cover, const Eigen::AlignedBox3d& slab,
-               const Eigen::Vector3d& opening) {
+// Returns the share of the slab in front of the opening that a box covers, seen along the opening.
+double CoveredShare(const Eigen::AlignedBox3d& cover, const Eigen::AlignedBox3d& slab,
+                    const Eigen::Vector3d& opening) {
   if (cover.isEmpty() || !cover.intersects(slab)) return 0.0;
   const Eigen::Vector3d shared = cover.intersection(slab).sizes();
   double share = 1.0;
@@ -273,30 +274,31 @@ void FindDoors(Thing* thing) {
     double filled = 0.0;
     for (int other = 0; other < links; ++other) {
       if (other == cavity.link || MovedBy(*thing, other) == MovedBy(*thing, cavity.link)) continue;
-      if (MovedBy(*thing, other) < 0) continue;  // the body about a drawer is not in it
-      const Eigen::AlignedBox3d box = BoxSeenFrom(*thing, poses, cavity.link, other);
+      if (MovedBy(*thing, other) < 0) continue;  // the body around a drawer is not inside it
+      const Eigen::AlignedBox3d box = BoxInFrameOf(*thing, poses, cavity.link, other);
       if (box.isEmpty() || !box.intersects(cavity.box)) continue;
       filled += box.intersection(cavity.box).volume();
     }
-    return filled > kFilled * cavity.box.volume();
+    return filled > kFilledShare * cavity.box.volume();
   };
   std::erase_if(thing->cavities, is_filled);
   for (Cavity& cavity : thing->cavities) {
-    // A thin slab before the opening, and whatever stands in it.
+    // The slab is a thin volume in front of the opening.
     Eigen::AlignedBox3d slab = cavity.box;
     const Eigen::Vector3d beyond = 0.25 * cavity.box.sizes().cwiseProduct(cavity.opening);
     slab.extend(Eigen::Vector3d(cavity.box.max() + beyond.cwiseMax(0.0)));
     slab.extend(Eigen::Vector3d(cavity.box.min() + beyond.cwiseMin(0.0)));
     const int own = MovedBy(*thing, cavity.link);
-    double most = kCovers;
+    double most = kDoorShare;
     for (int other = 0; other < links; ++other) {
       const int moved_by = MovedBy(*thing, other);
       if (other == cavity.link || (moved_by < 0 && own < 0)) continue;
       const double share =
-          Covered(BoxSeenFrom(*thing, poses, cavity.link, other), slab, cavity.opening);
+          CoveredShare(BoxInFrameOf(*thing, poses, cavity.link, other), slab, cavity.opening);
       if (share <= most) continue;
       most = share;
-      // A drawer is closed by what it slides under, another drawer say: its own joint opens it.
+      // A drawer is closed by the body it slides under, such as another drawer: its own joint opens
+      // it.
       const bool slides = own >= 0 && thing->joints[static_cast<std::size_t>(own)].type ==
                                           RewardJointType::kPrismatic;
       cavity.door = slides || moved_by < 0 || moved_by == own ? own : moved_by;

@@ -11,17 +11,18 @@
 namespace simwright::tasks {
 namespace {
 
-// Of an opening's rise: less is to a side. What is in such a room stands in its front, where a hand
-// gets at it: a level hand is as long as a cabinet is deep.
-constexpr double kOpensAside = 0.5;
+// The vertical component of an opening direction below which the receptacle is side-opening. An
+// object in such a receptacle is placed in its front, where the gripper reaches it: a horizontal
+// gripper is as long as a cabinet is deep.
+constexpr double kSideOpening = 0.5;
 constexpr double kBehindOpening = 0.03;  // m
 
-constexpr double kGap = 0.02;         // m between things
-constexpr double kRobotRadius = 0.2;  // m, what its base needs of the floor
-// Heights of the robot's base that are tried: on the floor first, else on a pedestal.
+constexpr double kGap = 0.02;         // m between objects
+constexpr double kRobotRadius = 0.2;  // m; half the side of the base's footprint
+// Heights of the robot's base to try: first on the floor, then on a pedestal.
 constexpr std::array<double, 6> kBaseHeights = {0.0, 0.2, 0.4, 0.6, 0.8, 1.0};
-// Of a joint's way that the arm shall follow: all of it where that can be.
-constexpr std::array<double, 2> kWorkedShares = {1.0, 0.8};
+// Shares of a joint's path that the arm must be able to follow: the whole path if possible.
+constexpr std::array<double, 2> kPathShares = {1.0, 0.8};
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 using Pose = Eigen::Isometry3d;
@@ -30,8 +31,8 @@ Pose Turned(double angle) {
   return Pose(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
 }
 
-// The side of a thing that its handles and rooms are on, as the turn about z that brings it to -x.
-double TurnToFront(const Thing& thing) {
+// Returns the yaw that turns the object's front, the side of its handles and receptacles, to -x.
+double YawToFront(const Thing& thing) {
   const std::vector<Pose> poses = LinkPosesOf(thing, RestPositions(thing));
   Eigen::Vector2d front = Eigen::Vector2d::Zero();
   const Eigen::AlignedBox3d& body = thing.links[0].outline.empty() ? thing.box : thing.links[0].box;
@@ -39,7 +40,7 @@ double TurnToFront(const Thing& thing) {
   for (const ThingJoint& joint : thing.joints) {
     const auto grip = static_cast<std::size_t>(joint.grip);
     const Eigen::Vector3d point = poses[grip] * thing.links[grip].middle;
-    // The side that the handle lies on, or stands out of.
+    // The side on which the handle is located or protrudes.
     const Eigen::Vector2d out =
         (point.head<2>() - middle).cwiseQuotient(body.sizes().head<2>().cwiseMax(1e-6));
     const int axis = std::abs(out.x()) >= std::abs(out.y()) ? 0 : 1;
@@ -48,7 +49,7 @@ double TurnToFront(const Thing& thing) {
   for (const Cavity& cavity : thing.cavities) {
     front += (poses[static_cast<std::size_t>(cavity.link)].linear() * cavity.opening).head<2>();
   }
-  if (front.norm() < 0.05) return 0.0;  // ours face -x
+  if (front.norm() < 0.05) return 0.0;  // library assets face -x
   const int axis = std::abs(front.x()) >= std::abs(front.y()) ? 0 : 1;
   const double angle = axis == 0 ? (front.x() > 0.0 ? 0.0 : std::numbers::pi)
                                  : (front.y() > 0.0 ? 0.5 : -0.5) * std::numbers::pi;
@@ -61,14 +62,14 @@ class Planner {
       : model_(model), request_(request), rng_(rng) {}
 
   std::optional<InitialState> Plan() {
-    for (double share : kWorkedShares) {
-      worked_share_ = share;
+    for (double share : kPathShares) {
+      path_share_ = share;
       for (double height : kBaseHeights) {
         start_ = InitialState{};
         start_.joints = request_.joints;
         start_.world_from_robot = Eigen::Translation3d(0, 0, height) * Pose::Identity();
-        taken_ = {Eigen::AlignedBox2d(Eigen::Vector2d::Constant(-kRobotRadius),
-                                      Eigen::Vector2d::Constant(kRobotRadius))};
+        occupied_ = {Eigen::AlignedBox2d(Eigen::Vector2d::Constant(-kRobotRadius),
+                                         Eigen::Vector2d::Constant(kRobotRadius))};
         if (PlaceAll()) return start_;
       }
       if (request_.worked.empty()) break;
@@ -77,7 +78,7 @@ class Planner {
   }
 
  private:
-  bool Rests(int thing) const {
+  bool IsSupported(int thing) const {
     return std::any_of(request_.resting.begin(), request_.resting.end(),
                        [&](const Resting& resting) { return resting.thing == thing; });
   }
@@ -85,7 +86,8 @@ class Planner {
   bool PlaceAll() {
     int articulated = 0;
     for (int thing : request_.things) {
-      if (!model_.things[static_cast<std::size_t>(thing)].articulated() || Rests(thing)) continue;
+      if (!model_.things[static_cast<std::size_t>(thing)].articulated() || IsSupported(thing))
+        continue;
       constexpr std::array<double, 4> kDirections = {0.0, 80.0, -80.0, 160.0};
       if (articulated == static_cast<int>(kDirections.size())) return false;
       if (!PlaceArticulated(thing,
@@ -94,7 +96,8 @@ class Planner {
       }
     }
     for (int thing : request_.things) {
-      if (model_.things[static_cast<std::size_t>(thing)].articulated() || Rests(thing)) continue;
+      if (model_.things[static_cast<std::size_t>(thing)].articulated() || IsSupported(thing))
+        continue;
       if (!PlaceBeside(thing)) return false;
     }
     for (const Resting& resting : request_.resting) {
@@ -110,7 +113,7 @@ class Planner {
 
   SceneState State() const { return StateOf(model_, start_); }
 
-  // Grips of the worked joints along their way, in the root's frame.
+  // Returns the grasp positions of the operated joints along their paths, in the root's frame.
   std::vector<Eigen::Vector3d> GripPoints(int thing) const {
     const auto t = static_cast<std::size_t>(thing);
     const Thing& known = model_.things[t];
@@ -122,7 +125,7 @@ class Planner {
       const auto grip = static_cast<std::size_t>(joint.grip);
       for (double share : {0.0, 0.5, 1.0}) {
         positions[static_cast<std::size_t>(j)] =
-            joint.rest() + share * worked_share_ * (joint.far() - joint.rest());
+            joint.rest() + share * path_share_ * (joint.far() - joint.rest());
         points.push_back(LinkPosesOf(known, positions)[grip] * known.links[grip].middle);
       }
       positions[static_cast<std::size_t>(j)] = joint.rest();
@@ -130,8 +133,9 @@ class Planner {
     return points;
   }
 
-  // What the thing covers of the floor, with its worked joints at both ends, root frame.
-  Eigen::AlignedBox3d Swept(int thing) const {
+  // Returns the AABB that the object sweeps, including the grasp positions of its operated joints,
+  // in the root's frame.
+  Eigen::AlignedBox3d SweptBox(int thing) const {
     const Thing& known = model_.things[static_cast<std::size_t>(thing)];
     Eigen::AlignedBox3d box = known.box;
     for (const Eigen::Vector3d& point : GripPoints(thing)) box.extend(point);
@@ -140,7 +144,7 @@ class Planner {
 
   bool PlaceArticulated(int thing, double direction) {
     const Thing& known = model_.things[static_cast<std::size_t>(thing)];
-    const Pose turn = Turned(TurnToFront(known));
+    const Pose turn = Turned(YawToFront(known));
     Eigen::AlignedBox3d turned;
     for (int corner = 0; corner < 8; ++corner) {
       turned.extend(turn * known.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
@@ -153,13 +157,13 @@ class Planner {
         const Pose pose = Turned(direction) * Eigen::Translation3d(shift) * turn;
         const bool reached =
             std::all_of(grips.begin(), grips.end(), [&](const Eigen::Vector3d& point) {
-              // What swings must not swing into the robot's base.
+              // A swinging part must not hit the robot's base.
               return (pose * point).head<2>().norm() > kRobotRadius + 0.05 &&
                      Reaches(start_.world_from_robot, pose * point);
             });
         if (!reached || !IsFree(pose, known.box)) continue;
         Add(thing, pose);
-        Take(pose, Swept(thing));
+        Occupy(pose, SweptBox(thing));
         return true;
       }
     }
@@ -180,15 +184,15 @@ class Planner {
     Eigen::AlignedBox2d flat = FlatBox(pose, box);
     flat.min().array() -= kGap;
     flat.max().array() += kGap;
-    return std::none_of(taken_.begin(), taken_.end(),
+    return std::none_of(occupied_.begin(), occupied_.end(),
                         [&](const Eigen::AlignedBox2d& other) { return flat.intersects(other); });
   }
 
-  void Take(const Pose& pose, const Eigen::AlignedBox3d& box) {
-    taken_.push_back(FlatBox(pose, box));
+  void Occupy(const Pose& pose, const Eigen::AlignedBox3d& box) {
+    occupied_.push_back(FlatBox(pose, box));
   }
 
-  // On the floor, within reach, where nothing else is.
+  // Places an object on free floor within reach.
   bool PlaceBeside(int thing) {
     const Thing& known = model_.things[static_cast<std::size_t>(thing)];
     const double turn = core::Uniform(rng_, -0.3, 0.3);
@@ -205,7 +209,7 @@ class Planner {
         if (!IsFree(pose, known.box)) continue;
         if (!Reaches(start_.world_from_robot, pose * middle, -Eigen::Vector3d::UnitZ())) continue;
         Add(thing, pose);
-        Take(pose, known.box);
+        Occupy(pose, known.box);
         return true;
       }
     }
@@ -217,7 +221,7 @@ class Planner {
     const Thing& holder = model_.things[static_cast<std::size_t>(resting.holder)];
     const SceneState state = State();
     const auto h = static_cast<std::size_t>(resting.holder);
-    Eigen::Vector3d base;  // where the middle of its underside goes
+    Eigen::Vector3d base;  // position of the centre of its underside
     if (resting.cavity < 0) {
       const Eigen::AlignedBox3d box = WorldBox(model_, state, resting.holder, 0);
       base << box.center().head<2>(), box.max().z();
@@ -229,7 +233,7 @@ class Planner {
       base = link * floor;
       base.z() -= 0.5 * cavity.box.sizes().z();
       const Eigen::Vector3d opening = link.linear() * cavity.opening;
-      if (std::abs(opening.z()) < kOpensAside) {
+      if (std::abs(opening.z()) < kSideOpening) {
         const double depth = std::abs(cavity.box.sizes().dot(cavity.opening));
         const double half = 0.5 * known.box.sizes().head<2>().maxCoeff();
         base += std::max(0.0, 0.5 * depth - half - kBehindOpening) * opening;
@@ -246,9 +250,9 @@ class Planner {
   const SceneModel& model_;
   const LayoutRequest& request_;
   core::Rng& rng_;
-  double worked_share_ = 1.0;
+  double path_share_ = 1.0;
   InitialState start_;
-  std::vector<Eigen::AlignedBox2d> taken_;
+  std::vector<Eigen::AlignedBox2d> occupied_;
 };
 
 }  // namespace
@@ -265,11 +269,11 @@ bool Reaches(const Eigen::Isometry3d& world_from_robot, const Eigen::Vector3d& p
   robot::ToolTarget target;
   target.position = robot_from_world * point;
   if (approach) target.approach = robot_from_world.linear() * *approach;
-  // Beyond what the stretched arm spans from its second joint: 0.316 + 0.384 m to the wrist, whose
-  // axis lies 0.088 m beside, and 0.21 m of flange and hand.
+  // The span of the stretched arm from its second joint: 0.316 + 0.384 m to the wrist, a 0.088 m
+  // offset of the flange axis, and 0.21 m of flange and gripper.
   constexpr double kSpan = 0.316 + 0.384 + 0.088 + 0.2104;
   if ((target.position - Eigen::Vector3d(0, 0, 0.333)).norm() > kSpan) return false;
-  core::Rng rng(1);  // the same answer for the same point
+  core::Rng rng(1);  // a fixed seed gives the same answer for the same point
   robot::InverseKinematicsOptions options;
   options.position_tolerance = 5e-3;
   options.approach_tolerance = 0.2;

@@ -8,30 +8,33 @@
 
 namespace simwright::tasks {
 
-// Where one thing is relative to another at the start.
+// The support relation of an object at the start.
 struct Resting {
   int thing = -1;
-  int holder = -1;  // the thing that it stands in or on
-  int cavity = -1;  // of the holder: in its front, where it opens to a side; -1: on top of it
+  int holder = -1;  // the object that supports or contains it
+  int cavity = -1;  // the holder's receptacle; in its front where it opens to a side; -1: on top of
+                    // it
 };
 
 struct LayoutRequest {
-  std::vector<int> things;  // all that are placed
+  std::vector<int> things;  // all objects to place
   std::vector<Resting> resting;
-  // Joints that the robot shall be able to reach, by thing and joint.
+  // The joints that the robot must be able to reach, as pairs of object and joint.
   std::vector<std::pair<int, int>> worked;
-  // Joints that do not stand at rest.
+  // The joints that do not start at their rest position.
   std::vector<JointCondition> joints;
 };
 
-// Places things in front of the robot: what is articulated stands before it, held to the world and
-// facing it, at a distance, to a side and against a height of the robot's base that let it reach
-// the handles along their whole way (or at least 0.8 of it); what is not stands beside, within
-// reach, or where `resting` says. Nothing overlaps. Empty where no such place is found.
+// Places objects in front of the robot. Articulated objects are fixed to the world and face the
+// robot, at a distance, a lateral offset and a height of the robot's base from which the robot can
+// reach the handles along their whole path (or at least 0.8 of it). Other objects are placed beside
+// them within reach, or where `resting` specifies. Footprints do not overlap. Returns nullopt if no
+// such placement is found.
 std::optional<InitialState> LayOut(const SceneModel& model, const LayoutRequest& request,
                                    core::Rng& rng);
 
-// Whether a Panda on its base can bring the point between its fingertips to `point` (m, world).
+// Returns true if a Panda on its base can bring the point between its fingertips to `point` (m,
+// world).
 bool Reaches(const Eigen::Isometry3d& world_from_robot, const Eigen::Vector3d& point,
              const std::optional<Eigen::Vector3d>& approach = std::nullopt);
 

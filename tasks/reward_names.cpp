@@ -34,7 +34,7 @@ RewardAsset NamesOf(const std::string& name, const assets::UrdfModel& model) {
     if (!type) continue;
     RewardJoint names{joint.name, *type, joint.lower, joint.upper};
     if (*type == RewardJointType::kFixed) names.lower = names.upper = 0.0;
-    if (*type == RewardJointType::kContinuous) {  // states wrap around
+    if (*type == RewardJointType::kContinuous) {  // the state wraps around
       names.lower = -std::numbers::pi;
       names.upper = std::numbers::pi;
     }

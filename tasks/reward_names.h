@@ -7,8 +7,8 @@
 
 namespace simwright::tasks {
 
-// What a reward program may name of an asset that it calls `name`: its links, and its joints with
-// their limits. Floating and planar joints have no single state and are left out.
+// Returns the names that a reward program may use for an asset called `name`: its links, and its
+// joints with their limits. Floating and planar joints have no scalar state and are left out.
 RewardAsset NamesOf(const std::string& name, const assets::UrdfModel& model);
 
 }  // namespace simwright::tasks

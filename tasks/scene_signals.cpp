@@ -7,7 +7,7 @@
 namespace simwright::tasks {
 namespace {
 
-// A frame's motion between two moments, as API velocities want it.
+// Returns the angular velocity of a frame between two times, as the API defines it.
 Eigen::Vector3d TurnRate(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to, double time_step) {
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(to * from.transpose()));
   return turn.axis() * turn.angle() / time_step;
@@ -35,7 +35,7 @@ SlotPlace PlaceOf(const SceneModel& model, const RewardSlot& slot) {
   if (!of_joint && place.link < 0) {
     throw core::Error("'" + slot.asset + "' has no link '" + slot.part + "'", "reward program");
   }
-  return place;  // a joint that does not move has no place and stands at 0
+  return place;  // a fixed joint has no index; its state is 0
 }
 
 void Put(const Eigen::Vector3d& vector, std::vector<float>* row) {
@@ -65,7 +65,7 @@ bool Touches(const SceneState& state, const RewardSlot& slot, const SlotPlace& p
 
 }  // namespace
 
-// One state; link poses are computed once a thing.
+// The poses of one state; link poses are computed once per object.
 class SignalReader::Moment {
  public:
   explicit Moment(const SceneModel& model)

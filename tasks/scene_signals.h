@@ -9,20 +9,21 @@
 
 namespace simwright::tasks {
 
-// Reads what the slots of a reward program hold, one state after the other: what names mean is
-// looked up once, memory is used again. One thread a reader.
+// Reads the inputs of a reward program from scene states. Names are resolved once and memory is
+// reused. A reader serves one thread.
 class SignalReader {
  public:
-  // `model` must outlive the reader. Throws core::Error for a slot of an asset or link that the
-  // model does not have.
+  // Throws core::Error for a slot of an asset or link that the model does not have. `model` must
+  // outlive the reader.
   SignalReader(const SceneModel& model, const std::vector<RewardSlot>& slots);
   ~SignalReader();
   SignalReader(const SignalReader&) = delete;
   SignalReader& operator=(const SignalReader&) = delete;
 
-  // For each slot its numbers, as RewardInput says. Velocities are differences to `previous`,
-  // `time_step` (s) earlier; zero where it is null. `values` is resized to the slots, and each to
-  // its width. Parameters hold zeros. Allocates nothing after the first call.
+  // Writes the numbers of each slot, as RewardInput defines them. Velocities are finite differences
+  // to `previous`, `time_step` (s) earlier; zero where it is null. `values` is resized to the
+  // slots, and each entry to its width. Parameters hold zeros. Allocates nothing after the first
+  // call.
   void Read(const SceneState& state, const SceneState* previous, double time_step,
             std::vector<std::vector<float>>* values);
 
@@ -39,7 +40,7 @@ class SignalReader {
   std::unique_ptr<Moment> now_, before_;
 };
 
-// One state, read once. Throws as SignalReader does.
+// Reads one state. Throws as SignalReader does.
 void SlotValues(const SceneModel& model, const SceneState& state, const SceneState* previous,
                 double time_step, const std::vector<RewardSlot>& slots,
                 std::vector<std::vector<float>>* values);

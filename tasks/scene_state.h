@@ -12,40 +12,40 @@
 
 namespace simwright::tasks {
 
-// The things that tasks may name. Constant; shared by any number of states.
+// The objects that tasks may name. Immutable; shared by any number of states.
 struct SceneModel {
   std::vector<Thing> things;
-  RewardScene names;  // the same, as programs may name them
+  RewardScene names;  // the same objects as programs may name them
 
   int Find(const std::string& name) const;  // -1: none
 };
 
-// One moment of an episode: where everything is. World frame, m, rad.
+// The poses, joint positions and gripper state at one time of an episode. World frame, m, rad.
 struct SceneState {
-  std::vector<Eigen::Isometry3d> roots;     // world_from_root, by thing
-  std::vector<std::vector<double>> joints;  // positions, by thing and joint
-  // The tool between the fingertips: z along the approach, y from finger to finger.
+  std::vector<Eigen::Isometry3d> roots;     // world_from_root, by object
+  std::vector<std::vector<double>> joints;  // positions, by object and joint
+  // The tool frame between the fingertips: z along the approach, y from finger to finger.
   Eigen::Isometry3d gripper = Eigen::Isometry3d::Identity();
-  double opening = 0.08;                           // m between the fingers
-  int touched = -1, touched_link = -1;             // thing and link that a finger touches
-  bool grasped = false;                            // and both fingers hold
-  Eigen::Vector3d goal = Eigen::Vector3d::Zero();  // what get_goal_pose gives
+  double opening = 0.08;                           // distance between the fingers, m
+  int touched = -1, touched_link = -1;             // the object and link that a finger touches
+  bool grasped = false;                            // true if both fingers hold it
+  Eigen::Vector3d goal = Eigen::Vector3d::Zero();  // the value of get_goal_pose
 };
 
-// The model of `assets`, named as there. Throws core::Error where two share a name.
+// Returns the model of `models`, with their names. Throws core::Error if two share a name.
 SceneModel MakeSceneModel(const std::vector<assets::SemanticModel>& models);
 
-// The state that `start` describes, the gripper at the robot's ready posture. Things that it does
-// not place stand far away, 100 m below the floor. Throws core::Error for an asset or joint that
-// the model does not have.
+// Returns the state that `start` describes, with the gripper at the robot's ready configuration.
+// Objects without a placement are put 100 m below the floor. Throws core::Error for an asset or
+// joint that the model does not have.
 SceneState StateOf(const SceneModel& model, const InitialState& start,
                    const std::optional<Eigen::Vector3d>& goal = std::nullopt);
 
-// Where a link is: the middle of its own box, m. Also of what the API calls an asset's position:
-// the middle of the root's box.
+// Returns the position of a link: the centre of its own bounding box, m. The API's position of an
+// asset is that of its root link.
 Eigen::Vector3d LinkPoint(const SceneModel& model, const SceneState& state, int thing, int link);
 
-// Along the world's axes; of all links where `link` is -1.
+// Returns the AABB in the world frame; of all links where `link` is -1.
 Eigen::AlignedBox3d WorldBox(const SceneModel& model, const SceneState& state, int thing,
                              int link = -1);
 

@@ -7,8 +7,8 @@
 
 namespace simwright::tasks {
 
-// What is wrong with a subtask of `task`, in the order of its program; places are "line:column" or
-// empty. Fills `subtask->start`; the subtasks before it have been verified.
+// Verifies a subtask of `task` and returns its findings in the order of its program; places are
+// "line:column" or empty. Fills `subtask->start`. The preceding subtasks must have been verified.
 using VerifySubtask = std::function<core::Findings(const Task& task, Subtask* subtask)>;
 
 }  // namespace simwright::tasks

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-// What the writer and the reader of tasks.json share.
+// The constants that the writer and the reader of tasks.json share.
 namespace simwright::tasks::task_file {
 
 inline constexpr int kFormat = 1;

@@ -17,10 +17,10 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr int kDeepest = 32;  // levels; the format has 8
+constexpr int kDeepest = 32;  // nesting levels; the format has 8
 
-// A value with its place in the file; every way to read it throws core::Error where it is not what
-// is asked for.
+// A JSON value with its position in the file. Its accessors throw core::Error if it is not of the
+// requested type.
 class Value {
  public:
   Value(const Json& json, std::string place, const std::string& file)
@@ -30,7 +30,8 @@ class Value {
     throw core::Error(what, file_ + (place_.empty() ? "" : ": " + place_));
   }
 
-  // Throws unless this is an object of exactly these members, and of `optional` ones.
+  // Throws core::Error unless this is an object with exactly these members and any of the
+  // `optional` ones.
   void RequireMembers(std::initializer_list<const char*> names,
                       std::initializer_list<const char*> optional = {}) const {
     if (!json_.is_object()) Fail("should be an object");
@@ -39,7 +40,7 @@ class Value {
       const auto same = [&](const char* name) { return key == name; };
       const bool known = std::any_of(names.begin(), names.end(), same) ||
                          std::any_of(optional.begin(), optional.end(), same);
-      if (!known) Fail("'" + key.substr(0, 40) + "' is no member that is known here");
+      if (!known) Fail("'" + key.substr(0, 40) + "' is not a known member");
     }
     for (const char* name : names) {
       if (!json_.contains(name)) Fail(std::string("'") + name + "' is missing");
@@ -101,7 +102,8 @@ Eigen::Vector3d VectorFrom(const Value& value) {
 Eigen::Isometry3d PoseFrom(const Value& value) {
   const std::vector<double> q = value["quaternion_wxyz"].Numbers(4);
   const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
-  constexpr double kTolerance = 1e-3;  // of the length; what a person types has a few digits
+  constexpr double kTolerance = 1e-3;  // deviation of the length; quaternions typed by hand have a
+                                       // few digits
   if (!(std::abs(rotation.norm() - 1.0) <= kTolerance)) {
     value["quaternion_wxyz"].Fail("should have length 1, has " + std::to_string(rotation.norm()));
   }
@@ -143,7 +145,7 @@ core::Findings FindingsFrom(const Value& value) {
   return findings;
 }
 
-// Reads tasks whose assets are known by name.
+// A reader of tasks that may name only the given assets.
 class TaskReader {
  public:
   explicit TaskReader(const std::vector<TaskAsset>& assets) {
@@ -162,7 +164,7 @@ class TaskReader {
     for (const Value& entry : value["subtasks"].Elements()) {
       task.subtasks.push_back(SubtaskFrom(entry));
       if (!names.insert(task.subtasks.back().name).second) {
-        entry["name"].Fail("another subtask of the task is called so");
+        entry["name"].Fail("another subtask of the task has this name");
       }
     }
     task.findings = FindingsFrom(value["findings"]);
@@ -245,7 +247,7 @@ Json Parsed(std::string_view text, const std::string& where) {
     const std::size_t end = std::min<std::size_t>(error.byte, text.size());
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(end), '\n');
     throw core::Error("is no JSON from line " + std::to_string(line) + " on", where);
-  } catch (const Json::exception&) {  // a number beyond every type
+  } catch (const Json::exception&) {  // a number beyond the range of every type
     throw core::Error("holds a number that is too large", where);
   }
   if (too_deep) throw core::Error("is nested too deeply for tasks", where);
@@ -258,7 +260,7 @@ TaskSet ReadTaskFileText(std::string_view text, const std::string& where, const 
   const Json json = Parsed(text, where);
   const Value root(json, "", where);
   if (!json.is_object() || !json.contains("format")) {
-    root.Fail("is no file of tasks: 'format' is missing");
+    root.Fail("is not a task file: 'format' is missing");
   }
   const double format = root["format"].Number();
   if (format > task_file::kFormat) {
@@ -273,7 +275,7 @@ TaskSet ReadTaskFileText(std::string_view text, const std::string& where, const 
   for (const Value& entry : root["assets"].Elements()) {
     set.assets.push_back(TaskAssetFrom(entry, folder));
     if (!names.insert(set.assets.back().name).second) {
-      entry["name"].Fail("another asset is called so");
+      entry["name"].Fail("another asset has this name");
     }
   }
   const TaskReader reader(set.assets);
@@ -281,7 +283,7 @@ TaskSet ReadTaskFileText(std::string_view text, const std::string& where, const 
   for (const Value& entry : root["tasks"].Elements()) {
     set.tasks.push_back(reader.TaskFrom(entry));
     if (!names.insert(set.tasks.back().name).second) {
-      entry["name"].Fail("another task is called so");
+      entry["name"].Fail("another task has this name");
     }
   }
   return set;

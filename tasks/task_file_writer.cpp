@@ -23,8 +23,8 @@ Json ToJson(const Eigen::Vector3d& v, const std::string& place) {
   return {Finite(v.x(), place), Finite(v.y(), place), Finite(v.z(), place)};
 }
 
-// The rotation as a quaternion of 12 decimals that reading and writing turn into itself: rounding
-// and going to a matrix and back settle within a few steps.
+// Returns the rotation as a quaternion of 12 decimals that reading and writing reproduce: repeated
+// rounding and conversion to a matrix converge within a few steps.
 Eigen::Quaterniond SettledRotation(const Eigen::Isometry3d& pose) {
   constexpr int kSteps = 50;
   constexpr double kDecimals = 1e12;
@@ -49,7 +49,7 @@ Json PoseJson(const Eigen::Isometry3d& pose, const std::string& place) {
        {Finite(q.w(), place), Finite(q.x(), place), Finite(q.y(), place), Finite(q.z(), place)}}};
 }
 
-// A program as its lines; joined by line breaks they give it back.
+// Returns a program as its lines; joining them with line breaks restores it.
 Json LinesJson(std::string_view text) {
   Json lines = Json::array();
   while (!text.empty()) {
@@ -121,11 +121,12 @@ Json ToJson(const Task& task, const std::string& place) {
           {"subtasks", subtasks},  {"findings", ToJson(task.findings, place + ".findings")}};
 }
 
-// Relative to `folder` for what lies below it or beside it, so that both can be moved together.
+// Returns a path relative to `folder` if it lies below it or below its parent, so that both can be
+// moved together.
 std::string StoredPath(const std::string& path, const fs::path& folder) {
   if (path.empty()) return path;
   const fs::path whole = fs::absolute(path).lexically_normal();
-  // A file without a folder lies in the current one, which has no relative name.
+  // A file without a folder lies in the current folder, whose relative name is empty.
   const fs::path here = folder.empty() ? fs::current_path() : fs::absolute(folder);
   const fs::path relative = whole.lexically_relative((here / "").lexically_normal());
   int up = 0;
@@ -133,7 +134,7 @@ std::string StoredPath(const std::string& path, const fs::path& folder) {
   return relative.empty() || up > 1 ? whole.string() : relative.string();
 }
 
-// As Json::dump, but numbers that belong together stand in one line.
+// Appends `json` as Json::dump does, with related numbers on one line.
 void AppendIndented(const Json& json, std::size_t indentation, std::string* text) {
   const auto leaf = [](const Json& value) { return !value.is_structured() || value.empty(); };
   const bool numbers = json.is_array() && std::all_of(json.begin(), json.end(),
@@ -150,7 +151,7 @@ void AppendIndented(const Json& json, std::size_t indentation, std::string* text
   bool first = true;
   for (const auto& [key, value] : json.items()) {
     *text += (first ? "\n" : ",\n") + std::string(indentation + 2, ' ');
-    if (json.is_object()) *text += '"' + key + "\": ";  // keys are the format's own words
+    if (json.is_object()) *text += '"' + key + "\": ";  // keys of the format need no escaping
     AppendIndented(value, indentation + 2, text);
     first = false;
   }

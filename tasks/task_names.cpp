@@ -6,7 +6,7 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr std::size_t kLongest = 64;  // bytes; with a suffix and an ending far below 255
+constexpr std::size_t kLongest = 64;  // bytes; with a suffix and an extension far below 255
 
 bool IsAsciiLetter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -16,7 +16,8 @@ bool IsDigit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// The character at the start of `text` and its length in bytes; length 0 where it is no UTF-8.
+// Returns the character at the start of `text` and its length in bytes; length 0 if it is not valid
+// UTF-8.
 std::uint32_t FirstCharacter(std::string_view text, std::size_t* length) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -31,7 +32,8 @@ std::uint32_t FirstCharacter(std::string_view text, std::size_t* length) {
   return character;
 }
 
-// Signs, blanks, controls, marks of direction and private characters outside ASCII are none.
+// Returns false for signs, blanks, control characters, direction marks and private characters
+// outside ASCII.
 bool IsForeignLetter(std::uint32_t c) {
   if (c < 0xAA || c == 0xD7 || c == 0xF7) return false;
   if (c < 0xC0) return c == 0xAA || c == 0xB5 || c == 0xBA;
@@ -49,7 +51,7 @@ std::string Folded(std::string text) {
   return text;
 }
 
-// The start of `text`, at most `bytes` long, no character cut.
+// Returns the start of `text`, at most `bytes` long, cut at a character boundary.
 std::string WholeCharacters(const std::string& text, std::size_t bytes) {
   if (text.size() <= bytes) return text;
   while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0) == 0x80) --bytes;

@@ -11,7 +11,8 @@
 namespace simwright::tasks {
 namespace {
 
-// The points farthest out along 98 directions: the axes, the diagonals, and those between.
+// Returns the extreme points along 98 directions: the axes, the diagonals, and the directions
+// between them.
 std::vector<Eigen::Vector3d> Outermost(const std::vector<const core::TriangleMesh*>& meshes) {
   std::vector<Eigen::Vector3d> outline;
   for (int x = -2; x <= 2; ++x) {
@@ -61,8 +62,8 @@ bool IsHandle(const std::string& label) {
   return label == "handle" || label == "knob" || label == "lever" || label == "pull";
 }
 
-// The handle that goes with what the joint moves, the first one, whether it turns itself or not;
-// else the link itself.
+// Returns the first handle on the part that the joint moves, fixed or movable; else the link
+// itself.
 int GripOf(const Thing& thing, int moved) {
   std::vector<char> carried(thing.links.size(), 0);
   carried[static_cast<std::size_t>(moved)] = 1;
@@ -111,7 +112,7 @@ Thing ThingOf(const std::string& name, const assets::SemanticModel& model) {
   Thing thing;
   thing.name = name;
   thing.category = model.category;
-  std::map<std::string, RewardJoint> moving;  // with the limits that programs see
+  std::map<std::string, RewardJoint> moving;  // with the limits that programs read
   for (const RewardJoint& joint : NamesOf(name, model.model).joints) {
     if (joint.type != RewardJointType::kFixed) moving[joint.name] = joint;
   }
@@ -160,7 +161,8 @@ Thing ThingOf(const std::string& name, const assets::SemanticModel& model) {
 double JointPosition(const Thing& thing, const std::vector<double>& positions, std::size_t index) {
   const ThingJoint& joint = thing.joints[index];
   if (joint.leader < 0) return positions[index];
-  // One that follows a follower counts from that one's own position: chains are not followed.
+  // A mimic joint whose leader is itself a mimic joint follows the leader's own position: chains
+  // are not resolved.
   return joint.multiplier * positions[static_cast<std::size_t>(joint.leader)] + joint.offset;
 }
 

@@ -8,14 +8,14 @@
 namespace simwright::tasks {
 namespace {
 
-// Headings by '#' have levels 1 to 6; a bold line stands below them, lists below that.
+// Headings by '#' have levels 1 to 6; a bold line ranks below them, and lists below that.
 constexpr int kBoldLevel = 7, kListLevel = 10;
 
 struct Word {
   std::string_view text;  // ASCII in lower case
   Label label;
 };
-// The longer ones first where one begins with the other.
+// Where one word is a prefix of another, the longer one comes first.
 constexpr std::array kWords = {
     Word{"subtask description", Label::kSubtaskDescription},
     Word{"sub-task description", Label::kSubtaskDescription},
@@ -101,7 +101,7 @@ bool Skip(std::string_view what, std::string_view* text) {
   return true;
 }
 
-// "12" at the start; 0 where there is none. Nobody counts beyond 9999.
+// Consumes a number at the start, such as "12"; returns 0 if there is none or it exceeds 9999.
 int TakeNumber(std::string_view* text) {
   int number = 0;
   for (int digits = 0; digits < 4 && !text->empty() && IsDigit(text->front()); ++digits) {
@@ -111,7 +111,7 @@ int TakeNumber(std::string_view* text) {
   return number;
 }
 
-// "1.", "2)", "(3)", "1.2", "-", "*" and a blank behind it.
+// Consumes a list mark and the white space after it: "1.", "2)", "(3)", "1.2", "-", "*".
 bool TakeListMark(std::string_view* text, int* number) {
   for (const std::string_view mark : {"- ", "* ", "+ ", "\u2022", "\u2013 "}) {
     if (Skip(mark, text)) {
@@ -136,7 +136,7 @@ bool TakeListMark(std::string_view* text, int* number) {
   return true;
 }
 
-// Takes Markdown's marks off `line`, and notes them.
+// Removes Markdown marks from `line` and records them in `labelled`.
 std::string TakeMarkdown(std::string_view line, LabelledLine* labelled) {
   std::string_view text = Trimmed(line);
   const int indentation = Indentation(line);
@@ -188,8 +188,8 @@ Separated TakeSeparator(std::string_view* text) {
   return {};
 }
 
-// The number of "Task #2", "Task 2.1" (its last part; `parts` says how many), and Chinese ones up
-// to ten.
+// Consumes the number of "Task #2" or "Task 2.1" (the last part; `parts` receives the number of
+// parts), or a Chinese number up to ten.
 int TakeLabelNumber(std::string_view* text, int* parts) {
   *text = Trimmed(*text);
   Skip("#", text);
@@ -206,8 +206,8 @@ int TakeLabelNumber(std::string_view* text, int* parts) {
   return number;
 }
 
-// Reads what stands behind the label's word; false where the word begins a mere sentence.
-bool ReadBehind(Label label, std::string_view rest, LabelledLine* line) {
+// Parses the text after the label's word. Returns false if the word begins an ordinary sentence.
+bool ReadAfterLabel(Label label, std::string_view rest, LabelledLine* line) {
   line->label = label;
   int parts = 1;
   const bool numbered = label != Label::kGoal && label != Label::kCode;
@@ -251,11 +251,11 @@ LabelledLine ReadLabel(std::string_view line) {
     if (!lower.starts_with(word.text)) continue;
     const std::string_view rest = std::string_view(plain).substr(word.text.size());
     if (!rest.empty() && ((rest[0] >= 'a' && rest[0] <= 'z') || rest[0] == '_')) continue;
-    if (ReadBehind(word.label, rest, &labelled)) return labelled;
+    if (ReadAfterLabel(word.label, rest, &labelled)) return labelled;
     labelled.label = Label::kNone;
   }
   std::string_view text = plain;
-  if (labelled.heading || labelled.item) {  // "Step 2: ..." is numbered, no more
+  if (labelled.heading || labelled.item) {  // "Step 2: ..." is only a numbered item
     std::string_view rest = text;
     if (Lower(text).starts_with("step ")) {
       rest.remove_prefix(5);

@@ -5,7 +5,7 @@
 
 namespace simwright::tasks {
 
-// What a line of an answer begins with.
+// The label that begins a line of an answer.
 enum class Label {
   kNone,
   kTask,                // "Task 2: ..."
@@ -20,18 +20,19 @@ enum class Label {
   kCode,                // "Reward function for ...:"
 };
 
-// A line that is no code, without its Markdown.
+// A line of an answer that is not code, without its Markdown.
 struct LabelledLine {
   Label label = Label::kNone;
-  int number = 0;        // that of "Task 2", or of "2. ..."; 0: none
-  std::string text;      // behind the label, unquoted
-  bool heading = false;  // by '#', or all of it bold
-  bool item = false;     // of a list
-  int level = 0;         // of headings and items: the smaller one encloses the larger one
+  int number = 0;        // the number of "Task 2" or "2. ..."; 0: none
+  std::string text;      // the text after the label, unquoted
+  bool heading = false;  // marked by '#', or bold as a whole
+  bool item = false;     // a list item
+  int level = 0;         // nesting level of headings and items; a smaller level encloses a larger
+                         // one
 };
 
-// Labels are known in English, German, French, Spanish, Portuguese, Italian, Russian, Chinese,
-// Japanese and Korean.
+// Parses a line of an answer. Recognizes labels in English, German, French, Spanish, Portuguese,
+// Italian, Russian, Chinese, Japanese and Korean.
 LabelledLine ReadLabel(std::string_view line);
 
 }  // namespace simwright::tasks

@@ -15,7 +15,7 @@ bool IsBlank(std::string_view line) {
   return Trimmed(line).empty();
 }
 
-// What stands behind ``` or ~~~ at the start of a line; unset where it is no fence.
+// Returns the text after ``` or ~~~ at the start of a line; nullopt if the line is not a fence.
 std::optional<std::string> FenceInfo(std::string_view line) {
   std::string_view text = Trimmed(line);
   if (text.starts_with("- ") || text.starts_with("* ")) text = Trimmed(text.substr(2));
@@ -24,13 +24,14 @@ std::optional<std::string> FenceInfo(std::string_view line) {
     while (count < text.size() && text[count] == mark) ++count;
     if (count < 3) continue;
     const std::string_view info = text.substr(count);
-    if (info.find("```") != std::string_view::npos) return std::nullopt;  // a word in fences
+    if (info.find("```") != std::string_view::npos) return std::nullopt;  // inline code
     return std::string(Trimmed(info));
   }
   return std::nullopt;
 }
 
-// A statement as it stands at the outer level when a function has lost its indentation.
+// Returns true for a statement at the outer level, which occurs where a function has lost its
+// indentation.
 bool LooksLikeStatement(std::string_view line) {
   const std::string_view text = Trimmed(line);
   if (text == "return" || text.starts_with("return ")) return true;
@@ -52,7 +53,7 @@ bool LooksLikeStatement(std::string_view line) {
   return end > 0 && words <= 4 && rest.starts_with('=') && !rest.starts_with("==");
 }
 
-// Text behind a fence that was never closed: a sentence, a point of a list, bold words.
+// Returns true for text after an unclosed fence: a sentence, a list item, bold words.
 bool LooksLikeProse(std::string_view line) {
   const std::string_view text = Trimmed(line);
   const LabelledLine labelled = ReadLabel(line);
@@ -61,7 +62,7 @@ bool LooksLikeProse(std::string_view line) {
          text.find_first_of("=([{") == std::string_view::npos;
 }
 
-// How many brackets `line` leaves open; strings and comments are respected.
+// Returns the number of brackets that `line` leaves open, ignoring strings and comments.
 int OpenBrackets(std::string_view line) {
   int depth = 0;
   char quote = 0;
@@ -94,11 +95,11 @@ std::string Dedented(std::string_view line, int columns) {
   return std::string(line.substr(at));
 }
 
-// Walks through the lines once.
+// A single-pass reader of an answer's lines.
 class OutlineReader {
  public:
   explicit OutlineReader(std::string_view answer) : lines_(LinesOf(answer)) {
-    for (std::string& line : lines_) {  // quoted as in mail
+    for (std::string& line : lines_) {  // quote marks of e-mail
       while (line.starts_with(">")) line.erase(0, line.starts_with("> ") ? 2 : 1);
     }
   }
@@ -122,7 +123,8 @@ class OutlineReader {
   }
 
  private:
-  // One that says a language opens, also where the one before was never closed.
+  // Handles a fence. A fence with a language always opens a block, even if the previous one was
+  // never closed.
   void TakeFence(const std::string& info) {
     const std::string lower = Lower(info);
     const std::size_t word = std::min(lower.find_first_of(" \t"), lower.size());
@@ -137,7 +139,8 @@ class OutlineReader {
     if (fenced_ && (info.empty() || lower.starts_with("py"))) TakeBareStatements();
   }
 
-  // A fence of statements without any function is still meant as a program.
+  // Reads a fence of statements without a function; if they compute a reward, they are taken as a
+  // program.
   void TakeBareStatements() {
     std::vector<std::string> block;
     bool reward = false;
@@ -161,7 +164,7 @@ class OutlineReader {
     for (std::size_t next = at_ + 1; next < lines_.size(); ++next) {
       const std::string& follows = lines_[next];
       if (BeginsFunction(follows)) return true;
-      if (next > at_ + kFarthest) return false;
+      if (next > at_ + kMaxPreamble) return false;
       if (IsBlank(follows) || IsImport(follows)) continue;
       const bool part =
           follows.starts_with("#") || IsConstant(follows) || (fenced_ && Indentation(follows) > 0);
@@ -174,8 +177,8 @@ class OutlineReader {
     return Indentation(line) == 0 && LooksLikeStatement(line) && !line.starts_with("return");
   }
 
-  // True where the line at `at` goes on with a block of code that begins at column `base`.
-  bool GoesOn(std::size_t at, int base, int open_brackets) const {
+  // Returns true if the line at `at` continues a block of code that begins at column `base`.
+  bool ContinuesBlock(std::size_t at, int base, int open_brackets) const {
     const std::string& line = lines_[at];
     if (IsBlank(line) || BeginsFunction(line)) return true;
     const int indentation = Indentation(line);
@@ -194,7 +197,7 @@ class OutlineReader {
     bool closed = false;
     while (at_ < lines_.size() && !closed && !FenceInfo(lines_[at_])) {
       std::string line = lines_[at_];
-      if (!GoesOn(at_, base, open_brackets)) break;
+      if (!ContinuesBlock(at_, base, open_brackets)) break;
       if (BeginsFunction(line)) open_brackets = 0;
       const std::size_t fence = line.rfind("```");
       if (fence != std::string::npos && IsBlank(std::string_view(line).substr(fence + 3))) {
@@ -207,15 +210,15 @@ class OutlineReader {
       ++at_;
     }
     if (fenced_ && at_ < lines_.size() && !FenceInfo(lines_[at_]).value_or("").empty()) {
-      GiveBackHeadings(&block);
+      RestoreHeadings(&block);
     }
     while (!block.empty() && IsBlank(block.back())) block.pop_back();
     AddPrograms(block);
   }
 
-  // Another fence opens where this one was not closed: what looks like comments right above it was
-  // text.
-  void GiveBackHeadings(std::vector<std::string>* block) {
+  // Handles a fence that opens before this one was closed: comment-like lines right above it are
+  // headings of the text, so they leave the block.
+  void RestoreHeadings(std::vector<std::string>* block) {
     while (block->size() > 1 && (IsBlank(block->back()) || block->back().starts_with("#"))) {
       block->pop_back();
       --at_;
@@ -231,7 +234,7 @@ class OutlineReader {
     if (helpers_.size() < kMostHelpers) helpers_.merge(programs.helpers);
   }
 
-  static constexpr std::size_t kFarthest = 20;  // lines of preamble before a function
+  static constexpr std::size_t kMaxPreamble = 20;  // lines of preamble before a function
   static constexpr std::size_t kMostHelpers = 200;
 
   std::vector<std::string> lines_;

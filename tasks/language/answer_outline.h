@@ -8,18 +8,18 @@
 
 namespace simwright::tasks {
 
-// A piece of an answer: a line with its label, or a program.
+// An entry of an answer's outline: a labelled line, or a program.
 struct OutlineEntry {
   LabelledLine line;
-  std::string program;   // source of a reward function; empty: a line
+  std::string program;   // source of a reward function; empty: the entry is a line
   std::string function;  // its name; may be empty
-  std::string title;     // a comment above it; may be empty
+  std::string title;     // a comment above the function; may be empty
 };
 
-// An answer's lines and programs in order. Programs are found by their functions, so that code
-// fences may be missing, left open, or hold the whole answer; functions of one fence are taken
-// apart, and those that others call are added to these. Blank lines and fences are left out.
-// `answer` as PlainAnswer gives it.
+// Returns the lines and programs of an answer in order. Programs are found by their functions, so
+// code fences may be missing, left open, or enclose the whole answer. Functions of one fence are
+// split into separate programs, and helper functions are added to the programs that call them.
+// Blank lines and fences are left out. `answer` is text as PlainAnswer returns it.
 std::vector<OutlineEntry> OutlineOf(std::string_view answer);
 
 }  // namespace simwright::tasks

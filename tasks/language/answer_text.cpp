@@ -6,10 +6,10 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr std::size_t kMostRead = 1u << 20;  // bytes; fifty tasks have a tenth of it
+constexpr std::size_t kMostRead = 1u << 20;  // bytes; fifty tasks need about a tenth of it
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
-// The length of the UTF-8 character at the start of `text`; 0 where there is none.
+// Returns the length of the UTF-8 character at the start of `text`; 0 if it is invalid.
 std::size_t CharacterLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -23,7 +23,7 @@ std::size_t CharacterLength(std::string_view text) {
   for (std::size_t i = 1; i < length; ++i) {
     if ((byte(i) & 0xC0) != 0x80) return 0;
   }
-  // Longer than needed, a surrogate, or beyond the last character.
+  // The encoding is overlong, a surrogate, or beyond the last code point.
   if (length == 3 && ((first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) > 0x9F))) {
     return 0;
   }
@@ -38,7 +38,7 @@ bool IsWordByte(char c) {
          static_cast<unsigned char>(c) >= 0x80;
 }
 
-// Removes `mark` from both ends where it stands at both.
+// Removes the marks `open` and `close` if both are present at the ends.
 bool Strip(std::string_view open, std::string_view close, std::string_view* text) {
   if (text->size() < open.size() + close.size()) return false;
   if (!text->starts_with(open) || !text->ends_with(close)) return false;
@@ -52,7 +52,7 @@ bool Strip(std::string_view open, std::string_view close, std::string_view* text
 std::string PlainAnswer(std::string_view answer, core::Findings* findings) {
   if (answer.size() > kMostRead) {
     findings->push_back({"answer-cut", core::Severity::kWarning, "",
-                         "of the answer only the first MiB is read",
+                         "only the first MiB of the answer is read",
                          static_cast<double>(answer.size())});
     answer = answer.substr(0, kMostRead);
   }

@@ -8,25 +8,27 @@
 
 namespace simwright::tasks {
 
-// An answer as lines can be read from it: UTF-8 (what is none becomes U+FFFD), line breaks "\n",
-// no byte order mark and no zero bytes, at most its first MiB ("answer-cut").
+// Returns an answer as normalized text: valid UTF-8 (invalid bytes become U+FFFD), line breaks
+// "\n", no byte order mark, no zero bytes, and at most the first MiB ("answer-cut").
 std::string PlainAnswer(std::string_view answer, core::Findings* findings);
 
-// Without blanks at both ends; also without the ideographic space.
+// Returns `text` without leading and trailing white space, including the ideographic space.
 std::string_view Trimmed(std::string_view text);
 
-// Without blanks, Markdown's emphasis and quotes around it, `"Open the door".` -> Open the door.
+// Returns `text` without surrounding white space, Markdown emphasis and quotes: `"Open the door".`
+// becomes Open the door.
 std::string Unquoted(std::string_view text);
 
-// ASCII letters in lower case.
+// Returns `text` with ASCII letters in lower case.
 std::string Lower(std::string_view text);
 
 std::vector<std::string> LinesOf(std::string_view text);
 
-// Columns of blanks that `line` begins with; a tab goes to the next multiple of 8.
+// Returns the width in columns of the white space that begins `line`; a tab advances to the next
+// multiple of 8.
 int Indentation(std::string_view line);
 
-// True where the whole word `name` stands in `text` and a parenthesis behind it.
+// Returns true if `text` holds the whole word `name` followed by a parenthesis.
 bool Calls(std::string_view text, std::string_view name);
 
 }  // namespace simwright::tasks

@@ -4,14 +4,16 @@
 
 namespace simwright::tasks {
 
-// True for a heading that names a section of an answer ("Reward function"), not a task.
+// Returns true for a heading that names a section of an answer ("Reward function") instead of a
+// task.
 bool IsSectionTitle(const std::string& title);
 
-// What a function's name says that it is for: "compute_reward_open_door" -> "open_door"; empty for
-// "compute_reward_v5".
+// Returns the title that a function's name contains: "compute_reward_open_door" gives "open_door",
+// "compute_reward_v5" gives an empty string.
 std::string TitleOfFunction(std::string name);
 
-// "Open the door: pull its handle" -> "Open the door".
+// Returns the title without its explanation: "Open the door: pull its handle" gives "Open the
+// door".
 std::string TitlePart(const std::string& text);
 
 }  // namespace simwright::tasks

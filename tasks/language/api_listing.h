@@ -7,14 +7,15 @@
 
 namespace simwright::tasks {
 
-// The environment's functions as a language model is told of them, one a line:
+// Returns the environment's functions as the prompt lists them, one per line:
 // "env.get_position(asset_name)  # [N, 3]: where an asset is, m".
 std::string ApiListing();
 
-// The call alone, e.g. "env.get_position(asset_name)"; what may be left out stands in brackets.
+// Returns the call alone, e.g. "env.get_position(asset_name)"; optional arguments stand in
+// brackets.
 std::string ApiCall(const ApiFunction& function);
 
-// What of torch a language model is told of: an expression of `x`, [N, 3], and `a`, `b`, [N].
+// Returns the torch expressions that the prompt lists, in terms of `x`, [N, 3], and `a`, `b`, [N].
 // Reward programs may use far more (docs/rewards.md).
 std::span<const char* const> TensorExpressions();
 

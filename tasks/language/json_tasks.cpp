@@ -16,9 +16,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kDeepest = 6;  // levels of objects around tasks
+constexpr int kDeepest = 6;  // nesting levels of objects around tasks
 
-// "Task Description" and "task_description" are one key.
+// Normalizes a key: "Task Description" and "task_description" are equal.
 std::string PlainKey(std::string_view key) {
   std::string plain;
   for (const char c : Lower(key)) {
@@ -40,7 +40,7 @@ std::string TextOf(const Json* json) {
   return json != nullptr && json->is_string() ? Unquoted(json->get<std::string>()) : "";
 }
 
-// Without the fence that some put around code inside of JSON.
+// Removes a code fence inside a JSON string.
 std::string WithoutFence(const std::string& program) {
   const std::string_view text = Trimmed(program);
   if (!text.starts_with("```")) return program;
@@ -50,7 +50,7 @@ std::string WithoutFence(const std::string& program) {
   return std::string(text.substr(begin + 1, end > begin ? end - begin - 1 : text.size()));
 }
 
-// A program as text or as lines, alone or one level down ({"code": ...}).
+// Returns a program given as text or as lines, directly or one level down ({"code": ...}).
 std::string ProgramOf(const Json* json, int depth = 0) {
   if (json == nullptr) return "";
   std::string program;
@@ -104,7 +104,8 @@ Subtask SubtaskOf(const Json& object, const std::string& title) {
   return subtask;
 }
 
-// The members of `object` in the order of their keys in the answer, which JSON's reader forgets.
+// Returns the members of `object` in the order of their keys in the answer, which the JSON parser
+// does not keep.
 std::vector<std::pair<std::string, const Json*>> InOrder(const Json& object,
                                                          std::string_view answer) {
   std::vector<std::pair<std::size_t, std::pair<std::string, const Json*>>> placed;
@@ -118,7 +119,7 @@ std::vector<std::pair<std::string, const Json*>> InOrder(const Json& object,
   return members;
 }
 
-// Subtasks as objects, as titles alone, or as a map from title to object or program.
+// Returns the subtasks, given as objects, as titles, or as a map from title to object or program.
 std::vector<Subtask> SubtasksOf(const Json& json, std::string_view answer) {
   std::vector<Subtask> subtasks;
   const auto add = [&](const std::string& key, const Json& value) {
@@ -145,7 +146,7 @@ std::vector<Subtask> SubtasksOf(const Json& json, std::string_view answer) {
   return subtasks;
 }
 
-// Programs that stand beside the list of subtasks, in order or by title.
+// Assigns programs listed beside the subtasks, in order or by title.
 void AddProgramsBeside(const Json& object, std::vector<Subtask>* subtasks) {
   const Json* beside = Member(
       object, {"rewardfunctions", "rewards", "programs", "functions", "rewardfunction", "reward"});
@@ -190,7 +191,7 @@ Task TaskOf(const Json& json, const std::string& title, std::string_view answer)
   return task;
 }
 
-// Goes down to the objects that are tasks; `key` is what the present one is called.
+// Descends to the objects that are tasks; `key` is the key of the current object.
 void Collect(const Json& json, const std::string& key, std::string_view answer, int depth,
              std::vector<Task>* tasks) {
   if (depth > kDeepest) return;
@@ -205,8 +206,8 @@ void Collect(const Json& json, const std::string& key, std::string_view answer, 
   }
 }
 
-// Line breaks inside of quotes and triple quotes as JSON wants them.
-std::string Mended(std::string_view text) {
+// Escapes line breaks inside quotes and triple quotes as JSON requires.
+std::string Repaired(std::string_view text) {
   std::string mended;
   bool quoted = false, triple = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -241,13 +242,13 @@ std::vector<Task> TasksInText(std::string_view text) {
 }  // namespace
 
 std::vector<Task> TasksInJson(std::string_view answer) {
-  // Code and lists are full of brackets: only what has keys can be tasks.
+  // Code and lists contain many brackets: only text with keys can hold tasks.
   if (answer.find('{') == std::string_view::npos || answer.find(':') == std::string_view::npos) {
     return {};
   }
   std::vector<Task> tasks = TasksInText(answer);
   if (!tasks.empty()) return tasks;
-  return TasksInText(Mended(answer.substr(answer.find_first_of("{["))));
+  return TasksInText(Repaired(answer.substr(answer.find_first_of("{["))));
 }
 
 }  // namespace simwright::tasks

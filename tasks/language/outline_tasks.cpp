@@ -15,17 +15,17 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr std::size_t kLongestTitle = 100;  // bytes; what is longer describes
+constexpr std::size_t kLongestTitle = 100;  // bytes; a longer text is a description
 constexpr std::size_t kMostPlanned = 30;
-// Beyond these nothing more is taken: far more than is kept of an answer.
+// Limits on what is collected, far above the number that is kept of an answer.
 constexpr std::size_t kMostTasks = 300, kMostSubtasks = 3000;
-constexpr int kCommentLevel = 9;  // below every heading, above every list
+constexpr int kCommentLevel = 9;  // below every heading level, above every list level
 
 struct Heading {
   std::string title;
   int level = 0;
-  bool item = false;         // a plain one of a list, that may as well be a reason
-  std::ptrdiff_t task = -1;  // the one made of it
+  bool item = false;         // a plain list item, which may also be an explanation
+  std::ptrdiff_t task = -1;  // index of the task made from it
 };
 
 class TaskAssembler {
@@ -52,11 +52,11 @@ class TaskAssembler {
         TakeDescription(line);
         break;
       case Label::kSuccess:
-        *(Named() != nullptr ? &Named()->success : &success_) = line.text;
+        *(OpenSubtask() != nullptr ? &OpenSubtask()->success : &success_) = line.text;
         break;
       case Label::kGoal:
         goal_ = StatedGoal(line.text);
-        if (Subtask* open = Named(); open != nullptr && goal_) open->goal = goal_;
+        if (Subtask* open = OpenSubtask(); open != nullptr && goal_) open->goal = goal_;
         break;
       case Label::kPlan:
         TakePlan(line);
@@ -82,7 +82,7 @@ class TaskAssembler {
       for (const std::string& title : plans_[i]) AddSubtask(&task, title);
       if (task.subtasks.empty()) AddSubtask(&task, task.name);
     }
-    return WithoutEchoes();
+    return WithoutDuplicates();
   }
 
  private:
@@ -91,15 +91,16 @@ class TaskAssembler {
                        [](const Subtask& subtask) { return !subtask.program.empty(); });
   }
 
-  // Without tasks that an overview named and that follow with their programs.
-  std::vector<Task> WithoutEchoes() {
+  // Returns the tasks without those that an overview named and that appear again with their
+  // programs.
+  std::vector<Task> WithoutDuplicates() {
     std::vector<Task> kept;
     for (Task& task : tasks_) {
-      const bool echo =
+      const bool duplicate =
           !HasProgram(task) && std::any_of(tasks_.begin(), tasks_.end(), [&](const Task& other) {
             return HasProgram(other) && Lower(other.name) == Lower(task.name);
           });
-      if (!echo) kept.push_back(task);
+      if (!duplicate) kept.push_back(task);
     }
     return kept;
   }
@@ -112,8 +113,8 @@ class TaskAssembler {
     return &task->subtasks.back();
   }
 
-  // The subtask that was named and has no program yet.
-  Subtask* Named() {
+  // Returns the subtask that was named and has no program yet; null: none.
+  Subtask* OpenSubtask() {
     return subtask_open_ && !tasks_.empty() ? &tasks_.back().subtasks.back() : nullptr;
   }
 
@@ -169,7 +170,7 @@ class TaskAssembler {
     if (tasks_.empty() || (headings_since_ && label == Label::kDescription && !subtask_open_)) {
       return &description_;
     }
-    if (label != Label::kTaskDescription && subtask_open_) return &Named()->description;
+    if (label != Label::kTaskDescription && subtask_open_) return &OpenSubtask()->description;
     if (HasProgram(tasks_.back()) && label != Label::kTaskDescription) return &description_;
     return &tasks_.back().description;
   }
@@ -184,7 +185,7 @@ class TaskAssembler {
     if (headings_since_ && (tasks_.empty() || HasProgram(tasks_.back()))) {
       BeginTask(headings_.back().title, headings_.back().level);
     }
-    in_plan_ = labelled_;  // else the list that follows is one like others
+    in_plan_ = labelled_;  // otherwise the following list is an ordinary one
     if (!in_plan_) return;
     std::string_view rest = line.text;
     while (!rest.empty()) {
@@ -200,10 +201,10 @@ class TaskAssembler {
     plans_.back().push_back(title);
   }
 
-  // "name: open_door", as in lists of YAML.
+  // Handles "name: open_door", as in YAML lists.
   void TakeName(const LabelledLine& line) {
     if (line.text.empty()) return;
-    if (Subtask* open = Named(); open != nullptr && open->name.empty()) {
+    if (Subtask* open = OpenSubtask(); open != nullptr && open->name.empty()) {
       open->name = line.text;
     } else if (!tasks_.empty() && tasks_.back().name.empty() && tasks_.back().subtasks.empty()) {
       tasks_.back().name = line.text;
@@ -256,7 +257,8 @@ class TaskAssembler {
     }
   }
 
-  // The name that follows a bare "Task 1", a line that names what follows it, or a description.
+  // Handles plain text: the name after a bare "Task 1", a line that names the next program, or a
+  // description.
   void TakeProse(const std::string& text) {
     if (tasks_.empty() || HasProgram(tasks_.back()) || headings_since_) {
       const bool title = text.size() <= 60 && !text.ends_with('.') && !text.ends_with(':') &&
@@ -266,7 +268,7 @@ class TaskAssembler {
     }
     if (!labelled_ && !headings_since_) return;
     if (text.ends_with(':') || text.find_first_of("{}|") != std::string::npos) return;
-    if (Subtask* open = Named(); open != nullptr && open->name.empty()) {
+    if (Subtask* open = OpenSubtask(); open != nullptr && open->name.empty()) {
       open->name = Unquoted(text);
     } else if (!headings_since_ && !tasks_.empty() && tasks_.back().name.empty() &&
                tasks_.back().subtasks.empty() && text.size() <= kLongestTitle) {
@@ -276,7 +278,7 @@ class TaskAssembler {
     }
   }
 
-  // What names the next program, by the lines since the last one.
+  // Returns the title of the next program, from the lines since the last one.
   std::optional<Heading> TitleAbove(const OutlineEntry& entry) {
     if (headings_since_ && !headings_.empty()) return headings_.back();
     if (!entry.title.empty() && !IsSectionTitle(entry.title)) {
@@ -305,7 +307,7 @@ class TaskAssembler {
   }
 
   void TakeProgram(const OutlineEntry& entry) {
-    if (Subtask* open = Named()) {
+    if (Subtask* open = OpenSubtask()) {
       Fill(open, entry);
     } else {
       const std::optional<Heading> above = TitleAbove(entry);
@@ -320,7 +322,7 @@ class TaskAssembler {
     ForgetLines();
   }
 
-  // The program of a task that was named by its label.
+  // Adds a program to a task that was named by its label.
   void FillOfTask(const std::optional<Heading>& above, const OutlineEntry& entry) {
     Task* task = &tasks_.back();
     if (Task* listed = FirstOfEmptyRun(); listed != nullptr && !above) {
@@ -337,13 +339,13 @@ class TaskAssembler {
     Fill(AddSubtask(task, title), entry);
   }
 
-  // Of several tasks that were named one after the other without any program, the first.
+  // Returns the first of several consecutive tasks without a program; null: none.
   Task* FirstOfEmptyRun() {
     std::size_t first = tasks_.size();
     while (first > 0 && tasks_[first - 1].subtasks.empty()) --first;
     const bool run = tasks_.size() - first > 1 || listed_programs_;
     if (!run || first == tasks_.size()) {
-      // Those of a run are filled from its front, so that the empty ones end it.
+      // The tasks of a run are filled from its front, so the empty ones are last.
       listed_programs_ = false;
       return nullptr;
     }
@@ -351,7 +353,7 @@ class TaskAssembler {
     return &tasks_[first];
   }
 
-  // The program of a task without any label: by headings, lists, or nothing.
+  // Adds a program of a task without a label, named by headings, a list, or nothing.
   void FillUnlabelled(const std::optional<Heading>& above, const OutlineEntry& entry) {
     labelled_ = false;
     if (!above) {
@@ -388,23 +390,23 @@ class TaskAssembler {
   }
 
   std::vector<Task> tasks_;
-  std::size_t subtasks_ = 0;                     // of all tasks
-  std::vector<std::vector<std::string>> plans_;  // of each task: subtasks named in a list
+  std::size_t subtasks_ = 0;                     // total of all tasks
+  std::vector<std::vector<std::string>> plans_;  // per task: subtasks named in a list
   bool labelled_ = false;                        // the last task was named by its label
-  int task_level_ = 0;                           // of its heading; 0: none
-  int first_number_ = 0;                         // of its first subtask
+  int task_level_ = 0;                           // level of the last task's heading; 0: none
+  int first_number_ = 0;                         // number of its first subtask
   bool subtask_open_ = false;  // its last subtask was named and has no program yet
   bool in_plan_ = false;
   bool listed_programs_ = false;
-  std::vector<Heading> headings_;  // that enclose the present line, the outermost first
-  bool headings_since_ = false;    // there is one, and the last stands behind the last program
-  std::vector<Heading> items_;     // of the last list, behind the last program
+  std::vector<Heading> headings_;  // headings that enclose the current line, outermost first
+  bool headings_since_ = false;    // a heading follows the last program
+  std::vector<Heading> items_;     // items of the last list after the last program
   std::optional<Heading> outer_item_;
-  std::deque<Heading> queue_;  // of a list before programs that nothing names
+  std::deque<Heading> queue_;  // items of a list before unnamed programs
   std::string title_line_;
-  std::string description_, success_;  // of what the next program is for
+  std::string description_, success_;  // texts for the next program
   std::optional<Eigen::Vector3d> goal_;
-  bool wants_description_ = false;  // "Description:" alone; the next line is it
+  bool wants_description_ = false;  // "Description:" alone; its text is the next line
   Label description_label_ = Label::kDescription;
 };
 

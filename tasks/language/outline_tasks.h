@@ -7,10 +7,10 @@
 
 namespace simwright::tasks {
 
-// The tasks of an answer's outline, with titles for names as they stand there, empty where there
-// are none. A program belongs to the subtask or task that is named above it; programs above which
-// nothing is named belong in order to what a list named before. What is named without a program
-// has an empty one.
+// Returns the tasks of an answer's outline, named by their titles as written; a name is empty where
+// the answer gives none. A program belongs to the subtask or task named above it. Programs without
+// a name above them are assigned in order to the entries of an earlier list. A subtask named
+// without a program has an empty program.
 std::vector<Task> TasksOf(const std::vector<OutlineEntry>& outline);
 
 }  // namespace simwright::tasks

@@ -8,15 +8,16 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr std::size_t kLongestTitle = 80;          // bytes; what is longer explains
-constexpr std::size_t kMostFunctions = 200;        // of a block; the rest stays with the last
-constexpr std::size_t kLongestProgram = 64 << 10;  // bytes; the compiler takes no longer one
+constexpr std::size_t kLongestTitle = 80;          // bytes; a longer text is an explanation
+constexpr std::size_t kMostFunctions = 200;        // per block; later functions stay with the last
+                                                   // chunk
+constexpr std::size_t kLongestProgram = 64 << 10;  // bytes; the compiler rejects longer ones
 
 bool IsNameByte(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-// The name that "def name(" defines; empty where the line defines none.
+// Returns the name that "def name(" defines; empty if the line defines none.
 std::string DefinedName(std::string_view line) {
   line = Trimmed(line);
   if (line.starts_with("async ")) line = Trimmed(line.substr(6));
@@ -32,7 +33,8 @@ struct Chunk {
   std::string title, function, text;
 };
 
-// The lines cut into functions at the outer level; what stands before them is the preamble.
+// The lines split into functions at the outer level; the lines before the first one are the
+// preamble.
 struct Cut {
   std::string preamble;
   std::vector<Chunk> chunks;
@@ -56,7 +58,7 @@ std::string TitleIn(const std::vector<std::string>& comments) {
 
 Cut CutIntoFunctions(const std::vector<std::string>& lines) {
   Cut cut;
-  std::vector<std::string> waiting;  // comments and decorators that may belong to the next one
+  std::vector<std::string> waiting;  // comments and decorators that may belong to the next function
   std::vector<std::string> comments;
   const auto flush = [&](std::string* to) {
     for (const std::string& line : waiting) *to += line + "\n";
@@ -90,7 +92,8 @@ std::string WithoutBlankEnd(std::string text) {
   return text;
 }
 
-// The end of the expression that begins at `at`: its line's, brackets and backslashes respected.
+// Returns the end of the expression that begins at `at`: the end of its line, continued by open
+// brackets and backslashes.
 std::size_t ExpressionEnd(std::string_view text, std::size_t at) {
   int depth = 0;
   for (; at < text.size(); ++at) {
@@ -103,7 +106,7 @@ std::size_t ExpressionEnd(std::string_view text, std::size_t at) {
   return at;
 }
 
-// In one line, blanks joined.
+// Returns `text` on one line with runs of white space joined.
 std::string OneLine(std::string_view text) {
   std::string line;
   for (const char c : Trimmed(text)) {
@@ -117,7 +120,7 @@ std::string OneLine(std::string_view text) {
   return line;
 }
 
-// The text behind the comma at the outer level of "reward, success"; empty where there is none.
+// Returns the text after the outer-level comma of "reward, success"; empty if there is none.
 std::string_view SecondOf(std::string_view returned) {
   returned = Trimmed(returned);
   if (returned.starts_with('(') && returned.ends_with(')')) {
@@ -184,7 +187,7 @@ std::string WithHelpers(const std::string& program,
                         const std::map<std::string, std::string>& helpers) {
   std::string whole = program;
   std::set<std::string> added;
-  for (bool again = true; again;) {  // what helpers call is needed as well
+  for (bool again = true; again;) {  // helpers may call further helpers
     again = false;
     for (const auto& [name, text] : helpers) {
       if (whole.size() + text.size() > kLongestProgram) continue;

@@ -7,15 +7,15 @@
 
 namespace simwright::tasks {
 
-// True where `line` begins a function, or is its decorator.
+// Returns true if `line` begins a function or is a function's decorator.
 bool BeginsFunction(std::string_view line);
 
-// True for "import x" and "from x import y".
+// Returns true for "import x" and "from x import y".
 bool IsImport(std::string_view line);
 
-// A reward function with all that it needs.
+// A reward function together with all definitions it needs.
 struct ProgramPiece {
-  std::string title;     // a comment above it that reads like one; may be empty
+  std::string title;     // a comment above it that reads like a title; may be empty
   std::string function;  // its name; empty where the code defines none
   std::string text;      // ends in a line break
 };
@@ -25,16 +25,17 @@ struct BlockPrograms {
   std::map<std::string, std::string> helpers;  // functions that others call, by name
 };
 
-// The reward functions of consecutive lines of code, in order. Functions that others of the block
-// call are helpers and go with these. A block of one reward function is kept as it is.
+// Splits consecutive lines of code into reward functions, in order. Functions that other functions
+// of the block call are helpers and are included with their callers. A block with a single reward
+// function is returned unchanged.
 BlockPrograms SplitProgramBlock(const std::vector<std::string>& lines);
 
-// `program` with those of `helpers` in front that it calls and does not define.
+// Returns `program`, preceded by those of `helpers` that it calls and does not define.
 std::string WithHelpers(const std::string& program,
                         const std::map<std::string, std::string>& helpers);
 
-// The expression that `program` returns as success, as its source says it; empty where that cannot
-// be told.
+// Returns the source of the expression that `program` returns as success; empty where it cannot be
+// determined.
 std::string SuccessOf(std::string_view program);
 
 }  // namespace simwright::tasks

@@ -15,7 +15,7 @@ namespace {
 using assets::UrdfJoint;
 using assets::UrdfJointType;
 
-constexpr std::size_t kLongestName = 120;  // bytes; beyond it is no name but a text
+constexpr std::size_t kLongestName = 120;  // bytes; a longer text is not a name
 
 const char* TypeName(UrdfJointType type) {
   switch (type) {
@@ -41,7 +41,7 @@ std::string Decimals(double value) {
   return std::string(text) == "-0.000" ? "0.000" : text;
 }
 
-// What the joint's state ranges over; empty where it has no single state.
+// Returns the range of the joint's state; empty if it has no scalar state.
 std::string LimitOf(const UrdfJoint& joint) {
   switch (joint.type) {
     case UrdfJointType::kRevolute:
@@ -55,12 +55,12 @@ std::string LimitOf(const UrdfJoint& joint) {
   }
 }
 
-// A link with the joint that leads to it; null for the root.
+// A link with the joint that moves it; null for the root.
 struct Part {
   std::string link, label;
   const UrdfJoint* joint = nullptr;
 
-  // Those of a high rank are left out first.
+  // Returns the rank of the part; parts of a high rank are left out first.
   int Rank() const {
     const bool moves = joint != nullptr && !LimitOf(*joint).empty();
     if (joint == nullptr || (moves && !label.empty())) return 0;
@@ -84,8 +84,8 @@ std::vector<Part> PartsOf(const assets::SemanticModel& asset) {
   return parts;
 }
 
-// The `count` parts of the lowest rank, in their order.
-std::vector<Part> MostTelling(std::vector<Part> parts, std::size_t count) {
+// Returns the `count` parts of the lowest rank, in their order.
+std::vector<Part> MostInformative(std::vector<Part> parts, std::size_t count) {
   if (parts.size() <= count) return parts;
   std::vector<std::size_t> order(parts.size());
   std::iota(order.begin(), order.end(), 0);
@@ -98,7 +98,7 @@ std::vector<Part> MostTelling(std::vector<Part> parts, std::size_t count) {
   return kept;
 }
 
-// The largest number of parts an asset such that all together are at most `most`.
+// Returns the largest number of parts per asset for which all assets together have at most `most`.
 std::size_t FairShare(const std::vector<std::vector<Part>>& parts, std::size_t most) {
   std::size_t share = 0;
   for (const auto& of_asset : parts) share = std::max(share, of_asset.size());
@@ -153,7 +153,7 @@ std::string AssetText(const NamedModel& asset, const std::vector<Part>& parts, i
 
 core::Finding Cut(const std::string& place, std::size_t left_out, const std::string& what) {
   return {"description-cut", core::Severity::kWarning, place,
-          std::to_string(left_out) + " " + what + " left out of what the language model is told",
+          std::to_string(left_out) + " " + what + " omitted from the prompt for the language model",
           static_cast<double>(left_out)};
 }
 
@@ -189,7 +189,7 @@ SceneDescription DescribeScene(std::span<const NamedModel> scene, const Descript
   const std::size_t share = FairShare(parts, static_cast<std::size_t>(bounds.max_parts));
   description.text = "The environment contains the following assets:\n";
   for (std::size_t i = 0; i < told.size(); ++i) {
-    const std::vector<Part> kept = MostTelling(parts[i], share);
+    const std::vector<Part> kept = MostInformative(parts[i], share);
     description.text += AssetText(told[i], kept, static_cast<int>(i) + 1);
     const std::size_t all = told[i].model->model.links.size();
     if (kept.size() < all) {

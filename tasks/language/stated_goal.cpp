@@ -7,7 +7,7 @@
 namespace simwright::tasks {
 
 std::optional<Eigen::Vector3d> StatedGoal(std::string_view text) {
-  constexpr double kFarthest = 100.0;  // m; no robot of ours sees farther
+  constexpr double kFarthest = 100.0;  // m; farther than any robot's workspace
   std::vector<double> numbers;
   const char* at = text.data();
   const char* const end = at + text.size();

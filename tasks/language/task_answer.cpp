@@ -24,8 +24,8 @@ std::size_t ProgramsOf(const std::vector<Task>& tasks) {
   return programs;
 }
 
-// The programs of `from` in order to the subtasks of `tasks`, where they are as many: some plan in
-// JSON and write the functions below it.
+// Assigns the programs of `from` in order to the subtasks of `tasks` if the counts match: some
+// answers plan in JSON and write the functions below it.
 void FillInOrder(const std::vector<Task>& from, std::vector<Task>* tasks) {
   std::vector<std::string> programs;
   for (const Task& task : from) {
@@ -44,7 +44,7 @@ void FillInOrder(const std::vector<Task>& from, std::vector<Task>* tasks) {
   }
 }
 
-// Whole characters of `text` within the bound.
+// Returns `text` cut to the bound at a character boundary.
 std::string Bounded(std::string text) {
   if (text.size() <= kLongestSentence) return text;
   std::size_t end = kLongestSentence;
@@ -52,22 +52,22 @@ std::string Bounded(std::string text) {
   return text.substr(0, end);
 }
 
-// "open_door" -> "open door".
+// Returns the name with blanks: "open_door" gives "open door".
 std::string Spoken(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
 
-// A safe name that is not taken, from a title or else a number; reports where another has it.
-std::string Named(const std::string& title, const std::string& kind, std::size_t number,
-                  std::set<std::string>* taken, core::Findings* findings) {
+// Returns a safe, unused name from a title or else a number; reports a name that is already taken.
+std::string ClaimName(const std::string& title, const std::string& kind, std::size_t number,
+                      std::set<std::string>* taken, core::Findings* findings) {
   std::string name = SafeName(title);
   const bool numbered = name.empty();
   if (numbered) name = kind + "_" + std::to_string(number);
   const std::string unique = UniqueName(name, taken);
   if (unique != name && !numbered) {
     findings->push_back({"task-renamed", core::Severity::kWarning, unique,
-                         "another " + kind + " is called " + name + " already", 0.0});
+                         "another " + kind + " already has the name " + name, 0.0});
   }
   return unique;
 }
@@ -98,13 +98,13 @@ void NameAll(std::vector<Task>* tasks, core::Findings* findings) {
   for (std::size_t i = 0; i < tasks->size(); ++i) {
     Task& task = (*tasks)[i];
     const std::string title = task.name;
-    task.name = Named(title, "task", i + 1, &task_names, findings);
+    task.name = ClaimName(title, "task", i + 1, &task_names, findings);
     Describe(title, task.name, &task.description);
     std::set<std::string> subtask_names;
     for (std::size_t k = 0; k < task.subtasks.size(); ++k) {
       Subtask& subtask = task.subtasks[k];
       const std::string of_subtask = subtask.name;
-      subtask.name = Named(of_subtask, "subtask", k + 1, &subtask_names, findings);
+      subtask.name = ClaimName(of_subtask, "subtask", k + 1, &subtask_names, findings);
       if (task.subtasks.size() == 1 && subtask.description.empty()) {
         subtask.description = task.description;
       }

@@ -9,10 +9,10 @@
 
 namespace simwright::tasks {
 
-// What an answer of a language model proposes.
+// The tasks that a language model's answer proposes.
 struct TaskAnswer {
-  // Names are safe and unique (SafeName); assets, start and findings are empty. A subtask without
-  // a program was named only.
+  // The tasks read from the answer. Names are safe and unique (SafeName); assets, start and
+  // findings are empty. A subtask without a program was only named in the answer.
   std::vector<Task> tasks;
   core::Findings findings;
 
@@ -20,15 +20,15 @@ struct TaskAnswer {
 };
 
 // Reads tasks, subtasks and reward programs from an answer in any form: "Task: ..." lines,
-// Markdown, lists, JSON, bare functions, with or without fences. All of it is data: nothing in it
-// is followed or run. At most 1 MiB is read, at most 100 tasks of 30 subtasks are kept. Never
-// throws; findings:
+// Markdown, lists, JSON, bare functions, with or without fences. The answer is treated as data: no
+// instruction in it is followed and no code is run. Reads at most 1 MiB and keeps at most 100 tasks
+// of 30 subtasks. Never throws. Findings:
 //   answer-empty (error), answer-no-program (error), answer-cut, answer-too-many-tasks (warnings),
-//   task-renamed (warning): another is called so.
+//   task-renamed (warning): another task already has the name.
 TaskAnswer ReadTaskAnswer(std::string_view answer);
 
-// The one reward program of an answer that should hold nothing else: the first where there are
-// several; empty where there is none. Never throws.
+// Returns the reward program of an answer that should hold exactly one: the first where there are
+// several, empty where there is none. Never throws.
 std::string ReadProgramAnswer(std::string_view answer);
 
 }  // namespace simwright::tasks

@@ -14,10 +14,10 @@
 namespace simwright::tasks {
 namespace {
 
-// Bytes of an answer that are said back to the model, and kept where it holds no program.
+// Bytes of an answer that are repeated to the model, and that are kept if it holds no program.
 constexpr std::size_t kLongestKeptAnswer = 64u << 10;
 
-// Those that keep a program from being trained on.
+// Returns the findings that prevent training on a program.
 core::Findings ErrorsOf(const core::Findings& findings) {
   core::Findings errors;
   for (const core::Finding& finding : findings) {
@@ -31,16 +31,16 @@ void RequireNames(std::span<const NamedModel> scene) {
   std::set<std::string> names;
   for (const NamedModel& asset : scene) {
     if (!IsAssetName(asset.name)) {
-      throw core::Error("programs cannot call an asset so", asset.name,
+      throw core::Error("the name is not valid for an asset", asset.name,
                         "a letter, then letters, digits, '_', '-'");
     }
     if (!names.insert(asset.name).second) {
-      throw core::Error("two assets are called so", asset.name, "give one another name");
+      throw core::Error("two assets have this name", asset.name, "give one another name");
     }
   }
 }
 
-// One run: the model, what was asked of it, and what came of it.
+// One generation run: the model, the questions asked, and the results.
 class TaskGeneration {
  public:
   TaskGeneration(std::span<const NamedModel> scene, const TaskGenerationOptions& options,
@@ -92,7 +92,7 @@ class TaskGeneration {
     result_.findings.push_back({code, severity, place, sentence, figure});
   }
 
-  // The answer's text; unset where the model failed and tasks are there to be kept.
+  // Returns the answer's text; nullopt if the model failed after some tasks were generated.
   std::optional<std::string> Ask(llm::ChatRequest* request) {
     request->temperature = options_.temperature;
     request->seed = options_.seed;
@@ -102,7 +102,7 @@ class TaskGeneration {
       Report(model_.TakeFindings(), request->task);
       if (answer.finish_reason == "length") {
         Report("llm-answer-cut", core::Severity::kWarning, request->task,
-               "the server ended the answer before it was whole", 0.0);
+               "the server ended the answer before it was complete", 0.0);
       }
       request->messages.push_back(
           {llm::Role::kAssistant, answer.text.substr(0, kLongestKeptAnswer), {}});
@@ -116,7 +116,7 @@ class TaskGeneration {
     }
   }
 
-  // Tasks of one question, asked twice where the first answer holds no program.
+  // Returns the tasks of one question, which is asked twice if the first answer holds no program.
   std::vector<Task> Propose(int count) {
     std::vector<std::string> have;
     for (const Task& task : result_.tasks) have.push_back(task.name);
@@ -126,7 +126,7 @@ class TaskGeneration {
       const std::optional<std::string> text = Ask(&request);
       if (!text) break;
       TaskAnswer answer = ReadTaskAnswer(*text);
-      for (core::Finding& finding : answer.findings) {  // an answer without tasks is no end
+      for (core::Finding& finding : answer.findings) {  // an answer without tasks is not fatal
         finding.severity = std::min(finding.severity, core::Severity::kWarning);
       }
       Report(answer.findings, request.task);
@@ -139,16 +139,16 @@ class TaskGeneration {
       request.messages.push_back({llm::Role::kUser, AskForTasksAgain(), {}});
     }
     proposed_ = proposed_ || !proposed.empty();
-    return New(std::move(proposed));
+    return WithUniqueNames(std::move(proposed));
   }
 
-  // Under names that are unlike those of the tasks before.
-  std::vector<Task> New(std::vector<Task> tasks) {
+  // Returns the tasks under names that differ from those of earlier tasks.
+  std::vector<Task> WithUniqueNames(std::vector<Task> tasks) {
     for (Task& task : tasks) {
       const std::string unique = UniqueName(task.name, &names_);
       if (unique != task.name) {
         Report("task-renamed", core::Severity::kWarning, unique,
-               "another task is called " + task.name + " already", 0.0);
+               "another task already has the name " + task.name, 0.0);
       }
       task.name = unique;
       task.source = model_.name().empty() ? "language model" : model_.name();
@@ -156,7 +156,7 @@ class TaskGeneration {
     return tasks;
   }
 
-  // The assets that its programs name, in the scene's order.
+  // Stores the assets that the task's programs name, in the scene's order.
   void NameAssets(Task* task) const {
     task->assets.clear();
     for (const NamedModel& asset : scene_) {
@@ -192,7 +192,7 @@ class TaskGeneration {
     }
   }
 
-  // The task keeps what it has, and says why it cannot be trained.
+  // Keeps the task with its findings and reports why it cannot be trained.
   void GiveUp(Task* task, const Subtask& subtask) {
     const core::Findings errors = ErrorsOf(subtask.findings);
     const std::string count = std::to_string(errors.size());
@@ -241,9 +241,9 @@ class TaskGeneration {
   std::string description_;
   GeneratedTasks result_;
   std::set<std::string> names_;
-  int asked_ = 0;          // tasks
-  bool proposed_ = false;  // there is a task that must not be lost
-  bool failed_ = false;    // the model; it is not asked again
+  int asked_ = 0;          // tasks asked for
+  bool proposed_ = false;  // there are tasks that must not be lost
+  bool failed_ = false;    // the model failed and is not asked again
 };
 
 }  // namespace
@@ -253,11 +253,11 @@ bool TaskGenerationOptions::IsValid(std::string* error) const {
     if (error != nullptr) *error = why;
     return false;
   };
-  if (count < 1 || count > 200) return refuse("1 to 200 tasks can be asked for");
+  if (count < 1 || count > 200) return refuse("the number of tasks must be between 1 and 200");
   if (most_in_a_question < 1 || most_in_a_question > 100) {
-    return refuse("a question asks for 1 to 100 tasks");
+    return refuse("a question must ask for 1 to 100 tasks");
   }
-  if (repairs < 0 || repairs > 10) return refuse("0 to 10 repairs are made");
+  if (repairs < 0 || repairs > 10) return refuse("the number of repairs must be between 0 and 10");
   return true;
 }
 

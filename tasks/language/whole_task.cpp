@@ -21,7 +21,7 @@ bool AsksForGoal(const Subtask& subtask) {
   return subtask.goal && std::regex_search(subtask.program, GoalCall());
 }
 
-// `program` with its goal as a constant.
+// Returns `program` with its goal as a constant.
 std::string WithGoal(const std::string& program, const Eigen::Vector3d& goal) {
   char point[96];
   std::snprintf(point, sizeof(point), "[%.9g, %.9g, %.9g]", goal.x(), goal.y(), goal.z());
@@ -30,11 +30,12 @@ std::string WithGoal(const std::string& program, const Eigen::Vector3d& goal) {
                                 ", device=$1.device).unsqueeze(0).repeat($1.num_envs, 1)");
 }
 
-// The subtask's program inside a function `name` of its own, so that no names meet.
+// Returns the subtask's program inside a function `name`, which keeps its names local.
 std::string AsFunction(const Subtask& subtask, const std::string& name, bool goal_of_task) {
   const BlockPrograms found = SplitProgramBlock(LinesOf(subtask.program));
   if (found.programs.size() != 1 || found.programs.front().function.empty()) {
-    throw core::Error("its program is not of one reward function", "subtask " + subtask.name);
+    throw core::Error("its program does not hold exactly one reward function",
+                      "subtask " + subtask.name);
   }
   const bool replaced = AsksForGoal(subtask) && !goal_of_task;
   const std::string program = replaced ? WithGoal(subtask.program, *subtask.goal) : subtask.program;
@@ -45,7 +46,8 @@ std::string AsFunction(const Subtask& subtask, const std::string& name, bool goa
   return text + kIndent + "return " + found.programs.front().function + "(env)\n\n";
 }
 
-// "a", "torch.logical_and(a, b)", "torch.logical_and(torch.logical_and(a, b), c)" ...
+// Returns the conjunction: "a", "torch.logical_and(a, b)", "torch.logical_and(torch.logical_and(a,
+// b), c)" ...
 std::string All(const std::vector<std::string>& flags) {
   std::string text = flags.front();
   for (size_t i = 1; i < flags.size(); ++i) {
@@ -66,7 +68,7 @@ void RequireParts(const Task& task, const WholeTaskParts& parts) {
                       "task " + task.name);
   }
   if (!any(parts.rewarded) || !any(parts.required)) {
-    throw core::Error("nothing of it is rewarded, or required", "task " + task.name);
+    throw core::Error("no reward or no success condition of it is selected", "task " + task.name);
   }
 }
 

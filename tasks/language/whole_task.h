@@ -7,17 +7,17 @@
 
 namespace simwright::tasks {
 
-// What an undecomposed task takes of its subtasks.
+// The selection of subtask rewards and success conditions that makes up an undecomposed task.
 struct WholeTaskParts {
-  std::vector<bool> rewarded;  // (subtasks) whose rewards are added up
-  std::vector<bool> required;  // (subtasks) whose success, all at once, is the task's
+  std::vector<bool> rewarded;  // (subtasks) whose rewards are summed
+  std::vector<bool> required;  // (subtasks) whose success conditions must hold simultaneously
 };
 
-// `task` as one of a single subtask called `name`: it starts as the first one does, and its program
-// holds theirs as functions. Where several ask for a goal, get_goal_pose gives the last one's and
-// the others' are written into the program. Throws core::Error, naming the task, where `parts` are
-// of another length or hold nothing rewarded or required, or where a program's reward function
-// cannot be told.
+// Returns `task` as a task with a single subtask called `name`. It starts where the first subtask
+// starts, and its program holds the subtasks' programs as functions. If several subtasks have a
+// goal, get_goal_pose returns the last one's and the other goals are constants in the program.
+// Throws core::Error, naming the task, if `parts` has another length or selects no reward or no
+// success condition, or if a program's reward function cannot be determined.
 Task WholeTask(const Task& task, const WholeTaskParts& parts, const std::string& name);
 
 }  // namespace simwright::tasks

@@ -21,7 +21,7 @@ UrdfLink BoxLink(const std::string& name, const Eigen::Vector3d& size,
   return link;
 }
 
-// The frame stands on the floor; the front looks along x, to where the drawer slides.
+// The frame is on the floor; the front faces +x, the direction in which the drawer slides.
 SemanticModel Chest() {
   SemanticModel chest;
   chest.name = chest.model.name = "chest";

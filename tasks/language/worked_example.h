@@ -8,11 +8,11 @@
 
 namespace simwright::tasks {
 
-// The scene of the example that every prompt holds: a chest with a drawer, and a block.
+// Returns the scene of the example in every prompt: a chest with a drawer, and a block.
 const std::vector<assets::SemanticModel>& ExampleModels();
 std::vector<NamedModel> ExampleScene();
 
-// What a good answer says of it: one task of three subtasks, in the form that prompts ask for.
+// Returns the example answer: one task with three subtasks, in the form that prompts ask for.
 const std::string& ExampleAnswer();
 
 }  // namespace simwright::tasks

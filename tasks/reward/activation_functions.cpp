@@ -1,4 +1,4 @@
-// Activations of networks, which rewards use to shape a number, and nan_to_num.
+// Activation functions, which rewards use to shape a number, and nan_to_num.
 #include <cmath>
 
 #include "tasks/reward/library_arguments.h"
@@ -20,7 +20,7 @@ enum Activation {
   kSoftsign,
 };
 
-// Float arithmetic of one call on a tensor and numbers.
+// Float arithmetic on a tensor and numbers for one call.
 class Shaper {
  public:
   Shaper(Elaborator& elaborator, const Arguments& arguments)
@@ -36,7 +36,7 @@ class Shaper {
   Tensor Do(ScalarOperation operation, const Tensor& a, const Tensor& b) {
     return math_.Map(operation, a, b, DataType::kFloat, arguments_.position);
   }
-  // max(x, 0) + log(1 + e^-|x|), which does not overflow.
+  // Returns max(x, 0) + log(1 + e^-|x|), which does not overflow.
   Tensor Softplus(const Tensor& x) {
     return Do(kAdd, Do(kMaximum, x, Number(0.0)),
               Do(kLogarithmOfOnePlus, Do(kExponential, Do(kNegate, Do(kAbsolute, x)))));
@@ -83,7 +83,7 @@ Value Activate(Elaborator& elaborator, const Arguments& arguments) {
   }
 }
 
-// Whole numbers stay whole.
+// Integers stay integers.
 Value Relu(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Tensor x = TensorArgument(elaborator, arguments, 0);
@@ -91,7 +91,7 @@ Value Relu(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(math.Map(kMaximum, x, zero, x.type, arguments.position));
 }
 
-// NaN and the infinities by the numbers given; without them by 0 and the largest floats.
+// Replaces NaN and the infinities by the given numbers, or by 0 and the largest floats.
 Value NanToNumber(Elaborator& elaborator, const Arguments& arguments) {
   constexpr double kLargest = 3.4028234663852886e38;
   TensorMath& math = elaborator.math();

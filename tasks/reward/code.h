@@ -9,7 +9,8 @@
 
 namespace simwright::tasks::reward {
 
-// A column: register k of one chunk of environments, or as -1 - k number k for all of them.
+// The index of a column. k >= 0: register k of one chunk of environments. -1 - k: number k, which
+// all environments share.
 using Column = int;
 
 struct Instruction {
@@ -17,28 +18,28 @@ struct Instruction {
   Column result, a, b, c;
 };
 
-// One number of a slot into a register.
+// A load of one number of a slot into a register.
 struct Load {
   int slot;
   int lane;
   Column column;
 };
 
-// Numbers of a slot that lie side by side, [N, 3], into three registers.
+// A load of three adjacent numbers of a slot, [N, 3], into three registers.
 struct TripleLoad {
   int slot;
   Column columns[3];
 };
 
-// What is gathered over all environments while a stage runs.
+// A reduction, pick or flip over all environments, accumulated while a stage runs.
 struct Gathering {
-  ScalarOperation operation;  // a sum, minimum, maximum, pick or flip
+  ScalarOperation operation;  // sum, minimum, maximum, pick or flip
   Column operand;             // a register
-  int environment;            // of a pick
-  Column result;              // a number, or the spilled column's index for a flip
+  int environment;            // the environment to pick
+  Column result;              // a number; for a flip, the index of the spilled column
 };
 
-// One pass over all environments. The numbers for all are computed first.
+// One pass over all environments. The uniform numbers are computed first.
 struct Stage {
   std::vector<Load> uniform_loads;
   std::vector<Instruction> uniform;
@@ -61,15 +62,15 @@ struct Code {
   int registers = 0;
   int numbers = 0;
   int spills = 0;
-  int chunk = 0;                 // environments at a time
-  std::vector<float> constants;  // of the first numbers
+  int chunk = 0;                 // environments processed at a time
+  std::vector<float> constants;  // values of the first numbers
   Column batch_size = 0;         // a number where the program uses it, else 0
   Column reward = 0;
   bool has_success = false;
   Column success = 0;
   std::vector<ComponentCode> components;
   std::string entry;
-  int operations = 0;  // of one environment
+  int operations = 0;  // instructions per environment
 };
 
 }  // namespace simwright::tasks::reward

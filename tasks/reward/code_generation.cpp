@@ -8,7 +8,7 @@ namespace {
 
 using enum ScalarOperation;
 
-// All registers together should stay in the first cache beside what streams through it.
+// All registers together should fit in the first-level cache beside the streamed columns.
 constexpr int kCacheFloats = 6 * 1024;
 constexpr int kLeastChunk = 64;
 constexpr int kMostChunk = 512;
@@ -52,10 +52,10 @@ class Generator {
   Code code_;
   std::vector<bool> live_;
   std::vector<int> levels_;
-  std::vector<int> number_;         // of uniform nodes, -1: none
-  std::vector<int> spill_;          // of flips
-  std::vector<int> slot_of_input_;  // after dead slots are gone
-  // Of the stage at hand.
+  std::vector<int> number_;         // number of a uniform node; -1: none
+  std::vector<int> spill_;          // spilled column of a flip
+  std::vector<int> slot_of_input_;  // after elimination of dead slots
+  // The state of the current stage.
   std::vector<bool> needed_;
   std::vector<int> uses_;
   std::vector<int> register_;
@@ -83,7 +83,7 @@ void Generator::FindLive() {
   }
 }
 
-// The pass after which a node can be had: one more behind each reduction over environments.
+// Computes the pass after which a node is available: each reduction over environments adds one.
 void Generator::FindLevels() {
   levels_.assign(graph_.size(), 0);
   for (NodeId node = 0; node < graph_.size(); ++node) {
@@ -142,13 +142,13 @@ std::vector<NodeId> Generator::Targets(int level) const {
   return targets;
 }
 
-// Which nodes this pass computes, and how often each is read there.
+// Finds the nodes that this pass computes and counts how often each is read.
 void Generator::CountUses(const std::vector<NodeId>& targets) {
   needed_.assign(graph_.size(), false);
   uses_.assign(graph_.size(), 0);
   for (const NodeId target : targets) {
     needed_[target] = true;
-    uses_[target] += 2;  // has to be there in the end: fused into no other
+    uses_[target] += 2;  // a target must exist at the end: it is never fused
   }
   for (NodeId node = graph_.size(); node-- > 0;) {
     const Node& one = graph_[node];
@@ -168,8 +168,8 @@ int Generator::TakeRegister() {
   return taken;
 }
 
-// The registers of inputs stay theirs for the whole pass: a caller's own column may take their
-// place.
+// Assigns registers to the inputs for the whole pass: a caller's own column may take the place of
+// such a register.
 void Generator::AddLoads(Stage* stage) {
   std::map<int, std::vector<Load>> by_slot;
   for (NodeId node = 0; node < graph_.size(); ++node) {
@@ -233,12 +233,12 @@ Kernel Generator::KernelFor(const Step& step) const {
   for (int i = 0; i < OperandCount(step.operation); ++i) {
     if (graph_[step.operands[i]].uniform) uniform |= 1 << i;
   }
-  if (graph_[step.node].uniform) uniform = 0;  // on single numbers
+  if (graph_[step.node].uniform) uniform = 0;  // computed on single numbers
   return Kernels().kernels[static_cast<int>(step.operation)][uniform];
 }
 
 void Generator::Schedule(Stage* stage) {
-  // From the last to the first: what is fused into another is asked for by none.
+  // Visits nodes from last to first: a node that is fused into another is not requested.
   const std::vector<NodeId> targets = Targets(static_cast<int>(stage - code_.stages.data()));
   std::vector<Step> steps;
   std::vector<bool> wanted(graph_.size(), false);
@@ -276,7 +276,7 @@ void Generator::Schedule(Stage* stage) {
           !read.uniform && read.operation != kInput && read.operation != kBatchFlip;
       if (computed && last[operand] == static_cast<int>(i)) {
         free_.push_back(register_[operand]);
-        last[operand] = -1;  // once, where an operand stands twice
+        last[operand] = -1;  // freed once, even if it is used as two operands
       }
     }
     stage->body.push_back(instruction);

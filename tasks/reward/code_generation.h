@@ -7,8 +7,8 @@
 
 namespace simwright::tasks::reward {
 
-// Turns a graph into passes over columns of numbers: what is never used is left out, chains are
-// fused, registers are reused. Throws Fault where it needs more memory than allowed.
+// Compiles a graph into passes over columns of numbers: eliminates dead nodes, fuses operation
+// chains and reuses registers. Throws Fault if the program needs more memory than allowed.
 Code GenerateCode(Elaborator& elaborator, const ElaboratedOutputs& outputs,
                   const RewardOptions& options);
 

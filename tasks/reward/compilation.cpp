@@ -18,7 +18,8 @@ using reward::Fault;
 using reward::Function;
 using reward::Module;
 
-// The function that others of the file do not call, of those whose name says reward.
+// Returns the reward function. Functions that no other function of the file calls come first, then
+// names closer to compute_reward.
 const Function& FindEntry(const Module& module, const RewardOptions& options) {
   std::vector<std::string> names;
   const Function* best = nullptr;
@@ -62,7 +63,8 @@ core::Finding FindingOf(const Fault& fault) {
           fault.sentence, 0.0};
 }
 
-// Any width would do: a sum over a row says nothing of how long it is.
+// Returns the finding for a parameter of undetermined width: a sum over a row does not depend on
+// its length.
 core::Finding AssumedWidth(const reward::Parameter& parameter, const RewardOptions& shaped) {
   const int width = shaped.parameter_shapes.at(parameter.name)[0];
   return {"assumed-width", core::Severity::kInfo,
@@ -110,8 +112,8 @@ CompileOutcome CompileReward(std::string_view source, const RewardScene* scene,
 
 namespace {
 
-// A source may hold what would move a terminal's cursor or change its colours: both bytes of the
-// control characters U+0080 to U+009F, and those below a blank except the tab.
+// Replaces characters that would move a terminal's cursor or change its colours: both bytes of the
+// control characters U+0080 to U+009F, and those below the blank except the tab.
 std::string Harmless(std::string_view text) {
   std::string shown(text);
   for (std::size_t i = 0; i < shown.size(); ++i) {

@@ -15,7 +15,7 @@ bool HoldsRows(Elaborator& elaborator, const Value& value, Position position) {
   return false;
 }
 
-// torch.tensor, np.array.
+// Implements torch.tensor and np.array.
 Value FromData(Elaborator& elaborator, const Arguments& arguments) {
   const Value& data = arguments[0];
   const bool list = data.Is(ValueKind::kList) || data.Is(ValueKind::kTuple);
@@ -27,14 +27,14 @@ Value FromData(Elaborator& elaborator, const Arguments& arguments) {
   }
   const Tensor tensor = ArrayFrom(elaborator, data, arguments.Place(0));
   const DataType type = TypeArgument(arguments, 1, tensor.type);
-  // torch.tensor copies, what is called as_tensor or asarray does not.
+  // torch.tensor copies; as_tensor and asarray do not.
   const bool shares = arguments.called.find("as") != std::string::npos && type == tensor.type;
   if (shares) return TensorValue(tensor);
   const Tensor cast = elaborator.math().Cast(tensor, type, arguments.position);
   return TensorValue(elaborator.math().Copy(cast, arguments.position));
 }
 
-// torch.zeros, torch.ones, torch.empty.
+// Implements torch.zeros, torch.ones and torch.empty.
 Value Filled(Elaborator& elaborator, const Arguments& arguments) {
   const Shape shape =
       ShapeFrom(Sizes(elaborator, arguments[0], arguments.Place(0)), arguments.Place(0));
@@ -55,7 +55,7 @@ Value Full(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(math.Full(value.type, shape, math.At(value, 0), arguments.position));
 }
 
-// torch.zeros_like, torch.ones_like, x.new_zeros.
+// Implements torch.zeros_like, torch.ones_like and x.new_zeros.
 Value FilledLike(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor like = TensorArgument(elaborator, arguments, 0);
   const NodeId node = elaborator.graph().Constant(arguments.function->variant);
@@ -143,14 +143,14 @@ Value Eye(Elaborator& elaborator, const Arguments& arguments) {
       math.Make(DataType::kFloat, {side, side}, std::move(nodes), arguments.position));
 }
 
-// x.float(), x.int(), x.bool(): variant is the type.
+// Implements x.float(), x.int() and x.bool(); variant is the type.
 Value CastTo(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
   const auto type = static_cast<DataType>(arguments.function->variant);
   return TensorValue(elaborator.math().Cast(tensor, type, arguments.position));
 }
 
-// x.to(device), x.to(torch.float32), x.type(torch.float32), x.astype(float).
+// Implements x.to(device), x.to(torch.float32), x.type(torch.float32) and x.astype(float).
 Value To(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
   DataType type = tensor.type;
@@ -163,13 +163,13 @@ Value To(Elaborator& elaborator, const Arguments& arguments) {
       type = value.text == "int"    ? DataType::kInteger
              : value.text == "bool" ? DataType::kBool
                                     : DataType::kFloat;
-    }  // devices, as strings or not, change nothing
+    }  // devices, as strings or not, have no effect
   }
   if (arguments.given[2]) type = TypeArgument(arguments, 2, type);
   return TensorValue(elaborator.math().Cast(tensor, type, arguments.position));
 }
 
-// x.detach(), x.cpu(), x.contiguous(): the same tensor.
+// Implements x.detach(), x.cpu() and x.contiguous(): returns the same tensor.
 Value Same(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(TensorArgument(elaborator, arguments, 0));
 }
@@ -179,7 +179,8 @@ Value Clone(Elaborator& elaborator, const Arguments& arguments) {
       elaborator.math().Copy(TensorArgument(elaborator, arguments, 0), arguments.position));
 }
 
-// x.item(): one number, which may differ between environments of a program for one of them.
+// Implements x.item(): one number, which may differ between environments if the program is written
+// for a single environment.
 Value Item(Elaborator& elaborator, const Arguments& arguments) {
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
   if (tensor.lanes.size() != 1 || BatchDimension(tensor.shape) >= 0 || HoldsPicked(tensor.shape)) {
@@ -191,7 +192,7 @@ Value Item(Elaborator& elaborator, const Arguments& arguments) {
       elaborator.math().Make(tensor.type, {}, elaborator.math().Nodes(tensor), arguments.position));
 }
 
-// x.fill_(number) and x.zero_().
+// Implements x.fill_(number) and x.zero_().
 Value FillInPlace(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);

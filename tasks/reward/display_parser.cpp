@@ -1,4 +1,4 @@
-// Strings, tuples, lists, dictionaries and comprehensions.
+// The parser of strings, tuples, lists, dictionaries and comprehensions.
 #include <algorithm>
 
 #include "tasks/reward/parser.h"
@@ -21,7 +21,7 @@ ExpressionPtr ExpressionParser::ParseStrings() {
   return joined;
 }
 
-// {expression!r:format}; what stands in brackets or quotes belongs to the expression.
+// Parses {expression!r:format}; text in brackets or quotes belongs to the expression.
 ExpressionPtr ExpressionParser::ParseReplacement(const Token& token, std::size_t* at) {
   const std::string& text = token.text;
   const std::size_t begin = *at;

@@ -35,9 +35,9 @@ Value TypeValue(DataType type, const std::string& name) {
   return value;
 }
 
-// What torch and numpy have and a reward has not, with what does instead.
+// Names that torch and numpy have and rewards do not, with their replacements.
 struct Missing {
-  std::string_view names;  // each between blanks
+  std::string_view names;  // each surrounded by blanks
   const char* sentence;
 };
 
@@ -129,7 +129,7 @@ Value Elaborator::EnvironmentAttribute(const Value& environment, const std::stri
   Fail("undefined", position, "the environment has no '" + name + "'" + Suggestion(name, known));
 }
 
-// `self.cube.pose`: what ManiSkill's own members lead to.
+// Returns true for an attribute of ManiSkill's own members, such as `self.cube.pose`.
 bool Elaborator::LeadsAbroad(const Expression& expression) const {
   const Expression& member = *expression.children[0];
   if (member.kind != ExpressionKind::kAttribute ||

@@ -1,5 +1,5 @@
-// Branches that some environments take and others do not: both run, and what differs is chosen an
-// environment at a time.
+// Branches that only some environments take: both are executed, and differing values are selected
+// per environment.
 #include <algorithm>
 
 #include "tasks/reward/elaborator.h"
@@ -7,7 +7,7 @@
 namespace simwright::tasks::reward {
 namespace {
 
-// Whether two values are one and the same for certain; gives up, with false, on large tuples.
+// Returns true if two values are certainly identical; gives up and returns false on large tuples.
 bool Same(const Value& a, const Value& b, int* budget) {
   if (--*budget < 0) return false;
   if (a.kind != b.kind || a.integer != b.integer || a.number != b.number || a.text != b.text ||
@@ -63,7 +63,7 @@ int Elaborator::Truth(const Value& value, Tensor* flag, Position position) {
     case ValueKind::kBatchSize:
       return 1;
     default:
-      math_.FromValue(value, position);  // throws, with the right sentence
+      math_.FromValue(value, position);  // throws with the appropriate message
   }
   if (value.tensor->lanes.size() != 1 || HoldsPicked(value.tensor->shape)) {
     Fail("condition", position,
@@ -141,7 +141,7 @@ Elaborator::Flow Elaborator::ExecuteBoth(const Statement& statement, std::size_t
   };
   keep(yes, false);
   keep(no, true);
-  if (yes_ends || no_ends) {  // who goes on took the other branch
+  if (yes_ends || no_ends) {  // environments that continue took the other branch
     const BranchEnd& on = yes_ends ? no : yes;
     for (int object = 0; object < count; ++object) heap_.Set(object, on.heap[object]);
     frame_->names = on.frame.names;
@@ -152,7 +152,7 @@ Elaborator::Flow Elaborator::ExecuteBoth(const Statement& statement, std::size_t
   return Flow::kNext;
 }
 
-// a and b, or a and not b; an empty a counts as true.
+// Returns a and b, or a and not b; an empty a counts as true.
 Tensor Elaborator::Both(const Tensor& a, const Tensor& b, bool negate_b, Position position) {
   NodeId node = math_.At(b, 0);
   if (negate_b) node = graph_.Apply(ScalarOperation::kNot, node);
@@ -287,7 +287,7 @@ Value Elaborator::JoinTensors(const Tensor& flag, const Side& yes, const Side& n
   };
   const Tensor a = read(yes), b = read(no);
   Shape shape = math_.Broadcast(a.shape, b.shape, position);
-  // One number becomes one an environment; a vector [3] stays one environment's vector.
+  // A scalar becomes one number per environment; a vector [3] stays the vector of one environment.
   if (shape.empty()) shape = flag.shape;
   const Tensor left = math_.Expand(a, shape, position), right = math_.Expand(b, shape, position);
   std::vector<NodeId> nodes = math_.Nodes(left);
@@ -298,7 +298,7 @@ Value Elaborator::JoinTensors(const Tensor& flag, const Side& yes, const Side& n
   return TensorValue(math_.Make(Promote(a.type, b.type), shape, std::move(nodes), position));
 }
 
-// A copy that no later change reaches.
+// Returns a copy that later modifications do not affect.
 Value Elaborator::Frozen(const Value& value) {
   Step(returned_at_);
   if (value.Is(ValueKind::kTensor)) return TensorValue(math_.Copy(*value.tensor, {}));

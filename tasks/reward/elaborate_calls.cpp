@@ -10,8 +10,8 @@ namespace {
 
 struct ParameterText {
   std::string name;
-  std::string initial;  // empty: has to be given
-  bool rest = false;    // takes all that is left
+  std::string initial;  // empty: required
+  bool rest = false;    // takes all remaining arguments
 };
 
 std::vector<ParameterText> SplitParameters(std::string_view text) {
@@ -42,7 +42,7 @@ Value Initial(const std::string& text) {
   return FloatValue(std::strtod(text.c_str(), nullptr));
 }
 
-// Numpy's names of torch's arguments, and the other way round.
+// Returns true if a keyword is numpy's name of torch's argument, or vice versa.
 bool SameParameter(const std::string& parameter, const std::string& keyword, bool first) {
   if (parameter == keyword) return true;
   if (keyword == "axis" || keyword == "axes") return parameter == "dim" || parameter == "dims";
@@ -158,7 +158,8 @@ Value Elaborator::CallValue(const Value& callee, std::vector<Value> values,
                             Position position) {
   if (callee.Is(ValueKind::kApi)) return CallApi(callee, values, keywords, places, position);
   if (callee.Is(ValueKind::kFunction)) {
-    if (callee.items != nullptr) {  // called on the environment, which it is handed first
+    if (callee.items != nullptr) {  // a method of the environment, whose first argument is the
+                                    // environment
       values.insert(values.begin(), callee.items->begin(), callee.items->end());
       keywords.insert(keywords.begin(), callee.items->size(), "");
     }
@@ -197,7 +198,7 @@ Value Elaborator::CallValue(const Value& callee, std::vector<Value> values,
   return in_place ? WriteInPlace((*callee.items)[0], result, position) : result;
 }
 
-// x.add_(y): what x.add(y) gives goes into x.
+// Implements x.add_(y): writes the result of x.add(y) into x.
 Value Elaborator::WriteInPlace(const Value& target, const Value& result, Position position) {
   if (!result.Is(ValueKind::kTensor)) {
     Fail("type", position, "this changes no tensor in place: it gives " + Describe(result));
@@ -207,7 +208,7 @@ Value Elaborator::WriteInPlace(const Value& target, const Value& result, Positio
   return target;
 }
 
-// dict(other, name=value, ...)
+// Implements dict(other, name=value, ...).
 Value Elaborator::NamedDict(const std::vector<Value>& values,
                             const std::vector<std::string>& keywords, Position position) {
   const LibraryFunction& function = *FindLibraryFunction("dict");

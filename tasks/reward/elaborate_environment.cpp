@@ -7,7 +7,7 @@
 namespace simwright::tasks::reward {
 namespace {
 
-// The keywords by which published programs name an argument.
+// Returns true if published programs use the keyword for this argument.
 bool KeywordMeans(std::string_view argument, const std::string& keyword) {
   if (keyword == argument) return true;
   if (argument == "asset") {
@@ -44,7 +44,7 @@ bool SameIgnoringCase(const std::string& a, const std::string& b) {
   });
 }
 
-// The name as the scene spells it; empty where it knows none.
+// Returns the name as the scene spells it; empty if the scene does not have it.
 std::string SceneName(const std::string& name, const std::vector<std::string>& known) {
   if (std::find(known.begin(), known.end(), name) != known.end()) return name;
   const auto found = std::find_if(known.begin(), known.end(), [&](const std::string& other) {

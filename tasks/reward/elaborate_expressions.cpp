@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kLongestText = 4096;
 
-// What Python offers and a reward must not touch.
+// Python functions that a reward must not use.
 constexpr std::string_view kForbiddenNames[] = {
     "eval",     "exec",     "open",    "compile", "input",      "globals",    "locals",
     "vars",     "getattr",  "setattr", "delattr", "hasattr",    "dir",        "help",
@@ -297,7 +297,7 @@ Value Elaborator::EvaluateComprehension(const Expression& expression) {
     if (dict) keys.push_back(Evaluate(*expression.children[0]));
     items.push_back(Evaluate(*expression.children[dict ? 4 : 0]));
   }
-  frame_->names = outside;  // the loop's name is gone, as in Python
+  frame_->names = outside;  // the loop variable is removed, as in Python
   return dict ? NewDict(std::move(keys), std::move(items)) : NewList(std::move(items));
 }
 
@@ -311,7 +311,7 @@ Value Elaborator::EvaluateSlice(const Expression& expression) {
   return slice;
 }
 
-// The arguments that f(**dict) gives.
+// Adds the arguments of f(**dict).
 void Elaborator::AddNamed(const Value& dict, Position position, std::vector<Value>* values,
                           std::vector<std::string>* keywords) {
   if (!dict.Is(ValueKind::kDict)) {

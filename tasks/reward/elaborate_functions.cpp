@@ -1,4 +1,4 @@
-// Functions of the program: their calls, and those defined inside others.
+// Functions of the program: their calls, and functions defined inside others.
 #include <algorithm>
 
 #include "tasks/reward/elaborator.h"
@@ -6,8 +6,8 @@
 
 namespace simwright::tasks::reward {
 
-// A function inside another: what it is called with by default is worked out now, what it reads of
-// the function around it when it is called.
+// Defines a function inside another: its default arguments are evaluated now, variables of the
+// enclosing function when it is called.
 void Elaborator::DefineInside(const Statement& statement) {
   const Function& function = *statement.function;
   Value value = PlainValue(ValueKind::kFunction, function.name);
@@ -22,8 +22,9 @@ void Elaborator::DefineInside(const Statement& statement) {
   AssignName(function.name, value, function.position);
 }
 
-// Where `name` is found in the functions around the current one, the nearest first; null where it
-// is not. Branches run on copies of a frame, so frames are known by number, the newest counts.
+// Returns the value of `name` in the enclosing functions, the innermost first; null if there is
+// none. Branches run on copies of a frame, so frames are identified by number, and the newest one
+// counts.
 const Value* Elaborator::EnclosingValue(const std::string& name, Position position) const {
   const Frame* frame = frame_;
   while (frame->closure != nullptr) {
@@ -148,7 +149,7 @@ void Elaborator::BindParameters(const Function& function, const std::vector<Valu
   }
 }
 
-// The value of a function whose environments may have returned at different places.
+// Returns the value of a function whose environments may have returned at different places.
 Value Elaborator::Finish(Frame* frame, Flow flow, Position position) {
   if (flow == Flow::kBreak || flow == Flow::kContinue) {
     Fail("syntax", position, "'break' or 'continue' stands outside a loop");

@@ -141,7 +141,7 @@ struct TensorOperation {
   DataType type;
 };
 
-// Torch's meaning of an operator on operands that promote to `type`.
+// Returns torch's operation for an operator on operands that promote to `type`.
 TensorOperation Resolve(Operator operation, DataType type, Position position) {
   const bool flags = type == DataType::kBool;
   switch (operation) {
@@ -254,7 +254,7 @@ Value Elaborator::Binary(Operator operation, const Value& a, const Value& b, Pos
     const std::vector<Value> once = Items(a, position);
     std::vector<Value> items;
     for (std::int64_t i = 0; i < b.integer && !once.empty(); ++i) {
-      if (items.size() > static_cast<std::size_t>(options_.max_lanes)) break;  // NewList refuses
+      if (items.size() > static_cast<std::size_t>(options_.max_lanes)) break;  // NewList throws
       items.insert(items.end(), once.begin(), once.end());
     }
     const Value list = NewList(std::move(items));

@@ -6,13 +6,14 @@
 namespace simwright::tasks::reward {
 namespace {
 
-// Modules that reach the machine: refused, though nothing of them could be used anyway.
+// Modules that access the machine. They are rejected, although nothing of them could be used
+// anyway.
 constexpr std::string_view kForbiddenModules[] = {
     "os",        "sys",      "subprocess", "socket", "shutil",    "pathlib",        "builtins",
     "importlib", "ctypes",   "pickle",     "io",     "threading", "requests",       "urllib",
     "http",      "tempfile", "signal",     "runpy",  "code",      "multiprocessing"};
 
-// Names that mean what they are called, so that no program may give them another meaning.
+// Names with a fixed meaning, which no program may rebind.
 constexpr std::string_view kFixedNames[] = {"torch", "np", "numpy", "math"};
 
 std::string CanonicalModule(const std::string& module) {
@@ -33,14 +34,14 @@ Elaborator::Elaborator(const Module& module, const RewardScene* scene, const Rew
 void Elaborator::Report(const std::string& code, core::Severity severity, Position position,
                         const std::string& sentence) {
   const std::string place = std::to_string(position.line) + ":" + std::to_string(position.column);
-  for (const core::Finding& finding : findings_) {  // once, however often a loop comes by
+  for (const core::Finding& finding : findings_) {  // once, even if a loop passes here repeatedly
     if (finding.place == place && finding.code == code) return;
   }
   if (severity == core::Severity::kError && errors_++ == 0) {
     first_error_ = position;
     first_code_ = code;
   }
-  // Errors are never crowded out by warnings.
+  // Warnings never displace errors.
   const bool error = severity == core::Severity::kError;
   const int held = error ? errors_ - 1 : static_cast<int>(findings_.size());
   if (held < options_.max_findings) findings_.push_back({code, severity, place, sentence, 0.0});
@@ -54,7 +55,7 @@ void Elaborator::ReportCollapse(const std::string& code, const Shape& shape, Pos
 }
 
 Elaborator::Deeper::Deeper(Elaborator* elaborator, Position position) : elaborator_(elaborator) {
-  // Frames of functions that are entered add up on one stack.
+  // Frames of called functions share one stack.
   if (elaborator_->depth_ >= 3 * elaborator_->options_.max_depth) {
     Fail("too-deep", position, "functions, branches and expressions are nested too deeply");
   }
@@ -91,7 +92,7 @@ void Elaborator::DoImport(const Import& import) {
       names[import.alias] = ModuleAttribute(module, import.name, import.position);
     }
   }
-  // What else is imported (types, Isaac Gym's utilities) is known by its bare name or not at all.
+  // Other imports (types, Isaac Gym's utilities) are known by their bare names or not at all.
 }
 
 void Elaborator::Globals() {
@@ -170,8 +171,8 @@ Elaborator::Flow Elaborator::Execute(const Block& block) {
     try {
       flow = Execute(*statement);
     } catch (const Fault& fault) {
-      // Goes on with the next line, so that one reading shows all that is wrong; what this line
-      // was to define is unusable from here on, silently.
+      // Elaboration resumes on the next line, so that one run reports all errors; the names that
+      // this line would define are unusable from here on, without further findings.
       if (fault.code == "too-many-steps" || fault.code == "too-deep") throw;
       if (!fault.code.empty()) {
         Position position = fault.position;
@@ -298,7 +299,7 @@ void Elaborator::Assign(const Expression& target, const Value& value) {
   }
 }
 
-// a, b = values; of one starred name the value is a list of what the others leave.
+// Implements a, b = values; a starred name receives a list of the remaining values.
 void Elaborator::Unpack(const Expression& target, const Value& value) {
   const std::vector<Value> items = Items(value, target.position);
   const std::size_t names = target.children.size();
@@ -316,7 +317,7 @@ void Elaborator::Unpack(const Expression& target, const Value& value) {
          std::to_string(names) + " names stand here for " + std::to_string(items.size()) +
              " values");
   }
-  const std::size_t more = items.size() - names;  // wraps round where the starred one gets none
+  const std::size_t more = items.size() - names;  // wraps around if the starred name receives none
   for (std::size_t i = 0; i < names; ++i) {
     if (i != starred) {
       Assign(*target.children[i], items[i < starred ? i : i + more]);
@@ -328,7 +329,7 @@ void Elaborator::Unpack(const Expression& target, const Value& value) {
   }
 }
 
-// t += x changes the tensor that t names, as in torch; numbers and all else are computed anew.
+// t += x modifies the tensor that t names, as in torch; numbers and other values are rebound.
 void Elaborator::Augment(const Statement& statement) {
   const Expression& target = *statement.targets[0];
   if (target.kind != ExpressionKind::kName && target.kind != ExpressionKind::kSubscript) {
@@ -338,7 +339,7 @@ void Elaborator::Augment(const Statement& statement) {
   const Value old = Evaluate(target);
   const Value operand = Evaluate(*statement.value);
   const Value fresh = Binary(statement.operation, old, operand, statement.position);
-  // One number is never changed in place: programs for one environment hold it in a plain float.
+  // A scalar is never modified in place: programs for one environment hold it in a plain float.
   if (!old.Is(ValueKind::kTensor) || !fresh.Is(ValueKind::kTensor) || old.tensor->shape.empty()) {
     Assign(target, fresh);
     return;

@@ -21,7 +21,7 @@ bool IsWhole(const Value& slice) {
   return from_start && to_end && each;
 }
 
-// Where a key stands; the number of keys where it does not.
+// Returns the index of a key; the number of keys if it is absent.
 std::size_t PlaceOfKey(const std::vector<Value>& keys, const Value& key) {
   const auto same = [&](const Value& other) {
     return other.kind == key.kind && other.text == key.text && other.integer == key.integer;
@@ -33,7 +33,7 @@ struct Bounds {
   std::int64_t start, stop, step;
 };
 
-// A slice's bounds for `size` elements, as Python clips them.
+// Returns a slice's bounds for `size` elements, clipped as in Python.
 Bounds Clip(const Value& slice, std::int64_t size, Position position) {
   std::int64_t given[3] = {0, size, 1};
   for (int i = 0; i < 3; ++i) {
@@ -56,7 +56,7 @@ Bounds Clip(const Value& slice, std::int64_t size, Position position) {
   return {given[0], std::max(given[0], given[1]), std::min<std::int64_t>(given[2], size + 1)};
 }
 
-// The elements that a slice of a list names, backwards where its step is negative.
+// Returns the elements that a slice of a list selects, in reverse order if its step is negative.
 std::vector<std::int64_t> Indices(const Value& slice, std::int64_t size, Position position) {
   const Value& step = (*slice.items)[2];
   std::vector<std::int64_t> indices;
@@ -97,8 +97,8 @@ Tensor Elaborator::SliceTensor(const Tensor& tensor, int dimension, const Value&
   return math_.Slice(tensor, dimension, bounds.start, bounds.stop, bounds.step);
 }
 
-// Applies one part of an index to dimension *dimension, and moves on to the next.
-// x[mask]: what is reduced over the environments later skips those that were not picked.
+// Applies one part of an index to dimension *dimension and advances it. For x[mask], later
+// reductions over the environments skip those that were not selected.
 Tensor Elaborator::Picked(const Tensor& tensor, const Tensor& mask, int dimension,
                           Position position) {
   if (mask.shape != Shape{kBatch} || tensor.shape[dimension] != kBatch) {
@@ -146,7 +146,7 @@ Tensor Elaborator::ApplyIndex(const Tensor& tensor, const Value& index, int* dim
 
 Tensor Elaborator::SubscriptTensor(const Tensor& tensor, const Value& index, Position position) {
   const std::vector<Value> parts = IndexParts(index);
-  int taken = 0;  // dimensions that the parts stand for
+  int taken = 0;  // dimensions that the parts consume
   for (const Value& part : parts) {
     if (!part.Is(ValueKind::kNone) && !part.Is(ValueKind::kEllipsis)) ++taken;
   }
@@ -236,7 +236,7 @@ Value Elaborator::Subscript(const Value& base, const Value& index, Position posi
   return value;
 }
 
-// The mask as flags of every number of the tensor.
+// Returns the mask as flags for every number of the tensor.
 Tensor Elaborator::MaskFor(const Tensor& tensor, const Value& index, Position position) {
   Tensor mask = *index.tensor;
   const bool fits = mask.shape.size() <= tensor.shape.size() &&
@@ -262,7 +262,7 @@ void Elaborator::AssignSubscript(const Expression& target, const Value& value) {
     if (base.Is(ValueKind::kUndefined)) math_.FromValue(base, target.position);
     Fail("bad-target", target.position, Describe(base) + " cannot be changed");
   }
-  // So that nothing ever holds itself.
+  // This ensures that no object contains itself.
   if (HoldsContainer(value)) {
     Fail("type", target.position, "a list or dictionary inside another cannot be set here");
   }
@@ -273,7 +273,7 @@ void Elaborator::AssignInTensor(const Tensor& tensor, const Value& index, const 
                                 Position position) {
   Value key = index;
   Tensor view = tensor;
-  // A mask over the environments, and what it leaves of the other dimensions: t[mask, 2].
+  // A mask over the environments with an index of the other dimensions: t[mask, 2].
   if (index.Is(ValueKind::kTuple) && !index.items->empty() && IsMask((*index.items)[0]) &&
       (*index.items)[0].tensor->shape.size() == 1) {
     std::vector<Value> parts = *index.items;
@@ -283,7 +283,7 @@ void Elaborator::AssignInTensor(const Tensor& tensor, const Value& index, const 
     view = SubscriptTensor(view, TupleValue(std::move(parts)), position);
   } else if (!IsMask(index)) {
     view = SubscriptTensor(view, index, position);
-    // One environment's row is a copy here: writing there would be lost.
+    // The row of one environment is a copy here: a write to it would be lost.
     if (view.storage != tensor.storage) {
       Fail("index", position,
            "this sets a copy, since the index names single elements or one environment; set each "
@@ -298,15 +298,15 @@ void Elaborator::AssignInTensor(const Tensor& tensor, const Value& index, const 
     fresh = OfAllEnvironments(fresh, *key.tensor, position);
     fresh = math_.Select(MaskFor(view, key, position), fresh, view, position);
   }
-  // A leading 1 of what is put in may be dropped, as torch does.
+  // A leading 1 of the assigned value may be dropped, as in torch.
   while (fresh.shape.size() > view.shape.size() && fresh.shape[0] == 1) {
     fresh = math_.Squeeze(fresh, 0);
   }
   math_.Write(view, math_.Nodes(math_.Expand(fresh, view.shape, position)));
 }
 
-// What may be put where a mask picks, with a row for each environment: a number, what all of them
-// share, or what the same mask picked.
+// Returns a value for assignment through a mask as one with a row for each environment: a number, a
+// value that all environments share, or a value selected by the same mask.
 Tensor Elaborator::OfAllEnvironments(const Tensor& value, const Tensor& mask, Position position) {
   Tensor all = value;
   const bool rows = mask.shape == Shape{kBatch} && !all.shape.empty();
@@ -368,7 +368,7 @@ void Elaborator::Update(const Value& dict, const Value& other, Position position
 }
 
 Value Elaborator::RemoveKey(const Value& dict, const Value& key, Position position) {
-  const Value removed = Subscript(dict, key, position);  // names what is missing
+  const Value removed = Subscript(dict, key, position);  // throws if the key is missing
   std::vector<Value> keys = *heap_[dict.object].keys, items = *heap_[dict.object].items;
   const auto at = static_cast<std::ptrdiff_t>(PlaceOfKey(keys, key));
   keys.erase(keys.begin() + at);
@@ -380,7 +380,7 @@ Value Elaborator::RemoveKey(const Value& dict, const Value& key, Position positi
   return removed;
 }
 
-// t[mask] += x, t[mask, 2] += x.
+// Implements t[mask] += x and t[mask, 2] += x.
 bool Elaborator::AugmentMasked(const Statement& statement) {
   const Expression& target = *statement.targets[0];
   const Position position = statement.position;

@@ -17,10 +17,10 @@
 
 namespace simwright::tasks::reward {
 
-// What a program gives: nodes of the graph, one number an environment.
+// The outputs of a program: nodes of the graph, one number per environment.
 struct ElaboratedOutputs {
   NodeId reward = -1;
-  NodeId success = -1;  // -1: none
+  NodeId success = -1;  // -1: no success
   struct Component {
     std::string name;
     std::vector<NodeId> nodes;
@@ -28,51 +28,54 @@ struct ElaboratedOutputs {
   std::vector<Component> components;
 };
 
-// Runs a program once on symbols: numbers and strings are computed, loops unrolled, functions
-// entered, tensors become nodes of the graph. What is left is arithmetic without control flow.
+// Executes a program once symbolically: evaluates numbers and strings, unrolls loops, inlines
+// functions, and turns tensors into nodes of the graph. The result is arithmetic without control
+// flow.
 class Elaborator {
  public:
   Elaborator(const Module& module, const RewardScene* scene, const RewardOptions& options);
 
-  // Runs `entry`. Where findings() then holds an error, the outputs mean nothing.
+  // Runs `entry`. The outputs are meaningless if findings() then holds an error.
   ElaboratedOutputs Run(const Function& entry);
 
   const core::Findings& findings() const { return findings_; }
-  // Place and code of the first error, empty where there is none: what tells which guess of shapes
-  // came further.
+  // Returns the position of the first error, empty if there is none. Together with first_code() it
+  // ranks candidate shapes by how far they compile.
   Position first_error() const { return first_error_; }
-  // Place of the first reduction over the last dimension that goes over the environments, line 0
-  // where there is none: with another shape it would not.
+  // Returns the position of the first reduction that is meant for the last dimension but runs over
+  // the environments; line 0 if there is none. A different shape would avoid it.
   Position first_collapse() const { return first_collapse_; }
-  // Reports that a reduction which was to go over the last dimension goes over the environments.
+  // Reports a reduction that was meant for the last dimension and runs over the environments.
   void ReportCollapse(const std::string& code, const Shape& shape, Position position);
   const std::string& first_code() const { return first_code_; }
   Graph& graph() { return graph_; }
   const std::vector<RewardSlot>& slots() const { return slots_; }
-  // Of input i of the graph: its slot and its place in the slot.
+  // Returns for each graph input its slot and its index within the slot.
   const std::vector<std::pair<int, int>>& inputs() const { return inputs_; }
 
-  // What library functions use.
+  // The interface for library functions.
   TensorMath& math() { return math_; }
   const RewardOptions& options() const { return options_; }
   void Step(Position position);
   void Report(const std::string& code, core::Severity severity, Position position,
               const std::string& sentence);
-  // The elements of a tuple, list, dictionary (its keys), or of a tensor along its first dimension.
+  // Returns the elements of a tuple, a list, a dictionary (its keys), or of a tensor along its
+  // first dimension.
   std::vector<Value> Items(const Value& value, Position position);
   Value Binary(Operator operation, const Value& a, const Value& b, Position position);
   Value Compare(Operator operation, const Value& a, const Value& b, Position position);
   Value Subscript(const Value& base, const Value& index, Position position);
-  // Of a dictionary; gives what was there.
+  // Removes a key from a dictionary and returns its value.
   Value RemoveKey(const Value& dict, const Value& key, Position position);
   void SetKey(const Value& dict, const Value& key, const Value& value, Position position);
-  // Takes over what another dictionary holds.
+  // Copies the entries of another dictionary.
   void Update(const Value& dict, const Value& other, Position position);
   Value NewList(std::vector<Value> items);
-  // The size of a dimension as a program sees it.
+  // Returns the size of a dimension as the program sees it.
   Value SizeValue(int size);
   Value NewDict(std::vector<Value> keys, std::vector<Value> items);
-  // True or false where it is known, else -1 and the flag of each environment in `flag`.
+  // Returns 1 or 0 if the truth value is known; else returns -1 and writes each environment's flag
+  // to `flag`.
   int Truth(const Value& value, Tensor* flag, Position position);
   Value Choose(const Tensor& flag, const Value& yes, const Value& no, Position position);
 
@@ -85,7 +88,7 @@ class Elaborator {
   struct Frame {
     std::map<std::string, Value> names;
     const Function* function = nullptr;
-    int number = 0;  // of the call
+    int number = 0;  // number of the call
     const Frame* caller = nullptr;
     std::shared_ptr<const Closure> closure;
     std::vector<EarlyReturn> early;
@@ -96,7 +99,7 @@ class Elaborator {
     Flow flow = Flow::kNext;
     std::vector<Object> heap;
   };
-  // Counts how deep the elaborator calls itself.
+  // Limits the recursion depth of the elaborator.
   class Deeper {
    public:
     Deeper(Elaborator* elaborator, Position position);
@@ -105,7 +108,7 @@ class Elaborator {
    private:
     Elaborator* elaborator_;
   };
-  // A value, and the heap that its objects are looked up in.
+  // A value and the heap in which its objects are looked up.
   struct Side {
     const Value& value;
     const std::vector<Object>& heap;
@@ -126,7 +129,7 @@ class Elaborator {
   void Unpack(const Expression& target, const Value& value);
   void Augment(const Statement& statement);
   bool AugmentMasked(const Statement& statement);
-  // Whether the tensor can hold the result of an operation on it in place.
+  // Throws Fault if the tensor cannot hold the result of an operation on it in place.
   void CheckFits(const Tensor& before, const Tensor& after, Position position) const;
   void Poison(const Expression& target);
 
@@ -186,8 +189,8 @@ class Elaborator {
   Value EvaluateAttribute(const Expression& expression);
   Value ModuleAttribute(const std::string& module, const std::string& name, Position position);
   Value EnvironmentAttribute(const Value& environment, const std::string& name, Position position);
-  // What another simulator's environment has by this path (foreign_names.h): a handle to look
-  // further, or a Fault that names what reads it here.
+  // Handles attributes of another simulator's environment (foreign_names.h): returns a handle for
+  // further attributes, or throws a Fault that names the equivalent here.
   bool LeadsAbroad(const Expression& expression) const;
   Value ForeignAttribute(const std::string& path, Position position);
   Value TensorAttribute(const Value& value, const std::string& name, Position position);
@@ -245,7 +248,7 @@ class Elaborator {
   Heap heap_;
   TensorMath math_;
   std::vector<RewardSlot> slots_;
-  std::vector<int> slot_inputs_;  // first input of each slot
+  std::vector<int> slot_inputs_;  // index of the first input of each slot
   std::vector<std::pair<int, int>> inputs_;
   std::map<std::string, Value> globals_;
   std::map<std::string, const Function*> functions_;

@@ -7,10 +7,10 @@ namespace {
 
 using enum ScalarOperation;
 
-// What a function makes of whole numbers and flags.
+// The result type of a function of integers and flags.
 enum Variant { kMakesFloat, kKeepsType, kMakesFlag };
 
-// math.sqrt and its like take one number.
+// Rejects a tensor for functions such as math.sqrt, which take one number.
 void RefuseBatch(const Arguments& arguments, const Tensor& tensor) {
   if (!arguments.called.starts_with("math.") || tensor.shape.empty()) return;
   Fail("type", arguments.Place(0),
@@ -83,7 +83,7 @@ Value Unary(Elaborator& elaborator, const Arguments& arguments) {
     Fail("type", arguments.position, "a flag cannot be negated; use torch.logical_not");
   }
   const DataType type = variant == kMakesFlag ? DataType::kBool : tensor.type;
-  // Rounding leaves whole numbers as they are.
+  // Rounding leaves integers unchanged.
   const bool rounds = operation >= kFloor && operation <= kTruncate;
   if (rounds && tensor.type != DataType::kFloat) return TensorValue(tensor);
   return TensorValue(math.Map(operation, tensor, type, arguments.position));
@@ -203,7 +203,7 @@ Value ByFormula(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(Formulas(elaborator, arguments.position).Of(formula, tensor));
 }
 
-// torch.add and its like: as the operator, with torch's refusal of two plain numbers.
+// Implements torch.add and its siblings as operators, with torch's rejection of two plain numbers.
 Value AsOperator(Elaborator& elaborator, const Arguments& arguments) {
   const auto operation = static_cast<Operator>(arguments.function->variant);
   if (WantsTensors(arguments) && arguments[0].IsNumber()) TensorArgument(elaborator, arguments, 0);
@@ -223,7 +223,7 @@ Value AsOperator(Elaborator& elaborator, const Arguments& arguments) {
   return elaborator.Binary(operation, left, other, arguments.position);
 }
 
-// Two operands, torch's own result type.
+// Implements functions of two operands with torch's result type.
 Value Pair(Elaborator& elaborator, const Arguments& arguments) {
   const ScalarOperation operation = arguments.function->operation;
   const int variant = arguments.function->variant;
@@ -319,7 +319,7 @@ Value Lerp(Elaborator& elaborator, const Arguments& arguments) {
   return elaborator.Binary(Operator::kAdd, arguments[0], way, position);
 }
 
-// input + value * a * b.
+// Returns input + value * a * b.
 Value AddProduct(Elaborator& elaborator, const Arguments& arguments) {
   const Position position = arguments.position;
   Value product = elaborator.Binary(Operator::kMultiply, arguments[1], arguments[2], position);

@@ -12,7 +12,7 @@ struct BinaryLevel {
   int level;
 };
 
-// From loose to tight, as in Python.
+// Sorted from loosest to tightest binding, as in Python.
 constexpr BinaryLevel kBinary[] = {
     {"|", Operator::kOr, 0},        {"^", Operator::kExclusiveOr, 1},
     {"&", Operator::kAnd, 2},       {"+", Operator::kAdd, 4},

@@ -5,15 +5,16 @@
 
 namespace simwright::tasks::reward {
 
-// Where something stands in the source; both count from 1, columns in characters.
+// A position in the source; both numbers count from 1, columns in characters.
 struct Position {
   int line = 1;
   int column = 1;
 };
 
-// Thrown while a program is read and compiled; becomes a core::Finding at the door.
+// The exception thrown while a program is parsed and compiled; CompileReward converts it to a
+// core::Finding.
 struct Fault {
-  std::string code;  // stable short name; empty: follows from a fault that was reported already
+  std::string code;  // stable short name; empty: caused by a fault that was already reported
   Position position;
   std::string sentence;
 };

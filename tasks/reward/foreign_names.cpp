@@ -11,7 +11,7 @@ constexpr std::string_view kHandles[] = {
     "model", "_scene", "simulator", "gym",   "articulations", "rigid_objects", "sensors",
     "rigid_body_data", "body",      "site",  "geom",          "_data", "root_physx_view"};
 
-// `names`: attributes, each between blanks; {} in `instead` is the asset.
+// `names`: attributes, each surrounded by blanks; {} in `instead` stands for the asset.
 struct Foreign {
   std::string_view names;
   std::string_view of;  // the simulators
@@ -88,7 +88,8 @@ std::string_view LastPart(std::string_view path) {
   return dot == std::string_view::npos ? path : path.substr(dot + 1);
 }
 
-// "cube" of scene["cube"].data.root_pos_w and of cube.pose.p; ASSET where it is not named.
+// Returns the asset: "cube" of scene["cube"].data.root_pos_w and of cube.pose.p; ASSET if it is not
+// named.
 std::string AssetOf(std::string_view path) {
   const std::size_t quote = path.find('"');
   if (quote != std::string_view::npos) {

@@ -69,7 +69,7 @@ Format ReadFormat(const std::string& text, Position position) {
   return format;
 }
 
-// A float as Python's repr writes it: the fewest digits that give it back.
+// Returns a float as Python's repr does: the fewest digits that reproduce it.
 std::string ShortestFloat(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value < 0.0 ? "-inf" : "inf";
@@ -90,7 +90,7 @@ std::string Printed(char kind, int precision, double value) {
   return text;
 }
 
-// The sign left out.
+// Returns the digits without the sign.
 std::string Magnitude(const Value& value, const Format& format, Position position) {
   const double size = std::fabs(value.Number());
   const bool whole = !value.Is(ValueKind::kFloat);

@@ -16,7 +16,7 @@ bool Commutes(ScalarOperation operation) {
          operation == kNotEqual || operation == kAnd || operation == kOr;
 }
 
-// The result is 0 or 1.
+// Returns true if the result is 0 or 1.
 bool IsFlag(ScalarOperation operation) {
   using enum ScalarOperation;
   return operation == kLess || operation == kLessEqual || operation == kEqual ||
@@ -79,7 +79,8 @@ bool Graph::IsConstant(NodeId id, float* value) const {
   return true;
 }
 
-// What changes no number but the sign of a zero. -1: nothing applies.
+// Applies simplifications that change no number except the sign of a zero. Returns -1 if none
+// applies.
 NodeId Graph::SimplifyBinary(ScalarOperation operation, NodeId a, NodeId b) const {
   using enum ScalarOperation;
   float left = 0.0f, right = 0.0f;
@@ -138,7 +139,7 @@ NodeId Graph::Simplify(ScalarOperation operation, NodeId a, NodeId b, NodeId c) 
   }
 }
 
-// Over environments that all have the same number.
+// Reduces over environments that all have the same number.
 NodeId Graph::ReduceUniform(ScalarOperation operation, NodeId a) {
   if (operation != ScalarOperation::kBatchSum) return a;
   return Apply(ScalarOperation::kMultiply, a, BatchSize());

@@ -11,17 +11,17 @@ namespace simwright::tasks::reward {
 
 using NodeId = std::int32_t;
 
-// One number an environment: constant, read, or computed from others. Flags are 0 or 1, integers
-// whole floats (exact to 2^24).
+// One number per environment: a constant, an input, or the result of an operation. Flags are 0 or
+// 1, integers are whole floats (exact to 2^24).
 struct Node {
   ScalarOperation operation = ScalarOperation::kConstant;
   NodeId operands[3] = {-1, -1, -1};
-  float value = 0.0f;      // of a constant
-  std::int32_t index = 0;  // of an input: its number; of a pick: the environment's
-  bool uniform = true;     // the same in all environments
+  float value = 0.0f;      // value of a constant
+  std::int32_t index = 0;  // number of an input; environment of a pick
+  bool uniform = true;     // equal in all environments
 };
 
-// A program as a graph without cycles: operands come before what uses them. Equal nodes are one,
+// A program as a directed acyclic graph: operands precede their users. Equal nodes are shared and
 // constants are folded.
 class Graph {
  public:
@@ -31,7 +31,8 @@ class Graph {
   NodeId Input(int index, bool uniform);
   NodeId BatchSize();
   NodeId Apply(ScalarOperation operation, NodeId a, NodeId b = -1, NodeId c = -1);
-  // The value that environment `environment` has, in all; negative counts from the last.
+  // Returns environment `environment`'s value as a number for all; a negative index counts from the
+  // last.
   NodeId Pick(NodeId a, int environment);
 
   const Node& operator[](NodeId id) const { return nodes_[id]; }

@@ -1,17 +1,17 @@
 #pragma once
 
-// Loops over columns of numbers, compiled for the instruction set whose namespace
-// SIMWRIGHT_KERNEL_ISA names (kernels_plain.cpp and its neighbours). Written without branches, so
-// that the compiler vectorises them; polynomials are minimax or Taylor, the error of each stated.
+// Loops over columns of numbers, compiled for the instruction set that the namespace
+// SIMWRIGHT_KERNEL_ISA names (kernels_plain.cpp and its siblings). The loops have no branches, so
+// the compiler vectorises them. Polynomials are minimax or Taylor; each states its error.
 namespace simwright::tasks::reward::SIMWRIGHT_KERNEL_ISA {
 
-// Compiler built-ins stand where the standard library has a function: one that was compiled with
-// other options is not inlined here.
+// Compiler built-ins replace standard library functions: a function that was compiled with other
+// options is not inlined here.
 inline float Choose(bool condition, float yes, float no) {
   return condition ? yes : no;
 }
 
-// e^x, within 2e-7 of its value.
+// Returns e^x, within 2e-7 of its value.
 inline float Exponential(float x) {
   const float inside = Choose(x < -87.3f, -87.3f, Choose(x > 88.7f, 88.7f, x));
   // Adding 1.5 * 2^23 rounds to a whole number and leaves it in the low bits.
@@ -31,8 +31,8 @@ inline float Exponential(float x) {
                 Choose(x < -87.3f, 0.0f, value));
 }
 
-// log(m) for m in [sqrt(1/2), sqrt(2)], given t = m - 1: 2 artanh(t / (2 + t)) by its series,
-// within 1e-7 of its value.
+// Returns log(m) for m in [sqrt(1/2), sqrt(2)], given t = m - 1: 2 artanh(t / (2 + t)) by its
+// series, within 1e-7 of its value.
 inline float LogarithmNearOne(float t) {
   const float s = t / (2.0f + t);
   const float q = s * s;
@@ -41,10 +41,10 @@ inline float LogarithmNearOne(float t) {
 }
 
 inline float Logarithm(float x) {
-  // Numbers below the smallest normal one are lifted first.
+  // Numbers below the smallest normal one are scaled up first.
   const bool tiny = x < 1.17549435e-38f;
   const float lifted = Choose(tiny, x * 8388608.0f, x);
-  // Unsigned, since the bits of negative numbers and NaN wrap around.
+  // The subtraction is unsigned, since the bits of negative numbers and NaN wrap around.
   const auto bits = __builtin_bit_cast(std::uint32_t, lifted);
   const std::int32_t exponent = static_cast<std::int32_t>(bits - 0x3f3504f3u) >> 23;
   const float m = __builtin_bit_cast(float, bits - (static_cast<std::uint32_t>(exponent) << 23));
@@ -55,7 +55,7 @@ inline float Logarithm(float x) {
   return Choose(x == infinity || x != x, x, Choose(x <= 0.0f, low, value));
 }
 
-// sin(r) and cos(r) for |r| <= pi/4, within 1e-7.
+// Return sin(r) and cos(r) for |r| <= pi/4, within 1e-7.
 inline float SineNearZero(float r) {
   const float q = r * r;
   return r +
@@ -67,10 +67,11 @@ inline float CosineNearZero(float r) {
   return 1.0f + q * (-0.5f + q * (4.16666667e-2f + q * (-1.38888889e-3f + q * 2.48015873e-5f)));
 }
 
-// Beyond this the three parts of pi/2 lose digits: the standard library takes over.
+// The largest angle for the three-part reduction by pi/2, which loses digits beyond it: larger
+// angles use the standard library.
 constexpr float kLargestAngle = 8192.0f;
 
-// sin(x + quarters * pi/2) for |x| <= kLargestAngle.
+// Returns sin(x + quarters * pi/2) for |x| <= kLargestAngle.
 inline float SineOfQuarters(float x, std::uint32_t quarters) {
   const float shifted = x * 0.636619772f + 12582912.0f;
   const float whole = shifted - 12582912.0f;
@@ -81,7 +82,7 @@ inline float SineOfQuarters(float x, std::uint32_t quarters) {
   return Choose((quadrant & 2) != 0, -size, size);
 }
 
-// asin(x) for |x| <= 1/2, within 2e-7.
+// Returns asin(x) for |x| <= 1/2, within 2e-7.
 inline float ArcSineNearZero(float x) {
   const float q = x * x;
   return x + x * q *
@@ -225,7 +226,8 @@ SIMWRIGHT_OPERATION(MultiplySubtractOf, c - a * b)
 SIMWRIGHT_OPERATION(SquaredDifferenceAddOf, (a - b) * (a - b) + c)
 #undef SIMWRIGHT_OPERATION
 
-// Bits of kUniform: operands that are one number for all environments.
+// Applies an operation to columns. Bits of kUniform mark operands that are one number for all
+// environments.
 template <typename Operation, int kOperands, int kUniform>
 void Loop(float* __restrict result, const float* __restrict a, const float* __restrict b,
           const float* __restrict c, int count) {
@@ -241,7 +243,7 @@ void Loop(float* __restrict result, const float* __restrict a, const float* __re
   }
 }
 
-// Sines and cosines, with the standard library's where an angle is large.
+// Computes sines or cosines, with the standard library for large angles.
 template <typename Operation, bool kSine>
 void AngleLoop(float* __restrict result, const float* __restrict a, const float* b, const float* c,
                int count) {
@@ -257,7 +259,8 @@ void AngleLoop(float* __restrict result, const float* __restrict a, const float*
 
 typedef float Eight __attribute__((vector_size(32)));
 
-// x0 y0 z0 x1 ... of eight rows lie in three vectors; no two numbers of one column at one place.
+// Splits rows x0 y0 z0 x1 ... into columns. Eight rows occupy three vectors, in which no two
+// numbers of one column share a position.
 inline void SplitTriples(const float* __restrict rows, float* const columns[3], int count) {
   float* __restrict x = columns[0];
   float* __restrict y = columns[1];
@@ -292,7 +295,7 @@ inline void StoreFlags(std::uint8_t* __restrict flags, const float* __restrict a
   for (int i = 0; i < count; ++i) flags[i] = a[i] != 0.0f ? 1 : 0;
 }
 
-// In a fixed number of strands, so that every instruction set adds in the same order.
+// Returns the sum over a fixed number of strands, so every instruction set adds in the same order.
 inline double Sum(const float* a, int count) {
   constexpr int kStrands = 8;
   double strands[kStrands] = {};

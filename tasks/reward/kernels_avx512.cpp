@@ -1,5 +1,5 @@
-// The kernels for processors with AVX-512. Every header that they need comes before the
-// switch: code that other files share must not be compiled for these alone.
+// The kernels for processors with AVX-512. All required headers precede the pragma: code shared
+// with other files must not be compiled for these processors only.
 #include <cmath>
 #include <cstdint>
 #include <cstring>

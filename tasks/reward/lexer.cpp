@@ -18,7 +18,7 @@ bool IsNamePart(char c) {
   return IsNameStart(c) || IsDigit(c);
 }
 
-// Longest first.
+// Sorted by length, longest first.
 constexpr std::string_view kOperators[] = {
     "**=", "//=", ">>=", "<<=", "...", "**", "//", "->", "<=", ">=", "==", "!=",
     "+=",  "-=",  "*=",  "/=",  "%=",  "&=", "|=", "^=", "@=", ":=", "<<", ">>",
@@ -81,7 +81,7 @@ void Lexer::Push(TokenKind kind, Position position, std::string text) {
   tokens_.push_back({kind, std::move(text), position, 0, 0.0});
 }
 
-// At the start of a line: blank lines and comments do not count.
+// Handles the start of a line; blank lines and comments do not count.
 void Lexer::Indentation() {
   int width = 0;
   std::size_t end = at_;
@@ -165,7 +165,7 @@ std::vector<Token> Lexer::Lines() {
 }
 
 std::vector<Token> Lexer::Expression() {
-  open_.push_back({TokenKind::kOperator, "{", position_, 0, 0.0});  // lines do not matter
+  open_.push_back({TokenKind::kOperator, "{", position_, 0, 0.0});  // line breaks do not matter
   for (SkipBlanks(); !AtEnd(); SkipBlanks()) OneToken();
   Push(TokenKind::kEnd, position_);
   return std::move(tokens_);
@@ -262,7 +262,7 @@ void Lexer::CodePoint(int digits, std::string* text) {
     value = value * 16 + static_cast<unsigned>(IsDigit(c) ? c - '0' : (c | 32) - 'a' + 10);
     Advance();
   }
-  // Names of assets are compared byte by byte: what is not ASCII has no place in them.
+  // Asset names are compared byte by byte and contain no non-ASCII characters.
   *text += value < 0x80 ? static_cast<char>(value) : '?';
 }
 

@@ -11,7 +11,7 @@
 namespace simwright::tasks::reward {
 
 enum class TokenKind {
-  kName,  // also keywords
+  kName,  // includes keywords
   kInteger,
   kFloat,
   kString,
@@ -25,17 +25,17 @@ enum class TokenKind {
 
 struct Token {
   TokenKind kind = TokenKind::kEnd;
-  std::string text;  // a string's contents with its escapes resolved
+  std::string text;  // contents of a string with escapes resolved
   Position position;
   std::int64_t integer = 0;
   double number = 0.0;
 };
 
-// Splits a source into tokens; the last one is kEnd. Throws Fault on what is no token of the
-// language, on bad indentation, and beyond the bounds of `options`.
+// Splits a source into tokens; the last one is kEnd. Throws Fault on an invalid token, on bad
+// indentation, and beyond the bounds of `options`.
 std::vector<Token> Tokenise(std::string_view source, const RewardOptions& options);
 
-// The same for one expression inside a format string, which stands at `start`.
+// Tokenises one expression of a format string, which begins at `start`.
 std::vector<Token> TokeniseExpression(std::string_view source, Position start,
                                       const RewardOptions& options);
 

@@ -14,7 +14,7 @@ class Elaborator;
 // The arguments of one call, in the order of the function's parameters.
 struct Arguments {
   const LibraryFunction* function = nullptr;
-  std::string called;  // as written, "torch.norm" or ".norm"
+  std::string called;  // the name as written, "torch.norm" or ".norm"
   Position position;
   std::vector<Value> values;
   std::vector<Position> places;
@@ -29,10 +29,11 @@ using Handler = Value (*)(Elaborator&, const Arguments&);
 // A function of torch, numpy, math, Python or Isaac Gym's utilities that programs may call.
 struct LibraryFunction {
   std::string_view names;       // "torch.norm Tensor.norm np.linalg.norm"
-  std::string_view parameters;  // "input p=2 dim=None"; "*sizes" takes all that is left
+  std::string_view parameters;  // "input p=2 dim=None"; "*sizes" takes the remaining arguments
   Handler handler;
   ScalarOperation operation = ScalarOperation::kConstant;  // of an elementwise function
-  int variant = 0;                                         // what else tells functions apart
+  int variant = 0;                                         // distinguishes functions with the same
+                                                           // handler
 };
 
 struct LibraryPart {
@@ -40,7 +41,7 @@ struct LibraryPart {
   std::size_t count;
 };
 
-// Tables, one a file.
+// The tables of functions, one per file.
 LibraryPart ElementwiseFunctions();
 LibraryPart ReductionFunctions();
 LibraryPart CreationFunctions();
@@ -53,13 +54,13 @@ LibraryPart OrderFunctions();
 LibraryPart ActivationFunctions();
 LibraryPart LossFunctions();
 
-// Null where there is none of this name.
+// Returns null if there is no function of this name.
 const LibraryFunction* FindLibraryFunction(const std::string& name);
 
-// True where some name begins with "module.".
+// Returns true if some name begins with "module.".
 bool IsLibraryModule(const std::string& module);
 
-// The names that follow "prefix" ("torch.", "Tensor.", "" for bare ones), for suggestions.
+// Returns the names that follow "prefix" ("torch.", "Tensor.", "" for bare names), for suggestions.
 std::vector<std::string> LibraryNames(const std::string& prefix);
 
 }  // namespace simwright::tasks::reward

@@ -107,7 +107,7 @@ std::vector<int> Dimensions(Elaborator& elaborator, const Arguments& arguments, 
       Fail("arguments", arguments.Place(i),
            "a dimension is a whole number, this is " + Describe(one));
     }
-    // Torch takes a scalar for a vector of one here.
+    // Torch accepts a scalar as a vector of size one here.
     if (rank == 0 && (one.integer == 0 || one.integer == -1)) continue;
     const int dimension = elaborator.math().Dimension(one.integer, rank, arguments.Place(i));
     if (std::find(dimensions.begin(), dimensions.end(), dimension) != dimensions.end()) {

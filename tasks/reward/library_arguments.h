@@ -7,40 +7,40 @@
 
 namespace simwright::tasks::reward {
 
-// True where the function is torch's, which takes tensors and no plain numbers.
+// Returns true if the function is torch's, which takes tensors but no plain numbers.
 bool WantsTensors(const Arguments& arguments);
 
-// Argument i as a tensor. Plain numbers are let through unless torch itself refuses them; lists
-// become arrays where numpy makes them so.
+// Returns argument i as a tensor. Accepts plain numbers unless torch itself refuses them; converts
+// lists to arrays where numpy does.
 Tensor TensorArgument(Elaborator& elaborator, const Arguments& arguments, std::size_t i);
 
-// The same, where a plain number is fine in torch too (torch.where, torch.clamp).
+// Returns argument i as a tensor where torch accepts a plain number too (torch.where, torch.clamp).
 Tensor NumberOrTensor(Elaborator& elaborator, const Arguments& arguments, std::size_t i);
 
-// The same, with whole numbers and flags turned into floats.
+// Returns argument i as a float tensor; converts whole numbers and flags.
 Tensor FloatArgument(Elaborator& elaborator, const Arguments& arguments, std::size_t i);
 
-// Numbers in lists, to any depth, as a tensor; elements that are tensors are stacked.
+// Returns nested lists of numbers, of any depth, as a tensor; stacks elements that are tensors.
 Tensor ArrayFrom(Elaborator& elaborator, const Value& value, Position position);
 
 std::int64_t IntegerArgument(Elaborator& elaborator, const Arguments& arguments, std::size_t i);
 double NumberArgument(Elaborator& elaborator, const Arguments& arguments, std::size_t i);
 bool FlagArgument(const Arguments& arguments, std::size_t i);
 
-// Argument i as dimensions of `tensor`: a number, a tuple of them, or None for all.
+// Returns argument i as dimensions of `tensor`: a number, a tuple of numbers, or None for all.
 std::vector<int> Dimensions(Elaborator& elaborator, const Arguments& arguments, std::size_t i,
                             const Tensor& tensor);
 
-// Sizes given one by one or as one tuple; TensorMath::kKnownBatch stands for N.
+// Returns sizes given one by one or as one tuple; TensorMath::kKnownBatch represents N.
 std::vector<std::int64_t> Sizes(Elaborator& elaborator, const Value& value, Position position);
 
-// Sizes as a shape, which may not hold -1.
+// Returns sizes as a shape. The sizes must not contain -1.
 Shape ShapeFrom(const std::vector<std::int64_t>& sizes, Position position);
 
-// The type named by argument i, or `otherwise`.
+// Returns the type named by argument i, or `otherwise`.
 DataType TypeArgument(const Arguments& arguments, std::size_t i, DataType otherwise);
 
-// (values, indices) and the like: a tuple whose elements also have names.
+// Returns a tuple whose elements also have names, such as (values, indices).
 Value NamedTuple(std::vector<Value> items, std::vector<std::string> names);
 
 }  // namespace simwright::tasks::reward

@@ -7,10 +7,9 @@
 
 namespace simwright::tasks::reward {
 
-// The names that a function's body sets anywhere, its loops' and inner functions' names too;
-// what it imports is left out, since unknown modules set nothing. As in
-// Python these are its own: they hide what is called so outside, in lines before they are set as
-// well.
+// Returns the names that a function's body binds anywhere, including those of its loops and inner
+// functions. Imported names are left out, since unknown modules bind nothing. As in Python these
+// names are local to the whole body: they hide outer names even in lines before they are bound.
 std::set<std::string> LocalNames(const Block& body);
 
 }  // namespace simwright::tasks::reward

@@ -10,8 +10,8 @@ using enum ScalarOperation;
 
 enum Loss { kSquaredError, kAbsoluteError, kHuber, kSmoothAbsolute };
 
-// Of the sizes |a - b| with the bend at `delta`: half the square below it, a line above. Huber's is
-// delta times the smooth one.
+// Returns the smooth L1 or Huber loss of the magnitudes |a - b|: quadratic below `delta` and linear
+// above it. The Huber loss is delta times the smooth one.
 Tensor Bent(TensorMath& math, const Tensor& size, double delta, bool huber, Position position) {
   const auto number = [&](double value) {
     return math.Scalar(DataType::kFloat, math.graph().Constant(value));
@@ -26,7 +26,7 @@ Tensor Bent(TensorMath& math, const Tensor& size, double delta, bool huber, Posi
                      huber ? times(line, delta) : line, position);
 }
 
-// The mean over everything unless reduction says "sum" or "none".
+// Returns the mean over all elements, unless `reduction` is "sum" or "none".
 Value LossOf(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Position position = arguments.position;
@@ -51,7 +51,7 @@ Value LossOf(Elaborator& elaborator, const Arguments& arguments) {
   Fail("arguments", arguments.Place(2), "the reduction is 'none', 'mean' or 'sum'");
 }
 
-// The norm of a - b over everything.
+// Returns the norm of a - b over all elements.
 Value Distance(Elaborator& elaborator, const Arguments& arguments) {
   Arguments norm = arguments;
   norm.function = FindLibraryFunction("torch.norm");

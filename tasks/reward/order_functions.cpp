@@ -1,4 +1,4 @@
-// What depends on the order of numbers along a dimension, or picks among them.
+// Functions that depend on the order of numbers along a dimension, or select among them.
 #include <algorithm>
 
 #include "tasks/reward/library_arguments.h"
@@ -8,10 +8,10 @@ namespace {
 
 using enum ScalarOperation;
 
-// The comparisons of a sort grow with the square of what is sorted.
+// The number of comparisons in a sort is quadratic in the number of elements.
 constexpr int kMostSorted = 64;
 
-// A tensor cut along one dimension, which may not be that of the environments.
+// A tensor cut along one dimension, which must not be that of the environments.
 class Slices {
  public:
   Slices(Elaborator& elaborator, const Arguments& arguments, const Tensor& tensor,
@@ -38,7 +38,7 @@ class Slices {
     return math_.Concatenate(parts, dimension_, position_);
   }
 
-  // By exchanges of neighbours, the least first.
+  // Sorts by exchanges of neighbours, the smallest first.
   void Sort(bool descending) {
     if (size() > kMostSorted) {
       Fail("too-large", position_,
@@ -91,7 +91,7 @@ Value TopK(Elaborator& elaborator, const Arguments& arguments) {
   return NamedTuple({TensorValue(slices.Joined()), NoPlaces()}, {"values", "indices"});
 }
 
-// Torch's is the lower of the two in the middle, numpy's their mean.
+// Returns the median: torch's is the lower of the two in the middle, numpy's their mean.
 Value Median(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   Tensor tensor = TensorArgument(elaborator, arguments, 0);
@@ -119,7 +119,7 @@ Value Median(Elaborator& elaborator, const Arguments& arguments) {
   return NamedTuple({TensorValue(std::move(middle)), NoPlaces()}, {"values", "indices"});
 }
 
-// Sums (products: variant 1) of all up to each.
+// Returns cumulative sums (products: variant 1).
 Value Cumulated(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   Tensor tensor = TensorArgument(elaborator, arguments, 0);
@@ -155,7 +155,7 @@ Value Roll(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(slices.Joined());
 }
 
-// The element of `slices` that a whole number of each environment names.
+// Returns the element of `slices` that each environment's index selects.
 Tensor Chosen(TensorMath& math, const std::vector<Tensor>& slices, const Tensor& index,
               Position position) {
   Tensor chosen =
@@ -175,7 +175,7 @@ void WantWhole(const Tensor& index, const Arguments& arguments, std::size_t i) {
        "indices are whole numbers, this is " + Describe(arguments[i]) + "; use .long()");
 }
 
-// input.gather(dim, index): the result has the shape of `index`.
+// Implements input.gather(dim, index): the result has the shape of `index`.
 Value Gather(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);
@@ -201,7 +201,7 @@ Value Gather(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(math.Concatenate(parts, dimension, arguments.position));
 }
 
-// input.index_select(dim, index) with numbers that are known.
+// Implements input.index_select(dim, index) for constant indices.
 Value IndexSelect(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Tensor tensor = TensorArgument(elaborator, arguments, 0);

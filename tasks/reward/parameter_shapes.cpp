@@ -14,7 +14,8 @@ bool Contains(const std::string& name, std::initializer_list<const char*> parts)
                      [&](const char* part) { return name.find(part) != std::string::npos; });
 }
 
-// As many as the robot has joints or a policy actions: no name says how many.
+// Returns true for names of tensors with one number per joint or action, a width that no name
+// determines.
 bool OfJoints(const std::string& name) {
   return Contains(name, {"dof", "joint", "action", "torque"});
 }
@@ -30,8 +31,8 @@ std::vector<int> GuessByName(const std::string& name) {
   return {};
 }
 
-// A position or a rotation is no single number, whatever that would let compile: cart_pos and
-// dof_pos are, or may be.
+// Returns true for names of positions and rotations, which are not single numbers even if that
+// would compile; cart_pos and dof_pos are, or may be.
 bool IsVector(const std::string& name) {
   if (Contains(name, {"cart", "pole", "dof", "joint", "slider", "door", "drawer", "lever", "hinge"}))
     return false;
@@ -51,11 +52,11 @@ bool Before(Position a, Position b) {
   return a.line != b.line ? a.line < b.line : a.column < b.column;
 }
 
-// How far the program comes with these shapes: no error, or the place of the first one.
+// How far the program compiles with these shapes: whole, or up to the position of the first error.
 struct Reach {
   bool whole = false;
-  bool by_shape = false;  // another shape may mend what is wrong
-  bool by_type = false;   // flags may
+  bool by_shape = false;  // another shape may fix the error
+  bool by_type = false;   // a flag type may fix it
   Position position;
   bool operator>(const Reach& other) const {
     if (whole != other.whole) return whole;
@@ -68,10 +69,10 @@ constexpr std::string_view kShapeFaults[] = {
     "shape", "dimension",  "index",       "two-batches", "unpack",        "einsum",
     "loop",  "bad-reward", "bad-success", "condition",   "shared-reward", "too-large"};
 
-// What a program may cost to guess at, in attempts.
+// The maximum number of compilation attempts for one program.
 constexpr int kMostAttempts = 200;
 
-// Looks for shapes by trying.
+// A greedy search for parameter shapes.
 class Search {
  public:
   Search(const Module& module, const Function& entry, const RewardScene* scene,
@@ -110,7 +111,7 @@ class Search {
     return reach;
   }
 
-  // Keeps `changed` where it gets further.
+  // Keeps `changed` if the program compiles further with it.
   bool Improve(const RewardOptions& changed) {
     if (Done()) return false;
     const Reach reach = Try(changed);
@@ -153,7 +154,7 @@ bool TryShapes(const std::vector<std::string>& open,
     if ((*usages)[name].width > 0) own.push_back({(*usages)[name].width});
     for (const std::vector<int>& candidate : own) {
       if (!search->by_shape()) return better;
-      // Actions and joints are rows, unless they are indexed otherwise.
+      // Actions and joints are vectors, unless they are indexed otherwise.
       if (OfJoints(name) && candidate.size() > 1 && (*usages)[name].rank < 2) continue;
       if (IsVector(name) && (candidate.empty() || candidate == std::vector<int>{1})) continue;
       RewardOptions changed = search->options();
@@ -164,7 +165,7 @@ bool TryShapes(const std::vector<std::string>& open,
   return better;
 }
 
-// What belongs to the joints has one width: all of it changes together.
+// Tries widths for all joint-related parameters together, since they share one width.
 bool TryWidthOfJoints(const std::vector<std::string>& open, const std::set<int>& widths,
                       Search* search) {
   bool better = false;
@@ -179,7 +180,8 @@ bool TryWidthOfJoints(const std::vector<std::string>& open, const std::set<int>&
   return better;
 }
 
-// All that have one shape become one number an environment together: cart_pos, cart_vel.
+// Tries one number per environment for all parameters of a common shape together: cart_pos,
+// cart_vel.
 bool TryNumbers(const std::vector<std::string>& open, Search* search) {
   bool better = false;
   std::set<std::vector<int>> shapes;
@@ -196,7 +198,8 @@ bool TryNumbers(const std::vector<std::string>& open, Search* search) {
   return better;
 }
 
-// Those that a joint's width was guessed for where one more would do as well, alone or together.
+// Returns the parameters with a guessed joint width that compile as well with one more, alone or
+// together.
 std::vector<std::string> Assumed(const std::vector<std::string>& open, Search* search) {
   std::vector<std::string> assumed;
   RewardOptions together = search->options();
@@ -242,7 +245,7 @@ std::vector<const Parameter*> InferParameterShapes(const Module& module, const F
   for (const std::string& name : open) {
     options->parameter_shapes[name] = FirstGuess(name, usages[name]);
   }
-  // First those of which the name says nothing.
+  // Parameters whose names determine no shape come first.
   const auto named = std::stable_partition(
       open.begin(), open.end(), [](const std::string& name) { return GuessByName(name).empty(); });
   const std::vector<std::string> unnamed(open.begin(), named);
@@ -250,7 +253,7 @@ std::vector<const Parameter*> InferParameterShapes(const Module& module, const F
   std::vector<std::vector<int>> candidates = {{3}, {4}, {}, {1}, {7}, {13}, {8}, {6}, {4, 3}};
   for (const int length : lengths) candidates.push_back({length});
   Search search(module, entry, scene, *options);
-  // One parameter at a time, as long as something gets further.
+  // Changes one parameter at a time, as long as the program compiles further.
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds && !search.Done(); ++round) {
     bool better = TryFlags(open, &search);
@@ -259,8 +262,8 @@ std::vector<const Parameter*> InferParameterShapes(const Module& module, const F
     if (!better) break;
   }
   *options = search.options();
-  // What a name says is given up only for a program that is right then: else a fault of shapes
-  // would be reported somewhere else, or not at all.
+  // A shape that a name suggests is given up only if the program then compiles: otherwise a shape
+  // error would be reported elsewhere, or not at all.
   for (int round = 0; round < kRounds && !search.Done(); ++round) {
     bool better = TryNumbers(open, &search);
     better = TryFlags(open, &search) || better;

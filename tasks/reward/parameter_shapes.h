@@ -8,11 +8,11 @@
 
 namespace simwright::tasks::reward {
 
-// Completes options->parameter_shapes and flag_parameters for the tensors among the parameters of
-// `entry`: guesses from names and indices, then tries what lets the program come furthest without
-// an error. Deterministic; where nothing fits the first guess stays, and compiling says what is
-// wrong. Gives the parameters whose width nothing in the program says, such as one that is only
-// summed: any other would do as well.
+// Completes options->parameter_shapes and flag_parameters for the tensor parameters of `entry`:
+// guesses shapes from names and indices, then searches for the shapes with which the program
+// compiles furthest without an error. Deterministic. If nothing fits, keeps the first guess, and
+// compilation reports the error. Returns the parameters whose width the program does not determine,
+// such as one that is only summed: any other width would do as well.
 std::vector<const Parameter*> InferParameterShapes(const Module& module, const Function& entry,
                                                    const RewardScene* scene,
                                                    RewardOptions* options);

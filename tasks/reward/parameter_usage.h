@@ -8,28 +8,28 @@
 
 namespace simwright::tasks::reward {
 
-// What the indices of x[...] say of a parameter x: the least width that its last dimension has to
-// have.
+// The constraints that the indices x[...] put on the shape of a parameter x.
 struct Usage {
-  int width = 0;  // 0: unknown
-  int rank = 0;   // trailing dimensions seen in an index
+  int width = 0;  // minimum size of the last dimension; 0: unknown
+  int rank = 0;   // number of trailing dimensions seen in an index
 };
 
-// The names of all functions that are called in the module, as f(...) or self.f(...).
+// Returns the names of all functions that the module calls, as f(...) or self.f(...).
 std::set<std::string> CalledNames(const Module& module);
 
-// Adds what the indices in `body` say to the usages of the names that are there.
+// Adds the indices in `body` to the usages of the names in `usages`.
 void NoteUsages(const Block& body, std::map<std::string, Usage>* usages);
 
-// The lengths of the lists of plain numbers in a program, [0.1, 0.2, 0.3]: widths that something
-// may have to fit.
+// Returns the lengths of the lists of plain numbers in a program, [0.1, 0.2, 0.3]: candidate widths
+// of parameters.
 std::set<int> ListLengths(const Module& module);
 
-// The name that a parameter's annotation comes down to: "Tensor", "float"; of Optional[Tensor] and
-// Tensor | None the first that is not None, of List[float] "List". "Tensor" where there is none.
+// Returns the type name in a parameter's annotation: "Tensor", "float". For Optional[Tensor] and
+// Tensor | None it is the first that is not None, for List[float] "List". Returns "Tensor" if there
+// is no annotation.
 std::string AnnotatedType(const Parameter& parameter);
 
-// Of a tensor, as torch and numpy call it.
+// Returns true if `type` is a tensor type of torch or numpy.
 bool IsTensorType(const std::string& type);
 
 }  // namespace simwright::tasks::reward

@@ -13,7 +13,7 @@ struct Refusal {
   const char* sentence;
 };
 
-// What Python knows and the language leaves out.
+// Python constructs that the language excludes.
 constexpr Refusal kRefused[] = {
     {"while", "no-while",
      "while-loops are not part of the language, since nothing bounds them; loop over range(...)"},
@@ -133,7 +133,7 @@ void StatementParser::ParseParameters(Function* function) {
       Fail("syntax", Peek().position,
            "parameters with '*' or '/' are not part of the language; name each one");
     }
-    if (separator) {  // those after it are given by name
+    if (separator) {  // the parameters after it are keyword-only
       Take();
       Take();
       continue;
@@ -192,7 +192,7 @@ void StatementParser::EndOfLine() {
   if (AtKind(TokenKind::kEnd) || AtKind(TokenKind::kDedent)) return;
   if (!AtKind(TokenKind::kNewline)) Unexpected("the end of the line");
   Take();
-  // A stray deeper line after a simple statement.
+  // An unexpected indent after a simple statement.
   if (AtKind(TokenKind::kIndent)) {
     Fail("bad-indentation", Peek().position, "this line is indented, but no block begins above");
   }
@@ -327,7 +327,8 @@ StatementParser::Line StatementParser::ParseDelete() {
   return statement;
 }
 
-// What is asserted holds on every environment or stops the training: it changes no reward.
+// Parses an assertion, which has no effect: it holds in every environment or stops the training,
+// and changes no reward.
 StatementParser::Line StatementParser::ParseAssert() {
   Line statement = New(StatementKind::kPass);
   Take();

@@ -9,22 +9,22 @@
 
 namespace simwright::tasks::reward {
 
-// Reads a whole file. Throws Fault where it is no program of the language; what Python knows and
-// the language leaves out (while, class, lambda ...) is named as such.
+// Parses a whole file. Throws Fault if it is not a program of the language; Python constructs that
+// the language excludes (while, class, lambda ...) are named as such.
 Module Parse(std::string_view source, const RewardOptions& options);
 
-// Tokens to expressions; the statements' parser stands on it.
+// A recursive-descent parser from tokens to expressions; the base of the statement parser.
 class ExpressionParser {
  public:
   ExpressionParser(std::vector<Token> tokens, const RewardOptions& options)
       : options_(options), tokens_(std::move(tokens)) {}
 
-  // A whole expression, and nothing after it.
+  // Parses a single expression; throws Fault if anything follows it.
   ExpressionPtr Only();
 
  protected:
   const Token& Peek(std::size_t ahead = 0) const;
-  bool At(std::string_view text) const;  // a name or operator
+  bool At(std::string_view text) const;  // `text`: a name or an operator
   bool AtKind(TokenKind kind) const { return Peek().kind == kind; }
   Token Take();
   bool Accept(std::string_view text);
@@ -33,19 +33,19 @@ class ExpressionParser {
   std::string TakeName(const std::string& what);
 
   ExpressionPtr Make(ExpressionKind kind, Position position) const;
-  // Adds a child and keeps the depth within bounds.
+  // Adds a child and enforces the depth limit.
   void Add(Expression* parent, ExpressionPtr child) const;
 
-  ExpressionPtr ParseExpression();      // no bare tuple
-  ExpressionPtr ParseExpressionList();  // a tuple where there is a comma
-  ExpressionPtr ParseItem();            // of a list: an expression, or *expression
-  ExpressionPtr ParseTarget();          // of a loop
+  ExpressionPtr ParseExpression();      // without a bare tuple
+  ExpressionPtr ParseExpressionList();  // a tuple if there is a comma
+  ExpressionPtr ParseItem();            // item of a list: an expression, or *expression
+  ExpressionPtr ParseTarget();          // target of a loop
   ExpressionPtr ParseBinary(int level);
 
   const RewardOptions& options_;
 
  private:
-  // Counts how deep the parser calls itself.
+  // Limits the recursion depth of the parser.
   class Nesting {
    public:
     explicit Nesting(ExpressionParser* parser);

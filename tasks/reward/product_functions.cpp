@@ -40,7 +40,7 @@ Einsum ParseEinsum(const std::string& text, Position position) {
     return einsum;
   }
   einsum.inputs.push_back(current);
-  std::map<char, int> seen;  // without an arrow: the letters that stand once, sorted
+  std::map<char, int> seen;  // without an arrow: the letters that occur once, sorted
   for (const std::string& input : einsum.inputs) {
     for (const char c : input) ++seen[c];
   }
@@ -50,7 +50,8 @@ Einsum ParseEinsum(const std::string& text, Position position) {
   return einsum;
 }
 
-// The tensor with a dimension for each letter, in that order; a letter it lacks has size 1.
+// Returns the tensor with one dimension per letter, in the order of `letters`; a letter that it
+// lacks has size 1.
 Tensor Aligned(TensorMath& math, const Tensor& tensor, const std::string& own,
                const std::string& letters) {
   std::vector<int> order;
@@ -119,7 +120,7 @@ Value EinsumOf(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(math.Reduce(Reduction::kSum, product, summed, false, position));
 }
 
-// The sum of products along a dimension.
+// Returns the sum of products along a dimension.
 Tensor Contract(TensorMath& math, const Tensor& a, const Tensor& b, int dimension, bool keep,
                 Position position) {
   const Tensor product = math.Map(kMultiply, a, b, Promote(a.type, b.type), position);
@@ -127,7 +128,8 @@ Tensor Contract(TensorMath& math, const Tensor& a, const Tensor& b, int dimensio
                      {math.Dimension(dimension, product.shape.size(), position)}, keep, position);
 }
 
-// Torch's matmul; dot (variant 1) takes vectors, bmm and mm are checked by their shapes alone.
+// Implements torch's matmul; dot (variant 1) takes vectors, bmm and mm are checked by their shapes
+// alone.
 Value Matmul(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Position position = arguments.position;
@@ -196,8 +198,8 @@ Tensor Length(TensorMath& math, const Tensor& tensor, int dimension, bool keep, 
                   DataType::kFloat, position);
 }
 
-// Along a dimension, with the least length `eps`; Isaac Gym's `normalize` (variant 1) along the
-// last.
+// Normalizes along a dimension, with the minimum length `eps`; Isaac Gym's `normalize` (variant 1)
+// along the last one.
 Value Normalize(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Position position = arguments.position;
@@ -215,7 +217,7 @@ Value Normalize(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(math.Map(kDivide, tensor, length, DataType::kFloat, position));
 }
 
-// a . b / max(|a| |b|, eps) along a dimension.
+// Returns a . b / max(|a| |b|, eps) along a dimension.
 Value CosineSimilarity(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Position position = arguments.position;
@@ -233,7 +235,7 @@ Value CosineSimilarity(Elaborator& elaborator, const Arguments& arguments) {
                               DataType::kFloat, position));
 }
 
-// Between every row of a [.., P, k] and of b [.., R, k].
+// Returns the distance between every row of a [.., P, k] and of b [.., R, k].
 Value Cdist(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Position position = arguments.position;
@@ -251,7 +253,7 @@ Value Cdist(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(Length(math, gap, -1, false, position));
 }
 
-// |a - b + eps| along the last dimension.
+// Returns |a - b + eps| along the last dimension.
 Value PairwiseDistance(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Position position = arguments.position;
@@ -262,7 +264,7 @@ Value PairwiseDistance(Elaborator& elaborator, const Arguments& arguments) {
       Length(math, math.Map(kAdd, gap, eps, DataType::kFloat, position), -1, false, position));
 }
 
-// a_i b_j of two vectors.
+// Returns a_i b_j of two vectors.
 Value Outer(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Tensor a = TensorArgument(elaborator, arguments, 0);

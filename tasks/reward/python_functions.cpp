@@ -1,4 +1,4 @@
-// Python's own functions, and the methods of lists, dictionaries and numbers.
+// Python's built-in functions, and the methods of lists, dictionaries and numbers.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -44,7 +44,7 @@ Value Range(Elaborator& elaborator, const Arguments& arguments) {
   return TupleValue(std::move(items));
 }
 
-// The least or largest of values, an environment at a time.
+// Returns the minimum or maximum of values, per environment.
 Value Extreme(Elaborator& elaborator, const Arguments& arguments) {
   const bool largest = arguments.function->variant == 1;
   std::vector<Value> values = *arguments[0].items;
@@ -76,7 +76,7 @@ Value Sum(Elaborator& elaborator, const Arguments& arguments) {
   return total;
 }
 
-// any (variant 1) and all of values.
+// Implements any (variant 1) and all.
 Value Quantifier(Elaborator& elaborator, const Arguments& arguments) {
   const bool any = arguments.function->variant == 1;
   Value result = BoolValue(!any);
@@ -90,7 +90,7 @@ Value Quantifier(Elaborator& elaborator, const Arguments& arguments) {
   return result;
 }
 
-// float(x), int(x) and bool(x): of a number, a string such as "inf", or a scalar tensor.
+// Implements float(x), int(x) and bool(x) of a number, a string such as "inf", or a scalar tensor.
 Value Convert(Elaborator& elaborator, const Arguments& arguments) {
   const auto type = static_cast<DataType>(arguments.function->variant);
   const Value& value = arguments[0];
@@ -165,7 +165,8 @@ Value MakeList(Elaborator& elaborator, const Arguments& arguments) {
                                           : elaborator.NewList(std::move(items));
 }
 
-// dict(), dict(other); dict(name=value) is made where calls are (elaborate_calls.cpp).
+// Implements dict() and dict(other); dict(name=value) is handled with the calls
+// (elaborate_calls.cpp).
 Value MakeDict(Elaborator& elaborator, const Arguments& arguments) {
   const Value dict = elaborator.NewDict({}, {});
   if (!arguments.given[0]) return dict;
@@ -207,7 +208,7 @@ Value DictPop(Elaborator& elaborator, const Arguments& arguments) {
   return arguments[2];
 }
 
-// dict.copy and list.copy.
+// Implements dict.copy and list.copy.
 Value CopyObject(Elaborator& elaborator, const Arguments& arguments) {
   const Object object = elaborator.math().heap()[arguments[0].object];
   return arguments[0].Is(ValueKind::kDict) ? elaborator.NewDict(*object.keys, *object.items)
@@ -220,7 +221,8 @@ Value Reversed(Elaborator& elaborator, const Arguments& arguments) {
   return TupleValue(std::move(items));
 }
 
-// Of strings or of numbers that are known; what differs between environments is torch.sort's.
+// Sorts strings or constant numbers; for numbers that differ between environments there is
+// torch.sort.
 Value Sorted(Elaborator& elaborator, const Arguments& arguments) {
   std::vector<Value> items = elaborator.Items(arguments[0], arguments.Place(0));
   const bool texts = !items.empty() && items[0].Is(ValueKind::kString);
@@ -272,7 +274,7 @@ Value IsTensor(Elaborator&, const Arguments& arguments) {
   return BoolValue(arguments[0].Is(ValueKind::kTensor));
 }
 
-// list.append and list.extend (variant 1).
+// Implements list.append and list.extend (variant 1).
 Value Append(Elaborator& elaborator, const Arguments& arguments) {
   Heap& heap = elaborator.math().heap();
   std::vector<Value> items = *heap[arguments[0].object].items;
@@ -294,7 +296,7 @@ Value Append(Elaborator& elaborator, const Arguments& arguments) {
   return Value{};
 }
 
-// dict.keys, dict.values (variant 1) and dict.items (variant 2).
+// Implements dict.keys, dict.values (variant 1) and dict.items (variant 2).
 Value DictView(Elaborator& elaborator, const Arguments& arguments) {
   const Object dict = elaborator.math().heap()[arguments[0].object];
   if (arguments.function->variant == 0) return TupleValue(*dict.keys);
@@ -317,7 +319,7 @@ Value DictGet(Elaborator& elaborator, const Arguments& arguments) {
   return arguments[2];
 }
 
-// x.item() of what is a plain number already.
+// Implements x.item() of a plain number.
 Value Itself(Elaborator&, const Arguments& arguments) {
   return arguments[0];
 }

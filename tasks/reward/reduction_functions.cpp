@@ -11,14 +11,14 @@ namespace {
 using enum ScalarOperation;
 
 void WantFloats(const Arguments& arguments, const Tensor& tensor) {
-  // Numpy turns whole numbers into floats by itself.
+  // Numpy converts integers to floats by itself.
   if (tensor.type == DataType::kFloat || arguments.called.starts_with("np.")) return;
   Fail("type", arguments.position,
        "'" + arguments.called + "' wants floats, this is " + Describe(TensorValue(tensor)) +
            "; .float() it first");
 }
 
-// The dimensions that a reduction goes over. "dim=-1" is meant to be the numbers of one environment.
+// Returns the dimensions of a reduction. "dim=-1" is meant for the numbers of one environment.
 std::vector<int> Reduced(Elaborator& elaborator, const Arguments& arguments, std::size_t i,
                          const Tensor& tensor) {
   const std::vector<int> dimensions = Dimensions(elaborator, arguments, i, tensor);
@@ -47,7 +47,7 @@ Value Mean(Elaborator& elaborator, const Arguments& arguments) {
       elaborator.math().Mean(tensor, dimensions, FlagArgument(arguments, 2), arguments.position));
 }
 
-// Standard deviation and variance (variant 1); torch divides by n - 1, numpy by n.
+// Returns the standard deviation or variance (variant 1); torch divides by n - 1, numpy by n.
 Value Deviation(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Position position = arguments.position;
@@ -117,7 +117,7 @@ Value Norm(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(math.Map(kPower, sum, number(1.0 / p), DataType::kFloat, position));
 }
 
-// The place of the first largest (or least) number along a dimension.
+// Returns the index of the first maximum (or minimum) along a dimension.
 Tensor PlaceOfExtreme(Elaborator& elaborator, const Tensor& tensor, int dimension, bool largest,
                       Position position) {
   TensorMath& math = elaborator.math();
@@ -134,7 +134,8 @@ Tensor PlaceOfExtreme(Elaborator& elaborator, const Tensor& tensor, int dimensio
   return place;
 }
 
-// Everywhere where it is of any use: a place among the environments is not offered.
+// Returns the index as a value where it is usable: an index among the environments is not
+// supported.
 Value PlaceValue(Elaborator& elaborator, const Tensor& tensor, int dimension, bool keep,
                  bool largest, Position position) {
   if (RunsOverEnvironments(tensor.shape[dimension])) {
@@ -147,7 +148,8 @@ Value PlaceValue(Elaborator& elaborator, const Tensor& tensor, int dimension, bo
   return TensorValue(std::move(place));
 }
 
-// torch.max(x), torch.max(x, dim), torch.max(x, y), and the builtin of numbers (python_functions).
+// Implements torch.max(x), torch.max(x, dim), torch.max(x, y), and the builtin for numbers
+// (python_functions.cpp).
 Value Extreme(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const bool largest = arguments.function->variant == 1;
@@ -194,7 +196,7 @@ Value CountNonzero(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(math.Reduce(Reduction::kSum, flags, dimensions, false, arguments.position));
 }
 
-// e^x over its sum along a dimension, the largest taken out first.
+// Returns e^x over its sum along a dimension, with the maximum subtracted first.
 Value Softmax(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Position position = arguments.position;
@@ -208,7 +210,7 @@ Value Softmax(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(math.Map(kDivide, power, sum, DataType::kFloat, position));
 }
 
-// log of the sum of e^x along dimensions, the largest taken out first.
+// Returns the log of the sum of e^x along dimensions, with the maximum subtracted first.
 Value LogSumExp(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   const Position position = arguments.position;

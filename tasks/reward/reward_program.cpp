@@ -27,7 +27,7 @@ std::ptrdiff_t EnvironmentStride(const RewardBinding& binding, const RewardSlot&
   return slot.uniform ? 0 : slot.width;
 }
 
-// Everything that one run needs; lives on the stack.
+// The data of one run; lives on the stack.
 struct Pass {
   const Code& code;
   std::span<const RewardBinding> bindings;
@@ -36,7 +36,7 @@ struct Pass {
   float* numbers;
   float* spills;
   int max_envs;
-  const float** columns;  // of registers; numbers lie below, at -1 - k
+  const float** columns;  // columns of the registers; numbers lie below, at -1 - k
   double* gathered;
 
   float* Register(Column column) const {
@@ -100,7 +100,7 @@ void Pass::LoadChunk(const Stage& stage, int start, int count) const {
   }
 }
 
-// What the caller's own columns stood in for is a register again.
+// Restores the registers that the caller's own columns replaced.
 void Pass::ReturnColumns(const Stage& stage) const {
   for (const Load& load : stage.loads) columns[load.column] = Register(load.column);
   for (const reward::TripleLoad& triple : stage.triples) {
@@ -260,7 +260,7 @@ void RewardProgram::Run(std::span<const RewardBinding> bindings, int num_envs,
                   workspace->columns_.data() + code.numbers,
                   workspace->gathered_.data()};
   if (code.batch_size < 0) {
-    // The number of environments is a number like any other, set anew in each run.
+    // The number of environments is a number like any other and is set in each run.
     pass.numbers[-1 - code.batch_size] = static_cast<float>(num_envs);
   }
   for (std::size_t s = 0; s < code.stages.size(); ++s) {

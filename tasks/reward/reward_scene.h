@@ -10,7 +10,7 @@ enum class RewardJointType { kFixed, kRevolute, kContinuous, kPrismatic };
 struct RewardJoint {
   std::string name;
   RewardJointType type = RewardJointType::kFixed;
-  double lower = 0.0;  // rad or m; equal to upper where the joint is fixed
+  double lower = 0.0;  // rad or m; equal to upper if the joint is fixed
   double upper = 0.0;
 };
 
@@ -20,7 +20,7 @@ struct RewardAsset {
   std::vector<RewardJoint> joints;
 };
 
-// What a reward program may name: the assets of one environment.
+// The names that a reward program may use: the assets of one environment.
 struct RewardScene {
   std::vector<RewardAsset> assets;
 };

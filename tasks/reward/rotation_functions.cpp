@@ -8,13 +8,13 @@ namespace {
 
 using enum ScalarOperation;
 
-// Arithmetic on columns of one call.
+// Arithmetic on columns for one call.
 class Columns {
  public:
   Columns(Elaborator& elaborator, Position position)
       : math_(elaborator.math()), position_(position) {}
 
-  // The parts of the last dimension, which has to have `size` of them.
+  // Returns the parts of the last dimension, which must have size `size`.
   std::vector<Tensor> Split(const Tensor& tensor, int size, const char* what) {
     if (tensor.shape.empty() || tensor.shape.back() != size) {
       Fail("shape", position_,
@@ -58,8 +58,9 @@ class Columns {
     }
     return result;
   }
-  // v turned by q, or by its inverse: v + 2 w (u x v) + 2 u x (u x v), u the imaginary part, for
-  // unit quaternions as Isaac Gym writes it: (2 w^2 - 1) v +- 2 w (u x v) + 2 u (u . v).
+  // Returns v rotated by q, or by its inverse: v + 2 w (u x v) + 2 u x (u x v), where u is the
+  // imaginary part. Computed for unit quaternions as in Isaac Gym: (2 w^2 - 1) v +- 2 w (u x v) + 2
+  // u (u . v).
   Vector Rotate(const Vector& q, const Vector& v, bool inverse) {
     const Tensor two = Number(2.0);
     const Tensor scale = Subtract(Multiply(two, Multiply(q[3], q[3])), Number(1.0));
@@ -74,7 +75,7 @@ class Columns {
     }
     return result;
   }
-  // v + w t + u x t with t = 2 u x v.
+  // Returns v + w t + u x t with t = 2 u x v.
   Vector Apply(const Vector& q, const Vector& v) {
     Vector t = Cross(q, v);
     for (Tensor& part : t) part = Multiply(part, Number(2.0));
@@ -95,7 +96,7 @@ class Columns {
   Vector Conjugate(const Vector& q) {
     return {Do(kNegate, q[0]), Do(kNegate, q[1]), Do(kNegate, q[2]), q[3]};
   }
-  // To [-pi, pi].
+  // Wraps an angle to [-pi, pi].
   Tensor WrapAngle(const Tensor& angle) {
     return Do(kArcTangent2, Do(kSine, angle), Do(kCosine, angle));
   }
@@ -146,7 +147,7 @@ Value FromAngleAxis(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(columns.Join(std::move(parts)));
 }
 
-// The angle between two orientations: 2 asin |imaginary part of a b*|.
+// Returns the angle between two orientations: 2 asin |imaginary part of a b*|.
 Value Difference(Elaborator& elaborator, const Arguments& arguments) {
   Columns columns(elaborator, arguments.position);
   const auto a = columns.Split(FloatArgument(elaborator, arguments, 0), 4, "a quaternion");
@@ -158,7 +159,7 @@ Value Difference(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(columns.Multiply(columns.Number(2.0), columns.Do(kArcSine, size)));
 }
 
-// Axis `axis` of the frame that a quaternion turns.
+// Returns axis `axis` of the frame that a quaternion rotates.
 Value Axis(Elaborator& elaborator, const Arguments& arguments) {
   Columns columns(elaborator, arguments.position);
   const auto q = columns.Split(FloatArgument(elaborator, arguments, 0), 4, "a quaternion");
@@ -174,7 +175,7 @@ Value NormalizeAngle(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(columns.WrapAngle(FloatArgument(elaborator, arguments, 0)));
 }
 
-// Roll, pitch and yaw, each in [0, 2 pi) as Isaac Gym gives them.
+// Returns roll, pitch and yaw, each in [0, 2 pi) as in Isaac Gym.
 Value EulerAngles(Elaborator& elaborator, const Arguments& arguments) {
   Columns columns(elaborator, arguments.position);
   const auto q = columns.Split(FloatArgument(elaborator, arguments, 0), 4, "a quaternion");

@@ -4,13 +4,13 @@
 
 namespace simwright::tasks::reward {
 
-// What a program computes with, on one number an environment. Torch's meaning throughout: minimum
-// and maximum hand NaN on, rounding is to even, remainder takes the divisor's sign.
+// The operations on one number per environment. Their semantics are torch's: minimum and maximum
+// propagate NaN, rounding is to even, remainder takes the divisor's sign.
 enum class ScalarOperation : std::uint8_t {
   kConstant,
   kInput,
   kBatchSize,
-  // One operand.
+  // Unary operations.
   kNegate,
   kAbsolute,
   kSquareRoot,
@@ -33,7 +33,7 @@ enum class ScalarOperation : std::uint8_t {
   kNot,
   kLogarithmOfOnePlus,
   kExponentialMinusOne,
-  // Two.
+  // Binary operations.
   kAdd,
   kSubtract,
   kMultiply,
@@ -51,15 +51,15 @@ enum class ScalarOperation : std::uint8_t {
   kTruncatedRemainder,
   kFloorRemainder,
   kFloorDivide,
-  // Three: operands[0] != 0 ? operands[1] : operands[2].
+  // A ternary operation: operands[0] != 0 ? operands[1] : operands[2].
   kSelect,
-  // Made by the code generator alone, from chains of the above: a * b + c, c - a * b,
-  // (a - b)^2 + c.
+  // Fused operations, which only the code generator creates from chains of the above: a * b + c, c
+  // - a * b, (a - b)^2 + c.
   kMultiplyAdd,
   kMultiplySubtract,
   kSquaredDifferenceAdd,
   kOperations,
-  // Over all environments.
+  // Operations over all environments.
   kBatchSum,
   kBatchMinimum,
   kBatchMaximum,

@@ -20,7 +20,7 @@ std::vector<Tensor> TensorList(Elaborator& elaborator, const Arguments& argument
   return tensors;
 }
 
-// The same call with a second argument, the dimension.
+// Returns the same call with a second argument, the dimension.
 Arguments WithDimension(Arguments arguments, std::int64_t dimension) {
   arguments.values.push_back(IntegerValue(dimension));
   arguments.places.push_back(arguments.position);
@@ -119,7 +119,7 @@ Value SwapTwo(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(elaborator.math().Permute(tensor, {1, 0}));
 }
 
-// Side by side along the last of one or two dimensions.
+// Concatenates along the last of one or two dimensions.
 Value Columns(Elaborator& elaborator, const Arguments& arguments) {
   const std::vector<Tensor> tensors = TensorList(elaborator, arguments);
   const int dimension = tensors[0].shape.size() < 2 ? 0 : 1;
@@ -127,7 +127,7 @@ Value Columns(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(elaborator.math().Concatenate(tensors, dimension, arguments.position));
 }
 
-// One above the other; vectors become rows.
+// Stacks vertically; vectors become rows.
 Value Rows(Elaborator& elaborator, const Arguments& arguments) {
   const std::vector<Tensor> tensors = TensorList(elaborator, arguments);
   if (tensors[0].shape.size() < 2) return Stack(elaborator, WithDimension(arguments, 0));
@@ -177,7 +177,7 @@ Value ExpandAs(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(elaborator.math().Expand(tensor, other.shape, arguments.position));
 }
 
-// x.repeat(n, 1): as often along each dimension; new dimensions in front.
+// Implements x.repeat(n, 1): repeats along each dimension; new dimensions come first.
 Value Repeat(Elaborator& elaborator, const Arguments& arguments) {
   TensorMath& math = elaborator.math();
   Tensor tensor = TensorArgument(elaborator, arguments, 0);
@@ -235,7 +235,7 @@ Value Flip(Elaborator& elaborator, const Arguments& arguments) {
   return TensorValue(math.Copy(tensor, arguments.position));
 }
 
-// torch.unbind, torch.split and torch.chunk, by the size of the pieces.
+// Implements torch.unbind, torch.split and torch.chunk, by the size of the pieces.
 Value Pieces(Elaborator& elaborator, const Tensor& tensor, int dimension, std::int64_t size,
              bool drop, Position position) {
   if (RunsOverEnvironments(tensor.shape[dimension])) {

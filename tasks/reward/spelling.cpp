@@ -14,7 +14,7 @@ std::string Lower(std::string_view text) {
   return lower;
 }
 
-// Edits between two words, where two swapped neighbours count as one.
+// Returns the number of edits between two words; a swap of neighbours counts as one edit.
 int EditDistance(std::string_view a, std::string_view b) {
   const std::size_t columns = b.size() + 1;
   std::vector<int> table((a.size() + 1) * columns);
@@ -41,7 +41,7 @@ int EditDistance(std::string_view a, std::string_view b) {
 std::string NearestName(std::string_view name, const std::vector<std::string>& known) {
   const std::string wanted = Lower(name);
   std::string nearest;
-  // A third of the letters may differ; more is another word.
+  // At most a third of the letters may differ.
   int best = std::max<int>(1, static_cast<int>(wanted.size()) / 3) + 1;
   for (const std::string& candidate : known) {
     const std::string other = Lower(candidate);

@@ -6,10 +6,10 @@
 
 namespace simwright::tasks::reward {
 
-// The one of `known` that is spelt most like `name`; empty where none is near.
+// Returns the name in `known` that is spelt most like `name`; empty if none is close.
 std::string NearestName(std::string_view name, const std::vector<std::string>& known);
 
-// "; did you mean X?" for the nearest name, or the first few of `known`, or nothing.
+// Returns "; did you mean X?" for the nearest name, or the first few of `known`, or nothing.
 std::string Suggestion(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace simwright::tasks::reward

@@ -42,7 +42,7 @@ Value Recased(Elaborator&, const Arguments& arguments) {
   return StringValue(std::move(text));
 }
 
-// startswith, endswith (variant 1): one string, or a tuple of them.
+// Implements startswith and endswith (variant 1) with one string, or a tuple of them.
 Value Affix(Elaborator& elaborator, const Arguments& arguments) {
   const std::string& text = TextArgument(arguments, 0);
   std::vector<Value> wanted = {arguments[1]};
@@ -67,12 +67,12 @@ Value Replace(Elaborator&, const Arguments& arguments) {
   std::size_t at = 0;
   for (std::size_t next; (next = text.find(old, at)) != std::string::npos; at = next + old.size()) {
     result += text.substr(at, next - at) + fresh;
-    if (result.size() > kLongestText) break;  // refused below
+    if (result.size() > kLongestText) break;  // rejected below
   }
   return Bounded(result + text.substr(at), arguments.position);
 }
 
-// strip, lstrip (1), rstrip (2): of blanks, or of the characters given.
+// Implements strip, lstrip (1) and rstrip (2) of blanks, or of the given characters.
 Value Strip(Elaborator&, const Arguments& arguments) {
   const std::string& text = TextArgument(arguments, 0);
   const std::string blanks = arguments.given[1] ? TextArgument(arguments, 1) : " \t\r\n";
@@ -108,12 +108,12 @@ Value JoinTexts(Elaborator& elaborator, const Arguments& arguments) {
     }
     text += (first ? "" : separator) + item.text;
     first = false;
-    if (text.size() > kLongestText) break;  // refused below
+    if (text.size() > kLongestText) break;  // rejected below
   }
   return Bounded(std::move(text), arguments.position);
 }
 
-// "{}_{1:.2f}".format(...): values by their order or number.
+// Implements "{}_{1:.2f}".format(...): values by their order or number.
 Value FormatTemplate(Elaborator&, const Arguments& arguments) {
   const std::string& text = TextArgument(arguments, 0);
   const std::vector<Value>& values = *arguments[1].items;

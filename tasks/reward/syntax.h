@@ -49,12 +49,12 @@ enum class ExpressionKind {
   kInteger,
   kFloat,
   kString,
-  kFormatString,  // children: the parts, joined
-  kFormatted,     // children[0] as text; text: what follows ':'; integer: the letter after '!'
+  kFormatString,  // children: the parts to join
+  kFormatted,     // children[0] as text; text: the format after ':'; integer: the letter after '!'
   kName,          // text
   kTuple,
   kList,
-  kDict,         // children: key, value, key, value ...; no key: all of a dictionary
+  kDict,         // children: key, value, key, value ...; without a key: a ** entry
   kStarred,      // *children[0], in a target or a list
   kUnary,        // operation, children[0]
   kBinary,       // operation, children[0..1]
@@ -74,8 +74,8 @@ using ExpressionPtr = std::unique_ptr<Expression>;
 
 struct Expression {
   ExpressionKind kind = ExpressionKind::kNone;
-  Position position;  // of an operation: its sign; of an attribute: its name; of a call: its callee
-  int depth = 1;      // of the tree below
+  Position position;  // operation: its sign; attribute: its name; call: its callee
+  int depth = 1;      // depth of the tree below
   Operator operation = Operator::kNone;
   std::string text;
   std::int64_t integer = 0;
@@ -90,10 +90,10 @@ enum class StatementKind {
   kAssign,      // targets = value
   kAugmented,   // targets[0] operation= value
   kReturn,      // value or null
-  kIf,          // targets: conditions; blocks: one each, and a last one for else
+  kIf,          // targets: conditions; blocks: one per condition, then one for else
   kFor,         // targets[0] in value: blocks[0]
-  kBlock,       // blocks[0], of a harmless `with`
-  kFunction,    // function, defined inside another
+  kBlock,       // blocks[0], the body of a harmless `with`
+  kFunction,    // function, defined inside another function
   kDelete,      // targets
   kImport,      // imports
   kPass,
@@ -107,8 +107,8 @@ using Block = std::vector<std::unique_ptr<Statement>>;
 
 struct Import {
   std::string module;  // "torch.nn"
-  std::string name;    // after `from`; "*" for all, empty for a plain import
-  std::string alias;   // the name it gets
+  std::string name;    // name after `from`; "*" for all, empty for a plain import
+  std::string alias;   // the name that is bound
   Position position;
 };
 
@@ -135,7 +135,7 @@ struct Function {
   Position position;
   std::vector<Parameter> parameters;
   Block body;
-  std::set<std::string> locals;  // names that the body sets: they are its own
+  std::set<std::string> locals;  // names that the body binds
 };
 
 struct Module {

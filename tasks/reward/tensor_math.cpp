@@ -10,7 +10,7 @@ int LaneSize(int size) {
   return RunsOverEnvironments(size) ? 1 : size;
 }
 
-// How far a step along each dimension goes through the lanes.
+// Returns the distance in lanes of a step along each dimension.
 std::vector<int> Strides(const Shape& shape) {
   std::vector<int> strides(shape.size());
   int stride = 1;
@@ -21,7 +21,7 @@ std::vector<int> Strides(const Shape& shape) {
   return strides;
 }
 
-// Visits the lanes of `shape` in order; `visit` is handed the sum of index * strides[d].
+// Visits the lanes of `shape` in order; `visit` receives the sum of index * strides[d].
 template <typename Visit>
 void Walk(const Shape& shape, const std::vector<int>& strides, const Visit& visit) {
   const std::int64_t count = LaneCount(shape);
@@ -221,7 +221,7 @@ Tensor TensorMath::Take(const Tensor& tensor, int dimension, std::int64_t index,
          "which environments a mask picks is not known before, so none of them can be taken; "
          "reduce them with .mean(), .sum(), .max()");
   }
-  if (size == kBatch) {  // one environment's numbers, for all
+  if (size == kBatch) {  // the numbers of one environment, for all
     std::vector<NodeId> nodes = Nodes(tensor);
     if (index < -1'000'000 || index > 1'000'000) {
       Fail("index", position, "there is no environment " + std::to_string(index));

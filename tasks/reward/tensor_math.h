@@ -11,9 +11,9 @@ namespace simwright::tasks::reward {
 
 enum class Reduction { kSum, kProduct, kMinimum, kMaximum, kAll, kAny };
 
-// Torch's tensor operations, carried out on the lanes of a graph. Shapes and types are known, so
-// broadcasting, views, reductions and rearrangements cost nothing when the program runs.
-// Everything that can be wrong throws Fault at `position`.
+// Torch's tensor operations, applied to the lanes of a graph. Shapes and types are known at compile
+// time, so broadcasting, views, reductions and rearrangements cost nothing at run time. Operations
+// throw Fault at `position` for invalid arguments.
 class TensorMath {
  public:
   TensorMath(const RewardOptions& options, Graph* graph, Heap* heap)
@@ -22,16 +22,17 @@ class TensorMath {
   Graph& graph() { return graph_; }
   Heap& heap() { return heap_; }
 
-  // A new tensor with its own storage. Refuses two dimensions N and too many lanes.
+  // Returns a new tensor with its own storage. Rejects two dimensions N and too many lanes.
   Tensor Make(DataType type, Shape shape, std::vector<NodeId> nodes, Position position);
   Tensor Full(DataType type, Shape shape, NodeId node, Position position);
   Tensor Scalar(DataType type, NodeId node);
   std::vector<NodeId> Nodes(const Tensor& tensor) const;
   NodeId At(const Tensor& tensor, std::size_t lane) const;
-  // Writes `values` (as many as lanes) into the storage that the tensor looks at.
+  // Writes `values` (as many as lanes) into the storage that the tensor views.
   void Write(const Tensor& tensor, const std::vector<NodeId>& values);
 
-  // A number, a flag or the number of environments as a scalar tensor; a tensor as it is.
+  // Returns a number, a flag or the number of environments as a scalar tensor, and a tensor
+  // unchanged.
   Tensor FromValue(const Value& value, Position position);
 
   Tensor Cast(const Tensor& tensor, DataType type, Position position);
@@ -40,33 +41,36 @@ class TensorMath {
              Position position);
   Tensor Select(const Tensor& condition, const Tensor& a, const Tensor& b, Position position);
 
-  // Torch's broadcasting; `sign` names the operation in the sentence.
+  // Returns the shape that torch's broadcasting gives.
   Shape Broadcast(const Shape& a, const Shape& b, Position position) const;
-  // A view of the tensor with the shape, which it must broadcast to.
+  // Returns a view of the tensor with the given shape, to which it must be broadcastable.
   Tensor Expand(const Tensor& tensor, const Shape& shape, Position position) const;
 
-  // Over the given dimensions (checked, in order); over none of them: the tensor itself.
+  // Reduces over the given dimensions (checked, in order). Without dimensions returns the tensor
+  // itself.
   Tensor Reduce(Reduction reduction, const Tensor& tensor, const std::vector<int>& dimensions,
                 bool keep, Position position);
-  // How many numbers a reduction over the dimensions takes together, as a node: N counts.
+  // Returns the number of elements that a reduction over the dimensions combines, as a node; N is
+  // included.
   NodeId CountOver(const Tensor& tensor, const std::vector<int>& dimensions);
   Tensor Mean(const Tensor& tensor, const std::vector<int>& dimensions, bool keep,
               Position position);
 
-  // Views.
+  // Views of a tensor.
   Tensor Take(const Tensor& tensor, int dimension, std::int64_t index, Position position);
   Tensor Slice(const Tensor& tensor, int dimension, std::int64_t start, std::int64_t stop,
                std::int64_t step) const;
   Tensor Unsqueeze(const Tensor& tensor, int dimension) const;
   Tensor Squeeze(const Tensor& tensor, int dimension) const;
   Tensor Permute(const Tensor& tensor, const std::vector<int>& order) const;
-  // -1 for a size that follows from the others; kKnownBatch stands for N.
+  // -1 represents a size that follows from the others; kKnownBatch represents N.
   Tensor Reshape(const Tensor& tensor, const std::vector<std::int64_t>& sizes, Position position);
 
   Tensor Concatenate(const std::vector<Tensor>& tensors, int dimension, Position position);
   Tensor Copy(const Tensor& tensor, Position position);
 
-  // Counts from the end where negative; throws where there is no such dimension.
+  // Returns the dimension's index; a negative one counts from the end. Throws Fault if there is no
+  // such dimension.
   int Dimension(std::int64_t dimension, std::size_t rank, Position position) const;
 
   static constexpr std::int64_t kKnownBatch = -2;

@@ -10,7 +10,7 @@ bool Contains(const std::vector<int>& all, int one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
 
-// For each lane the lane of the result that it goes into.
+// Returns for each lane the result lane into which it is reduced.
 std::vector<int> Targets(const Shape& shape, const std::vector<int>& dimensions) {
   std::vector<int> sizes(shape.size()), strides(shape.size(), 0);
   int stride = 1;
@@ -31,7 +31,7 @@ std::vector<int> Targets(const Shape& shape, const std::vector<int>& dimensions)
   return targets;
 }
 
-// What changes nothing in a reduction: the value of those that a mask leaves out.
+// Returns the neutral element of a reduction, used for environments that a mask excludes.
 double Neutral(Reduction reduction) {
   switch (reduction) {
     case Reduction::kMinimum:
@@ -105,7 +105,7 @@ Tensor TensorMath::Reduce(Reduction reduction, const Tensor& tensor,
   const auto over = std::find_if(dimensions.begin(), dimensions.end(),
                                  [&](int d) { return RunsOverEnvironments(operand.shape[d]); });
   for (NodeId& node : nodes) {
-    if (node < 0) {  // over nothing
+    if (node < 0) {  // an empty reduction
       if (reduction == Reduction::kMinimum || reduction == Reduction::kMaximum) {
         Fail("shape", position, "there is nothing to take the least or largest of");
       }

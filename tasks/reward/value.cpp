@@ -17,7 +17,7 @@ std::string ShapeText(const Shape& shape) {
 std::int64_t LaneCount(const Shape& shape) {
   std::int64_t count = 1;
   for (const int size : shape) {
-    // Far beyond every bound, and far from the end of 64 bits.
+    // Far beyond every bound, and far below the limit of 64 bits.
     if (!RunsOverEnvironments(size))
       count = std::min<std::int64_t>(count * size, std::int64_t{1} << 31);
   }
@@ -82,7 +82,7 @@ Value TupleValue(std::vector<Value> items) {
 
 namespace {
 
-// True as well where there is too much to look through.
+// Returns true also if there are too many elements to search.
 bool HoldsContainer(const Value& value, int* budget) {
   if (--*budget < 0 || value.Is(ValueKind::kList) || value.Is(ValueKind::kDict)) return true;
   return value.items != nullptr &&

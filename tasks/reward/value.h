@@ -19,8 +19,8 @@ enum class DataType { kBool, kInteger, kFloat };
 constexpr int kBatch = -1;
 using Shape = std::vector<int>;
 
-// The size of a dimension that runs over the environments where a flag is set, x[mask]: equal flags
-// give equal sizes, so that only what was picked alike fits together.
+// Returns the size of a dimension that runs over the environments where a flag is set, x[mask].
+// Equal flags give equal sizes, so only tensors selected by the same mask are compatible.
 constexpr int PickedBy(NodeId flag) {
   return kBatch - 1 - flag;
 }
@@ -30,24 +30,26 @@ constexpr bool IsPicked(int size) {
 constexpr NodeId PickingFlag(int size) {
   return kBatch - 1 - size;
 }
-// All environments, or those that are picked.
+// Returns true if the dimension runs over all environments or over the selected ones.
 constexpr bool RunsOverEnvironments(int size) {
   return size <= kBatch;
 }
 bool HoldsPicked(const Shape& shape);
 
-// "[N, 3]"; a scalar is "a scalar", M stands for the environments that a mask picks.
+// Returns "[N, 3]"; a scalar is "a scalar", and M is the number of environments that a mask
+// selects.
 std::string ShapeText(const Shape& shape);
 
-// Numbers an environment of a tensor of this shape: the product of its sizes, N left out.
+// Returns the numbers per environment of a tensor of this shape: the product of its sizes without
+// N.
 std::int64_t LaneCount(const Shape& shape);
 
-// The dimension over the environments, or -1.
+// Returns the dimension over the environments, or -1.
 int BatchDimension(const Shape& shape);
 
-// A view of a storage: lane i (row-major over the shape, N left out) is number lanes[i] there.
-// A tensor without a dimension N may still differ between environments: the program is then
-// written for one environment (a scalar distance, a position [3]).
+// A view of a storage: lane i (row-major over the shape, without N) is element lanes[i] of the
+// storage. A tensor without a dimension N may still differ between environments: the program is
+// then written for one environment (a scalar distance, a position [3]).
 struct Tensor {
   DataType type = DataType::kFloat;
   Shape shape;
@@ -69,21 +71,21 @@ enum class ValueKind {
   kSlice,      // items: start, stop, step
   kEllipsis,
   kModule,       // text: "torch.nn"
-  kEnvironment,  // text: as written, "env"
-  kFunction,     // of the program: function
-  kLibrary,      // library, text: as written; items: the receiver where it is a method
-  kApi,          // text: a function of the environment; integer: 1 where called on it
-  kType,         // of numbers: integer is a DataType; text
-  kOpaque,       // a device, an annotation: harmless, of no use
-  kUndefined,    // text: why it cannot be used; empty where reported already
+  kEnvironment,  // text: the name as written, "env"
+  kFunction,     // function: a function of the program
+  kLibrary,      // library; text: the name as written; items: the receiver of a method
+  kApi,          // text: a function of the environment; integer: 1 if called on it
+  kType,         // a number type: integer is a DataType; text
+  kOpaque,       // a device or an annotation: accepted and ignored
+  kUndefined,    // text: the reason why it cannot be used; empty if already reported
 };
 
 struct Value;
 
-// What a function that was defined inside another carries with it.
+// The captured state of a function defined inside another.
 struct Closure {
-  int frame = 0;                // the number of the call that it was defined in
-  std::vector<Value> initials;  // of its parameters
+  int frame = 0;                // number of the call in which it was defined
+  std::vector<Value> initials;  // default values of its parameters
 };
 
 struct Value {
@@ -96,9 +98,9 @@ struct Value {
   int object = -1;
   const Function* function = nullptr;
   const LibraryFunction* library = nullptr;
-  std::shared_ptr<const Closure> closure;  // of a function inside another
-  // An index along a dimension that is not offered is named only where it is used: the second of
-  // (values, indices) carries its names.
+  std::shared_ptr<const Closure> closure;  // set for a function defined inside another
+  // The names of a tuple's elements. An index along a dimension that does not support one is
+  // reported only when it is used: the second element of (values, indices) carries its names.
   std::shared_ptr<const std::vector<std::string>> field_names;
 
   bool Is(ValueKind wanted) const { return kind == wanted; }
@@ -108,7 +110,7 @@ struct Value {
   double Number() const {
     return kind == ValueKind::kFloat ? number : static_cast<double>(integer);
   }
-  // A number of this type, as an operand of tensors.
+  // Returns the type of this number as an operand of tensors.
   DataType NumberType() const;
 };
 
@@ -120,21 +122,22 @@ Value TensorValue(Tensor tensor);
 Value TupleValue(std::vector<Value> items);
 Value PlainValue(ValueKind kind, std::string text = "");
 
-// A list or dictionary, or a tuple with one in it. What is changed later may take none of these, so
-// that nothing ever holds itself.
+// Returns true for a list or dictionary, or a tuple that contains one. Mutable objects must not
+// contain these, so no object ever contains itself.
 bool HoldsContainer(const Value& value);
 
-// "a tensor [N, 3]", "a string", for sentences.
+// Returns a description for messages: "a tensor [N, 3]", "a string".
 std::string Describe(const Value& value);
 
-// What can be changed in place, and is shared by all that name it.
+// An object that can be modified in place and is shared by all its names.
 struct Object {
-  std::shared_ptr<const std::vector<NodeId>> nodes;  // a storage
-  std::shared_ptr<const std::vector<Value>> items;   // a list, or a dictionary's values
-  std::shared_ptr<const std::vector<Value>> keys;    // a dictionary's keys, in order
+  std::shared_ptr<const std::vector<NodeId>> nodes;  // elements of a storage
+  std::shared_ptr<const std::vector<Value>> items;   // elements of a list, or values of a
+                                                     // dictionary
+  std::shared_ptr<const std::vector<Value>> keys;    // keys of a dictionary, in order
 };
 
-// All objects of a program, by number. Contents are copied on writing, so that keeping the whole
+// The objects of a program, by number. Contents are copied on write, so a snapshot of the whole
 // heap (before a branch that only some environments take) is cheap.
 class Heap {
  public:

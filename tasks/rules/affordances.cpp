@@ -10,14 +10,14 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr double kPushable = 8.0;      // kg
-constexpr double kRimHeight = 0.3;     // m: what is higher is not taken by its rim
-constexpr double kLongest = 0.5;       // m, of what one hand carries
-constexpr double kSpare = 0.01;        // m
-constexpr double kLeastHeight = 0.015;  // m, of what fingers take from the floor
-constexpr double kLeastTurn = 0.6;     // rad that make a door
-constexpr double kLeastSlide = 0.06;   // m that make a drawer
-constexpr double kLeastPress = 0.002;  // m
+constexpr double kPushable = 8.0;     // kg
+constexpr double kRimHeight = 0.3;    // m; a higher object is not grasped by its rim
+constexpr double kLongest = 0.5;      // m; longest object that one gripper carries
+constexpr double kMargin = 0.01;      // m
+constexpr double kMinHeight = 0.015;  // m; lowest object that fingers can grasp from the floor
+constexpr double kMinTurn = 0.6;      // rad; smallest range of a door
+constexpr double kMinSlide = 0.06;    // m; smallest range of a drawer
+constexpr double kMinPress = 0.002;   // m
 
 template <std::size_t N>
 bool Holds(const std::string& text, const std::array<const char*, N>& words) {
@@ -25,7 +25,7 @@ bool Holds(const std::string& text, const std::array<const char*, N>& words) {
                      [&](const char* word) { return text.find(word) != std::string::npos; });
 }
 
-// The label, or else the link's own name, in lower case.
+// Returns the label, or else the link's own name, in lower case.
 std::string Called(const Thing& thing, const ThingJoint& joint) {
   const ThingLink& link = thing.links[static_cast<std::size_t>(joint.link)];
   std::string name = link.label.empty() ? link.name : link.label;
@@ -33,7 +33,8 @@ std::string Called(const Thing& thing, const ThingJoint& joint) {
   return name;
 }
 
-// Highest points of the thing, within 3 mm: where something can stand.
+// Returns the bounds of the object's highest points, within 3 mm: its support surface. If `lowest`
+// is true, returns those of the lowest points: its footprint.
 Eigen::AlignedBox2d Top(const Thing& thing, bool lowest) {
   const std::vector<Eigen::Isometry3d> poses = LinkPosesOf(thing, RestPositions(thing));
   Eigen::AlignedBox3d box;
@@ -64,7 +65,7 @@ JointUse UseOf(const Thing& thing, const ThingJoint& joint) {
   const std::string name = Called(thing, joint);
   const bool slides = joint.type == RewardJointType::kPrismatic;
   const double range = joint.upper - joint.lower;
-  if (joint.leader >= 0 || range < (slides ? kLeastPress : 0.1)) return JointUse::kNone;
+  if (joint.leader >= 0 || range < (slides ? kMinPress : 0.1)) return JointUse::kNone;
   if (slides && Holds(name, std::array{"door", "window", "sash", "shutter", "screen"})) {
     return JointUse::kSlide;
   }
@@ -85,8 +86,8 @@ JointUse UseOf(const Thing& thing, const ThingJoint& joint) {
     return slides ? JointUse::kPress : JointUse::kTurn;
   }
   if (Holds(name, std::array{"switch", "toggle"})) return JointUse::kSwitch;
-  if (slides) return range >= kLeastSlide ? JointUse::kOpen : JointUse::kPress;
-  return range >= kLeastTurn ? JointUse::kOpen : JointUse::kSwitch;
+  if (slides) return range >= kMinSlide ? JointUse::kOpen : JointUse::kPress;
+  return range >= kMinTurn ? JointUse::kOpen : JointUse::kSwitch;
 }
 
 std::string PartName(const Thing& thing, const ThingJoint& joint) {
@@ -130,7 +131,7 @@ bool HasHandle(const Thing& thing) {
 bool CanBeLifted(const Thing& thing) {
   if (thing.articulated() || thing.mass > kPayload) return false;
   const Eigen::Vector3d size = thing.box.sizes();
-  if (size.maxCoeff() > kLongest || size.z() < kLeastHeight) return false;
+  if (size.maxCoeff() > kLongest || size.z() < kMinHeight) return false;
   const bool narrow = size.head<2>().minCoeff() <= kHandOpening;
   return narrow || (OpensUpwards(thing) && size.z() <= kRimHeight) || HasHandle(thing);
 }
@@ -142,25 +143,25 @@ NoUse WhyOfNoUse(const Thing& thing) {
         thing.joints.begin(), thing.joints.end(),
         [&](const ThingJoint& joint) { return UseOf(thing, joint) != JointUse::kNone; });
     if (used) return {};
-    return {"none of its joints moves far enough for a hand: a turn of 0.1 rad, a slide of 2 mm",
+    return {"none of its joints moves far enough for the gripper: 0.1 rad or 2 mm",
             "widen its limits"};
   }
   if (CanBeLifted(thing) || CanBePushed(thing)) return {};
   const Eigen::Vector3d size = thing.box.sizes();
   if (thing.box.isEmpty()) return {"it has no shape", "give it collision shapes"};
   if (thing.mass > kPushable) {
-    std::snprintf(text, sizeof(text), "its %.3g kg are more than the %.3g kg that a hand pushes",
+    std::snprintf(text, sizeof(text), "its mass of %.3g kg exceeds the pushable %.3g kg",
                   thing.mass, kPushable);
-    return {text, "state its true --mass or --size where it is imported"};
+    return {text, "give its true --mass or --size on import"};
   }
   if (size.maxCoeff() > 2.0 * kLongest) {
-    std::snprintf(text, sizeof(text), "its %.3g m are more than the %.3g m that a hand pushes",
+    std::snprintf(text, sizeof(text), "its size of %.3g m exceeds the pushable %.3g m",
                   size.maxCoeff(), 2.0 * kLongest);
-    return {text, "state its true --size where it is imported"};
+    return {text, "give its true --size on import"};
   }
-  std::snprintf(text, sizeof(text), "it is %.3g m high, too flat for fingers to take or to push",
+  std::snprintf(text, sizeof(text), "it is %.3g m high, too flat to grasp or to push",
                 size.z());
-  return {text, "stand it on something, or make it thicker"};
+  return {text, "place it on a support, or make it thicker"};
 }
 
 bool CanBePushed(const Thing& thing) {
@@ -177,25 +178,26 @@ bool CanPour(const Thing& thing) {
 }
 
 bool StandsOn(const Thing& thing, const Thing& holder) {
-  const Eigen::AlignedBox2d top = Top(holder, false), foot = Top(thing, true);
-  if (top.isEmpty() || foot.isEmpty() || OpensUpwards(holder)) return false;
+  const Eigen::AlignedBox2d top = Top(holder, false), footprint = Top(thing, true);
+  if (top.isEmpty() || footprint.isEmpty() || OpensUpwards(holder)) return false;
   const Eigen::Vector2d whole = holder.box.sizes().head<2>();
   const bool level = (top.sizes().array() >= 0.6 * whole.array()).all();
-  return level && (foot.sizes().array() + kSpare <= top.sizes().array()).all();
+  return level && (footprint.sizes().array() + kMargin <= top.sizes().array()).all();
 }
 
 bool FitsInto(const Thing& thing, const Thing& holder, int cavity) {
-  const Cavity& room = holder.cavities[static_cast<std::size_t>(cavity)];
-  const Eigen::Vector3d opening = OpeningOf(holder, room);
+  const Cavity& receptacle = holder.cavities[static_cast<std::size_t>(cavity)];
+  const Eigen::Vector3d opening = OpeningOf(holder, receptacle);
   if (opening.z() < -0.3) return false;
   const Eigen::Isometry3d pose =
-      LinkPosesOf(holder, RestPositions(holder))[static_cast<std::size_t>(room.link)];
-  const Eigen::Vector3d space = (pose.linear() * room.box.sizes()).cwiseAbs();
+      LinkPosesOf(holder, RestPositions(holder))[static_cast<std::size_t>(receptacle.link)];
+  const Eigen::Vector3d space = (pose.linear() * receptacle.box.sizes()).cwiseAbs();
   const Eigen::Vector3d size = thing.box.sizes();
   const bool upwards = opening.z() > 0.7;
-  // What opens above may be stood out of: a spoon in a cup; not where it is shut again.
-  const double height = upwards && room.door < 0 ? 2.0 * space.z() : space.z() - kSpare;
-  return size.x() + kSpare <= space.x() && size.y() + kSpare <= space.y() && size.z() <= height;
+  // An object may protrude from a top-opening receptacle, as a spoon from a cup, unless a door
+  // closes it.
+  const double height = upwards && receptacle.door < 0 ? 2.0 * space.z() : space.z() - kMargin;
+  return size.x() + kMargin <= space.x() && size.y() + kMargin <= space.y() && size.z() <= height;
 }
 
 }  // namespace simwright::tasks

@@ -4,54 +4,60 @@
 
 namespace simwright::tasks {
 
-// What moving a joint is called.
+// The kind of interaction that moves a joint; it determines the words for the task.
 enum class JointUse {
-  kNone,    // not for a hand: too small a range, or it follows another
+  kNone,    // not operated by the gripper: too small a range, or it follows another joint
   kOpen,    // open / close: doors, drawers, lids, sashes, screens
   kSlide,   // slide open / slide closed: sashes, sliding doors
   kTurn,    // turn on / turn off: knobs, taps, valves
   kSwitch,  // switch on / switch off
-  kLatch,   // turn / turn back: a door's own handle
+  kLatch,   // turn / turn back: a door's handle
   kPress,   // press: buttons, keys, a toaster's lever
 };
 
-// By the label of what it moves (semantics.txt), without one by the link's name, its type and
-// range: what turns by more than 0.6 rad or slides by more than 6 cm opens, what slides less is
-// pressed.
+// Returns the joint's use by the label of the part that it moves (semantics.txt). Without a label,
+// uses the link's name and the joint's type and range: a joint that turns by more than 0.6 rad or
+// slides by more than 6 cm opens, one that slides less is pressed.
 JointUse UseOf(const Thing& thing, const ThingJoint& joint);
 
-// "door", "drawer 2", "lid": what a person would call what the joint moves.
+// Returns the spoken name of the part that the joint moves: "door", "drawer 2", "lid".
 std::string PartName(const Thing& thing, const ThingJoint& joint);
 
-// What one hand takes: a Panda's, whose fingers open by 8 cm and whose payload is 3 kg, with some
-// to spare.
+// The limits of what the gripper can grasp: those of a Panda, whose fingers open by 8 cm and whose
+// payload is 3 kg, with a margin.
 constexpr double kHandOpening = 0.075;  // m
 constexpr double kPayload = 2.5;        // kg
 
-// Whether it has a part that a hand closes around and that stands out: a hammer's shaft, the handle
-// of a teapot. Its shapes tell: a slim one that reaches 2 cm beyond those that are not slim, or,
-// where all are, a rod at least twice as long as wide.
+// Returns true if the object has a protruding part that the gripper can close around, such as a
+// hammer's shaft or the handle of a teapot. The test uses its shapes: a slim shape that extends 2
+// cm beyond those that are not slim, or, where all are slim, a rod at least twice as long as wide.
 bool HasHandle(const Thing& thing);
 
-// Whether one hand lifts it: narrow enough somewhere, or with a rim or a handle to take.
+// Returns true if one gripper can lift the object: it is narrow enough somewhere, or has a
+// graspable rim or handle.
 bool CanBeLifted(const Thing& thing);
 
-// Why no hand does anything with a thing, a sentence and what may mend it; empty where one can.
+// The reason why the gripper can do nothing with an object, as a sentence and a possible remedy;
+// empty where it can.
 struct NoUse {
   std::string sentence, remedy;
 };
 NoUse WhyOfNoUse(const Thing& thing);
 
-// Whether a hand can push it along the floor: rigid, higher than 2 cm, at most 8 kg.
+// Returns true if the gripper can push the object along the floor: rigid, higher than 2 cm, at most
+// 8 kg.
 bool CanBePushed(const Thing& thing);
 
-// Whether it holds what can be poured: open above or called so (a teapot), and can be lifted.
+// Returns true if the object can be poured from: it opens upwards or has the name of such an object
+// (a teapot), and it can be lifted.
 bool CanPour(const Thing& thing);
 
-// Whether `thing` stands on top of `holder`: a level top, larger than its foot.
+// Returns true if `thing` can stand on top of `holder`: its top is level and larger than the
+// footprint of `thing`.
 bool StandsOn(const Thing& thing, const Thing& holder);
 
-// Whether `thing` fits the cavity of `holder` as it stands, with a centimetre to spare.
+// Returns true if `thing` fits into the receptacle of `holder` in its rest pose, with a margin of 1
+// cm.
 bool FitsInto(const Thing& thing, const Thing& holder, int cavity);
 
 }  // namespace simwright::tasks

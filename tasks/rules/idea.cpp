@@ -11,10 +11,10 @@
 namespace simwright::tasks {
 namespace {
 
-// Collects the ideas of each kind.
-class Thinker {
+// A collector of candidates for each kind of task.
+class CandidateGenerator {
  public:
-  Thinker(const SceneModel& model, std::size_t most, core::Rng& rng)
+  CandidateGenerator(const SceneModel& model, std::size_t most, core::Rng& rng)
       : model_(model), most_(most), rng_(rng) {
     order_.resize(model.things.size());
     std::iota(order_.begin(), order_.end(), 0);
@@ -25,7 +25,7 @@ class Thinker {
     }
   }
 
-  std::vector<Idea> Think() {
+  std::vector<Idea> Generate() {
     Joints();
     Single();
     Onto();
@@ -33,12 +33,12 @@ class Thinker {
     Pour();
     Stacks();
     Stores();
-    return TakeTurns();
+    return Interleave();
   }
 
  private:
   const Thing& Known(int thing) const { return model_.things[static_cast<std::size_t>(thing)]; }
-  std::string Say(int thing) const { return SpokenName(Known(thing)); }
+  std::string Spoken(int thing) const { return SpokenName(Known(thing)); }
 
   void Joints() {
     std::vector<Idea> away, back, all;
@@ -49,16 +49,16 @@ class Thinker {
         const JointUse use = UseOf(thing, thing.joints[j]);
         if (use == JointUse::kNone) continue;
         const int joint = static_cast<int>(j);
-        Idea idea;
-        idea.layout.things = {t};
-        idea.layout.worked = {{t, joint}};
-        idea.goals = {{FactKind::kJointAway, t, -1, joint}};
-        away.push_back(idea);
-        if (use == JointUse::kOpen || use == JointUse::kSlide) open.push_back(idea.goals[0]);
+        Idea candidate;
+        candidate.layout.things = {t};
+        candidate.layout.worked = {{t, joint}};
+        candidate.goals = {{FactKind::kJointAway, t, -1, joint}};
+        away.push_back(candidate);
+        if (use == JointUse::kOpen || use == JointUse::kSlide) open.push_back(candidate.goals[0]);
         if (use == JointUse::kPress) continue;
-        idea.goals = {{FactKind::kJointAtRest, t, -1, joint}};
-        idea.layout.joints = {{thing.name, thing.joints[j].name, thing.joints[j].acted()}};
-        back.push_back(idea);
+        candidate.goals = {{FactKind::kJointAtRest, t, -1, joint}};
+        candidate.layout.joints = {{thing.name, thing.joints[j].name, thing.joints[j].acted()}};
+        back.push_back(candidate);
       }
       if (open.size() >= 2) all.push_back(OpenAll(t, open));
     }
@@ -68,34 +68,34 @@ class Thinker {
   }
 
   Idea OpenAll(int thing, std::vector<Fact> open) {
-    Idea idea;
-    idea.name = NameFrom("open_all_of_" + Known(thing).name);
-    idea.description = "Open everything that opens on the " + Say(thing) + ".";
-    idea.layout.things = {thing};
+    Idea candidate;
+    candidate.name = NameFrom("open_all_of_" + Known(thing).name);
+    candidate.description = "Open everything that opens on the " + Spoken(thing) + ".";
+    candidate.layout.things = {thing};
     if (open.size() > 4) open.resize(4);
-    for (const Fact& fact : open) idea.layout.worked.emplace_back(thing, fact.part);
-    idea.goals = open;
-    return idea;
+    for (const Fact& fact : open) candidate.layout.worked.emplace_back(thing, fact.part);
+    candidate.goals = open;
+    return candidate;
   }
 
   void Single() {
     std::vector<Idea> picked, moved, pushed;
     for (int t : order_) {
-      Idea idea;
-      idea.layout.things = {t};
+      Idea candidate;
+      candidate.layout.things = {t};
       if (CanBeLifted(Known(t))) {
-        idea.goals = {{FactKind::kHolding, t}};
-        picked.push_back(idea);
-        idea.name = NameFrom("move_" + Known(t).name);
-        idea.description = "Take the " + Say(t) + " and put it down at the goal.";
-        idea.goals = {{FactKind::kAtGoal, t}};
-        moved.push_back(idea);
-        idea.name.clear();
-        idea.description.clear();
+        candidate.goals = {{FactKind::kHolding, t}};
+        picked.push_back(candidate);
+        candidate.name = NameFrom("move_" + Known(t).name);
+        candidate.description = "Take the " + Spoken(t) + " and put it down at the goal.";
+        candidate.goals = {{FactKind::kAtGoal, t}};
+        moved.push_back(candidate);
+        candidate.name.clear();
+        candidate.description.clear();
       }
       if (CanBePushed(Known(t))) {
-        idea.goals = {{FactKind::kPushed, t}};
-        pushed.push_back(idea);
+        candidate.goals = {{FactKind::kPushed, t}};
+        pushed.push_back(candidate);
       }
     }
     kinds_.push_back(std::move(picked));
@@ -103,7 +103,7 @@ class Thinker {
     kinds_.push_back(std::move(pushed));
   }
 
-  // Pairs in a mixed order, as many as can be of use.
+  // Visits pairs in a mixed order, up to the number that can be used.
   void EachPair(const std::vector<int>& firsts, const std::vector<int>& seconds,
                 const std::function<void(int, int)>& visit) {
     const std::size_t bound = 4 * most_ + 64;
@@ -119,17 +119,18 @@ class Thinker {
   }
 
   void Onto() {
-    std::vector<Idea> ideas;
+    std::vector<Idea> candidates;
     EachPair(lifted_, order_, [&](int thing, int holder) {
       if (!StandsOn(Known(thing), Known(holder)) || Known(holder).height() > 0.6) return;
-      Idea idea;
-      idea.name = NameFrom("place_" + Known(thing).name + "_on_" + Known(holder).name);
-      idea.description = "Pick up the " + Say(thing) + " and stand it on the " + Say(holder) + ".";
-      idea.layout.things = {thing, holder};
-      idea.goals = {{FactKind::kOn, thing, holder}};
-      ideas.push_back(std::move(idea));
+      Idea candidate;
+      candidate.name = NameFrom("place_" + Known(thing).name + "_on_" + Known(holder).name);
+      candidate.description =
+          "Pick up the " + Spoken(thing) + " and stand it on the " + Spoken(holder) + ".";
+      candidate.layout.things = {thing, holder};
+      candidate.goals = {{FactKind::kOn, thing, holder}};
+      candidates.push_back(std::move(candidate));
     });
-    kinds_.push_back(std::move(ideas));
+    kinds_.push_back(std::move(candidates));
   }
 
   void Into() {
@@ -139,11 +140,11 @@ class Thinker {
       for (std::size_t c = 0; c < known.cavities.size() && c < 3; ++c) {
         const int cavity = static_cast<int>(c);
         if (!FitsInto(Known(thing), known, cavity)) continue;
-        put.push_back(PutIdea(thing, holder, cavity));
-        taken.push_back(TakeIdea(thing, holder, cavity));
+        put.push_back(PutCandidate(thing, holder, cavity));
+        taken.push_back(TakeCandidate(thing, holder, cavity));
         const int control = ControlOf(known, known.cavities[c].door);
         if (control >= 0 && known.cavities[c].door >= 0) {
-          used.push_back(UseIdea(put.back(), holder, control));
+          used.push_back(UseCandidate(put.back(), holder, control));
         }
         return;
       }
@@ -153,7 +154,7 @@ class Thinker {
     kinds_.push_back(std::move(used));
   }
 
-  // A knob or button of a thing that has a door.
+  // Returns a knob or button of an object that has a door; -1: none.
   int ControlOf(const Thing& thing, int door) const {
     for (std::size_t j = 0; j < thing.joints.size(); ++j) {
       const JointUse use = UseOf(thing, thing.joints[j]);
@@ -164,36 +165,36 @@ class Thinker {
     return -1;
   }
 
-  Idea PutIdea(int thing, int holder, int cavity) {
+  Idea PutCandidate(int thing, int holder, int cavity) {
     const int door = Known(holder).cavities[static_cast<std::size_t>(cavity)].door;
-    Idea idea;
-    idea.name = NameFrom("put_" + Known(thing).name + "_into_" + Known(holder).name);
-    idea.description = "Put the " + Say(thing) + " into the " + Say(holder);
-    idea.layout.things = {holder, thing};
-    idea.goals = {{FactKind::kIn, thing, holder, cavity}};
+    Idea candidate;
+    candidate.name = NameFrom("put_" + Known(thing).name + "_into_" + Known(holder).name);
+    candidate.description = "Put the " + Spoken(thing) + " into the " + Spoken(holder);
+    candidate.layout.things = {holder, thing};
+    candidate.goals = {{FactKind::kIn, thing, holder, cavity}};
     if (door >= 0) {
-      idea.name += "_and_close_it";
-      idea.description += " and close it";
-      idea.layout.worked = {{holder, door}};
-      idea.goals.push_back({FactKind::kJointAtRest, holder, -1, door});
+      candidate.name += "_and_close_it";
+      candidate.description += " and close it";
+      candidate.layout.worked = {{holder, door}};
+      candidate.goals.push_back({FactKind::kJointAtRest, holder, -1, door});
     }
-    idea.description += ".";
-    return idea;
+    candidate.description += ".";
+    return candidate;
   }
 
-  Idea TakeIdea(int thing, int holder, int cavity) {
+  Idea TakeCandidate(int thing, int holder, int cavity) {
     const int door = Known(holder).cavities[static_cast<std::size_t>(cavity)].door;
-    Idea idea;
-    idea.name = NameFrom("take_" + Known(thing).name + "_out_of_" + Known(holder).name);
-    idea.description = "Take the " + Say(thing) + " out of the " + Say(holder) + ".";
-    idea.layout.things = {holder, thing};
-    idea.layout.resting = {{thing, holder, cavity}};
-    idea.goals = {{FactKind::kAtGoal, thing}};
-    if (door >= 0) idea.layout.worked = {{holder, door}};
-    return idea;
+    Idea candidate;
+    candidate.name = NameFrom("take_" + Known(thing).name + "_out_of_" + Known(holder).name);
+    candidate.description = "Take the " + Spoken(thing) + " out of the " + Spoken(holder) + ".";
+    candidate.layout.things = {holder, thing};
+    candidate.layout.resting = {{thing, holder, cavity}};
+    candidate.goals = {{FactKind::kAtGoal, thing}};
+    if (door >= 0) candidate.layout.worked = {{holder, door}};
+    return candidate;
   }
 
-  Idea UseIdea(Idea put, int holder, int control) {
+  Idea UseCandidate(Idea put, int holder, int control) {
     const Thing& known = Known(holder);
     const ThingJoint& joint = known.joints[static_cast<std::size_t>(control)];
     const bool press = UseOf(known, joint) == JointUse::kPress;
@@ -208,66 +209,66 @@ class Thinker {
   }
 
   void Pour() {
-    std::vector<Idea> ideas;
+    std::vector<Idea> candidates;
     EachPair(lifted_, lifted_, [&](int thing, int other) {
       if (!CanPour(Known(thing)) || !CanPour(Known(other))) return;
-      Idea idea;
-      idea.name = NameFrom("pour_from_" + Known(thing).name + "_into_" + Known(other).name);
-      idea.description =
-          "Pick up the " + Say(thing) + " and pour from it into the " + Say(other) + ".";
-      idea.layout.things = {thing, other};
-      idea.goals = {{FactKind::kPoured, thing, other}};
-      ideas.push_back(std::move(idea));
+      Idea candidate;
+      candidate.name = NameFrom("pour_from_" + Known(thing).name + "_into_" + Known(other).name);
+      candidate.description =
+          "Pick up the " + Spoken(thing) + " and pour from it into the " + Spoken(other) + ".";
+      candidate.layout.things = {thing, other};
+      candidate.goals = {{FactKind::kPoured, thing, other}};
+      candidates.push_back(std::move(candidate));
     });
-    kinds_.push_back(std::move(ideas));
+    kinds_.push_back(std::move(candidates));
   }
 
   void Stacks() {
-    std::vector<Idea> ideas;
+    std::vector<Idea> candidates;
     EachPair(lifted_, lifted_, [&](int top, int middle) {
       if (!StandsOn(Known(top), Known(middle))) return;
       for (int base : order_) {
         const bool apart = base != top && base != middle && !Known(base).articulated();
         if (!apart || !StandsOn(Known(middle), Known(base)) || Known(base).height() > 0.4) continue;
-        Idea idea;
-        idea.name = NameFrom("stack_" + Known(top).name + "_" + Known(middle).name + "_" +
-                             Known(base).name);
-        idea.description = "Stack the " + Say(middle) + " on the " + Say(base) + " and the " +
-                           Say(top) + " on top.";
-        idea.layout.things = {top, middle, base};
-        idea.goals = {{FactKind::kOn, middle, base}, {FactKind::kOn, top, middle}};
-        ideas.push_back(std::move(idea));
+        Idea candidate;
+        candidate.name = NameFrom("stack_" + Known(top).name + "_" + Known(middle).name + "_" +
+                                  Known(base).name);
+        candidate.description = "Stack the " + Spoken(middle) + " on the " + Spoken(base) +
+                                " and the " + Spoken(top) + " on top.";
+        candidate.layout.things = {top, middle, base};
+        candidate.goals = {{FactKind::kOn, middle, base}, {FactKind::kOn, top, middle}};
+        candidates.push_back(std::move(candidate));
         return;
       }
     });
-    kinds_.push_back(std::move(ideas));
+    kinds_.push_back(std::move(candidates));
   }
 
-  // Two things into one room that has a door.
+  // Collects tasks that put two objects into one receptacle with a door.
   void Stores() {
-    std::vector<Idea> ideas;
+    std::vector<Idea> candidates;
     EachPair(lifted_, lifted_, [&](int first, int second) {
       if (first > second) return;
       for (int holder : holders_) {
         const Thing& known = Known(holder);
         if (holder == first || holder == second || known.cavities[0].door < 0) continue;
         if (!FitsInto(Known(first), known, 0) || !FitsInto(Known(second), known, 0)) continue;
-        Idea idea = PutIdea(first, holder, 0);
-        idea.name = NameFrom("store_" + Known(first).name + "_and_" + Known(second).name + "_in_" +
-                             known.name);
-        idea.description = "Put the " + Say(first) + " and the " + Say(second) + " into the " +
-                           Say(holder) + " and close it.";
-        idea.layout.things.push_back(second);
-        idea.goals.insert(idea.goals.begin() + 1, {FactKind::kIn, second, holder, 0});
-        ideas.push_back(std::move(idea));
+        Idea candidate = PutCandidate(first, holder, 0);
+        candidate.name = NameFrom("store_" + Known(first).name + "_and_" + Known(second).name +
+                                  "_in_" + known.name);
+        candidate.description = "Put the " + Spoken(first) + " and the " + Spoken(second) +
+                                " into the " + Spoken(holder) + " and close it.";
+        candidate.layout.things.push_back(second);
+        candidate.goals.insert(candidate.goals.begin() + 1, {FactKind::kIn, second, holder, 0});
+        candidates.push_back(std::move(candidate));
         std::rotate(holders_.begin(), holders_.begin() + 1, holders_.end());
         return;
       }
     });
-    kinds_.push_back(std::move(ideas));
+    kinds_.push_back(std::move(candidates));
   }
 
-  std::vector<Idea> TakeTurns() {
+  std::vector<Idea> Interleave() {
     std::vector<Idea> mixed;
     bool any = true;
     for (std::size_t turn = 0; any && mixed.size() < most_; ++turn) {
@@ -291,7 +292,7 @@ class Thinker {
 }  // namespace
 
 std::vector<Idea> ThinkOfTasks(const SceneModel& model, std::size_t most, core::Rng& rng) {
-  return Thinker(model, most, rng).Think();
+  return CandidateGenerator(model, most, rng).Generate();
 }
 
 }  // namespace simwright::tasks

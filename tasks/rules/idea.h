@@ -9,16 +9,16 @@
 
 namespace simwright::tasks {
 
-// What a task is about, before it is known to be possible.
+// A task candidate: the content of a task before it is known to be feasible.
 struct Idea {
   std::string name;         // "put_mug_into_microwave_and_close"
   std::string description;  // a sentence
-  LayoutRequest layout;     // its things, and what is not at rest
-  std::vector<Fact> goals;  // brought about in this order
+  LayoutRequest layout;     // its objects, and the joints that are not at rest
+  std::vector<Fact> goals;  // the goal predicates, achieved in this order
 };
 
-// All ideas on the model's things, mixed: kinds of tasks take turns, and within a kind things do,
-// in an order drawn from `rng`. At most `most`.
+// Returns up to `most` task candidates for the model's objects, interleaved: the kinds of tasks
+// alternate, and within a kind the objects do, in an order sampled from `rng`.
 std::vector<Idea> ThinkOfTasks(const SceneModel& model, std::size_t most, core::Rng& rng);
 
 }  // namespace simwright::tasks

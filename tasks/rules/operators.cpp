@@ -23,7 +23,7 @@ void AddJoints(const Thing& known, int thing, std::vector<Operator>* operators) 
   }
 }
 
-// Taking a thing from wherever it can be, and putting it down again.
+// Adds operators that take an object from each possible place and put it down again.
 void AddHandling(const SceneModel& model, int thing, const std::vector<int>& things,
                  std::vector<Operator>* operators) {
   const Fact held = Of(FactKind::kHolding, thing), floor = Of(FactKind::kOnFloor, thing);
@@ -51,7 +51,7 @@ void AddHandling(const SceneModel& model, int thing, const std::vector<int>& thi
       const int door = holder.cavities[c].door;
       std::vector<Fact> put = {held}, take = {kEmpty};
       if (door >= 0) {
-        // Opened first: a hand that holds something cannot.
+        // The door is opened first, because a gripper that holds an object cannot open it.
         put.insert(put.begin(), Of(FactKind::kJointAway, other, -1, door));
         take.insert(take.begin(), Of(FactKind::kJointAway, other, -1, door));
       }

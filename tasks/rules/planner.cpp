@@ -41,7 +41,7 @@ class Planner {
     for (const Fact& fact : one.wanted) {
       if (!Achieve(fact, depth + 1)) return false;
     }
-    // Bringing one about may have undone another.
+    // Achieving one precondition may have undone another.
     if (!Holds(one.given) || !Holds(one.wanted) || steps_.size() == kMostSteps) return false;
     for (const Fact& fact : one.removes) facts_.erase(fact);
     for (const Fact& fact : one.adds) facts_.insert(fact);

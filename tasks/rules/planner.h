@@ -9,20 +9,20 @@
 namespace simwright::tasks {
 
 enum class FactKind {
-  kJointAway,    // thing's joint `part` is open, on
-  kJointAtRest,  // closed, off
+  kJointAway,    // the object's joint `part` is open or on
+  kJointAtRest,  // the joint is closed or off
   kHandEmpty,
-  kHolding,  // thing
-  kOnFloor,  // thing
-  kOn,       // thing stands on `other`
-  kIn,       // thing is in cavity `part` of `other`
-  kFree,     // nothing stands on thing
-  kAtGoal,   // thing was put where it was wanted
-  kPushed,   // thing was pushed there
-  kPoured,   // thing was tilted over `other`
+  kHolding,  // the gripper holds the object
+  kOnFloor,  // the object is on the floor
+  kOn,       // the object stands on `other`
+  kIn,       // the object is in receptacle `part` of `other`
+  kFree,     // nothing stands on the object
+  kAtGoal,   // the object was put at its goal
+  kPushed,   // the object was pushed to its goal
+  kPoured,   // the object was tilted over `other`
 };
 
-// Something that is true or not, as rules reason about it.
+// A ground predicate of the planner.
 struct Fact {
   FactKind kind = FactKind::kHandEmpty;
   int thing = -1, other = -1, part = -1;
@@ -33,24 +33,25 @@ using Facts = std::set<Fact>;
 
 enum class Verb { kOpen, kClose, kPick, kPlaceOn, kPutInto, kPutDown, kPush, kPour };
 
-// What a hand can do, and what it changes: STRIPS (Fikes and Nilsson, 1971).
+// An action with its preconditions and effects: STRIPS (Fikes and Nilsson, 1971).
 struct Operator {
   Verb verb = Verb::kPick;
-  int thing = -1;            // that is handled
-  int other = -1;            // that it goes onto, into, over
-  int part = -1;             // joint, or cavity of `other`
-  std::vector<Fact> given;   // have to hold already: nothing is done to bring them about
-  std::vector<Fact> wanted;  // are brought about first, in this order
+  int thing = -1;            // the object that is handled
+  int other = -1;            // the object that it goes onto, into or over
+  int part = -1;             // a joint, or a receptacle of `other`
+  std::vector<Fact> given;   // preconditions that must hold already; the planner does not achieve
+                             // them
+  std::vector<Fact> wanted;  // preconditions that the planner achieves first, in this order
   std::vector<Fact> adds, removes;
 };
 
-// The operators on the given things: joints that a hand can move, things that one hand can lift,
-// flat tops, rooms that the thing fits.
+// Returns the operators on the given objects: joints that the gripper can move, objects that it can
+// lift, flat tops, and receptacles that the object fits.
 std::vector<Operator> OperatorsFor(const SceneModel& model, const std::vector<int>& things);
 
-// Operators that make `goals` true one after the other from `facts` on, by means and ends: what is
-// wanted for a step is brought about before it. Empty where there is no way, or none within 12
-// steps. `facts` becomes what holds at the end.
+// Returns operators that achieve `goals` one after the other from `facts`, by means-ends analysis:
+// the preconditions of a step are achieved before it. Returns an empty plan if none exists within
+// 12 steps. Updates `facts` to the state after the plan.
 std::vector<Operator> Plan(const std::vector<Operator>& operators, const std::vector<Fact>& goals,
                            Facts* facts);
 

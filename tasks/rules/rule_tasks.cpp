@@ -17,14 +17,14 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr int kTasksAThing = 5;
-constexpr int kIdeasATask = 4;  // some are not possible
-constexpr int kBatch = 64;      // ideas worked out side by side
+constexpr int kTasksPerObject = 5;
+constexpr int kCandidatesPerTask = 4;  // some are infeasible
+constexpr int kBatch = 64;             // candidates processed in parallel
 
-// What holds in the layout of an idea, as facts.
-Facts FactsAt(const SceneModel& model, const Idea& idea, const SceneState& state) {
+// Returns the predicates that hold in the layout of a candidate.
+Facts InitialFacts(const SceneModel& model, const Idea& candidate, const SceneState& state) {
   Facts facts{{FactKind::kHandEmpty}};
-  for (int t : idea.layout.things) {
+  for (int t : candidate.layout.things) {
     const Thing& thing = model.things[static_cast<std::size_t>(t)];
     for (std::size_t j = 0; j < thing.joints.size(); ++j) {
       const bool away = state.joints[static_cast<std::size_t>(t)][j] != thing.joints[j].rest();
@@ -32,9 +32,10 @@ Facts FactsAt(const SceneModel& model, const Idea& idea, const SceneState& state
           {away ? FactKind::kJointAway : FactKind::kJointAtRest, t, -1, static_cast<int>(j)});
     }
     facts.insert({FactKind::kFree, t});
-    const auto resting = std::find_if(idea.layout.resting.begin(), idea.layout.resting.end(),
-                                      [&](const Resting& one) { return one.thing == t; });
-    if (resting == idea.layout.resting.end()) {
+    const auto resting =
+        std::find_if(candidate.layout.resting.begin(), candidate.layout.resting.end(),
+                     [&](const Resting& one) { return one.thing == t; });
+    if (resting == candidate.layout.resting.end()) {
       facts.insert({FactKind::kOnFloor, t});
     } else if (resting->cavity >= 0) {
       facts.insert({FactKind::kIn, t, resting->holder, resting->cavity});
@@ -46,29 +47,30 @@ Facts FactsAt(const SceneModel& model, const Idea& idea, const SceneState& state
   return facts;
 }
 
-// The task of an idea, or why there is none.
-struct Worked {
+// The task of a candidate, or the reason why it was dropped.
+struct Outcome {
   std::optional<Task> task;
   std::string dropped;
 };
 
-Worked WorkOut(const SceneModel& model, const Idea& idea, std::uint64_t seed, std::uint64_t index) {
+Outcome BuildTask(const SceneModel& model, const Idea& candidate, std::uint64_t seed,
+                  std::uint64_t index) {
   core::Rng rng = core::StreamRng(seed, index);
-  const std::optional<InitialState> start = LayOut(model, idea.layout, rng);
+  const std::optional<InitialState> start = LayOut(model, candidate.layout, rng);
   if (!start) return {std::nullopt, "no-layout"};
   SceneState state = StateOf(model, *start);
-  Facts facts = FactsAt(model, idea, state);
+  Facts facts = InitialFacts(model, candidate, state);
   const std::vector<Operator> plan =
-      Plan(OperatorsFor(model, idea.layout.things), idea.goals, &facts);
+      Plan(OperatorsFor(model, candidate.layout.things), candidate.goals, &facts);
   if (plan.empty()) return {std::nullopt, "no-plan"};
   Task task;
   task.source = "rules";
-  for (int thing : idea.layout.things) {
+  for (int thing : candidate.layout.things) {
     task.assets.push_back(model.things[static_cast<std::size_t>(thing)].name);
   }
   SubtaskVerifier verifier(model);
   InitialState now = *start;
-  std::set<std::string> names;  // what is done twice is numbered
+  std::set<std::string> names;  // repeated steps are numbered
   for (const Operator& one : plan) {
     const Step step = StepOf(model, state, one);
     Subtask subtask;
@@ -87,9 +89,9 @@ Worked WorkOut(const SceneModel& model, const Idea& idea, std::uint64_t seed, st
     state = StateOf(model, now);
   }
   const bool single = task.subtasks.size() == 1;
-  task.name = single || idea.name.empty() ? task.subtasks.back().name : idea.name;
-  task.description =
-      single || idea.description.empty() ? task.subtasks.back().description : idea.description;
+  task.name = single || candidate.name.empty() ? task.subtasks.back().name : candidate.name;
+  task.description = single || candidate.description.empty() ? task.subtasks.back().description
+                                                             : candidate.description;
   return {std::move(task), ""};
 }
 
@@ -101,20 +103,21 @@ std::string DroppedText(const std::map<std::string, int>& dropped) {
   return text;
 }
 
-// What is in no task, and why: nothing that a hand does with it, or no idea that held.
-core::Findings WithoutTask(const SceneModel& model, const RuleTasks& made) {
+// Returns a finding for each object that no task uses: the gripper can do nothing with it, or every
+// candidate was dropped.
+core::Findings FindUnusedObjects(const SceneModel& model, const RuleTasks& generated) {
   std::set<std::string> used;
-  for (const Task& task : made.tasks) used.insert(task.assets.begin(), task.assets.end());
+  for (const Task& task : generated.tasks) used.insert(task.assets.begin(), task.assets.end());
   core::Findings findings;
   for (const Thing& thing : model.things) {
     if (used.contains(thing.name)) continue;
     NoUse why = WhyOfNoUse(thing);
     if (why.sentence.empty()) {
-      const std::string dropped = DroppedText(made.dropped);
+      const std::string dropped = DroppedText(generated.dropped);
       why = dropped.empty()
-                ? NoUse{"other assets took up the count of tasks", "a larger --count"}
-                : NoUse{"no task with it held on verification; dropped: " + dropped,
-                        "docs/tasks.md says what the codes mean; another --seed lays out anew"};
+                ? NoUse{"the tasks of other assets reach the requested count", "a larger --count"}
+                : NoUse{"no task with it passed verification; dropped: " + dropped,
+                        "docs/tasks.md explains the codes; another --seed gives another layout"};
     }
     findings.push_back(
         {"no-task", core::Severity::kWarning, thing.name, why.sentence, 0.0, why.remedy});
@@ -128,7 +131,7 @@ RuleTasks Generate(const SceneModel& model, const RuleOptions& options, core::Pr
 
 bool RuleOptions::IsValid(std::string* error) const {
   if (count >= 0 && count <= 1'000'000) return true;
-  if (error != nullptr) *error = "the count of tasks must lie between 0 and 1000000";
+  if (error != nullptr) *error = "the number of tasks must be between 0 and 1000000";
   return false;
 }
 
@@ -136,30 +139,31 @@ RuleTasks GenerateTasksByRules(const SceneModel& model, const RuleOptions& optio
                                core::Progress* progress) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error(error, "task generation");
-  RuleTasks made = Generate(model, options, progress);
-  made.findings = WithoutTask(model, made);
-  return made;
+  RuleTasks generated = Generate(model, options, progress);
+  generated.findings = FindUnusedObjects(model, generated);
+  return generated;
 }
 
 namespace {
 
 RuleTasks Generate(const SceneModel& model, const RuleOptions& options, core::Progress* progress) {
   const int wanted =
-      options.count > 0 ? options.count : kTasksAThing * static_cast<int>(model.things.size());
+      options.count > 0 ? options.count : kTasksPerObject * static_cast<int>(model.things.size());
   core::Rng rng = core::StreamRng(options.seed, 0);
-  const std::vector<Idea> ideas =
-      ThinkOfTasks(model, static_cast<std::size_t>(kIdeasATask) * wanted, rng);
+  const std::vector<Idea> candidates =
+      ThinkOfTasks(model, static_cast<std::size_t>(kCandidatesPerTask) * wanted, rng);
   RuleTasks result;
   std::set<std::string> names;
   if (progress != nullptr) progress->Stage("tasks", wanted);
-  for (std::size_t first = 0; first < ideas.size(); first += kBatch) {
-    const int batch = static_cast<int>(std::min<std::size_t>(kBatch, ideas.size() - first));
-    std::vector<Worked> worked(static_cast<std::size_t>(batch));
+  for (std::size_t first = 0; first < candidates.size(); first += kBatch) {
+    const int batch = static_cast<int>(std::min<std::size_t>(kBatch, candidates.size() - first));
+    std::vector<Outcome> outcomes(static_cast<std::size_t>(batch));
     core::ParallelFor(batch, [&](int i) {
       const std::size_t index = first + static_cast<std::size_t>(i);
-      worked[static_cast<std::size_t>(i)] = WorkOut(model, ideas[index], options.seed, index + 1);
+      outcomes[static_cast<std::size_t>(i)] =
+          BuildTask(model, candidates[index], options.seed, index + 1);
     });
-    for (Worked& one : worked) {
+    for (Outcome& one : outcomes) {
       if (static_cast<int>(result.tasks.size()) == wanted) return result;
       ++result.tried;
       if (!one.task) {

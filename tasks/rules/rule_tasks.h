@@ -12,25 +12,26 @@
 namespace simwright::tasks {
 
 struct RuleOptions {
-  int count = 0;  // of tasks; 0: five for each thing, which shows every kind at least once
+  int count = 0;  // number of tasks; 0: five per object, which covers every kind at least once
   std::uint64_t seed = 1;
 
   bool IsValid(std::string* error) const;
 };
 
 struct RuleTasks {
-  std::vector<Task> tasks;  // every subtask verified, without an error or a warning
-  int tried = 0;            // ideas looked at, until there were enough
-  // Why ideas were dropped: codes of findings, "no-plan", "no-layout", and how often.
+  std::vector<Task> tasks;  // tasks whose subtasks are all verified without an error or a warning
+  int tried = 0;            // candidates tried until there were enough tasks
+  // The reasons for which candidates were dropped (finding codes, "no-plan", "no-layout") and their
+  // counts.
   std::map<std::string, int> dropped;
-  // "no-task", a warning for each thing that is in no task, with the reason.
+  // "no-task": a warning, with the reason, for each object that no task uses.
   core::Findings findings;
 };
 
-// Tasks by rules alone: what can be opened, turned, pressed, picked up, pushed, stood on, put into,
-// taken out and poured, and what follows from it by preconditions and effects (rules/planner.h).
-// In parallel; the same tasks for a seed whatever the thread count. Throws core::Error for invalid
-// options, core::Cancelled after Ctrl-C.
+// Generates tasks by rules alone: objects that can be opened, turned, pressed, picked up, pushed,
+// stood on, put into, taken out and poured, and combinations that follow by preconditions and
+// effects (rules/planner.h). Runs in parallel; a seed gives the same tasks for any thread count.
+// Throws core::Error for invalid options, core::Cancelled after Ctrl-C.
 RuleTasks GenerateTasksByRules(const SceneModel& model, const RuleOptions& options,
                                core::Progress* progress = nullptr);
 

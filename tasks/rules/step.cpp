@@ -12,9 +12,9 @@ namespace simwright::tasks {
 namespace {
 
 constexpr double kAway = 0.7;     // share of a joint's range that counts as open, on, pressed
-constexpr double kAtRest = 0.05;  // share within which it counts as closed, off
+constexpr double kAtRest = 0.05;  // share below which it counts as closed, off
 constexpr double kLift = 0.15;    // m
-constexpr double kSide = 0.18;    // m, to where things are put or pushed
+constexpr double kSide = 0.18;    // m; offset of the place where objects are put or pushed
 constexpr double kTilt = 2.2;     // rad
 
 std::string Number(double value) {
@@ -30,11 +30,11 @@ std::string Triple(const Eigen::Vector3d& v) {
          "], device=env.device)";
 }
 
-// A function line by line.
+// A builder of a function, line by line.
 class Program {
  public:
   explicit Program(std::string comment) {
-    // A link's name may hold a line break, which would end the comment.
+    // A link's name may contain a line break, which would end the comment.
     std::replace_if(
         comment.begin(), comment.end(), [](unsigned char c) { return c < 0x20; }, ' ');
     Line("# " + comment);
@@ -76,8 +76,8 @@ Verbs VerbsOf(JointUse use) {
   }
 }
 
-// The share of its way that the joint has gone, as an expression of `state` and `limits`; of half
-// a turn where it turns without end.
+// Returns the share of its range that the joint has moved, as an expression of `state` and
+// `limits`; for a continuous joint, the share of half a turn.
 std::string ShareText(const ThingJoint& joint) {
   if (joint.type == RewardJointType::kContinuous) return "state / " + Number(joint.far());
   const bool up = joint.far() == joint.upper;
@@ -102,7 +102,7 @@ Step JointStep(const SceneModel& model, const Operator& one) {
   step.name = NameFrom(std::string(away ? verbs.away_name : verbs.back_name) + "_" + thing.name +
                        "_" + part);
   const bool numbered = std::isdigit(static_cast<unsigned char>(part.back())) != 0;
-  const bool itself = thing.category == part;  // the door of a door
+  const bool itself = thing.category == part;  // for example the door of a door
   step.description = std::string(away ? verbs.away : verbs.back) + (numbered ? " " : " the ") +
                      (itself ? SpokenName(thing) : part + " of the " + SpokenName(thing)) + ".";
   Program program("Reach for the " + grip + ", then move the joint.");
@@ -141,7 +141,7 @@ Step PickStep(const SceneModel& model, const SceneState& state, const Operator& 
   const Eigen::Vector3d middle = LinkPoint(model, state, one.thing, 0);
   Eigen::Vector3d raised = middle + Eigen::Vector3d(0, 0, kLift);
   if (one.part >= 0) {
-    // Out through the opening first, then up.
+    // The object leaves through the opening first, then moves up.
     const Thing& holder = model.things[static_cast<std::size_t>(one.other)];
     step.name += NameFrom("_from_" + holder.name);
     step.description = "Take the " + spoken + " out of the " + SpokenName(holder) + ".";
@@ -171,7 +171,7 @@ Step PickStep(const SceneModel& model, const SceneState& state, const Operator& 
   return step;
 }
 
-// A place on the floor beside where the thing stands, on the side that is nearer to the middle.
+// Returns a position on the floor beside the object, on the side nearer to the centre.
 Eigen::Vector3d BesideOf(const SceneModel& model, const SceneState& state, int thing) {
   const Thing& known = model.things[static_cast<std::size_t>(thing)];
   Eigen::Vector3d target = LinkPoint(model, state, thing, 0);
@@ -232,14 +232,14 @@ Step PlaceOnStep(const SceneModel& model, const SceneState& state, const Operato
   return step;
 }
 
-// Where the thing's middle goes in a room (world frame): its middle, or else aside, where nothing
-// else stands already.
-Eigen::Vector3d FreeSpot(const SceneModel& model, const SceneState& state, int thing,
-                         const Eigen::AlignedBox3d& room) {
+// Returns the position of the object's centre in a receptacle (world frame): the receptacle's
+// centre, or else a position beside it that is free of other objects.
+Eigen::Vector3d FreePosition(const SceneModel& model, const SceneState& state, int thing,
+                             const Eigen::AlignedBox3d& receptacle) {
   const Eigen::Vector3d size = model.things[static_cast<std::size_t>(thing)].box.sizes();
-  Eigen::Vector3d middle = room.center();
-  middle.z() = room.min().z() + 0.5 * size.z() + 1e-3;
-  const Eigen::Vector3d spare = (0.5 * (room.sizes() - size)).cwiseMax(0.0);
+  Eigen::Vector3d middle = receptacle.center();
+  middle.z() = receptacle.min().z() + 0.5 * size.z() + 1e-3;
+  const Eigen::Vector3d spare = (0.5 * (receptacle.sizes() - size)).cwiseMax(0.0);
   for (const auto& [x, y] :
        {std::pair{0.0, 0.0}, {0.0, 0.9}, {0.0, -0.9}, {0.9, 0.0}, {-0.9, 0.0}}) {
     const Eigen::Vector3d spot = middle + Eigen::Vector3d(x * spare.x(), y * spare.y(), 0.0);
@@ -254,19 +254,19 @@ Eigen::Vector3d FreeSpot(const SceneModel& model, const SceneState& state, int t
   return middle;
 }
 
-// Leaves out of a room (world frame) what a thing of `size` must not have its middle in for the
-// door to close: half of it before the opening, on the side that `opening` (unit, world) looks to.
-// `target`, which is inside, stays so.
+// Shrinks a receptacle (world frame) to the positions of the centre of an object of `size` at which
+// the door can close: removes half of the size at the opening, on the side that `opening` (unit,
+// world) points to. `target`, which is inside, remains inside.
 void KeepBehindDoor(const Eigen::Vector3d& opening, const Eigen::Vector3d& size,
-                    const Eigen::Vector3d& target, Eigen::AlignedBox3d* room) {
+                    const Eigen::Vector3d& target, Eigen::AlignedBox3d* receptacle) {
   Eigen::Index side = 0;
   opening.cwiseAbs().maxCoeff(&side);
   const double half = 0.5 * std::max(size.x(), size.y());
   if (side == 2) return;
   if (opening[side] > 0.0) {
-    room->max()[side] = std::max(room->max()[side] - half, target[side]);
+    receptacle->max()[side] = std::max(receptacle->max()[side] - half, target[side]);
   } else {
-    room->min()[side] = std::min(room->min()[side] + half, target[side]);
+    receptacle->min()[side] = std::min(receptacle->min()[side] + half, target[side]);
   }
 }
 
@@ -278,22 +278,23 @@ Step PutIntoStep(const SceneModel& model, const SceneState& state, const Operato
   const auto h = static_cast<std::size_t>(one.other);
   const Eigen::Isometry3d pose =
       state.roots[h] * LinkPosesOf(holder, state.joints[h])[static_cast<std::size_t>(cavity.link)];
-  // The room as shares of the link's box along the world's axes: so it moves with the link.
-  Eigen::AlignedBox3d room;
+  // The receptacle is expressed as shares of the link's AABB, so it moves with the link.
+  Eigen::AlignedBox3d receptacle;
   for (int corner = 0; corner < 8; ++corner) {
-    room.extend(pose * cavity.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+    receptacle.extend(pose *
+                      cavity.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
   }
   const Eigen::AlignedBox3d box = WorldBox(model, state, one.other, cavity.link);
   const Eigen::Vector3d size = box.sizes().cwiseMax(1e-6);
-  const Eigen::Vector3d target = FreeSpot(model, state, one.thing, room);
-  // What stands out of a cup has its middle above the cup's room.
-  const double lift = std::max(0.0, target.z() + 0.02 - room.max().z());
+  const Eigen::Vector3d target = FreePosition(model, state, one.thing, receptacle);
+  // An object that protrudes from a cup has its centre above the cup's receptacle.
+  const double lift = std::max(0.0, target.z() + 0.02 - receptacle.max().z());
   if (cavity.door >= 0) {
-    KeepBehindDoor(pose.linear() * cavity.opening, thing.box.sizes(), target, &room);
+    KeepBehindDoor(pose.linear() * cavity.opening, thing.box.sizes(), target, &receptacle);
   }
-  const Eigen::Vector3d low = (room.min() - box.min()).cwiseQuotient(size);
+  const Eigen::Vector3d low = (receptacle.min() - box.min()).cwiseQuotient(size);
   const Eigen::Vector3d high =
-      (room.max() + Eigen::Vector3d(0, 0, lift) - box.min()).cwiseQuotient(size);
+      (receptacle.max() + Eigen::Vector3d(0, 0, lift) - box.min()).cwiseQuotient(size);
   const Eigen::Vector3d wanted = (target - box.min()).cwiseQuotient(size);
   Step step;
   step.name = NameFrom("put_" + thing.name + "_into_" + holder.name);

@@ -9,24 +9,26 @@
 
 namespace simwright::tasks {
 
-// An operator on a scene as it stands: what a policy has to learn, in words and as a program.
+// A grounded operator: the description and the reward program of what a policy must learn.
 struct Step {
   std::string name;         // "open_microwave_door"
   std::string description;  // "Open the door of the microwave."
   std::string program;
-  std::string success;                  // "door_joint of microwave at least 70 % open"
+  std::string success;                  // "door_joint of microwave past 70 % of its way"
   std::optional<Eigen::Vector3d> goal;  // m, world
-  Action action;                        // how an ideal hand does it
+  Action action;                        // the action of an ideal gripper
 };
 
-// The reward of every step is bounded, rises all the way to success, and asks for contact where
-// something is held.
+// Returns the step for operator `one` in `state`. The reward of every step is bounded, increases
+// monotonically up to success, and requires contact where an object is held.
 Step StepOf(const SceneModel& model, const SceneState& state, const Operator& one);
 
-// "the red_mug" -> how a sentence names the thing: its name with blanks.
+// Returns the object's name as it appears in a sentence: its name with blanks ("red mug" for
+// red_mug).
 std::string SpokenName(const Thing& thing);
 
-// `text` as the name of a task or subtask: ASCII that is no letter or digit becomes '_'.
+// Returns `text` as the name of a task or subtask: ASCII characters other than letters and digits
+// become '_'.
 std::string NameFrom(std::string text);
 
 }  // namespace simwright::tasks

@@ -7,19 +7,19 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr double kLift = 0.3;      // m
-constexpr double kAside = 0.25;    // m
-constexpr double kTurnOver = 2.6;  // rad
-constexpr double kTooFar = 4.0;    // m
-constexpr double kBeyond = 0.35;   // of a joint's range
-constexpr int kMostChains = 400;
-constexpr int kMostCavities = 4;  // of one thing
+constexpr double kLift = 0.3;        // m
+constexpr double kAside = 0.25;      // m
+constexpr double kTurnOver = 2.6;    // rad
+constexpr double kTooFar = 4.0;      // m
+constexpr double kOvershoot = 0.35;  // overshoot, as a share of the joint's range
+constexpr int kMaxChains = 400;
+constexpr int kMaxReceptacles = 4;  // per object
 
 class Sampler {
  public:
   Sampler(const SceneModel& model, const SceneState& start, const std::vector<RewardSlot>& slots)
       : model_(model), start_(start) {
-    for (const RewardSlot& slot : slots) Note(slot);
+    for (const RewardSlot& slot : slots) AddSlot(slot);
   }
 
   ActionSequences Sample() {
@@ -28,7 +28,7 @@ class Sampler {
       if (known.articulated()) {
         for (std::size_t j = 0; j < known.joints.size(); ++j) AddJoint(thing, static_cast<int>(j));
       } else {
-        AddThing(thing);
+        AddObject(thing);
       }
     }
     for (const auto& [thing, link] : links_) {
@@ -40,7 +40,7 @@ class Sampler {
   }
 
  private:
-  void Note(const RewardSlot& slot) {
+  void AddSlot(const RewardSlot& slot) {
     const int thing = model_.Find(slot.asset);
     if (thing < 0) return;
     things_.insert(thing);
@@ -49,7 +49,7 @@ class Sampler {
     if (link >= 0) links_.insert({thing, link});
     const int joint = slot.part.empty() ? -1 : known.FindJoint(slot.part);
     if (joint >= 0) joints_.insert({thing, joint});
-    // A link that is looked at is moved by the joints above it.
+    // A link is moved by the joints above it.
     for (int at = link; at > 0;) {
       const ThingLink& moved = known.links[static_cast<std::size_t>(at)];
       if (moved.joint >= 0) joints_.insert({thing, moved.joint});
@@ -80,9 +80,9 @@ class Sampler {
       moves_.push_back(move(end));
       sequences_.single.push_back({move(end)});
     }
-    // What starts half open may have to go both ways before it is done.
-    sequences_.beyond_limits.push_back({move(joint.upper + kBeyond * range)});
-    sequences_.beyond_limits.push_back({move(joint.lower - kBeyond * range)});
+    // A joint that starts half open may have to move in both directions.
+    sequences_.beyond_limits.push_back({move(joint.upper + kOvershoot * range)});
+    sequences_.beyond_limits.push_back({move(joint.lower - kOvershoot * range)});
   }
 
   void Carry(ActionKind kind, int thing, const Eigen::Vector3d& target, double angle = 0.0) {
@@ -91,7 +91,7 @@ class Sampler {
     sequences_.single.push_back({action});
   }
 
-  void AddThing(int thing) {
+  void AddObject(int thing) {
     const Eigen::AlignedBox3d box = WorldBox(model_, start_, thing);
     const Eigen::Vector3d middle = box.center();
     const Eigen::Vector3d up(0, 0, kLift);
@@ -109,7 +109,7 @@ class Sampler {
       Carry(ActionKind::kPush, thing, middle + Eigen::Vector3d(0, side, 0));
       Carry(ActionKind::kPush, thing, middle + Eigen::Vector3d(side, 0, 0));
     }
-    // Free floor, to the robot's left and right.
+    // Free floor to the robot's left and right.
     for (double side : {-0.35, 0.35}) {
       Eigen::Vector3d free = start_.gripper.translation() + Eigen::Vector3d(0.05, side, 0);
       free.z() = 0.5 * box.sizes().z();
@@ -118,10 +118,10 @@ class Sampler {
     for (int other : things_) {
       if (other != thing) AddOnto(thing, other, box);
     }
-    for (const Eigen::Vector3d& way :
+    for (const Eigen::Vector3d& offset :
          {Eigen::Vector3d(0, 0, kTooFar), Eigen::Vector3d(kTooFar, 0, 0),
           Eigen::Vector3d(0, kTooFar, 0)}) {
-      sequences_.too_far.push_back({{ActionKind::kCarry, thing, -1, 0.0, middle + way}});
+      sequences_.too_far.push_back({{ActionKind::kCarry, thing, -1, 0.0, middle + offset}});
     }
   }
 
@@ -140,7 +140,7 @@ class Sampler {
     if (!holder.articulated()) {
       Carry(ActionKind::kTilt, thing, on_top + Eigen::Vector3d(0, 0, 0.1), kTurnOver);
     }
-    // On and in the parts that the program names.
+    // On top of and inside the parts that the program names.
     for (const auto& [owner, link] : links_) {
       if (owner != other || holder.links[static_cast<std::size_t>(link)].outline.empty()) continue;
       const Eigen::AlignedBox3d part = WorldBox(model_, start_, other, link);
@@ -152,7 +152,7 @@ class Sampler {
     const std::vector<Eigen::Isometry3d> poses = LinkPosesOf(holder, start_.joints[o]);
     int cavities = 0;
     for (const Cavity& cavity : holder.cavities) {
-      if (++cavities > kMostCavities) break;
+      if (++cavities > kMaxReceptacles) break;
       Eigen::Vector3d inside =
           start_.roots[o] * poses[static_cast<std::size_t>(cavity.link)] * cavity.box.center();
       inside.z() += half - 0.5 * cavity.box.sizes().z() + 1e-3;
@@ -163,7 +163,7 @@ class Sampler {
   void Chain() {
     std::vector<std::vector<Action>>& chains = sequences_.chained;
     const auto add = [&](std::vector<Action> chain) {
-      if (static_cast<int>(chains.size()) < kMostChains) chains.push_back(std::move(chain));
+      if (static_cast<int>(chains.size()) < kMaxChains) chains.push_back(std::move(chain));
     };
     for (const Action& move : moves_) {
       for (const Action& handling : handlings_) {

@@ -7,19 +7,21 @@
 
 namespace simwright::tasks {
 
-// Ways in which a hand might bring about what a reward program looks at.
+// The action sequences by which a gripper may achieve the goal of a reward program.
 struct ActionSequences {
-  // One action each: joints to their ends, things lifted, carried, placed, pushed, tilted, touched.
+  // Single actions: joints moved to their limits; objects lifted, carried, placed, pushed, tilted,
+  // touched.
   std::vector<std::vector<Action>> single;
-  // Two or three one after the other: opened and filled, filled and closed ...
+  // Sequences of two or three actions: open and fill, fill and close ...
   std::vector<std::vector<Action>> chained;
-  // Things carried to where no arm reaches, and joints moved a third beyond their ends: what only
-  // these bring about cannot be done.
+  // Objects carried out of the arm's reach, and joints moved a third beyond their limits: a success
+  // that only these achieve is infeasible.
   std::vector<std::vector<Action>> too_far;
   std::vector<std::vector<Action>> beyond_limits;
 };
 
-// For the things, links and joints that `slots` name, from `start` on.
+// Returns action sequences for the objects, links and joints that `slots` name, starting at
+// `start`.
 ActionSequences SampleActions(const SceneModel& model, const SceneState& start,
                               const std::vector<RewardSlot>& slots);
 

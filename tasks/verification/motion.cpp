@@ -13,14 +13,14 @@ constexpr int kJointSteps = 30;
 constexpr int kCarrySteps = 16;
 constexpr int kLowerSteps = 12;
 constexpr double kCarryHeight = 0.12;  // m above the higher of start and target
-constexpr double kRetreat = 0.1;       // m
+constexpr double kRetreat = 0.1;       // m along the approach
 constexpr double kOpen = 0.08;         // m between the fingers
 
 class MotionMaker {
  public:
   MotionMaker(const SceneModel& model, const SceneState& start) : model_(model), state_(start) {
     if (state_.grasped) Hold(state_.touched);
-    Keep(MotionPhase::kApproach);
+    Record(MotionPhase::kApproach);
   }
 
   void Do(const Action& action) {
@@ -32,14 +32,14 @@ class MotionMaker {
       case ActionKind::kCarry:
       case ActionKind::kPlace:
         Grasp(action.thing);
-        Bring(action.target, action.kind == ActionKind::kPlace);
+        MoveHeldObject(action.target, action.kind == ActionKind::kPlace);
         if (action.kind == ActionKind::kPlace) Release();
         return;
       case ActionKind::kPush:
         return Push(action.thing, action.target);
       case ActionKind::kTilt:
         Grasp(action.thing);
-        Bring(action.target, false);
+        MoveHeldObject(action.target, false);
         return Tilt(action.position);
     }
   }
@@ -47,12 +47,12 @@ class MotionMaker {
   Motion Take() { return std::move(motion_); }
 
  private:
-  void Keep(MotionPhase phase) {
+  void Record(MotionPhase phase) {
     motion_.states.push_back(state_);
     motion_.phases.push_back(phase);
   }
 
-  Eigen::Vector3d Middle(int thing) const { return WorldBox(model_, state_, thing).center(); }
+  Eigen::Vector3d Center(int thing) const { return WorldBox(model_, state_, thing).center(); }
 
   void Hold(int thing) {
     held_ = thing;
@@ -72,11 +72,11 @@ class MotionMaker {
     from_ = state_.gripper;
     for (int i = 1; i <= steps; ++i) {
       MoveGripper(to, static_cast<double>(i) / steps);
-      Keep(phase);
+      Record(phase);
     }
   }
 
-  // The gripper at `point`, its z along `approach` or as it is.
+  // Moves the gripper to `point`, with its z axis along `approach` or its orientation unchanged.
   void Approach(const Eigen::Vector3d& point, const std::optional<Eigen::Vector3d>& approach) {
     Eigen::Isometry3d to = state_.gripper;
     to.translation() = point;
@@ -91,12 +91,12 @@ class MotionMaker {
   void Grasp(int thing) {
     if (held_ == thing) return;
     if (held_ >= 0) Release();
-    Approach(Middle(thing), -Eigen::Vector3d::UnitZ());
+    Approach(Center(thing), -Eigen::Vector3d::UnitZ());
     Touch(thing, 0);
     const Eigen::Vector3d size = WorldBox(model_, state_, thing).sizes();
     state_.opening = std::min(kOpen, size.head<2>().minCoeff());
     Hold(thing);
-    Keep(MotionPhase::kMove);
+    Record(MotionPhase::kMove);
   }
 
   void Touch(int thing, int link) {
@@ -110,16 +110,16 @@ class MotionMaker {
     state_.touched = state_.touched_link = -1;
     state_.grasped = false;
     state_.opening = kOpen;
-    Keep(MotionPhase::kRelease);
+    Record(MotionPhase::kRelease);
     Eigen::Isometry3d back = state_.gripper;
     back.translation() -= kRetreat * state_.gripper.linear().col(2);
     Travel(back, 2, MotionPhase::kRelease);
   }
 
-  // What is held, with its middle to `target`: up, across and down.
-  void Bring(const Eigen::Vector3d& target, bool lower) {
-    const Eigen::Vector3d offset = state_.gripper.translation() - Middle(held_);
-    const Eigen::Vector3d start = Middle(held_);
+  // Moves the held object's centre to `target`; if `lower` is true, up, across and down.
+  void MoveHeldObject(const Eigen::Vector3d& target, bool lower) {
+    const Eigen::Vector3d offset = state_.gripper.translation() - Center(held_);
+    const Eigen::Vector3d start = Center(held_);
     const auto go = [&](const Eigen::Vector3d& middle, int steps) {
       Eigen::Isometry3d to = state_.gripper;
       to.translation() = middle + offset;
@@ -140,43 +140,43 @@ class MotionMaker {
           Eigen::AngleAxisd(angle * i / kJointSteps, Eigen::Vector3d::UnitY()) * from_.linear();
       state_.gripper = to;
       state_.roots[static_cast<std::size_t>(held_)] = to * gripper_from_held_;
-      Keep(MotionPhase::kTurnOver);
+      Record(MotionPhase::kTurnOver);
     }
   }
 
   void Push(int thing, const Eigen::Vector3d& target) {
     if (held_ >= 0) Release();
-    const Eigen::Vector3d start = Middle(thing);
-    Eigen::Vector3d way = target - start;
-    way.z() = 0.0;
-    const double length = way.norm();
+    const Eigen::Vector3d start = Center(thing);
+    Eigen::Vector3d displacement = target - start;
+    displacement.z() = 0.0;
+    const double length = displacement.norm();
     if (!(length > 1e-6)) return;
     const double behind = 0.5 * WorldBox(model_, state_, thing).sizes().head<2>().minCoeff();
-    Approach(start - behind * way / length, std::nullopt);
+    Approach(start - behind * displacement / length, std::nullopt);
     state_.touched = thing;
     state_.touched_link = 0;
     const Eigen::Isometry3d root = state_.roots[static_cast<std::size_t>(thing)];
-    const Eigen::Vector3d hand = state_.gripper.translation();
+    const Eigen::Vector3d gripper_start = state_.gripper.translation();
     for (int i = 1; i <= kJointSteps; ++i) {
-      const Eigen::Vector3d moved = way * i / kJointSteps;
+      const Eigen::Vector3d moved = displacement * i / kJointSteps;
       state_.roots[static_cast<std::size_t>(thing)].translation() = root.translation() + moved;
-      state_.gripper.translation() = hand + moved;
-      Keep(MotionPhase::kMove);
+      state_.gripper.translation() = gripper_start + moved;
+      Record(MotionPhase::kMove);
     }
   }
 
-  // The things that stand in what the joint moves.
-  std::vector<int> Passengers(int thing, int link) const {
+  // Returns the objects inside the link that the joint moves.
+  std::vector<int> Contents(int thing, int link) const {
     const Eigen::AlignedBox3d box = WorldBox(model_, state_, thing, link);
-    std::vector<int> passengers;
+    std::vector<int> contents;
     for (std::size_t other = 0; other < model_.things.size(); ++other) {
       if (static_cast<int>(other) == thing || model_.things[other].articulated()) continue;
       if (static_cast<int>(other) == held_) continue;
-      if (box.contains(Middle(static_cast<int>(other)))) {
-        passengers.push_back(static_cast<int>(other));
+      if (box.contains(Center(static_cast<int>(other)))) {
+        contents.push_back(static_cast<int>(other));
       }
     }
-    return passengers;
+    return contents;
   }
 
   Eigen::Isometry3d LinkPose(int thing, int link) const {
@@ -195,29 +195,30 @@ class MotionMaker {
     Approach(grip, towards.norm() > 1e-6 ? towards.normalized() : -Eigen::Vector3d::UnitZ());
     Touch(thing, joint.grip);
     state_.opening = 0.02;
-    const Eigen::Isometry3d hand_from = LinkPose(thing, joint.link).inverse() * state_.gripper;
-    const std::vector<int> passengers = Passengers(thing, joint.link);
+    const Eigen::Isometry3d link_from_gripper =
+        LinkPose(thing, joint.link).inverse() * state_.gripper;
+    const std::vector<int> contents = Contents(thing, joint.link);
     const double start = state_.joints[t][j];
     for (int i = 1; i <= kJointSteps; ++i) {
       const Eigen::Isometry3d before = LinkPose(thing, joint.link);
       state_.joints[t][j] = start + (position - start) * i / kJointSteps;
       const Eigen::Isometry3d after = LinkPose(thing, joint.link);
-      state_.gripper = after * hand_from;
-      for (int passenger : passengers) {
-        Eigen::Isometry3d& root = state_.roots[static_cast<std::size_t>(passenger)];
+      state_.gripper = after * link_from_gripper;
+      for (int content : contents) {
+        Eigen::Isometry3d& root = state_.roots[static_cast<std::size_t>(content)];
         root = after * before.inverse() * root;
       }
-      Keep(MotionPhase::kMove);
+      Record(MotionPhase::kMove);
     }
-    LetGo();
+    ReleaseJoint();
   }
 
-  // The hand leaves a joint where it is.
-  void LetGo() {
+  // Releases a joint at its current position.
+  void ReleaseJoint() {
     state_.touched = state_.touched_link = -1;
     state_.grasped = false;
     state_.opening = kOpen;
-    Keep(MotionPhase::kRelease);
+    Record(MotionPhase::kRelease);
   }
 
   const SceneModel& model_;

@@ -8,15 +8,15 @@
 namespace simwright::tasks {
 
 enum class ActionKind {
-  kReach,      // the gripper goes to a link
-  kMoveJoint,  // takes what moves a joint, and moves it to `position`
-  kCarry,      // takes a thing, brings its middle to `target`, keeps it
-  kPlace,      // the same, and lets go
-  kPush,       // pushes a thing along the floor until its middle is at `target`
-  kTilt,       // takes a thing, lifts it to `target`, turns it over by `position`
+  kReach,      // the gripper moves to a link
+  kMoveJoint,  // grasps the grip of a joint and moves the joint to `position`
+  kCarry,      // grasps an object, moves its centre to `target`, and keeps holding it
+  kPlace,      // the same, then releases it
+  kPush,       // pushes an object along the floor until its centre is at `target`
+  kTilt,       // grasps an object, lifts it to `target`, and tilts it by `position`
 };
 
-// One thing that a hand can do.
+// A single manipulation action.
 struct Action {
   ActionKind kind = ActionKind::kReach;
   int thing = -1;
@@ -27,18 +27,20 @@ struct Action {
 
 enum class MotionPhase { kApproach, kMove, kTurnOver, kRelease };
 
-// A path of states, as an ideal hand would take it: what is held moves with the gripper, what
-// stands in a drawer moves with the drawer. It is kinematic: nothing is in the way, nothing slips.
+// A sequence of states produced by an ideal gripper: a held object moves with the gripper, the
+// contents of a drawer move with the drawer. The motion is kinematic: it ignores collisions and
+// slip.
 struct Motion {
-  std::vector<SceneState> states;   // the start first
-  std::vector<MotionPhase> phases;  // of the step that led to each state; the first: kApproach
+  std::vector<SceneState> states;   // begins with the start state
+  std::vector<MotionPhase> phases;  // the phase of the step that led to each state; kApproach for
+                                    // the first
 };
 
-// Seconds between two states of a motion: what velocities are taken over.
+// The time between two states of a motion, s; velocities are differences over it.
 constexpr double kMotionTimeStep = 1.0 / 12.0;
 
-// Carries `actions` out one after the other. Actions of things or joints that are out of range are
-// the caller's mistake.
+// Returns the motion that carries out `actions` one after the other. The caller must pass valid
+// indices of objects and joints.
 Motion MakeMotion(const SceneModel& model, const SceneState& start,
                   const std::vector<Action>& actions);
 

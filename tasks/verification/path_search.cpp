@@ -13,12 +13,13 @@ namespace simwright::tasks {
 namespace {
 
 constexpr double kGoodEnough = 0.5;
-// A part of the way counts where the reward changes by this share of its change over the whole.
-constexpr double kChanges = 0.03;
-constexpr std::size_t kShortest = 3;  // states
-constexpr double kStep = 0.2;         // of the whole change, between two states
+// The smallest change of the reward over a segment, as a share of its change over the whole path,
+// for which the segment counts.
+constexpr double kMinChange = 0.03;
+constexpr std::size_t kMinStates = 3;  // states
+constexpr double kRewardStep = 0.2;    // share of the whole change, between two states
 
-double Spread(std::span<const double> values) {
+double Range(std::span<const double> values) {
   if (values.empty()) return 0.0;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return *high - *low;
@@ -27,43 +28,43 @@ double Spread(std::span<const double> values) {
 double Agreement(std::span<const double> reward) {
   std::vector<double> progress(reward.size());
   for (std::size_t i = 0; i < progress.size(); ++i) progress[i] = static_cast<double>(i);
-  return RankCorrelation(reward, progress, 1e-6 * Spread(reward));
+  return RankCorrelation(reward, progress, 1e-6 * Range(reward));
 }
 
-// Where the parts of a way end: at the hand's arrival, where it starts to turn things over, and
-// behind a step of the reward (a bonus), which would outweigh all that happens between two of them.
-std::vector<std::size_t> PartEnds(const Motion& motion, std::span<const double> reward,
-                                  double spread) {
+// Returns the ends of a path's segments: the end of the approach, the start of turning over, and
+// each step of the reward (a bonus), which would outweigh all changes between two steps.
+std::vector<std::size_t> SegmentEnds(const Motion& motion, std::span<const double> reward,
+                                     double range_of_reward) {
   std::vector<std::size_t> ends;
   const auto kind = [&](std::size_t i) {
     const MotionPhase phase = motion.phases[i];
     return phase == MotionPhase::kRelease ? MotionPhase::kMove : phase;
   };
   for (std::size_t i = 1; i < reward.size(); ++i) {
-    const bool step = std::abs(reward[i] - reward[i - 1]) > kStep * spread;
+    const bool step = std::abs(reward[i] - reward[i - 1]) > kRewardStep * range_of_reward;
     if (step || kind(i) != kind(i - 1)) ends.push_back(i);
   }
   ends.push_back(reward.size());
   return ends;
 }
 
-// Fills agreement.
-void Judge(const std::vector<float>& rewards, SuccessPath* path) {
+// Computes the agreement of `path`.
+void ComputeAgreement(const std::vector<float>& rewards, SuccessPath* path) {
   const std::vector<double> values(rewards.begin(),
                                    rewards.begin() + static_cast<std::ptrdiff_t>(path->first) + 1);
   const std::span<const double> reward(values);
-  const double spread = Spread(reward);
+  const double range_of_reward = Range(reward);
   path->agreement = Agreement(reward);
   std::size_t begin = 0;
-  for (std::size_t end : PartEnds(path->motion, reward, spread)) {
-    const std::span<const double> part = reward.subspan(begin, end - begin);
+  for (std::size_t end : SegmentEnds(path->motion, reward, range_of_reward)) {
+    const std::span<const double> segment = reward.subspan(begin, end - begin);
     begin = end;
-    if (part.size() < kShortest || Spread(part) < kChanges * spread) continue;
-    path->agreement = std::min(path->agreement, Agreement(part));
+    if (segment.size() < kMinStates || Range(segment) < kMinChange * range_of_reward) continue;
+    path->agreement = std::min(path->agreement, Agreement(segment));
   }
 }
 
-bool WithinReach(const Motion& motion, std::size_t first, const Eigen::Isometry3d& robot) {
+bool IsReachable(const Motion& motion, std::size_t first, const Eigen::Isometry3d& robot) {
   constexpr std::size_t kSamples = 5;
   for (std::size_t i = 0; i < kSamples; ++i) {
     const std::size_t at = first - i * first / (2 * kSamples);
@@ -101,9 +102,9 @@ std::optional<SuccessPath> FindSuccessPath(const RewardProgram& program, const S
     if (success == trial.success.end()) continue;
     path.first = static_cast<std::size_t>(success - trial.success.begin());
     if (path.first == 0) continue;
-    Judge(trial.reward, &path);
+    ComputeAgreement(trial.reward, &path);
     if (best && best->reachable && path.agreement <= best->agreement) continue;
-    path.reachable = WithinReach(path.motion, path.first, world_from_robot);
+    path.reachable = IsReachable(path.motion, path.first, world_from_robot);
     const bool better = !best || std::make_pair(path.reachable, path.agreement) >
                                      std::make_pair(best->reachable, best->agreement);
     if (better) best = std::move(path);

@@ -8,18 +8,18 @@
 
 namespace simwright::tasks {
 
-// A way to success, and how the reward goes along it.
+// A path to success and the behaviour of the reward along it.
 struct SuccessPath {
   Motion motion;
-  std::size_t first = 0;   // the first state in which success holds
-  bool reachable = false;  // by the arm, all along
-  // Rank correlation of reward and progress up to `first`: over the whole way, and over each part
-  // (the hand comes; moves; turns over; between two steps of the reward); the least of those in
-  // which the reward changes.
+  std::size_t first = 0;   // index of the first state in which success holds
+  bool reachable = false;  // the arm can reach every state
+  // The rank correlation of reward and progress up to `first`. It is computed over the whole path
+  // and over each segment (approach, move, turn over, between two steps of the reward); the value
+  // is the minimum over those in which the reward changes.
   double agreement = 0.0;
 };
 
-// What was seen while searching.
+// The range of rewards and success flags seen during the search.
 struct RewardRange {
   double lowest = 0.0, highest = 0.0;
   bool any = false, finite = true;
@@ -28,8 +28,9 @@ struct RewardRange {
   void Add(float reward, bool success);
 };
 
-// The best way to success among `sequences`: one within reach before one that is not, then by its
-// agreement. Stops early at one that is good enough. `range` (may be null) takes in every state.
+// Returns the best path to success among `sequences`: reachable paths come before unreachable ones,
+// then the agreement decides. If `stop_early`, returns at the first good enough path. Every
+// evaluated state is added to `range` unless it is null.
 std::optional<SuccessPath> FindSuccessPath(const RewardProgram& program, const SceneModel& model,
                                            const SceneState& start,
                                            const Eigen::Isometry3d& world_from_robot,

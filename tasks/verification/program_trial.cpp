@@ -50,7 +50,7 @@ std::vector<SceneState> RandomStates(const SceneModel& model, const SceneState& 
             core::Uniform(rng, known.joints[j].lower - beyond, known.joints[j].upper + beyond);
       }
       if (known.articulated()) continue;
-      const double reach = core::Uniform(rng);  // some near, some far
+      const double reach = core::Uniform(rng);  // mixes near and far positions
       state.roots[t].translation() += reach * core::UniformDirection(rng);
       state.roots[t].rotate(
           Eigen::AngleAxisd(core::Uniform(rng, 0.0, 3.0), core::UniformDirection(rng)));

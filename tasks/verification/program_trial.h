@@ -10,19 +10,20 @@
 
 namespace simwright::tasks {
 
-// What a program says of some states.
+// The outputs of a program for a sequence of states.
 struct TrialResult {
   std::vector<float> reward;
-  std::vector<std::uint8_t> success;  // zeros where the program has none
+  std::vector<std::uint8_t> success;  // zeros if the program has no success
 };
 
-// Runs `program` on `states`, each an environment. Velocities are those of a motion where
-// `follows` is true: state i is then taken to come from state i - 1. Empty for no states.
+// Runs `program` on `states`, each as one environment. If `follows` is true, velocities are
+// computed along the sequence: state i follows state i - 1. Returns empty results for no states.
 TrialResult RunOnStates(const RewardProgram& program, const SceneModel& model,
                         const std::vector<SceneState>& states, bool follows);
 
-// States far and wide: joints up to a fifth beyond their limits, the things that the program looks
-// at within a metre of where they start, the gripper at a link or anywhere near, holding or not.
+// Returns random states: joints up to a fifth of their range beyond their limits, the objects that
+// the program reads within a metre of their start, the gripper at a link or anywhere near, holding
+// an object or not.
 std::vector<SceneState> RandomStates(const SceneModel& model, const SceneState& start,
                                      const std::vector<RewardSlot>& slots, int count,
                                      core::Rng& rng);

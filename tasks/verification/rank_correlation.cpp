@@ -29,7 +29,7 @@ std::vector<double> Ranks(std::span<const double> values, double tie) {
 double RankCorrelation(std::span<const double> a, std::span<const double> b, double tie) {
   if (a.size() < 2 || a.size() != b.size()) return 0.0;
   const std::vector<double> x = Ranks(a, tie), y = Ranks(b, tie);
-  const double mean = 0.5 * static_cast<double>(a.size() - 1);  // of any ranking
+  const double mean = 0.5 * static_cast<double>(a.size() - 1);  // the same for every ranking
   double xy = 0.0, xx = 0.0, yy = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     xy += (x[i] - mean) * (y[i] - mean);

@@ -9,7 +9,7 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr std::size_t kMostThings = 8;
+constexpr std::size_t kMaxObjects = 8;
 constexpr double kGoalAside = 0.12;  // m
 constexpr double kGoalAbove = 0.15;  // m
 
@@ -21,7 +21,8 @@ std::string Lower(const std::string& text) {
   return lower;
 }
 
-// Joints whose state the program reads; without any, those that move the links it reads.
+// Returns the joints whose state the program reads; if there are none, the joints that move the
+// links it reads.
 std::set<std::pair<int, int>> JointsRead(const SceneModel& model,
                                          const std::vector<RewardSlot>& slots) {
   std::set<std::pair<int, int>> states, above;
@@ -40,7 +41,8 @@ std::set<std::pair<int, int>> JointsRead(const SceneModel& model,
   return states.empty() ? above : states;
 }
 
-// "take the cup out of the microwave": the microwave, for the cup.
+// Returns the object that the title takes `thing` out of: the microwave in "take the cup out of the
+// microwave". -1: none.
 int TakenOutOf(const SceneModel& model, const std::string& title, int thing) {
   for (const char* words : {"out of ", "from inside ", "from "}) {
     const std::size_t at = title.find(words);
@@ -69,7 +71,7 @@ std::optional<InitialState> PlanStart(const SceneModel& model, const std::vector
     const int thing = model.Find(name);
     const bool known =
         std::find(request.things.begin(), request.things.end(), thing) != request.things.end();
-    if (thing >= 0 && !known && request.things.size() < kMostThings)
+    if (thing >= 0 && !known && request.things.size() < kMaxObjects)
       request.things.push_back(thing);
   };
   for (const RewardSlot& slot : slots) want(slot.asset);

@@ -11,21 +11,21 @@
 
 namespace simwright::tasks {
 
-// Where an episode of a program may start that says nothing of it: the things that it looks at, and
-// those of `assets`, in front of the robot. Joints that it looks at stand at rest, or, where the
-// title says that they shall go back there, at their far end; a thing that is to come out of
-// another stands inside it ("take the cup out of the microwave"). Empty where there is no place.
+// Returns a start state for a program that specifies none: the objects that it reads, and those of
+// `assets`, in front of the robot. Joints that it reads are at rest, or at their far limit if the
+// title asks to move them back to rest. An object that the title takes out of another starts inside
+// it ("take the cup out of the microwave"). Returns nullopt if no placement is found.
 std::optional<InitialState> PlanStart(const SceneModel& model, const std::vector<RewardSlot>& slots,
                                       const std::vector<std::string>& assets,
                                       const std::string& title, TitleDirection direction,
                                       core::Rng& rng);
 
-// A goal for programs that ask for one: within reach, beside and above the first thing that can be
-// carried; else a handle's place at the far end of its joint.
+// Returns a goal for programs that need one: a reachable point beside and above the first object
+// that can be carried, else the position of a handle at the far limit of its joint.
 Eigen::Vector3d PlanGoal(const SceneModel& model, const SceneState& start,
                          const std::vector<RewardSlot>& slots);
 
-// `state` as the start of what follows: things, joints and what the hand holds.
+// Returns `state` as the start of the next subtask: objects, joints and the held object.
 InitialState StartFrom(const SceneModel& model, const SceneState& state,
                        const InitialState& before);
 

@@ -19,7 +19,7 @@ namespace {
 
 using core::Severity;
 
-// "line:column" of the last return, where findings about what a program does are shown.
+// Returns "line:column" of the last return, the place of findings about a program's behaviour.
 std::string LastReturn(const std::string& source) {
   std::istringstream lines(source);
   std::string place;
@@ -45,8 +45,8 @@ bool HasError(const core::Findings& findings) {
   });
 }
 
-// What is only doubtful in a file is wrong in a task.
-void Sharpen(core::Findings* findings) {
+// Promotes to errors the warnings that are acceptable in a file but not in a task.
+void PromoteToErrors(core::Findings* findings) {
   for (core::Finding& finding : *findings) {
     if (finding.code == "constant-reward" || finding.code == "constant-success" ||
         finding.code == "self-distance" || finding.code == "norm-over-environments" ||
@@ -57,7 +57,8 @@ void Sharpen(core::Findings* findings) {
   }
 }
 
-// The joint that moved most of its range, and whether away from its rest.
+// Returns the direction of the joint that moved by the largest share of its range, relative to its
+// rest.
 TitleDirection DirectionOf(const SceneModel& model, const SceneState& from, const SceneState& to) {
   double most = 0.05;
   TitleDirection direction = TitleDirection::kNone;
@@ -76,7 +77,7 @@ TitleDirection DirectionOf(const SceneModel& model, const SceneState& from, cons
   return direction;
 }
 
-// One program on one start.
+// The verification of one program from one start.
 class Trial {
  public:
   Trial(const SceneModel& model, const VerificationOptions& options, const RewardProgram& program,
@@ -91,8 +92,8 @@ class Trial {
 
   core::Findings Run() {
     const ActionSequences actions = SampleActions(model_, start_, program_.slots());
-    LookAround();
-    if (program_.has_success() && StartsDone()) return std::move(findings_);
+    EvaluateRandomStates();
+    if (program_.has_success() && SucceedsAtStart()) return std::move(findings_);
     path_ = Find(actions.single, false);
     if (!path_ || !path_->reachable) {
       std::optional<SuccessPath> longer = Find(actions.chained, true);
@@ -139,7 +140,7 @@ class Trial {
                            early, &range_);
   }
 
-  void LookAround() {
+  void EvaluateRandomStates() {
     core::Rng rng = core::StreamRng(options_.seed, 1);
     const std::vector<SceneState> states =
         RandomStates(model_, start_, program_.slots(), options_.random_states, rng);
@@ -149,8 +150,8 @@ class Trial {
     }
   }
 
-  // True, with a finding, where success holds at the start.
-  bool StartsDone() {
+  // Returns true, and reports a finding, if success holds at the start.
+  bool SucceedsAtStart() {
     const TrialResult trial = RunOnStates(program_, model_, {start_}, false);
     range_.Add(trial.reward[0], trial.success[0] != 0);
     if (trial.success[0] == 0) return false;
@@ -167,8 +168,8 @@ class Trial {
     return true;
   }
 
-  // Whether the program is about the way that the title does not name: with every joint that it
-  // reads at the other end there is a path to success.
+  // Returns true if the program moves the joint opposite to the title: with every joint that it
+  // reads at the other limit there is a path to success.
   bool SucceedsFromOtherEnd() {
     SceneState other = start_;
     bool any = false;
@@ -262,8 +263,8 @@ bool ReadsGoal(const RewardProgram& program) {
   });
 }
 
-// Whether there is a place for something, and for all that the program looks at.
-bool Places(const InitialState& start, const RewardProgram& program) {
+// Returns true if `start` places anything, and every object that the program reads.
+bool PlacesAllObjects(const InitialState& start, const RewardProgram& program) {
   const auto& placed = start.placements;
   return !placed.empty() &&
          std::all_of(program.slots().begin(), program.slots().end(), [&](const RewardSlot& slot) {
@@ -278,7 +279,7 @@ bool TakesParameters(const RewardProgram& program) {
                      [](const RewardSlot& slot) { return slot.input == RewardInput::kParameter; });
 }
 
-// The title that says what a joint shall do: the subtask's own words first.
+// Returns the title that describes the joint's motion: the subtask's own text first.
 std::string TitleOf(const Task& task, const Subtask& subtask) {
   const std::string own = subtask.name + " . " + subtask.description;
   if (DirectionOfTitle(own) != TitleDirection::kNone || task.subtasks.size() > 1) return own;
@@ -310,7 +311,7 @@ std::optional<InitialState> SubtaskVerifier::EndBefore(const Task& task, const S
   if (self == task.subtasks.begin() || self == task.subtasks.end()) return std::nullopt;
   const auto end = ends_.find({task.name, std::prev(self)->name});
   if (end == ends_.end()) return std::nullopt;
-  if (!Places(end->second, program)) return std::nullopt;
+  if (!PlacesAllObjects(end->second, program)) return std::nullopt;
   return end->second;
 }
 
@@ -319,7 +320,7 @@ core::Findings SubtaskVerifier::Verify(const Task& task, Subtask* subtask) {
   compile_options.entry = options_.entry;
   CompileOutcome outcome = CompileReward(subtask->program, &model_.names, compile_options);
   core::Findings findings = std::move(outcome.findings);
-  Sharpen(&findings);
+  PromoteToErrors(&findings);
   if (subtask->success.empty()) subtask->success = SuccessOf(subtask->program);
   if (!outcome.program || HasError(findings)) return findings;
   if (TakesParameters(*outcome.program)) {
@@ -332,7 +333,7 @@ core::Findings SubtaskVerifier::Verify(const Task& task, Subtask* subtask) {
     return findings;
   }
   const std::string title = TitleOf(task, *subtask);
-  if (!Places(subtask->start, *outcome.program)) {
+  if (!PlacesAllObjects(subtask->start, *outcome.program)) {
     std::optional<InitialState> planned = EndBefore(task, *subtask, *outcome.program);
     if (!planned) {
       core::Rng rng = core::StreamRng(options_.seed, 0);

@@ -14,37 +14,40 @@
 namespace simwright::tasks {
 
 struct VerificationOptions {
-  // Rank correlation of reward and progress along a path to success. Planted sign faults fall below
-  // the first bound, sound programs lie above the second (docs/rewards.md, "Planted faults");
-  // between them it is a warning.
+  // The thresholds on the rank correlation of reward and progress along a path to success. Planted
+  // sign faults fall below `against`, valid programs lie above `unclear` (docs/rewards.md, "Planted
+  // faults"); a value between them gives a warning.
   double against = -0.2;
   double unclear = 0.2;
-  int random_states = 128;  // in which reward and success are looked at beside the paths
-  // A program of the command line may be without success: Eureka's have none.
+  int random_states = 128;  // states evaluated in addition to the paths
+  // True if a program must return success. Programs given on the command line need not: Eureka's
+  // have none.
   bool needs_success = true;
-  std::string entry;  // the function that gives the reward; empty: found by its name
+  std::string entry;  // the reward function; empty: found by its name
   std::uint64_t seed = 1;
 
   bool IsValid(std::string* error) const;
 };
 
-// Checks reward programs on a scene, before anything is trained (docs/rewards.md lists the codes):
-// it compiles; reward and success depend on the state; success does not hold at the start, comes
-// within the joints' limits and the arm's reach, and the reward rises on the way there; the title
-// says the same. Paths are kinematic (verification/motion.h). One thread at a time.
+// Checks reward programs on a scene before training (docs/rewards.md lists the codes). The program
+// must compile. Reward and success must depend on the state. Success must not hold at the start and
+// must be achievable within the joints' limits and the arm's reach, and the reward must increase on
+// the path to it. The title must describe the same motion. Paths are kinematic
+// (verification/motion.h). Not thread-safe.
 class SubtaskVerifier {
  public:
-  // `model` must outlive it. Throws core::Error for invalid options.
+  // Throws core::Error for invalid options. `model` must outlive the verifier.
   SubtaskVerifier(const SceneModel& model, const VerificationOptions& options = {});
 
-  // The findings of subtask->program. Where subtask->start places nothing it is filled in: the end
-  // of the subtask before it in `task`, as verified by this object, else a new layout; and
-  // subtask->goal where the program asks for one and there is none. An empty subtask->success
-  // becomes the program's own words. Never throws for what is in the program.
+  // Returns the findings of subtask->program. If subtask->start places nothing, fills it with the
+  // end state of the preceding subtask in `task`, as verified by this object, or else with a new
+  // layout. Fills subtask->goal if the program reads a goal and there is none. An empty
+  // subtask->success becomes the source expression of the program's success. Never throws because
+  // of the program.
   core::Findings Verify(const Task& task, Subtask* subtask);
 
  private:
-  // Where the subtask before ended, if all that `program` looks at stood there.
+  // Returns the end state of the preceding subtask, if it places every object that `program` reads.
   std::optional<InitialState> EndBefore(const Task& task, const Subtask& subtask,
                                         const RewardProgram& program) const;
 

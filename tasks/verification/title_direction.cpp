@@ -9,7 +9,7 @@
 namespace simwright::tasks {
 namespace {
 
-// "OpenDoor_now" -> open, door, now
+// Splits a title into lower-case words: "OpenDoor_now" gives open, door, now.
 std::vector<std::string> Words(std::string_view text) {
   std::vector<std::string> words;
   bool inside = false, was_lower = false;
@@ -36,12 +36,12 @@ constexpr std::array kAwayVerbs = {"open",    "opens", "opening", "unlock",
                                    "unlatch", "press", "presses", "pressing"};
 constexpr std::array kBackVerbs = {"close",    "closes", "closing",   "shut",
                                    "shutting", "shuts",  "unpressed", "release"};
-// These say it only with what follows: turn on, pull it out.
+// These verbs need a particle: turn on, pull it out.
 constexpr std::array kOpenVerbs = {"turn",  "turning", "switch", "switching", "pull", "pulling",
                                    "slide", "sliding", "push",   "pushing",   "flip", "swing"};
 constexpr std::array kAwayParticles = {"on", "out", "open"};
 constexpr std::array kBackParticles = {"off", "in", "closed", "shut", "back"};
-constexpr std::size_t kParticleReach = 4;  // words after the verb
+constexpr std::size_t kParticleReach = 4;  // words between verb and particle
 
 }  // namespace
 
@@ -54,7 +54,7 @@ TitleDirection DirectionOfTitle(std::string_view title) {
     if (OneOf(words[i], kBackVerbs) && !adjective) return TitleDirection::kBack;
     if (!OneOf(words[i], kOpenVerbs)) continue;
     for (std::size_t k = i + 1; k < words.size() && k <= i + kParticleReach; ++k) {
-      // "slide the cup in the box" says where, not which way.
+      // In "slide the cup in the box" the particle names a place, not a direction.
       const bool last = k + 1 == words.size() || k == i + 1;
       if (OneOf(words[k], kAwayParticles) && (last || words[k] != "on")) {
         return TitleDirection::kAway;

@@ -6,9 +6,9 @@ namespace simwright::tasks {
 
 enum class TitleDirection { kNone, kAway, kBack };
 
-// What a title asks of a joint: kAway from its rest ("open", "turn on", "pull out", "press"), kBack
-// to it ("close", "shut", "turn off", "push in"); by the first such verb in it. Words in any case,
-// joined by '_' or by capitals ("CloseDoor") as well.
+// Returns the direction in which a title moves a joint: kAway from its rest position ("open", "turn
+// on", "pull out", "press") or kBack to it ("close", "shut", "turn off", "push in"). The first such
+// verb decides. Words may have any case and be joined by '_' or by capitals ("CloseDoor").
 TitleDirection DirectionOfTitle(std::string_view title);
 
 }  // namespace simwright::tasks

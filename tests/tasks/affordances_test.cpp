@@ -1,4 +1,4 @@
-// What a hand can do with a thing, by its shapes alone; and why it can do nothing.
+// The gripper's affordances by the shapes of an object, and the reasons why it has none.
 #include "tasks/rules/affordances.h"
 
 #include <gtest/gtest.h>
@@ -29,14 +29,14 @@ Thing ThingOfParts(const std::string& category, double mass,
   return thing;
 }
 
-// A shaft of 30 cm with a head of 12 x 3 x 3 cm across its end, lying.
+// Returns a hammer: a shaft of 30 cm with a head of 12 x 3 x 3 cm across its end, lying.
 Thing Hammer() {
   return ThingOfParts("hammer", 0.7,
                       {Box({0, 0, 0.015}, {0.30, 0.03, 0.03}),
                        Box({0.15, 0, 0.015}, {0.03, 0.12, 0.03})});
 }
 
-// A belly of 15 cm with a handle of 2 cm at one side and a spout at the other.
+// Returns a teapot: a body of 15 cm with a handle of 2 cm at one side and a spout at the other.
 Thing Teapot() {
   return ThingOfParts("teapot", 0.8,
                       {Box({0, 0, 0.06}, {0.15, 0.15, 0.12}),
@@ -60,7 +60,7 @@ TEST(Affordances, WhatHasNoHandleIsNotTakenByOne) {
   EXPECT_FALSE(HasHandle(block));
   EXPECT_FALSE(CanBeLifted(block));
   EXPECT_TRUE(CanBePushed(block));
-  // A knob within the outline of the rest does not stand out.
+  // A knob within the outline of the other shapes does not protrude.
   const Thing knob = ThingOfParts(
       "box", 1.0, {Box({0, 0, 0.1}, {0.2, 0.2, 0.2}), Box({0, 0, 0.21}, {0.03, 0.03, 0.02})});
   EXPECT_FALSE(HasHandle(knob));

@@ -9,7 +9,8 @@
 
 namespace simwright::tasks {
 
-// Things made of boxes, with the numbers that tests ask for. Front to -x, z up, z = 0 on the floor.
+// Objects made of boxes, with the dimensions that tests assume. The front faces -x, z is up, the
+// floor is z = 0.
 
 inline assets::UrdfShape Block(const Eigen::Vector3d& size, const Eigen::Vector3d& center) {
   assets::UrdfShape shape;
@@ -41,8 +42,9 @@ inline assets::UrdfJoint MakeJoint(const std::string& name, const std::string& p
   return joint;
 }
 
-// 0.4 deep, 0.5 wide, 0.3 high, walls of 2 cm, open to -x; a door hinged at y = 0.25, its handle at
-// the other side, and a button on the front above it that goes 1 cm inwards.
+// Returns a microwave 0.4 deep, 0.5 wide and 0.3 high with walls of 2 cm, open to -x. A door is
+// hinged at y = 0.25 with its handle at the other side; a button on the front above it moves 1 cm
+// inwards.
 inline assets::SemanticModel Microwave(const std::string& name = "microwave") {
   assets::SemanticModel asset;
   asset.name = name;
@@ -72,7 +74,7 @@ inline assets::SemanticModel Microwave(const std::string& name = "microwave") {
   return asset;
 }
 
-// A chest, 0.3 high, whose drawer slides 0.25 m towards -x.
+// Returns a chest, 0.3 high, whose drawer slides 0.25 m towards -x.
 inline assets::SemanticModel DrawerUnit(const std::string& name = "drawer_unit") {
   assets::SemanticModel asset;
   asset.name = name;
@@ -99,8 +101,8 @@ inline assets::SemanticModel DrawerUnit(const std::string& name = "drawer_unit")
   return asset;
 }
 
-// 0.2 deep, 0.3 wide, 0.16 high with a lid on a level hinge behind; a bar over the lid's front
-// edge.
+// Returns a chest 0.2 deep, 0.3 wide and 0.16 high, with a lid on a horizontal hinge at the back
+// and a bar over the lid's front edge.
 inline assets::SemanticModel Chest(const std::string& name = "chest") {
   assets::SemanticModel asset;
   asset.name = name;
@@ -125,7 +127,7 @@ inline assets::SemanticModel Chest(const std::string& name = "chest") {
   return asset;
 }
 
-// Eight walls about a floor: open above.
+// Returns a cup of eight walls around a floor, open at the top.
 inline assets::SemanticModel Cup(const std::string& name = "cup", double radius = 0.035,
                                  double height = 0.1) {
   assets::SemanticModel asset;

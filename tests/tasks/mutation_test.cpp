@@ -1,4 +1,4 @@
-// Faults planted in sound programs are found, and programs that only look different pass.
+// Faults planted in valid programs are found, and programs that differ only in form pass.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -15,7 +15,7 @@ struct Count {
   int all = 0, found = 0;
 };
 
-// The program of the task that moves the same joint the other way.
+// Returns the program of the task that moves the same joint in the opposite direction.
 std::string OtherWay(const RuleTasks& tasks, const std::string& name) {
   const auto swapped = [&](const std::string& from, const std::string& to) {
     return name.rfind(from, 0) == 0 ? to + name.substr(from.size()) : std::string();
@@ -91,7 +91,7 @@ TEST_F(Mutation, SoundProgramsPass) {
   EXPECT_LE(total.found, 0.01 * total.all) << total.found << " of " << total.all;
 }
 
-// Ideas that the rules themselves had and the verification refused: none may be for a sign.
+// Candidates of the rules that the verification rejected: none may be rejected for a sign.
 TEST_F(Mutation, TheRulesOwnProgramsAreNotRefused) {
   for (const auto& [why, count] : tasks_.dropped) {
     EXPECT_TRUE(why == "no-layout" || why == "no-plan" || why == "same-name")

@@ -94,7 +94,7 @@ std::vector<Mutant> PlantFaults(const Subtask& subtask, const std::string& other
     Mutant mutant{"program against the title", subtask};
     mutant.subtask.program = other_way;
     mutants.push_back(mutant);
-    // The same on a start that would suit the program.
+    // The same mutant on a start that suits the program.
     mutant.subtask.start = InitialState{};
     mutants.push_back(std::move(mutant));
   }

@@ -10,15 +10,15 @@ namespace simwright::tasks {
 // A program with one fault planted in it, or rewritten without one.
 struct Mutant {
   std::string kind;  // "sign of progress"
-  Subtask subtask;   // as it was, with another program (and for titles another name)
+  Subtask subtask;   // the original with another program (for titles, another name)
 };
 
-// The faults found in published reward functions, and their near relations, wherever `subtask`'s
-// program (as the rules write them) offers a place for them. `other_way`: the program of the
-// opposite joint task, for titles that say the wrong way; empty: there is none.
+// Returns variants with the faults found in published reward functions, and related ones, wherever
+// `subtask`'s program (as the rules write it) offers a place for them. `other_way` is the program
+// of the opposite joint task, for titles that name the wrong direction; empty: there is none.
 std::vector<Mutant> PlantFaults(const Subtask& subtask, const std::string& other_way);
 
-// The same reward in other shapes, scales, spellings and names: all sound.
+// Returns variants of the same reward in other forms, scales, spellings and names; all are valid.
 std::vector<Mutant> RewriteSoundly(const Subtask& subtask);
 
 }  // namespace simwright::tasks

@@ -1,4 +1,4 @@
-// What can be done with things, what follows from it, and that what comes out is sound.
+// The rules find the possible actions and their combinations, and generate valid tasks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ TEST(Cavities, AMicrowavesRoomIsWhatItsWallsEnclose) {
   const Thing& thing = model.things[0];
   ASSERT_EQ(thing.cavities.size(), 1u);
   const Cavity& room = thing.cavities[0];
-  // Inside: 0.38 x 0.46 x 0.26, from the back wall to the front. A cell is 1/40 of 0.5 m.
+  // The interior is 0.38 x 0.46 x 0.26, from the back wall to the front. A cell is 1/40 of 0.5 m.
   const double cell = 0.5 / 40;
   EXPECT_NEAR(room.box.sizes().x(), 0.38, 2 * cell);
   EXPECT_NEAR(room.box.sizes().y(), 0.46, 2 * cell);
@@ -42,7 +42,8 @@ TEST(Cavities, ACupOpensAboveAndABlockHasNone) {
   EXPECT_TRUE(model.things[1].cavities.empty());
 }
 
-// The cabinet's inside is full of its drawer; the drawer's is opened by pulling it out.
+// The cabinet's interior is filled by its drawer; the drawer's receptacle is opened by pulling it
+// out.
 TEST(Cavities, ADrawersRoomIsOpenedByTheDrawer) {
   const SceneModel model = MakeSceneModel({DrawerUnit()});
   const Thing& thing = model.things[0];
@@ -52,8 +53,8 @@ TEST(Cavities, ADrawersRoomIsOpenedByTheDrawer) {
   EXPECT_EQ(thing.cavities[0].opening, Eigen::Vector3d::UnitZ());
 }
 
-// Two drawers, one above the other: each is opened by itself, though the upper one covers the
-// lower.
+// Two drawers, one above the other: each opens its own receptacle, although the upper one covers
+// the lower one.
 TEST(Cavities, DrawersAboveEachOtherAreOpenedEachByItself) {
   assets::SemanticModel chest = DrawerUnit();
   for (core::TriangleMesh* mesh :
@@ -135,8 +136,8 @@ TEST(RuleTasks, AreSoundAndOfEveryKind) {
   }
 }
 
-// A door that stands open to its stop, 97 degrees, would turn its handle away: what is closed
-// stands as far open as what was opened, 70 % and a little more.
+// A door open to its limit, 97 degrees, would turn its handle away: a joint to be closed starts
+// where the opening task ends, slightly beyond 70 %.
 TEST(RuleTasks, ClosingBeginsWhereOpeningEnds) {
   const RuleTasks result = GenerateTasksByRules(MakeSceneModel({Microwave()}), {10, 1});
   const auto closing = std::find_if(result.tasks.begin(), result.tasks.end(), [](const Task& task) {
@@ -150,7 +151,7 @@ TEST(RuleTasks, ClosingBeginsWhereOpeningEnds) {
   EXPECT_LE(joints[0].position, 0.85 * 1.7);
 }
 
-// Names out of a URDF are text: quotes and line breaks in them end nothing.
+// Names in a URDF are text: quotes and line breaks in them do not end a string or a comment.
 TEST(RuleTasks, NamesWithQuotesAndLineBreaksStayNames) {
   assets::SemanticModel model = Microwave();
   model.model.joints[1].name = "door\"joint\\";
@@ -165,7 +166,7 @@ TEST(RuleTasks, NamesWithQuotesAndLineBreaksStayNames) {
   EXPECT_TRUE(result.dropped.empty());
 }
 
-// Two things stored in one room do not stand in each other.
+// Two objects stored in one receptacle do not interpenetrate.
 TEST(RuleTasks, StoredThingsStandApart) {
   const SceneModel model = Kitchen();
   const RuleTasks result = GenerateTasksByRules(model, {60, 1});

@@ -1,5 +1,5 @@
-// Each thing that can be wrong with a reward on a scene is found under its own code, and programs
-// in the styles that people and models write are left alone.
+// Every fault that a reward can have on a scene is reported under its own code, and programs in the
+// styles of people and language models pass.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,8 +24,8 @@ namespace {
 struct Case {
   const char* name;
   const char* title;
-  const char* body;  // of compute_reward(env)
-  const char* code;  // of the first finding; empty: none
+  const char* body;  // the body of compute_reward(env)
+  const char* code;  // the code of the first finding; empty: none
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& one) {
@@ -58,7 +58,7 @@ core::Findings Verify(const std::string& title, const std::string& body) {
   "    reach = torch.norm(env.get_robot_gripper_pose() - cup, dim=-1)\n"
 
 const Case kCases[] = {
-    // Sound.
+    // Valid programs.
     {"DoorByDifference", "Open the microwave",
      DOOR "    return -reach - torch.abs(limits['upper'] - q), q >= 0.9 * limits['upper']\n", ""},
     {"DoorClosing", "Close the microwave door",
@@ -104,12 +104,12 @@ const Case kCases[] = {
          "    d = torch.norm(0.5 * (low + high) - cup, dim=-1)\n"
          "    return q - d, torch.logical_and(inside, q > 0.1)\n",
      ""},
-    // Faulty.
+    // Faulty programs.
     {"AgainstSuccess", "Open the microwave",
      DOOR "    return -reach - q, q >= 0.9 * limits['upper']\n", "sign-against-success"},
     {"AwayFromHandle", "Open the microwave",
      DOOR "    return reach + q, q >= 0.9 * limits['upper']\n", "sign-against-success"},
-    // The hand's way is rewarded; that the joint's is not is no matter of sign.
+    // The approach is rewarded; the joint's motion is not, which is not a sign fault.
     {"BlindReward", "Open the microwave", DOOR "    return -reach, q >= 0.9 * limits['upper']\n",
      ""},
     {"ClosingUnderOpening", "Open the microwave", DOOR "    return -reach - q, q <= 0.05\n",
@@ -164,7 +164,7 @@ TEST(SubtaskVerifier, ASubtaskStartsWhereTheOneBeforeEnded) {
   EXPECT_TRUE(verifier.Verify(task, &close).empty());
   ASSERT_EQ(close.start.joints.size(), 1u);
   EXPECT_EQ(close.start.joints[0].joint, "door_joint");
-  EXPECT_GE(close.start.joints[0].position, 1.0);  // open, and no further than the step after it
+  EXPECT_GE(close.start.joints[0].position, 1.0);  // open, and no further than the next step
   EXPECT_LT(close.start.joints[0].position, 1.1);
 }
 
@@ -209,7 +209,7 @@ TEST(TitleDirection, IsTheFirstVerbs) {
   EXPECT_EQ(DirectionOfTitle("Put the cup on the closed box"), TitleDirection::kNone);
 }
 
-// The handle of a door that is open by q lies on a circle about its hinge.
+// The handle of a door that is open by q lies on a circle around its hinge.
 TEST(SceneSignals, FollowTheJoints) {
   const SceneModel& model = Kitchen();
   InitialState start;
@@ -238,7 +238,7 @@ TEST(SceneSignals, FollowTheJoints) {
   EXPECT_THROW(SlotValues(model, state, nullptr, 0.5, slots, &values), core::Error);
 }
 
-// A second door that follows the first one, half as far and the other way.
+// A second door that follows the first one by half its angle in the opposite direction.
 TEST(SceneSignals, AMimicJointFollowsItsLeader) {
   assets::SemanticModel model = Microwave();
   assets::UrdfLink twin = MakeLink("twin", 1.0);
@@ -259,7 +259,7 @@ TEST(SceneSignals, AMimicJointFollowsItsLeader) {
             JointUse::kNone);
 }
 
-// A cup in a drawer travels with it.
+// A cup in a drawer moves with it.
 TEST(Motion, WhatIsInADrawerMovesWithIt) {
   const SceneModel& model = Kitchen();
   const int chest = model.Find("drawer_unit"), cup = model.Find("cup");
@@ -289,7 +289,8 @@ TEST(Layout, WhatRestsInAMicrowaveStandsInItsFront) {
   const std::optional<InitialState> start = LayOut(model, request, rng);
   ASSERT_TRUE(start.has_value());
   const SceneState state = StateOf(model, *start);
-  // The body is 0.4 deep about its middle and opens to -x (household.h), as it stands turned.
+  // The body is 0.4 deep around its centre and opens to -x (household.h), in the frame of its
+  // placement.
   const Eigen::Isometry3d& pose = state.roots[static_cast<size_t>(microwave)];
   const Eigen::Vector3d at = pose.inverse() * LinkPoint(model, state, cup, 0);
   const double half = 0.5 * model.things[static_cast<size_t>(cup)].box.sizes().head<2>().maxCoeff();
@@ -298,7 +299,7 @@ TEST(Layout, WhatRestsInAMicrowaveStandsInItsFront) {
   EXPECT_NEAR(WorldBox(model, state, cup).min().z(), pose.translation().z() + 0.02, 0.4 / 40);
 }
 
-// Nothing overlaps, all is within reach.
+// Nothing overlaps and everything is within reach.
 TEST(LayOut, KeepsThingsApart) {
   const SceneModel& model = Kitchen();
   LayoutRequest request;
@@ -316,7 +317,7 @@ TEST(LayOut, KeepsThingsApart) {
   }
 }
 
-// What a language model is shown as an example would pass.
+// The example answer of the prompt passes verification.
 TEST(SubtaskVerifier, TheWorkedExampleIsSound) {
   const SceneModel model = MakeSceneModel(ExampleModels());
   SubtaskVerifier verifier(model);

@@ -167,7 +167,7 @@ TEST(TaskFile, DamageIsNamedWithItsPlace) {
   const char* places[] = {"assets: should be an array",
                           "assets[0].name: should be",
                           "assets[1].name: another asset",
-                          "assets[0]: 'colour' is no member",
+                          "assets[0]: 'colour' is not a known member",
                           "tasks[0].name: is empty",
                           "tasks[0].assets[0]: no asset is called 'mug'",
                           "tasks[0].subtasks[0].program: should be an array",
@@ -201,7 +201,7 @@ TEST(TaskFile, WhatIsNoFileOfTasksIsRefused) {
   EXPECT_NE(ErrorOf("{\"format\": \"1\"}").find("format: should be a number"), std::string::npos);
   EXPECT_NE(ErrorOf(std::string(100000, '[')).find("nested too deeply"), std::string::npos);
   EXPECT_NE(ErrorOf("{\"format\": 1e999}"), "");
-  // Every byte in turn: an error, or a set, but never anything else.
+  // Changes the bytes in turn: the reader returns a set or throws core::Error.
   for (std::size_t i = 0; i < text.size(); i += 3) {
     std::string damaged = text;
     damaged[i] = '~';

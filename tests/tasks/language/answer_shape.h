@@ -7,7 +7,7 @@
 
 namespace simwright::tasks {
 
-// A reward function of `joint`, told from others by it.
+// Returns a reward function of `joint`, by which it is distinguished from others.
 inline std::string Function(const std::string& joint, const std::string& name = "compute_reward",
                             const std::string& indent = "") {
   const std::string lines[] = {
@@ -29,8 +29,8 @@ inline std::string Fenced(const std::string& code, const std::string& language =
   return "```" + language + "\n" + code + "```\n";
 }
 
-// "task(subtask:joint subtask:joint) task(...)"; a program that does not compile has the joint '!',
-// one that is not there '-'.
+// Returns "task(subtask:joint subtask:joint) task(...)"; a program that does not compile has the
+// joint '!', a missing one '-'.
 inline std::string Shape(const TaskAnswer& answer) {
   std::string shape;
   for (const Task& task : answer.tasks) {

@@ -10,7 +10,7 @@
 
 namespace simwright::tasks {
 
-// What programs may name of a scene.
+// Returns the names that programs may use for a scene.
 inline RewardScene NamesOfScene(const std::vector<NamedModel>& scene) {
   RewardScene names;
   for (const NamedModel& asset : scene) {
@@ -19,7 +19,7 @@ inline RewardScene NamesOfScene(const std::vector<NamedModel>& scene) {
   return names;
 }
 
-// Finds what the compiler finds, and places each asset at the origin.
+// Returns a verification that reports the compiler's findings and places each asset at the origin.
 inline VerifySubtask CompilingVerification(const RewardScene& scene) {
   return [scene](const Task& task, Subtask* subtask) {
     for (const std::string& asset : task.assets) {

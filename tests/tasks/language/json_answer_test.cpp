@@ -1,4 +1,4 @@
-// Answers in JSON, sound and nearly so.
+// Answers in valid and nearly valid JSON.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -26,7 +26,7 @@ int Count(const std::string& text, const std::string& part) {
   return count;
 }
 
-// A rack with `movable` hinges and as many plain fixed parts.
+// Returns a rack with `movable` hinges and as many plain fixed parts.
 SemanticModel Rack(int movable) {
   SemanticModel rack;
   rack.model.links.push_back({});
@@ -87,7 +87,8 @@ TEST(SceneDescription, EachTypeOfJoint) {
   const std::string text = DescribeScene(scene).text;
   EXPECT_NE(text.find("limit: [-1.235, 0.000] rad\n"), std::string::npos) << text;
   EXPECT_NE(text.find("limit: [-3.142, 3.142] rad, turns on without end\n"), std::string::npos);
-  EXPECT_EQ(Count(text, "joint_name:"), 2);  // what floats has no state that a program could ask
+  EXPECT_EQ(Count(text, "joint_name:"), 2);  // a floating joint has no state that a program could
+                                             // read
   EXPECT_NE(text.find("joint_type: \"floating\"\n"), std::string::npos);
   EXPECT_NE(text.find("size: unknown\n"), std::string::npos);
 }
@@ -105,7 +106,7 @@ TEST(SceneDescription, NamesStayInTheirQuotes) {
             std::string::npos)
       << description.text;
   EXPECT_LT(description.text.size(), 400u);
-  ASSERT_EQ(description.findings.size(), 1u);  // a link that is no name is left out
+  ASSERT_EQ(description.findings.size(), 1u);  // a link without a valid name is left out
   EXPECT_EQ(description.findings[0].code, "description-cut");
 }
 

@@ -1,5 +1,5 @@
-// The whole path against an HTTP server: good, flawed and hopeless answers, each ending as
-// docs/tasks.md says.
+// The whole path against an HTTP server: good, flawed and hopeless answers, with the outcomes that
+// docs/tasks.md describes.
 #include "tasks/language/task_generation.h"
 
 #include <gtest/gtest.h>
@@ -85,7 +85,7 @@ TEST_F(TaskGeneration, AGoodAnswerNeedsNoRepair) {
     EXPECT_TRUE(task.sound());
     for (const Subtask& subtask : task.subtasks) {
       EXPECT_TRUE(subtask.attempts.empty());
-      EXPECT_EQ(subtask.start.placements.size(), task.assets.size());  // the verification's
+      EXPECT_EQ(subtask.start.placements.size(), task.assets.size());  // from the verification
     }
   }
   EXPECT_NE(LastMessage(server.body(0)).find("drawer_slide"), std::string::npos);
@@ -195,7 +195,7 @@ TEST_F(TaskGeneration, AServerThatFailsLaterLosesNothing) {
   const GeneratedTasks made = GenerateFrom(&server, 3);
   ASSERT_EQ(made.tasks.size(), 3u);
   EXPECT_TRUE(made.tasks[0].sound());   // repaired before
-  EXPECT_FALSE(made.tasks[1].sound());  // could not be any more
+  EXPECT_FALSE(made.tasks[1].sound());  // could not be repaired any more
   EXPECT_TRUE(made.tasks[2].sound());   // verified without the server
   EXPECT_EQ(CountOf(made.findings, "llm-failed"), 1);
   EXPECT_EQ(server.bodies().size(), 3u);

@@ -53,7 +53,7 @@ TEST(WorkedExample, IsReadAndCompilesWithoutAFinding) {
   }
 }
 
-// Reward and success of a program where each input of a kind has the given numbers.
+// Returns the reward and success of a program in which each input of a kind has the given numbers.
 std::pair<float, bool> RunOn(const std::string& source,
                              const std::map<RewardInput, std::vector<float>>& numbers) {
   const RewardScene scene = NamesOfScene(ExampleScene());
@@ -69,7 +69,8 @@ std::pair<float, bool> RunOn(const std::string& source,
   return {reward, success == 1};
 }
 
-// From start to success each function of the example only rises, by what can be told on paper.
+// From start to success the reward of each example function only increases, in states computed by
+// hand.
 TEST(WorkedExample, RewardsRiseToSuccess) {
   using enum RewardInput;
   const Task task = ReadTaskAnswer(ExampleAnswer()).tasks.at(0);
@@ -90,7 +91,7 @@ TEST(WorkedExample, RewardsRiseToSuccess) {
                {kAssetBoundingBox, {-0.1f, -0.1f, bottom, 0.1f, 0.1f, bottom + 0.05f}}});
     EXPECT_NEAR(pick, -0.025f + 0.5f + 5.0f * bottom, 1e-5f);
     EXPECT_EQ(picked, bottom > 0.1f);
-    const bool last = step == 20;  // it lets go in the middle of the drawer
+    const bool last = step == 20;  // releases at the centre of the drawer
     const auto [place, placed] =
         RunOn(task.subtasks[2].program, {{kLinkBoundingBox, {0.1f, -0.2f, 0.2f, 0.5f, 0.2f, 0.3f}},
                                          {kAssetPosition, {0.3f, 0.0f, 1.25f - t}},
@@ -100,7 +101,7 @@ TEST(WorkedExample, RewardsRiseToSuccess) {
   }
 }
 
-// The listing cannot lie: each call stands there, compiles, and gives the shape it says.
+// The listing is correct: each call is known, compiles, and gives the stated shape.
 TEST(ApiListing, EachFunctionCompilesAsItIsListed) {
   const RewardScene scene = NamesOfScene(ExampleScene());
   const std::string listing = ApiListing();
@@ -109,7 +110,7 @@ TEST(ApiListing, EachFunctionCompilesAsItIsListed) {
     std::string call = ApiCall(function);
     EXPECT_NE(listing.find(call + "  # "), std::string::npos) << call;
     ++listed;
-    for (const bool whole : {true, false}) {  // with and without what may be left out
+    for (const bool whole : {true, false}) {  // with and without optional arguments
       std::string plain;
       int depth = 0;
       for (const char c : call) {
@@ -163,7 +164,7 @@ TEST(TaskQuestion, HoldsTheFourSections) {
     ASSERT_NE(at, std::string::npos) << part;
   }
   EXPECT_EQ(TaskQuestion("S", 3, {}).messages[1].text.find("are there already"), std::string::npos);
-  // Of equal requests the cache gives equal answers.
+  // The cache gives equal answers to equal requests.
   EXPECT_EQ(TaskQuestion("S", 3, {}).messages[1].text, TaskQuestion("S", 3, {}).messages[1].text);
 }
 

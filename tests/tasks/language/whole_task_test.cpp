@@ -1,4 +1,4 @@
-// A task as one program: what it gives is what its subtasks' programs give, put together.
+// A task as one program: its outputs are those of its subtasks' programs, combined.
 #include "tasks/language/whole_task.h"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ class WholeTaskTest : public ::testing::Test {
       if (task.name == "put_cup_into_microwave_and_close_it") task_ = task;
     }
   }
-  // A state that no subtask has in mind.
+  // Returns a state that no subtask anticipates.
   SceneState AnyState(core::Rng& rng) const {
     SceneState state = StateOf(model_, task_.subtasks.front().start);
     for (auto& joints : state.joints) {
@@ -72,7 +72,7 @@ class WholeTaskTest : public ::testing::Test {
 
 TEST_F(WholeTaskTest, ItsRewardIsTheSumAndItsSuccessAllOfThem) {
   ASSERT_EQ(task_.subtasks.size(), 4u);
-  // A second goal, so that one of them has to be written into the program.
+  // A second goal, so that one of them must be written into the program.
   ASSERT_TRUE(task_.subtasks[1].goal);
   task_.subtasks[3].goal = Eigen::Vector3d(0.1, 0.2, 0.3);
   task_.subtasks[3].program =

@@ -21,7 +21,7 @@ namespace simwright::tasks {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int kEnvironments = 1037;  // several chunks, and no multiple of any vector
+constexpr int kEnvironments = 1037;  // several chunks, and not a multiple of any vector width
 constexpr const char* kPython = "/usr/bin/python3";
 
 struct CorpusRun {
@@ -37,7 +37,7 @@ bool IsQuaternion(const RewardSlot& slot) {
                              RewardInputName(slot.input).find("orient") != std::string::npos);
 }
 
-// Numbers in [-1, 1), flags, unit quaternions, boxes with their lower corner lower.
+// Returns numbers in [-1, 1), flags, unit quaternions, or boxes with ordered corners.
 std::vector<float> RandomInput(const RewardSlot& slot, std::mt19937* generator) {
   std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
   if (slot.uniform) return {static_cast<float>(2 + (*generator)() % 4)};
@@ -59,7 +59,7 @@ std::vector<float> RandomInput(const RewardSlot& slot, std::mt19937* generator) 
   return values;
 }
 
-// "[N, 4, 3]" -> "4,3"
+// "[N, 4, 3]" gives "4,3".
 std::string TrailingSizes(const std::string& shape) {
   std::string sizes;
   for (const char c : shape) {
@@ -112,7 +112,7 @@ std::map<std::string, Results> ReadResults(const fs::path& path) {
   return all;
 }
 
-// The largest difference, relative where the truth is above 1.
+// Returns the largest difference, relative where the reference exceeds 1.
 double LargestError(const std::vector<double>& truth, const std::vector<float>& ours) {
   double worst = truth.size() == ours.size() ? 0.0 : INFINITY;
   for (std::size_t i = 0; i < std::min(truth.size(), ours.size()); ++i) {
@@ -156,7 +156,7 @@ Results RunHere(const CorpusRun& run, bool columns) {
   if (run.program.has_success()) results["success"].assign(success.begin(), success.end());
   for (std::size_t i = 0; i < components.size(); ++i) {
     std::string name = "component:" + run.program.components()[i].name;
-    std::replace(name.begin(), name.end(), ' ', '~');  // results.txt is parted by blanks
+    std::replace(name.begin(), name.end(), ' ', '~');  // results.txt is separated by blanks
     results[name].assign(components[i].begin(), components[i].end());
   }
   return results;
@@ -172,7 +172,7 @@ std::vector<CorpusRun> Programs() {
   const RewardScene scene = SampleScene();
   std::vector<CorpusRun> runs;
   for (const fs::path& file : files) {
-    std::mt19937 generator(7);  // so that no program's numbers hang on the others
+    std::mt19937 generator(7);  // each program's numbers are independent of the others
     const std::string source = core::ReadFile(file);
     const CompileOutcome outcome = CompileReward(source, &scene);
     for (const core::Finding& finding : outcome.findings) {

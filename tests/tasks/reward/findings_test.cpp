@@ -1,4 +1,4 @@
-// What is wrong in a program is said where it is, and what would be right with it.
+// Faults in a program are reported at their position, together with the correction.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -15,7 +15,7 @@ struct Case {
   const char* source;
   const char* code;
   const char* place;
-  const char* says;  // has to stand in the sentence
+  const char* says;  // must be contained in the sentence
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& one) {

@@ -1,4 +1,5 @@
-// Rewards of other simulators: each unknown name is said at its place with what reads it here.
+// Rewards of other simulators: each unknown name is reported at its position with its equivalent
+// here.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -76,7 +77,7 @@ constexpr Foreign kForeign[] = {
 INSTANTIATE_TEST_SUITE_P(Simulators, RewardForeign, testing::ValuesIn(kForeign),
                          [](const auto& one) { return std::string(one.param.name); });
 
-// What is named as the remedy is a function that there is.
+// Every remedy names an existing function.
 TEST(RewardForeignNames, RemediesNameFunctionsOfTheEnvironment) {
   for (const char* path :
        {"scene[\"a\"].data.root_pos_w", "scene[\"a\"].data.root_quat_w", "a.pose.p", "a.pose.q",

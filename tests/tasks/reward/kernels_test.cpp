@@ -1,4 +1,4 @@
-// The functions that programs compute with, against the standard library in double.
+// The operations of programs, against the standard library in double.
 #include "tasks/reward/kernels.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(RewardKernels, AreWithinAMillionthOfTheTruth) {
     double worst = 0.0;
     for (int i = 0; i < kCount; ++i) {
       const double truth = one.truth(x[i]);
-      // Near a zero of a sine the argument's own rounding decides.
+      // Near a zero of a sine the rounding of the argument dominates the error.
       const bool angle = one.operation == kSine || one.operation == kCosine;
       const double size = angle ? std::max(std::fabs(truth), 0.1) : std::fabs(truth);
       if (truth != 0.0) worst = std::max(worst, std::fabs(y[i] - truth) / size);

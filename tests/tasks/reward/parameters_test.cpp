@@ -1,4 +1,4 @@
-// What a program takes as parameters is inferred, given, or said to be assumed.
+// Parameters of a program are inferred, given, or reported as assumed.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -85,7 +85,7 @@ TEST(RewardProgram, WhatAMaskPicksMayBeNothing) {
   const std::vector<RewardBinding> bindings = {{rows.data()}};
   outcome.program->Run(bindings, 2, &workspace, reward.data(), success.data());
   EXPECT_EQ(reward[1], -std::numeric_limits<float>::infinity());
-  EXPECT_EQ(success[1], 0);  // the mean of nothing is NaN
+  EXPECT_EQ(success[1], 0);  // the mean of an empty set is NaN
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Shapes that torch would broadcast into each other, [N, 1] beside [N] before all, are an error at
-// their line with both shapes, whether they come from the scene or from parameters whose shapes are
-// only guessed; what torch takes as it is meant is taken.
+// Shapes that torch would broadcast to a matrix, above all [N, 1] with [N], are an error at their
+// line that names both shapes, whether they come from the scene or from parameters of inferred
+// shape. Intended broadcasts are accepted.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -120,7 +120,7 @@ TEST(RewardShapesOfTheScene, AreRefusedToo) {
   EXPECT_EQ(outcome.findings[0].code, "two-batches");
 }
 
-// The reward itself: one column is told from many.
+// The reward itself: a single column is distinguished from several.
 TEST(RewardShapesOfTheReward, AColumnIsToBeSqueezed) {
   const CompileOutcome column = CompileReward(std::string(kHead) + "    return -far\n", nullptr);
   ASSERT_FALSE(column.findings.empty());
@@ -129,7 +129,8 @@ TEST(RewardShapesOfTheReward, AColumnIsToBeSqueezed) {
       << column.findings[0].sentence;
 }
 
-// "dim=-1" of what has one number an environment would be one number for all of them.
+// A reduction with "dim=-1" over one number per environment would give one number for all
+// environments.
 TEST(RewardShapesOfTheReward, AReductionOverTheEnvironmentsIsSaid) {
   for (const char* sum : {"z.sum(dim=-1)", "torch.mean(z, dim=-1)", "z.max(dim=-1).values"}) {
     const CompileOutcome outcome = CompileReward(
