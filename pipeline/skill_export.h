@@ -12,8 +12,8 @@
 namespace simwright::pipeline {
 
 enum class ExportFormat {
-  kRos2,       // trajectory_msgs/JointTrajectory, one of the arm and one of the gripper, YAML or, of
-               // a file that ends in .json, JSON
+  kRos2,       // trajectory_msgs/JointTrajectory, one for the arm and one for the gripper, in YAML
+               // or, for a file that ends in .json, in JSON
   kCsv,        // a table
   kRobomimic,  // HDF5
 };
