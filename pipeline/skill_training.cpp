@@ -172,8 +172,8 @@ std::string TrainedSkill::Method() const {
   };
   const std::int64_t other = shares.imitated + shares.critic_alone;
   std::string method;
-  if (shares.imitated > 0) method = "imitation of a script";
-  if (shares.critic_alone > 0) method = "the script";
+  if (shares.imitated > 0) method = "imitation of a scripted expert";
+  if (shares.critic_alone > 0) method = "a scripted expert";
   if (method.empty()) return "PPO";
   return other >= samples ? method : method + decisions(other) + ", then PPO";
 }

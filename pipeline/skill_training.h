@@ -67,8 +67,8 @@ struct TrainedSkill {
   rl::SkillEvaluation own;               // from its own starts
   rl::SkillEvaluation handover;          // from the previous subtask's ends; empty for the first
   std::optional<BackwardTuning> tuning;  // for the next subtask
-  // Returns "imitation of a script", "the script", "PPO", or "imitation of a script (66k
-  // decisions), then PPO".
+  // Returns "imitation of a scripted expert", "a scripted expert", "PPO", or for example "imitation
+  // of a scripted expert (66k decisions), then PPO".
   std::string Method() const;
   // Returns the success rate lost by starting there: the own rate minus the handover rate.
   double HandoverLoss() const { return own.rate() - handover.rate(); }

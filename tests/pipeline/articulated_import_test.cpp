@@ -236,7 +236,7 @@ TEST_F(BoxUrdf, WhatCannotBeAnAssetIsOneLine) {
     chain += Link("l" + std::to_string(i), 0.05 + 0.12 * i) +
              Joint("revolute", "l" + std::to_string(i - 1), "l" + std::to_string(i), Range(0, 1));
   }
-  ExpectRefused(chain, "500 joints");
+  ExpectRefused(chain, "500 moving joints");
 }
 
 // Files hang a thing on an empty "world" by its first joint: it is held where that joint is.

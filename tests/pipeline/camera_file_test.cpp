@@ -41,8 +41,8 @@ TEST(CameraFile, NamesWhatIsWrong) {
   };
   refused("\"fx\": 60", "\"fx\": -60", "'fx'");
   refused("\"fx\": 60", "\"f\": 60", "'fx'");
-  refused("[0, 0, 1, 1]", "[0, 0, 2, 1]", "no rotation");
-  refused("[0, 0, 1, 1]", "[0, 0, 1]", "another length");
+  refused("[0, 0, 1, 1]", "[0, 0, 2, 1]", "not a rotation");
+  refused("[0, 0, 1, 1]", "[0, 0, 1]", "wrong length");
   refused("[0, 0, 1, 1]", "[0, 0, \"x\", 1]", "no number");
   refused("\"photo\"", "\"picture\"", "'photo'");
   refused("\"cameras\"", "\"views\"", "'cameras'");

@@ -157,9 +157,9 @@ TEST(Foot, PartsAboveItStayAsTheyAre) {
 
 TEST(RestSentence, SaysHowItWasTurned) {
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
-  EXPECT_EQ(RestSentence(turn, false), "stands the way it came");
+  EXPECT_EQ(RestSentence(turn, false), "stands in its given pose");
   turn.linear() = Eigen::AngleAxisd(1.0, Vector3d::UnitZ()).toRotationMatrix();
-  EXPECT_EQ(RestSentence(turn, false), "stands the way it came");  // yaw is free
+  EXPECT_EQ(RestSentence(turn, false), "stands in its given pose");  // yaw is free
   turn.linear() = Eigen::AngleAxisd(0.1, Vector3d::UnitX()).toRotationMatrix();
   EXPECT_NE(RestSentence(turn, false).find("nearly"), std::string::npos);
   EXPECT_NE(RestSentence(turn, false).find("6 degrees"), std::string::npos);

@@ -30,8 +30,7 @@ TEST_F(RolloutOn, OtherTasksAlikeAreActedIn) {
 
 TEST_F(RolloutOn, TasksThatDoNotFitAreRefusedInOneLine) {
   for (const auto& [task, why] : std::vector<std::pair<std::string, std::string>>{
-           {"fly_block", "there is no task 'fly_block'"},
-           {"move_block", "another number of subtasks"}}) {
+           {"fly_block", "there is no task 'fly_block'"}, {"move_block", "number of subtasks"}}) {
     const Outcome outcome =
         RunProgram("rollout --quiet " + Pick() + " --on " + TaskFile() + " --task " + task);
     EXPECT_EQ(outcome.code, 1) << task;

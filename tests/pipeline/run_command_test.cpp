@@ -263,7 +263,7 @@ TEST_F(RunCommand, BadInputIsRefusedBeforeAnythingIsWritten) {
   fs::create_directories(Path("out"));
   core::WriteFile(Path("out/thesis.txt"), "mine");
   for (const char* flag : {"", "--resume", "--force"}) {
-    ExpectRefused(Arguments(Photo("apple.jpg"), "apple", flag), "holds no run");
+    ExpectRefused(Arguments(Photo("apple.jpg"), "apple", flag), "not a run");
   }
   EXPECT_EQ(core::ReadFile(Path("out/thesis.txt")), "mine");
 }
@@ -271,7 +271,7 @@ TEST_F(RunCommand, BadInputIsRefusedBeforeAnythingIsWritten) {
 TEST_F(RunCommand, WhatCannotBeTrainedIsRefusedBeforeTraining) {
   // 20 cm high it is about 18 cm wide.
   const std::string wide = "--height 0.2 --resume";
-  ExpectRefused(Arguments(Photo("apple.jpg"), "apple", wide), "gripper opens by 8.0 cm");
+  ExpectRefused(Arguments(Photo("apple.jpg"), "apple", wide), "gripper opens 8.0 cm");
   const std::string text = RunProgram(Arguments(Photo("apple.jpg"), "apple", wide)).text;
   std::smatch remedy;
   ASSERT_TRUE(std::regex_search(text, remedy, std::regex("--force (--height [0-9.]+)"))) << text;

@@ -28,7 +28,8 @@ TEST(SceneStatistics, CountsWhatBecameOfAttempts) {
   EXPECT_DOUBLE_EQ(statistics.drift, 2e-4);
   EXPECT_EQ(statistics.drawn_counts[8], 2);
   EXPECT_EQ(statistics.scene_counts[9], 1);
-  EXPECT_NE(StatisticsTable(statistics).find("1 more are apart and at rest"), std::string::npos);
+  EXPECT_NE(StatisticsTable(statistics).find("1 more are collision-free and stable"),
+            std::string::npos);
   EXPECT_EQ(StatisticsOf({}).yield, 0.0);
 }
 

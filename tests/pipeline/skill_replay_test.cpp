@@ -110,17 +110,17 @@ TEST_F(SkillReplay, AFileThatDoesNotFitIsRefusedInOneLine) {
       {Path("noise.hdf5"), ""},
       {Path("alone.json"), "alone.notes.json"},
       {Path("pick.csv") + " --run " + Move(), "task 'pick_up_block'"},
-      {Path("pick.csv") + " --run " + Path("nowhere"), "not there"},
+      {Path("pick.csv") + " --run " + Path("nowhere"), "does not exist"},
       {write("arm.csv", [](Trajectory* t) { t->joints[2] = "elbow"; }), "panda_joint3"},
       {write("robot.csv", [](Trajectory* t) { t->notes["robot"] = "generic6"; }), "generic6"},
       {write("asset.csv", [](Trajectory* t) { t->notes["assets"] = "[\"00\"]"; }), "changed"},
       {write("start.csv", [](Trajectory* t) { t->notes["start"] = "{}"; }), "start"},
-      {write("none.csv", [](Trajectory* t) { t->notes.clear(); }), "lacks the note"},
+      {write("none.csv", [](Trajectory* t) { t->notes.clear(); }), "lacks the metadata entry"},
       {write("times.csv",
              [](Trajectory* t) {
                t->notes["subtasks"] = R"([{"name":"pick_up_block","begin":0,"end":1e300}])";
              }),
-       "was cut"},
+       "is truncated"},
   };
   for (const auto& [arguments, word] : cases) {
     const Outcome outcome = RunProgram("replay --quiet " + arguments);

@@ -62,11 +62,12 @@ TEST(LearningShares, AreWhatThePolicyLearntBy) {
 }
 
 TEST(LearningShares, AreSaidWithoutPpoWhereThereWasNone) {
-  EXPECT_EQ(Learnt(40960, {40960, 0}).Method(), "imitation of a script");
-  EXPECT_EQ(Learnt(81920, {65536, 0}).Method(), "imitation of a script (66k decisions), then PPO");
+  EXPECT_EQ(Learnt(40960, {40960, 0}).Method(), "imitation of a scripted expert");
+  EXPECT_EQ(Learnt(81920, {65536, 0}).Method(),
+            "imitation of a scripted expert (66k decisions), then PPO");
   EXPECT_EQ(Learnt(81920, {0, 0}).Method(), "PPO");
-  EXPECT_EQ(Learnt(4096, {0, 4096}).Method(), "the script");
-  EXPECT_EQ(Learnt(81920, {0, 20480}).Method(), "the script (20k decisions), then PPO");
+  EXPECT_EQ(Learnt(4096, {0, 4096}).Method(), "a scripted expert");
+  EXPECT_EQ(Learnt(81920, {0, 20480}).Method(), "a scripted expert (20k decisions), then PPO");
 }
 
 }  // namespace

@@ -162,13 +162,13 @@ TEST_F(TasksCommand, AHopelessOneStaysInTheFileAndFailsTheRun) {
   const Outcome outcome = RunProgram("tasks " + Assets() + " --count 2 --llm " + server.url() +
                                      " -o " + Path("t.json"));
   EXPECT_EQ(outcome.code, 1) << outcome.text;
-  EXPECT_NE(outcome.text.find("not sound"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("not valid"), std::string::npos) << outcome.text;
   const tasks::TaskSet set = Read("t.json");
   ASSERT_EQ(set.tasks.size(), 2u);
   EXPECT_TRUE(set.tasks[0].sound());
   EXPECT_FALSE(set.tasks[1].sound());
   EXPECT_EQ(set.tasks[1].subtasks[0].attempts.size(), 3u);
-  EXPECT_NE(core::ReadFile(Path("t.html")).find("not sound"), std::string::npos);
+  EXPECT_NE(core::ReadFile(Path("t.html")).find("not valid"), std::string::npos);
 }
 
 // Five hundred drawers, one of them led by another, and a part that floats.

@@ -75,7 +75,7 @@ TEST_F(TrainCommand, WritesARunThatRolloutsReadAndResumeKeeps) {
   fs::remove_all(folder_.path() / "tin");
   const Outcome gone = RunProgram("rollout " + Path("run"));
   EXPECT_EQ(gone.code, 1);
-  EXPECT_NE(gone.text.find("'tin' is not there"), std::string::npos) << gone.text;
+  EXPECT_NE(gone.text.find("'tin' no longer exists"), std::string::npos) << gone.text;
 }
 
 // One training writes into a folder at a time; one that is stopped says what it has kept, and what
@@ -114,7 +114,8 @@ TEST_F(TrainCommand, OneTrainsInAFolderAndCtrlCKeepsWhatItLearnt) {
   const Outcome ended = Train("pick_up_tin", "--resume --json");
   EXPECT_EQ(ended.code, 0) << ended.text;
   const auto report = nlohmann::json::parse(core::ReadFile(Path("run/report.json")));
-  EXPECT_EQ(report["subtasks"][0].at("method"), "imitation of a script");  // 2048 of 65,536
+  EXPECT_EQ(report["subtasks"][0].at("method"),
+            "imitation of a scripted expert");  // 2048 of 65,536
   EXPECT_EQ(report["subtasks"][0].at("imitated"), report["subtasks"][0].at("samples"));
 }
 
@@ -131,7 +132,7 @@ TEST_F(TrainCommand, RefusesWithOneLine) {
   EXPECT_NE(robot.text.find("tin.json"), std::string::npos) << robot.text;
   const Outcome nothing = RunProgram("rollout " + Path("tin"));
   EXPECT_EQ(nothing.code, 1);
-  EXPECT_NE(nothing.text.find("no folder of a training"), std::string::npos) << nothing.text;
+  EXPECT_NE(nothing.text.find("not a training folder"), std::string::npos) << nothing.text;
 }
 
 }  // namespace
