@@ -1,4 +1,4 @@
-// `simwright check FOLDER` on a folder of assets: a line each, exit 1 where one fails.
+// `simwright check FOLDER` on a folder of assets: one line each, exit code 1 if one fails.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What import says: sizes that cannot be meant, names, axes, and that what a user states wins.
+// Findings of import: implausible sizes, names, axes, and the precedence of stated values.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -22,7 +22,7 @@ class ImportFindings : public ::testing::Test {
     core::WriteFile(folder_.path() / name, assets::ObjText(mesh));
     return (folder_.path() / name).string();
   }
-  // A box with its height along y, as OBJ has it.
+  // A box with its height along y, as in OBJ.
   std::string Box(const std::string& name, double length, double height, double width) const {
     return Mesh(name, assets::BoxMesh({length, height, width}));
   }
@@ -86,7 +86,7 @@ TEST_F(ImportFindings, WhatIsStatedWins) {
   EXPECT_EQ(Import(mesh + " --category box --mass -1").code, 2);
 }
 
-// A rigid URDF weighs what it says, where matter can, and what is stated wins.
+// A rigid URDF keeps its own mass if the density is possible, and a stated mass takes precedence.
 TEST_F(ImportFindings, ARigidUrdfKeepsItsMass) {
   const auto urdf = [&](double mass) {
     const fs::path file = folder_.path() / "brick.urdf";

@@ -17,7 +17,7 @@ class RolloutOn : public ScriptedRuns {
   static std::string TaskFile() { return (shared_->path() / "tasks.json").string(); }
 };
 
-// On its own scenes a run does, to the last number, what it does without.
+// On its own scenes, --on reproduces the results without it exactly.
 TEST_F(RolloutOn, OtherTasksAlikeAreActedIn) {
   const Outcome own = RunProgram("rollout --json --episodes 12 " + Pick());
   const Outcome on = RunProgram("rollout --json --episodes 12 " + Pick() + " --on " + TaskFile() +

@@ -1,4 +1,4 @@
-// What scenes say of the objects they dropped and of the assets they were given.
+// Findings of scenes about dropped objects and unused assets.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What a dataset's statistics count, of attempts by hand.
+// The statistics of a dataset, from attempts made by hand.
 #include <gtest/gtest.h>
 
 #include "pipeline/scene_generation.h"
@@ -7,12 +7,12 @@ namespace simwright::pipeline {
 namespace {
 
 TEST(SceneStatistics, CountsWhatBecameOfAttempts) {
-  //  drawn, kept, dropped, projected, sound, moved, penetration, drift
+  //  sampled, kept, dropped, projected, valid, moved, penetration, drift
   const std::vector<scene::SceneAttempt> attempts = {
       {10, 9, 1, true, true, 0.002, 5e-5, 2e-4},
       {6, 6, 0, true, true, 0.004, 8e-5, 1e-4},
       {4, 2, 2, true, false, 0.001, 0.0, 0.0},      // at rest, but too few
-      {8, 8, 0, true, false, 0.001, 3e-4, 1e-4},    // in each other
+      {8, 8, 0, true, false, 0.001, 3e-4, 1e-4},    // interpenetrating
       {8, 7, 1, false, false, 0.001, 1e-5, 2e-3}};  // moves
   const SceneStatistics statistics = StatisticsOf(attempts);
   EXPECT_EQ(statistics.attempts, 5);

@@ -1,5 +1,4 @@
-// `replay`: what `export` wrote does its task again from the file alone, and only the real thing
-// does.
+// `replay`: exported files reproduce their task on their own, and modified ones do not.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,8 +22,8 @@ using nlohmann::json;
 
 class SkillReplay : public ScriptedRuns {
  protected:
-  // Writes so many episodes of `run` and repeats them, all of which have to succeed; the file's or
-  // folder's name says the format.
+  // Writes `episodes` episodes of `run` and replays them, all of which must succeed; the name of
+  // the file or folder determines the format.
   void ExpectRepeated(const std::string& run, const std::string& format, const std::string& name,
                       int episodes) {
     const Outcome exported =
@@ -59,25 +58,26 @@ TEST_F(SkillReplay, EachFormatDoesTheTaskAgain) {
   ExpectRepeated(Pick(), "robomimic", "pick.hdf5", 6);
 }
 
-// Nothing corrects where a block is let go that has slipped a little on its longer way: the
-// trajectory rests between the subtasks, the rollout does not. What fails for that is not written.
+// A replay does not correct a block that was released after slipping slightly on its longer path:
+// the trajectory rests between the subtasks, the rollout does not. Episodes that fail for this
+// reason are not written.
 TEST_F(SkillReplay, AChainOfSubtasksDoesToo) {
   ExpectRepeated(Move(), "csv", "move", 20);
   ExpectRepeated(Move(), "robomimic", "move.hdf5", 20);
 }
 
-// A replay that would succeed whatever the file says proves nothing.
+// Modified files must fail: a replay that always succeeds proves nothing.
 TEST_F(SkillReplay, AnotherMotionFails) {
   const robot::JointTrajectory motion = ExportedPick();
   const std::vector<RunSkill> skills = PrepareSkills(AtPhysicsRate(ReadRun(Pick())));
   const SkillNotes notes = NotesFrom(motion.notes, "pick.csv");
   EXPECT_EQ(ReplayTrajectory(skills, motion, notes, "a"), std::vector<bool>{true});
 
-  robot::JointTrajectory open = motion;  // never closes its hand
+  robot::JointTrajectory open = motion;  // never closes the gripper
   open.positions.col(7).setConstant(0.04);
   EXPECT_EQ(ReplayTrajectory(skills, open, notes, "a"), std::vector<bool>{false});
 
-  robot::JointTrajectory beside = motion;  // 0.15 rad are about 8 cm at the block
+  robot::JointTrajectory beside = motion;  // 0.15 rad is about 8 cm at the block
   beside.positions.col(0).array() += 0.15;
   EXPECT_EQ(ReplayTrajectory(skills, beside, notes, "a"), std::vector<bool>{false});
 

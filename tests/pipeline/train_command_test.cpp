@@ -1,5 +1,5 @@
-// `train` and `rollout` as a user calls them, with trainings too short to learn much: what is
-// written, gone on with, re-used and refused.
+// `train` and `rollout` with trainings too short to learn much: written files, resuming, reuse and
+// rejected inputs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -78,8 +78,8 @@ TEST_F(TrainCommand, WritesARunThatRolloutsReadAndResumeKeeps) {
   EXPECT_NE(gone.text.find("'tin' no longer exists"), std::string::npos) << gone.text;
 }
 
-// One training writes into a folder at a time; one that is stopped says what it has kept, and what
-// is killed is in nobody's way.
+// Only one training may write into a folder at a time; a stopped one reports its kept results, and
+// a killed one does not block others.
 TEST_F(TrainCommand, OneTrainsInAFolderAndCtrlCKeepsWhatItLearnt) {
   const std::string long_training =
       "train " + Path("tasks.json") + " --task pick_up_tin -o " + Path("run") +
