@@ -36,7 +36,7 @@ int Main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_config("--config", "",
                  "Read flags from a TOML file, one section per subcommand; "
-                 "the command line wins");
+                 "the command line takes precedence");
   cli::CommonOptions common;
   cli::Run run;
   cli::AddLift(&app, &common, &run);

@@ -51,7 +51,7 @@ std::string FullName(const CLI::App& app) {
                                      : FullName(*app.get_parent()) + " " + app.get_name();
 }
 
-std::string Suggestion(const std::string& name, const std::vector<std::string>& known) {
+std::string NearestHint(const std::string& name, const std::vector<std::string>& known) {
   const std::string nearest = tasks::reward::NearestName(name, known);
   return nearest.empty() ? "" : ", did you mean " + nearest + "?";
 }
@@ -95,7 +95,7 @@ class Walk {
     }
     if (option == nullptr) {
       return "unknown option " + name + " of '" + FullName(*app_) + "'" +
-             Suggestion(name, OptionsOf(*app_, "--"));
+             NearestHint(name, OptionsOf(*app_, "--"));
     }
     values_ = argument.find('=') == std::string::npos ? option->get_items_expected_max() : 0;
     return "";
@@ -111,7 +111,7 @@ class Walk {
     const CLI::App* found = FindSubcommand(*app_, argument);
     if (found == nullptr) {
       return "unknown subcommand " + argument + " of '" + FullName(*app_) + "'" +
-             Suggestion(argument, NamesOf(known));
+             NearestHint(argument, NamesOf(known));
     }
     app_ = found;
     return "";
@@ -132,7 +132,7 @@ std::string ConfigFault(const CLI::App& app, const std::string& message) {
     const CLI::App* next = FindSubcommand(*section, name);
     if (next == nullptr) {
       return "unknown section [" + name + "] of the configuration file" +
-             Suggestion(name, NamesOf(SubcommandsOf(*section)));
+             NearestHint(name, NamesOf(SubcommandsOf(*section)));
     }
     section = next;
     key = key.substr(dot + 1);
@@ -140,7 +140,7 @@ std::string ConfigFault(const CLI::App& app, const std::string& message) {
   return "unknown key " + key + " of the configuration file" +
          (section == &app ? ", outside of any section"
                           : ", section [" + section->get_name() + "]") +
-         Suggestion(key, OptionsOf(*section, ""));
+         NearestHint(key, OptionsOf(*section, ""));
 }
 
 }  // namespace

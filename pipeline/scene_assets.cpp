@@ -64,7 +64,7 @@ void MakeMissing(const std::vector<std::string>& slots, const fs::path& kept,
       const std::string kind = KindOfSlot(slot).kind;
       if (library::FindRigidKind(kind) == nullptr) {
         throw core::Error("no asset fits this category, and the library has no such kind", slot,
-                          "give one: --asset " + slot + "=FOLDER");
+                          "give one with --asset " + slot + "=FOLDER");
       }
       options.kind += (options.kind.empty() ? "" : ",") + kind;
     }
@@ -91,7 +91,7 @@ std::string Listed(const std::vector<std::string>& names) {
 }
 
 // Explains why scenes can use none of the assets in a user's folder.
-std::string HeldIn(const fs::path& folder) {
+std::string UnusedReason(const fs::path& folder) {
   if (assets::IsAssetFolder(folder)) return "it is itself an asset, not a folder of assets";
   int rigid = 0, jointed = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -108,7 +108,7 @@ void ReportUse(const fs::path& folder, const scene::SlotFolders& used,
   if (findings == nullptr) return;
   if (used.empty()) {
     findings->push_back({"assets-unused", core::Severity::kWarning, folder.string(),
-                         "none of these assets is used: " + HeldIn(folder), 0.0,
+                         "none of these assets is used: " + UnusedReason(folder), 0.0,
                          "--asset SLOT=FOLDER uses one; the categories are " + Listed(slots)});
     return;
   }
@@ -118,8 +118,8 @@ void ReportUse(const fs::path& folder, const scene::SlotFolders& used,
     taken.push_back(slot == name ? slot : slot + " (" + name + ")");
   }
   findings->push_back({"assets-used", core::Severity::kInfo, folder.string(),
-                       "stands for " + std::to_string(used.size()) + " of " +
-                           std::to_string(slots.size()) + " slots: " + Listed(taken),
+                       "used for " + std::to_string(used.size()) + " of " +
+                           std::to_string(slots.size()) + " categories: " + Listed(taken),
                        static_cast<double>(used.size())});
 }
 

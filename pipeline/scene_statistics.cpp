@@ -47,8 +47,8 @@ core::Findings DroppedFindings(const SceneStatistics& statistics) {
                 "interpenetrated, fell or found no support",
                 100.0 * share, statistics.dropped);
   return {{"objects-dropped", core::Severity::kWarning, statistics.type, text, share,
-           "more --steps if they are sampled, smaller assets, or --raw to look at what was "
-           "drawn"}};
+           "give more --steps if they are sampled, smaller assets, or --raw to see the "
+           "samples"}};
 }
 
 std::string StatisticsTable(const SceneStatistics& statistics) {
