@@ -20,7 +20,7 @@ struct ArticulatedImportOptions {
   double height = 0.0;
   double unit = 1.0;
   bool unit_stated = false;  // by the user: no resulting size is refused
-  StatedSize size = {};      // of the whole asset; overrides `height`
+  StatedSize size = {};      // the whole asset's; overrides `height`
   physics_params::StatedPhysics stated = {};
   std::uint64_t seed = 1;
   std::filesystem::path root = {};  // meshes outside it are not read; empty: ReadUrdf's default

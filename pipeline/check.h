@@ -26,7 +26,7 @@ struct CheckLimits {
   // The distance from the solid's surface to the nearest part over the diagonal. Hulls of 64
   // vertices lie up to 2 % inside a ball.
   double cover_distance_ratio = 0.03;
-  double reader_tolerance = 1e-6;  // of mass, centre of mass and inertia to asset.json, relative
+  double reader_tolerance = 1e-6;  // mass, centre of mass, inertia against asset.json, relative
   double rest_time = 2.0;  // s
   // Degrees from the rest pose. Beyond the worst value the body fell over (FindRestPose uses the
   // same bound).

@@ -9,9 +9,9 @@ namespace simwright::pipeline {
 // A parallel gripper: two fingers and the palm behind them. Lengths in metres.
 struct Gripper {
   double opening = 0.08;     // distance between the open fingers
-  double width = 0.02;       // of a finger, perpendicular to closing axis and length
-  double thickness = 0.015;  // of a finger, along the closing axis
-  double length = 0.04;      // of a finger, from the palm to the tip
+  double width = 0.02;       // a finger's, perpendicular to closing axis and length
+  double thickness = 0.015;  // a finger's, along the closing axis
+  double length = 0.04;      // a finger's, from the palm to the tip
   double approach = 0.10;    // length of the straight, collision-free approach
   double overlap = 0.01;     // how far the tips reach past the centre of the grasp target
 };

@@ -17,8 +17,8 @@ struct LibraryOptions {
   // library::RigidKinds() or library::FurnitureKinds(); or all of the first ("all"), the second
   // ("rigid"), the first two ("everything") or the third ("furniture").
   std::string kind = "all";
-  int count = 1;           // of each kind
-  std::uint64_t seed = 1;  // of the first asset; the others count up
+  int count = 1;           // assets per kind
+  std::uint64_t seed = 1;  // the first asset's; the others count up
   bool force = false;      // replaces existing outputs
   bool check = true;       // checks each asset and refuses one that fails
 };

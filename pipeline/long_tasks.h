@@ -18,7 +18,7 @@ struct LongTask {
   std::string kinds;  // library kinds, separated by commas; one instance of each
   std::string task;   // the rules' name of the task
   std::string robot = "panda";
-  std::uint64_t seed = 1;  // of the instances
+  std::uint64_t seed = 1;  // the instances' seed
 };
 
 const std::vector<LongTask>& LongTasks();

@@ -21,10 +21,10 @@ struct PhotoRunRequest {
   std::string furniture = "any";  // drawer_unit, microwave, or "any": the first that fits
   std::string task;               // the name or pattern of one task; empty: pick up the asset
   int environments = 64;
-  std::int64_t samples = 2'000'000;  // of one subtask, at most
-  double minutes = 20.0;             // of one subtask, at most; 0: unlimited
+  std::int64_t samples = 2'000'000;  // per subtask, at most
+  double minutes = 20.0;             // per subtask, at most; 0: unlimited
   double target = 0.92;              // the success rate above which a subtask is learnt
-  int episodes = 200;                // of each evaluation
+  int episodes = 200;                // per evaluation
   std::int64_t imitated_samples = TrainRequest().imitated_samples;
   std::uint64_t seed = 1;
   std::filesystem::path output;
@@ -36,9 +36,9 @@ struct PhotoRunOutcome {
   int episodes = 0, successes = 0;
   rl::Interval interval;  // 95 %, of the success rate
   bool replayed = false;  // the trajectory file alone reproduces the task in simulation
-  double seconds = 0.0;   // of all stages
+  double seconds = 0.0;   // total of all stages
   std::filesystem::path folder, page, picture, trajectory;
-  core::Findings findings;  // of the asset
+  core::Findings findings;  // the asset's
   std::string json;         // report.json
 };
 

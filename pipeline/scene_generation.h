@@ -22,7 +22,7 @@ struct SceneGenerationRequest {
   scene::SlotFolders chosen;                  // the asset folder of a category
   std::vector<std::string> hulls;             // categories whose assets collide as convex hulls
   int part = 64;                              // scenes per shard, the unit of work of one worker
-  double time_step = 0.0;  // of physics, s; 0: the default of scene::FeasibilityOptions
+  double time_step = 0.0;  // the physics', s; 0: the default of scene::FeasibilityOptions
 };
 
 // The statistics of a dataset and its generation.

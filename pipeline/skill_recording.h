@@ -38,7 +38,7 @@ struct RecordedSubtask {
 struct ChainRecording {
   std::uint64_t episode = 0;  // the index among the seed's episodes
   std::vector<RecordedSubtask> subtasks;
-  bool success = false;  // of all subtasks
+  bool success = false;  // all subtasks succeeded
 };
 
 // Runs the episode of this seed and index exactly as rl::EvaluateChain does, with the same outcome,

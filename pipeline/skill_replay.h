@@ -17,7 +17,7 @@ struct ReplayRequest {
 struct ReplayedEpisode {
   std::string name;             // the file, and the demonstration if it has several
   std::vector<bool> successes;  // by subtask, up to the first failed one
-  bool success = false;         // of all subtasks
+  bool success = false;         // all subtasks succeeded
 };
 
 struct ReplayReport {

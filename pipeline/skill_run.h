@@ -17,7 +17,7 @@ struct SkillRun {
   // The training tasks: one, or several similar ones (a door on six microwaves) with the same
   // number of subtasks; subtasks at the same position share a policy.
   tasks::TaskSet set;
-  std::vector<std::string> hashes;  // of set.assets, from the start of the run
+  std::vector<std::string> hashes;  // content hashes of set.assets at the start of the run
   std::string robot = "panda";      // panda, panda_on_base, or a URDF with its side file
   rl::SkillOptions options;
   int environments = 64;

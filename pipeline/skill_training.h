@@ -32,7 +32,7 @@ struct TrainRequest {
   // A subtask counts as learnt once the lower bound of the 95 % interval of its success rate
   // exceeds this.
   double target = 0.92;
-  int episodes = 200;  // of each evaluation
+  int episodes = 200;  // per evaluation
   // If the next subtask's success drops by more than `largest_handover_loss` when it starts where a
   // subtask ends, that subtask is trained for `backward_samples` more decisions to end better; 0:
   // no backward tuning.
@@ -77,9 +77,9 @@ struct TrainedSkill {
 struct TrainReport {
   std::filesystem::path folder;
   std::vector<TrainedSkill> skills;
-  rl::ChainEvaluation chain;  // of the whole task; empty if it has one subtask
+  rl::ChainEvaluation chain;  // the whole task's; empty if it has one subtask
 
-  double success() const;  // of the whole task
+  double success() const;  // the whole task's rate
 };
 
 // Trains a task's subtasks in order into request.output, then evaluates them, alone and as a chain.

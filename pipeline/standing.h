@@ -25,7 +25,7 @@ core::Findings LetStand(assets::UrdfModel* model);
 struct TippingMargin {
   double margin = 0.0;
   std::string joint;     // the joint of the minimum
-  double position = 0.0;  // of that joint, rad or m
+  double position = 0.0;  // that joint's, rad or m
 };
 TippingMargin LeastTippingMargin(const assets::UrdfModel& model);
 

@@ -16,7 +16,7 @@ namespace simwright::pipeline {
 struct TasksRequest {
   std::vector<std::string> assets;  // each PATH or NAME=PATH (pipeline/task_assets.h)
   std::filesystem::path output;     // tasks.json; the page beside it ends in .html
-  int count = 0;                    // of tasks; 0: 5 per asset by rules, 8 by a language model
+  int count = 0;                    // 0: 5 per asset by rules, 8 by a language model
   std::uint64_t seed = 1;
   bool force = false;               // replaces an existing output
   llm::ChatModel* model = nullptr;  // null: generates by rules
@@ -25,7 +25,7 @@ struct TasksRequest {
 struct TasksReport {
   tasks::TaskSet set;
   std::filesystem::path file, page;
-  core::Findings findings;             // of the assets, the answers and the whole
+  core::Findings findings;             // about the assets, the answers and the task set
   std::map<std::string, int> dropped;  // rejected task candidates, by reason
   int repaired = 0;                    // subtasks that a language model repaired
 

@@ -23,7 +23,7 @@ void Validate(const StatedSize& size);
 // height. The direction is the x axis, unless another one gives a rectangle smaller by a twentieth,
 // so that the length of a hammer lying diagonally in a photo is not split between both sides.
 struct GroundBox {
-  double angle = 0.0;  // of the direction, from x towards y, rad
+  double angle = 0.0;  // the direction's, from x towards y, rad
   Eigen::Vector3d sides = Eigen::Vector3d::Zero();
 };
 GroundBox GroundBoxOf(const core::TriangleMesh& mesh);
