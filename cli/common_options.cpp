@@ -21,8 +21,8 @@ void AddCommon(CLI::App* command, CommonOptions* common) {
   command->add_flag("--json", common->json, "Print the result and its findings as JSON");
   command
       ->add_option("--config", common->config,
-                   "Read flags from a TOML file, one section per subcommand; the command line takes "
-                   "precedence")
+                   "Read flags from a TOML file, one section per subcommand; the command line "
+                   "takes precedence")
       ->default_str("none")
       ->configurable(false);
 }
