@@ -19,7 +19,7 @@ struct Flags {
   std::filesystem::path root;
 };
 
-// Reports on all inputs, and whether they are many: those of a folder of assets.
+// The reports of all inputs; `many` is true if an input is a folder of assets.
 struct Checked {
   std::vector<pipeline::CheckReport> reports;
   bool many = false;
@@ -38,8 +38,8 @@ void CheckInput(const std::filesystem::path& input, const Flags& flags, core::Pr
   }
   const std::vector<std::filesystem::path> folders = pipeline::AssetFoldersIn(input);
   if (folders.empty()) {
-    throw core::Error("holds no asset.json, and no folder in it does", input.string(),
-                      "give an asset's folder, a folder of them, or a .urdf file");
+    throw core::Error("has no asset.json, and neither has any folder in it", input.string(),
+                      "give an asset folder, a folder of asset folders, or a .urdf file");
   }
   checked->many = true;
   for (pipeline::CheckReport& report : pipeline::CheckFolders(folders, progress)) {
@@ -84,14 +84,16 @@ int Check(const Flags& flags, const CommonOptions& common) {
 
 void AddCheck(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
-  CLI::App* command =
-      app->add_subcommand("check", "Geometry, inertia, readers, a drop test, and how joints swing");
+  CLI::App* command = app->add_subcommand(
+      "check", "Check geometry, inertia, file readers, a drop test, and joint motion");
   command->footer(
       "Examples:\n  simwright check apple\n  simwright check assets\n"
-      "A folder of assets gives a line each. Exit code 1 when a property fails.");
-  command->add_option("inputs", flags->inputs, "Asset folders, folders of them, or URDF files")->required();
-  command->add_option("--root", flags->root,
-                      "URDF: no file outside this folder is read")
+      "A folder of assets gives one line per asset. The exit code is 1 if a check fails.");
+  command
+      ->add_option("inputs", flags->inputs,
+                   "Asset folders, folders of asset folders, or URDF files")
+      ->required();
+  command->add_option("--root", flags->root, "URDF: do not read files outside this folder")
       ->default_str("the URDF's own folder");
   AddCommon(command, common);
   command->callback([flags, common, run] { *run = [=] { return Check(*flags, *common); }; });

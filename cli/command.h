@@ -11,27 +11,28 @@
 
 namespace simwright::cli {
 
-constexpr int kInterrupted = 130;  // the exit code, as a shell reports Ctrl-C
+constexpr int kInterrupted = 130;  // the exit code that shells report for Ctrl-C
 
-// Flags that mean the same everywhere.
+// The flags that all subcommands share.
 struct CommonOptions {
   std::uint64_t seed = 1;
   int threads = 0;
   bool quiet = false;
   bool json = false;
   bool force = false;
-  std::string config;  // never read: ArgumentsOf hands --config to the program itself
+  std::string config;  // unused: ArgumentsOf passes --config to the program itself
 
   core::Progress::Style ProgressStyle() const {
     return quiet || json ? core::Progress::Style::kSilent : core::Progress::StyleForStderr();
   }
 };
 
-// Each subcommand adds itself to `app` and, when chosen, sets `run`: called after parsing, it
-// returns the exit code (0; 1 where a check failed). Errors are thrown.
+// The function of the chosen subcommand. Each subcommand adds itself to `app` and sets `run` when
+// it is chosen; `run` is called after parsing and returns the exit code (0; 1 for a failed check).
+// Errors are thrown.
 using Run = std::function<int()>;
 
-// Says that a run was stopped which `folder` keeps as far as it came and --resume goes on with;
+// Prints that a run was stopped, that `folder` keeps its progress and that --resume continues it;
 // returns kInterrupted.
 int StoppedWith(const std::filesystem::path& folder);
 

@@ -10,16 +10,17 @@
 namespace simwright::cli {
 
 void AddDoctor(CLI::App* app, CommonOptions* common, Run* run) {
-  CLI::App* command = app->add_subcommand("doctor", "What was found, what is slow, how to mend it");
+  CLI::App* command = app->add_subcommand(
+      "doctor", "Examine the installation: what is missing or slow, and how to fix it");
   command->footer("Example:\n  simwright doctor");
   AddCommon(command, common);
   command->callback([common, run] {
     *run = [common] {
-      bool sound = true;
+      bool passed = true;
       const core::Findings findings = pipeline::Examine();
       for (const core::Finding& finding : findings) {
         const bool bad = finding.severity == core::Severity::kError;
-        sound = sound && !bad;
+        passed = passed && !bad;
         if (common->json) continue;
         const std::string remedy = finding.remedy.empty() ? "" : " (" + finding.remedy + ")";
         std::printf("%-4s  %-12s %s%s\n",
@@ -28,14 +29,14 @@ void AddDoctor(CLI::App* app, CommonOptions* common, Run* run) {
                                                                    : "good",
                     finding.code.c_str(), finding.sentence.c_str(), remedy.c_str());
       }
-      if (common->json) PrintJson(nlohmann::ordered_json{{"passed", sound}}, findings);
-      return sound ? 0 : 1;
+      if (common->json) PrintJson(nlohmann::ordered_json{{"passed", passed}}, findings);
+      return passed ? 0 : 1;
     };
   });
 }
 
 void AddVersion(CLI::App* app, CommonOptions* common, Run* run) {
-  CLI::App* command = app->add_subcommand("version", "The program's version");
+  CLI::App* command = app->add_subcommand("version", "Print the program's version");
   command->footer("Example:\n  simwright version");
   AddCommon(command, common);
   command->callback([common, run] {

@@ -35,32 +35,33 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
                                                        {"csv", ExportFormat::kCsv},
                                                        {"robomimic", ExportFormat::kRobomimic}};
   auto request = std::make_shared<pipeline::ExportRequest>();
-  CLI::App* command =
-      app->add_subcommand("export", "Trained skills as a robot's trajectories or demonstrations");
+  CLI::App* command = app->add_subcommand(
+      "export", "Export trained skills as robot trajectories or demonstrations");
   command->footer(
       "Examples:\n  simwright export open --format ros2 --joint-names fr3 -o open.yaml\n"
       "  simwright export open --format robomimic --episodes 50 -o open.hdf5\n"
-      "Trajectories keep the robot's limits at 1 kHz from rest to rest. `simwright replay` proves\n"
-      "them. docs/export.md says more.");
-  command->add_option("run", request->run, "The folder of `simwright train`")->required();
+      "Trajectories respect the robot's limits, at 1 kHz from rest to rest. `simwright replay`\n"
+      "verifies them. See docs/export.md.");
+  command->add_option("run", request->run, "A folder written by `simwright train`")->required();
   AddChoice(command, "--format", {"ros2", "csv", "robomimic"}, "",
-            "ros2 (YAML, or JSON by the ending), csv, robomimic",
+            "ros2 (YAML, or JSON by the extension), csv, robomimic",
             [request](const std::string& name) { request->format = formats.at(name); })
       ->required();
   command
       ->add_option("-o,--output", request->output,
-                   "The file; of several trajectories a folder of them")
+                   "The output file, or a folder for several trajectories")
       ->required();
   command->add_option("--joint-names", request->joint_names,
-                      "What the controller calls the joints: panda, fr3 (within that robot's "
-                      "limits, too), or a JSON file; default: the robot's own names");
+                      "The controller's joint names: panda, fr3 (also applies that robot's "
+                      "limits), or a JSON file; default: the robot's own names");
   command
-      ->add_option("--pace", request->at_recorded_pace,
-                   "limits: as fast as limits and task allow; recorded: never faster than recorded")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"limits", false},
-                                                                      {"recorded", true}}))
+      ->add_option(
+          "--pace", request->at_recorded_pace,
+          "limits: as fast as the limits and the task allow; recorded: at most as recorded")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, bool>{{"limits", false}, {"recorded", true}}))
       ->default_str("limits");
-  command->add_option("--episodes", request->episodes, "Episodes that succeed")
+  command->add_option("--episodes", request->episodes, "Number of successful episodes")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   AddCommon(command, common);

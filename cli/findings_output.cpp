@@ -44,7 +44,7 @@ void PrintWarnings(const core::Findings& findings, const CommonOptions& common, 
 
 void PrintJson(nlohmann::ordered_json object, const core::Findings& findings) {
   object["findings"] = core::FindingsJson(findings);
-  // A name or an answer may hold what is no UTF-8.
+  // Names and answers may contain invalid UTF-8.
   std::printf(
       "%s\n",
       object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());

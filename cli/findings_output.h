@@ -9,20 +9,21 @@
 
 namespace simwright::cli {
 
-// Characters of a line of stderr where it is a terminal, else 0: what goes to a file or a pipe is
-// not broken, so that it can be searched.
+// Returns the line width of stderr, in characters, if it is a terminal, else 0: output to a file or
+// a pipe is not wrapped, so that it can be searched.
 std::size_t LineWidth();
 
-// Findings as core::FindingText on stderr, where every command prints them, so that stdout is its
-// result alone. With --quiet only errors; with --json none, since they are in the JSON.
+// Prints findings as core::FindingText on stderr, as every command does, so that stdout has only
+// its result. With --quiet only errors are printed; with --json none, because the JSON has them.
 void PrintFindings(const core::Findings& findings, const CommonOptions& common);
 
-// The same without what is of severity kInfo, which `notes` counts: of many things at once.
+// Prints findings without those of severity kInfo, which it counts in `notes`; for the findings of
+// many assets at once.
 void PrintWarnings(const core::Findings& findings, const CommonOptions& common, int* notes);
 
-// Prints a command's result for --json on stdout: one object, with the array `findings`.
+// Prints a command's --json result on stdout: one object with the array `findings`.
 void PrintJson(nlohmann::ordered_json object, const core::Findings& findings);
-// The same of an object's text.
+// Prints the text of a JSON object likewise.
 void PrintJson(const std::string& object, const core::Findings& findings);
 
 }  // namespace simwright::cli

@@ -23,7 +23,7 @@ struct Flags {
   bool no_check = false;
 };
 
-// What the findings of one of several assets are about.
+// Prefixes the places of findings with the asset's name.
 core::Findings Placed(core::Findings findings, const std::string& name) {
   for (core::Finding& finding : findings) {
     if (finding.place.empty()) finding.place = name;
@@ -103,7 +103,7 @@ int PrintOutcomes(const std::vector<pipeline::ImportOutcome>& outcomes,
     std::printf("%zu imported, %d refused\n", outcomes.size() - static_cast<size_t>(refused),
                 refused);
     if (notes > 0 && !common.quiet) {
-      std::printf("%d notes are in the asset.json of each, and in --json\n", notes);
+      std::printf("%d notes are in the asset.json files and in --json\n", notes);
     }
   }
   return refused > 0 ? 1 : 0;
@@ -135,45 +135,47 @@ int Import(Flags flags, const CommonOptions& common) {
 
 void AddImport(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
-  CLI::App* command = app->add_subcommand("import", "Meshes, URDFs and catalogues become assets");
+  CLI::App* command =
+      app->add_subcommand("import", "Import meshes, URDFs and catalogues as assets");
   command->footer(
       "Example:\n  simwright import chair.glb --category chair -o assets\n"
       "  simwright import BlendSwap-CC-0.sh3f --only cup -o cups\n"
       "  simwright import partnet/45267 --height 0.8 -o cabinets\n"
-      "PartNet-Mobility's and GAPartNet's folders, and other URDFs with joints, become "
+      "Folders of PartNet-Mobility and GAPartNet, and other URDFs with joints, become "
       "articulated\n"
       "assets; without --height the former are scaled by their category.\n"
-      "A mesh whose asset would fail its check is refused. Exit code 1 when any was.");
+      "An input whose asset fails its check is refused; the exit code is then 1.");
   command
-      ->add_option("inputs", flags->inputs,
-                   "OBJ, PLY, STL, glTF, GLB, DAE, URDF, folders of them, or .sh3f catalogues")
+      ->add_option(
+          "inputs", flags->inputs,
+          "OBJ, PLY, STL, glTF, GLB, DAE or URDF files, folders of them, or .sh3f catalogues")
       ->required();
-  command->add_option("-o,--output", flags->output, "Folder for the assets, one folder each")
-      ->required();
-  command->add_option("--category", flags->options.category,
-                      "What it is, e.g. mug")
-      ->default_str("by meta.json or the file's name");
-  command->add_option("--up", flags->up, "Axis that points up in the file")
-      ->default_str("by the format, the category's proportions and how it stands")
+  command->add_option("-o,--output", flags->output, "The folder for the asset folders")->required();
+  command->add_option("--category", flags->options.category, "The object's category, e.g. mug")
+      ->default_str("from meta.json or the file's name");
+  command->add_option("--up", flags->up, "The file's up axis")
+      ->default_str("from the format, the category's proportions and stability")
       ->check(CLI::IsMember({"x", "y", "z"}));
   command
       ->add_option("--unit", flags->unit,
-                   "Unit of the file's coordinates; stated, any size that comes out is meant")
+                   "Unit of the file's coordinates; if given, no resulting size is refused")
       ->default_str("m")
       ->check(CLI::IsMember({"m", "cm", "mm", "in", "ft"}));
   command->add_option("--height", flags->options.height, "Scale to this height, m")
       ->check(Positive())
-      ->default_str("by the unit");
+      ->default_str("from the unit");
   AddStatedOptions(command, &flags->options.size, &flags->options.stated);
   command->get_option("--height")->excludes("--size");
-  command->add_option("--only", flags->options.only, "Catalogues: pieces with this in the name")
+  command
+      ->add_option("--only", flags->options.only,
+                   "Catalogues: only pieces whose name contains this")
       ->default_str("all");
-  command->add_option("--limit", flags->options.limit, "Catalogues: at most so many pieces")
+  command->add_option("--limit", flags->options.limit, "Catalogues: the maximum number of pieces")
       ->check(CLI::NonNegativeNumber)
       ->default_str("all");
   command->add_flag("--resume", flags->options.resume,
-                    "Keep assets that are there, import the others");
-  command->add_flag("--no-check", flags->no_check, "Write assets unchecked, good or not");
+                    "Keep existing assets and import the others");
+  command->add_flag("--no-check", flags->no_check, "Write assets without checking them");
   AddCommon(command, common);
   AddForce(command, common);
   command->callback([flags, common, run] { *run = [=] { return Import(*flags, *common); }; });

@@ -12,25 +12,24 @@ namespace simwright::cli {
 void AddLanguageModel(CLI::App* command, LanguageModelOptions* options) {
   CLI::Option* url = command->add_option(
       "--llm", options->url,
-      "Ask the language model at this address, e.g. http://localhost:8080/v1; 'env': the one in "
-      "SIMWRIGHT_LLM_URL. Its key is taken from SIMWRIGHT_LLM_KEY");
+      "Query the language model at this address, e.g. http://localhost:8080/v1; 'env': the one in "
+      "SIMWRIGHT_LLM_URL. The key is read from SIMWRIGHT_LLM_KEY");
   const auto needs_server = [&](CLI::Option* option) { return option->needs(url); };
   needs_server(command->add_option("--llm-model", options->model,
                                    "The model's name"))
       ->default_str("SIMWRIGHT_LLM_MODEL");
-  needs_server(command->add_option("--llm-cache", options->cache,
-                                   "Folder of answers that are kept and not asked for twice"));
+  needs_server(command->add_option("--llm-cache", options->cache, "Folder that caches answers"));
   needs_server(command
                    ->add_option("--llm-price", options->prices,
                                 "Prices per million input and output tokens, to print the cost")
                    ->expected(2)
                    ->check(CLI::NonNegativeNumber));
-  needs_server(command->add_option("--llm-timeout", options->timeout, "Seconds for one answer")
+  needs_server(command->add_option("--llm-timeout", options->timeout, "Timeout per answer, seconds")
                    ->capture_default_str()
                    ->check(Positive()));
   CLI::Option* record = needs_server(
-      command->add_option("--record", options->record, "Write questions and answers to this file"));
-  command->add_option("--replay", options->replay, "Answer from such a file; no network is used")
+      command->add_option("--record", options->record, "Record queries and answers in this file"));
+  command->add_option("--replay", options->replay, "Answer from a recorded file, without network")
       ->excludes(url)
       ->excludes(record);
 }
@@ -53,7 +52,7 @@ std::unique_ptr<llm::ChatModel> MakeLanguageModel(const LanguageModelOptions& op
     }
     model = llm::WithEnvironment(model, [](const char* name) { return std::getenv(name); });
     if (model.url.empty()) {
-      throw core::Error("names no server", "SIMWRIGHT_LLM_URL",
+      throw core::Error("does not name a server", "SIMWRIGHT_LLM_URL",
                         "set it, or give the address with --llm");
     }
   }
@@ -63,8 +62,8 @@ std::unique_ptr<llm::ChatModel> MakeLanguageModel(const LanguageModelOptions& op
 std::string UsageLine(const llm::Usage& usage) {
   char text[200];
   std::snprintf(text, sizeof(text),
-                "language model: %lld answers, %lld of them kept ones, %lld requests, %lld tokens "
-                "read, %lld written",
+                "language model: %lld answers, %lld of them cached, %lld requests, %lld input "
+                "tokens, %lld output tokens",
                 static_cast<long long>(usage.answers), static_cast<long long>(usage.from_cache),
                 static_cast<long long>(usage.attempts), static_cast<long long>(usage.tokens.input),
                 static_cast<long long>(usage.tokens.output));

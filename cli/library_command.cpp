@@ -79,7 +79,7 @@ void PrintLine(const pipeline::LibraryOutcome& outcome) {
 int Library(Flags flags, const CommonOptions& common) {
   if (flags.list) return List(common.json);
   if (flags.output.empty()) {
-    throw core::Error("no place is given for the assets", "", "-o FOLDER, or --list");
+    throw core::Error("no output folder is given", "", "give -o FOLDER, or --list");
   }
   flags.options.seed = common.seed;
   flags.options.force = common.force;
@@ -88,7 +88,7 @@ int Library(Flags flags, const CommonOptions& common) {
   const std::vector<pipeline::LibraryOutcome> outcomes =
       pipeline::MakeLibrary(flags.options, flags.output, &progress);
   int refused = 0;
-  int notes = 0;  // of the kinds, the same in every run
+  int notes = 0;  // about the kinds, the same in every run
   core::Findings findings;
   nlohmann::ordered_json json;
   json["assets"] = nlohmann::ordered_json::array();
@@ -117,26 +117,27 @@ int Library(Flags flags, const CommonOptions& common) {
 void AddLibrary(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
   CLI::App* command =
-      app->add_subcommand("library", "Household assets, articulated and rigid, made to measure");
+      app->add_subcommand("library", "Generate parametric household assets, articulated and rigid");
   command->footer(
       "Example:\n  simwright library --kind microwave --count 10 -o kitchen\n"
       "  simwright library --kind all -o library --sheet library.png\n"
       "  simwright library --kind mug --count 5 -o mugs\n"
-      "Each asset is checked before it is kept. Exit code 1 when one was refused.");
+      "An asset that fails its check is refused; the exit code is then 1.");
   command
-      ->add_option(
-          "--kind", flags->options.kind,
-          "What to make (see --list); all: what has joints, rigid: what has none, "
-          "everything: both; furniture: what scenes stand on; several with commas, mug,book")
+      ->add_option("--kind", flags->options.kind,
+                   "The kinds (see --list): all articulated ones (all), all rigid ones (rigid), "
+                   "everything, the furniture of scenes (furniture), or several like mug,book")
       ->capture_default_str();
-  command->add_option("--count", flags->options.count, "So many of each kind, seeds in a row")
+  command
+      ->add_option("--count", flags->options.count,
+                   "Number of assets per kind, with consecutive seeds")
       ->capture_default_str()
       ->check(Positive());
-  command->add_option("-o,--output", flags->output, "Folder for the assets, one folder each");
+  command->add_option("-o,--output", flags->output, "The folder for the asset folders");
   command->add_option("--sheet", flags->sheet,
-                      "Also a picture of all, what has joints closed and open");
-  command->add_flag("--list", flags->list, "Say what kinds there are");
-  command->add_flag("--no-check", flags->no_check, "Write assets unchecked, good or not");
+                      "Also write a contact sheet of all assets, articulated ones closed and open");
+  command->add_flag("--list", flags->list, "List the kinds");
+  command->add_flag("--no-check", flags->no_check, "Write assets without checking them");
   AddCommon(command, common);
   AddForce(command, common);
   command->callback([flags, common, run] { *run = [=] { return Library(*flags, *common); }; });

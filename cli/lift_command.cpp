@@ -21,7 +21,7 @@ struct Flags {
   pipeline::LiftRequest request;
 };
 
-// Says what became of each photo: at once for people, in one object at the end for machines.
+// Prints the outcome of each photo: immediately for people, in one final object for machines.
 class LiftPrinter {
  public:
   explicit LiftPrinter(const CommonOptions& common) : common_(common) {
@@ -62,9 +62,8 @@ int Lift(Flags flags, const CommonOptions& common) {
   if (flags.fast) flags.request.effort = asset_lift::LiftEffort::kFast;
   if (flags.outline) flags.request.effort = asset_lift::LiftEffort::kOutline;
   if (!flags.cameras.empty()) {
-    if (flags.photos.size() < 2)
-      throw core::Error("--cameras goes with several photos of one thing");
-    if (flags.request.mask) throw core::Error("--mask goes with one photo");
+    if (flags.photos.size() < 2) throw core::Error("--cameras needs several photos of one object");
+    if (flags.request.mask) throw core::Error("--mask needs a single photo");
     const pipeline::LiftRequest& one = flags.request;
     printer.Print(pipeline::LiftToFolder(
         pipeline::MultiLiftRequest{flags.photos, flags.cameras, one.category, one.height, one.size,
@@ -74,12 +73,12 @@ int Lift(Flags flags, const CommonOptions& common) {
     return 0;
   }
   if (flags.photos.size() > 1 && flags.request.mask) {
-    throw core::Error("--mask goes with one photo");
+    throw core::Error("--mask needs a single photo");
   }
   const std::filesystem::path output = flags.request.output;
   for (const std::filesystem::path& photo : flags.photos) {
     flags.request.photo = photo;
-    // Several photos are several things: a folder each.
+    // Several photos show several objects, with a folder each.
     flags.request.output = flags.photos.size() > 1 ? output / photo.stem() : output;
     printer.Print(pipeline::LiftToFolder(flags.request, &progress));
   }
@@ -91,38 +90,41 @@ int Lift(Flags flags, const CommonOptions& common) {
 
 void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
-  CLI::App* command = app->add_subcommand("lift", "A photo becomes a simulation-ready asset");
+  CLI::App* command =
+      app->add_subcommand("lift", "Reconstruct a simulation-ready asset from a photo");
   command->footer(
       "Example:\n  simwright lift examples/apple.jpg --category apple -o apple\n"
       "  simwright lift coffee.png --mask coffee_mask.png --category 'coffee cup' -o cup\n"
       "  simwright lift front.jpg left.jpg back.jpg --cameras cams.json --category mug -o mug");
   command
-      ->add_option("photos", flags->photos,
-                   "PNG, JPEG, WebP, TIFF, GIF ... of one thing each; with --cameras of one thing")
+      ->add_option(
+          "photos", flags->photos,
+          "PNG, JPEG, WebP, TIFF, GIF ... of one object each; with --cameras all of one object")
       ->required();
-  command->add_option("--category", flags->request.category, "What it is, e.g. mug")->required();
-  command->add_option("-o,--output", flags->request.output, "The asset's folder")->required();
-  command->add_option("--mask", flags->mask, "Picture that is bright where the object is");
-  command->add_option("--height", flags->request.height, "Its true height, m")
+  command->add_option("--category", flags->request.category, "The object's category, e.g. mug")
+      ->required();
+  command->add_option("-o,--output", flags->request.output, "The asset folder")->required();
+  command->add_option("--mask", flags->mask, "Image that is bright where the object is");
+  command->add_option("--height", flags->request.height, "The object's true height, m")
       ->check(Positive())
-      ->default_str("drawn by the category");
+      ->default_str("sampled from the category");
   AddStatedOptions(command, &flags->request.size, &flags->request.stated);
   command->get_option("--height")->excludes("--size");
   command->add_option("--cameras", flags->cameras,
-                      "JSON with the cameras of several photos of one thing (docs/formats.md)");
+                      "JSON with the cameras of several photos of one object (docs/formats.md)");
   command->add_option("--prior", flags->request.prior,
                       "A TorchScript view prior, e.g. an exported Zero-1-to-3")
       ->default_str("the shipped one");
-  command->add_flag("--fast", flags->fast, "No radiance field: under a minute");
-  command->add_flag("--outline", flags->outline, "The inflated outline alone: a few seconds");
+  command->add_flag("--fast", flags->fast, "Without radiance field: under a minute");
+  command->add_flag("--outline", flags->outline, "Only inflate the silhouette: a few seconds");
   command
       ->add_option("--elevation", flags->request.elevation_degrees,
-                   "Degrees the camera looked down")
+                   "The angle by which the camera looked down, degrees")
       ->check(CLI::Range(0.0, 85.0))
       ->default_str("estimated");
   command
       ->add_option("--fov", flags->request.fov_degrees,
-                   "Field of view over the longer side, degrees")
+                   "Field of view along the longer side, degrees")
       ->check(CLI::Range(1.0, 160.0))
       ->default_str("EXIF, else 35");
   AddCommon(command, common);

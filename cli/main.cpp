@@ -19,7 +19,7 @@
 
 namespace {
 
-// An error as the finding that it is: on stderr, and with --json also as the result.
+// Prints an error as a finding: on stderr, and with --json also as the result.
 void PrintError(const simwright::core::Finding& error, bool json) {
   std::fputs(simwright::core::FindingText(error, simwright::cli::LineWidth()).c_str(), stderr);
   if (json) simwright::cli::PrintJson(nlohmann::ordered_json{{"error", error.sentence}}, {error});
@@ -27,7 +27,7 @@ void PrintError(const simwright::core::Finding& error, bool json) {
 
 int Main(int argc, char** argv) {
   using namespace simwright;
-  CLI::App app{"Photos and meshes become assets that hold in simulation."};
+  CLI::App app{"Turns photos and meshes into simulation-ready assets, scenes, tasks and skills."};
   app.name("simwright");
   cli::PrepareApp(&app);
   app.footer(
@@ -35,8 +35,8 @@ int Main(int argc, char** argv) {
       "Each subcommand has its own --help with an example.");
   app.require_subcommand(1);
   app.set_config("--config", "",
-                 "Read flags from a TOML file, a section a subcommand; "
-                 "flags given here win");
+                 "Read flags from a TOML file, one section per subcommand; "
+                 "the command line takes precedence");
   cli::CommonOptions common;
   cli::Run run;
   cli::AddLift(&app, &common, &run);
@@ -79,11 +79,11 @@ int Main(int argc, char** argv) {
   return 1;
 }
 
-// libtorch's threads wait for each other by spinning, unless told otherwise before its OpenMP
-// starts: beside other work a network then runs several times slower. And OpenBLAS 0.3.21 takes
-// processors that are newer than itself for ones of 2004, four times slower than their AVX-512.
-// Both are told by starting once more, which takes a second that only those who run networks should
-// wait.
+// Restarts the program with two environment variables that must be set before OpenMP and OpenBLAS
+// start. libtorch's threads spin while they wait, which makes networks several times slower beside
+// other work, unless OMP_WAIT_POLICY says otherwise; and OpenBLAS 0.3.21 treats processors that are
+// newer than itself like ones of 2004, four times slower than their AVX-512. The restart takes a
+// second, so only subcommands that run networks do it.
 void StartWithThreadsAndKernels(int argc, char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
   const std::string_view command = argc > 1 ? argv[1] : "";
@@ -98,11 +98,11 @@ void StartWithThreadsAndKernels(int argc, char** argv) {
     setenv("OPENBLAS_CORETYPE", "SkylakeX", 0);
   }
 #endif
-  execv("/proc/self/exe", argv);  // where that fails the program goes on as it is
+  execv("/proc/self/exe", argv);  // if it fails, the program continues unchanged
 }
 
-// A network's tensors come and go by the megabyte: given back to the system every time, a sixth of
-// a training's time went into clearing fresh pages.
+// Keeps freed memory in the process. Networks allocate and free tensors of megabytes all the time;
+// returning them to the system costs a sixth of a training's time for clearing new pages.
 void KeepFreedMemory() {
   mallopt(M_MMAP_THRESHOLD, 1 << 28);
   mallopt(M_TRIM_THRESHOLD, 1 << 29);

@@ -4,8 +4,8 @@
 
 namespace simwright::cli {
 
-// Accepts a finite number above 0. Its message names the bound; CLI::PositiveNumber prints the
-// smallest and the largest double instead.
+// Returns a validator that accepts a finite number above 0. Its message states the bound;
+// CLI::PositiveNumber prints the smallest and the largest double instead.
 CLI::Validator Positive();
 
 }  // namespace simwright::cli

@@ -25,11 +25,11 @@ struct Flags {
   LanguageModelOptions language_model;
 };
 
-// What is printed: the parameters, and what there was to say about them.
+// The parameters to print, with their findings.
 struct Result {
   PhysicalParameters parameters;
   core::Findings findings;
-  std::string usage;  // a line; empty where no model was asked
+  std::string usage;  // one line; empty if no model was queried
 };
 
 nlohmann::ordered_json ToJson(const Estimate& e) {
@@ -63,7 +63,7 @@ void PrintRow(const char* name, const Estimate& e, const char* unit) {
   std::printf("  %-12s %9.4g to %-9.4g sample %-9.4g %s\n", name, e.min, e.max, e.sample, unit);
 }
 
-// "size and mass: ..." where one source says it all, else a line a quantity.
+// Prints "size and mass: ..." if all have the same source, else one line per quantity.
 void PrintSources(const PhysicalParameters& p) {
   const std::string& one = p.length.source;
   if (p.width.source == one && p.height.source == one && p.mass.source == one) {
@@ -106,12 +106,12 @@ int Physics(const Flags& flags, const CommonOptions& common) {
   Result result;
   if (!flags.asset.empty()) {
     if (flags.language_model.given()) {
-      throw core::Error("an asset has its parameters already", flags.asset.string(),
-                        "--llm and --replay go with --category");
+      throw core::Error("an asset already has its parameters", flags.asset.string(),
+                        "--llm and --replay need --category");
     }
     result.parameters = assets::ReadAsset(flags.asset).parameters;
   } else if (flags.category.empty()) {
-    throw core::Error("nothing to look up", "", "give --category NAME or an asset's folder");
+    throw core::Error("nothing to look up", "", "give --category NAME or an asset folder");
   } else if (flags.language_model.given()) {
     result = AskModel(flags, common);
   } else {
@@ -134,12 +134,13 @@ int Physics(const Flags& flags, const CommonOptions& common) {
 
 void AddPhysics(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
-  CLI::App* command = app->add_subcommand("physics", "Sizes, mass and contact of a kind of thing");
+  CLI::App* command =
+      app->add_subcommand("physics", "Print the sizes, mass and contact parameters of a category");
   command->footer(
       "Examples:\n  simwright physics --category mug --seed 3 --json\n"
       "  simwright physics --category 'lava lamp' --llm http://localhost:8080/v1 --record l.jsonl");
-  command->add_option("asset", flags->asset, "An asset's folder: prints what it was given");
-  command->add_option("--category", flags->category, "A household thing, e.g. 'wine glass'");
+  command->add_option("asset", flags->asset, "An asset folder, whose parameters are printed");
+  command->add_option("--category", flags->category, "A household object, e.g. 'wine glass'");
   AddLanguageModel(command, &flags->language_model);
   AddForce(command, common);
   AddCommon(command, common);

@@ -49,7 +49,7 @@ void PrintTrainedJson(const std::vector<pipeline::TrainedPrior>& trained) {
   PrintJson(nlohmann::ordered_json{{"priors", json}}, {});
 }
 
-// Whether a training has left what --resume goes on with, or weights that it had ended with.
+// Returns true if a training has left a state for --resume, or final weights.
 bool HoldsState(const std::filesystem::path& folder) {
   return std::filesystem::exists(pipeline::ShapeWeights(folder).string() + ".state") ||
          std::filesystem::exists(pipeline::ViewWeights(folder).string() + ".state");
@@ -101,20 +101,21 @@ int Train(Flags flags, const CommonOptions& common) {
 }  // namespace
 
 void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
-  CLI::App* prior = app->add_subcommand("prior", "The learned priors of the lift");
+  CLI::App* prior = app->add_subcommand("prior", "The learned priors of reconstruction");
   prior->require_subcommand(1);
   auto flags = std::make_shared<Flags>();
-  CLI::App* command = prior->add_subcommand("train", "Train their weights anew");
+  CLI::App* command = prior->add_subcommand("train", "Train the priors");
   command->footer(
-      "Example (weights like the shipped ones, in about three hours on two cores):\n"
+      "Example (reproduces the shipped weights in about three hours on two cores):\n"
       "  simwright prior train -o models");
-  command->add_option("catalogues", flags->request.catalogues,
-                      "Furniture catalogues (.sh3f) to learn from")
-      ->default_str("the CC0 one of Debian");
-  command->add_flag("--parametric-only", flags->parametric_only,
-                    "Learn from parametric shapes alone");
-  command->add_option("-o,--output", flags->request.output, "Folder of the weights")->required();
-  command->add_option("--only", flags->only, "Train one of the two")
+  command
+      ->add_option("catalogues", flags->request.catalogues,
+                   "Furniture catalogues (.sh3f) to train on")
+      ->default_str("Debian's CC0 catalogue");
+  command->add_flag("--parametric-only", flags->parametric_only, "Train only on parametric shapes");
+  command->add_option("-o,--output", flags->request.output, "The folder for the weights")
+      ->required();
+  command->add_option("--only", flags->only, "Train only one of the two")
       ->default_str("both")
       ->check(CLI::IsMember({"shape", "view"}));
   command
@@ -125,18 +126,18 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
       ->add_option("--view-steps", flags->request.view_options.trainer.steps,
                    "Steps of the view prior")
       ->capture_default_str();
-  command->add_option("--batch", flags->batch, "Photos a step")
+  command->add_option("--batch", flags->batch, "Photos per step")
       ->check(Positive())
       ->default_str("16");
-  command->add_option("--pool", flags->pool, "Objects kept ready")
+  command->add_option("--pool", flags->pool, "Number of objects in the pool")
       ->check(Positive())
       ->default_str("160");
   command->add_option("--rate", flags->rate, "Learning rate")
       ->check(Positive())
       ->default_str("8e-4 shape, 1e-3 view");
   command->add_option("--from", flags->from,
-                      "Folder of weights to begin with, to learn from a catalogue of one's own");
-  command->add_flag("--resume", flags->resume, "Go on from what an earlier run left in the folder");
+                      "Folder of initial weights, to fine-tune on your own catalogue");
+  command->add_flag("--resume", flags->resume, "Resume an earlier run in the folder");
   AddCommon(command, common);
   command->callback([flags, common, run] { *run = [=] { return Train(*flags, *common); }; });
 }

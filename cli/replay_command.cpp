@@ -24,18 +24,18 @@ int Replay(const pipeline::ReplayRequest& request, const CommonOptions& common) 
 
 void AddReplay(CLI::App* app, CommonOptions* common, Run* run) {
   auto request = std::make_shared<pipeline::ReplayRequest>();
-  CLI::App* command = app->add_subcommand(
-      "replay", "Whether exported motions and demonstrations do their task, in simulation");
+  CLI::App* command =
+      app->add_subcommand("replay", "Replay exported motions and demonstrations in simulation");
   command->footer(
       "Examples:\n  simwright replay open.yaml\n  simwright replay open.hdf5 --run open\n"
-      "Exit code 1 where none succeeds. docs/export.md says more.");
+      "The exit code is 1 if none succeeds. See docs/export.md.");
   command
-      ->add_option("files", request->files,
-                   "What `simwright export` wrote: YAML, JSON, CSV, HDF5, or folders of them")
+      ->add_option(
+          "files", request->files,
+          "Files written by `simwright export` (YAML, JSON, CSV, HDF5), or folders of them")
       ->required();
-  command->add_option("--run", request->run,
-                      "The folder of `simwright train`")
-      ->default_str("where the file says");
+  command->add_option("--run", request->run, "The folder written by `simwright train`")
+      ->default_str("from the file");
   AddCommon(command, common);
   command->callback([request, common, run] { *run = [=] { return Replay(*request, *common); }; });
 }

@@ -29,24 +29,22 @@ int Reward(const Flags& flags, const CommonOptions& common) {
 
 void AddReward(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
-  CLI::App* command =
-      app->add_subcommand("reward", "Checks a reward program before anything is trained");
+  CLI::App* command = app->add_subcommand("reward", "Check a reward program before training");
   command->footer(
       "Examples:\n  simwright reward open_door.py --assets microwave\n"
       "  simwright reward locomotion.py --no-scene\n"
-      "Exit code 1 where the program has an error. The language: docs/rewards.md.");
+      "The exit code is 1 if the program has an error. See docs/rewards.md for the language.");
   command->add_option("program", flags->request.program, "A file with the reward function")
       ->required();
-  CLI::Option* assets =
-      command->add_option("--assets", flags->request.assets,
-                          "Asset folders or URDFs that it may name, each as PATH or NAME=PATH");
+  CLI::Option* assets = command->add_option(
+      "--assets", flags->request.assets,
+      "Asset folders or URDFs that the program may name, each as PATH or NAME=PATH");
   command
       ->add_flag("--no-scene", flags->no_scene,
-                 "The function alone: its parameters are inputs, names are not looked up")
+                 "Check the function alone: its parameters are inputs, names are not looked up")
       ->excludes(assets);
-  command->add_option("--function", flags->request.entry,
-                      "The function that gives the reward")
-      ->default_str("by its name");
+  command->add_option("--function", flags->request.entry, "The reward function")
+      ->default_str("found by its name");
   AddCommon(command, common);
   command->callback([flags, common, run] { *run = [=] { return Reward(*flags, *common); }; });
 }

@@ -48,33 +48,37 @@ void AddRun(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
   pipeline::PhotoRunRequest* request = &flags->request;
   CLI::App* command = app->add_subcommand(
-      "run", "A photo becomes an asset, a task, a trained skill and a trajectory, with one page");
+      "run", "Turn a photo into an asset, a task, a trained skill and a trajectory, with one page");
   command->footer(
       "Examples:\n  simwright run examples/apple.jpg --category apple -o apple_run\n"
       "  simwright run mug.png --category mug --task 'put_mug_into_*_and_close_it' -o mug_run\n"
-      "Ctrl-C or a crash loses half a minute at most: the same command with --resume goes on.\n"
-      "docs/run.md says more.");
-  command->add_option("photo", request->photo, "PNG, JPEG, WebP, TIFF, GIF ... of one thing")
+      "Ctrl-C or a crash loses at most half a minute: the same command with --resume continues.\n"
+      "See docs/run.md.");
+  command->add_option("photo", request->photo, "PNG, JPEG, WebP, TIFF, GIF ... of one object")
       ->required();
-  command->add_option("--category", request->category, "What it is, e.g. apple")->required();
-  command->add_option("-o,--output", request->output,
-                      "The folder")
-      ->default_str("the photo's name and _run, here");
-  command->add_option("--task", request->task,
-                      "Which of the tasks that are made, '*' for any letters")
-      ->default_str("pick it up");
-  command->add_option("--mask", flags->mask, "Picture that is bright where the object is");
-  command->add_option("--height", request->height, "Its true height, m")
+  command->add_option("--category", request->category, "The object's category, e.g. apple")
+      ->required();
+  command->add_option("-o,--output", request->output, "The output folder")
+      ->default_str("the photo's name with _run, in the current folder");
+  command
+      ->add_option("--task", request->task,
+                   "One of the generated tasks, '*' matches any characters")
+      ->default_str("pick up the asset");
+  command->add_option("--mask", flags->mask, "Image that is bright where the object is");
+  command->add_option("--height", request->height, "The object's true height, m")
       ->check(Positive())
-      ->default_str("drawn by the category");
-  AddChoice(command, "--lift", {"outline", "fast", "full"}, "fast", "How (docs/lift.md)",
+      ->default_str("sampled from the category");
+  AddChoice(command, "--lift", {"outline", "fast", "full"}, "fast",
+            "Effort of the reconstruction (docs/lift.md)",
             [flags](const std::string& name) { flags->request.effort = efforts.at(name); });
-  command->add_option("--furniture", request->furniture, "drawer_unit, microwave, or any that fits")
+  command
+      ->add_option("--furniture", request->furniture,
+                   "drawer_unit, microwave, or any: the first that fits")
       ->check(CLI::IsMember({"any", "drawer_unit", "microwave"}))
       ->capture_default_str();
   AddTrainingOptions(command, &request->environments, &request->samples, &request->minutes,
                      &request->target, &request->episodes, &request->imitated_samples);
-  command->add_flag("--resume", request->resume, "Go on with a run that was stopped");
+  command->add_flag("--resume", request->resume, "Resume an interrupted run");
   AddCommon(command, common);
   AddForce(command, common);
   command->callback([flags, common, run] {

@@ -34,7 +34,8 @@ int List(const CommonOptions& common) {
 int Generate(GenerateFlags flags, const CommonOptions& common) {
   if (flags.list) return List(common);
   if (flags.request.type.empty() || flags.request.output.empty()) {
-    throw core::Error("scenes need a type and a place", "", "--type dimsum -o FOLDER, or --list");
+    throw core::Error("scenes need a type and an output", "",
+                      "give --type dimsum -o FOLDER, or --list");
   }
   flags.request.seed = common.seed;
   flags.request.chosen = SlotFoldersOf(flags.chosen, "--asset");
@@ -53,28 +54,29 @@ void AddGenerate(CLI::App* scene, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<GenerateFlags>();
   pipeline::SceneGenerationRequest& request = flags->request;
   CLI::App* command = scene->add_subcommand(
-      "generate", "Scenes from a grammar, moved apart, settled, and written as a dataset");
+      "generate", "Generate a dataset of physically valid scenes from a grammar");
   command->footer(
       "Example:\n  simwright scene generate --type dimsum --count 100 -o out/dimsum\n"
       "  simwright scene generate --type pantry_shelf --count 20 --asset apple=out/apple -o "
       "pantry\n"
-      "Several at once may write into one folder; one that was stopped goes on when it is called\n"
-      "again. docs/scenes.md says more.");
-  command->add_option("--type", request.type, "Of scene, see --list");
-  command->add_option("--count", request.count, "Scenes that the dataset is to have")
+      "Several processes may write into one folder; an interrupted one continues when called\n"
+      "again. See docs/scenes.md.");
+  command->add_option("--type", request.type, "The scene type, see --list");
+  command->add_option("--count", request.count, "Number of scenes in the dataset")
       ->capture_default_str();
-  command->add_option("-o,--output", request.output, "Folder of the dataset");
-  command->add_option("--assets", request.assets,
-                      "Folders of assets to take before the library's, by name or category")
-      ->default_str("the library's alone");
-  command->add_option("--asset", flags->chosen, "SLOT=FOLDER: this asset for this slot");
+  command->add_option("-o,--output", request.output, "The dataset folder");
+  command
+      ->add_option("--assets", request.assets,
+                   "Asset folders, matched by name or category and preferred to the library")
+      ->default_str("only the library");
+  command->add_option("--asset", flags->chosen, "SLOT=FOLDER: use this asset for this category");
   command->add_option("--hull", request.hulls,
-                      "Slots whose things collide as their convex hulls: nothing goes in");
-  command->add_option("--part", request.part, "Scenes of a part, which one worker makes at a time")
+                      "Categories whose assets collide as convex hulls, without cavities");
+  command->add_option("--part", request.part, "Scenes per shard, the unit of work of one worker")
       ->capture_default_str();
-  command->add_option("--step", request.time_step, "s of a step of physics")
-      ->default_str("as measured to hold");
-  command->add_flag("--list", flags->list, "Say what types there are");
+  command->add_option("--step", request.time_step, "Time step of the physics, s")
+      ->default_str("validated default");
+  command->add_flag("--list", flags->list, "List the types");
   AddCommon(command, common);
   command->callback([flags, common, run] { *run = [=] { return Generate(*flags, *common); }; });
 }
@@ -82,11 +84,11 @@ void AddGenerate(CLI::App* scene, CommonOptions* common, Run* run) {
 }  // namespace
 
 void AddScene(CLI::App* app, CommonOptions* common, Run* run) {
-  CLI::App* scene = app->add_subcommand("scene", "Cluttered scenes that hold in simulation");
+  CLI::App* scene = app->add_subcommand("scene", "Cluttered, physically valid scenes");
   scene->require_subcommand(1);
   scene->footer(
       "Example:\n  simwright scene generate --type dimsum --count 100 -o out/dimsum\n"
-      "Each subcommand has its own --help with an example; docs/scenes.md says more.");
+      "Each subcommand has its own --help with an example. See docs/scenes.md.");
   AddGenerate(scene, common, run);
   AddSceneTrain(scene, common, run);
   AddSceneSample(scene, common, run);

@@ -40,8 +40,8 @@ int TrainFeatures(pipeline::SceneFeatureTrainingRequest request, const CommonOpt
     return 0;
   }
   std::printf(
-      "%s: %lld parameters, %d pictures, %.0f s\ncounts of %d held-out pictures are off by %.3f "
-      "objects a class in the mean; saying the mean: by %.3f\n",
+      "%s: %lld parameters, %d images, %.0f s\nmean error of the counts in %d held-out images: "
+      "%.3f objects per class; of predicting the mean: %.3f\n",
       request.weights.c_str(), static_cast<long long>(report.parameters), report.pictures,
       report.seconds, report.held_out, report.error, report.error_of_the_mean);
   return 0;
@@ -50,18 +50,21 @@ int TrainFeatures(pipeline::SceneFeatureTrainingRequest request, const CommonOpt
 void AddTrainFeatures(CLI::App* features, CommonOptions* common, Run* run) {
   auto request = std::make_shared<pipeline::SceneFeatureTrainingRequest>();
   CLI::App* command = features->add_subcommand(
-      "train", "The network by whose features pictures of scenes are compared");
+      "train", "Train the network whose features compare images of scenes");
   command->footer(
       "Example:\n  simwright scene features train -o models/scene_features.pt\n"
-      "Without a dataset or --type, scenes of all types are drawn, without physics.");
-  command->add_option("datasets", request->datasets, "What `simwright scene generate` wrote");
-  command->add_option("-o,--output", request->weights, "File of the weights")->required();
-  command->add_option("--type", request->types, "Of scenes to draw besides");
-  command->add_option("--draws", request->draws, "Scenes of each such type")->capture_default_str();
+      "Without a dataset or --type, scenes of all types are sampled, without physics.");
+  command->add_option("datasets", request->datasets,
+                      "Datasets written by `simwright scene generate`");
+  command->add_option("-o,--output", request->weights, "The weights file")->required();
+  command->add_option("--type", request->types, "Scene types to sample in addition");
+  command->add_option("--draws", request->draws, "Number of scenes per such type")
+      ->capture_default_str();
   command->add_option("--assets", request->assets,
-                      "Folders of assets, by name or category; the library's for the rest");
-  command->add_option("--steps", request->options.trainer.steps, "Updates")->capture_default_str();
-  command->add_option("--batch", request->options.batch, "Pictures of an update")
+                      "Asset folders, matched by name or category; the library provides the rest");
+  command->add_option("--steps", request->options.trainer.steps, "Number of updates")
+      ->capture_default_str();
+  command->add_option("--batch", request->options.batch, "Images per update")
       ->capture_default_str();
   AddCommon(command, common);
   command->callback(
@@ -71,42 +74,44 @@ void AddTrainFeatures(CLI::App* features, CommonOptions* common, Run* run) {
 }  // namespace
 
 void AddSceneFeatures(CLI::App* scene, CommonOptions* common, Run* run) {
-  CLI::App* features = scene->add_subcommand("features", "What pictures of scenes are compared by");
+  CLI::App* features =
+      scene->add_subcommand("features", "The features that compare images of scenes");
   features->require_subcommand(1);
   AddTrainFeatures(features, common, run);
 }
 
 void AddSceneEvaluate(CLI::App* scene, CommonOptions* common, Run* run) {
   auto request = std::make_shared<pipeline::SceneEvaluationRequest>();
-  CLI::App* command = scene->add_subcommand(
-      "evaluate",
-      "How near a model's scenes are to those it learned from, in figures and pictures");
+  CLI::App* command =
+      scene->add_subcommand("evaluate", "Compare a model's scenes with its training data");
   command->footer(
       "Examples:\n  simwright scene evaluate --type dimsum -o out/evaluated\n"
       "  simwright scene evaluate --model out/dimsum_model/model.pt --data out/dimsum\n"
       "  simwright scene evaluate --samples out/sampled --data out/dimsum --training-scenes 900\n"
-      "The first two sample by themselves. docs/scenes.md says what the figures are.");
-  command->add_option("--type", request->type, "Of scene: with the weights that are shipped");
-  command->add_option("--model", request->weights, "What `simwright scene train` wrote");
-  command->add_option("--samples", request->samples, "What `simwright scene sample --raw` wrote");
+      "The first two sample scenes themselves. See docs/scenes.md for the metrics.");
+  command->add_option("--type", request->type, "The scene type, with its shipped weights");
+  command->add_option("--model", request->weights, "A model written by `simwright scene train`");
+  command->add_option("--samples", request->samples,
+                      "Scenes written by `simwright scene sample --raw`");
   command->add_option("--data", request->data,
-                      "Dataset to compare with; without one, scenes are generated");
-  command->add_option("--training-scenes", request->training_scenes,
-                      "The first so many of --data were learned from")
-      ->default_str("as --model says");
-  command->add_option("--count", request->count, "Scenes of each set, at most")
+                      "The dataset to compare with; without it, scenes are generated");
+  command
+      ->add_option("--training-scenes", request->training_scenes,
+                   "Number of leading scenes of --data that are training scenes")
+      ->default_str("from --model");
+  command->add_option("--count", request->count, "Maximum number of scenes per set")
       ->capture_default_str();
   command->add_option("--assets", request->assets,
-                      "Folders of assets, by name or category; the library's for the rest");
+                      "Asset folders, matched by name or category; the library provides the rest");
   command->add_option("--features", request->features,
-                      "TorchScript module whose outputs are compared, instead of our features");
+                      "A TorchScript feature extractor, instead of ours");
   command
       ->add_option("--feature-side", request->feature_side,
-                   "Pixels of its pictures: 299 (Inception), 224 (AlexNet)")
+                   "Side of its images, pixels: 299 (Inception), 224 (AlexNet)")
       ->capture_default_str();
-  command->add_option("--steps", request->sampling.steps, "Of the diffusion, 0: all")
+  command->add_option("--steps", request->sampling.steps, "Diffusion steps; 0: all")
       ->capture_default_str();
-  command->add_option("-o,--output", request->output, "Folder for metrics.json and sheet.png");
+  command->add_option("-o,--output", request->output, "The folder for metrics.json and sheet.png");
   AddCommon(command, common);
   command->callback([request, common, run] { *run = [=] { return Evaluate(*request, *common); }; });
 }

@@ -34,7 +34,7 @@ struct ViewFlags {
 
 int View(const ViewFlags& flags, const CommonOptions& common) {
   if (std::filesystem::exists(flags.output) && !common.force) {
-    throw core::Error("it exists already", flags.output.string(), "--force replaces it");
+    throw core::Error("already exists", flags.output.string(), "--force replaces it");
   }
   core::WritePng(flags.output,
                  pipeline::SceneView(flags.dataset, flags.assets, flags.scene, flags.size));
@@ -52,25 +52,29 @@ void AddSceneExport(CLI::App* scene, CommonOptions* common, Run* run) {
   auto request = std::make_shared<pipeline::SceneExportRequest>();
   auto formats = std::make_shared<std::vector<std::string>>(1, "all");
   CLI::App* command =
-      scene->add_subcommand("export", "Scenes of a dataset as world files for simulators");
+      scene->add_subcommand("export", "Export scenes of a dataset as world files for simulators");
   command->footer(
       "Example:\n  simwright scene export out/dimsum --scene 0,3-5 --format all -o out/worlds\n"
-      "--check runs each for 2 s in MuJoCo and Bullet; exit code 1 where one does not stand "
-      "still.\n"
-      "docs/formats.md says what is written.");
-  command->add_option("dataset", request->dataset, "What `simwright scene generate` wrote")
+      "--check simulates each scene for 2 s in MuJoCo and Bullet; the exit code is 1 if one is\n"
+      "not stable. See docs/formats.md for the files.");
+  command
+      ->add_option("dataset", request->dataset, "A dataset written by `simwright scene generate`")
       ->required();
-  CLI::Option* const scenes = command->add_option("--scene", request->scenes, "Which, as in 0,3-5")->default_str("all");
-  command->add_option("--count", request->count, "The first so many")
+  CLI::Option* const scenes =
+      command->add_option("--scene", request->scenes, "The scenes' indices, e.g. 0,3-5")
+          ->default_str("all");
+  command->add_option("--count", request->count, "The number of leading scenes")
       ->default_str("all")
       ->excludes(scenes);
-  command->add_option("--format", *formats, "urdf, sdf, mjcf, drake or all; several with commas")
+  command
+      ->add_option("--format", *formats,
+                   "urdf, sdf, mjcf, drake or all; several separated by commas")
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("-o,--output", request->output, "Folder for the worlds")->required();
+  command->add_option("-o,--output", request->output, "The folder for the world files")->required();
   command->add_option("--assets", request->assets,
-                      "Folder of the slots' assets, if not the dataset's");
-  command->add_flag("--check", request->check, "Say which scenes stand still in both engines");
+                      "The folder of the categories' assets, if not the dataset's");
+  command->add_flag("--check", request->check, "Check which scenes are stable in both engines");
   AddCommon(command, common);
   AddForce(command, common);
   command->callback([request, formats, common, run] {
@@ -80,16 +84,15 @@ void AddSceneExport(CLI::App* scene, CommonOptions* common, Run* run) {
 
 void AddSceneView(CLI::App* scene, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<ViewFlags>();
-  CLI::App* command =
-      scene->add_subcommand("view", "A picture of a scene, from above and the side");
+  CLI::App* command = scene->add_subcommand("view", "Render a scene from above and from the side");
   command->footer("Example:\n  simwright scene view out/dimsum --scene 3 -o scene.png");
-  command->add_option("dataset", flags->dataset, "What `simwright scene generate` wrote")
+  command->add_option("dataset", flags->dataset, "A dataset written by `simwright scene generate`")
       ->required();
-  command->add_option("--scene", flags->scene, "Which")->capture_default_str();
-  command->add_option("-o,--output", flags->output, "Picture (PNG)")->required();
+  command->add_option("--scene", flags->scene, "The scene's index")->capture_default_str();
+  command->add_option("-o,--output", flags->output, "The output image (PNG)")->required();
   command->add_option("--assets", flags->assets,
-                      "Folder of the slots' assets, if not the dataset's");
-  command->add_option("--size", flags->size, "Pixels a side of each")->capture_default_str();
+                      "The folder of the categories' assets, if not the dataset's");
+  command->add_option("--size", flags->size, "Side of each view, pixels")->capture_default_str();
   AddCommon(command, common);
   AddForce(command, common);
   command->callback([flags, common, run] { *run = [=] { return View(*flags, *common); }; });

@@ -4,7 +4,7 @@
 
 namespace simwright::cli {
 
-// `simwright scene export` and `scene view`.
+// Add `simwright scene export` and `scene view`.
 void AddSceneExport(CLI::App* scene, CommonOptions* common, Run* run);
 void AddSceneView(CLI::App* scene, CommonOptions* common, Run* run);
 

@@ -18,7 +18,7 @@
 namespace simwright::cli {
 namespace {
 
-constexpr int kShapePoints = 256;  // of --by-shape
+constexpr int kShapePoints = 256;  // for --by-shape
 
 struct TrainFlags {
   std::filesystem::path dataset, output, assets;
@@ -54,8 +54,8 @@ int Train(TrainFlags flags, const CommonOptions& common) {
   flags.options.seed = common.seed;
   const std::filesystem::path weights = flags.output / scene::kWeightsFile;
   if (std::filesystem::exists(weights) && !flags.options.trainer.resume && !common.force) {
-    throw core::Error("a model is there already", weights.string(),
-                      "go on with --resume, choose another place, or replace it with --force");
+    throw core::Error("a model already exists", weights.string(),
+                      "continue with --resume, choose another folder, or replace it with --force");
   }
   const scene::SceneDataset dataset(flags.dataset);
   const scene::SceneModelOptions model = ModelOf(flags);
@@ -108,14 +108,15 @@ void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<TrainFlags>();
   scene::SceneTrainingOptions& options = flags->options;
   CLI::App* command =
-      scene->add_subcommand("train", "A diffusion model of the scenes of a dataset");
+      scene->add_subcommand("train", "Train a diffusion model on the scenes of a dataset");
   command->footer(
       "Example:\n  simwright scene train out/dimsum -o out/dimsum_model\n"
-      "--resume goes on where an earlier run of the folder stopped.");
-  command->add_option("dataset", flags->dataset, "What `simwright scene generate` wrote")
+      "--resume continues an interrupted run in the folder.");
+  command->add_option("dataset", flags->dataset, "A dataset written by `simwright scene generate`")
       ->required();
-  command->add_option("-o,--output", flags->output, "Folder for weights and losses")->required();
-  command->add_option("--size", flags->size, "Of the network")
+  command->add_option("-o,--output", flags->output, "The folder for weights and losses")
+      ->required();
+  command->add_option("--size", flags->size, "The network's size")
       ->capture_default_str()
       ->check(CLI::IsMember({"tiny", "base", "full"}));
   command->add_option("--method", flags->method, "ours, continuous, midiffusion or diffuscene")
@@ -123,20 +124,20 @@ void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run) {
       ->check(CLI::IsMember({"ours", "continuous", "midiffusion", "diffuscene"}));
   CLI::Option* const by_shape = command->add_flag(
       "--by-shape", flags->by_shape,
-      "Know things by their assets' surfaces, so that `sample --add` can add some");
+      "Embed categories by their assets' shapes, so that `sample --add` can add new ones");
   command
       ->add_option("--assets", flags->assets,
-                   "Folder of the slots' assets, if not the dataset's; by their surfaces")
+                   "With --by-shape: the folder of the categories' assets, if not the dataset's")
       ->needs(by_shape);
-  command->add_option("--steps", options.trainer.steps, "Updates")->capture_default_str();
-  command->add_option("--batch", options.batch, "Scenes of an update")->capture_default_str();
-  command->add_option("--rate", options.trainer.learning_rate, "Of learning")
+  command->add_option("--steps", options.trainer.steps, "Number of updates")->capture_default_str();
+  command->add_option("--batch", options.batch, "Scenes per update")->capture_default_str();
+  command->add_option("--rate", options.trainer.learning_rate, "Learning rate")
       ->capture_default_str();
-  command->add_option("--held-out", options.held_out, "Share of scenes that are not learned from")
+  command->add_option("--held-out", options.held_out, "Fraction of scenes held out from training")
       ->capture_default_str();
-  command->add_option("--save-every", options.trainer.save_every, "Updates between saved states")
+  command->add_option("--save-every", options.trainer.save_every, "Updates between checkpoints")
       ->capture_default_str();
-  command->add_flag("--resume", options.trainer.resume, "Go on from the folder's state");
+  command->add_flag("--resume", options.trainer.resume, "Resume from the folder's checkpoint");
   AddCommon(command, common);
   AddForce(command, common);
   command->callback([flags, common, run] { *run = [=] { return Train(*flags, *common); }; });
@@ -146,28 +147,29 @@ void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run) {
   auto request = std::make_shared<pipeline::SceneSamplingRequest>();
   auto added = std::make_shared<std::vector<std::string>>();
   CLI::App* command =
-      scene->add_subcommand("sample", "New scenes from a trained model, made feasible");
+      scene->add_subcommand("sample", "Sample new, physically valid scenes from a trained model");
   command->footer(
       "Examples:\n  simwright scene sample --type dimsum --steps 100 -o out/sampled\n"
       "  simwright scene sample out/dimsum_model/model.pt --count 20 -o out/sampled \\\n"
       "    --assets out/dimsum/assets\n"
-      "Without --raw, things are moved apart, lowered onto what is beneath them and left to "
-      "gravity;\n"
-      "what falls is dropped.");
-  command->add_option("weights", request->weights, "What `simwright scene train` wrote");
-  command->add_option("--type", request->type, "Of scene: with the weights that are shipped");
-  command->add_option("--count", request->count, "Scenes")->capture_default_str();
-  command->add_option("-o,--output", request->output, "Folder for the scenes")->required();
+      "Without --raw, interpenetrations are resolved, objects are lowered onto their support and "
+      "settled;\n"
+      "objects that fall are dropped.");
+  command->add_option("weights", request->weights, "A model written by `simwright scene train`");
+  command->add_option("--type", request->type, "The scene type, with its shipped weights");
+  command->add_option("--count", request->count, "Number of scenes")->capture_default_str();
+  command->add_option("-o,--output", request->output, "The folder for the scenes")->required();
   command->add_option("--assets", request->assets,
-                      "Folders of assets, by name or category; the library's for the rest");
-  command->add_option("--add", *added,
-                      "SLOT=FOLDER: an asset that the model, trained --by-shape, has not seen");
-  command->add_option("--steps", request->sampling.steps, "Of the diffusion, 0: all")
+                      "Asset folders, matched by name or category; the library provides the rest");
+  command->add_option("--add", *added, "SLOT=FOLDER: a new asset for a model trained --by-shape");
+  command->add_option("--steps", request->sampling.steps, "Diffusion steps; 0: all")
       ->capture_default_str();
-  command->add_option("--eta", request->sampling.eta, "Share of the noise kept in each step")
+  command->add_option("--eta", request->sampling.eta, "Fraction of the noise kept in each step")
       ->capture_default_str();
-  command->add_option("--batch", request->sampling.batch, "Scenes at once")->capture_default_str();
-  command->add_flag("--raw", request->raw, "As the model has them, in each other and in the air");
+  command->add_option("--batch", request->sampling.batch, "Scenes per batch")
+      ->capture_default_str();
+  command->add_flag("--raw", request->raw,
+                    "Keep the model's samples, with interpenetrations and unsupported objects");
   AddCommon(command, common);
   AddForce(command, common);
   command->callback([request, added, common, run] {

@@ -4,7 +4,7 @@
 
 namespace simwright::cli {
 
-// `simwright scene train`, `scene sample`, `scene evaluate` and `scene features`.
+// Add `simwright scene train`, `scene sample`, `scene evaluate` and `scene features`.
 void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run);
 void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run);
 void AddSceneEvaluate(CLI::App* scene, CommonOptions* common, Run* run);

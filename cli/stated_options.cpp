@@ -7,23 +7,25 @@ namespace simwright::cli {
 void AddStatedOptions(CLI::App* command, pipeline::StatedSize* size,
                       physics_params::StatedPhysics* stated) {
   command
-      ->add_option("--size", *size,
-                   "Its true size, m: the longest side, or length,width,height as it stands")
+      ->add_option(
+          "--size", *size,
+          "The object's true size, m: the longest side, or length,width,height when upright")
       ->delimiter(',')
       ->expected(1, 3)
       ->allow_extra_args(false)
-      ->default_str("by the category");
-  command->add_option("--mass", stated->mass, "Its true mass, kg")
+      ->default_str("from the category");
+  command->add_option("--mass", stated->mass, "The object's true mass, kg")
       ->check(Positive())
-      ->default_str("by the category");
+      ->default_str("from the category");
   command
-      ->add_option("--density", stated->density,
-                   "Of its matter, kg/m3: fills the shape, or with --mass gives it walls")
+      ->add_option(
+          "--density", stated->density,
+          "The material's density, kg/m3: fills the shape, or with --mass gives a hollow one")
       ->check(Positive())
-      ->default_str("by the material");
+      ->default_str("from the material");
   command->add_option("--friction", stated->friction, "Coulomb coefficient")
       ->check(CLI::Range(0.0, 10.0))
-      ->default_str("by the material");
+      ->default_str("from the material");
 }
 
 }  // namespace simwright::cli

@@ -6,7 +6,7 @@
 
 namespace simwright::cli {
 
-// --size, --mass, --density and --friction, which mean the same in lift and import.
+// Adds --size, --mass, --density and --friction, which mean the same in lift and import.
 void AddStatedOptions(CLI::App* command, pipeline::StatedSize* size,
                       physics_params::StatedPhysics* stated);
 

@@ -40,24 +40,23 @@ int Tasks(const Flags& flags, const CommonOptions& common) {
 
 void AddTasks(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<Flags>();
-  CLI::App* command =
-      app->add_subcommand("tasks", "Tasks, subtasks and verified reward programs for assets");
+  CLI::App* command = app->add_subcommand(
+      "tasks", "Generate tasks, subtasks and verified reward programs for assets");
   command->footer(
       "Examples:\n  simwright tasks microwave mug plate -o tasks.json\n"
       "  simwright tasks kitchen --llm http://localhost:8080/v1 --count 12 -o tasks.json\n"
-      "A folder of asset folders stands for all of them. Everything is written, sound or not; "
+      "A folder of asset folders means all of them. All tasks are written, valid or not; the "
       "exit\n"
-      "code 1 where a task is not sound, or there is none. docs/tasks.md says more.");
+      "code is 1 if a task is not valid or there is none. See docs/tasks.md.");
   command
       ->add_option("assets", flags->request.assets,
                    "Asset folders, URDFs, or folders of them, each as PATH or NAME=PATH")
       ->required();
-  command->add_option("-o,--output", flags->request.output, "The file, tasks.json")->required();
-  command
-      ->add_option("--count", flags->request.count,
-                   "Tasks to make")
+  command->add_option("-o,--output", flags->request.output, "The output file, tasks.json")
+      ->required();
+  command->add_option("--count", flags->request.count, "Number of tasks")
       ->check(CLI::Range(0, 100000))
-      ->default_str("5 an asset by rules, 8 of a language model");
+      ->default_str("5 per asset by rules, 8 by a language model");
   AddLanguageModel(command, &flags->language);
   AddCommon(command, common);
   AddForce(command, common);

@@ -20,7 +20,7 @@ int Train(const pipeline::TrainRequest& given, const CommonOptions& common) {
     report = pipeline::TrainTask(request, &progress);
   } catch (const core::Cancelled&) {
     progress.Finish();
-    if (!std::filesystem::exists(request.output)) throw;  // it was stopped before it began
+    if (!std::filesystem::exists(request.output)) throw;  // it was stopped before it started
     return StoppedWith(request.output);
   }
   progress.Finish();
@@ -38,20 +38,20 @@ int Train(const pipeline::TrainRequest& given, const CommonOptions& common) {
 void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
   auto request = std::make_shared<pipeline::TrainRequest>();
   CLI::App* command =
-      app->add_subcommand("train", "A policy for each subtask of a task, trained in Bullet");
+      app->add_subcommand("train", "Train a policy for each subtask of a task, in Bullet");
   command->footer(
       "Examples:\n  simwright train tasks.json --task pick_up_cup_1 -o pick\n"
       "  simwright train tasks.json --task 'pick_up_cup_*' -o pick_any\n"
-      "Subtasks are learnt in order, each mostly from where the one before ended. Ctrl-C or a "
+      "Subtasks are learnt in order, each mostly from the ends of the previous one. Ctrl-C or a "
       "crash\n"
-      "loses half a minute at most: --resume goes on. docs/skills.md says more.");
-  command->add_option("tasks", request->task_file, "The file that `simwright tasks` wrote")
+      "loses at most half a minute: --resume continues. See docs/skills.md.");
+  command->add_option("tasks", request->task_file, "The file written by `simwright tasks`")
       ->required();
   command
       ->add_option("--task", request->tasks,
-                   "Task to learn, '*' for any letters; several are learnt by one policy")
+                   "The task, '*' matches any characters; several tasks share one policy")
       ->required();
-  command->add_option("-o,--output", request->output, "The run's folder")->required();
+  command->add_option("-o,--output", request->output, "The run folder")->required();
   command
       ->add_option("--robot", request->robot,
                    "panda, panda_on_base, or a URDF with a side file (docs/robots.md)")
@@ -60,23 +60,25 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
       ->add_option_function<std::string>(
           "--action",
           [request](const std::string& name) { request->action = rl::ActionSpaceOf(name); },
-          "What an action says: the tool seen from what it works on (focus), the same beside what\n"
-          "a script does (guided), seen from the robot (absolute), a step of the tool (delta) or\n"
-          "of the joints (joints)")
+          "Action space: the tool's pose in the interaction target's frame (focus), as a "
+          "correction\n"
+          "of a scripted expert (guided), in the robot's frame (absolute), as a step of the tool\n"
+          "(delta) or of the joints (joints)")
       ->check(CLI::IsMember({"focus", "guided", "absolute", "delta", "joints"}))
       ->default_str("focus");
-  command->add_option("--seconds", request->episode_seconds, "Of an episode, at most")
+  command->add_option("--seconds", request->episode_seconds, "Maximum duration of an episode, s")
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str();
   AddTrainingOptions(command, &request->environments, &request->samples, &request->minutes,
                      &request->target, &request->episodes, &request->imitated_samples);
   command
-      ->add_option("--backward-steps", request->backward_samples,
-                   "Decisions for which a subtask learns on to end where the next one can start,\n"
-                   "where that one loses by it; 0: none")
+      ->add_option(
+          "--backward-steps", request->backward_samples,
+          "Decisions of backward tuning: a subtask after whose ends the next one loses success is\n"
+          "trained further to end better; 0: none")
       ->check(CLI::Range(0, 2000000000))
       ->capture_default_str();
-  command->add_flag("--resume", request->resume, "Go on with a run that was stopped");
+  command->add_flag("--resume", request->resume, "Resume an interrupted run");
   AddCommon(command, common);
   command->callback([request, common, run] { *run = [=] { return Train(*request, *common); }; });
 }

@@ -10,7 +10,7 @@
 namespace simwright::cli {
 namespace {
 
-// "  --seed UINT [1]": CLI11's own "=1" reads as part of the type.
+// Formats options as "  --seed UINT [1]", because CLI11's own "=1" reads as part of the type.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option* option) const override {
@@ -51,7 +51,7 @@ std::string FullName(const CLI::App& app) {
                                      : FullName(*app.get_parent()) + " " + app.get_name();
 }
 
-std::string Did(const std::string& name, const std::vector<std::string>& known) {
+std::string NearestHint(const std::string& name, const std::vector<std::string>& known) {
   const std::string nearest = tasks::reward::NearestName(name, known);
   return nearest.empty() ? "" : ", did you mean " + nearest + "?";
 }
@@ -63,12 +63,12 @@ const CLI::App* FindSubcommand(const CLI::App& app, const std::string& name) {
   return nullptr;
 }
 
-// Walks through the arguments as CLI11 does, up to what it does not know.
+// Walks through the arguments as CLI11 does, up to the first unknown one.
 class Walk {
  public:
   explicit Walk(const CLI::App& app) : app_(&app) {}
 
-  // The fault of the first unknown argument; empty where all are known.
+  // Returns the fault of the first unknown argument; empty if all are known.
   std::string Through(const std::vector<std::string>& arguments) {
     for (const std::string& argument : arguments) {
       const std::string fault = argument.size() > 1 && argument[0] == '-' && !IsNumber(argument)
@@ -95,7 +95,7 @@ class Walk {
     }
     if (option == nullptr) {
       return "unknown option " + name + " of '" + FullName(*app_) + "'" +
-             Did(name, OptionsOf(*app_, "--"));
+             NearestHint(name, OptionsOf(*app_, "--"));
     }
     values_ = argument.find('=') == std::string::npos ? option->get_items_expected_max() : 0;
     return "";
@@ -111,17 +111,17 @@ class Walk {
     const CLI::App* found = FindSubcommand(*app_, argument);
     if (found == nullptr) {
       return "unknown subcommand " + argument + " of '" + FullName(*app_) + "'" +
-             Did(argument, NamesOf(known));
+             NearestHint(argument, NamesOf(known));
     }
     app_ = found;
     return "";
   }
 
   const CLI::App* app_;
-  int values_ = 0;  // that the last option still takes
+  int values_ = 0;  // values that the last option still takes
 };
 
-// CLI11 names a key as "lift.categroy".
+// Returns the fault of a configuration key, which CLI11 names as "lift.categroy".
 std::string ConfigFault(const CLI::App& app, const std::string& message) {
   const size_t at = message.rfind(' ');
   std::string key = at == std::string::npos ? message : message.substr(at + 1);
@@ -132,14 +132,15 @@ std::string ConfigFault(const CLI::App& app, const std::string& message) {
     const CLI::App* next = FindSubcommand(*section, name);
     if (next == nullptr) {
       return "unknown section [" + name + "] of the configuration file" +
-             Did(name, NamesOf(SubcommandsOf(*section)));
+             NearestHint(name, NamesOf(SubcommandsOf(*section)));
     }
     section = next;
     key = key.substr(dot + 1);
   }
   return "unknown key " + key + " of the configuration file" +
-         (section == &app ? ", outside of any section" : ", section [" + section->get_name() + "]") +
-         Did(key, OptionsOf(*section, ""));
+         (section == &app ? ", outside of any section"
+                          : ", section [" + section->get_name() + "]") +
+         NearestHint(key, OptionsOf(*section, ""));
 }
 
 }  // namespace
@@ -189,12 +190,9 @@ int ReportUsage(const CLI::App& app, const std::vector<std::string>& arguments,
   }
   Walk walk(app);
   walk.Through(arguments);
-  const core::Finding finding{"error",
-                              core::Severity::kError,
-                              "",
-                              Diagnosis(app, arguments, error),
-                              0.0,
-                              FullName(walk.app()) + " --help lists what there is"};
+  const core::Finding finding{"error", core::Severity::kError,
+                              "",      Diagnosis(app, arguments, error),
+                              0.0,     FullName(walk.app()) + " --help lists the options"};
   std::fputs(core::FindingText(finding, LineWidth()).c_str(), stderr);
   return kWrongUsage;
 }

@@ -10,16 +10,16 @@ namespace simwright::cli {
 
 constexpr int kWrongUsage = 2;
 
-// Settings that hold for all subcommands: help shows each option's default, and a configuration
-// file may hold nothing but what a subcommand has. Before subcommands are added.
+// Applies the settings of all subcommands: help shows each option's default, and a configuration
+// file may only contain options of a subcommand. Call it before adding subcommands.
 void PrepareApp(CLI::App* app);
 
-// The arguments of the program with "--config FILE" first, wherever it stood: it is the program's
-// own and may follow the subcommand as all other common flags do.
+// Returns the program's arguments with "--config FILE" moved to the front: it belongs to the
+// program itself but may follow the subcommand as all other common flags do.
 std::vector<std::string> ArgumentsOf(int argc, char** argv);
 
-// What is wrong with the arguments, in one line: the subcommand, option or key of a configuration
-// file that is not known, with the nearest one that is; else what CLI11 says.
+// Describes the fault of the arguments in one line: the unknown subcommand, option or configuration
+// key with the nearest known one; else CLI11's message.
 std::string Diagnosis(const CLI::App& app, const std::vector<std::string>& arguments,
                       const CLI::ParseError& error);
 
@@ -27,7 +27,7 @@ std::string Diagnosis(const CLI::App& app, const std::vector<std::string>& argum
 int ReportUsage(const CLI::App& app, const std::vector<std::string>& arguments,
                 const CLI::ParseError& error);
 
-// Of a text that is one of `names`: help lists them.
+// Adds an option whose value is one of `names`, which help lists.
 CLI::Option* AddChoice(CLI::App* command, const std::string& option,
                        const std::vector<std::string>& names, const std::string& usual,
                        const std::string& description,

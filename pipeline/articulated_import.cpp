@@ -31,13 +31,13 @@ using assets::ArticulatedLink;
 using assets::SemanticModel;
 using assets::UrdfModel;
 
-constexpr int kMostJoints = 128;       // that move: a keyboard's keys; each is swung in two engines
-constexpr double kSloppyShare = 0.02;  // of the diagonal: no more is trimmed of small things
-constexpr double kTippingMargin = 0.01;  // of the diagonal: what is nearer to tipping is jerked over
-constexpr int kRobotChain = 3;         // joints in a row
+constexpr int kMaxJoints = 128;          // moving ones; each is swept in two engines
+constexpr double kTrimShare = 0.02;      // of the diagonal: trimming limit of small assets
+constexpr double kTippingMargin = 0.01;  // of the diagonal: with less, a jerk topples it
+constexpr int kRobotChain = 3;           // consecutive moving joints
 constexpr int kArmChain = 5;
 constexpr int kRobotWheels = 4;
-constexpr double kHeaviest = 11000.0;  // kg/m^3: household metals are lighter
+constexpr double kMaxDensity = 11000.0;  // kg/m^3, above all household metals
 
 bool IsNormalised(const fs::path& urdf) {
   const fs::path folder = fs::absolute(urdf).parent_path();
@@ -52,14 +52,14 @@ int MovingJoints(const UrdfModel& model) {
 
 void RequireJoints(const UrdfModel& model, const std::string& where) {
   const int moving = MovingJoints(model);
-  if (moving == 0) throw core::Error("no joint moves", where, "import it as a rigid thing");
-  if (moving > kMostJoints) {
-    throw core::Error("has " + std::to_string(moving) + " joints that move", where,
-                      "at most " + std::to_string(kMostJoints) + " can be tried in the engines");
+  if (moving == 0) throw core::Error("no joint moves", where, "import it as a rigid object");
+  if (moving > kMaxJoints) {
+    throw core::Error("has " + std::to_string(moving) + " moving joints", where,
+                      "at most " + std::to_string(kMaxJoints) + " can be simulated");
   }
 }
 
-// Size as the knowledge base counts it: length >= width.
+// Returns the size in the knowledge base's convention: length >= width.
 Eigen::Vector3d SizeOf(const Eigen::AlignedBox3d& box) {
   const Eigen::Vector3d s = box.sizes();
   return {std::max(s.x(), s.y()), std::min(s.x(), s.y()), s.z()};
@@ -69,12 +69,12 @@ double ScaleOf(const ArticulatedImportOptions& options, bool normalised, const s
                const physics_params::PhysicalParameters& p,
                const physics_params::Category& category, const Eigen::Vector3d& size) {
   if (!(size.minCoeff() > 0.0)) {
-    throw core::Error("the whole is flat or has no extent", where, "mend its meshes");
+    throw core::Error("the asset is flat or has no extent", where, "repair its meshes");
   }
   double scale = options.unit;
   if (options.size.size() > 1) {
-    throw core::Error("joints keep the proportions of what they join", where,
-                      "state one side with --size, or its --height");
+    throw core::Error("joints do not allow a change of proportions", where,
+                      "give one side with --size, or the height with --height");
   }
   if (!options.size.empty()) {
     scale = options.size[0] / size.maxCoeff();
@@ -90,22 +90,22 @@ double ScaleOf(const ArticulatedImportOptions& options, bool normalised, const s
   const double extent = scale * size.maxCoeff();
   if (!(extent > 1e-3 && extent < 100.0)) {
     char text[80];
-    std::snprintf(text, sizeof(text), "the whole would be %.3g m across", extent);
-    throw core::Error(text, where, "say its height with --height");
+    std::snprintf(text, sizeof(text), "the asset would be %.3g m across", extent);
+    throw core::Error(text, where, "give its height with --height");
   }
   return scale;
 }
 
-// GAPartNet and PartNet-Mobility qualify what a link is ("line_fixed_handle", "rotation_door",
-// "furniture_body"): the thing itself is what we call it too.
+// Returns the last word of a qualified label of GAPartNet or PartNet-Mobility ("line_fixed_handle",
+// "rotation_door", "furniture_body") if it is one of our labels, else the label unchanged.
 std::string PlainLabel(const std::string& label) {
-  static const std::set<std::string_view> kThings{
+  static const std::set<std::string_view> kLabels{
       "body", "button", "door",  "drawer", "handle", "key",    "knob",  "lever",
       "lid",  "screen", "spout", "switch", "wheel",  "window", "frame", "seat"};
   const size_t last = label.rfind('_');
   if (last == std::string::npos) return label;
-  const std::string thing = label.substr(last + 1);
-  return kThings.contains(thing) ? thing : label;
+  const std::string noun = label.substr(last + 1);
+  return kLabels.contains(noun) ? noun : label;
 }
 
 std::string LabelOf(const SemanticModel& source, const std::string& link, bool root) {
@@ -114,15 +114,16 @@ std::string LabelOf(const SemanticModel& source, const std::string& link, bool r
   return root ? "body" : "part";
 }
 
-// Doors, faucets and windows are built in; so is what PartNet-Mobility calls static.
-bool StandsFixed(const SemanticModel& source, const std::string& category) {
+// Returns true for built-in assets: doors, faucets and windows, and all that PartNet-Mobility calls
+// static.
+bool IsBuiltIn(const SemanticModel& source, const std::string& category) {
   static const std::set<std::string_view> kBuiltIn{"door", "faucet", "window"};
   if (kBuiltIn.contains(category)) return true;
   const auto found = source.semantics.find(source.model.links.front().name);
   return found != source.semantics.end() && found->second.joint == "static";
 }
 
-// The most moving joints on the way from the root to any link.
+// Returns the largest number of moving joints on a path from the root to a link.
 int LongestChain(const UrdfModel& model) {
   const std::vector<int> parents = assets::ParentLinks(model);
   std::vector<int> depth(model.links.size(), 0);
@@ -132,9 +133,9 @@ int LongestChain(const UrdfModel& model) {
   return *std::max_element(depth.begin(), depth.end());
 }
 
-// What is no household thing that we know and has an arm's or legs' joints, or many that turn
-// freely. A desk lamp has such a chain as well, and is known as a lamp; no such thing has an arm's
-// whole chain.
+// Returns true for an asset with the joint chain of an arm, and for one of unknown category with a
+// shorter chain, such as legs, or with several continuous joints. A desk lamp also has such a chain
+// but is a known category; no household object has the whole chain of an arm.
 bool IsRobot(const UrdfModel& model, const physics_params::Category& category) {
   if (LongestChain(model) >= kArmChain) return true;
   if (category.name != "object") return false;
@@ -145,12 +146,12 @@ bool IsRobot(const UrdfModel& model, const physics_params::Category& category) {
   return LongestChain(model) >= kRobotChain || wheels >= kRobotWheels;
 }
 
-// Names of links and joints become names of files and of things in programs.
+// Makes the names of links and joints usable as file names and as names in programs.
 void MakeNamesSafe(SemanticModel* source) {
   std::map<std::string, std::string> renamed;
   std::set<std::string> taken;
   const auto safe = [&taken](const std::string& name) {
-    // MuJoCo keeps "world" to itself.
+    // MuJoCo reserves "world".
     const std::string base = name == "world" ? "world_link" : assets::FileSafeName(name);
     std::string unique = base;
     for (int i = 2; !taken.insert(unique).second; ++i) unique = base + "_" + std::to_string(i);
@@ -192,9 +193,9 @@ void MakeParts(bool robot, core::Progress* progress, UrdfModel* model) {
   progress->Finish();
 }
 
-// Links of a robot overlap at its joints and meet on their ways by design: a line for each kind of
-// finding, with the worst of them, instead of one for each pair.
-core::Findings SummedUp(const core::Findings& findings, const std::string& name) {
+// Summarises findings about a robot, whose links overlap at the joints and collide with each other
+// by design: one finding per code, with the worst figure, instead of one per pair.
+core::Findings Summarised(const core::Findings& findings, const std::string& name) {
   core::Findings kept;
   std::map<std::string, core::Findings> by_code;
   for (const core::Finding& one : findings) by_code[one.code].push_back(one);
@@ -205,7 +206,7 @@ core::Findings SummedUp(const core::Findings& findings, const std::string& name)
     line.severity = core::Severity::kInfo;
     line.sentence = "'" + line.place + "': " + line.sentence;
     if (some.size() > 1) {
-      line.sentence += "; so with " + std::to_string(some.size() - 1) + " more pairs, by less";
+      line.sentence += "; also " + std::to_string(some.size() - 1) + " more pairs, by less";
     }
     line.place = name;
     line.remedy.clear();
@@ -214,13 +215,13 @@ core::Findings SummedUp(const core::Findings& findings, const std::string& name)
   return kept;
 }
 
-// Lets the whole stand and its joints move: what stands in their way is trimmed, ends their range,
-// or is excluded from contact. A thing whose joints reach below the floor that it would stand on is
-// held in place instead.
-void ClearTheWay(bool robot, bool* fixed, UrdfModel* model) {
+// Makes the asset statically stable and its joints free to move: obstructing geometry is trimmed,
+// limits the joint's range, or is excluded from contact. An asset whose joints reach below the
+// floor it would stand on is fixed in place instead.
+void MakeJointsFree(bool robot, bool* fixed, UrdfModel* model) {
   const double whole = BoundsAtZero(*model).diagonal().norm();
   ClearingOptions clearing;
-  clearing.most = std::min(clearing.most, kSloppyShare * whole);
+  clearing.most = std::min(clearing.most, kTrimShare * whole);
   clearing.gap = std::min(clearing.gap, 0.6 * clearing.most);
   if (!*fixed) Add(LetStand(model), model);
   RangeResult ranges = EndRangesAtObstacles({clearing.most, !*fixed, !robot}, model);
@@ -228,17 +229,17 @@ void ClearTheWay(bool robot, bool* fixed, UrdfModel* model) {
   if (ranges.floor_in_the_way) {
     *fixed = true;
     Add({{"held", core::Severity::kWarning, model->name,
-          "a joint would reach through the floor that it stands on from its start: it is held where "
-          "it is, as what hangs on a wall or lies on a table's edge",
-          0.0, "set `fixed` to false where it is to stand free"}},
+          "a joint would penetrate the floor right from its zero position: the asset is fixed in "
+          "place, like one that hangs on a wall or lies on the edge of a table",
+          0.0, "set `fixed` to false to let it stand freely"}},
         model);
   }
   clearing.on_floor = !*fixed;
   const core::Findings cleared = ClearMovingParts(clearing, model);
-  Add(robot ? SummedUp(cleared, model->name) : cleared, model);
+  Add(robot ? Summarised(cleared, model->name) : cleared, model);
 }
 
-// A stated mass or density for the whole.
+// Applies a stated mass or density to the whole asset.
 void Reweigh(const physics_params::StatedPhysics& stated, ArticulatedAsset* asset) {
   double before = 0.0;
   for (const ArticulatedLink& link : asset->links) before += link.inertial.mass;
@@ -251,7 +252,7 @@ void Reweigh(const physics_params::StatedPhysics& stated, ArticulatedAsset* asse
   }
 }
 
-// Reports links whose centre of mass in the file lies farther than 5 % of the link's diagonal from
+// Reports links whose centre of mass in the file is farther than 5 % of the link's diagonal from
 // the integral over its parts, which is the one that is used.
 void ReportReplacedInertials(const UrdfModel& model, ArticulatedAsset* asset) {
   constexpr double kFar = 0.05;  // of the link's diagonal
@@ -274,14 +275,14 @@ void ReportReplacedInertials(const UrdfModel& model, ArticulatedAsset* asset) {
   asset->findings.push_back(
       {"inertial-replaced", core::Severity::kWarning, worst,
        "its centre of mass lies " + core::Millimetres(farthest) +
-           " from the file's: inertials are made from the parts, of even density; so of " +
+           " from the file's: inertials are computed from parts of uniform density; it affects " +
            std::to_string(count) + " of " + std::to_string(asset->links.size()) + " links",
-       1e3 * farthest, "give a weight in it a shape of its own"});
+       1e3 * farthest, "model an internal weight as a separate shape"});
 }
 
-// Masses that the file gives count where its lengths are metres too; a link that it gives none
-// has the mean density of the others. Else the category's mass is split by volume. What is stated
-// wins. Returns whether the file's count.
+// Assigns masses. The file's masses apply if its lengths are also in metres; a link without a mass
+// gets the mean density of the others. Otherwise the category's mass is split by volume. Stated
+// values take precedence. Returns true if the file's masses apply.
 bool GiveMass(const UrdfModel& model, bool metric, const physics_params::Category& category,
               const physics_params::StatedPhysics& stated, ArticulatedAsset* asset) {
   double volume = 0.0;
@@ -305,16 +306,16 @@ bool GiveMass(const UrdfModel& model, bool metric, const physics_params::Categor
   }
   const bool given = metric && known > 0.0;
   if (given && !guessed.empty()) {
-    asset->findings.push_back({"urdf-mass-guessed", core::Severity::kWarning, asset->name,
-                               "the file gives no mass for " + guessed +
-                                   "': the mean density of the other links is taken",
-                               known / known_volume, "give each link an <inertial>"});
+    asset->findings.push_back(
+        {"urdf-mass-guessed", core::Severity::kWarning, asset->name,
+         "the file gives no mass for " + guessed + "': the mean density of the other links is used",
+         known / known_volume, "give each link an <inertial>"});
   }
   if (!unusual.empty() && !given) {
     asset->findings.push_back(
         {"unusual-size", core::Severity::kWarning, asset->name, unusual, 0.0});
   }
-  // Of a mere object no mass is known: its material's density is drawn.
+  // The catch-all "object" has no typical mass: the material's density is sampled.
   const double common = category.name == "object" ? p.density.sample : p.mass.sample / volume;
   double mass = 0.0, densest = 0.0;
   for (size_t i = 0; i < asset->links.size(); ++i) {
@@ -338,9 +339,9 @@ bool GiveMass(const UrdfModel& model, bool metric, const physics_params::Categor
     }
   }
   if (given) ReportReplacedInertials(model, asset);
-  if (densest > kHeaviest) {
+  if (densest > kMaxDensity) {
     asset->findings.push_back({"implausible-density", core::Severity::kWarning, asset->name,
-                               "its walls are thin for its mass: the densest link has " +
+                               "its geometry is too thin for its mass: the densest link has " +
                                    std::to_string(std::lround(densest)) + " kg/m3",
                                densest});
   }
@@ -350,18 +351,19 @@ bool GiveMass(const UrdfModel& model, bool metric, const physics_params::Categor
   return given;
 }
 
-// Large appliances are screwed to the wall, or their file leaves the weight in their base out.
-void HoldWhatTips(ArticulatedAsset* asset) {
+// Fixes an asset that would tip over: large appliances are screwed to the wall, or their file omits
+// the weight in their base.
+void FixIfItTips(ArticulatedAsset* asset) {
   const UrdfModel model = assets::ModelOf(*asset);
   const TippingMargin least = LeastTippingMargin(model);
   if (least.margin > kTippingMargin * assets::BoundsAtZero(*asset).diagonal().norm()) return;
   asset->fixed = true;
   asset->findings.push_back(
       {"held", core::Severity::kWarning, asset->name,
-       "free on the floor it would tip over while '" + least.joint +
-           "' is opened: it is held where it is; its centre of mass stays inside its foot by " +
+       "free on the floor it would tip over when '" + least.joint +
+           "' opens: it is fixed in place; its centre of mass is within its support polygon by " +
            core::Millimetres(least.margin),
-       1e3 * least.margin, "set `fixed` to false to let it stand free"});
+       1e3 * least.margin, "set `fixed` to false to let it stand freely"});
 }
 
 ArticulatedAsset AssetFrom(const SemanticModel& source) {
@@ -376,12 +378,12 @@ ArticulatedAsset AssetFrom(const SemanticModel& source) {
     link.visual = ColoredVisual(from);
     for (const assets::UrdfShape& shape : from.collisions) link.parts.push_back(shape.mesh);
   }
-  std::set<std::pair<std::string, std::string>> told;  // of visuals, and again of collisions
+  std::set<std::pair<std::string, std::string>> seen;  // findings repeat for visuals and collisions
   for (core::Finding finding : source.model.findings) {
-    // Every inertial is made anew, and what mimics is told of where it is changed.
+    // All inertials are recomputed, and mimic joints are reported where they are changed.
     if (finding.code == "urdf-no-inertial" || finding.code == "urdf-mimic") continue;
     if (finding.place == source.urdf.string()) finding.place = source.urdf.filename().string();
-    if (told.emplace(finding.place, finding.sentence).second) asset.findings.push_back(finding);
+    if (seen.emplace(finding.place, finding.sentence).second) asset.findings.push_back(finding);
   }
   return asset;
 }
@@ -421,7 +423,7 @@ ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImport
       ImportCategory(options.category, source.category.empty() ? source.name : source.category);
   const bool robot =
       IsRobot(source.model, *category.category) && !(known && category.category->name != "object");
-  // The file name of a robot ("model", "hand") does not tell its category.
+  // The file name of a robot ("model", "hand") does not determine its category.
   if (robot) category = ImportCategory("object", "");
   NormaliseJoints(&source.model, robot);
   RequireJoints(source.model, where);
@@ -436,9 +438,9 @@ ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImport
       ScaleOf(options, normalised, where, parameters, *category.category,
               SizeOf(BoundsAtZero(source.model)));
   StandOnOrigin(scale, &source.model);
-  bool fixed = robot || source.model.root_is_world || StandsFixed(source, category.category->name);
+  bool fixed = robot || source.model.root_is_world || IsBuiltIn(source, category.category->name);
   MakeParts(robot, progress, &source.model);
-  ClearTheWay(robot, &fixed, &source.model);
+  MakeJointsFree(robot, &fixed, &source.model);
 
   ArticulatedAsset asset = AssetFrom(source);
   asset.name = assets::FileSafeName(options.name);
@@ -461,13 +463,13 @@ ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImport
     asset.features[assets::kKindFeature] = assets::kRobotKind;
     asset.findings.push_back(
         {"robot", core::Severity::kInfo, asset.name,
-         "it is taken for a robot: its root is held, its own collision meshes are convex hulls, and "
-         "its motors hold its joints, whose friction and damping stay as the file has them",
-         static_cast<double>(MovingJoints(source.model)), "give --category where it is a thing"});
+         "it is classified as a robot: its root is fixed, its collision meshes are convex hulls, "
+         "and its motors hold its joints, whose friction and damping are the file's",
+         static_cast<double>(MovingJoints(source.model)), "give --category if it is not a robot"});
     return asset;
   }
   if (!given) LightenHeavyHinges(&asset);
-  if (!fixed) HoldWhatTips(&asset);
+  if (!fixed) FixIfItTips(&asset);
   core::Rng rng = core::StreamRng(options.seed, 1);
   GiveJointsFeel(rng, &asset);
   return asset;

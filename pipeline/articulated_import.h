@@ -12,37 +12,41 @@
 namespace simwright::pipeline {
 
 struct ArticulatedImportOptions {
-  std::string name;      // of the asset
-  std::string category;  // empty: by meta.json or asset.json, else by the name, else "object"
-  // m, of the whole as it stands, joints at zero. 0: folders with PartNet's normalised units get
-  // the volume of the box sampled for their category; others are `unit` metres a unit.
+  std::string name;      // the asset's name
+  std::string category;  // empty: from meta.json or asset.json, else from the name, else "object"
+  // The height of the whole asset at zero joint positions, m. 0: a folder in PartNet's normalised
+  // units is scaled to the bounding-box volume sampled for its category; other files have `unit`
+  // metres per file unit.
   double height = 0.0;
   double unit = 1.0;
-  bool unit_stated = false;  // by the user: any size that comes out is meant
-  StatedSize size = {};      // of the whole, its longest side; takes the place of `height`
+  bool unit_stated = false;  // by the user: no resulting size is refused
+  StatedSize size = {};      // the whole asset's; overrides `height`
   physics_params::StatedPhysics stated = {};
   std::uint64_t seed = 1;
-  std::filesystem::path root = {};  // no mesh is read from outside it; empty: as ReadUrdf has it
+  std::filesystem::path root = {};  // meshes outside it are not read; empty: ReadUrdf's default
 };
 
-// The URDF to import of a folder: GAPartNet's where there is one, in which handles are links of
-// their own, else mobility.urdf, else the only one. Empty where there is none or no one of them.
+// Returns the URDF to import from a folder: GAPartNet's, whose handles are separate links, if there
+// is one; else mobility.urdf; else the only URDF. Returns an empty path if there is no URDF or no
+// single one.
 std::filesystem::path ArticulatedUrdfIn(const std::filesystem::path& folder);
 
-// Whether any joint moves, once links without shapes are folded away: what has none is a rigid
-// thing. Throws core::Error: what ReadUrdf throws, floating or planar joints.
+// Returns true if any joint moves once links without shapes are folded away; a model without moving
+// joints is a rigid object. Throws core::Error for floating or planar joints and wherever ReadUrdf
+// throws.
 bool HasMovingJoint(const assets::SemanticModel& source);
 
-// A URDF with what lies beside it (docs/formats.md, "Importing articulated things") as an asset at
-// true scale: links without shapes folded away, joints by our conventions, collision parts that
-// are convex and clear each other where they overlapped by little, mass by category, friction and
-// damping. What was mended is in its findings. Throws core::Error: what ReadUrdf throws, no joint
-// that moves, more than 128 of them, floating or planar joints, links that move but have no
-// shapes, a thing without extent or of an absurd one.
+// Imports a URDF and the files beside it (docs/formats.md, "Importing articulated things") as an
+// asset at true scale. Links without shapes are folded away, joints follow our conventions,
+// collision parts are convex and trimmed until collision-free where they overlap slightly, mass
+// follows the category, and joints get friction and damping. The asset's findings list all repairs.
+// Throws core::Error wherever ReadUrdf throws, for a model without moving joints or with more than
+// 128 of them, for floating or planar joints, for moving links without shapes, and for a model of
+// zero or implausible size.
 assets::ArticulatedAsset ImportArticulated(const std::filesystem::path& urdf,
                                            const ArticulatedImportOptions& options,
                                            core::Progress* progress);
-// The same of what was read already.
+// Imports a model that has already been read.
 assets::ArticulatedAsset ImportArticulated(assets::SemanticModel source,
                                            const ArticulatedImportOptions& options,
                                            core::Progress* progress);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFront = std::numbers::pi;  // rad, azimuth of -x
 constexpr double kAside = 0.6;               // rad
-constexpr double kOpen = 0.85;               // of a joint's range
+constexpr double kOpen = 0.85;               // fraction of a joint's range
 
 assets::JointPositions Opened(const assets::ArticulatedAsset& asset, double open) {
   assets::JointPositions positions;

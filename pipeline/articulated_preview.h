@@ -5,12 +5,13 @@
 
 namespace simwright::pipeline {
 
-// The asset from the front and a little from its right and above, all joints at `open` of their
-// range (0: at zero, closed; 1: at the upper limits). `size` pixels a side.
+// Renders the asset from the front, slightly right and above, with all joints at the fraction
+// `open` of their ranges (0: at zero, closed; 1: at the upper limits). The image is square, `size`
+// pixels a side.
 core::Image ArticulatedView(const assets::ArticulatedAsset& asset, double open, int size);
 
-// preview.png: closed and open from the front's two sides, and below the collision parts, each in
-// a colour of its own.
+// Renders preview.png: the asset closed and open, from the front left and the front right, and
+// below that the collision parts, each in its own colour.
 core::Image ArticulatedPreview(const assets::ArticulatedAsset& asset);
 
 }  // namespace simwright::pipeline

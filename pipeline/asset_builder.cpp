@@ -13,7 +13,7 @@
 namespace simwright::pipeline {
 namespace {
 
-constexpr int kFootCorners = 12;
+constexpr int kSupportCorners = 12;
 constexpr int kRestPasses = 3;
 
 class StageClock {
@@ -50,14 +50,15 @@ void MakeSolidPart(const BuildRequest& request, assets::Asset* asset) {
   asset->findings.insert(asset->findings.end(), solid.findings.begin(), solid.findings.end());
 }
 
-// Nothing on earth is denser than osmium: a stated mass or a scale is wrong.
+// Reports a density above that of osmium, the densest element: the stated mass or the scale is
+// wrong.
 void ReportDensity(double density, assets::Asset* asset) {
   constexpr double kOsmium = 22590.0;  // kg/m^3
   if (density <= kOsmium) return;
   char text[120];
-  std::snprintf(text, sizeof(text), "its matter would weigh %.3g kg/m3, more than osmium", density);
+  std::snprintf(text, sizeof(text), "its density would be %.3g kg/m3, above osmium's", density);
   asset->findings.push_back({"implausible-density", core::Severity::kWarning, asset->name, text,
-                             density, "mend --mass, --density or the size"});
+                             density, "correct --mass, --density or the size"});
 }
 
 void GiveMass(const BuildRequest& request, assets::Asset* asset) {
@@ -76,9 +77,9 @@ void GiveMass(const BuildRequest& request, assets::Asset* asset) {
     const bool weighed = request.stated.mass || request.stated.density;
     asset->findings.push_back(
         {"unusual-size", core::Severity::kWarning, asset->name,
-         weighed ? unusual : unusual + "; the category's mass is scaled with it", 0.0,
-         weighed ? "--height or --size states the true one"
-                 : "--height or --size states the true one, --mass what it weighs"});
+         weighed ? unusual : unusual + "; the category's mass is scaled accordingly", 0.0,
+         weighed ? "give the true size with --height or --size"
+                 : "give the true size with --height or --size, and the mass with --mass"});
   }
   Apply(request.stated, &asset->parameters);
   const physics_params::MassModel model =
@@ -101,7 +102,7 @@ void GiveMass(const BuildRequest& request, assets::Asset* asset) {
   asset->rolling_friction = kRollingResistance * 0.5 * core::Bounds(asset->solid).sizes().mean();
 }
 
-void TakeParts(const BuildRequest& request, assets::Asset* asset) {
+void UseGivenParts(const BuildRequest& request, assets::Asset* asset) {
   asset->parts = request.parts;
   geometry::ConcavityOptions options;
   options.surface_samples = 6000;
@@ -109,21 +110,21 @@ void TakeParts(const BuildRequest& request, assets::Asset* asset) {
   const geometry::DecompositionQuality quality =
       geometry::MeasureDecomposition(asset->solid, asset->parts, options);
   const Eigen::AlignedBox3d box = core::Bounds(asset->solid);
-  // In CoACD's units, as of a decomposition.
+  // In CoACD's units, as for a decomposition.
   asset->concavity = quality.concavity * 2.0 * box.diagonal().norm() / box.sizes().maxCoeff();
   asset->coverage = quality.coverage;
 }
 
-void FindParts(const BuildRequest& request, assets::Asset* asset) {
+void DecomposeIntoParts(const BuildRequest& request, assets::Asset* asset) {
   geometry::DecompositionOptions options = request.decomposition;
-  options.max_hull_vertices -= kFootCorners;
+  options.max_hull_vertices -= kSupportCorners;
   const geometry::ConvexDecomposition decomposition = geometry::Decompose(asset->solid, options);
   asset->parts = geometry::Hulls(decomposition);
   asset->concavity = decomposition.concavity;
   asset->coverage = decomposition.coverage;
 }
 
-// Turns the asset and moves it so that it stands on z = 0, centred.
+// Rotates the asset and moves it so that it stands centred on z = 0.
 void PlaceInLinkFrame(const Eigen::Isometry3d& turn, assets::Asset* asset) {
   Eigen::Isometry3d link_from_body = turn;
   core::TriangleMesh turned = asset->solid;
@@ -139,19 +140,19 @@ void PlaceInLinkFrame(const Eigen::Isometry3d& turn, assets::Asset* asset) {
   const Eigen::Matrix3d R = link_from_body.linear();
   asset->inertial.center_of_mass = link_from_body * asset->inertial.center_of_mass;
   asset->inertial.inertia = R * asset->inertial.inertia * R.transpose();
-  // Rounding may leave the two halves a last bit apart; readers want one number.
+  // Rounding may leave the two triangles slightly different; readers expect a symmetric matrix.
   asset->inertial.inertia =
       (0.5 * (asset->inertial.inertia + asset->inertial.inertia.transpose())).eval();
 }
 
-// Finds how the asset rests and puts it so. Where that is not how it came, the flat that it lies on
-// is another one, and it may rest otherwise once its parts keep that flat.
-void LayDown(const BuildRequest& request, assets::Asset* asset) {
+// Finds the rest pose and places the asset in it. A pose other than the given one has another
+// support face, and the rest pose may change once the parts preserve that face.
+void PlaceInRestPose(const BuildRequest& request, assets::Asset* asset) {
   RestPose rest;
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
   for (int pass = 0; pass < kRestPasses; ++pass) {
     if (request.parts.empty()) {
-      KeepFoot(FindFoot(asset->solid, asset->inertial.center_of_mass, kFootCorners),
+      KeepFoot(FindFoot(asset->solid, asset->inertial.center_of_mass, kSupportCorners),
                request.decomposition.max_hull_vertices, &asset->parts);
     }
     rest = FindRestPose(sim::BodyFromAsset(*asset), asset->solid);
@@ -188,9 +189,9 @@ BuiltAsset BuildAsset(const core::TexturedMesh& visual, const BuildRequest& requ
   clock.Begin("mass");
   GiveMass(request, &asset);
   clock.Begin("collision parts");
-  request.parts.empty() ? FindParts(request, &asset) : TakeParts(request, &asset);
+  request.parts.empty() ? DecomposeIntoParts(request, &asset) : UseGivenParts(request, &asset);
   clock.Begin("rest pose");
-  LayDown(request, &asset);
+  PlaceInRestPose(request, &asset);
   clock.End();
   return built;
 }

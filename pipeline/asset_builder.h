@@ -15,20 +15,20 @@
 namespace simwright::pipeline {
 
 struct BuildRequest {
-  std::string name;                     // made file-safe
-  std::string source;                   // file name of the photo or mesh
-  physics_params::Resolution category;  // of RequireCategory or ResolveCategory; not null
-  physics_params::StatedPhysics stated;  // by the user; wins
+  std::string name;                     // converted to a safe file name
+  std::string source;                   // the photo's or mesh's file name
+  physics_params::Resolution category;  // from RequireCategory or ResolveCategory; not null
+  physics_params::StatedPhysics stated;  // by the user; takes precedence
   std::uint64_t seed = 1;
   geometry::SolidOptions solid;
   geometry::DecompositionOptions decomposition;
-  // Closed, convex, at most decomposition.max_hull_vertices vertices, in the mesh's frame: what
-  // collides, taken as it is. Empty: convex decomposition finds them.
+  // The collision parts, used unchanged: closed, convex, at most decomposition.max_hull_vertices
+  // vertices each, in the mesh's frame. Empty: computed by convex decomposition.
   std::vector<core::TriangleMesh> parts;
 };
 
-// Wall-clock seconds by stage, for people and benchmarks; kept out of the asset, whose bytes
-// depend on its input and seed alone.
+// The wall-clock seconds of each stage, for people and benchmarks. They are not part of the asset,
+// whose bytes depend only on its input and seed.
 using StageSeconds = std::map<std::string, double>;
 
 struct BuiltAsset {
@@ -36,10 +36,10 @@ struct BuiltAsset {
   StageSeconds seconds;
 };
 
-// From a mesh as it is seen (metres, true size, z up as it stood) to an asset that holds in
-// simulation: closed solid, mass and inertia, collision parts, rest pose, link frame.
-// The rest pose is the given one where the thing can stand so, else its most probable stable pose
-// that holds in a drop. Throws core::Error where no solid can be made of the mesh.
+// Builds a simulation-ready asset from a visual mesh (metres, true size, z up in the original
+// pose): a closed solid, mass and inertia, collision parts, rest pose and link frame. The rest pose
+// is the given one if it is statically stable, else the most probable stable pose that passes a
+// drop test. Throws core::Error if no solid can be made from the mesh.
 BuiltAsset BuildAsset(const core::TexturedMesh& visual, const BuildRequest& request,
                       core::Progress* progress);
 

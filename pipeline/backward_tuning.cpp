@@ -21,11 +21,11 @@ using nlohmann::json;
 
 constexpr const char* kTunedFile = "backward.json";
 constexpr const char* kBeforeFile = "policy_before.pt";
-// A success whose end is of no use is still worth something: else a policy whose every end is bad
-// would forget how to succeed before it finds better ones.
+// The smallest reward share of a success, even one whose end is useless to the successor. Without
+// it a policy whose ends are all bad would forget how to succeed before it finds better ones.
 constexpr double kLeastShare = 0.2;
 
-// How many of the chains of both succeed.
+// Counts the successful chains of both skills.
 int SuccessesOfBoth(const TunedPair& pair, const rl::Policy& first, const rl::Policy& second,
                     const std::vector<rl::EpisodeStart>& starts) {
   const std::vector<rl::ChainLink> links = {{pair.first->evaluated.get(), &first},
@@ -61,7 +61,7 @@ std::optional<BackwardTuning> ReadBackwardTuning(const RunSkill& first) {
     tuning.kept = text.at("kept").get<bool>();
     return tuning;
   } catch (const json::exception&) {
-    throw core::Error("is damaged", file.string(), "remove it: it is then tuned again");
+    throw core::Error("is damaged", file.string(), "remove it to tune the skill again");
   }
 }
 
@@ -69,7 +69,7 @@ BackwardTuning TuneBackward(const TrainRequest& request, const SkillRun& run, co
                             core::Progress* progress) {
   if (const auto tried = ReadBackwardTuning(*pair.first)) return *tried;
   const RunSkill& first = *pair.first;
-  // Where the policy had been replaced when this was stopped, the old one lies beside it.
+  // If an interrupted run had already replaced the policy, the previous one lies beside it.
   const bool replaced = fs::exists(first.folder / kBeforeFile);
   const rl::Policy before =
       rl::ReadPolicy(first.folder / (replaced ? kBeforeFile : rl::kPolicyFile));

@@ -10,22 +10,23 @@
 
 namespace simwright::pipeline {
 
-// A subtask and the one after it, in a chain.
+// Two consecutive subtasks of a chain.
 struct TunedPair {
-  const RunSkill* first = nullptr;     // is tuned
-  const RunSkill* second = nullptr;    // stays as it is
-  std::vector<rl::EpisodeStart> pool;  // where `first` begins in the chain; empty: its own
-  std::vector<rl::EvaluatedEpisode> second_tried;  // from where `first` has ended
+  const RunSkill* first = nullptr;     // the skill to tune
+  const RunSkill* second = nullptr;    // unchanged
+  std::vector<rl::EpisodeStart> pool;  // starts of `first` in the chain; empty: its own starts
+  std::vector<rl::EvaluatedEpisode> second_tried;  // episodes of `second` from the ends of `first`
 };
 
-// What came of it, or what came of it before; none where it has not been tried.
+// Returns the recorded outcome of tuning `first`, or nothing if tuning has not been tried.
 std::optional<BackwardTuning> ReadBackwardTuning(const RunSkill& first);
 
-// Goes on training `first` with what its successes are worth to `second` (rl/successor.h): of the
-// ends that count as success it learns to prefer those from which the chain goes on. Its policy is
-// replaced where that makes both together succeed more often from fresh starts, the old one is kept
-// as policy_before.pt. Into first.folder/backward; goes on where it was stopped; what has been
-// tried is not tried again. Throws core::Error and core::Cancelled as TrainTask.
+// Continues training `first` with a terminal reward: the value of its end states to `second`
+// (rl/successor.h). Among successful ends, the policy learns to prefer those from which the chain
+// succeeds. The policy is replaced if both skills together then succeed more often from fresh
+// starts; the previous policy is kept as policy_before.pt. Works in first.folder/backward, resumes
+// an interrupted training, and does not repeat a finished one. Throws core::Error and
+// core::Cancelled as TrainTask does.
 BackwardTuning TuneBackward(const TrainRequest& request, const SkillRun& run, const TunedPair& pair,
                             core::Progress* progress);
 

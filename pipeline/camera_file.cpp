@@ -34,11 +34,11 @@ Eigen::Isometry3d Pose(const json& camera, const std::string& where) {
   for (int r = 0; r < 4; ++r) {
     const json& row = (*rows)[static_cast<size_t>(r)];
     if (!row.is_array() || row.size() != 4) {
-      throw core::Error("'world_from_camera' has a row of another length", where, expected);
+      throw core::Error("'world_from_camera' has a row of the wrong length", where, expected);
     }
     for (int c = 0; c < 4; ++c) {
       const json& value = row[static_cast<size_t>(c)];
-      if (!value.is_number()) throw core::Error("'world_from_camera' holds no number", where);
+      if (!value.is_number()) throw core::Error("'world_from_camera' has a non-number", where);
       matrix(r, c) = value.get<double>();
     }
   }
@@ -46,8 +46,8 @@ Eigen::Isometry3d Pose(const json& camera, const std::string& where) {
   if (!matrix.allFinite() || turn.determinant() < 0.0 ||
       !(turn.transpose() * turn).isIdentity(1e-3) ||
       !matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), 1e-6)) {
-    throw core::Error("'world_from_camera' is no rotation and position", where,
-                      "its rotation's columns are unit, square to each other and right-handed");
+    throw core::Error("'world_from_camera' is not a rotation and a position", where,
+                      "its rotation's columns must be orthonormal and right-handed");
   }
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = Eigen::Quaterniond(turn).normalized().toRotationMatrix();
@@ -62,7 +62,7 @@ std::map<std::string, core::Camera> ReadCameraFile(const std::filesystem::path& 
   try {
     file = json::parse(core::ReadFile(path, 1 << 26));
   } catch (const json::exception& error) {
-    throw core::Error("is no JSON", path.string());
+    throw core::Error("is not JSON", path.string());
   }
   if (!file.is_object() || !file.contains("cameras") || !file["cameras"].is_array() ||
       file["cameras"].empty()) {
@@ -85,7 +85,7 @@ std::map<std::string, core::Camera> ReadCameraFile(const std::filesystem::path& 
     camera.cx = Number(entry, "cx", -1e6, where);
     camera.cy = Number(entry, "cy", -1e6, where);
     camera.world_from_camera = Pose(entry, where);
-    if (!cameras.emplace(photo, camera).second) throw core::Error("comes twice", where);
+    if (!cameras.emplace(photo, camera).second) throw core::Error("occurs twice", where);
   }
   return cameras;
 }

@@ -11,7 +11,7 @@ namespace {
 void ScaleToSize(const Eigen::Vector3d& size, core::TriangleMesh* mesh) {
   const Eigen::Vector3d now = core::Bounds(*mesh).sizes();
   Eigen::Vector3d factors;
-  // A flat sheet has no extent to scale in one direction: it keeps the others' mean.
+  // A flat sheet cannot be scaled in one direction: it uses the mean factor of the others.
   double sum = 0.0;
   int counted = 0;
   for (int k = 0; k < 3; ++k) {
@@ -43,7 +43,7 @@ core::TexturedMesh ReadCataloguePiece(const assets::FurnitureCatalogue& catalogu
     finding.place = piece.id;
     findings->push_back(std::move(finding));
   }
-  // The rotation turns the model in its own frame, where y is up (Sweet Home 3D).
+  // The rotation acts in the model's own frame, where y is up (Sweet Home 3D).
   Eigen::Matrix3d z_up;
   z_up << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   Eigen::Affine3d turn = Eigen::Affine3d::Identity();
@@ -64,12 +64,12 @@ std::vector<core::TexturedMesh> ReadCatalogue(const std::filesystem::path& path,
       read[static_cast<size_t>(i)] =
           ReadCataloguePiece(catalogue, catalogue.pieces()[static_cast<size_t>(i)], nullptr);
     } catch (const core::Error&) {
-      // A damaged piece teaches nothing; the others do.
+      // Damaged pieces are skipped.
     }
     progress->Advance();
   });
   std::erase_if(read, [](const core::TexturedMesh& mesh) { return mesh.mesh.empty(); });
-  if (read.empty()) throw core::Error("holds no piece that can be read", path.string());
+  if (read.empty()) throw core::Error("has no readable piece", path.string());
   return read;
 }
 

@@ -10,14 +10,14 @@
 
 namespace simwright::pipeline {
 
-// A piece as it stands in the world: metres, z up, at the catalogue's true size. Textures that
-// cannot be read are left out and reported to `findings` (may be null). Throws core::Error where
+// Reads a catalogue piece in world coordinates: metres, z up, at the catalogue's true size.
+// Unreadable textures are omitted and reported to `findings` (may be null). Throws core::Error if
 // the piece has no mesh.
 core::TexturedMesh ReadCataloguePiece(const assets::FurnitureCatalogue& catalogue,
                                       const assets::CataloguePiece& piece,
                                       core::Findings* findings);
 
-// All pieces of the catalogue that can be read, in its order.
+// Reads all readable pieces of the catalogue, in its order.
 std::vector<core::TexturedMesh> ReadCatalogue(const std::filesystem::path& path,
                                               core::Progress* progress);
 

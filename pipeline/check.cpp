@@ -35,7 +35,7 @@ void CheckSolid(const assets::Asset& asset, const CheckLimits& limits, CheckRows
   const geometry::SurfaceDistance distance =
       geometry::OuterSurfaceDistance(asset.visual.mesh, asset.solid);
   rows->AtMost("surface-distance", distance.MaxRatio(), limits.surface_distance_ratio,
-               "of the diagonal between solid and what is seen, farthest point");
+               "of the diagonal between solid and visual, farthest point");
 }
 
 void CheckParts(const assets::Asset& asset, const CheckLimits& limits, CheckRows* rows) {
@@ -77,7 +77,7 @@ void CheckInertia(const assets::Asset& asset, const CheckLimits& limits, CheckRo
   const Eigen::Vector3d moments = geometry::PrincipalInertiaOf(asset.inertial.inertia).moments;
   rows->Require("inertia-possible", geometry::SatisfiesTriangleInequality(moments),
                 moments[2] / (moments[0] + moments[1]),
-                "largest principal moment over the sum of the others");
+                "largest principal moment over the sum of the other two");
 }
 
 void CheckReaders(const assets::Asset& asset, const fs::path& folder, const CheckLimits& limits,
@@ -117,7 +117,7 @@ void CheckDynamics(const assets::Asset& asset, const fs::path& folder, const Che
   const sim::RigidBody body = sim::BodyFromAsset(asset);
   sim::DropOptions options;
   const double size = core::Bounds(asset.solid).diagonal().norm();
-  // Whatever asset.json says: what stands or falls is not judged as what rolls.
+  // Regardless of asset.json, a body that stands or falls is not graded as a rolling one.
   const bool rolls = asset.rolls && RollsAsItLies(body, asset.solid);
   const auto add = [&](const sim::DropResult& drop, const std::string& engine) {
     if (asset.rolls && !rolls) {
@@ -150,7 +150,7 @@ void CheckDynamics(const assets::Asset& asset, const fs::path& folder, const Che
 
 namespace {
 
-// A row as a finding of its own: its figure stands before what it is the figure of.
+// Returns a result as a standalone finding: its sentence starts with its figure.
 core::Finding InWords(core::Finding row) {
   char figure[40];
   std::snprintf(figure, sizeof(figure), "%.4g ", row.figure);
@@ -193,7 +193,7 @@ std::string FailureOf(const CheckReport& report) {
 }  // namespace
 
 CheckFailed::CheckFailed(const CheckReport& report, const std::string& name)
-    : core::Error(FailureOf(report), name, "--no-check writes it all the same") {
+    : core::Error(FailureOf(report), name, "--no-check writes it anyway") {
   for (const core::Finding& row : report.rows) {
     if (row.severity != core::Severity::kError) continue;
     rows_.push_back(InWords(row));
@@ -220,7 +220,7 @@ CheckReport CheckAsset(const fs::path& folder, const CheckLimits& limits) {
 CheckReport CheckBeforeKeeping(const fs::path& folder, const std::string& name,
                                const CheckLimits& limits) {
   CheckReport report = CheckAsset(folder, limits);
-  for (core::Finding& row : report.rows) row.place = name;  // the folder's name may be a passing one
+  for (core::Finding& row : report.rows) row.place = name;  // the folder's name may be temporary
   RequirePassed(report, name);
   assets::AddFindings(folder, report.Warnings());
   return report;
@@ -228,8 +228,8 @@ CheckReport CheckBeforeKeeping(const fs::path& folder, const std::string& name,
 
 namespace {
 
-// True for a root link that stands for the world: it has neither shapes nor mass, and it is called
-// "world", as in ROS, or a joint that moves hangs on it.
+// Returns true for a root link that represents the world: it has neither shapes nor mass, and it is
+// named "world", as in ROS, or a moving joint hangs on it.
 bool RootIsWorld(const assets::UrdfModel& model) {
   const assets::UrdfLink& root = model.links[0];
   if (root.inertial || !root.visuals.empty() || !root.collisions.empty()) return false;
@@ -249,12 +249,12 @@ void AddShapeRows(const assets::UrdfModel& model, const CheckLimits& limits, Che
     }
   }
   rows->Require("collision-shapes", shapes > 0, shapes, "collision shapes");
-  rows->Require("collision-closed", open == 0, open, "collision shapes that are open");
+  rows->Require("collision-closed", open == 0, open, "open collision shapes");
   rows->Require("inertials", bodies > 0, bodies, "links with mass and a possible inertia");
   if (shapes == 0 || bodies == 0) return;
   if (RootIsWorld(model)) {
     rows->Report("settles-bullet", 0.0,
-                 "not tried: the root '" + model.links[0].name + "' holds it to the world");
+                 "not tested: the root '" + model.links[0].name + "' is fixed to the world");
     return;
   }
   const sim::RigidBody body = sim::BodyFromUrdf(model);
@@ -275,7 +275,7 @@ CheckReport CheckUrdf(const fs::path& urdf, const fs::path& root, const CheckLim
   if (!read) return {urdf.string(), rows.Take()};
   rows.Report("links", static_cast<double>(model.links.size()), "links");
   for (core::Finding finding : model.findings) {
-    // What a reader that mends nothing stops at.
+    // A strict reader rejects the file for this.
     if (finding.code == "urdf-impossible-inertial") finding.severity = core::Severity::kError;
     rows.Warn(finding);
   }

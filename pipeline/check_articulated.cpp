@@ -69,13 +69,13 @@ void CheckInertials(const ArticulatedAsset& asset, const CheckLimits& limits, Ch
   rows->AtMost("inertia-exact", exact, limits.reader_tolerance,
                "from the integrals over the parts, relative, the worst link");
   rows->Require("inertia-possible", possible, flattest,
-                "largest principal moment over the sum of the others, the worst link");
+                "largest principal moment over the sum of the other two, the worst link");
   const physics_params::Category* row =
       physics_params::KnowledgeBase::Shipped().FindCategory(asset.parameters.category);
   const double low = row ? row->mass.min : asset.parameters.mass.min;
   const double high = row ? row->mass.max : asset.parameters.mass.max;
   rows->Require("mass-plausible", mass >= 0.5 * low && mass <= 2.0 * high, mass,
-                "kg, within twice of what its kind weighs");
+                "kg, within a factor of 2 of its kind's range");
 }
 
 // Compares a reader's inertials with asset.json's, link by link.
@@ -94,7 +94,7 @@ void CompareLinks(const ArticulatedAsset& asset, const std::string& code, const 
 void CheckReaders(const ArticulatedAsset& asset, const assets::UrdfModel& model, bool urdf_read,
                   const fs::path& mjcf, const CheckLimits& limits, CheckRows* rows) {
   RowOrFailure("loads-urdfdom", rows, [&] {
-    if (!urdf_read) return;  // its row says why
+    if (!urdf_read) return;  // its own result gives the reason
     if (!model.findings.empty()) throw core::Error(model.findings[0].sentence);
     std::map<std::string, assets::Inertial> by_name;
     for (const assets::UrdfLink& link : model.links) {
@@ -133,7 +133,7 @@ void CheckSemantics(const ArticulatedAsset& asset, const fs::path& folder, Check
       const auto found = model.semantics.find(link.name);
       wrong += found == model.semantics.end() || found->second.label != link.label;
     }
-    rows->Require("semantics", wrong == 0, wrong, "links or lines of semantics.txt that are wrong");
+    rows->Require("semantics", wrong == 0, wrong, "wrong links or lines of semantics.txt");
   });
 }
 
@@ -156,7 +156,7 @@ void CheckGrasps(const ArticulatedAsset& asset, const assets::UrdfModel& model, 
     const GraspSearch search = SearchGrasps(parts[link.name], others);
     rows->Require("grasp-" + link.name, search.found > 0, search.found,
                   "of " + std::to_string(search.tried) +
-                      " directions from which a gripper 8 cm wide takes hold, at least 1");
+                      " directions from which a gripper of 8 cm can grasp, at least 1");
   }
 }
 
@@ -168,8 +168,9 @@ void CheckRest(const assets::UrdfModel& model, sim::JointRig* rig, const std::st
   AddRestRows(sim::DropRig(whole, options, rig), engine, false, size, limits, rows);
 }
 
-// What an asset does in Bullet, and in MuJoCo. A robot is held and not tried: its links may meet,
-// and let go it falls in a heap; planners and motors see to that.
+// Checks an asset's dynamics in Bullet and in MuJoCo. A robot is fixed and its joints are not
+// tested: its links may collide, and without motors it collapses; planners and motors take care of
+// both.
 void CheckInBullet(const ArticulatedAsset& asset, const assets::UrdfModel& model,
                    const CheckLimits& limits, CheckRows* rows) {
   if (!asset.fixed) {
@@ -195,7 +196,7 @@ CheckReport CheckArticulatedAsset(const fs::path& folder, const CheckLimits& lim
   CheckRows rows(folder.filename().string());
   CheckParts(asset, &rows);
   CheckInertials(asset, limits, &rows);
-  // A file that one reader refuses does not hide what the others make of theirs.
+  // A file that one reader rejects does not prevent the checks with the others.
   assets::UrdfModel model = assets::ModelOf(asset);
   bool read = false;
   RowOrFailure("loads-urdfdom", &rows, [&] {
@@ -203,7 +204,7 @@ CheckReport CheckArticulatedAsset(const fs::path& folder, const CheckLimits& lim
     read = true;
   });
   const fs::path mjcf = folder / (asset.name + ".xml");
-  // Side by side, each with rows of its own, in this order.
+  // The steps run in parallel, each with its own results; the order below is that of the report.
   const std::pair<const char*, std::function<void(CheckRows*)>> steps[] = {
       {"joints-bullet",
        [&](CheckRows* own) { CheckInBullet(asset, model, limits, own); }},

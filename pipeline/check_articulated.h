@@ -6,7 +6,7 @@
 
 namespace simwright::pipeline {
 
-// CheckAsset for a folder whose asset.json says `articulated`.
+// Implements CheckAsset for a folder whose asset.json says `articulated`.
 CheckReport CheckArticulatedAsset(const std::filesystem::path& folder, const CheckLimits& limits);
 
 }  // namespace simwright::pipeline

@@ -9,15 +9,17 @@
 
 namespace simwright::pipeline {
 
-// Asset folders in `folder` and in the folders below it, by name; what lies in an asset is its own.
+// Returns the asset folders in `folder` and its subfolders, sorted by name. Asset folders
+// themselves are not searched.
 std::vector<std::filesystem::path> AssetFoldersIn(const std::filesystem::path& folder);
 
-// Checks all of them, side by side. One that cannot be read is a report with the one row
-// "readable", which fails.
+// Checks all folders in parallel. The report of an unreadable folder has a single failed result,
+// "readable".
 std::vector<CheckReport> CheckFolders(const std::vector<std::filesystem::path>& folders,
                                       core::Progress* progress);
 
-// A line an asset, with the rows of it that warn or fail below, and a line that counts.
+// Formats one line per asset, followed by its warnings and failures, and a final line with the
+// counts.
 std::string CheckSummary(const std::vector<CheckReport>& reports);
 
 }  // namespace simwright::pipeline

@@ -2,28 +2,28 @@
 
 #include "core/finding.h"
 
-// How checks of rigid and of articulated assets judge a figure: small faults warn, large ones fail.
+// Grades that the checks of rigid and articulated assets share: small faults warn, large ones fail.
 namespace simwright::pipeline {
 
-// How good an asset is, by the worst row of its check. One with warnings is written and usable; the
-// findings say what is wrong with it.
+// An asset's grade: the worst of its check results. An asset with warnings is written and usable;
+// its findings describe the faults.
 enum class Grade { kPass, kWarnings, kFail };
 
-// "pass", "pass with warnings" or "fail", as a person and --json read it.
+// Returns "pass", "pass with warnings" or "fail", for people and for --json.
 const char* GradeName(Grade grade);
 
-// kFail where any finding is an error, else kWarnings where any is a warning.
+// Returns kFail if any finding is an error, else kWarnings if any is a warning, else kPass.
 Grade GradeOf(const core::Findings& rows);
 
-// Bounds of a figure that should be small (CheckRows::AtMost: good <= worst) or large
-// (CheckRows::AtLeast: good >= worst), in the figure's unit. Up to `good` a row passes, up to
-// `worst` it warns, beyond it fails. A figure that is not a number fails.
+// Bounds, in the figure's unit, of a figure that should be small (CheckRows::AtMost: good <= worst)
+// or large (CheckRows::AtLeast: good >= worst). A figure within `good` passes, one within `worst`
+// warns, any other fails. NaN fails.
 struct GradedLimit {
   double good = 0.0;
   double worst = 0.0;
 };
 
-// The same bounds in a unit of which `factor` make one of theirs.
+// Returns the limit in another unit, `factor` of which make one of the original unit.
 GradedLimit InUnit(const GradedLimit& limit, double factor);
 
 core::Severity SeverityAtMost(double figure, const GradedLimit& limit);

@@ -13,9 +13,9 @@
 namespace simwright::pipeline {
 namespace {
 
-constexpr double kLeastClearance = 1e-4;  // m: both hulls' margins in Bullet
+constexpr double kLeastClearance = 1e-4;  // m: the sum of both hulls' margins in Bullet
 constexpr double kHoldSeconds = 1.0;
-constexpr double kTippingShare = 0.01;  // of the whole's mass: less, a button, tips nothing
+constexpr double kTippingShare = 0.01;  // of the total mass: lighter links tip nothing
 
 double RangeOf(const assets::UrdfJoint& joint) {
   return joint.type == assets::UrdfJointType::kContinuous ? 2.0 * M_PI : joint.upper - joint.lower;
@@ -34,27 +34,28 @@ void AddClearanceRow(const assets::UrdfModel& model, int joint, bool fixed, Chec
   const bool free = alone.distance >= kLeastClearance;
   const Clearance& least = free && others_up.distance < kLeastClearance ? others_up : alone;
   if (!std::isfinite(least.distance)) {
-    rows->Report("clearance-" + name, 0.0, "nothing is near that it could touch");
+    rows->Report("clearance-" + name, 0.0, "no link is near enough to touch");
   } else if (free && others_up.distance < kLeastClearance) {
-    // Two doors that are opened one into the other's way: so it is with real ones.
+    // Two open doors may collide, as real ones do.
     rows->Add("clearance-" + name, core::Severity::kWarning, least.distance * 1e3,
-              "mm between " + least.pair + ", nearest over the range while other joints are open, "
-              "at least 0.1");
+              "mm between " + least.pair +
+                  ", minimum over the range with other joints open, "
+                  "at least 0.1");
   } else {
     rows->Require("clearance-" + name, free, least.distance * 1e3,
-                  "mm between " + least.pair + ", nearest over the range, at least 0.1");
+                  "mm between " + least.pair + ", minimum over the range, at least 0.1");
   }
   if (fixed) return;
   const double lowest = LowestOnSweep(model, joint);
   if (!std::isfinite(lowest)) {
-    rows->Report("above-floor-" + name, 0.0, "the whole stands on what it carries");
+    rows->Report("above-floor-" + name, 0.0, "the asset stands on the links that it carries");
     return;
   }
   rows->Require("above-floor-" + name, lowest > 0.0, lowest * 1e3,
-                "mm above the floor, lowest over the range, above 0");
+                "mm above the floor, minimum over the range, above 0");
 }
 
-// How far towards both ends, as a share of the range.
+// Returns how far the sweep reached towards both limits, as a fraction of the range.
 double Reach(const assets::UrdfJoint& joint, const sim::SweepResult& sweep) {
   const double range = RangeOf(joint);
   const double lower = joint.type == assets::UrdfJointType::kContinuous ? 0.0 : joint.lower;
@@ -73,7 +74,7 @@ void AddSwingRow(const sim::ArticulatedBody& body, int joint, const std::string&
     return;
   }
   rows->Require(code, reach >= limits.joint_reach, reach,
-                "of its range up and back, at least 0.99, driven by a hand");
+                "of its range up and back, at least 0.99, driven by a human's force");
 }
 
 double GreatestDrift(const sim::ArticulatedBody& body, int joint, sim::JointRig* rig) {
@@ -96,10 +97,10 @@ void AddEngineRows(const sim::ArticulatedBody& body, const std::string& engine,
     if (!CanBeTried(j)) continue;
     AddSwingRow(body, joint, engine, true, limits, held, rows);
     rows->AtMost("holds-" + engine + "-" + j.name, GreatestDrift(body, joint, held),
-                 limits.joint_drift, "of its range in 1 s, let go at both ends and in the middle");
+                 limits.joint_drift, "of its range in 1 s, released at both ends and the middle");
     if (free == nullptr || sim::LoadOn(body, joint, 0.0).mass < kTippingShare * whole) continue;
     rows->AtMost("tips-" + engine + "-" + j.name, sim::TiltWhenOpened(body, joint, free) * kDegrees,
-                 limits.tilt, "degrees that the whole tilts while it is opened");
+                 limits.tilt, "degrees that the asset tilts while it opens");
   }
 }
 
@@ -107,7 +108,7 @@ void AddEngineRows(const sim::ArticulatedBody& body, const std::string& engine,
 
 void AddClearanceRows(const assets::UrdfModel& model, bool fixed, CheckRows* rows) {
   rows->Report("excluded-pairs", static_cast<double>(model.excluded_pairs.size()),
-               "pairs of links that make no contact, in any format");
+               "pairs of links without contact, in all formats");
   for (size_t joint = 0; joint < model.joints.size(); ++joint) {
     if (CanBeTried(model.joints[joint])) {
       AddClearanceRow(model, static_cast<int>(joint), fixed, rows);
@@ -141,7 +142,7 @@ void AddJointRowsOfUrdf(const assets::UrdfModel& model, CheckRows* rows) {
   for (size_t i = 0; i < model.joints.size(); ++i) {
     if (!model.joints[i].Moves() || model.links[i + 1].inertial) continue;
     rows->Report("joints", 0.0,
-                 "not tried: link '" + model.links[i + 1].name + "' has no inertial");
+                 "not tested: link '" + model.links[i + 1].name + "' has no inertial");
     return;
   }
   const sim::ArticulatedBody body = sim::ArticulatedBodyFrom(model);
@@ -152,7 +153,7 @@ void AddJointRowsOfUrdf(const assets::UrdfModel& model, CheckRows* rows) {
     if (!CanBeTried(j)) continue;
     AddSwingRow(body, joint, "bullet", false, limits, rig.get(), rows);
     rows->Report("holds-bullet-" + j.name, GreatestDrift(body, joint, rig.get()),
-                 "of its range in 1 s, let go at both ends and in the middle");
+                 "of its range in 1 s, released at both ends and in the middle");
     const Clearance least = SweptClearance(model, joint);
     if (std::isfinite(least.distance)) {
       rows->Report("clearance-" + j.name, least.distance * 1e3, "mm between " + least.pair);

@@ -7,7 +7,7 @@
 
 namespace simwright::pipeline {
 
-// Gathers the rows of a check: a figure, its limit, and whether it passes.
+// Collects the results of a check: a figure, its limit, and whether it passes.
 class CheckRows {
  public:
   explicit CheckRows(std::string place) : place_(std::move(place)) {}
@@ -15,12 +15,12 @@ class CheckRows {
   void Report(const std::string& code, double figure, const std::string& what);
   void Require(const std::string& code, bool passes, double figure, const std::string& what);
   void AtMost(const std::string& code, double figure, double limit, const std::string& what);
-  // Pass, warning or failure by `limit`; the sentence ends with the bound that is not kept.
+  // Grades `figure` by `limit`. The sentence ends with the violated bound.
   void AtMost(const std::string& code, double figure, const GradedLimit& limit,
               const std::string& what);
   void AtLeast(const std::string& code, double figure, const GradedLimit& limit,
                const std::string& what);
-  // A verdict that was reached otherwise.
+  // Adds a result with a given severity.
   void Add(const std::string& code, core::Severity severity, double figure,
            const std::string& what);
   void Fail(const std::string& code, const std::string& why);

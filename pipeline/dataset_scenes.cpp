@@ -21,10 +21,10 @@ int SceneNumber(const std::string& text, const std::string& whole, int count) {
   const auto [stop, fault] = std::from_chars(text.data(), end, number);
   const bool is_number = !text.empty() && stop == end && text.front() != '-';
   if (!is_number || fault == std::errc::invalid_argument) {
-    throw core::Error("this is no list of scenes", whole, "as in 0,3-5");
+    throw core::Error("this is not a list of scenes", whole, "as in 0,3-5");
   }
   if (fault != std::errc() || number >= count) {
-    throw core::Error("there is no scene " + text + ", they are 0 to " + std::to_string(count - 1),
+    throw core::Error("there is no scene " + text + ", only 0 to " + std::to_string(count - 1),
                       whole);
   }
   return number;
@@ -41,7 +41,7 @@ std::vector<int> ScenesNamed(const std::string& text, int count) {
     const int first = SceneNumber(range.substr(0, dash), text, count);
     const int last =
         dash == std::string::npos ? first : SceneNumber(range.substr(dash + 1), text, count);
-    if (last < first) throw core::Error("a range of scenes goes upwards", range, "as in 0,3-5");
+    if (last < first) throw core::Error("a range of scenes must ascend", range, "as in 0,3-5");
     for (int scene = first; scene <= last; ++scene) {
       if (known.insert(scene).second) scenes.push_back(scene);
     }
@@ -61,15 +61,15 @@ scene::SlotFolders FoldersOfSlots(const fs::path& path, const fs::path& assets,
   const fs::path folder = assets.empty() ? beside / "assets" : assets;
   if (!fs::is_directory(folder)) {
     throw core::Error("there is no folder of assets", folder.string(),
-                      "give the one that the scenes were made with: --assets FOLDER");
+                      "give the one the scenes were made with: --assets FOLDER");
   }
   scene::SlotFolders folders;
   for (const std::string& slot : slots) {
     if (assets::FileSafeName(slot) != slot) {
-      throw core::Error("a slot of the scenes is no name for a folder", slot);
+      throw core::Error("a category of the scenes is not a valid folder name", slot);
     }
     if (!assets::IsAssetFolder(folder / slot)) {
-      throw core::Error("there is no asset for the slot \"" + slot + "\"", folder.string());
+      throw core::Error("there is no asset for the category \"" + slot + "\"", folder.string());
     }
     folders[slot] = folder / slot;
   }
@@ -85,8 +85,8 @@ void RequireSameAssets(const scene::SceneDataset& dataset, const scene::Palette&
     const auto hash = hashes.find(slot);
     if (hash == hashes.end() || !hash->is_string()) continue;
     if (hash->get<std::string>() != palette.HashOf(slot)) {
-      throw core::Error("another asset stands for the slot \"" + slot +
-                        "\" than the one that the scenes were made with");
+      throw core::Error("the asset for the category \"" + slot +
+                        "\" is not the one the scenes were made with");
     }
   }
 }

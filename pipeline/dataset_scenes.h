@@ -11,22 +11,22 @@
 
 namespace simwright::pipeline {
 
-// The scenes that `text` names, "0,3-5", in its order, each once. Throws core::Error where it is no
-// such list, or names one that a dataset of `count` scenes has not.
+// Parses a list of scene indices such as "0,3-5", in its order without duplicates. Throws
+// core::Error if `text` is not such a list or names a scene beyond a dataset of `count` scenes.
 std::vector<int> ScenesNamed(const std::string& text, int count);
 
-// Scene `index` of the dataset. Throws core::Error where there is none, or it is damaged.
+// Returns scene `index` of the dataset. Throws core::Error if it does not exist or is damaged.
 std::vector<scene::DrawnObject> SceneAt(const scene::SceneDataset& dataset, int index);
 
-// Where the asset of each of `slots` lies: `assets`/SLOT, or where `assets` is empty in the folder
-// "assets" beside the parts of the dataset at `path`. Throws core::Error where there is no such
-// folder, one of the slots has no asset there (it says which), or a slot is no name for a folder.
+// Returns the asset folder of each category in `slots`: `assets`/SLOT, or, if `assets` is empty, in
+// the folder "assets" beside the shards of the dataset at `path`. Throws core::Error if there is no
+// such folder, a category has no asset there (naming it), or a category is not a valid folder name.
 scene::SlotFolders FoldersOfSlots(const std::filesystem::path& path,
                                   const std::filesystem::path& assets,
                                   const std::set<std::string>& slots);
 
-// Throws core::Error, naming the slot, where what stands for one is not what the dataset's scenes
-// were made with; a dataset that does not say passes.
+// Throws core::Error, naming the category, if a category's asset is not the one that the dataset's
+// scenes were made with. A dataset that does not record its assets passes.
 void RequireSameAssets(const scene::SceneDataset& dataset, const scene::Palette& palette,
                        const std::set<std::string>& slots);
 

@@ -23,22 +23,21 @@ std::string Format(const char* format, double value) {
 
 void ExamineMachine(core::Findings* findings) {
   const int threads = core::ThreadCount();
-  findings->push_back({"threads", core::Severity::kInfo, "",
-                       std::to_string(threads) + " threads", static_cast<double>(threads),
-                       "--threads takes fewer"});
+  findings->push_back({"threads", core::Severity::kInfo, "", std::to_string(threads) + " threads",
+                       static_cast<double>(threads), "--threads limits them"});
   const double gib = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
                      static_cast<double>(sysconf(_SC_PAGE_SIZE)) / std::pow(2.0, 30);
-  findings->push_back({"memory", gib < 2.0 ? core::Severity::kWarning : core::Severity::kInfo, "",
-                       Format("%.1f GiB; a lift takes up to 1, a mesh of millions of faces 4", gib),
-                       gib,
-                       gib < 2.0 ? "close other programs" : ""});
+  findings->push_back(
+      {"memory", gib < 2.0 ? core::Severity::kWarning : core::Severity::kInfo, "",
+       Format("%.1f GiB; a photo takes up to 1, a mesh of millions of faces 4", gib), gib,
+       gib < 2.0 ? "close other programs" : ""});
   std::error_code code;
   const auto space = std::filesystem::space(std::filesystem::temp_directory_path(), code);
   const double free_gib = static_cast<double>(space.available) / std::pow(2.0, 30);
-  findings->push_back(
-      {"disk", code || free_gib < 0.5 ? core::Severity::kWarning : core::Severity::kInfo, "",
-       Format("%.1f GiB free for temporary files", free_gib), free_gib,
-       "TMPDIR names another place"});
+  findings->push_back({"disk",
+                       code || free_gib < 0.5 ? core::Severity::kWarning : core::Severity::kInfo,
+                       "", Format("%.1f GiB free for temporary files", free_gib), free_gib,
+                       "set TMPDIR to use another folder"});
 }
 
 void ExamineRays(core::Findings* findings) {

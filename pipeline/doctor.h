@@ -4,9 +4,10 @@
 
 namespace simwright::pipeline {
 
-// What this machine offers: threads and memory, space for temporary files, ray speed, and what
-// ExamineSoftware says. Severity kError where something needed is broken, kWarning where
-// something optional is missing or slow; each remedy says how to mend it. Takes about a second.
+// Examines this machine: threads and memory, space for temporary files, ray casting speed, and the
+// results of ExamineSoftware. The severity is kError if something required is broken, and kWarning
+// if something optional is missing or slow; each remedy says how to repair it. Takes about a
+// second.
 core::Findings Examine();
 
 }  // namespace simwright::pipeline

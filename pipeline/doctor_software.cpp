@@ -28,7 +28,7 @@ core::Finding Bad(const std::string& code, core::Severity severity, const std::s
   return {code, severity, "", sentence, 0.0, remedy};
 }
 
-// Runs an examination; whatever it throws is its fault.
+// Runs an examination and turns an exception into an error finding.
 core::Finding Examined(const std::string& code, const std::string& remedy,
                        const std::function<core::Finding()>& examine) {
   try {
@@ -44,14 +44,14 @@ core::Finding Examined(const std::string& code, const std::string& remedy,
 
 core::Finding OnFloor(const std::string& code, const std::string& engine, double lowest) {
   if (std::abs(lowest) < 1e-3) {
-    return Good(code, engine + ": a ball dropped from 1 cm lies on the floor", lowest);
+    return Good(code, engine + ": a ball dropped from 1 cm comes to rest on the floor", lowest);
   }
-  return {code, core::Severity::kError, "", engine + ": a dropped ball does not end on the floor",
+  return {code, core::Severity::kError, "", engine + ": a dropped ball does not rest on the floor",
           lowest};
 }
 
 core::Finding ExamineBullet() {
-  return Examined("bullet", "install libbullet-dev anew", [] {
+  return Examined("bullet", "reinstall libbullet-dev", [] {
     const sim::DropResult drop = sim::DropInBullet(sim::SphereBody(kBallRadius, 0.1));
     return OnFloor("bullet", "Bullet", drop.lowest_point);
   });
@@ -74,7 +74,7 @@ core::Finding ExamineMujoco() {
 }
 
 core::Finding ExamineUrdfdom() {
-  return Examined("urdfdom", "install liburdfdom-dev anew", [] {
+  return Examined("urdfdom", "reinstall liburdfdom-dev", [] {
     const core::TemporaryFolder folder;
     const fs::path file = folder.path() / "box.urdf";
     core::WriteFile(file,
@@ -93,7 +93,7 @@ core::Finding ExamineWordNet() {
     return Good("wordnet", "WordNet: names outside the knowledge base are resolved", 1.0);
   }
   return Bad("wordnet", core::Severity::kWarning,
-             "WordNet is missing: only the knowledge base's own names are taken",
+             "WordNet is missing: only the knowledge base's own names are known",
              "install wordnet-base");
 }
 
@@ -108,13 +108,13 @@ int CountWeights(const fs::path& folder) {
 
 core::Finding ExamineWeights() {
   const std::string remedy =
-      "set SIMWRIGHT_MODELS to the folder models/ of the source, or make them: `simwright prior "
+      "set SIMWRIGHT_MODELS to the folder models/ of the source, or train them: `simwright prior "
       "train`, `scene train`, `train`";
   const fs::path models = ModelsFolder();
   if (models.empty() || !fs::is_directory(models)) {
     return Bad("weights", core::Severity::kWarning,
-               "no weights: a lift follows the outline alone, no scene can be sampled and no "
-               "skill is shipped",
+               "no weights: reconstruction uses the silhouette alone, no scene can be sampled and "
+               "there are no shipped skills",
                remedy);
   }
   std::string missing;
@@ -132,7 +132,7 @@ core::Finding ExamineWeights() {
                "weights are missing in " + models.string() + ": " + missing, remedy);
   }
   return Good("weights",
-              "weights of the lift, of " + std::to_string(scenes) + " scene types and of " +
+              "weights of reconstruction, of " + std::to_string(scenes) + " scene types and of " +
                   std::to_string(skills) + " skills in " + models.string(),
               scenes + skills);
 }

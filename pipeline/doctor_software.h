@@ -4,9 +4,9 @@
 
 namespace simwright::pipeline {
 
-// The libraries and data that the program works with: MuJoCo and Bullet by a dropped ball, urdfdom
-// by a URDF that it reads, WordNet, and the shipped weights. Each that is missing or broken says
-// what to install.
+// Examines the libraries and data that the program needs: MuJoCo and Bullet by dropping a ball,
+// urdfdom by reading a URDF, WordNet, and the shipped weights. Each finding about a missing or
+// broken one says what to install.
 core::Findings ExamineSoftware();
 
 }  // namespace simwright::pipeline

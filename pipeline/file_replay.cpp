@@ -17,7 +17,7 @@ void FileReplay::Require(const SkillNotes& notes, const std::string& where) {
   if (!run_) {
     const fs::path folder = folder_.empty() ? fs::path(notes.run) : folder_;
     if (!fs::exists(folder)) {
-      throw core::Error("the run is not there", folder.string(), "say where it is with --run");
+      throw core::Error("the run does not exist", folder.string(), "give its folder with --run");
     }
     run_ = ReadRun(folder);
     skills_ = PrepareSkills(*run_);

@@ -10,30 +10,30 @@
 
 namespace simwright::pipeline {
 
-// Repeats files of `export` with the skills of the run that they are of.
+// Replays files written by `export` with the skills of the run that they come from.
 class FileReplay {
  public:
-  // `folder`: the run's; empty: where the first file's notes say. It is read with the first file.
+  // `folder`: the run's; empty: taken from the first file's metadata. The run is read with the
+  // first file.
   explicit FileReplay(std::filesystem::path folder) : folder_(std::move(folder)) {}
-  // A run that is prepared already. Then Trajectories and Demonstrations may be called from several
-  // threads.
+  // Uses a run that is already prepared. Trajectories and Demonstrations are then thread-safe.
   FileReplay(const SkillRun& run, const std::vector<RunSkill>& skills);
 
-  // One episode a file, in their order. All throw core::Error as Replay does.
+  // Replays one episode per file, in order. All methods throw core::Error as Replay does.
   std::vector<ReplayedEpisode> Trajectories(const std::vector<std::filesystem::path>& files);
-  // One episode a demonstration.
+  // Replays one episode per demonstration.
   std::vector<ReplayedEpisode> Demonstrations(const std::filesystem::path& file);
 
   const std::vector<RunSkill>& skills() const { return skills_; }
 
  private:
-  // Throws core::Error unless `notes`, of `where`, are of the run.
+  // Throws core::Error unless `notes`, read from `where`, belong to the run.
   void Require(const SkillNotes& notes, const std::string& where);
   ReplayedEpisode EpisodeOf(const std::string& name, std::vector<bool> successes) const;
 
   std::filesystem::path folder_;
   std::optional<SkillRun> run_;
-  std::vector<RunSkill> skills_, fine_skills_;  // the latter for trajectories
+  std::vector<RunSkill> skills_, fine_skills_;  // fine_skills_: for trajectories
 };
 
 }  // namespace simwright::pipeline

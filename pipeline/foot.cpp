@@ -16,25 +16,25 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kNearDown = 25.0 * kDegree;
 constexpr double kFirm = 3.0 * kDegree;
-constexpr double kLevel = 3e-3;   // of the diagonal: what is that near to the flat is part of it
-constexpr double kSpared = 1e-4;  // of the flat's area: corners on the line between others
-// Of a part on the flat. MuJoCo takes the lowest corner and those of its neighbours that are a good
-// deal away: of a round foot of 8 corners three to one side, so that a disc sinks by 2 mm; of 16 or
-// more the opposite one.
+constexpr double kLevel = 3e-3;   // of the diagonal: vertices this close belong to the face
+constexpr double kSpared = 1e-4;  // of the face's area: collinear corners
+// The corners of a part on the support face. MuJoCo makes contacts at the lowest corner and at
+// those neighbours that are far enough from it: for a round face of 8 corners, three on one side,
+// so that a disc sinks by 2 mm; for 16 or more, also the opposite one.
 constexpr int kPartCorners = 32;
-constexpr int kFewCorners = 7, kEnoughCorners = 16;  // between them a foot is given more
-constexpr double kBulge = 1e-3;                      // of the foot's width
-constexpr double kThinLevel = 0.25;  // of the part's height, where that is less
-constexpr double kOutside = 0.01;        // of the flat's width: a corner that a part has lost
+constexpr int kFewCorners = 7, kEnoughCorners = 16;  // a face in between gets more corners
+constexpr double kBulge = 1e-3;                      // of the face's width
+constexpr double kThinLevel = 0.25;                  // of the part's height, if that is less
+constexpr double kOutside = 0.01;  // of the face's width: a corner the part has lost
 
 using Polygon = std::vector<Eigen::Vector2d>;
 
-// The plane of a flat, to and fro.
-struct Flat {
-  explicit Flat(const Eigen::Vector3d& normal)
+// Converts between 3D points and the 2D coordinates of a support plane.
+struct SupportPlane {
+  explicit SupportPlane(const Eigen::Vector3d& normal)
       : down(normal), u(normal.unitOrthogonal()), v(normal.cross(u)) {}
-  Eigen::Vector2d On(const Eigen::Vector3d& p) const { return {u.dot(p), v.dot(p)}; }
-  Eigen::Vector3d At(const Eigen::Vector2d& p, double reach) const {
+  Eigen::Vector2d Project(const Eigen::Vector3d& p) const { return {u.dot(p), v.dot(p)}; }
+  Eigen::Vector3d Unproject(const Eigen::Vector2d& p, double reach) const {
     return p.x() * u + p.y() * v + reach * down;
   }
   Eigen::Vector3d down, u, v;
@@ -49,7 +49,8 @@ double AreaOf(const Polygon& polygon) {
   return 0.5 * twice;
 }
 
-// The corners farthest out in `count` even directions, one of them that of the farthest of all.
+// Returns the extreme corners in `count` evenly spread directions, the first of which points to the
+// corner farthest from the centre.
 Polygon EvenCorners(const Polygon& polygon, int count) {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& p : polygon) middle += p / static_cast<double>(polygon.size());
@@ -69,28 +70,31 @@ Polygon EvenCorners(const Polygon& polygon, int count) {
   return geometry::PlaneHull(std::move(even));
 }
 
-// At most `count` corners of a convex polygon: those whose loss costs least area, or even ones.
-Polygon FootCorners(const Polygon& polygon, int count) {
+// Returns at most `count` corners of a convex polygon: those whose removal costs the least area, or
+// evenly spread ones.
+Polygon ReducedCorners(const Polygon& polygon, int count) {
   const Polygon fewer = geometry::FewerCorners(polygon, count, kSpared);
   if (static_cast<int>(polygon.size()) <= count) return fewer;
   const Polygon even = EvenCorners(polygon, count);
   return AreaOf(even) >= (1.0 - 1e-6) * AreaOf(fewer) ? even : fewer;
 }
 
-// At most `count` corners of what `points` span across `down`, all at height `reach` along it.
+// Returns at most `count` corners of the hull of `points` projected along `down`, all at height
+// `reach` along it.
 std::vector<Eigen::Vector3d> Outline(const std::vector<Eigen::Vector3d>& points,
                                      const Eigen::Vector3d& down, double reach, int count) {
-  const Flat flat(down);
+  const SupportPlane plane(down);
   Polygon spread;
-  for (const Eigen::Vector3d& p : points) spread.push_back(flat.On(p));
+  for (const Eigen::Vector3d& p : points) spread.push_back(plane.Project(p));
   std::vector<Eigen::Vector3d> corners;
-  for (const Eigen::Vector2d& p : FootCorners(geometry::PlaneHull(std::move(spread)), count)) {
-    corners.push_back(flat.At(p, reach));
+  for (const Eigen::Vector2d& p : ReducedCorners(geometry::PlaneHull(std::move(spread)), count)) {
+    corners.push_back(plane.Unproject(p, reach));
   }
   return corners;
 }
 
-// A polygon of 7 to 15 corners with more on its sides, which bulge by a thousandth of its width.
+// Adds corners to the sides of a polygon of 7 to 15 corners; the sides bulge by a thousandth of its
+// width.
 Polygon WithMoreCorners(const Polygon& polygon) {
   const int corners = static_cast<int>(polygon.size());
   if (corners < kFewCorners || corners >= kEnoughCorners) return polygon;
@@ -121,16 +125,16 @@ bool IsOutside(const Polygon& polygon, const Eigen::Vector2d& p, double slack) {
   return false;
 }
 
-// The part with what it has of the flat, and `added` corners, as KeepFoot promises.
-core::TriangleMesh WithFoot(const core::TriangleMesh& part, const Foot& foot, double diagonal,
-                            const std::vector<Eigen::Vector3d>& added, bool alone,
-                            int max_vertices) {
-  const Flat flat(foot.down);
+// Returns the part with its portion of the support face and the `added` corners (see KeepFoot).
+core::TriangleMesh WithSupportFace(const core::TriangleMesh& part, const Foot& foot,
+                                   double diagonal, const std::vector<Eigen::Vector3d>& added,
+                                   bool alone, int max_vertices) {
+  const SupportPlane plane(foot.down);
   double height = 0.0;
   for (const Eigen::Vector3d& p : part.vertices) {
     height = std::max(height, foot.reach - p.dot(foot.down));
   }
-  // On a point nothing is level but what reaches beyond it.
+  // If the support is a point, only vertices beyond it are moved.
   const double level =
       foot.corners.size() < 3 ? 0.0 : std::min(kLevel * diagonal, kThinLevel * height);
   std::vector<Eigen::Vector3d> points;
@@ -139,7 +143,7 @@ core::TriangleMesh WithFoot(const core::TriangleMesh& part, const Foot& foot, do
     if (p.dot(foot.down) - foot.reach < -level) {
       points.push_back(p);
     } else {
-      spread.push_back(flat.On(p));
+      spread.push_back(plane.Project(p));
     }
   }
   const Polygon own = geometry::PlaneHull(spread);
@@ -147,14 +151,14 @@ core::TriangleMesh WithFoot(const core::TriangleMesh& part, const Foot& foot, do
   for (const Eigen::Vector2d& p : own) width.extend(p);
   for (const Eigen::Vector3d& corner : added) {
     const double slack = own.empty() ? 0.0 : kOutside * width.sizes().maxCoeff();
-    if (IsOutside(own, flat.On(corner), slack)) spread.push_back(flat.On(corner));
+    if (IsOutside(own, plane.Project(corner), slack)) spread.push_back(plane.Project(corner));
   }
   if (spread.empty()) return part;
   const Polygon corners = geometry::PlaneHull(std::move(spread));
   const int room = std::max(3, max_vertices - static_cast<int>(points.size()));
-  Polygon chosen = FootCorners(corners, std::min(kPartCorners, room));
+  Polygon chosen = ReducedCorners(corners, std::min(kPartCorners, room));
   if (alone && room >= 2 * kEnoughCorners) chosen = WithMoreCorners(chosen);
-  for (const Eigen::Vector2d& p : chosen) points.push_back(flat.At(p, foot.reach));
+  for (const Eigen::Vector2d& p : chosen) points.push_back(plane.Unproject(p, foot.reach));
   const double thinnest = 1e-3 * core::Bounds(part).diagonal().norm();
   return geometry::ThickenedConvexHull(points, thinnest, max_vertices);
 }
@@ -207,8 +211,8 @@ void KeepFoot(const Foot& foot, int max_vertices, std::vector<core::TriangleMesh
   Eigen::AlignedBox3d box;
   for (const core::TriangleMesh& part : *parts) box.extend(core::Bounds(part));
   for (size_t i = 0; i < parts->size(); ++i) {
-    (*parts)[i] = WithFoot((*parts)[i], foot, box.diagonal().norm(), added[i], parts->size() == 1,
-                           max_vertices);
+    (*parts)[i] = WithSupportFace((*parts)[i], foot, box.diagonal().norm(), added[i],
+                                  parts->size() == 1, max_vertices);
   }
 }
 

@@ -10,9 +10,9 @@
 namespace simwright::pipeline {
 namespace {
 
-constexpr int kClosings = 4;           // ways to close about a direction of approach, half a turn
+constexpr int kClosingAxes = 4;        // about an approach direction, over half a turn
 constexpr double kClosingStep = 1e-3;  // m, of each finger
-constexpr double kTouch = 1.0e-3;      // m: nearer than that a finger touches
+constexpr double kTouch = 1.0e-3;      // m: a finger closer than this touches
 
 using Parts = std::vector<core::TriangleMesh>;
 
@@ -31,7 +31,8 @@ double Distance(const Parts& parts, const geometry::ConvexShape& body) {
   return geometry::SignedDistanceToParts(parts, body).distance;
 }
 
-// One way in: columns of `axes` are the approach, the closing direction, and the third.
+// One gripper pose: the columns of `axes` are the approach direction, the closing axis, and the
+// third.
 struct Pose {
   Eigen::Vector3d grip;
   Eigen::Matrix3d axes;
@@ -51,12 +52,13 @@ class Search {
     }
   }
 
-  bool Holds(const Pose& pose) const {
-    return ComesIn(pose) && Closes(pose, 1.0) && Closes(pose, -1.0);
+  bool IsGrasp(const Pose& pose) const {
+    return IsApproachFree(pose) && Closes(pose, 1.0) && Closes(pose, -1.0);
   }
 
  private:
-  // The box of a finger, `back` longer behind, `shift` m towards the middle; side +1 or -1.
+  // Returns the box of a finger, extended by `back` away from the tip and shifted by `shift` m
+  // towards the centre; side +1 or -1.
   geometry::ConvexShape Finger(const Pose& p, double side, double back, double shift) const {
     const double length = gripper_.length + back;
     const double along = gripper_.overlap - 0.5 * length;
@@ -67,7 +69,7 @@ class Search {
   bool Free(const geometry::ConvexShape& body) const {
     return Distance(others_, body) > 0.0 && Distance(handle_, body) > 0.0;
   }
-  bool ComesIn(const Pose& p) const {
+  bool IsApproachFree(const Pose& p) const {
     const double palm = gripper_.overlap - gripper_.length - 0.5 * gripper_.approach;
     return Free(Finger(p, 1.0, gripper_.approach, 0.0)) &&
            Free(Finger(p, -1.0, gripper_.approach, 0.0)) &&
@@ -90,7 +92,7 @@ class Search {
   Gripper gripper_;
 };
 
-// Middles of the parts, and of the ends' halves of a long one.
+// Returns the centres of the parts and, for a long part, also the centres of its two halves.
 std::vector<Eigen::Vector3d> GripPoints(const Parts& handle) {
   std::vector<Eigen::Vector3d> points;
   for (const core::TriangleMesh& part : handle) {
@@ -118,16 +120,16 @@ GraspSearch SearchGrasps(const Parts& handle, const Parts& others, const Gripper
     if (direction.norm() < 0.5) continue;
     ++result.tried;
     bool held = false;
-    for (int i = 0; i < kClosings && !held; ++i) {
+    for (int i = 0; i < kClosingAxes && !held; ++i) {
       Pose pose;
       pose.axes.col(0) = direction.normalized();
       const Eigen::Vector3d side = pose.axes.col(0).unitOrthogonal();
       pose.axes.col(1) =
-          Eigen::AngleAxisd(std::numbers::pi * i / kClosings, pose.axes.col(0)) * side;
+          Eigen::AngleAxisd(std::numbers::pi * i / kClosingAxes, pose.axes.col(0)) * side;
       pose.axes.col(2) = pose.axes.col(0).cross(pose.axes.col(1));
       for (size_t k = 0; k < points.size() && !held; ++k) {
         pose.grip = points[k];
-        held = search.Holds(pose);
+        held = search.IsGrasp(pose);
       }
     }
     result.found += held;

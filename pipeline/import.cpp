@@ -32,9 +32,9 @@ namespace simwright::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
-// kg/m3 of a URDF's bounding box: less than an empty carton has, and osmium.
+// The densities of a URDF's bounding box, kg/m3: below that of an empty carton, and that of osmium.
 constexpr double kLightest = 1.0, kOsmium = 22600.0;
-constexpr double kThinnest = 1e-3;  // m, a side of that box
+constexpr double kThinnest = 1e-3;  // m, the minimum side of that box
 
 constexpr const char* kStopped = "stopped before it was done";
 
@@ -52,7 +52,8 @@ std::string Unique(std::string name, std::set<std::string>* taken) {
   return name;
 }
 
-// A thing's name by its file; PartNet-Mobility's URDFs have all one name, so by their folder.
+// Returns an asset's name: that of its file, or of its folder for PartNet-Mobility, whose URDFs all
+// have the same file name.
 std::string NameOfFile(const fs::path& file) {
   const bool partnet =
       file.filename() == "mobility.urdf" || file.filename() == assets::kGapartnetUrdf;
@@ -60,7 +61,7 @@ std::string NameOfFile(const fs::path& file) {
   return assets::FileSafeName(named.string());
 }
 
-// No mesh is read from outside this folder: the one that was given, or the package around it.
+// Returns the folder outside which no mesh is read: the given one, or the package around it.
 fs::path RootOf(const fs::path& urdf, const fs::path& given) {
   const fs::path package = assets::PackageRootOf(urdf);
   const fs::path folder = fs::weakly_canonical(given);
@@ -68,9 +69,9 @@ fs::path RootOf(const fs::path& urdf, const fs::path& given) {
   return !inside.empty() && *inside.begin() != ".." ? folder : package;
 }
 
-// The folder's own URDF, or its meshes and what the folders in it hold, by name. `top`: it is the
-// one that was given, where a package with several URDFs, or none but a xacro, is an error. Meshes
-// beside URDFs, or in a folder beside them, are theirs and not listed.
+// Lists the folder's own URDF, or its meshes and the contents of its subfolders, by name. `top`:
+// the folder is an input itself, and a package with several URDFs or only a xacro is an error.
+// Meshes beside URDFs, or in a folder beside them, belong to them and are not listed.
 void ListFolder(const fs::path& folder, const fs::path& given, std::vector<ImportItem>* items,
                 std::set<std::string>* taken) {
   const bool top = folder == given;
@@ -83,7 +84,7 @@ void ListFolder(const fs::path& folder, const fs::path& given, std::vector<Impor
   fs::path urdf = ArticulatedUrdfIn(folder);
   if (urdf.empty() && assets::IsPackage(folder)) {
     const std::vector<fs::path> all = assets::FilesBelow(folder, ".urdf");
-    if (all.size() == 1 || top) urdf = assets::UrdfIn(folder);  // throws where it is not one
+    if (all.size() == 1 || top) urdf = assets::UrdfIn(folder);  // throws unless it has one
   }
   if (!urdf.empty()) {
     add(urdf, name);
@@ -105,18 +106,18 @@ void ListFolder(const fs::path& folder, const fs::path& given, std::vector<Impor
   }
 }
 
-// Of a folder without anything that can be read: names what it holds instead.
+// Throws for a folder without readable files, naming the files it has instead.
 [[noreturn]] void RefuseFolder(const fs::path& folder) {
   std::error_code code;
   for (const auto& entry : fs::recursive_directory_iterator(folder, code)) {
     const std::string format = assets::UnreadMeshFormat(entry.path());
     if (format.empty() || !entry.is_regular_file()) continue;
-    throw core::Error("holds no meshes that can be read and no URDF, but '" +
+    throw core::Error("has no readable meshes and no URDF, but '" +
                           entry.path().filename().string() + "' (" + format + ")",
                       folder.string(), "convert it to GLB or OBJ (Blender)");
   }
   if (!assets::FilesBelow(folder, ".xacro").empty()) assets::UrdfIn(folder);  // throws, naming it
-  throw core::Error("holds no meshes and no URDF", folder.string());
+  throw core::Error("has no meshes and no URDF", folder.string());
 }
 
 void ListCatalogue(const fs::path& input, const ImportOptions& options,
@@ -133,37 +134,36 @@ void ListCatalogue(const fs::path& input, const ImportOptions& options,
     const std::string tail = piece.id.substr(piece.id.find('#') + 1);
     items->push_back({input, static_cast<int>(i), Unique(assets::FileSafeName(tail), taken)});
   }
-  if (found == 0) throw core::Error("holds no such piece", input.string());
+  if (found == 0) throw core::Error("has no such piece", input.string());
 }
 
-// What a file's place says of the thing: of a URDF, what lies beside it.
+// Returns the category hint of a file's location; for a URDF, that of the files beside it.
 std::string MeantBy(const ImportItem& item) {
   if (!IsUrdf(item.mesh)) return item.mesh.stem().string();
   const assets::SemanticModel source = assets::ReadSemanticModel(item.mesh, {item.root, true});
   return source.category.empty() ? source.name : source.category;
 }
 
-// The links of a URDF whose joints do not move, as one mesh in the file's units.
+// Reads a URDF without moving joints as one mesh in the file's units.
 core::TexturedMesh ReadRigidUrdf(const fs::path& urdf, const fs::path& root,
                                  core::Findings* findings) {
   const assets::UrdfModel model = assets::ReadUrdf(urdf, {root, true});
   for (core::Finding finding : model.findings) {
-    if (finding.code == "urdf-no-inertial") continue;  // it is made anew
+    if (finding.code == "urdf-no-inertial") continue;  // it is recomputed
     if (finding.place == urdf.string()) finding.place = urdf.filename().string();
     findings->push_back(finding);
   }
   if (std::any_of(model.links.begin(), model.links.end(), HasOwnCollisions)) {
-    findings->push_back({"urdf-collisions-left-out", core::Severity::kInfo,
-                         urdf.filename().string(),
-                         "its own collision shapes are left out: parts are made of what is seen",
-                         0.0});
+    findings->push_back(
+        {"urdf-collisions-left-out", core::Severity::kInfo, urdf.filename().string(),
+         "its collision shapes are ignored: parts are computed from the visuals", 0.0});
   }
   findings->push_back({"urdf-rigid", core::Severity::kInfo, urdf.filename().string(),
-                       "no joint of it moves: it becomes one rigid thing", 0.0});
+                       "no joint moves: it becomes one rigid object", 0.0});
   return RigidVisual(model, findings);
 }
 
-// What was said so far stays: it may be why.
+// Earlier findings are kept, because they may explain the refusal.
 void Refuse(const core::Error& error, ImportOutcome* outcome) {
   outcome->refusal = error.what();
   outcome->findings.push_back(core::FindingOf(error));
@@ -174,18 +174,18 @@ class Importer {
   Importer(const fs::path& output, const ImportOptions& options)
       : output_(output), options_(options) {}
 
-  // Throws core::Error where the mesh or URDF cannot become an asset.
+  // Imports one item. Throws core::Error if the mesh or URDF cannot become an asset.
   void Import(const ImportItem& item, const assets::FurnitureCatalogue* catalogue,
               core::Progress* progress, ImportOutcome* outcome) const {
-    // A URDF comes in as what it is: articulated, or rigid where no joint of it moves.
+    // A URDF is imported as articulated, or as rigid if no joint moves.
     if (IsUrdf(item.mesh)) {
       assets::SemanticModel source = assets::ReadSemanticModel(item.mesh, {item.root, true});
-      outcome->findings = source.model.findings;  // where it is refused, they say why
+      outcome->findings = source.model.findings;  // they explain a refusal
       if (HasMovingJoint(source)) {
         ImportJointed(item, std::move(source), progress, outcome);
         return;
       }
-      outcome->findings.clear();  // said again below
+      outcome->findings.clear();  // they are added again below
     }
     ImportRigid(item, catalogue, progress, outcome);
   }
@@ -241,7 +241,7 @@ class Importer {
     });
   }
 
-  // A rigid URDF's own mass counts where nothing was stated or scaled and matter can weigh so much.
+  // Uses a rigid URDF's own mass unless a mass or size is stated or the density is impossible.
   void TakeMassOfFile(const ImportItem& item, const core::TriangleMesh& visual,
                       physics_params::StatedPhysics* stated, core::Findings* findings) const {
     if (stated->mass || stated->density || options_.unit != 1.0 || options_.height > 0.0 ||
@@ -254,19 +254,18 @@ class Importer {
     const bool possible = mass > kLightest * volume && mass < kOsmium * volume;
     char text[160];
     std::snprintf(text, sizeof(text),
-                  possible ? "its mass, %.4g kg, is the file's; its centre and inertia are made from "
-                             "the shape"
-                           : "no matter of its size weighs what the file says, %.4g kg: its kind's "
-                             "mass is taken",
+                  possible ? "its mass, %.4g kg, is the file's; its centre and inertia follow "
+                             "from the shape"
+                           : "no material of its size has the file's mass, %.4g kg: its kind's "
+                             "mass is used",
                   mass);
-    findings->push_back({"urdf-mass",
-                         possible ? core::Severity::kInfo : core::Severity::kWarning,
+    findings->push_back({"urdf-mass", possible ? core::Severity::kInfo : core::Severity::kWarning,
                          item.mesh.filename().string(), text, mass,
-                         possible ? "" : "mend the file's mass, or give --mass"});
+                         possible ? "" : "correct the file's mass, or give --mass"});
     if (possible) stated->mass = mass;
   }
 
-  // Refuses a size that no one stated and that is absurd, and any that physics cannot hold.
+  // Refuses an implausible size that is not stated, and any size that cannot be simulated.
   void RequireMeantSize(const physics_params::Category& category, const Eigen::Vector3d& sides,
                         const fs::path& mesh) const {
     const bool stated = options_.unit_stated || options_.height > 0.0 || !options_.size.empty();
@@ -279,10 +278,10 @@ class Importer {
     char text[120];
     std::snprintf(text, sizeof(text), "the mesh is %.3g m across", longest);
     throw core::Error(text, mesh.string(),
-                      "0.1 mm to 100 m can be simulated: mend --unit, --height or --size");
+                      "0.1 mm to 100 m can be simulated: correct --unit, --height or --size");
   }
 
-  // Writes the asset and keeps it where it passes its check.
+  // Writes the asset and keeps it if it passes its check.
   void Keep(const ImportItem& item, ImportOutcome* outcome,
             const std::function<void(const fs::path&)>& write) const {
     const fs::path target = output_ / item.name;
@@ -356,7 +355,7 @@ std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items, const
   for (const ImportItem& item : items) {
     if (!options.force && !options.resume && fs::exists(output / item.name)) {
       throw core::Error("the output exists already", (output / item.name).string(),
-                        "choose another place, keep what is there with --resume, or replace it "
+                        "choose another folder, keep existing ones with --resume, or replace them "
                         "with --force");
     }
   }
@@ -392,7 +391,7 @@ std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items, const
     } catch (const core::Error& error) {
       Refuse(error, &outcome);
     } catch (const core::Cancelled&) {
-      Refuse(core::Error(kStopped, item.name, "--resume imports what is left"), &outcome);
+      Refuse(core::Error(kStopped, item.name, "--resume imports the rest"), &outcome);
     }
     outcome.seconds["total"] =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -7,7 +7,7 @@ namespace simwright::pipeline {
 namespace {
 
 // Names of PartNet-Mobility's categories (Xiang et al. 2020, "SAPIEN", table of categories) that
-// are written without their blanks or mean something else here.
+// are written without spaces or mean something else here.
 constexpr struct {
   const char* partnet;
   const char* category;
@@ -23,7 +23,7 @@ constexpr struct {
                      {"trashcan", "trash can"},
                      {"washingmachine", "washing machine"}};
 
-// "mug_cm" is a mug: the unit at the end of a file's name is no part of what it is.
+// Strips a unit from the end of a file's name: "mug_cm" is a mug.
 std::string WithoutUnit(std::string name) {
   for (const char* unit : {"mm", "cm", "meters", "metres", "inches", "inch"}) {
     const std::string ending = unit;
@@ -52,7 +52,7 @@ physics_params::Resolution ImportCategory(const std::string& wanted, const std::
       physics_params::ResolveCategory(known, base, physics_params::WordNet::Installed());
   if (found.category == nullptr) {
     found.category = base.FindCategory("object");
-    found.sentence += "; taken for a plastic or wooden object: give --category for a better mass";
+    found.sentence += "; treated as a plastic or wooden object: give --category for a better mass";
   }
   return found;
 }

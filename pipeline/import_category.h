@@ -6,9 +6,9 @@
 
 namespace simwright::pipeline {
 
-// The category of a thing to import: `wanted` where it is not empty, else what `name` says of it,
-// else the catch-all "object". PartNet-Mobility's model_cat ("StorageFurniture") is understood,
-// in any case. Throws core::Error for a `wanted` that is not known.
+// Returns the category of an object to import: `wanted` if it is not empty, else the one that
+// `name` suggests, else the catch-all "object". Understands PartNet-Mobility's model_cat
+// ("StorageFurniture") in any letter case. Throws core::Error for an unknown `wanted`.
 physics_params::Resolution ImportCategory(const std::string& wanted, const std::string& name);
 
 }  // namespace simwright::pipeline

@@ -31,7 +31,8 @@ std::vector<Part> PartsOf(const assets::UrdfModel& model) {
   return parts;
 }
 
-// Of kSteps + 1 over the joint's range; one without limits goes all round.
+// Returns one of kSteps + 1 positions over the joint's range, or over a full turn for a joint
+// without limits.
 double PositionAt(const assets::UrdfJoint& joint, int step) {
   const bool turns = joint.type == assets::UrdfJointType::kContinuous;
   const double lower = turns ? -std::numbers::pi : joint.lower;
@@ -49,7 +50,7 @@ assets::JointPositions Positions(const assets::UrdfModel& model, int joint, doub
   return positions;
 }
 
-// Whether two links are excluded from contact. (links x links)
+// Marks the pairs of links that are excluded from contact. (links x links)
 std::vector<std::vector<bool>> ExcludedIn(const assets::UrdfModel& model) {
   std::vector<std::vector<bool>> excluded(model.links.size());
   for (size_t a = 0; a < model.links.size(); ++a) {
@@ -109,7 +110,7 @@ Clearance SweptClearance(const assets::UrdfModel& model, int joint) {
   const Clearance zero = SweptClearance(model, joint, false);
   const auto moving = std::count_if(model.joints.begin(), model.joints.end(),
                                     [](const auto& j) { return j.Moves(); });
-  if (moving == 1) return zero;  // there is no other
+  if (moving == 1) return zero;  // there is no other moving joint
   const Clearance up = SweptClearance(model, joint, true);
   return up.distance < zero.distance ? up : zero;
 }

@@ -6,23 +6,23 @@
 
 namespace simwright::pipeline {
 
-// The nearest that any two links come that a joint moves against each other.
+// The minimum distance between any two links that a joint moves relative to each other.
 struct Clearance {
-  double distance = 0.0;  // m; negative: they overlap by so much; infinite: nothing is near
-  double position = 0.0;  // of the joint, rad or m, where it is least
+  double distance = 0.0;  // m; negative: penetration depth; infinite: no pair is near
+  double position = 0.0;  // the joint position of the minimum, rad or m
   std::string pair;       // "door and body"
 };
 
-// Over a joint's whole range, all other joints at zero, or (`others_up`) at their upper limits.
-// Collision parts are taken as convex; pairs that are excluded from contact do not count. `joint`
-// indexes model.joints.
+// Computes the clearance over a joint's whole range, with all other joints at zero or (`others_up`)
+// at their upper limits. Collision parts are assumed convex; pairs excluded from contact do not
+// count. `joint` indexes model.joints.
 Clearance SweptClearance(const assets::UrdfModel& model, int joint, bool others_up);
-// The lesser of both.
+// Returns the smaller clearance of both settings of `others_up`.
 Clearance SweptClearance(const assets::UrdfModel& model, int joint);
 
-// Lowest point of all links that the joint carries, over its range, others at zero; m, in the root's
-// frame. Links that stand on the floor at zero while the root does not (a cart's wheels) do not
-// count; infinite where none is left.
+// Returns the lowest point of all links that the joint carries, over its range, with other joints
+// at zero; m, in the root's frame. Links that touch the floor at zero while the root does not (a
+// cart's wheels) do not count. Returns infinity if no link is left.
 double LowestOnSweep(const assets::UrdfModel& model, int joint);
 
 }  // namespace simwright::pipeline

@@ -17,8 +17,8 @@ using assets::UrdfJoint;
 using assets::UrdfJointType;
 
 constexpr double kGravity = 9.81;     // m/s^2
-constexpr double kWeightShare = 0.1;  // of the whole's weight that a hand may need
-constexpr int kLoadSamples = 32;      // over a joint's range
+constexpr double kWeightShare = 0.1;  // of the asset's weight: the largest required force
+constexpr int kLoadSamples = 32;      // positions over a joint's range
 
 double LowerOf(const UrdfJoint& joint) {
   return joint.type == UrdfJointType::kContinuous ? -std::numbers::pi : joint.lower;
@@ -28,7 +28,8 @@ double RangeOf(const UrdfJoint& joint) {
                                                   : joint.upper - joint.lower;
 }
 
-// How far from the axis of hinge `joint` the farthest point is that it moves, m; 1 for a slide.
+// Returns the distance from the axis of hinge `joint` to the farthest point it moves, m; 1 for a
+// slide.
 double LeverOf(const ArticulatedAsset& asset, const std::vector<Eigen::Isometry3d>& poses,
                const std::vector<int>& parents, size_t joint) {
   if (asset.joints[joint].type == UrdfJointType::kPrismatic) return 1.0;

@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kSheetSize = 210;  // pixels
 
-// One of either sort.
+// One kind, articulated or rigid.
 struct Item {
   const library::Kind* jointed = nullptr;
   const library::RigidKind* rigid = nullptr;
@@ -50,7 +50,7 @@ void AddKind(const std::string& kind, std::vector<Item>* items) {
                                     : Item{&library::KindNamed(kind), nullptr, {}});
 }
 
-// Those of a list with commas, each once.
+// Returns the kinds of a comma-separated list, without duplicates.
 std::vector<Item> KindsOf(const std::string& kinds) {
   std::vector<Item> named, items;
   std::istringstream list(kinds);
@@ -136,7 +136,7 @@ std::vector<LibraryOutcome> MakeLibrary(const LibraryOptions& options, const fs:
     const fs::path target = output / item.options.name;
     if (!options.force && fs::exists(target)) {
       throw core::Error("the output exists already", target.string(),
-                        "choose another place, or replace it with --force");
+                        "choose another folder, or replace it with --force");
     }
   }
   std::vector<LibraryOutcome> outcomes(items.size());
@@ -179,7 +179,7 @@ core::Image LibrarySheet(const std::vector<LibraryOutcome>& outcomes) {
       pictures.push_back(ArticulatedView(asset, open ? 0.85 : 0.0, kSheetSize));
     }
   }
-  if (pictures.empty()) throw core::Error("there is no asset to draw");
+  if (pictures.empty()) throw core::Error("there is no asset to render");
   return core::ContactSheet(pictures, 8);
 }
 

@@ -13,36 +13,36 @@
 namespace simwright::pipeline {
 
 struct LibraryOptions {
-  // Of library::Kinds(), library::RigidKinds() or library::FurnitureKinds(), or all of the first
-  // ("all"), of the second ("rigid"), of both ("everything"), of the third ("furniture"); several
-  // with commas, "mug,book".
+  // The kinds to make: one or several, separated by commas ("mug,book"), of library::Kinds(),
+  // library::RigidKinds() or library::FurnitureKinds(); or all of the first ("all"), the second
+  // ("rigid"), the first two ("everything") or the third ("furniture").
   std::string kind = "all";
-  int count = 1;           // of each kind
-  std::uint64_t seed = 1;  // of the first; the others follow
-  bool force = false;      // replace outputs that exist
-  bool check = true;       // check each asset; one that fails is refused
+  int count = 1;           // assets per kind
+  std::uint64_t seed = 1;  // the first asset's; the others count up
+  bool force = false;      // replaces existing outputs
+  bool check = true;       // checks each asset and refuses one that fails
 };
 
 struct LibraryOutcome {
   std::string name, kind;
-  std::filesystem::path folder;  // where the asset is; empty when refused
-  std::string refusal;           // the reason, when refused
-  core::Findings findings;       // what was assumed or refused
-  int links = 0, joints = 0;     // joints that move; a rigid thing has one link and none
+  std::filesystem::path folder;  // the asset's folder; empty if refused
+  std::string refusal;           // the reason, if refused
+  core::Findings findings;       // assumptions and refusals
+  int links = 0, joints = 0;     // moving joints; a rigid object has one link and no joint
   double mass = 0.0;             // kg
   double seconds = 0.0;
   std::optional<CheckReport> check;
 };
 
-// Makes assets in parallel, each into output/KIND_SEED. One that fails its check is
-// refused with its reason and does not stop the others. Throws core::Error for an unknown kind, a
-// count below 1, or an output that exists where `force` is not set.
+// Makes assets in parallel, each into output/KIND_SEED. An asset that fails its check is refused
+// with its reason and does not stop the others. Throws core::Error for an unknown kind, a count
+// below 1, or an existing output unless `force` is set.
 std::vector<LibraryOutcome> MakeLibrary(const LibraryOptions& options,
                                         const std::filesystem::path& output,
                                         core::Progress* progress);
 
-// A sheet of what is in the folders of `outcomes`, what has joints closed and open beside each
-// other.
+// Renders a contact sheet of the assets in the folders of `outcomes`. Articulated assets appear
+// closed and open side by side.
 core::Image LibrarySheet(const std::vector<LibraryOutcome>& outcomes);
 
 }  // namespace simwright::pipeline

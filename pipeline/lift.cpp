@@ -32,7 +32,7 @@ core::Image CutOut(const asset_lift::LiftedMesh& lifted) {
   return cut;
 }
 
-// Photo, cut-out and mesh from the photo's camera, side by side.
+// Composes the photo, the matte, and the mesh from the photo's camera side by side.
 core::Image LiftSheet(const asset_lift::LiftedMesh& lifted, const core::Image& cut) {
   render::Scene scene;
   scene.Add(&lifted.mesh);
@@ -45,9 +45,9 @@ core::Image LiftSheet(const asset_lift::LiftedMesh& lifted, const core::Image& c
       {lifted.photo, cut, render::RenderForward(scene, lifted.camera, options).color}, 3);
 }
 
-// From the lift's arbitrary scale to metres: by the height that was asked for, else so that the
-// volume of the bounding box is that of the sampled one, which spreads the error of a wrong
-// proportion over all sides.
+// Returns the factor from the reconstruction's arbitrary scale to metres: by the requested height,
+// or else so that the volume of the bounding box equals the sampled one, which spreads the error of
+// a wrong proportion over all sides.
 double ScaleOf(double height, const physics_params::PhysicalParameters& parameters,
                const core::TriangleMesh& mesh) {
   const Eigen::Vector3d size = GroundBoxOf(mesh).sides;
@@ -77,29 +77,30 @@ asset_lift::CategoryPrior PriorOf(const physics_params::Category& category) {
 
 namespace {
 
-// What both kinds of lift do with a lifted mesh: true size, the asset, its pictures, the folder.
+// The settings of the steps that follow both kinds of reconstruction: true size, asset, pictures,
+// folder.
 struct Finishing {
   std::filesystem::path output;
   std::string source;
   physics_params::Resolution category;
   double height = 0.0;  // m; 0: see `metric`
-  StatedSize size;      // takes the place of `height`
+  StatedSize size;      // overrides `height`
   physics_params::StatedPhysics stated;
-  bool metric = false;  // the mesh is in metres already
+  bool metric = false;  // the mesh is already in metres
   std::uint64_t seed = 1;
 };
 
-// A photo alone does not say how large a thing is.
+// Reports that the size was sampled, because a single photo does not determine it.
 core::Finding SizeDrawn(const physics_params::Category& category, const Eigen::Vector3d& sides,
                         const std::string& photo) {
   const bool unknown = category.name == "object";
   return {"size-drawn",
           unknown ? core::Severity::kWarning : core::Severity::kInfo,
           photo,
-          "its size was drawn from what is usual for '" + category.name +
+          "its size was sampled from the usual range of '" + category.name +
               "': " + physics_params::SizeText(sides),
           sides.maxCoeff(),
-          "--height or --size states the true one"};
+          "give the true size with --height or --size"};
 }
 
 LiftOutcome Finish(const Finishing& finishing, double lift_seconds, asset_lift::LiftedMesh lifted,
@@ -207,7 +208,7 @@ LiftOutcome LiftToFolder(const MultiLiftRequest& request, core::Progress* progre
     photos.push_back({core::ReadImage(path), found->second, path.filename().string()});
     if (photos.back().photo.width != found->second.width ||
         photos.back().photo.height != found->second.height) {
-      throw core::Error("is not as large as its camera says", path.string());
+      throw core::Error("does not have the size of its camera", path.string());
     }
   }
   asset_lift::MultiViewOptions options;

@@ -19,9 +19,9 @@ using assets::UrdfLink;
 using assets::UrdfModel;
 using assets::UrdfShape;
 
-constexpr double kMarkShare = 0.02;  // of what links and their ways measure, a root's cube
-constexpr double kWater = 1000.0;     // kg/m3, of that cube
-constexpr double kRounding = 1e-12;  // of an axis, what turning by 1.5708 leaves
+constexpr double kMarkShare = 0.02;  // the root cube's edge over the model's extent
+constexpr double kWater = 1000.0;    // kg/m3, the cube's density
+constexpr double kRounding = 1e-12;  // of an axis, the residue of a rotation by 1.5708
 
 bool HasShapes(const UrdfLink& link) {
   return !link.visuals.empty() || !link.collisions.empty();
@@ -44,7 +44,7 @@ void TransformInertial(const Eigen::Isometry3d& map, double scale, UrdfLink* lin
       (scale * scale * map.linear() * inertial.inertia * map.linear().transpose()).eval();
 }
 
-// The tree while it is folded: links with the joint that leads to each.
+// The tree while it is folded: each link with the joint that leads to it.
 class Folding {
  public:
   explicit Folding(UrdfModel* model) : model_(model) {
@@ -62,7 +62,7 @@ class Folding {
   void Fold() {
     for (size_t i = nodes_.size(); i-- > 0;) {
       if (HasShapes(nodes_[i].link)) continue;
-      if (!TakeUpFixedChild(i) && i > 0 && !nodes_[i].joint.Moves()) HandUpChildren(i);
+      if (!MergeFixedChild(i) && i > 0 && !nodes_[i].joint.Moves()) ReparentChildren(i);
     }
   }
 
@@ -75,8 +75,7 @@ class Folding {
       if (!HasShapes(node.link)) {
         throw core::Error("link '" + node.link.name + "' has no shape" +
                               (node.parent < 0 ? "" : ", and it moves"),
-                          model_->name,
-                          "give it a mesh, or mend the file names of those it has");
+                          model_->name, "give it a mesh, or correct the file names of its meshes");
       }
       if (node.parent >= 0) {
         node.joint.parent = nodes_[static_cast<size_t>(node.parent)].link.name;
@@ -90,7 +89,7 @@ class Folding {
  private:
   struct Node {
     UrdfLink link;
-    UrdfJoint joint;  // that leads to it
+    UrdfJoint joint;  // the joint that leads to the link
     int parent = -1;
     std::vector<size_t> children;
     bool gone = false;
@@ -103,7 +102,7 @@ class Folding {
     nodes_[parent].children.push_back(child);
   }
 
-  bool TakeUpFixedChild(size_t index) {
+  bool MergeFixedChild(size_t index) {
     std::vector<size_t>& children = nodes_[index].children;
     const auto found = std::find_if(children.begin(), children.end(), [&](size_t c) {
       return !nodes_[c].joint.Moves() && HasShapes(nodes_[c].link);
@@ -120,10 +119,10 @@ class Folding {
     return true;
   }
 
-  // A "world" that a hinge or slide hangs on: a small cube at its origin stands for it.
+  // Puts a small cube at the origin of a "world" root on which a hinge or slide hangs.
   void MarkRoot(UrdfLink* root) {
     Eigen::AlignedBox3d bounds;
-    double chain = 0.0;  // m, of joints' origins: links may be small beside the way between them
+    double chain = 0.0;  // m, between joint origins: links may be small in comparison
     for (const Node& node : nodes_) {
       if (node.gone) continue;
       if (node.parent >= 0) chain += node.joint.parent_from_joint.translation().norm();
@@ -144,13 +143,12 @@ class Folding {
     }
     model_->root_is_world = true;
     model_->findings.push_back({"root-marked", core::Severity::kWarning, root->name,
-                                "it is the root and has no shape: a cube of " +
-                                    core::Millimetres(edge) +
-                                    " stands for it, and the asset is held there",
-                                1e3 * edge, "give it a mesh where there is one"});
+                                "it is the root and has no shape: it gets a cube of " +
+                                    core::Millimetres(edge) + ", and the asset is fixed there",
+                                1e3 * edge, "give it a mesh if there is one"});
   }
 
-  void HandUpChildren(size_t index) {
+  void ReparentChildren(size_t index) {
     Node& node = nodes_[index];
     const size_t parent = static_cast<size_t>(node.parent);
     std::erase(nodes_[parent].children, index);
@@ -159,7 +157,7 @@ class Folding {
   }
 
   UrdfModel* model_;
-  std::vector<Node> nodes_;  // a parent stands before its children
+  std::vector<Node> nodes_;  // a parent precedes its children
 };
 
 void Warn(const UrdfJoint& joint, const std::string& code, core::Severity severity,
@@ -169,13 +167,12 @@ void Warn(const UrdfJoint& joint, const std::string& code, core::Severity severi
 
 void FixWithoutRange(UrdfJoint* joint, UrdfModel* model) {
   Warn(*joint, "joint-no-range", core::Severity::kWarning,
-       "its limits leave it no range to move in: it is taken as fixed", joint->upper - joint->lower,
-       model);
+       "its limits leave no range of motion: it becomes fixed", joint->upper - joint->lower, model);
   joint->type = UrdfJointType::kFixed;
   joint->lower = joint->upper = 0.0;
 }
 
-// Zero becomes the nearest limit where it lies beyond both.
+// Moves zero to the nearest limit if it lies beyond both.
 void BringZeroWithin(UrdfJoint* joint, UrdfModel* model) {
   const double shift = std::clamp(0.0, joint->lower, joint->upper);
   if (shift == 0.0) return;
@@ -186,21 +183,21 @@ void BringZeroWithin(UrdfJoint* joint, UrdfModel* model) {
   joint->upper -= shift;
 }
 
-void OpenUpwards(UrdfJoint* joint, UrdfModel* model) {
+void FlipNegativeAxis(UrdfJoint* joint, UrdfModel* model) {
   if (-joint->lower <= joint->upper) return;
   Warn(*joint, "joint-turned", core::Severity::kInfo,
-       "it opened downwards: its axis was turned round, its limits with it", joint->lower, model);
+       "its range was mostly negative: its axis and limits were reversed", joint->lower, model);
   joint->axis = -joint->axis;
   joint->lower = -std::exchange(joint->upper, -joint->lower);
 }
 
-// A base that floats in a "world" without shapes is the root itself: every asset stands free.
-void TakeFloatingBaseAsRoot(UrdfModel* model) {
+// Makes a base that floats in a "world" without shapes the root, because assets are free-standing.
+void MakeFloatingBaseRoot(UrdfModel* model) {
   if (model->joints.empty() || HasShapes(model->links.front())) return;
   const std::string& root = model->links.front().name;
-  const auto hangs_on_root = [&](const UrdfJoint& joint) { return joint.parent == root; };
-  if (std::count_if(model->joints.begin(), model->joints.end(), hangs_on_root) != 1) return;
-  const auto joint = std::find_if(model->joints.begin(), model->joints.end(), hangs_on_root);
+  const auto is_child_of_root = [&](const UrdfJoint& joint) { return joint.parent == root; };
+  if (std::count_if(model->joints.begin(), model->joints.end(), is_child_of_root) != 1) return;
+  const auto joint = std::find_if(model->joints.begin(), model->joints.end(), is_child_of_root);
   if (joint->type != UrdfJointType::kFloating && joint->type != UrdfJointType::kPlanar) return;
   Warn(*joint, "floating-base", core::Severity::kInfo,
        "it lets '" + joint->child + "' float in '" + root + "', which has no shape: '" +
@@ -212,7 +209,7 @@ void TakeFloatingBaseAsRoot(UrdfModel* model) {
 }  // namespace
 
 void FoldEmptyLinks(UrdfModel* model) {
-  TakeFloatingBaseAsRoot(model);
+  MakeFloatingBaseRoot(model);
   Folding folding(model);
   folding.Fold();
   folding.WriteBack();
@@ -222,12 +219,12 @@ void NormaliseJoints(UrdfModel* model, bool keep_directions) {
   for (UrdfJoint& joint : model->joints) {
     if (joint.type == UrdfJointType::kFloating || joint.type == UrdfJointType::kPlanar) {
       throw core::Error("joint '" + joint.name + "' is floating or planar", model->name,
-                        "an asset has hinges and slides alone: make it one of those, or fixed");
+                        "an asset only has hinges and slides: make it one of those, or fixed");
     }
     if (!joint.Moves()) continue;
     if (joint.mimic) {
       Warn(joint, "joint-mimic", core::Severity::kWarning,
-           "it follows '" + joint.mimic->joint + "' in the file and moves on its own here",
+           "it mimics '" + joint.mimic->joint + "' in the file and is independent here",
            joint.mimic->multiplier, model);
       joint.mimic.reset();
     }
@@ -237,7 +234,7 @@ void NormaliseJoints(UrdfModel* model, bool keep_directions) {
       FixWithoutRange(&joint, model);
     } else {
       BringZeroWithin(&joint, model);
-      if (!keep_directions) OpenUpwards(&joint, model);
+      if (!keep_directions) FlipNegativeAxis(&joint, model);
     }
   }
 }
@@ -259,7 +256,7 @@ void StandOnOrigin(double scale, UrdfModel* model) {
   const Eigen::Vector3d base(box.center().x(), box.center().y(), box.min().z());
   const std::vector<Eigen::Isometry3d> old_poses = assets::LinkPosesAtZero(*model);
   const std::vector<int> parents = assets::ParentLinks(*model);
-  std::vector<Eigen::Vector3d> origins;  // of the new frames, metres, in the new root's
+  std::vector<Eigen::Vector3d> origins;  // of the new frames, in the new root's frame, m
   for (size_t i = 0; i < model->links.size(); ++i) {
     UrdfLink& link = model->links[i];
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();

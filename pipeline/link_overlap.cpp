@@ -9,7 +9,7 @@
 namespace simwright::pipeline {
 namespace {
 
-constexpr double kStands = 5e-3;  // m: what reaches so far down stands on the floor
+constexpr double kStands = 5e-3;  // m: links that reach below this stand on the floor
 
 }  // namespace
 

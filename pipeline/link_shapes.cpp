@@ -25,16 +25,17 @@ namespace {
 using assets::UrdfLink;
 using assets::UrdfShape;
 
-constexpr int kMostVertices = 64;      // of a part
-constexpr size_t kMostParts = 256;     // of a link
-constexpr double kSheet = 2e-3;        // m, what a flat piece is thickened to
-constexpr double kSmall = 0.02;        // of the whole's diagonal: shorter pieces are hulls
-constexpr double kConvexShare = 0.97;  // of its hull's volume that a convex piece fills
+constexpr int kMostVertices = 64;      // per part
+constexpr size_t kMostParts = 256;     // per link
+constexpr double kSheet = 2e-3;        // m, the thickness given to a flat component
+constexpr double kSmall = 0.02;        // of the asset's diagonal: shorter components become hulls
+constexpr double kConvexShare = 0.97;  // of its hull's volume, for a convex component
 constexpr double kWeld = 1e-6;         // of a mesh's diagonal
-constexpr size_t kMostTextureColors = 16;  // that a texture keeps, each a file
-// Pieces of half the whole's diagonal are as precise as rigid assets are, of a sixth a third.
+constexpr size_t kMostTextureColors = 16;  // with more, a texture is averaged
+// Components of half the asset's diagonal are as precise as rigid assets, those of a sixth a third
+// as precise.
 constexpr double kWholePrecision = 0.5, kCoarsest = 3.0;
-constexpr int kFaceBudget = 8000;  // of a piece's solid
+constexpr int kFaceBudget = 8000;  // of a component's solid
 
 const std::vector<UrdfShape>& ShapesOf(const UrdfLink& link) {
   return link.visuals.empty() ? link.collisions : link.visuals;
@@ -54,13 +55,13 @@ Eigen::Vector4f MeanColor(const core::Image& image) {
   return mean;
 }
 
-// A colour in 8 steps a channel, so that nearly equal ones become one.
+// Quantises a colour to 8 steps per channel, so that nearly equal ones become one.
 Eigen::Vector4f Rounded(const Eigen::Vector4f& color) {
   return (color * 7.0f).array().round().matrix() / 7.0f;
 }
 
-// What a material's texture shows in the middle of each of its triangles, where that are few
-// colours (a palette, colours at vertices); else empty.
+// Returns the colour of a material's texture at the centre of each of its triangles if these are
+// few colours (a colour palette, vertex colours); else returns an empty map.
 std::map<size_t, Eigen::Vector4f> PaletteColors(const core::TexturedMesh& mesh, int material) {
   std::map<size_t, Eigen::Vector4f> colors;
   std::set<std::array<int, 3>> distinct;
@@ -82,8 +83,8 @@ std::map<size_t, Eigen::Vector4f> PaletteColors(const core::TexturedMesh& mesh, 
   return colors;
 }
 
-// The colour of each triangle: its material's, times its texture's where that shows few, or times
-// the texture's mean.
+// Returns the colour of each triangle: its material's, times its texture's if that has few colours,
+// or times the texture's mean.
 std::vector<Eigen::Vector4f> TriangleColors(const core::TexturedMesh& mesh) {
   std::vector<Eigen::Vector4f> colors(mesh.mesh.triangles.size(), core::Material{}.base_color);
   if (mesh.triangle_material.empty()) return colors;
@@ -126,7 +127,7 @@ class Painter {
   std::map<std::array<int, 4>, size_t> index_of_;
 };
 
-// Pieces connected by edges, each with vertices of its own.
+// Splits a mesh into components connected by edges, each with its own vertices.
 std::vector<core::TriangleMesh> ConnectedPieces(const core::TriangleMesh& mesh) {
   int count = 0;
   const std::vector<int> piece_of = geometry::EdgeComponents(mesh, &count);
@@ -146,8 +147,8 @@ std::vector<core::TriangleMesh> ConnectedPieces(const core::TriangleMesh& mesh) 
   return pieces;
 }
 
-// A shape's connected pieces. Boards that touch share corners once they are welded: what is closed
-// by the file's own vertices stays a piece of its own, and only the rest is welded.
+// Splits a shape into connected components. Boards that touch share corners once they are welded:
+// components that are closed by the file's own vertices stay separate, and only the rest is welded.
 std::vector<core::TriangleMesh> PiecesOf(const core::TriangleMesh& shape) {
   const double tolerance = kWeld * core::Bounds(shape).diagonal().norm();
   std::vector<core::TriangleMesh> pieces;
@@ -167,7 +168,7 @@ std::vector<core::TriangleMesh> PiecesOf(const core::TriangleMesh& shape) {
   return pieces;
 }
 
-// Whether a piece is flat, so that no hull of it has a volume to speak of.
+// Returns true if a component is flat, so that its hull has almost no volume.
 bool IsFlat(const core::TriangleMesh& piece) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& v : piece.vertices) mean += v;
@@ -198,7 +199,8 @@ std::vector<core::TriangleMesh> PartsOfPiece(const core::TriangleMesh& piece, do
   if (size < kSmall * whole || FillsItsHull(piece, hull)) {
     return {geometry::ConvexHull(piece.vertices, kMostVertices)};
   }
-  // Errors count beside the whole: a small piece may be coarser beside its own size.
+  // Errors are relative to the whole asset: a small component may be coarser relative to its own
+  // size.
   const double coarser = std::clamp(kWholePrecision * whole / size, 1.0, kCoarsest);
   geometry::SolidOptions solid;
   solid.face_budget = kFaceBudget;
@@ -224,7 +226,7 @@ bool LiesInside(const core::TriangleMesh& inner, const core::TriangleMesh& outer
   return true;
 }
 
-// Largest first; what lies inside a larger one goes.
+// Sorts parts by size, largest first, and removes those inside a larger one.
 void KeepOutermost(std::vector<core::TriangleMesh>* parts) {
   std::stable_sort(parts->begin(), parts->end(), [](const auto& a, const auto& b) {
     return geometry::SignedVolume(a) > geometry::SignedVolume(b);
@@ -286,7 +288,7 @@ std::vector<std::vector<core::TriangleMesh>> ConvexPartsOf(const std::vector<Urd
       for (core::TriangleMesh& piece : PiecesOf(shape.mesh)) jobs.push_back({i, std::move(piece), {}});
     }
   }
-  // The longest work first, so that no thread waits for it at the end.
+  // The longest jobs run first, so that no thread waits for them at the end.
   std::vector<size_t> order(jobs.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
@@ -305,7 +307,7 @@ std::vector<std::vector<core::TriangleMesh>> ConvexPartsOf(const std::vector<Urd
     KeepOutermost(&parts[i]);
     if (parts[i].size() <= kMostParts) continue;
     findings->push_back({"parts-left-out", core::Severity::kWarning, links[i].name,
-                         "of its collision parts the smallest were left out",
+                         "its smallest collision parts were omitted",
                          static_cast<double>(parts[i].size() - kMostParts)});
     parts[i].resize(kMostParts);
   }

@@ -11,9 +11,9 @@ namespace {
 using assets::ArticulatedAsset;
 using assets::ArticulatedLink;
 
-constexpr double kHandTorque = 60.0;  // N m, what sim::DriveFor lets a hand do
-constexpr double kShare = 0.9;        // of it, for weight and the friction that holds it
-constexpr double kLeastMass = 0.1;    // of the link's, what is left of it
+constexpr double kHandTorque = 60.0;  // N m, the limit of a human in sim::DriveFor
+constexpr double kShare = 0.9;        // of kHandTorque, for weight and holding friction
+constexpr double kLeastMass = 0.1;    // of the link's mass, which must remain
 
 void Reweigh(double factor, ArticulatedLink* link) {
   for (double& density : link->densities) density *= factor;
@@ -47,11 +47,11 @@ void LightenHeavyHinges(ArticulatedAsset* asset) {
     Reweigh(1.0 + moved / root.inertial.mass, &root);
     char text[160];
     std::snprintf(text, sizeof(text),
-                  "it would weigh %.3g kg by its volume, more than a hand can lift on its hinge: "
-                  "%.3g kg of it were given to '%s'",
+                  "it would weigh %.3g kg by its volume, more than a human can lift on its hinge: "
+                  "%.3g kg of it were moved to '%s'",
                   before, moved, root.name.c_str());
     asset->findings.push_back({"lightened", core::Severity::kWarning, link.name, text, moved,
-                               "give masses in the file"});
+                               "state masses in the file"});
   }
 }
 

@@ -5,12 +5,13 @@
 
 namespace simwright::pipeline {
 
-// Mass (kg), centre of mass and inertia of a link from its parts and their densities, in its frame.
+// Computes mass (kg), centre of mass and inertia of a link from its parts and their densities, in
+// its frame.
 geometry::MassProperties Weighed(const assets::ArticulatedLink& link);
 
-// Moves mass from links on hinges that a hand (60 N m) could not lift to the root, the whole's mass
-// kept: a category's mass that is split by volume gives too much to doors whose file fills them.
-// Friction that holds such a link (joint_feel.h) is taken into account. Reported, `lightened`.
+// Moves mass to the root from hinged links that a human (60 N m) could not lift, keeping the total
+// mass: a category's mass split by volume gives too much to doors whose file fills them. Takes
+// friction that holds such a link (joint_feel.h) into account. Reported as `lightened`.
 void LightenHeavyHinges(assets::ArticulatedAsset* asset);
 
 }  // namespace simwright::pipeline

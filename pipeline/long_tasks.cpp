@@ -13,7 +13,7 @@ namespace simwright::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kTasks = 60;  // of the rules; enough that every kind of task is among them
+constexpr int kTasks = 60;  // enough for the rules to generate every kind of task
 
 }  // namespace
 
@@ -21,7 +21,7 @@ const std::vector<LongTask>& LongTasks() {
   static const std::vector<LongTask> tasks = {
       {"cup_into_microwave", "microwave,cup", "put_cup_*_into_microwave_*_and_close_it"},
       {"apple_into_drawer", "drawer_unit,apple", "put_apple_*_into_drawer_unit_*_and_close_it"},
-      // A cabinet of one door: what stands in the middle is half behind the other one of two.
+      // A cabinet with one door: with two, an object in the middle is half behind the other door.
       {"cup_out_of_cabinet", "cabinet,cup", "take_cup_*_out_of_cabinet_*", "panda_on_base", 302},
   };
   return tasks;
@@ -33,14 +33,14 @@ const LongTask& LongTaskOf(const std::string& name) {
     if (task.name == name) return task;
     names += (names.empty() ? "" : ", ") + task.name;
   }
-  throw core::Error("there is no long task '" + name + "'", "", "there are " + names);
+  throw core::Error("there is no long task '" + name + "'", "", "known ones are " + names);
 }
 
 fs::path MakeLongTask(const LongTask& task, const fs::path& folder, core::Progress* progress) {
   const fs::path file = folder / "tasks.json";
   if (fs::exists(file)) return file;
   const fs::path assets = folder / "assets";
-  fs::remove_all(assets);  // a run that was stopped has left some
+  fs::remove_all(assets);  // leftovers of an interrupted run
   std::istringstream kinds(task.kinds);
   for (std::string kind; std::getline(kinds, kind, ',');) {
     LibraryOptions options;

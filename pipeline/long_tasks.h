@@ -12,27 +12,28 @@
 
 namespace simwright::pipeline {
 
-// A task of several subtasks that shows what decomposing it is worth.
+// A task of several subtasks that demonstrates the benefit of decomposition.
 struct LongTask {
   std::string name;   // cup_into_microwave
-  std::string kinds;  // of the library, separated by commas; one instance of each
-  std::string task;   // as the rules call it
+  std::string kinds;  // library kinds, separated by commas; one instance of each
+  std::string task;   // the rules' name of the task
   std::string robot = "panda";
-  std::uint64_t seed = 1;  // of the instances
+  std::uint64_t seed = 1;  // the instances' seed
 };
 
 const std::vector<LongTask>& LongTasks();
 
-// Throws core::Error, listing those that are there.
+// Returns the long task of this name. Throws core::Error, listing the known names, if there is
+// none.
 const LongTask& LongTaskOf(const std::string& name);
 
-// Makes its assets into folder/assets and folder/tasks.json with this one task, unless they are
-// there; returns that file. Throws core::Error.
+// Makes the task's assets in folder/assets and folder/tasks.json with this one task, unless they
+// exist, and returns that file. Throws core::Error.
 std::filesystem::path MakeLongTask(const LongTask& task, const std::filesystem::path& folder,
                                    core::Progress* progress);
 
-// Which subtasks' success still holds where chains that succeeded have ended: what the task as a
-// whole is for. (subtasks) Where none has succeeded, the last one alone.
+// Marks the subtasks whose success still holds at the end of successful chains: the goal of the
+// task as a whole. (subtasks) Marks the last one alone if no chain has succeeded.
 std::vector<bool> LastingSubtasks(const std::vector<RunSkill>& skills,
                                   const rl::ChainEvaluation& chain);
 

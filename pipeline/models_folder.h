@@ -4,8 +4,9 @@
 
 namespace simwright::pipeline {
 
-// The folder of the shipped weights: $SIMWRIGHT_MODELS where it is set, else beside the program
-// (../share/simwright/models of an installation, ../../models of a build); empty where none is.
+// Returns the folder of the shipped weights: $SIMWRIGHT_MODELS if it is set, else the one beside
+// the program (../share/simwright/models of an installation, ../../models of a build); empty if
+// there is none.
 std::filesystem::path ModelsFolder();
 
 }  // namespace simwright::pipeline

@@ -16,8 +16,8 @@ namespace {
 using nlohmann::json;
 using robot::JointTrajectory;
 
-constexpr char kGripperNote[] = "gripper";     // of the arm's file: the gripper has one, too
-constexpr char kJointNote[] = "robot_joints";  // the robot's names, in the order of the columns
+constexpr char kGripperNote[] = "gripper";     // in the arm's file: there is also a gripper file
+constexpr char kJointNote[] = "robot_joints";  // the robot's names, in column order
 
 bool IsRos(const fs::path& file) {
   return robot::TrajectoryFormatOf(file) != robot::TrajectoryFormat::kCsv;
@@ -38,17 +38,17 @@ void WriteWithNotes(const JointTrajectory& trajectory, const fs::path& file) {
 std::map<std::string, std::string> NotesOfJson(const fs::path& file) {
   const fs::path notes = NotesBeside(file);
   if (!fs::exists(notes)) {
-    throw core::Error("its notes are not beside it", file.string(),
+    throw core::Error("its metadata file is not beside it", file.string(),
                       "keep " + notes.filename().string() + " with it, or export YAML");
   }
   try {
     return json::parse(core::ReadFile(notes, 1 << 24)).get<std::map<std::string, std::string>>();
   } catch (const json::exception&) {
-    throw core::Error("holds no notes", notes.string(), "export it anew");
+    throw core::Error("has no metadata", notes.string(), "export it again");
   }
 }
 
-// The robot's own names, as the note has them.
+// Renames the joints to the robot's own names, which the metadata lists.
 JointTrajectory UnderOwnNames(JointTrajectory trajectory, const fs::path& file) {
   const auto note = trajectory.notes.find(kJointNote);
   if (note == trajectory.notes.end()) return trajectory;
@@ -56,10 +56,10 @@ JointTrajectory UnderOwnNames(JointTrajectory trajectory, const fs::path& file) 
   std::vector<std::string> own;
   for (std::string word; words >> word;) own.push_back(word);
   if (own.size() != trajectory.joints.size()) {
-    throw core::Error("its note '" + std::string(kJointNote) + "' names " +
+    throw core::Error("its metadata entry '" + std::string(kJointNote) + "' names " +
                           std::to_string(own.size()) + " joints, it has " +
                           std::to_string(trajectory.joints.size()),
-                      file.string(), "export it anew");
+                      file.string(), "export it again");
   }
   trajectory.joints = own;
   trajectory.notes.erase(kJointNote);
@@ -105,7 +105,7 @@ JointTrajectory ReadMotion(const fs::path& file) {
     const fs::path gripper = GripperBeside(file);
     if (!fs::exists(gripper)) {
       throw core::Error("the gripper's motion is not beside it", file.string(),
-                        "keep " + gripper.filename().string() + " with it, or export anew");
+                        "keep " + gripper.filename().string() + " with it, or export again");
     }
     trajectory = robot::Joined(trajectory, robot::ReadTrajectory(gripper), gripper.string());
   }

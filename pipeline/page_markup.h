@@ -4,16 +4,16 @@
 
 namespace simwright::pipeline {
 
-// `text` with what HTML and SVG would read as marks replaced.
+// Escapes the characters of `text` that are special in HTML and SVG.
 std::string MarkupSafe(const std::string& text);
 
-// The head of a page that needs nothing but itself, up to <body> and its heading; `style` is CSS.
-// With PageEnd well-formed as XML, where what stands between is.
+// Returns the head of a self-contained page, up to <body> and its heading; `style` is CSS. Together
+// with PageEnd it is well-formed XML if the content between them is.
 std::string PageStart(const std::string& title, const std::string& style);
 std::string PageEnd();
 
-// An <img> that carries its picture with it. `type`: "image/png", "image/svg+xml". `description`
-// is read out to who cannot see it.
+// Returns an <img> with its data embedded. `type`: "image/png", "image/svg+xml". `description` is
+// the alternative text.
 std::string InlinePicture(const std::string& bytes, const std::string& type,
                           const std::string& description);
 

@@ -24,11 +24,11 @@ namespace {
 using assets::UrdfJoint;
 using assets::UrdfModel;
 
-constexpr int kSteps = 48;          // over a joint's range: 2 degrees of a door
+constexpr int kSteps = 48;  // positions over a joint's range: 2 degrees of a door
 constexpr int kFewSteps = 6;
-constexpr double kLeastLeft = 0.3;  // of a part's volume that a cut has to leave
+constexpr double kLeastLeft = 0.3;  // of a part's volume that must remain after a cut
 
-// A half-space that a part has to stay in: normal . x <= offset, in its link's frame.
+// A half-space that a part must stay in: normal . x <= offset, in its link's frame.
 struct Cut {
   Eigen::Vector3d normal;
   double offset = 0.0;  // m
@@ -41,22 +41,22 @@ struct PartPlace {
   }
 };
 
-struct Encounter {
-  double depth = 0.0;  // m, deepest overlap on the way; negative where only the gap is too small
+struct PairContacts {
+  double depth = 0.0;  // m, deepest overlap in the range; negative if only the gap is too small
   std::vector<Cut> cuts;
 };
 
-// One part against another link (or the floor) at one position of a joint.
-struct Meeting {
+// A contact of one part with another link (or the floor) at one joint position.
+struct PartContact {
   PartPlace part;
   int against = 0;
   double depth = 0.0;
   Cut cut;
 };
 
-class Clearing {
+class Trimming {
  public:
-  Clearing(const ClearingOptions& options, UrdfModel* model)
+  Trimming(const ClearingOptions& options, UrdfModel* model)
       : options_(options), model_(model), groups_(*model), bears_(LinksThatBear(*model)) {
     for (const assets::UrdfLink& link : model->links) {
       boxes_.emplace_back();
@@ -70,7 +70,7 @@ class Clearing {
     for (size_t joint = 0; joint < model_->joints.size(); ++joint) {
       if (!model_->joints[joint].Moves()) continue;
       core::CheckCancelled();
-      // A few positions show what overlaps deeply all the way, so that the many need not meet it.
+      // A few positions reveal the deep overlaps, so that the full sweep can skip those pairs.
       Sweep(joint, kFewSteps);
       ExcludeDeepOnes();
       Sweep(joint, kSteps);
@@ -81,7 +81,7 @@ class Clearing {
 
  private:
   void Sweep(size_t joint, int steps) {
-    encounters_.clear();
+    contacts_.clear();
     const UrdfJoint& moved = model_->joints[joint];
     const bool turns = moved.type == assets::UrdfJointType::kContinuous;
     const double lower = turns ? -std::numbers::pi : moved.lower;
@@ -95,17 +95,17 @@ class Clearing {
       for (const UrdfJoint& other : model_->joints) {
         if (others_up && other.Moves()) positions[other.name] = other.upper;
       }
-      std::vector<std::vector<Meeting>> met(static_cast<size_t>(steps) + 1);
+      std::vector<std::vector<PartContact>> hits(static_cast<size_t>(steps) + 1);
       core::ParallelFor(steps + 1, [&](int i) {
         assets::JointPositions at = positions;
         at[moved.name] = lower + (upper - lower) * i / steps;
-        Meet(carried, assets::LinkPoses(*model_, at), others_up, &met[static_cast<size_t>(i)]);
+        Collide(carried, assets::LinkPoses(*model_, at), others_up, &hits[static_cast<size_t>(i)]);
       });
-      for (const std::vector<Meeting>& some : met) {
-        for (const Meeting& one : some) {
-          Encounter& encounter = encounters_[{one.part, one.against}];
-          encounter.depth = std::max(encounter.depth, one.depth);
-          encounter.cuts.push_back(one.cut);
+      for (const std::vector<PartContact>& some : hits) {
+        for (const PartContact& one : some) {
+          PairContacts& contacts = contacts_[{one.part, one.against}];
+          contacts.depth = std::max(contacts.depth, one.depth);
+          contacts.cuts.push_back(one.cut);
         }
       }
     }
@@ -115,52 +115,55 @@ class Clearing {
     return model_->links[at.link].collisions[at.part].mesh;
   }
 
-  void Meet(const std::vector<bool>& carried, const std::vector<Eigen::Isometry3d>& poses,
-            bool others_up, std::vector<Meeting>* met) const {
+  void Collide(const std::vector<bool>& carried, const std::vector<Eigen::Isometry3d>& poses,
+               bool others_up, std::vector<PartContact>* hits) const {
     for (size_t a = 0; a < carried.size(); ++a) {
       if (!carried[a]) continue;
       for (size_t part = 0; part < boxes_[a].size(); ++part) {
-        if (options_.on_floor && !others_up && !bears_[a]) MeetFloor({a, part}, poses[a], met);
+        if (options_.on_floor && !others_up && !bears_[a]) CollideFloor({a, part}, poses[a], hits);
       }
       for (size_t b = 0; b < carried.size(); ++b) {
-        if (!carried[b] && !IsExcluded(*model_, a, b)) MeetLink(a, b, poses, met);
+        if (!carried[b] && !IsExcluded(*model_, a, b)) CollideLink(a, b, poses, hits);
       }
     }
   }
 
-  void MeetLink(size_t a, size_t b, const std::vector<Eigen::Isometry3d>& poses,
-                std::vector<Meeting>* met) const {
+  void CollideLink(size_t a, size_t b, const std::vector<Eigen::Isometry3d>& poses,
+                   std::vector<PartContact>* hits) const {
     std::vector<Eigen::AlignedBox3d> others;
     for (const Eigen::AlignedBox3d& box : boxes_[b]) others.push_back(box.transformed(poses[b]));
     for (size_t part = 0; part < boxes_[a].size(); ++part) {
       const Eigen::AlignedBox3d box = boxes_[a][part].transformed(poses[a]);
       for (size_t other = 0; other < others.size(); ++other) {
         if (box.exteriorDistance(others[other]) >= options_.gap) continue;
-        MeetPart({a, part}, {b, other}, poses, met);
+        CollidePart({a, part}, {b, other}, poses, hits);
       }
     }
   }
 
-  void MeetPart(const PartPlace& a, const PartPlace& b,
-                const std::vector<Eigen::Isometry3d>& poses, std::vector<Meeting>* met) const {
+  void CollidePart(const PartPlace& a, const PartPlace& b,
+                   const std::vector<Eigen::Isometry3d>& poses,
+                   std::vector<PartContact>* hits) const {
     const geometry::ConvexDistance found = geometry::SignedDistance(
         {Mesh(a).vertices}, poses[a.link], {Mesh(b).vertices}, poses[b.link]);
     if (found.distance >= 0.9 * options_.gap) return;
-    met->push_back(MeetingOf(a, static_cast<int>(b.link), -found.distance, poses[a.link],
-                             found.normal, found.normal.dot(found.point_b)));
+    hits->push_back(ContactOf(a, static_cast<int>(b.link), -found.distance, poses[a.link],
+                              found.normal, found.normal.dot(found.point_b)));
   }
 
-  void MeetFloor(const PartPlace& a, const Eigen::Isometry3d& a_pose,
-                 std::vector<Meeting>* met) const {
+  void CollideFloor(const PartPlace& a, const Eigen::Isometry3d& a_pose,
+                    std::vector<PartContact>* hits) const {
     double lowest = options_.gap;
     for (const Eigen::Vector3d& v : Mesh(a).vertices) lowest = std::min(lowest, (a_pose * v).z());
     if (lowest >= 0.9 * options_.gap) return;
-    met->push_back(MeetingOf(a, kFloor, -lowest, a_pose, -Eigen::Vector3d::UnitZ(), 0.0));
+    hits->push_back(ContactOf(a, kFloor, -lowest, a_pose, -Eigen::Vector3d::UnitZ(), 0.0));
   }
 
-  // Keeps part a on the near side of the plane normal . x = offset (root's frame), less the gap.
-  Meeting MeetingOf(const PartPlace& a, int against, double depth, const Eigen::Isometry3d& a_pose,
-                    const Eigen::Vector3d& normal, double offset) const {
+  // Returns the contact whose cut keeps part a on the near side of the plane normal . x = offset
+  // (root's frame), less the gap.
+  PartContact ContactOf(const PartPlace& a, int against, double depth,
+                        const Eigen::Isometry3d& a_pose, const Eigen::Vector3d& normal,
+                        double offset) const {
     return {a,
             against,
             depth,
@@ -168,55 +171,52 @@ class Clearing {
              offset - options_.gap - normal.dot(a_pose.translation())}};
   }
 
-  // By link and what it met, the deepest.
+  // Returns the deepest overlap of each link and the link (or floor) that it collides with.
   std::map<std::pair<size_t, int>, double> DepthByPair() const {
     std::map<std::pair<size_t, int>, double> depths;
-    for (const auto& [key, encounter] : encounters_) {
+    for (const auto& [key, contacts] : contacts_) {
       double& depth = depths.emplace(std::pair{key.first.link, key.second}, 0.0).first->second;
-      depth = std::max(depth, encounter.depth);
+      depth = std::max(depth, contacts.depth);
     }
     return depths;
   }
 
   void ExcludeDeepOnes() {
     for (const auto& [pair, depth] : DepthByPair()) {
-      if (depth > options_.most) LeaveOverlapping(pair.first, pair.second, depth);
+      if (depth > options_.most) KeepOverlap(pair.first, pair.second, depth);
     }
   }
 
-  // Neighbours by a joint make no contact where they overlap by more than is trimmed away.
-  void LeaveOverlapping(size_t link, int against, double depth) {
+  // Excludes neighbours by a joint from contact, or reports the overlap of any other pair.
+  void KeepOverlap(size_t link, int against, double depth) {
     const auto other = static_cast<size_t>(std::max(against, 0));
     if (against != kFloor && groups_.Adjacent(link, other)) {
       model_->excluded_pairs.emplace_back(model_->links[link].name, model_->links[other].name);
       Say("contact-excluded", core::Severity::kWarning, link,
-          "it and " + NameOf(against) +
-              " overlap by " + core::Millimetres(depth) +
-              " where their joint holds or moves them: no contact is made between them, in any of "
-              "the formats",
-          depth, "mend the file's meshes for contact between them");
-    } else if (told_.insert({link, against}).second) {
+          "it and " + NameOf(against) + " overlap by " + core::Millimetres(depth) +
+              " in the range of their joint: they are excluded from contact in all formats",
+          depth, "repair the file's meshes to enable contact between them");
+    } else if (reported_.insert({link, against}).second) {
       Say("overlap", core::Severity::kWarning, link,
-          "its collision parts overlap " + NameOf(against) + " by " +
-              core::Millimetres(depth) + " on its way",
-          depth,
-          "move one joint at a time, or mend the file's meshes");
+          "its collision parts overlap " + NameOf(against) + " by " + core::Millimetres(depth) +
+              " during its motion",
+          depth, "move one joint at a time, or repair the file's meshes");
     }
   }
 
-  // Cuts the parts of each pair that all can be cut enough.
+  // Cuts the parts of each pair, if all of its parts can be cut enough.
   void Trim() {
     const auto depths = DepthByPair();
     std::set<std::pair<size_t, int>> too_deep;
     for (const auto& [pair, depth] : depths) {
       if (depth > options_.most) too_deep.insert(pair);
     }
-    for (const auto& [key, encounter] : encounters_) {
+    for (const auto& [key, contacts] : contacts_) {
       const std::pair<size_t, int> pair{key.first.link, key.second};
       if (too_deep.contains(pair)) continue;
       core::TriangleMesh& mesh = model_->links[key.first.link].collisions[key.first.part].mesh;
       core::TriangleMesh cut = mesh;
-      for (const Cut& plane : encounter.cuts) {
+      for (const Cut& plane : contacts.cuts) {
         if (!cut.empty()) cut = geometry::CutConvex(cut, plane.normal, plane.offset);
       }
       if (cut.empty() ||
@@ -229,11 +229,11 @@ class Clearing {
     }
     for (const auto& [pair, depth] : depths) {
       if (too_deep.contains(pair)) {
-        LeaveOverlapping(pair.first, pair.second, depth);
+        KeepOverlap(pair.first, pair.second, depth);
       } else {
         Say("trimmed", core::Severity::kInfo, pair.first,
             "its collision parts were trimmed by at most " +
-                core::Millimetres(std::max(depth, 0.0) + options_.gap) + " so that they clear " +
+                core::Millimetres(std::max(depth, 0.0) + options_.gap) + " to clear " +
                 NameOf(pair.second),
             depth);
       }
@@ -256,16 +256,16 @@ class Clearing {
   UrdfModel* model_;
   const LinkGroups groups_;
   const std::vector<bool> bears_;
-  std::vector<std::vector<Eigen::AlignedBox3d>> boxes_;  // of the parts, by link, in its frame
-  std::map<std::pair<PartPlace, int>, Encounter> encounters_;  // by part and link (or floor) met
-  std::set<std::pair<size_t, int>> told_;                      // of whose overlap was told
+  std::vector<std::vector<Eigen::AlignedBox3d>> boxes_;  // part AABBs by link, in the link's frame
+  std::map<std::pair<PartPlace, int>, PairContacts> contacts_;  // by part and link (or floor)
+  std::set<std::pair<size_t, int>> reported_;                   // pairs with a reported overlap
   core::Findings findings_;
 };
 
 }  // namespace
 
 core::Findings ClearMovingParts(const ClearingOptions& options, UrdfModel* model) {
-  return Clearing(options, model).Clear();
+  return Trimming(options, model).Clear();
 }
 
 }  // namespace simwright::pipeline

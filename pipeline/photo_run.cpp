@@ -32,7 +32,7 @@ namespace simwright::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kTasks = 20;  // that are made: with one asset and one piece of furniture, every kind
+constexpr int kTasks = 20;  // enough for every kind of task with an asset and furniture
 
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
@@ -41,14 +41,13 @@ double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// The asset is called as what the category is known by: of any name that a user gives, that is a
-// name that programs can use.
+// Names the asset after the category's canonical name, which is always a valid name in programs.
 PhotoRunFolder FolderOf(const PhotoRunRequest& request) {
   const physics_params::Resolution category = physics_params::RequireCategory(request.category);
   return {request.output, assets::FileSafeName(category.category->name)};
 }
 
-// Bad input is refused before anything is written.
+// Rejects bad input before anything is written.
 void RequireReadable(const PhotoRunRequest& request) {
   core::ReadImage(request.photo);
   if (request.mask) core::ReadImage(*request.mask);
@@ -63,7 +62,7 @@ void Lift(const PhotoRunRequest& request, const PhotoRunFolder& folder, core::Pr
   lift.effort = request.effort;
   lift.seed = request.seed;
   lift.output = folder.Asset();
-  lift.force = true;  // of a run that was stopped before it was noted as done
+  lift.force = true;  // an interrupted run may have left an unrecorded one
   LiftToFolder(lift, progress);
 }
 
@@ -75,7 +74,7 @@ void Check(const PhotoRunFolder& folder, core::Progress* progress) {
     assets::AddFindings(folder.Asset(), report.Warnings());
     return;
   }
-  throw core::Error(CheckFailed(report, "the lifted asset").what(), folder.Asset().string(),
+  throw core::Error(CheckFailed(report, "the reconstructed asset").what(), folder.Asset().string(),
                     "`simwright check` says why; look at its preview.png: a --mask or another "
                     "photo may help");
 }
@@ -89,7 +88,7 @@ void Furnish(const PhotoRunRequest& request, const PhotoRunFolder& folder,
   core::WriteFile(folder.Scene(), scene.dump(2) + "\n");
 }
 
-// The one task that is asked for, of those that were made.
+// Returns the requested task from the generated ones.
 tasks::Task ChosenTask(const PhotoRunRequest& request, const PhotoRunFolder& folder) {
   const std::string pattern = request.task.empty() ? "pick_up_" + folder.asset_name : request.task;
   std::vector<tasks::Task> matching;
@@ -102,10 +101,10 @@ tasks::Task ChosenTask(const PhotoRunRequest& request, const PhotoRunFolder& fol
   }
   if (matching.empty()) {
     throw core::Error("there is no task '" + pattern + "'", folder.Tasks().string(),
-                      "there are " + all);
+                      "known ones are " + all);
   }
   if (matching.size() > 1) {
-    throw core::Error("'" + pattern + "' stands for several tasks", folder.Tasks().string(),
+    throw core::Error("'" + pattern + "' matches several tasks", folder.Tasks().string(),
                       "choose one of " + matches);
   }
   return matching.front();
@@ -120,12 +119,12 @@ void MakeTaskFile(const PhotoRunRequest& request, const PhotoRunFolder& folder,
   tasks.output = folder.Tasks();
   tasks.count = kTasks;
   tasks.seed = request.seed;
-  tasks.force = true;  // of a run that was stopped
+  tasks.force = true;  // an interrupted run may have left one
   MakeTasks(tasks, progress);
   ChosenTask(request, folder);
 }
 
-// Returns the seconds that its subtasks took, over all runs.
+// Trains the task and returns the seconds that its subtasks took over all runs.
 double Train(const PhotoRunRequest& request, const PhotoRunFolder& folder,
              core::Progress* progress) {
   TrainRequest train;
@@ -139,7 +138,7 @@ double Train(const PhotoRunRequest& request, const PhotoRunFolder& folder,
   train.episodes = request.episodes;
   train.imitated_samples = request.imitated_samples;
   train.seed = request.seed;
-  train.resume = true;  // where there is something to go on with
+  train.resume = true;  // if there is an earlier state
   double seconds = 0.0;
   for (const TrainedSkill& skill : TrainTask(train, progress).skills) seconds += skill.seconds;
   return seconds;
@@ -157,7 +156,7 @@ void Evaluate(const PhotoRunRequest& request, const PhotoRunFolder& folder,
   core::WriteFile(folder.Rollout(), RolloutJson(report));
 }
 
-// The first episode of the evaluation that succeeds, which its pictures show, and its proof.
+// Exports the first successful episode of the evaluation, which the pictures show, and its replay.
 void ExportFirst(const PhotoRunRequest& request, const PhotoRunFolder& folder,
                  core::Progress* progress) {
   ExportRequest wanted;
@@ -171,7 +170,7 @@ void ExportFirst(const PhotoRunRequest& request, const PhotoRunFolder& folder,
   core::WriteFile(folder.Replay(), ReplayJson(replay));
 }
 
-// What an error says, without the place that it is about: pages and reports are handed on.
+// Returns an error's message without its location, because pages and reports are passed on.
 std::string WithoutPlace(const core::Error& error) {
   const std::string what = error.what(), place = error.where() + ": ";
   return what.starts_with(place) ? what.substr(place.size()) : what;
@@ -191,7 +190,7 @@ PhotoRunOutcome OutcomeOf(const PhotoRunFolder& folder, const Json& report) {
   outcome.picture = folder.Strip();
   outcome.trajectory = folder.Trajectory();
   outcome.findings = assets::ReadAsset(folder.Asset()).findings;
-  // An export of an earlier version has no findings.
+  // Exports of earlier versions have no findings.
   const core::Findings exported = assets::FindingsFrom(
       Json::parse(core::ReadFile(folder.Export())).value("findings", Json::array()));
   outcome.findings.insert(outcome.findings.end(), exported.begin(), exported.end());
@@ -199,12 +198,12 @@ PhotoRunOutcome OutcomeOf(const PhotoRunFolder& folder, const Json& report) {
   return outcome;
 }
 
-// Does the stages that are not done yet, and keeps their times.
+// Runs the stages that are not done and records their times.
 class StageRunner {
  public:
   explicit StageRunner(PhotoRunRecord* record) : record_(record) {}
 
-  // `work` returns the seconds that its own files tell of, which a run that was killed adds to.
+  // `work` returns the seconds recorded in its own files, which include those of interrupted runs.
   void Run(const std::string& name, const std::function<double()>& work) {
     if (record_->Done(name)) return;
     const Clock::time_point start = Clock::now();
@@ -220,7 +219,7 @@ class StageRunner {
   }
 
  private:
-  // A full disk must not hide what went wrong first.
+  // A full disk must not hide the original error.
   void Note(const std::string& name, double seconds) {
     try {
       record_->Spend(name, seconds, false);
@@ -248,7 +247,7 @@ void RunStages(const PhotoRunRequest& request, const PhotoRunFolder& folder, Pho
     runner.Run("train", [&] { return Train(request, folder, progress); });
     run("evaluate", [&] { Evaluate(request, folder, progress); });
   } catch (const core::Error& error) {
-    throw core::Error(std::string(error.what()) + "; what was done is kept, --resume goes on");
+    throw core::Error(std::string(error.what()) + "; finished stages are kept, --resume continues");
   }
 }
 
@@ -281,7 +280,7 @@ PhotoRunOutcome RunPhoto(const PhotoRunRequest& request, core::Progress* progres
   progress->Finish();
   if (refusal.empty()) return OutcomeOf(folder, report);
   throw core::Error("there is no trajectory: " + refusal + "; " + folder.Page().string() +
-                    " shows how far it came");
+                    " shows its progress");
 }
 
 std::string PhotoRunTable(const PhotoRunOutcome& outcome) {
@@ -293,7 +292,7 @@ std::string PhotoRunTable(const PhotoRunOutcome& outcome) {
       100.0 * outcome.interval.high, outcome.seconds / 60.0);
   return outcome.task + "\n" + line + "trajectory: " + outcome.trajectory.string() +
          (outcome.replayed ? ", succeeds when replayed from its file alone\n"
-                           : ", FAILS when it is replayed from its file\n") +
+                           : ", FAILS when replayed from its file alone\n") +
          "picture:    " + outcome.picture.string() + "\npage:       " + outcome.page.string() +
          "\n";
 }

@@ -5,7 +5,7 @@
 
 namespace simwright::pipeline {
 
-// Where a photo's run keeps what its stages make (docs/run.md).
+// The paths of the files that the stages of a photo run write (docs/run.md).
 struct PhotoRunFolder {
   std::filesystem::path root;
   std::string asset_name;

@@ -65,7 +65,7 @@ std::string Duration(double seconds) {
   return Format("%.0f min %.0f s", std::floor(whole / 60.0), std::fmod(whole, 60.0));
 }
 
-// Cells of a row; figures to the right.
+// Returns a table row with its figures right-aligned.
 std::string Row(const std::string& name, const std::vector<std::string>& figures) {
   std::string row = "<tr><td>" + name + "</td>";
   for (const std::string& figure : figures) row += "<td class=\"n\">" + figure + "</td>";
@@ -78,7 +78,7 @@ std::string Head(const std::string& name, const std::vector<std::string>& figure
   return row + "</tr>\n";
 }
 
-// `begin` and `end`: shares of the bar's width.
+// Returns a bar; `begin` and `end` are fractions of its width.
 std::string Bar(double begin, double end) {
   return "<span class=\"bar\"><i style=\"margin-left:" + Format("%.1f", 100.0 * begin) +
          "%;width:" + Format("%.1f", 100.0 * std::max(0.004, end - begin)) + "%\"></i></span>";
@@ -88,7 +88,8 @@ std::string Section(const std::string& title) {
   return "<h2>" + title + "</h2>\n";
 }
 
-// `fit`: "full", as wide as the page; "wide", never too small to be read, to be moved sideways.
+// Returns a figure. `fit`: "full", as wide as the page; "wide", scrolled sideways so that it stays
+// legible.
 std::string Figure(const fs::path& file, const std::string& description, const std::string& caption,
                    const std::string& fit = "full") {
   const std::string type = file.extension() == ".svg" ? "image/svg+xml" : "image/png";
@@ -121,7 +122,7 @@ std::string Summary(const Json& report) {
   }
   if (trajectory.contains("mean_seconds")) {
     html += Tile(Duration(trajectory.at("mean_seconds")),
-                 std::string("the trajectory; replayed it ") +
+                 std::string("the trajectory; its replay ") +
                      (trajectory.at("replayed").get<bool>() ? "succeeds" : "fails"));
   }
   return html + Tile(Duration(report.at("seconds")), "for everything on this page") + "</div>\n";
@@ -181,20 +182,20 @@ std::string CheckTable(const Json& check) {
 std::string AssetPart(const PhotoRunFolder& folder, const Json& report) {
   std::string html =
       Section("The photo") +
-      Figure(folder.Asset() / "lift.png", "The photo, the cut-out and the lifted mesh",
-             "The photo, what was cut out of it, and the lifted mesh from the photo's camera.") +
+      Figure(folder.Asset() / "lift.png", "The photo, the matte and the reconstructed mesh",
+             "The photo, its matte, and the reconstructed mesh from the photo's camera.") +
       "<ul class=\"soft\">";
   for (const Json& finding : report.at("asset").at("findings")) {
     html += "<li>" + Text(finding.at("sentence")) + "</li>";
   }
   return html + "</ul>\n" + Section("The asset") +
          Figure(folder.Asset() / "preview.png", "The asset from four sides",
-                "From four sides; below, the convex parts that a physics engine meets.") +
+                "From four sides; below, the convex collision parts.") +
          AssetTable(report.at("asset")) + CheckTable(report.at("check"));
 }
 
-// The drawing of the task, with the things of its scene.
-std::string DrawnTask(const PhotoRunFolder& folder, const tasks::Task& task, const Json& scene) {
+// Returns the drawing of the task with the objects of its scene.
+std::string TaskSvg(const PhotoRunFolder& folder, const tasks::Task& task, const Json& scene) {
   std::vector<assets::SemanticModel> models = {
       assets::ReadSemanticModel(folder.Asset()),
       assets::ReadSemanticModel(folder.Furniture() / scene.at("furniture").get<std::string>())};
@@ -205,10 +206,10 @@ std::string TaskPart(const PhotoRunFolder& folder, const tasks::Task& task, cons
   const Json& scene = report.at("scene");
   const std::string name = scene.at("furniture");
   std::string html = Section("The task") + "<figure><div>" +
-                     InlinePicture(DrawnTask(folder, task, scene), "image/svg+xml",
+                     InlinePicture(TaskSvg(folder, task, scene), "image/svg+xml",
                                    "The scene from above, and the subtasks") +
                      "</div><figcaption>" + Text(report.at("task").at("name")) +
-                     ": where it starts, seen from above, and its subtasks.</figcaption></figure>\n"
+                     ": the start seen from above, and the subtasks.</figcaption></figure>\n"
                      "<ol>";
   for (const Json& subtask : report.at("task").at("subtasks")) {
     html += "<li>" + Text(subtask.at("description")) +
@@ -217,25 +218,25 @@ std::string TaskPart(const PhotoRunFolder& folder, const tasks::Task& task, cons
   const bool beside = std::find(task.assets.begin(), task.assets.end(), name) != task.assets.end();
   return html + "</ol>\n" +
          Figure(folder.Furniture() / name / "preview.png", "The furniture, closed and open",
-                "Tasks were made of the asset and of " + MarkupSafe(name) + ", which is " +
-                    (scene.at("holds_it").get<bool>() ? "made" : "too small") + " to hold it" +
-                    (beside ? "." : "; this task needs the asset alone."));
+                "Tasks were generated for the asset and " + MarkupSafe(name) + ", which is " +
+                    (scene.at("holds_it").get<bool>() ? "big enough" : "too small") +
+                    " to hold it" + (beside ? "." : "; this task needs the asset alone."));
 }
 
 std::string TrainingPart(const PhotoRunFolder& folder, const Json& report) {
   const Json& subtasks = report.at("training").at("subtasks");
   std::string html =
-      Section("Training") + "<p>One policy a subtask, trained in Bullet (docs/skills.md).</p>\n";
+      Section("Training") + "<p>One policy per subtask, trained in Bullet (docs/skills.md).</p>\n";
   int number = 0;
   for (const Json& subtask : subtasks) {
     const std::string name = subtask.at("name");
     const fs::path trained = folder.Skill() / (std::to_string(++number) + "_" + name);
-    html += Figure(
-        trained / rl::kCurvesFile, "Success and return over the training's samples",
-        MarkupSafe(name) + Format(": %.0f decisions in ", subtask.at("samples").get<double>()) +
-            Duration(subtask.at("seconds")) + ", learnt by " +
-            Text(subtask.value("method", Json("training"))) +
-            ". Drawn actions and easier starts included.");
+    html += Figure(trained / rl::kCurvesFile, "Success and return over the training's samples",
+                   MarkupSafe(name) +
+                       Format(": %.0f decisions in ", subtask.at("samples").get<double>()) +
+                       Duration(subtask.at("seconds")) + ", learnt by " +
+                       Text(subtask.value("method", Json("training"))) +
+                       ". With sampled actions and easier starts.");
   }
   return html;
 }
@@ -261,11 +262,11 @@ std::string SuccessPart(const PhotoRunFolder& folder, const Json& report) {
     html += SuccessRow("<b>the whole task</b>", success, "successes", "episodes");
   }
   return html +
-         "</table>\n<p class=\"soft\">Starts are drawn anew: places within 15 cm, masses and "
-         "frictions. A subtask is tried where the ones before it succeeded. Success has to hold at "
+         "</table>\n<p class=\"soft\">Starts are newly sampled: positions within 15 cm, masses "
+         "and frictions. A subtask is tried if the previous ones succeeded. Success must hold at "
          "the episode's end.</p>\n" +
-         Section("In motion") +
-         Figure(folder.Strip(), "The robot at work, twelve moments of each subtask",
+         Section("One episode") +
+         Figure(folder.Strip(), "The robot in twelve moments of each subtask",
                 "One episode, from left to right: twelve moments of each subtask.", "wide");
 }
 
@@ -287,16 +288,16 @@ std::string TrajectoryPart(const Json& report) {
   const bool replayed = trajectory.at("replayed");
   html += "<p>" + Text(trajectory.at("file")) +
           Format(
-              ", 1 kHz from rest to rest, %.2f s, %.2f times as long as it was recorded; the "
-              "tool at most %.2f mm off. ",
+              ", 1 kHz from rest to rest, %.2f s, %.2f times the recorded duration; the tool "
+              "deviates by at most %.2f mm. ",
               trajectory.at("mean_seconds").get<double>(), trajectory.at("stretch").get<double>(),
               1000.0 * trajectory.at("tool_deviation").get<double>()) +
           "<span class=\"" +
-          (replayed ? "good\">Replayed from the file alone it succeeds."
-                    : "bad\">Replayed from the file alone it fails.") +
+          (replayed ? "good\">Its replay from the file alone succeeds."
+                    : "bad\">Its replay from the file alone fails.") +
           "</span></p>\n<div class=\"wide\"><table>\n" +
-          Head("share of each limit, at most",
-               {"position", "velocity", "acceleration", "jerk", "off, mrad or mm"});
+          Head("largest share of each limit",
+               {"position", "velocity", "acceleration", "jerk", "deviation, mrad or mm"});
   for (const Json& joint : trajectory.at("joints")) html += JointRow(joint);
   return html + "</table></div>\n";
 }
@@ -310,7 +311,7 @@ std::string TimesPart(const Json& report) {
             "</td><td>" + Bar(0.0, seconds / whole) + "</td></tr>\n";
   }
   return html + "<tr><td><b>all</b></td><td class=\"n\">" + Duration(whole) +
-         "</td><td></td></tr>\n</table>\n" + Section("Once more") + "<pre>" +
+         "</td><td></td></tr>\n</table>\n" + Section("To reproduce") + "<pre>" +
          Text(report.at("command")) + "</pre>\n";
 }
 

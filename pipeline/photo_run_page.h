@@ -9,8 +9,8 @@
 
 namespace simwright::pipeline {
 
-// A photo's run as one HTML page without scripts or outside files: its pictures, its task, its
-// success and times. `report` is PhotoRunReport's. Throws core::Error where a picture is gone.
+// Returns a photo run as one HTML page without scripts or external files: its pictures, task,
+// success rate and times. `report` is PhotoRunReport's. Throws core::Error if a picture is missing.
 std::string PhotoRunPage(const PhotoRunFolder& folder, const tasks::Task& task,
                          const nlohmann::ordered_json& report);
 

@@ -36,13 +36,13 @@ std::string EffortName(asset_lift::LiftEffort effort) {
   }
 }
 
-// More of it only takes a training further.
+// Returns true for an input that only extends a training.
 bool BoundsTraining(const std::string& input) {
   return input == "--steps" || input == "--minutes";
 }
 
 std::string Difference(const std::string& input, const std::string& old, const std::string& now) {
-  if (!input.starts_with("--")) return "another " + input;  // known by its hash
+  if (!input.starts_with("--")) return "another " + input;  // compared by its hash
   if (input == "--mask")
     return old.empty() ? "no --mask" : now.empty() ? "a --mask" : "another --mask";
   const auto shown = [](const std::string& value) { return value.empty() ? "none" : value; };
@@ -73,12 +73,11 @@ PhotoRunRecord::PhotoRunRecord(const PhotoRunRequest& request) : folder_(request
   const fs::path file = folder_ / kFile;
   const bool run = fs::exists(file);
   if (fs::exists(folder_) && !run && !(fs::is_directory(folder_) && fs::is_empty(folder_))) {
-    throw core::Error("is there already, and holds no run", folder_.string(),
-                      "choose another folder");
+    throw core::Error("already exists and is not a run", folder_.string(), "choose another folder");
   }
   if (run && !request.resume && !request.force) {
-    throw core::Error("is there already", folder_.string(),
-                      "--resume goes on with it, --force begins anew");
+    throw core::Error("already exists", folder_.string(),
+                      "--resume continues it, --force starts over");
   }
   if (run) lock_.emplace(folder_, "a run");
   if (run && request.resume) {
@@ -92,9 +91,9 @@ PhotoRunRecord::PhotoRunRecord(const PhotoRunRequest& request) : folder_(request
   fs::create_directories(folder_, code);
   if (code) {
     throw core::Error("cannot create the folder: " + code.message(), folder_.string(),
-                      "check that the place exists and may be written");
+                      "check that its parent exists and is writable");
   }
-  if (!run || !request.resume) lock_.emplace(folder_, "a run");  // of the folder that is new
+  if (!run || !request.resume) lock_.emplace(folder_, "a run");  // the folder is new
   inputs_ = wanted;
   Write();
 }
@@ -103,7 +102,7 @@ void PhotoRunRecord::Read(const fs::path& file) {
   try {
     const Json text = Json::parse(core::ReadFile(file, 1 << 20));
     if (text.at("format").get<int>() != kFormat) {
-      throw core::Error("was written by another version", file.string(), "--force begins anew");
+      throw core::Error("was written by another version", file.string(), "--force starts over");
     }
     for (const auto& [name, value] : text.at("inputs").items()) {
       inputs_.emplace_back(name, value.get<std::string>());
@@ -113,7 +112,7 @@ void PhotoRunRecord::Read(const fs::path& file) {
                          stage.at("done").get<bool>()});
     }
   } catch (const nlohmann::json::exception&) {
-    throw core::Error("is damaged", file.string(), "--force begins anew");
+    throw core::Error("is damaged", file.string(), "--force starts over");
   }
 }
 
@@ -140,8 +139,8 @@ void PhotoRunRecord::RequireSame(const Inputs& wanted) const {
     differences += (differences.empty() ? "" : ", and ") + Difference(name, had, value);
   }
   if (differences.empty()) return;
-  throw core::Error("the run was begun with " + differences, folder_.string(),
-                    "choose another folder, or begin anew with --force");
+  throw core::Error("the run was started with " + differences, folder_.string(),
+                    "choose another folder, or start over with --force");
 }
 
 bool PhotoRunRecord::Done(const std::string& stage) const {

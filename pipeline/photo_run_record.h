@@ -11,34 +11,34 @@
 
 namespace simwright::pipeline {
 
-// A stage of a run, in the order they were begun.
+// A stage of a run. Stages are kept in the order of their start.
 struct RunStage {
   std::string name;
-  double seconds = 0.0;  // spent on it, over all runs
+  double seconds = 0.0;  // total over all runs
   bool done = false;
 };
 
-// run.json of a photo's run: what it was begun with, and how far it has come. Every change is
-// written at once, whole or not at all.
+// The run.json of a photo run: its inputs and its progress. Every change is written atomically at
+// once.
 class PhotoRunRecord {
  public:
-  // Begins a run, or takes up the one that is in request.output, where `resume` is set. Throws
-  // core::Error: a folder that is there already, that holds no run, in which another process is at
-  // work, or whose run was begun with other inputs, naming what differs. The bounds of the training
-  // (samples, minutes) may change until it is done.
+  // Starts a run, or resumes the one in request.output if `resume` is set. Throws core::Error for a
+  // folder that already exists, that has no run, that another process is using, or whose run was
+  // started with other inputs, naming the difference. The bounds of the training (samples, minutes)
+  // may change until it is done.
   explicit PhotoRunRecord(const PhotoRunRequest& request);
 
   bool Done(const std::string& stage) const;
   double SecondsOf(const std::string& stage) const;
-  // Adds time to a stage; `done`: it is over with it.
+  // Adds time to a stage; `done` marks it as finished.
   void Spend(const std::string& stage, double seconds, bool done);
-  // For a run that has nothing to keep: removes the folder.
+  // Removes the folder if no stage is done.
   void RemoveIfNothingIsDone();
 
   const std::vector<RunStage>& stages() const { return stages_; }
 
  private:
-  // Name and value of everything that the result depends on, as flags show them.
+  // The name and value of every input that the result depends on, as flags show them.
   using Inputs = std::vector<std::pair<std::string, std::string>>;
   void Read(const std::filesystem::path& file);
   void Write() const;

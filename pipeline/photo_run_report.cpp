@@ -17,11 +17,11 @@ Json ReadJson(const fs::path& file) {
   try {
     return Json::parse(core::ReadFile(file, 1 << 26));
   } catch (const nlohmann::json::exception&) {
-    throw core::Error("is damaged", file.string(), "--force begins anew");
+    throw core::Error("is damaged", file.string(), "--force starts over");
   }
 }
 
-// The members of `from` that are named.
+// Returns the named members of `from`.
 Json Some(const Json& from, const std::vector<std::string>& names) {
   Json some;
   for (const std::string& name : names) {
@@ -69,7 +69,7 @@ std::string Shown(double value) {
   return text;
 }
 
-// As a shell takes it.
+// Quotes text for a shell.
 std::string Quoted(const std::string& text) {
   if (text.find_first_not_of(
           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/") ==
@@ -106,7 +106,7 @@ Json PhotoRunReport(const PhotoRunRequest& request, const PhotoRunFolder& folder
     report["trajectory"] = TrajectoryJson(folder, refusal);
   } catch (const nlohmann::json::exception& error) {
     throw core::Error("a stage's file is damaged: " + std::string(error.what()),
-                      folder.root.string(), "--force begins anew");
+                      folder.root.string(), "--force starts over");
   }
   double seconds = 0.0;
   report["stages"] = Json::array();
@@ -120,7 +120,7 @@ Json PhotoRunReport(const PhotoRunRequest& request, const PhotoRunFolder& folder
 
 std::string PhotoRunCommand(const PhotoRunRequest& request) {
   const PhotoRunRequest usual;
-  // A page that is passed on tells nothing of the folders of whoever made it.
+  // Pages may be passed on and must not contain their maker's folders.
   const auto file = [](const fs::path& path) {
     return Quoted(path.is_absolute() ? path.filename().string() : path.string());
   };

@@ -12,14 +12,14 @@
 
 namespace simwright::pipeline {
 
-// What all stages came to, read from the files that they wrote (docs/run.md names the members).
-// Names no place outside the folder. `refusal`: why there is no trajectory; empty: there is one.
-// Throws core::Error where a stage's file is gone or damaged.
+// Returns the results of all stages, read from their files (docs/run.md describes the members).
+// Contains no path outside the folder. `refusal`: the reason why there is no trajectory; empty if
+// there is one. Throws core::Error if a stage's file is missing or damaged.
 nlohmann::ordered_json PhotoRunReport(const PhotoRunRequest& request, const PhotoRunFolder& folder,
                                       const tasks::Task& task, const std::vector<RunStage>& stages,
                                       const std::string& refusal);
 
-// The command that repeats the run, options that are not the default's alone.
+// Returns the command that repeats the run, with only the options that differ from the defaults.
 std::string PhotoRunCommand(const PhotoRunRequest& request);
 
 }  // namespace simwright::pipeline

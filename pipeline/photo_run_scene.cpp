@@ -17,9 +17,9 @@ namespace simwright::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kTries = 4;  // sizes of each kind
+constexpr int kTries = 4;  // sizes tried per kind
 
-tasks::Thing ThingIn(const fs::path& folder) {
+tasks::Thing ObjectIn(const fs::path& folder) {
   return tasks::ThingOf(folder.filename().string(), assets::ReadSemanticModel(folder));
 }
 
@@ -42,27 +42,27 @@ std::vector<Candidate> CandidatesOf(const std::string& kind, std::uint64_t seed)
   return candidates;
 }
 
-// Whether `thing` goes into a room that can be shut.
-bool Holds(const Candidate& candidate, const tasks::Thing& thing) {
+// Returns true if `object` fits into a receptacle with a door.
+bool Holds(const Candidate& candidate, const tasks::Thing& object) {
   const core::TemporaryFolder temporary;
   const fs::path folder = temporary.path() / candidate.Name();
   fs::create_directories(folder);
   assets::WriteArticulatedAsset(candidate.kind->make({candidate.seed, candidate.Name()}), folder);
-  const tasks::Thing furniture = ThingIn(folder);
+  const tasks::Thing furniture = ObjectIn(folder);
   for (size_t c = 0; c < furniture.cavities.size(); ++c) {
     if (furniture.cavities[c].door < 0) continue;
-    if (tasks::FitsInto(thing, furniture, static_cast<int>(c))) return true;
+    if (tasks::FitsInto(object, furniture, static_cast<int>(c))) return true;
   }
   return false;
 }
 
-// False, with the reason in `refusal`, where it fails its check.
+// Makes a candidate. Returns false, with the reason in `refusal`, if it fails its check.
 bool Make(const Candidate& candidate, const fs::path& output, core::Progress* progress,
           std::string* refusal) {
   LibraryOptions options;
   options.kind = candidate.kind->name;
   options.seed = candidate.seed;
-  options.force = true;  // of a run that was stopped
+  options.force = true;  // an interrupted run may have left one
   const LibraryOutcome made = MakeLibrary(options, output, progress).front();
   core::CheckCancelled();
   *refusal = made.refusal;
@@ -72,46 +72,45 @@ bool Make(const Candidate& candidate, const fs::path& output, core::Progress* pr
 }  // namespace
 
 void RequireLiftable(const fs::path& folder) {
-  const tasks::Thing thing = ThingIn(folder);
-  if (tasks::CanBeLifted(thing)) return;
-  const double width = thing.box.sizes().head<2>().minCoeff();
+  const tasks::Thing object = ObjectIn(folder);
+  if (tasks::CanBeLifted(object)) return;
+  const double width = object.box.sizes().head<2>().minCoeff();
   char what[160], remedy[80];
   if (width > tasks::kHandOpening) {
     std::snprintf(what, sizeof(what),
-                  "cannot be picked up: it is %.1f cm wide, and the gripper opens by %.1f cm and "
-                  "takes up to %.1f cm",
+                  "cannot be picked up: it is %.1f cm wide, and the gripper opens %.1f cm and "
+                  "grasps up to %.1f cm",
                   100.0 * width, 100.0 * robot::Panda(false).gripper.MaxOpening(),
                   100.0 * tasks::kHandOpening);
-    // Two millimetres less than what is just taken.
+    // Two millimetres below the graspable limit.
     std::snprintf(remedy, sizeof(remedy), "--force --height %.3f makes a smaller one",
-                  thing.height() * (tasks::kHandOpening - 0.002) / width);
-  } else if (thing.mass > tasks::kPayload) {
+                  object.height() * (tasks::kHandOpening - 0.002) / width);
+  } else if (object.mass > tasks::kPayload) {
     std::snprintf(what, sizeof(what),
-                  "cannot be picked up: it weighs %.1f kg, a hand lifts %.1f kg", thing.mass,
+                  "cannot be picked up: it weighs %.1f kg, the arm lifts %.1f kg", object.mass,
                   tasks::kPayload);
     std::snprintf(remedy, sizeof(remedy), "--force and a smaller --height than %.3f",
-                  thing.height());
+                  object.height());
   } else {
-    const Eigen::Vector3d size = 100.0 * thing.box.sizes();
-    std::snprintf(
-        what, sizeof(what),
-        "cannot be picked up: it is %.1f x %.1f x %.1f cm, too long or too flat for a hand",
-        size.x(), size.y(), size.z());
+    const Eigen::Vector3d size = 100.0 * object.box.sizes();
+    std::snprintf(what, sizeof(what),
+                  "cannot be picked up: it is %.1f x %.1f x %.1f cm, too long or too flat to grasp",
+                  size.x(), size.y(), size.z());
     std::snprintf(remedy, sizeof(remedy), "choose another --task, or another --height than %.3f",
-                  thing.height());
+                  object.height());
   }
   throw core::Error(what, folder.string(), remedy);
 }
 
 Furniture MakeFurniture(const fs::path& folder, const std::string& kind, std::uint64_t seed,
                         const fs::path& output, core::Progress* progress) {
-  const tasks::Thing thing = ThingIn(folder);
+  const tasks::Thing object = ObjectIn(folder);
   const std::vector<Candidate> candidates = CandidatesOf(kind, seed);
   std::string refusal;
   progress->Stage("furniture");
   for (const Candidate& candidate : candidates) {
     core::CheckCancelled();
-    if (!Holds(candidate, thing) || !Make(candidate, output, progress, &refusal)) continue;
+    if (!Holds(candidate, object) || !Make(candidate, output, progress, &refusal)) continue;
     return {candidate.Name(), candidate.kind->name, true};
   }
   for (const Candidate& candidate : candidates) {

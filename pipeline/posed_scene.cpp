@@ -26,9 +26,9 @@ core::TexturedMesh InOneColor(core::TriangleMesh mesh, const Eigen::Vector4f& co
   return colored;
 }
 
-// A visual in its link's frame: the file's own materials, unless the URDF gives a colour to what
-// has no texture.
-core::TexturedMesh SeenOf(const assets::UrdfShape& shape, const Eigen::Vector4f& color) {
+// Returns a visual in its link's frame with the file's own materials, unless the URDF gives a
+// colour and it has no texture.
+core::TexturedMesh VisualMesh(const assets::UrdfShape& shape, const Eigen::Vector4f& color) {
   if (shape.file.empty()) return InOneColor(shape.mesh, shape.color.value_or(color));
   core::TexturedMesh seen = assets::ReadMesh(shape.file);
   core::Transform(shape.link_from_file, &seen.mesh);
@@ -68,10 +68,10 @@ void PosedScene::AddLink(const assets::UrdfLink& link, const Eigen::Vector4f& co
   const bool drawn = !link.visuals.empty();
   for (const assets::UrdfShape& shape : drawn ? link.visuals : link.collisions) {
     try {
-      core::TexturedMesh seen = SeenOf(shape, color);
+      core::TexturedMesh seen = VisualMesh(shape, color);
       if (!seen.mesh.empty()) pieces_.push_back({std::move(seen), thing, index});
     } catch (const core::Error&) {
-      continue;  // a picture lacks it, nothing else does
+      continue;  // only the picture lacks it
     }
   }
 }

@@ -11,27 +11,27 @@
 
 namespace simwright::pipeline {
 
-// What is seen of a robot and the things of one task, ready to be put where a moment has them.
+// The visuals of a robot and the objects of one task, ready to be posed at a recorded moment.
 class PosedScene {
  public:
-  // `variant` and `robot` must outlive the scene; `assets` are the run's, of which the variant's
-  // things are some. A visual that cannot be read is left out.
+  // `variant` and `robot` must outlive the scene; `assets` are the run's and include the variant's
+  // objects. Unreadable visuals are omitted.
   PosedScene(const robot::RobotModel& robot, const rl::SkillVariant& variant,
              const std::vector<tasks::TaskAsset>& assets);
 
-  // Adds everything as it stands at `moment`, and the floor. `scene` must not outlive this.
+  // Adds all objects at `moment`, and the floor. `scene` must not outlive this object.
   void Place(const RecordedMoment& moment, render::Scene* scene) const;
-  // What the robot and the things fill at `moment`, m, world; without the floor.
+  // Returns the AABB of the robot and the objects at `moment`, m, world frame, without the floor.
   Eigen::AlignedBox3d Bounds(const RecordedMoment& moment) const;
 
  private:
   struct Piece {
     core::TexturedMesh mesh;  // link frame
     int thing = -1;           // -1: the robot
-    int link = 0;             // of the thing's, or of the robot's URDF
+    int link = 0;             // an index into the object's links or the robot URDF's
   };
   void AddLink(const assets::UrdfLink& link, const Eigen::Vector4f& color, int thing, int index);
-  // By piece.
+  // Returns the pose of each piece.
   std::vector<Eigen::Isometry3d> Poses(const RecordedMoment& moment) const;
 
   const robot::RobotModel& robot_;

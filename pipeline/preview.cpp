@@ -7,7 +7,7 @@
 namespace simwright::pipeline {
 namespace {
 
-// Hues a golden angle apart, so that neighbours differ however many there are.
+// Returns a colour from hues a golden angle apart, so that neighbouring parts differ at any count.
 Eigen::Vector4f PartColor(int part) {
   const float hue = std::fmod(0.13f + 0.618034f * static_cast<float>(part), 1.0f) * 6.0f;
   const auto channel = [&](float shift) {

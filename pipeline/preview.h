@@ -8,14 +8,14 @@
 
 namespace simwright::pipeline {
 
-// preview.png: four views of what is seen, and below them of the collision parts, each part in a
-// colour of its own.
+// Renders preview.png: four views of the visual, and below them of the collision parts, each in its
+// own colour.
 core::Image AssetPreview(const assets::Asset& asset);
 
-// The asset as it is seen, from a side and above. `size` pixels a side.
+// Renders the asset's visual from a side and above. `size` pixels a side.
 core::Image RigidView(const assets::Asset& asset, int size);
 
-// The collision parts as one mesh, a material a part.
+// Returns the collision parts as one mesh with one material per part.
 core::TexturedMesh PartsInColor(const std::vector<core::TriangleMesh>& parts);
 
 }  // namespace simwright::pipeline

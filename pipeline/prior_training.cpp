@@ -8,7 +8,7 @@
 namespace simwright::pipeline {
 namespace {
 
-// What is missing is said before the minutes that reading takes.
+// Reports missing files before the minutes that reading takes.
 void RequireFiles(const PriorTrainingRequest& request) {
   for (const std::filesystem::path& path : request.catalogues) {
     if (!std::filesystem::exists(path)) {
@@ -19,15 +19,15 @@ void RequireFiles(const PriorTrainingRequest& request) {
   }
   const auto require_start = [](bool wanted, const asset_lift::PriorTrainingOptions& options) {
     if (wanted && !options.start.empty() && !std::filesystem::exists(options.start)) {
-      throw core::Error("no such weights to begin with", options.start.string(),
-                        "--from names a folder that `simwright prior train` made");
+      throw core::Error("no such weights to start from", options.start.string(),
+                        "--from names a folder written by `simwright prior train`");
     }
   };
   require_start(request.shape, request.shape_options);
   require_start(request.view, request.view_options);
   if (request.view && !request.shape && !std::filesystem::exists(ShapeWeights(request.output))) {
-    throw core::Error("the view prior builds upon a shape prior", ShapeWeights(request.output),
-                      "train that one too, or copy one there");
+    throw core::Error("the view prior needs a shape prior", ShapeWeights(request.output),
+                      "train it too, or copy one there");
   }
 }
 

@@ -11,34 +11,35 @@
 namespace simwright::pipeline {
 
 struct PriorTrainingRequest {
-  // Furniture catalogues (.sh3f) whose pieces are learned from; missing ones are an error.
+  // The furniture catalogues (.sh3f) with the training pieces; missing ones are an error.
   std::vector<std::filesystem::path> catalogues;
-  std::filesystem::path output;  // folder of the weights
-  bool shape = true;             // which of the two to train
-  bool view = true;              // builds upon the shape prior in the folder
+  std::filesystem::path output;  // the weights' folder
+  bool shape = true;             // trains the shape prior
+  bool view = true;              // trains the view prior, which uses the shape prior in the folder
   asset_lift::PriorTrainingOptions shape_options, view_options;
 
-  // What makes weights like the shipped ones.
+  // Sets the options that reproduce the shipped weights.
   PriorTrainingRequest();
 };
 
-// Where Debian's sweethome3d-furniture keeps its CC0 part: what the shipped weights learned from.
+// Returns the path of the CC0 catalogue of Debian's sweethome3d-furniture, the training data of the
+// shipped weights.
 std::filesystem::path DefaultTrainingCatalogue();
 
-// The two files of weights in a folder.
+// Returns the path of each prior's weights in a folder.
 std::filesystem::path ShapeWeights(const std::filesystem::path& folder);
 std::filesystem::path ViewWeights(const std::filesystem::path& folder);
 
 struct TrainedPrior {
   std::string name;                        // "shape" or "view"
-  std::filesystem::path weights;           // in the request's folder
-  asset_lift::PriorTrainingReport report;  // of the last steps
+  std::filesystem::path weights;           // a file in the request's folder
+  asset_lift::PriorTrainingReport report;  // the report on the last steps
 };
 
-// Hears of every prior's means now and then.
+// A listener that is called with each prior's report from time to time.
 using TrainedPriorListener = std::function<void(const TrainedPrior&)>;
 
-// Trains the learned priors and writes their weights into the folder. Throws core::Error,
+// Trains the learned priors and writes their weights into the folder. Throws core::Error and
 // core::Cancelled.
 std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core::Progress* progress,
                                       const TrainedPriorListener& listener = {});

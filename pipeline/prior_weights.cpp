@@ -22,7 +22,7 @@ asset_lift::LiftPriors LoadLiftPriors(const fs::path& view_script, core::Finding
   if (!have_shape || priors.view == nullptr) {
     findings->push_back({"prior", core::Severity::kWarning, folder.string(),
                          std::string("no weights of the ") + (have_shape ? "view" : "shape") +
-                             " prior were found: the hidden side follows from the outline "
+                             " prior were found: the hidden side is inferred from the silhouette "
                              "(simwright prior train -o models makes them)",
                          0.0});
   }

@@ -7,9 +7,9 @@
 
 namespace simwright::pipeline {
 
-// The lift's learned priors from the shipped weights, and from a user's TorchScript module for the
-// view prior where `view_script` is not empty. What is not there is left out, with a finding that
-// says how to get it. Throws core::Error for weights or a module that are damaged.
+// Loads the learned reconstruction priors from the shipped weights, and the view prior from the
+// user's TorchScript module if `view_script` is not empty. A missing prior is omitted, with a
+// finding that says how to get it. Throws core::Error for damaged weights or a damaged module.
 asset_lift::LiftPriors LoadLiftPriors(const std::filesystem::path& view_script,
                                       core::Findings* findings);
 

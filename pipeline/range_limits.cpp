@@ -18,33 +18,33 @@ namespace {
 using assets::UrdfJoint;
 using assets::UrdfModel;
 
-constexpr double kOvershoot = 0.015;  // of a way that ends at an obstacle: engines overrun limits
-constexpr int kSteps = 48;      // over a joint's range: 2 degrees of a door
+constexpr double kOvershoot = 0.015;  // of the free range: engines overrun limits
+constexpr int kSteps = 48;            // positions over a joint's range: 2 degrees of a door
 constexpr int kBisections = 8;  // of one step
 
 struct Obstacle {
   double depth = 0.0;  // m
-  std::string name;    // of the link, or "the floor"
+  std::string name;    // the link's, or "the floor"
   bool floor = false;
 };
 
-class Ranges {
+class RangeLimiter {
  public:
-  Ranges(const RangeOptions& options, UrdfModel* model)
+  RangeLimiter(const RangeOptions& options, UrdfModel* model)
       : options_(options), model_(model), groups_(*model) {}
 
-  RangeResult End() {
-    ExcludeWhatOverlapsAtRest();
+  RangeResult LimitRanges() {
+    ExcludePairsOverlappingAtZero();
     for (size_t joint = 0; joint < model_->joints.size(); ++joint) {
       if (!options_.end_ranges || !model_->joints[joint].Moves()) continue;
       core::CheckCancelled();
-      EndRange(joint);
+      LimitRange(joint);
     }
     return std::move(result_);
   }
 
  private:
-  void ExcludeWhatOverlapsAtRest() {
+  void ExcludePairsOverlappingAtZero() {
     const auto poses = assets::LinkPosesAtZero(*model_);
     for (size_t a = 0; a < model_->links.size(); ++a) {
       for (size_t b = 0; b < a; ++b) {
@@ -54,10 +54,10 @@ class Ranges {
         model_->excluded_pairs.emplace_back(model_->links[a].name, model_->links[b].name);
         result_.findings.push_back(
             {"overlap-excluded", core::Severity::kWarning, model_->links[a].name,
-             "it overlaps '" + model_->links[b].name + "', which no joint joins it to, by " +
-                 core::Millimetres(depth) +
-                 " with all joints at zero: no contact is made between them",
-             1e3 * depth, "mend the file's meshes for contact between them"});
+             "it overlaps '" + model_->links[b].name +
+                 "', which is not a neighbour by a joint, by " + core::Millimetres(depth) +
+                 " with all joints at zero: the pair is excluded from contact",
+             1e3 * depth, "repair the file's meshes to enable contact between them"});
       }
     }
   }
@@ -84,7 +84,7 @@ class Ranges {
     return worst;
   }
 
-  void EndRange(size_t index) {
+  void LimitRange(size_t index) {
     UrdfJoint& joint = model_->joints[index];
     const bool turns = joint.type == assets::UrdfJointType::kContinuous;
     const double lower = turns ? -std::numbers::pi : joint.lower;
@@ -95,23 +95,23 @@ class Ranges {
       return what->depth > options_.most;
     };
     Obstacle first, worst;
-    if (blocked(0.0, &first)) return;  // at rest already: nothing to end it at
+    if (blocked(0.0, &first)) return;  // already blocked at zero: no range helps
     const double step = (upper - lower) / kSteps;
     std::vector<Obstacle> at(kSteps + 1);
     core::ParallelFor(kSteps + 1, [&](int i) {
       at[static_cast<size_t>(i)] = ObstacleAt(index, carried, lower + step * i);
     });
     double ends[2] = {lower, upper};
-    for (const int way : {-1, 1}) {
-      const double limit = way < 0 ? lower : upper;
-      // The free position nearest to the first blocked one on the way out from zero.
+    for (const int direction : {-1, 1}) {
+      const double limit = direction < 0 ? lower : upper;
+      // The last free position before the first blocked one, going out from zero.
       double free = 0.0;
       const Obstacle* hit = nullptr;
       double hit_at = limit;
       const int start = static_cast<int>(std::floor(-lower / step));
-      for (int i = way < 0 ? start : start + 1; i >= 0 && i <= kSteps; i += way) {
+      for (int i = direction < 0 ? start : start + 1; i >= 0 && i <= kSteps; i += direction) {
         const double position = lower + step * i;
-        if (way * position <= 0.0) continue;
+        if (direction * position <= 0.0) continue;
         if (at[static_cast<size_t>(i)].depth > options_.most) {
           hit = &at[static_cast<size_t>(i)];
           hit_at = position;
@@ -126,7 +126,7 @@ class Ranges {
         const double middle = 0.5 * (free + hit_at);
         (blocked(middle, &what) ? hit_at : free) = middle;
       }
-      ends[way < 0 ? 0 : 1] = (1.0 - kOvershoot) * free;
+      ends[direction < 0 ? 0 : 1] = (1.0 - kOvershoot) * free;
     }
     if (worst.depth == 0.0) return;
     const double left = (ends[1] - ends[0]) / (upper - lower);
@@ -137,13 +137,13 @@ class Ranges {
     char figures[96], share[32];
     std::snprintf(figures, sizeof(figures), " from [%.3g, %.3g] to [%.3g, %.3g]", lower, upper,
                   ends[0], ends[1]);
-    std::snprintf(share, sizeof(share), ": %.0f %% is left", 100.0 * left);
+    std::snprintf(share, sizeof(share), ": %.0f %% remains", 100.0 * left);
     const bool slides = joint.type == assets::UrdfJointType::kPrismatic;
-    result_.findings.push_back(
-        {"joint-cut", core::Severity::kWarning, joint.name,
-         "its range was cut" + std::string(figures) + (slides ? " m" : " rad") +
-             ", where it would meet " + worst.name + share,
-         left, worst.floor ? "stand it higher, and widen the limit" : ""});
+    result_.findings.push_back({"joint-cut", core::Severity::kWarning, joint.name,
+                                "its range was reduced" + std::string(figures) +
+                                    (slides ? " m" : " rad") + ", where it would collide with " +
+                                    worst.name + share,
+                                left, worst.floor ? "mount it higher, and widen the limit" : ""});
     if (turns) joint.type = assets::UrdfJointType::kRevolute;
     joint.lower = ends[0];
     joint.upper = ends[1];
@@ -158,7 +158,7 @@ class Ranges {
 }  // namespace
 
 RangeResult EndRangesAtObstacles(const RangeOptions& options, UrdfModel* model) {
-  return Ranges(options, model).End();
+  return RangeLimiter(options, model).LimitRanges();
 }
 
 }  // namespace simwright::pipeline

@@ -13,15 +13,15 @@ namespace simwright::pipeline {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kHolds = 5.0 * kDegree;  // more is a fall
-constexpr double kRocks = 0.5 * kDegree;  // less is the file's own upright
+constexpr double kHolds = 5.0 * kDegree;  // a larger tilt is a fall
+constexpr double kRocks = 0.5 * kDegree;  // a smaller tilt is the file's own upright pose
 constexpr double kRolling = 0.7e-3;       // m of drift in 2 s; the check allows 1 mm
 constexpr double kNearUpright = 20.0 * kDegree;
 constexpr double kFirm = 4.0 * kDegree;
 constexpr int kPosesTried = 8;
-constexpr double kLeastTipping = 0.5 * kDegree;  // less is balancing: on an edge, on a tip
+constexpr double kLeastTipping = 0.5 * kDegree;  // a smaller angle is balancing on an edge or a tip
 
-// The orientation without its turn about the vertical, which is free.
+// Returns the orientation without its rotation about the vertical, which is arbitrary.
 Eigen::Isometry3d WithoutYaw(const Eigen::Isometry3d& pose) {
   const Eigen::Vector3d up = pose.linear().transpose().col(2);  // world's up, body frame
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
@@ -43,13 +43,14 @@ bool Holds(const sim::DropResult& drop) {
   return drop.rests && drop.tilt < kHolds && drop.drift < kRolling;
 }
 
-// The pose itself where it hardly rocked, else the one it rocked into.
+// Returns the start pose if the body hardly rocked, else the pose it rocked into.
 Eigen::Isometry3d Settled(const Eigen::Isometry3d& start, const sim::DropResult& drop) {
   if (drop.tilt < kRocks) return start;
   return WithoutYaw(drop.rest_pose);
 }
 
-// What the engines see: the hull of all parts, whose facets are the faces it can lie on.
+// Returns the shape that the engines simulate: the hull of all parts, whose facets are the faces
+// the body can lie on.
 core::TriangleMesh HullOfParts(const sim::RigidBody& body) {
   std::vector<Eigen::Vector3d> points;
   for (const core::TriangleMesh& part : body.parts) {
@@ -58,7 +59,8 @@ core::TriangleMesh HullOfParts(const sim::RigidBody& body) {
   return geometry::ConvexHull(points);
 }
 
-// Whether the support bears some tilt; what is higher by less than the body rocks is part of it.
+// Returns true if the support polygon withstands some tilt. Points that are higher by less than the
+// body rocks belong to it.
 bool Bears(const sim::RigidBody& body, const Eigen::Isometry3d& turn) {
   const core::TriangleMesh hull = HullOfParts(body);
   const double slack = std::sin(kRocks) * core::Bounds(hull).diagonal().norm();
@@ -66,7 +68,8 @@ bool Bears(const sim::RigidBody& body, const Eigen::Isometry3d& turn) {
   return geometry::TippingAngle(hull, body.inertial.center_of_mass, down, slack) > kLeastTipping;
 }
 
-// Poses near the given one first (a fruit that lay a little aslant), then by probability.
+// Returns the candidate poses: first those near the given one (a fruit that lay slightly tilted),
+// then by probability.
 std::vector<geometry::StablePose> PosesToTry(const sim::RigidBody& body) {
   std::vector<geometry::StablePose> poses =
       geometry::StablePoses(HullOfParts(body), body.inertial.center_of_mass);
@@ -75,7 +78,7 @@ std::vector<geometry::StablePose> PosesToTry(const sim::RigidBody& body) {
   };
   const auto far = std::stable_partition(
       poses.begin(), poses.end(), [&](const auto& pose) { return tilt(pose) < kNearUpright; });
-  // Of the near ones those that bear some tilt first: two engines then agree on them.
+  // Among the near poses, those that withstand some tilt come first: both engines agree on them.
   std::stable_sort(poses.begin(), far, [&](const auto& a, const auto& b) {
     const bool firm_a = a.tipping_angle > kFirm, firm_b = b.tipping_angle > kFirm;
     return firm_a != firm_b ? firm_a : tilt(a) < tilt(b);
@@ -100,7 +103,7 @@ RestPose FindRestPose(const sim::RigidBody& body, const core::TriangleMesh& soli
   };
   const sim::DropResult given = Drop(body, upright, 2.0);
   const Eigen::Isometry3d settled = Settled(upright, given);
-  // What is even on both sides may balance on an edge in one engine and tip in the other.
+  // A symmetric body may balance on an edge in one engine and tip in the other.
   if (Holds(given) && (Bears(body, settled) || rolls(settled))) {
     return {settled, rolls(settled), true};
   }
@@ -108,14 +111,14 @@ RestPose FindRestPose(const sim::RigidBody& body, const core::TriangleMesh& soli
   for (const geometry::StablePose& pose : poses) {
     Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
     start.linear() = pose.resting_from_body.linear();
-    // A bottle that lies is not stood up because it rolls.
+    // A lying bottle is not stood up because it rolls.
     if (StandsAsGiven(start) && rolls(start)) return {start, true, false};
     const sim::DropResult drop = Drop(body, start, 2.0);
     if (!Holds(drop)) continue;
     const Eigen::Isometry3d turn = Settled(start, drop);
     return {turn, rolls(turn), true};
   }
-  // Nothing holds at once: give it time, and take the pose in which it ends.
+  // No pose holds immediately: simulate longer and use the final pose.
   const sim::DropResult patient = Drop(body, upright, 15.0);
   const Eigen::Isometry3d turn = WithoutYaw(patient.rest_pose);
   const bool held = Holds(Drop(body, turn, 2.0));
@@ -135,12 +138,12 @@ std::string RestSentence(const Eigen::Isometry3d& turn, bool rolls) {
   const std::string degrees = std::to_string(std::lround(tilt / kDegree)) + " degrees";
   if (rolls) {
     return "rolls" +
-           (tilt < kRocks ? ", and lies the way it came" : ", and lies turned by " + degrees);
+           (tilt < kRocks ? ", and keeps its given pose" : ", and lies rotated by " + degrees);
   }
-  if (tilt < kRocks) return "stands the way it came";
+  if (tilt < kRocks) return "stands in its given pose";
   return (StandsAsGiven(turn)
-              ? "stands nearly the way it came, turned by "
-              : "does not stand the way it came; lies in a stable pose, turned by ") +
+              ? "stands nearly in its given pose, rotated by "
+              : "does not stand in its given pose; lies in a stable pose, rotated by ") +
          degrees;
 }
 

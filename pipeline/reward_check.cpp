@@ -19,10 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A reward function is a page; the compiler's own bound is far below this.
+// The size limit of a program file; the compiler's own bound is far below.
 constexpr std::uint64_t kLargestProgram = 16u << 20;
 
-// "link_position of microwave, handle_0"
+// Returns a readable name of an input, such as "link_position of microwave, handle_0".
 std::string ReadName(const tasks::RewardSlot& slot) {
   std::string name(tasks::RewardInputName(slot.input));
   if (!slot.asset.empty()) name += " of " + slot.asset;
@@ -30,7 +30,7 @@ std::string ReadName(const tasks::RewardSlot& slot) {
   return name;
 }
 
-// True where the finding is about the program and not about an asset's file.
+// Returns true if the finding is about the program and not about an asset's file.
 bool InProgram(const core::Finding& finding) {
   int line = 0, column = 0;
   return std::sscanf(finding.place.c_str(), "%d:%d", &line, &column) == 2;
@@ -42,7 +42,7 @@ int Count(const core::Findings& findings, core::Severity severity) {
                     [&](const core::Finding& finding) { return finding.severity == severity; }));
 }
 
-// What the program does there (docs/rewards.md, "On a scene"); its title is the file's name.
+// Examines the program on the scene (docs/rewards.md, "On a scene"); its title is the file's name.
 core::Findings OnScene(const tasks::SceneModel& scene, const RewardCheckRequest& request,
                        const std::string& source) {
   tasks::VerificationOptions options;
@@ -60,8 +60,8 @@ core::Findings OnScene(const tasks::SceneModel& scene, const RewardCheckRequest&
 
 RewardCheckReport CheckReward(const RewardCheckRequest& request) {
   if (request.scene && request.assets.empty()) {
-    throw core::Error("no assets are given to look the program's names up in", "",
-                      "--assets FOLDER..., or --no-scene for the function alone");
+    throw core::Error("there are no assets to look up the program's names in", "",
+                      "give --assets FOLDER..., or --no-scene for the function alone");
   }
   RewardCheckReport report;
   report.subject = request.program.string();
@@ -108,7 +108,7 @@ std::string RewardCheckText(const RewardCheckReport& report) {
   for (std::size_t i = 0; i < report.components.size(); ++i) {
     text += (i == 0 ? ", in components " : ", ") + report.components[i];
   }
-  text += "; " + std::to_string(report.operations) + " operations an environment\n";
+  text += "; " + std::to_string(report.operations) + " operations per environment\n";
   for (const tasks::RewardSlot& slot : report.reads) {
     text += "  reads " + ReadName(slot) + " " + slot.shape + "\n";
   }
@@ -133,7 +133,7 @@ std::string RewardCheckJson(const RewardCheckReport& report) {
                                {"shape", slot.shape}});
     }
   }
-  // A program may hold what is no UTF-8.
+  // A program may contain invalid UTF-8.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

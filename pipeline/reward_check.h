@@ -11,41 +11,42 @@ namespace simwright::pipeline {
 
 struct RewardCheckRequest {
   std::filesystem::path program;
-  // Each an asset's folder (ours, or PartNet-Mobility's) or a URDF. A program calls it by its
-  // folder's name, a URDF by its file's; "NAME=PATH" gives another.
+  // The assets, each a folder (ours, or PartNet-Mobility's) or a URDF. A program calls an asset by
+  // the name of its folder or URDF file; "NAME=PATH" gives another name.
   std::vector<std::string> assets;
-  // False: the function alone, its parameters free inputs; names of assets are not looked up.
+  // False: checks the function alone with free inputs as parameters, without looking up asset
+  // names.
   bool scene = true;
-  std::string entry;  // the function that gives the reward; empty: found by its name
+  std::string entry;  // the reward function; empty: found by its name
 };
 
-// What is known of a reward program before anything is trained.
+// The results of checking a reward program before training.
 struct RewardCheckReport {
   std::string subject;      // the file
-  std::string source;       // what it holds
-  core::Findings findings;  // in the program, place: "line:column"; in an asset, its file
-  // Where it compiles: the function, what it reads, and what it gives.
+  std::string source;       // the file's text
+  core::Findings findings;  // place: "line:column" in the program, or the asset's file
+  // If it compiles: the function, its inputs and its outputs.
   bool compiles = false;
   std::string entry;
   std::vector<tasks::RewardSlot> reads;
   std::vector<std::string> components;
   bool has_success = false;
-  int operations = 0;  // an environment
+  int operations = 0;  // per environment
 
   bool sound = false;  // no finding in the program is an error
 
   bool passed() const { return sound; }
 };
 
-// Reads and compiles the program against the assets' names, and with a scene looks at what it does
-// there (tasks/verification). Throws core::Error where a file cannot
-// be read, a folder holds no URDF, two assets bear one name, or there is neither an asset nor
-// `scene` unset.
+// Compiles the program against the assets' names and, with a scene, examines its behaviour there
+// (tasks/verification). Throws core::Error if a file cannot be read, a folder has no URDF, two
+// assets have the same name, or `scene` is set and there are no assets.
 RewardCheckReport CheckReward(const RewardCheckRequest& request);
 
-// For a person: the findings with their lines and carets, then what the program reads and gives.
+// Formats the report for people: the findings with their lines and carets, then the program's
+// inputs and outputs.
 std::string RewardCheckText(const RewardCheckReport& report);
-// One JSON object (docs/rewards.md).
+// Formats the report as one JSON object (docs/rewards.md).
 std::string RewardCheckJson(const RewardCheckReport& report);
 
 }  // namespace simwright::pipeline

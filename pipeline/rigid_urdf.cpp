@@ -9,7 +9,8 @@
 namespace simwright::pipeline {
 namespace {
 
-// `addition` with all it has; per-triangle arrays of both are filled where only one has them.
+// Appends `addition` with all of its attributes; fills per-triangle arrays that only one of the two
+// has.
 void AppendTextured(core::TexturedMesh addition, core::TexturedMesh* whole) {
   const auto fill = [](core::TexturedMesh* mesh) {
     const size_t triangles = mesh->mesh.triangles.size();
@@ -45,7 +46,7 @@ core::TexturedMesh TexturedShape(const assets::UrdfShape& shape, core::Findings*
     mesh = std::move(file.mesh);
     core::Transform(shape.link_from_file, &mesh.mesh);
     if (shape.link_from_file.linear().determinant() < 0.0 && !mesh.corner_uvs.empty()) {
-      // Transform turned the triangles round: their last two corners changed places.
+      // Transform reversed the triangles' winding by swapping their last two corners.
       for (size_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
         std::swap(mesh.corner_uvs[3 * t + 1], mesh.corner_uvs[3 * t + 2]);
       }
@@ -76,8 +77,8 @@ core::TexturedMesh RigidVisual(const assets::UrdfModel& model, core::Findings* f
     }
   }
   if (whole.mesh.empty()) {
-    throw core::Error("no link has a shape that can be read", model.name,
-                      "give it a mesh, or mend the file names of those it has");
+    throw core::Error("no link has a readable shape", model.name,
+                      "give it a mesh, or correct the file names of its meshes");
   }
   if (whole.textures.empty()) whole.corner_uvs.clear();
   return whole;

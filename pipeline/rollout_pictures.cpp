@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr int kFrames = 12, kColumns = 6;
 constexpr int kSize = 320;           // pixels a side
-constexpr double kAzimuth = -1.95;   // rad from +x: things turn their fronts towards the robot
+constexpr double kAzimuth = -1.95;   // rad from +x: objects face the robot
 constexpr double kElevation = 0.45;  // rad
 constexpr double kFov = 0.5;         // rad
 
@@ -26,7 +26,7 @@ const rl::SkillVariant& VariantOf(const RunSkill& skill, const RecordedSubtask& 
   return skill.evaluated->variants[static_cast<size_t>(subtask.start.variant)];
 }
 
-// The moments of a subtask that are drawn.
+// Returns the moments of a subtask to render.
 std::vector<const RecordedMoment*> Frames(const RecordedSubtask& subtask) {
   std::vector<const RecordedMoment*> frames;
   const auto last = static_cast<double>(subtask.moments.size() - 1);
@@ -58,7 +58,7 @@ core::Image Picture(const PosedScene& posed, const RecordedMoment& moment,
   return render::RenderForward(scene, camera, options).color;
 }
 
-// To a hundredth of a millimetre or milliradian: what a picture can tell.
+// Rounds to a hundredth of a millimetre or milliradian, the resolution of a picture.
 double Rounded(double value) {
   return std::round(value * 1e5) / 1e5;
 }

@@ -8,13 +8,13 @@
 
 namespace simwright::pipeline {
 
-// An episode in pictures: of each subtask twelve moments, evenly over its time from start to end,
-// six a row, seen by one camera from behind the robot's right. RGBA.
+// Renders an episode as pictures: twelve moments of each subtask, evenly spaced from start to end,
+// six per row, from one camera behind and to the right of the robot. RGBA.
 core::Image RolloutStrip(const SkillRun& run, const std::vector<RunSkill>& skills,
                          const ChainRecording& recording);
 
-// The episode as lines of JSON, one a control step: joints of the robot, poses and joints of things
-// (docs/formats.md).
+// Writes the episode as JSON lines, one per control step: joints of the robot, poses and joints of
+// the objects (docs/formats.md).
 std::string RolloutPoses(const SkillRun& run, const std::vector<RunSkill>& skills,
                          const ChainRecording& recording);
 

@@ -18,7 +18,7 @@ namespace simwright::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
-// "apple_2": the library's apple of seed 2.
+// A library asset's name: "apple_2" is the apple of seed 2.
 struct Named {
   std::string kind;
   std::uint64_t seed = 1;
@@ -37,12 +37,12 @@ Named KindOfSlot(const std::string& slot) {
 
 void Copy(const fs::path& from, const fs::path& to) {
   if (!assets::IsAssetFolder(from)) {
-    throw core::Error("this is no asset folder", from.string(),
+    throw core::Error("this is not an asset folder", from.string(),
                       "make one with `simwright lift`, `import` or `library`");
   }
   if (fs::exists(to)) {
     if (core::ContentHashOf(to / "asset.json") == core::ContentHashOf(from / "asset.json")) return;
-    throw core::Error("another asset stands for this slot already", to.string(),
+    throw core::Error("another asset is already used for this category", to.string(),
                       "generate into a new folder");
   }
   core::StagedFolder staged(to, false);
@@ -52,7 +52,7 @@ void Copy(const fs::path& from, const fs::path& to) {
 
 void MakeMissing(const std::vector<std::string>& slots, const fs::path& kept,
                  core::Progress* progress) {
-  // One call for each seed: a library is so many seeds of each kind.
+  // One call per seed, because a library call makes one seed of each kind.
   std::map<std::uint64_t, std::vector<std::string>> by_seed;
   for (const std::string& slot : slots) {
     if (!fs::exists(kept / slot)) by_seed[KindOfSlot(slot).seed].push_back(slot);
@@ -63,16 +63,16 @@ void MakeMissing(const std::vector<std::string>& slots, const fs::path& kept,
     for (const std::string& slot : wanted) {
       const std::string kind = KindOfSlot(slot).kind;
       if (library::FindRigidKind(kind) == nullptr) {
-        throw core::Error("nothing stands for this slot, and the library has no such kind", slot,
-                          "give one: --asset " + slot + "=FOLDER");
+        throw core::Error("no asset fits this category, and the library has no such kind", slot,
+                          "give one with --asset " + slot + "=FOLDER");
       }
       options.kind += (options.kind.empty() ? "" : ",") + kind;
     }
     options.seed = seed;
-    options.force = true;  // of an earlier run that was killed
+    options.force = true;  // leftovers of a killed run
     const fs::path making = kept / ".making";
     const std::vector<LibraryOutcome> made = MakeLibrary(options, making, progress);
-    // What is done stays, whatever became of the others.
+    // Finished assets are kept even if others failed.
     for (size_t i = 0; i < made.size(); ++i) {
       if (made[i].refusal.empty()) fs::rename(made[i].folder, kept / wanted[i]);
     }
@@ -90,17 +90,17 @@ std::string Listed(const std::vector<std::string>& names) {
   return list;
 }
 
-// What the folder of a user holds that scenes cannot take, as the reason why none of it is used.
-std::string HeldIn(const fs::path& folder) {
-  if (assets::IsAssetFolder(folder)) return "it is an asset itself, and no folder of assets";
+// Explains why scenes can use none of the assets in a user's folder.
+std::string UnusedReason(const fs::path& folder) {
+  if (assets::IsAssetFolder(folder)) return "it is itself an asset, not a folder of assets";
   int rigid = 0, jointed = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (!assets::IsAssetFolder(entry.path())) continue;
     ++(assets::IsArticulatedAssetFolder(entry.path()) ? jointed : rigid);
   }
-  if (rigid + jointed == 0) return "it holds no asset folders";
-  return "of its " + std::to_string(rigid) + " rigid assets none has the name or category of a slot" +
-         (jointed > 0 ? ", and its " + std::to_string(jointed) + " with joints are not taken" : "");
+  if (rigid + jointed == 0) return "it has no asset folders";
+  return "of its " + std::to_string(rigid) + " rigid assets none matches a category by name" +
+         (jointed > 0 ? ", and its " + std::to_string(jointed) + " with joints are not used" : "");
 }
 
 void ReportUse(const fs::path& folder, const scene::SlotFolders& used,
@@ -108,8 +108,8 @@ void ReportUse(const fs::path& folder, const scene::SlotFolders& used,
   if (findings == nullptr) return;
   if (used.empty()) {
     findings->push_back({"assets-unused", core::Severity::kWarning, folder.string(),
-                         "none of these assets is used: " + HeldIn(folder), 0.0,
-                         "--asset SLOT=FOLDER takes one; the slots are " + Listed(slots)});
+                         "none of these assets is used: " + UnusedReason(folder), 0.0,
+                         "--asset SLOT=FOLDER uses one; the categories are " + Listed(slots)});
     return;
   }
   std::vector<std::string> taken;
@@ -118,8 +118,8 @@ void ReportUse(const fs::path& folder, const scene::SlotFolders& used,
     taken.push_back(slot == name ? slot : slot + " (" + name + ")");
   }
   findings->push_back({"assets-used", core::Severity::kInfo, folder.string(),
-                       "stands for " + std::to_string(used.size()) + " of " +
-                           std::to_string(slots.size()) + " slots: " + Listed(taken),
+                       "used for " + std::to_string(used.size()) + " of " +
+                           std::to_string(slots.size()) + " categories: " + Listed(taken),
                        static_cast<double>(used.size())});
 }
 
@@ -151,7 +151,7 @@ scene::SlotFolders GatherSceneAssets(const SceneAssetsRequest& request, core::Pr
   }
   for (const auto& [slot, folder] : request.chosen) {
     if (folders.count(slot) == 0) {
-      throw core::Error("scenes of this type have no such slot", slot);
+      throw core::Error("scenes of this type have no such category", slot);
     }
   }
   MakeMissing(request.slots, request.kept, progress);

@@ -10,23 +10,23 @@
 
 namespace simwright::pipeline {
 
-// What stands in scenes for their slots.
+// The request for the assets of scene categories.
 struct SceneAssetsRequest {
-  std::vector<std::string> slots;              // all that are wanted
-  scene::SlotFolders chosen;                   // these come first
-  std::vector<std::filesystem::path> folders;  // then what is in these, in their order
-  // Where all of them are kept, each in a folder of its slot's name. What is here already stays,
-  // unless something else is chosen for it.
+  std::vector<std::string> slots;              // all required categories
+  scene::SlotFolders chosen;                   // takes precedence
+  std::vector<std::filesystem::path> folders;  // searched next, in this order
+  // The folder that keeps all assets, each in a folder named after its category. Existing ones are
+  // kept unless `chosen` names another one.
   std::filesystem::path kept;
-  // Gets a note of what is taken of each of `folders`, and a warning for one of which nothing is:
-  // "assets-unused". May be null.
+  // Receives a note for each of `folders` that lists the assets used, and a warning,
+  // "assets-unused", for a folder of which none is used. May be null.
   core::Findings* findings = nullptr;
 };
 
-// Makes what is asked for be in `kept`: copies what is chosen or found, and makes of the library
-// what is left; "apple_2" is an apple of seed 2. Workers that share the folder wait for each other.
-// Throws core::Error where a chosen folder is no asset, where a slot has another asset already, and
-// where the library has no such kind or its asset fails the check.
+// Provides the requested assets in `kept`: copies the chosen or found ones and makes the rest from
+// the library; "apple_2" is an apple of seed 2. Workers that share the folder wait for each other.
+// Throws core::Error if a chosen folder is not an asset, if a category already has another asset,
+// or if the library has no such kind or its asset fails the check.
 scene::SlotFolders GatherSceneAssets(const SceneAssetsRequest& request, core::Progress* progress);
 
 }  // namespace simwright::pipeline

@@ -23,14 +23,14 @@ namespace simwright::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kFewest = 4;  // scenes of a set: two halves of two
-// Of our features, of which there are few; of a user's network as published.
+constexpr int kFewest = 4;  // the minimum size of a set: two halves of two scenes
+// The learning rates: for our few features, and the published one for a user's network.
 constexpr double kOwnRate = 1e-2, kPublishedRate = 1e-4;
 
 void Validate(const SceneEvaluationRequest& request) {
   if (request.count < kFewest) throw core::Error("at least 4 scenes are compared", "--count");
   if (request.training_scenes < -1) {
-    throw core::Error("a number of scenes is at least 0", "--training-scenes");
+    throw core::Error("the number of scenes must be at least 0", "--training-scenes");
   }
 }
 
@@ -44,8 +44,8 @@ std::optional<scene::SceneFeatures> FindFeatures(const SceneEvaluationRequest& r
     return scene::SceneFeatures::Load(FeatureWeights(models));
   }
   findings->push_back({"features", core::Severity::kWarning, FeatureWeights(models).string(),
-                       "no features were found: pictures are not compared (simwright scene "
-                       "features makes them, --features takes a network of yours)",
+                       "no features were found: images are not compared (simwright scene "
+                       "features trains them, --features uses your own network)",
                        0.0});
   return std::nullopt;
 }
@@ -110,10 +110,10 @@ class Evaluation {
 
  private:
   scene::FeatureMatrix FeaturesOf(const SceneSet& set, const std::string& name) {
-    constexpr size_t kBatch = 64;  // pictures in memory at once
+    constexpr size_t kBatch = 64;  // images in memory at once
     const core::Camera camera = scene::LabelCamera(sets_.vocabulary.type);
     scene::FeatureMatrix features;
-    progress_->Stage("pictures of " + name, static_cast<int>(set.size()));
+    progress_->Stage("images of " + name, static_cast<int>(set.size()));
     for (size_t first = 0; first < set.size(); first += kBatch) {
       const SceneSet batch(
           set.begin() + static_cast<std::ptrdiff_t>(first),
@@ -126,7 +126,7 @@ class Evaluation {
       const scene::FeatureMatrix rows = features_->Of(pictures);
       if (first == 0) features.resize(static_cast<Eigen::Index>(set.size()), rows.cols());
       if (rows.cols() != features.cols()) {
-        throw core::Error("it gives now more, now fewer features", features_->name());
+        throw core::Error("its number of features varies", features_->name());
       }
       features.middleRows(static_cast<Eigen::Index>(first), rows.rows()) = rows;
     }
@@ -192,7 +192,8 @@ class Evaluation {
   SceneEvaluation result_;
 };
 
-// A row a pair: a sample as label render and from the side, a held-out scene the same.
+// Writes one row per pair: a sample as a label render and from the side, then a held-out scene
+// likewise.
 void WriteSheet(const SceneSets& sets, const fs::path& path) {
   constexpr size_t kRows = 6;
   constexpr int kHeight = 300, kWidth = 400;  // pixels

@@ -15,38 +15,38 @@
 namespace simwright::pipeline {
 
 struct SceneEvaluationRequest {
-  // Of scene: with the shipped weights of that name (models/scenes/TYPE.pt), and held-out scenes
-  // made by the grammar, unless `weights` or `data` say otherwise.
+  // The scene type. Selects the shipped weights of that name (models/scenes/TYPE.pt) and held-out
+  // scenes from the grammar, unless `weights` or `data` override them.
   std::string type;
-  std::filesystem::path data;     // dataset; empty: `count` scenes are generated
-  std::filesystem::path weights;  // of a model to sample from
-  std::filesystem::path samples;  // what `scene sample --raw` wrote, instead of sampling
-  // The first scenes of `data` are what the model learned from, the rest is held out. -1: as the
-  // weights say where they learned from `data` (its seed), else none.
+  std::filesystem::path data;     // a dataset; empty: `count` scenes are generated
+  std::filesystem::path weights;  // the weights of the model to sample from
+  std::filesystem::path samples;  // output of `scene sample --raw`, instead of sampling
+  // The number of leading scenes of `data` that are training scenes; the rest is held out. -1: the
+  // number in the weights if they were trained on `data` (its seed), else none.
   int training_scenes = -1;
-  int count = 1000;                           // scenes of each set, at most
-  std::vector<std::filesystem::path> assets;  // folders, the first first; the library for the rest
-  // A TorchScript module and the side of its pictures, instead of our features.
+  int count = 1000;                           // the maximum number of scenes per set
+  std::vector<std::filesystem::path> assets;  // searched in this order, then the library
+  // A TorchScript feature extractor and the side of its input images, instead of our features.
   std::filesystem::path features;
   int feature_side = 299;
   scene::SampleOptions sampling;
-  std::filesystem::path output;  // folder of metrics.json and sheet.png; empty: none
+  std::filesystem::path output;  // for metrics.json and sheet.png; empty: none
   std::uint64_t seed = 1;
 };
 
-// How much things of a set's scenes are in each other, m (scene::TotalPenetration).
+// The interpenetration of a set's scenes, m (scene::TotalPenetration).
 struct PenetrationSummary {
-  double median = 0.0, mean = 0.0;          // of convex parts: MTP is the median
-  double box_median = 0.0, box_mean = 0.0;  // of the bodies' boxes
+  double median = 0.0, mean = 0.0;          // between convex parts; MTP is the median
+  double box_median = 0.0, box_mean = 0.0;  // between the bodies' bounding boxes
 };
 
-// A set of scenes against the reference.
+// The metrics of a set of scenes against the reference.
 struct SceneSetMetrics {
   int scenes = 0;
   double mean_objects = 0.0;
   double divergence = 0.0;  // KL(reference || set), nats
   PenetrationSummary penetration;
-  // Where there are features.
+  // Present if features are available.
   std::optional<double> frechet;
   std::vector<scene::AccuracyScore> accuracy;
 };
@@ -58,29 +58,30 @@ struct DistanceSummary {
 
 struct SceneEvaluation {
   std::string type;
-  std::string features;  // their name; empty: none were found
-  // What the others are compared with: held-out scenes, or training scenes where none are held out.
+  std::string features;  // their name; empty: no features were found
+  // The size of the reference set: held-out scenes, or training scenes if none are held out.
   int reference_scenes = 0;
   bool reference_is_held_out = true;
   PenetrationSummary reference_penetration;
   int training_scenes = 0;
   SceneSetMetrics samples;
-  // Training scenes against held-out ones: what two sets of one kind differ by at this size.
+  // Training scenes against held-out ones: the difference between two sets of one distribution at
+  // this size.
   std::optional<SceneSetMetrics> training;
   scene::SceneDistanceOptions distance;
-  std::optional<DistanceSummary> sample_distance, held_out_distance;  // where there is training
-  double learning_rate = 0.0;                                         // of the classifier
+  std::optional<DistanceSummary> sample_distance, held_out_distance;  // with training scenes
+  double learning_rate = 0.0;                                         // the classifier's
   core::Findings findings;
   double seconds = 0.0;
 };
 
-// Samples scenes where none are given, compares them with held-out ones (docs/scenes.md says how),
-// and writes metrics.json and sheet.png into the output, beside what had to be sampled (samples/)
-// and generated (held_out/, which a later call goes on from). Throws core::Error where there is
-// nothing to evaluate, sets are of different types, or something is damaged.
+// Samples scenes if none are given, compares them with held-out ones (docs/scenes.md), and writes
+// metrics.json and sheet.png into the output, beside the scenes it sampled (samples/) and generated
+// (held_out/, from which a later call resumes). Throws core::Error if there is nothing to evaluate,
+// the sets are of different types, or a file is damaged.
 SceneEvaluation EvaluateScenes(const SceneEvaluationRequest& request, core::Progress* progress);
 
-// As text for people, and as JSON.
+// Format the evaluation as text for people and as JSON.
 std::string EvaluationTable(const SceneEvaluation& evaluation);
 std::string EvaluationJson(const SceneEvaluation& evaluation);
 

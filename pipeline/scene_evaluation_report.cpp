@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kOneInTenThousand = 1e4, kCentimetres = 100.0;
 
-// One printed line, its cells for samples and for training scenes.
+// Formats one line with the values of samples and of training scenes.
 std::string Line(const char* name, const std::string& samples, const std::string& training) {
   char line[160];
   std::snprintf(line, sizeof line, "%-34s %14s %14s\n", name, samples.c_str(), training.c_str());
@@ -44,7 +44,7 @@ std::string SetLines(const SceneSetMetrics& samples, const std::optional<SceneSe
   text += line("MTP, convex parts, cm", [](const SceneSetMetrics& set) {
     return Figure("%.3f", kCentimetres * set.penetration.median);
   });
-  text += line("the same of boxes, cm", [](const SceneSetMetrics& set) {
+  text += line("the same of bounding boxes, cm", [](const SceneSetMetrics& set) {
     return Figure("%.3f", kCentimetres * set.penetration.box_median);
   });
   if (!samples.frechet) return text;
@@ -104,14 +104,14 @@ std::string EvaluationTable(const SceneEvaluation& evaluation) {
   text += Line("", "samples", evaluation.training ? "training" : "");
   text += SetLines(evaluation.samples, evaluation.training);
   char line[160];
-  std::snprintf(line, sizeof line, "MTP of the %s scenes: %.3f cm, of boxes %.3f cm\n",
+  std::snprintf(line, sizeof line, "MTP of the %s scenes: %.3f cm, of bounding boxes %.3f cm\n",
                 evaluation.reference_is_held_out ? "held-out" : "training",
                 kCentimetres * evaluation.reference_penetration.median,
                 kCentimetres * evaluation.reference_penetration.box_median);
   text += line;
   if (evaluation.sample_distance) {
     std::snprintf(line, sizeof line,
-                  "to the nearest of %d training scenes, m\n  %-20s %8s %8s %8s %8s %8s\n",
+                  "distance to the nearest of %d training scenes, m\n  %-20s %8s %8s %8s %8s %8s\n",
                   evaluation.training_scenes, "", "mean", "least", "10%", "50%", "90%");
     text += line;
     text += DistanceLine("samples", *evaluation.sample_distance);

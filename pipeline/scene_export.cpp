@@ -28,10 +28,10 @@ std::set<std::string> FormatsOf(const SceneExportRequest& request) {
   if (formats.erase("all") > 0) formats.insert(known.begin(), known.end());
   for (const std::string& format : formats) {
     if (std::find(known.begin(), known.end(), format) == known.end()) {
-      throw core::Error("there is no such format of worlds", format, "urdf, sdf, mjcf, drake, all");
+      throw core::Error("there is no such world format", format, "urdf, sdf, mjcf, drake, all");
     }
   }
-  if (formats.empty()) throw core::Error("no format is named", "--format");
+  if (formats.empty()) throw core::Error("no format is given", "--format");
   if (request.check) formats.insert("mjcf");
   return formats;
 }
@@ -39,7 +39,7 @@ std::set<std::string> FormatsOf(const SceneExportRequest& request) {
 std::vector<int> ScenesOf(const SceneExportRequest& request, int count) {
   if (!request.scenes.empty()) return ScenesNamed(request.scenes, count);
   const int wanted = request.count < 0 ? count : request.count;
-  if (wanted < 1) throw core::Error("at least 1 scene is to be exported", "--count");
+  if (wanted < 1) throw core::Error("at least 1 scene must be exported", "--count");
   if (wanted > count) {
     throw core::Error(
         "there are " + std::to_string(count) + " scenes, not " + std::to_string(wanted), "--count");
@@ -49,14 +49,14 @@ std::vector<int> ScenesOf(const SceneExportRequest& request, int count) {
   return scenes;
 }
 
-// What its folder is called, as a name of Drake's packages.
+// Returns the output folder's name as a Drake package name.
 std::string PackageOf(const fs::path& output) {
   const fs::path whole = fs::absolute(output).lexically_normal();
   const fs::path& named = whole.has_filename() ? whole : whole.parent_path();
   return assets::FileSafeName(named.filename().string());
 }
 
-// The scenes that are asked for, with what stands in them.
+// The requested scenes and their objects.
 class Export {
  public:
   Export(const SceneExportRequest& request, core::Progress* progress)

@@ -12,43 +12,44 @@
 namespace simwright::pipeline {
 
 struct SceneExportRequest {
-  std::filesystem::path dataset;  // folder of parts, or one part
+  std::filesystem::path dataset;  // a folder of shards, or one shard
   std::string scenes;             // "0,3-5"; empty: the first `count`
-  int count = -1;                 // -1: all there are
-  std::set<std::string> formats;  // of SceneFormats(), or "all"
+  int count = -1;                 // -1: all scenes
+  std::set<std::string> formats;  // from SceneFormats(), or "all"
   std::filesystem::path output;
-  std::filesystem::path assets;  // folder of SLOT folders; empty: the dataset's own
-  bool check = false;            // watch each scene in both engines; MJCF is written then too
-  bool force = false;            // replace an output that exists
+  std::filesystem::path assets;  // a folder of SLOT folders; empty: the dataset's own
+  bool check = false;            // checks each scene's stability in both engines; also writes MJCF
+  bool force = false;            // replaces an existing output
 };
 
 struct SceneExportReport {
   std::filesystem::path output;
-  std::vector<std::string> scenes;  // names of their folders
+  std::vector<std::string> scenes;  // their folder names
   int assets = 0;
-  std::vector<SceneStillness> checks;  // of each scene, where they were asked for
+  std::vector<SceneStillness> checks;  // one per scene, if requested
 
-  // Of the scenes that were watched, those that stand still, in [0, 1]; 1 without any.
+  // Returns the fraction of the checked scenes that are statically stable, in [0, 1]; 1 if none was
+  // checked.
   double StillShare() const;
 };
 
-// urdf, sdf, mjcf, drake.
+// Returns the names of the formats: urdf, sdf, mjcf, drake.
 const std::vector<std::string>& SceneFormats();
 
-// Writes scenes as world files (docs/formats.md): a folder for each, and the assets of their slots
-// once, in output/assets. Throws core::Error before anything is written for a format or scene that
-// there is not, assets that are missing or are not those of the scenes, and an output that exists.
+// Writes scenes as world files (docs/formats.md): one folder per scene, and each category's asset
+// once in output/assets. Throws core::Error before writing anything for an unknown format or scene,
+// for assets that are missing or differ from those of the scenes, and for an existing output.
 SceneExportReport ExportScenes(const SceneExportRequest& request, core::Progress* progress);
 
-// A scene from above and from a side, beside each other; `size`: pixels a side of each. Throws
+// Renders a scene from above and from a side, next to each other, each `size` pixels a side. Throws
 // core::Error as ExportScenes does.
 core::Image SceneView(const std::filesystem::path& dataset, const std::filesystem::path& assets,
                       int scene, int size);
 
-// As text for people, and as JSON.
+// Format the report as text for people and as JSON.
 std::string ExportTable(const SceneExportReport& report);
 std::string ExportJson(const SceneExportReport& report);
-// What the checks found alone: the same scenes, the same bytes.
+// Formats only the check results as JSON: the same scenes give the same bytes.
 std::string StillnessJson(const SceneExportReport& report);
 
 }  // namespace simwright::pipeline

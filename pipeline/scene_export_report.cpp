@@ -1,4 +1,4 @@
-// What an export of scenes says of itself.
+// Reports of scene exports as text and JSON.
 #include <algorithm>
 #include <cstdio>
 
@@ -11,7 +11,7 @@ namespace {
 
 std::string Line(const SceneStillness& check) {
   char line[256];
-  std::snprintf(line, sizeof line, "%s  %3d things  %-6s  MuJoCo %8.3f mm %-18s Bullet %8.3f mm %s",
+  std::snprintf(line, sizeof line, "%s  %3d objects %-6s  MuJoCo %8.3f mm %-18s Bullet %8.3f mm %s",
                 check.name.c_str(), check.things, check.Still() ? "still" : "MOVES",
                 1e3 * check.mujoco.moved, check.mujoco.name.c_str(), 1e3 * check.bullet.moved,
                 check.bullet.name.c_str());
@@ -22,7 +22,7 @@ std::string Line(const SceneStillness& check) {
 
 nlohmann::ordered_json MotionJson(const FarthestMotion& motion) {
   nlohmann::ordered_json json;
-  json["moved_m"] = motion.moved;  // null where it is nowhere
+  json["moved_m"] = motion.moved;  // null if it is not finite
   json["thing"] = motion.name;
   return json;
 }
@@ -65,7 +65,7 @@ std::string ExportTable(const SceneExportReport& report) {
   char line[200];
   if (!report.checks.empty()) {
     std::snprintf(line, sizeof line,
-                  "still for 2 s: %d of %zu scenes (%.0f %%); in MuJoCo %d, in Bullet %d\n",
+                  "stable for 2 s: %d of %zu scenes (%.0f %%); in MuJoCo %d, in Bullet %d\n",
                   Count(report.checks, &SceneStillness::Still), report.checks.size(),
                   100.0 * report.StillShare(), Count(report.checks, &SceneStillness::StillInMujoco),
                   Count(report.checks, &SceneStillness::StillInBullet));

@@ -18,11 +18,11 @@ namespace {
 
 using Objects = std::vector<scene::DrawnObject>;
 
-constexpr double kLeftOut = 0.2, kMoved = 0.5;  // shares of a spoilt scene's objects
-constexpr double kFarthest = 0.3;               // m, that they are moved at most along each axis
+constexpr double kLeftOut = 0.2, kMoved = 0.5;  // fractions of a perturbed scene's objects
+constexpr double kFarthest = 0.3;               // m, the largest displacement along each axis
 
-// As a poor model has it.
-Objects Spoilt(const Objects& objects, core::Rng& rng) {
+// Removes and displaces random objects, as a poor model would.
+Objects Perturbed(const Objects& objects, core::Rng& rng) {
   Objects spoilt;
   for (const scene::DrawnObject& object : objects) {
     if (core::Uniform(rng) < kLeftOut) continue;
@@ -36,7 +36,7 @@ Objects Spoilt(const Objects& objects, core::Rng& rng) {
   return spoilt;
 }
 
-// Renders scenes 0 .. count - 1, each as it is and spoilt.
+// Renders scenes 0 .. count - 1, each unchanged and perturbed.
 template <typename SceneAt>
 void Render(const scene::Vocabulary& vocabulary, const scene::Palette& palette, int count,
             std::uint64_t seed, const SceneAt& scene_at,
@@ -44,19 +44,19 @@ void Render(const scene::Vocabulary& vocabulary, const scene::Palette& palette, 
   const core::Camera camera = scene::LabelCamera(vocabulary.type);
   const size_t first = pictures->size();
   pictures->resize(first + 2 * static_cast<size_t>(count));
-  progress->Stage("pictures of " + vocabulary.type, count);
+  progress->Stage("images of " + vocabulary.type, count);
   core::ParallelFor(count, [&](int i) {
     core::CheckCancelled();
     core::Rng rng = core::StreamRng(seed, static_cast<std::uint64_t>(i));
     const Objects objects = scene_at(i, rng);
     const size_t at = first + 2 * static_cast<size_t>(i);
     (*pictures)[at] = CountPicture(objects, vocabulary, palette, camera);
-    (*pictures)[at + 1] = CountPicture(Spoilt(objects, rng), vocabulary, palette, camera);
+    (*pictures)[at + 1] = CountPicture(Perturbed(objects, rng), vocabulary, palette, camera);
     progress->Advance();
   });
 }
 
-// `kept`: a folder for the assets that are there for nothing else.
+// Renders the scenes of a dataset. `kept`: a folder for assets that are only needed here.
 void RenderDataset(const fs::path& path, const SceneFeatureTrainingRequest& request,
                    const fs::path& kept, std::vector<scene::CountedPicture>* pictures,
                    core::Progress* progress) {
@@ -97,7 +97,7 @@ fs::path FeatureWeights(const fs::path& models) {
 
 scene::FeatureTrainingReport TrainSceneFeatures(const SceneFeatureTrainingRequest& request,
                                                 core::Progress* progress) {
-  if (request.draws < 1) throw core::Error("at least 1 scene is to be drawn", "--draws");
+  if (request.draws < 1) throw core::Error("at least 1 scene must be sampled", "--draws");
   std::vector<std::string> types = request.types;
   if (types.empty() && request.datasets.empty()) {
     for (const scene::SceneType& type : scene::SceneTypes()) types.push_back(type.name);
@@ -111,7 +111,7 @@ scene::FeatureTrainingReport TrainSceneFeatures(const SceneFeatureTrainingReques
   for (const std::string& name : types) {
     RenderDraws(name, request, kept.path() / "drawn", &pictures, progress);
   }
-  // What is held out at the end is of all types.
+  // Shuffled, so that the held-out scenes are of all types.
   core::Rng rng = core::StreamRng(request.options.seed, 1);
   core::Shuffle(&pictures, rng);
   return scene::TrainFeatures(pictures, request.options, request.weights, progress);

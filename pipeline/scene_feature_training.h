@@ -11,24 +11,24 @@
 namespace simwright::pipeline {
 
 struct SceneFeatureTrainingRequest {
-  std::vector<std::filesystem::path> datasets;  // what `scene generate` wrote
-  // Scenes drawn from the grammar of each type besides, without physics. Empty with no datasets:
-  // all types.
+  std::vector<std::filesystem::path> datasets;  // written by `scene generate`
+  // Scene types whose grammars contribute additional samples, without physics. If it and `datasets`
+  // are both empty, all types are used.
   std::vector<std::string> types;
-  int draws = 300;                            // of each type
-  std::vector<std::filesystem::path> assets;  // folders, the first first; the library for the rest
-  std::filesystem::path weights;              // to be written
+  int draws = 300;                            // samples per type
+  std::vector<std::filesystem::path> assets;  // searched in this order, then the library
+  std::filesystem::path weights;              // the output file
   scene::FeatureTrainingOptions options;
 };
 
-// Trains the network by whose features `scene evaluate` compares pictures: to tell counts in label
-// renders of scenes, two renders each: as it is, and with objects left out and moved at random, as
-// poor models have them. Throws core::Error for an unknown type, a damaged dataset, or fewer than
-// 10 scenes.
+// Trains the network whose features `scene evaluate` uses to compare images. It learns to predict
+// object counts in label renders of scenes; each scene is rendered twice: unchanged, and with
+// random objects removed and displaced, as poor models produce them. Throws core::Error for an
+// unknown type, a damaged dataset, or fewer than 10 scenes.
 scene::FeatureTrainingReport TrainSceneFeatures(const SceneFeatureTrainingRequest& request,
                                                 core::Progress* progress);
 
-// The shipped features' weights in a folder of models.
+// Returns the path of the shipped feature weights in a folder of models.
 std::filesystem::path FeatureWeights(const std::filesystem::path& models);
 
 }  // namespace simwright::pipeline

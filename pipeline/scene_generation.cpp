@@ -20,17 +20,17 @@ namespace {
 
 void Validate(const SceneGenerationRequest& request) {
   if (request.count < 1) throw core::Error("a dataset needs at least 1 scene", "--count");
-  if (request.part < 1) throw core::Error("a part needs at least 1 scene", "--part");
-  if (request.time_step < 0.0) throw core::Error("a time step is above 0 s", "--step");
+  if (request.part < 1) throw core::Error("a shard needs at least 1 scene", "--part");
+  if (request.time_step < 0.0) throw core::Error("a time step must be above 0 s", "--step");
 }
 
-// Before assets are gathered, which takes minutes.
+// Checks the categories early, before the minutes of gathering assets.
 void CheckHulls(const std::vector<std::string>& hulls, const scene::Vocabulary& vocabulary) {
   std::string known;
   for (const std::string& slot : vocabulary.slots) known += (known.empty() ? "" : ", ") + slot;
   for (const std::string& slot : hulls) {
     if (std::count(vocabulary.slots.begin(), vocabulary.slots.end(), slot) > 0) continue;
-    throw core::Error("scenes of " + vocabulary.type + " have no such slot", "--hull " + slot,
+    throw core::Error("scenes of " + vocabulary.type + " have no such category", "--hull " + slot,
                       "one of " + known);
   }
 }
@@ -41,13 +41,13 @@ std::string AssetsText(const scene::Palette& palette, const scene::Vocabulary& v
   return json.dump();
 }
 
-// The part as far as it has come, or an empty one.
+// Returns the shard in its current state, or an empty one.
 scene::ScenePart PartAt(const fs::path& path, const scene::Vocabulary& vocabulary,
                         const scene::PartOrigin& origin) {
   if (!fs::exists(path)) return {vocabulary, origin, {}, {}};
   scene::ScenePart part = scene::ScenePartFile(path).ReadAll();
   if (!(part.vocabulary == vocabulary) || !part.origin.SameDataset(origin)) {
-    throw core::Error("it holds scenes of another type, seed, set of assets or settings",
+    throw core::Error("it contains scenes of another type, seed, asset set or settings",
                       path.string(), "generate into a new folder");
   }
   return part;
@@ -70,7 +70,7 @@ void MakePart(const scene::Generation& generation, int scenes, const fs::path& p
 SceneStatistics StatisticsOf(const std::vector<scene::SceneAttempt>& attempts) {
   const scene::FeasibilityOptions limits;
   SceneStatistics statistics;
-  double drawn = 0.0;  // of scenes
+  double drawn = 0.0;  // in accepted scenes
   const auto count = [](int objects, std::vector<int>* counts) {
     if (static_cast<size_t>(objects) >= counts->size()) counts->resize(objects + 1, 0);
     ++(*counts)[static_cast<size_t>(objects)];
@@ -109,7 +109,7 @@ SceneStatistics StatisticsOf(const std::vector<scene::SceneAttempt>& attempts) {
 SceneStatistics GenerateScenes(const SceneGenerationRequest& request, core::Progress* progress) {
   Validate(request);
   const scene::SceneType& type = scene::SceneTypeNamed(request.type);
-  // The slots are the same whatever the sizes.
+  // The categories do not depend on the sizes.
   const scene::Vocabulary vocabulary = VocabularyOf(type.make(scene::DefaultSlotSizes()));
   CheckHulls(request.hulls, vocabulary);
   core::Findings findings;

@@ -23,9 +23,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// m: about as far as from a shelf's board to the next, so that what hangs between two comes down on
-// the one beneath; a table's height is more, so that what hangs beside it falls. Of 48 shelf
-// samples 59 things of 269 are dropped without it, 39 with 0.12, 26 with this and 24 with 0.3.
+// The distance that objects are lowered, m: about one shelf spacing, so that an object between two
+// boards comes down on the lower one; less than a table's height, so that an object beside it
+// falls.
 constexpr double kLowering = 0.25;
 
 double SecondsSince(Clock::time_point start) {
@@ -85,8 +85,8 @@ scene::ScenePart PartOf(const std::vector<Sampled>& scenes, const scene::Vocabul
 
 fs::path WeightsOf(const SceneSamplingRequest& request) {
   if (request.weights.empty() == request.type.empty()) {
-    throw core::Error("there is nothing to sample from, or too much", "",
-                      "name either weights or, with --type, a scene type that has shipped ones");
+    throw core::Error("give either weights or a scene type to sample from", "",
+                      "name a weights file, or a --type with shipped weights");
   }
   return request.weights.empty() ? ShippedSceneWeights(request.type) : request.weights;
 }
@@ -104,12 +104,12 @@ scene::PartOrigin OriginOf(const SceneSamplingRequest& request, const fs::path& 
 }  // namespace
 
 SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Progress* progress) {
-  if (request.count < 1) throw core::Error("at least 1 scene is to be sampled", "--count");
+  if (request.count < 1) throw core::Error("at least 1 scene must be sampled", "--count");
   const fs::path weights = WeightsOf(request);
   scene::SceneModel model = scene::SceneModel::Load(weights);
   for (const auto& [slot, folder] : request.added) {
     if (assets::FileSafeName(slot) != slot) {
-      throw core::Error("a slot has to be a name for a folder", slot);
+      throw core::Error("a category must be a valid folder name", slot);
     }
     model.AddAsset(slot, ShapeOfAsset(folder, model.facts().options.shape_points));
   }

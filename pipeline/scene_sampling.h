@@ -12,29 +12,29 @@ namespace simwright::pipeline {
 
 struct SceneSamplingRequest {
   std::filesystem::path weights;
-  std::string type;  // of scene: with the shipped weights, where `weights` is empty
+  std::string type;  // the scene type of the shipped weights, if `weights` is empty
   int count = 16;
   std::filesystem::path output;
-  std::vector<std::filesystem::path> assets;  // folders, the first first; the library for the rest
-  // Assets that the model has not seen, by the slot that is new with them.
+  std::vector<std::filesystem::path> assets;  // searched in this order, then the library
+  // Assets that the model has not seen, by their new category.
   scene::SlotFolders added;
   scene::SampleOptions sampling;
-  bool raw = false;    // as the model has them
-  bool force = false;  // replace an output that exists
+  bool raw = false;    // keeps the model's samples unchanged
+  bool force = false;  // replaces an existing output
 };
 
 struct SceneSamplingReport {
   std::filesystem::path output;
-  SceneStatistics statistics;  // "yield": the share that is sound once made feasible
+  SceneStatistics statistics;  // "yield": the fraction that is valid after projection
   bool raw = false;
   double sampling_seconds = 0.0, physics_seconds = 0.0;
 };
 
-// Samples scenes of a trained model into output/part_00000.h5, a dataset as `scene generate` writes
-// it, with its assets and a sheet of pictures. Unless `raw`, each is moved apart and settled; what
-// is not sound then is left out, and counted. Throws core::Error for weights that are none, an
-// output that exists, a type without weights, or assets for a model that does not know classes by
-// their shape.
+// Samples scenes from a trained model into output/part_00000.h5, a dataset in the format of `scene
+// generate`, with its assets and a contact sheet. Unless `raw`, interpenetrations of each scene are
+// resolved and it is settled; scenes that are then not valid are omitted and counted. Throws
+// core::Error for a file without weights, an existing output, a type without weights, or assets for
+// a model that does not embed shapes.
 SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Progress* progress);
 
 std::string SamplingTable(const SceneSamplingReport& report);

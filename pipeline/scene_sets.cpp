@@ -29,7 +29,7 @@ SceneSet Decoded(const scene::SceneDataset& dataset, int first, int count) {
   return set;
 }
 
-// The weights to sample from or to ask what they learned from; empty where none are needed.
+// Returns the weights to sample from or to get the training scenes from; empty if none are needed.
 fs::path WeightsOf(const SceneEvaluationRequest& request) {
   if (!request.weights.empty()) return request.weights;
   if (!request.samples.empty()) return {};
@@ -48,7 +48,7 @@ std::vector<fs::path> AssetFolders(const SceneEvaluationRequest& request, const 
   return folders;
 }
 
-// A dataset that no model of ours has learned from: of another seed than the model's data.
+// Generates a dataset that our models were not trained on: with another seed than their data.
 fs::path Generated(const SceneEvaluationRequest& request, const std::string& type,
                    std::uint64_t data_seed, const fs::path& folder, core::Progress* progress) {
   constexpr std::uint64_t kElsewhere = 1'000'003;
@@ -74,7 +74,7 @@ int TrainingScenes(const SceneEvaluationRequest& request, const scene::SceneData
   if (facts->data_seed != data.parts().front().origin().seed) return 0;
   if (facts->training_scenes > there) {
     findings->push_back({"scenes-missing", core::Severity::kWarning, request.data.string(),
-                         "the model learned from more scenes of this dataset than are here",
+                         "the model was trained on more scenes of this dataset than are present",
                          static_cast<double>(facts->training_scenes)});
   }
   return std::min(there, facts->training_scenes);
@@ -93,15 +93,15 @@ void Sample(const SceneEvaluationRequest& request, const fs::path& weights,
   SampleScenes(sampling, progress);
 }
 
-// Whether samples are as the model has them.
+// Warns if the samples are not the model's raw output.
 void WarnOfPhysics(const scene::SceneDataset& samples, const fs::path& path,
                    core::Findings* findings) {
   const auto settings = nlohmann::json::parse(samples.parts().front().origin().settings, nullptr,
                                               /*allow_exceptions=*/false);
   if (settings.is_object() && settings.contains("raw") && settings["raw"] == true) return;
   findings->push_back({"scenes-processed", core::Severity::kWarning, path.string(),
-                       "these scenes are not as a model has them: their penetration is what "
-                       "moving them apart left (sample with --raw)",
+                       "these scenes are not a model's raw samples: their penetration was "
+                       "resolved (sample with --raw)",
                        0.0});
 }
 
@@ -133,7 +133,7 @@ SceneSets GatherSceneSets(const SceneEvaluationRequest& request, const fs::path&
     WarnOfPhysics(*samples, request.samples, findings);
   }
   if (!(data.vocabulary() == sets.vocabulary && samples->vocabulary() == sets.vocabulary)) {
-    throw core::Error("data, samples and model are of different scene types or slots",
+    throw core::Error("data, samples and model have different scene types or categories",
                       data_folder.string());
   }
   sets.palette = scene::ReadPalette(

@@ -13,17 +13,17 @@ namespace simwright::pipeline {
 
 using SceneSet = std::vector<std::vector<scene::DrawnObject>>;
 
-// What an evaluation compares.
+// The scene sets that an evaluation compares.
 struct SceneSets {
   scene::Vocabulary vocabulary;
   scene::Palette palette;
   SceneSet samples;
-  SceneSet training;  // all of them
-  SceneSet held_out;  // `count` at most
+  SceneSet training;  // all training scenes
+  SceneSet held_out;  // at most `count`
 };
 
-// Finds, generates and samples what the request asks for; what is made is kept in `folder`. Throws
-// as EvaluateScenes.
+// Finds, generates and samples the requested sets; keeps new ones in `folder`. Throws as
+// EvaluateScenes does.
 SceneSets GatherSceneSets(const SceneEvaluationRequest& request,
                           const std::filesystem::path& folder, core::Findings* findings,
                           core::Progress* progress);

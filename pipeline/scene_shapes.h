@@ -7,12 +7,13 @@
 
 namespace simwright::pipeline {
 
-// `points` of the surface of an asset's solid. Throws core::Error where the folder holds no asset.
+// Samples `points` points on the surface of an asset's solid. Throws core::Error if the folder has
+// no asset.
 std::vector<Eigen::Vector3d> ShapeOfAsset(const std::filesystem::path& folder, int points);
 
-// Surfaces of what stands for the slots of the dataset at `path`, of the assets in `assets`, or
-// where that is empty in the folder "assets" beside its parts. Throws core::Error as FoldersOfSlots
-// and ShapeOfAsset do.
+// Samples surface points of the assets of the dataset at `path`, by category. The assets are in
+// `assets` or, if that is empty, in the folder "assets" beside the shards. Throws core::Error as
+// FoldersOfSlots and ShapeOfAsset do.
 scene::AssetShapes ShapesOfDataset(const std::filesystem::path& path,
                                    const std::filesystem::path& assets,
                                    const scene::Vocabulary& vocabulary, int points);

@@ -10,7 +10,7 @@ namespace simwright::pipeline {
 
 void WriteSceneSheet(const scene::SceneDataset& dataset, const scene::Palette& palette,
                      const std::filesystem::path& path) {
-  constexpr int kScenes = 12, kSize = 420;  // pixels of a side
+  constexpr int kScenes = 12, kSize = 420;  // pixels per side
   const int count = std::min(kScenes, dataset.SceneCount());
   if (count == 0) return;
   const std::vector<float> tokens = dataset.Read(0, count);

@@ -7,7 +7,8 @@
 
 namespace simwright::pipeline {
 
-// The first twelve scenes of a dataset from the side, as one PNG; none for a dataset without any.
+// Renders the first twelve scenes of a dataset from the side into one PNG; writes nothing for an
+// empty dataset.
 void WriteSceneSheet(const scene::SceneDataset& dataset, const scene::Palette& palette,
                      const std::filesystem::path& path);
 

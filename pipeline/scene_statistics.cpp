@@ -8,7 +8,7 @@
 namespace simwright::pipeline {
 namespace {
 
-constexpr int kBins = 8, kBar = 24;  // lines of the table, characters of its longest bar
+constexpr int kBins = 8, kBar = 24;  // table lines, characters of the longest bar
 
 int Between(const std::vector<int>& counts, size_t from, size_t to) {
   int sum = 0;
@@ -16,11 +16,11 @@ int Between(const std::vector<int>& counts, size_t from, size_t to) {
   return sum;
 }
 
-// Shares of draws and of scenes, by their number of objects.
+// Formats the shares of samples and of accepted scenes by their number of objects.
 std::string CountsTable(const SceneStatistics& statistics) {
   const size_t longest = std::max(statistics.drawn_counts.size(), statistics.scene_counts.size());
   const size_t step = (longest + kBins - 1) / kBins;
-  std::string text = "  objects      drawn   kept\n";
+  std::string text = "  objects    sampled   kept\n";
   for (size_t from = 0; step > 0 && from < longest; from += step) {
     const double drawn = Between(statistics.drawn_counts, from, from + step) /
                          std::max(1.0, 1.0 * statistics.attempts);
@@ -43,31 +43,31 @@ core::Findings DroppedFindings(const SceneStatistics& statistics) {
   if (share <= kFew) return {};
   char text[160];
   std::snprintf(text, sizeof text,
-                "%.0f %% of the objects of these scenes, %.1f a scene, were dropped: they "
+                "%.0f %% of the objects of these scenes, %.1f per scene, were dropped: they "
                 "interpenetrated, fell or found no support",
                 100.0 * share, statistics.dropped);
   return {{"objects-dropped", core::Severity::kWarning, statistics.type, text, share,
-           "more --steps where they are sampled, smaller assets, or --raw to look at what was "
-           "drawn"}};
+           "give more --steps if they are sampled, smaller assets, or --raw to see the "
+           "samples"}};
 }
 
 std::string StatisticsTable(const SceneStatistics& statistics) {
   char text[640];
   std::snprintf(text, sizeof text,
                 "%d scenes of %s, %.1f %% of %d attempts, with %.1f %% of their objects kept\n"
-                "objects: %.1f in the mean (%.1f drawn), %d at most; %.2f a scene dropped\n"
-                "moved %.1f mm in the mean; worst penetration %.3f mm, worst drift %.2f mm\n",
+                "objects: mean %.1f (%.1f sampled), at most %d; %.2f dropped per scene\n"
+                "mean displacement %.1f mm; worst penetration %.3f mm, worst drift %.2f mm\n",
                 statistics.scenes, statistics.type.c_str(), 100.0 * statistics.yield,
-                statistics.attempts, 100.0 * statistics.kept, statistics.mean_objects, statistics.mean_drawn,
-                statistics.most_objects, statistics.dropped, 1e3 * statistics.moved,
-                1e3 * statistics.penetration, 1e3 * statistics.drift);
+                statistics.attempts, 100.0 * statistics.kept, statistics.mean_objects,
+                statistics.mean_drawn, statistics.most_objects, statistics.dropped,
+                1e3 * statistics.moved, 1e3 * statistics.penetration, 1e3 * statistics.drift);
   std::string table = text + CountsTable(statistics);
   if (statistics.too_few > 0) {
     table += std::to_string(statistics.too_few) +
-             " more are apart and at rest, but with too few things left for a scene\n";
+             " more are collision-free and stable, but have too few objects left\n";
   }
   if (statistics.elsewhere > 0) {
-    table += std::to_string(statistics.elsewhere) + " parts are being made by other workers\n";
+    table += std::to_string(statistics.elsewhere) + " shards are being made by other workers\n";
   }
   return table;
 }

@@ -22,7 +22,7 @@ FarthestMotion InBullet(const std::vector<scene::DrawnObject>& objects,
   sim::SettlingOptions options;
   options.duration = times.settle;
   options.watch = times.watch;
-  options.resting = options.pace = 0.0;  // all of the time
+  options.resting = options.pace = 0.0;  // simulate the full time
   FarthestMotion farthest;
   const std::vector<sim::SettledBody> ends = sim::Settle(bodies, options);
   for (size_t i = 0; i < ends.size(); ++i) {

@@ -10,28 +10,28 @@
 
 namespace simwright::pipeline {
 
-// What moved in one engine, of which thing.
+// The object that moved farthest in one engine.
 struct FarthestMotion {
-  std::string name;    // empty where nothing is free
-  double moved = 0.0;  // m, the most: while settling, or from there while watched
+  std::string name;    // empty if there is no free object
+  double moved = 0.0;  // maximum displacement while settling or, from there, in the check, m
 };
 
-// Whether a scene stands still in both engines: settled for 0.25 s, watched for 2.
+// The stability of a scene in both engines: settled for 0.25 s, then checked for 2 s.
 struct SceneStillness {
   std::string name;  // "scene_00012"
-  int things = 0;    // free ones
+  int things = 0;    // the number of free objects
   FarthestMotion mujoco, bullet;
   std::vector<std::string> warnings;  // MuJoCo's
 
-  bool StillInMujoco() const;  // nothing moved by more than kStill, and no warning
+  bool StillInMujoco() const;  // no displacement above kStill, and no warning
   bool StillInBullet() const;
   bool Still() const { return StillInMujoco() && StillInBullet(); }
 };
 
 inline constexpr double kStill = 1e-3;  // m
 
-// Runs the exported file in MuJoCo, and the same objects in Bullet, whose names are those of
-// `names` by object. Throws core::Error where MuJoCo refuses the file, or a slot has no asset.
+// Simulates the exported file in MuJoCo and the same objects in Bullet. `names` are the objects'
+// names, by object. Throws core::Error if MuJoCo rejects the file or a category has no asset.
 SceneStillness WatchScene(const std::filesystem::path& mjcf,
                           const std::vector<scene::DrawnObject>& objects,
                           const std::vector<std::string>& names, const scene::Palette& palette,

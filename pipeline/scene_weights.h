@@ -5,7 +5,8 @@
 
 namespace simwright::pipeline {
 
-// The shipped weights of a scene type's model. Throws core::Error where there are none.
+// Returns the path of the shipped weights of a scene type's model. Throws core::Error if there are
+// none.
 std::filesystem::path ShippedSceneWeights(const std::string& type);
 
 }  // namespace simwright::pipeline

@@ -24,10 +24,11 @@ void RowOrFailure(const std::string& code, CheckRows* rows, const std::function<
 
 namespace {
 
-// A rolling body keeps its speed, loses it, or gains what its centre of mass fell by, which it does
-// from edge to facet: v^2 <= v0^2 + 2 g h. One that gains more is driven by its contacts.
+// Returns true if a rolling body gains speed. It may keep or lose speed, or gain what its centre of
+// mass fell by from edge to facet: v^2 <= v0^2 + 2 g h. One that gains more is driven by its
+// contacts.
 bool GainsSpeed(const sim::DropResult& drop) {
-  constexpr double kNoise = 2e-3;  // m: rocking from facet to facet
+  constexpr double kNoise = 2e-3;  // m, rocking from facet to facet
   const double half = 0.5 * sim::DropOptions().watch_time;
   const double fallen = std::sqrt(2.0 * 9.81 * drop.fall) * half;
   return drop.late_drift > std::hypot(1.5 * drop.early_drift, fallen) + kNoise;
@@ -37,11 +38,11 @@ void AddRollingRow(const sim::DropResult& drop, const std::string& engine, doubl
                    const CheckLimits& limits, CheckRows* rows) {
   const std::string code = "rolls-" + engine;
   if (GainsSpeed(drop)) {
-    rows->Fail(code, "it rolls faster and faster on a level floor");
+    rows->Fail(code, "it accelerates while rolling on a level floor");
     return;
   }
   rows->AtMost(code, drop.drift / size, limits.rolling_drift,
-               "of its diagonal in 2 s; it rolls, and is judged as what rolls");
+               "of its diagonal in 2 s; it is graded as a rolling body");
 }
 
 GradedLimit AllowedDrift(double size, const CheckLimits& limits) {
@@ -66,10 +67,10 @@ void AddStandingRows(const sim::DropResult& drop, const std::string& engine, dou
                      const CheckLimits& limits, CheckRows* rows) {
   const core::Severity drift = SeverityAtMost(drop.drift, AllowedDrift(size, limits));
   const bool settles = drop.rests && drop.rest_time <= limits.rest_time;
-  // What still trembles after that is as bad as it is seen to move.
+  // A body that still moves after that is graded by its drift.
   rows->Add("settles-" + engine,
             settles ? core::Severity::kInfo : std::max(core::Severity::kWarning, drift),
-            drop.rest_time, "s until it rests, limit 2");
+            drop.rest_time, "s until it is at rest, limit 2");
   rows->AtMost("rest-pose-" + engine, drop.tilt * kDegrees, limits.tilt,
                "degrees from its rest pose");
   AddDriftRow(drop, engine, size, limits, rows);
@@ -89,9 +90,9 @@ void AddRestRows(const sim::DropResult& drop, const std::string& engine, bool ro
 
 void AddRockingRows(const sim::DropResult& drop, const std::string& engine, double size,
                     const CheckLimits& limits, CheckRows* rows) {
-  rows->Report("settles-" + engine, drop.rest_time, "s; no pose holds it, and its drift is judged");
+  rows->Report("settles-" + engine, drop.rest_time, "s; no pose holds, so its drift is graded");
   rows->AtMost("rest-pose-" + engine, drop.tilt * kDegrees, limits.rocking_tilt,
-               "degrees from its rest pose, which does not hold it");
+               "degrees from its rest pose, which does not hold");
   AddDriftRow(drop, engine, size, limits, rows);
   AddSinkingRow(drop, engine, limits, rows);
 }

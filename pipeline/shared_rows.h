@@ -8,24 +8,25 @@
 #include "pipeline/check_rows.h"
 #include "sim/drop_test.h"
 
-// Rows that the checks of rigid and of articulated assets share.
+// Results that the checks of rigid and articulated assets share.
 namespace simwright::pipeline {
 
-constexpr double kDegrees = 57.295779513082320877;  // in a radian
+constexpr double kDegrees = 57.295779513082320877;  // per radian
 
-// Largest relative difference of mass, centre (against `size`, m) and inertia.
+// Returns the largest relative difference of mass, centre of mass (relative to `size`, m) and
+// inertia.
 double InertialDifference(const assets::Inertial& a, const assets::Inertial& b, double size);
 
-// Runs one reader; the core::Error it throws is the failure of row `code`.
+// Runs one reader. If it throws core::Error, adds the error as a failed check `code`.
 void RowOrFailure(const std::string& code, CheckRows* rows, const std::function<void()>& load);
 
-// settles-*, rest-pose-*, drift-* and sinks-*, or of a body that rolls rolls-* and sinks-*, its
-// diagonal being `size` (m).
+// Adds settles-*, rest-pose-*, drift-* and sinks-*, or for a rolling body rolls-* and sinks-*.
+// `size` is the body's diagonal (m).
 void AddRestRows(const sim::DropResult& drop, const std::string& engine, bool rolls, double size,
                  const CheckLimits& limits, CheckRows* rows);
 
-// settles-* reported, rest-pose-* with wider limits, drift-* and sinks-*, of a body that no pose
-// held when it was made and that does not roll.
+// Adds the results of a body that no pose held when it was built and that does not roll: settles-*
+// (only reported), rest-pose-* (with wider limits), drift-* and sinks-*.
 void AddRockingRows(const sim::DropResult& drop, const std::string& engine, double size,
                     const CheckLimits& limits, CheckRows* rows);
 

@@ -16,7 +16,7 @@ constexpr size_t kValidEvery = 10;
 constexpr char kVersion[] = SIMWRIGHT_VERSION;
 constexpr const char* kRemedy = "give a file of `simwright export --format robomimic`";
 
-// Rows of one width.
+// Packs rows of equal width into an array.
 template <typename T>
 core::Hdf5Array<T> Array(const std::vector<std::vector<T>>& rows) {
   core::Hdf5Array<T> array{{rows.size(), rows.front().size()}, {}};
@@ -40,13 +40,15 @@ void Append(const Eigen::VectorXd& numbers, std::vector<T>* row) {
   for (const double number : numbers) row->push_back(static_cast<T>(number));
 }
 
-// What is seen at one moment, by key; `policy` and `object` are as long as the longest there are.
-using Sight = std::map<std::string, std::vector<float>>;
+// The observations at one moment, by key; `policy` and `object` have the greatest length of all
+// subtasks.
+using Observation = std::map<std::string, std::vector<float>>;
 
-// Writes what was seen in the rollouts of one run.
-class SightWriter {
+// Computes the observations of the rollouts of one run.
+class ObservationWriter {
  public:
-  SightWriter(const std::vector<RunSkill>& skills, const std::vector<ChainRecording>& recordings)
+  ObservationWriter(const std::vector<RunSkill>& skills,
+                    const std::vector<ChainRecording>& recordings)
       : skills_(skills) {
     for (const ChainRecording& recording : recordings) {
       for (size_t k = 0; k < recording.subtasks.size(); ++k) {
@@ -57,28 +59,29 @@ class SightWriter {
     }
   }
 
-  Sight At(size_t k, const RecordedSubtask& subtask, size_t moment,
-           const std::vector<float>& observation) const {
+  Observation At(size_t k, const RecordedSubtask& subtask, size_t moment,
+                 const std::vector<float>& observation) const {
     const rl::SkillVariant& variant = VariantOf(k, subtask);
     const RecordedMoment& now = subtask.moments[moment];
-    Sight sight;
-    Append(now.arm, &sight["robot0_joint_pos"]);
+    Observation observed;
+    Append(now.arm, &observed["robot0_joint_pos"]);
     std::vector<float> tool;
     Append(variant.subtask.start.world_from_robot.inverse() * now.state.gripper, &tool);
-    sight["robot0_eef_pos"].assign(tool.begin(), tool.begin() + 3);
-    sight["robot0_eef_quat"].assign(tool.begin() + 3, tool.end());
-    sight["robot0_gripper_qpos"] = {static_cast<float>(now.leader),
-                                    static_cast<float>(now.leader_command)};
-    sight["object"] = Object(variant, now);
-    sight["object"].resize(object_, 0.0f);
-    sight["subtask"].assign(skills_.size(), 0.0f);
-    sight["subtask"][k] = 1.0f;
-    sight["policy"] = observation;
-    sight["policy"].resize(policy_, 0.0f);
-    return sight;
+    observed["robot0_eef_pos"].assign(tool.begin(), tool.begin() + 3);
+    observed["robot0_eef_quat"].assign(tool.begin() + 3, tool.end());
+    observed["robot0_gripper_qpos"] = {static_cast<float>(now.leader),
+                                       static_cast<float>(now.leader_command)};
+    observed["object"] = Object(variant, now);
+    observed["object"].resize(object_, 0.0f);
+    observed["subtask"].assign(skills_.size(), 0.0f);
+    observed["subtask"][k] = 1.0f;
+    observed["policy"] = observation;
+    observed["policy"].resize(policy_, 0.0f);
+    return observed;
   }
 
-  // What the simulation is restored from: things, joints, arm, fingers, subtask.
+  // Returns the state from which the simulation is restored: subtask, arm, fingers, objects and
+  // their joints.
   std::vector<double> State(size_t k, const RecordedSubtask& subtask, size_t moment) const {
     const rl::SkillVariant& variant = VariantOf(k, subtask);
     const RecordedMoment& now = subtask.moments[moment];
@@ -98,7 +101,7 @@ class SightWriter {
   const rl::SkillVariant& VariantOf(size_t k, const RecordedSubtask& subtask) const {
     return skills_[k].evaluated->variants[static_cast<size_t>(subtask.start.variant)];
   }
-  // Each thing's pose as the robot sees it, then its joints.
+  // Returns each object's pose in the robot's frame, then its joint positions.
   static std::vector<float> Object(const rl::SkillVariant& variant, const RecordedMoment& now) {
     const Eigen::Isometry3d base_from_world = variant.subtask.start.world_from_robot.inverse();
     std::vector<float> object;
@@ -114,21 +117,22 @@ class SightWriter {
   size_t policy_ = 0, object_ = 0;
 };
 
-robot::StepObservations Stacked(const std::vector<Sight>& sights) {
+robot::StepObservations Stacked(const std::vector<Observation>& observations) {
   robot::StepObservations stacked;
-  for (const auto& [key, first] : sights.front()) {
+  for (const auto& [key, first] : observations.front()) {
     std::vector<std::vector<float>> rows;
-    for (const Sight& sight : sights) rows.push_back(sight.at(key));
+    for (const Observation& observed : observations) rows.push_back(observed.at(key));
     stacked.numbers[key] = Array(rows);
   }
   return stacked;
 }
 
-robot::Demonstration DemonstrationOf(const SightWriter& writer, const ChainRecording& recording,
+robot::Demonstration DemonstrationOf(const ObservationWriter& writer,
+                                     const ChainRecording& recording,
                                      const std::vector<RunSkill>& skills) {
   robot::Demonstration demonstration;
   std::vector<std::vector<double>> actions, states;
-  std::vector<Sight> seen, seen_next;
+  std::vector<Observation> seen, seen_next;
   for (size_t k = 0; k < recording.subtasks.size(); ++k) {
     const RecordedSubtask& subtask = recording.subtasks[k];
     const auto stride = static_cast<size_t>(skills[k].evaluated->options.control_steps);
@@ -159,7 +163,7 @@ json PlanJson(const SkillNotes& notes, const ChainRecording& recording) {
   return plan;
 }
 
-// Every n-th demonstration into "valid", the others into "train".
+// Assigns every n-th demonstration to "valid", the others to "train".
 void Split(robot::DemonstrationSet* set) {
   const size_t count = set->demonstrations.size();
   for (size_t valid = std::max(count / kValidEvery, std::min<size_t>(1, count - 1));; ++valid) {
@@ -173,7 +177,8 @@ void Split(robot::DemonstrationSet* set) {
   }
 }
 
-// Where the next subtask begins: where the replay has come to, with the file's plan of the work.
+// Returns the start of the next subtask: the state that the replay has reached, with the file's
+// plan.
 rl::EpisodeStart Continued(const rl::EpisodeStart& end, const rl::EpisodeStart& planned) {
   rl::EpisodeStart start = end;
   start.pitch = planned.pitch;
@@ -189,7 +194,7 @@ rl::EpisodeStart Continued(const rl::EpisodeStart& end, const rl::EpisodeStart& 
 robot::DemonstrationSet DemonstrationsOf(const SkillRun& run, const std::vector<RunSkill>& skills,
                                          const std::vector<ChainRecording>& recordings,
                                          std::uint64_t seed) {
-  const SightWriter writer(skills, recordings);
+  const ObservationWriter writer(skills, recordings);
   robot::DemonstrationSet set;
   const SkillNotes notes = NotesOf(run, skills, recordings.front(), seed);
   json kwargs = {{"robot", notes.robot},
@@ -242,10 +247,10 @@ std::vector<DemonstrationPlan> PlansOf(const robot::DemonstrationSet& set,
       plan.steps = one.at("steps").get<std::vector<int>>();
     }
   } catch (const json::exception&) {
-    throw core::Error("its notes do not say how its episodes begin", where, kRemedy);
+    throw core::Error("its metadata does not describe the starts of its episodes", where, kRemedy);
   }
   if (plans.size() != set.demonstrations.size()) {
-    throw core::Error("its notes speak of " + std::to_string(plans.size()) +
+    throw core::Error("its metadata describes " + std::to_string(plans.size()) +
                           " episodes, there are " + std::to_string(set.demonstrations.size()),
                       where, kRemedy);
   }
@@ -260,7 +265,7 @@ std::vector<bool> ReplayDemonstration(const std::vector<RunSkill>& skills,
   for (const int count : plan.steps) steps += static_cast<size_t>(std::max(count, 0));
   if (plan.starts.size() != skills.size() || plan.steps.size() != skills.size() ||
       steps != demonstration.size() || demonstration.actions.shape.at(1) != width) {
-    throw core::Error("its actions are not those of the run's subtasks", where, kRemedy);
+    throw core::Error("its actions do not match the run's subtasks", where, kRemedy);
   }
   std::vector<bool> successes;
   const double* row = demonstration.actions.values.data();

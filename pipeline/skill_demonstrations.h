@@ -8,34 +8,36 @@
 
 namespace simwright::pipeline {
 
-// Rollouts as demonstrations for imitation learning, one an episode at the rate of decisions
-// (docs/export.md says what each key holds). One in ten, and as many as robomimic's default batch
-// takes where half of them are enough, are in the mask "valid", the others in "train". Requires one
-// recording.
+// Converts rollouts into demonstrations for imitation learning, one per episode, at the decision
+// rate (docs/export.md describes each key). The mask "valid" contains one in ten, and at least as
+// many as robomimic's default batch needs if half of all demonstrations suffice for that; the mask
+// "train" contains the others. Requires at least one recording.
 robot::DemonstrationSet DemonstrationsOf(const SkillRun& run, const std::vector<RunSkill>& skills,
                                          const std::vector<ChainRecording>& recordings,
                                          std::uint64_t seed);
 
-// Steps of a batch of robomimic's defaults: its loader of "valid" gives none of fewer.
+// The steps of a batch in robomimic's defaults. Its "valid" loader yields no batch from fewer
+// steps.
 constexpr size_t kRobomimicBatch = 100;
-// The steps of the demonstrations in "valid".
+// Returns the number of steps of the demonstrations in "valid".
 size_t ValidSteps(const robot::DemonstrationSet& set);
 
-// How one demonstration is repeated: the file's notes have this of each.
+// The replay plan of one demonstration, stored in the file's metadata for each.
 struct DemonstrationPlan {
   SkillNotes notes;                 // without times
   std::vector<std::string> starts;  // rl::StartText, by subtask
   std::vector<int> steps;           // decisions, by subtask
 };
 
-// Of each demonstration of `set`; also of files that have it in env_kwargs. Throws core::Error, naming `where`, for a file that
-// DemonstrationsOf did not make.
+// Returns the plan of each demonstration of `set`, including files that store it in env_kwargs.
+// Throws core::Error, naming `where`, for a file that DemonstrationsOf did not make.
 std::vector<DemonstrationPlan> PlansOf(const robot::DemonstrationSet& set,
                                        const std::string& where);
 
-// Lets the actions of `demonstration` act from its start, and says of each subtask, up to the first
-// that failed, whether its success had held at its end. Later subtasks begin where the replay has
-// come to. Throws core::Error, naming `where`, where sizes or starts do not fit `skills`.
+// Applies the actions of `demonstration` from its start and reports for each subtask, up to the
+// first failed one, whether its success held at its end. Each later subtask starts from the state
+// that the replay has reached. Throws core::Error, naming `where`, if sizes or starts do not match
+// `skills`.
 std::vector<bool> ReplayDemonstration(const std::vector<RunSkill>& skills,
                                       const robot::Demonstration& demonstration,
                                       const DemonstrationPlan& plan, const std::string& where);

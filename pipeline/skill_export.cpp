@@ -23,8 +23,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kCloser = 0.25;  // of the deviation that motions have else
-// Times the recording's pace at most: what the limits allow, somewhat faster, as recorded.
+constexpr double kCloser = 0.25;  // of the default deviation
+// The largest speed-ups over the recording: unbounded (the limits apply), twice, and as recorded.
 constexpr double kPaces[] = {100.0, 2.0, 1.0};
 
 std::vector<std::string> EndingsOf(ExportFormat format) {
@@ -47,12 +47,12 @@ void RequireEnding(const ExportRequest& request) {
   const std::vector<std::string> endings = EndingsOf(request.format);
   const bool named = std::find(endings.begin(), endings.end(), ending) != endings.end();
   if (WritesFolder(request) && named) {
-    throw core::Error("several trajectories go into a folder", request.output.string(),
+    throw core::Error("several trajectories need a folder", request.output.string(),
                       "give a name without " + ending + ", or --episodes 1");
   }
   if (WritesFolder(request) || named) return;
-  throw core::Error("is no name for this format", request.output.string(),
-                    "let it end in " + endings.front());
+  throw core::Error("is not a file name of this format", request.output.string(),
+                    "use the extension " + endings.front());
 }
 
 void WriteMotions(const std::vector<SkillMotion>& motions, const ExportRequest& request,
@@ -95,10 +95,11 @@ void AddMargins(const SkillMotion& motion, const rl::Skill& skill, ExportReport*
   report->seconds += motion.retimed.trajectory.times.back() / report->episodes;
 }
 
-// Makes the motions of recordings that do their task again, and keeps them.
-class MotionProof {
+// Computes the motions of recordings, verifies by replay that they reproduce their task, and keeps
+// them.
+class MotionVerifier {
  public:
-  MotionProof(const TrainedTask& task, const ExportRequest& request)
+  MotionVerifier(const TrainedTask& task, const ExportRequest& request)
       : task_(task),
         request_(request),
         ending_(WritesFolder(request) ? EndingsOf(request.format).front()
@@ -112,16 +113,16 @@ class MotionProof {
 
   const robot::JointNames& names() const { return names_; }
 
-  // Whether a motion of `recording` is accepted, and does its task again from its file: the fastest,
-  // or else slower ones, at last one that is closer to what was recorded.
-  bool Keeps(const ChainRecording& recording) {
+  // Returns true if a motion of `recording` is accepted and its file reproduces the task. Tries the
+  // fastest motion, then slower ones, and finally one that is closer to the recording.
+  bool Accept(const ChainRecording& recording) {
     for (const double pace : kPaces) {
       if (request_.at_recorded_pace && pace != 1.0) continue;
       robot::RetimingOptions options;
       options.fastest = pace;
       try {
         if (!Try(recording, options)) continue;
-      } catch (const core::Error&) {  // the retimer found none at this pace
+      } catch (const core::Error&) {  // the retimer found no motion at this speed
         if (pace == 1.0) throw;
         continue;
       }
@@ -131,7 +132,7 @@ class MotionProof {
     }
     try {
       if (!Try(recording, Closer())) return false;
-    } catch (const core::Error&) {  // none is as close within the limits
+    } catch (const core::Error&) {  // no motion within the limits is that close
       return false;
     }
     const std::lock_guard lock(mutex_);
@@ -140,21 +141,21 @@ class MotionProof {
     return true;
   }
 
-  // How many of `recordings`, which were kept, needed the closer one.
+  // Returns how many of `recordings`, all accepted, needed the closer motion.
   int CountCloser(const std::vector<ChainRecording>& recordings) const {
     return static_cast<int>(std::count_if(
         recordings.begin(), recordings.end(),
         [&](const ChainRecording& one) { return closer_.contains(one.episode); }));
   }
 
-  // How many are slower than the limits allow, of recordings that were kept.
+  // Returns how many of the accepted recordings are slower than the limits allow.
   int CountSlowed(const std::vector<ChainRecording>& recordings) const {
     return static_cast<int>(std::count_if(
         recordings.begin(), recordings.end(),
         [&](const ChainRecording& one) { return slowed_.contains(one.episode); }));
   }
 
-  // Of recordings that were kept.
+  // Returns the motions of accepted recordings.
   std::vector<SkillMotion> MotionsOf(const std::vector<ChainRecording>& recordings) {
     std::vector<SkillMotion> motions;
     for (const ChainRecording& recording : recordings) {
@@ -182,11 +183,11 @@ class MotionProof {
     const fs::path file =
         folder_.path() / ("episode_" + std::to_string(recording.episode) + ending_);
     WriteMotion(motion.retimed.trajectory, file, names_);
-    const bool again = replay_.Trajectories({file}).front().success;
+    const bool reproduced = replay_.Trajectories({file}).front().success;
     fs::remove(file);
     fs::remove(NotesBeside(file));
     fs::remove(GripperBeside(file));
-    if (!again) return false;
+    if (!reproduced) return false;
     const std::lock_guard lock(mutex_);
     motions_.emplace(recording.episode, std::move(motion));
     return true;
@@ -203,8 +204,7 @@ class MotionProof {
   std::set<std::uint64_t> slowed_, closer_;       // episodes
 };
 
-bool DoesItsTaskAgain(const TrainedTask& task, const ChainRecording& recording,
-                      std::uint64_t seed) {
+bool ReproducesTask(const TrainedTask& task, const ChainRecording& recording, std::uint64_t seed) {
   const robot::DemonstrationSet set =
       DemonstrationsOf(task.run(), task.skills(), {recording}, seed);
   const std::vector<bool> successes = ReplayDemonstration(
@@ -222,9 +222,9 @@ void AddTally(const RecordingTally& tally, ExportReport* report) {
   finding.severity = core::Severity::kWarning;
   finding.sentence =
       std::to_string(left_out) + " of " + std::to_string(tally.succeeded) +
-      " episodes that succeeded were left out: driven by the file alone, without the policy that "
-      "corrects, the robot did not do the task again";
-  finding.remedy = "others were tried in their place; nothing is to be done";
+      " successful episodes were omitted: driven by the file alone, without the policy's "
+      "corrections, the robot did not reproduce the task";
+  finding.remedy = "other episodes replace them; no action is needed";
   finding.figure = left_out;
 }
 
@@ -234,12 +234,12 @@ void AddSlowed(ExportReport* report) {
   finding.code = "export-slowed";
   finding.severity = core::Severity::kInfo;
   finding.sentence = std::to_string(report->slowed) + " of " + std::to_string(report->episodes) +
-                     " motions are slower than the limits allow: at these the robot did not do the "
-                     "task again";
+                     " motions are slower than the limits allow: at full speed the robot did not "
+                     "reproduce the task";
   finding.figure = report->slowed;
 }
 
-// robomimic's loader of "valid" drops what is less than a batch.
+// Warns if "valid" is smaller than a batch, which robomimic's loader drops.
 void AddValidSteps(const robot::DemonstrationSet& set, ExportReport* report) {
   const size_t steps = ValidSteps(set);
   if (steps >= kRobomimicBatch) return;
@@ -248,7 +248,7 @@ void AddValidSteps(const robot::DemonstrationSet& set, ExportReport* report) {
   finding.severity = core::Severity::kWarning;
   finding.sentence = "the mask 'valid' has " + std::to_string(steps) +
                      " steps, less than a batch of robomimic's defaults, " +
-                     std::to_string(kRobomimicBatch) + ": its loader would give none";
+                     std::to_string(kRobomimicBatch) + ": its loader would yield none";
   finding.remedy = "export more --episodes, or set train.batch_size to at most that";
   finding.figure = static_cast<double>(steps);
 }
@@ -282,7 +282,7 @@ ExportReport Export(const ExportRequest& request, core::Progress* progress) {
   if (request.format == ExportFormat::kRobomimic) {
     const std::vector<ChainRecording> recordings = RecordSuccesses(
         task.links(), request.episodes, request.seed, &tally,
-        [&](const ChainRecording& one) { return DoesItsTaskAgain(task, one, request.seed); },
+        [&](const ChainRecording& one) { return ReproducesTask(task, one, request.seed); },
         progress);
     AddTally(tally, &report);
     const robot::DemonstrationSet set =
@@ -291,19 +291,19 @@ ExportReport Export(const ExportRequest& request, core::Progress* progress) {
     robot::WriteDemonstrations(request.output, set);
     return report;
   }
-  MotionProof proof(task, request);
+  MotionVerifier verifier(task, request);
   const std::vector<ChainRecording> recordings = RecordSuccesses(
       task.links(), request.episodes, request.seed, &tally,
-      [&](const ChainRecording& one) { return proof.Keeps(one); }, progress);
+      [&](const ChainRecording& one) { return verifier.Accept(one); }, progress);
   AddTally(tally, &report);
-  report.closer = proof.CountCloser(recordings);
-  report.slowed = request.at_recorded_pace ? 0 : proof.CountSlowed(recordings);
+  report.closer = verifier.CountCloser(recordings);
+  report.slowed = request.at_recorded_pace ? 0 : verifier.CountSlowed(recordings);
   AddSlowed(&report);
-  const std::vector<SkillMotion> motions = proof.MotionsOf(recordings);
+  const std::vector<SkillMotion> motions = verifier.MotionsOf(recordings);
   for (const SkillMotion& motion : motions) {
     AddMargins(motion, *task.skills().front().evaluated, &report);
   }
-  WriteMotions(motions, request, proof.names());
+  WriteMotions(motions, request, verifier.names());
   return report;
 }
 
@@ -312,8 +312,8 @@ std::string ExportTable(const ExportReport& report) {
   char line[192];
   if (!report.joints.empty()) {
     table =
-        "joint                  share of its limit, at most                     off the\n"
-        "                       position  velocity  acceleration      jerk    recording\n";
+        "joint                  largest share of its limit                      deviation,\n"
+        "                       position  velocity  acceleration      jerk    mrad or mm\n";
   }
   for (const JointMargins& joint : report.joints) {
     std::snprintf(line, sizeof(line), "%-22.22s %6.1f %%  %6.1f %%      %6.1f %%  %6.1f %%  %s\n",
@@ -324,13 +324,13 @@ std::string ExportTable(const ExportReport& report) {
   }
   if (!report.joints.empty()) {
     std::snprintf(line, sizeof(line),
-                  "%.1f s on average, at most %.2f times as long as recorded; the tool at most "
-                  "%.2f mm off\n",
+                  "mean duration %.1f s, at most %.2f times the recorded one; the tool deviates by "
+                  "at most %.2f mm\n",
                   report.seconds, report.stretch, 1000.0 * report.tool_deviation);
     table += line;
   }
   std::snprintf(line, sizeof(line),
-                "%d of %d episodes succeeded; %d are written, each did its task again\n",
+                "%d of %d episodes succeeded; %d are written, each reproduced its task\n",
                 report.succeeded, report.tried, report.episodes);
   return table + line;
 }

@@ -8,11 +8,12 @@
 namespace simwright::pipeline {
 namespace {
 
-// What a command moves at most in one step from one subtask to the next; fingers at their speed.
+// The largest motion of a command per step from one subtask to the next; fingers move at their
+// speed.
 constexpr double kBridgeStep = 0.01;  // rad or m
-constexpr double kAnyPace = 1e3;      // times the recording's
+constexpr double kAnyPace = 1e3;      // times the recording's pace
 
-// A path that grows by one command a control step.
+// A path of commands, one per control step.
 class CommandPath {
  public:
   CommandPath(const rl::Skill& skill, const MotionJoints& joints)
@@ -30,14 +31,14 @@ class CommandPath {
     command << moment.arm_command, moment.leader_command;
     commands_.push_back(command);
   }
-  // A rest takes its time however fast the motion is.
+  // Appends a rest, whose duration does not depend on the speed of the motion.
   void Rest(double seconds) {
     paces_.resize(commands_.size(), kAnyPace);
     commands_.insert(commands_.end(), static_cast<size_t>(std::ceil(seconds * rate_)),
                      Eigen::VectorXd(commands_.back()));
     paces_.resize(commands_.size(), 1.0);
   }
-  // Goes to where `moment` begins.
+  // Appends the steps to the command at `moment`.
   void Bridge(const RecordedMoment& moment) {
     const Eigen::VectorXd from = commands_.back();
     Add(moment);
@@ -67,15 +68,15 @@ class CommandPath {
   }
 
   double rate_;
-  Eigen::VectorXd steps_;  // of a bridge, by joint
+  Eigen::VectorXd steps_;  // largest steps of a bridge, by joint
   std::vector<Eigen::VectorXd> commands_;
-  std::vector<double> paces_;  // of the first commands; of the others any
+  std::vector<double> paces_;  // of the first commands; the others have any pace
 };
 
 void RequireAccepted(const robot::LimitReport& report) {
   if (report.accepted()) return;
   const core::Finding& finding = report.findings.front();
-  throw core::Error(finding.sentence, finding.place, "the robot would refuse it");
+  throw core::Error(finding.sentence, finding.place, "the robot would reject it");
 }
 
 }  // namespace
@@ -106,11 +107,11 @@ MotionJoints MotionJointsOf(const robot::RobotModel& robot, const JointLimitsByN
 SkillMotion MotionOf(const ChainRecording& recording, const rl::Skill& skill,
                      const robot::RetimingOptions& options, const JointLimitsByName& limits) {
   const MotionJoints joints = MotionJointsOf(*skill.robot, limits);
-  // At the recording's pace what was recorded has held its success for hold_seconds, and does so
-  // once more; a faster motion goes through that in no time, and rests as long.
+  // At the recording's pace the recorded motion already held its success for hold_seconds, and does
+  // so once more; a faster motion passes that in no time and rests for the same total time.
   const double rest = (options.fastest > 1.0 ? 2.0 : 1.0) * skill.options.hold_seconds;
   CommandPath commands(skill, joints);
-  std::vector<std::pair<size_t, size_t>> spans;  // places in the path
+  std::vector<std::pair<size_t, size_t>> spans;  // indices into the path
   for (const RecordedSubtask& subtask : recording.subtasks) {
     if (commands.size() > 0) commands.Bridge(subtask.moments.front());
     const size_t begin = commands.size();

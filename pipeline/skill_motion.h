@@ -11,23 +11,24 @@
 
 namespace simwright::pipeline {
 
-// When a subtask begins and ends in a motion, s.
+// The times at which a subtask begins and ends in a motion, s.
 struct SubtaskTimes {
   double begin = 0.0, end = 0.0;
 };
 
-// What a controller tracks so that a rollout happens again.
+// The motion that a controller tracks to reproduce a rollout.
 struct SkillMotion {
-  robot::Retimed retimed;  // the arm's joints and the gripper's first one
+  robot::Retimed retimed;  // the arm's joints and the gripper's first joint
   robot::LimitReport limits;
   std::vector<SubtaskTimes> subtasks;  // in the motion's own time
 };
 
-// Limits of a controller's own, by the robot's names of its joints.
+// A controller's own limits, by the robot's joint names.
 using JointLimitsByName = std::map<std::string, robot::JointLimits>;
 
-// The joints of a motion of `robot`, their limits as a controller checks them, the tighter of the
-// robot's and `limits`, and which slide: the arm's, then the gripper's first joint.
+// The joints of a motion of `robot`, the arm's first, then the gripper's first joint: their limits
+// as a controller checks them (the tighter ones of the robot's and `limits`), and which of them
+// slide.
 struct MotionJoints {
   std::vector<std::string> names;
   std::vector<robot::JointLimits> limits;
@@ -35,14 +36,15 @@ struct MotionJoints {
 };
 MotionJoints MotionJointsOf(const robot::RobotModel& robot, const JointLimitsByName& limits = {});
 
-// The motion of a recorded chain: the COMMANDS of arm and fingers, not where they came to. A real
-// arm that tracks them pushes and pulls as the simulated one did, and fingers that are sent to
-// where a thing does not let them go press on it: that is what a grasp is. After each subtask the
-// command rests for the skill's hold_seconds, which its success has to outlast, and then goes in
-// small steps to where the next one begins. Retimed to the robot's limits and `limits`, as close to
-// the commands and as fast as `options` say, and checked against them. A motion that is faster than
-// its recording ends with its last command, which a controller holds: its last subtask ends later
-// than the motion. Throws core::Error, naming joint, time and value, where limits cannot be met.
+// Computes the motion of a recorded chain from the COMMANDS of arm and fingers, not the positions
+// they reached. A real arm that tracks them exerts the forces of the simulated one, and fingers
+// commanded to a position that an object blocks press on it: that is a grasp. After each subtask
+// the command is constant for the skill's hold_seconds, for which its success must hold, and then
+// moves in small steps to the start of the next one. The motion is retimed to the robot's limits
+// and `limits`, as close to the commands and as fast as `options` say, and checked against them. A
+// motion that is faster than its recording ends with its last command, which a controller holds, so
+// its last subtask ends later than the motion. Throws core::Error, naming joint, time and value, if
+// limits cannot be met.
 SkillMotion MotionOf(const ChainRecording& recording, const rl::Skill& skill,
                      const robot::RetimingOptions& options = {},
                      const JointLimitsByName& limits = {});

@@ -14,20 +14,20 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kRemedy = "give a file of `simwright export`, with its notes";
+constexpr const char* kRemedy = "give a file of `simwright export`, with its metadata";
 
 const std::string& Line(const std::map<std::string, std::string>& lines, const char* key,
                         const std::string& where) {
   const auto found = lines.find(key);
   if (found != lines.end()) return found->second;
-  throw core::Error(std::string("lacks the note '") + key + "'", where, kRemedy);
+  throw core::Error(std::string("lacks the metadata entry '") + key + "'", where, kRemedy);
 }
 
 std::uint64_t Number(const std::string& text, const char* key, const std::string& where) {
   std::uint64_t number = 0;
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (fault == std::errc() && end == text.data() + text.size()) return number;
-  throw core::Error("the note '" + std::string(key) + "' is no number: '" + text + "'", where,
+  throw core::Error("the entry '" + std::string(key) + "' is not a number: '" + text + "'", where,
                     kRemedy);
 }
 
@@ -36,7 +36,7 @@ void ReadSubtasks(const std::string& text, SkillNotes* notes) {
   for (const json& one : json::parse(text)) {
     const SubtaskTimes times{one.at("begin").get<double>(), one.at("end").get<double>()};
     if (!(times.begin >= last) || !(times.end > times.begin) || !std::isfinite(times.end)) {
-      throw std::invalid_argument("times that do not rise");
+      throw std::invalid_argument("times that do not increase");
     }
     last = times.end;
     notes->subtasks.push_back(one.at("name").get<std::string>());
@@ -47,7 +47,7 @@ void ReadSubtasks(const std::string& text, SkillNotes* notes) {
 [[noreturn]] void FailOf(const std::string& what, const std::string& theirs,
                          const std::string& ours, const std::string& where) {
   throw core::Error("was made for " + what + " '" + theirs + "', the run has '" + ours + "'", where,
-                    "give the run that it was exported from");
+                    "give the run it was exported from");
 }
 
 }  // namespace
@@ -96,9 +96,9 @@ SkillNotes NotesFrom(const std::map<std::string, std::string>& lines, const std:
     notes.assets = json::parse(Line(lines, "assets", where)).get<std::vector<std::string>>();
     ReadSubtasks(Line(lines, "subtasks", where), &notes);
   } catch (const json::exception&) {
-    throw core::Error("the notes 'assets' and 'subtasks' are damaged", where, kRemedy);
+    throw core::Error("the entries 'assets' and 'subtasks' are damaged", where, kRemedy);
   } catch (const std::invalid_argument& error) {
-    throw core::Error(std::string("the note 'subtasks' holds ") + error.what(), where, kRemedy);
+    throw core::Error(std::string("the entry 'subtasks' has ") + error.what(), where, kRemedy);
   }
   return notes;
 }
@@ -111,13 +111,13 @@ void RequireOfRun(const SkillNotes& notes, const SkillRun& run, const std::vecto
   if (!known) FailOf("the task", notes.task, run.set.tasks.front().name, where);
   if (notes.assets != run.hashes) {
     throw core::Error("the assets have changed since it was exported", where,
-                      "give the run that it was exported from, or export anew");
+                      "give the run it was exported from, or export again");
   }
   bool same = notes.subtasks.size() == skills.size();
   for (size_t i = 0; same && i < skills.size(); ++i) same = notes.subtasks[i] == skills[i].name;
   if (!same) {
     throw core::Error("its subtasks are not those of the run", where,
-                      "give the run that it was exported from");
+                      "give the run it was exported from");
   }
 }
 

@@ -11,29 +11,29 @@
 
 namespace simwright::pipeline {
 
-// What an exported motion says of itself, so that it replays from its file alone.
+// The metadata of an exported motion, with which it replays from its file alone.
 struct SkillNotes {
   std::string robot;
   std::string task;
-  std::string run;                      // the training's folder, absolute
-  std::vector<std::string> assets;      // hashes, as the run has them
-  std::uint64_t seed = 0, episode = 0;  // which of the seed's episodes it was
+  std::string run;                      // the training folder's absolute path
+  std::vector<std::string> assets;      // the run's asset hashes
+  std::uint64_t seed = 0, episode = 0;  // the index among the seed's episodes
   std::string start;                    // rl::StartText
   std::vector<std::string> subtasks;    // names
   std::vector<SubtaskTimes> times;      // by subtask
 };
 
-// The notes of an episode of `run`, whose start is that of one of its tasks.
+// Returns the metadata of an episode of `run`, whose start is that of one of its tasks.
 SkillNotes NotesOf(const SkillRun& run, const std::vector<RunSkill>& skills,
                    const ChainRecording& recording, std::uint64_t seed);
 
-// As a trajectory's file carries them, a line each, and back. NotesFrom throws core::Error, naming
-// `where` and the note that is missing or damaged.
+// Convert metadata to the lines of a trajectory's file and back. NotesFrom throws core::Error,
+// naming `where` and the entry that is missing or damaged.
 std::map<std::string, std::string> NoteLines(const SkillNotes& notes);
 SkillNotes NotesFrom(const std::map<std::string, std::string>& lines, const std::string& where);
 
-// Throws core::Error, naming `where`, unless the notes are of this run's robot, task, subtasks and
-// assets.
+// Throws core::Error, naming `where`, unless the metadata matches this run's robot, task, subtasks
+// and assets.
 void RequireOfRun(const SkillNotes& notes, const SkillRun& run, const std::vector<RunSkill>& skills,
                   const std::string& where);
 

@@ -59,11 +59,11 @@ RecordedSubtask RecordSubtask(const rl::ChainLink& link, const rl::EpisodeStart&
   const std::string of = std::to_string(tally.succeeded) + " of " + std::to_string(tally.tried) +
                          " episodes succeeded";
   const bool lost = static_cast<int>(kept) < tally.succeeded;
-  throw core::Error(
-      lost ? of + ", and " + std::to_string(kept) + " of them did their task again, " +
-                 std::to_string(count) + " were asked for"
-           : "only " + of + ", " + std::to_string(count) + " were asked for",
-      "", "train it longer, or ask for fewer --episodes");
+  throw core::Error(lost ? of + ", and " + std::to_string(kept) +
+                               " of them reproduced their task, " + std::to_string(count) +
+                               " were requested"
+                         : "only " + of + ", " + std::to_string(count) + " were requested",
+                    "", "train longer, or request fewer --episodes");
 }
 
 }  // namespace

@@ -11,12 +11,12 @@
 
 namespace simwright::pipeline {
 
-// One moment of a rollout: where everything was, and what the robot was told.
+// One moment of a rollout: the state and the commands of the robot.
 struct RecordedMoment {
-  tasks::SceneState state;      // things, joints, tool and fingers
-  Eigen::VectorXd arm;          // (J) rad or m, where the joints were
-  double leader = 0.0;          // the same of the gripper's first joint
-  Eigen::VectorXd arm_command;  // (J) where they were sent
+  tasks::SceneState state;      // objects, joints, tool and fingers
+  Eigen::VectorXd arm;          // (J) measured joint positions, rad or m
+  double leader = 0.0;          // the gripper's first joint position
+  Eigen::VectorXd arm_command;  // (J) commanded joint positions
   double leader_command = 0.0;
 };
 
@@ -25,38 +25,38 @@ struct RecordedDecision {
   std::vector<float> observation, next_observation;  // (O)
   std::vector<float> action;                         // (A), in [-1, 1]
   float reward = 0.0f;
-  bool done = false;  // the subtask was over with it
+  bool done = false;  // the subtask ended with it
 };
 
 struct RecordedSubtask {
   rl::EpisodeStart start;
-  std::vector<RecordedMoment> moments;  // at the start, then after each control step
+  std::vector<RecordedMoment> moments;  // the start, then one after each control step
   std::vector<RecordedDecision> decisions;
   bool success = false;
 };
 
 struct ChainRecording {
-  std::uint64_t episode = 0;  // its number among those of its seed
+  std::uint64_t episode = 0;  // the index among the seed's episodes
   std::vector<RecordedSubtask> subtasks;
-  bool success = false;  // of all of them
+  bool success = false;  // all subtasks succeeded
 };
 
-// Runs an episode as rl::EvaluateChain runs that of the same seed and number, with the same
-// outcome, and keeps all that was seen and sent. Requires a link.
+// Runs the episode of this seed and index exactly as rl::EvaluateChain does, with the same outcome,
+// and records all states and commands. Requires at least one link.
 ChainRecording RecordEpisode(const std::vector<rl::ChainLink>& links, std::uint64_t seed,
                              std::uint64_t episode);
 
-// How many episodes it took to get those that were asked for.
+// The number of episodes that a recording took.
 struct RecordingTally {
-  int tried = 0, succeeded = 0;  // as many as RecordSuccesses gives are kept of the latter
+  int tried = 0, succeeded = 0;  // RecordSuccesses keeps only some successes
 };
 
-// Whether an episode that succeeded is kept; called from several threads.
+// A predicate that returns true to keep a successful episode; called from several threads.
 using KeepRecording = std::function<bool(const ChainRecording&)>;
 
-// The first `count` of the seed's episodes in which the whole task succeeds and which `keep` keeps
-// (none: all). Throws core::Error where they are fewer than one in twenty. Advances `progress`, if
-// any, by those that are kept.
+// Returns the first `count` of the seed's episodes in which the whole task succeeds and that `keep`
+// accepts (no `keep`: all). Throws core::Error if fewer than one in twenty are kept. Advances
+// `progress`, if any, by the kept episodes.
 std::vector<ChainRecording> RecordSuccesses(const std::vector<rl::ChainLink>& links, int count,
                                             std::uint64_t seed, RecordingTally* tally,
                                             const KeepRecording& keep = {},

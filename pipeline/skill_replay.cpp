@@ -20,7 +20,7 @@ bool IsDemonstrations(const fs::path& file) {
   return file.extension() == ".hdf5" || file.extension() == ".h5";
 }
 
-// The files to replay, those of a folder in order of their names.
+// Returns the files to replay; those of a folder are sorted by name.
 std::vector<fs::path> FilesOf(const ReplayRequest& request) {
   constexpr std::string_view kEndings[] = {".yaml", ".yml", ".json", ".csv", ".hdf5", ".h5"};
   std::vector<fs::path> files;
@@ -37,7 +37,7 @@ std::vector<fs::path> FilesOf(const ReplayRequest& request) {
       if (known && !LiesBesideMotion(entry.path())) inside.push_back(entry.path());
     }
     if (inside.empty()) {
-      throw core::Error("holds nothing that was exported", given.string(), "see simwright export");
+      throw core::Error("has no exported files", given.string(), "see simwright export");
     }
     std::sort(inside.begin(), inside.end());
     files.insert(files.end(), inside.begin(), inside.end());
@@ -48,7 +48,7 @@ std::vector<fs::path> FilesOf(const ReplayRequest& request) {
 }  // namespace
 
 ReplayReport Replay(const ReplayRequest& request, core::Progress* progress) {
-  // Trajectories at 1 kHz are large: so many are held at a time.
+  // Trajectories at 1 kHz are large: this many are in memory at a time.
   const auto most = static_cast<size_t>(4 * core::ThreadCount());
   const std::vector<fs::path> files = FilesOf(request);
   progress->Stage("replay", static_cast<int>(files.size()));

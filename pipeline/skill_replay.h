@@ -10,14 +10,14 @@
 namespace simwright::pipeline {
 
 struct ReplayRequest {
-  std::vector<std::filesystem::path> files;  // of `export`, or folders of them
-  std::filesystem::path run;                 // empty: where the first file's notes say
+  std::vector<std::filesystem::path> files;  // written by `export`, or folders of them
+  std::filesystem::path run;                 // empty: taken from the first file's metadata
 };
 
 struct ReplayedEpisode {
-  std::string name;             // file, and demonstration where it has several
-  std::vector<bool> successes;  // by subtask, up to the first that failed
-  bool success = false;         // of all
+  std::string name;             // the file, and the demonstration if it has several
+  std::vector<bool> successes;  // by subtask, up to the first failed one
+  bool success = false;         // all subtasks succeeded
 };
 
 struct ReplayReport {
@@ -27,9 +27,9 @@ struct ReplayReport {
   rl::Interval interval;  // 95 %
 };
 
-// Repeats exported motions and demonstrations in simulation from their files alone. Throws
-// core::Error: a file that cannot be read or is none of `export`'s, of another robot or task, of
-// assets that have changed; a run that is not there.
+// Replays exported motions and demonstrations in simulation from their files alone. Throws
+// core::Error for a file that cannot be read, was not written by `export`, or belongs to another
+// robot or task or to assets that have changed, and for a missing run.
 ReplayReport Replay(const ReplayRequest& request, core::Progress* progress);
 
 std::string ReplayTable(const ReplayReport& report);

@@ -52,7 +52,7 @@ TrainedTask::TrainedTask(const std::filesystem::path& folder,
     const std::filesystem::path file = skill.folder / rl::kPolicyFile;
     if (!std::filesystem::exists(file)) {
       throw core::Error("the subtask '" + skill.name + "' has no policy yet", file.string(),
-                        "go on with `simwright train ... --resume`");
+                        "continue with `simwright train ... --resume`");
     }
     policies_.push_back(rl::ReadPolicy(file));
     rl::RequireFits(policies_.back(), *skill.evaluated);

@@ -14,32 +14,33 @@
 namespace simwright::pipeline {
 
 struct RolloutRequest {
-  std::filesystem::path run;  // a folder that TrainTask wrote
+  std::filesystem::path run;  // a folder written by TrainTask
   int episodes = 100;
   std::uint64_t seed = 1;
-  // Other tasks alike, to see what was learnt on assets that the training has not seen: a file and
-  // names or patterns in it (ChooseTasks). Empty: the run's own.
+  // Other similar tasks, to evaluate on assets that are not in the training set: a file, and names
+  // or patterns in it (ChooseTasks). Empty: the run's own.
   std::filesystem::path on;
   std::vector<std::string> tasks;
-  // Of the fingers' surfaces, the same in all episodes; none: drawn as in the training.
+  // The friction of the fingers' surfaces, the same in all episodes; none: sampled as in training.
   std::optional<double> finger_friction;
-  // Of the first episode that succeeds, else of the first: pictures (PNG) and poses (JSON lines;
-  // rollout_pictures.h). Empty: none.
+  // Output files for the first successful episode, else the first one: pictures (PNG) and poses
+  // (JSON lines; rollout_pictures.h). Empty: none.
   std::filesystem::path pictures, poses;
 };
 
 struct RolloutReport {
   std::vector<std::string> subtasks;
-  rl::ChainEvaluation chain;  // of one link where the task has one subtask
-  double seconds = 0.0;       // mean of those that succeeded
+  rl::ChainEvaluation chain;  // one link if the task has one subtask
+  double seconds = 0.0;       // mean of the successful episodes
 };
 
-// A run's skills and policies, ready to act. Not copied or moved: links point into it.
+// A run's skills and policies, ready to act. Neither copyable nor movable, because links point into
+// it.
 class TrainedTask {
  public:
-  // `on`: other tasks to act in than the run's own; `finger_friction`: as RolloutRequest's. Throws
-  // core::Error where the folder holds no run, its assets have changed, a subtask has no policy,
-  // naming it, or `on` does not fit.
+  // `on`: tasks to act in instead of the run's own; `finger_friction`: as in RolloutRequest. Throws
+  // core::Error if the folder has no run, its assets have changed, a subtask has no policy (naming
+  // it), or `on` does not match.
   explicit TrainedTask(const std::filesystem::path& run,
                        const std::optional<tasks::TaskSet>& on = std::nullopt,
                        std::optional<double> finger_friction = std::nullopt);
@@ -57,8 +58,8 @@ class TrainedTask {
   std::vector<rl::ChainLink> links_;
 };
 
-// Runs the whole task from starts of its own, drawn by the seed. Success: every subtask's has held
-// for half a second at its end.
+// Runs the whole task from fresh starts sampled with the seed. An episode succeeds if the success
+// of every subtask has held for half a second at its end.
 RolloutReport Rollout(const RolloutRequest& request, core::Progress* progress);
 
 std::string RolloutTable(const RolloutReport& report);

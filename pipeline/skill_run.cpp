@@ -52,7 +52,7 @@ json RunJson(const SkillRun& run) {
   return text;
 }
 
-// Runs from before it was drawn had the robot's own.
+// Runs from before friction was sampled used the robot's own.
 std::optional<rl::FactorRange> FingerFrictionOf(const json& text) {
   if (!text.contains("finger_friction")) return std::nullopt;
   const auto range = text["finger_friction"].get<std::array<double, 2>>();
@@ -63,8 +63,8 @@ std::vector<std::string> HashesOf(const tasks::TaskSet& set) {
   std::vector<std::string> hashes;
   for (const tasks::TaskAsset& asset : set.assets) {
     if (!fs::exists(asset.path)) {
-      throw core::Error("the asset '" + asset.name + "' is not there any more", asset.path,
-                        "put it back, or train anew");
+      throw core::Error("the asset '" + asset.name + "' no longer exists", asset.path,
+                        "restore it, or train again");
     }
     hashes.push_back(core::ContentHashOf(asset.path));
   }
@@ -87,7 +87,7 @@ tasks::TaskSet ChooseTasks(const tasks::TaskSet& set, const std::vector<std::str
       used.insert(task.assets.begin(), task.assets.end());
     }
     if (!any) {
-      throw core::Error("there is no task '" + pattern + "'", file, "it holds " + SomeNames(set));
+      throw core::Error("there is no task '" + pattern + "'", file, "it has " + SomeNames(set));
     }
   }
   for (const tasks::TaskAsset& asset : set.assets) {
@@ -95,7 +95,7 @@ tasks::TaskSet ChooseTasks(const tasks::TaskSet& set, const std::vector<std::str
   }
   for (const tasks::Task& task : chosen.tasks) {
     if (task.subtasks.size() == chosen.tasks.front().subtasks.size()) continue;
-    throw core::Error("'" + task.name + "' has another number of subtasks than '" +
+    throw core::Error("'" + task.name + "' differs in its number of subtasks from '" +
                           chosen.tasks.front().name + "'",
                       file, "train them one by one");
   }
@@ -109,7 +109,7 @@ void WriteRun(const SkillRun& given) {
   const std::string text = RunJson(run).dump(2) + "\n";
   if (fs::exists(file)) {
     if (core::ReadFile(file) != text) {
-      throw core::Error("the folder holds a run of other tasks, assets or options",
+      throw core::Error("the folder has a run with other tasks, assets or options",
                         run.folder.string(), "give another folder");
     }
     return;
@@ -122,14 +122,14 @@ void WriteRun(const SkillRun& given) {
 SkillRun ReadRun(const fs::path& folder) {
   const fs::path file = folder / kRunFile;
   if (!fs::exists(file)) {
-    throw core::Error("is no folder of a training", folder.string(), "see `simwright train`");
+    throw core::Error("is not a training folder", folder.string(), "see `simwright train`");
   }
   SkillRun run;
   run.folder = folder;
   try {
     const json text = json::parse(core::ReadFile(file, 1 << 24));
     if (text.at("format").get<int>() != kFormat) {
-      throw core::Error("was written by another version", file.string(), "train anew");
+      throw core::Error("was written by another version", file.string(), "train again");
     }
     run.robot = text.at("robot").get<std::string>();
     run.environments = text.at("environments").get<int>();
@@ -140,14 +140,14 @@ SkillRun ReadRun(const fs::path& folder) {
     run.options.action = rl::ActionSpaceOf(text.at("action").get<std::string>());
     run.options.finger_friction = FingerFrictionOf(text);
   } catch (const json::exception&) {
-    throw core::Error("is damaged", file.string(), "train anew");
+    throw core::Error("is damaged", file.string(), "train again");
   }
   run.set = tasks::ReadTaskFile(folder / kTasksFile);
   const std::vector<std::string> now = HashesOf(run.set);
   for (size_t i = 0; i < now.size(); ++i) {
     if (i < run.hashes.size() && now[i] == run.hashes[i]) continue;
     throw core::Error("the asset '" + run.set.assets[i].name + "' has changed since the training",
-                      run.set.assets[i].path, "put the old one back, or train anew");
+                      run.set.assets[i].path, "restore the old one, or train again");
   }
   return run;
 }
@@ -170,8 +170,8 @@ std::vector<RunSkill> PrepareSkills(const SkillRun& run) {
 std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun& run) {
   const std::vector<tasks::Subtask>& named = run.set.tasks.front().subtasks;
   if (set.tasks.front().subtasks.size() != named.size()) {
-    throw core::Error("has another number of subtasks than '" + run.set.tasks.front().name + "'",
-                      set.tasks.front().name, "choose a task of the same steps");
+    throw core::Error("differs in its number of subtasks from '" + run.set.tasks.front().name + "'",
+                      set.tasks.front().name, "choose a task with the same steps");
   }
   std::map<std::string, assets::SemanticModel> models;
   for (const tasks::TaskAsset& asset : set.assets) {
@@ -181,7 +181,7 @@ std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun&
   }
   const robot::RobotModel& robot = RobotOf(run.robot);
   std::vector<RunSkill> skills(named.size());
-  std::vector<std::shared_ptr<const rl::Skill>> later;  // of the first, which is made last
+  std::vector<std::shared_ptr<const rl::Skill>> later;  // of the first one, which is made last
   for (size_t k = named.size(); k-- > 0;) {
     std::vector<rl::SkillSubtask> subtasks;
     for (const tasks::Task& task : set.tasks) {

@@ -11,50 +11,49 @@
 
 namespace simwright::pipeline {
 
-// What skills are trained for; a training's folder keeps it as run.json beside tasks.json.
+// The tasks and settings of a training; its folder stores them as run.json beside tasks.json.
 struct SkillRun {
   std::filesystem::path folder;
-  // The tasks that are practised: one, or several alike (a door on six microwaves) with as many
-  // subtasks each, of which those at the same place share a policy.
+  // The training tasks: one, or several similar ones (a door on six microwaves) with the same
+  // number of subtasks; subtasks at the same position share a policy.
   tasks::TaskSet set;
-  std::vector<std::string> hashes;  // of set.assets, as they were when the run was begun
+  std::vector<std::string> hashes;  // content hashes of set.assets at the start of the run
   std::string robot = "panda";      // panda, panda_on_base, or a URDF with its side file
   rl::SkillOptions options;
   int environments = 64;
   std::uint64_t seed = 1;
 };
 
-// One subtask's place in the run.
+// One subtask of the run.
 struct RunSkill {
   std::string name;
   std::filesystem::path folder;
-  std::shared_ptr<const rl::Skill> skill;      // as it is trained
-  std::shared_ptr<const rl::Skill> evaluated;  // without easier starts
+  std::shared_ptr<const rl::Skill> skill;      // for training
+  std::shared_ptr<const rl::Skill> evaluated;  // for evaluation, without easier starts
 };
 
-// The tasks of `set`, read from `file`, whose names match one of `patterns` ('*' stands for any
-// letters, as in a shell), each once. Throws
-// core::Error, naming those that are there, where a pattern matches none, or where the tasks have
-// different numbers of subtasks.
+// Returns the tasks of `set`, read from `file`, whose names match one of `patterns` ('*' matches
+// any characters, as in a shell), without duplicates. Throws core::Error, listing the known names,
+// if a pattern matches none, or if the tasks have different numbers of subtasks.
 tasks::TaskSet ChooseTasks(const tasks::TaskSet& set, const std::vector<std::string>& patterns,
                            const std::string& file);
 
-// Writes run.json and tasks.json into run.folder, or compares with what is there: a run goes on
-// only as it was begun. Throws core::Error, naming what differs.
+// Writes run.json and tasks.json into run.folder, or compares them with the existing ones: a run
+// resumes only with the settings it started with. Throws core::Error, naming the difference.
 void WriteRun(const SkillRun& run);
 
-// Throws core::Error where the folder holds no run, or an asset is gone or has changed since,
-// naming it.
+// Reads a run. Throws core::Error if the folder has no run, or if an asset is missing or has
+// changed since, naming it.
 SkillRun ReadRun(const std::filesystem::path& folder);
 
-// The robot of the run's name; lives as long as the program.
+// Returns the robot of this name; it lives as long as the program.
 const robot::RobotModel& RobotOf(const std::string& name);
 
 // Reads the assets and prepares each subtask.
 std::vector<RunSkill> PrepareSkills(const SkillRun& run);
 
-// The run's subtasks in the scenes of other tasks alike: what was learnt on some assets, on others.
-// Throws core::Error where those have another number of subtasks.
+// Prepares the run's subtasks in the scenes of other similar tasks, to evaluate skills on other
+// assets. Throws core::Error if those have a different number of subtasks.
 std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun& run);
 
 }  // namespace simwright::pipeline

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kPhoto = "photo";
 constexpr const char* kPhotoCategory = "coffee cup";
-// Enough that every joint of every instance has its tasks.
+// Enough for every joint of every instance to have its tasks.
 constexpr int kTasksPerInstance = 60;
 
 void MakeInstances(const SuiteCell& cell, std::uint64_t seed, int count, const fs::path& photo,
@@ -84,7 +84,7 @@ fs::path MakeCellTasks(const SuiteCell& cell, std::uint64_t seed, int count, con
   if (fs::exists(file)) return file;
   fs::create_directories(folder);
   const fs::path assets = folder / "assets";
-  fs::remove_all(assets);  // a run that was stopped has left some
+  fs::remove_all(assets);  // leftovers of an interrupted run
   MakeInstances(cell, seed, count, photo, assets, progress);
   TasksRequest request;
   request.assets = {assets.string()};

@@ -12,39 +12,38 @@
 
 namespace simwright::pipeline {
 
-// One skill of the suite that shows what training is worth: a subtask, on kinds of the library.
+// One skill of the suite that demonstrates the benefit of training: a subtask, on library kinds.
 struct SuiteCell {
   std::string name;     // open_microwave_door
-  std::string kind;     // of the library; "photo": the cup lifted from the example photo
-  std::string pattern;  // of the tasks that it is taken from (ChooseTasks)
-  int subtask = 0;      // which of their subtasks
-  double minutes = 10;  // of training on two cores, at most
-  // Cabinets are as high as the robot and their open doors stand beside it: that takes a base.
+  std::string kind;     // a library kind; "photo": the cup reconstructed from the example photo
+  std::string pattern;  // selects the tasks that contain the subtask (ChooseTasks)
+  int subtask = 0;      // the subtask's index in those tasks
+  double minutes = 10;  // the maximum training time on two cores
+  // Cabinets are as high as the robot and their open doors stand beside it, which requires a base.
   std::string robot = "panda";
-  int instances = 32;  // of the kind, to train on: with 8, those that it knew it did in 99 %,
-                       // others in 89 % (opening microwaves)
+  int instances = 32;  // training instances of the kind; 8 do not generalise as well
 };
 
-// Training and evaluation see other instances of the kind: seeds from 1 on and from 301 on, of
-// which there are so many.
+// Seeds of the instances: training and evaluation use different instances of the kind, with seeds
+// from 1 on and from 301 on; kUnseenInstances is the number of evaluation instances.
 constexpr std::uint64_t kSeenSeed = 1, kUnseenSeed = 301;
 constexpr int kUnseenInstances = 8;
 
 const std::vector<SuiteCell>& SkillSuite();
 
-// Throws core::Error, listing those that are there.
+// Returns the cell of this name. Throws core::Error, listing the known names, if there is none.
 const SuiteCell& CellOf(const std::string& name);
 
-// What the policy's actions say: its fact `action`, else "focus", as of all from before there was
-// that fact. Throws core::Error for an action space that there is not.
+// Returns the policy's action space: its fact `action`, else "focus", the action space of all
+// policies without that fact. Throws core::Error for an unknown action space.
 rl::ActionSpace ActionSpaceOf(const rl::Policy& policy);
 
-// Where a cell's policy is shipped.
+// Returns the path of a cell's shipped policy.
 std::filesystem::path ShippedPolicy(const std::filesystem::path& models, const std::string& cell);
 
-// Makes `count` instances of the cell's kind from `seed` on into folder/assets, unless they are
-// there, and folder/tasks.json with a task of the cell's one subtask for each way to do it. Returns
-// that file. `photo`: for the kind "photo", what is lifted. Throws core::Error.
+// Makes `count` instances of the cell's kind, with seeds from `seed` on, in folder/assets unless
+// they exist, and folder/tasks.json with one task per way to perform the cell's subtask. Returns
+// that file. `photo`: the photo to reconstruct for the kind "photo". Throws core::Error.
 std::filesystem::path MakeCellTasks(const SuiteCell& cell, std::uint64_t seed, int count,
                                     const std::filesystem::path& photo,
                                     const std::filesystem::path& folder, core::Progress* progress);

@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kEndsFile = "ends.jsonl";  // where episodes ended well
+constexpr const char* kEndsFile = "ends.jsonl";  // ends of successful episodes
 
 json IntervalJson(const rl::SkillEvaluation& evaluation) {
   return {{"episodes", evaluation.episodes.size()},
@@ -54,17 +54,17 @@ SkillRun RunOf(const TrainRequest& request) {
   return run;
 }
 
-// A task's subtasks on their way to a report.
+// The training of a task's subtasks and its report.
 class TaskTraining {
  public:
   TaskTraining(const TrainRequest& request, core::Progress* progress)
       : request_(request), progress_(progress), run_(RunOf(request)) {
     if (fs::exists(run_.folder) && !request.resume) {
-      throw core::Error("is there already", run_.folder.string(),
-                        "go on with --resume, or give another folder");
+      throw core::Error("already exists", run_.folder.string(),
+                        "continue with --resume, or give another folder");
     }
-    // A folder that is there is locked before anything else takes its time; one that is not yet
-    // appears only where all that is asked for fits.
+    // An existing folder is locked before the slow steps; a new one is created only once all inputs
+    // are valid.
     if (fs::exists(run_.folder)) lock_.emplace(run_.folder, "a training");
     skills_ = PrepareSkills(run_);
     if (!lock_) lock_.emplace(run_.folder, "a training");
@@ -90,11 +90,11 @@ class TaskTraining {
   }
 
  private:
-  // Where subtask `k` begins in the chain; empty for the first.
+  // Returns the starts of subtask `k` in the chain; empty for the first.
   std::vector<rl::EpisodeStart> PoolOf(size_t k) const {
     return k == 0 ? std::vector<rl::EpisodeStart>() : ends_[k - 1];
   }
-  // Beside a subtask's name, where there are several.
+  // Returns the text after a subtask's name if there are several.
   std::string Place(size_t k) const {
     if (skills_.size() == 1) return "";
     return ", subtask " + std::to_string(k + 1) + " of " + std::to_string(skills_.size());
@@ -109,13 +109,13 @@ class TaskTraining {
   std::optional<core::FolderLock> lock_;
   std::vector<RunSkill> skills_;
   std::vector<rl::Policy> policies_;
-  std::vector<std::vector<rl::EpisodeStart>> ends_;  // by subtask: where its episodes ended well
+  std::vector<std::vector<rl::EpisodeStart>> ends_;  // of successes, by subtask
   TrainReport report_;
 };
 
 void TaskTraining::Learn(size_t k) {
   const RunSkill& skill = skills_[k];
-  // A successor that has begun to learn began where this one's episodes ended.
+  // A successor that has begun to learn started from the ends of this subtask's episodes.
   const bool successor_begun =
       k + 1 < skills_.size() && fs::exists(skills_[k + 1].folder / rl::kCheckpointFile);
   const Trained numbers =
@@ -130,12 +130,12 @@ void TaskTraining::Learn(size_t k) {
   ends_.emplace_back();
   Evaluate(k);
   if (ends_[k].empty() && k + 1 < skills_.size()) {
-    throw core::Error("was not learnt: the subtasks after it have nowhere to start",
-                      "subtask " + skill.name, "give it more --minutes, and --resume");
+    throw core::Error("was not learnt: the next subtasks have no starts", "subtask " + skill.name,
+                      "give more --minutes, and --resume");
   }
 }
 
-// From its own starts, and from where the subtask before has ended.
+// Evaluates subtask `k` from its own starts and from the ends of the previous one.
 void TaskTraining::Evaluate(size_t k) {
   const rl::Skill& skill = *skills_[k].evaluated;
   TrainedSkill& trained = report_.skills[k];
@@ -150,7 +150,7 @@ void TaskTraining::Evaluate(size_t k) {
   rl::WriteStarts(ends_[k], skills_[k].folder / kEndsFile);
 }
 
-// Where the subtask after `k` loses by starting where `k` ends, `k` learns to end better.
+// Tunes subtask `k` to end better if the next one loses success by starting where it ends.
 void TaskTraining::Tune(size_t k) {
   const TrainedSkill& next = report_.skills[k + 1];
   report_.skills[k].tuning = ReadBackwardTuning(skills_[k]);
@@ -172,8 +172,8 @@ std::string TrainedSkill::Method() const {
   };
   const std::int64_t other = shares.imitated + shares.critic_alone;
   std::string method;
-  if (shares.imitated > 0) method = "imitation of a script";
-  if (shares.critic_alone > 0) method = "the script";
+  if (shares.imitated > 0) method = "imitation of a scripted expert";
+  if (shares.critic_alone > 0) method = "a scripted expert";
   if (method.empty()) return "PPO";
   return other >= samples ? method : method + decisions(other) + ", then PPO";
 }
@@ -189,8 +189,7 @@ TrainReport TrainTask(const TrainRequest& request, core::Progress* progress) {
 
 std::string TrainTable(const TrainReport& report) {
   std::string table =
-      "subtask                            samples  minutes  own starts       after the one "
-      "before\n";
+      "subtask                            samples  minutes  own starts       handover\n";
   for (const TrainedSkill& skill : report.skills) {
     char line[256];
     std::snprintf(line, sizeof(line), "%-34.34s %8lld %8.1f  %-16s %s\n", skill.name.c_str(),
@@ -199,7 +198,7 @@ std::string TrainTable(const TrainReport& report) {
     table += line + ("  learnt by " + skill.Method() + "\n");
     if (!skill.tuning) continue;
     std::snprintf(line, sizeof(line),
-                  "  tuned for the one after it: both succeed in %.0f %%, before in %.0f %%%s\n",
+                  "  tuned for the next one: both succeed in %.0f %%, before in %.0f %%%s\n",
                   100.0 * skill.tuning->after, 100.0 * skill.tuning->before,
                   skill.tuning->kept ? "" : "; not kept");
     table += line;

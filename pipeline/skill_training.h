@@ -19,43 +19,45 @@ struct TrainRequest {
   std::string robot = "panda";
   rl::ActionSpace action = rl::ActionSpace::kFocus;
   double episode_seconds = rl::SkillOptions().episode_seconds;
-  // Of the fingers' surfaces, drawn with each episode: from worn plastic to the rubber tips of the
-  // Panda's URDF.
+  // The friction of the fingers' surfaces, sampled per episode: from worn plastic to the rubber
+  // tips of the Panda's URDF.
   rl::FactorRange finger_friction = {0.8, 2.0};
   int environments = 64;
-  std::int64_t samples = 2'000'000;  // of one subtask, at most
-  double minutes = 30.0;             // of one subtask, at most; 0: no end
-  // Decisions of one subtask at the beginning that imitate a script (rl/scripted_hand.h), where
-  // there is one for the action space; 0: PPO alone. Opening microwaves was learnt in 164k
-  // decisions and 4 minutes of a core so, and in 1024k and 19 minutes without.
+  std::int64_t samples = 2'000'000;  // per subtask, at most
+  double minutes = 30.0;             // per subtask, at most; 0: unlimited
+  // The decisions at the beginning of each subtask that imitate a scripted expert
+  // (rl/scripted_hand.h), if there is one for the action space; 0: PPO alone. Imitation shortens
+  // training several times.
   std::int64_t imitated_samples = 65'536;
-  // A subtask is learnt once the lower end of its success rate's 95 % interval is above this.
+  // A subtask counts as learnt once the lower bound of the 95 % interval of its success rate
+  // exceeds this.
   double target = 0.92;
-  int episodes = 200;  // of each evaluation
-  // A subtask whose successor loses more than `largest_handover_loss` of its success by starting
-  // where it ends learns on, for so many decisions, to end better; 0: none does.
+  int episodes = 200;  // per evaluation
+  // If the next subtask's success drops by more than `largest_handover_loss` when it starts where a
+  // subtask ends, that subtask is trained for `backward_samples` more decisions to end better; 0:
+  // no backward tuning.
   double largest_handover_loss = 0.05;
   std::int64_t backward_samples = 120'000;
   std::uint64_t seed = 1;
   bool resume = false;
 };
 
-// A subtask that has learnt on to end where its successor can start.
+// The outcome of training a subtask further so that it ends where the next one can start.
 struct BackwardTuning {
   std::int64_t samples = 0;
   double seconds = 0.0;
-  double before = 0.0, after = 0.0;  // success of both, one after the other
-  bool kept = false;                 // it succeeds more often than before
+  double before = 0.0, after = 0.0;  // success rate of both in sequence
+  bool kept = false;                 // the success rate rose, and the new policy is kept
 };
 
-// Which of a training's decisions were not learnt from by PPO: those in which the policy learnt
-// what a script does (DAgger), and those from which only the critic learnt, where a guided hand
-// followed the script as it is.
+// The numbers of training decisions that PPO did not learn from: those in which the policy imitated
+// a scripted expert (DAgger), and those from which only the critic learnt while a guided gripper
+// followed the scripted expert unchanged.
 struct LearningShares {
   std::int64_t imitated = 0, critic_alone = 0;
 };
 
-// What came of one subtask.
+// The outcome of training one subtask.
 struct TrainedSkill {
   std::string name;
   std::filesystem::path folder;
@@ -63,32 +65,33 @@ struct TrainedSkill {
   double seconds = 0.0;
   LearningShares shares;
   rl::SkillEvaluation own;               // from its own starts
-  rl::SkillEvaluation handover;          // from where the subtask before ended; empty for the first
-  std::optional<BackwardTuning> tuning;  // for the subtask after it
-  // "imitation of a script", "the script", "PPO", or "imitation of a script (66k decisions), then
-  // PPO".
+  rl::SkillEvaluation handover;          // from the previous subtask's ends; empty for the first
+  std::optional<BackwardTuning> tuning;  // for the next subtask
+  // Returns "imitation of a scripted expert", "a scripted expert", "PPO", or for example "imitation
+  // of a scripted expert (66k decisions), then PPO".
   std::string Method() const;
-  // What is lost by starting there: own rate less handover rate.
+  // Returns the success rate lost by starting there: the own rate minus the handover rate.
   double HandoverLoss() const { return own.rate() - handover.rate(); }
 };
 
 struct TrainReport {
   std::filesystem::path folder;
   std::vector<TrainedSkill> skills;
-  rl::ChainEvaluation chain;  // of the whole task; empty where it has one subtask
+  rl::ChainEvaluation chain;  // the whole task's; empty if it has one subtask
 
-  double success() const;  // of the whole
+  double success() const;  // the whole task's rate
 };
 
-// Trains a task's subtasks in order into request.output: each by imitation of a script, where there
-// is one, and then by PPO until it is learnt or its time is over, the later ones mostly from where
-// the one before ended well, then evaluates them, alone and as a chain. A subtask that has been
-// trained before is taken as it is; with `resume` one that was stopped goes on. Throws core::Error
-// (ChooseTasks, WriteRun, MakeSkill, TrainPolicy, another process that trains there) and
-// core::Cancelled, with all that was trained kept.
+// Trains a task's subtasks in order into request.output, then evaluates them, alone and as a chain.
+// Each subtask first imitates a scripted expert, if there is one, and then uses PPO until it is
+// learnt or its time is used up; later ones mostly start from successful ends of the previous one.
+// A subtask that is already trained is kept unchanged; with `resume` an interrupted one is resumed.
+// Throws core::Error (as ChooseTasks, WriteRun, MakeSkill and TrainPolicy do, or if another process
+// trains there) and core::Cancelled, keeping all trained results.
 TrainReport TrainTask(const TrainRequest& request, core::Progress* progress);
 
-// For a terminal; for machines; and report.json in the run's folder holds the latter.
+// Format the report for a terminal and for machines. report.json in the run's folder has the
+// latter.
 std::string TrainTable(const TrainReport& report);
 std::string TrainJson(const TrainReport& report);
 

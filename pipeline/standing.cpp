@@ -22,15 +22,15 @@ namespace {
 
 using assets::UrdfModel;
 
-constexpr double kFootShare = 0.01;  // of the diagonal
-constexpr double kMostFoot = 2e-3;   // m
-constexpr double kLevel = 1e-5;      // m: within that a foot is flat
-constexpr double kFlatShare = 0.9;   // of the area at kMostFoot that the flat has to have
-constexpr double kFlat = 1e-6;       // m: what is as low as that lies on the flat already
+constexpr double kBaseShare = 0.01;   // of the diagonal
+constexpr double kMaxBaseCut = 2e-3;  // m
+constexpr double kLevel = 1e-5;       // m: flatness tolerance of a base
+constexpr double kFlatShare = 0.9;    // minimum flat area over the base area at kMaxBaseCut
+constexpr double kFlat = 1e-6;        // m: vertices this low already lie on the flat face
 constexpr double kFalls = 5.0 * std::numbers::pi / 180.0;
 constexpr double kTurned = 0.5 * std::numbers::pi / 180.0;
 
-// The model as one body of uniform density.
+// Returns the model as one body of uniform density.
 sim::RigidBody WholeOf(const UrdfModel& model) {
   const std::vector<Eigen::Isometry3d> poses = assets::LinkPosesAtZero(model);
   sim::RigidBody body;
@@ -76,8 +76,8 @@ double LowestOfAll(const UrdfModel& model, const std::vector<Eigen::Isometry3d>&
   return lowest;
 }
 
-// Area of the hull of what the root moves with, where it lies below `height`, m^2.
-double FootArea(const UrdfModel& model, const std::vector<Eigen::Isometry3d>& poses,
+// Returns the area of the hull of the root's group below `height`, m^2.
+double BaseArea(const UrdfModel& model, const std::vector<Eigen::Isometry3d>& poses,
                 double height) {
   const LinkGroups groups(model);
   std::vector<Eigen::Vector2d> low;
@@ -99,11 +99,11 @@ double FootArea(const UrdfModel& model, const std::vector<Eigen::Isometry3d>& po
   return hull.size() < 3 ? 0.0 : area;
 }
 
-// Cuts what reaches below `height` off the parts of what the root moves with.
-void CutFoot(const std::vector<Eigen::Isometry3d>& poses, double height, UrdfModel* model) {
+// Cuts the parts of the root's group at `height`.
+void CutBase(const std::vector<Eigen::Isometry3d>& poses, double height, UrdfModel* model) {
   const LinkGroups groups(*model);
   for (size_t i = 0; i < model->links.size(); ++i) {
-    if (!groups.Rigid(i, 0)) continue;  // a wheel stays round
+    if (!groups.Rigid(i, 0)) continue;  // wheels stay round
     for (assets::UrdfShape& shape : model->links[i].collisions) {
       const Eigen::Vector3d down = -(poses[i].linear().transpose() * Eigen::Vector3d::UnitZ());
       const double offset = poses[i].translation().z() - height;
@@ -113,7 +113,8 @@ void CutFoot(const std::vector<Eigen::Isometry3d>& poses, double height, UrdfMod
         above = std::max(above, z - height);
         below = std::max(below, height - z);
       }
-      // What lies below altogether, a foot of paper, keeps its shape: it is the flat.
+      // A part that lies entirely below, such as a paper-thin base, is the flat face and keeps its
+      // shape.
       if (below <= kFlat || above <= kFlat) continue;
       core::TriangleMesh cut = geometry::CutConvex(shape.mesh, down, offset);
       if (!cut.empty()) shape.mesh = std::move(cut);
@@ -144,24 +145,24 @@ core::Findings LetStand(UrdfModel* model) {
   const auto level = [&] {
     const auto poses = assets::LinkPosesAtZero(*model);
     const double lowest = LowestOfAll(*model, poses);
-    const double foot = std::min(kFootShare * diagonal, kMostFoot);
-    const double flat = FootArea(*model, poses, lowest + kLevel);
-    // What stands on a flat already is left as it is.
-    if (flat <= 0.0 || flat < kFlatShare * FootArea(*model, poses, lowest + foot)) {
-      CutFoot(poses, lowest + foot, model);
+    const double foot = std::min(kBaseShare * diagonal, kMaxBaseCut);
+    const double flat = BaseArea(*model, poses, lowest + kLevel);
+    // A model that already stands on a flat face is unchanged.
+    if (flat <= 0.0 || flat < kFlatShare * BaseArea(*model, poses, lowest + foot)) {
+      CutBase(poses, lowest + foot, model);
     }
     SetDown(LowestOfAll(*model, poses), model);
   };
   level();
   const sim::RigidBody whole = WholeOf(*model);
-  // A bottle that rocks a little still stands; only what falls is laid down.
+  // A bottle that rocks slightly still stands; only a model that falls is rotated.
   if (sim::DropInBullet(whole).tilt < kFalls) return findings;
   const RestPose rest = FindRestPose(whole);
   const double tilt = sim::TiltBetween(rest.turn, Eigen::Isometry3d::Identity());
   if (!rest.held) {
     findings.push_back({"rolls", core::Severity::kWarning, model->name,
-                        "no pose holds it within 5 degrees: it is left as it was given", 0.0,
-                        "lay it where something holds it"});
+                        "no pose holds within 5 degrees: it keeps its given pose", 0.0,
+                        "place it where something holds it"});
     return findings;
   }
   if (tilt > kTurned) {
@@ -169,9 +170,8 @@ core::Findings LetStand(UrdfModel* model) {
     StandOnOrigin(1.0, model);
     level();
     findings.push_back({"does-not-stand", core::Severity::kWarning, model->name,
-                        "as it is given it falls over: " + RestSentence(rest.turn, false),
-                        tilt * 180.0 / std::numbers::pi,
-                        "hold its root in place where it is mounted"});
+                        "it falls over in its given pose: " + RestSentence(rest.turn, false),
+                        tilt * 180.0 / std::numbers::pi, "fix its root if it is mounted"});
   }
   return findings;
 }
@@ -192,9 +192,9 @@ TippingMargin LeastTippingMargin(const UrdfModel& model) {
       }
     }
   }
-  const std::vector<Eigen::Vector2d> foot = geometry::PlaneHull(std::move(touching));
+  const std::vector<Eigen::Vector2d> support = geometry::PlaneHull(std::move(touching));
   TippingMargin least{std::numeric_limits<double>::infinity(), "", 0.0};
-  if (foot.size() < 3) return least;  // it rests on a point or a line: nothing is known
+  if (support.size() < 3) return least;  // it rests on a point or a line: unknown
   for (const assets::UrdfJoint& joint : model.joints) {
     if (!joint.Moves() || joint.type == assets::UrdfJointType::kContinuous) continue;
     for (int i = 0; i <= kSteps; ++i) {
@@ -202,10 +202,10 @@ TippingMargin LeastTippingMargin(const UrdfModel& model) {
       const Eigen::Vector2d center =
           assets::WholeInertial(model, {{joint.name, position}}).center_of_mass.head<2>();
       double margin = std::numeric_limits<double>::infinity();
-      for (size_t k = 0; k < foot.size(); ++k) {
-        const Eigen::Vector2d side = (foot[(k + 1) % foot.size()] - foot[k]).normalized();
-        const Eigen::Vector2d inward(-side.y(), side.x());  // corners go counter-clockwise
-        margin = std::min(margin, inward.dot(center - foot[k]));
+      for (size_t k = 0; k < support.size(); ++k) {
+        const Eigen::Vector2d side = (support[(k + 1) % support.size()] - support[k]).normalized();
+        const Eigen::Vector2d inward(-side.y(), side.x());  // the corners are counter-clockwise
+        margin = std::min(margin, inward.dot(center - support[k]));
       }
       if (margin < least.margin) least = {margin, joint.name, position};
     }

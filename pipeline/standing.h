@@ -7,24 +7,25 @@
 
 namespace simwright::pipeline {
 
-// Lets an articulated model with collision parts (closed, convex), whose root stands on z = 0, stand
-// in the engines, joints at zero:
-//   where it falls over as it is given, it is turned into the stable pose that FindRestPose takes (a
-//   pair of scissors lies);
-//   what the root moves with is cut 1 % of the diagonal (at most 2 mm) above its lowest point, and
-//   the whole set down, unless it stands on a flat of that extent already: hulls of a rounded or rough base end
-//   in single corners, on which a bottle creeps.
-// Masses are taken by volume. All frames stay parallel to the root's, whose origin stays in the
-// middle below the whole. Returns findings for what was done.
+// Makes an articulated model with collision parts (closed, convex), whose root stands on z = 0,
+// statically stable in the engines with joints at zero:
+//   if it falls over in the given pose, it is rotated into the stable pose that FindRestPose
+//   returns (a pair of scissors lies flat);
+//   the collision parts that move with the root are cut 1 % of the diagonal (at most 2 mm) above
+//   their lowest point and the whole model is lowered, unless it already stands on a flat face of
+//   that extent: hulls of a rounded or rough base end in single corners, on which a bottle creeps.
+// Masses follow volume. All frames stay parallel to the root's, whose origin stays centred below
+// the whole model. Returns findings for all changes.
 core::Findings LetStand(assets::UrdfModel* model);
 
-// How far inside its foot (the hull of what the root moves with, where it is within 1 mm of the
-// floor z = 0) the whole's centre of mass stays while one joint moves over its range, others at
-// zero; m, negative where it leaves the foot and the whole tips over. The model has inertials.
+// The smallest distance of the whole model's centre of mass to the edge of its support polygon (the
+// hull of the root's group within 1 mm of the floor z = 0) while one joint moves over its range,
+// with others at zero; m, negative if it leaves the polygon and the model tips over. The model must
+// have inertials.
 struct TippingMargin {
   double margin = 0.0;
-  std::string joint;     // of which it is least
-  double position = 0.0;  // rad or m
+  std::string joint;     // the joint of the minimum
+  double position = 0.0;  // that joint's, rad or m
 };
 TippingMargin LeastTippingMargin(const assets::UrdfModel& model);
 

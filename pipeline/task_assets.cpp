@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Located {
-  std::string name;  // as given; empty: the asset's own
+  std::string name;  // the given name; empty: the asset's own
   fs::path path;
 };
 
@@ -25,13 +25,13 @@ bool HoldsUrdf(const fs::path& folder) {
 }
 
 Located Split(const std::string& argument) {
-  // A path that exists may hold an equals sign itself.
+  // An existing path may itself contain an equals sign.
   const std::size_t equals = argument.find('=');
   if (equals == std::string::npos || fs::exists(argument)) return {"", argument};
   return {argument.substr(0, equals), argument.substr(equals + 1)};
 }
 
-// The argument itself, or the assets in the folder that it names.
+// Returns the argument itself, or the assets in the folder that it names.
 std::vector<Located> Expanded(const std::string& argument) {
   const Located one = Split(argument);
   if (!fs::exists(one.path)) {
@@ -42,10 +42,10 @@ std::vector<Located> Expanded(const std::string& argument) {
   for (const fs::directory_entry& entry : fs::directory_iterator(one.path)) {
     if (entry.is_directory() && HoldsUrdf(entry.path())) found.push_back({"", entry.path()});
   }
-  if (found.empty()) return {one};  // reading it says what is missing
+  if (found.empty()) return {one};  // reading it reports the fault
   if (!one.name.empty()) {
     throw core::Error(
-        "one name is given for a folder of " + std::to_string(found.size()) + " assets", argument,
+        "there is one name for a folder of " + std::to_string(found.size()) + " assets", argument,
         "name each asset, or give the folder without a name");
   }
   std::sort(found.begin(), found.end(),
@@ -63,13 +63,13 @@ TaskAssets ReadTaskAssets(const std::vector<std::string>& arguments) {
       assets::SemanticModel model = assets::ReadSemanticModel(located.path);
       if (!located.name.empty()) model.name = located.name;
       if (!tasks::IsAssetName(model.name)) {
-        throw core::Error("programs cannot call an asset '" + model.name + "'",
+        throw core::Error("programs cannot use the asset name '" + model.name + "'",
                           located.path.string(),
                           "give it a name of letters, digits, '_' and '-': NAME=PATH");
       }
       if (!names.insert(model.name).second) {
-        throw core::Error("two assets are called '" + model.name + "'", located.path.string(),
-                          "give one another name: NAME=PATH");
+        throw core::Error("two assets have the name '" + model.name + "'", located.path.string(),
+                          "rename one: NAME=PATH");
       }
       for (core::Finding finding : model.model.findings) {
         const std::string file = model.urdf.string();

@@ -13,8 +13,8 @@ namespace simwright::pipeline {
 namespace {
 
 constexpr double kPlan = 220.0;      // px, side of the view from above
-constexpr double kSpan = 2.4;        // m that it shows
-constexpr double kReach = 0.855;     // m, of a Panda's wrist
+constexpr double kSpan = 2.4;        // m, the side of the shown area
+constexpr double kReach = 0.855;     // m, of a Panda's flange
 constexpr double kBoxWidth = 190.0;  // px, of a subtask
 constexpr double kBoxHeight = 92.0;  // px
 constexpr double kGap = 34.0;        // px between subtasks
@@ -27,7 +27,7 @@ std::string Number(double value) {
   return text;
 }
 
-// Words of `text` in lines of at most kLineLength characters; what is left over ends in "...".
+// Wraps `text` into lines of at most kLineLength characters; the rest becomes "...".
 std::vector<std::string> Lines(const std::string& text) {
   std::vector<std::string> lines(1);
   std::istringstream words(text);
@@ -44,7 +44,7 @@ std::vector<std::string> Lines(const std::string& text) {
   return lines;
 }
 
-// World to picture: the robot looks up, left is its left.
+// Converts world to picture coordinates: the robot looks up, and its left is left.
 Eigen::Vector2d OnPlan(const Eigen::Vector2d& world) {
   const double scale = kPlan / kSpan;
   return {0.5 * kPlan - scale * world.y(), 0.68 * kPlan - scale * world.x()};
@@ -60,8 +60,8 @@ std::string Text(double x, double y, const std::string& style, const std::string
          "</text>";
 }
 
-// The outline of each link from above; a thing's own colour.
-std::string DrawThing(const tasks::SceneModel& model, const tasks::SceneState& state, int index) {
+// Draws the outline of each link from above, in the object's colour.
+std::string DrawObject(const tasks::SceneModel& model, const tasks::SceneState& state, int index) {
   static constexpr const char* kColours[] = {"#7fa7c9", "#d9a066", "#8fbf7f",
                                              "#c98fb4", "#b0a0d0", "#c9b458"};
   const auto t = static_cast<std::size_t>(index);
@@ -101,7 +101,7 @@ std::string DrawPlan(const tasks::Task& task, const tasks::SceneModel& model) {
   svg += Circle(robot, 0.09 * scale, "fill=\"#666\"");
   const tasks::SceneState state = tasks::StateOf(model, start);
   for (const tasks::AssetPlacement& placement : start.placements) {
-    svg += DrawThing(model, state, model.Find(placement.asset));
+    svg += DrawObject(model, state, model.Find(placement.asset));
   }
   const double height = start.world_from_robot.translation().z();
   if (height > 0.01) {

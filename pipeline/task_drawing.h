@@ -7,9 +7,9 @@
 
 namespace simwright::pipeline {
 
-// The task as a picture, an <svg> element: to the left its start seen from above (the robot, its
-// reach, every thing's outline), to the right its subtasks in order, each with what makes it done;
-// red where one is not sound. Things that `model` does not have are left out.
+// Draws the task as an <svg> element: on the left its start from above (the robot, its reach, the
+// outline of every object), on the right its subtasks in order, each with its success condition;
+// red if a subtask is not valid. Objects that are not in `model` are omitted.
 std::string TaskDrawing(const tasks::Task& task, const tasks::SceneModel& model);
 
 }  // namespace simwright::pipeline

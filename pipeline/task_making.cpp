@@ -79,7 +79,7 @@ TasksReport MakeTasks(const TasksRequest& request, core::Progress* progress) {
   report.page = fs::path(request.output).replace_extension(".html");
   for (const fs::path& file : {report.file, report.page}) {
     if (fs::exists(file) && !request.force) {
-      throw core::Error("is there already", file.string(), "name another, or give --force");
+      throw core::Error("already exists", file.string(), "give another name, or --force");
     }
   }
   if (progress != nullptr) progress->Stage("assets");
@@ -110,7 +110,7 @@ std::string TasksTable(const TasksReport& report) {
     char figures[64];
     std::snprintf(figures, sizeof figures, "%8zu  %8d  %7d", task.subtasks.size(), Findings(task),
                   Repairs(task));
-    table += row(task.name, figures + std::string(task.sound() ? "" : "  not sound"));
+    table += row(task.name, figures + std::string(task.sound() ? "" : "  not valid"));
     for (const tasks::Subtask& subtask : task.subtasks) {
       for (const core::Finding& finding : subtask.findings) {
         core::Finding placed = finding;

@@ -15,30 +15,31 @@ namespace simwright::pipeline {
 
 struct TasksRequest {
   std::vector<std::string> assets;  // each PATH or NAME=PATH (pipeline/task_assets.h)
-  std::filesystem::path output;     // tasks.json; the page lies beside it, with the ending .html
-  int count = 0;                    // of tasks; 0: five an asset by rules, 8 of a language model
+  std::filesystem::path output;     // tasks.json; the page beside it ends in .html
+  int count = 0;                    // 0: 5 per asset by rules, 8 by a language model
   std::uint64_t seed = 1;
-  bool force = false;               // replace an output that exists
-  llm::ChatModel* model = nullptr;  // null: by rules
+  bool force = false;               // replaces an existing output
+  llm::ChatModel* model = nullptr;  // null: generates by rules
 };
 
 struct TasksReport {
   tasks::TaskSet set;
   std::filesystem::path file, page;
-  core::Findings findings;             // of the assets, the answers, the whole
-  std::map<std::string, int> dropped;  // ideas of the rules that came to nothing, by reason
-  int repaired = 0;                    // subtasks that a language model mended
+  core::Findings findings;             // about the assets, the answers and the task set
+  std::map<std::string, int> dropped;  // rejected task candidates, by reason
+  int repaired = 0;                    // subtasks that a language model repaired
 
-  // There are tasks, and each is sound.
+  // Returns true if there are tasks and all are valid.
   bool passed() const;
 };
 
-// Makes tasks, verifies every subtask, and writes tasks.json and its page: all that was made, sound
-// or not. Throws core::Error where the assets cannot be read, the output exists and `force` is not
-// set, or a language model cannot be asked at all.
+// Generates tasks, verifies every subtask, and writes tasks.json and its page with all tasks, valid
+// or not. Throws core::Error if the assets cannot be read, the output exists and `force` is not
+// set, or a language model is not reachable.
 TasksReport MakeTasks(const TasksRequest& request, core::Progress* progress);
 
-// A table for a terminal: task, subtasks, findings, repairs; below each what was found in it.
+// Formats a table for a terminal: task, subtasks, findings and repairs, with the findings below
+// each.
 std::string TasksTable(const TasksReport& report);
 std::string TasksJson(const TasksReport& report);
 

@@ -17,7 +17,7 @@ constexpr const char* kStyle =
     "summary{cursor:pointer}";
 
 std::string Verdict(bool sound) {
-  return sound ? "<span class=\"good\">sound</span>" : "<span class=\"bad\">not sound</span>";
+  return sound ? "<span class=\"good\">valid</span>" : "<span class=\"bad\">not valid</span>";
 }
 
 std::string FindingsText(const core::Findings& findings, const std::string& program) {

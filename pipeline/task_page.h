@@ -7,8 +7,8 @@
 
 namespace simwright::pipeline {
 
-// The tasks as one HTML page without scripts or outside files: a table of contents, and each task
-// with its drawing (pipeline/task_drawing.h), its programs, findings and earlier attempts.
+// Returns the tasks as one HTML page without scripts or external files: a table of contents, and
+// each task with its drawing (pipeline/task_drawing.h), programs, findings and earlier attempts.
 std::string TaskPage(const tasks::TaskSet& set, const tasks::SceneModel& model);
 
 }  // namespace simwright::pipeline

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kTimeSlack = 1e-6;  // s
 
-// Positions between the samples; before the first and after the last those.
+// The positions of a trajectory, interpolated between its samples and constant before the first and
+// after the last.
 class Commands {
  public:
   Commands(const robot::JointTrajectory& trajectory, const robot::RobotModel& robot,
@@ -35,7 +36,7 @@ class Commands {
     }
   }
 
-  // (J + 1): the arm, then the gripper's first joint.
+  // Returns (J + 1) positions: the arm's, then the gripper's first joint's.
   Eigen::VectorXd At(double time) const {
     const std::vector<double>& times = trajectory_.times;
     const auto after = std::upper_bound(times.begin(), times.end(), time);
@@ -58,10 +59,10 @@ class Commands {
   std::vector<Eigen::Index> columns_;
 };
 
-// One subtask's world, driven step by step.
-class Stretch {
+// The world of one subtask, driven step by step.
+class SubtaskReplay {
  public:
-  Stretch(const rl::Skill& skill, const rl::EpisodeStart& start)
+  SubtaskReplay(const rl::Skill& skill, const rl::EpisodeStart& start)
       : options_(skill.options),
         variant_(skill.variants[static_cast<size_t>(start.variant)]),
         start_(start),
@@ -81,12 +82,12 @@ class Stretch {
     previous_ = start_.state;
   }
 
-  // Whether success has held for so long until now.
+  // Returns true if success has held for hold_seconds until now.
   bool Succeeded() const {
     return held_ * options_.decision_seconds() >= options_.hold_seconds - kTimeSlack;
   }
 
-  // Where the next subtask begins.
+  // Returns the current state as the start of the next subtask.
   rl::EpisodeStart End() {
     world_.Read(&start_.state);
     Eigen::VectorXd arm;
@@ -106,10 +107,10 @@ class Stretch {
 
   const rl::SkillOptions& options_;
   const rl::SkillVariant& variant_;
-  rl::EpisodeStart start_;  // its state is that of now
+  rl::EpisodeStart start_;  // its state is the current one
   rl::SkillWorld world_;
   rl::VariantReward reward_;
-  tasks::SceneState previous_;  // one decision before
+  tasks::SceneState previous_;  // at the previous decision
   int steps_ = 0, held_ = 0;
 };
 
@@ -131,24 +132,24 @@ std::vector<bool> ReplayTrajectory(const std::vector<RunSkill>& skills,
   // The last command is held after the end (MotionOf).
   const double held = 2.0 * first.options.hold_seconds;
   if (trajectory.times.back() < notes.times.back().end - held - 2.0 / first.options.control_rate) {
-    throw core::Error("ends before its last subtask does", where, "it was cut: export it anew");
+    throw core::Error("ends before its last subtask", where, "it is truncated: export it again");
   }
   rl::EpisodeStart start = rl::ParseStart(notes.start, first, where + ", note 'start'");
   std::vector<bool> successes;
   const double rate = first.options.control_rate;
   std::int64_t step = 0;
   for (size_t k = 0; k < skills.size(); ++k) {
-    Stretch stretch(*skills[k].evaluated, start);
+    SubtaskReplay replay(*skills[k].evaluated, start);
     const auto drive_until = [&](double time) {
       for (; static_cast<double>(step + 1) / rate <= time + kTimeSlack; ++step) {
-        stretch.Step(commands.At(static_cast<double>(step + 1) / rate));
+        replay.Step(commands.At(static_cast<double>(step + 1) / rate));
       }
     };
     drive_until(notes.times[k].end);
-    successes.push_back(stretch.Succeeded());
+    successes.push_back(replay.Succeeded());
     if (!successes.back()) break;
     if (k + 1 < skills.size()) drive_until(notes.times[k + 1].begin);
-    start = stretch.End();
+    start = replay.End();
   }
   return successes;
 }

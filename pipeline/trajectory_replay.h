@@ -7,15 +7,15 @@
 
 namespace simwright::pipeline {
 
-// The run with its skills prepared for replay: a command every step of the physics, in place of
-// one every few, so that nothing is lost of a trajectory sampled at 1 kHz.
+// Returns the run with one command per physics step instead of one every few steps, so that a
+// trajectory sampled at 1 kHz replays without loss.
 SkillRun AtPhysicsRate(const SkillRun& run);
 
-// Drives the robot by the positions of `trajectory` alone, from the start in `notes`, and says of
-// each subtask, up to the first that failed, whether its success had held for the skill's
-// hold_seconds at its end. Between two subtasks the world is built anew at rest from where the
-// replay has brought things, as in a rollout. `skills`: those of AtPhysicsRate. Throws core::Error,
-// naming `where`, where the joints are not the robot's, the start does not fit, or the trajectory
+// Drives the robot with the positions of `trajectory` alone, from the start in `notes`, and reports
+// for each subtask, up to the first failed one, whether its success held for the skill's
+// hold_seconds at its end. Between two subtasks the world is rebuilt at rest from the state that
+// the replay has reached, as in a rollout. `skills`: those of AtPhysicsRate. Throws core::Error,
+// naming `where`, if the joints are not the robot's, the start does not match, or the trajectory
 // ends before its last subtask.
 std::vector<bool> ReplayTrajectory(const std::vector<RunSkill>& skills,
                                    const robot::JointTrajectory& trajectory,

@@ -8,7 +8,7 @@
 namespace simwright::pipeline {
 namespace {
 
-constexpr double kSmaller = 0.95;  // of the rectangle along the axes
+constexpr double kSmaller = 0.95;  // of the area of the axis-aligned rectangle
 
 }  // namespace
 
@@ -71,10 +71,10 @@ void ScaleToSize(const StatedSize& size, const std::string& where, core::Triangl
   constexpr double kNoticed = 1.05;
   if (stretch <= kNoticed) return;
   findings->push_back({"stretched", core::Severity::kWarning, where,
-                       "the stated size has other proportions than the shape, which was "
-                       "stretched to it by this factor: " +
+                       "the stated size has different proportions from the shape, which was "
+                       "stretched by this factor: " +
                            std::to_string(stretch).substr(0, 4),
-                       stretch, "--size with the longest side alone keeps the proportions"});
+                       stretch, "--size with only the longest side keeps the proportions"});
 }
 
 void RequirePlausibleSize(const physics_params::Category& category, const Eigen::Vector3d& sides,
@@ -90,9 +90,9 @@ void RequirePlausibleSize(const physics_params::Category& category, const Eigen:
               physics_params::SizeText(sides / unit * physics_params::MetresOfUnit(one));
   }
   if (!fits.empty()) {
-    remedy += "; or state --height or --size";
+    remedy += "; or give --height or --size";
   } else {
-    remedy = "state its true size with --height or --size, or its unit with --unit";
+    remedy = "give its true size with --height or --size, or its unit with --unit";
   }
   throw core::Error(physics_params::SizeSentence(category, sides), where, remedy);
 }

@@ -13,39 +13,40 @@
 namespace simwright::pipeline {
 
 // The size that a user states, m: {} none, {s} the longest side, {l, w, h} the longer and the
-// shorter side on the ground, and the height as the thing stands.
+// shorter horizontal side and the height in the standing pose.
 using StatedSize = std::vector<double>;
 
-// Throws core::Error unless it has none, 1 or 3 sides, each above 0 and finite.
+// Throws core::Error unless it has 0, 1 or 3 sides, each positive and finite.
 void Validate(const StatedSize& size);
 
-// The sides of a thing as it lies: along a direction on the ground, across it, and its height. The
-// direction is that of the x axis, unless another one gives a rectangle smaller by a twentieth: a
-// hammer across the corner of a photo is as long as it is, and not as wide.
+// The sides of an object in its pose: along a horizontal direction, perpendicular to it, and the
+// height. The direction is the x axis, unless another one gives a rectangle smaller by a twentieth,
+// so that the length of a hammer lying diagonally in a photo is not split between both sides.
 struct GroundBox {
-  double angle = 0.0;  // rad, of the direction, from x towards y
+  double angle = 0.0;  // the direction's, from x towards y, rad
   Eigen::Vector3d sides = Eigen::Vector3d::Zero();
 };
 GroundBox GroundBoxOf(const core::TriangleMesh& mesh);
 
-// What scales a thing of `sides` (m) to a stated size: the same along all axes for a longest side,
-// else each by its own.
+// Returns the scale factors from an object with `sides` (m) to a stated size: equal ones for a
+// longest side, else one per axis.
 Eigen::Vector3d ScalesTo(const StatedSize& size, const Eigen::Vector3d& sides);
 
-// Scales `mesh` to a stated size, along the axes of its ground box, and says as "stretched" where that changes its proportions by
-// more than 5 %. Throws core::Error where it has no extent along a side.
+// Scales `mesh` to a stated size along the axes of its ground box, and reports "stretched" if that
+// changes its proportions by more than 5 %. Throws core::Error if it has no extent along a side.
 void ScaleToSize(const StatedSize& size, const std::string& where, core::TriangleMesh* mesh,
                  core::Findings* findings);
 
-// Throws core::Error for a thing whose sides (m) are absurd for its category
-// (physics_params::IsAbsurdSize), with its size, the usual one, and the unit that would make it
-// usual. `unit`: metres a number of the file; `most`: how many times too large or small is absurd.
+// Throws core::Error for an object whose sides (m) are implausible for its category
+// (physics_params::IsAbsurdSize), with its size, the usual size, and the unit that would make it
+// usual. `unit`: metres per file unit; `most`: the implausible factor of enlargement or reduction.
 void RequirePlausibleSize(const physics_params::Category& category, const Eigen::Vector3d& sides,
                           double unit, const std::string& where,
                           double most = physics_params::kAbsurdFactor);
 
-// URDFs are in metres by what they are, and models of cars or dogs are called cars and dogs: theirs
-// is absurd where a unit is wrong, inches being the nearest.
+// The implausible factor for URDFs. URDFs are in metres by specification, and toy models of cars or
+// dogs are named like the real ones, so that only a wrong unit counts, of which inches are the
+// nearest.
 constexpr double kAbsurdUrdf = 20.0;
 
 }  // namespace simwright::pipeline

@@ -19,7 +19,7 @@ std::string EndingOf(const fs::path& mesh) {
   return ending;
 }
 
-// Of the surface, which an open mesh has too.
+// Returns the centre of the surface, which an open mesh has too.
 Eigen::Vector3d CenterOfSurface(const core::TriangleMesh& mesh) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double area = 0.0;
@@ -48,7 +48,7 @@ Eigen::Vector3d SidesWith(const core::TriangleMesh& mesh, char up) {
 struct Suit {
   double misfit = 0.0;
   bool stands = false;
-  // A thing that falls over is as far off as proportions that are wrong by a third.
+  // Falling over costs as much as proportions that are wrong by a third.
   double cost() const { return misfit + (stands ? 0.0 : 0.3); }
 };
 
@@ -71,7 +71,7 @@ char GuessUpAxis(const fs::path& path, const core::TriangleMesh& mesh,
   if (!LeavesUpOpen(path) || box.isEmpty() || !(box.sizes().minCoeff() > 0.0)) return usual;
   const Eigen::Vector3d center = CenterOfSurface(mesh);
   const auto suit = [&](char up) {
-    // A category that may be anything has no proportions.
+    // The catch-all category has no proportions.
     const double misfit =
         category.name == "object"
             ? 0.0
@@ -83,14 +83,13 @@ char GuessUpAxis(const fs::path& path, const core::TriangleMesh& mesh,
   const bool turn = turned.cost() + kClearly < as_usual.cost();
   const char up = turn ? other : usual;
   const bool by_shape = std::abs(as_usual.misfit - turned.misfit) > kClearly;
-  std::string reason = turn ? (by_shape ? "which suits the proportions of '" + category.name + "'"
-                                        : std::string("on which it stands"))
-                            : std::string("as is usual for its format");
-  findings->push_back({"up-axis", turn ? core::Severity::kWarning : core::Severity::kInfo,
-                       path.filename().string(),
-                       std::string("the file does not say which axis is up: ") + up +
-                           " was taken, " + reason,
-                       0.0, std::string("--up ") + (up == 'y' ? "z" : "y") + " takes the other"});
+  std::string reason = turn ? (by_shape ? "which matches the proportions of '" + category.name + "'"
+                                        : std::string("in which it is stable"))
+                            : std::string("the usual one of its format");
+  findings->push_back(
+      {"up-axis", turn ? core::Severity::kWarning : core::Severity::kInfo, path.filename().string(),
+       std::string("the file does not specify the up axis: ") + up + " was used, " + reason, 0.0,
+       std::string("--up ") + (up == 'y' ? "z" : "y") + " uses the other"});
   return up;
 }
 

@@ -10,16 +10,16 @@
 
 namespace simwright::pipeline {
 
-// The axis that a format is written with: y for OBJ, glTF and DAE, z for STL and PLY.
+// Returns the conventional up axis of a format: y for OBJ, glTF and DAE, z for STL and PLY.
 char UsualUpAxis(const std::filesystem::path& mesh);
 
-// Whether a format leaves it open all the same, as OBJ, STL and PLY do.
+// Returns true if the format does not specify the up axis, as OBJ, STL and PLY.
 bool LeavesUpOpen(const std::filesystem::path& mesh);
 
-// Which axis of the file points up: the usual one of its format, unless the format leaves it open
-// and the other of y and z suits the thing clearly better: the proportions of its category, and
-// that it stands on what is lowest then (3 degrees of tilt). Reports what was guessed: "up-axis", a
-// note, or a warning where it is not the usual one.
+// Guesses which axis of the file points up: the conventional one of its format, unless the format
+// does not specify it and the other of y and z fits the object clearly better by the proportions of
+// its category and by its stability on the lowest points (3 degrees of tilt). Reports the guess as
+// "up-axis": a note, or a warning if it is not the conventional axis.
 char GuessUpAxis(const std::filesystem::path& path, const core::TriangleMesh& mesh,
                  const physics_params::Category& category, core::Findings* findings);
 

@@ -1,5 +1,5 @@
-// PartNet-Mobility's and GAPartNet's folders, and other URDFs with joints, through `import`: where
-// things land is compared with positions worked out by hand.
+// `import` of PartNet-Mobility and GAPartNet folders and of other URDFs with joints. Resulting
+// positions are compared with positions computed by hand.
 #include "pipeline/articulated_import.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using assets::ArticulatedAsset;
 
 constexpr double kHeight = 0.8;                   // m
-const Eigen::Vector3d kHandle(0.41, -0.2, 0.49);  // middle of the door's, in the files' frame
+const Eigen::Vector3d kHandle(0.41, -0.2, 0.49);  // centre of the door's, in the files' frame
 
 size_t LinkIndex(const ArticulatedAsset& asset, const std::string& name) {
   for (size_t i = 0; i < asset.links.size(); ++i) {
@@ -44,7 +44,7 @@ int Count(const core::Findings& findings, const std::string& code) {
                                         [&](const auto& f) { return f.code == code; }));
 }
 
-// Poses with the door opened by `share` of its range.
+// Returns the poses with the door opened to the fraction `share` of its range.
 std::vector<Eigen::Isometry3d> PosesAt(const ArticulatedAsset& asset, double share) {
   const double upper = asset.joints[LinkIndex(asset, "link_0") - 1].upper;
   return assets::LinkPoses(assets::ModelOf(asset), {{"joint_0", share * upper}});
@@ -70,7 +70,7 @@ class ImportedCabinet : public ::testing::Test {
     check_ = checked.text;
     return assets::ReadArticulatedAsset(fs::path(out) / "45267");
   }
-  // The door's and the drawer's handles, a corner each, where the hand's computation puts them.
+  // Corners of the door's and the drawer's handles, against the hand computation.
   static void ExpectCorners(const ArticulatedAsset& asset, const std::string& holder,
                             double share) {
     const auto poses = PosesAt(asset, share);
@@ -136,7 +136,7 @@ TEST_F(ImportedCabinet, WeighsWhatItsKindDoesAndKeepsItsMeaning) {
     EXPECT_GT(joint.damping, 0.0);
   }
   EXPECT_EQ(Count(asset.findings, "urdf-missing-mesh"), 1);
-  // The door's rear face lay 0.002 units in the body: it was trimmed to a gap of 3 mm.
+  // The door's rear face lay 0.002 units inside the body: it was trimmed to a gap of 3 mm.
   EXPECT_EQ(Count(asset.findings, "trimmed"), 1);
   const double deepest =
       std::find_if(asset.findings.begin(), asset.findings.end(), [](const auto& f) {
@@ -156,7 +156,7 @@ TEST_F(ImportedCabinet, OfGapartnetKeepsItsHandleAsALink) {
   EXPECT_EQ(asset.joints[handle - 1].type, assets::UrdfJointType::kFixed);
   EXPECT_EQ(asset.joints[handle - 1].parent, "link_0");
   EXPECT_NE(check_.find("grasp-link_3"), std::string::npos);
-  // Its frame lies in the middle of its box; posts reach back to z = 0.44.
+  // Its frame lies at the centre of its bounding box; posts reach back to z = 0.44.
   const Eigen::Vector3d middle(kHandle.x(), kHandle.y(), 0.47);
   for (const double share : {0.0, 0.5}) {
     const Eigen::Vector3d wanted = PartnetCabinet::InRoot(
@@ -179,13 +179,13 @@ TEST_F(ImportedCabinet, TakesItsCategorysSizeWhereNoHeightIsGiven) {
       ImportArticulated(urdf, {.name = "a", .category = "", .seed = 4}, &progress);
   const Eigen::Vector3d size = assets::BoundsAtZero(a).sizes();
   const double box = std::cbrt(size.prod());
-  EXPECT_GT(box, std::cbrt(0.28 * 0.28 * 0.42));  // the row's least and greatest boxes
+  EXPECT_GT(box, std::cbrt(0.28 * 0.28 * 0.42));  // the category's extreme sizes
   EXPECT_LT(box, std::cbrt(1.35 * 0.85 * 2.20));
   EXPECT_EQ(a.links[1].inertial.mass, b.links[1].inertial.mass);
   EXPECT_NE(size.z(), assets::BoundsAtZero(c).sizes().z());
 }
 
-// URDFs of boxes, a metre unit, one after the other above the body.
+// URDFs of boxes in metres, stacked above the body.
 class BoxUrdf : public ::testing::Test {
  protected:
   static std::string Link(const std::string& name, double z) {
@@ -236,18 +236,18 @@ TEST_F(BoxUrdf, WhatCannotBeAnAssetIsOneLine) {
     chain += Link("l" + std::to_string(i), 0.05 + 0.12 * i) +
              Joint("revolute", "l" + std::to_string(i - 1), "l" + std::to_string(i), Range(0, 1));
   }
-  ExpectRefused(chain, "500 joints");
+  ExpectRefused(chain, "500 moving joints");
 }
 
-// Files hang a thing on an empty "world" by its first joint: it is held where that joint is.
+// Files attach an asset to an empty "world" by its first joint: it is fixed at that joint.
 TEST_F(BoxUrdf, ARootWithoutShapeIsMarkedAndHeld) {
   const ArticulatedAsset asset = Import("<link name='world'/>" + Link("b", 0.2) +
                                         Joint("continuous", "world", "b", "<origin xyz='0 0 1'/>"));
   ASSERT_EQ(asset.links.size(), 2u);
-  EXPECT_EQ(asset.links[0].name, "world_link");  // "world" is MuJoCo's own
+  EXPECT_EQ(asset.links[0].name, "world_link");  // MuJoCo reserves "world"
   EXPECT_TRUE(asset.fixed);
   EXPECT_EQ(Count(asset.findings, "root-marked"), 1);
-  // One cube, small beside the box, round the file's origin, which the joint lies 1 m above.
+  // One cube, small relative to the box, around the file's origin, 1 m below the joint.
   const Eigen::AlignedBox3d cube = core::Bounds(asset.links[0].parts.at(0));
   const Eigen::AlignedBox3d box = core::Bounds(asset.links[1].parts.at(0));
   EXPECT_LT(cube.sizes().maxCoeff(), 0.1 * box.diagonal().norm());
@@ -255,7 +255,7 @@ TEST_F(BoxUrdf, ARootWithoutShapeIsMarkedAndHeld) {
   EXPECT_NEAR(joint_height - cube.center().z(), 1.0, 1e-9);
 }
 
-// The collisions that an author made are the parts; where they repeat the visuals, these are.
+// The author's collision meshes become the parts, unless they repeat the visuals.
 TEST_F(BoxUrdf, CollisionsOfTheirOwnAreTheParts) {
   const std::string seen =
       "<link name='b'><visual><origin xyz='0 0 0.2'/><geometry><box size='0.1 0.1 0.1'/></geometry>"
@@ -296,7 +296,7 @@ TEST_F(BoxUrdf, JointsFollowOurConventions) {
   }
 }
 
-// A chain of bare frames between shapes: what is seen stays where it was.
+// A chain of empty frames between shapes: the visuals do not move.
 TEST_F(BoxUrdf, FramesWithoutShapesAreFoldedAway) {
   const std::string lift = "<origin xyz='0.1 0 0.3' rpy='0 0 0.5'/>";
   const fs::path file =
@@ -317,7 +317,8 @@ TEST_F(BoxUrdf, FramesWithoutShapesAreFoldedAway) {
   EXPECT_EQ(model.joints[0].parent, "a");
   const auto after = assets::LinkPosesAtZero(model);
   EXPECT_LT((after[1] * model.links[1].visuals[0].mesh.vertices[0] - corner).norm(), 1e-12);
-  // The axis stayed where f2 had it: three lifts from the world, each turned by the ones before.
+  // The axis stays where f2 has it: three offsets from the world, each rotated by the previous
+  // ones.
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   for (int i = 0; i < 3; ++i) {
     pose =
@@ -326,7 +327,7 @@ TEST_F(BoxUrdf, FramesWithoutShapesAreFoldedAway) {
   EXPECT_LT((after[1].translation() - pose.translation()).norm(), 1e-12);
 }
 
-// Masses of a file in metres count; the lid's 3 kg load its hinge.
+// Masses of a file in metres apply; the lid's 3 kg load its hinge.
 TEST_F(BoxUrdf, MassesOfTheFileCountAndWeightIsHeld) {
   const auto inertial = [](double mass) {
     return "<inertial><mass value='" + std::to_string(mass) +
@@ -341,14 +342,14 @@ TEST_F(BoxUrdf, MassesOfTheFileCountAndWeightIsHeld) {
              "<child link='lid'/><axis xyz='0 1 0'/><limit lower='0' upper='1.5'/></joint>");
   EXPECT_NEAR(asset.links[0].inertial.mass, 5.0, 1e-9);
   EXPECT_NEAR(asset.links[1].inertial.mass, 3.0, 1e-6);
-  // The lid's middle lies over its hinge at x, 0.051 above: the weight's lever is greatest at 1.5.
+  // The lid's centre lies 0.051 above its hinge at x: the lever arm is greatest at 1.5.
   const double most = 3.0 * 9.81 * 0.051 * std::sin(1.5);
   EXPECT_NEAR(asset.joints[0].friction, std::max(1.3 * most, asset.joints[0].friction), 1e-9);
   EXPECT_GE(asset.joints[0].friction, 1.3 * most * 0.999);
 }
 
-// A handle without an <inertial> does not cost the others theirs, and a weight in the body's base
-// that its shape does not show is said.
+// A handle without an <inertial> does not discard the masses of the others, and a mass in the
+// body's base that its shape does not explain is reported.
 TEST_F(BoxUrdf, AMassThatIsMissingIsGuessedAlone) {
   const auto with = [](std::string link, double mass, const char* origin) {
     return link.substr(0, link.size() - 7) + "<inertial><origin xyz='" + origin +
@@ -361,7 +362,7 @@ TEST_F(BoxUrdf, AMassThatIsMissingIsGuessedAlone) {
              Joint("continuous", "b", "c", ""));
   EXPECT_NEAR(asset.links[0].inertial.mass, 12.0, 1e-9);
   EXPECT_NEAR(asset.links[1].inertial.mass, 4.0, 1e-9);
-  EXPECT_NEAR(asset.links[2].inertial.mass, 8.0, 1e-6);  // of equal boxes the mean
+  EXPECT_NEAR(asset.links[2].inertial.mass, 8.0, 1e-6);  // the mean of equal boxes
   EXPECT_EQ(Count(asset.findings, "urdf-mass-guessed"), 1);
   ASSERT_EQ(Count(asset.findings, "inertial-replaced"), 1);
   for (const core::Finding& finding : asset.findings) {
@@ -370,8 +371,8 @@ TEST_F(BoxUrdf, AMassThatIsMissingIsGuessedAlone) {
   }
 }
 
-// The library's own drawer unit, taken as a foreign URDF: boards that touch along their edges,
-// frames and masses come back as they were.
+// The library's own drawer unit, imported as a foreign URDF: boards touch along their edges, and
+// frames and masses do not change.
 TEST(ImportedLibrary, ADrawerUnitComesBack) {
   const core::TemporaryFolder folder;
   const ArticulatedAsset before = library::KindNamed("drawer_unit").make({1, "unit"});
@@ -391,7 +392,7 @@ TEST(ImportedLibrary, ADrawerUnitComesBack) {
   }
 }
 
-// A slab 3 mm deep in the body is trimmed; with one 20 mm deep no contact is made.
+// A slab 3 mm deep in the body is trimmed; one 20 mm deep is excluded from contact.
 TEST_F(BoxUrdf, OnlyLittleOverlapsAreTrimmed) {
   for (const auto& [z, trimmed] : {std::pair{0.147, 1}, {0.13, 0}}) {
     const ArticulatedAsset asset =

@@ -1,5 +1,5 @@
-// A subtask that learns on for the one after it: begins with what it knows, is kept only where both
-// together gain, and is not tried twice.
+// Backward tuning of a subtask: it starts from the current policy, is kept only if both subtasks
+// together improve, and is not repeated.
 #include "pipeline/backward_tuning.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ class BackwardTuningTest : public testing::Test {
     skills_ = PrepareSkills(run_);
     request_.backward_samples = 512;
   }
-  // A checkpoint that the first subtask's training would have left: of one iteration.
+  // A checkpoint of one iteration, as the first subtask's training would leave it.
   void WriteFirstCheckpoint() {
     rl::SkillEnvironment environment(skills_[0].skill, run_.environments);
     rl::TrainingOptions options = OptionsFor(request_, run_, skills_[0]);
@@ -58,8 +58,7 @@ TEST_F(BackwardTuningTest, WhatGainsNothingIsNotKeptAndNotTriedAgain) {
   WriteFirstCheckpoint();
   const std::string policy = core::ReadFile(skills_[0].folder / rl::kPolicyFile);
   EXPECT_FALSE(ReadBackwardTuning(skills_[0]));
-  // The scripted hand nearly always succeeds; what begins with a checkpoint that knows nothing does
-  // not.
+  // The scripted expert nearly always succeeds; a policy from an untrained checkpoint does not.
   const BackwardTuning tuning = TuneBackward(request_, run_, Pair(), &silent_);
   EXPECT_GE(tuning.samples, 512);
   EXPECT_GT(tuning.before, 0.8);

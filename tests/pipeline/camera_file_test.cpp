@@ -21,11 +21,11 @@ TEST(CameraFile, IsReadAsItIsWritten) {
   EXPECT_EQ(camera.width, 64);
   EXPECT_EQ(camera.fy, 61);
   EXPECT_TRUE(camera.position().isApprox(Eigen::Vector3d(1, 2, 3)));
-  // Looks along the world's x: a point ahead lies in the picture's middle.
+  // The camera looks along the world's x: a point ahead lies at the image centre.
   EXPECT_LT((camera.Project({6, 2, 3}) - Eigen::Vector3d(32, 24, 5)).norm(), 1e-12);
 }
 
-// Each damage of the good file is refused with the name of what is wrong.
+// Each fault in a valid file is rejected with a message that names it.
 TEST(CameraFile, NamesWhatIsWrong) {
   const core::TemporaryFolder folder;
   const auto refused = [&](const std::string& from, const std::string& to, const char* part) {
@@ -41,8 +41,8 @@ TEST(CameraFile, NamesWhatIsWrong) {
   };
   refused("\"fx\": 60", "\"fx\": -60", "'fx'");
   refused("\"fx\": 60", "\"f\": 60", "'fx'");
-  refused("[0, 0, 1, 1]", "[0, 0, 2, 1]", "no rotation");
-  refused("[0, 0, 1, 1]", "[0, 0, 1]", "another length");
+  refused("[0, 0, 1, 1]", "[0, 0, 2, 1]", "not a rotation");
+  refused("[0, 0, 1, 1]", "[0, 0, 1]", "wrong length");
   refused("[0, 0, 1, 1]", "[0, 0, \"x\", 1]", "no number");
   refused("\"photo\"", "\"picture\"", "'photo'");
   refused("\"cameras\"", "\"views\"", "'cameras'");

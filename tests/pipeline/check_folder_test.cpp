@@ -1,4 +1,4 @@
-// `simwright check FOLDER` on a folder of assets: a line each, exit 1 where one fails.
+// `simwright check FOLDER` on a folder of assets: one line each, exit code 1 if one fails.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -39,7 +39,7 @@ TEST(CheckFolder, GivesALineAnAssetAndFailsWithTheWorst) {
   fs::create_directories(folder.path() / "none");
   const Outcome none = RunProgram("check " + (folder.path() / "none").string());
   EXPECT_EQ(none.code, 1);
-  EXPECT_NE(none.text.find("holds no asset.json"), std::string::npos) << none.text;
+  EXPECT_NE(none.text.find("has no asset.json"), std::string::npos) << none.text;
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ TEST(Grade, OfADropFollowsHowFarItIsFromRest) {
   EXPECT_EQ(RowNamed(RestRows(drop, false, 0.3), "drift-bullet").severity, Severity::kWarning);
   drop.drift = 8e-3;
   EXPECT_EQ(GradeOf(RestRows(drop, false, 0.3)), Grade::kWarnings);
-  EXPECT_EQ(GradeOf(RestRows(drop, false, 0.03)), Grade::kFail);  // 8 mm are much of 3 cm
+  EXPECT_EQ(GradeOf(RestRows(drop, false, 0.03)), Grade::kFail);  // 8 mm is a large part of 3 cm
   drop.drift = 20e-3;
   EXPECT_EQ(GradeOf(RestRows(drop, false, 3.0)), Grade::kFail);
   drop = Still();

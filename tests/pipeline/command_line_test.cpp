@@ -1,5 +1,5 @@
-// The program as a user meets it: bad input gives one clear line, exit code 1, and nothing is left
-// behind; good input gives the same bytes twice.
+// The program on the command line: bad input gives one clear line, exit code 1 and no leftovers;
+// good input gives the same bytes twice.
 #include <gtest/gtest.h>
 #include <zip.h>
 
@@ -48,7 +48,8 @@ class CommandLine : public ::testing::Test {
     EXPECT_NE(outcome.text.find(word), std::string::npos) << arguments << "\n" << outcome.text;
     EXPECT_EQ(Entries(), before) << arguments << " left something behind";
   }
-  // The faults of an existing model are rows of its report: exit 1, and a FAIL row says the word.
+  // Faults of an existing model are results of its report: exit code 1, and a FAIL line with the
+  // word.
   void ExpectFailRow(const std::string& arguments, const std::string& word) {
     const Outcome outcome = RunProgram(arguments + " --quiet");
     EXPECT_EQ(outcome.code, 1) << arguments << "\n" << outcome.text;
@@ -121,7 +122,7 @@ TEST_F(CommandLine, BadMeshesAreRefused) {
 TEST_F(CommandLine, TrainingRefusesWhatIsNotThere) {
   const std::string train = "prior train --parametric-only -o " + Out();
   ExpectRefused(train + " --from " + (folder_ / "none").string(), "shape_prior.pt");
-  ExpectRefused(train + " --batch 4 --only view", "shape_prior.pt");  // it builds upon the other
+  ExpectRefused(train + " --batch 4 --only view", "shape_prior.pt");  // it needs the shape prior
   ExpectRefused("prior train -o " + Out() + " " + (folder_ / "none.sh3f").string(), "none.sh3f");
 }
 
@@ -164,7 +165,7 @@ TEST_F(CommandLine, BadUrdfsFail) {
   ExpectFailRow("check " + Write("bomb.urdf", bomb + "]><robot name='&a29;'/>"), "bomb.urdf");
 }
 
-// A photo of 12 megapixels is scaled down: it takes no longer than a small one.
+// A photo of 12 megapixels is downscaled: it takes no longer than a small one.
 TEST_F(CommandLine, LargePhotosAreOrdinary) {
   Write("large.jpg",
         core::EncodeJpeg(
@@ -217,8 +218,8 @@ TEST_F(CommandLine, TheExampleChairBecomesAnAssetThatHolds) {
 TEST_F(CommandLine, CtrlCLeavesNothing) {
   const std::string mesh = Write("ball.obj", assets::ObjText(assets::SphereMesh(0.1, 200)));
   const size_t before = Entries();
-  // A shell starts what goes on behind with SIGINT ignored: wait until it has become the program,
-  // whose shell may have caught it, and the program catches it.
+  // A shell starts background processes with SIGINT ignored: wait until the process has become the
+  // program, whose shell may have caught it, and the program catches it.
   const Outcome outcome =
       RunProgram("import " + mesh + " --category ball -o " + Out() +
                  " 2>&1 & pid=$!; for i in $(seq 400); do "
@@ -267,7 +268,7 @@ TEST_F(CommandLine, AnExistingOutputIsKeptUnlessForced) {
 }
 
 TEST_F(CommandLine, AFullDiskLeavesNothing) {
-  // No folder can be made below a device.
+  // A folder cannot be created below a device.
   const std::string mesh = Write("box.obj", assets::ObjText(assets::BoxMesh({0.2, 0.1, 0.1})));
   ExpectRefused("import " + mesh + " --category box -o /dev/full/out", "error");
 }

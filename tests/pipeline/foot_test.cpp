@@ -30,7 +30,7 @@ core::TriangleMesh Plate(double noise) {
   return geometry::ConvexHull(points);
 }
 
-// A cylinder's foot as a hull of few vertices has it.
+// A cylinder's support polygon in a hull of few vertices.
 core::TriangleMesh Can(int corners) {
   std::vector<Vector3d> points;
   for (int i = 0; i < corners; ++i) {
@@ -70,7 +70,7 @@ TEST(Foot, OneThatIsNearlyFlatBecomesFlat) {
   KeepFoot(foot, 64, &parts);
   EXPECT_GE(VerticesAt(parts[0], foot), 4);
   EXPECT_LE(VerticesAt(parts[0], foot), 32);
-  // Nothing between the flat and the upper face is left to rock on.
+  // No vertex between the support face and the upper face is left to rock on.
   for (const Vector3d& p : parts[0].vertices) {
     const double above = foot.reach - p.dot(foot.down);
     EXPECT_TRUE(above < 1e-12 || above > 0.003) << above;
@@ -78,7 +78,7 @@ TEST(Foot, OneThatIsNearlyFlatBecomesFlat) {
   EXPECT_TRUE(geometry::Examine(parts[0]).Sound());
 }
 
-// Reach of the foot in the direction in which it has least.
+// Returns the smallest extent of the support polygon over all directions.
 double LeastReach(const core::TriangleMesh& part, const Foot& foot) {
   double least = INFINITY;
   for (int i = 0; i < 360; ++i) {
@@ -111,7 +111,7 @@ TEST(Foot, ARoundOneKeepsItsCornersAndItsReach) {
   }
 }
 
-// A coin is thinner than what counts as level of larger things.
+// A coin is thinner than the face tolerance of larger bodies.
 TEST(Foot, ADiscStaysAsThickAsItIs) {
   core::TriangleMesh disc = Can(32);
   for (Vector3d& p : disc.vertices) p.z() *= 0.002;
@@ -121,7 +121,7 @@ TEST(Foot, ADiscStaysAsThickAsItIs) {
   EXPECT_NEAR(core::Bounds(parts[0]).sizes().z(), 2e-4, 1e-12);
 }
 
-// A ball of few corners has the volume of one of many, and its corners stick out.
+// A ball of few vertices has the volume of one of many, and its vertices stick out.
 TEST(Foot, NothingReachesBelowAPoint) {
   const Foot foot{-Vector3d::UnitZ(), 1.0, {Vector3d(0.0, 0.0, -1.0)}};
   std::vector<core::TriangleMesh> parts{
@@ -131,7 +131,7 @@ TEST(Foot, NothingReachesBelowAPoint) {
   EXPECT_EQ(parts[0].vertices.size(), 5u);
 }
 
-// What was lost of the foot comes back from the solid.
+// Lost corners of the support polygon are restored from the solid.
 TEST(Foot, ALostOneComesBack) {
   const core::TriangleMesh can = Can(64);
   std::vector<Vector3d> points{{0, 0, -2e-4}};
@@ -143,7 +143,7 @@ TEST(Foot, ALostOneComesBack) {
       geometry::SimplifyHull(geometry::ConvexHull(points), 52)};
   KeepFoot(foot, 64, &parts);
   EXPECT_NEAR(core::Bounds(parts[0]).min().z(), 0.0, 1e-12);
-  // Twelve of 64, at worst six steps apart.
+  // Twelve of 64 corners, at most six steps apart.
   EXPECT_GT(LeastReach(parts[0], foot), 0.03 * std::cos(6 * std::numbers::pi / 64) - 1e-9);
 }
 
@@ -157,9 +157,9 @@ TEST(Foot, PartsAboveItStayAsTheyAre) {
 
 TEST(RestSentence, SaysHowItWasTurned) {
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
-  EXPECT_EQ(RestSentence(turn, false), "stands the way it came");
+  EXPECT_EQ(RestSentence(turn, false), "stands in its given pose");
   turn.linear() = Eigen::AngleAxisd(1.0, Vector3d::UnitZ()).toRotationMatrix();
-  EXPECT_EQ(RestSentence(turn, false), "stands the way it came");  // yaw is free
+  EXPECT_EQ(RestSentence(turn, false), "stands in its given pose");  // yaw is arbitrary
   turn.linear() = Eigen::AngleAxisd(0.1, Vector3d::UnitX()).toRotationMatrix();
   EXPECT_NE(RestSentence(turn, false).find("nearly"), std::string::npos);
   EXPECT_NE(RestSentence(turn, false).find("6 degrees"), std::string::npos);

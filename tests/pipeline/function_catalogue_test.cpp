@@ -1,5 +1,5 @@
-// What things are for survives the way into the simulator: cups hold a ball, in both engines, and
-// a rod goes through a mug's handle.
+// Affordances survive the conversion to the simulator: cups hold a ball in both engines, and a rod
+// passes through a mug's handle.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -52,7 +52,7 @@ class Function : public ::testing::TestWithParam<Piece> {
 class Holds : public Function {};
 class LetsThrough : public Function {};
 
-// Whether a ball at `world` lies in the hollow of an asset at `world_from_asset`.
+// Returns true if a ball at `world` lies in the cavity of an asset at `world_from_asset`.
 void ExpectInside(const Hollow& hollow, const Eigen::Isometry3d& world_from_asset,
                   const Eigen::Vector3d& world, const std::string& engine) {
   const Eigen::Vector3d ball = world_from_asset.inverse() * world;

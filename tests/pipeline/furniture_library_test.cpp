@@ -1,4 +1,4 @@
-// Furniture passes its check, and keeps in its files the surfaces that scenes count on.
+// Furniture passes its check, and its files contain the surfaces that scenes rely on.
 #include <gtest/gtest.h>
 
 #include "assets/asset_folder.h"
@@ -23,7 +23,7 @@ TEST(FurnitureLibrary, AllOfItPasses) {
     const double volume = geometry::SolidMassProperties(asset.solid, 1.0).volume;
     EXPECT_EQ(asset.wall_thickness, 0.0) << outcome.name;  // full
     EXPECT_NEAR(asset.inertial.mass, asset.density * volume, 1e-6 * asset.inertial.mass);
-    // Collides as it was drawn, to the surfaces on which things stand.
+    // Its collision parts match the modelled surfaces that support objects.
     const library::RigidKind& kind = *library::FindRigidKind(outcome.kind);
     EXPECT_EQ(asset.parts.size(), library::MakeRigidThing(kind, 1).parts.size()) << kind.name;
     Eigen::AlignedBox3d box;

@@ -1,5 +1,5 @@
-// Every twenty-fourth piece of the CC0 catalogue becomes an asset that passes its check, as large
-// as the catalogue says. All 175: `simwright import` on the catalogue, see docs/figures.md.
+// Every twenty-fourth piece of the CC0 catalogue becomes an asset of the catalogue's size that
+// passes its check. For all 175: `simwright import` on the catalogue, see docs/figures.md.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

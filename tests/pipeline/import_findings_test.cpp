@@ -1,4 +1,4 @@
-// What import says: sizes that cannot be meant, names, axes, and that what a user states wins.
+// Findings of import: implausible sizes, names, axes, and the precedence of stated values.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -22,7 +22,7 @@ class ImportFindings : public ::testing::Test {
     core::WriteFile(folder_.path() / name, assets::ObjText(mesh));
     return (folder_.path() / name).string();
   }
-  // A box with its height along y, as OBJ has it.
+  // A box with its height along y, as in OBJ.
   std::string Box(const std::string& name, double length, double height, double width) const {
     return Mesh(name, assets::BoxMesh({length, height, width}));
   }
@@ -86,7 +86,7 @@ TEST_F(ImportFindings, WhatIsStatedWins) {
   EXPECT_EQ(Import(mesh + " --category box --mass -1").code, 2);
 }
 
-// A rigid URDF weighs what it says, where matter can, and what is stated wins.
+// A rigid URDF keeps its own mass if the density is possible, and a stated mass takes precedence.
 TEST_F(ImportFindings, ARigidUrdfKeepsItsMass) {
   const auto urdf = [&](double mass) {
     const fs::path file = folder_.path() / "brick.urdf";
@@ -100,7 +100,7 @@ TEST_F(ImportFindings, ARigidUrdfKeepsItsMass) {
   EXPECT_NEAR(Read("brick").inertial.mass, 2.5, 1e-6);
   const Outcome heavy = Import(urdf(300.0));  // 250 t/m3
   ASSERT_EQ(heavy.code, 0) << heavy.text;
-  EXPECT_NE(heavy.text.find("no matter of its size weighs"), std::string::npos) << heavy.text;
+  EXPECT_NE(heavy.text.find("no material of its size has"), std::string::npos) << heavy.text;
   EXPECT_LT(Read("brick").inertial.mass, 10.0);
   ASSERT_EQ(Import(urdf(2.5) + " --mass 3").code, 0);
   EXPECT_NEAR(Read("brick").inertial.mass, 3.0, 1e-6);
@@ -111,11 +111,11 @@ TEST_F(ImportFindings, TheUpAxisIsGuessedAndSaid) {
   core::TriangleMesh bottle = assets::BoxMesh({0.07, 0.07, 0.3});
   const Outcome turned = Import(Mesh("bottle.obj", bottle) + " --category bottle");
   ASSERT_EQ(turned.code, 0) << turned.text;
-  EXPECT_NE(turned.text.find("z was taken"), std::string::npos) << turned.text;
+  EXPECT_NE(turned.text.find("z was used"), std::string::npos) << turned.text;
   EXPECT_NEAR(SizeOf(Read("bottle")).z(), 0.3, 1e-6);
   const Outcome usual = Import(Box("tall.obj", 0.07, 0.3, 0.07) + " --category bottle");
   ASSERT_EQ(usual.code, 0) << usual.text;
-  EXPECT_NE(usual.text.find("y was taken, as is usual"), std::string::npos) << usual.text;
+  EXPECT_NE(usual.text.find("y was used, the usual one"), std::string::npos) << usual.text;
   EXPECT_NEAR(SizeOf(Read("tall")).z(), 0.3, 1e-6);
 }
 

@@ -1,4 +1,4 @@
-// `simwright library` and the check of what it makes; broken copies of it fail in the right row.
+// `simwright library` and the check of its assets; broken copies fail the right check.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 using assets::ArticulatedAsset;
 
-// The rows that fail, after the asset was written anew.
+// Writes the asset again and returns the failed checks.
 std::vector<std::string> Failures(const ArticulatedAsset& asset) {
   const core::TemporaryFolder folder;
   assets::WriteArticulatedAsset(asset, folder.path());
@@ -58,7 +58,7 @@ TEST(LibraryCommand, MakesAssetsThatPassTheirCheck) {
     EXPECT_EQ(checked.code, 0) << checked.text;
     EXPECT_NE(checked.text.find("swings-mujoco-"), std::string::npos);
   }
-  // An output that is there is not replaced unasked.
+  // An existing output is not replaced without --force.
   const Outcome again = RunProgram("library --kind toaster --seed 7 --quiet -o " + out);
   EXPECT_EQ(again.code, 1);
   EXPECT_NE(again.text.find("--force"), std::string::npos);
@@ -86,7 +86,7 @@ TEST(ArticulatedCheck, ADoorInItsBodyFails) {
 
 TEST(ArticulatedCheck, AJammedJointFails) {
   ArticulatedAsset asset = library::KindNamed("toaster").make({3, ""});
-  asset.joints[IndexOf(asset, "lever_joint")].friction = 1000.0;  // a hand has 200 N
+  asset.joints[IndexOf(asset, "lever_joint")].friction = 1000.0;  // a human exerts 200 N
   const auto failed = Failures(asset);
   EXPECT_TRUE(Holds(failed, "swings-bullet-lever_joint"));
   EXPECT_TRUE(Holds(failed, "swings-mujoco-lever_joint"));
@@ -107,7 +107,7 @@ TEST(ArticulatedCheck, AForgedInertialFails) {
   EXPECT_TRUE(Holds(Failures(asset), "inertia-exact"));
 }
 
-// A URDF alone, of any origin: its joints swing too, and a jammed one fails.
+// A single URDF of any origin: its joints are swept too, and a jammed one fails.
 TEST(ArticulatedCheck, AUrdfWithJointsIsSwung) {
   ArticulatedAsset asset = library::KindNamed("laptop").make({4, ""});
   for (const bool jammed : {false, true}) {
@@ -124,7 +124,7 @@ TEST(ArticulatedCheck, AUrdfWithJointsIsSwung) {
   }
 }
 
-// A bar 2 cm before a wall can be held from the front; in a slot 4 cm wide it cannot.
+// A bar 2 cm in front of a wall can be grasped from the front; one in a slot 4 cm wide cannot.
 TEST(GraspSearch, FindsTheBarAndNotTheSlot) {
   const auto box = [](const Eigen::Vector3d& size, const Eigen::Vector3d& at) {
     core::TriangleMesh mesh = assets::BoxMesh(size);
@@ -143,8 +143,8 @@ TEST(GraspSearch, FindsTheBarAndNotTheSlot) {
   EXPECT_EQ(SearchGrasps(bar, walls).found, 0);
 }
 
-// A leaf hinged at its rear face's outer edge keeps the 3 mm that it stands off its body; hinged 3
-// cm further in, where it stands the same way when closed, its edge swings into the body.
+// A door hinged at its rear face's outer edge keeps its gap of 3 mm to the body; hinged 3 cm
+// further in, with the same closed pose, its edge swings into the body.
 TEST(SweptClearance, TellsGoodHingesFromBad) {
   ArticulatedAsset asset = library::KindNamed("cabinet").make({2, ""});
   const size_t joint =

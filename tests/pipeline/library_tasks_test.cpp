@@ -1,5 +1,4 @@
-// Tasks for everything that the library makes: as many, and on as many kinds, as docs/tasks.md
-// says.
+// Tasks for all library assets: as many, and on as many kinds, as docs/tasks.md states.
 #include <gtest/gtest.h>
 
 #include <set>

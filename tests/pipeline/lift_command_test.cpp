@@ -1,4 +1,4 @@
-// The lift as a user calls it, where something has to be fitted.
+// `simwright lift` on inputs that need fitting.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr double kRadius = 0.05;  // m
 
-// A ball about `center` with a colour a direction, cut out.
+// A ball around `center` with a colour per direction, as a cut-out.
 core::Image BallPhoto(const core::Camera& camera, const Eigen::Vector3d& center) {
   core::Image photo(camera.width, camera.height, 4);
   for (int y = 0; y < camera.height; ++y) {
@@ -94,7 +94,8 @@ TEST(LiftCommand, APhotoOfAnotherSizeThanItsCamerasIsRefused) {
   EXPECT_FALSE(fs::exists(folder.path() / "out"));
 }
 
-// The outline of a box looks like a turned body's, and is not one: its category says so.
+// The silhouette of a box resembles that of a solid of revolution; its category tells that it is
+// not one.
 TEST(LiftCommand, ABoxIsNoTurnedBody) {
   const core::TemporaryFolder folder;
   core::Image photo(160, 160, 4);
@@ -116,7 +117,7 @@ TEST(LiftCommand, ABoxIsNoTurnedBody) {
   EXPECT_NE(lift("box").find("the learned prior"), std::string::npos);
 }
 
-// A bracket: no body of revolution, so that its hidden side has to be guessed and fitted.
+// A bracket is not a solid of revolution, so its hidden side must be predicted and fitted.
 TEST(LiftCommand, AFitIsTheSameTwice) {
   const core::TemporaryFolder folder;
   core::Image photo(200, 200, 4);

@@ -1,5 +1,4 @@
-// What links of a foreign URDF look like: colours of files whose looks are a texture or colours at
-// vertices.
+// The colours of links of a foreign URDF whose files use a texture or vertex colours.
 #include "pipeline/link_shapes.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +21,7 @@ class LinkColors : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // Eight triangles in a fan of unit legs; the first half of one look, the others of another.
+  // Eight triangles in a fan of unit legs; the two halves have different materials.
   core::TexturedMesh Seen(const std::string& vertex_colors, const std::string& uvs) {
     std::ofstream obj(folder_ / "m.obj");
     obj << "mtllib m.mtl\nusemtl m\n" << vertex_colors << uvs;

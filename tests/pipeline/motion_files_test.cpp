@@ -1,4 +1,5 @@
-// Motions on disk: a message for each controller, a table of all, and back under the robot's names.
+// Motions on disk: one message per controller, or one table, and reading back under the robot's
+// names.
 #include "pipeline/motion_files.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +63,7 @@ TEST_P(MotionFiles, SayWhatIsMissing) {
     } catch (const core::Error& error) {
       EXPECT_NE(std::string(error.what()).find("pick.gripper.yaml"), std::string::npos);
     }
-    // Of another motion.
+    // The gripper's file belongs to another motion.
     robot::JointTrajectory other = Sample();
     other.times[2] = 0.004;
     WriteMotion(other, folder_.path() / "other.yaml");

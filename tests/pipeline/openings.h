@@ -12,7 +12,7 @@
 
 namespace simwright {
 
-// The deepest place of a shape that holds water, seen from above (m, in the shape's frame).
+// The deepest point of a shape that holds water, seen from above (m, in the shape's frame).
 struct Hollow {
   Eigen::Vector2d place{0, 0};
   double floor = 0.0;  // height of the bottom there
@@ -20,7 +20,7 @@ struct Hollow {
   double depth() const { return brim - floor; }
 };
 
-// First hits of a grid of rays along -z, `cell` apart; -infinity where there is nothing below.
+// Returns the first hits of a grid of rays along -z, `cell` apart; -infinity for misses.
 class HeightMap {
  public:
   HeightMap(const core::TriangleMesh& mesh, double cell) : cell_(cell) {
@@ -39,7 +39,7 @@ class HeightMap {
     }
   }
 
-  // Water poured on the shape until it runs off: a flood from the border inward, lowest first
+  // Water poured on the shape until it overflows: a flood from the border inward, lowest cell first
   // (Barnes et al. 2014, "Priority-flood").
   std::vector<double> WaterLevel() const {
     std::vector<double> level(values_.size(), std::numeric_limits<double>::infinity());
@@ -67,7 +67,7 @@ class HeightMap {
     return level;
   }
 
-  // The middle of the largest body of water's deepest tenth.
+  // The centre of the deepest tenth of the largest body of water.
   Hollow DeepestHollow() const {
     const std::vector<double> level = WaterLevel();
     double deepest = 0.0;
@@ -100,12 +100,12 @@ class HeightMap {
   std::vector<double> values_;
 };
 
-// A level line through a shape's hole: the hole of its outline, over all directions, whose middle
-// is farthest from the outline.
+// A level line through a hole of a shape's silhouette: over all directions, the one whose centre is
+// farthest from the silhouette.
 struct ThroughHole {
   Eigen::Vector3d middle{0, 0, 0};
   Eigen::Vector3d direction{1, 0, 0};
-  double clearance = 0.0;  // m, from the middle to the outline
+  double clearance = 0.0;  // m, from the centre to the silhouette
 };
 
 inline ThroughHole WidestHole(const core::TriangleMesh& mesh, int cells = 96) {
@@ -122,7 +122,7 @@ inline ThroughHole WidestHole(const core::TriangleMesh& mesh, int cells = 96) {
       return box.center() + ((c % cells + 0.5) * cell - radius) * side +
              ((c / cells + 0.5) * cell - radius) * Eigen::Vector3d::UnitZ();
     };
-    // 0: behind the shape's outline, 1: free, 2: free and reached from the border.
+    // 0: inside the shape's silhouette, 1: free, 2: free and reached from the border.
     std::vector<char> state(cells * cells);
     for (int c = 0; c < cells * cells; ++c) {
       state[c] = !tree.FirstHit(point(c) - 2.0 * radius * direction, direction);

@@ -11,8 +11,8 @@
 
 namespace simwright {
 
-// A cabinet as PartNet-Mobility lays one out: y up, front to +z, 1.2 units high; a door on the left
-// below, a drawer above, each with a bar to hold. Meshes are in one frame, so that their origins
+// A cabinet in PartNet-Mobility's layout: y up, front to +z, 1.2 units high; a door on the lower
+// left, a drawer above, each with a bar handle. All meshes are in one frame, so that their origins
 // are the negated origins of the joints. A mesh of the door is missing. The door's rear face lies
 // 0.002 units inside the body.
 class PartnetCabinet {

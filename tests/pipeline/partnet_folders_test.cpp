@@ -1,5 +1,5 @@
-// Real PartNet-Mobility folders, which their licence keeps out of this repository: the tests run
-// where SIMWRIGHT_PARTNET names a folder of them, in folders by kind or not.
+// Real PartNet-Mobility folders, whose licence keeps them out of this repository: the tests run if
+// SIMWRIGHT_PARTNET names a folder of them, grouped by kind or not.
 #include <gtest/gtest.h>
 
 #include <algorithm>

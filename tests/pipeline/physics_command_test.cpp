@@ -1,4 +1,4 @@
-// `physics` with a language model as a user calls it: asked once, replayed without it.
+// `physics` with a language model: queried once, then replayed without it.
 #include <gtest/gtest.h>
 
 #include <algorithm>

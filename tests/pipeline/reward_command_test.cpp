@@ -1,4 +1,4 @@
-// `reward` as a user calls it: a linter for reward programs.
+// `reward`, the linter for reward programs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ class RewardCommand : public ::testing::Test {
     core::WriteFile(path, text);
     return path.string();
   }
-  // A folder as PartNet-Mobility has them.
+  // A folder in PartNet-Mobility's layout.
   std::string Oven() const {
     Write("oven/mobility.urdf", kOven);
     return (folder_.path() / "oven").string();
@@ -68,7 +68,7 @@ TEST_F(RewardCommand, SaysWhatASoundProgramReadsAndGives) {
         "reads joint_state of oven, door_hinge [N]"}) {
     EXPECT_NE(outcome.text.find(part), std::string::npos) << part << "\n" << outcome.text;
   }
-  // The limit is a constant, since the scene is known.
+  // The limit is a constant, because the scene is known.
   EXPECT_EQ(outcome.text.find("joint_upper"), std::string::npos) << outcome.text;
 }
 
@@ -79,7 +79,7 @@ TEST_F(RewardCommand, PointsAtAWrongNameAndSaysTheNearest) {
   EXPECT_EQ(outcome.code, 1) << outcome.text;
   EXPECT_NE(outcome.text.find("open.py:4:"), std::string::npos) << outcome.text;
   EXPECT_NE(outcome.text.find("'door_hinge'"), std::string::npos) << outcome.text;
-  // The line itself, and a caret below its place.
+  // The line itself, and a caret below the fault.
   const std::string line = "    angle = env.get_state_by_joint_name(\"oven\", \"dor_hinge\")";
   const std::size_t at = outcome.text.find(line);
   ASSERT_NE(at, std::string::npos) << outcome.text;

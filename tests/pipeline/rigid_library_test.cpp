@@ -1,4 +1,4 @@
-// `simwright library` makes rigid things as `import` would, checked before they are kept.
+// `simwright library` makes rigid assets as `import` does, checked before they are kept.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -23,7 +23,7 @@ TEST(RigidLibrary, MakesThingsThatPassTheirCheck) {
     const Outcome checked = RunProgram("check --quiet " + place.string());
     EXPECT_EQ(checked.code, 0) << checked.text;
     EXPECT_TRUE(fs::exists(place / "preview.png"));
-    // As large as it was drawn, and as heavy as its kind.
+    // It has its modelled size and a mass of its kind.
     const assets::Asset asset = assets::ReadAsset(place);
     const library::RigidThing thing = library::MakeRigidThing(*library::FindRigidKind(kind), 1);
     const Eigen::Vector3d size = core::Bounds(asset.visual.mesh).sizes();

@@ -17,7 +17,7 @@ class RolloutOn : public ScriptedRuns {
   static std::string TaskFile() { return (shared_->path() / "tasks.json").string(); }
 };
 
-// On its own scenes a run does, to the last number, what it does without.
+// On its own scenes, --on reproduces the results without it exactly.
 TEST_F(RolloutOn, OtherTasksAlikeAreActedIn) {
   const Outcome own = RunProgram("rollout --json --episodes 12 " + Pick());
   const Outcome on = RunProgram("rollout --json --episodes 12 " + Pick() + " --on " + TaskFile() +
@@ -30,8 +30,7 @@ TEST_F(RolloutOn, OtherTasksAlikeAreActedIn) {
 
 TEST_F(RolloutOn, TasksThatDoNotFitAreRefusedInOneLine) {
   for (const auto& [task, why] : std::vector<std::pair<std::string, std::string>>{
-           {"fly_block", "there is no task 'fly_block'"},
-           {"move_block", "another number of subtasks"}}) {
+           {"fly_block", "there is no task 'fly_block'"}, {"move_block", "number of subtasks"}}) {
     const Outcome outcome =
         RunProgram("rollout --quiet " + Pick() + " --on " + TaskFile() + " --task " + task);
     EXPECT_EQ(outcome.code, 1) << task;

@@ -1,4 +1,4 @@
-// `rollout --pictures --poses`: one episode to look at.
+// `rollout --pictures --poses`: the pictures and poses of one episode.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -17,7 +17,7 @@ using nlohmann::json;
 
 class RolloutPictures : public ScriptedRuns {};
 
-// The mean row of the red pixels of a frame, or -1.
+// Returns the mean row of the red pixels of a frame, or -1.
 double RedRow(const core::Image& strip, int column, int row, int size) {
   double sum = 0.0;
   int count = 0;
@@ -56,7 +56,7 @@ TEST_F(RolloutPictures, ShowTheBlockStandingAndThenLifted) {
   EXPECT_EQ(moments.size(), head.at("subtasks")[0].at("lines").get<size_t>());
   const double start = moments.front().at("things")[0][2], end = moments.back().at("things")[0][2];
   EXPECT_NEAR(start, 0.0, 1e-3);  // on the floor
-  EXPECT_NEAR(end, 0.15, 0.03);   // the goal is 19 cm high for its middle
+  EXPECT_NEAR(end, 0.15, 0.03);   // the goal height of its centre is 19 cm
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Round and faceted shapes through the whole making of an asset, and its check on disk in both
-// engines: what stands stands on its whole foot, what rolls is judged as what rolls, and what is
-// really wrong fails.
+// Round and faceted shapes through the whole build of an asset and its check on disk in both
+// engines: standing bodies keep their whole support polygon, rolling ones are graded as such, and
+// real faults fail.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ core::TriangleMesh Turned(core::TriangleMesh mesh, double angle, const Vector3d&
   return mesh;
 }
 
-// Stands as it came on one part of its volume, whose foot bears the tilt that the solid's does.
+// Checks that a one-part asset stands in its given pose and tolerates the tilt that its solid does.
 void ExpectStands(const core::TriangleMesh& mesh, const std::string& category) {
   const assets::Asset asset = Built(mesh, category);
   const CheckReport report = Checked(asset);
@@ -125,7 +125,7 @@ TEST(RoundShapes, BallsEggsAndLyingCylindersRoll) {
   ExpectRolls(Turned(shapes::Cylinder(0.004, 0.15, 32), quarter, Vector3d::UnitY()), "pen");
 }
 
-// None of these is refused.
+// None of these may be refused.
 TEST(RoundShapes, DiceRingsAndBowlsRest) {
   const std::vector<std::pair<std::string, core::TriangleMesh>> things{
       {"die", shapes::Box(0.016, 0.016, 0.016)},
@@ -143,12 +143,12 @@ TEST(RoundShapes, DiceRingsAndBowlsRest) {
   }
 }
 
-// It comes on an edge, on which it balances in Bullet and from which it tips in MuJoCo.
+// It starts on an edge, on which it balances in Bullet and from which it tips in MuJoCo.
 TEST(RoundShapes, WhatOnlyBalancesIsLaidOnAFace) {
   const assets::Asset twenty =
       Built(Scaled(shapes::Icosphere(0), Vector3d::Constant(0.02)), "object");
   const Vector3d down = -Vector3d::UnitZ(), center = twenty.inertial.center_of_mass;
-  // The inner radius of a face over that of the body: atan(0.2887 / 0.7558).
+  // The inradius of a face over that of the body: atan(0.2887 / 0.7558).
   EXPECT_NEAR(geometry::TippingAngle(twenty.solid, center, down, 1e-7), 0.3649, 1e-3);
   const assets::Asset box =
       Built(Turned(shapes::Box(0.03, 0.03, 0.03), shapes::kPi / 4, Vector3d::UnitX()), "object");
@@ -163,12 +163,12 @@ TEST(RoundShapes, WhatRollsStaysAsItCame) {
   EXPECT_NEAR(core::Bounds(bottle.solid).sizes().z(), 0.06, 2e-3);
 }
 
-// Small faults warn; these are none.
+// Small faults warn; these cases must not.
 TEST(RoundShapes, WhatIsReallyWrongFails) {
   const assets::Asset can = Built(shapes::Cylinder(0.03, 0.1, 48), "candle");
   ASSERT_EQ(Checked(can).grade(), Grade::kPass);
 
-  assets::Asset toppling = can;  // its weight is beside its foot
+  assets::Asset toppling = can;  // its centre of mass is outside its support polygon
   for (core::TriangleMesh& part : toppling.parts) {
     for (Vector3d& v : part.vertices) {
       if (v.z() < 0.05) v.x() = 0.2 * (v.x() - 0.03) + 0.03;
@@ -180,18 +180,18 @@ TEST(RoundShapes, WhatIsReallyWrongFails) {
   EXPECT_EQ(RowOf(fallen, "rest-pose-bullet")->severity, core::Severity::kError);
   EXPECT_EQ(RowOf(fallen, "rest-pose-mujoco")->severity, core::Severity::kError);
 
-  // Saying that it rolls does not help what falls.
+  // Marking it as rolling does not help a body that falls.
   toppling.rolls = true;
   EXPECT_EQ(Checked(toppling).grade(), Grade::kFail);
 
-  assets::Asset hollow = can;  // collides with half of itself alone
+  assets::Asset hollow = can;  // only half of it has collision parts
   for (core::TriangleMesh& part : hollow.parts) {
     for (Vector3d& v : part.vertices) v.z() = std::min(v.z(), 0.05);
     part = geometry::ConvexHull(part.vertices);
   }
   EXPECT_EQ(RowOf(Checked(hollow), "parts-cover")->severity, core::Severity::kError);
 
-  assets::Asset heavy = can;  // weighs otherwise than it says
+  assets::Asset heavy = can;  // its mass differs from asset.json
   heavy.inertial.mass *= 1.01;
   EXPECT_EQ(Checked(heavy).grade(), Grade::kFail);
 }

@@ -1,5 +1,5 @@
-// `run` as a user calls it, small: what a whole run leaves, that its report and page agree with
-// what the other commands say, how it goes on after being stopped and killed, and what it refuses.
+// `run` at small scale: the files of a complete run, the agreement of its report and page with the
+// other commands, resuming after being stopped and killed, and rejected inputs.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Shutting a drawer succeeds mostly before anything is learnt, so that all stages have work.
+// An untrained policy usually closes a drawer, so that all stages have work to do.
 constexpr const char* kTask = "close_drawer_unit_1_drawer_1";
 const std::vector<std::string> kStages = {"lift",  "check",    "scene", "tasks",
                                           "train", "evaluate", "export"};
@@ -57,8 +57,8 @@ class RunCommand : public testing::Test {
   core::TemporaryFolder folder_;
 };
 
-// The bounds of a success rate's interval are the rates at which what was seen lies 1.96 standard
-// deviations away (Wilson 1927).
+// The bounds of a success rate's interval are the rates from which the observed rate is 1.96
+// standard deviations away (Wilson 1927).
 void ExpectWilson(const json& counts, const std::string& successes, const std::string& tries) {
   const double n = counts.at(tries), rate = counts.at(successes).get<double>() / n;
   for (const char* bound : {"low", "high"}) {
@@ -67,7 +67,7 @@ void ExpectWilson(const json& counts, const std::string& successes, const std::s
   }
 }
 
-// The page with what is in its pictures left out.
+// Returns the page without the data of its pictures.
 std::string WithoutPictures(const std::string& page) {
   const std::string begin = ";base64,";
   std::string text;
@@ -148,7 +148,7 @@ TEST_F(RunCommand, APhotoBecomesAReportAndAPageThatAgreeWithTheOtherCommands) {
   EXPECT_EQ(report.dump().find(folder_.path().string()), std::string::npos);
   CheckPage(core::ReadFile(Path("out/index.html")), report);
 
-  // Once more: nothing is done twice, and other inputs are named.
+  // A second call repeats nothing, and other inputs are named.
   const std::string record = core::ReadFile(Path("out/run.json"));
   const std::string page = core::ReadFile(Path("out/index.html"));
   const Outcome resumed =
@@ -168,7 +168,8 @@ TEST_F(RunCommand, APhotoBecomesAReportAndAPageThatAgreeWithTheOtherCommands) {
   EXPECT_EQ(core::ReadFile(Path("out/run.json")), record);
 }
 
-// The program as a process that is sent `signal` as soon as `ready` holds; its exit status.
+// Runs the program as a process, sends `signal` as soon as `ready` holds, and returns its exit
+// status.
 int RunUntil(const std::string& arguments, const std::function<bool()>& ready, int signal) {
   const pid_t child = fork();
   if (child == 0) {
@@ -226,7 +227,7 @@ TEST_F(RunCommand, StoppedAndKilledInTrainingItGoesOnWhereItWas) {
 
   const int killed = RunUntil(with("--steps 200000 --resume"), rows(32), SIGKILL);
   EXPECT_TRUE(WIFSIGNALED(killed));
-  fs::create_directories(Path("out/.apple.part-1-0/half"));  // as a killed lift leaves it
+  fs::create_directories(Path("out/.apple.part-1-0/half"));  // left by a killed reconstruction
 
   // 40 updates of 2 environments and 64 decisions.
   const Outcome ended = RunProgram(with("--steps 5120 --resume"));
@@ -248,7 +249,7 @@ TEST_F(RunCommand, StoppedAndKilledInTrainingItGoesOnWhereItWas) {
       EXPECT_EQ(last["stages"][i], first["stages"][i]);
     }
   }
-  // All of the training's time counts, that of the run that was killed as well.
+  // The total training time includes that of the killed run.
   const json report = Json("out/report.json");
   EXPECT_GE(report["stages"][4]["seconds"].get<double>(),
             report["training"]["subtasks"][0]["seconds"].get<double>() - 1e-6);
@@ -263,21 +264,21 @@ TEST_F(RunCommand, BadInputIsRefusedBeforeAnythingIsWritten) {
   fs::create_directories(Path("out"));
   core::WriteFile(Path("out/thesis.txt"), "mine");
   for (const char* flag : {"", "--resume", "--force"}) {
-    ExpectRefused(Arguments(Photo("apple.jpg"), "apple", flag), "holds no run");
+    ExpectRefused(Arguments(Photo("apple.jpg"), "apple", flag), "not a run");
   }
   EXPECT_EQ(core::ReadFile(Path("out/thesis.txt")), "mine");
 }
 
 TEST_F(RunCommand, WhatCannotBeTrainedIsRefusedBeforeTraining) {
-  // 20 cm high it is about 18 cm wide.
+  // At a height of 20 cm it is about 18 cm wide.
   const std::string wide = "--height 0.2 --resume";
-  ExpectRefused(Arguments(Photo("apple.jpg"), "apple", wide), "gripper opens by 8.0 cm");
+  ExpectRefused(Arguments(Photo("apple.jpg"), "apple", wide), "gripper opens 8.0 cm");
   const std::string text = RunProgram(Arguments(Photo("apple.jpg"), "apple", wide)).text;
   std::smatch remedy;
   ASSERT_TRUE(std::regex_search(text, remedy, std::regex("--force (--height [0-9.]+)"))) << text;
   EXPECT_FALSE(fs::exists(Path("out/skill")));
 
-  // An asset that is not as its asset.json says fails its check, and stays to be looked at.
+  // An asset that contradicts its asset.json fails its check, and is kept for inspection.
   json record = Json("out/run.json");
   for (json& stage : record["stages"]) stage["done"] = stage["name"] == "lift";
   core::WriteFile(Path("out/run.json"), record.dump());
@@ -288,7 +289,7 @@ TEST_F(RunCommand, WhatCannotBeTrainedIsRefusedBeforeTraining) {
   ExpectRefused(Arguments(Photo("apple.jpg"), "apple", wide), "loads-urdfdom");
   EXPECT_TRUE(fs::exists(Path("out/apple/preview.png")));
 
-  // At the height that the refusal names it can be picked up.
+  // At the height that the error message suggests, it can be picked up.
   const std::string lower = remedy[1].str() + " --task fly_apple ";
   ExpectRefused(Arguments(Photo("apple.jpg"), "apple", lower + "--force"), "pick_up_apple");
   ExpectRefused(Arguments(Photo("apple.jpg"), "apple", lower + "--resume"),

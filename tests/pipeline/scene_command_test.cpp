@@ -1,4 +1,5 @@
-// `simwright scene`: a dataset made, gone on with, learned from and sampled; wrong input refused.
+// `simwright scene`: a dataset is generated, continued, trained on and sampled; bad input is
+// rejected.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -17,10 +18,10 @@ namespace simwright::pipeline {
 namespace {
 namespace fs = std::filesystem;
 
-// The library's things for dimsum tables, made once.
+// The library's assets for dimsum tables, made once.
 class SceneCommand : public testing::Test {
  protected:
-  // What it can do, each by itself; one test, for each would be a process that makes all anew.
+  // One test runs all checks, because separate processes would each make all assets again.
   static void GeneratesScenesThatHold();
   static void GoesOnWhereItStopped();
   static void NamesASlotThatThereIsNot();
@@ -113,7 +114,7 @@ void SceneCommand::LearnsAndSamples() {
   ASSERT_EQ(RunProgram(sample + At("again")).code, 0);
   EXPECT_EQ(core::ReadFile(fs::path(At("again")) / scene::PartName(0)),
             core::ReadFile(fs::path(At("sampled")) / scene::PartName(0)));
-  // Weights are a model's or a type's, not both and not none.
+  // Either a model's or a type's weights must be given, not both.
   for (const std::string& from : {std::string(), At("model") + "/model.pt --type dimsum",
                                   std::string("--type no_such_type")}) {
     const Outcome refused = RunProgram("scene sample " + from + " --quiet -o " + At("refused"));
@@ -160,7 +161,7 @@ void SceneCommand::AModelByShapeTakesANewAsset() {
 
 void SceneCommand::AnAssetOfOnesOwnTakesASlot() {
   ASSERT_EQ(generated_.code, 0) << generated_.text;
-  // The cup's place is taken by the teapot, by name or by category.
+  // The teapot replaces the cup, by name or by category.
   const std::string teapot = Dimsum() + "/assets/teapot";
   const Outcome own =
       RunProgram("scene generate --type dimsum --count 1 --quiet --asset cup=" + teapot +

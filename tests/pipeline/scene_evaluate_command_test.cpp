@@ -1,5 +1,5 @@
-// `simwright scene evaluate` and `scene features train`: figures that are known of a set against
-// itself, a model sampled and measured in one command, wrong input refused.
+// `simwright scene evaluate` and `scene features train`: known metrics of a set against itself, a
+// model sampled and measured in one command, and rejected inputs.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -24,7 +24,8 @@ constexpr int kScenes = 24;
 
 constexpr double kSunk = 0.005;  // m
 
-// Dimsum tables as the grammar draws them, all things sunk into the table, with their assets.
+// Dimsum tables sampled from the grammar, with all objects lowered into the table, and their
+// assets.
 void WriteDraws(const fs::path& folder) {
   const scene::Grammar grammar = scene::SceneTypeNamed("dimsum").make(scene::DefaultSlotSizes());
   const scene::Vocabulary vocabulary = VocabularyOf(grammar);
@@ -49,7 +50,7 @@ void WriteDraws(const fs::path& folder) {
 
 class SceneEvaluate : public testing::Test {
  protected:
-  // What it can do, each by itself; one test, for each would be a process that makes all anew.
+  // One test runs all checks, because separate processes would each make all assets again.
   static void ASetAgainstItself();
   static void WhatWasLearnedByHeartIsAtItsPlace();
   static void AModelInOneCommand();
@@ -96,7 +97,7 @@ void SceneEvaluate::ASetAgainstItself() {
   EXPECT_EQ(figures["samples"]["kl_1e4"], 0.0);
   EXPECT_NEAR(figures["samples"]["frechet"].get<double>(), 0.0, 1e-6);
   EXPECT_EQ(figures["samples"]["penetration"], figures["reference"]["penetration"]);
-  // At least three things stand on the table itself.
+  // At least three objects stand on the table itself.
   EXPECT_GT(figures["samples"]["penetration"]["parts_median_cm"].get<double>(),
             3 * 100.0 * kSunk - 1e-6);
   ASSERT_EQ(figures["samples"]["classifier_accuracy"].size(), 2u);
@@ -124,7 +125,7 @@ void SceneEvaluate::WhatWasLearnedByHeartIsAtItsPlace() {
 void SceneEvaluate::AModelInOneCommand() {
   ASSERT_EQ(trained_.code, 0) << trained_.text;
   const std::string few = " --count 4 --steps 3 --assets " + At("data/assets") + " -o ";
-  // With its data: what it learned from is known, which leaves two scenes, too few to compare with.
+  // With its data, the training scenes are known, which leaves two scenes, too few to compare with.
   const Outcome own =
       Evaluate("--model " + At("model/model.pt") + " --data " + At("data") + few + At("own"));
   ASSERT_EQ(own.code, 0) << own.text;
@@ -133,13 +134,13 @@ void SceneEvaluate::AModelInOneCommand() {
   EXPECT_EQ(figures["reference"]["held_out"], false);
   EXPECT_EQ(figures["samples"]["scenes"], 4);
   EXPECT_GT(figures["nearest_training_scene_m"]["samples"]["least"].get<double>(), 0.1);
-  // With shipped weights: held-out scenes are made.
+  // With shipped weights, held-out scenes are generated.
   const Outcome shipped = Evaluate("--type dimsum" + few + At("shipped"));
   ASSERT_EQ(shipped.code, 0) << shipped.text;
   EXPECT_EQ(json::parse(shipped.text)["reference"]["held_out"], true);
   EXPECT_EQ(scene::SceneDataset(fs::path(At("shipped/held_out"))).SceneCount(), 4);
   EXPECT_EQ(scene::SceneDataset(fs::path(At("shipped/samples"))).SceneCount(), 4);
-  // A network of a user's that is none.
+  // A user's network file that is not one.
   EXPECT_EQ(Evaluate("--type dimsum --features " + At("model/model.pt") + few + At("x")).code, 1);
 }
 

@@ -1,5 +1,6 @@
-// `simwright scene export` and `scene view`: steamers of the library on its round table, stacked by
-// hand, as worlds; what moves is found; wrong input is refused before anything is written.
+// `simwright scene export` and `scene view`: steamers on the library's round table, stacked by
+// hand, as world files; moving objects are detected; bad input is rejected before anything is
+// written.
 #include "pipeline/scene_export.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ const std::vector<std::string> kSlots = {"steamer", "steamer_lid", "table_round"
 
 class SceneExport : public testing::Test {
  protected:
-  // What it can do, each by itself; one test, for each would be a process that makes all anew.
+  // One test runs all checks, because separate processes would each make all assets again.
   static void StacksStandStillInBothEnginesAndWhatHangsFalls();
   static void IsSelfContained();
   static void RefusesWhatIsNone();
@@ -54,7 +55,8 @@ class SceneExport : public testing::Test {
 
   static std::string At(const std::string& name) { return (folder_->path() / name).string(); }
 
-  // Steamers on the table, each turned otherwise, a lid on top, all `above` (m) where they stand.
+  // Steamers on the table, each rotated differently, with a lid on top, all `above` (m) their
+  // support.
   static std::vector<scene::DrawnObject> Stack(int count, double above) {
     std::vector<scene::DrawnObject> objects = {
         {"table_round", "table", Isometry3d::Identity(), true, -1}};
@@ -191,8 +193,8 @@ void SceneExport::SaysWhichAssetIsMissingOrAnother() {
   request.assets = At("few");
   EXPECT_NE(ErrorOf(request).find("\"steamer_lid\""), std::string::npos) << ErrorOf(request);
   fs::copy(At("few/steamer"), At("few/steamer_lid"), fs::copy_options::recursive);
-  EXPECT_EQ(ErrorOf(request), "");  // these scenes do not say what they were made with
-  // Theirs is another lid.
+  EXPECT_EQ(ErrorOf(request), "");  // these scenes do not record their assets
+  // The scenes were made with another lid.
   const scene::Palette palette =
       scene::ReadPalette(FoldersOfSlots(At("dataset"), "", {kSlots.begin(), kSlots.end()}));
   const nlohmann::json hashes = {{"steamer", palette.HashOf("steamer")},
@@ -228,7 +230,7 @@ void SceneExport::AViewShowsTheTableRoundFromAbove() {
   const core::Image picture = core::ReadImage(At("view.png"));
   ASSERT_EQ(picture.width, 400);
   ASSERT_EQ(picture.height, 200);
-  // The left half: a disc, as wide as high, that no edge cuts.
+  // The left half: a disc, as wide as high, not cut by any edge.
   int left = 200, right = 0, top = 200, bottom = 0;
   for (int y = 0; y < 200; ++y) {
     for (int x = 0; x < 200; ++x) {

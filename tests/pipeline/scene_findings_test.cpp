@@ -1,4 +1,4 @@
-// What scenes say of the objects they dropped and of the assets they were given.
+// Findings of scenes about dropped objects and unused assets.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -47,7 +47,7 @@ TEST(SceneFindings, AFolderOfWhichNothingIsTakenIsSaid) {
                     &progress);
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].code, "assets-unused");
-  EXPECT_NE(findings[0].sentence.find("holds no asset folders"), std::string::npos);
+  EXPECT_NE(findings[0].sentence.find("has no asset folders"), std::string::npos);
   EXPECT_NE(findings[0].remedy.find("--asset SLOT=FOLDER"), std::string::npos);
 }
 

@@ -1,4 +1,4 @@
-// What a dataset's statistics count, of attempts by hand.
+// The statistics of a dataset, from attempts made by hand.
 #include <gtest/gtest.h>
 
 #include "pipeline/scene_generation.h"
@@ -7,12 +7,12 @@ namespace simwright::pipeline {
 namespace {
 
 TEST(SceneStatistics, CountsWhatBecameOfAttempts) {
-  //  drawn, kept, dropped, projected, sound, moved, penetration, drift
+  //  sampled, kept, dropped, projected, valid, moved, penetration, drift
   const std::vector<scene::SceneAttempt> attempts = {
       {10, 9, 1, true, true, 0.002, 5e-5, 2e-4},
       {6, 6, 0, true, true, 0.004, 8e-5, 1e-4},
       {4, 2, 2, true, false, 0.001, 0.0, 0.0},      // at rest, but too few
-      {8, 8, 0, true, false, 0.001, 3e-4, 1e-4},    // in each other
+      {8, 8, 0, true, false, 0.001, 3e-4, 1e-4},    // interpenetrating
       {8, 7, 1, false, false, 0.001, 1e-5, 2e-3}};  // moves
   const SceneStatistics statistics = StatisticsOf(attempts);
   EXPECT_EQ(statistics.attempts, 5);
@@ -28,7 +28,8 @@ TEST(SceneStatistics, CountsWhatBecameOfAttempts) {
   EXPECT_DOUBLE_EQ(statistics.drift, 2e-4);
   EXPECT_EQ(statistics.drawn_counts[8], 2);
   EXPECT_EQ(statistics.scene_counts[9], 1);
-  EXPECT_NE(StatisticsTable(statistics).find("1 more are apart and at rest"), std::string::npos);
+  EXPECT_NE(StatisticsTable(statistics).find("1 more are collision-free and stable"),
+            std::string::npos);
   EXPECT_EQ(StatisticsOf({}).yield, 0.0);
 }
 

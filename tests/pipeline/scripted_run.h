@@ -73,14 +73,14 @@ class GatedPolicy {
   rl::Mlp::Layer distances_, gates_, action_;
 };
 
-// The tool as the focus sees it stands behind the arm's positions and speeds, in tenths of a metre;
-// whether the focus is the destination 22 numbers later; the way to the destination is last but the
-// action (rl/observation.cpp).
+// The observation's layout (rl/observation.cpp): the tool's pose in the target's frame follows the
+// arm's positions and speeds, in tenths of a metre; 22 numbers later comes a flag that the target
+// is the destination; the displacement to the destination precedes the last action.
 inline rl::Policy PickPolicy(int observation, int joints) {
   GatedPolicy policy(observation, 2 * joints, 2 * joints + 22);
-  policy.SetGate(0, 2, 2.0f, 3.0f);  // beside the thing: stay above it
+  policy.SetGate(0, 2, 2.0f, 3.0f);  // beside the object: stay above it
   policy.SetAction(2, 0, -0.6f, 1.0f);
-  policy.SetGate(1, 3, 4.0f, 2.5f);  // not at the thing: fingers open
+  policy.SetGate(1, 3, 4.0f, 2.5f);  // not at the object: fingers open
   policy.SetAction(6, 1, 1.0f, 0.0f);
   return policy.Make();
 }
@@ -120,7 +120,7 @@ inline std::filesystem::path WriteScriptedRun(const std::filesystem::path& folde
   return run.folder;
 }
 
-// A run that picks the block up, one that also puts it down elsewhere, and a folder a test.
+// A run that picks up the block, one that also puts it down elsewhere, and a folder per test.
 class ScriptedRuns : public testing::Test {
  protected:
   static void SetUpTestSuite() {

@@ -39,8 +39,8 @@ double RateOnCard(const fs::path& card) {
   return found.empty() ? 1.0 : 0.01 * std::stod(found[1]);
 }
 
-// As their cards say, where that is 85 % or less, else 85: of 60 episodes it is below that by three
-// standard deviations in one case of 1000 (85 %: below 70).
+// The rate on their cards, at most 85 %: with 60 episodes, a result is three standard deviations
+// below it in one case of 1000 (85 %: below 70).
 TEST_P(ShippedSkill, SucceedsOnAssetsThatItHasNotSeen) {
   const SuiteCell& cell = CellOf(GetParam());
   const fs::path file = ShippedPolicy(kModels, cell.name);
@@ -67,7 +67,7 @@ TEST_P(ShippedSkill, SucceedsOnAssetsThatItHasNotSeen) {
 INSTANTIATE_TEST_SUITE_P(Suite, ShippedSkill, testing::ValuesIn(Shipped()),
                          [](const auto& info) { return info.param; });
 
-// A policy whose cell was renamed would be tested by nobody.
+// A policy whose cell was renamed would not be tested.
 TEST(ShippedSkills, EachBelongsToACell) {
   size_t files = 0;
   for (const auto& entry : fs::directory_iterator(kModels / "skills")) {

@@ -1,4 +1,4 @@
-// `export`: a scripted skill is rolled out and leaves as a robot's trajectory or as demonstrations.
+// `export`: a scripted skill is rolled out and exported as trajectories or demonstrations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ class SkillExport : public ScriptedRuns {};
 TEST_F(SkillExport, ARecordingHasTheEvaluationsOutcomes) {
   const TrainedTask task(Move());
   const rl::ChainEvaluation evaluation = rl::EvaluateChain(task.links(), 10, 5);
-  EXPECT_GE(evaluation.successes, 8);  // the script is good at it
+  EXPECT_GE(evaluation.successes, 8);  // the scripted policy is reliable
   for (int i = 0; i < 10; ++i) {
     const ChainRecording recording = RecordEpisode(task.links(), 5, static_cast<std::uint64_t>(i));
     const rl::ChainOutcome& outcome = evaluation.outcomes[static_cast<size_t>(i)];
@@ -41,7 +41,7 @@ TEST_F(SkillExport, ARecordingHasTheEvaluationsOutcomes) {
   }
 }
 
-// What does not do its task again is not among what is written, and is counted.
+// Episodes that do not reproduce their task are not written, and are counted.
 TEST_F(SkillExport, OthersAreTriedInPlaceOfRecordingsThatAreNotKept) {
   const TrainedTask task(Pick());
   RecordingTally all, some;
@@ -57,7 +57,7 @@ TEST_F(SkillExport, OthersAreTriedInPlaceOfRecordingsThatAreNotKept) {
     last = recording.episode;
   }
   EXPECT_EQ(some.tried, static_cast<int>(last) + 1);
-  EXPECT_GE(some.succeeded, 5);  // of episodes 0 to 5, or more where one of them fails
+  EXPECT_GE(some.succeeded, 5);  // of episodes 0 to 5, or more if one of them fails
   EXPECT_EQ(all.succeeded, 6);
   std::string refusal;
   try {
@@ -66,11 +66,11 @@ TEST_F(SkillExport, OthersAreTriedInPlaceOfRecordingsThatAreNotKept) {
     refusal = error.what();
   }
   EXPECT_GE(some.tried, 20);
-  EXPECT_NE(refusal.find("0 of them did their task again"), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find("0 of them reproduced their task"), std::string::npos) << refusal;
 }
 
-// The largest absolute value of the `order`-th differences of a column, over the step to that
-// power.
+// Returns the largest absolute value of the `order`-th differences of a column, over the step to
+// that power.
 double Largest(const Eigen::VectorXd& column, int order, double step) {
   Eigen::VectorXd difference = column;
   for (int i = 0; i < order; ++i) {
@@ -80,7 +80,7 @@ double Largest(const Eigen::VectorXd& column, int order, double step) {
   return difference.cwiseAbs().maxCoeff();
 }
 
-// The limits are the manufacturer's, without the margin that the retimer keeps of them.
+// The limits are the manufacturer's, without the retimer's margin.
 TEST_F(SkillExport, PositionsAloneKeepTheRobotsLimits) {
   ASSERT_EQ(RunProgram("export --quiet " + Move() + " --format csv -o " + Path("m.csv")).code, 0);
   const robot::JointTrajectory motion = robot::ReadTrajectory(Path("m.csv"));
@@ -108,7 +108,7 @@ TEST_F(SkillExport, PositionsAloneKeepTheRobotsLimits) {
   }
 }
 
-// Between two subtasks the recording jumps from where the arm was sent to where it was: the motion
+// Between two subtasks the recording jumps from the commanded to the measured position; the motion
 // does not.
 TEST_F(SkillExport, SubtasksFollowEachOtherAfterARest) {
   const TrainedTask task(Move());
@@ -120,7 +120,7 @@ TEST_F(SkillExport, SubtasksFollowEachOtherAfterARest) {
   EXPECT_EQ(motion.subtasks[0].begin, 0.0);
   EXPECT_LE(motion.subtasks[0].end, motion.subtasks[1].begin);
   EXPECT_NEAR(motion.subtasks[1].end, motion.retimed.trajectory.times.back(), 2e-3);
-  // The command of the first subtask's end, in the last half second of it.
+  // The last command of the first subtask, during its last half second.
   const RecordedMoment& last = recording.subtasks[0].moments.back();
   const auto at = static_cast<Eigen::Index>(1000.0 * (motion.subtasks[0].end - 0.2));
   for (Eigen::Index j = 0; j < 7; ++j) {
@@ -163,7 +163,7 @@ TEST_F(SkillExport, WhatTheRobotCannotDoIsRefusedWithJointTimeAndValue) {
   }
 }
 
-// The words after each name that a Python script printed.
+// Returns the words after each name that a Python script printed.
 std::vector<std::vector<std::string>> PythonLines(const std::string& file) {
   const std::string command = "/usr/bin/python3 " + std::string(SIMWRIGHT_TEST_DATA) +
                               "/read_skill_demonstrations.py " + file + " 2>&1";
@@ -198,7 +198,7 @@ TEST_F(SkillExport, H5pyReadsDemonstrationsThatEndWhereTheTaskSays) {
     ASSERT_EQ(lines[i].size(), 5u);
     const Eigen::Vector3d place(std::stod(lines[i][2]), std::stod(lines[i][3]),
                                 std::stod(lines[i][4]));
-    // The block's frame is 4 cm below its middle, which is what the goal is of.
+    // The block's frame is 4 cm below its centre, to which the goal refers.
     const Eigen::Vector3d goal = last.start.world_from_robot.inverse() * *last.goal;
     EXPECT_LE((place + Eigen::Vector3d(0.0, 0.0, 0.04) - goal).norm(), 0.035) << lines[i][0];
   }
@@ -218,7 +218,8 @@ TEST_F(SkillExport, TheReportNamesEachJointAndItsMargins) {
       "export " + Pick() + " --format csv --episodes 3 -o " + Path("three");
   const Outcome table = RunProgram(arguments);
   EXPECT_EQ(table.code, 0) << table.text;
-  for (const char* name : {"panda_joint1", "panda_joint7", "panda_finger_joint1", "mm off"}) {
+  for (const char* name :
+       {"panda_joint1", "panda_joint7", "panda_finger_joint1", "the tool deviates"}) {
     EXPECT_NE(table.text.find(name), std::string::npos) << table.text;
   }
   const Outcome outcome = RunProgram(arguments + " --json --force");

@@ -1,5 +1,5 @@
-// How fast exported motions are, what their files hold for each controller, and that they do their
-// task again all the same.
+// The speed of exported motions, the contents of their files per controller, and the reproduction
+// of their task.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -39,7 +39,7 @@ TEST_F(SkillPace, AMotionTakesLittleMoreThanTheOptimumWithoutJerk) {
     const double least = robot::LeastSeconds(rows, step, joints.limits);
     EXPECT_LT(motion.times.back(), 1.15 * least);
     EXPECT_LT(motion.times.back(), 0.9 * MotionOf(recording, skill).retimed.trajectory.times.back());
-    // The last command is held while the replay looks at what came of it.
+    // The last command is held while the replay evaluates the success.
     EXPECT_NEAR(fast.subtasks.back().end - motion.times.back(), 2.0 * skill.options.hold_seconds,
                 2e-3);
   }
@@ -68,7 +68,7 @@ TEST_F(SkillPace, RosHasAMessageForEachControllerUnderItsNames) {
     EXPECT_EQ(arm.joints.front(), "fr3_joint1");
     EXPECT_EQ(gripper.joints, std::vector<std::string>{"fr3_finger_joint1"});
     EXPECT_EQ(arm.times, gripper.times);
-    // An FR3 speeds up by 10 rad/s^2, a Panda's last joints by 20.
+    // An FR3 accelerates at 10 rad/s^2, a Panda's last joints at 20.
     const Eigen::MatrixXd& v = arm.velocities;
     const Eigen::Index n = v.rows() - 1;
     EXPECT_LE((v.bottomRows(n) - v.topRows(n)).cwiseAbs().maxCoeff() / 1e-3, 10.0);

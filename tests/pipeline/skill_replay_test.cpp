@@ -1,5 +1,4 @@
-// `replay`: what `export` wrote does its task again from the file alone, and only the real thing
-// does.
+// `replay`: exported files reproduce their task on their own, and modified ones do not.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,8 +22,8 @@ using nlohmann::json;
 
 class SkillReplay : public ScriptedRuns {
  protected:
-  // Writes so many episodes of `run` and repeats them, all of which have to succeed; the file's or
-  // folder's name says the format.
+  // Writes `episodes` episodes of `run` and replays them, all of which must succeed; the name of
+  // the file or folder determines the format.
   void ExpectRepeated(const std::string& run, const std::string& format, const std::string& name,
                       int episodes) {
     const Outcome exported =
@@ -59,25 +58,26 @@ TEST_F(SkillReplay, EachFormatDoesTheTaskAgain) {
   ExpectRepeated(Pick(), "robomimic", "pick.hdf5", 6);
 }
 
-// Nothing corrects where a block is let go that has slipped a little on its longer way: the
-// trajectory rests between the subtasks, the rollout does not. What fails for that is not written.
+// A replay does not correct a block that was released after slipping slightly on its longer path:
+// the trajectory rests between the subtasks, the rollout does not. Episodes that fail for this
+// reason are not written.
 TEST_F(SkillReplay, AChainOfSubtasksDoesToo) {
   ExpectRepeated(Move(), "csv", "move", 20);
   ExpectRepeated(Move(), "robomimic", "move.hdf5", 20);
 }
 
-// A replay that would succeed whatever the file says proves nothing.
+// Modified files must fail: a replay that always succeeds proves nothing.
 TEST_F(SkillReplay, AnotherMotionFails) {
   const robot::JointTrajectory motion = ExportedPick();
   const std::vector<RunSkill> skills = PrepareSkills(AtPhysicsRate(ReadRun(Pick())));
   const SkillNotes notes = NotesFrom(motion.notes, "pick.csv");
   EXPECT_EQ(ReplayTrajectory(skills, motion, notes, "a"), std::vector<bool>{true});
 
-  robot::JointTrajectory open = motion;  // never closes its hand
+  robot::JointTrajectory open = motion;  // never closes the gripper
   open.positions.col(7).setConstant(0.04);
   EXPECT_EQ(ReplayTrajectory(skills, open, notes, "a"), std::vector<bool>{false});
 
-  robot::JointTrajectory beside = motion;  // 0.15 rad are about 8 cm at the block
+  robot::JointTrajectory beside = motion;  // 0.15 rad is about 8 cm at the block
   beside.positions.col(0).array() += 0.15;
   EXPECT_EQ(ReplayTrajectory(skills, beside, notes, "a"), std::vector<bool>{false});
 
@@ -110,17 +110,17 @@ TEST_F(SkillReplay, AFileThatDoesNotFitIsRefusedInOneLine) {
       {Path("noise.hdf5"), ""},
       {Path("alone.json"), "alone.notes.json"},
       {Path("pick.csv") + " --run " + Move(), "task 'pick_up_block'"},
-      {Path("pick.csv") + " --run " + Path("nowhere"), "not there"},
+      {Path("pick.csv") + " --run " + Path("nowhere"), "does not exist"},
       {write("arm.csv", [](Trajectory* t) { t->joints[2] = "elbow"; }), "panda_joint3"},
       {write("robot.csv", [](Trajectory* t) { t->notes["robot"] = "generic6"; }), "generic6"},
       {write("asset.csv", [](Trajectory* t) { t->notes["assets"] = "[\"00\"]"; }), "changed"},
       {write("start.csv", [](Trajectory* t) { t->notes["start"] = "{}"; }), "start"},
-      {write("none.csv", [](Trajectory* t) { t->notes.clear(); }), "lacks the note"},
+      {write("none.csv", [](Trajectory* t) { t->notes.clear(); }), "lacks the metadata entry"},
       {write("times.csv",
              [](Trajectory* t) {
                t->notes["subtasks"] = R"([{"name":"pick_up_block","begin":0,"end":1e300}])";
              }),
-       "was cut"},
+       "is truncated"},
   };
   for (const auto& [arguments, word] : cases) {
     const Outcome outcome = RunProgram("replay --quiet " + arguments);

@@ -1,5 +1,5 @@
-// Steamers of one kind, put on each other where a grammar puts them: touching. They stand still in
-// both engines, with a lid and without.
+// Steamers of one kind, stacked in contact as a grammar places them, are stable in both engines,
+// with a lid and without.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ class SteamerStack : public ::testing::TestWithParam<int> {
     lid_ = assets::ReadAsset(made[1].folder);
   }
 
-  // Upright on the floor, each turned otherwise, a lid of the same seed on top.
+  // Upright on the floor, each rotated differently, with a lid of the same seed on top.
   std::vector<Isometry3d> Poses(int count, bool lid) const {
     const double high = core::Bounds(steamer_.solid).max().z();
     std::vector<Isometry3d> poses;
@@ -49,7 +49,7 @@ class SteamerStack : public ::testing::TestWithParam<int> {
     return poses;
   }
 
-  // m, the farthest that one strays within two seconds, once it had half a second to settle in.
+  // Returns the largest displacement of one within two seconds, after half a second of settling, m.
   double DriftInBullet(int count, bool lid, double time_step) const {
     const sim::RigidBody steamer = sim::BodyFromAsset(steamer_), top = sim::BodyFromAsset(lid_);
     std::vector<sim::SettlingBody> bodies;
@@ -80,7 +80,7 @@ std::string Replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-// What stands between two marks of an asset's MJCF, files found from the folder above.
+// Returns the text between two marks of an asset's MJCF, with files relative to the parent folder.
 std::string Section(const assets::Asset& asset, const std::string& from, const std::string& to) {
   const std::string text = assets::MjcfText(asset);
   const size_t first = text.find(from) + from.size();

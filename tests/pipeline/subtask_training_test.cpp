@@ -1,4 +1,4 @@
-// What a training says of itself: how long it still takes, and what its policy was learnt by.
+// The progress report of a training: the remaining time, and the learning method of its policy.
 #include "pipeline/subtask_training.h"
 
 #include <gtest/gtest.h>
@@ -15,13 +15,13 @@ rl::TrainingRecord After(double samples, double seconds) {
   return record;
 }
 
-// 2,000,000 decisions at 1000 a second take 2000 s: 30 minutes are over before.
+// 2,000,000 decisions at 1000 per second take 2000 s; the limit of 30 minutes is lower.
 TEST(TimeLeft, IsThatOfTheStepsOrOfTheMinutesWhateverEndsFirst) {
   rl::TrainingOptions options;
   options.max_samples = 2'000'000;
   options.max_seconds = 1800.0;
   EXPECT_NEAR(TimeLeft(After(100e3, 100.0), options), 1700.0, 1e-6);  // 1900 by steps
-  options.max_seconds = 0.0;                                          // no end
+  options.max_seconds = 0.0;                                          // unlimited
   EXPECT_NEAR(TimeLeft(After(100e3, 100.0), options), 1900.0, 1e-6);
   options.max_seconds = 1800.0;
   options.max_samples = 200'000;
@@ -51,7 +51,7 @@ TEST(LearningShares, AreWhatThePolicyLearntBy) {
   EXPECT_EQ(SharesOf(81920, Imitating(65536), 64, kFocus).imitated, 65536);
   EXPECT_EQ(SharesOf(81920, Imitating(65537), 64, kFocus).imitated, 69632);
   EXPECT_EQ(SharesOf(81920, Imitating(0), 64, kFocus).imitated, 0);
-  // Nobody shows what the joints shall do.
+  // There is no scripted expert for joint actions.
   EXPECT_EQ(SharesOf(81920, Imitating(65536), 64, rl::ActionSpace::kJoints).imitated, 0);
   rl::PpoOptions guided = Imitating(65536);
   guided.critic_samples = 5 * 4096;
@@ -62,11 +62,12 @@ TEST(LearningShares, AreWhatThePolicyLearntBy) {
 }
 
 TEST(LearningShares, AreSaidWithoutPpoWhereThereWasNone) {
-  EXPECT_EQ(Learnt(40960, {40960, 0}).Method(), "imitation of a script");
-  EXPECT_EQ(Learnt(81920, {65536, 0}).Method(), "imitation of a script (66k decisions), then PPO");
+  EXPECT_EQ(Learnt(40960, {40960, 0}).Method(), "imitation of a scripted expert");
+  EXPECT_EQ(Learnt(81920, {65536, 0}).Method(),
+            "imitation of a scripted expert (66k decisions), then PPO");
   EXPECT_EQ(Learnt(81920, {0, 0}).Method(), "PPO");
-  EXPECT_EQ(Learnt(4096, {0, 4096}).Method(), "the script");
-  EXPECT_EQ(Learnt(81920, {0, 20480}).Method(), "the script (20k decisions), then PPO");
+  EXPECT_EQ(Learnt(4096, {0, 4096}).Method(), "a scripted expert");
+  EXPECT_EQ(Learnt(81920, {0, 20480}).Method(), "a scripted expert (20k decisions), then PPO");
 }
 
 }  // namespace

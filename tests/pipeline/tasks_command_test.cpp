@@ -1,5 +1,5 @@
-// `tasks` as a user calls it: by rules, and by a language model whose answers are good, flawed and
-// then repaired, or hopeless. The server is a real one, started here.
+// `tasks` by rules, and by a language model whose answers are good, flawed and then repaired, or
+// hopeless. The server is a real one, started here.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -148,7 +148,7 @@ TEST_F(TasksCommand, AWrongSignGoesBackAndIsRepaired) {
   ASSERT_EQ(set.tasks.size(), 1u);
   const tasks::Subtask& subtask = set.tasks[0].subtasks[0];
   EXPECT_TRUE(subtask.sound());
-  ASSERT_EQ(subtask.attempts.size(), 2u);  // every attempt is kept, with what was wrong with it
+  ASSERT_EQ(subtask.attempts.size(), 2u);  // every attempt is kept with its findings
   EXPECT_EQ(subtask.attempts[0].findings[0].code, "sign-against-success");
   EXPECT_EQ(subtask.attempts[1].findings[0].code, "unknown-joint");
   EXPECT_EQ(server.bodies().size(), 3u);
@@ -162,16 +162,16 @@ TEST_F(TasksCommand, AHopelessOneStaysInTheFileAndFailsTheRun) {
   const Outcome outcome = RunProgram("tasks " + Assets() + " --count 2 --llm " + server.url() +
                                      " -o " + Path("t.json"));
   EXPECT_EQ(outcome.code, 1) << outcome.text;
-  EXPECT_NE(outcome.text.find("not sound"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("not valid"), std::string::npos) << outcome.text;
   const tasks::TaskSet set = Read("t.json");
   ASSERT_EQ(set.tasks.size(), 2u);
   EXPECT_TRUE(set.tasks[0].sound());
   EXPECT_FALSE(set.tasks[1].sound());
   EXPECT_EQ(set.tasks[1].subtasks[0].attempts.size(), 3u);
-  EXPECT_NE(core::ReadFile(Path("t.html")).find("not sound"), std::string::npos);
+  EXPECT_NE(core::ReadFile(Path("t.html")).find("not valid"), std::string::npos);
 }
 
-// Five hundred drawers, one of them led by another, and a part that floats.
+// Five hundred drawers, one of them a mimic joint, and a floating part.
 TEST_F(TasksCommand, AThingOfFiveHundredJointsIsDoneInSeconds) {
   std::string urdf =
       "<robot name=\"rack\"><link name=\"body\">"

@@ -1,5 +1,5 @@
-// `train` and `rollout` as a user calls them, with trainings too short to learn much: what is
-// written, gone on with, re-used and refused.
+// `train` and `rollout` with trainings too short to learn much: written files, resuming, reuse and
+// rejected inputs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -75,11 +75,11 @@ TEST_F(TrainCommand, WritesARunThatRolloutsReadAndResumeKeeps) {
   fs::remove_all(folder_.path() / "tin");
   const Outcome gone = RunProgram("rollout " + Path("run"));
   EXPECT_EQ(gone.code, 1);
-  EXPECT_NE(gone.text.find("'tin' is not there"), std::string::npos) << gone.text;
+  EXPECT_NE(gone.text.find("'tin' no longer exists"), std::string::npos) << gone.text;
 }
 
-// One training writes into a folder at a time; one that is stopped says what it has kept, and what
-// is killed is in nobody's way.
+// Only one training may write into a folder at a time; a stopped one reports its kept results, and
+// a killed one does not block others.
 TEST_F(TrainCommand, OneTrainsInAFolderAndCtrlCKeepsWhatItLearnt) {
   const std::string long_training =
       "train " + Path("tasks.json") + " --task pick_up_tin -o " + Path("run") +
@@ -114,7 +114,8 @@ TEST_F(TrainCommand, OneTrainsInAFolderAndCtrlCKeepsWhatItLearnt) {
   const Outcome ended = Train("pick_up_tin", "--resume --json");
   EXPECT_EQ(ended.code, 0) << ended.text;
   const auto report = nlohmann::json::parse(core::ReadFile(Path("run/report.json")));
-  EXPECT_EQ(report["subtasks"][0].at("method"), "imitation of a script");  // 2048 of 65,536
+  EXPECT_EQ(report["subtasks"][0].at("method"),
+            "imitation of a scripted expert");  // 2048 of 65,536
   EXPECT_EQ(report["subtasks"][0].at("imitated"), report["subtasks"][0].at("samples"));
 }
 
@@ -131,7 +132,7 @@ TEST_F(TrainCommand, RefusesWithOneLine) {
   EXPECT_NE(robot.text.find("tin.json"), std::string::npos) << robot.text;
   const Outcome nothing = RunProgram("rollout " + Path("tin"));
   EXPECT_EQ(nothing.code, 1);
-  EXPECT_NE(nothing.text.find("no folder of a training"), std::string::npos) << nothing.text;
+  EXPECT_NE(nothing.text.find("not a training folder"), std::string::npos) << nothing.text;
 }
 
 }  // namespace

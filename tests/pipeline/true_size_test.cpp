@@ -60,7 +60,7 @@ TEST(TrueSize, AnAbsurdSizeNamesTheUnitThatFits) {
   EXPECT_NO_THROW(RequirePlausibleSize(chair, {0.45, 0.5, 0.895}, 1.0, "chair.glb"));
 }
 
-// The axis that a format leaves open, by proportions and by what a thing stands on.
+// The up axis of a format that does not specify it, by proportions and by stability.
 TEST(UpAxis, IsGuessedWhereTheOtherClearlySuitsBetter) {
   const auto& base = physics_params::KnowledgeBase::Shipped();
   const auto guess = [&](const char* file, const char* category, const Eigen::Vector3d& sides,
@@ -80,7 +80,7 @@ TEST(UpAxis, IsGuessedWhereTheOtherClearlySuitsBetter) {
   EXPECT_EQ(guess("a.ply", "plate", {0.25, 0.25, 0.02}, &said), 'z');
   EXPECT_EQ(guess("a.obj", "plate", {0.25, 0.25, 0.02}, &said), 'z');
   EXPECT_EQ(guess("a.obj", "object", {0.2, 0.3, 0.25}, &said), 'y');
-  // glTF and DAE say it themselves: nothing is guessed or said.
+  // glTF and DAE specify it: there is no guess and no finding.
   EXPECT_EQ(guess("a.glb", "bottle", {0.07, 0.07, 0.3}, &said), 'y');
   EXPECT_EQ(said, core::Severity::kError);
 }

@@ -1,5 +1,6 @@
-// Small URDFs with the faults of real ones: overlap at the hinge, a lid that swings below the floor,
-// a handle inside its door, drawers inside each other, things that do not stand as they are given.
+// Small URDFs with the faults of real ones: overlap at the hinge, a lid that swings below the
+// floor, a handle inside its door, drawers inside each other, assets that fall over in their given
+// pose.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +53,7 @@ class UrdfFaults : public ::testing::Test {
     core::Progress progress;
     return ImportArticulated(file, {.name = "thing", .category = category}, &progress);
   }
-  // The same through the program: imported, then checked. Its asset.
+  // Imports and checks it with the program, and returns the asset.
   ArticulatedAsset Pass(const std::string& body, const std::string& category = "box") const {
     Import(body, category);
     const std::string file = (folder_.path() / "thing.urdf").string();
@@ -76,7 +77,7 @@ class UrdfFaults : public ::testing::Test {
   core::TemporaryFolder folder_;
 };
 
-// A cube whose door is sunk into it by `depth` at the hinge.
+// A cube whose door penetrates it by `depth` at the hinge.
 std::string SunkDoor(double depth) {
   return "<link name='body'><visual><origin xyz='0 0 0.15'/><geometry><box size='0.3 0.3 0.3'/>"
          "</geometry></visual></link><link name='door'><visual><origin xyz='0 0.15 0'/><geometry>"
@@ -90,13 +91,13 @@ TEST_F(UrdfFaults, OverlapAtTheHingeIsExcludedAndSaid) {
   const ArticulatedAsset asset = Pass(SunkDoor(0.012));
   ASSERT_EQ(asset.excluded_pairs.size(), 1u);
   EXPECT_EQ(Count(asset.findings, "contact-excluded"), 1);
-  EXPECT_NEAR(Figure(asset.findings, "contact-excluded"), 12.0, 0.01);  // mm, as it was built
+  EXPECT_NEAR(Figure(asset.findings, "contact-excluded"), 12.0, 0.01);  // mm, as built
   EXPECT_FALSE(std::isfinite(SweptClearance(assets::ModelOf(asset), 0).distance));
   // A door that only touches keeps its contacts.
   EXPECT_TRUE(Import(SunkDoor(-0.004)).excluded_pairs.empty());
 }
 
-// In both engines the excluded pair makes no contact, and nothing else stops to.
+// In both engines the excluded pair has no contact, and all other contacts remain.
 TEST_F(UrdfFaults, EnginesHeedTheExclusion) {
   const ArticulatedAsset asset = Pass(SunkDoor(0.012));
   const fs::path mjcf = folder_.path() / "out" / "thing" / "thing.xml";
@@ -113,8 +114,8 @@ TEST_F(UrdfFaults, EnginesHeedTheExclusion) {
   EXPECT_TRUE(mujoco->Touching().empty());
 }
 
-// A lid 0.2 m long whose hinge is 0.1 m above the floor, which its file lets swing straight down: it
-// may turn from level until its far lower edge meets the floor.
+// A lid 0.2 m long whose hinge is 0.1 m above the floor and whose file lets it swing straight down:
+// it may rotate from level until its far lower edge touches the floor.
 TEST_F(UrdfFaults, ALidEndsAtTheFloor) {
   const ArticulatedAsset asset = Pass(
       Link("body", Box(0, 0, 0.05, "0.3 0.3 0.1")) +
@@ -122,15 +123,15 @@ TEST_F(UrdfFaults, ALidEndsAtTheFloor) {
       Joint("revolute", "lid", "0.16 0 0.11", "0 1 0", 0.0, 1.5));
   ASSERT_EQ(Count(asset.findings, "joint-cut"), 1);
   EXPECT_FALSE(asset.fixed);
-  // The lower edge at radius 0.2, in the hinge's height of 0.11: sin(angle) = 0.11 / 0.2, and what
-  // is trimmed (5 mm of overlap at most) a little further.
+  // The lower edge at radius 0.2 and the hinge's height of 0.11: sin(angle) = 0.11 / 0.2, and a
+  // little more for the trimmed overlap (at most 5 mm).
   const double touch = std::asin(0.11 / 0.2);
   EXPECT_GT(asset.joints[0].upper, touch - 0.02);
   EXPECT_LT(asset.joints[0].upper, touch + 0.06);
   EXPECT_GT(LowestOnSweep(assets::ModelOf(asset), 0), 0.0);
 }
 
-// Its only joint would go through the floor at once: it hangs on something.
+// Its only joint would penetrate the floor immediately: the asset is mounted.
 TEST_F(UrdfFaults, WhatCannotStandIsHeld) {
   const ArticulatedAsset asset =
       Import(Link("body", Box(0, 0, 0.05, "0.3 0.3 0.1")) +
@@ -141,7 +142,7 @@ TEST_F(UrdfFaults, WhatCannotStandIsHeld) {
   EXPECT_NEAR(asset.joints[0].upper, 0.5, 1e-12);
 }
 
-// The handle's bar lies 8 mm deep in the door that it is fixed to, and moves with it: no fault.
+// The handle's bar lies 8 mm inside the door that it is fixed to and moves with: no fault.
 TEST_F(UrdfFaults, AHandleInsideItsDoorIsNoOverlap) {
   const ArticulatedAsset asset =
       Pass(Link("body", Box(0, 0, 0.15, "0.3 0.3 0.3")) +
@@ -153,7 +154,7 @@ TEST_F(UrdfFaults, AHandleInsideItsDoorIsNoOverlap) {
   EXPECT_TRUE(asset.excluded_pairs.empty());
 }
 
-// Two drawers, the lower 9 mm in the upper: neither is the other's parent.
+// Two drawers, the lower one 9 mm inside the upper: neither is the other's parent.
 TEST_F(UrdfFaults, NestedDrawersAreExcludedByName) {
   const std::string shell = Box(0.14, 0, 0.2, "0.02 0.4 0.4") + Box(0, 0.19, 0.2, "0.26 0.02 0.4") +
                             Box(0, -0.19, 0.2, "0.26 0.02 0.4");
@@ -168,8 +169,8 @@ TEST_F(UrdfFaults, NestedDrawersAreExcludedByName) {
   ASSERT_EQ(asset.excluded_pairs.size(), 1u);
 }
 
-// A drop-down door as thick as its cabinet's walls are thin has most of a mass that is split by
-// volume: a hand could not lift it. The whole weighs the same afterwards.
+// A thick drop-down door of a cabinet with thin walls gets most of a mass that is split by volume:
+// a human could not lift it. The total mass is kept.
 TEST_F(UrdfFaults, ADoorThatNoHandCouldLiftIsLightened) {
   const std::string file = Link("body", Box(-0.3, 0, 0.4, "0.02 0.6 0.8") +
                                             Box(0, 0, 0.01, "0.6 0.6 0.02")) +
@@ -183,12 +184,12 @@ TEST_F(UrdfFaults, ADoorThatNoHandCouldLiftIsLightened) {
   EXPECT_NEAR(GreatestLoad(asset, 0), 0.9 * 60.0 / 2.3, 0.01);
   const double whole = asset.links[0].inertial.mass + asset.links[1].inertial.mass;
   EXPECT_NEAR(whole, asset.parameters.mass.sample, 1e-6);
-  // Split by volume the door had had this much, of the same whole.
+  // Split by volume, the door had this share of the same total.
   const double share = 0.042 / (0.042 + 0.0096 + 0.0072);
   EXPECT_NEAR(asset.links[1].inertial.mass + moved, share * whole, 0.02 * whole);
 }
 
-// A slider that would go on into another link, which stands free: it ends before it.
+// A slider whose range reaches into another free-standing link: the range ends before it.
 TEST_F(UrdfFaults, ASliderEndsBeforeWhatIsInItsWay) {
   const ArticulatedAsset asset =
       Import(Link("body", Box(0, 0, 0.01, "0.6 0.3 0.02")) +
@@ -201,13 +202,13 @@ TEST_F(UrdfFaults, ASliderEndsBeforeWhatIsInItsWay) {
   EXPECT_NEAR(joint.upper, 0.16, 0.006);  // the gap, and what is trimmed
 }
 
-// A light box whose heavy door carries the centre of mass beyond its front when it is open.
+// A light box whose heavy door moves the centre of mass beyond its front when it opens.
 TEST_F(UrdfFaults, WhatTipsWhenOpenedIsHeld) {
   const auto cabinet = [&](const std::string& door) {
     return Import(Link("body", Box(0, 0, 0.2, "0.1 0.3 0.4")) + Link("door", Box(0, 0.14, 0, door)) +
                   Joint("revolute", "door", "-0.075 -0.14 0.2", "0 0 1", 0.0, 1.5));
   };
-  // The whole is 0.012 m3 and the door's share puts the centre beyond x = -0.05 when it is open.
+  // The total volume is 0.012 m3, and the open door moves the centre beyond x = -0.05.
   const ArticulatedAsset heavy = cabinet("0.04 0.28 0.38");
   EXPECT_TRUE(heavy.fixed);
   EXPECT_EQ(Count(heavy.findings, "held"), 1);
@@ -226,7 +227,8 @@ TEST_F(UrdfFaults, AFloatingBaseIsTheRoot) {
   EXPECT_EQ(Count(asset.findings, "floating-base"), 1);
 }
 
-// A gallows whose arm carries its centre of mass beyond its foot: it falls over, and so it lies.
+// A gallows whose arm moves its centre of mass outside its support polygon: it falls over, and is
+// imported lying.
 TEST_F(UrdfFaults, WhatFallsOverLies) {
   const ArticulatedAsset asset =
       Import(Link("body", Box(0, 0, 0.25, "0.02 0.02 0.5") + Box(0.15, 0, 0.49, "0.3 0.02 0.02")) +
@@ -236,7 +238,7 @@ TEST_F(UrdfFaults, WhatFallsOverLies) {
   EXPECT_LT(assets::BoundsAtZero(asset).sizes().z(), 0.45);
 }
 
-// A vessel whose base bulges by 1 mm stands on a flat of its own.
+// A vessel whose base bulges by 1 mm gets a flat support face.
 TEST_F(UrdfFaults, ARoundedBaseIsLevelled) {
   core::TriangleMesh mesh = assets::CylinderMesh(0.03, 0.2);
   for (Eigen::Vector3d& v : mesh.vertices) {
@@ -281,7 +283,7 @@ TEST_F(UrdfFaults, ARigidUrdfBecomesARigidAsset) {
   EXPECT_NE(json.find("urdf-rigid"), std::string::npos);
 }
 
-// check: every fault is a row, and the last is seen as well as the first.
+// check: every fault is a result, and the last is found as well as the first.
 TEST_F(UrdfFaults, CheckListsAllFaultsOfAUrdf) {
   const auto link = [](const std::string& name, const std::string& inertia) {
     return "<link name='" + name + "'><inertial><mass value='1'/><inertia " + inertia +

@@ -1,5 +1,5 @@
-// The program's flags: what is not known is answered with the nearest, help shows every default,
-// --json is JSON everywhere, and --config may stand anywhere.
+// The program's flags: unknown ones are answered with the nearest, help shows every default, --json
+// is JSON everywhere, and --config may stand anywhere.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ TEST(Usage, HelpGivesEveryDefaultAndNamesOfChoices) {
                          line.find("INT") != std::string::npos ||
                          line.find("FLOAT") != std::string::npos;
       if (!takes) continue;
-      line = std::regex_replace(line, std::regex(" in \\[[^\\]]*\\]"), "");  // of a range
+      line = std::regex_replace(line, std::regex(" in \\[[^\\]]*\\]"), "");  // a range
       EXPECT_TRUE(line.find('[') != std::string::npos || line.find("REQUIRED") != std::string::npos)
           << command << ": " << line;
       EXPECT_EQ(line.find("->"), std::string::npos) << command << ": " << line;

@@ -1,4 +1,4 @@
-// Three of every kind in the library pass every row of their check.
+// Three assets of every kind in the library pass all of their checks.
 #include <gtest/gtest.h>
 
 #include "core/files.h"
