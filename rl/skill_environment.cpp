@@ -11,7 +11,7 @@
 namespace simwright::rl {
 namespace {
 
-constexpr std::uint64_t kEpisodesOfOne = 1ull << 40;  // more than one environment ever sees
+constexpr std::uint64_t kEpisodesOfOne = 1ull << 40;  // more than any environment runs
 
 template <typename Number>
 void Append(const Number& number, std::string* bytes) {
@@ -46,8 +46,8 @@ SkillEnvironment::SkillEnvironment(std::shared_ptr<const Skill> skill, int count
 
 SkillEnvironment::~SkillEnvironment() = default;
 
-// Body(i) for every environment. Threads take the next one when they are done with theirs: where an
-// episode ends, its successor has to be planned, which takes as long as ten decisions.
+// Calls body(i) for every environment. Threads take the next one as soon as they are done: after an
+// episode's end the next one is planned, which takes as long as ten decisions.
 template <typename Body>
 void SkillEnvironment::ForEach(const Body& body) {
   core::ParallelFor(size(), [&](int i) { body(static_cast<size_t>(i)); });

@@ -29,17 +29,17 @@ class SkillWorld {
   bool touching() const { return touching_; }
 
  private:
-  void CloseOn(int thing, double leader);
+  void CloseGripperOn(int thing, double leader);
   void ReadContacts();
 
   const Skill& skill_;
   const SkillVariant& variant_;
   sim::ArticulatedWorld world_;
   std::unique_ptr<sim::DrivenRobot> robot_;
-  std::vector<int> bodies_;    // by object; -1: not in the world
-  std::vector<int> thing_of_;  // by body; -1: the robot
+  std::vector<int> bodies_;     // by object; -1: not in the world
+  std::vector<int> object_of_;  // by body; -1: the robot
   std::vector<sim::LinkContact> contacts_;
-  std::vector<double> pressed_[2];  // by finger: N s on each object in the last substep
+  std::vector<double> finger_impulses_[2];  // by finger: N s on each object in the last substep
   int touched_ = -1, touched_link_ = -1;
   bool grasped_ = false;
   bool touching_ = false;  // the robot touches an object, the floor or itself

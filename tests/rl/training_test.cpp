@@ -165,11 +165,11 @@ TEST_F(TrainingTest, ACheckpointOfAnotherTrainingIsRefusedSayingWhatDiffers) {
   };
   EXPECT_NE(refusal([](TrainingOptions* o) {
               o->facts["task"] = "open";
-            }).find("its task is 'reach', wanted is 'open'"),
+            }).find("its task is 'reach', expected 'open'"),
             std::string::npos);
   EXPECT_NE(refusal([](TrainingOptions* o) {
               o->ppo.hidden = {16, 8};
-            }).find("its hidden is '16-16', wanted is '16-8'"),
+            }).find("its hidden is '16-16', expected '16-8'"),
             std::string::npos);
   ReachEnvironment more(kEnvironments + 1);
   EXPECT_THROW(TrainPolicy(&more, SmallTraining(9), whole_, true), core::Error);
@@ -179,7 +179,7 @@ TEST_F(TrainingTest, ACheckpointOfAnotherTrainingIsRefusedSayingWhatDiffers) {
   ASSERT_NE(at, std::string::npos);
   newer[at + 8] = '3';
   core::WriteFile(whole_ / kCheckpointFile, newer);
-  EXPECT_NE(refusal([](TrainingOptions*) {}).find("its version is '3', wanted is '2'"),
+  EXPECT_NE(refusal([](TrainingOptions*) {}).find("its version is '3', expected '2'"),
             std::string::npos);
   for (const double share : {0.0, 0.1, 0.5, 0.9, 0.999}) {
     const auto length = static_cast<std::size_t>(share * static_cast<double>(bytes.size()));
