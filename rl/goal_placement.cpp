@@ -8,7 +8,7 @@ namespace {
 constexpr double kHandBeside = 0.08;  // m, space for the gripper around the object
 constexpr double kHandAbove = 0.15;   // m
 
-// Returns true if the object with the gripper on it, displaced by `way`, would intersect another
+// Returns true if the object with the gripper on it, displaced by `displacement`, would intersect another
 // object.
 bool IsBlocked(const SkillVariant& variant, const tasks::SceneState& state, int thing,
                const Eigen::Vector3d& displacement) {
