@@ -62,8 +62,8 @@ Row Hacd(const core::TriangleMesh& mesh, int parts) {
   hacd.SetNPoints(points.size());
   hacd.SetTriangles(triangles.data());
   hacd.SetNTriangles(triangles.size());
-  // As in Bullet's own example, except for an unbounded concavity: it merges clusters down to the
-  // requested number.
+  // The settings of Bullet's own example, except for an unbounded concavity: it merges clusters
+  // down to the requested number.
   hacd.SetCompacityWeight(0.1);
   hacd.SetVolumeWeight(0.0);
   hacd.SetNClusters(parts);

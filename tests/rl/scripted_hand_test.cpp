@@ -103,7 +103,7 @@ TEST(ScriptedHand, LeavesWhatHasSlidPastItsGoal) {
     if (missing < 0.0) {
       EXPECT_EQ(action[0], 0.0f);
     }
-    // As hard as the arm can: it slides past.
+    // Pushes as hard as the arm can: it slides past.
     if (action[0] > 0.0f && !past) action[0] = 1.0f;
     decision = episode.Step(action.data());
   }

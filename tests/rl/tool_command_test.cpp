@@ -159,8 +159,7 @@ TEST(TargetOf, StaysBackAlongItsAxisWhileItIsOffToASide) {
   const Vector3d none = Vector3d::Zero(), ahead = -Vector3d::UnitX();
   EXPECT_NEAR(back(0.0, 0.0, none), 0.0, 1e-12);
   EXPECT_NEAR(back(0.02, 0.0, none), 0.0, 1e-12);
-  EXPECT_NEAR(back(0.0, 0.045, none), 0.04,
-              1e-9);  // 2 cm off the free radius
+  EXPECT_NEAR(back(0.0, 0.045, none), 0.04, 1e-9);  // 2 cm off the free radius
   EXPECT_NEAR(back(0.3, 0.0, none), skill->options.standoff, 1e-12);
   // Along the free direction there is no standoff; against it, and beside it, there is.
   EXPECT_NEAR(back(0.3, 0.0, ahead), 0.0, 1e-12);
