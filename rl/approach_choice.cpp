@@ -10,24 +10,24 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kSpacing = 0.01;    // m between the points of the hand that are looked at
-constexpr double kInTheWay = 0.008;  // m: what goes deeper than this does not pass
-constexpr double kWorkDone = 0.8;    // share of a joint's way by which its tasks are done
-constexpr double kBackwards = 0.75;  // of the tool's axis, back at the robot: no arm bends so
-constexpr double kFromBelow = 0.7;   // of the tool's axis upwards
+constexpr double kSpacing = 0.01;              // m between the sampled points of the gripper
+constexpr double kLargestPenetration = 0.008;  // m: a deeper penetration blocks the approach
+constexpr double kSuccessShare = 0.8;  // share of a joint's range at which its tasks succeed
+constexpr double kBackwards = 0.75;  // of the tool's axis, back at the robot: beyond an arm's reach
+constexpr double kFromBelow = 0.7;   // of the tool's axis, upwards
 
-// Of a way to come to the part, over the joint's way.
+// The quality of an approach over the joint's motion.
 struct Fit {
-  double deepest = 0.0;     // m, the hand's points in what is in its way
-  bool points_away = true;  // neither back at the robot nor up
+  double deepest = 0.0;     // m, penetration of the gripper's points
+  bool points_away = true;  // points neither back at the robot nor upwards
 
-  bool Passes() const { return points_away && deepest < kInTheWay; }
+  bool Passes() const { return points_away && deepest < kLargestPenetration; }
   bool IsBetterThan(const Fit& other) const {
     return points_away != other.points_away ? points_away : deepest < other.deepest;
   }
 };
 
-// `away`: from the robot to the thing.
+// `away`: the direction from the robot to the object.
 bool PointsAway(const Isometry3d& world_from_tool, const Vector3d& away) {
   const Vector3d axis = world_from_tool.linear().col(2);
   return axis.z() < kFromBelow && axis.dot(away) > -kBackwards;
@@ -45,7 +45,7 @@ Fit FitOf(const Isometry3d& link_from_tool, const SurfacePoints& hand, const Ski
   away.z() = 0.0;
   away.normalize();
   Fit fit;
-  for (const double share : {0.0, 0.5 * kWorkDone, kWorkDone}) {
+  for (const double share : {0.0, 0.5 * kSuccessShare, kSuccessShare}) {
     std::vector<double> joints = tasks::RestPositions(thing);
     joints[static_cast<size_t>(focus.joint)] = joint.rest() + share * (joint.far() - joint.rest());
     const std::vector<Isometry3d> poses = BodyPoses(body, thing, root, joints);

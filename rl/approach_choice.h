@@ -4,10 +4,10 @@
 
 namespace simwright::rl {
 
-// How the hand comes to a part that a joint moves: the first of focus.approaches with which it is
-// in nothing's way from the joint's rest to the end of its work, fingers open, and points neither
-// back at the robot nor up, as a hand that takes a lid from above would in the end; else the one
-// that comes nearest to that. `body`: of the focus' thing.
+// Returns the approach pose (a candidate of focus.approaches) for a part that a joint moves: the
+// first one with which the open gripper is collision-free from the joint's rest position to the
+// joint target and points neither back at the robot nor upwards. Without such a one, returns the
+// candidate that comes closest to that. `body` is the body of the target object.
 Eigen::Isometry3d ChooseApproach(const robot::RobotModel& robot, const SkillVariant& variant,
                                  const sim::ArticulatedBody& body);
 

@@ -8,12 +8,12 @@
 namespace simwright::rl {
 namespace {
 
-constexpr double kTouching = 0.001;  // m; in a board no point is deeper than half of its thickness
-constexpr double kInFloor = 0.005;   // m
-constexpr double kLook = 0.05;       // rad or m of any joint from look to look
-constexpr double kNearEnd = 0.3;     // rad or m of any joint from an end, which is near things
+constexpr double kPenetration = 0.001;  // m; a board's points are at most half its thickness deep
+constexpr double kFloorDepth = 0.005;   // m
+constexpr double kCheckStep = 0.05;     // rad or m of any joint between checks
+constexpr double kNearEnd = 0.3;        // rad or m of any joint from an exempt end
 
-// world_from_link of the robot's links. (urdf.links)
+// Returns world_from_link of the robot's links. (urdf.links)
 std::vector<Eigen::Isometry3d> RobotPoses(const robot::RobotModel& robot,
                                           const Eigen::Isometry3d& world_from_robot,
                                           const robot::Posture& arm) {
@@ -31,16 +31,16 @@ std::vector<Eigen::Isometry3d> RobotPoses(const robot::RobotModel& robot,
   return poses;
 }
 
-bool IsInFloor(const SurfacePoints& surface, const Eigen::Isometry3d& world_from_surface) {
+bool IntersectsFloor(const SurfacePoints& surface, const Eigen::Isometry3d& world_from_surface) {
   if ((world_from_surface * surface.center).z() > surface.radius) return false;
   for (const Eigen::Vector3d& point : surface.points) {
-    if ((world_from_surface * point).z() < -kInFloor) return true;
+    if ((world_from_surface * point).z() < -kFloorDepth) return true;
   }
   return false;
 }
 
-// With every face moved out by `margin` (m).
-BodySolids Grown(BodySolids solids, double margin) {
+// Returns the solids with every face offset outwards by `margin` (m).
+BodySolids Inflated(BodySolids solids, double margin) {
   for (std::vector<ConvexSolid>& link : solids) {
     for (ConvexSolid& solid : link) {
       const Eigen::Vector3d low = solid.box.min().array() - margin;
@@ -53,10 +53,10 @@ BodySolids Grown(BodySolids solids, double margin) {
 }
 
 template <typename Obstacles>
-bool IsInOne(const SurfacePoints& surface, const Eigen::Isometry3d& pose,
-             const Obstacles& obstacles) {
+bool IntersectsAny(const SurfacePoints& surface, const Eigen::Isometry3d& pose,
+                   const Obstacles& obstacles) {
   return std::any_of(obstacles.begin(), obstacles.end(), [&](const auto& obstacle) {
-    return DeepestInBody(surface, pose, *obstacle.solids, obstacle.poses) > kTouching;
+    return DeepestInBody(surface, pose, *obstacle.solids, obstacle.poses) > kPenetration;
   });
 }
 
@@ -75,18 +75,18 @@ ArmClearance::ArmClearance(const Skill& skill, const SkillVariant& variant,
   const std::vector<Eigen::Isometry3d> home =
       RobotPoses(*skill.robot, world_from_robot_, skill.robot->home());
   for (size_t l = 0; l < home.size(); ++l) {
-    grounded_.push_back(IsInFloor(skill.robot_surface[l], home[l]));
+    touches_floor_.push_back(IntersectsFloor(skill.robot_surface[l], home[l]));
   }
 }
 
 void ArmClearance::KeepOff(double margin, std::vector<robot::Posture> ends) {
   ends_ = std::move(ends);
-  grown_solids_.clear();
-  grown_ = obstacles_;
+  inflated_solids_.clear();
+  inflated_ = obstacles_;
   for (const Obstacle& obstacle : obstacles_) {
-    grown_solids_.push_back(Grown(*obstacle.solids, margin));
+    inflated_solids_.push_back(Inflated(*obstacle.solids, margin));
   }
-  for (size_t i = 0; i < grown_.size(); ++i) grown_[i].solids = &grown_solids_[i];
+  for (size_t i = 0; i < inflated_.size(); ++i) inflated_[i].solids = &inflated_solids_[i];
 }
 
 bool ArmClearance::IsClear(const robot::Posture& arm, Fingers fingers) const {
@@ -103,8 +103,8 @@ bool ArmClearance::IsClearOf(const Obstacles& obstacles, const robot::Posture& a
                                                   static_cast<int>(l)) != finger_links.end()) {
       continue;
     }
-    if (!grounded_[l] && IsInFloor(surface, robot[l])) return false;
-    if (IsInOne(surface, robot[l], obstacles)) return false;
+    if (!touches_floor_[l] && IntersectsFloor(surface, robot[l])) return false;
+    if (IntersectsAny(surface, robot[l], obstacles)) return false;
   }
   return true;
 }
@@ -113,19 +113,19 @@ bool ArmClearance::IsLoadClear(const robot::Posture& arm) const {
   if (carried_.points.empty()) return true;
   const Eigen::Isometry3d tool =
       world_from_robot_ * robot::ForwardKinematics(skill_.robot->arm, arm);
-  return !IsInFloor(carried_, tool) && !IsInOne(carried_, tool, obstacles_);
+  return !IntersectsFloor(carried_, tool) && !IntersectsAny(carried_, tool, obstacles_);
 }
 
 bool ArmClearance::IsWayClear(const robot::Posture& from, const robot::Posture& to) const {
   const double length = (to - from).lpNorm<Eigen::Infinity>();
-  const int looks = 1 + static_cast<int>(length / kLook);
-  for (int i = looks; i > 0; --i) {  // what is in the way is nearer to the work, as a rule
-    const double share = static_cast<double>(i) / looks;
+  const int checks = 1 + static_cast<int>(length / kCheckStep);
+  for (int i = checks; i > 0; --i) {  // obstacles are usually near the target end
+    const double share = static_cast<double>(i) / checks;
     const robot::Posture at = from + share * (to - from);
     const bool near_end = std::any_of(ends_.begin(), ends_.end(), [&](const auto& end) {
       return (end - at).template lpNorm<Eigen::Infinity>() < kNearEnd;
     });
-    const Obstacles& obstacles = near_end || grown_.empty() ? obstacles_ : grown_;
+    const Obstacles& obstacles = near_end || inflated_.empty() ? obstacles_ : inflated_;
     if (!IsClearOf(obstacles, at, Fingers::kCount) || !IsLoadClear(at)) return false;
   }
   return true;

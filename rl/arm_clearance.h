@@ -7,31 +7,32 @@
 
 namespace simwright::rl {
 
-// Of the robot: whether its fingers count. Those of a hand at work are about what it works on.
+// The treatment of the fingers in a collision check. Fingers at a grasp are in contact with the
+// target.
 enum class Fingers { kCount, kIgnored };
 
-// Where the robot's links, fingers open, are in none of the things that the variant places, nor in
-// the floor, as far as its surface, looked at every few centimetres, can tell. For one state of the
-// scene; constant but for what the hand carries.
+// A collision checker for the robot, fingers open, against the placed objects and the floor, for
+// one scene state. It samples the surface of each link every few centimetres. Constant except for
+// the payload.
 class ArmClearance {
  public:
-  // The thing `held` (-1: none) does not count. All must outlive this.
+  // Ignores the object `held` (-1: none). All arguments must outlive this.
   ArmClearance(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
                int held = -1);
 
-  ArmClearance(const ArmClearance&) = delete;  // KeepOff's obstacles are pointed to
+  ArmClearance(const ArmClearance&) = delete;  // the obstacles of KeepOff hold pointers
   ArmClearance& operator=(const ArmClearance&) = delete;
 
   bool IsClear(const robot::Posture& arm, Fingers fingers = Fingers::kCount) const;  // (J)
-  // The surface (m, the tool's frame) of what the hand carries: IsWayClear then asks that this is
-  // in nothing either. Nothing carried at first.
+  // Sets the surface points (m, tool frame) of the payload, which IsWayClear also checks from then
+  // on. Initially there is no payload.
   void Carry(SurfacePoints carried) { carried_ = std::move(carried); }
-  // IsWayClear then asks that the arm keeps `margin` (m) off things, but within 0.3 rad (or m) of
-  // `ends` (J each), which may be near things: what it goes by may give way, and the arm is never
-  // quite where it is sent.
+  // Makes IsWayClear require a clearance of `margin` (m) to objects, except within 0.3 rad (or m)
+  // of the configurations `ends` (J each), which may be near objects: objects beside the path may
+  // move when touched, and the arm lags behind its command.
   void KeepOff(double margin, std::vector<robot::Posture> ends);
-  // Whether the arm, and what it carries, is clear between the two postures (J), as it goes
-  // straight from joint to joint, and at the second.
+  // Returns true if the arm and its payload are collision-free along the straight joint-space
+  // segment between two configurations (J), and at the second one.
   bool IsWayClear(const robot::Posture& from, const robot::Posture& to) const;
 
  private:
@@ -46,14 +47,14 @@ class ArmClearance {
 
   const Skill& skill_;
   const Eigen::Isometry3d& world_from_robot_;
-  Obstacles obstacles_, grown_;  // `grown_`: by KeepOff's margin
-  std::vector<BodySolids> grown_solids_;
-  std::vector<robot::Posture> ends_;  // of KeepOff
+  Obstacles obstacles_, inflated_;  // `inflated_`: inflated by the margin of KeepOff
+  std::vector<BodySolids> inflated_solids_;
+  std::vector<robot::Posture> ends_;  // exempt from the margin of KeepOff
   SurfacePoints carried_;
-  std::vector<bool> grounded_;  // by link: is in the floor at home, as the foot of an arm may be
+  std::vector<bool> touches_floor_;  // by link: touches the floor at home, as an arm's base may
 };
 
-// ArmClearance::IsClear, for one posture.
+// Returns ArmClearance::IsClear for one configuration.
 bool IsArmClear(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
                 const robot::Posture& arm, int held = -1);
 

@@ -16,18 +16,18 @@ using Eigen::Vector3d;
 
 constexpr double kTurns[] = {0.0,         0.25 * M_PI, -0.25 * M_PI, 0.5 * M_PI,
                              -0.5 * M_PI, 0.75 * M_PI, -0.75 * M_PI, M_PI};  // rad
-// Arrivals to which a way is searched for where none is simple: a search takes long.
-constexpr size_t kSearched = 3;
+// The number of arrivals for which RRT-Connect is tried if no simple path exists: it is slow.
+constexpr size_t kMostSearches = 3;
 
 struct Arrival {
   CarryPlan plan;
   robot::Posture there;  // (J) with the tool at the destination
 };
 
-// Those with the hand turned by `turn`, the one soonest reached first.
+// Returns the arrivals with the gripper turned by `turn`, the one reached soonest first.
 std::vector<Arrival> ArrivalsAt(const Skill& skill, const SkillVariant& variant,
                                 const CarryTask& task, double turn, const robot::Posture& from) {
-  core::Rng rng = core::StreamRng(0, 0);  // the same end has the same plan
+  core::Rng rng = core::StreamRng(0, 0);  // deterministic
   Isometry3d there = task.there;
   there.linear() = Eigen::AngleAxisd(turn, Vector3d::UnitZ()) * there.linear();
   Isometry3d before = there;
@@ -44,8 +44,8 @@ std::vector<Arrival> ArrivalsAt(const Skill& skill, const SkillVariant& variant,
   return arrivals;
 }
 
-// The outline of the thing in the hand, in the tool's frame.
-SurfacePoints Load(const SkillVariant& variant, const tasks::SceneState& state) {
+// Returns the convex hull points of the grasped object, in the tool's frame.
+SurfacePoints PayloadPoints(const SkillVariant& variant, const tasks::SceneState& state) {
   const auto thing = static_cast<size_t>(variant.focus->thing);
   const std::vector<Isometry3d> links =
       tasks::LinkPosesOf(variant.model.things[thing], state.joints[thing]);
@@ -65,9 +65,9 @@ std::optional<CarryPlan> PlanCarry(const Skill& skill, const SkillVariant& varia
                                    const tasks::SceneState& state, const CarryTask& task,
                                    const robot::Posture& from) {
   ArmClearance clearance(skill, variant, state, variant.focus->thing);
-  clearance.Carry(Load(variant, state));
-  std::optional<CarryPlan> any, longer;
-  std::vector<CarryPlan> behind;  // what is between them and the arm, no detour gets round
+  clearance.Carry(PayloadPoints(variant, state));
+  std::optional<CarryPlan> any, by_waypoints;
+  std::vector<CarryPlan> blocked;  // not reachable by simple waypoints
   for (const double turn : kTurns) {
     if (turn != 0.0 && !task.may_turn) break;
     for (const Arrival& arrival : ArrivalsAt(skill, variant, task, turn, from)) {
@@ -75,16 +75,16 @@ std::optional<CarryPlan> PlanCarry(const Skill& skill, const SkillVariant& varia
       if (!clearance.IsClear(arrival.there)) continue;
       const auto way = PlanDetour(skill, clearance, from, arrival.plan.arrival);
       if (way && way->empty()) return arrival.plan;
-      if (!way && behind.size() < kSearched && clearance.IsClear(arrival.plan.arrival)) {
-        behind.push_back(arrival.plan);
+      if (!way && blocked.size() < kMostSearches && clearance.IsClear(arrival.plan.arrival)) {
+        blocked.push_back(arrival.plan);
       }
-      if (!way || longer) continue;
-      longer = arrival.plan;
-      longer->via = *way;
+      if (!way || by_waypoints) continue;
+      by_waypoints = arrival.plan;
+      by_waypoints->via = *way;
     }
   }
-  if (longer) return longer;
-  for (CarryPlan& plan : behind) {
+  if (by_waypoints) return by_waypoints;
+  for (CarryPlan& plan : blocked) {
     const auto way = SearchDetour(skill.robot->arm, clearance, from, plan.arrival);
     if (!way) continue;
     plan.via = *way;

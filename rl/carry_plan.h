@@ -7,25 +7,26 @@
 
 namespace simwright::rl {
 
-// How an arm brings the thing that it holds to its destination.
+// The joint path by which an arm carries a grasped object to its destination.
 struct CarryPlan {
-  double turn = 0.0;       // rad about the upright that the hand turns by, and the thing with it
-  robot::Posture arrival;  // (J) where the hand stays back before it puts the thing down
-  Detour via;              // on the way there
+  double turn = 0.0;       // rad about the vertical by which gripper and object turn
+  robot::Posture arrival;  // (J) before the final approach to the destination
+  Detour via;              // waypoints before `arrival`
 };
 
-// What is asked of a plan. Poses: world_from_tool.
+// The input of PlanCarry. Poses are world_from_tool.
 struct CarryTask {
-  Eigen::Isometry3d there;  // the hand when the thing has come to its destination
-  Eigen::Vector3d back;     // m, world: from there to where it stays back before it
-  bool may_turn = false;    // whether the hand may come there turned otherwise
+  Eigen::Isometry3d there;  // the tool pose with the object at its destination
+  Eigen::Vector3d back;     // m, world: from `there` to the pose before the final approach
+  bool may_turn = false;    // true if the gripper may arrive turned about the vertical
 };
 
-// The least turn, and of some postures the one soonest reached from `from`, from which the tool
-// goes to its destination and the arm, but for the thing `held`, is in nothing there nor on its way
-// to the posture, straight from joint to joint, else by a detour, else by one that is searched for.
-// Without such a one, of those that reach. None where none does. A tool that only ever goes
-// straight at a far destination ends at a joint's limit, or in furniture.
+// Plans the joint path from `from` (J) to a destination with the smallest turn about the vertical
+// and, among several configurations, the one that is reached soonest. The arm, with the grasped
+// object ignored as an obstacle, must be collision-free at the destination and on the path:
+// straight, else through waypoints (PlanDetour), else by RRT-Connect (SearchDetour). Without a
+// collision-free path, returns a reachable arrival; none if no arrival is reachable. A tool that
+// only tracks a straight line to a far destination ends at a joint limit or in furniture.
 std::optional<CarryPlan> PlanCarry(const Skill& skill, const SkillVariant& variant,
                                    const tasks::SceneState& state, const CarryTask& task,
                                    const robot::Posture& from);

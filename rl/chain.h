@@ -7,32 +7,33 @@
 
 namespace simwright::rl {
 
-// One subtask of a task, with what was learnt for it.
+// One subtask of a task, with the policy that was trained for it.
 struct ChainLink {
   const Skill* skill = nullptr;
-  const Policy* policy = nullptr;  // none: the script (rl/scripted_hand.h)
+  const Policy* policy = nullptr;  // none: the scripted expert (rl/scripted_hand.h)
 };
 
 struct ChainOutcome {
   std::vector<EvaluatedEpisode> links;  // up to the first that failed
-  bool success = false;                 // of all links
+  bool success = false;                 // all links succeeded
 };
 
 struct ChainEvaluation {
   std::vector<ChainOutcome> outcomes;
   int successes = 0;
   Interval interval;  // 95 %
-  // By link: how often it succeeded where the ones before it had.
+  // By link: the number of attempts and of successes, after all previous links had succeeded.
   std::vector<int> tried, succeeded;
 };
 
-// Runs the links one after the other from `start`, each from where the one before ended, things and
-// arm at rest. `rng` draws what Varied draws.
+// Runs the links in order from `start`, each from the end state of the previous one with objects
+// and arm at rest. `rng` is passed to Varied.
 ChainOutcome RunChain(const std::vector<ChainLink>& links, const EpisodeStart& start,
                       core::Rng& rng);
 
-// `count` chains from starts of the first link, drawn by `seed`. Throws core::Error without links,
-// or where a policy does not fit its skill or a skill without one has no script.
+// Runs `count` chains from start states of the first link that are sampled with `seed`. Throws
+// core::Error if there are no links, if a policy does not fit its skill, or if a skill without a
+// policy has no scripted expert.
 ChainEvaluation EvaluateChain(const std::vector<ChainLink>& links, int count, std::uint64_t seed);
 
 }  // namespace simwright::rl

@@ -10,24 +10,24 @@
 
 namespace simwright::rl {
 
-// A convex part of a thing, as points are looked up in it. Link frame, m.
+// A convex part of an object for point queries. Link frame, m.
 struct ConvexSolid {
-  // `mesh`: convex and closed, its faces look outwards.
+  // `mesh`: convex and closed, with outward-facing faces.
   explicit ConvexSolid(const core::TriangleMesh& mesh);
 
-  // m from `point` to the nearest face; 0 outside.
+  // Returns the distance (m) from `point` to the nearest face; 0 outside.
   double DepthOf(const Eigen::Vector3d& point) const;
 
   Eigen::AlignedBox3d box;
   std::vector<Eigen::Hyperplane<double, 3>> faces;  // each plane once
 };
 
-// By link of a body, the solids of its parts.
+// The convex parts of a body, by link.
 using BodySolids = std::vector<std::vector<ConvexSolid>>;
 
 BodySolids SolidsOf(const sim::ArticulatedBody& body);
 
-// Points on a surface and a sphere about them, m: what the sphere is clear of, the points are.
+// Points on a surface and their bounding sphere, m, for early rejection.
 struct SurfacePoints {
   SurfacePoints() = default;
   explicit SurfacePoints(std::vector<Eigen::Vector3d> given);
@@ -37,7 +37,8 @@ struct SurfacePoints {
   double radius = 0.0;
 };
 
-// How deep (m) the deepest of `surface` lies in `solid`, whose link sees it at `link_from_surface`.
+// Returns the depth (m) of the deepest point of `surface` in `solid`. `link_from_surface`: the pose
+// of the surface in the solid's link.
 double DeepestIn(const ConvexSolid& solid, const SurfacePoints& surface,
                  const Eigen::Isometry3d& link_from_surface);
 

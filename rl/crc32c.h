@@ -5,7 +5,7 @@
 
 namespace simwright::rl {
 
-// The CRC of Castagnoli's polynomial, as in RFC 3720, appendix B.4.
+// Returns the CRC with Castagnoli's polynomial (RFC 3720, appendix B.4).
 std::uint32_t Crc32c(std::string_view bytes);
 
 }  // namespace simwright::rl

@@ -3,7 +3,7 @@
 namespace simwright::rl {
 namespace {
 
-// At home, but standing and turned as `posture` is: the base's joints and the first that turns.
+// Returns home with the base's joints and the first rotary joint as in `posture`.
 robot::Posture Folded(const Skill& skill, const robot::Posture& posture) {
   robot::Posture folded = skill.robot->home();
   for (Eigen::Index j = 0; j < folded.size(); ++j) {

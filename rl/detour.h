@@ -8,13 +8,13 @@
 
 namespace simwright::rl {
 
-// Postures (J) that an arm goes through on its way from one to another, straight from joint to
-// joint between them.
+// Waypoints (J) of a joint path, without its ends, connected by straight joint-space segments.
 using Detour = std::vector<robot::Posture>;
 
-// How the arm gets from `from` to `to` (J) and is in nothing: straight, where that is clear (an
-// empty detour), else folded as at home before it turns, after it has turned, or both, or by home
-// itself. None where none of these is clear.
+// Returns the waypoints of a collision-free joint path from `from` to `to` (J): none for the
+// straight segment, else the first collision-free combination of folding the arm as at home before
+// the first rotary joint turns, folding it after, and home. Returns nullopt if none of these paths
+// is collision-free.
 std::optional<Detour> PlanDetour(const Skill& skill, const ArmClearance& clearance,
                                  const robot::Posture& from, const robot::Posture& to);
 

@@ -10,18 +10,18 @@
 namespace simwright::rl {
 namespace {
 
-// Of the fingers' part of an action: all of it has to overrule the script.
+// The weight of the finger command of an action: a full action overrides the scripted expert.
 constexpr float kOverrule = 2.0f;
 constexpr double kNearPlansEnd = 0.15;  // rad
-constexpr int kPlans = 3;               // of an episode, at most
-// Of the arm's pace, of one that carries a thing far: what hangs by its rim between two fingers
-// turns in them, and is lost, where it is swung.
-constexpr double kCarries = 0.6;
-constexpr double kFar = 0.25;  // m: to what is nearer the tool goes straight
+constexpr int kMostPlans = 3;           // per episode, at most
+// The pace of an arm that carries an object far: an object held by its rim between two fingers
+// rotates when it is accelerated, and is lost.
+constexpr double kCarryingPace = 0.6;
+constexpr double kFarDestination = 0.25;  // m: to a nearer destination the tool moves straight
 
 }  // namespace
 
-// What is run for one variant, with its memory.
+// The observer and the reward of one variant, with their memory.
 struct Episode::Program {
   Program(const Skill& skill, const SkillVariant& variant)
       : observer(skill, variant), reward(variant) {}
@@ -34,7 +34,7 @@ Episode::Episode(const Skill& skill)
     : skill_(skill),
       programs_(skill.variants.size()),
       action_(static_cast<size_t>(ActionSize(skill))),
-      guided_(action_.size()) {}
+      combined_action_(action_.size()) {}
 
 Episode::~Episode() = default;
 
@@ -49,9 +49,9 @@ void Episode::Begin(const EpisodeStart& start) {
   world_->Read(&state_);
   previous_ = state_;
   command_.sent = world_->robot().command();
-  plans_ = 0;
+  plan_count_ = 0;
   command_.pace = 1.0;
-  FollowPlan();
+  StartPlan();
   command_.leader = world_->robot().leader_command();
   command_.rate = robot::Posture::Zero(command_.sent.size());
   command_.leader_rate = 0.0;
@@ -66,8 +66,8 @@ void Episode::Begin(const EpisodeStart& start) {
   decisions_ = held_ = 0;
 }
 
-// From where things and arm are now, as `start_` has planned it.
-void Episode::FollowPlan() {
+// Starts the plan in `start_` from the current state of objects and arm.
+void Episode::StartPlan() {
   const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
   const Eigen::Isometry3d at_work = robot::ForwardKinematics(skill_.robot->arm, start_.at_work);
   const Eigen::Matrix3d& world_from_base = variant.subtask.start.world_from_robot.linear();
@@ -77,11 +77,12 @@ void Episode::FollowPlan() {
   command_.via = frame_->withdrawing() ? Detour() : start_.via;
   along_ = PosturesAlong(skill_, variant, state_, start_.at_work, start_.pitch);
   if (frame_->at_destination()) PlanArrival();
-  RestAsPlanned();
-  ++plans_;
+  UpdateRestConfiguration();
+  ++plan_count_;
 }
 
-// A door that stands wide open is pushed as far as one posture after the other goes.
+// Returns true if a door was pushed to the end of its planned configurations, which may not reach
+// the joint target from wide open.
 bool Episode::IsAtPlansEnd() const {
   const std::optional<Focus>& focus = skill_.variants[static_cast<size_t>(start_.variant)].focus;
   if (!focus || !focus->pushes || !along_.ends_early || frame_->withdrawing()) return false;
@@ -91,13 +92,13 @@ bool Episode::IsAtPlansEnd() const {
   return (position - end) * (begin - end) < kNearPlansEnd * std::abs(begin - end);
 }
 
-void Episode::PlanAnew() {
-  core::Rng rng = core::StreamRng(static_cast<std::uint64_t>(plans_), 0);
+void Episode::Replan() {
+  core::Rng rng = core::StreamRng(static_cast<std::uint64_t>(plan_count_), 0);
   EpisodeStart now = start_;
   now.state = state_;
   now.arm = arm_;
   start_ = Varied(skill_, now, rng, VariedParts::kNothing);
-  FollowPlan();
+  StartPlan();
 }
 
 void Episode::Act(const ToolTarget& target) {
@@ -114,12 +115,12 @@ void Episode::Act(const ToolTarget& target) {
   velocities_ = positions_;
 }
 
-// A destination that is far away is come to by a plan; to a near one the tool goes straight.
+// Plans a joint path to a far destination; to a near one the tool moves straight.
 void Episode::PlanArrival() {
   arrival_.resize(0);
   command_.pace = 1.0;
   const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
-  if (WayToDestination(variant, state_).norm() < kFar) return;
+  if (WayToDestination(variant, state_).norm() < kFarDestination) return;
   CarryTask task;
   task.there = frame_->world_from_focus();
   const double back = std::max(skill_.options.standoff, frame_->room_depth());
@@ -128,17 +129,17 @@ void Episode::PlanArrival() {
   const auto plan = PlanCarry(skill_, variant, state_, task, command_.sent);
   if (!plan) return;
   arrival_ = plan->arrival;
-  if (variant.focus->rim > 0.0) command_.pace = kCarries;
+  if (variant.focus->rim > 0.0) command_.pace = kCarryingPace;
   if (plan->turn != 0.0) frame_->Turn(plan->turn, state_);
   command_.goal = plan->arrival;
   command_.via = plan->via;
-  // Before a room that opens to a side the hand may have to go straight back first.
+  // In front of a side-opening receptacle the gripper may first have to move straight back.
   if (!variant.room) command_.via.push_back(plan->arrival);
 }
 
-// Where joints are to spare they keep to the posture that was planned. An arm that drifted home
-// while it pulled a door folded itself into that door.
-void Episode::RestAsPlanned() {
+// Redundant joints keep to the planned configuration. With home as their target, an arm that pulls
+// a door drifts into that door.
+void Episode::UpdateRestConfiguration() {
   const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
   const std::optional<Focus>& focus = variant.focus;
   if (!focus || frame_->withdrawing() || Pushes(variant)) {
@@ -170,14 +171,14 @@ Decision Episode::Step(const float* action) {
   work.back = frame_->back();
   work.room_depth = frame_->room_depth();
   if (skill_.options.action == ActionSpace::kGuided) {
-    ScriptedAction(*this, guided_.data());
-    for (size_t a = 0; a < guided_.size(); ++a) {
-      const float weight = a + 1 == guided_.size() ? kOverrule : 1.0f;
-      guided_[a] = std::clamp(guided_[a] + weight * action_[a], -1.0f, 1.0f);
+    ScriptedAction(*this, combined_action_.data());
+    for (size_t a = 0; a < combined_action_.size(); ++a) {
+      const float weight = a + 1 == combined_action_.size() ? kOverrule : 1.0f;
+      combined_action_[a] = std::clamp(combined_action_[a] + weight * action_[a], -1.0f, 1.0f);
     }
   }
   const bool guided = skill_.options.action == ActionSpace::kGuided;
-  Act(TargetOf(skill_, guided ? guided_.data() : action_.data(), work, command_));
+  Act(TargetOf(skill_, guided ? combined_action_.data() : action_.data(), work, command_));
   std::swap(previous_, state_);
   state_ = previous_;
   world_->Read(&state_);
@@ -191,8 +192,8 @@ Decision Episode::Step(const float* action) {
   const bool withdrew = frame_->withdrawing(), was_there = frame_->at_destination();
   frame_->Update(state_);
   if (frame_->at_destination() && !was_there) PlanArrival();
-  if (plans_ < kPlans && IsAtPlansEnd()) PlanAnew();
-  RestAsPlanned();
+  if (plan_count_ < kMostPlans && IsAtPlansEnd()) Replan();
+  UpdateRestConfiguration();
   if (withdrew && !frame_->withdrawing()) {
     command_.goal = start_.at_work;
     command_.via = start_.via;
@@ -209,8 +210,8 @@ Decision Episode::Step(const float* action) {
       std::max(1, static_cast<int>(std::ceil(options.hold_seconds / options.decision_seconds())));
   decision.terminated = held_ >= hold;
   decision.truncated = !decision.terminated && decisions_ >= options.decisions();
-  // Success that ends the episode counts as if it went on for ever: else a policy would gain by
-  // staying just short of it.
+  // A success that ends the episode is paid as if it lasted forever: otherwise a policy would gain
+  // by staying just short of it.
   if (decision.terminated) {
     decision.reward *= static_cast<float>(1.0 / (1.0 - options.discount));
   }

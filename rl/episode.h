@@ -15,17 +15,17 @@
 
 namespace simwright::rl {
 
-// What one decision led to.
+// The outcome of one decision.
 struct Decision {
   float reward = 0.0f;
-  bool success = false;     // now
+  bool success = false;     // in the current state
   bool terminated = false;  // success has held for options.hold_seconds
-  bool truncated = false;   // time is out, or the physics has failed
-  bool failed = false;      // the physics has
+  bool truncated = false;   // the time limit is reached, or the physics has failed
+  bool failed = false;      // the physics has failed
 };
 
-// One episode of a skill: a world, and what goes between it and a policy. Mutable; one thread at a
-// time. Repeats itself bit for bit from the same start and actions.
+// One episode of a skill: a world and the interface between it and a policy. Mutable; one thread at
+// a time. The same start state and actions give bit-identical episodes.
 class Episode {
  public:
   // `skill` must outlive the episode.
@@ -33,14 +33,14 @@ class Episode {
   ~Episode();
 
   void Begin(const EpisodeStart& start);
-  // `action` (A), clamped to [-1, 1].
+  // Executes `action` (A), clamped to [-1, 1].
   Decision Step(const float* action);
-  // Called after each control step from then on; may be empty.
+  // Sets a function that is called after each control step; may be empty.
   void Watch(std::function<void(const Episode&)> watch) { watch_ = std::move(watch); }
-  // Into `row`, as Observer says.
+  // Writes the observation into `row` (Observer).
   void Observe(float* row) const;
 
-  // As it was begun, but for what is planned: where a plan has ended early, another follows.
+  // Returns the start state of the episode. Its plan is replaced when the episode replans.
   const EpisodeStart& start() const { return start_; }
   const tasks::SceneState& state() const { return state_; }
   const SkillWorld& world() const { return *world_; }
@@ -52,13 +52,13 @@ class Episode {
 
  private:
   struct Program;
-  void FollowPlan();
+  void StartPlan();
   bool IsAtPlansEnd() const;
-  void PlanAnew();
+  void Replan();
   void Act(const ToolTarget& target);
   float Reward(bool* success);
   void PlanArrival();
-  void RestAsPlanned();
+  void UpdateRestConfiguration();
 
   const Skill& skill_;
   std::vector<std::unique_ptr<Program>> programs_;  // by variant, made when first used
@@ -68,15 +68,15 @@ class Episode {
   tasks::SceneState state_, previous_;
   robot::Posture arm_, velocities_;
   ArmCommand command_;
-  WorkPostures along_;      // of the joint that is worked on
-  robot::Posture arrival_;  // (J) before a destination that was planned for; else empty
+  WorkPostures along_;      // configurations along the target joint's path
+  robot::Posture arrival_;  // (J) before a planned destination; else empty
   Eigen::VectorXd positions_;
   ToolTarget target_;
-  std::vector<float> action_, guided_;  // (A) the policy's, and with the script's
+  std::vector<float> action_, combined_action_;  // (A) the expert's added to the second
   std::function<void(const Episode&)> watch_;
   int decisions_ = 0;
-  int plans_ = 0;  // that were followed
-  int held_ = 0;   // decisions in a row with success
+  int plan_count_ = 0;  // plans followed so far
+  int held_ = 0;        // consecutive decisions with success
 };
 
 }  // namespace simwright::rl

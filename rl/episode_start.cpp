@@ -19,18 +19,19 @@ using Eigen::Vector3d;
 
 constexpr int kTries = 60;
 constexpr double kFarthest = 0.4, kNearest = 0.2;  // m
-constexpr double kKeepsOff = 0.02;  // m off what stands open, which the arm would push shut
-constexpr double kShake = 0.03;     // rad, of an arm that begins where another skill ended
-constexpr double kApart = 0.005;    // m between boxes of things
-constexpr double kOnPart = 0.5;     // share of joints part of their way that the hand begins at
+constexpr double kClearance = 0.02;     // m off opened parts, which the arm would push shut
+constexpr double kPerturbation = 0.03;  // rad, perturbation of an arm after another skill
+constexpr double kSpacing = 0.005;      // m between AABBs of objects
+constexpr double kAtPartShare = 0.5;    // share of partly moved joints with the gripper at the part
 constexpr double kNearWall = 0.3;   // of the opening
-constexpr double kBackOff = 0.08;   // m that a hand gets away from what it has let go of, at least
-// Of the hand's own axis, out of a room: a hand that leans less into it leaves it level.
-constexpr double kLeansIn = 0.3;
-constexpr double kSteepest = 0.7;   // of the way out of it, or the hand would meet the ceiling
-constexpr double kFromRobot = 0.2;  // m from the robot's axis to a thing's box
+constexpr double kShortestRetreat = 0.08;  // m, the shortest retreat from a released object
+// The outward component of the gripper's axis: a gripper that leans less into a receptacle retreats
+// level.
+constexpr double kSmallestLean = 0.3;
+constexpr double kSteepest = 0.7;   // outward component, or the gripper would hit the ceiling
+constexpr double kFromRobot = 0.2;  // m from the robot's axis to an object's AABB
 
-double Draw(const FactorRange& range, core::Rng& rng) {
+double SampleFactor(const FactorRange& range, core::Rng& rng) {
   return std::exp(core::Uniform(rng, std::log(range.low), std::log(range.high)));
 }
 
@@ -39,23 +40,22 @@ Isometry3d Moved(const Isometry3d& pose, const Vector3d& pivot, const Vector3d& 
          Eigen::Translation3d(-pivot) * pose;
 }
 
-// m that things begin farther from the robot than described, in a try of that number: a drawer that
-// stands open may leave the arm no room where the closed one does. Every other time they begin
-// nearer: a lid goes away from the robot as it opens. The first third of the tries keeps to the
-// description.
-double Farther(int attempt) {
+// Returns the distance (m) by which a try moves the objects away from the robot: an open drawer may
+// leave the arm no room where the closed one does. Every other try moves them nearer: a lid moves
+// away from the robot as it opens. The first third of the tries keeps the described distance.
+double DistanceOffset(int attempt) {
   const double share = std::max(0.0, (attempt - kTries / 3) / (kTries * 2.0 / 3.0));
   return share * (attempt % 2 == 0 ? kFarthest : -kNearest);
 }
 
-// The try from which on a plan that is not clear will do. An arm that cannot get behind an open
-// door opens it wider, for ever; where the furniture is farther away, there is a way.
-int UnclearFrom(const SkillVariant& variant) {
+// Returns the first try in which a plan that is not clear is accepted. An arm that cannot get
+// behind an open door keeps opening it wider; if the furniture is farther away, there is a path.
+int FirstUnclearTry(const SkillVariant& variant) {
   return variant.focus->pushes ? 2 * kTries / 3 : kTries / 3;
 }
 
-// Moves and turns every thing; what stands in another goes with it and turns where it stands.
-// `farther`: m away from the robot, all of them.
+// Moves and turns every object; an object in or on another moves with it and turns in place.
+// `farther`: m away from the robot, for all of them.
 void Scatter(const SkillVariant& variant, const SkillOptions& options, double farther,
              core::Rng& rng, tasks::SceneState* state) {
   const Vector3d robot = variant.subtask.start.world_from_robot.translation();
@@ -99,14 +99,14 @@ bool Overlap(const SkillVariant& variant, const tasks::SceneState& state) {
       const int a = variant.placed[i], b = variant.placed[j];
       if (variant.carried_by[static_cast<size_t>(a)] == b) continue;
       if (variant.carried_by[static_cast<size_t>(b)] == a) continue;
-      if (boxes[i].exteriorDistance(boxes[j]) < kApart) return true;
+      if (boxes[i].exteriorDistance(boxes[j]) < kSpacing) return true;
     }
   }
   return false;
 }
 
-// Moves each joint that turns by up to `range` rad, within its limits.
-void Shake(const Skill& skill, double range, core::Rng& rng, robot::Posture* arm) {
+// Perturbs each rotary joint by up to `range` rad, within its limits.
+void Perturb(const Skill& skill, double range, core::Rng& rng, robot::Posture* arm) {
   for (Eigen::Index j = 0; j < arm->size(); ++j) {
     const robot::ArmJoint& joint = skill.robot->arm.joints[static_cast<size_t>(j)];
     if (joint.prismatic) continue;
@@ -114,32 +114,33 @@ void Shake(const Skill& skill, double range, core::Rng& rng, robot::Posture* arm
   }
 }
 
-void DrawBodies(const SkillVariant& variant, const SkillOptions& options, core::Rng& rng,
-                EpisodeStart* start) {
+void SampleBodies(const SkillVariant& variant, const SkillOptions& options, core::Rng& rng,
+                  EpisodeStart* start) {
   start->mass.clear();
   start->friction.clear();
   start->joint.clear();
   for (size_t i = 0; i < variant.model.things.size(); ++i) {
-    start->mass.push_back(Draw(options.mass, rng));
-    start->friction.push_back(Draw(options.friction, rng));
-    start->joint.push_back(Draw(options.joint, rng));
+    start->mass.push_back(SampleFactor(options.mass, rng));
+    start->friction.push_back(SampleFactor(options.friction, rng));
+    start->joint.push_back(SampleFactor(options.joint, rng));
   }
   start->delay = static_cast<int>(core::UniformIndex(rng, options.longest_delay + 1));
   start->finger_friction.reset();
-  if (options.finger_friction) start->finger_friction = Draw(*options.finger_friction, rng);
+  if (options.finger_friction) start->finger_friction = SampleFactor(*options.finger_friction, rng);
 }
 
-// EpisodeStart::withdraw: back along the hand's own axis, until it is out of the room that it is
-// in.
-Vector3d WayOut(const Skill& skill, const SkillVariant& variant, const EpisodeStart& start) {
+// Computes EpisodeStart::withdraw: back along the gripper's own axis, until it is out of its
+// receptacle.
+Vector3d RetreatDisplacement(const Skill& skill, const SkillVariant& variant,
+                             const EpisodeStart& start) {
   const Isometry3d tool = variant.subtask.start.world_from_robot *
                           robot::ForwardKinematics(skill.robot->arm, start.arm);
   Vector3d back = -tool.linear().col(2);
-  double length = kBackOff;
+  double length = kShortestRetreat;
   if (const auto room = SideRoomAround(variant.model, start.state, tool.translation())) {
     const Vector3d out = -InwardOf(*room, variant.model, start.state);
     const Vector3d aside = back - back.dot(out) * out;
-    if (back.dot(out) < kLeansIn) {
+    if (back.dot(out) < kSmallestLean) {
       back = out;
     } else if (back.dot(out) < kSteepest) {
       back = kSteepest * out + std::sqrt(1.0 - kSteepest * kSteepest) * aside.normalized();
@@ -147,38 +148,38 @@ Vector3d WayOut(const Skill& skill, const SkillVariant& variant, const EpisodeSt
     const double depth = DepthIn(*room, variant.model, start.state, tool.translation());
     length = std::max(length, (depth + kBeforeOpening) / back.dot(out));
   } else if (const auto rim = RimAround(variant.model, start.state, tool.translation())) {
-    if (back.z() < kLeansIn) back = Vector3d::UnitZ();
+    if (back.z() < kSmallestLean) back = Vector3d::UnitZ();
     length = std::max(length, (*rim + kOverRim - tool.translation().z()) / back.z());
   }
   return length * back;
 }
 
-// Whether what the skill takes stands in a room that opens to a side.
-bool TakesFromRoom(const SkillVariant& variant, const tasks::SceneState& state) {
+// Returns true if the skill takes an object out of a side-opening receptacle.
+bool TakesFromReceptacle(const SkillVariant& variant, const tasks::SceneState& state) {
   if (!variant.room || variant.focus->joint >= 0) return false;
   return IsIn(*variant.room, variant.model, state,
               tasks::LinkPoint(variant.model, state, variant.focus->thing, 0));
 }
 
-// The way of an arm that does `plan`: behind an open door, and past one into a room, it
-// gets only the way that was looked at.
-Detour WayToWork(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
-                 const ReachPlan& plan) {
+// Returns the waypoints of `plan`. Behind an open door, and past one into a receptacle, they
+// include the pre-grasp, so that the arm keeps to the path that was checked.
+Detour WaypointsTo(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
+                   const ReachPlan& plan) {
   Detour way = plan.via;
-  if (variant.focus->pushes || TakesFromRoom(variant, state)) {
+  if (variant.focus->pushes || TakesFromReceptacle(variant, state)) {
     const robot::Posture before = BeforeWork(skill, variant, state, plan.at_work);
     if (way.empty() || way.back() != before) way.push_back(before);
   }
   return way;
 }
 
-// Where no simple way is clear from `from` (J) to the work of `plan`: one that is searched for,
-// past things at some distance, or else as the arm can.
-void SearchWay(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
-               const robot::Posture& from, ReachPlan* plan) {
+// Searches a joint path from `from` (J) to the pre-grasp of `plan` by RRT-Connect, first with a
+// clearance to objects, then without.
+void SearchPath(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
+                const robot::Posture& from, ReachPlan* plan) {
   const bool takes = variant.focus->joint < 0;
   const robot::Posture before = BeforeWork(skill, variant, state, plan->at_work);
-  for (const double margin : {kKeepsOff, 0.0}) {
+  for (const double margin : {kClearance, 0.0}) {
     ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
     if (margin > 0.0) clearance.KeepOff(margin, {from, before});
     const auto way = SearchDetour(skill.robot->arm, clearance, from, before);
@@ -189,21 +190,21 @@ void SearchWay(const Skill& skill, const SkillVariant& variant, const tasks::Sce
   }
 }
 
-void Follow(const Skill& skill, const SkillVariant& variant, const ReachPlan& plan,
-            EpisodeStart* start) {
+void ApplyPlan(const Skill& skill, const SkillVariant& variant, const ReachPlan& plan,
+               EpisodeStart* start) {
   start->pitch = plan.pitch;
   start->at_work = plan.at_work;
-  start->via = WayToWork(skill, variant, start->state, plan);
+  start->via = WaypointsTo(skill, variant, start->state, plan);
 }
 
-// From `from` (J): a plan to whose work the arm gets from there, or else folded as at home first;
-// past things at some distance, or else as it can.
+// Plans from `from` (J), else from home after folding the arm; first with a clearance to objects,
+// then without.
 std::optional<ReachPlan> PlanFromAnywhere(const Skill& skill, const SkillVariant& variant,
                                           const tasks::SceneState& state,
                                           const robot::Posture& from, core::Rng& rng) {
   const bool takes = variant.focus->joint < 0;
   std::optional<ReachPlan> any, folded;
-  for (const double margin : {kKeepsOff, 0.0}) {
+  for (const double margin : {kClearance, 0.0}) {
     const WayWanted wanted{.round = true, .part = true, .margin = margin};
     auto plan = PlanReach(skill, variant, state, from, rng, wanted);
     if (plan && plan->GetsThere()) return plan;
@@ -220,32 +221,32 @@ std::optional<ReachPlan> PlanFromAnywhere(const Skill& skill, const SkillVariant
     folded = plan;
   }
   if (!folded) return any;
-  SearchWay(skill, variant, state, from, &*folded);
+  SearchPath(skill, variant, state, from, &*folded);
   return folded;
 }
 
-// How an empty hand goes from where another skill has left it: away from there, then to its work.
-void PlanFromBefore(const Skill& skill, const SkillVariant& variant, core::Rng& rng,
-                    EpisodeStart* start) {
-  start->withdraw = WayOut(skill, variant, *start);
+// Plans the motion of an empty gripper after another skill: the retreat, then the approach.
+void PlanRetreatAndReach(const Skill& skill, const SkillVariant& variant, core::Rng& rng,
+                         EpisodeStart* start) {
+  start->withdraw = RetreatDisplacement(skill, variant, *start);
   Isometry3d away = variant.subtask.start.world_from_robot *
                     robot::ForwardKinematics(skill.robot->arm, start->arm);
   away.translation() += start->withdraw;
   ToolFollower follower(skill, variant, start->arm);
   follower.Goes(away);
   const auto plan = PlanFromAnywhere(skill, variant, start->state, follower.posture(), rng);
-  if (plan) Follow(skill, variant, *plan, start);
+  if (plan) ApplyPlan(skill, variant, *plan, start);
 }
 
-// Finds a place for every thing, and plans the work there. A place where only what comes later in
-// the task is out of reach will do where there is no other.
-void PlaceThings(const Skill& skill, core::Rng& rng, EpisodeStart* start) {
+// Samples poses for all objects and plans the manipulation there. Accepts poses with an unreachable
+// later skill only if there are no others.
+void PlaceObjects(const Skill& skill, core::Rng& rng, EpisodeStart* start) {
   const SkillVariant& variant = skill.variants[static_cast<size_t>(start->variant)];
   const robot::Posture home = skill.robot->home();
   std::optional<EpisodeStart> second_best;
   for (int attempt = 0; attempt < kTries; ++attempt) {
     start->state = variant.start;
-    Scatter(variant, skill.options, Farther(attempt), rng, &start->state);
+    Scatter(variant, skill.options, DistanceOffset(attempt), rng, &start->state);
     if (Overlap(variant, start->state)) continue;
     start->state.goal = GoalIn(variant, start->state);
     if (!IsArmClear(skill, variant, start->state, home)) continue;
@@ -253,10 +254,10 @@ void PlaceThings(const Skill& skill, core::Rng& rng, EpisodeStart* start) {
     const bool round = attempt >= kTries / 3;
     auto plan = PlanReach(skill, variant, start->state, home, rng, {.round = round});
     if (plan && !plan->GetsThere() && round) {
-      SearchWay(skill, variant, start->state, home, &*plan);
+      SearchPath(skill, variant, start->state, home, &*plan);
     }
-    if (plan && (plan->GetsThere() || attempt >= UnclearFrom(variant))) {
-      Follow(skill, variant, *plan, start);
+    if (plan && (plan->GetsThere() || attempt >= FirstUnclearTry(variant))) {
+      ApplyPlan(skill, variant, *plan, start);
       if (IsLaterWorkInReach(skill, start->variant, start->state, rng)) return;
       if (!second_best) second_best = *start;
     }
@@ -265,8 +266,8 @@ void PlaceThings(const Skill& skill, core::Rng& rng, EpisodeStart* start) {
   if (second_best) *start = *second_best;
 }
 
-// Moves the joint that the skill works on to anywhere in its range, if the arm can do its work
-// there. Whether it can.
+// Moves the skill's joint to a random position in its range. Returns false, without moving it, if
+// the arm cannot manipulate it there.
 bool MovePartWay(const Skill& skill, core::Rng& rng, EpisodeStart* start) {
   const SkillVariant& variant = skill.variants[static_cast<size_t>(start->variant)];
   const auto thing = static_cast<size_t>(variant.focus->thing);
@@ -278,7 +279,7 @@ bool MovePartWay(const Skill& skill, core::Rng& rng, EpisodeStart* start) {
   const robot::Posture home = skill.robot->home();
   if (IsArmClear(skill, variant, start->state, home)) {
     if (const auto plan = PlanReach(skill, variant, start->state, home, rng)) {
-      Follow(skill, variant, *plan, start);
+      ApplyPlan(skill, variant, *plan, start);
       return true;
     }
   }
@@ -286,12 +287,12 @@ bool MovePartWay(const Skill& skill, core::Rng& rng, EpisodeStart* start) {
   return false;
 }
 
-// Where arm and fingers begin: at home, or at their work as `at_work` and what is held say.
+// Places arm and fingers: at home, or at the target if `at_work` is set or an object is grasped.
 void PlaceArm(const Skill& skill, bool at_work, core::Rng& rng, EpisodeStart* start) {
   const SkillVariant& variant = skill.variants[static_cast<size_t>(start->variant)];
   const robot::Gripper& gripper = skill.robot->gripper;
   start->arm = skill.robot->home();
-  Shake(skill, skill.options.posture_range, rng, &start->arm);
+  Perturb(skill, skill.options.posture_range, rng, &start->arm);
   if (!IsArmClear(skill, variant, start->state, start->arm)) start->arm = skill.robot->home();
   start->leader = gripper.open;
   at_work = at_work && IsArmClear(skill, variant, start->state, start->at_work);
@@ -299,7 +300,7 @@ void PlaceArm(const Skill& skill, bool at_work, core::Rng& rng, EpisodeStart* st
     start->arm = start->at_work;
     start->via.clear();
   }
-  // A wall is thin: fingers that begin near it are closed sooner.
+  // A wall is thin: fingers that begin near it close sooner.
   if (start->held >= 0 && variant.focus->rim > 0.0) {
     start->leader = gripper.closed + kNearWall * (gripper.open - gripper.closed);
   }
@@ -318,17 +319,17 @@ EpisodeStart DrawStart(const Skill& skill, core::Rng& rng) {
       static_cast<int>(core::UniformIndex(rng, static_cast<std::int64_t>(skill.variants.size())));
   const SkillVariant& variant = skill.variants[static_cast<size_t>(start.variant)];
   start.at_work = skill.robot->home();
-  PlaceThings(skill, rng, &start);
-  const double lot = core::Uniform(rng);
-  bool at_work = lot < options.at_focus_share;
-  const bool part_way = !at_work && lot < options.at_focus_share + options.part_way_share;
+  PlaceObjects(skill, rng, &start);
+  const double sample = core::Uniform(rng);
+  bool at_work = sample < options.at_focus_share;
+  const bool part_way = !at_work && sample < options.at_focus_share + options.part_way_share;
   if (part_way && variant.focus && variant.focus->joint >= 0 && MovePartWay(skill, rng, &start)) {
-    at_work = core::Uniform(rng) < kOnPart;
+    at_work = core::Uniform(rng) < kAtPartShare;
   }
   const bool grasps = variant.focus && variant.focus->joint < 0 && variant.asks_for_grasp;
   if (grasps && (part_way || variant.starts_held)) start.held = variant.focus->thing;
   PlaceArm(skill, at_work, rng, &start);
-  DrawBodies(variant, options, rng, &start);
+  SampleBodies(variant, options, rng, &start);
   return start;
 }
 
@@ -343,18 +344,18 @@ EpisodeStart Varied(const Skill& skill, const EpisodeStart& from, core::Rng& rng
   EpisodeStart start = from;
   start.state.goal = GoalIn(variant, start.state);
   const bool everything = parts == VariedParts::kEverything;
-  if (everything && start.held < 0) Shake(skill, kShake, rng, &start.arm);
+  if (everything && start.held < 0) Perturb(skill, kPerturbation, rng, &start.arm);
   start.at_work = start.arm;
   start.pitch = 0.0;
   start.withdraw.setZero();
   start.via.clear();
   if (start.held >= 0 && variant.room) {
-    // It keeps its lean, whatever the thing has turned by in it: upright, it may not fit.
+    // It keeps its lean, even if the object has rotated in the grasp: upright, it may not fit.
     start.pitch = PitchOf(variant.subtask.start.world_from_robot *
                           robot::ForwardKinematics(skill.robot->arm, start.arm));
   }
-  if (variant.focus && start.held < 0) PlanFromBefore(skill, variant, rng, &start);
-  if (everything) DrawBodies(variant, skill.options, rng, &start);
+  if (variant.focus && start.held < 0) PlanRetreatAndReach(skill, variant, rng, &start);
+  if (everything) SampleBodies(variant, skill.options, rng, &start);
   return start;
 }
 

@@ -11,48 +11,50 @@
 
 namespace simwright::rl {
 
-// How an episode begins.
+// The start state of an episode.
 struct EpisodeStart {
   int variant = 0;
-  tasks::SceneState state;  // things and joints; the gripper's part is not used
+  tasks::SceneState state;  // objects and joints; the gripper's part is ignored
   robot::Posture arm;       // (J)
-  double leader = 0.0;      // of the gripper's first joint
-  double pitch = 0.0;       // of the hand at work, and the arm's posture there (PlanReach)
+  double leader = 0.0;      // position of the gripper's first joint
+  // The approach pitch of the gripper (rad) and the grasp configuration of the arm (J), from
+  // PlanReach.
+  double pitch = 0.0;
   robot::Posture at_work;
-  // m, world: how far an empty hand gets away from where another skill has left it, before it goes
-  // to its work (FocusFrame). Zero: it does not.
+  // The displacement (m, world) by which an empty gripper retreats from where the previous skill
+  // ended before it approaches its target (FocusFrame). Zero: no retreat.
   Eigen::Vector3d withdraw = Eigen::Vector3d::Zero();
-  // (J) that the arm then goes through, where the straight way to its work is not clear.
+  // The waypoints (J) before the grasp configuration, if the straight joint path is blocked.
   Detour via;
-  int held = -1;  // the thing that the hand closes on before the episode begins; -1: none
-  // How far the hand, at work, closes before the episode begins: the gripper's first joint, where
-  // nothing between the fingers stops it. Easier starts have it.
+  int held = -1;  // the object that the gripper grasps before the episode; -1: none
+  // The position of the gripper's first joint to which the gripper closes at its target before the
+  // episode, unless an object between the fingers stops it. Set in easier start states.
   std::optional<double> closed_to;
-  std::vector<double> mass;  // factors, by thing
+  std::vector<double> mass;  // factors, by object
   std::vector<double> friction;
-  std::vector<double> joint;  // of friction and damping of joints
+  std::vector<double> joint;  // factors of joint friction and damping
   int delay = 0;              // control steps
-  std::optional<double> finger_friction;  // of the fingers' surfaces; none: the robot's own
+  std::optional<double> finger_friction;  // of the fingers; none: the robot's own
 };
 
-// Draws a start of the skill: one of its variants, its things moved and turned within the options'
-// ranges such that nothing overlaps, the arm is in none of them and can do its work there
-// (PlanReach), joints and hand as the shares of easier starts say. Falls back on the start as
-// described where no such place is found in 60 tries, the later of which move everything away from
-// the robot by up to 0.4 m, or towards it by up to 0.2. Where the skill begins a task, what comes
-// later is within the arm's reach too (IsLaterWorkInReach), if such a place is found.
+// Samples a start state of the skill: a variant, and poses of its objects within the ranges of the
+// options such that no AABBs overlap, the arm is collision-free and its manipulation is feasible
+// (PlanReach); joints and gripper follow the shares of easier start states. Falls back to the
+// described start state after 60 tries; later tries move everything away from the robot by up to
+// 0.4 m, or towards it by up to 0.2 m. For the first skill of a task, prefers start states in which
+// later skills are reachable too (IsLaterWorkInReach).
 EpisodeStart DrawStart(const Skill& skill, core::Rng& rng);
 
-// The thing that both fingers hold and that moves with them: no furniture. -1: none.
+// Returns the movable object that both fingers grasp; -1: none.
 int HeldThing(const SkillVariant& variant, const tasks::SceneState& state);
 
 enum class VariedParts {
-  kEverything,  // masses, frictions, delay drawn again, the arm moved a little if it is empty
-  kNothing,     // only the work is planned anew
+  kEverything,  // masses, frictions and delay are resampled, an empty arm is perturbed
+  kNothing,     // only the manipulation is planned again
 };
 
-// `start` as one of this skill: it may be where another skill of the same scene has ended. The work
-// is planned from there.
+// Returns `start` as a start state of this skill, with its manipulation planned from there. `start`
+// may be the end state of another skill in the same scene.
 EpisodeStart Varied(const Skill& skill, const EpisodeStart& start, core::Rng& rng,
                     VariedParts parts = VariedParts::kEverything);
 

@@ -54,7 +54,7 @@ std::string Record(const std::string& event) {
   return length + LittleEndian(MaskedCrc(length), 4) + event + LittleEndian(MaskedCrc(event), 4);
 }
 
-// The step of an event as EventHead writes it; -1 for another.
+// Returns the step of an event as EventHead writes it; -1 for other events.
 std::int64_t StepOf(std::string_view event) {
   std::uint64_t step = 0;
   if (event.size() < 11 || event[9] != static_cast<char>(2 << 3 | kVarint)) return -1;

@@ -16,7 +16,7 @@ torch::Tensor PackBytes(const std::string& bytes) {
 
 std::string UnpackBytes(const torch::Tensor& tensor) {
   if (!tensor.defined() || tensor.scalar_type() != torch::kUInt8) {
-    throw core::Error("holds no bytes where they should be");
+    throw core::Error("has a tensor that holds no bytes");
   }
   const torch::Tensor packed = tensor.contiguous();
   return {static_cast<const char*>(packed.data_ptr()), static_cast<std::size_t>(packed.numel())};
@@ -26,7 +26,7 @@ torch::Tensor PackFacts(const Facts& facts) {
   std::string text;
   for (const auto& [key, value] : facts) {
     if (key.find_first_of("=\n") != std::string::npos || value.find('\n') != std::string::npos) {
-      throw core::Error("a fact is one line, its name without '='", key);
+      throw core::Error("a metadata entry must be one line, without '=' in its key", key);
     }
     text += key + "=" + value + "\n";
   }

@@ -23,7 +23,7 @@ void FlatAdam::Step(const torch::Tensor& gradients, double rate, const torch::Te
   means_.lerp_(gradients, 1.0 - kBeta1);
   squares_.mul_(kBeta2).addcmul_(gradients, gradients, 1.0 - kBeta2);
   torch::sqrt_out(scale_, squares_).div_(std::sqrt(bias2)).add_(epsilon_);
-  // A copy shares the numbers; the parameters' row is handed over as constant.
+  // A tensor copy shares its storage; the parameters are passed as const.
   torch::Tensor(parameters).addcdiv_(means_, scale_, -rate / bias1);
 }
 

@@ -6,13 +6,13 @@
 
 namespace simwright::rl {
 
-// Adam (Kingma and Ba 2015) on one row of parameters.
+// Adam (Kingma and Ba 2015) on a flat vector of parameters.
 class FlatAdam {
  public:
-  // For `count` parameters. `epsilon` keeps a parameter with small gradients from large steps.
+  // `count`: number of parameters. `epsilon` bounds the steps of parameters with small gradients.
   FlatAdam(std::int64_t count, double epsilon, torch::Device device);
 
-  // One step of `rate` against `gradients`, in place. All (count).
+  // Takes one step of learning rate `rate` against `gradients`, in place. All (count).
   void Step(const torch::Tensor& gradients, double rate, const torch::Tensor& parameters);
 
   const torch::Tensor& means() const { return means_; }      // (count) of the gradients

@@ -13,7 +13,7 @@ FlatParameters::FlatParameters(const std::vector<std::vector<std::int64_t>>& sha
     const std::int64_t size = c10::multiply_integers(shape);
     torch::Tensor leaf = values_.narrow(0, first, size).view(shape).detach();
     leaf.requires_grad_(true);
-    // Where a gradient is there already, autograd adds into it.
+    // Autograd accumulates into an existing gradient.
     leaf.mutable_grad() = gradients_.narrow(0, first, size).view(shape);
     parameters_.push_back(leaf);
     first += size;

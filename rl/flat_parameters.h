@@ -7,15 +7,15 @@
 
 namespace simwright::rl {
 
-// A network's parameters as views into one row of numbers, and their gradients as views into
-// another: an optimiser's step, the gradient's norm, a file and a sum over machines are each one
-// operation on that row instead of one a parameter.
+// A network's parameters as views into one flat tensor, and their gradients as views into another:
+// an optimizer step, the gradient norm, a file and an all-reduce are each one operation on that
+// tensor instead of one per parameter.
 class FlatParameters {
  public:
-  // All zero, on `device`.
+  // Allocates zeros on `device`.
   FlatParameters(const std::vector<std::vector<std::int64_t>>& shapes, torch::Device device);
 
-  // A leaf of autograd; its gradient is added into gradients().
+  // Returns parameter `i`, a leaf of autograd; its gradient is accumulated into gradients().
   const torch::Tensor& operator[](std::size_t i) const { return parameters_[i]; }
   std::size_t size() const { return parameters_.size(); }
 

@@ -18,17 +18,16 @@ using tasks::SceneModel;
 using tasks::SceneState;
 using tasks::Thing;
 
-constexpr double kPalm = 0.02;  // m from the fingertips to the palm, less what has to stay free
-// m from a handle's outermost point to the fingertips' middle, at most. So deep the pads close
-// behind a bar of a centimetre or two and hook it: of 40 scripted pulls at drawers 37 succeeded,
-// with 0.8 cm, where the pads only rub on the bar, 5.
+constexpr double kFingerDepth = 0.02;  // m from the fingertips to the palm, less a margin
+// The largest depth (m) of the fingertips' middle below a handle's outermost point: at this depth
+// the pads close behind a bar of 1 to 2 cm and hook it, while at 0.8 cm they only rub on it.
 constexpr double kPadDepth = 0.02;
-constexpr double kPushHeight = 0.35;   // share of a thing's height
-constexpr double kLowestPush = 0.025;  // m above the floor: fingertips have some thickness
-constexpr double kSpare = 0.01;        // m that the hand opens wider than what it spans
-constexpr double kFromBelow = 0.5;     // of a direction's rise: more comes from below
-constexpr double kAlike = 0.002;       // m: widths that count as one
-constexpr double kHalfWall = 0.003;    // m: cups' walls are 3 to 8 mm thick
+constexpr double kPushHeight = 0.35;       // share of an object's height
+constexpr double kLowestPush = 0.025;      // m above the floor: fingertips have some thickness
+constexpr double kSpare = 0.01;            // m that the gripper opens wider than its target
+constexpr double kFromBelow = 0.5;         // of a direction's rise: more comes from below
+constexpr double kWidthTolerance = 0.002;  // m: widths that count as equal
+constexpr double kHalfWall = 0.003;        // m: cup walls are 3 to 8 mm thick
 
 bool IsPlace(RewardInput input) {
   return input == RewardInput::kLinkPosition || input == RewardInput::kAssetPosition ||
@@ -42,7 +41,8 @@ const RewardSlot* FirstSlot(const std::vector<RewardSlot>& slots, bool (*wanted)
   return nullptr;
 }
 
-// Which way the joint carries the point `on_link` (world), unit; zero where it only turns it.
+// Returns the direction (unit, world) in which the joint moves `point` (world); zero if it only
+// rotates it.
 Vector3d Tangent(const tasks::ThingJoint& joint, const Eigen::Isometry3d& world_from_link,
                  const Vector3d& point) {
   const Vector3d axis = world_from_link.linear() * joint.axis;
@@ -52,12 +52,12 @@ Vector3d Tangent(const tasks::ThingJoint& joint, const Eigen::Isometry3d& world_
   return tangent.norm() > 0.02 ? tangent.normalized() : Vector3d::Zero();
 }
 
-// The side of the thing on which the point lies, along `line`: +1 or -1.
+// Returns the side of the object on which the point lies, along `line`: +1 or -1.
 double Outward(const Eigen::AlignedBox3d& box, const Vector3d& point, const Vector3d& line) {
   return (point - box.center()).dot(line) >= 0.0 ? 1.0 : -1.0;
 }
 
-// m, how wide the link's outline is along `across` (unit, link frame).
+// Returns the width (m) of the link's hull points along `across` (unit, link frame).
 double OutlineWidth(const tasks::ThingLink& link, const Vector3d& across) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Vector3d& point : link.outline) {
@@ -67,8 +67,8 @@ double OutlineWidth(const tasks::ThingLink& link, const Vector3d& across) {
   return high - low;
 }
 
-// The direction, perpendicular to `approach`, in which the link's outline is the thinnest. Of those
-// within 2 mm of it, as round knobs have many, the one nearest to `wished`.
+// Returns the direction, perpendicular to `approach`, along which the link is thinnest. Among
+// directions within 2 mm of that, as of round knobs, returns the one nearest to `wished`.
 Vector3d ThinAcross(const tasks::ThingLink& link, const Vector3d& approach,
                     const Vector3d& wished) {
   constexpr int kDirections = 36;
@@ -86,15 +86,15 @@ Vector3d ThinAcross(const tasks::ThingLink& link, const Vector3d& approach,
   double nearest = -1.0;
   for (int i = 0; i < kDirections; ++i) {
     const double along = std::abs(directions[i].dot(wished));
-    if (widths[i] > thinnest + kAlike || along <= nearest) continue;
+    if (widths[i] > thinnest + kWidthTolerance || along <= nearest) continue;
     nearest = along;
     best = directions[i];
   }
   return best;
 }
 
-// Where the fingertips' middle goes in a part that is reached along `approach`: the middle of its
-// outline, but no deeper below its outermost point than it takes to hook a bar.
+// Returns the grasp point of a part that is approached along `approach`: the middle of its hull
+// points, but at most kPadDepth below its outermost point.
 Vector3d GripPoint(const tasks::ThingLink& link, const Vector3d& approach) {
   double outermost = std::numeric_limits<double>::infinity();
   for (const Vector3d& point : link.outline) {
@@ -112,10 +112,10 @@ Eigen::Isometry3d ToolAcross(const tasks::ThingLink& link, const Vector3d& appro
   return tool;
 }
 
-// Directions (unit, world) that a hand may come along to a part, the most natural first: from
-// outside along the part's own way, or along the axis of what turns in place; from above; from the
-// side of the thing that the part is on, rather steep, where the arm has room over the floor, than
-// level. Never from below: things stand on something.
+// Returns the directions (unit, world) of approach to a part, the most natural first: from outside
+// along the part's direction of motion, or along the axis of a part that rotates in place; from
+// above; from the side of the object that the part is on, first steep, where the arm has room over
+// the floor, then level. Never from below, since objects stand on a support.
 std::vector<Vector3d> ApproachDirections(const Eigen::AlignedBox3d& box, const Vector3d& point,
                                          const Vector3d& way, const Vector3d& axis) {
   std::vector<Vector3d> directions;
@@ -133,15 +133,15 @@ std::vector<Vector3d> ApproachDirections(const Eigen::AlignedBox3d& box, const V
   if (aside.cwiseAbs().maxCoeff(&face) > 0.0) {
     const Vector3d inward = std::copysign(1.0, -aside[face]) * Vector3d::Unit(face);
     for (const double down : {2.0, 1.0, 0.5, 0.0}) {
-      if (way.isZero() && down > 0.0) continue;  // what turns in place turns the hand about itself
+      if (way.isZero() && down > 0.0) continue;  // it rotates the gripper about itself
       add((inward - down * Vector3d::UnitZ()).normalized());
     }
   }
   return directions;
 }
 
-// The tool's poses at a part that a joint moves, in the link's frame: from each direction across
-// its thin side, and across the other side where the hand spans that.
+// Returns the grasp poses at a part that a joint moves, in the link's frame: for each direction
+// with the closing axis across the thin side, and across the other side if the gripper spans it.
 std::vector<Eigen::Isometry3d> ToolsOnPart(const SceneModel& model, const SceneState& start,
                                            const Focus& focus, double opening) {
   const Thing& thing = model.things[static_cast<size_t>(focus.thing)];
@@ -161,7 +161,8 @@ std::vector<Eigen::Isometry3d> ToolsOnPart(const SceneModel& model, const SceneS
   std::vector<Eigen::Isometry3d> tools;
   for (const Vector3d& direction : directions) {
     const Vector3d approach = world_from_link.linear().transpose() * direction;
-    // Across in the level: hands are wide from finger to finger, and parts stand above each other.
+    // A horizontal closing axis is preferred: grippers are wide along it, and parts are stacked
+    // vertically.
     const Vector3d level = direction.cross(Vector3d::UnitZ());
     const Vector3d thin = ThinAcross(link, approach, world_from_link.linear().transpose() * level);
     tools.push_back(ToolAcross(link, approach, thin));
@@ -173,14 +174,15 @@ std::vector<Eigen::Isometry3d> ToolsOnPart(const SceneModel& model, const SceneS
   return tools;
 }
 
-// Of a thing that is taken from above: its middle, or as deep below its top as the palm lets.
+// Returns the grasp point of an object that is grasped from above: its middle, but at most the
+// palm's depth below its top.
 Vector3d GraspPoint(const Thing& thing) {
   Vector3d point = thing.box.center();
-  point.z() = std::max(point.z(), thing.box.max().z() - kPalm);
+  point.z() = std::max(point.z(), thing.box.max().z() - kFingerDepth);
   return point;
 }
 
-// Where a thing is pushed: below its middle, so that it slides and does not tip.
+// Returns the pushing point of an object: below its middle, so that it slides and does not tip.
 Vector3d PushPoint(const Thing& thing) {
   Vector3d point = thing.box.center();
   const double above = std::max(kLowestPush, kPushHeight * thing.height());
@@ -188,7 +190,8 @@ Vector3d PushPoint(const Thing& thing) {
   return point;
 }
 
-// How far from the middle a vessel is taken that the hand cannot span.
+// Returns the distance from the middle to the wall of a vessel that is too wide for the gripper,
+// else 0.
 double RimOf(const Thing& thing, const Eigen::Isometry3d& world_from_thing, double opening) {
   const bool vessel =
       std::any_of(thing.cavities.begin(), thing.cavities.end(), [](const tasks::Cavity& cavity) {
@@ -303,7 +306,7 @@ double ThinDirection(const Thing& thing, const Eigen::Isometry3d& world_from_thi
   }
   double best = 0.0, nearest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kDirections; ++i) {
-    if (widths[i] > thinnest + kAlike) continue;
+    if (widths[i] > thinnest + kWidthTolerance) continue;
     // Both senses of a direction are one: the difference lies in [-pi/2, pi/2].
     const double off =
         std::remainder(std::numbers::pi * i / kDirections - wished, std::numbers::pi);

@@ -13,33 +13,36 @@
 
 namespace simwright::rl {
 
-// What the hand works on in a subtask: a part that a joint moves, or a thing.
+// The interaction target of a subtask: a part that a joint moves, or a free object.
 struct Focus {
   int thing = -1, link = -1;
-  int joint = -1;       // into Thing::joints; -1: the thing itself is moved
-  bool pushes = false;  // the joint's part, with the tool's x along its way; else takes it
-  // The tool's place at work: its z towards the link, its y across the link's thin side. Of a
-  // thing without a joint only the origin counts; it is taken from above, wherever it is turned.
+  int joint = -1;  // into Thing::joints; -1: the object itself is moved
+  // True if the part is pushed along the tool's x axis; else it is grasped.
+  bool pushes = false;
+  // The grasp pose: tool z towards the link, tool y (the closing axis) across the link's thin
+  // side. For an object without a joint only the origin is used; it is grasped from above in any
+  // orientation.
   Eigen::Isometry3d link_from_tool = Eigen::Isometry3d::Identity();
-  // All such places at a part, the most natural first (ChooseApproach takes one).
+  // All grasp poses at a part, the most natural first (ChooseApproach selects one).
   std::vector<Eigen::Isometry3d> approaches;
-  // m from that origin to where a vessel that is too wide for the hand is taken: by its wall, on
-  // the side that the tool's y points to. 0: in the middle.
+  // The distance (m) from that origin to the grasp point on the wall of a vessel that is too wide
+  // for the gripper, on the side that tool y points to. 0: the vessel is grasped in the middle.
   double rim = 0.0;
 };
 
-// Where the thing shall go, if the program says.
+// The place to which the reward program moves the object, if it names one.
 struct Destination {
-  bool goal = false;          // to get_goal_pose
-  int thing = -1, link = -1;  // else to this link: into its room where it has one, or onto it
+  bool goal = false;          // at get_goal_pose
+  int thing = -1, link = -1;  // else at this link: in its receptacle if it has one, or on it
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  // m, the link's frame
-  std::optional<SideRoom> room;                     // that it is in, where that opens to a side
-  bool in_open_room = false;                        // it is in one that opens upwards
+  std::optional<SideRoom> room;                     // the side-opening receptacle, if any
+  bool in_open_room = false;                        // true for a top-opening receptacle
 };
 
-// What the program of a subtask works on, from what it reads: the joint whose state it takes, the
-// thing whose grasp it asks for, else the thing or link whose place it takes. None where it names
-// nothing. `opening`: m, how wide the hand opens; `base`: m, the height of the robot's base.
+// Returns the interaction target of a subtask from the inputs of its program: the joint whose state
+// it reads, else the object whose grasp it asks for, else the object or link whose position it
+// reads. None if it names nothing. `opening`: m, the maximum gripper opening; `base`: m, the height
+// of the robot's base.
 std::optional<Focus> FocusOf(const tasks::SceneModel& model, const tasks::SceneState& start,
                              const std::vector<tasks::RewardSlot>& slots, double opening,
                              double base);
@@ -48,17 +51,17 @@ std::optional<Destination> DestinationOf(const tasks::SceneModel& model,
                                          const tasks::SceneState& start, const Focus& focus,
                                          const std::vector<tasks::RewardSlot>& slots);
 
-// world_from_tool at work on a focus with a joint.
+// Returns the grasp pose (world_from_tool) for a target with a joint.
 Eigen::Isometry3d ToolAtJoint(const tasks::SceneModel& model, const tasks::SceneState& state,
                               const Focus& focus);
 
-// The direction (rad about z, in [-pi/2, pi/2)) across the thinnest side of `thing` as it stands
-// at `world_from_thing`, seen from above. Of directions within 2 mm of the thinnest the one nearest
-// to `wished`: how a round thing is taken, does not matter.
+// Returns the direction (rad about z, in [-pi/2, pi/2)) across the thinnest side of `thing` at
+// `world_from_thing`, seen from above. Among directions within 2 mm of the thinnest, returns the
+// one nearest to `wished`, since a round object may be grasped along any.
 double ThinDirection(const tasks::Thing& thing, const Eigen::Isometry3d& world_from_thing,
                      double wished);
 
-// m, how wide `thing` is along `across` (unit, world).
+// Returns the width (m) of `thing` along `across` (unit, world).
 double WidthAlong(const tasks::Thing& thing, const Eigen::Isometry3d& world_from_thing,
                   const Eigen::Vector3d& across);
 

@@ -14,23 +14,23 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kSurelyHeld = 3;     // updates
-constexpr double kLost = 0.06;     // m between the tool and the grasp point: no longer in the hand
-constexpr double kInPlace = 0.03;  // m from its axis: what is nearer turns in place
-constexpr double kAway = 0.02;     // m from where it gets away to: the hand is away
-constexpr double kNearer = 0.003;  // m, of a hand that gets on
-constexpr double kLetGo = 0.03;    // m between fingers that have let go of what they were about
-constexpr double kAtRest = 0.005;  // m: the hand is where it shall be
-// m that what it holds is off its destination all the same: too far to let go of it.
+constexpr int kGraspUpdates = 3;     // consecutive updates in the grasp
+constexpr double kLost = 0.06;       // m between tool and grasp point: the object is lost
+constexpr double kInPlace = 0.03;    // m from its axis: a nearer part rotates in place
+constexpr double kRetreated = 0.02;  // m from the retreat pose: the retreat is complete
+constexpr double kProgress = 0.003;  // m, of progress
+constexpr double kReleased = 0.03;   // m between fingers that have released the object
+constexpr double kAtRest = 0.005;    // m: the gripper is at the frame
+// m from the object to its destination, with the gripper at rest: too far to release it.
 constexpr double kSlid = 0.025;
-constexpr int kResting = 4;      // updates
-constexpr int kOpening = 10;     // updates that a hand waits for that
-constexpr int kStuck = 10;       // updates in which it does not: fingers open in 8 of them
-constexpr int kLongestWay = 30;  // updates, 1.5 s at 20 Hz: what is in the way stays there
+constexpr int kRestUpdates = 4;      // updates
+constexpr int kOpeningUpdates = 10;  // updates that the gripper waits to open
+constexpr int kStuckUpdates = 10;    // updates without progress; fingers open in 8
+constexpr int kLongestRetreat = 30;  // updates, 1.5 s at 20 Hz; an obstacle does not go away
 
-// FocusFrame::free_way, with the frame at `world_from_focus`.
-Vector3d FreeWay(const SkillVariant& variant, const tasks::SceneState& state,
-                 const Eigen::Isometry3d& world_from_focus) {
+// Returns FocusFrame::free_way for the frame at `world_from_focus`.
+Vector3d MotionDirection(const SkillVariant& variant, const tasks::SceneState& state,
+                         const Eigen::Isometry3d& world_from_focus) {
   const Focus& focus = *variant.focus;
   if (focus.joint < 0) return Vector3d::Zero();
   const auto thing = static_cast<size_t>(focus.thing), j = static_cast<size_t>(focus.joint);
@@ -52,41 +52,42 @@ FocusFrame::FocusFrame(const SkillVariant& variant, const tasks::SceneState& sta
   world_from_focus_ = ToolAtFocus(variant_, state, across_, pitch_);
   across_ = world_from_focus_.linear().col(1);
   const Eigen::Isometry3d& root = state.roots[static_cast<size_t>(variant_.focus->thing)];
-  grip_ = root.inverse() * world_from_focus_.translation();
+  grasp_point_ = root.inverse() * world_from_focus_.translation();
   at_destination_ = variant_.starts_held && variant_.destination;
   below_ = tasks::LinkPoint(variant_.model, state, variant_.focus->thing, 0).z() -
            tasks::WorldBox(variant_.model, state, variant_.focus->thing).min().z();
-  free_way_ = FreeWay(variant_, state, world_from_focus_);
+  free_way_ = MotionDirection(variant_, state, world_from_focus_);
   axes_ = world_from_focus_.linear();
   withdrawing_ = !withdraw.isZero();
-  refuge_ = Eigen::Translation3d(withdraw) * state.gripper;
+  retreat_ = Eigen::Translation3d(withdraw) * state.gripper;
   before_ = state.gripper;
   Update(state);
-  withdrawn_ = 0;
+  updates_withdrawing_ = 0;
 }
 
-void FocusFrame::Switch(const tasks::SceneState& state) {
+void FocusFrame::UpdateAtDestination(const tasks::SceneState& state) {
   const bool held = state.grasped && state.touched == variant_.focus->thing;
   held_ = held ? held_ + 1 : 0;
-  if (held_ >= kSurelyHeld) at_destination_ = true;
-  const Vector3d grasp = state.roots[static_cast<size_t>(variant_.focus->thing)] * grip_;
+  if (held_ >= kGraspUpdates) at_destination_ = true;
+  const Vector3d grasp = state.roots[static_cast<size_t>(variant_.focus->thing)] * grasp_point_;
   const bool lost = (grasp - state.gripper.translation()).norm() > kLost;
   if (lost && !variant_.starts_held) at_destination_ = false;
 }
 
 bool FocusFrame::Withdraws(const tasks::SceneState& state) {
   if (!withdrawing_) return false;
-  if (opens_ < kOpening && state.opening < kLetGo) {
-    ++opens_;
+  if (updates_opening_ < kOpeningUpdates && state.opening < kReleased) {
+    ++updates_opening_;
     return true;
   }
-  opens_ = kOpening;
-  const double missing = (refuge_.translation() - state.gripper.translation()).norm();
-  if (missing < nearest_ - kNearer) {
-    nearest_ = missing;
-    stuck_ = 0;
+  updates_opening_ = kOpeningUpdates;
+  const double missing = (retreat_.translation() - state.gripper.translation()).norm();
+  if (missing < smallest_distance_ - kProgress) {
+    smallest_distance_ = missing;
+    updates_stuck_ = 0;
   }
-  if (missing < kAway || ++stuck_ > kStuck || withdrawn_++ >= kLongestWay) {
+  if (missing < kRetreated || ++updates_stuck_ > kStuckUpdates ||
+      updates_withdrawing_++ >= kLongestRetreat) {
     withdrawing_ = false;
     world_from_focus_.linear() = axes_;
   }
@@ -98,11 +99,11 @@ void FocusFrame::Turn(double angle, const tasks::SceneState& state) {
   world_from_focus_.linear() = turn * world_from_focus_.linear();
   across_ = turn * across_;
   axes_ = turn * axes_;
-  FindWayIn(state);
+  ComputeRetreat(state);
 }
 
-// Into a room, and out of it, the hand goes through the opening.
-void FocusFrame::FindWayIn(const tasks::SceneState& state) {
+// The gripper enters and leaves a receptacle through its opening.
+void FocusFrame::ComputeRetreat(const tasks::SceneState& state) {
   back_ = -Vector3d::UnitZ();
   room_depth_ = 0.0;
   if (at_destination_ && variant_.destination->in_open_room) {
@@ -128,22 +129,22 @@ void FocusFrame::FindWayIn(const tasks::SceneState& state) {
 void FocusFrame::Update(const tasks::SceneState& state) {
   if (!variant_.focus) return;
   if (Withdraws(state)) {
-    world_from_focus_ = opens_ < kOpening ? before_ : refuge_;
+    world_from_focus_ = updates_opening_ < kOpeningUpdates ? before_ : retreat_;
     return;
   }
   Follow(state);
-  FindWayIn(state);
+  ComputeRetreat(state);
 }
 
-// What has slid in the hand is not at its destination when the hand is where it was taken: the hand
-// goes on from where it holds it now.
-void FocusFrame::GripAnew(const tasks::SceneState& state) {
+// If the object has slipped in the grasp, it is off its destination when the gripper is at the
+// frame: takes the current tool position as the new grasp point.
+void FocusFrame::UpdateGraspPoint(const tasks::SceneState& state) {
   const Vector3d tool = state.gripper.translation();
   const bool rests = (tool - world_from_focus_.translation()).norm() < kAtRest;
-  resting_ = state.grasped && rests ? resting_ + 1 : 0;
-  if (resting_ < kResting || WayToDestination(variant_, state).norm() < kSlid) return;
-  grip_ = state.roots[static_cast<size_t>(variant_.focus->thing)].inverse() * tool;
-  resting_ = 0;
+  updates_at_rest_ = state.grasped && rests ? updates_at_rest_ + 1 : 0;
+  if (updates_at_rest_ < kRestUpdates || WayToDestination(variant_, state).norm() < kSlid) return;
+  grasp_point_ = state.roots[static_cast<size_t>(variant_.focus->thing)].inverse() * tool;
+  updates_at_rest_ = 0;
 }
 
 void FocusFrame::Follow(const tasks::SceneState& state) {
@@ -153,14 +154,15 @@ void FocusFrame::Follow(const tasks::SceneState& state) {
     across_ = world_from_focus_.linear().col(1);
     return;
   }
-  if (variant_.destination && variant_.asks_for_grasp) Switch(state);
-  // In a room the hand stays where it has let go: what it is about would roll on, and lead it away.
+  if (variant_.destination && variant_.asks_for_grasp) UpdateAtDestination(state);
+  // In a side-opening receptacle the gripper stays where it released the object: a rolling object
+  // would lead it away.
   was_held_ = was_held_ || state.grasped;
   if (at_destination_ && variant_.room && variant_.starts_held && was_held_ && !state.grasped) {
     return;
   }
-  if (at_destination_) GripAnew(state);
-  world_from_focus_.translation() = state.roots[static_cast<size_t>(focus.thing)] * grip_;
+  if (at_destination_) UpdateGraspPoint(state);
+  world_from_focus_.translation() = state.roots[static_cast<size_t>(focus.thing)] * grasp_point_;
   if (at_destination_) world_from_focus_.translation() += WayToDestination(variant_, state);
 }
 

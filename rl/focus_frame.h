@@ -4,69 +4,70 @@
 
 namespace simwright::rl {
 
-// The frame that a policy sees and acts from, followed through an episode. Its origin and axes are
-// where the tool works: at the part or thing, and once a thing is held, where the tool is when the
-// thing has come to its destination; what is pushed is worked at from behind, as seen from where it
-// shall go. An action of zero so always means "get there". A hand that begins where another skill
-// has left it first gets away from there: until it has, the frame is where it gets away to.
+// The frame in which a policy observes and acts, tracked through an episode. Its pose is the grasp
+// pose at the target; once the object is grasped, the tool pose with the object at its destination;
+// for a pushed object, a pose behind it as seen from its destination. An action of zero thus always
+// means "go to the target". After another skill the frame is first the retreat pose, until the
+// gripper has retreated.
 class FocusFrame {
  public:
-  // `state` at the start of the episode, `across` (unit, world) the tool's y axis at work and
-  // `pitch` (rad) as PlanReach gives them, `withdraw` (m, world) how far the hand gets away first.
+  // `state`: at the start of the episode; `across` (unit, world): the closing axis, tool y; `pitch`
+  // (rad): the approach pitch, both from PlanReach; `withdraw` (m, world): the retreat
+  // displacement.
   FocusFrame(const SkillVariant& variant, const tasks::SceneState& state,
              const Eigen::Vector3d& across, double pitch,
              const Eigen::Vector3d& withdraw = Eigen::Vector3d::Zero());
 
-  // Turns the frame at the destination, and with it how the hand comes there, by `angle` (rad)
-  // about the upright.
+  // Rotates the frame at the destination, and with it the direction of approach, by `angle` (rad)
+  // about the vertical.
   void Turn(double angle, const tasks::SceneState& state);
 
-  // Follows what has moved since.
+  // Tracks the motion since the last call.
   void Update(const tasks::SceneState& state);
 
   const Eigen::Isometry3d& world_from_focus() const { return world_from_focus_; }
   bool at_destination() const { return at_destination_; }
   bool withdrawing() const { return withdrawing_; }
-  // rad that the tool leans about the frame's y axis at work. A hand that pushes leans back while
-  // the frame is level: what it is asked for is along the floor.
+  // Returns the lean (rad) of the tool about the frame's y axis at the target. A pushing gripper
+  // leans back while the frame stays level, so that actions are along the floor.
   double lean() const { return withdrawing_ ? 0.0 : lean_; }
-  // The way that a part goes as it is worked, in the focus' frame, unit; zero of what turns in
-  // place and of things. A hand that is off the focus on that way is ahead of the part, and at its
-  // work.
+  // Returns the direction in which the part moves as it is manipulated (unit, target frame); zero
+  // for parts that rotate in place and for free objects. A gripper displaced along it is ahead of
+  // the part and still at its target.
   Eigen::Vector3d free_way() const { return withdrawing_ ? Eigen::Vector3d::Zero() : free_way_; }
-  // WorkFrame::back and room_depth: out of the room that the frame, or the thing at work, is in; at
-  // a destination in a room that opens upwards, over its rim.
+  // WorkFrame::back and room_depth: out of the receptacle that contains the frame or the target
+  // object; over the rim at a destination in a top-opening receptacle.
   const Eigen::Vector3d& back() const { return back_; }
   double room_depth() const { return room_depth_; }
 
  private:
-  void Switch(const tasks::SceneState& state);
+  void UpdateAtDestination(const tasks::SceneState& state);
   void Follow(const tasks::SceneState& state);
-  void GripAnew(const tasks::SceneState& state);
+  void UpdateGraspPoint(const tasks::SceneState& state);
   bool Withdraws(const tasks::SceneState& state);
-  void FindWayIn(const tasks::SceneState& state);
+  void ComputeRetreat(const tasks::SceneState& state);
 
   const SkillVariant& variant_;
   Eigen::Isometry3d world_from_focus_ = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d across_;  // unit, world: the tool's y axis at work
+  Eigen::Vector3d across_;  // unit, world: the closing axis
   double pitch_ = 0.0, lean_ = 0.0;
   Eigen::Vector3d free_way_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d grip_ = Eigen::Vector3d::Zero();  // m, the thing's frame: where it is taken
+  Eigen::Vector3d grasp_point_ = Eigen::Vector3d::Zero();  // m, object frame: the grasp point
   bool at_destination_ = false;
-  double below_ = 0.0;  // m, how far the thing reaches below its middle
-  int held_ = 0;        // updates in a row with the thing in both fingers
+  double below_ = 0.0;  // m, from the object's middle to its lowest point
+  int held_ = 0;        // consecutive updates with the object in both fingers
   bool was_held_ = false;
-  int resting_ = 0;  // updates in a row that the hand, holding it, is where it shall be
+  int updates_at_rest_ = 0;  // consecutive updates at rest at the frame, grasping the object
   Eigen::Vector3d back_ = -Eigen::Vector3d::UnitZ();
   double room_depth_ = 0.0;
   bool withdrawing_ = false;
-  double nearest_ = 1e9;                                      // m from there, so far
-  int stuck_ = 0;                                             // updates without coming nearer
-  int withdrawn_ = 0;                                         // updates that it has gone on for
-  Eigen::Isometry3d refuge_ = Eigen::Isometry3d::Identity();  // world_from_tool, to get away to
+  double smallest_distance_ = 1e9;                             // m from the retreat pose
+  int updates_stuck_ = 0;                                      // updates without progress
+  int updates_withdrawing_ = 0;                                // updates of the retreat
+  Eigen::Isometry3d retreat_ = Eigen::Isometry3d::Identity();  // world_from_tool, the retreat pose
   Eigen::Isometry3d before_ = Eigen::Isometry3d::Identity();  // world_from_tool, at the start
-  int opens_ = 0;                                             // updates that it has waited there
-  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();        // of the frame at work
+  int updates_opening_ = 0;                                   // updates while it opens
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();        // of the frame at the target
 };
 
 }  // namespace simwright::rl

@@ -6,15 +6,15 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kOnAxis = 1e-3;  // m: nearer, a part turns in place
+constexpr double kOnAxis = 1e-3;  // m: a nearer part rotates in place
 
 void Extend(const tasks::ThingLink& link, const Isometry3d& frame_from_link,
             Eigen::AlignedBox3d* box) {
   for (const Vector3d& point : link.outline) box->extend(frame_from_link * point);
 }
 
-// Where the joint lets the frame's origin go. `frame_from_moved`: the pose of the link that it
-// moves, whose origin lies on its axis.
+// Adds the motion of the frame's origin with the joint. `frame_from_moved`: the pose of the link
+// that the joint moves, whose origin is on its axis.
 void AddJoint(const tasks::ThingJoint& joint, const Isometry3d& frame_from_moved,
               FocusGeometry* geometry) {
   const Vector3d axis = frame_from_moved.linear() * joint.axis;

@@ -5,13 +5,14 @@
 namespace simwright::rl {
 namespace {
 
-constexpr double kHandBeside = 0.08;  // m about the thing that the hand needs
+constexpr double kHandBeside = 0.08;  // m, space for the gripper around the object
 constexpr double kHandAbove = 0.15;   // m
 
-// Whether the thing, with a hand on it, is in another when it is at its goal, moved by `way`.
+// Returns true if the object with the gripper on it, displaced by `displacement`, would intersect another
+// object.
 bool IsBlocked(const SkillVariant& variant, const tasks::SceneState& state, int thing,
-               const Eigen::Vector3d& way) {
-  Eigen::AlignedBox3d there = tasks::WorldBox(variant.model, state, thing).translated(way);
+               const Eigen::Vector3d& displacement) {
+  Eigen::AlignedBox3d there = tasks::WorldBox(variant.model, state, thing).translated(displacement);
   there.min() -= Eigen::Vector3d(kHandBeside, kHandBeside, 0.0);
   there.max() += Eigen::Vector3d(kHandBeside, kHandBeside, kHandAbove);
   for (const int other : variant.placed) {

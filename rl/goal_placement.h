@@ -4,10 +4,10 @@
 
 namespace simwright::rl {
 
-// The variant's goal (m, world) as it is where the scene stands as in `state` and not as described:
-// of what is to be lifted to a place that another thing or the hand's way to it is in the way of,
-// above where it stands, as high as described; of what is to come out of a room, before the room
-// wherever that is. Any other stays.
+// Returns the variant's goal (m, world), adapted to `state`. The goal of an object to be lifted, if
+// another object occupies it or the room that the gripper needs there, is moved above the object,
+// at the described height. The goal of an object taken out of a side-opening receptacle moves with
+// the receptacle. Any other goal is unchanged.
 Eigen::Vector3d GoalIn(const SkillVariant& variant, const tasks::SceneState& state);
 
 }  // namespace simwright::rl

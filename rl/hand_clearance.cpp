@@ -13,8 +13,8 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// Whether each link is `root` or hangs on it.
-std::vector<bool> HangsOn(const assets::UrdfModel& urdf, int root) {
+// Returns, by link, true if it is `root` or a descendant of it.
+std::vector<bool> DescendantsOf(const assets::UrdfModel& urdf, int root) {
   std::vector<bool> hangs(urdf.links.size(), false);
   hangs[static_cast<size_t>(root)] = true;
   const std::vector<int> parents = assets::ParentLinks(urdf);
@@ -40,7 +40,7 @@ void AddSurface(const core::TriangleMesh& mesh, const Isometry3d& tool_from_link
   }
 }
 
-// One point of those in each cube of side `spacing`: meshes of round shapes are much finer.
+// Returns one of the points in each cube of side `spacing`: meshes of round shapes are much finer.
 std::vector<Vector3d> Thinned(const std::vector<Vector3d>& points, double spacing) {
   std::set<std::array<int, 3>> cubes;
   std::vector<Vector3d> thinned;
@@ -61,7 +61,7 @@ SurfacePoints HandSurface(const robot::RobotModel& robot, double spacing) {
   }
   const std::vector<Isometry3d> poses = assets::LinkPoses(urdf, open);
   const Isometry3d tool_from_root = poses[static_cast<size_t>(robot.tool_link)].inverse();
-  const std::vector<bool> hand = HangsOn(urdf, robot.arm_joints.back() + 1);
+  const std::vector<bool> hand = DescendantsOf(urdf, robot.arm_joints.back() + 1);
   std::vector<Vector3d> points;
   for (size_t l = 0; l < urdf.links.size(); ++l) {
     if (!hand[l]) continue;

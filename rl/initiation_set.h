@@ -8,24 +8,24 @@
 
 namespace simwright::rl {
 
-// From which states a skill succeeds, as far as can be told from starts that it was tried from:
-// logistic regression on what its policy observes there. (Chained policies call it the initiation
-// set; Lee et al., CoRL 2021, tell it by a network.)
+// The initiation set of a skill: the states from which it succeeds, estimated from sampled start
+// states by logistic regression on what its policy observes there. (Lee et al., CoRL 2021, classify
+// them by a network.)
 class InitiationSet {
  public:
-  // `observations` (n x O), of which those that are `succeeded` (n) led to success. `ridge` > 0
-  // holds the weights down where starts are few. Throws core::Error where there are no starts, or
-  // other lengths.
+  // `observations` (n x O) with outcomes `succeeded` (n). `ridge` > 0 regularizes the weights.
+  // Throws core::Error if there are no start states, or if the lengths differ.
   InitiationSet(const Rows& observations, const std::vector<bool>& succeeded, double ridge = 1.0);
 
-  // Of success from a start that is observed as `observation` (O), in (0, 1).
+  // Returns the success probability, in (0, 1), of a start state with the observation `observation`
+  // (O).
   double Chance(const float* observation) const;
 
   int size() const { return static_cast<int>(mean_.size()); }  // O
 
  private:
-  Eigen::RowVectorXd mean_, factor_;  // (O) of what was observed; one over its deviation
-  Eigen::VectorXd weights_;           // (O + 1), the last one alone
+  Eigen::RowVectorXd mean_, factor_;  // (O) mean of the observations; one over their deviation
+  Eigen::VectorXd weights_;           // (O + 1), the last one the bias
 };
 
 }  // namespace simwright::rl

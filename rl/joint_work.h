@@ -4,7 +4,8 @@
 
 namespace simwright::rl {
 
-// How far a joint that stands at `position` shall go: the farther of its rest and most of its way.
+// Returns the joint target for a joint at `position`: the farther of its rest position and 80 % of
+// its range from there.
 double WorkEnd(const tasks::ThingJoint& joint, double position);
 
 }  // namespace simwright::rl

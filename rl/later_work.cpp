@@ -6,13 +6,13 @@
 namespace simwright::rl {
 namespace {
 
-constexpr double kMoved = 0.01;  // m: a thing that is described so far off has been carried there
+constexpr double kSamePlace = 0.01;  // m: an object farther off was carried
 
-// Whether `later` finds its thing where the task begins with it.
+// Returns true if `later` finds its object where the task begins with it.
 bool IsWhereItWas(const SkillVariant& later, const SkillVariant& first) {
   const auto thing = static_cast<size_t>(later.focus->thing);
   const Eigen::Isometry3d& root = later.start.roots[thing];
-  return (root.translation() - first.start.roots[thing].translation()).norm() < kMoved;
+  return (root.translation() - first.start.roots[thing].translation()).norm() < kSamePlace;
 }
 
 }  // namespace

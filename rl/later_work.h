@@ -5,10 +5,10 @@
 
 namespace simwright::rl {
 
-// Whether the arm can do the work of each of skill.later in a scene placed as `state` is, as far as
-// can be told beforehand: from home there is a way to it, with each joint as that skill finds it,
-// and what it takes can go on to where the one after brings it. `variant`: of the skill, an index.
-// What stands elsewhere by then is not looked at.
+// Returns true if the arm can do the manipulation of each of skill.later in the scene placed as in
+// `state`: from home there is a joint path to the grasp, with each joint as that skill finds it,
+// and the grasped object can be carried on to its next destination. `variant`: index into the
+// skill's variants. Objects that earlier skills move are not checked.
 bool IsLaterWorkInReach(const Skill& skill, int variant, const tasks::SceneState& state,
                         core::Rng& rng);
 

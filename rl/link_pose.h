@@ -6,7 +6,7 @@
 
 namespace simwright::rl {
 
-// world_from_link of a thing's link in `state`.
+// Returns world_from_link of an object's link in `state`.
 Eigen::Isometry3d WorldFromLink(const tasks::SceneModel& model, const tasks::SceneState& state,
                                 int thing, int link);
 

@@ -9,7 +9,7 @@ void Activate(Activation activation, Rows* rows) {
   if (activation == Activation::kTanh) {
     *rows = rows->array().tanh();
   } else {
-    // e^min(x, 0) - 1 is 0 where x is positive, and x's positive part 0 where it is not.
+    // ELU without branches: e^min(x, 0) - 1 is 0 for positive x, max(x, 0) is 0 otherwise.
     *rows = rows->array().max(0.0f) + (rows->array().min(0.0f).exp() - 1.0f);
   }
 }
@@ -18,11 +18,11 @@ void Activate(Activation activation, Rows* rows) {
 
 Mlp::Mlp(std::vector<Layer> layers, Activation activation)
     : layers_(std::move(layers)), activation_(activation) {
-  if (layers_.empty()) throw core::Error("a network has a layer at least", "network");
+  if (layers_.empty()) throw core::Error("a network needs at least one layer", "network");
   for (std::size_t i = 0; i < layers_.size(); ++i) {
     if (layers_[i].weights.cols() != layers_[i].bias.size() ||
         (i > 0 && layers_[i - 1].weights.cols() != layers_[i].weights.rows())) {
-      throw core::Error("its sizes do not fit", "layer " + std::to_string(i));
+      throw core::Error("its size does not match the previous layer", "layer " + std::to_string(i));
     }
   }
 }

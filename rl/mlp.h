@@ -9,7 +9,7 @@
 
 namespace simwright::rl {
 
-// A multi-layer perceptron's forward pass, with the activation between its layers and none after
+// The forward pass of a multi-layer perceptron with activations between its layers and none after
 // the last. Runs on the calling thread alone: a few rows are done before a second thread wakes.
 class Mlp {
  public:
@@ -19,10 +19,10 @@ class Mlp {
   };
 
   Mlp() = default;
-  // Throws core::Error where the layers do not fit each other.
+  // Throws core::Error if the layer sizes do not match.
   Mlp(std::vector<Layer> layers, Activation activation);
 
-  // (n x inputs) to (n x outputs). Safe from several threads.
+  // Maps (n x inputs) to (n x outputs). Thread-safe.
   void Forward(const Rows& inputs, Rows* outputs) const;
 
   int input_size() const;

@@ -11,17 +11,17 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using tasks::RewardInput;
 
-constexpr double kNear = 0.1;  // m that count as 1 where the hand works
-constexpr double kRoom = 0.5;  // m that count as 1 in the room
+constexpr double kNear = 0.1;  // m, unit of distances near the target
+constexpr double kRoom = 0.5;  // m, unit of distances in the scene
 constexpr double kFast = 2.0;  // rad/s or m/s
 
-constexpr int kHand = 3 + 6 + 4;            // place, turn; opening, its command, touch, grasp
-constexpr int kFrame = 3 + 6 + 1;           // place, turn; whether at the destination
-constexpr int kJoint = 2;                   // where, how fast
-constexpr int kFocusThing = 3 + 3 + 3 + 3;  // place, upright, speed, size
-constexpr int kFocusSize = 3;               // as the hand sees it
-constexpr int kFocusPart = 3 + 3 + 3;       // middle, way, hinge: of what a joint moves
-constexpr int kThing = 3 + 3 + 3;           // place, upright, size
+constexpr int kHand = 3 + 6 + 4;            // pose; opening, its command, touch, grasp
+constexpr int kFrame = 3 + 6 + 1;           // pose; at the destination
+constexpr int kJoint = 2;                   // position, velocity
+constexpr int kFocusThing = 3 + 3 + 3 + 3;  // position, upright axis, velocity, size
+constexpr int kFocusSize = 3;               // in the target frame
+constexpr int kFocusPart = 3 + 3 + 3;       // middle, direction of motion, hinge: for joints
+constexpr int kThing = 3 + 3 + 3;           // position, upright axis, size
 constexpr int kDestination = 3;
 
 }  // namespace
@@ -33,7 +33,7 @@ class Observer::Row {
   void Add(const Vector3d& vector, double unit) {
     for (int i = 0; i < 3; ++i) Add(vector[i] / unit);
   }
-  // Two axes of a rotation: numbers without a jump anywhere (Zhou et al., CVPR 2019).
+  // Adds two axes of a rotation matrix: a continuous representation (Zhou et al., CVPR 2019).
   void Add(const Eigen::Matrix3d& rotation) {
     Add(Vector3d(rotation.col(1)), 1.0);
     Add(Vector3d(rotation.col(2)), 1.0);
@@ -88,9 +88,9 @@ void Observer::AddHand(const tasks::SceneState& state, const Senses& senses, Row
   const robot::Gripper& gripper = skill_.robot->gripper;
   row->Add(2.0 * state.opening / gripper.MaxOpening() - 1.0);
   row->Add(2.0 * gripper.Opening(senses.leader_command) / gripper.MaxOpening() - 1.0);
-  const bool of_focus = variant_.focus && state.touched == variant_.focus->thing;
-  row->Add(of_focus ? 1.0 : 0.0);
-  row->Add(of_focus && state.grasped ? 1.0 : 0.0);
+  const bool touches_target = variant_.focus && state.touched == variant_.focus->thing;
+  row->Add(touches_target ? 1.0 : 0.0);
+  row->Add(touches_target && state.grasped ? 1.0 : 0.0);
 }
 
 void Observer::AddJoints(const tasks::SceneState& state, const tasks::SceneState* previous,

@@ -8,30 +8,30 @@
 
 namespace simwright::rl {
 
-// What a policy sees, besides what the scene's state says.
+// The policy inputs that are not in the scene state.
 struct Senses {
   const robot::Posture* arm = nullptr;         // (J)
   const robot::Posture* velocities = nullptr;  // (J)
   double leader_command = 0.0;
   const float* last_action = nullptr;  // (A)
-  // The frame that actions are seen from (ToolAtFocus), world_from_focus.
+  // The frame of the actions (ToolAtFocus), world_from_focus.
   Eigen::Isometry3d world_from_focus = Eigen::Isometry3d::Identity();
-  bool at_destination = false;  // that frame is where a held thing goes
-  bool withdrawing = false;     // that frame is where the hand gets away to (FocusFrame)
+  bool at_destination = false;  // the frame is at the destination of a grasped object
+  bool withdrawing = false;     // the frame is the retreat pose (FocusFrame)
 };
 
-// Writes what a policy sees in one variant of a skill; other variants give as many numbers.
+// Writes the observation in one variant of a skill; all variants have the same size.
 class Observer {
  public:
   // Both must outlive the observer.
   Observer(const Skill& skill, const SkillVariant& variant);
 
   int size() const;
-  // Into `row`, size() numbers of about unit size: joints and speeds of the arm, the hand as the
-  // focus frame sees it, that frame as the robot sees it, the joints and things that the program
-  // reads, how large what the hand works on is and where it can go (FocusGeometry), the way to the
-  // destination, the last action (docs/skills.md). `previous`: the state one
-  // decision before, or null.
+  // Writes size() numbers of about unit size into `row`: joint positions and velocities of the arm,
+  // the gripper in the target frame, that frame in the robot's base, the joints and objects that
+  // the program reads, the target's size and motion (FocusGeometry), the displacement to the
+  // destination, the last action (docs/skills.md). `previous`: the state one decision before, or
+  // null.
   void Write(const tasks::SceneState& state, const tasks::SceneState* previous,
              const Senses& senses, float* row) const;
 
@@ -49,15 +49,15 @@ class Observer {
 
   const Skill& skill_;
   const SkillVariant& variant_;
-  std::vector<std::pair<int, int>> joints_;  // thing and joint that the program reads
-  std::vector<int> things_;                  // free ones that it reads, other than the focus
+  std::vector<std::pair<int, int>> joints_;  // object and joint that the program reads
+  std::vector<int> things_;                  // free objects that it reads, other than the target
 };
 
-// The way that the thing at work still has to go to `destination`, m, world.
+// Returns the displacement (m, world) from the target object to `destination`.
 Eigen::Vector3d WayTo(const Destination& destination, const SkillVariant& variant,
                       const tasks::SceneState& state);
 
-// The same to its own destination.
+// Returns the same for the variant's own destination.
 Eigen::Vector3d WayToDestination(const SkillVariant& variant, const tasks::SceneState& state);
 
 }  // namespace simwright::rl

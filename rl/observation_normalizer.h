@@ -11,16 +11,16 @@ namespace simwright::rl {
 // A number that never changed is only shifted and scaled by 1e4, so that it stays 0.
 class ObservationScale {
  public:
-  // What lies further out is clipped: one outlier must not swamp a network.
+  // The clipping limit: one outlier must not swamp a network.
   static constexpr float kLimit = 10.0f;
 
-  // Leaves observations of `size` numbers as they are, but for the clipping.
+  // Leaves observations of `size` numbers unchanged, except for the clipping.
   explicit ObservationScale(int size = 0);
   explicit ObservationScale(const RunningMoments& moments);
   // `factor`: one over the standard deviation.
   ObservationScale(const Eigen::RowVectorXf& mean, const Eigen::RowVectorXf& factor);
 
-  // (n x O) to (n x O), which may be the same. A number that is not finite becomes 0.
+  // Maps (n x O) to (n x O), in place if both are the same. A number that is not finite becomes 0.
   void Apply(const Rows& observations, Rows* scaled) const;
 
   const Eigen::RowVectorXf& mean() const { return mean_; }
@@ -30,7 +30,7 @@ class ObservationScale {
   Eigen::RowVectorXf mean_, factor_;
 };
 
-// An ObservationScale that follows what is observed, for training.
+// An ObservationScale that is updated with the observations during training.
 class ObservationNormalizer {
  public:
   explicit ObservationNormalizer(int size) : moments_(size), scale_(size) {}
@@ -38,7 +38,7 @@ class ObservationNormalizer {
   void Update(const Rows& observations);
   void Apply(const Rows& observations, Rows* scaled) const { scale_.Apply(observations, scaled); }
 
-  // To be frozen, as a policy takes it along.
+  // Returns the current scale, to be frozen into a policy.
   const ObservationScale& scale() const { return scale_; }
   const RunningMoments& moments() const { return moments_; }
   void Restore(const RunningMoments& moments);

@@ -14,7 +14,7 @@ using tasks::SceneModel;
 using tasks::SceneState;
 
 constexpr double kUpright = 0.5;  // of the opening's rise
-constexpr double kLevel = 0.5;    // of a joint's axis' rise: less slides out to a side
+constexpr double kLevel = 0.5;    // of a joint axis' rise: a smaller one slides sideways
 
 }  // namespace
 

@@ -9,21 +9,22 @@
 
 namespace simwright::rl {
 
-// Rooms that open upwards, as bowls and drawers have: things go into them over their rim.
+// Top-opening receptacles, such as bowls and drawers: objects go into them over the rim.
 
-// m above a rim that what is carried goes over it.
+// The clearance (m) of a carried object above the rim.
 inline constexpr double kOverRim = 0.03;
 
-// Whether the cavity opens upwards as its thing stands.
+// Returns true if the receptacle opens upwards in `state`.
 bool OpensUpwards(const tasks::SceneModel& model, const tasks::SceneState& state, int thing,
                   const tasks::Cavity& cavity);
 
-// The middle of what can be come at from above, m, the link's frame: of a drawer that stands open
-// by less than its length only the part that is out.
+// Returns the middle (m, link frame) of the region that is accessible from above: for a drawer that
+// is open by less than its length, only of the part that is out.
 Eigen::Vector3d SpotFromAbove(const tasks::SceneModel& model, const tasks::SceneState& state,
                               int thing, const tasks::Cavity& cavity);
 
-// m above the floor, the top of the walls about such a room that `point` (m, world) is in.
+// Returns the height (m above the floor) of the walls of the top-opening receptacle that contains
+// `point` (m, world).
 std::optional<double> RimAround(const tasks::SceneModel& model, const tasks::SceneState& state,
                                 const Eigen::Vector3d& point);
 

@@ -6,8 +6,9 @@
 
 namespace simwright::rl {
 
-// A matrix (rows x columns) whose shorter side's vectors are orthogonal, each of length `gain`,
-// uniform among all such (Saxe et al. 2014): the Q of a Gaussian matrix, R's diagonal positive.
+// Returns a matrix (rows x columns) whose shorter side's vectors are orthogonal, each of length
+// `gain`, uniformly distributed (Saxe et al. 2014): the Q of a Gaussian matrix, R's diagonal
+// positive.
 Eigen::MatrixXd OrthogonalWeights(int rows, int columns, double gain, core::Rng& rng);
 
 }  // namespace simwright::rl

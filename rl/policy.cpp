@@ -9,7 +9,7 @@ Policy::Policy(const ObservationScale& scale, const Mlp& actor, const Eigen::Row
     : scale_(scale), actor_(actor), std_(std), facts_(facts) {
   if (scale.mean().size() != actor.input_size() || scale.factor().size() != actor.input_size() ||
       std.size() != actor.output_size()) {
-    throw core::Error("its sizes do not fit each other", "policy");
+    throw core::Error("its sizes do not match", "policy");
   }
 }
 

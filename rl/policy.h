@@ -11,24 +11,24 @@
 
 namespace simwright::rl {
 
-// What else a file says of itself, such as the task's name; keys and values without line breaks.
+// The metadata of a file, such as the task's name; keys and values without line breaks.
 using Facts = std::map<std::string, std::string>;
 
-// A trained policy, frozen. Constant, and safe from several threads.
+// A trained policy, frozen. Constant and thread-safe.
 class Policy {
  public:
-  // Throws core::Error where the sizes do not fit each other.
+  // Throws core::Error if the sizes do not match.
   Policy(const ObservationScale& scale, const Mlp& actor, const Eigen::RowVectorXf& std,
          const Facts& facts = {});
 
-  // The most probable action for each of `observations` (n x O): (n x A), clamped to [-1, 1].
+  // Writes the mean action for each of `observations` (n x O): (n x A), clamped to [-1, 1].
   void Act(const Rows& observations, Rows* actions) const;
 
   int observation_size() const { return actor_.input_size(); }  // O
   int action_size() const { return actor_.output_size(); }      // A
   const ObservationScale& scale() const { return scale_; }
   const Mlp& actor() const { return actor_; }
-  // (A) that training drew with, for whoever wants to draw.
+  // Returns the standard deviations (A) of training, for callers that sample actions.
   const Eigen::RowVectorXf& std() const { return std_; }
   const Facts& facts() const { return facts_; }
 

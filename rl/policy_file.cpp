@@ -6,7 +6,7 @@
 namespace simwright::rl {
 namespace {
 
-constexpr char kKind[] = "simwright policy 1";  // with the format's version
+constexpr char kKind[] = "simwright policy 1";  // includes the format's version
 constexpr int kMostLayers = 64;
 
 torch::Tensor TensorOf(const Rows& rows, torch::ScalarType type) {
@@ -29,9 +29,9 @@ Rows RowsOf(const nn::NamedTensors& tensors, const std::string& name) {
 
 Policy PolicyFrom(const nn::NamedTensors& tensors) {
   const auto kind = tensors.find("kind");
-  if (kind == tensors.end()) throw core::Error("is no policy");
+  if (kind == tensors.end()) throw core::Error("is not a policy");
   if (UnpackBytes(kind->second) != kKind) {
-    throw core::Error("is '" + UnpackBytes(kind->second).substr(0, 40) + "', wanted is '" + kKind +
+    throw core::Error("is '" + UnpackBytes(kind->second).substr(0, 40) + "', expected '" + kKind +
                       "'");
   }
   const bool tanh = UnpackBytes(TakeTensor(tensors, "activation", torch::kUInt8, 1)) == "tanh";
@@ -72,7 +72,7 @@ Policy ReadPolicy(const std::filesystem::path& path) {
   try {
     return PolicyFrom(tensors);
   } catch (const core::Error& error) {
-    throw core::Error(error.what(), path.string(), "train the policy anew");
+    throw core::Error(error.what(), path.string(), "train the policy again");
   }
 }
 

@@ -6,10 +6,10 @@
 namespace simwright::rl {
 namespace {
 
-constexpr int kPostures = 8;  // that are tried
+constexpr int kPostures = 8;  // attempts
 
-// Somewhere about `from`, a share of each joint's range to either side.
-robot::Posture PostureAbout(const robot::Posture& from, double share, const robot::Arm& arm,
+// Samples a configuration around `from`, within a share of each joint's range to either side.
+robot::Posture SampleAround(const robot::Posture& from, double share, const robot::Arm& arm,
                             core::Rng& rng) {
   robot::Posture posture = from;
   for (Eigen::Index j = 0; j < posture.size(); ++j) {
@@ -20,11 +20,11 @@ robot::Posture PostureAbout(const robot::Posture& from, double share, const robo
   return posture;
 }
 
-double TravelTime(const robot::RobotModel& robot, const robot::Posture& way) {
+double TravelTime(const robot::RobotModel& robot, const robot::Posture& displacement) {
   double seconds = 0.0;
-  for (Eigen::Index j = 0; j < way.size(); ++j) {
+  for (Eigen::Index j = 0; j < displacement.size(); ++j) {
     const auto joint = static_cast<size_t>(robot.arm_joints[static_cast<size_t>(j)]);
-    seconds = std::max(seconds, std::abs(way[j]) / robot.limits[joint].velocity);
+    seconds = std::max(seconds, std::abs(displacement[j]) / robot.limits[joint].velocity);
   }
   return seconds;
 }
@@ -43,11 +43,11 @@ std::vector<ReachingPosture> PosturesAt(const Skill& skill, const SkillVariant& 
     if (found.reached) {
       postures.push_back({found.q, TravelTime(*skill.robot, found.q - from)});
     } else if (i == 0) {
-      return postures;  // out of reach, as a rule
+      return postures;  // usually out of reach
     } else {
       continue;
     }
-    start = PostureAbout(from, static_cast<double>(i + 1) / kPostures, skill.robot->arm, rng);
+    start = SampleAround(from, static_cast<double>(i + 1) / kPostures, skill.robot->arm, rng);
   }
   return postures;
 }

@@ -14,31 +14,31 @@ namespace simwright::rl {
 
 struct LearnerState;
 
-// Proximal policy optimisation: acts in an environment, learns from what came of it. Everything is
-// drawn from options.seed: the same seed, machine and number of threads give the same policy, bit
-// for bit.
+// Proximal policy optimization: collects rollouts in an environment and learns from them. All
+// random numbers derive from options.seed: the same seed, machine and number of threads give
+// bit-identical policies.
 class Ppo {
  public:
-  // `environment` must outlive this, and is reset. Gives libtorch core::ThreadCount() threads.
-  // Throws core::Error for options that are not valid, or an environment without size.
+  // Resets `environment`, which must outlive this, and sets libtorch to core::ThreadCount()
+  // threads. Throws core::Error for invalid options and for an environment without size.
   Ppo(VectorEnvironment* environment, const PpoOptions& options);
   ~Ppo();
   Ppo(const Ppo&) = delete;
   Ppo& operator=(const Ppo&) = delete;
 
-  // options.horizon steps of each environment; the episodes that ended are added to `outcomes`.
+  // Runs options.horizon steps of each environment and appends the finished episodes to `outcomes`.
   // Throws core::Error as RolloutCollector does.
   void Collect(std::vector<Outcome>* outcomes);
-  // Learns from what Collect gave.
+  // Learns from the last rollout.
   UpdateReport Update();
 
-  // What has been learnt, to act on its own.
+  // Returns a frozen copy of the current policy.
   Policy CurrentPolicy() const;
   const PpoOptions& options() const { return options_; }
   std::int64_t samples() const { return collector_.samples(); }
   std::int64_t dropped() const { return collector_.dropped(); }
 
-  // For training_checkpoint.
+  // The state for training_checkpoint.
   CollectorState CollectorPart() const { return collector_.SaveState(); }
   LearnerState LearnerPart() const;
   // Throws core::Error for a state of other sizes.

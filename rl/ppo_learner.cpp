@@ -12,14 +12,15 @@
 namespace simwright::rl {
 namespace {
 
-constexpr std::uint64_t kWeightStream = 0, kShuffleStream = 2;  // 1 draws actions
-constexpr std::int64_t kRowsAtOnce = 8192;  // that the critic evaluates: bounds its memory
+constexpr std::uint64_t kWeightStream = 0, kShuffleStream = 2;  // 1 samples actions
+constexpr std::int64_t kRowsAtOnce = 8192;  // rows per critic evaluation, to bound its memory
 
 core::Rng WeightRng(std::uint64_t seed) {
   return core::StreamRng(seed, kWeightStream);
 }
 
-// Share of the variance of `returns` that `values` foresaw: 1 where they agree, 0 for a constant.
+// Returns the share of the variance of `returns` that `values` explains: 1 if they agree, 0 for a
+// constant.
 double ExplainedVariance(const Samples& samples) {
   const double variance = samples.returns.var(false).item<double>();
   if (variance == 0.0) return 0.0;
@@ -55,7 +56,7 @@ PpoLearner::PpoLearner(const ActorCriticSizes& sizes, const PpoOptions& options)
       learning_rate_(options.learning_rate) {}
 
 torch::Tensor PpoLearner::OnDevice(const Rows& rows) const {
-  // from_blob wants what it may write to; it is copied at once.
+  // from_blob takes a mutable pointer; the data are copied at once.
   return torch::from_blob(const_cast<float*>(rows.data()), {rows.rows(), rows.cols()})
       .to(device_, torch::kFloat, /*non_blocking=*/false, /*copy=*/true);
 }
@@ -121,15 +122,15 @@ void PpoLearner::Imitate(const Rollout& rollout, const Samples& samples,
   shown_.actions = first ? actions : torch::cat({shown_.actions, actions});
   UpdateReport ignored;
   for (int step = 0; step < options_.imitation_steps; ++step) {
-    Descend(ComputeImitationLoss(networks_, DrawShown()), &ignored);
+    TakeGradientStep(ComputeImitationLoss(networks_, SampleDemonstrations()), &ignored);
   }
 }
 
-Demonstrations PpoLearner::DrawShown() {
+Demonstrations PpoLearner::SampleDemonstrations() {
   std::vector<std::int64_t> rows(static_cast<std::size_t>(options_.minibatch));
   for (std::int64_t& row : rows) row = core::UniformIndex(rng_, shown_.actions.size(0));
-  const torch::Tensor drawn = Indices(rows);
-  return {shown_.observations.index_select(0, drawn), shown_.actions.index_select(0, drawn)};
+  const torch::Tensor sampled = Indices(rows);
+  return {shown_.observations.index_select(0, sampled), shown_.actions.index_select(0, sampled)};
 }
 
 void PpoLearner::Shuffle(std::vector<std::int64_t>* rows) {
@@ -149,7 +150,7 @@ UpdateReport PpoLearner::Update(const Rollout& rollout, bool critic_alone) {
   }
   Imitate(rollout, samples, rows);
   const auto count = static_cast<std::int64_t>(rows.size());
-  // Parts of about equal size: a small rest would have advantages of its own scale.
+  // Minibatches of about equal size: a small remainder would normalize its advantages differently.
   const std::int64_t parts =
       std::max<std::int64_t>(1, (count + options_.minibatch / 2) / options_.minibatch);
   UpdateReport report;
@@ -165,7 +166,7 @@ UpdateReport PpoLearner::Update(const Rollout& rollout, bool critic_alone) {
                                   : ComputeCriticLoss(networks_, batch, old_log_std, options_);
       AddMeans(loss, &report);
       kl += loss.kl.item<double>() / static_cast<double>(parts);
-      Descend(loss.total, &report);
+      TakeGradientStep(loss.total, &report);
     }
     if (by_ppo) AdaptRate(kl, /*last=*/epoch + 1 == options_.epochs);
   }
@@ -184,12 +185,12 @@ void PpoLearner::AdaptRate(double kl, bool last) {
   }
 }
 
-void PpoLearner::Descend(const torch::Tensor& loss, UpdateReport* report) {
+void PpoLearner::TakeGradientStep(const torch::Tensor& loss, UpdateReport* report) {
   const FlatParameters& parameters = networks_.parameters();
   torch::Tensor gradients = parameters.gradients();
   gradients.zero_();
   loss.backward();
-  // All gradients stand in one row here: training on many machines sums that row over them.
+  // All gradients are in one flat tensor: training on several machines would all-reduce it here.
   const double norm = gradients.norm().item<double>();
   if (!std::isfinite(norm)) {
     ++report->skipped;

@@ -15,22 +15,22 @@
 
 namespace simwright::rl {
 
-// All that the next update depends on, but for the rollout. On the CPU.
+// The state that the next update depends on, except for the rollout. On the CPU.
 struct LearnerState {
   torch::Tensor parameters, gradient_means, gradient_squares;  // (P)
   std::int64_t descents = 0;
   double learning_rate = 0.0;
-  std::string generator;  // core::Rng's
-  Demonstrations shown;   // so far, while they are imitated
+  std::string generator;  // of core::Rng
+  Demonstrations shown;   // so far, during imitation
 };
 
-// Improves actor and critic by what was collected.
+// Updates actor and critic from rollouts.
 class PpoLearner {
  public:
   PpoLearner(const ActorCriticSizes& sizes, const PpoOptions& options);
 
-  // `options.epochs` passes over the rollout in shuffled minibatches. The actor learns unless
-  // `critic_alone`.
+  // Runs `options.epochs` passes over the rollout in shuffled minibatches. With `critic_alone` the
+  // actor does not learn.
   UpdateReport Update(const Rollout& rollout, bool critic_alone = false);
 
   const ActorCritic& networks() const { return networks_; }
@@ -43,21 +43,21 @@ class PpoLearner {
   torch::Tensor OnDevice(const Rows& rows) const;
   torch::Tensor OnDevice(const std::vector<float>& numbers) const;
   torch::Tensor Indices(const std::vector<std::int64_t>& rows) const;
-  // Values (n) of `observations` (n x O).
+  // Returns the values (n) of `observations` (n x O).
   std::vector<float> ValuesOf(const Rows& observations) const;
   Samples Evaluate(const Rollout& rollout) const;
-  // Adds what the rollout shows at `rows` to what was shown before, and brings the actor nearer to
-  // all of it. Forgets it where nothing is shown.
+  // Appends the demonstrations of the rollout at `rows` to the previous ones and fits the actor to
+  // all of them. Clears them if the rollout has none.
   void Imitate(const Rollout& rollout, const Samples& samples,
                const std::vector<std::int64_t>& rows);
-  // Some of all that was shown, with repetition.
-  Demonstrations DrawShown();
-  // Fisher and Yates.
+  // Samples from all demonstrations, with replacement.
+  Demonstrations SampleDemonstrations();
+  // Shuffles by Fisher and Yates.
   void Shuffle(std::vector<std::int64_t>* rows);
-  // After an epoch of mean divergence `kl`. Up only after the `last` one: the first ones are always
-  // close to the policy that acted.
+  // Adapts the learning rate after an epoch with mean KL divergence `kl`. Raises it only after the
+  // `last` epoch: the first ones are always close to the old policy.
   void AdaptRate(double kl, bool last);
-  void Descend(const torch::Tensor& loss, UpdateReport* report);
+  void TakeGradientStep(const torch::Tensor& loss, UpdateReport* report);
 
   PpoOptions options_;
   torch::Device device_;

@@ -6,7 +6,7 @@
 
 namespace simwright::rl {
 
-// What B samples held when they were collected.
+// B samples of a rollout, with the values at collection time.
 struct Samples {
   torch::Tensor observations;   // (B x O)
   torch::Tensor actions;        // (B x A)
@@ -16,34 +16,37 @@ struct Samples {
   torch::Tensor advantages;     // (B)
   torch::Tensor returns;        // (B)
 
-  // The samples of `indices` (int64).
+  // Returns the samples at `indices` (int64).
   Samples Select(const torch::Tensor& indices) const;
 };
 
 struct PpoLoss {
-  torch::Tensor total;  // to descend on
+  torch::Tensor total;  // to minimize
   // Scalars without gradients.
   torch::Tensor policy, value, entropy;
   torch::Tensor kl;             // of the new policy from the old one, exact for Gaussians
-  torch::Tensor clipped_share;  // of ratios outside the clip
+  torch::Tensor clipped_share;  // of ratios outside the clip range
 };
 
-// The clipped objective (Schulman et al. 2017, equations 7 and 9) on a minibatch, whose advantages
-// are brought to mean 0 and standard deviation 1. `old_log_std` (A): of the policy that acted.
+// Computes the clipped objective (Schulman et al. 2017, equations 7 and 9) on a minibatch, whose
+// advantages are normalized to mean 0 and standard deviation 1. `old_log_std` (A): of the policy
+// that acted.
 PpoLoss ComputePpoLoss(const ActorCritic& networks, const Samples& batch,
                        const torch::Tensor& old_log_std, const PpoOptions& options);
 
-// What was shown at D observations.
+// Demonstrated actions at D observations.
 struct Demonstrations {
-  torch::Tensor observations;  // (D x O); not defined where nothing is shown
+  torch::Tensor observations;  // (D x O); undefined without demonstrations
   torch::Tensor actions;       // (D x A)
 };
 
-// Half the squared distance between the actor's means and what was shown, in standard deviations:
-// what a Gaussian of fixed width makes of maximum likelihood. Scalar.
+// Computes half the squared distance between the actor's means and the demonstrated actions, in
+// standard deviations: the negative log likelihood of a Gaussian of fixed width, up to a constant.
+// Scalar.
 torch::Tensor ComputeImitationLoss(const ActorCritic& networks, const Demonstrations& shown);
 
-// What is left of ComputePpoLoss where the actor learns otherwise: the critic's part.
+// Computes the critic's part of ComputePpoLoss, for phases in which the actor does not learn by
+// PPO.
 PpoLoss ComputeCriticLoss(const ActorCritic& networks, const Samples& batch,
                           const torch::Tensor& old_log_std, const PpoOptions& options);
 

@@ -13,21 +13,20 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kSwings = 0.08;      // m from its axis to the farthest point of what swings
-constexpr double kOverEdge = 0.03;    // m that the fingertips' middle is past an edge of the face
-constexpr double kBehindFace = 0.02;  // m: half of a finger, and some room
-constexpr double kOut = 0.75;         // of the way from the axis to the free edge
-constexpr double kUpright = 0.9;      // cosine of an upright axis
-// m above the robot's base: an edge that is higher has the arm stretched out when it comes from
-// above, and a face that goes higher is pushed there (of 100 doors of cabinets 79 by script; half
-// way up, 42).
+constexpr double kSwings = 0.08;      // m, smallest distance of a free edge from its axis
+constexpr double kOverEdge = 0.03;    // m from an edge of the face to the fingertips' middle
+constexpr double kBehindFace = 0.02;  // m: half of a finger, and a margin
+constexpr double kOut = 0.75;         // of the distance from the axis to the free edge
+constexpr double kUpright = 0.9;      // cosine of a vertical axis
+// The heights (m) above the robot's base up to which an edge is pushed from above, since the arm is
+// stretched out at a higher one, and at which a face that extends higher is pushed.
 constexpr double kHighest = 0.45, kPushesAt = 0.4;
 
-// What swings, about the origin of its link's frame.
+// A swinging part, about the origin of its link's frame.
 struct Swing {
   Vector3d axis;                  // unit
   Vector3d out;                   // unit, from the axis to the free edge
-  Vector3d way;                   // unit, that the part goes as it is shut
+  Vector3d way;                   // unit, direction of motion as the part is shut
   double edge = 0.0, face = 0.0;  // m along out and way
   double low = 0.0, high = 0.0;   // m along the axis
 };
@@ -51,7 +50,8 @@ Swing SwingOf(const tasks::Thing& thing, const tasks::ThingJoint& joint, double 
   return swing;
 }
 
-// The tool with its axes along `x` and `z`, at the point that is `out`, `way` and `along` the axis.
+// Returns the tool pose with its axes along `x` and `z`, at the point `out`, `way` and `along` the
+// axis.
 Isometry3d ToolAt(const Swing& swing, const Vector3d& x, const Vector3d& z, double out, double way,
                   double along) {
   Isometry3d tool = Isometry3d::Identity();

@@ -17,59 +17,63 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kFinger = 0.03;  // m behind what is pushed: fingers lean, walls lean out
-// m: nearer to its goal a thing is pushed on as before. The hand would else have to go round it
-// whenever it is past its goal.
-constexpr double kThere = 0.03;
+constexpr double kFingerDistance = 0.03;  // m behind a pushed object: fingers lean, walls lean out
+// The distance (m) to its goal below which an object is pushed on as before: otherwise the gripper
+// would have to go around the object whenever it has passed its goal.
+constexpr double kNearGoal = 0.03;
 constexpr double kPitches[] = {0.0, 0.35, -0.35, 0.7, -0.7};
-// Of a hand that pushes: leaning back it has its palm behind the thing, and not on top of it, so
-// that the fingers push below the middle. Upright, the palm comes down on whatever is taller than
-// the fingers are long.
+// The pitches for pushing an object: a gripper that leans back has its palm behind the object, so
+// that the fingers push below the middle. Upright, the palm would come down on an object that is
+// taller than the fingers are long.
 constexpr double kPushPitches[] = {0.6, 0.8, 0.4};
-// Of one that pushes a door shut: the door stands higher than the fingers are long.
+// The pitches for pushing a door shut, which is taller than the fingers are long.
 constexpr double kShutPitches[] = {0.3, 0.6, 0.0, 0.9};
-// Of a hand that goes into a room through its side: palm and wrist stay out of it, or below its
-// ceiling. A microwave is 20 cm high inside; upright, hand and flange alone are 25.
+// The pitches in a side-opening receptacle: palm and flange stay out of it, or below its ceiling. A
+// microwave is 20 cm high inside; upright, gripper and flange alone are 25 cm.
 constexpr double kRoomPitches[] = {0.8, 1.0, 0.6, 1.2};
-// rad that fingers may be turned that push a door shut from where it stands wide open: to turn with
-// it all that way is more than most wrists can.
+// The orientation tolerance (rad) of fingers that push a wide open door shut: most wrists cannot
+// rotate with it all the way.
 constexpr double kPushTurned = 0.6;
-constexpr double kLeaning = 0.9;  // of the lean, into the room: things with corners turn the hand
-// That are looked at in rooms and along a joint's way: whether an arm is clear takes a millisecond.
-constexpr int kLookedAt = 6;
-// m a m, of a way over a rim: as fingers reach into a cup, over its width, and some more.
+constexpr double kLeanShare = 0.9;  // share of the lean that must point into the receptacle
+// The number of candidates in receptacles and along a joint path: a collision check takes a
+// millisecond.
+constexpr int kMostCandidates = 6;
+// The rise per metre of the path over a rim: about the reach of the fingers into a cup over its
+// width.
 constexpr double kRise = 1.0;
-constexpr double kPalmEdge = 0.04;  // m: what the edge comes down by, over 1 - cos(lean)
-constexpr double kTurns[] = {0.25 * M_PI, 0.5 * M_PI, 0.75 * M_PI};  // of the fingers' line
+constexpr double kPalmEdge = 0.04;  // m: the palm edge's drop over 1 - cos(lean)
+constexpr double kTurns[] = {0.25 * M_PI, 0.5 * M_PI, 0.75 * M_PI};  // of the closing axis
 constexpr double kSameLine = 0.97;  // the cosine of about 14 degrees
 
-// From where the joint stands to where it shall go.
-std::vector<double> JointWay(const tasks::ThingJoint& joint, double position) {
+// Returns the positions from the joint's current one to the joint target.
+std::vector<double> JointPath(const tasks::ThingJoint& joint, double position) {
   const double end = WorkEnd(joint, position);
   std::vector<double> way;
   for (int i = 1; i <= 6; ++i) way.push_back(position + (end - position) * i / 6.0);
   return way;
 }
 
-// A way for the hand to stand at its work.
-struct Stance {
+// An orientation of the gripper at its target.
+struct GraspOrientation {
   Vector3d across;  // unit, world: the tool's y axis
   double pitch = 0.0;
 };
 
-// What has to be true of a plan.
-struct Demands {
-  bool looks_ahead = false;  // the thing can go on to variant.next
-  bool leans_in = false;     // the hand leans into variant.room
+// The requirements of a plan.
+struct Requirements {
+  bool looks_ahead = false;  // the object can be carried on to variant.next
+  bool leans_in = false;     // the gripper leans into variant.room
   bool clear = false;        // ReachPlan::clear
   bool round = false;        // or ReachPlan::via
   double margin = 0.0;       // m, WayWanted
-  bool half = false;         // only the first half of a joint's way, the tool turned as it can be
+  bool half = false;         // only the first half of the joint path, with the larger tolerance
 };
 
-// Whether the tool goes to `there` in variant.room through its opening, the arm being in nothing.
-bool GoesIn(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
-            const Isometry3d& there, ToolFollower* follower) {
+// Returns true if the tool reaches `there` in variant.room through its opening with a
+// collision-free arm.
+bool EntersReceptacle(const Skill& skill, const SkillVariant& variant,
+                      const tasks::SceneState& state, const Isometry3d& there,
+                      ToolFollower* follower) {
   Isometry3d before = there;
   before.translation() += WayOutOfRoom(variant, state, there.translation());
   for (const Isometry3d& place : {before, there}) {
@@ -80,46 +84,47 @@ bool GoesIn(const Skill& skill, const SkillVariant& variant, const tasks::SceneS
   return true;
 }
 
-// Whether a thing that is taken with the tool at `tool` can be brought where it shall go.
-bool CarriesThing(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
-                  const Isometry3d& tool, const Demands& demands, ToolFollower* follower) {
+// Returns true if an object grasped at `tool` can be carried to its destinations.
+bool CanCarry(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
+              const Isometry3d& tool, const Requirements& requirements, ToolFollower* follower) {
   const auto goes = [&](const Destination& destination) {
     Isometry3d there = tool;
     there.translation() += WayTo(destination, variant, state);
-    if (destination.room) return GoesIn(skill, variant, state, there, follower);
+    if (destination.room) return EntersReceptacle(skill, variant, state, there, follower);
     return follower->Goes(there);
   };
   const bool inside = variant.room && IsIn(*variant.room, variant.model, state, tool.translation());
-  if (inside && !GoesIn(skill, variant, state, tool, follower)) return false;
+  if (inside && !EntersReceptacle(skill, variant, state, tool, follower)) return false;
   if (variant.destination && !goes(*variant.destination)) return false;
-  return !demands.looks_ahead || !variant.next || goes(*variant.next);
+  return !requirements.looks_ahead || !variant.next || goes(*variant.next);
 }
 
-// A posture in which the tool is at work.
+// A configuration with the tool at the target.
 struct Candidate {
   Isometry3d tool;  // world_from_tool
   double pitch = 0.0;
   robot::Posture posture;
-  double seconds = 0.0;  // to get there, every joint at its highest speed
+  double seconds = 0.0;  // to reach it, every joint at its highest speed
 };
 
-// Whether the tool goes the joint's way, and, where that is demanded, the arm, but for its fingers,
-// is in nothing.
+// Returns true if the tool can follow the joint path and, if required, the arm except its fingers
+// is collision-free.
 bool MovesJoint(const Skill& skill, const SkillVariant& variant, tasks::SceneState state,
-                const Candidate& candidate, const Demands& demands, ToolFollower* follower) {
+                const Candidate& candidate, const Requirements& requirements,
+                ToolFollower* follower) {
   const Focus& focus = *variant.focus;
   const auto thing = static_cast<size_t>(focus.thing), j = static_cast<size_t>(focus.joint);
   Vector3d across = candidate.tool.linear().col(1);
   const std::vector<double> way =
-      JointWay(variant.model.things[thing].joints[j], state.joints[thing][j]);
-  const size_t followed = demands.half ? way.size() / 2 : way.size();
-  const double turned = demands.half ? PushTurned(variant) : ToolFollower::kTurned;
+      JointPath(variant.model.things[thing].joints[j], state.joints[thing][j]);
+  const size_t followed = requirements.half ? way.size() / 2 : way.size();
+  const double turned = requirements.half ? PushTurned(variant) : ToolFollower::kTurned;
   for (size_t i = 0; i < followed; ++i) {
     state.joints[thing][j] = way[i];
     const Isometry3d next = ToolAtFocus(variant, state, across, candidate.pitch);
     across = next.linear().col(1);
     if (!follower->Goes(next, turned)) return false;
-    if (!demands.clear || i % 3 != 2) continue;  // half-way and at the end
+    if (!requirements.clear || i % 3 != 2) continue;  // half-way and at the end
     const ArmClearance clearance(skill, variant, state);
     if (!clearance.IsClear(follower->posture(), Fingers::kIgnored)) return false;
   }
@@ -127,63 +132,68 @@ bool MovesJoint(const Skill& skill, const SkillVariant& variant, tasks::SceneSta
 }
 
 void AddCandidates(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
-                   const Stance& stance, const robot::Posture& from, core::Rng& rng,
+                   const GraspOrientation& orientation, const robot::Posture& from, core::Rng& rng,
                    std::vector<Candidate>* candidates) {
-  const Isometry3d tool = ToolAtFocus(variant, state, stance.across, stance.pitch);
+  const Isometry3d tool = ToolAtFocus(variant, state, orientation.across, orientation.pitch);
   for (const ReachingPosture& found : PosturesAt(skill, variant, tool, from, rng)) {
-    candidates->push_back({tool, stance.pitch, found.posture, found.seconds});
+    candidates->push_back({tool, orientation.pitch, found.posture, found.seconds});
   }
 }
 
-// x along the way that the thing shall go, z down, the origin behind the thing.
-Isometry3d ToolBehind(const SkillVariant& variant, const tasks::SceneState& state,
-                      const Vector3d& across) {
+// Returns the pushing pose: x along the displacement to the destination, z down, the origin behind
+// the object.
+Isometry3d PushingPose(const SkillVariant& variant, const tasks::SceneState& state,
+                       const Vector3d& across) {
   const auto thing = static_cast<size_t>(variant.focus->thing);
   const Vector3d down = -Vector3d::UnitZ();
   Vector3d way = WayToDestination(variant, state);
   way.z() = 0.0;
-  const Vector3d along = way.norm() > kThere ? way.normalized() : across.cross(down).normalized();
+  const Vector3d along =
+      way.norm() > kNearGoal ? way.normalized() : across.cross(down).normalized();
   const double width = WidthAlong(variant.model.things[thing], state.roots[thing], along);
   Isometry3d tool = Isometry3d::Identity();
   tool.linear() << along, down.cross(along), down;
   tool.translation() = state.roots[thing] * variant.focus->link_from_tool.translation() -
-                       (0.5 * width + kFinger) * along;
+                       (0.5 * width + kFingerDistance) * along;
   return tool;
 }
 
-// m that a hand which leans takes a thing of `height` less deep: an edge of its palm comes down on
-// it.
-double Shallower(double pitch, double height) {
+// Returns the height (m) by which a leaning gripper grasps an object of `height` higher: an edge of
+// its palm comes down on the object.
+double GraspRise(double pitch, double height) {
   return std::min(kPalmEdge * (1.0 - std::cos(pitch)), 0.25 * height);
 }
 
-std::span<const double> PitchesOf(const SkillVariant& variant, const Demands& demands) {
+std::span<const double> PitchesOf(const SkillVariant& variant, const Requirements& requirements) {
   if (Pushes(variant)) return kPushPitches;
   if (variant.focus->pushes) return kShutPitches;
-  if (demands.leans_in) return kRoomPitches;
+  if (requirements.leans_in) return kRoomPitches;
   return kPitches;
 }
 
-// For both sides of the hand, whose y axis is `across` now.
-std::vector<Stance> StancesWith(const SkillVariant& variant, const tasks::SceneState& state,
-                                const Vector3d& across, double pitch, const Demands& demands) {
+// Returns the orientations for both sides of the gripper, whose closing axis is `across` now.
+std::vector<GraspOrientation> OrientationsWith(const SkillVariant& variant,
+                                               const tasks::SceneState& state,
+                                               const Vector3d& across, double pitch,
+                                               const Requirements& requirements) {
   if (variant.focus->pushes) return {{across, pitch}};
-  if (!demands.leans_in) return {{across, pitch}, {-across, pitch}};
+  if (!requirements.leans_in) return {{across, pitch}, {-across, pitch}};
   const Vector3d inward = InwardOf(*variant.room, variant.model, state);
   const Vector3d aside = (-Vector3d::UnitZ()).cross(inward).normalized();
-  std::vector<Stance> stances;
-  for (const Stance& stance : {Stance{aside, pitch}, Stance{-aside, -pitch}}) {
-    const Isometry3d tool = ToolAtFocus(variant, state, stance.across, stance.pitch);
+  std::vector<GraspOrientation> orientations;
+  for (const GraspOrientation& orientation :
+       {GraspOrientation{aside, pitch}, GraspOrientation{-aside, -pitch}}) {
+    const Isometry3d tool = ToolAtFocus(variant, state, orientation.across, orientation.pitch);
     const double lean = tool.linear().col(2).dot(inward);
-    if (lean >= kLeaning * std::sin(pitch)) stances.push_back(stance);
+    if (lean >= kLeanShare * std::sin(pitch)) orientations.push_back(orientation);
   }
-  return stances;
+  return orientations;
 }
 
-// Into `before` (J) where the hand stays back before its work `at_work` (J), or as near to that as
-// it gets. Whether it gets there: beside that place it would wait for ever.
-bool StaysBack(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
-               const robot::Posture& at_work, robot::Posture* before) {
+// Writes the pre-grasp configuration (J) for `at_work` (J) into `before`, or the one closest to it.
+// Returns false if it is not reached: next to it the gripper would wait forever.
+bool FindPreGrasp(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
+                  const robot::Posture& at_work, robot::Posture* before) {
   Isometry3d place =
       variant.subtask.start.world_from_robot * robot::ForwardKinematics(skill.robot->arm, at_work);
   Vector3d back = -skill.options.standoff * place.linear().col(2);
@@ -197,12 +207,13 @@ bool StaysBack(const Skill& skill, const SkillVariant& variant, const tasks::Sce
   return there;
 }
 
-// How the arm gets from `from` to where the hand stays back before its work, in nothing at the work
-// itself but for the fingers, which are about it: straight, or round what is between. None where
-// it does not.
-std::optional<Detour> WayThere(const Skill& skill, const SkillVariant& variant,
-                               const tasks::SceneState& state, const robot::Posture& from,
-                               const Candidate& candidate, const Demands& demands) {
+// Plans the joint path from `from` to the pre-grasp: straight, or through waypoints around
+// obstacles. The grasp configuration itself must be collision-free except for the fingers, which
+// surround the target. None if there is no path.
+std::optional<Detour> PlanApproachPath(const Skill& skill, const SkillVariant& variant,
+                                       const tasks::SceneState& state, const robot::Posture& from,
+                                       const Candidate& candidate,
+                                       const Requirements& requirements) {
   const bool takes = variant.focus->joint < 0;
   ArmClearance clearance(skill, variant, state, takes ? variant.focus->thing : -1);
   if (takes && !clearance.IsClear(candidate.posture)) return std::nullopt;
@@ -210,17 +221,17 @@ std::optional<Detour> WayThere(const Skill& skill, const SkillVariant& variant,
       Pushes(variant) ||
       ArmClearance(skill, variant, state).IsClear(candidate.posture, Fingers::kIgnored);
   robot::Posture before;
-  if (!palm_free || !StaysBack(skill, variant, state, candidate.posture, &before)) {
+  if (!palm_free || !FindPreGrasp(skill, variant, state, candidate.posture, &before)) {
     return std::nullopt;
   }
-  if (demands.margin > 0.0) clearance.KeepOff(demands.margin, {from, before});
+  if (requirements.margin > 0.0) clearance.KeepOff(requirements.margin, {from, before});
   if (clearance.IsWayClear(from, before)) return Detour();
-  return demands.round ? PlanDetour(skill, clearance, from, before) : std::nullopt;
+  return requirements.round ? PlanDetour(skill, clearance, from, before) : std::nullopt;
 }
 
-// The lines (unit, world) that the fingers may be along: `across`, and turned about the upright
-// those that take a round thing otherwise.
-std::vector<Vector3d> LinesAcross(const SkillVariant& variant, const tasks::SceneState& state,
+// Returns candidate closing axes (unit, world): `across`, and those rotated about the vertical that
+// grasp a round object differently.
+std::vector<Vector3d> ClosingAxes(const SkillVariant& variant, const tasks::SceneState& state,
                                   const Vector3d& across) {
   std::vector<Vector3d> lines = {across}, taken;
   if (variant.focus->joint >= 0 || Pushes(variant)) return lines;
@@ -238,31 +249,34 @@ std::vector<Vector3d> LinesAcross(const SkillVariant& variant, const tasks::Scen
   return lines;
 }
 
-// A plan with one of `stances`.
-std::optional<ReachPlan> PlanWith(const Skill& skill, const SkillVariant& variant,
-                                  const tasks::SceneState& state, const robot::Posture& from,
-                                  const std::vector<Stance>& stances, const Demands& demands,
-                                  core::Rng& rng) {
+// Returns a plan with one of `orientations`.
+std::optional<ReachPlan> PlanWithOrientations(const Skill& skill, const SkillVariant& variant,
+                                              const tasks::SceneState& state,
+                                              const robot::Posture& from,
+                                              const std::vector<GraspOrientation>& orientations,
+                                              const Requirements& requirements, core::Rng& rng) {
   std::vector<Candidate> candidates;
-  for (const Stance& stance : stances) {
-    AddCandidates(skill, variant, state, stance, from, rng, &candidates);
+  for (const GraspOrientation& orientation : orientations) {
+    AddCandidates(skill, variant, state, orientation, from, rng, &candidates);
   }
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.seconds < b.seconds; });
-  const bool costs = variant.room || (variant.focus->joint >= 0 && demands.clear);
-  if (costs && candidates.size() > kLookedAt) {
-    candidates.erase(candidates.begin() + kLookedAt, candidates.end());
+  const bool expensive = variant.room || (variant.focus->joint >= 0 && requirements.clear);
+  if (expensive && candidates.size() > kMostCandidates) {
+    candidates.erase(candidates.begin() + kMostCandidates, candidates.end());
   }
   for (const Candidate& candidate : candidates) {
     ToolFollower follower(skill, variant, candidate.posture);
-    const bool works =
+    const bool feasible =
         variant.focus->joint >= 0
-            ? MovesJoint(skill, variant, state, candidate, demands, &follower)
-            : CarriesThing(skill, variant, state, candidate.tool, demands, &follower);
-    if (!works) continue;
-    const bool goes_on = demands.looks_ahead && variant.next;
-    if (!demands.clear) return ReachPlan{candidate.pitch, candidate.posture, false, {}, goes_on};
-    const auto way = WayThere(skill, variant, state, from, candidate, demands);
+            ? MovesJoint(skill, variant, state, candidate, requirements, &follower)
+            : CanCarry(skill, variant, state, candidate.tool, requirements, &follower);
+    if (!feasible) continue;
+    const bool goes_on = requirements.looks_ahead && variant.next;
+    if (!requirements.clear) {
+      return ReachPlan{candidate.pitch, candidate.posture, false, {}, goes_on};
+    }
+    const auto way = PlanApproachPath(skill, variant, state, from, candidate, requirements);
     if (way) return ReachPlan{candidate.pitch, candidate.posture, way->empty(), *way, goes_on};
   }
   return std::nullopt;
@@ -280,7 +294,7 @@ Isometry3d ToolAtFocus(const SkillVariant& variant, const tasks::SceneState& sta
   const Focus& focus = *variant.focus;
   Isometry3d tool = Isometry3d::Identity();
   if (Pushes(variant)) {
-    tool = ToolBehind(variant, state, across);
+    tool = PushingPose(variant, state, across);
   } else if (focus.joint >= 0) {
     tool = ToolAtJoint(variant.model, state, focus);
     if (!focus.pushes && across.dot(tool.linear().col(1)) < 0.0)
@@ -292,7 +306,7 @@ Isometry3d ToolAtFocus(const SkillVariant& variant, const tasks::SceneState& sta
     const Vector3d thin(std::cos(yaw), std::sin(yaw), 0.0), down(0.0, 0.0, -1.0);
     tool.linear() << thin.cross(down), thin, down;
     tool.translation() = root * focus.link_from_tool.translation() + focus.rim * thin;
-    tool.translation().z() += Shallower(pitch, taken.height());
+    tool.translation().z() += GraspRise(pitch, taken.height());
   }
   tool.rotate(Eigen::AngleAxisd(pitch, Vector3d::UnitY()));
   return tool;
@@ -303,13 +317,15 @@ std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& varia
                                    core::Rng& rng, const WayWanted& way) {
   const Isometry3d& world_from_base = variant.subtask.start.world_from_robot;
   const Isometry3d tool_now = world_from_base * robot::ForwardKinematics(skill.robot->arm, from);
-  const std::vector<Vector3d> lines = LinesAcross(variant, state, tool_now.linear().col(1));
-  const auto plan = [&](Demands demands) -> std::optional<ReachPlan> {
-    demands.margin = way.margin;
-    for (const double pitch : PitchesOf(variant, demands)) {
-      for (size_t i = 0; i < (demands.clear && !demands.leans_in ? lines.size() : 1); ++i) {
-        const auto stances = StancesWith(variant, state, lines[i], pitch, demands);
-        if (const auto found = PlanWith(skill, variant, state, from, stances, demands, rng)) {
+  const std::vector<Vector3d> lines = ClosingAxes(variant, state, tool_now.linear().col(1));
+  const auto plan = [&](Requirements requirements) -> std::optional<ReachPlan> {
+    requirements.margin = way.margin;
+    for (const double pitch : PitchesOf(variant, requirements)) {
+      for (size_t i = 0; i < (requirements.clear && !requirements.leans_in ? lines.size() : 1);
+           ++i) {
+        const auto orientations = OrientationsWith(variant, state, lines[i], pitch, requirements);
+        if (const auto found = PlanWithOrientations(skill, variant, state, from, orientations,
+                                                    requirements, rng)) {
           return found;
         }
       }
@@ -318,8 +334,8 @@ std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& varia
   };
   if (variant.room) {
     for (const bool clear : {true, false}) {
-      const Demands demands{.looks_ahead = true, .leans_in = true, .clear = clear};
-      if (const auto found = plan(demands)) return found;
+      const Requirements requirements{.looks_ahead = true, .leans_in = true, .clear = clear};
+      if (const auto found = plan(requirements)) return found;
     }
   }
   for (const bool clear : {true, false}) {
@@ -330,7 +346,7 @@ std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& varia
     if (!clear || !way.round || variant.room) continue;
     if (const auto found = plan({.clear = true, .round = true})) return found;
     if (!way.part || !variant.focus->pushes) continue;
-    const Demands half{.clear = true, .round = true, .half = true};
+    const Requirements half{.clear = true, .round = true, .half = true};
     if (const auto found = plan(half)) return found;
   }
   return std::nullopt;
@@ -347,7 +363,7 @@ Vector3d WayOutOfRoom(const SkillVariant& variant, const tasks::SceneState& stat
 robot::Posture BeforeWork(const Skill& skill, const SkillVariant& variant,
                           const tasks::SceneState& state, const robot::Posture& at_work) {
   robot::Posture before;
-  StaysBack(skill, variant, state, at_work, &before);
+  FindPreGrasp(skill, variant, state, at_work, &before);
   return before;
 }
 

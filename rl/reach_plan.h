@@ -7,62 +7,66 @@
 
 namespace simwright::rl {
 
-// Whether the thing is brought to its destination without being grasped.
+// Returns true if the object is pushed to its destination instead of being grasped.
 bool Pushes(const SkillVariant& variant);
 
-// world_from_tool at work: on the focus, or where it is pushed, behind it as seen from its
-// destination. `across` (unit, world): the tool's y axis, the line from
-// finger to finger, as it is now; the hand is the same turned by half about its own axis, and stays
-// near it. `pitch` (rad): the hand leans by so much about that line, about which a bar may be taken
-// anyhow.
+// Returns the grasp pose (world_from_tool) at the target, or the pushing pose behind the object as
+// seen from its destination. `across` (unit, world): the current closing axis, tool y, the line
+// from finger to finger; the gripper is symmetric under a half turn about its own axis and stays
+// near the given one. `pitch` (rad): the rotation of the gripper about that axis, about which a bar
+// may be grasped at any angle.
 Eigen::Isometry3d ToolAtFocus(const SkillVariant& variant, const tasks::SceneState& state,
                               const Eigen::Vector3d& across, double pitch);
 
-// How an arm does its work.
+// The plan for reaching and manipulating a target.
 struct ReachPlan {
-  double pitch = 0.0;      // rad, of the hand
-  robot::Posture at_work;  // (J) with the tool at the focus
-  bool clear = false;      // the arm is in nothing on its way there, straight from joint to joint
-  Detour via;              // else round what is between, to where it waits; empty: none found
-  bool goes_on = false;    // what is taken can go on to variant.next
+  double pitch = 0.0;      // rad, of the gripper
+  robot::Posture at_work;  // (J) the grasp configuration
+  bool clear = false;      // the straight joint path to the pre-grasp is collision-free
+  Detour via;              // else the waypoints to the pre-grasp; empty: none found
+  bool goes_on = false;    // the object can be carried on to variant.next
 
   bool GetsThere() const { return clear || !via.empty(); }
 };
 
-// Of the arm's way to where it waits.
+// The options of the joint path to the pre-grasp.
 struct WayWanted {
-  bool round = false;   // ReachPlan::via, where no plan is clear
-  bool part = false;    // and where there is none: one for the first half of what is pushed shut
-  double margin = 0.0;  // m that it keeps off things half-way (ArmClearance::KeepOff)
+  bool round = false;   // search ReachPlan::via if no plan is clear
+  bool part = false;    // if that fails: plan the first half of a push only
+  double margin = 0.0;  // m, clearance to objects half-way (ArmClearance::KeepOff)
 };
 
-// The least pitch (of a hand that pushes: about 0.6 rad; of one that goes into a room through its
-// side: about 0.8, leaning into it), and of some postures the one soonest reached from `from`, from
-// which the tool goes along most of the joint's way, or with the thing to its destination, off by
-// no more than a centimetre and 0.15 rad, and the arm is in nothing in a room and before it. One
-// that is clear, where there is one: round things are taken with the fingers' line any way for it.
-// A thing is taken so that it can go on to variant.next too, where there is a way. `way`.round:
-// where no plan is clear, one to whose work the arm gets round what is between. None where no pitch
-// does. Postures are sought for both sides of the hand, from `from` and from random ones: a tool
-// that only ever goes straight at its target ends at some joint's limit every other time.
+// Plans the approach and the manipulation of the target. Tries approach pitches in the order of
+// their preference (0 first; for pushing about 0.6 rad; for a side-opening receptacle about 0.8
+// rad, leaning into it) and among several configurations prefers the one that is reached soonest
+// from `from`. The tool must be able to follow most of the joint's range, or to carry the object to
+// its destination, within 1 cm and 0.15 rad, and the arm must be collision-free in a receptacle and
+// in front of it. Plans that are clear are preferred: for round objects the closing axis may turn
+// for it. If possible, the object is grasped such that it can be carried on to variant.next too.
+// With `way`.round, searches waypoints around obstacles if no plan is clear. None if no pitch is
+// feasible. Configurations are computed for both sides of the gripper, from `from` and from random
+// ones: a tool that only tracks a straight line to its target ends at a joint limit every other
+// time.
 std::optional<ReachPlan> PlanReach(const Skill& skill, const SkillVariant& variant,
                                    const tasks::SceneState& state, const robot::Posture& from,
                                    core::Rng& rng, const WayWanted& way = {});
 
-// m, world: how a hand at `point` in variant.room goes out of it to before the opening. Straight,
-// or from a rim that it takes, one finger being inside: upwards as well, and so it comes in.
+// Returns the displacement (m, world) from `point` in variant.room out of the receptacle, to in
+// front of its opening. It is straight; for a rim grasp, with one finger inside, it also rises. The
+// approach reverses it.
 Eigen::Vector3d WayOutOfRoom(const SkillVariant& variant, const tasks::SceneState& state,
                              const Eigen::Vector3d& point);
 
-// (J) in which the hand stays back before its work `at_work` (J).
+// Returns the pre-grasp configuration (J) for the grasp configuration `at_work` (J).
 robot::Posture BeforeWork(const Skill& skill, const SkillVariant& variant,
                           const tasks::SceneState& state, const robot::Posture& at_work);
 
-// rad that the tool may be turned as it moves the part that the skill works on: more where fingers
+// Returns the orientation tolerance (rad) of the tool as it moves the target: larger where fingers
 // push a door or lid shut (Focus::pushes).
 double PushTurned(const SkillVariant& variant);
 
-// rad that the hand at `world_from_tool` leans about its own y axis, as PlanReach's pitch.
+// Returns the pitch (rad, as in PlanReach) of the gripper at `world_from_tool`: the rotation about
+// its own y axis.
 double PitchOf(const Eigen::Isometry3d& world_from_tool);
 
 }  // namespace simwright::rl

@@ -6,21 +6,21 @@
 
 namespace simwright::rl {
 
-// How an episode ended.
+// The outcome of an episode.
 struct Outcome {
-  double total_reward = 0.0;  // as the environment paid it
+  double total_reward = 0.0;  // unscaled
   double steps = 0.0;
   bool success = false;
 };
 
-// The outcomes of the last so many episodes.
+// The outcomes of the last `window` episodes.
 class RecentOutcomes {
  public:
   explicit RecentOutcomes(int window) : window_(window) {}
 
   void Add(const Outcome& outcome);
 
-  // Whether as many have ended as the window holds.
+  // Returns true if the window is full.
   bool full() const { return static_cast<int>(outcomes_.size()) == window_; }
   int successes() const { return successes_; }
   int size() const { return static_cast<int>(outcomes_.size()); }

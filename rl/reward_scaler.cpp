@@ -16,7 +16,7 @@ void RewardScaler::Scale(const std::vector<std::uint8_t>& ended,
     if (!dropped[i]) {
       discounted_returns_[i] = discount_ * discounted_returns_[i] + (*rewards)[i];
     }
-    // A row that is not finite is one that the moments leave out.
+    // The moments leave out rows that are not finite.
     returns(static_cast<Eigen::Index>(i), 0) = dropped[i]
                                                    ? std::numeric_limits<float>::quiet_NaN()
                                                    : static_cast<float>(discounted_returns_[i]);

@@ -8,20 +8,21 @@
 namespace simwright::rl {
 
 // Divides rewards by the running standard deviation of the discounted return, so that the critic's
-// targets are of size 1 whatever a reward program pays (Engstrom et al. 2020, "Implementation
-// Matters in Deep Policy Gradients"). The mean is left: shifting rewards would change the task.
+// targets are of size 1 for any reward program (Engstrom et al. 2020, "Implementation Matters in
+// Deep Policy Gradients"). The mean is kept: shifting rewards would change the task.
 class RewardScaler {
  public:
-  // What lies further out after scaling is clipped.
+  // The clipping limit of scaled rewards.
   static constexpr float kLimit = 10.0f;
 
   RewardScaler(int environments, double discount);
 
-  // A step's rewards (N), in place. `ended`: an episode's last step; `dropped`: not to be counted.
+  // Scales the rewards (N) of a step in place. `ended`: an episode's last step; `dropped`:
+  // excluded.
   void Scale(const std::vector<std::uint8_t>& ended, const std::vector<std::uint8_t>& dropped,
              std::vector<float>* rewards);
 
-  // What Scale depends on.
+  // The state of the scaler.
   const RunningMoments& moments() const { return moments_; }
   const std::vector<double>& discounted_returns() const { return discounted_returns_; }
   void Restore(const RunningMoments& moments, const std::vector<double>& discounted_returns);

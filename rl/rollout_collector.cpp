@@ -9,7 +9,7 @@
 namespace simwright::rl {
 namespace {
 
-constexpr std::uint64_t kActionStream = 1;  // 0 is the networks' first weights
+constexpr std::uint64_t kActionStream = 1;  // 0 is the networks' initial weights
 
 std::size_t CountOf(const VectorEnvironment& environment) {
   return static_cast<std::size_t>(environment.size());
@@ -74,7 +74,7 @@ void RolloutCollector::Collect(const Mlp& actor, const Eigen::RowVectorXf& std, 
 }
 
 void RolloutCollector::TakeStep(int step, Rollout* rollout, std::vector<Outcome>* outcomes) {
-  // What was acted on blindly is as useless as what led there.
+  // Actions taken without a valid observation are as useless as the step that led there.
   std::vector<std::uint8_t> dropped = RowsNotFinite(batch_.observations);
   environment_->Step(actions_, &batch_);
   FindDropped(&dropped);
@@ -109,9 +109,9 @@ void RolloutCollector::CheckDropped() const {
   const double allowed = std::ceil(options_.largest_dropped_share * static_cast<double>(samples_));
   if (static_cast<double>(dropped_) <= allowed) return;
   throw core::Error(std::to_string(dropped_) + " of " + std::to_string(samples_) +
-                        " samples hold a number that is not finite",
+                        " samples have a non-finite number",
                     "training with seed " + std::to_string(options_.seed),
-                    "look for what is unstable in the world, or for a division by 0 in the reward");
+                    "check the world for instabilities and the reward for a division by 0");
 }
 
 void RolloutCollector::FollowEpisodes(const std::vector<std::uint8_t>& dropped,

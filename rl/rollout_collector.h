@@ -15,31 +15,31 @@
 
 namespace simwright::rl {
 
-// All that a collector's next step depends on, but for the policy.
+// The state that a collector's next step depends on, except for the policy.
 struct CollectorState {
   RunningMoments observations, returns;
   std::vector<double> discounted_returns;              // (N)
   std::vector<double> episode_rewards, episode_steps;  // (N) so far
   std::int64_t samples = 0, dropped = 0;
-  std::string generator;    // core::Rng's
+  std::string generator;    // of core::Rng
   std::string environment;  // VectorEnvironment::SaveState
 };
 
-// Acts in N environments and writes down what a learner needs.
+// Runs N environments and records their steps.
 class RolloutCollector {
  public:
-  // `environment` must outlive the collector, and is reset.
+  // Resets `environment`, which must outlive the collector.
   RolloutCollector(VectorEnvironment* environment, const PpoOptions& options);
 
-  // Takes options.horizon steps with actions drawn about those of `actor`, and adds the episodes
-  // that ended to `outcomes`. A step whose reward or observation is not finite is marked dropped,
-  // and its episode forgotten. Throws core::Error, naming the seed, where more of them are than
-  // options.largest_dropped_share allows.
+  // Takes options.horizon steps with actions sampled from `actor` and `std`, and appends the
+  // finished episodes to `outcomes`. A step with a non-finite reward or observation is marked as
+  // dropped, and its episode is discarded. Throws core::Error, naming the seed, if the share of
+  // such steps exceeds options.largest_dropped_share.
   void Collect(const Mlp& actor, const Eigen::RowVectorXf& std, Rollout* rollout,
                std::vector<Outcome>* outcomes);
 
   const ObservationNormalizer& normalizer() const { return normalizer_; }
-  std::int64_t samples() const { return samples_; }  // since the start, dropped ones included
+  std::int64_t samples() const { return samples_; }  // since the start, including dropped ones
   std::int64_t dropped() const { return dropped_; }
 
   CollectorState SaveState() const;
@@ -49,7 +49,7 @@ class RolloutCollector {
  private:
   void Normalize(const Rows& observations, Rows* normalized) const;
   void TakeStep(int step, Rollout* rollout, std::vector<Outcome>* outcomes);
-  // Adds the batch's rows that are not finite to those `dropped` (N), and counts them all.
+  // Adds the rows of the batch that are not finite to `dropped` (N), and counts all dropped rows.
   void FindDropped(std::vector<std::uint8_t>* dropped);
   void CheckDropped() const;
   void FollowEpisodes(const std::vector<std::uint8_t>& dropped, std::vector<Outcome>* outcomes);
@@ -60,7 +60,7 @@ class RolloutCollector {
   core::Rng rng_;
   ObservationNormalizer normalizer_;
   RewardScaler scaler_;
-  StepBatch batch_;                                      // batch_.observations: what to act on next
+  StepBatch batch_;                                      // batch_.observations: the next inputs
   Rows actions_;                                         // (N x A)
   std::vector<double> episode_rewards_, episode_steps_;  // (N)
   std::int64_t samples_ = 0, dropped_ = 0;

@@ -6,14 +6,13 @@
 
 namespace simwright::rl {
 
-// Mean and variance of all rows seen so far, a column at a time, in double precision.
+// The running mean and variance of the columns of all rows, in double precision.
 struct RunningMoments {
   explicit RunningMoments(int size = 0);
 
-  // Merges a batch (Chan, Golub and LeVeque 1983). A row that holds a number that is not finite is
-  // left out.
+  // Merges a batch (Chan, Golub and LeVeque 1983). Rows with a non-finite number are left out.
   void Add(const Rows& rows);
-  // Of the population; 1 before anything was seen.
+  // Returns the population variance; 1 before the first row.
   Eigen::ArrayXd Variance() const;
 
   double count = 0.0;

@@ -4,16 +4,17 @@
 
 namespace simwright::rl {
 
-// Whether there is a script for the skill: its actions are seen from what the hand works on
-// (ActionSpace::kFocus, kGuided).
+// Returns true if the skill has a scripted expert: its actions are relative to the interaction
+// target (ActionSpace::kFocus, kGuided).
 bool HasScript(const Skill& skill);
 
-// What a hand does that knows only where its work is (Episode::frame), into `action` (7, in
-// [-1, 1]): it gets there, closes, pulls a part along the part's own way or turns it about its
-// axis, brings a thing to its destination, lets go there of what is to be put down, pushes what is
-// to be pushed. It depends on the episode's state alone and remembers nothing, so that a policy can
-// learn it from any state. It succeeds in some of the episodes of any skill and in all of none: a
-// place to begin learning from. The skill must have a script.
+// Writes the scripted expert's action (7, in [-1, 1]) into `action`. It knows only the pose of the
+// target (Episode::frame): it moves there, closes, pulls a part along its direction of motion or
+// turns it about its axis, carries an object to its destination, releases objects that are to be
+// put down, and pushes objects that are to be pushed. It depends on the episode's state alone and
+// has no memory, so that a policy can imitate it from any state. It succeeds in some of the
+// episodes of any skill, but not in all: a starting point for learning. The skill must have a
+// scripted expert.
 void ScriptedAction(const Episode& episode, float* action);
 
 }  // namespace simwright::rl

@@ -13,11 +13,11 @@ using Eigen::Vector3d;
 using tasks::SceneModel;
 using tasks::SceneState;
 
-constexpr double kLevel = 0.5;        // of the opening's rise: less is to a side
-constexpr double kBehind = 0.03;      // m between the thing and the opening's plane
-constexpr double kAboveFloor = 0.01;  // m, from where it is let go of
+constexpr double kLevel = 0.5;        // of the opening's rise: below, it opens sideways
+constexpr double kBehind = 0.03;      // m between the object and the opening's plane
+constexpr double kAboveFloor = 0.01;  // m, height of release
 
-// m from the room's middle to the plane of its opening.
+// Returns the distance (m) from the receptacle's middle to the plane of its opening.
 double HalfDepth(const SideRoom& room) {
   return 0.5 * std::abs(room.box.sizes().dot(room.inward.cwiseAbs()));
 }

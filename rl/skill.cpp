@@ -16,8 +16,8 @@ using tasks::RewardInput;
 
 constexpr double kSurfaceSpacing = 0.016;  // m: twice the thickness of thin boards
 
-// The parts of a rigid thing as one convex part.
-void TakeHull(sim::ArticulatedBody* body) {
+// Replaces the collision parts of a rigid object by their convex hull.
+void UseConvexHull(sim::ArticulatedBody* body) {
   sim::RigidBody& link = body->links.front();
   std::vector<Eigen::Vector3d> points;
   for (const core::TriangleMesh& part : link.parts) {
@@ -27,8 +27,8 @@ void TakeHull(sim::ArticulatedBody* body) {
   link.capsules.clear();
 }
 
-// What `thing` stands in or on at the start: the thing whose box reaches below it and holds its
-// middle.
+// Returns the object that `thing` stands in or on at the start: the one whose AABB extends below it
+// and contains its middle from above. -1: the floor.
 int CarrierOf(const tasks::SceneModel& model, const tasks::SceneState& start, int thing,
               const std::vector<int>& placed) {
   constexpr double kOnFloor = 0.005;  // m
@@ -45,7 +45,7 @@ int CarrierOf(const tasks::SceneModel& model, const tasks::SceneState& start, in
   return -1;
 }
 
-void Place(SkillVariant* variant) {
+void PlaceObjects(SkillVariant* variant) {
   const tasks::InitialState& start = variant->subtask.start;
   variant->fixed.assign(variant->model.things.size(), false);
   variant->carried_by.assign(variant->model.things.size(), -1);
@@ -77,13 +77,13 @@ void CompileProgram(SkillVariant* variant) {
     throw core::Error(why, "subtask " + subtask.name, "see `simwright reward`");
   }
   if (!outcome.program->has_success()) {
-    throw core::Error("the program says nothing of success", "subtask " + subtask.name,
+    throw core::Error("the program returns no success", "subtask " + subtask.name,
                       "return reward, success");
   }
   variant->program = outcome.program;
 }
 
-void FindFocus(double opening, SkillVariant* variant) {
+void FindTarget(double opening, SkillVariant* variant) {
   const std::vector<tasks::RewardSlot>& slots = variant->program->slots();
   variant->focus = FocusOf(variant->model, variant->start, slots, opening,
                            variant->subtask.start.world_from_robot.translation().z());
@@ -95,7 +95,7 @@ void FindFocus(double opening, SkillVariant* variant) {
   }
 }
 
-// SkillVariant::next.
+// Returns SkillVariant::next.
 std::optional<Destination> NextDestination(const SkillSubtask& source, const SkillVariant& variant,
                                            double opening) {
   if (!source.next || !variant.focus || variant.focus->joint >= 0) return std::nullopt;
@@ -108,14 +108,14 @@ std::optional<Destination> NextDestination(const SkillSubtask& source, const Ski
   next.subtask = *source.next;
   next.start = tasks::StateOf(next.model, source.next->start, source.next->goal);
   CompileProgram(&next);
-  FindFocus(opening, &next);
-  const bool goes_on = next.focus && next.focus->thing == variant.focus->thing;
-  if (!goes_on || !next.destination || next.destination->goal) return std::nullopt;
+  FindTarget(opening, &next);
+  const bool carries_on = next.focus && next.focus->thing == variant.focus->thing;
+  if (!carries_on || !next.destination || next.destination->goal) return std::nullopt;
   return next.destination;
 }
 
-// SkillVariant::room.
-std::optional<SideRoom> RoomOf(const SkillVariant& variant) {
+// Returns SkillVariant::room.
+std::optional<SideRoom> FindReceptacle(const SkillVariant& variant) {
   if (!variant.focus || variant.focus->joint >= 0 || Pushes(variant)) return std::nullopt;
   if (variant.destination && variant.destination->room) return variant.destination->room;
   const Eigen::Vector3d point =
@@ -129,9 +129,9 @@ void PrepareBodies(const std::vector<assets::SemanticModel>& models, const Skill
   for (size_t i = 0; i < models.size(); ++i) {
     sim::ArticulatedBody body = sim::ArticulatedBodyFrom(models[i].model);
     const bool worked = variant->focus && variant->focus->thing == static_cast<int>(i);
-    // A hull has no wall to take.
+    // A convex hull has no wall to grasp.
     const bool only_moved = worked && body.joints.empty() && variant->focus->rim == 0.0;
-    if (options.hulls && only_moved && !body.links.front().parts.empty()) TakeHull(&body);
+    if (options.hulls && only_moved && !body.links.front().parts.empty()) UseConvexHull(&body);
     std::vector<int> joints;
     for (const tasks::ThingJoint& joint : variant->model.things[i].joints) {
       joints.push_back(body.JointIndex(joint.name));
@@ -148,11 +148,11 @@ SkillVariant MakeVariant(const SkillSubtask& source, const robot::RobotModel& ro
   variant.model = tasks::MakeSceneModel(source.assets);
   variant.subtask = source.subtask;
   variant.start = tasks::StateOf(variant.model, source.subtask.start, source.subtask.goal);
-  Place(&variant);
+  PlaceObjects(&variant);
   CompileProgram(&variant);
-  FindFocus(robot.gripper.MaxOpening(), &variant);
+  FindTarget(robot.gripper.MaxOpening(), &variant);
   variant.next = NextDestination(source, variant, robot.gripper.MaxOpening());
-  variant.room = RoomOf(variant);
+  variant.room = FindReceptacle(variant);
   PrepareBodies(source.assets, options, &variant);
   if (variant.focus && variant.focus->joint >= 0) {
     const auto thing = static_cast<size_t>(variant.focus->thing);
@@ -161,8 +161,8 @@ SkillVariant MakeVariant(const SkillSubtask& source, const robot::RobotModel& ro
   return variant;
 }
 
-// Two programs look at the world alike: what a policy sees of one it can see of the other.
-bool Alike(const SkillVariant& a, const SkillVariant& b) {
+// Returns true if two programs read the same kinds of inputs, so that one policy can observe both.
+bool ReadSameInputs(const SkillVariant& a, const SkillVariant& b) {
   const auto kinds = [](const SkillVariant& variant) {
     std::vector<int> inputs;
     for (const tasks::RewardSlot& slot : variant.program->slots()) {
@@ -186,7 +186,7 @@ std::shared_ptr<const Skill> MakeSkill(const robot::RobotModel& robot,
   if (subtasks.empty()) throw core::Error("a skill needs a subtask");
   for (const auto& skill : later) {
     if (skill->variants.size() == subtasks.size()) continue;
-    throw core::Error("is practised in another number of scenes than what it follows",
+    throw core::Error("has another number of scenes than the skill before it",
                       "subtask " + skill->variants.front().subtask.name);
   }
   auto skill = std::make_shared<Skill>();
@@ -199,8 +199,8 @@ std::shared_ptr<const Skill> MakeSkill(const robot::RobotModel& robot,
   skill->later = std::move(later);
   for (const SkillSubtask& subtask : subtasks) {
     skill->variants.push_back(MakeVariant(subtask, robot, options));
-    if (!Alike(skill->variants.front(), skill->variants.back())) {
-      throw core::Error("its program reads other things than that of '" +
+    if (!ReadSameInputs(skill->variants.front(), skill->variants.back())) {
+      throw core::Error("its program reads other inputs than that of '" +
                             subtasks.front().subtask.name + "': one policy cannot learn both",
                         "subtask " + subtask.subtask.name);
     }

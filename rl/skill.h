@@ -18,39 +18,40 @@
 
 namespace simwright::rl {
 
-// A subtask on the assets that it names.
+// A subtask and the assets that it names.
 struct SkillSubtask {
   std::vector<assets::SemanticModel> assets;
   tasks::Subtask subtask;
-  std::optional<tasks::Subtask> next;  // what follows it in its task
+  std::optional<tasks::Subtask> next;  // the next subtask of the task
 };
 
-// One scene that a skill is practised in. Constant.
+// One scene of a skill. Constant.
 struct SkillVariant {
   tasks::SceneModel model;
-  std::vector<std::shared_ptr<const sim::PreparedBody>> bodies;  // by thing
+  std::vector<std::shared_ptr<const sim::PreparedBody>> bodies;  // by object
   std::vector<BodySolids> solids;                                // of the bodies
-  // Of each of a thing's joints its place in the body's; by thing.
+  // The index of each of an object's joints in its body; by object.
   std::vector<std::vector<int>> body_joints;
   tasks::Subtask subtask;
-  tasks::SceneState start;      // as the subtask describes it
-  std::vector<int> placed;      // things that it places
-  std::vector<bool> fixed;      // by thing
-  std::vector<int> carried_by;  // by thing: what it stands in or on; -1: the floor
+  tasks::SceneState start;      // as described by the subtask
+  std::vector<int> placed;      // objects placed by the subtask
+  std::vector<bool> fixed;      // by object
+  std::vector<int> carried_by;  // by object: what it stands in or on; -1: the floor
   std::optional<tasks::RewardProgram> program;
   std::optional<Focus> focus;
   std::optional<Destination> destination;
-  // Where the subtask that follows brings the thing that this one takes: it is taken so that it can
-  // go there. None where that does not go on with it, or to a place on the way.
+  // The destination of the grasped object in the next subtask: the grasp must permit it. None if
+  // the next subtask does not carry the object on, or only to a goal position.
   std::optional<Destination> next;
-  // The room that the hand goes into: the destination's, that of the thing at the start, or next's.
+  // The receptacle that the gripper enters: the destination's, the one around the object at the
+  // start, or that of `next`.
   std::optional<SideRoom> room;
   bool asks_for_grasp = false;
   bool starts_held = false;
 };
 
-// What a policy learns: one subtask, in one scene or in several alike (a door on six microwaves).
-// Constant; shared by all environments.
+// The skill that a policy learns: one subtask, in one scene or in several similar ones (a door on
+// six microwaves). Constant; shared by all environments.
 struct Skill {
   const robot::RobotModel* robot = nullptr;
   std::shared_ptr<const sim::PreparedBody> robot_body;
@@ -59,14 +60,15 @@ struct Skill {
   std::shared_ptr<const robot::ChainKinematics> chain;
   SkillOptions options;
   std::vector<SkillVariant> variants;  // at least one; all read slots of the same kinds
-  // What follows in the task that this begins, as many variants each: where it is begun, the arm
-  // can do that too (DrawStart). Empty: nothing, or this is not the first.
+  // The later skills of the task that this skill begins, with as many variants each: start states
+  // are sampled such that the arm can do them too (DrawStart). Empty: no later skills, or this is
+  // not the first.
   std::vector<std::shared_ptr<const Skill>> later;
 };
 
-// Prepares `subtasks` for `robot`, which must outlive the skill. Throws core::Error where there is
-// none, options are not valid, a program does not compile or has no success, a thing cannot be
-// simulated, two of the programs read different things, or one of `later` has another number of
+// Prepares `subtasks` for `robot`, which must outlive the skill. Throws core::Error if there is no
+// subtask, an option is invalid, a program does not compile or has no success, an object cannot be
+// simulated, two of the programs read different inputs, or one of `later` has another number of
 // variants.
 std::shared_ptr<const Skill> MakeSkill(const robot::RobotModel& robot,
                                        const std::vector<SkillSubtask>& subtasks,

@@ -11,7 +11,7 @@
 namespace simwright::rl {
 namespace {
 
-constexpr std::uint64_t kEpisodesOfOne = 1ull << 40;  // more than one environment ever sees
+constexpr std::uint64_t kEpisodesOfOne = 1ull << 40;  // more than any environment runs
 
 template <typename Number>
 void Append(const Number& number, std::string* bytes) {
@@ -37,31 +37,31 @@ SkillEnvironment::SkillEnvironment(std::shared_ptr<const Skill> skill, int count
   if (count < 1) throw core::Error("a training needs at least one environment");
   observation_size_ = Observer(*skill_, skill_->variants.front()).size();
   action_size_ = ActionSize(*skill_);
-  slots_.resize(static_cast<size_t>(count));
-  for (Slot& slot : slots_) {
-    slot.episode = std::make_unique<Episode>(*skill_);
-    slot.actions.reserve(static_cast<size_t>(action_size_ * skill_->options.decisions()));
+  instances_.resize(static_cast<size_t>(count));
+  for (Instance& instance : instances_) {
+    instance.episode = std::make_unique<Episode>(*skill_);
+    instance.actions.reserve(static_cast<size_t>(action_size_ * skill_->options.decisions()));
   }
 }
 
 SkillEnvironment::~SkillEnvironment() = default;
 
-// Body(i) for every environment. Threads take the next one when they are done with theirs: where an
-// episode ends, its successor has to be planned, which takes as long as ten decisions.
+// Calls body(i) for every environment. Threads take the next one as soon as they are done: after an
+// episode's end the next one is planned, which takes as long as ten decisions.
 template <typename Body>
 void SkillEnvironment::ForEach(const Body& body) {
   core::ParallelFor(size(), [&](int i) { body(static_cast<size_t>(i)); });
 }
 
-std::uint64_t SkillEnvironment::EpisodeSeed(size_t slot) const {
-  return slot * kEpisodesOfOne + slots_[slot].number;
+std::uint64_t SkillEnvironment::EpisodeSeed(size_t index) const {
+  return index * kEpisodesOfOne + instances_[index].number;
 }
 
 void SkillEnvironment::Begin(size_t index) {
-  Slot& slot = slots_[index];
+  Instance& instance = instances_[index];
   core::Rng rng = core::StreamRng(seed_, EpisodeSeed(index));
-  slot.actions.clear();
-  slot.episode->Begin(NextStart(rng));
+  instance.actions.clear();
+  instance.episode->Begin(NextStart(rng));
 }
 
 EpisodeStart SkillEnvironment::NextStart(core::Rng& rng) const {
@@ -76,36 +76,36 @@ void SkillEnvironment::Reset(std::uint64_t seed, Rows* observations) {
   seed_ = seed;
   observations->resize(size(), observation_size_);
   ForEach([&](size_t i) {
-    slots_[i].number = 0;
-    slots_[i].failures = 0;
+    instances_[i].number = 0;
+    instances_[i].failures = 0;
     Begin(i);
-    slots_[i].episode->Observe(observations->row(static_cast<Eigen::Index>(i)).data());
+    instances_[i].episode->Observe(observations->row(static_cast<Eigen::Index>(i)).data());
   });
 }
 
 void SkillEnvironment::StepOne(size_t index, const Rows& actions, StepBatch* batch) {
-  Slot& slot = slots_[index];
+  Instance& instance = instances_[index];
   const auto row = static_cast<Eigen::Index>(index);
   const float* action = actions.row(row).data();
-  slot.actions.insert(slot.actions.end(), action, action + action_size_);
-  const Decision decision = slot.episode->Step(action);
+  instance.actions.insert(instance.actions.end(), action, action + action_size_);
+  const Decision decision = instance.episode->Step(action);
   batch->rewards[index] = decision.reward;
   if (decision.terminated && share_of_end_) {
-    batch->rewards[index] *= static_cast<float>(share_of_end_(EndOf(*slot.episode)));
+    batch->rewards[index] *= static_cast<float>(share_of_end_(EndOf(*instance.episode)));
   }
   batch->terminated[index] = decision.terminated;
   batch->truncated[index] = decision.truncated;
   batch->success[index] = decision.terminated;  // held, not only reached
   if (decision.failed) {
-    ++slot.failures;
-    slot.failed = slot.number;
+    ++instance.failures;
+    instance.failed = instance.number;
   }
   if (decision.terminated || decision.truncated) {
-    slot.episode->Observe(batch->last_observations.row(row).data());
-    ++slot.number;
+    instance.episode->Observe(batch->last_observations.row(row).data());
+    ++instance.number;
     Begin(index);
   }
-  slot.episode->Observe(batch->observations.row(row).data());
+  instance.episode->Observe(batch->observations.row(row).data());
 }
 
 void SkillEnvironment::Step(const Rows& actions, StepBatch* batch) {
@@ -122,66 +122,66 @@ void SkillEnvironment::Step(const Rows& actions, StepBatch* batch) {
 bool SkillEnvironment::Demonstrate(Rows* actions) const {
   if (skill_->options.action != ActionSpace::kFocus) return false;
   actions->resize(size(), action_size_);
-  for (size_t i = 0; i < slots_.size(); ++i) {
-    ScriptedAction(*slots_[i].episode, actions->row(static_cast<Eigen::Index>(i)).data());
+  for (size_t i = 0; i < instances_.size(); ++i) {
+    ScriptedAction(*instances_[i].episode, actions->row(static_cast<Eigen::Index>(i)).data());
   }
   return true;
 }
 
 std::string SkillEnvironment::SaveState() const {
   std::string bytes;
-  Append(static_cast<std::uint64_t>(slots_.size()), &bytes);
+  Append(static_cast<std::uint64_t>(instances_.size()), &bytes);
   Append(seed_, &bytes);
-  for (const Slot& slot : slots_) {
-    Append(slot.number, &bytes);
-    Append(slot.failures, &bytes);
-    Append(static_cast<std::uint64_t>(slot.actions.size()), &bytes);
-    for (const float action : slot.actions) Append(action, &bytes);
+  for (const Instance& instance : instances_) {
+    Append(instance.number, &bytes);
+    Append(instance.failures, &bytes);
+    Append(static_cast<std::uint64_t>(instance.actions.size()), &bytes);
+    for (const float action : instance.actions) Append(action, &bytes);
   }
   return bytes;
 }
 
 void SkillEnvironment::RestoreState(std::string_view state, Rows* observations) {
-  if (Take<std::uint64_t>(&state) != slots_.size()) {
+  if (Take<std::uint64_t>(&state) != instances_.size()) {
     throw core::Error("the checkpoint holds another number of environments", "checkpoint",
                       "resume with as many as before");
   }
   seed_ = Take<std::uint64_t>(&state);
-  for (Slot& slot : slots_) {
-    slot.number = Take<std::uint64_t>(&state);
-    slot.failures = Take<std::int64_t>(&state);
-    slot.actions.clear();
+  for (Instance& instance : instances_) {
+    instance.number = Take<std::uint64_t>(&state);
+    instance.failures = Take<std::int64_t>(&state);
+    instance.actions.clear();
     const auto count = Take<std::uint64_t>(&state);
     if (count > state.size() / sizeof(float)) {
       throw core::Error("the environments' state is cut off", "checkpoint");
     }
-    for (std::uint64_t i = 0; i < count; ++i) slot.actions.push_back(Take<float>(&state));
+    for (std::uint64_t i = 0; i < count; ++i) instance.actions.push_back(Take<float>(&state));
   }
   observations->resize(size(), observation_size_);
   ForEach([&](size_t i) {
-    const std::vector<float> actions = slots_[i].actions;
+    const std::vector<float> actions = instances_[i].actions;
     Begin(i);
     for (size_t a = 0; a + static_cast<size_t>(action_size_) <= actions.size();
          a += static_cast<size_t>(action_size_)) {
-      slots_[i].episode->Step(&actions[a]);
+      instances_[i].episode->Step(&actions[a]);
     }
-    slots_[i].actions = actions;
-    slots_[i].episode->Observe(observations->row(static_cast<Eigen::Index>(i)).data());
+    instances_[i].actions = actions;
+    instances_[i].episode->Observe(observations->row(static_cast<Eigen::Index>(i)).data());
   });
 }
 
 std::int64_t SkillEnvironment::failures() const {
   std::int64_t failures = 0;
-  for (const Slot& slot : slots_) failures += slot.failures;
+  for (const Instance& instance : instances_) failures += instance.failures;
   return failures;
 }
 
 std::string SkillEnvironment::LastFailure() const {
   std::string text;
-  for (size_t i = 0; i < slots_.size(); ++i) {
-    if (slots_[i].failures == 0) continue;
-    text = "environment " + std::to_string(i) + ", episode " + std::to_string(slots_[i].failed) +
-           ", seed " + std::to_string(seed_);
+  for (size_t i = 0; i < instances_.size(); ++i) {
+    if (instances_[i].failures == 0) continue;
+    text = "environment " + std::to_string(i) + ", episode " +
+           std::to_string(instances_[i].failed) + ", seed " + std::to_string(seed_);
   }
   return text;
 }

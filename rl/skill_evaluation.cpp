@@ -13,10 +13,9 @@ namespace simwright::rl {
 void RequireFits(const Policy& policy, const Skill& skill) {
   const int observed = Observer(skill, skill.variants.front()).size();
   if (policy.observation_size() == observed && policy.action_size() == ActionSize(skill)) return;
-  throw core::Error("the policy takes " + std::to_string(policy.observation_size()) +
-                        " numbers and gives " + std::to_string(policy.action_size()) +
-                        ", the skill has " + std::to_string(observed) + " and " +
-                        std::to_string(ActionSize(skill)),
+  throw core::Error("the policy has " + std::to_string(policy.observation_size()) + " inputs and " +
+                        std::to_string(policy.action_size()) + " outputs, the skill needs " +
+                        std::to_string(observed) + " and " + std::to_string(ActionSize(skill)),
                     "subtask " + skill.variants.front().subtask.name,
                     "train it for this task, robot and action space");
 }
@@ -24,8 +23,8 @@ void RequireFits(const Policy& policy, const Skill& skill) {
 void RequireScript(const Skill& skill) {
   if (HasScript(skill)) return;
   throw core::Error(
-      "there is no script for the action space '" + NameOf(skill.options.action) + "'",
-      "subtask " + skill.variants.front().subtask.name, "take focus or guided, or a policy");
+      "there is no scripted expert for the action space '" + NameOf(skill.options.action) + "'",
+      "subtask " + skill.variants.front().subtask.name, "use focus or guided, or a policy");
 }
 
 std::vector<EpisodeStart> DrawStarts(const Skill& skill, int count, std::uint64_t seed) {
@@ -52,9 +51,9 @@ EpisodeStart EndOf(const Episode& episode) {
 
 namespace {
 
-// `act` writes the next action into a row of ActionSize(skill).
+// Runs one episode; `act` writes the next action into a row of ActionSize(skill).
 template <typename Act>
-EvaluatedEpisode RunBy(const Act& act, const EpisodeStart& start, Episode* episode) {
+EvaluatedEpisode RunWith(const Act& act, const EpisodeStart& start, Episode* episode) {
   std::vector<float> action(static_cast<size_t>(ActionSize(episode->skill())));
   EvaluatedEpisode result;
   result.start = start;
@@ -70,10 +69,10 @@ EvaluatedEpisode RunBy(const Act& act, const EpisodeStart& start, Episode* episo
   return result;
 }
 
-// `run` (episode, start) runs one.
+// Evaluates `run` (episode, start), which runs one episode.
 template <typename Run>
-SkillEvaluation EvaluateBy(const Skill& skill, const Run& run,
-                           const std::vector<EpisodeStart>& starts) {
+SkillEvaluation EvaluateWith(const Skill& skill, const Run& run,
+                             const std::vector<EpisodeStart>& starts) {
   SkillEvaluation evaluation;
   evaluation.episodes.resize(starts.size());
   const int threads = core::ThreadCount();
@@ -104,22 +103,22 @@ EvaluatedEpisode RunEpisode(const Policy& policy, const EpisodeStart& start, Epi
     policy.Act(observation, &action);
     std::copy_n(action.data(), action.cols(), next);
   };
-  return RunBy(act, start, episode);
+  return RunWith(act, start, episode);
 }
 
 EvaluatedEpisode RunScript(const EpisodeStart& start, Episode* episode) {
-  // A guided hand follows the script where nothing else is asked for.
+  // With guided actions, zero follows the scripted expert.
   if (episode->skill().options.action == ActionSpace::kGuided) {
-    return RunBy([](const Episode&, float* action) { std::fill_n(action, 7, 0.0f); }, start,
-                 episode);
+    return RunWith([](const Episode&, float* action) { std::fill_n(action, 7, 0.0f); }, start,
+                   episode);
   }
-  return RunBy(ScriptedAction, start, episode);
+  return RunWith(ScriptedAction, start, episode);
 }
 
 SkillEvaluation Evaluate(const Skill& skill, const Policy& policy,
                          const std::vector<EpisodeStart>& starts) {
   RequireFits(policy, skill);
-  return EvaluateBy(
+  return EvaluateWith(
       skill,
       [&](const EpisodeStart& start, Episode* episode) {
         return RunEpisode(policy, start, episode);
@@ -129,7 +128,7 @@ SkillEvaluation Evaluate(const Skill& skill, const Policy& policy,
 
 SkillEvaluation EvaluateScript(const Skill& skill, const std::vector<EpisodeStart>& starts) {
   RequireScript(skill);
-  return EvaluateBy(skill, RunScript, starts);
+  return EvaluateWith(skill, RunScript, starts);
 }
 
 }  // namespace simwright::rl

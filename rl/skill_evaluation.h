@@ -11,7 +11,7 @@ namespace simwright::rl {
 
 struct EvaluatedEpisode {
   EpisodeStart start;
-  EpisodeStart end;  // as the skill after it may begin
+  EpisodeStart end;  // a start state for the next skill
   bool success = false;
   double seconds = 0.0;
 };
@@ -20,38 +20,38 @@ struct SkillEvaluation {
   std::vector<EvaluatedEpisode> episodes;
   int successes = 0;
   Interval interval;     // 95 %, of the success rate
-  double seconds = 0.0;  // mean of those that succeeded
+  double seconds = 0.0;  // mean over the successes
 
   double rate() const {
     return episodes.empty() ? 0.0 : static_cast<double>(successes) / episodes.size();
   }
 };
 
-// Lets `policy` act, without drawing, in as many episodes as there are starts. Success: it has held
-// for options.hold_seconds at the episode's end. The same starts give the same result for any
-// number of threads. Throws core::Error where policy and skill are of other sizes.
+// Runs the mean action of `policy` from each start state. An episode succeeds if success has held
+// for options.hold_seconds at its end. The results do not depend on the number of threads. Throws
+// core::Error if policy and skill have different sizes.
 SkillEvaluation Evaluate(const Skill& skill, const Policy& policy,
                          const std::vector<EpisodeStart>& starts);
 
-// The same of the script (ScriptedAction). Throws core::Error where there is none.
+// Evaluates the scripted expert (ScriptedAction). Throws core::Error if there is none.
 SkillEvaluation EvaluateScript(const Skill& skill, const std::vector<EpisodeStart>& starts);
 
-// `count` starts of the skill, drawn by `seed`.
+// Samples `count` start states of the skill with `seed`.
 std::vector<EpisodeStart> DrawStarts(const Skill& skill, int count, std::uint64_t seed);
 
-// One episode to its end.
+// Runs one episode to its end.
 EvaluatedEpisode RunEpisode(const Policy& policy, const EpisodeStart& start, Episode* episode);
 
-// The same by the script; its skill must have one.
+// Runs one episode by the scripted expert; the skill must have one.
 EvaluatedEpisode RunScript(const EpisodeStart& start, Episode* episode);
 
-// What the episode has come to, as a start: things and arm where they are, at rest.
+// Returns the final state of the episode as a start state: objects and arm in place, at rest.
 EpisodeStart EndOf(const Episode& episode);
 
-// Throws core::Error unless the skill has a script (HasScript).
+// Throws core::Error unless the skill has a scripted expert (HasScript).
 void RequireScript(const Skill& skill);
 
-// Throws core::Error unless the policy sees and does what the skill shows and takes.
+// Throws core::Error unless the observation and action sizes of policy and skill match.
 void RequireFits(const Policy& policy, const Skill& skill);
 
 }  // namespace simwright::rl

@@ -67,7 +67,7 @@ bool SkillOptions::IsValid(std::string* error) const {
   if (contact_iterations < 1 || free_iterations < 1) {
     return fail("contact_iterations and free_iterations must be positive");
   }
-  if (!(standoff >= 0.0)) return fail("the standoff is not negative");
+  if (!(standoff >= 0.0)) return fail("standoff must not be negative");
   if (!(reach > 0.0) || !(turn >= 0.0) || !(delta_share > 0.0)) {
     return fail("reach and delta_share must be positive, turn not negative");
   }

@@ -9,12 +9,12 @@ namespace {
 using Eigen::Isometry3d;
 
 constexpr double kTouches = 5e-4;     // m
-constexpr double kGraspForce = 1.0;   // N of each finger
-constexpr double kClosing = 1.0;      // s at most, until a hand has closed on what it shall hold
-constexpr double kStill = 0.1;        // s that its fingers then stand still ...
-constexpr double kStillSpeed = 2e-3;  // ... that is, move slower, m/s or rad/s
-constexpr double kSettling = 0.1;     // s more, in which it bears the thing's weight
-constexpr double kFarthest = 20.0;    // m from the robot: farther, the physics has failed
+constexpr double kGraspForce = 1.0;   // N by each finger
+constexpr double kClosing = 1.0;      // s at most, for closing the gripper on an object
+constexpr double kStill = 0.1;        // s at rest that end the closing ...
+constexpr double kStillSpeed = 2e-3;  // ... below this speed, m/s or rad/s
+constexpr double kSettling = 0.1;     // s more, in which the grasp takes the object's weight
+constexpr double kFarthest = 20.0;    // m from the robot: beyond, the physics has failed
 
 sim::WorldOptions WorldOptionsOf(const SkillOptions& options) {
   sim::WorldOptions world;
@@ -39,7 +39,7 @@ SkillWorld::SkillWorld(const Skill& skill, const EpisodeStart& start)
     placement.friction_scale = start.friction[t];
     placement.joint_scale = start.joint[t];
     bodies_[t] = world_.Add(variant_.bodies[t], placement);
-    thing_of_.push_back(thing);
+    object_of_.push_back(thing);
     for (size_t j = 0; j < variant_.body_joints[t].size(); ++j) {
       world_.SetPosition(bodies_[t], variant_.body_joints[t][j], start.state.joints[t][j]);
     }
@@ -49,19 +49,18 @@ SkillWorld::SkillWorld(const Skill& skill, const EpisodeStart& start)
   robot_ =
       std::make_unique<sim::DrivenRobot>(*skill.robot, skill.robot_body,
                                          variant_.subtask.start.world_from_robot, &world_, motors);
-  thing_of_.push_back(-1);
-  for (auto& pressed : pressed_) pressed.assign(variant_.model.things.size(), 0.0);
+  object_of_.push_back(-1);
+  for (auto& impulses : finger_impulses_) impulses.assign(variant_.model.things.size(), 0.0);
   robot_->Place(start.arm, start.leader);
   if (start.held >= 0) {
-    CloseOn(start.held, skill.robot->gripper.closed);
+    CloseGripperOn(start.held, skill.robot->gripper.closed);
   } else if (start.closed_to && variant_.focus) {
-    CloseOn(variant_.focus->thing, *start.closed_to);
+    CloseGripperOn(variant_.focus->thing, *start.closed_to);
   }
 }
 
-// The thing stays where it is while the hand closes as far as `leader`, as if it stood on
-// something.
-void SkillWorld::CloseOn(int thing, double leader) {
+// The object is held in place while the gripper closes to `leader`, as if it stood on a support.
+void SkillWorld::CloseGripperOn(int thing, double leader) {
   const int body = bodies_[static_cast<size_t>(thing)];
   if (body < 0) return;
   const Isometry3d pose = world_.LinkPose(body, 0);
@@ -97,7 +96,7 @@ void SkillWorld::Advance() {
 
 void SkillWorld::ReadContacts() {
   world_.Contacts(&contacts_);
-  for (auto& pressed : pressed_) std::fill(pressed.begin(), pressed.end(), 0.0);
+  for (auto& impulses : finger_impulses_) std::fill(impulses.begin(), impulses.end(), 0.0);
   const std::vector<int>& fingers = skill_.robot->gripper.links;
   touching_ = false;
   touched_ = touched_link_ = -1;
@@ -112,16 +111,16 @@ void SkillWorld::ReadContacts() {
     if (other == sim::kFloor) continue;
     const auto finger = std::find(fingers.begin(), fingers.end(), finger_link) - fingers.begin();
     if (finger >= 2) continue;
-    const int thing = thing_of_[static_cast<size_t>(other)];
-    pressed_[finger][static_cast<size_t>(thing)] += contact.impulse;
+    const int thing = object_of_[static_cast<size_t>(other)];
+    finger_impulses_[finger][static_cast<size_t>(thing)] += contact.impulse;
     if (contact.impulse <= hardest) continue;
     hardest = contact.impulse;
     touched_ = thing;
     touched_link_ = robot_first ? contact.link_b : contact.link_a;
   }
   const double least = kGraspForce * world_.time_step();
-  grasped_ = touched_ >= 0 && pressed_[0][static_cast<size_t>(touched_)] > least &&
-             pressed_[1][static_cast<size_t>(touched_)] > least;
+  grasped_ = touched_ >= 0 && finger_impulses_[0][static_cast<size_t>(touched_)] > least &&
+             finger_impulses_[1][static_cast<size_t>(touched_)] > least;
 }
 
 void SkillWorld::Read(tasks::SceneState* state) const {

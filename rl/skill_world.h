@@ -9,8 +9,8 @@
 
 namespace simwright::rl {
 
-// The world of one episode: the start's things and the robot. Reads what the physics did as a
-// SceneState. One thread at a time.
+// The world of one episode: the objects of its start state and the robot. Reads the state of the
+// physics as a SceneState. One thread at a time.
 class SkillWorld {
  public:
   // `skill` and `variant` must outlive the world.
@@ -19,30 +19,30 @@ class SkillWorld {
   sim::DrivenRobot& robot() { return *robot_; }
   const sim::DrivenRobot& robot() const { return *robot_; }
 
-  // One control step: the physics' substeps with the robot's command as it is.
+  // Runs one control step: the physics' substeps with the robot's current command.
   void Advance();
-  // Into `state`, whose memory is used again; `goal` is left as it is. `touched` is what the
-  // fingers touch, `grasped` whether both press on it.
+  // Writes into `state`, reusing its memory; `goal` is left unchanged. `touched` is the object in
+  // contact with the fingers, `grasped` is true if both press on it.
   void Read(tasks::SceneState* state) const;
-  // Whether each number of the state is finite and no thing is faster or farther than things get.
+  // Returns true if the state is finite and all objects are within a bounded distance of the robot.
   bool IsSound() const;
   bool touching() const { return touching_; }
 
  private:
-  void CloseOn(int thing, double leader);
+  void CloseGripperOn(int thing, double leader);
   void ReadContacts();
 
   const Skill& skill_;
   const SkillVariant& variant_;
   sim::ArticulatedWorld world_;
   std::unique_ptr<sim::DrivenRobot> robot_;
-  std::vector<int> bodies_;    // by thing; -1: not in the world
-  std::vector<int> thing_of_;  // by body; -1: the robot
+  std::vector<int> bodies_;     // by object; -1: not in the world
+  std::vector<int> object_of_;  // by body; -1: the robot
   std::vector<sim::LinkContact> contacts_;
-  std::vector<double> pressed_[2];  // by finger: N s on each thing in the last substep
+  std::vector<double> finger_impulses_[2];  // by finger: N s on each object in the last substep
   int touched_ = -1, touched_link_ = -1;
   bool grasped_ = false;
-  bool touching_ = false;  // something in the world touches what the robot can move, or the robot
+  bool touching_ = false;  // the robot touches an object, the floor or itself
 };
 
 }  // namespace simwright::rl

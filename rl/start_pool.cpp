@@ -13,9 +13,9 @@ namespace {
 using nlohmann::json;
 
 constexpr size_t kMostStarts = 100000;
-constexpr size_t kLongestDetour = 16;
-constexpr double kFarthestWay = 10.0;  // m
-constexpr double kRoughest = 100.0;    // coefficient of friction
+constexpr size_t kMostWaypoints = 16;
+constexpr double kLongestRetreat = 10.0;    // m
+constexpr double kLargestFriction = 100.0;  // coefficient of friction
 
 json PoseJson(const Eigen::Isometry3d& pose) {
   json numbers = json::array();
@@ -52,7 +52,7 @@ Eigen::Isometry3d PoseFrom(const json& list) {
   }
   const Eigen::Matrix3d rotation = pose.linear();
   if (!(rotation.transpose() * rotation).isIdentity(1e-6)) {
-    throw std::invalid_argument("a rotation that is none");
+    throw std::invalid_argument("an invalid rotation");
   }
   return pose;
 }
@@ -70,7 +70,7 @@ EpisodeStart StartFrom(const json& text, const Skill& skill) {
   EpisodeStart start;
   start.variant = text.at("variant").get<int>();
   if (start.variant < 0 || start.variant >= static_cast<int>(skill.variants.size())) {
-    throw std::invalid_argument("a scene that the skill does not have");
+    throw std::invalid_argument("a variant that the skill does not have");
   }
   const SkillVariant& variant = skill.variants[static_cast<size_t>(start.variant)];
   const size_t things = variant.model.things.size();
@@ -78,7 +78,7 @@ EpisodeStart StartFrom(const json& text, const Skill& skill) {
   const json& roots = text.at("roots");
   const json& joints = text.at("joints");
   if (roots.size() != things || joints.size() != things) {
-    throw std::invalid_argument("another number of things");
+    throw std::invalid_argument("another number of objects");
   }
   for (size_t i = 0; i < things; ++i) {
     start.state.roots[i] = PoseFrom(roots[i]);
@@ -94,14 +94,14 @@ EpisodeStart StartFrom(const json& text, const Skill& skill) {
   if (text.contains("withdraw")) {
     const std::vector<double> way = Numbers(text["withdraw"], 3);
     start.withdraw = Eigen::Vector3d(way[0], way[1], way[2]);
-    if (start.withdraw.norm() > kFarthestWay) {
-      throw std::invalid_argument("a way that no hand goes");
+    if (start.withdraw.norm() > kLongestRetreat) {
+      throw std::invalid_argument("a retreat that is too long");
     }
   }
   if (text.contains("via")) {
     const json& via = text["via"];
-    if (!via.is_array() || via.size() > kLongestDetour) {
-      throw std::invalid_argument("a detour that no arm takes");
+    if (!via.is_array() || via.size() > kMostWaypoints) {
+      throw std::invalid_argument("invalid or too many waypoints");
     }
     for (const json& posture : via) {
       start.via.push_back(PostureFrom(posture, skill.robot->arm.size()));
@@ -110,7 +110,7 @@ EpisodeStart StartFrom(const json& text, const Skill& skill) {
   start.held = text.at("held").get<int>();
   if (start.held < -1 || start.held >= static_cast<int>(things) ||
       (start.held >= 0 && variant.fixed[static_cast<size_t>(start.held)])) {
-    throw std::invalid_argument("a thing in the hand that it cannot hold");
+    throw std::invalid_argument("an object in the gripper that cannot be grasped");
   }
   start.mass = Factors(text.at("mass"), things);
   start.friction = Factors(text.at("friction"), things);
@@ -118,12 +118,12 @@ EpisodeStart StartFrom(const json& text, const Skill& skill) {
   start.delay = text.at("delay").get<int>();
   if (start.delay < 0 || start.delay > 1000 ||
       !std::isfinite(start.leader + start.pitch + start.closed_to.value_or(0.0))) {
-    throw std::invalid_argument("a delay or position that cannot be");
+    throw std::invalid_argument("an invalid delay or position");
   }
   if (text.contains("finger_friction")) {
     start.finger_friction = text["finger_friction"].get<double>();
-    if (!(*start.finger_friction > 0.0) || *start.finger_friction > kRoughest) {
-      throw std::invalid_argument("a friction that no fingers have");
+    if (!(*start.finger_friction > 0.0) || *start.finger_friction > kLargestFriction) {
+      throw std::invalid_argument("an invalid finger friction");
     }
   }
   return start;
@@ -159,10 +159,10 @@ EpisodeStart ParseStart(std::string_view text, const Skill& skill, const std::st
   try {
     return StartFrom(json::parse(text), skill);
   } catch (const json::exception&) {
-    throw core::Error("is no start of an episode", where, "let the training write it anew");
+    throw core::Error("is not a start state", where, "let the training write it again");
   } catch (const std::invalid_argument& error) {
-    throw core::Error(std::string("a start holds ") + error.what(), where,
-                      "let the training write it anew");
+    throw core::Error(std::string("the start state has ") + error.what(), where,
+                      "let the training write it again");
   }
 }
 

@@ -9,14 +9,16 @@
 
 namespace simwright::rl {
 
-// A start as one line of JSON (docs/formats.md), and back, bit for bit. ParseStart throws
-// core::Error, naming `where`, for a text of another form, or one that does not fit the skill: a
-// variant, thing, joint or posture that it does not have, a number that is not finite.
+// Converts a start state to one line of JSON (docs/formats.md) and back, bit for bit. ParseStart
+// throws core::Error, naming `where`, for a text of another form and for one that does not fit the
+// skill: a variant, object, joint or configuration that the skill does not have, a non-finite
+// number.
 std::string StartText(const EpisodeStart& start);
 EpisodeStart ParseStart(std::string_view text, const Skill& skill, const std::string& where);
 
-// A file of starts, one a line: where one skill ended well and the next may begin. Throws
-// core::Error as above, or where the file cannot be read or written; at most 100,000 are read.
+// Reads and writes files of start states, one per line: end states of one skill, from which the
+// next may begin. Throws core::Error as above, or if the file cannot be read or written; reads at
+// most 100,000.
 void WriteStarts(const std::vector<EpisodeStart>& starts, const std::filesystem::path& file);
 std::vector<EpisodeStart> ReadStarts(const std::filesystem::path& file, const Skill& skill);
 

@@ -3,7 +3,7 @@
 namespace simwright::rl {
 namespace {
 
-// What the skill's policy observes first from `start`. (1 x O)
+// Writes the first observation from `start` into `row`. (1 x O)
 void ObserveFrom(const EpisodeStart& start, Episode* episode, float* row) {
   episode->Begin(start);
   episode->Observe(row);
@@ -27,7 +27,7 @@ Successor::Successor(std::shared_ptr<const Skill> skill, const std::vector<Evalu
     : skill_(std::move(skill)), set_(SetOf(*skill_, tried)) {}
 
 double Successor::Chance(const EpisodeStart& end) const {
-  core::Rng rng = core::StreamRng(0, 0);  // the same work is planned from the same end
+  core::Rng rng = core::StreamRng(0, 0);  // deterministic plans for the same end state
   Episode episode(*skill_);
   std::vector<float> observation(static_cast<size_t>(set_.size()));
   ObserveFrom(Varied(*skill_, end, rng, VariedParts::kNothing), &episode, observation.data());

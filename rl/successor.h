@@ -8,15 +8,16 @@
 
 namespace simwright::rl {
 
-// The skill that follows another in a chain, as the other one sees it: what an end is worth.
-// Constant; safe from several threads.
+// The next skill of a chain, which assigns a value to the end states of the previous one. Constant
+// and thread-safe.
 class Successor {
  public:
-  // `tried`: episodes of the successor (Evaluate, from where the other one has ended). Throws
-  // core::Error where there are none.
+  // `tried`: evaluated episodes of the next skill from end states of the previous one (Evaluate).
+  // Throws core::Error if there are none.
   Successor(std::shared_ptr<const Skill> skill, const std::vector<EvaluatedEpisode>& tried);
 
-  // Of success from where another skill of the same scene has ended (EndOf), in (0, 1).
+  // Returns the success probability, in (0, 1), from an end state (EndOf) of another skill in the
+  // same scene.
   double Chance(const EpisodeStart& end) const;
 
  private:

@@ -9,29 +9,29 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// In front of the robot, pointing down: zero of ActionSpace::kAbsolute.
+// Returns the pose at zero of ActionSpace::kAbsolute: in front of the robot, pointing down.
 Isometry3d InFront() {
   Isometry3d pose = Isometry3d::Identity();
   pose.translation() = Vector3d(0.5, 0.0, 0.3);
   pose.linear() = Vector3d(1.0, -1.0, -1.0).asDiagonal();
   return pose;
 }
-constexpr double kWorkspace = 0.5;  // m, of an offset of 1 with kAbsolute
-constexpr double kOfSpeed = 0.9;    // of a joint's highest speed
-// Of a joint's highest acceleration. The rest is for what smooths the corners between control steps
-// (robot/retiming.h).
+constexpr double kWorkspace = 0.5;  // m, for an offset of 1 with kAbsolute
+constexpr double kOfSpeed = 0.9;    // share of a joint's velocity limit
+// The share of a joint's acceleration limit. The rest is reserved for smoothing between control
+// steps (robot/retiming.h).
 constexpr double kOfAcceleration = 0.7;
-// How the standoff grows: a cone about the focus' axis, wide enough for what exploration asks for.
-constexpr double kBeside = 0.025, kSlope = 2.0;   // m off the axis that are free; m a m
-constexpr double kTurned = 0.4, kPerTurn = 0.15;  // rad that are free; m a rad
-constexpr double kNearlyBack = 0.03;              // m less than it shall stay back, that is as far
-constexpr double kAbove = 0.015;  // m: a hand so far above its work comes down before it pushes
-// m: so far ahead of the focus a hand still pushes. Were it lifted there, it would drag the side of
-// the thing that it touches upwards, and tip it.
+// The growth of the standoff: a cone about the target frame's axis, wide enough for exploration.
+constexpr double kFreeLateral = 0.025, kSlope = 2.0;  // m off the axis without standoff; m per m
+constexpr double kTurned = 0.4, kPerTurn = 0.15;      // rad without standoff; m per rad
+constexpr double kNearlyBack = 0.03;                  // m, tolerance of the standoff
+constexpr double kAbove = 0.015;  // m: a higher gripper comes down before it pushes
+// The distance (m) ahead of the target up to which a gripper still pushes. If it were lifted there,
+// it would drag the side of the object upwards and tip it.
 constexpr double kAhead = 0.05;
-constexpr double kDecided = 0.15;  // of an action: less leaves the fingers as they are
-constexpr double kPassed = 0.05;   // rad or m of any joint: a posture on the way has been passed
-constexpr double kGoalJump = 0.1;  // rad or m that any joint of the goal moves in a control step
+constexpr double kFingerThreshold = 0.15;  // of an action: below, the fingers stay
+constexpr double kPassed = 0.05;           // rad or m of any joint: the waypoint has been passed
+constexpr double kGoalJump = 0.1;  // rad or m, motion of the goal per joint and control step
 
 Isometry3d Offset(const float* action, double reach, double turn) {
   const Vector3d shift(action[0], action[1], action[2]), spin(action[3], action[4], action[5]);
@@ -46,62 +46,63 @@ Eigen::Matrix3d Leaning(double angle) {
   return Eigen::AngleAxisd(angle, Vector3d::UnitY()).toRotationMatrix();
 }
 
-// Of the tool as it was sent last, in the focus' frame.
-Isometry3d InFocus(const Skill& skill, const WorkFrame& frame, const ArmCommand& command) {
+// Returns the tool pose of the last command in the target frame.
+Isometry3d LastCommandInFocus(const Skill& skill, const WorkFrame& frame,
+                              const ArmCommand& command) {
   return frame.base_from_focus.inverse() * robot::ForwardKinematics(skill.robot->arm, command.sent);
 }
 
-// m that the tool stays back: more, the farther it is off the focus' axis and the more it is
-// turned.
+// Returns the standoff (m) of the tool: it grows with the lateral offset and the rotation from the
+// target frame.
 double Standoff(const Skill& skill, const WorkFrame& frame, const Isometry3d& off) {
   const Vector3d& back = frame.back;
-  Vector3d beside = off.translation() - off.translation().dot(back) * back;
-  Vector3d way = frame.free_way - frame.free_way.dot(back) * back;
+  Vector3d lateral = off.translation() - off.translation().dot(back) * back;
+  Vector3d direction = frame.free_way - frame.free_way.dot(back) * back;
   if (frame.pushes) {
-    beside.x() = std::max(0.0, beside.x() - kAhead);
-    way.setZero();
+    lateral.x() = std::max(0.0, lateral.x() - kAhead);
+    direction.setZero();
   }
-  const double counted = (beside - std::max(0.0, beside.dot(way)) * way).norm();
-  const double aside = std::max(0.0, counted - kBeside);
+  const double counted = (lateral - std::max(0.0, lateral.dot(direction)) * direction).norm();
+  const double aside = std::max(0.0, counted - kFreeLateral);
   const Eigen::AngleAxisd turn(off.linear() * Leaning(-frame.lean));
   const double turned = std::max(0.0, turn.angle() - kTurned);
   return std::min(std::max(skill.options.standoff, frame.room_depth),
                   kSlope * aside + kPerTurn * turned);
 }
 
-// A tool at `now` that is not yet as far back as it shall stay goes back before it goes aside: what
-// is about a room, its walls and its open door, is between it and the opening.
+// Makes a tool at `now` that is not yet back at its standoff move back before it moves sideways:
+// walls and the open door of a receptacle are between it and the opening.
 void LeaveStraight(const Vector3d& now, double standoff, const Vector3d& back, Isometry3d* offset) {
   const double along = now.dot(back);
   if (along > standoff - kNearlyBack) return;
   offset->translation() = now + (offset->translation().dot(back) - along) * back;
 }
 
-// The hand opens, closes, or stays as it is. Were the action an opening, with zero wide open, a
-// policy that has learnt nothing would let go of whatever it holds, and would never close on a thin
-// wall: that asked for -0.9, so that no cup was taken by its rim in 170k decisions.
+// Returns the finger target: the gripper opens, closes, or stays. With the action as an absolute
+// opening, zero being wide open, an untrained policy would release whatever it grasps, and would
+// hardly ever close on a thin wall.
 double LeaderOf(const robot::Gripper& gripper, double action, double now) {
-  if (action > kDecided) return gripper.open;
-  if (action < -kDecided) return gripper.closed;
+  if (action > kFingerThreshold) return gripper.open;
+  if (action < -kFingerThreshold) return gripper.closed;
   return now;
 }
 
-// The highest speed from which a command that is slowed down by `acceleration` in steps of `dt`
+// Returns the highest speed from which a command decelerating by `acceleration` in steps of `dt`
 // still stops within `distance`: v dt + (v - a dt) dt + ... = v^2 / 2 a + v dt / 2.
 double StoppingSpeed(double distance, double acceleration, double dt) {
   const double step = acceleration * dt;
   return 0.5 * (std::sqrt(step * step + 8.0 * acceleration * distance) - step);
 }
 
-// The speed (J) that goes straight along `way` (J), as fast as options, joints and the stop at its
-// end allow, by `pace` slower.
+// Returns the joint velocity (J) straight along `displacement` (J), as fast as options, joint
+// limits and the stop at its end allow, scaled by `pace`.
 robot::Posture WantedRate(const Skill& skill, const robot::Posture& posture,
-                          const robot::Posture& way, double pace) {
+                          const robot::Posture& displacement, double pace) {
   const robot::RobotModel& robot = *skill.robot;
   const double dt = 1.0 / skill.options.control_rate;
-  double rate = skill.options.control_rate;  // of the way, 1/s: no farther than its end
-  for (Eigen::Index j = 0; j < way.size(); ++j) {
-    const double length = std::abs(way[j]);
+  double rate = skill.options.control_rate;  // of the displacement, 1/s: no farther than its end
+  for (Eigen::Index j = 0; j < displacement.size(); ++j) {
+    const double length = std::abs(displacement[j]);
     if (length == 0.0) continue;
     const robot::JointLimits& limits =
         robot.limits[static_cast<size_t>(robot.arm_joints[static_cast<size_t>(j)])];
@@ -112,16 +113,16 @@ robot::Posture WantedRate(const Skill& skill, const robot::Posture& posture,
   }
   robot::ToolJacobian jacobian;
   skill.chain->Tool(posture, &jacobian);
-  const Eigen::Matrix<double, 6, 1> tool = jacobian * way;
+  const Eigen::Matrix<double, 6, 1> tool = jacobian * displacement;
   const double shift = tool.head<3>().norm(), turn = tool.tail<3>().norm();
   if (shift * rate > pace * skill.options.tool_speed) {
     rate = pace * skill.options.tool_speed / shift;
   }
   if (turn * rate > pace * skill.options.turn_speed) rate = pace * skill.options.turn_speed / turn;
-  return rate * way;
+  return rate * displacement;
 }
 
-// `rate` after one step towards `wanted`.
+// Returns `rate` after one step of acceleration towards `wanted`.
 double Accelerated(double rate, double wanted, const robot::JointLimits& limits, double dt,
                    double pace = 1.0) {
   const double most = pace * kOfAcceleration * limits.acceleration * dt;
@@ -152,11 +153,12 @@ void MoveFingers(const Skill& skill, double target, ArmCommand* command) {
   const robot::RobotModel& robot = *skill.robot;
   const robot::JointLimits& limits =
       robot.limits[static_cast<size_t>(robot.gripper.joints.front())];
-  const double way = target - command->leader;
+  const double displacement = target - command->leader;
   const double most =
-      std::min({limits.velocity, std::abs(way) / dt,
-                StoppingSpeed(std::abs(way), kOfAcceleration * limits.acceleration, dt)});
-  command->leader_rate = Accelerated(command->leader_rate, std::copysign(most, way), limits, dt);
+      std::min({limits.velocity, std::abs(displacement) / dt,
+                StoppingSpeed(std::abs(displacement), kOfAcceleration * limits.acceleration, dt)});
+  command->leader_rate =
+      Accelerated(command->leader_rate, std::copysign(most, displacement), limits, dt);
   command->leader += dt * command->leader_rate;
 }
 
@@ -177,7 +179,7 @@ ToolTarget TargetOf(const Skill& skill, const float* action, const WorkFrame& fr
       Isometry3d offset = Offset(action, options.reach, options.turn);
       offset.rotate(Leaning(frame.lean));
       if (options.standoff > 0.0) {
-        const Isometry3d now = InFocus(skill, frame, command);
+        const Isometry3d now = LastCommandInFocus(skill, frame, command);
         if (frame.pushes && now.translation().z() < -kAbove) {
           offset.translation().x() = std::min(offset.translation().x(), 0.0);
         }
@@ -220,7 +222,7 @@ void Approach(const Skill& skill, const ToolTarget& target, const robot::Posture
   }
   if (skill.options.action == ActionSpace::kJoints) {
     command->goal = target.joints;
-  } else if (via.empty()) {  // until then the goal stays the posture that was planned
+  } else if (via.empty()) {  // until then the goal stays the planned configuration
     const robot::Posture jump = robot::Posture::Constant(actual.size(), kGoalJump);
     skill.kinematics->Track(target.base_from_tool, jump, &command->goal,
                             command->rest.size() > 0 ? &command->rest : nullptr);

@@ -10,55 +10,57 @@
 
 namespace simwright::rl {
 
-// What the hand was asked for by the last action.
+// The command of the last action.
 struct ToolTarget {
   Eigen::Isometry3d base_from_tool = Eigen::Isometry3d::Identity();
   robot::Posture joints;  // (J), with ActionSpace::kJoints
-  double leader = 0.0;    // the gripper's first joint
+  double leader = 0.0;    // position of the gripper's first joint
 };
 
-// How many numbers an action has: 7, or one more than the arm's joints.
+// Returns the size of an action: 7, or one more than the number of arm joints.
 int ActionSize(const Skill& skill);
 
-// Where the arm is sent. Mutable, one an episode.
+// The arm command. Mutable, one per episode.
 struct ArmCommand {
-  robot::Posture goal;  // (J) the posture in which the tool is where the action wants it
-  robot::Posture sent;  // (J) what the motors hold now: on its way to `goal`
-  // (J) that it goes through before, whatever the action wants meanwhile (PlanDetour).
+  robot::Posture goal;  // (J) the configuration at the tool pose of the action
+  robot::Posture sent;  // (J) the current motor set point, moving towards `goal`
+  // The remaining waypoints (J) before `goal`, which do not depend on the action (PlanDetour).
   std::vector<robot::Posture> via;
-  robot::Posture rest;  // (J) to which joints that are to spare drift; empty: home
-  robot::Posture rate;  // (J) per s: how fast `sent` moves
-  double pace = 1.0;    // of the speeds and accelerations that it may move with
-  double leader = 0.0;  // the gripper's first joint
+  robot::Posture rest;  // (J) the null-space target of redundant joints; empty: home
+  robot::Posture rate;  // (J) per s: velocity of `sent`
+  double pace = 1.0;    // factor of the speed and acceleration limits
+  double leader = 0.0;  // position of the gripper's first joint
   double leader_rate = 0.0;
 };
 
-// What ActionSpace::kFocus is seen from.
+// The frame of ActionSpace::kFocus.
 struct WorkFrame {
   Eigen::Isometry3d base_from_focus = Eigen::Isometry3d::Identity();
-  double lean = 0.0;  // rad about the focus' y axis, of the tool at work
-  // Whether x is the way that a thing in front of the focus is pushed: the hand comes down behind
-  // it before it goes forward.
+  double lean = 0.0;  // rad about the target frame's y axis, of the tool at the target
+  // True if x is the direction in which an object in front of the frame is pushed: the gripper
+  // comes down behind it before it moves forward.
   bool pushes = false;
-  // Of length 1 at most, in the focus' frame: so much of being off that way is not being off to a
-  // side (FocusFrame).
+  // The direction in which a displacement does not count as lateral, scaled by its length (at most
+  // 1; target frame; FocusFrame).
   Eigen::Vector3d free_way = Eigen::Vector3d::Zero();
-  // Where the tool stays back to while it is off to a side (unit, the focus' frame): along its own
-  // axis, or out of the room that the focus is in, as far as that is deep (m; 0: as options say).
+  // The direction (unit, target frame) in which the tool stays back while it is laterally off:
+  // along its own axis, or out of the receptacle around the frame, by at most `room_depth` (m; 0:
+  // the options' standoff).
   Eigen::Vector3d back = -Eigen::Vector3d::UnitZ();
   double room_depth = 0.0;
 };
 
-// What `action` (A, in [-1, 1]) asks for. `command`: where arm and fingers were sent last.
+// Returns the target of `action` (A, in [-1, 1]). `command`: the current command of arm and
+// fingers.
 ToolTarget TargetOf(const Skill& skill, const float* action, const WorkFrame& frame,
                     const ArmCommand& command);
 
-// Moves the command towards the target by one control step, within the speeds of options and
-// joints, within the joints' accelerations, so that it can stop at its goal, and no farther than
-// options.longest_lead from the joints' positions `actual` where it can still stop. What is learnt
-// so is what a real arm's controller lets through. The goal follows the target from posture to
-// posture, the arm follows the goal joint by joint: it never gets stuck at a limit between two ways
-// of reaching one place.
+// Moves the command towards the target by one control step, within the velocity limits of options
+// and joints, within the joints' accelerations, such that it can stop at its goal, and at most
+// options.longest_lead ahead of the joint positions `actual` if it can still stop. A policy thus
+// learns only motions that a real arm's controller accepts. The goal tracks the target continuously
+// in configuration space, and the arm follows it joint by joint: it never gets stuck at a limit
+// between two inverse kinematics branches.
 void Approach(const Skill& skill, const ToolTarget& target, const robot::Posture& actual,
               ArmCommand* command);
 

@@ -7,10 +7,10 @@ namespace {
 
 using Eigen::Isometry3d;
 
-constexpr double kPosition = 0.01;  // m: what is off at most
-constexpr double kStride = 0.03;    // m of the tool between two looks
+constexpr double kPosition = 0.01;  // m, tolerance
+constexpr double kStride = 0.03;    // m of the tool between steps
 constexpr double kTurn = 0.12;      // rad
-constexpr double kJointStep = 0.1;  // rad or m of any joint in one look
+constexpr double kJointStep = 0.1;  // rad or m of any joint per step
 
 }  // namespace
 
@@ -25,8 +25,9 @@ bool ToolFollower::Goes(const Isometry3d& world_from_tool, double turned) {
   const Isometry3d target = base_from_world_ * world_from_tool;
   const Isometry3d now = robot::ForwardKinematics(skill_.robot->arm, posture_);
   const Eigen::Quaterniond a(now.linear()), b(target.linear());
-  const double way = (target.translation() - now.translation()).norm();
-  const int strides = 1 + static_cast<int>(std::max(way / kStride, a.angularDistance(b) / kTurn));
+  const double distance = (target.translation() - now.translation()).norm();
+  const int strides =
+      1 + static_cast<int>(std::max(distance / kStride, a.angularDistance(b) / kTurn));
   robot::PoseError error;
   for (int i = 1; i <= strides + 4; ++i) {
     const double share = std::min(1.0, static_cast<double>(i) / strides);

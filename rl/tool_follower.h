@@ -4,18 +4,18 @@
 
 namespace simwright::rl {
 
-// Looks ahead where an arm comes to when its tool follows poses, with the tracker that training
-// uses: from posture to posture, with the jumps of none of its joints.
+// Predicts the configurations of an arm whose tool follows poses, with the inverse kinematics
+// tracker of training: continuous in every joint.
 class ToolFollower {
  public:
-  static constexpr double kTurned = 0.15;  // rad that a tool may be turned where it has come to
+  static constexpr double kTurned = 0.15;  // rad, default orientation tolerance
   // Begins at `from` (J). Skill and variant must outlive this.
   ToolFollower(const Skill& skill, const SkillVariant& variant, const robot::Posture& from);
 
-  // Goes straight to `world_from_tool`. Whether the tool gets there, off by no more than a
-  // centimetre and `turned` (rad).
+  // Moves the tool straight to `world_from_tool`. Returns true if it arrives within 1 cm and
+  // `turned` (rad).
   bool Goes(const Eigen::Isometry3d& world_from_tool, double turned = kTurned);
-  const robot::Posture& posture() const { return posture_; }  // (J) where it has come to
+  const robot::Posture& posture() const { return posture_; }  // (J) the current one
 
  private:
   const Skill& skill_;

@@ -30,33 +30,33 @@ const TrainingOptions& Checked(const TrainingOptions& options) {
   return options;
 }
 
-// Whether there is a checkpoint to go on from. Makes the folder.
+// Creates the folder. Returns true if there is a checkpoint to resume from.
 bool Prepare(const std::filesystem::path& folder, bool resume) {
   std::error_code code;
   std::filesystem::create_directories(folder, code);
   if (code) {
     throw core::Error("cannot create the folder: " + code.message(), folder.string(),
-                      "check that the place exists and may be written");
+                      "check that its parent exists and is writable");
   }
   const bool found = std::filesystem::exists(folder / kCheckpointFile);
   if (found && !resume) {
-    throw core::Error("holds a training already", folder.string(),
-                      "go on with it by --resume, or choose another folder");
+    throw core::Error("already holds a training", folder.string(),
+                      "resume it with --resume, or choose another folder");
   }
   return found;
 }
 
-// One training from its folder's point of view.
+// A training and the files of its folder.
 class Training {
  public:
   Training(VectorEnvironment* environment, const TrainingOptions& options,
-           const std::filesystem::path& folder, bool go_on, const Examiner& examine)
+           const std::filesystem::path& folder, bool resume, const Examiner& examine)
       : options_(Checked(options)),
         folder_(folder),
         examine_(examine),
         ppo_(environment, options.ppo),
         recent_(options.success_window) {
-    if (go_on) {
+    if (resume) {
       progress_ = ReadCheckpoint(folder / kCheckpointFile, options.facts, &ppo_, &recent_);
     } else if (!options.begin_from.empty()) {
       BeginFromCheckpoint(options.begin_from, &ppo_);
@@ -64,9 +64,9 @@ class Training {
     log_.emplace(folder, progress_.iteration);
   }
 
-  // Collects, learns, examines where it is time, and writes down.
+  // Collects, learns, examines if due, and appends to the log.
   TrainingRecord Iterate();
-  // Why the training is over, if it is.
+  // Returns why the training has ended, if it has.
   std::optional<TrainingEnd> End() const;
   bool SaveDue() const { return progress_.iteration % options_.checkpoint_every == 0; }
   void Save() const;
@@ -76,10 +76,10 @@ class Training {
 
  private:
   TrainingRecord RecordOf(const UpdateReport& update) const;
-  bool OutOfBudget() const { return BudgetEnd().has_value(); }
+  bool BudgetSpent() const { return BudgetEnd().has_value(); }
   std::optional<TrainingEnd> BudgetEnd() const;
   bool ExaminationDue() const;
-  // The rate; keeps the policy where it is the best so far.
+  // Returns the success rate; writes the policy if it is the best so far.
   double Examine();
   Policy CurrentPolicy() const {
     const Policy policy = ppo_.CurrentPolicy();
@@ -143,7 +143,7 @@ TrainingRecord Training::RecordOf(const UpdateReport& update) const {
 
 bool Training::ExaminationDue() const {
   if (!examine_) return false;
-  if (OutOfBudget()) return true;
+  if (BudgetSpent()) return true;
   if (options_.examine_from == 0.0 && progress_.iteration == 1) return true;
   return progress_.iteration % options_.examine_every == 0 && recent_.full() &&
          recent_.SuccessRate() >= options_.examine_from;
@@ -195,7 +195,7 @@ TrainingResult TrainPolicy(VectorEnvironment* environment, const TrainingOptions
     const TrainingRecord record = training.Iterate();
     end = training.End();
     if (report) report(record);
-    const bool cancelled = core::CancelRequested();  // once: it may come at any time
+    const bool cancelled = core::CancelRequested();  // read once: it may change at any time
     if (end || cancelled || training.SaveDue()) training.Save();
     if (cancelled) throw core::Cancelled();
   }

@@ -10,8 +10,8 @@
 
 namespace simwright::rl {
 
-// Files of a training's folder.
-constexpr const char* kCheckpointFile = "checkpoint.pt";  // to go on from
+// The files in a training's folder.
+constexpr const char* kCheckpointFile = "checkpoint.pt";  // to resume from
 constexpr const char* kPolicyFile = "policy.pt";          // policy_file.h
 constexpr const char* kCurvesFile = "curves.svg";
 
@@ -19,26 +19,26 @@ enum class TrainingEnd { kSamples, kSeconds, kSuccess };
 
 struct TrainingResult {
   TrainingEnd end = TrainingEnd::kSamples;
-  TrainingRecord last;  // the last iteration's
+  TrainingRecord last;  // of the last iteration
 };
 
 using TrainingListener = std::function<void(const TrainingRecord&)>;
 
-// How often a policy's mean action succeeds from the starts that count: without exploration and
-// easier starts, which a training's own episodes have. Gives the same for the same policy.
+// The success rate of a policy's mean action from the start states of the evaluation: without the
+// exploration and the easier start states of training episodes. Deterministic for a policy.
 struct Examination {
   int successes = 0, episodes = 0;
 };
 using Examiner = std::function<Examination(const Policy&)>;
 
-// Trains a policy by PPO into `folder` (created where missing): the log (training_log.h), and every
-// so many iterations checkpoint, policy and curves. `resume`: goes on from the folder's checkpoint,
-// or begins where there is none; a training that was stopped then ends with the same policy as one
-// that never was. `report` is called after each iteration. With `examine` the policy's file holds
-// the best that was examined, the last at the end among them; without, the last.
-// Throws core::Error: options that are not valid, a folder that holds a training where `resume` is
-// not set, a checkpoint of another training, too many samples that are not finite, a full disk; and
-// core::Cancelled after Ctrl-C, once the iteration is done and the checkpoint written.
+// Trains a policy by PPO in `folder` (created if missing): writes the log (training_log.h), and at
+// intervals checkpoint, policy and curves. `resume`: resumes from the folder's checkpoint, or
+// starts if there is none; a resumed training ends with the same policy as an uninterrupted one.
+// Calls `report` after each iteration. With `examine` the policy file holds the best examined
+// policy, including the last; without it, the last.
+// Throws core::Error for invalid options, a folder that holds a training if `resume` is not set, a
+// checkpoint of another training, too many non-finite samples, or a full disk; and core::Cancelled
+// after Ctrl-C, once the iteration is complete and the checkpoint is written.
 TrainingResult TrainPolicy(VectorEnvironment* environment, const TrainingOptions& options,
                            const std::filesystem::path& folder, bool resume,
                            const TrainingListener& report = {}, const Examiner& examine = {});

@@ -27,7 +27,7 @@ std::vector<double> Doubles(const nn::NamedTensors& tensors, const std::string& 
   return {first, first + tensor.numel()};
 }
 
-// Doubles, of which there are `count`.
+// Returns `count` doubles; throws core::Error for another number.
 std::vector<double> Doubles(const nn::NamedTensors& tensors, const std::string& name,
                             std::size_t count) {
   std::vector<double> numbers = Doubles(tensors, name);
@@ -64,7 +64,7 @@ void PackCollector(const CollectorState& state, nn::NamedTensors* tensors) {
   (*tensors)["discounted_returns"] = PackDoubles(state.discounted_returns);
   (*tensors)["episode_rewards"] = PackDoubles(state.episode_rewards);
   (*tensors)["episode_steps"] = PackDoubles(state.episode_steps);
-  // Doubles count to 9e15 exactly.
+  // Doubles count exactly up to 9e15.
   const double counts[] = {static_cast<double>(state.samples), static_cast<double>(state.dropped)};
   (*tensors)["samples"] = PackDoubles(counts);
   (*tensors)["collector_generator"] = PackBytes(state.generator);
@@ -125,7 +125,7 @@ void AddOutcomes(const nn::NamedTensors& tensors, RecentOutcomes* recent) {
   }
 }
 
-// What must be the same for a training to go on.
+// Returns the metadata that must match for a training to resume.
 Facts NetworkFacts(const Ppo& ppo) {
   const Policy policy = ppo.CurrentPolicy();
   std::ostringstream hidden;
@@ -143,7 +143,7 @@ void CheckFacts(const Facts& wanted, const Facts& found) {
     const auto other = found.find(key);
     const std::string has = other == found.end() ? "none" : "'" + other->second + "'";
     if (has == "'" + value + "'") continue;
-    throw core::Error("is of another training: its " + key + " is " + has + ", wanted is '" +
+    throw core::Error("belongs to another training: its " + key + " is " + has + ", expected '" +
                       value + "'");
   }
 }
@@ -188,7 +188,7 @@ void BeginFromCheckpoint(const std::filesystem::path& path, Ppo* ppo) {
     state.returns = known.returns;
     ppo->Restore(state, Learner(tensors));
   } catch (const core::Error& error) {
-    throw core::Error(error.what(), path.string(), "train from nothing");
+    throw core::Error(error.what(), path.string(), "train from scratch");
   }
 }
 

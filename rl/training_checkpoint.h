@@ -9,29 +9,30 @@
 
 namespace simwright::rl {
 
-// How far a training has come, beside what Ppo holds.
+// The progress of a training, beside the state of Ppo.
 struct TrainingProgress {
   std::int64_t iteration = 0;
   std::int64_t episodes = 0;
-  double seconds = 0.0;  // spent training, over all runs
-  double best = -1.0;    // highest success rate that an examination has seen; -1: none yet
-  bool learnt = false;   // the last examination has reached the target
+  double seconds = 0.0;  // training time over all runs
+  double best = -1.0;    // highest success rate of an examination; -1: none yet
+  bool learnt = false;   // the last examination reached the target
 };
 
-// Writes all that the rest of a training depends on into one file: networks, optimiser,
-// normalisers, generators, the environment's state, progress, recent outcomes. Beside and renamed
-// in, so that a full disk keeps the one before. Throws core::Error.
+// Writes the complete state of a training into one file: networks, optimizer, normalizers,
+// generators, the environment's state, progress, recent outcomes. Writes a temporary file and
+// renames it, so that a full disk keeps the previous one. Throws core::Error.
 void WriteCheckpoint(const Ppo& ppo, const TrainingProgress& progress, const RecentOutcomes& recent,
                      const Facts& facts, const std::filesystem::path& path);
 
-// Goes on where WriteCheckpoint was: the training is the same, bit for bit, as if it had never
-// stopped. Throws core::Error, naming the file: missing, damaged, of another version, of another
-// network or environment, or where one of `facts` has another value there; `ppo` is then of no use.
+// Restores the state written by WriteCheckpoint: the resumed training is bit-identical to an
+// uninterrupted one. Throws core::Error, naming the file, if it is missing, damaged, of another
+// version, network or environment, or if one of `facts` has another value in it; `ppo` is then in
+// an unspecified state.
 TrainingProgress ReadCheckpoint(const std::filesystem::path& path, const Facts& facts, Ppo* ppo,
                                 RecentOutcomes* recent);
 
-// Takes networks, optimiser and scales from there, and nothing else: another environment, or
-// another reward, is learnt from what is known. Throws core::Error as ReadCheckpoint does.
+// Restores networks, optimizer and normalizers only, to fine-tune in another environment or with
+// another reward. Throws core::Error as ReadCheckpoint does.
 void BeginFromCheckpoint(const std::filesystem::path& path, Ppo* ppo);
 
 }  // namespace simwright::rl

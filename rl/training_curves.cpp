@@ -18,7 +18,7 @@ core::PlotPoints Points(const std::vector<TrainingRecord>& records, Value value)
   return points;
 }
 
-// Those that a curve shows; those without an ended episode left out.
+// Returns the records that a curve shows, without those before the first finished episode.
 std::vector<TrainingRecord> Thinned(const std::vector<TrainingRecord>& records) {
   std::vector<TrainingRecord> ended;
   for (const TrainingRecord& record : records) {

@@ -7,7 +7,8 @@
 
 namespace simwright::rl {
 
-// A picture (SVG) of a training: success with its 95 % interval, and the mean return, over samples.
+// Returns a plot (SVG) of a training: success rate with its 95 % interval, and the mean return,
+// over samples.
 std::string TrainingCurves(const std::string& title, const std::vector<TrainingRecord>& records);
 
 }  // namespace simwright::rl

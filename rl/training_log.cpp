@@ -14,7 +14,7 @@
 namespace simwright::rl {
 namespace {
 
-// The shortest text that reads back as the same number; nothing for NaN.
+// Returns the shortest text that reads back as the same number; empty for NaN.
 std::string Cell(double value) {
   if (!std::isfinite(value)) return "";
   char buffer[32];
@@ -38,7 +38,7 @@ std::string Row(const TrainingRecord& record) {
   return line + "\n";
 }
 
-// False for a row that is not whole.
+// Returns false for an incomplete row.
 bool ParseRow(const std::string& line, TrainingRecord* record) {
   std::size_t first = 0;
   for (std::size_t i = 0; i < kTrainingColumns.size(); ++i) {
@@ -62,7 +62,7 @@ void AppendBytes(const std::filesystem::path& path, const std::string& bytes) {
   out << bytes << std::flush;
   if (!out) {
     throw core::Error("cannot write", path.string(),
-                      "free some space; --resume goes on from the last checkpoint");
+                      "free some space, then continue with --resume");
   }
 }
 
@@ -75,11 +75,11 @@ double WallTime() {
 std::vector<TrainingRecord> ReadTrainingTable(const std::filesystem::path& path,
                                               std::int64_t last_iteration) {
   const std::string text = core::ReadFile(path);
-  // A row without its line's end was not written whole.
+  // A row without its newline is incomplete.
   std::istringstream lines(text.substr(0, text.rfind('\n') + 1));
   std::string line;
   if (!std::getline(lines, line) || line != Header()) {
-    throw core::Error("is no log of a training of this version", path.string(),
+    throw core::Error("is not a training log of this version", path.string(),
                       "train in another folder");
   }
   std::vector<TrainingRecord> records;

@@ -8,19 +8,19 @@
 
 namespace simwright::rl {
 
-// A training's record on disk: training.csv, one row an iteration, and an event file for
-// TensorBoard beside it with the same numbers.
+// The log of a training on disk: training.csv, one row per iteration, and a TensorBoard event file
+// beside it with the same numbers.
 class TrainingLog {
  public:
-  // Begins anew in `folder`; where `last_iteration` is above 0, goes on after that iteration's row:
-  // later ones, which the training is about to repeat, are cut off, and so is a row half written.
-  // Throws core::Error: not writable, or a training.csv that is none.
+  // Starts a new log in `folder`; if `last_iteration` is above 0, continues after the row of that
+  // iteration: later rows, which the training repeats, and an incomplete row are removed. Throws
+  // core::Error if the folder is not writable, or if training.csv has another format.
   TrainingLog(const std::filesystem::path& folder, std::int64_t last_iteration);
 
-  // Throws core::Error where it cannot be written (a full disk).
+  // Throws core::Error if the row cannot be written (a full disk).
   void Append(const TrainingRecord& record);
 
-  // All rows so far.
+  // Returns all rows so far.
   const std::vector<TrainingRecord>& records() const { return records_; }
 
  private:
@@ -28,8 +28,8 @@ class TrainingLog {
   std::vector<TrainingRecord> records_;
 };
 
-// The rows of a training.csv whose iterations are not above `last_iteration`. Throws core::Error
-// where the columns are others.
+// Returns the rows of a training.csv up to iteration `last_iteration`. Throws core::Error if the
+// columns differ.
 std::vector<TrainingRecord> ReadTrainingTable(const std::filesystem::path& path,
                                               std::int64_t last_iteration);
 

@@ -4,21 +4,21 @@
 
 namespace simwright::rl {
 
-// One iteration of a training, as it is written down. What is not known yet is NaN: returns before
-// the first episode has ended.
+// One logged iteration of a training. Unknown values are NaN, such as returns before the first
+// finished episode.
 struct TrainingRecord {
   double iteration = 0, samples = 0, seconds = 0;  // since the start, over all runs
-  double episodes = 0;                             // that have ended
-  // Over the last so many episodes (TrainingOptions::success_window).
+  double episodes = 0;                             // finished episodes
+  // Over the last TrainingOptions::success_window episodes.
   double mean_return = 0, mean_steps = 0;
-  double success = 0, success_low = 0, success_high = 0;  // rate, and its 95 % interval
-  double examined = 0;  // success rate of an examination after this iteration, else NaN
-  // UpdateReport's.
+  double success = 0, success_low = 0, success_high = 0;  // rate and its 95 % interval
+  double examined = 0;  // success rate of the examination after this iteration, else NaN
+  // From UpdateReport.
   double kl = 0, learning_rate = 0, policy_loss = 0, value_loss = 0, entropy = 0, std = 0;
   double clipped_share = 0, gradient_norm = 0, explained_variance = 0;
-  // Of this iteration: samples over all its time, and the share of it that went into learning.
+  // The samples over the total time of this iteration, and the share of that time spent learning.
   double samples_per_second = 0, learner_share = 0;
-  double dropped = 0;  // samples with numbers that are not finite, since the start
+  double dropped = 0;  // samples with non-finite numbers, since the start
 };
 
 struct TrainingColumn {
@@ -26,7 +26,7 @@ struct TrainingColumn {
   double TrainingRecord::*value;
 };
 
-// In the order of the log's columns.
+// The columns of the log, in order.
 constexpr std::array<TrainingColumn, 22> kTrainingColumns = {{
     {"iteration", &TrainingRecord::iteration},
     {"samples", &TrainingRecord::samples},

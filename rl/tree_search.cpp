@@ -8,11 +8,11 @@
 namespace simwright::rl {
 namespace {
 
-constexpr int kRounds = 600;        // each grows either tree by a posture at least
-constexpr double kStep = 0.35;      // rad or m of any joint, from a posture to the next
-constexpr double kBaseRange = 0.4;  // m about both ends that a base is moved by
+constexpr int kRounds = 600;        // each extends one tree by at least one node
+constexpr double kStep = 0.35;      // rad or m of any joint per extension
+constexpr double kBaseRange = 0.4;  // m about both ends in which a base is sampled
 constexpr double kMetre = 3.0;      // rad that a metre counts as
-constexpr size_t kLongest = 12;     // postures
+constexpr size_t kLongest = 12;     // waypoints
 
 struct Node {
   robot::Posture posture;
@@ -20,7 +20,7 @@ struct Node {
 };
 using Tree = std::vector<Node>;
 
-// rad^2, metres of a base counted as kMetre.
+// Returns the squared distance in rad^2, with metres of a base weighted by kMetre.
 double SquaredDistance(const robot::Arm& arm, const robot::Posture& a, const robot::Posture& b) {
   double sum = 0.0;
   for (Eigen::Index j = 0; j < a.size(); ++j) {
@@ -43,24 +43,24 @@ int Nearest(const robot::Arm& arm, const Tree& tree, const robot::Posture& to) {
   return nearest;
 }
 
-enum class Growth { kStuck, kNearer, kThere };
+enum class Extension { kTrapped, kAdvanced, kReached };
 
-// By one step from its nearest posture towards `to`.
-Growth Grow(const robot::Arm& arm, const ArmClearance& clearance, const robot::Posture& to,
-            Tree* tree) {
+// Extends the tree by one step from its nearest configuration towards `to`.
+Extension Extend(const robot::Arm& arm, const ArmClearance& clearance, const robot::Posture& to,
+                 Tree* tree) {
   const int nearest = Nearest(arm, *tree, to);
   const robot::Posture from = (*tree)[static_cast<size_t>(nearest)].posture;
   const robot::Posture way = to - from;
   const double length = way.lpNorm<Eigen::Infinity>();
-  const bool there = length <= kStep;
-  const robot::Posture next = there ? to : robot::Posture(from + kStep / length * way);
-  if (!clearance.IsWayClear(from, next)) return Growth::kStuck;
+  const bool reached = length <= kStep;
+  const robot::Posture next = reached ? to : robot::Posture(from + kStep / length * way);
+  if (!clearance.IsWayClear(from, next)) return Extension::kTrapped;
   tree->push_back({next, nearest});
-  return there ? Growth::kThere : Growth::kNearer;
+  return reached ? Extension::kReached : Extension::kAdvanced;
 }
 
-robot::Posture Somewhere(const robot::Arm& arm, const robot::Posture& from,
-                         const robot::Posture& to, core::Rng& rng) {
+robot::Posture SampleConfiguration(const robot::Arm& arm, const robot::Posture& from,
+                                   const robot::Posture& to, core::Rng& rng) {
   robot::Posture posture = from;
   for (Eigen::Index j = 0; j < posture.size(); ++j) {
     const robot::ArmJoint& joint = arm.joints[static_cast<size_t>(j)];
@@ -74,8 +74,8 @@ robot::Posture Somewhere(const robot::Arm& arm, const robot::Posture& from,
   return posture;
 }
 
-// From the root to the newest posture.
-Detour Branch(const Tree& tree) {
+// Returns the path from the root to the newest node.
+Detour PathFromRoot(const Tree& tree) {
   Detour branch;
   for (int at = static_cast<int>(tree.size()) - 1; at >= 0;
        at = tree[static_cast<size_t>(at)].parent) {
@@ -85,8 +85,8 @@ Detour Branch(const Tree& tree) {
   return branch;
 }
 
-// The postures between the ends of `way` that are needed.
-Detour CutShort(const ArmClearance& clearance, const Detour& way) {
+// Returns the waypoints between the ends of `way` that are needed after shortcutting.
+Detour Shortcut(const ArmClearance& clearance, const Detour& way) {
   Detour kept;
   size_t at = 0;
   while (at + 1 < way.size()) {
@@ -106,17 +106,20 @@ std::optional<Detour> SearchDetour(const robot::Arm& arm, const ArmClearance& cl
   core::Rng rng = core::StreamRng(0, 0);
   Tree trees[2] = {{{from, -1}}, {{to, -1}}};
   for (int round = 0; round < kRounds; ++round) {
-    Tree& grown = trees[round % 2];
+    Tree& extended = trees[round % 2];
     Tree& other = trees[1 - round % 2];
-    if (Grow(arm, clearance, Somewhere(arm, from, to, rng), &grown) == Growth::kStuck) continue;
-    const robot::Posture target = grown.back().posture;
-    Growth growth = Growth::kNearer;
-    while (growth == Growth::kNearer) growth = Grow(arm, clearance, target, &other);
-    if (growth != Growth::kThere) continue;
-    Detour way = Branch(trees[0]);
-    const Detour back = Branch(trees[1]);
-    way.insert(way.end(), back.rbegin() + 1, back.rend());
-    Detour detour = CutShort(clearance, way);
+    if (Extend(arm, clearance, SampleConfiguration(arm, from, to, rng), &extended) ==
+        Extension::kTrapped) {
+      continue;
+    }
+    const robot::Posture target = extended.back().posture;
+    Extension extension = Extension::kAdvanced;
+    while (extension == Extension::kAdvanced) extension = Extend(arm, clearance, target, &other);
+    if (extension != Extension::kReached) continue;
+    Detour way = PathFromRoot(trees[0]);
+    const Detour goal_path = PathFromRoot(trees[1]);
+    way.insert(way.end(), goal_path.rbegin() + 1, goal_path.rend());
+    Detour detour = Shortcut(clearance, way);
     if (detour.size() > kLongest) return std::nullopt;
     return detour;
   }

@@ -7,10 +7,10 @@
 
 namespace simwright::rl {
 
-// How the arm gets from `from` to `to` (J), in nothing, by two trees of postures that grow towards
-// each other from both ends (RRT-Connect, Kuffner and LaValle 2000), its way then cut short where
-// that is clear. The same ends have the same way. `from` is taken to be clear. None where `to` is
-// not, or where no way is found in 600 rounds, or only one of more than a dozen postures.
+// Plans a collision-free joint path from `from` to `to` (J) by RRT-Connect (Kuffner and LaValle
+// 2000): two trees grow towards each other from both ends, and the path is then shortcut.
+// Deterministic for the same ends. `from` is assumed to be collision-free. None if `to` is not, or
+// if 600 rounds find no path, or only one with more than a dozen waypoints.
 std::optional<Detour> SearchDetour(const robot::Arm& arm, const ArmClearance& clearance,
                                    const robot::Posture& from, const robot::Posture& to);
 

@@ -7,14 +7,14 @@
 
 namespace simwright::rl {
 
-// The reward program of one variant, with the memory that it runs in. One thread at a time.
+// The reward program of one variant, with its workspace. One thread at a time.
 class VariantReward {
  public:
   // `variant` must outlive it.
   explicit VariantReward(const SkillVariant& variant);
 
-  // The program's reward of `state`, `previous` being `time_step` (s) before it, and whether the
-  // subtask is done in it. Allocates nothing after the first call.
+  // Returns the program's reward for `state`, with `previous` being `time_step` (s) earlier, and
+  // writes to `success` whether the subtask is done. Allocates nothing after the first call.
   float Run(const tasks::SceneState& state, const tasks::SceneState& previous, double time_step,
             bool* success);
 

@@ -9,8 +9,8 @@ namespace {
 
 using Eigen::Isometry3d;
 
-constexpr int kSteps = 6;         // of a joint's way
-constexpr double kAtWork = 0.05;  // m from its focus: a tool that is farther off is not at work
+constexpr int kSteps = 6;          // along the joint path
+constexpr double kAtGrasp = 0.05;  // m from the grasp: a tool farther off is not at the grasp
 
 }  // namespace
 
@@ -37,7 +37,7 @@ WorkPostures PosturesAlong(const Skill& skill, const SkillVariant& variant, task
       variant.subtask.start.world_from_robot * robot::ForwardKinematics(skill.robot->arm, at_work);
   Eigen::Vector3d across = tool.linear().col(1);
   const Isometry3d focus = ToolAtFocus(variant, state, across, pitch);
-  if ((focus.translation() - tool.translation()).norm() > kAtWork) return along;
+  if ((focus.translation() - tool.translation()).norm() > kAtGrasp) return along;
   along.positions.push_back(begin);
   along.postures.push_back(at_work);
   ToolFollower follower(skill, variant, at_work);

@@ -6,19 +6,19 @@
 
 namespace simwright::rl {
 
-// Postures of an arm that moves a joint's part along its way, with the tool at the focus.
+// The configurations of an arm along the joint path of its target, with the tool at the grasp.
 struct WorkPostures {
-  std::vector<double> positions;         // rad or m, of the joint, from where it stands on
-  std::vector<robot::Posture> postures;  // (J) one for each
-  bool ends_early = false;               // the tool does not go all of the joint's way
+  std::vector<double> positions;         // rad or m, of the target joint, from its current one on
+  std::vector<robot::Posture> postures;  // (J) one for each position
+  bool ends_early = false;               // the tool cannot follow the whole joint path
 
-  // Between the two nearest; the first or last beyond them. Requires at least one.
+  // Interpolates linearly; clamps beyond the first and last. Requires at least one configuration.
   robot::Posture At(double position) const;
 };
 
-// Those that follow each other from `at_work` (J), of a hand that leans by `pitch` (rad), as a plan
-// has looked at them (PlanReach): as far as the tool can go. Empty where the skill works on no
-// joint, or the tool is not at its focus in `at_work`.
+// Returns the continuous sequence of configurations from `at_work` (J) with approach pitch `pitch`
+// (rad), as PlanReach checks it: as far as the tool can follow. Empty if the skill moves no joint,
+// or if the tool is not at the grasp in `at_work`.
 WorkPostures PosturesAlong(const Skill& skill, const SkillVariant& variant, tasks::SceneState state,
                            const robot::Posture& at_work, double pitch);
 

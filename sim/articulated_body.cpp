@@ -52,8 +52,8 @@ ArticulatedBody ArticulatedBodyFrom(const assets::UrdfModel& model) {
     if (link.inertial) {
       copy.inertial = *link.inertial;
     } else if (i > 0 && model.joints[i - 1].Moves()) {
-      throw core::Error("a link that moves has no inertial",
-                        model.name + " link '" + link.name + "'", "add an <inertial> element");
+      throw core::Error("a moving link has no inertial", model.name + " link '" + link.name + "'",
+                        "add an <inertial> element");
     }
     if (i == 0) continue;
     const assets::UrdfJointType type = model.joints[i - 1].type;
@@ -68,7 +68,7 @@ ArticulatedBody ArticulatedBodyFrom(const assets::UrdfModel& model) {
       return std::any_of(body.links.begin(), body.links.end(),
                          [&](const RigidBody& l) { return l.name == link; });
     };
-    if (!known(first) || !known(second)) continue;  // a group of a model that this was part of
+    if (!known(first) || !known(second)) continue;  // the model may be a part of a larger one
     body.excluded_pairs.insert(std::minmax(body.LinkIndex(first), body.LinkIndex(second)));
   }
   return body;

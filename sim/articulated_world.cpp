@@ -23,15 +23,15 @@
 namespace simwright::sim {
 namespace {
 
-constexpr int kFloorGroup = btBroadphaseProxy::SensorTrigger << 1;  // the first of no other use
-constexpr int kFloorUserIndex = -1;  // Bullet's own default for bodies that nobody numbered
+constexpr int kFloorGroup = btBroadphaseProxy::SensorTrigger << 1;  // the first unused group
+constexpr int kFloorUserIndex = -1;  // Bullet's own default for unnumbered bodies
 
 // m: Bullet keeps a contact point while its bodies slide past each other by less than this. With
-// the default of 2 cm an oven's closing door was stopped by a point it had passed long before.
+// the default of 2 cm a closing oven door was blocked by a point that it had already passed.
 constexpr double kContactReach = 0.002;
 
-// Of a gear's error one step takes away this times the world's own share (Bullet multiplies the
-// two). Without it a hand's fingers drift as a pair.
+// The share of a gear's error that one step corrects, times the world's own share (Bullet
+// multiplies the two). Without it the fingers of a gripper drift as a pair.
 constexpr double kGearRecovery = 1.0;
 
 double FrictionOf(const RigidBody& link, int index, const Placement& placement) {
@@ -41,15 +41,15 @@ double FrictionOf(const RigidBody& link, int index, const Placement& placement) 
   return placement.friction_scale * link.friction;
 }
 
-// What drives and limits one joint that moves.
+// The constraints of one movable joint.
 struct LoadedJoint {
   double friction = 0.0;
   std::unique_ptr<JointVelocityRow> motor;  // with friction and damping
   std::unique_ptr<btMultiBodyJointLimitConstraint> limit;
-  std::unique_ptr<btMultiBodyGearConstraint> gear;  // to the joint that it mimics
+  std::unique_ptr<btMultiBodyGearConstraint> gear;  // to the leader of a mimic joint
 };
 
-// A collider that stands off its Bullet link's own frame.
+// A collider with an offset from its Bullet link's own frame.
 struct Offset {
   btMultiBodyLinkCollider* collider = nullptr;
   int carrier = 0;
@@ -59,7 +59,7 @@ struct Offset {
 struct LoadedBody {
   std::shared_ptr<const PreparedBody> prepared;
   const LinkTree* tree = nullptr;
-  std::vector<Offset> offsets;  // carriers' own colliders after those of what they carry
+  std::vector<Offset> offsets;  // a carrier's own collider after those of its links
   const std::vector<std::unique_ptr<BulletShape>>* shapes_by_link = nullptr;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders;
   std::vector<LoadedJoint> joints;
@@ -71,7 +71,7 @@ struct LoadedBody {
   btMultiBodyLinkCollider* Collider(int link) const {
     return colliders.at(static_cast<size_t>(link)).get();
   }
-  // Bullet's index of the link that joint `joint` leads to.
+  // Returns Bullet's index of the child link of joint `joint`.
   int Joint(int joint) const { return tree->links.at(static_cast<size_t>(joint) + 1).bullet; }
   // Bullet moves a link's collider to the link's frame.
   void PlaceColliders() {
@@ -82,15 +82,16 @@ struct LoadedBody {
   }
 };
 
-// Link `index` >= 1 of the body, turned to its principal axes.
+// Sets up link `index` >= 1 of the body, rotated to its principal axes.
 void SetUpLink(const ArticulatedBody& body, int index, double mass_scale, LoadedBody* loaded) {
   const size_t i = static_cast<size_t>(index);
   const assets::UrdfJoint& joint = body.joints[i - 1];
   const TreeLink& link = loaded->tree->links[i];
-  const TreeLink& hung_on = loaded->tree->links[static_cast<size_t>(body.parents[i - 1])];
-  const TreeLink& carrier = loaded->tree->links[static_cast<size_t>(hung_on.carrier)];
-  const Eigen::Isometry3d parent_from_principal =
-      carrier.link_from_principal.inverse() * hung_on.carrier_from_link * joint.parent_from_joint;
+  const TreeLink& parent_link = loaded->tree->links[static_cast<size_t>(body.parents[i - 1])];
+  const TreeLink& carrier = loaded->tree->links[static_cast<size_t>(parent_link.carrier)];
+  const Eigen::Isometry3d parent_from_principal = carrier.link_from_principal.inverse() *
+                                                  parent_link.carrier_from_link *
+                                                  joint.parent_from_joint;
   const Eigen::Matrix3d principal_from_link = link.link_from_principal.linear().transpose();
   const Eigen::Quaterniond turn(principal_from_link * parent_from_principal.linear().transpose());
   const btQuaternion this_from_parent(turn.x(), turn.y(), turn.z(), turn.w());
@@ -122,14 +123,14 @@ void RequireMass(const ArticulatedBody& body, bool fixed) {
   for (size_t i = 0; i < body.links.size(); ++i) {
     const bool moves = i == 0 ? !fixed : body.joints[i - 1].Moves();
     if (moves && !(body.links[i].inertial.mass > 0.0)) {
-      throw core::Error("a link that moves has no mass",
+      throw core::Error("a moving link has no mass",
                         body.name + " link '" + body.links[i].name + "'",
                         "add an <inertial> element");
     }
   }
 }
 
-// Joint `follower` keeps to multiplier * leader + offset.
+// Couples joint `follower` to multiplier * leader + offset.
 std::unique_ptr<btMultiBodyGearConstraint> GearTo(const assets::UrdfMimic& mimic, int leader,
                                                   int follower, LoadedBody* loaded) {
   const btVector3 zero(0, 0, 0);
@@ -154,8 +155,8 @@ void AddOffsets(LoadedBody* loaded) {
   }
 }
 
-// Leaves out pairs of links that make no contact with each other: Bullet's link colliders heed no
-// list of objects to ignore. Colliders bear their body's index and their link's.
+// Filters pairs of links that do not collide with each other: Bullet's link colliders ignore their
+// own exclusion lists. Colliders hold the indices of their body and link.
 class ExclusionFilter : public btOverlapFilterCallback {
  public:
   void Exclude(int body, const std::set<std::pair<int, int>>& pairs) {
@@ -178,8 +179,8 @@ class ExclusionFilter : public btOverlapFilterCallback {
   std::map<int, std::set<std::pair<int, int>>> pairs_;  // by body
 };
 
-// Bullet sets 4096 of each aside, 7 MB a world, and writes to all of them when a world is made.
-// Where these do not do it takes more from the heap.
+// Returns pool sizes. Bullet allocates 4096 of each, 7 MB per world, and writes to all of them when
+// a world is created; beyond a smaller pool it allocates from the heap.
 btDefaultCollisionConstructionInfo Pools() {
   btDefaultCollisionConstructionInfo info;
   info.m_defaultMaxPersistentManifoldPoolSize = 64;
@@ -203,7 +204,7 @@ struct ArticulatedWorld::Bullet {
   btDefaultCollisionConfiguration configuration{Pools()};
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
-  ExclusionFilter exclusion;  // heeded from the first body on that excludes a pair
+  ExclusionFilter exclusion;  // used once a body excludes a pair
   std::unique_ptr<btMultiBodyConstraintSolver> solver;
   std::unique_ptr<btMultiBodyDynamicsWorld> world;
   btStaticPlaneShape floor_shape{btVector3(0, 0, 1), 0};
@@ -252,7 +253,8 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const P
     const TreeLink& place = loaded->tree->links[i];
     const bool carries = place.carrier == static_cast<int>(i);
     loaded->colliders.emplace_back();
-    // Also a carrier without a shape needs one, or its joint's limits and motors are passed over.
+    // A carrier without a shape needs a collider too, or Bullet skips the limits and motors of its
+    // joint.
     if (!carries && link.parts.empty()) continue;
     auto collider = std::make_unique<btMultiBodyLinkCollider>(loaded->multi.get(), place.bullet);
     collider->setCollisionShape(loaded->Shape(static_cast<int>(i)).compound());
@@ -315,11 +317,11 @@ ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
   bullet_->world->setGravity(btVector3(0, 0, -options.gravity));
   btContactSolverInfo& solver = bullet_->world->getSolverInfo();
   solver.m_numIterations = options.solver_iterations;
-  // Begins with the last step's impulses, which Bullet leaves off for jointed bodies. Against a
-  // light link's contact each iteration moves the impulse by a share only: cold, a hand of 20 N
-  // gripped with 12 after 50 iterations.
+  // Warm-starts from the last step's impulses, which is off by default for articulated bodies.
+  // Against a light link's contact each iteration moves the impulse only by a share: without it, a
+  // gripper of 20 N gripped with 12 N after 50 iterations.
   solver.m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
-  // CompactSolver takes frictions in pairs.
+  // CompactSolver requires friction constraints in pairs.
   solver.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
   bullet_->world->getDispatchInfo().m_deterministicOverlappingPairs = true;
   CollideShapesWithFloor(&bullet_->dispatcher);
@@ -355,7 +357,7 @@ int ArticulatedWorld::Add(std::shared_ptr<const PreparedBody> prepared,
   RequireMass(body, placement.fixed);
   auto loaded = std::make_unique<LoadedBody>();
   loaded->shapes_by_link = &prepared->shapes_;
-  // Links that may touch each other stay apart: fixed to one carrier, they would not be told so.
+  // Links that may collide stay separate: merged into one carrier, they would not.
   loaded->tree = placement.self_contacts ? &prepared->whole_ : &prepared->folded_;
   loaded->prepared = std::move(prepared);
   const TreeLink& root = loaded->tree->links[0];
@@ -406,7 +408,7 @@ void ArticulatedWorld::Drive(int body, int joint, double velocity, double max_fo
   if (!entry.motor) throw core::Error("a fixed joint cannot be driven");
   const double friction = entry.friction;
   const double spare = max_force - friction;
-  // Friction takes its share of the force against the motion, and adds to it where it brakes.
+  // Friction takes its share of the force along the motion, and adds to it when braking.
   if (velocity == 0.0 || spare <= 0.0) {
     const double hold = velocity == 0.0 ? max_force + friction : friction;
     entry.motor->Wish(0.0, -hold, hold);

@@ -15,11 +15,11 @@ namespace simwright::sim {
 
 class BulletShape;
 
-// A body with the shapes that Bullet collides it by. Constant; any number of worlds share it, and
-// putting it into one then takes a tenth of the time.
+// A body with its Bullet collision shapes. Constant; any number of worlds share it, and adding it
+// to one then takes a tenth of the time.
 class PreparedBody {
  public:
-  // `margin`: m, as WorldOptions. Throws core::Error for parts that are no solids.
+  // `margin`: m, as in WorldOptions. Throws core::Error for parts with fewer than four vertices.
   explicit PreparedBody(ArticulatedBody body, double margin = WorldOptions().margin);
   ~PreparedBody();
   PreparedBody(const PreparedBody&) = delete;
@@ -34,23 +34,23 @@ class PreparedBody {
   LinkTree whole_, folded_;
 };
 
-// How a jointed thing is put into a world.
+// The placement of a body in a world.
 struct Placement {
   Eigen::Isometry3d world_from_root = Eigen::Isometry3d::Identity();
-  bool fixed = true;                    // the root is held where it is; else it is free
-  bool self_contacts = false;           // links touch each other, but for those on fixed joints
-  bool contacts = true;                 // false: nothing touches it at all
-  std::vector<int> through_floor = {};  // links that the floor does not touch
-  // What this world's copy has of the body's own: mass (with inertia), friction of its surfaces,
-  // friction and damping of its joints. Positive.
+  bool fixed = true;                    // the root is fixed; else it is free
+  bool self_contacts = false;           // links collide with each other, except across fixed joints
+  bool contacts = true;                 // false: it collides with nothing
+  std::vector<int> through_floor = {};  // links that do not collide with the floor
+  // Factors on the body's own properties in this world: mass (with inertia), friction of its
+  // surfaces, friction and damping of its joints. Positive.
   double mass_scale = 1.0, friction_scale = 1.0, joint_scale = 1.0;
-  // Links whose surfaces have another friction than the body's own: link and coefficient.
+  // Links whose surface friction differs from the body's own: link and coefficient.
   std::vector<std::pair<int, double>> link_friction = {};
 };
 
 constexpr int kFloor = -1;  // in place of a body's index
 
-// Two links that touch, or nearly do.
+// A contact, or near contact, of two links.
 struct LinkContact {
   int body_a = kFloor, link_a = 0;
   int body_b = kFloor, link_b = 0;
@@ -60,12 +60,12 @@ struct LinkContact {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit, from b towards a, world
 };
 
-// A Bullet world of jointed and rigid things in reduced coordinates (Featherstone), double
-// precision, over the floor z = 0. One thread a world; nothing is shared, so that any number run
-// side by side, and each is repeatable bit for bit when built and driven alike.
+// A Bullet world of articulated and rigid bodies in reduced coordinates (Featherstone), in double
+// precision, above the floor z = 0. One thread per world; worlds share no mutable state and can run
+// in parallel, and each is bit-identical when built and driven in the same way.
 //
-// Joints keep their limits. Their friction holds them against any load below it, damping acts
-// implicitly (stable at any step), and a joint that mimics another is geared to it.
+// Joints keep their limits. Their dry friction holds them against any smaller load, damping is
+// implicit (stable at any time step), and a mimic joint is geared to its leader.
 class ArticulatedWorld {
  public:
   explicit ArticulatedWorld(const WorldOptions& options = {});
@@ -73,33 +73,33 @@ class ArticulatedWorld {
   ArticulatedWorld(const ArticulatedWorld&) = delete;
   ArticulatedWorld& operator=(const ArticulatedWorld&) = delete;
 
-  // Adds a thing with all joints at zero; returns its index. Throws core::Error where a link that
-  // moves has no mass.
+  // Adds a body with all joints at zero; returns its index. Throws core::Error if a moving link has
+  // no mass.
   int Add(std::shared_ptr<const PreparedBody> body, const Placement& placement = {});
-  // ... of which `body` is copied.
+  // Adds a copy of `body`.
   int Add(const ArticulatedBody& body, const Placement& placement = {});
-  // A free rigid body.
+  // Adds a free rigid body.
   int Add(const RigidBody& body, const Eigen::Isometry3d& world_from_body);
 
-  // `joint` indexes ArticulatedBody::joints. Both leave velocities at zero.
+  // `joint` indexes ArticulatedBody::joints. Both functions set velocities to zero.
   void SetPosition(int body, int joint, double position);
   void SetRootPose(int body, const Eigen::Isometry3d& world_from_root);
 
-  // A motor turns the joint at `velocity` (rad/s or m/s) with at most `max_force` (N m or N), of
-  // which the joint's friction takes its share. Velocity 0 brakes.
+  // Drives the joint at `velocity` (rad/s or m/s) with at most `max_force` (N m or N), which
+  // includes the joint's friction. Velocity 0 brakes.
   void Drive(int body, int joint, double velocity, double max_force);
   void LetGo(int body, int joint);
-  // The most force (N m or N) by which a joint that mimics another is kept to it; without, any.
-  // Nothing for a joint that mimics none.
+  // Limits the force (N m or N) that keeps a mimic joint on its leader; unlimited by default. No
+  // effect on other joints.
   void LimitMimic(int body, int joint, double max_force);
-  // A force (N m or N) on the joint during the next step alone.
+  // Applies a force (N m or N) to the joint during the next step only.
   void Push(int body, int joint, double force);
 
-  // A force (N, world) on the root's centre of mass during the next step alone.
+  // Applies a force (N, world) to the root's centre of mass during the next step only.
   void PushRoot(int body, const Eigen::Vector3d& force);
 
-  // What WorldOptions::solver_iterations says, for the steps that follow: few do where nothing
-  // touches. Throws core::Error below 1.
+  // Sets WorldOptions::solver_iterations for the following steps: few suffice without contacts.
+  // Throws core::Error below 1.
   void SetIterations(int iterations);
 
   void Step();
@@ -109,13 +109,13 @@ class ArticulatedWorld {
   double Position(int body, int joint) const;            // rad or m
   double Velocity(int body, int joint) const;            // rad/s or m/s
   Eigen::Isometry3d LinkPose(int body, int link) const;  // world_from_link
-  // All pairs within Bullet's reach of each other after the last step.
+  // Returns all contacts within Bullet's contact margin after the last step.
   std::vector<LinkContact> Contacts() const;
-  // The same into `contacts`, whose memory is used again.
+  // Writes the same into `contacts`, reusing its memory.
   void Contacts(std::vector<LinkContact>* contacts) const;
 
-  // The inertial as the engine holds it, back in the link's frame. Without self_contacts links on
-  // fixed joints are part of what they are fixed to: it has their mass, they have none.
+  // Returns the inertial as the engine holds it, in the link's frame. Without self_contacts, links
+  // on fixed joints are merged into their carrier: it has their mass, they have none.
   assets::Inertial LoadedInertial(int body, int link) const;
 
  private:

@@ -34,8 +34,8 @@ Eigen::Isometry3d FromBullet(const btTransform& transform) {
 
 namespace {
 
-// Of its area, the share of the largest of its flat faces: a box's is a third or so, a can's base a
-// tenth, of a round fruit of fifty corners a face is a fortieth.
+// Returns the area share of the largest flat face: about a third for a box, a tenth for a can's
+// base, a fortieth for a round fruit of fifty vertices.
 double LargestFaceShare(const core::TriangleMesh& part) {
   std::vector<Eigen::Vector3d> areas;  // m^2, along each triangle's normal
   double all = 0.0, largest = 0.0;
@@ -45,18 +45,18 @@ double LargestFaceShare(const core::TriangleMesh& part) {
                               .cross(part.vertices[static_cast<size_t>(t[2])] - a));
     all += areas.back().norm();
   }
-  for (const Eigen::Vector3d& of : areas) {
+  for (const Eigen::Vector3d& area : areas) {
     double face = 0.0;
     for (const Eigen::Vector3d& other : areas) {
-      // Within a thousandth of a radian or so.
-      if (of.dot(other) >= (1.0 - 1e-6) * of.norm() * other.norm()) face += other.norm();
+      // Within about a thousandth of a radian.
+      if (area.dot(other) >= (1.0 - 1e-6) * area.norm() * other.norm()) face += other.norm();
     }
     largest = std::max(largest, face);
   }
   return all > 0.0 ? largest / all : 0.0;
 }
 
-constexpr double kFlat = 0.06;  // LargestFaceShare of what lies flat
+constexpr double kFlat = 0.06;  // the LargestFaceShare of shapes that rest on a face
 
 }  // namespace
 
@@ -93,7 +93,7 @@ void BulletShape::AddCapsule(const Capsule& capsule, const Eigen::Isometry3d& pr
   } else {
     convex_.push_back(std::make_unique<btSphereShape>(capsule.radius));
   }
-  // Both are their own margin: setting one would change their size.
+  // Both shapes are their own margin: setting one would change their size.
   compound_->addChildShape(ToBullet(Eigen::Isometry3d(principal_from_body * pose)),
                            convex_.back().get());
 }
@@ -110,7 +110,7 @@ void BulletShape::AddHull(const core::TriangleMesh& part,
   }
   hull->setMargin(margin);
   hull->recalcLocalAabb();
-  // Round things roll about on one point whatever they lie on, at half the price.
+  // Round objects roll on one point in any pose, at half the cost.
   if (contact == HullContact::kFaces && LargestFaceShare(part) > kFlat) {
     hull->initializePolyhedralFeatures();
   }

@@ -20,24 +20,25 @@ btTransform ToBullet(const Eigen::Isometry3d& pose);
 Eigen::Vector3d FromBullet(const btVector3& v);
 Eigen::Isometry3d FromBullet(const btTransform& transform);
 
-// A point of a shape that can be the first to touch a plane: the lowest of a ball about it.
+// A point of a shape that can be its first contact with a plane: the lowest point of a ball about
+// it.
 struct FloorPoint {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // m, principal frame
   double radius = 0.0;                               // m
 };
 
-// How two hulls touch. Bullet finds one pair of nearest points a step and keeps up to four of the
-// last ones: what lies flat on another then stands on points of many steps, and stacks of boxes
-// that were still for a tenth of a second creep by millimetres. With faces it clips the two that
-// look at each other, and a step has all of their corners; that needs each hull's faces.
+// The contact generation between two hulls. With kPoints Bullet finds one pair of nearest points
+// per step and caches up to four, so that the contacts of resting faces come from different steps
+// and stacks of boxes creep by millimetres. With kFaces it clips the two facing polygons and gets
+// the full contact manifold in one step; this needs each hull's faces.
 enum class HullContact { kPoints, kFaces };
 
-// A rigid body's parts as Bullet wants them: the centre of mass at the origin and the inertia
-// diagonal, so the body's frame is turned to the principal axes. A body without a mass keeps its
-// own frame. Throws core::Error for parts of fewer than four vertices.
+// The collision shape of a rigid body in Bullet's form: the centre of mass at the origin and a
+// diagonal inertia, so the body's frame is rotated to the principal axes. A body without a mass
+// keeps its own frame. Throws core::Error for parts with fewer than four vertices.
 class BulletShape {
  public:
-  // `margin`: m, about each hull.
+  // `margin`: m, around each hull.
   BulletShape(const RigidBody& body, double margin, HullContact contact = HullContact::kPoints);
   ~BulletShape();
   BulletShape(const BulletShape&) = delete;
@@ -46,7 +47,7 @@ class BulletShape {
   btCompoundShape* compound() const { return compound_.get(); }  // may be empty
   const Eigen::Isometry3d& body_from_principal() const { return body_from_principal_; }
   const Eigen::Vector3d& moments() const { return moments_; }  // kg m^2, principal
-  // The corners of the parts' common hull, and the ends of its capsules.
+  // Returns the vertices of the convex hull of all parts, and the ends of its capsules.
   const std::vector<FloorPoint>& floor_points() const { return floor_points_; }
 
  private:

@@ -10,16 +10,16 @@ namespace {
 using assets::UrdfGeometry;
 using assets::UrdfShape;
 
-constexpr double kSame = 1e-6;  // m: what files round to
+constexpr double kTolerance = 1e-6;  // m: rounding in files
 
-// The sphere of `radius` about `center` that is not taken yet; -1: none.
-int SphereAt(const std::vector<UrdfShape>& shapes, const std::vector<bool>& taken,
+// Returns the unused sphere of `radius` around `center`; -1: none.
+int SphereAt(const std::vector<UrdfShape>& shapes, const std::vector<bool>& used,
              const Eigen::Vector3d& center, double radius) {
   for (size_t i = 0; i < shapes.size(); ++i) {
     const UrdfShape& shape = shapes[i];
-    if (taken[i] || shape.geometry != UrdfGeometry::kSphere) continue;
-    if (std::abs(shape.radius - radius) > kSame) continue;
-    if ((shape.link_from_primitive.translation() - center).norm() < kSame) {
+    if (used[i] || shape.geometry != UrdfGeometry::kSphere) continue;
+    if (std::abs(shape.radius - radius) > kTolerance) continue;
+    if ((shape.link_from_primitive.translation() - center).norm() < kTolerance) {
       return static_cast<int>(i);
     }
   }
@@ -35,26 +35,26 @@ void Add(const core::TriangleMesh& mesh, const std::optional<Capsule>& capsule, 
 }  // namespace
 
 void AddShapes(const std::vector<UrdfShape>& shapes, RigidBody* body) {
-  std::vector<bool> taken(shapes.size(), false);
+  std::vector<bool> used(shapes.size(), false);
   for (size_t i = 0; i < shapes.size(); ++i) {
     const UrdfShape& shape = shapes[i];
     if (shape.geometry != UrdfGeometry::kCylinder) continue;
     const Eigen::Vector3d half = 0.5 * shape.length * Eigen::Vector3d::UnitZ();
     const Capsule capsule{shape.link_from_primitive * half,
                           shape.link_from_primitive * Eigen::Vector3d(-half), shape.radius};
-    const int upper = SphereAt(shapes, taken, capsule.a, capsule.radius);
+    const int upper = SphereAt(shapes, used, capsule.a, capsule.radius);
     if (upper < 0) continue;
-    taken[static_cast<size_t>(upper)] = true;
-    const int lower = SphereAt(shapes, taken, capsule.b, capsule.radius);
-    taken[static_cast<size_t>(upper)] = lower >= 0;
+    used[static_cast<size_t>(upper)] = true;
+    const int lower = SphereAt(shapes, used, capsule.b, capsule.radius);
+    used[static_cast<size_t>(upper)] = lower >= 0;
     if (lower < 0) continue;
-    taken[i] = taken[static_cast<size_t>(lower)] = true;
+    used[i] = used[static_cast<size_t>(lower)] = true;
     core::TriangleMesh mesh = assets::CapsuleMesh(shape.radius, shape.length);
     core::Transform(Eigen::Affine3d(shape.link_from_primitive), &mesh);
     Add(mesh, capsule, body);
   }
   for (size_t i = 0; i < shapes.size(); ++i) {
-    if (taken[i]) continue;
+    if (used[i]) continue;
     const UrdfShape& shape = shapes[i];
     std::optional<Capsule> capsule;
     if (shape.geometry == UrdfGeometry::kSphere) {

@@ -7,9 +7,9 @@
 
 namespace simwright::sim {
 
-// URDF has no capsule: files give a cylinder and a sphere of its radius at each of its ends, in any
-// order. Adds `shapes` to the parts of `body`, each such three as one capsule, each sphere alone as
-// a capsule without length, the rest as they are.
+// Adds `shapes` to the parts of `body`. URDF has no capsules; files use a cylinder with a sphere of
+// its radius at each end, in any order. Each such triple is added as one capsule, each single
+// sphere as a capsule without length, all other shapes unchanged.
 void AddShapes(const std::vector<assets::UrdfShape>& shapes, RigidBody* body);
 
 }  // namespace simwright::sim

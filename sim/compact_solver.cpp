@@ -10,7 +10,7 @@
 namespace simwright::sim {
 namespace {
 
-// The range of `values` (count) outside of which all are zero.
+// The range of an array (count) outside of which all values are zero.
 struct Range {
   int first = 0, count = 0;
 };
@@ -22,7 +22,7 @@ Range WithoutZeros(const double* values, int count) {
   return {first, count - first};
 }
 
-// Two sums, so that no addition waits for the one before.
+// Uses two sums, so that additions do not wait for each other.
 double Dot(const double* a, const double* b, int count) {
   double even = 0.0, odd = 0.0;
   int i = 0;
@@ -45,7 +45,7 @@ class CompactSolver : public btMultiBodyConstraintSolver {
                                         btTypedConstraint** constraints, int constraint_count,
                                         const btContactSolverInfo& info,
                                         btIDebugDraw* drawer) override;
-  // Returns the sum of squares of the changes of impulses, (N s)^2 or (N m s)^2.
+  // Returns the sum of squared impulse changes, (N s)^2 or (N m s)^2.
   btScalar solveSingleIteration(int iteration, btCollisionObject** bodies, int body_count,
                                 btPersistentManifold** manifolds, int manifold_count,
                                 btTypedConstraint** constraints, int constraint_count,
@@ -54,22 +54,22 @@ class CompactSolver : public btMultiBodyConstraintSolver {
                                          const btContactSolverInfo& info) override;
 
  private:
-  // What a row reads and changes of one body: `count` numbers from the first that is not zero on.
+  // One body's part of a constraint row: `count` numbers from the first non-zero one on.
   struct Side {
     const double* jacobian = nullptr;
-    const double* velocity = nullptr;  // changes of velocity that the jacobian reads
-    const double* response = nullptr;  // to an impulse of 1
-    double* changed = nullptr;         // the velocities that it changes
+    const double* velocity = nullptr;  // velocity changes that the jacobian reads
+    const double* response = nullptr;  // to a unit impulse
+    double* changed = nullptr;         // the velocities that the impulse changes
     int jacobian_count = 0, response_count = 0;
   };
   struct Row {
     Side a, b;
-    double rhs = 0.0, inertia = 0.0, compliance = 0.0;  // as btMultiBodySolverConstraint's
+    double rhs = 0.0, inertia = 0.0, compliance = 0.0;  // from btMultiBodySolverConstraint
     double lower = 0.0, upper = 0.0, impulse = 0.0;
     double friction = 0.0;
-    int normal = -1;  // of a friction's contact, in normals_
+    int normal = -1;  // of a friction row: its contact's row in normals_
   };
-  struct Moved {
+  struct MovedBody {
     btMultiBody* body = nullptr;
     int first = 0;  // in m_data.m_deltaVelocities
   };
@@ -77,15 +77,16 @@ class CompactSolver : public btMultiBodyConstraintSolver {
   void Pack(const btMultiBodyConstraintArray& source, std::vector<Row>* rows);
   Side PackSide(btMultiBody* body, int jacobian, int velocity);
   static void WriteBack(const std::vector<Row>& rows, btMultiBodyConstraintArray* target);
-  static double Wanted(const Row& row);
+  static double UnboundedChange(const Row& row);
   static double Change(double change, Row* row);
   static double Solve(Row* row);
   double SolveSpins();
-  // `pressed_only`: as Bullet, a rolling friction keeps its impulse while nothing presses.
+  // `pressed_only`: like Bullet, keeps the impulse of a rolling friction at contacts without
+  // pressure.
   double SolveCones(bool pressed_only, std::vector<Row>* rows);
 
   std::vector<Row> joints_, normals_, frictions_, rollings_, spins_;
-  std::vector<Moved> moved_;
+  std::vector<MovedBody> moved_bodies_;
   std::vector<double> before_;  // m_data.m_deltaVelocities before the first iteration
 };
 
@@ -93,8 +94,10 @@ CompactSolver::Side CompactSolver::PackSide(btMultiBody* body, int jacobian, int
   Side side;
   if (body == nullptr) return side;
   const int numbers = 6 + body->getNumDofs();
-  const auto same = [&](const Moved& moved) { return moved.body == body; };
-  if (std::none_of(moved_.begin(), moved_.end(), same)) moved_.push_back({body, velocity});
+  const auto same = [&](const MovedBody& moved) { return moved.body == body; };
+  if (std::none_of(moved_bodies_.begin(), moved_bodies_.end(), same)) {
+    moved_bodies_.push_back({body, velocity});
+  }
   const Range read = WithoutZeros(&m_data.m_jacobians[jacobian], numbers);
   const Range written = WithoutZeros(&m_data.m_deltaVelocitiesUnitImpulse[jacobian], numbers);
   side.jacobian = &m_data.m_jacobians[jacobian] + read.first;
@@ -136,7 +139,7 @@ btScalar CompactSolver::solveGroupCacheFriendlySetup(
     const btContactSolverInfo& info, btIDebugDraw* drawer) {
   const btScalar result = btMultiBodyConstraintSolver::solveGroupCacheFriendlySetup(
       bodies, body_count, manifolds, manifold_count, constraints, constraint_count, info, drawer);
-  moved_.clear();
+  moved_bodies_.clear();
   Pack(m_multiBodyNonContactConstraints, &joints_);
   Pack(m_multiBodyNormalContactConstraints, &normals_);
   Pack(m_multiBodyFrictionContactConstraints, &frictions_);
@@ -149,14 +152,14 @@ btScalar CompactSolver::solveGroupCacheFriendlySetup(
   return result;
 }
 
-// By how much the row would change its impulse if it had no bounds.
-double CompactSolver::Wanted(const Row& row) {
+// Returns the row's unbounded impulse change.
+double CompactSolver::UnboundedChange(const Row& row) {
   const double speed = Dot(row.a.jacobian, row.a.velocity, row.a.jacobian_count) +
                        Dot(row.b.jacobian, row.b.velocity, row.b.jacobian_count);
   return row.rhs - row.impulse * row.compliance - speed * row.inertia;
 }
 
-// Changes the impulse; returns the change's square.
+// Changes the impulse; returns the square of the change.
 double CompactSolver::Change(double change, Row* row) {
   row->impulse += change;
   Add(row->a.response, change, row->a.response_count, row->a.changed);
@@ -165,7 +168,7 @@ double CompactSolver::Change(double change, Row* row) {
 }
 
 double CompactSolver::Solve(Row* row) {
-  const double impulse = row->impulse + Wanted(*row);
+  const double impulse = row->impulse + UnboundedChange(*row);
   const double bounded = std::clamp(impulse, row->lower, row->upper);
   const double square = Change(bounded - row->impulse, row);
   row->impulse = bounded;
@@ -184,7 +187,7 @@ double CompactSolver::SolveSpins() {
   return change;
 }
 
-// Two rows across each other, whose impulses together stay within the contact's cone.
+// Solves pairs of perpendicular rows whose combined impulse stays within the friction cone.
 double CompactSolver::SolveCones(bool pressed_only, std::vector<Row>* rows) {
   double change = 0.0;
   for (size_t i = 0; i + 1 < rows->size(); i += 2) {
@@ -192,8 +195,8 @@ double CompactSolver::SolveCones(bool pressed_only, std::vector<Row>* rows) {
     Row& second = (*rows)[i + 1];
     const double pressed = std::max(0.0, normals_[static_cast<size_t>(first.normal)].impulse);
     if (pressed_only && pressed == 0.0) continue;
-    const double a = first.impulse + Wanted(first);
-    const double b = second.impulse + Wanted(second);
+    const double a = first.impulse + UnboundedChange(first);
+    const double b = second.impulse + UnboundedChange(second);
     const double length = std::sqrt(a * a + b * b), bound = first.friction * pressed;
     const double share = length > bound ? bound / length : 1.0;
     change += Change(share * a - first.impulse, &first);
@@ -206,7 +209,7 @@ btScalar CompactSolver::solveSingleIteration(int iteration, btCollisionObject**,
                                              btPersistentManifold**, int, btTypedConstraint**, int,
                                              const btContactSolverInfo&, btIDebugDraw*) {
   double change = 0.0;
-  const bool forwards = iteration % 2 == 1;  // as Bullet: joints from the last one first
+  const bool forwards = iteration % 2 == 1;  // as in Bullet: joints from the last one first
   for (size_t i = 0; i < joints_.size(); ++i) {
     change += Solve(&joints_[forwards ? i : joints_.size() - 1 - i]);
   }
@@ -227,7 +230,7 @@ btScalar CompactSolver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies
   for (size_t i = 0; i < before_.size(); ++i) {
     before_[i] = m_data.m_deltaVelocities[static_cast<int>(i)] - before_[i];
   }
-  for (const Moved& moved : moved_) {
+  for (const MovedBody& moved : moved_bodies_) {
     moved.body->applyDeltaVeeMultiDof2(&before_[static_cast<size_t>(moved.first)], 1.0);
     moved.body->setPosUpdated(false);
   }

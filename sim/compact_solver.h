@@ -6,11 +6,11 @@ class btMultiBodyConstraintSolver;
 
 namespace simwright::sim {
 
-// Bullet's solver of jointed bodies with its iterations done anew; rows, their order and what they
-// ask for are Bullet's. Bullet multiplies each row by all of a body's velocities, the base's also
-// where it is held, changes them twice a row (in the solver and in the body) and finds a friction
-// cone by its angle. Here a row knows which of its numbers are not zero, and bodies get their
-// velocities once, at the end. For worlds without rigid bodies that move.
+// Creates Bullet's solver of articulated bodies with faster iterations; the constraint rows, their
+// order and their targets are Bullet's. Bullet multiplies each row by all velocities of a body,
+// including a fixed base's, updates them twice per row (in the solver and in the body) and computes
+// a friction cone by its angle. This solver skips the zeros of each row and updates the bodies
+// once, at the end. For worlds without moving rigid bodies.
 std::unique_ptr<btMultiBodyConstraintSolver> MakeCompactSolver();
 
 }  // namespace simwright::sim

@@ -11,8 +11,8 @@ namespace {
 constexpr double kInFloor = 1e-3;     // m
 constexpr double kFingerLead = 0.01;  // m
 
-// Links that stand in the floor however the robot moves its arm: published shapes are generous, and
-// the floor would brake the first joint.
+// Returns the links that are in the floor in any configuration: published collision shapes are
+// generous, and the floor would brake the first joint.
 std::vector<int> LinksInFloor(const ArticulatedBody& body, const robot::RobotModel& model,
                               const Eigen::Isometry3d& world_from_robot) {
   std::vector<int> links;
@@ -68,8 +68,9 @@ void DrivenRobot::Command(const Eigen::VectorXd& arm, double leader) {
 void DrivenRobot::DriveJoint(int joint, double target, double force) {
   const double limit = model_.limits[static_cast<size_t>(joint)].velocity;
   const double error = target - world_.Position(body_, joint);
-  const double wished = limit > 0.0 ? std::clamp(gain_ * error, -limit, limit) : gain_ * error;
-  world_.Drive(body_, joint, wished, force);
+  const double target_velocity =
+      limit > 0.0 ? std::clamp(gain_ * error, -limit, limit) : gain_ * error;
+  world_.Drive(body_, joint, target_velocity, force);
 }
 
 void DrivenRobot::Drive() {
@@ -81,10 +82,10 @@ void DrivenRobot::Drive() {
   DriveFingers();
 }
 
-// The fingers follow a set point that moves at their speed. Where a thing stops them it runs ahead,
-// by so much that the motors ask for far more speed than fingers have: the solver then comes to
-// the whole grip force in a few iterations, where a wish of the fingers' own speed adds a
-// hundredth of it in each.
+// Drives the fingers to a set point that moves at their speed limit. If an object stops them, the
+// set point runs ahead until the motors ask for far more speed than the fingers have: the solver
+// then reaches the full grip force in a few iterations, while a target at the fingers' own speed
+// adds a hundredth of it in each.
 void DrivenRobot::DriveFingers() {
   const int leader = model_.gripper.joints.front();
   const double now = world_.Position(body_, leader);

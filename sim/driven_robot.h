@@ -12,32 +12,34 @@
 namespace simwright::sim {
 
 struct MotorOptions {
-  // Share of a position error that a motor makes good in one step. Near 1 a hard hit rings on.
+  // The share of a position error that a motor corrects in one step. Near 1 a hard impact
+  // oscillates.
   double stiffness = 0.3;
-  // Share of the grip force that keeps the fingers alike. A real arm gives way until both fingers
-  // press on what is between them; this one is stiff, so that the hand gives way: with 1 or more
-  // one finger alone presses on a handle that is a millimetre off the middle, and slides off it.
+  // The share of the grip force that keeps the fingers symmetric. A real arm yields until both
+  // fingers press on the object; this one is stiff, so the gripper yields instead: with 1 or more,
+  // a single finger presses on a handle that is a millimetre off the middle and slides off it.
   double centring = 0.9;
-  // Coefficient of the fingers' surfaces; none: the URDF's.
+  // The friction coefficient of the finger surfaces; none: the URDF's.
   std::optional<double> finger_friction = std::nullopt;
 };
 
-// A robot in a world, each joint held at its commanded position by a motor within the joint's
-// limits of effort and velocity, the fingers with the grip force. The motors are implicit: solved
-// with the contacts, so stable at any step, and gravity does not let them sag.
+// A robot in a world. A motor holds each joint at its commanded position within the joint's effort
+// and velocity limits, the fingers with the grip force. The motors are implicit: they are solved
+// together with the contacts, are stable at any time step, and do not sag under gravity.
 class DrivenRobot {
  public:
-  // Puts the robot into `world` at home, hand open. `body` is the model's (RobotBody). Model and
+  // Adds the robot to `world` at home, gripper open. `body` is the model's (RobotBody). Model and
   // world must outlive it.
   DrivenRobot(const robot::RobotModel& model, std::shared_ptr<const PreparedBody> body,
               const Eigen::Isometry3d& world_from_robot, ArticulatedWorld* world,
               const MotorOptions& options = {});
 
-  // Moves it there at once, at rest. `arm` (J); `leader`: the gripper's first joint.
+  // Teleports the robot to a configuration, at rest. `arm` (J); `leader`: the gripper's first
+  // joint.
   void Place(const Eigen::VectorXd& arm, double leader);
-  // What the motors hold from now on.
+  // Sets the position targets of the motors.
   void Command(const Eigen::VectorXd& arm, double leader);
-  // Hands the command to the motors. Before every step of the world.
+  // Applies the targets to the motors. Call it before every step of the world.
   void Drive();
 
   int body() const { return body_; }
@@ -61,7 +63,7 @@ class DrivenRobot {
   double leader_command_ = 0.0, finger_set_point_ = 0.0;
 };
 
-// What DrivenRobot puts into worlds. Throws core::Error where the URDF cannot be simulated.
+// Returns the body of DrivenRobot. Throws core::Error if the URDF cannot be simulated.
 std::shared_ptr<const PreparedBody> RobotBody(const robot::RobotModel& model);
 
 }  // namespace simwright::sim

@@ -9,7 +9,7 @@
 namespace simwright::sim {
 
 double TiltBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-  // World's vertical seen from the body, in both poses.
+  // The world's vertical in the body frame, in both poses.
   const Eigen::Vector3d up_a = a.linear().transpose().col(2);
   const Eigen::Vector3d up_b = b.linear().transpose().col(2);
   return std::atan2(up_a.cross(up_b).norm(), up_a.dot(up_b));
@@ -37,7 +37,7 @@ void DropWatch::Observe(double time, const Eigen::Isometry3d& world_from_body) {
     const Eigen::Vector3d moved =
         world_from_body * body_.inertial.center_of_mass - anchor_ * body_.inertial.center_of_mass;
     const Eigen::AngleAxisd turned(anchor_.linear().transpose() * world_from_body.linear());
-    // No point moved further than this.
+    // An upper bound of the displacement of any point.
     const double farthest = moved.norm() + radius_ * std::abs(turned.angle());
     const bool left = farthest > options_.rest_speed * options_.rest_window;
     if (left) result_.rest_time = time;
@@ -58,12 +58,12 @@ void DropWatch::Observe(double time, const Eigen::Isometry3d& world_from_body) {
 DropResult DropWatch::Finish() const {
   DropResult result = result_;
   result.tilt = TiltBetween(start_, result.rest_pose);
-  const auto apart = [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  const auto distance = [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
     return (a * body_.inertial.center_of_mass - b * body_.inertial.center_of_mass).norm();
   };
-  result.drift = apart(result.final_pose, result.rest_pose);
-  result.early_drift = apart(half_, result.rest_pose);
-  result.late_drift = apart(result.final_pose, half_);
+  result.drift = distance(result.final_pose, result.rest_pose);
+  result.early_drift = distance(half_, result.rest_pose);
+  result.late_drift = distance(result.final_pose, half_);
   result.turn =
       Eigen::AngleAxisd(result.rest_pose.linear().transpose() * result.final_pose.linear()).angle();
   result.lowest_point = LowestPoint(body_, result.final_pose);

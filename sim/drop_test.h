@@ -7,44 +7,43 @@
 namespace simwright::sim {
 
 struct DropOptions {
-  double height = 0.01;      // m, of the lowest point above the floor at the start
-  double settle_time = 2.0;  // s, within which it has to come to rest
-  double watch_time = 2.0;   // s, over which the drift is measured afterwards
-  // m/s: a body rests while, over rest_window, none of its points gets further from where it was
-  // than this speed would take it. The speed is ODE's default for putting bodies to sleep, which
-  // also takes the mean over some steps. Creep below it shows in the drift.
+  double height = 0.01;      // m, initial height of the lowest point above the floor
+  double settle_time = 2.0;  // s, within which the body must come to rest
+  double watch_time = 2.0;   // s, of the drift measurement afterwards
+  // The largest speed (m/s) of a resting body: over rest_window, no point moves farther than at
+  // this speed. It is ODE's default for putting bodies to sleep, which also averages over some
+  // steps. Slower creep shows in the drift.
   double rest_speed = 0.01;
   double rest_window = 0.1;                                 // s
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity();  // orientation; shifted to `height`
 };
 
-// What became of a dropped body. Angles leave the turn about the vertical out: a body may end up
-// facing elsewhere.
+// The result of a drop test. Angles exclude the rotation about the vertical, which is free.
 struct DropResult {
-  bool rests = false;         // it rested when settle_time ended
-  double rest_time = 0.0;     // s, since when it rests; settle_time where it does not
-  double tilt = 0.0;          // rad, between the start's and the resting vertical
+  bool rests = false;         // it is at rest when settle_time ends
+  double rest_time = 0.0;     // s, since when it is at rest; settle_time if it is not
+  double tilt = 0.0;          // rad, between the vertical axis at the start and at rest
   double drift = 0.0;         // m, of the centre of mass over watch_time
   double early_drift = 0.0;   // m, the same over its first half
-  double late_drift = 0.0;    // m, and over its second half: less than before where it slows down
-  double fall = 0.0;          // m, how far the centre of mass sank below where it had been highest
+  double late_drift = 0.0;    // m, over the second half: smaller if the motion decays
+  double fall = 0.0;          // m, largest drop of the centre of mass below its highest point
   double turn = 0.0;          // rad, over watch_time, about any axis
   double lowest_point = 0.0;  // m, at the end: below 0 is penetration
   Eigen::Isometry3d rest_pose = Eigen::Isometry3d::Identity();   // world_from_body after settling
-  Eigen::Isometry3d final_pose = Eigen::Isometry3d::Identity();  // after watching
+  Eigen::Isometry3d final_pose = Eigen::Isometry3d::Identity();  // after the drift measurement
 };
 
 // Drops the body onto the plane z = 0 in Bullet (double precision, 240 Hz).
 DropResult DropInBullet(const RigidBody& body, const DropOptions& options = {});
 
-// Angle between the body's vertical axes in two poses, rad: the yaw is free.
+// Returns the angle (rad) between the body's vertical axes in two poses, ignoring yaw.
 double TiltBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);
 
-// Gathers a DropResult from the trajectory of any engine.
+// Accumulates a DropResult from the trajectory of any engine.
 class DropWatch {
  public:
   DropWatch(const RigidBody& body, const DropOptions& options, const Eigen::Isometry3d& start);
-  // Called once a step, with the time since the start.
+  // Processes a step. Called once per step, with the time since the start.
   void Observe(double time, const Eigen::Isometry3d& world_from_body);
   DropResult Finish() const;
 
@@ -53,15 +52,14 @@ class DropWatch {
   DropOptions options_;
   Eigen::Isometry3d start_;
   double radius_;             // m, of the body about its centre of mass
-  Eigen::Isometry3d anchor_;  // where it was at the start of the window
+  Eigen::Isometry3d anchor_;  // the pose at the start of the window
   double anchor_time_ = 0.0;  // s
-  Eigen::Isometry3d half_;    // where it was when half of the watching was over
-  double highest_ = 0.0;      // m, of the centre of mass since it was first watched
+  Eigen::Isometry3d half_;    // the pose after half of watch_time
+  double highest_ = 0.0;      // m, of the centre of mass during watch_time
   DropResult result_;
 };
 
-// The start pose, moved so that the lowest point is at options.height and the centre of mass over
-// the origin.
+// Returns the start pose: the lowest point at options.height, the centre of mass above the origin.
 Eigen::Isometry3d StartPose(const RigidBody& body, const DropOptions& options);
 
 }  // namespace simwright::sim

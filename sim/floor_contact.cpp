@@ -11,8 +11,8 @@
 namespace simwright::sim {
 namespace {
 
-// m: cached contacts are kept until a point is deeper than all of them by this. Which corner of a
-// flat foot is the deepest changes from step to step, and each new contact starts cold.
+// m: cached contacts are kept until a point is deeper than all of them by this. The deepest corner
+// of a flat base changes from step to step, and each new contact starts without an impulse.
 constexpr double kKeep = 2e-5;
 
 class ShapeOnPlane : public btCollisionAlgorithm {
@@ -48,14 +48,14 @@ class ShapeOnPlane : public btCollisionAlgorithm {
   btPersistentManifold* manifold_ = nullptr;
 };
 
-// The plane as the shape's frame sees it: height of a point p is normal . p - offset.
-struct SeenPlane {
+// A plane in the shape's frame: the height of a point p is normal . p - offset.
+struct LocalPlane {
   btVector3 normal;
   double offset;
   double Height(const btVector3& point) const { return normal.dot(point) - offset; }
 };
 
-SeenPlane PlaneSeenFrom(const btTransform& world_from_shape, const btStaticPlaneShape& plane,
+LocalPlane PlaneInFrame(const btTransform& world_from_shape, const btStaticPlaneShape& plane,
                         const btTransform& world_from_plane) {
   const btTransform plane_from_shape = world_from_plane.inverse() * world_from_shape;
   const btVector3 normal = plane.getPlaneNormal() * plane_from_shape.getBasis();
@@ -63,7 +63,7 @@ SeenPlane PlaneSeenFrom(const btTransform& world_from_shape, const btStaticPlane
           plane.getPlaneConstant() - plane.getPlaneNormal().dot(plane_from_shape.getOrigin())};
 }
 
-double Lowest(const std::vector<FloorPoint>& points, const SeenPlane& plane) {
+double Lowest(const std::vector<FloorPoint>& points, const LocalPlane& plane) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const FloorPoint& point : points) {
     lowest = std::min(lowest, plane.Height(ToBullet(point.center)) - point.radius);
@@ -87,7 +87,7 @@ void ShapeOnPlane::processCollision(const btCollisionObjectWrapper* first,
   const btCollisionObjectWrapper* floor = swapped_ ? first : second;
   const auto& plane_shape = static_cast<const btStaticPlaneShape&>(*floor->getCollisionShape());
   const btTransform& world_from_shape = object->getWorldTransform();
-  const SeenPlane plane = PlaneSeenFrom(world_from_shape, plane_shape, floor->getWorldTransform());
+  const LocalPlane plane = PlaneInFrame(world_from_shape, plane_shape, floor->getWorldTransform());
   const auto& shape =
       *static_cast<const BulletShape*>(object->getCollisionShape()->getUserPointer());
   result->setPersistentManifold(manifold_);
@@ -119,7 +119,7 @@ struct CreateShapeOnPlane : btCollisionAlgorithmCreateFunc {
 }  // namespace
 
 void CollideShapesWithFloor(btCollisionDispatcher* dispatcher) {
-  static CreateShapeOnPlane shape_first(false), plane_first(true);  // without state
+  static CreateShapeOnPlane shape_first(false), plane_first(true);  // stateless
   dispatcher->registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE,
                                           &shape_first);
   dispatcher->registerCollisionCreateFunc(STATIC_PLANE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE,

@@ -8,14 +8,14 @@
 namespace simwright::sim {
 namespace {
 
-constexpr double kSweepSeconds = 4.0;  // each way; a drive takes a little over one
-constexpr int kLoadSamples = 16;       // over the range, for the greatest weight
+constexpr double kSweepSeconds = 4.0;  // in each direction; a drive takes a little over one
+constexpr int kLoadSamples = 16;       // over the range, for the largest gravity load
 
 const assets::UrdfJoint& JointOf(const ArticulatedBody& body, int joint) {
   return body.joints.at(static_cast<size_t>(joint));
 }
 
-// A joint without limits goes round once.
+// Returns the range; one turn for a joint without limits.
 double RangeOf(const assets::UrdfJoint& joint) {
   return joint.type == assets::UrdfJointType::kContinuous ? 2.0 * M_PI : joint.upper - joint.lower;
 }
@@ -24,7 +24,7 @@ double LowerOf(const assets::UrdfJoint& joint) {
   return joint.type == assets::UrdfJointType::kContinuous ? 0.0 : joint.lower;
 }
 
-void StandAtZero(const ArticulatedBody& body, JointRig* rig) {
+void ResetJoints(const ArticulatedBody& body, JointRig* rig) {
   for (const int i : body.MovingJoints()) {
     rig->LetGo(i);
     rig->SetPosition(i, std::max(0.0, LowerOf(JointOf(body, i))));
@@ -49,7 +49,7 @@ JointDrive DriveFor(const ArticulatedBody& body, int joint, double strongest_tor
   JointDrive drive;
   drive.velocity = RangeOf(j);
   const double to_speed = LoadOn(body, joint, LowerOf(j)).inertia * drive.velocity / 0.25;
-  // A quarter more than is lost to friction and weight: the drive slows down under load.
+  // A quarter more than friction and weight: the drive slows down under load.
   drive.max_force =
       1.25 * (j.friction + GreatestLoad(body, joint)) + j.damping * drive.velocity + 2.0 * to_speed;
   const bool slides = j.type == assets::UrdfJointType::kPrismatic;
@@ -60,23 +60,23 @@ JointDrive DriveFor(const ArticulatedBody& body, int joint, double strongest_tor
 SweepResult SweepJoint(const ArticulatedBody& body, int joint, JointRig* rig) {
   const assets::UrdfJoint& j = JointOf(body, joint);
   const JointDrive drive = DriveFor(body, joint);
-  StandAtZero(body, rig);
+  ResetJoints(body, rig);
   rig->SetPosition(joint, LowerOf(j));
   SweepResult result;
   result.lowest = result.highest = LowerOf(j);
-  const double close = 0.002 * RangeOf(j);
-  for (const double way : {1.0, -1.0}) {
-    rig->Drive(joint, way * drive.velocity, drive.max_force);
-    const double target = way > 0.0 ? LowerOf(j) + RangeOf(j) : LowerOf(j);
+  const double tolerance = 0.002 * RangeOf(j);
+  for (const double direction : {1.0, -1.0}) {
+    rig->Drive(joint, direction * drive.velocity, drive.max_force);
+    const double target = direction > 0.0 ? LowerOf(j) + RangeOf(j) : LowerOf(j);
     double reached = rig->Position(joint);
     for (const double start = rig->time(); rig->time() - start < kSweepSeconds;) {
       rig->Step();
       reached = rig->Position(joint);
-      if (way > 0.0) result.highest = std::max(result.highest, reached);
+      if (direction > 0.0) result.highest = std::max(result.highest, reached);
       result.touching.merge(rig->Touching());
-      if (way * (target - reached) < close) break;
+      if (direction * (target - reached) < tolerance) break;
     }
-    if (way < 0.0) result.lowest = reached;
+    if (direction < 0.0) result.lowest = reached;
     core::CheckCancelled();
   }
   rig->LetGo(joint);
@@ -85,7 +85,7 @@ SweepResult SweepJoint(const ArticulatedBody& body, int joint, JointRig* rig) {
 
 double DriftWhenLetGo(const ArticulatedBody& body, int joint, double position, double seconds,
                       JointRig* rig) {
-  StandAtZero(body, rig);
+  ResetJoints(body, rig);
   rig->SetPosition(joint, position);
   double drift = 0.0;
   for (const double start = rig->time(); rig->time() - start < seconds;) {
@@ -99,8 +99,8 @@ double DriftWhenLetGo(const ArticulatedBody& body, int joint, double position, d
 double TiltWhenOpened(const ArticulatedBody& body, int joint, JointRig* rig) {
   const assets::UrdfJoint& j = JointOf(body, joint);
   JointDrive drive = DriveFor(body, joint);
-  drive.velocity *= 0.5;  // with care: what stops at its limit jerks the whole
-  StandAtZero(body, rig);
+  drive.velocity *= 0.5;  // slow: a hard stop at a limit jerks the whole body
+  ResetJoints(body, rig);
   rig->SetRootPose(Eigen::Isometry3d::Identity());
   const Eigen::Isometry3d start = rig->LinkPose(0);
   double tilt = 0.0;
@@ -111,7 +111,7 @@ double TiltWhenOpened(const ArticulatedBody& body, int joint, JointRig* rig) {
       if (until_open && rig->Position(joint) > j.upper - 0.01 * RangeOf(j)) break;
     }
   };
-  run(0.25, false);  // settles
+  run(0.25, false);  // settle first
   rig->Drive(joint, drive.velocity, drive.max_force);
   run(kSweepSeconds, true);
   rig->LetGo(joint);

@@ -12,24 +12,24 @@
 
 namespace simwright::sim {
 
-constexpr double kHeldHeight = 1.0;  // m above the floor, of a root that is held
+constexpr double kHeldHeight = 1.0;  // m above the floor, of a fixed root
 
 struct RigOptions {
   bool hold_root = true;      // at kHeldHeight; else it stands free on the floor z = 0
-  bool self_contacts = true;  // links of the thing touch each other; in Bullet alone
+  bool self_contacts = true;  // links of the body collide; in Bullet only
 };
 
-// One jointed thing over the floor, in some engine: what an experiment on its joints needs. Links
-// of the thing touch each other, but for those on fixed joints. One thread a rig.
+// The test rig for joint experiments: one articulated body above the floor in a physics engine.
+// Links of the body collide with each other, except across fixed joints. One thread per rig.
 class JointRig {
  public:
   virtual ~JointRig() = default;
 
-  // `joint` indexes ArticulatedBody::joints. Velocities are zero afterwards.
+  // `joint` indexes ArticulatedBody::joints. Sets velocities to zero.
   virtual void SetPosition(int joint, double position) = 0;
   virtual void SetRootPose(const Eigen::Isometry3d& world_from_root) = 0;
-  // A motor turns the joint at `velocity` with at most about `max_force`, of which the joint's
-  // friction and load take their share.
+  // Drives the joint at `velocity` with at most about `max_force`, which includes the joint's
+  // friction and load.
   virtual void Drive(int joint, double velocity, double max_force) = 0;
   virtual void LetGo(int joint) = 0;
   virtual void Step() = 0;
@@ -37,25 +37,25 @@ class JointRig {
   virtual double Position(int joint) const = 0;
   virtual double Velocity(int joint) const = 0;
   virtual Eigen::Isometry3d LinkPose(int link) const = 0;
-  // Pairs of links that touch, "door and body", sorted by name; the floor is "floor". The root on
-  // the floor and links joined by fixed joints are left out.
+  // Returns the pairs of touching links, "body and door", sorted by name; the floor is "floor". The
+  // root on the floor and links connected by fixed joints are left out.
   virtual std::set<std::string> Touching() const = 0;
   virtual assets::Inertial LoadedInertial(int link) const = 0;
-  // What the engine warned of, in its own words.
+  // Returns the engine's own warnings.
   virtual std::vector<std::string> Warnings() const = 0;
 };
 
-// In Bullet (ArticulatedWorld, 240 Hz).
+// Creates a rig in Bullet (ArticulatedWorld, 240 Hz).
 std::unique_ptr<JointRig> BulletRig(const ArticulatedBody& body, const RigOptions& options = {});
 
-// In MuJoCo, from an MJCF file whose joints and bodies bear the names of the body's. Throws
-// core::Error where it does not compile, or one of them is missing.
+// Creates a rig in MuJoCo from an MJCF file with the body's joint and link names. Throws
+// core::Error if the file does not compile, or if a name is missing.
 std::unique_ptr<JointRig> MujocoRig(const ArticulatedBody& body, const std::filesystem::path& mjcf,
                                     const RigOptions& options = {});
 
-// "a and b" in alphabetical order.
+// Returns "a and b" in alphabetical order.
 std::string LinkPair(const std::string& a, const std::string& b);
-// Whether two links cannot move against each other: all joints between them are fixed.
+// Returns true if all joints between two links are fixed.
 bool RigidlyJoined(const ArticulatedBody& body, int link_a, int link_b);
 
 }  // namespace simwright::sim

@@ -9,9 +9,9 @@
 namespace simwright::sim {
 namespace {
 
-constexpr int kBase = 6;  // numbers of the base that stand before the joints' in Bullet's vectors
+constexpr int kBase = 6;  // numbers of the base before the joints' in Bullet's vectors
 
-// Where the body's share of the solver's change of velocities begins.
+// Returns the offset of the body's velocity changes in the solver's vector.
 int VelocityIndex(btMultiBody* body, int numbers, btMultiBodyJacobianData* data) {
   if (body->getCompanionId() < 0) {
     body->setCompanionId(data->m_deltaVelocities.size());
@@ -70,8 +70,8 @@ void JointVelocityRow::Row::createConstraintRows(btMultiBodyConstraintArray& row
   if (damping_ > 0.0) AddDamping(info.m_timeStep, &row);
 }
 
-// What btMultiBodyConstraint::fillMultiBodyConstraint does, but with one side. Bullet's own motors
-// name their body twice; the second side is all zeros, and took as long to fill and to solve.
+// Does the same as btMultiBodyConstraint::fillMultiBodyConstraint for one side. Bullet's own motors
+// have the same body on both sides; the second side is all zeros and doubles the cost.
 void JointVelocityRow::Row::Fill(double dt, btMultiBodyJacobianData* data,
                                  btMultiBodySolverConstraint* row) const {
   const int numbers = kBase + m_bodyA->getNumDofs();
@@ -101,11 +101,11 @@ void JointVelocityRow::Row::Fill(double dt, btMultiBodyJacobianData* data,
   row->m_orgDofIndex = 0;
 }
 
-// With a damper the impulse is force dt - damping dt v, v after the step. Either the wish is met (a
-// hard row whose bounds give the damper its share), or the force is at a bound (a compliant row);
-// which, is told from the velocity without this row.
+// Adds the damper. The impulse is force dt - damping dt v, with v after the step. Either the target
+// velocity is reached (a hard row whose bounds give the damper its share), or the force is at a
+// bound (a compliant row); the velocity without this row decides which.
 void JointVelocityRow::Row::AddDamping(double dt, btMultiBodySolverConstraint* row) const {
-  const double inertia = row->m_jacDiagABInv;  // felt at the joint
+  const double inertia = row->m_jacDiagABInv;  // effective, at the joint
   const double without = velocity_ - row->m_rhs / inertia;
   const double share = damping_ * dt * velocity_;
   const double needed = inertia * (velocity_ - without) + share;

@@ -7,19 +7,20 @@ class btMultiBodyConstraint;
 
 namespace simwright::sim {
 
-// All that resists or drives one joint, as one row: a velocity wished for within bounds of force (a
-// motor, or dry friction: wish 0 within +-friction), and a damper. Implicit, and solved along with
-// the contacts. As rows of their own, damper and friction of a light link fight each other for
-// hundreds of iterations.
+// One solver constraint for all that drives or resists a joint: a target velocity within force
+// bounds (a motor, or dry friction: target 0 within +-friction), and a damper. It is implicit and
+// solved together with the contacts. As separate constraints, damper and friction of a light link
+// would take hundreds of iterations to converge.
 class JointVelocityRow {
  public:
-  // Of the joint that leads to `link`, Bullet's index. `damping`: N m s/rad or N s/m.
+  // `link`: Bullet's index of the joint's child link. `damping`: N m s/rad or N s/m.
   JointVelocityRow(btMultiBody* body, int link, double damping);
   ~JointVelocityRow();
   JointVelocityRow(const JointVelocityRow&) = delete;
   JointVelocityRow& operator=(const JointVelocityRow&) = delete;
 
-  // rad/s or m/s; N m or N, the lowest negative.
+  // Sets the target velocity (rad/s or m/s) and the force bounds (N m or N; the lowest is
+  // negative).
   void Wish(double velocity, double lowest_force, double highest_force);
   btMultiBodyConstraint* constraint() const;
 

@@ -6,7 +6,7 @@
 namespace simwright::sim {
 namespace {
 
-// `link`'s inertial and those of all that it carries as one, in its frame.
+// Returns the combined inertial of `link` and all links that it carries, in its frame.
 assets::Inertial CarriedInertial(const ArticulatedBody& body, const std::vector<TreeLink>& carried,
                                  int link) {
   assets::Inertial whole;
@@ -26,9 +26,9 @@ assets::Inertial CarriedInertial(const ArticulatedBody& body, const std::vector<
   whole.center_of_mass /= whole.mass;
   each([&](const assets::Inertial& part, const Eigen::Isometry3d& pose) {
     const Eigen::Vector3d d = pose * part.center_of_mass - whole.center_of_mass;
-    whole.inertia +=
-        pose.linear() * part.inertia * pose.linear().transpose() +
-        part.mass * (d.squaredNorm() * Eigen::Matrix3d::Identity() - d * d.transpose());  // Steiner
+    whole.inertia += pose.linear() * part.inertia * pose.linear().transpose() +
+                     part.mass * (d.squaredNorm() * Eigen::Matrix3d::Identity() -
+                                  d * d.transpose());  // parallel axis theorem
   });
   return whole;
 }
@@ -55,7 +55,7 @@ LinkTree FoldedTree(const ArticulatedBody& body,
                     const std::vector<std::unique_ptr<BulletShape>>& shapes) {
   LinkTree tree = WholeTree(body, shapes);
   tree.joint_count = 0;
-  std::vector<bool> carries(body.links.size(), false);  // something that has a mass
+  std::vector<bool> carries(body.links.size(), false);  // a link with a mass
   for (size_t i = 1; i < body.links.size(); ++i) {
     TreeLink& link = tree.links[i];
     if (body.joints[i - 1].Moves()) {

@@ -18,7 +18,7 @@ struct MujocoWorld::Model {
   MujocoScene scene;
   mjModel* model;
   mjData* data;
-  // The world is body 0 in MuJoCo; each of ours has one free joint.
+  // The world is body 0 in MuJoCo; each of our bodies has one free joint.
   int Body(int index) const { return index + 1; }
   int Position(int index) const { return model->jnt_qposadr[model->body_jntadr[Body(index)]]; }
 };

@@ -12,21 +12,21 @@
 
 namespace simwright::sim {
 
-// The version of the library that is loaded, "2.2.2".
+// Returns the version of the loaded library, for example "2.2.2".
 std::string MujocoVersion();
 
-// MuJoCo as the second opinion on an asset: its MJCF file over the floor z = 0, beside any number
-// of probe balls. One thread a world.
+// A MuJoCo world to cross-check an asset: its MJCF file above the floor z = 0, beside any number of
+// probe balls. One thread per world.
 class MujocoWorld {
  public:
   // Loads `mjcf` (a file as assets::MjcfText writes it). `balls` are radii (m) of free spheres of
-  // 1000 kg/m^3. Throws core::Error with MuJoCo's own words where the file does not compile.
+  // 1000 kg/m^3. Throws core::Error with MuJoCo's own message if the file does not compile.
   explicit MujocoWorld(const std::filesystem::path& mjcf, const std::vector<double>& balls = {});
   ~MujocoWorld();
   MujocoWorld(const MujocoWorld&) = delete;
   MujocoWorld& operator=(const MujocoWorld&) = delete;
 
-  // What MuJoCo warned of while loading and stepping, in its own words.
+  // Returns MuJoCo's own warnings from loading and stepping.
   const std::vector<std::string>& warnings() const;
 
   // Body 0 is the asset, 1 ... are the balls.
@@ -41,7 +41,7 @@ class MujocoWorld {
   std::unique_ptr<Model> model_;
 };
 
-// DropInBullet's experiment in MuJoCo.
+// Runs DropInBullet's experiment in MuJoCo.
 DropResult DropInMujoco(const RigidBody& body, const std::filesystem::path& mjcf,
                         const DropOptions& options, std::vector<std::string>* warnings);
 

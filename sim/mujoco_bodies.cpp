@@ -14,19 +14,19 @@ namespace simwright::sim {
 namespace {
 
 // N m/rad and N m s/rad (N/m and N s/m): the Panda's heaviest joint, 1 to 2 kg m^2, then follows
-// within a tenth of a second without swinging. The damping is implicit, so light ones only lag.
+// within a tenth of a second without overshoot. The damping is implicit, so light joints only lag.
 constexpr double kStiffness = 1500.0, kMotorDamping = 80.0;
 
 std::string Name(const char* kind, size_t body, size_t index) {
   return std::string(kind) + "_" + std::to_string(body) + "_" + std::to_string(index);
 }
 
-// Writes the things as MJCF.
+// Writes the bodies as MJCF.
 class BodiesFile {
  public:
   BodiesFile(const std::vector<MujocoPlacement>& placements, double time_step)
       : placements_(placements) {
-    for (std::ostringstream* part : {&assets_, &world_, &ties_, &motors_}) {
+    for (std::ostringstream* part : {&assets_, &world_, &equalities_, &motors_}) {
       *part << std::setprecision(17);
     }
     for (size_t b = 0; b < placements.size(); ++b) {
@@ -37,7 +37,7 @@ class BodiesFile {
     all << "<mujoco><compiler angle=\"radian\" balanceinertia=\"true\"/><option timestep=\""
         << std::setprecision(17) << time_step << "\"/><size "
         << "nconmax=\"400\" njmax=\"2000\"/><asset>" << assets_.str() << "</asset><worldbody>"
-        << world_.str() << "</worldbody><equality>" << ties_.str() << "</equality><actuator>"
+        << world_.str() << "</worldbody><equality>" << equalities_.str() << "</equality><actuator>"
         << motors_.str() << "</actuator></mujoco>\n";
     text_ = all.str();
   }
@@ -52,7 +52,8 @@ class BodiesFile {
     return out.str();
   }
 
-  // Things touch each other and the floor, whose bit is 1, but not themselves.
+  // Returns the contact bits: bodies collide with each other and with the floor (bit 1), but not
+  // with themselves.
   std::string Bits(size_t b, bool floor) const {
     const unsigned own = 2u << b;
     const unsigned others = (((2u << placements_.size()) - 1u) & ~own & ~1u) | (floor ? 1u : 0u);
@@ -134,9 +135,9 @@ class BodiesFile {
     }
     if (joint.mimic) {
       const auto leader = static_cast<size_t>(body.JointIndex(joint.mimic->joint));
-      ties_ << "<joint joint1=\"" << Name("joint", b, j) << "\" joint2=\""
-            << Name("joint", b, leader) << "\" polycoef=\"" << joint.mimic->offset << ' '
-            << joint.mimic->multiplier << " 0 0 0\"/>";
+      equalities_ << "<joint joint1=\"" << Name("joint", b, j) << "\" joint2=\""
+                  << Name("joint", b, leader) << "\" polycoef=\"" << joint.mimic->offset << ' '
+                  << joint.mimic->multiplier << " 0 0 0\"/>";
     }
   }
 
@@ -146,7 +147,7 @@ class BodiesFile {
   }
 
   const std::vector<MujocoPlacement>& placements_;
-  std::ostringstream assets_, world_, ties_, motors_;
+  std::ostringstream assets_, world_, equalities_, motors_;
   std::string text_;
 };
 

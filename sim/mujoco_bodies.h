@@ -9,29 +9,29 @@
 
 namespace simwright::sim {
 
-// A jointed thing as Placement puts it into an ArticulatedWorld.
+// A body and its placement, as Placement in an ArticulatedWorld.
 struct MujocoPlacement {
   const ArticulatedBody* body = nullptr;
   Eigen::Isometry3d world_from_root = Eigen::Isometry3d::Identity();
   bool fixed = true;
-  // Of each joint, in order: N m or N that a motor may hold it with; 0: without a motor.
+  // The motor force limits (N m or N) by joint; 0: no motor.
   std::vector<double> motor_forces = {};
 };
 
-// The same things in MuJoCo, over the floor, to compare speeds: links, inertials, capsules, convex
-// parts, joints with their friction, damping and limits, mimicked joints tied; a thing's own links
-// do not touch each other. One thread a world.
+// The same bodies in MuJoCo, above the floor, for speed comparisons: links, inertials, capsules,
+// convex parts, joints with their friction, damping and limits, and mimic joints; links of one body
+// do not collide with each other. One thread per world.
 class MujocoBodies {
  public:
-  // `time_step`: s. Throws core::Error where MuJoCo refuses the model, in its own words.
+  // `time_step`: s. Throws core::Error with MuJoCo's own message if MuJoCo rejects the model.
   MujocoBodies(const std::vector<MujocoPlacement>& placements, double time_step);
   ~MujocoBodies();
   MujocoBodies(const MujocoBodies&) = delete;
   MujocoBodies& operator=(const MujocoBodies&) = delete;
 
-  // Moves the joint (ArticulatedBody::joints) there at once, all at rest.
+  // Teleports the joint (index into ArticulatedBody::joints), all at rest.
   void SetPosition(int body, int joint, double position);
-  // What the joint's motor holds from now on, rad or m.
+  // Sets the position target of the joint's motor, rad or m.
   void Hold(int body, int joint, double position);
   void Step();
 

@@ -11,11 +11,12 @@
 namespace simwright::sim {
 namespace {
 
-// kg and kg m^2 on a free root's own motions: 40 kg then fall by 0.4 mm/s^2, while its links still
-// feel their weight. A thousand times more, and the solver lost a button's friction in rounding.
+// The armature (kg and kg m^2) that fixes a free root: 40 kg then fall at 0.4 mm/s^2, while its
+// links still feel their weight. With a thousand times more, the solver loses a button's friction
+// to rounding.
 constexpr double kHeldInertia = 1e6;
 
-constexpr double kMotorRise = 0.1;  // s, until a motor wishes for its whole speed
+constexpr double kRiseTime = 0.1;  // s, until a motor's target reaches its full speed
 
 class RigInMujoco : public JointRig {
  public:
@@ -38,17 +39,17 @@ class RigInMujoco : public JointRig {
         model_->dof_armature[model_->jnt_dofadr[first] + i] = kHeldInertia;
       mj_setConst(model_, data_);
     }
-    model_->opt.disableflags |= mjDSBL_FILTERPARENT;  // a door meets its body
+    model_->opt.disableflags |= mjDSBL_FILTERPARENT;  // a door collides with its body
     damping_.assign(model_->dof_damping, model_->dof_damping + model_->nv);
     mj_forward(model_, data_);
   }
 
   void SetPosition(int joint, double position) override {
     data_->qpos[model_->jnt_qposadr[Joint(joint)]] = position;
-    Settle();
+    ZeroVelocities();
   }
   void SetRootPose(const Eigen::Isometry3d& pose) override {
-    if (!free_) throw core::Error("a body that is held cannot be moved", body_.name);
+    if (!free_) throw core::Error("a fixed body cannot be moved", body_.name);
     double* q = data_->qpos + model_->jnt_qposadr[model_->body_jntadr[bodies_[0]]];
     const Eigen::Quaterniond turn(pose.linear());
     Eigen::Map<Eigen::Vector3d> position(q);
@@ -57,7 +58,7 @@ class RigInMujoco : public JointRig {
     q[4] = turn.x();
     q[5] = turn.y();
     q[6] = turn.z();
-    Settle();
+    ZeroVelocities();
   }
   void Drive(int joint, double velocity, double max_force) override {
     LetGo(joint);
@@ -122,22 +123,23 @@ class RigInMujoco : public JointRig {
     double velocity = 0.0, max_force = 0.0;
     double start = 0.0;  // s
   };
-  // Near its wish and beyond the motor is force = gain (wish - v), put into MuJoCo's damping, which
-  // is implicit: stable for any inertia. Further below the wish it gives what it has. The wish
-  // rises from zero, so that a light joint follows it and is not thrown by the full force.
+  // Applies a motor. Near and beyond its target velocity the motor is force = gain (target - v),
+  // added to MuJoCo's implicit damping: stable for any inertia. Farther below the target it applies
+  // its full force. The target rises from zero, so that a light joint follows it instead of being
+  // thrown by the full force.
   void Apply(int dof, const Motor& motor) {
     const double rise =
-        std::min(1.0, (data_->time - motor.start + model_->opt.timestep) / kMotorRise);
+        std::min(1.0, (data_->time - motor.start + model_->opt.timestep) / kRiseTime);
     const double gain = 10.0 * motor.max_force / std::max(std::abs(motor.velocity), 1e-6);
-    const double wish = rise * motor.velocity;
-    const double force = gain * (wish - data_->qvel[dof]);
+    const double target = rise * motor.velocity;
+    const double force = gain * (target - data_->qvel[dof]);
     const bool all = std::abs(force) > motor.max_force && force * motor.velocity > 0.0;
     model_->dof_damping[dof] = damping_[static_cast<size_t>(dof)] + (all ? 0.0 : gain);
-    data_->qfrc_applied[dof] = all ? std::copysign(motor.max_force, force) : gain * wish;
+    data_->qfrc_applied[dof] = all ? std::copysign(motor.max_force, force) : gain * target;
   }
   int Find(int type, const std::string& name, const std::filesystem::path& mjcf) const {
     const int id = mj_name2id(model_, type, name.c_str());
-    if (id < 0) throw core::Error("has no '" + name + "'", mjcf.string(), "write it anew");
+    if (id < 0) throw core::Error("has no '" + name + "'", mjcf.string(), "write the file again");
     return id;
   }
   int Joint(int joint) const {
@@ -153,7 +155,7 @@ class RigInMujoco : public JointRig {
     }
     return -1;
   }
-  void Settle() {
+  void ZeroVelocities() {
     mju_zero(data_->qvel, model_->nv);
     mju_zero(data_->qacc_warmstart, model_->nv);
     mj_forward(model_, data_);
@@ -165,7 +167,7 @@ class RigInMujoco : public JointRig {
   mjData* data_;
   std::vector<int> bodies_;      // by link
   std::vector<int> joints_;      // by joint; -1 where it is fixed
-  std::vector<double> damping_;  // as the file has it, by degree of freedom
+  std::vector<double> damping_;  // from the file, by degree of freedom
   std::map<int, Motor> motors_;  // by joint
   bool free_ = false;
 };

@@ -16,23 +16,23 @@ namespace simwright::sim {
 namespace fs = std::filesystem;
 namespace {
 
-// MuJoCo reports through one global callback; the world whose call is running listens.
-thread_local std::vector<std::string>* listening = nullptr;
+// MuJoCo reports warnings through one global callback; they go to the world whose call is running.
+thread_local std::vector<std::string>* active_warnings = nullptr;
 
-void Hear(const char* text) {
-  if (listening != nullptr) listening->push_back(text);
+void AppendWarning(const char* text) {
+  if (active_warnings != nullptr) active_warnings->push_back(text);
 }
 
-class Listen {
+class WarningScope {
  public:
-  explicit Listen(std::vector<std::string>* messages) {
-    mju_user_warning = Hear;
-    listening = messages;
+  explicit WarningScope(std::vector<std::string>* messages) {
+    mju_user_warning = AppendWarning;
+    active_warnings = messages;
   }
-  ~Listen() { listening = nullptr; }
+  ~WarningScope() { active_warnings = nullptr; }
 };
 
-// The asset is included in a scene with a floor. A temporary file, since MuJoCo 2.2 reads files.
+// Includes the asset in a scene with a floor. A temporary file, since MuJoCo 2.2 reads files.
 class SceneFile {
  public:
   SceneFile(const fs::path& mjcf, const std::vector<double>& balls) {
@@ -51,10 +51,9 @@ class SceneFile {
     out << "<mujoco><compiler angle=\"radian\" meshdir=\"" << folder.string() << "\" texturedir=\""
         << folder.string()
         << "\"/><include file=\""
-        // MuJoCo 2.2 puts the scene's folder before any include, also before an absolute one.
-        << fs::relative(fs::canonical(mjcf), fs::canonical(path_.parent_path())).string()
-        << "\"/>";
-    // A model that states its own <option> and <size> keeps them.
+        // MuJoCo 2.2 prepends the scene's folder to any include, even to an absolute one.
+        << fs::relative(fs::canonical(mjcf), fs::canonical(path_.parent_path())).string() << "\"/>";
+    // A model with its own <option> and <size> keeps them.
     if (model.find("<size") == std::string::npos) out << assets::MjcfPhysicsText(geoms);
     out << "<worldbody>" << assets::MjcfGroundText();
     for (size_t i = 0; i < balls.size(); ++i) {
@@ -85,7 +84,7 @@ MujocoScene::MujocoScene(const fs::path& mjcf, const std::vector<double>& balls,
     // The XML compiler keeps global state (locale, last model).
     static std::mutex compiler_mutex;
     const std::lock_guard lock(compiler_mutex);
-    const Listen listen(&warnings_);
+    const WarningScope scope(&warnings_);
     model_ = mj_loadXML(file.c_str(), nullptr, message, sizeof(message));
   }
   if (model_ == nullptr) throw core::Error(message, mjcf.string());
@@ -99,7 +98,7 @@ MujocoScene::~MujocoScene() {
 }
 
 void MujocoScene::Step() {
-  const Listen listen(&warnings_);
+  const WarningScope scope(&warnings_);
   mj_step(model_, data_);
 }
 

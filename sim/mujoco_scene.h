@@ -9,15 +9,15 @@ struct mjData_;
 
 namespace simwright::sim {
 
-// An MJCF file of an asset over the floor z = 0, beside any number of probe balls, compiled. One
-// thread a scene. MuJoCo's body 0 is the world, 1 is the asset's root.
+// A compiled MJCF file of an asset above the floor z = 0, beside any number of probe balls. One
+// thread per scene. MuJoCo's body 0 is the world, 1 is the asset's root.
 class MujocoScene {
  public:
-  // kOwn: the file is a whole world and is loaded as it is, without balls.
+  // kOwn: the file is a complete world and is loaded unchanged, without balls.
   enum class Ground { kAdded, kOwn };
 
   // `balls` are radii (m) of free spheres of 1000 kg/m^3. Throws core::Error with MuJoCo's own
-  // words where the file does not compile.
+  // message if the file does not compile.
   explicit MujocoScene(const std::filesystem::path& mjcf, const std::vector<double>& balls = {},
                        Ground ground = Ground::kAdded);
   ~MujocoScene();
@@ -26,7 +26,7 @@ class MujocoScene {
 
   mjModel_* model() const { return model_; }
   mjData_* data() const { return data_; }
-  // What MuJoCo warned of while loading and stepping, in its own words.
+  // Returns MuJoCo's own warnings from loading and stepping.
   const std::vector<std::string>& warnings() const { return warnings_; }
   void Step();
 

@@ -23,13 +23,13 @@ Isometry3d PoseFrom(const double* place, const double* turn) {
 }
 
 // A body with a free joint.
-struct Watched {
-  int body = 0, position = 0;  // position: of its pose in qpos
+struct FreeBody {
+  int body = 0, position = 0;  // position: index of its pose in qpos
   Vector3d center;             // of mass, in the body's frame
   double radius = 0.0;         // m from there to its farthest vertex
 };
 
-// m, of what touches.
+// Returns the radius (m) of the colliding geoms around `center`.
 double RadiusOf(const mjModel& model, int body, const Vector3d& center) {
   double radius = 0.0;
   for (int i = 0; i < model.body_geomnum[body]; ++i) {
@@ -52,12 +52,12 @@ double RadiusOf(const mjModel& model, int body, const Vector3d& center) {
   return radius;
 }
 
-std::vector<Watched> FreeBodies(const mjModel& model) {
-  std::vector<Watched> bodies;
+std::vector<FreeBody> FreeBodies(const mjModel& model) {
+  std::vector<FreeBody> bodies;
   for (int body = 1; body < model.nbody; ++body) {
     const int joint = model.body_jntadr[body];
     if (joint < 0 || model.jnt_type[joint] != mjJNT_FREE) continue;
-    Watched one;
+    FreeBody one;
     one.body = body;
     one.position = model.jnt_qposadr[joint];
     one.center = Eigen::Map<const Vector3d>(model.body_ipos + 3 * body);
@@ -67,12 +67,12 @@ std::vector<Watched> FreeBodies(const mjModel& model) {
   return bodies;
 }
 
-// Steps the world and measures ways from where its bodies last were marked.
-class Watch {
+// Steps the world and measures displacements from marked poses.
+class StabilityCheck {
  public:
-  explicit Watch(const std::filesystem::path& mjcf)
+  explicit StabilityCheck(const std::filesystem::path& mjcf)
       : scene_(mjcf, {}, MujocoScene::Ground::kOwn), bodies_(FreeBodies(*scene_.model())) {
-    for (const Watched& one : bodies_) {
+    for (const FreeBody& one : bodies_) {
       const char* const name = mj_id2name(scene_.model(), mjOBJ_BODY, one.body);
       result_.bodies.push_back({name != nullptr ? name : "", 0.0, 0.0});
     }
@@ -81,7 +81,7 @@ class Watch {
   MujocoStillness Run(const StillnessOptions& options) {
     Mark();
     StepUntil(options.settle, false);
-    for (size_t i = 0; i < bodies_.size(); ++i) result_.bodies[i].settled = WayOf(i);
+    for (size_t i = 0; i < bodies_.size(); ++i) result_.bodies[i].settled = DisplacementOf(i);
     Mark();
     StepUntil(options.settle + options.watch, true);
     result_.warnings = scene_.warnings();
@@ -94,10 +94,10 @@ class Watch {
     return PoseFrom(q, q + 3);
   }
 
-  double WayOf(size_t index) const {
-    const Watched& one = bodies_[index];
-    const double way = FarthestWay(one.center, one.radius, marks_[index], PoseOf(index));
-    return std::isfinite(way) ? way : HUGE_VAL;
+  double DisplacementOf(size_t index) const {
+    const FreeBody& one = bodies_[index];
+    const double displacement = FarthestWay(one.center, one.radius, marks_[index], PoseOf(index));
+    return std::isfinite(displacement) ? displacement : HUGE_VAL;
   }
 
   void Mark() {
@@ -105,36 +105,36 @@ class Watch {
     for (size_t i = 0; i < bodies_.size(); ++i) marks_.push_back(PoseOf(i));
   }
 
-  void StepUntil(double time, bool watched) {
+  void StepUntil(double time, bool measure) {
     const mjData& data = *scene_.data();
     const double step = scene_.model()->opt.timestep;
-    // Counted, not read off the clock: MuJoCo sets its clock back where a world has burst.
-    const auto steps = static_cast<int>(std::lround((time - passed_) / step));
-    passed_ = time;
+    // Counts steps instead of reading the clock: MuJoCo resets its clock when a world diverges.
+    const auto steps = static_cast<int>(std::lround((time - elapsed_) / step));
+    elapsed_ = time;
     for (int i = 0; i < steps; ++i) {
       scene_.Step();
       result_.contacts = std::max(result_.contacts, data.ncon);
       result_.rows = std::max(result_.rows, data.nefc);
       if (i % 100 == 0) core::CheckCancelled();
-      for (size_t b = 0; watched && b < bodies_.size(); ++b) {
-        result_.bodies[b].drift = std::max(result_.bodies[b].drift, WayOf(b));
+      for (size_t b = 0; measure && b < bodies_.size(); ++b) {
+        result_.bodies[b].drift = std::max(result_.bodies[b].drift, DisplacementOf(b));
       }
     }
   }
 
   MujocoScene scene_;
-  std::vector<Watched> bodies_;
+  std::vector<FreeBody> bodies_;
   std::vector<Isometry3d> marks_;
-  double passed_ = 0.0;  // s
+  double elapsed_ = 0.0;  // s
   MujocoStillness result_;
 };
 
 }  // namespace
 
 bool StillnessOptions::IsValid(std::string* error) const {
-  const auto lasts = [](double time) { return time >= 0.0 && time <= 3600.0; };
-  if (lasts(settle) && lasts(watch)) return true;
-  *error = "settle and watch have to be 0 to 3600 s";
+  const auto is_duration = [](double time) { return time >= 0.0 && time <= 3600.0; };
+  if (is_duration(settle) && is_duration(watch)) return true;
+  *error = "settle and watch must be 0 to 3600 s";
   return false;
 }
 
@@ -147,8 +147,8 @@ const BodyMotion* MujocoStillness::Farthest() const {
 
 MujocoStillness WatchInMujoco(const std::filesystem::path& mjcf, const StillnessOptions& options) {
   std::string error;
-  if (!options.IsValid(&error)) throw core::Error("stillness: " + error);
-  return Watch(mjcf).Run(options);
+  if (!options.IsValid(&error)) throw core::Error("stability check: " + error);
+  return StabilityCheck(mjcf).Run(options);
 }
 
 }  // namespace simwright::sim

@@ -7,32 +7,33 @@
 namespace simwright::sim {
 
 struct StillnessOptions {
-  // s before the watch. MuJoCo's contacts are springs of 5 ms and soft by some micrometres: what a
-  // scene leaves between things, up to 0.1 mm, closes in that time; nothing that falls is missed.
+  // The settling time (s) before the measurement. MuJoCo's contacts are springs of 5 ms and soft by
+  // some micrometres: gaps of up to 0.1 mm between objects close in that time, and falling objects
+  // are still detected.
   double settle = 0.25;
   double watch = 2.0;  // s
 
   bool IsValid(std::string* error) const;
 };
 
-// A point's way is that of its centre of mass, and of the body's farthest vertex as it turns.
+// The motion of a body. Displacements are the largest of any of its points (FarthestWay).
 struct BodyMotion {
   std::string name;
-  double settled = 0.0;  // m from where the file has it to where it was after `settle`
-  double drift = 0.0;  // m, the farthest it was from there while it was watched; HUGE_VAL: nowhere
+  double settled = 0.0;  // m, displacement from the pose in the file during `settle`
+  double drift = 0.0;    // m, largest displacement during `watch`; HUGE_VAL: not finite
 };
 
 struct MujocoStillness {
-  std::vector<BodyMotion> bodies;     // what has a free joint, in the file's order
-  std::vector<std::string> warnings;  // MuJoCo's own, while loading and stepping
-  int contacts = 0, rows = 0;         // the most that there were at once, of constraints too
+  std::vector<BodyMotion> bodies;     // bodies with a free joint, in the file's order
+  std::vector<std::string> warnings;  // MuJoCo's own, from loading and stepping
+  int contacts = 0, rows = 0;         // the largest numbers of contacts and constraints
 
-  // The body that drifted most; null without any.
+  // Returns the body with the largest drift; null without bodies.
   const BodyMotion* Farthest() const;
 };
 
-// Runs the world of an MJCF file, as it is, in MuJoCo. Throws core::Error in MuJoCo's own words
-// where it does not compile, and for options that are not valid.
+// Checks the stability of the unchanged world of an MJCF file in MuJoCo. Throws core::Error with
+// MuJoCo's own message if the file does not compile, and for invalid options.
 MujocoStillness WatchInMujoco(const std::filesystem::path& mjcf,
                               const StillnessOptions& options = {});
 

@@ -4,8 +4,8 @@
 
 namespace simwright::sim {
 
-// m that any point of a body, no farther than `radius` from its centre of mass, has moved by from
-// one pose (world_from_body) to another; an upper bound. `center` in the body's frame.
+// Returns an upper bound (m) of the displacement of any point of a body, no farther than `radius`
+// from its centre of mass, between two poses (world_from_body). `center` in the body's frame.
 double FarthestWay(const Eigen::Vector3d& center, double radius, const Eigen::Isometry3d& from,
                    const Eigen::Isometry3d& to);
 

@@ -15,13 +15,14 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-double Way(const RigidBody& body, double radius, const Isometry3d& from, const Isometry3d& to) {
+double Displacement(const RigidBody& body, double radius, const Isometry3d& from,
+                    const Isometry3d& to) {
   return FarthestWay(body.inertial.center_of_mass, radius, from, to);
 }
 
 void Load(const std::vector<SettlingBody>& bodies, World* world) {
   for (const SettlingBody& one : bodies) {
-    if (!one.body) throw core::Error("a thing that settles needs a body");
+    if (!one.body) throw core::Error("an object to settle needs a body");
     if (!one.world_from_body.matrix().allFinite()) {
       throw core::Error("its pose is not finite", one.body->name);
     }
@@ -35,25 +36,25 @@ bool HasFallen(const SettlingBody& one, const Isometry3d& now, double fallen) {
   return (one.world_from_body * center - now * center).z() > fallen;
 }
 
-// Where a free body is once it has settled.
-SettledBody EndOf(const SettlingBody& one, const Isometry3d& now, double fallen) {
+// Returns the result for a free body after settling.
+SettledBody ResultOf(const SettlingBody& one, const Isometry3d& now, double fallen) {
   SettledBody end;
   end.world_from_body = now;
-  end.moved = Way(*one.body, Radius(*one.body), one.world_from_body, now);
+  end.moved = Displacement(*one.body, Radius(*one.body), one.world_from_body, now);
   end.tilted = TiltBetween(one.world_from_body, now);
   end.fell = HasFallen(one, now, fallen);
   return end;
 }
 
-constexpr double kFloorReach = 0.05;    // m
-constexpr double kLook = 0.05;          // s between two looks
-constexpr double kRestFor = 0.1;        // s without a motion: at rest
-constexpr double kWatchAtLeast = 0.25;  // s
+constexpr double kFloorReach = 0.05;     // m
+constexpr double kCheckInterval = 0.05;  // s between two checks
+constexpr double kRestInterval = 0.1;    // s without motion: at rest
+constexpr double kShortestCheck = 0.25;  // s
 
-// A world with the things of a scene in it, stepped until they rest and then watched.
-class Scene {
+// A world with the bodies of a scene, stepped until they rest and then checked for stability.
+class Simulation {
  public:
-  Scene(const std::vector<SettlingBody>& bodies, const SettlingOptions& options)
+  Simulation(const std::vector<SettlingBody>& bodies, const SettlingOptions& options)
       : bodies_(bodies), options_(options), world_(OptionsOf(options)), removed_(bodies.size(), 0) {
     Load(bodies, &world_);
     for (const SettlingBody& one : bodies) radii_.push_back(Radius(*one.body));
@@ -67,10 +68,11 @@ class Scene {
     for (size_t i = 0; i < bodies_.size(); ++i) {
       SettledBody stays;
       stays.world_from_body = bodies_[i].world_from_body;
-      settled.push_back(bodies_[i].fixed ? stays : EndOf(bodies_[i], PoseOf(i), options_.fallen));
+      settled.push_back(bodies_[i].fixed ? stays
+                                         : ResultOf(bodies_[i], PoseOf(i), options_.fallen));
     }
-    world_.Rest();  // what contacts have learned on the way may hold what slips without
-    Watch(&settled);
+    world_.Rest();  // cached contact impulses may hold an object that slips without them
+    CheckStability(&settled);
     for (size_t i = 0; i < settled.size(); ++i) {
       if (removed_[i]) settled[i].drift = HUGE_VAL;
       settled[i].stable = settled[i].drift <= options_.stable;
@@ -95,13 +97,13 @@ class Scene {
     for (int i = 0; i < std::max(1, steps); ++i) world_.Step();
   }
 
-  // The farthest that any free body is from where it was; HUGE_VAL where one is nowhere.
-  double FarthestFrom(const std::vector<Isometry3d>& poses) const {
+  // Returns the largest displacement of any free body; HUGE_VAL if one is not finite.
+  double LargestDisplacement(const std::vector<Isometry3d>& poses) const {
     double farthest = 0.0;
     for (size_t i = 0; i < bodies_.size(); ++i) {
       if (bodies_[i].fixed || removed_[i]) continue;
-      const double way = Way(*bodies_[i].body, radii_[i], poses[i], PoseOf(i));
-      farthest = std::isfinite(way) ? std::max(farthest, way) : HUGE_VAL;
+      const double displacement = Displacement(*bodies_[i].body, radii_[i], poses[i], PoseOf(i));
+      farthest = std::isfinite(displacement) ? std::max(farthest, displacement) : HUGE_VAL;
     }
     return farthest;
   }
@@ -120,8 +122,8 @@ class Scene {
     }
   }
 
-  // Leaves gravity as it was.
-  void Sway() {
+  // Tilts gravity once around, then restores it.
+  void TiltGravity() {
     const double down = WorldOptions().gravity;
     const int steps = static_cast<int>(std::lround(options_.sway_time / options_.time_step));
     for (int i = 0; i < steps; ++i) {
@@ -134,41 +136,42 @@ class Scene {
   }
 
   void Settle() {
-    double passed = 0.0;
+    double elapsed = 0.0;
     if (options_.sway > 0.0 && options_.sway_time < options_.duration) {
-      Sway();
-      passed = options_.sway_time;
+      TiltGravity();
+      elapsed = options_.sway_time;
     }
     std::vector<Isometry3d> before = Poses();
-    while (passed < options_.duration - 1e-9) {
-      const double some = std::min(kRestFor, options_.duration - passed);
-      Step(some);
-      passed += some;
+    while (elapsed < options_.duration - 1e-9) {
+      const double interval = std::min(kRestInterval, options_.duration - elapsed);
+      Step(interval);
+      elapsed += interval;
       if (options_.resting > 0.0) {
         RemoveFallen();
-        if (FarthestFrom(before) <= options_.resting) return;
+        if (LargestDisplacement(before) <= options_.resting) return;
       }
       before = Poses();
     }
   }
 
-  void Watch(std::vector<SettledBody>* settled) {
-    double passed = 0.0, farthest = 0.0;
-    while (passed < options_.watch - 1e-9) {
-      const double some = std::min(kLook, options_.watch - passed);
-      Step(some);
-      passed += some;
+  void CheckStability(std::vector<SettledBody>* settled) {
+    double elapsed = 0.0, farthest = 0.0;
+    while (elapsed < options_.watch - 1e-9) {
+      const double interval = std::min(kCheckInterval, options_.watch - elapsed);
+      Step(interval);
+      elapsed += interval;
       for (size_t i = 0; i < bodies_.size(); ++i) {
         if (bodies_[i].fixed || removed_[i]) continue;
         SettledBody& one = (*settled)[i];
-        const double way = Way(*bodies_[i].body, radii_[i], one.world_from_body, PoseOf(i));
-        one.drift = std::isfinite(way) ? std::max(one.drift, way) : HUGE_VAL;
+        const double displacement =
+            Displacement(*bodies_[i].body, radii_[i], one.world_from_body, PoseOf(i));
+        one.drift = std::isfinite(displacement) ? std::max(one.drift, displacement) : HUGE_VAL;
         farthest = std::max(farthest, one.drift);
       }
-      const double rest = options_.watch / passed;
-      const double pace = 1.0 + (options_.pace - 1.0) * (1.0 - passed / options_.watch);
+      const double rest = options_.watch / elapsed;
+      const double pace = 1.0 + (options_.pace - 1.0) * (1.0 - elapsed / options_.watch);
       const bool still =
-          passed >= kWatchAtLeast - 1e-9 && farthest * rest * pace <= options_.stable;
+          elapsed >= kShortestCheck - 1e-9 && farthest * rest * pace <= options_.stable;
       const bool decided = still || farthest > options_.stable;
       if (options_.pace <= 0.0 || !decided) continue;
       for (SettledBody& one : *settled) one.drift *= rest;
@@ -190,19 +193,21 @@ bool SettlingOptions::IsValid(std::string* error) const {
     *error = what;
     return false;
   };
-  if (!(duration >= 0.0) || duration > 3600.0) return fails("duration has to be 0 to 3600 s");
-  if (!(watch >= 0.0) || watch > 3600.0) return fails("watch has to be 0 to 3600 s");
-  if (!(time_step > 0.0) || time_step > 0.02) return fails("time_step has to be 0 to 0.02 s");
-  if (solver_iterations < 1) return fails("solver_iterations has to be at least 1");
-  if (!(sway >= 0.0) || sway > 0.5) return fails("sway has to be 0 to 0.5 rad");
-  if (!(settling_friction >= 0.0) || settling_friction > 10.0) {
-    return fails("settling_friction has to be 0 to 10");
+  if (!(duration >= 0.0) || duration > 3600.0) return fails("duration must be 0 to 3600 s");
+  if (!(watch >= 0.0) || watch > 3600.0) return fails("watch must be 0 to 3600 s");
+  if (!(time_step > 0.0) || time_step > 0.02) {
+    return fails("time_step must be above 0 and at most 0.02 s");
   }
-  if (!(sway_time >= 0.0)) return fails("sway_time has to be at least 0 s");
-  if (!(stable > 0.0)) return fails("stable has to be above 0 m");
-  if (!(resting >= 0.0)) return fails("resting has to be at least 0 m");
-  if (!(pace >= 0.0)) return fails("pace has to be at least 0");
-  if (!(fallen > 0.0)) return fails("fallen has to be above 0 m");
+  if (solver_iterations < 1) return fails("solver_iterations must be at least 1");
+  if (!(sway >= 0.0) || sway > 0.5) return fails("sway must be 0 to 0.5 rad");
+  if (!(settling_friction >= 0.0) || settling_friction > 10.0) {
+    return fails("settling_friction must be 0 to 10");
+  }
+  if (!(sway_time >= 0.0)) return fails("sway_time must be at least 0 s");
+  if (!(stable > 0.0)) return fails("stable must be above 0 m");
+  if (!(resting >= 0.0)) return fails("resting must be at least 0 m");
+  if (!(pace >= 0.0)) return fails("pace must be at least 0");
+  if (!(fallen > 0.0)) return fails("fallen must be above 0 m");
   return true;
 }
 
@@ -210,7 +215,7 @@ std::vector<SettledBody> Settle(const std::vector<SettlingBody>& bodies,
                                 const SettlingOptions& options) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("settling: " + error);
-  return Scene(bodies, options).Run();
+  return Simulation(bodies, options).Run();
 }
 
 }  // namespace simwright::sim

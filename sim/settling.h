@@ -10,7 +10,7 @@
 
 namespace simwright::sim {
 
-// A thing of a scene that is left to gravity.
+// A body of a scene that settles under gravity.
 struct SettlingBody {
   const RigidBody* body = nullptr;  // not null; may be shared
   Eigen::Isometry3d world_from_body = Eigen::Isometry3d::Identity();
@@ -18,51 +18,50 @@ struct SettlingBody {
 };
 
 struct SettlingOptions {
-  double duration = 2.5;  // s: what is off by millimetres has come to rest after that
-  double watch = 2.0;     // s, after it: what moves then is not stable
-  // rad by which gravity leans, once round, in the first `sway_time` (s): what balances tips.
+  double duration = 2.5;  // s; errors of millimetres have settled by then
+  double watch = 2.0;     // s, of the stability check afterwards
+  // The angle (rad) by which gravity tilts, once around, in the first `sway_time` (s): topples
+  // balanced objects.
   double sway = 0.0;
   double sway_time = 0.1;
-  // Share of their friction that things have until they are watched: below 1, what then rests has
-  // friction to spare.
+  // The friction factor during settling: below 1, resting objects have a friction margin.
   double settling_friction = 1.0;
-  // s. Towers of five stand still at 1 ms; at 240 Hz the upper ones creep.
+  // s. Stacks of five are stable at 1 ms; at 240 Hz the upper ones creep.
   double time_step = 1e-3;
   int solver_iterations = 50;
-  double stable = 1e-3;  // m that no point of a stable thing moves while it is watched
-  // m that nothing moves over 0.1 s: then all has settled, whatever is left of `duration`; 0: never
-  // before it has passed. At that pace a thing would be at the limit of `stable` when it has been
-  // watched: whether it creeps on, watching finds.
+  double stable = 1e-3;  // m, largest displacement of a stable object during `watch`
+  // The rest tolerance: settling ends early when no object moves farther than this (m) in 0.1 s; 0:
+  // never early. At that speed an object would reach the limit of `stable` by the end of `watch`,
+  // so that the stability check detects slow creep.
   double resting = 5e-5;
-  // Watching ends after a quarter of a second or more where ways so far would stay below `stable` to
-  // the end, at a multiple of their pace: this one at first, less the less there is to come, 1 at the
-  // end; and wherever one has moved by more. 0: never before `watch` has passed.
+  // The early-stop drift factor: the stability check ends after a quarter of a second or more if
+  // the drift would stay below `stable` until its end at a multiple of its mean speed: this factor
+  // at first, decreasing to 1 at the end; and as soon as one object has drifted farther. 0: never
+  // before the end of `watch`.
   double pace = 4.0;
-  // m below where it began: what is lower has fallen off what it stood on. It is taken out, so that
-  // it knocks nothing down and nobody waits for it to roll to rest; not where `resting` is 0.
+  // m below its initial height: a lower object has fallen off its support. It is removed, so that
+  // it topples nothing and its rolling delays nobody; not if `resting` is 0.
   double fallen = 0.05;
 
   bool IsValid(std::string* error) const;
 };
 
-// What became of it. A point's way is that of its centre of mass, and of the body's farthest vertex
-// as it turns.
+// The result for one body. Displacements are the largest of any of its points (FarthestWay).
 struct SettledBody {
-  Eigen::Isometry3d world_from_body = Eigen::Isometry3d::Identity();  // when it had settled
-  double moved = 0.0;   // m, from the beginning to then
-  double tilted = 0.0;  // rad, its upright from its first one
-  // m, the farthest it was from there while it was watched; where that ended early, at the same
-  // pace to the end. Of what was taken out, HUGE_VAL.
+  Eigen::Isometry3d world_from_body = Eigen::Isometry3d::Identity();  // after settling
+  double moved = 0.0;   // m, displacement from the initial pose
+  double tilted = 0.0;  // rad, tilt of its vertical axis from the initial pose
+  // The largest displacement (m) during the stability check; extrapolated to its end if it ended
+  // early. HUGE_VAL for removed bodies.
   double drift = 0.0;
-  bool fell = false;    // lower than it began, by more than `fallen`
+  bool fell = false;    // it lost more than `fallen` in height
   bool stable = false;  // drift <= options.stable
 };
 
-// Lets things fall and slide in Bullet, over the floor z = 0, until they rest; then watches them,
-// from a start without speed, or contacts that are known already, as whoever loads them will see
-// them. In the order of `bodies`; what is fixed is as it was. Repeatable bit for bit. Throws
-// core::Error for options that are not valid, a free body without a mass, or poses that are not
-// finite.
+// Lets bodies settle under gravity in Bullet, above the floor z = 0, then checks their stability,
+// starting from zero velocities and an empty contact cache, like a simulator that loads the scene.
+// Results are in the order of `bodies`; fixed bodies are unchanged. Bit-identical when repeated.
+// Throws core::Error for invalid options, a free body without a mass, or poses that are not finite.
 std::vector<SettledBody> Settle(const std::vector<SettlingBody>& bodies,
                                 const SettlingOptions& options = {});
 

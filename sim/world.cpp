@@ -18,7 +18,7 @@ struct LoadedBody {
   double friction = 0.0, rolling_friction = 0.0;
 };
 
-// The plane z = 0, its bounds ending `reach` (m) above it.
+// The plane z = 0 with an AABB that ends `reach` (m) above it.
 class Floor : public btStaticPlaneShape {
  public:
   explicit Floor(double reach) : btStaticPlaneShape(btVector3(0, 0, 1), 0), reach_(reach) {}
@@ -43,7 +43,8 @@ struct World::Bullet {
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
   Floor floor_shape;
   std::unique_ptr<btRigidBody> floor;
-  // One for all bodies that are alike: a table has nine steamers, and faces take long to find.
+  // One shape for all bodies with the same description: a table has nine steamers, and the faces of
+  // hulls take long to compute.
   std::map<const RigidBody*, std::unique_ptr<BulletShape>> shapes;
   std::vector<LoadedBody> bodies;
 
@@ -78,12 +79,13 @@ World::World(const WorldOptions& options)
     solver.m_warmstartingFactor = 1.0;
     solver.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
   }
-  solver.m_splitImpulse = 1;  // penetration is mended without adding velocity
-  // The default of 4 cm would let small things sink in before they are pushed out.
+  solver.m_splitImpulse = 1;  // depenetration without added velocity
+  // The default of 4 cm would let small objects sink in before they are depenetrated.
   solver.m_splitImpulsePenetrationThreshold = 0.0;
-  // A hull meets a plane in its deepest vertex alone: without more, a thing on a small facet
-  // trembles for ever. Turned a little each way, it is found to touch in the whole facet; but with
-  // four points held no more are sought, or those of many parts drive each other along the floor.
+  // A hull has only its deepest vertex in contact with a plane: without perturbation, an object on
+  // a small facet trembles forever. Perturbed iterations find the contacts of the whole facet; but
+  // with four cached points no more are searched, or those of many parts drive each other along the
+  // floor.
   bullet_->configuration.setPlaneConvexMultipointIterations(8, 4);
   bullet_->floor_shape.setMargin(0.0);
   btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, &bullet_->floor_shape);
@@ -118,7 +120,7 @@ int World::AddBody(const RigidBody& body, const Eigen::Isometry3d& world_from_bo
   info.m_spinningFriction = body.rolling_friction;
   auto rigid = std::make_unique<btRigidBody>(info);
   rigid->setActivationState(DISABLE_DEACTIVATION);
-  // Sized for the body: Bullet's fixed 2 cm would join contacts of small things.
+  // Scaled to the body: Bullet's fixed 2 cm would merge contacts of small objects.
   rigid->setContactProcessingThreshold(1e30);
   bullet_->world.addRigidBody(rigid.get());
   bullet_->bodies.push_back({&shape, std::move(rigid), body.friction, body.rolling_friction});
@@ -130,11 +132,11 @@ void World::Remove(int body) {
 }
 
 void World::SetGravity(const Eigen::Vector3d& gravity) {
-  bullet_->world.setGravity(ToBullet(gravity));  // all bodies', too
+  bullet_->world.setGravity(ToBullet(gravity));  // also of all bodies
 }
 
 void World::ScaleFriction(double scale) {
-  const double share = std::sqrt(scale);  // Bullet multiplies both sides'
+  const double share = std::sqrt(scale);  // Bullet multiplies the coefficients of both bodies
   for (const LoadedBody& body : bullet_->bodies) {
     body.rigid->setFriction(share * body.friction);
     body.rigid->setRollingFriction(share * body.rolling_friction);
@@ -149,7 +151,7 @@ void World::Rest() {
   for (const LoadedBody& body : bullet_->bodies) {
     body.rigid->setLinearVelocity(zero);
     body.rigid->setAngularVelocity(zero);
-    if (body.rigid->getWorldArrayIndex() < 0) continue;  // taken out
+    if (body.rigid->getWorldArrayIndex() < 0) continue;  // removed
     pairs->cleanProxyFromPairs(body.rigid->getBroadphaseHandle(), &bullet_->dispatcher);
   }
 }

@@ -16,22 +16,21 @@ struct WorldOptions {
   double gravity = 9.81;           // m/s^2, along -z
   double margin = 5e-5;            // m, of each hull: 0.05 mm is stable and leaves no visible gap
   double floor_friction = 1.0;     // Bullet multiplies both sides': the body's own then counts
-  // Of World: contacts begin with all of the last step's impulses and resist across both
-  // directions. A lid that lies still crept by 0.4 mm/s with Bullet's own 0.85 and a single
-  // direction, by 0.15 so, by 0.03 with Bullet's own and 200 iterations, which take three times as
-  // long. Drop tests, whose figures were measured so, keep Bullet's own.
+  // World only: contacts warm-start with all of the last step's impulses and have two friction
+  // directions, which reduces the creep of resting objects. Drop tests keep Bullet's own settings,
+  // with which their figures were measured.
   bool firm_contacts = false;
-  // m over the floor up to which it is held against things: more than a thing falls in a step.
-  // Without end, as Bullet has it, each part of all that stands on a table is held against it in
-  // each step. Drop tests keep that: contacts in another order may end in another rest.
+  // The height (m) of the floor's AABB: more than an object falls in a step. With Bullet's own
+  // infinite bound, each part of all objects on a table is tested against the floor in each step.
+  // Drop tests keep that: another contact order may end in another resting pose.
   double floor_reach = 1e9;
-  // Of ArticulatedWorld: the iterations by CompactSolver; else by Bullet, which it is tested
-  // against and compared with.
+  // ArticulatedWorld only: iterates with CompactSolver instead of Bullet's solver, which serves as
+  // its reference in tests.
   bool compact_solver = true;
 };
 
-// A Bullet world in double precision with the floor z = 0. One thread a world; nothing is shared,
-// so that any number run side by side and each is repeatable bit for bit.
+// A Bullet world in double precision with the floor z = 0. One thread per world; worlds share no
+// state and can run in parallel, and each is bit-identical when repeated.
 class World {
  public:
   explicit World(const WorldOptions& options = {});
@@ -39,27 +38,28 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  // Adds a free body; `body` must outlive the world, as it is: what is added again shares its
-  // shape. Returns its index. Throws core::Error for a body without parts or mass, or with a part
-  // of fewer than four vertices.
+  // Adds a free body; returns its index. `body` must outlive the world unchanged: adding it again
+  // shares its shape. Throws core::Error for a body without parts or mass, or with a part of fewer
+  // than four vertices.
   int Add(const RigidBody& body, const Eigen::Isometry3d& world_from_body);
 
-  // The same, of a body that stays where it is, as welded furniture does; it needs no mass.
+  // Adds a fixed body, such as welded furniture; it needs no mass.
   int AddFixed(const RigidBody& body, const Eigen::Isometry3d& world_from_body);
 
-  // Takes a body out: nothing touches it any more, and it keeps its pose. Once or more.
+  // Removes a body from the collision world; it keeps its pose. May be repeated.
   void Remove(int body);
 
-  // Of any two that touch, to so many times (0 or more) their own, from the next contact on.
+  // Scales the friction coefficient of any two bodies in contact by `scale` (0 or more), for new
+  // contacts.
   void ScaleFriction(double scale);
 
-  // m/s^2, from the next step on.
+  // Sets gravity (m/s^2) from the next step on.
   void SetGravity(const Eigen::Vector3d& gravity);
 
-  // As if all had just been put where it is: at rest, and nothing known of contacts before.
+  // Zeroes velocities and clears the contact cache.
   void Rest();
 
-  // One time step.
+  // Advances by one time step.
   void Step();
 
   Eigen::Isometry3d Pose(int body) const;           // world_from_body
@@ -68,7 +68,7 @@ class World {
   double DeepestPenetration() const;                // m, over all contacts; 0 without any
   double time() const { return time_; }
 
-  // The inertial as the engine holds it, back in the body's frame: what `check` compares.
+  // Returns the inertial as the engine holds it, in the body's frame, for `check`.
   assets::Inertial LoadedInertial(int body) const;
 
  private:

@@ -1,10 +1,11 @@
-// How fast the radiance field is.
+// Measures the speed of the radiance field.
 //   bench_field_speed [--benchmark_filter=REGEX]
 // ForwardBackward: the hash grid and its network, points along random short rays, on all threads;
-// Kernels: the same on one thread, with each instruction set; View: a picture of 64 x 64 rays of 64
-// samples each, drawn and taken back; Adam: a step over all parameters; Fit: the default stage 1
-// from one view, with an objective that draws a 64-pixel picture a step and costs nothing itself;
-// Surface: what comes after it. `items_per_second` are points of the field, parameters, or steps.
+// Kernels: the same on one thread, with each instruction set; View: an image of 64 x 64 rays of 64
+// samples each, rendered and backpropagated; Adam: a step over all parameters; Fit: the default
+// stage 1 from one view, with an objective that renders a 64-pixel image per step and costs nothing
+// itself; Surface: the stage after it. `items_per_second` are points of the field, parameters, or
+// steps.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -33,7 +34,7 @@ RadianceFieldOptions Sized(int levels, int log2_table, int hidden, double scale)
   return options;
 }
 
-// Points as a renderer asks for them: 64 along a ray through the cube's middle.
+// Returns the points of a renderer: 64 along a ray through the cube's middle.
 std::vector<FieldBatch<float>> RayBatches(int count) {
   std::vector<FieldBatch<float>> batches(count);
   core::Rng rng(7);
@@ -100,7 +101,7 @@ BENCHMARK_CAPTURE(Kernels, plain, false)->Unit(benchmark::kMillisecond);
 
 void View(benchmark::State& state) {
   RadianceFieldOptions options;
-  options.density_scale = 0.1;  // a haze: no ray ends early
+  options.density_scale = 0.1;  // thin: no ray terminates early
   const RadianceField field(options, 1);
   PixelRays pixels;
   pixels.AppendPicture(core::OrbitCamera(Eigen::Vector3d::Zero(), 2.0, 0.4, 0.7, 0.35, 64, 64));
@@ -135,7 +136,7 @@ void Adam(benchmark::State& state) {
 }
 BENCHMARK(Adam)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// A grey ball of radius 0.15 from one unit away.
+// Returns a grey ball of radius 0.15 from one unit away.
 ObservedView BallView() {
   ObservedView view;
   constexpr int kSide = 128;
@@ -151,7 +152,7 @@ ObservedView BallView() {
   return view;
 }
 
-// Wants each picture a little brighter where there is something.
+// An objective that makes each image a little brighter where there is density.
 class Brighter : public PictureObjective {
  public:
   core::Camera NextCamera(double, core::Rng* rng) override {

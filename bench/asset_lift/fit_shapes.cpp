@@ -18,7 +18,7 @@ namespace {
 
 using Distance = std::function<double(const Eigen::Vector3d&)>;
 
-// The surface where `inside` (negative inside, m) is 0, in the box of half side `half`.
+// Returns the surface where `inside` (negative inside, m) is 0, in the box of half side `half`.
 core::TriangleMesh Surface(const Distance& inside, double half, int cells) {
   geometry::ScalarGrid grid;
   grid.cell = 2.0 * half / cells;
@@ -75,7 +75,7 @@ double BumpySphere(const Eigen::Vector3d& p) {
          0.01 * std::sin(5.0 * n.x()) * std::cos(4.0 * n.y()) * std::cos(4.5 * n.z() + 1.0);
 }
 
-// A pattern with waves of about a fifth of the thing, and light from above baked in.
+// Returns a pattern with waves of about a fifth of the object, and baked light from above.
 std::vector<Eigen::Vector3f> Pattern(const core::TriangleMesh& mesh) {
   const double wave = 2.0 * std::numbers::pi * 4.0 / core::Bounds(mesh).diagonal().norm();
   const std::vector<Eigen::Vector3d> normals = core::VertexNormals(mesh);
@@ -113,7 +113,7 @@ std::vector<asset_lift::ObservedView> PatternedViews(const core::TriangleMesh& m
   const Eigen::AlignedBox3d box = core::Bounds(mesh);
   constexpr double kFov = 0.6;
   const double distance = 0.54 * box.diagonal().norm() / std::sin(0.5 * kFov);
-  // Evenly over the sphere from 25 deg below to 70 deg above, a golden turn apart.
+  // Uniform over the sphere from 25 deg below to 70 deg above, a golden angle apart.
   const auto elevation = [&](int i) { return std::asin(-0.42 + 1.36 * (i + 0.5) / count); };
   const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
   std::vector<asset_lift::ObservedView> views;

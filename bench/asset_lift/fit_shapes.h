@@ -8,25 +8,26 @@
 
 namespace simwright {
 
-// A thing whose shape is known, and painted so that places can be told apart.
+// An object with a known shape, painted so that its regions can be distinguished.
 struct FitShape {
   std::string name;
   core::TriangleMesh mesh;
   std::vector<std::string> starts;  // of fits: "sphere", "wrap", "hull", "carved"
 };
 
-// Bumpy sphere, torus, mug (hollow, with a handle) and chair, about 0.2 to 1 m.
+// Returns a bumpy sphere, a torus, a mug (hollow, with a handle) and a chair, about 0.2 to 1 m.
 std::vector<FitShape> FitShapes();
 
-// `count` pictures from all round, 25 deg below to 70 deg above, `size` pixels a side, 64
-// samples a pixel, of the mesh with a smooth pattern of colours and baked light. Not lit.
+// Renders `count` images from all sides, 25 deg below to 70 deg above, `size` pixels per side, 64
+// samples per pixel, of the mesh with a smooth colour pattern and baked light. Unlit.
 std::vector<asset_lift::ObservedView> PatternedViews(const core::TriangleMesh& mesh, int count,
                                                      int size);
 
-// A sphere about what the views show, of about 1300 faces.
+// Returns a sphere around the viewed object, with about 1300 faces.
 core::TriangleMesh SphereAbout(const std::vector<asset_lift::ObservedView>& views);
 
-// Mean of the two mean distances between points of one surface and the other, m.
+// Returns the Chamfer distance (m): the mean of the two mean distances between points of one
+// surface and the other.
 double Chamfer(const core::TriangleMesh& one, const core::TriangleMesh& other);
 
 }  // namespace simwright

@@ -26,7 +26,7 @@ const physics_params::Category* CategoryOf(const std::string& name) {
       .category;
 }
 
-// Chroma or a difference that an eye sees at once.
+// A chroma, or a difference, that is clearly visible.
 constexpr float kColorStep = 0.06f;
 
 bool IsColored(const core::TexturedMesh& mesh) {
@@ -87,13 +87,13 @@ std::vector<HeldOutPiece> ReadHeldOut(const fs::path& file) {
     const size_t first = line.find('\t'), second = line.find('\t', first + 1);
     if (first == std::string::npos || second == std::string::npos || first == 0 ||
         line.find('/') < first) {
-      throw core::Error("a line of held-out pieces is: catalogue, id, name, tabs between: " + line,
-                        file.string(), "--choose writes the list anew");
+      throw core::Error("expected catalogue, id and name, separated by tabs: " + line,
+                        file.string(), "--choose writes the list again");
     }
     pieces.push_back({line.substr(0, first), line.substr(first + 1, second - first - 1),
                       line.substr(second + 1)});
   }
-  if (pieces.empty()) throw core::Error("there are no pieces in it", file.string());
+  if (pieces.empty()) throw core::Error("it has no objects", file.string());
   return pieces;
 }
 
@@ -121,8 +121,8 @@ std::vector<CatalogueObject> LoadHeldOut(const std::vector<HeldOutPiece>& pieces
         [&](const auto& piece) { return piece.id == wanted.id && piece.name == wanted.name; });
     const physics_params::Category* category = CategoryOf(wanted.name);
     if (found == catalogue->pieces().end() || category == nullptr) {
-      throw core::Error("no such piece, or no category for it: " + wanted.name, wanted.catalogue,
-                        "--choose writes the list anew");
+      throw core::Error("no such object, or no category for it: " + wanted.name, wanted.catalogue,
+                        "--choose writes the list again");
     }
     objects.push_back({wanted.name, category->name,
                        pipeline::ReadCataloguePiece(*catalogue, *found, nullptr),

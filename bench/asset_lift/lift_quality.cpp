@@ -1,23 +1,24 @@
-// What the lift makes of objects that no training saw, beside an ellipsoid, the inflated outline
-// and the lift without its parts. The objects are held_out.txt's; one photo each, from a random
-// side and 5 to 45 degrees above, its mask and field of view given.
+// Measures the reconstruction of objects that were not used in training, beside an ellipsoid, the
+// inflated silhouette, and the pipeline without its parts. The objects are held_out.txt's; one
+// photo each, from a random azimuth and 5 to 45 degrees above, with its mask and field of view
+// given.
 //   bench_lift_quality [--list FILE] [--count N] [--only NAME] [--variants a,b,c] [--seed S]
 //                      [--true-elevation] [--out FILE.tsv] [--resume]
 //                      [--sheet FILE.png] [--sheet-variant V] [--threads N]
-//   bench_lift_quality --choose [--list FILE] [--limit N]   writes the list anew
+//   bench_lift_quality --choose [--list FILE] [--limit N]   writes the list again
 //   bench_lift_quality --self-test                          of alignment and scores
 //   bench_lift_quality --summary --out FILE.tsv             of a finished table
-// The learned weights are looked for where the program does: $SIMWRIGHT_MODELS, or beside it.
+// The learned weights are searched in the program's own places: $SIMWRIGHT_MODELS, or beside it.
 //
-// Scores, as SF3D's protocol (Boss et al. 2024) has them where it is published: either shape is
-// normalised so that its bounding box's middle is the origin and its longest side spans [-1, 1];
-// rotations are searched by brute force, then closest points are iterated with scale; then Chamfer
-// distance, F at 0.1 and volume IoU. Points are those a ray from outside meets, distances go to the
-// other's triangles, so that two samples of one surface have no distance: a Chamfer distance here
-// is the mean of both directions.
-// Novel views: the lift's texture holds the light of the photo, so it is drawn unlit, and the truth
-// in the photo's light, over white. There the pose is the photo's own, refined: a turn that brings
-// shapes closer may swap front and back.
+// The scores follow SF3D's protocol (Boss et al. 2024) where it is published: both shapes are
+// normalized so that their bounding box is centered at the origin and its longest side spans [-1,
+// 1]; rotations are searched by brute force, then refined by iterated closest points with scale;
+// then Chamfer distance, F at 0.1 and volume IoU. Points are those that a ray from outside hits,
+// distances go to the other shape's triangles, so that two samples of one surface have no distance:
+// a Chamfer distance here is the mean of both directions.
+// For novel views, the reconstructed texture contains the light of the photo, so it is rendered
+// unlit, and the ground truth in the photo's light, on white. There the pose is the photo's own,
+// refined: a rotation that reduces the shape distance may swap front and back.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -41,8 +42,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-// Truths nearer than this to themselves turned count as bodies of revolution: a hundredth of the
-// box's longest side, what faceted glasses and plates have. A mug's handle makes more.
+// The largest distance of a ground truth to its rotated self for a solid of revolution: a hundredth
+// of the box's longest side, as of faceted glasses and plates. A mug's handle exceeds it.
 constexpr double kRevolvedDefect = 0.02;
 
 struct Settings {
@@ -56,10 +57,10 @@ struct Settings {
   bool choose = false, self_test = false, summary = false, resume = false, true_elevation = false;
 };
 
-// All that is known of one object before it is lifted.
+// The ground truth of one object.
 struct Truth {
   const CatalogueObject* object = nullptr;
-  std::string key;  // its name in the table
+  std::string key;  // name in the table
   size_t index = 0;
   MadePhoto made;
   double azimuth = 0.0;  // of the photo's camera, rad
@@ -68,7 +69,7 @@ struct Truth {
   std::vector<core::Image> views;
 };
 
-// In front of plain grey: what is behind an object is not what is measured.
+// Renders the photo on plain grey: segmentation is not measured here.
 MadePhoto PhotoOf(const CatalogueObject& object, std::uint64_t seed, size_t index) {
   core::Rng rng = core::StreamRng(seed, index);
   return MakePhoto(object, {core::Image(64, 64, 3, 128)}, &rng);
@@ -91,7 +92,7 @@ Truth Prepared(const CatalogueObject& object, const std::string& key, size_t ind
   return truth;
 }
 
-// Where the photo's camera puts the lift, refined: for pictures.
+// Renders the reconstruction, placed by the photo's camera and refined.
 std::vector<core::Image> LiftedViews(const Truth& truth, const VariantResult& lifted,
                                      const ComparableShape& shape) {
   const Eigen::Matrix3d truth_from_lift = truth.made.camera.world_from_camera.linear() *
@@ -106,7 +107,7 @@ QualityRow Measured(const Truth& truth, const std::string& variant, const Varian
   QualityRow row;
   try {
     const VariantResult lifted = LiftVariant(variant, *truth.object, truth.made, settings);
-    // Another draw than the truth's, so that no point meets its own twin.
+    // Another sample than the ground truth's, so that no point meets its own twin.
     const ComparableShape shape(lifted.mesh.mesh, settings.seed + 1);
     row.scores = CompareShapes(*truth.shape, shape, Align(*truth.shape, shape));
     const std::vector<core::Image> views = LiftedViews(truth, lifted, shape);
@@ -138,7 +139,7 @@ std::vector<std::string> Split(const std::string& list) {
   for (std::string part; std::getline(stream, part, ',');) {
     const auto& known = LiftVariants();
     if (std::find(known.begin(), known.end(), part) == known.end()) {
-      throw core::Error("there is no such variant of the lift", part);
+      throw core::Error("there is no such variant", part);
     }
     parts.push_back(part);
   }
@@ -188,7 +189,7 @@ Settings ParseSettings(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string flag = argv[i];
     if (SetSwitch(flag, &settings)) continue;
-    if (i + 1 >= argc) throw core::Error("unknown flag, or one that wants a value", flag);
+    if (i + 1 >= argc) throw core::Error("unknown flag, or one that needs a value", flag);
     SetValue(flag, argv[++i], &settings);
   }
   return settings;
@@ -197,11 +198,11 @@ Settings ParseSettings(int argc, char** argv) {
 int Choose(const Settings& settings) {
   const std::vector<HeldOutPiece> pieces = ChooseHeldOut(settings.furniture, settings.limit);
   WriteHeldOut(pieces, settings.list);
-  std::printf("%zu pieces written to %s\n", pieces.size(), settings.list.c_str());
+  std::printf("%zu objects written to %s\n", pieces.size(), settings.list.c_str());
   return 0;
 }
 
-// The chosen objects' places in the list.
+// Returns the list indices of the chosen objects.
 std::vector<size_t> Wanted(const std::vector<HeldOutPiece>& pieces, const Settings& settings) {
   std::vector<size_t> named, wanted;
   for (size_t i = 0; i < pieces.size(); ++i) {
@@ -247,7 +248,7 @@ void MeasureObject(const HeldOutPiece& piece, size_t index, const Settings& sett
 int Run(const Settings& settings) {
   if (settings.choose) return Choose(settings);
   if (settings.summary) {
-    if (!fs::exists(settings.out)) throw core::Error("--summary wants a table", settings.out);
+    if (!fs::exists(settings.out)) throw core::Error("--summary needs a table", settings.out);
     PrintSummary(QualityTable(settings.out, true).rows());
     return 0;
   }
@@ -269,7 +270,7 @@ int Run(const Settings& settings) {
     try {
       MeasureObject(pieces[index], index, settings, variants, sheet, &table);
     } catch (const core::Error& error) {
-      std::fprintf(stderr, "left out: %s: %s\n", pieces[index].name.c_str(), error.what());
+      std::fprintf(stderr, "skipped: %s: %s\n", pieces[index].name.c_str(), error.what());
     }
   }
   PrintSummary(table.rows());

@@ -1,4 +1,4 @@
-// What alignment and scores give where the answer is known by formula.
+// Checks alignment and scores against analytic results.
 #include <cmath>
 #include <cstdio>
 
@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 
-// A body of revolution, `radius(t)` at height z(t) = -cos(pi t) over t in [0, 1], `sides` round.
+// Returns a solid of revolution with `radius(t)` at height z(t) = -cos(pi t) over t in [0, 1], with
+// `sides` sectors.
 template <typename Radius>
 core::TriangleMesh TurnedBody(int sides, int rings, const Radius& radius) {
   core::TriangleMesh mesh;
@@ -35,7 +36,7 @@ core::TriangleMesh Ball() {
   return TurnedBody(96, 64, [](double t) { return std::sin(M_PI * t); });
 }
 
-// As wide as deep; the corners of four sides lie at 45 degrees.
+// Returns a post as wide as deep; the corners of its four sides are at 45 degrees.
 core::TriangleMesh SquarePost() {
   return TurnedBody(4, 16, [](double t) { return t > 0.0 && t < 1.0 ? 0.8 : 0.0; });
 }
@@ -46,7 +47,7 @@ bool Holds(const char* what, double value, double low, double high) {
   return holds;
 }
 
-// A real mesh turned by 47 degrees, tilted, scaled and moved is found again.
+// Checks that a real mesh, rotated by 47 degrees, tilted, scaled and moved, is aligned with itself.
 bool FindsItself(const core::TriangleMesh& sample) {
   core::TriangleMesh other = sample;
   core::Transform(Eigen::Translation3d(3.0, -2.0, 0.5) * Eigen::Scaling(1.7) *
@@ -55,12 +56,12 @@ bool FindsItself(const core::TriangleMesh& sample) {
                   &other);
   const ComparableShape truth(sample, 1), turned(other, 2);
   const ShapeScores scores = CompareShapes(truth, turned, Align(truth, turned));
-  bool holds = Holds("itself turned, tilted, scaled: Chamfer", scores.chamfer, 0.0, 0.003);
-  holds &= Holds("itself turned, tilted, scaled: F@0.1", scores.f_score, 0.999, 1.0);
-  return holds & Holds("itself turned, tilted, scaled: volume IoU", scores.volume_iou, 0.85, 1.0);
+  bool holds = Holds("itself rotated, tilted, scaled: Chamfer", scores.chamfer, 0.0, 0.003);
+  holds &= Holds("itself rotated, tilted, scaled: F@0.1", scores.f_score, 0.999, 1.0);
+  return holds & Holds("itself rotated, tilted, scaled: volume IoU", scores.volume_iou, 0.85, 1.0);
 }
 
-// Balls in one another: distances are the radii's difference, volumes go with the cube.
+// Checks concentric balls: the distance is the difference of radii, volumes scale with the cube.
 bool BallsAgree() {
   const ComparableShape ball(Ball(), 1), other(Ball(), 2);
   const ShapeScores near = CompareShapes(ball, other, Eigen::Affine3d(Eigen::Scaling(1.05)));
@@ -81,7 +82,7 @@ bool MeasuresHold(const core::TriangleMesh& sample) {
   holds &= Holds("turning defect of a square post", TurningDefect(ComparableShape(SquarePost(), 1)),
                  0.05, 0.3);
   const core::Image dark(8, 8, 3, 100), bright(8, 8, 3, 151);
-  return holds & Holds("pictures 51 levels apart: 20 log10(5) = 13.979 dB",
+  return holds & Holds("images 51 levels apart: 20 log10(5) = 13.979 dB",
                        PeakSignalToNoise(dark, bright), 13.97, 13.99);
 }
 

@@ -16,10 +16,10 @@ constexpr double kNear = 0.1;
 constexpr int kIouCells = 80;
 constexpr int kViewSide = 256;
 constexpr double kViewFov = 35.0 * kDegree;
-// A unit box's farthest corner is sqrt(3) from its middle; most shapes reach half as far.
+// A unit box's farthest corner is sqrt(3) from its middle; most shapes extend half as far.
 constexpr double kViewDistance = 5.0;
 
-// Distances of points to a surface, as the surface's frame measures them times `scale`.
+// Returns the distances of points to a surface in its frame, times `scale`.
 std::vector<double> Distances(const std::vector<Eigen::Vector3d>& points,
                               const Eigen::Affine3d& surface_from_points,
                               const geometry::TriangleTree& surface, double scale) {
@@ -113,7 +113,7 @@ std::vector<core::Image> NovelViews(const core::TexturedMesh& in_unit_box, doubl
   options.samples_per_side = 2;
   options.shaded = true;
   options.lit = lit;
-  options.occlusion_rays = lit ? 8 : 0;  // as MakePhoto's
+  options.occlusion_rays = lit ? 8 : 0;  // as in MakePhoto
   std::vector<core::Image> views;
   for (const double round : {45.0, 135.0, 225.0, 315.0}) {
     const core::Camera camera =
@@ -126,7 +126,7 @@ std::vector<core::Image> NovelViews(const core::TexturedMesh& in_unit_box, doubl
 
 double PeakSignalToNoise(const core::Image& a, const core::Image& b) {
   if (a.pixels.size() != b.pixels.size() || a.empty()) {
-    throw core::Error("pictures to compare differ in size");
+    throw core::Error("images to compare differ in size");
   }
   double squared = 0.0;
   for (size_t i = 0; i < a.pixels.size(); ++i) {

@@ -8,20 +8,20 @@
 
 namespace simwright::bench {
 
-// A picture sheet that grows an object at a time: a strip of pictures each, kept as a file of its
-// own in FILE.strips/ so that a run that was cut off goes on.
+// An image sheet that grows by one object at a time: one strip of images each, kept as a file in
+// FILE.strips/ so that an interrupted run can resume.
 class QualitySheet {
  public:
-  // `file` empty: nothing is drawn. Not resumed, older strips are removed.
+  // `file` empty: writes nothing. Without `resume`, removes older strips.
   QualitySheet(const std::filesystem::path& file, bool resume);
 
   bool wanted() const { return !file_.empty(); }
   bool Has(size_t object) const;
-  // The strip of object `object` (its place in the list): the input, the lift's novel views, the
-  // truth's.
+  // Adds the strip of object `object` (its index in the list): the input, the novel views of the
+  // reconstruction, and those of the ground truth.
   void Add(size_t object, const core::Image& input, const std::vector<core::Image>& ours,
            const std::vector<core::Image>& truth) const;
-  // At most `limit` strips, spread over those there are, one below the other.
+  // Writes at most `limit` strips, spread over the available ones, one below the other.
   void Write(size_t limit = 12) const;
 
  private:

@@ -44,7 +44,7 @@ QualityRow Parsed(const std::string& line, const std::string& where) {
   }
   cells.push_back(line.substr(from));
   if (cells.size() != kColumns) {
-    throw core::Error("no table of this program: " + line, where, "run without --resume");
+    throw core::Error("not a table of this program: " + line, where, "run without --resume");
   }
   const auto number = [&](size_t i) { return std::strtod(cells[i].c_str(), nullptr); };
   QualityRow row;
@@ -80,7 +80,7 @@ double Median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-// The mean with the half width of its 95% interval, 1.96 standard errors.
+// A mean with the half width of its 95% interval, 1.96 standard errors.
 struct Spread {
   double mean = NAN, half_width = NAN;
 };
@@ -117,7 +117,8 @@ void PrintVariant(const Rows& rows, const std::string& variant) {
               iou_mean.mean, iou_mean.half_width);
 }
 
-// Where `variant` has the smaller Chamfer distance of the two, on the objects that have both.
+// Prints how often `variant` has the smaller Chamfer distance of the two, on the objects that have
+// both.
 void PrintDuel(const Rows& rows, const std::string& variant, const std::string& rival) {
   std::vector<double> ours, theirs, ratios;
   int wins = 0;
@@ -134,7 +135,7 @@ void PrintDuel(const Rows& rows, const std::string& variant, const std::string& 
   if (ours.empty()) return;
   std::printf(
       "%s against %s: smaller Chamfer on %d of %zu (%.0f%%); "
-      "median of medians' ratio %.3f, median ratio an object %.3f\n",
+      "ratio of medians %.3f, median ratio per object %.3f\n",
       variant.c_str(), rival.c_str(), wins, ours.size(),
       100.0 * wins / static_cast<double>(ours.size()), Median(ours) / Median(theirs),
       Median(ratios));
@@ -169,13 +170,13 @@ QualityTable::QualityTable(const std::filesystem::path& file, bool resume) : fil
     return;
   }
   const std::string text = core::ReadFile(file, 64 << 20);
-  // A run that was killed while it wrote leaves half a line.
+  // A run that was killed while writing leaves an incomplete line.
   const std::string whole = text.substr(0, text.rfind('\n') + 1);
   if (whole.size() != text.size()) core::WriteFile(file, whole);
   std::istringstream lines(whole);
   std::string line;
   if (!std::getline(lines, line) || line != kNames) {
-    throw core::Error("no table of this program", file.string(), "run without --resume");
+    throw core::Error("not a table of this program", file.string(), "run without --resume");
   }
   while (std::getline(lines, line)) rows_.push_back(Parsed(line, file.string()));
 }
@@ -191,7 +192,7 @@ void QualityTable::Add(const QualityRow& row) {
   if (file_.empty()) return;
   std::ofstream out(file_, std::ios::app);
   out << Line(row) << '\n';
-  if (!out.flush()) throw core::Error("cannot be written", file_.string());
+  if (!out.flush()) throw core::Error("cannot write", file_.string());
 }
 
 void PrintRowNames() {
@@ -214,8 +215,8 @@ void PrintSummary(const std::vector<QualityRow>& rows) {
     (row.revolved ? revolved : other).push_back(&row);
   }
   PrintGroup("all objects", all);
-  PrintGroup("bodies of revolution about the vertical", revolved);
-  PrintGroup("no bodies of revolution", other);
+  PrintGroup("solids of revolution about the vertical", revolved);
+  PrintGroup("no solids of revolution", other);
 }
 
 }  // namespace simwright::bench

@@ -22,7 +22,8 @@ asset_lift::LiftOptions OptionsOf(const std::string& variant, const MadePhoto& m
   const double longer = std::max(made.photo.width, made.photo.height);
   options.field_of_view = 2.0 * std::atan(0.5 * longer / made.focal);
   if (settings.true_elevation) {
-    // The camera looks at the box's middle; the lift asks for the sight line to the mask's.
+    // The camera looks at the box's middle; the reconstruction needs the line of sight to the
+    // mask's.
     const double middle = 0.5 * (made.matte.top + made.matte.bottom) - made.camera.cy;
     options.elevation = made.elevation + std::atan(middle / made.focal);
   }
@@ -38,7 +39,8 @@ asset_lift::LiftOptions OptionsOf(const std::string& variant, const MadePhoto& m
   return options;
 }
 
-// The plane across the sight line through the frame's middle: the back repeats the front.
+// Returns the plane across the line of sight through the frame's middle: the back mirrors the
+// front.
 Eigen::Hyperplane<double, 3> PlaneAcross(const asset_lift::ViewFrame& frame) {
   return {frame.Direction(), frame.PointAt(Eigen::Vector3d::Zero())};
 }
@@ -60,8 +62,8 @@ void MakeEllipsoid(asset_lift::LiftedMesh* lifted) {
   lifted->start = "an ellipsoid";
 }
 
-// LiftPhoto keeps the outline as it is where nothing learned is given: here the stages run all the
-// same, to tell what the priors add to them.
+// Fits without priors. LiftPhoto would return the inflated silhouette unchanged; here the stages
+// run anyway, to show the contribution of the priors.
 void FitWithoutPrior(const CatalogueObject& object, const asset_lift::LiftOptions& options,
                      asset_lift::LiftedMesh* lifted) {
   const asset_lift::ViewFrame frame = asset_lift::FrameAround(lifted->matte, lifted->camera, 1.0);
@@ -88,7 +90,7 @@ VariantResult LiftVariant(const std::string& variant, const CatalogueObject& obj
                           const MadePhoto& made, const VariantSettings& settings) {
   const auto& known = LiftVariants();
   if (std::find(known.begin(), known.end(), variant) == known.end()) {
-    throw core::Error("there is no such variant of the lift", variant);
+    throw core::Error("there is no such variant", variant);
   }
   const asset_lift::LiftOptions options = OptionsOf(variant, made, settings);
   const bool learned = options.effort != asset_lift::LiftEffort::kOutline;

@@ -8,36 +8,35 @@
 
 namespace simwright::bench {
 
-// What is compared, a row of the table each:
-//   ellipsoid  fills the outline's box, as deep as its smaller half axis in the picture; mirrored
-//              colours
-//   outline    the inflated outline (LiftEffort::kOutline)
-//   guess      the first guess, not fitted
+// Returns the compared variants, one row of the table each:
+//   ellipsoid  fills the silhouette's bounding box, as deep as its smaller half axis in the image;
+//              mirrored colours
+//   outline    the inflated silhouette (LiftEffort::kOutline)
+//   guess      the initial shape, not fitted
 //   fast       LiftEffort::kFast: no stage 1
 //   stage1     the radiance field's surface, not refined
-//   both       the full lift
-//   no_prior   both stages from the inflated outline and the photo alone: no learned guess, no
-//   score
-//              distillation
+//   both       the full pipeline
+//   no_prior   both stages from the inflated silhouette and the photo alone: no learned initial
+//              shape, no score distillation
 const std::vector<std::string>& LiftVariants();
 
 struct VariantSettings {
   asset_lift::LiftPriors priors;
-  bool true_elevation = false;  // given to the lift, which estimates it otherwise
+  bool true_elevation = false;  // given, instead of estimated
   std::uint64_t seed = 1;
 };
 
-// A variant's result in the lift's world, with the photo's camera there.
+// A variant's result in the reconstruction's world, with the photo's camera.
 struct VariantResult {
   core::TexturedMesh mesh;
   core::Camera camera;
-  double elevation = 0.0;  // rad, that the lift went by
-  double seconds = 0.0;    // wall time of the lift alone
-  std::string start;       // what it started from
+  double elevation = 0.0;  // rad, used by the reconstruction
+  double seconds = 0.0;    // wall time of the reconstruction alone
+  std::string start;       // initial shape
 };
 
-// Lifts a made photo; its mask and field of view are given, so that neither is what is measured.
-// Throws core::Error for an unknown variant, and what LiftPhoto and FitShape throw.
+// Reconstructs a rendered photo; its mask and field of view are given, so that neither is measured.
+// Throws core::Error for an unknown variant, and the errors of LiftPhoto and FitShape.
 VariantResult LiftVariant(const std::string& variant, const CatalogueObject& object,
                           const MadePhoto& made, const VariantSettings& settings);
 

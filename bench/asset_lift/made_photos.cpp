@@ -47,7 +47,7 @@ core::Image RandomBackground(const std::vector<core::Image>& backgrounds, core::
   const int x = static_cast<int>(core::UniformIndex(*rng, whole.width - side + 1));
   const int y = static_cast<int>(core::UniformIndex(*rng, whole.height - side + 1));
   core::Image crop = Cropped(whole, x, y, side, side);
-  // Out of focus: half the size and back.
+  // Blurs: half the size and back.
   crop = core::Resize(core::Resize(crop, kSide / 2, kSide / 2), kSide, kSide);
   if (core::Uniform(*rng) < 0.5) {
     for (int row = 0; row < kSide; ++row) {
@@ -59,7 +59,7 @@ core::Image RandomBackground(const std::vector<core::Image>& backgrounds, core::
   return crop;
 }
 
-// The orbit camera at which the projected vertices' longer side is `fill` of the picture.
+// Returns the orbit camera at which the projected vertices' longer side is `fill` of the image.
 core::Camera CameraThatFills(const core::TriangleMesh& mesh, double elevation, double azimuth,
                              double fill) {
   const Eigen::AlignedBox3d box = core::Bounds(mesh);
@@ -116,7 +116,7 @@ std::vector<CatalogueObject> HouseholdObjects(const std::vector<fs::path>& catal
                            pipeline::ReadCataloguePiece(catalogue, piece, nullptr),
                            pipeline::PriorOf(*found.category)});
       } catch (const core::Error& error) {
-        std::fprintf(stderr, "left out: %s\n", error.what());
+        std::fprintf(stderr, "skipped: %s\n", error.what());
       }
     }
   }
@@ -157,7 +157,9 @@ MadePhoto MakePhoto(const CatalogueObject& object, const std::vector<core::Image
   options.occlusion_rays = 8;
   const render::ForwardBuffers buffers = render::RenderForward(scene, made.camera, options);
   made.matte = MatteOf(buffers);
-  if (made.matte.right <= made.matte.left) throw core::Error("nothing is seen", object.name);
+  if (made.matte.right <= made.matte.left) {
+    throw core::Error("the object is not visible", object.name);
+  }
   made.photo = RandomBackground(backgrounds, rng);
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {

@@ -1,8 +1,8 @@
-// Meshes fitted to 16 pictures (masks and colours, 128 x 128) with known cameras: how far the
-// result is from the true surface, and how long it takes.
+// Fits meshes to 16 images (masks and colours, 128 x 128) with known cameras: the distance of the
+// result from the true surface, and the time.
 //   bench_mesh_fit_gate [NAME] [VIEWS] [PIXELS]
-// Starts: a sphere; the true surface wrapped coarsely (alpha 1/15, offset 1/60 of the diagonal);
-// the visual hull; the hull carved by colour.
+// Initial shapes: a sphere; the true surface wrapped coarsely (alpha 1/15, offset 1/60 of the
+// diagonal); the visual hull; the hull carved by colour.
 // Chamfer: mean of the two mean nearest distances, 20000 points each, over the diagonal.
 #include <chrono>
 #include <cstdio>

@@ -1,5 +1,5 @@
-// What a lift makes of photos whose truth is known: catalogue objects, rendered before photographed
-// surfaces. Prints a row an object and the medians.
+// Measures reconstructions of photos with ground truth: catalogue objects, rendered on photographed
+// surfaces. Prints one row per object and the medians.
 //   bench_outline_quality [--count N] [--seed S] [--sheet FILE.png] [--photos FOLDER]
 //                         [--only NAME] [CATALOGUE.sh3f...]
 // --photos: scikit-image's data folder (Debian: python3-skimage).
@@ -35,14 +35,14 @@ struct Settings {
 struct Row {
   bool made = false;
   std::string refusal;       // of the segmentation
-  double mask_iou = 0.0;     // 0 where refused
+  double mask_iou = 0.0;     // 0 if refused
   double elevation = 0.0;    // degrees, true
-  double error_found = NAN;  // degrees, from the mask found
+  double error_found = NAN;  // degrees, from the segmented mask
   double error_true = NAN;   // degrees, from the true mask
-  double silhouette = NAN;   // of the mesh with the matte it was made from
+  double silhouette = NAN;   // of the mesh with its own matte
   const char* form = "-";
   VolumeOverlaps volume;
-  std::vector<core::Image> pictures;  // photo, cut-out, our mesh
+  std::vector<core::Image> pictures;  // photo, cut-out, mesh
   double seconds = 0.0;
 };
 
@@ -55,7 +55,7 @@ double MaskIou(const core::Image& a, const core::Image& b) {
   return either > 0.0 ? both / either : 0.0;
 }
 
-// As LiftPhoto estimates it.
+// Estimates the elevation as LiftPhoto does.
 double EstimatedElevation(const asset_lift::Matte& matte, const MadePhoto& made,
                           const asset_lift::CategoryPrior& prior) {
   asset_lift::ElevationEstimate estimate = asset_lift::EstimateElevation(matte, prior);
@@ -65,7 +65,7 @@ double EstimatedElevation(const asset_lift::Matte& matte, const MadePhoto& made,
   return std::clamp(estimate.elevation, 0.03, 1.5);
 }
 
-// The photo's camera in the lift's world, its axis tilted as the true camera's is.
+// Returns the photo's camera in the reconstruction's world, tilted like the true camera.
 core::Camera TrueLiftCamera(const MadePhoto& made) {
   const double middle = 0.5 * (made.matte.top + made.matte.bottom) - made.camera.cy;
   return asset_lift::PhotoCamera(made.matte, made.focal,
@@ -105,7 +105,7 @@ core::Image Drawn(const core::TriangleMesh& mesh, const core::Camera& camera) {
   return opaque;
 }
 
-// Both masks given to the lift's own steps.
+// Runs the pipeline's own steps on both masks.
 void Lift(const CatalogueObject& object, const MadePhoto& made, Row* row) {
   core::Image alpha(made.photo.width, made.photo.height, 1);
   try {
@@ -133,7 +133,7 @@ void Compare(const CatalogueObject& object, const MadePhoto& made, std::uint64_t
   const asset_lift::InflatedShape shape =
       asset_lift::InflateOutline(made.matte, camera, object.prior);
   row->form = asset_lift::Name(shape.form);
-  // A volume to a few percent needs no fine grid.
+  // A coarse grid suffices for volumes to a few percent.
   geometry::SolidOptions coarse;
   coarse.cell_ratio = 0.006;
   coarse.tolerance_ratio = 0.012;
@@ -158,7 +158,7 @@ Row Measure(const CatalogueObject& object, const std::vector<core::Image>& backg
     Compare(object, made, seed, &row);
     row.made = true;
   } catch (const core::Error& error) {
-    std::fprintf(stderr, "left out: %s: %s\n", object.name.c_str(), error.what());
+    std::fprintf(stderr, "skipped: %s: %s\n", object.name.c_str(), error.what());
   }
   row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::fprintf(stderr, "%3d %s: mask %.3f, elevation error %.1f, volume %.3f %.3f %.3f\n", index,
@@ -214,7 +214,7 @@ void PrintMedians(const std::vector<Row>& rows) {
               median([](const Row& r) { return r.volume.extrusion; }));
 }
 
-// Ten rows, spread over the objects: photo, cut-out, mesh from the true mask.
+// Writes ten rows, spread over the objects: photo, cut-out, mesh from the true mask.
 void WriteSheet(const std::vector<Row>& rows, const std::string& file) {
   std::vector<const Row*> made;
   for (const Row& row : rows) {
@@ -238,7 +238,7 @@ Settings ParseSettings(int argc, char** argv) {
       settings.catalogues.emplace_back(flag);
       continue;
     }
-    if (i + 1 >= argc) throw core::Error("wants a value", flag);
+    if (i + 1 >= argc) throw core::Error("needs a value", flag);
     const std::string value = argv[++i];
     if (flag == "--count")
       settings.count = std::atoi(value.c_str());

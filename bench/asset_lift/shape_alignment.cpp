@@ -13,10 +13,10 @@ namespace simwright::bench {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr int kRays = 15000;        // two ends each: some 20,000 points that measure
-constexpr int kTreePoints = 8000;   // that are searched when aligning
-constexpr int kSearchPoints = 300;  // a candidate rotation is judged by
-constexpr int kFitPoints = 2000;    // that closest points are iterated on
+constexpr int kRays = 15000;        // two hits each: about 20,000 points for the scores
+constexpr int kTreePoints = 8000;   // in the tree for the alignment
+constexpr int kSearchPoints = 300;  // to score a candidate rotation
+constexpr int kFitPoints = 2000;    // for iterated closest points
 constexpr int kRefined = 8;
 constexpr int kIterations = 40;
 
@@ -32,7 +32,7 @@ size_t Used(const std::vector<Eigen::Vector3d>& points, int count) {
   return std::min(points.size(), static_cast<size_t>(count));
 }
 
-// The box of the rotated points made the normalised frame.
+// Returns the map from the box of the rotated points to the normalized frame.
 Eigen::Affine3d Turned(const ComparableShape& shape, const Eigen::Matrix3d& rotation) {
   Eigen::AlignedBox3d box;
   for (size_t i = 0; i < Used(shape.points(), kFitPoints); ++i) {
@@ -41,7 +41,7 @@ Eigen::Affine3d Turned(const ComparableShape& shape, const Eigen::Matrix3d& rota
   return ToUnitBox(box) * Eigen::Affine3d(rotation);
 }
 
-// Mean of both directions' mean distances between points.
+// Returns the mean of both directions' mean distances between points.
 double PointChamfer(const ComparableShape& truth, const ComparableShape& other,
                     const Eigen::Affine3d& truth_from_other, int count) {
   const Eigen::Affine3d other_from_truth = truth_from_other.inverse();
@@ -63,8 +63,8 @@ struct Pairs {
   Eigen::Matrix3Xd other, truth;
 };
 
-// Closest points from either side: from one alone, a smaller copy inside fits perfectly. Returns
-// the Chamfer distance at the map they were found by.
+// Finds closest points in both directions: with one alone, a smaller copy inside fits perfectly.
+// Returns the Chamfer distance at the map for which they were found.
 double FindPairs(const ComparableShape& truth, const ComparableShape& other,
                  const Eigen::Affine3d& truth_from_other, Pairs* pairs) {
   const Eigen::Affine3d other_from_truth = truth_from_other.inverse();
@@ -115,7 +115,7 @@ Candidate Refined(const ComparableShape& truth, const ComparableShape& other,
     const double chamfer = FindPairs(truth, other, now, &pairs);
     if (chamfer < best.chamfer) best = {now, chamfer};
     const Eigen::Affine3d next = FitSimilarity(pairs);
-    // Far below what points of this spacing can tell.
+    // Far below the resolution of points of this spacing.
     if ((next.matrix() - now.matrix()).norm() < 1e-4) break;
     now = next;
   }
@@ -187,7 +187,7 @@ void PointTree::Search(size_t first, size_t last, const Eigen::Vector3d& p, doub
       *best = middle;
     }
     const double beyond = p[axes_[middle]] - points_[middle][axes_[middle]];
-    // The near side by recursion, the far side by going round, where it can still be nearer.
+    // Searches the near side by recursion and the far side iteratively, if it can be nearer.
     if (beyond < 0.0) {
       Search(first, middle, p, squared, best);
       first = middle + 1;
@@ -206,8 +206,9 @@ const Eigen::Vector3d& PointTree::Nearest(const Eigen::Vector3d& p) const {
   return points_[best];
 }
 
-// Catalogue pieces are shells with cracks, often without an underside: what they stand for is
-// filled where neither an opening of a twentieth of the side leads, nor the floor it stands on.
+// Returns options for catalogue objects, which are shells with cracks, often without an underside:
+// the interior that is accessible neither through an opening of a twentieth of the side nor from
+// the floor is filled.
 geometry::VoxelSolidOptions SolidOptions() {
   geometry::VoxelSolidOptions options;
   options.resolution = 96;
@@ -223,12 +224,12 @@ ComparableShape::ComparableShape(const core::TriangleMesh& mesh, std::uint64_t s
     for (int k = 0; k < 3; ++k) box.extend(mesh.vertices[static_cast<size_t>(triangle[k])]);
   }
   if (box.isEmpty() || !(box.sizes().maxCoeff() > 0.0)) {
-    throw core::Error("a mesh without extent compares with nothing");
+    throw core::Error("a mesh without extent cannot be compared");
   }
   normal_from_mesh_ = ToUnitBox(box);
   core::Transform(normal_from_mesh_, &mesh_);
   points_ = geometry::SampleOuterSurface(mesh_, kRays, seed);
-  if (points_.size() < 100) throw core::Error("hardly any ray meets the mesh");
+  if (points_.size() < 100) throw core::Error("hardly any ray hits the mesh");
   tree_ = std::make_unique<PointTree>(std::vector<Eigen::Vector3d>(
       points_.begin(), points_.begin() + static_cast<long>(Used(points_, kTreePoints))));
   surface_ = std::make_unique<geometry::TriangleTree>(mesh_);

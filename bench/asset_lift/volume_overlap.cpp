@@ -11,7 +11,7 @@
 namespace simwright::bench {
 namespace {
 
-// In the camera's frame, the middle of the depths at `depth`.
+// Moves the mesh to the camera's frame, with the middle of its depths at `depth`.
 core::TexturedMesh InCamera(const core::TriangleMesh& mesh, const core::Camera& camera,
                             double depth) {
   core::TexturedMesh placed;
@@ -89,7 +89,7 @@ VolumeOverlaps CompareVolumes(const core::TriangleMesh& truth, const core::Trian
   const ClosedMesh true_solid(InCamera(truth, camera, depth));
   const ClosedMesh our_solid(InCamera(ours, camera, depth));
   const MaskEllipse ellipse = FitEllipse(matte);
-  const double metre = depth / camera.fx;  // a pixel at `depth`
+  const double metre = depth / camera.fx;  // m per pixel at `depth`
   const double half_depth = ellipse.half[0] * metre;
   Eigen::AlignedBox3d box = true_solid.bounds().merged(our_solid.bounds());
   for (const double z : {depth - half_depth, depth + half_depth}) {

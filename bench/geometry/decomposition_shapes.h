@@ -14,7 +14,8 @@ struct NamedSolid {
   core::TriangleMesh mesh;
 };
 
-// The solid where `distance` is negative, thinned to 4000 faces: what all methods get to see.
+// Returns the solid where `distance` is negative, simplified to 4000 faces: the input of all
+// methods.
 inline core::TriangleMesh Smooth(const Eigen::AlignedBox3d& box, double cell,
                                  const std::function<double(const Eigen::Vector3d&)>& distance) {
   geometry::SimplifyOptions options;

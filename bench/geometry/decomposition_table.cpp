@@ -1,9 +1,10 @@
-// Our convex decomposition against Bullet's HACD and, where a Python with coacd is named, CoACD, at
-// the same number of parts, all judged by geometry/concavity.h on the same solids.
+// Compares this project's convex decomposition with Bullet's HACD and, if a Python with coacd is
+// given, CoACD, at the same number of parts, all measured by geometry/concavity.h on the same
+// solids.
 //   bench_decomposition_table [--coacd PYTHON] [--iterations N] [--folder DIR] [--only NAME]
 // CoACD runs with its threshold of 0.05; its number of parts is the limit for the other two.
 // Without it the limit is the number of parts that ours needs at 0.05. Solids and CoACD's parts
-// stay in DIR, and parts found there are read instead of made again.
+// stay in DIR, and existing parts are read instead of computed again.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -61,8 +62,8 @@ Row Hacd(const core::TriangleMesh& mesh, int parts) {
   hacd.SetNPoints(points.size());
   hacd.SetTriangles(triangles.data());
   hacd.SetNTriangles(triangles.size());
-  // As in Bullet's own example, but for a concavity without bound: it joins clusters until there
-  // are no more than asked for.
+  // The settings of Bullet's own example, except for an unbounded concavity: it merges clusters
+  // down to the requested number.
   hacd.SetCompacityWeight(0.1);
   hacd.SetVolumeWeight(0.0);
   hacd.SetNClusters(parts);
@@ -146,7 +147,7 @@ double Median(std::vector<double> values) {
   return n == 0 ? 0.0 : 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
-// Ours against a rival's, over all solids.
+// Compares ours with a rival over all solids.
 struct Duel {
   std::vector<double> ours, theirs, ratio;
   int better = 0, worse = 0;

@@ -1,5 +1,5 @@
-// Solids of a whole furniture catalogue: how each was made, how long it took, whether it is sound,
-// and how far it lies from what is seen (50,000 chords, not those that MakeSolid checks with).
+// Makes the solids of a whole furniture catalogue: the method, the time, the validity, and the
+// distance from the visual mesh (50,000 chords, other than those of MakeSolid's own check).
 //   bench_solid_table [CATALOGUE.sh3f] [--only WORD] [--every N]
 // The default is Debian's BlendSwap-CC-0 (sweethome3d-furniture, 175 models).
 #include <unistd.h>
@@ -46,7 +46,7 @@ void Measure(const core::TriangleMesh& visual, const std::string& name, Tally* t
     tally->sound += state.Sound();
     tally->good += good;
     std::printf(
-        "%-3s %-32s %-9s faces %7zu -> %6zu  %6.2f s  seen to solid %.3f%% (99%%: %.3f%%)"
+        "%-3s %-32s %-9s faces %7zu -> %6zu  %6.2f s  visual to solid %.3f%% (99%%: %.3f%%)"
         "  solid to mesh %.3f%% (99%%: %.3f%%)%s\n",
         good ? "ok" : "OFF", name.c_str(), geometry::Name(solid.method), visual.triangles.size(),
         solid.mesh.triangles.size(), seconds, 100.0 * d.visual_to_solid_max / d.diagonal,
@@ -89,8 +89,8 @@ int Run(int argc, char** argv) {
   std::sort(tally.seconds.begin(), tally.seconds.end());
   if (!tally.seconds.empty()) {
     std::printf(
-        "%d models: %d sound, %d sound and within 0.5%% both ways, %d refused; median %.2f s,"
-        " 90%% under %.2f s, slowest %.2f s\n",
+        "%d models: %d valid, %d valid and within 0.5%% in both directions, %d refused; "
+        "median %.2f s, 90%% under %.2f s, slowest %.2f s\n",
         tally.models, tally.sound, tally.good, tally.refused,
         tally.seconds[tally.seconds.size() / 2], tally.seconds[tally.seconds.size() * 9 / 10],
         tally.seconds.back());

@@ -1,7 +1,6 @@
-// Whether exported motions do their task again: the shipped policy of each cell of the suite
-// (pipeline/skill_suite.h) is exported on instances that it has not seen, and the files are
-// replayed.
-//   bench_export_replay                      100 motions a skill
+// Measures how many exported motions reproduce their task: the shipped policy of each cell of the
+// suite (pipeline/skill_suite.h) is exported on unseen instances, and the files are replayed.
+//   bench_export_replay                      100 motions per skill
 //   bench_export_replay --cell lift_lid --episodes 20
 #include <cstdio>
 
@@ -30,10 +29,10 @@ struct Arguments {
   fs::path models = fs::path(SIMWRIGHT_SOURCE_DIR) / "models";
 };
 
-// The folder of a run that the shipped policy might have been trained in.
+// Returns a run folder as if the shipped policy had been trained in it.
 fs::path MakeRun(const pipeline::SuiteCell& cell, const Arguments& arguments,
                  core::Progress* progress) {
-  const bool photo = cell.kind == "photo";  // the one thing to pick is what it was trained on
+  const bool photo = cell.kind == "photo";  // its one object is also the training object
   const fs::path folder = arguments.output / cell.name;
   const rl::Policy policy = rl::ReadPolicy(pipeline::ShippedPolicy(arguments.models, cell.name));
   pipeline::SkillRun run;
@@ -86,15 +85,15 @@ void Run(const Arguments& arguments) {
 }  // namespace simwright
 
 int main(int argc, char** argv) {
-  CLI::App app("How many exported motions do their task again");
+  CLI::App app("How many exported motions reproduce their task");
   simwright::Arguments arguments;
   app.add_option("--cell", arguments.cell, "One cell, or all")->capture_default_str();
-  app.add_option("--episodes", arguments.episodes, "Motions to export of each, at least two")
+  app.add_option("--episodes", arguments.episodes, "Motions to export per cell, at least two")
       ->check(CLI::Range(2, 100000))
       ->capture_default_str();
-  app.add_option("--seed", arguments.seed, "Of the episodes")->capture_default_str();
-  app.add_option("--threads", arguments.threads, "0: all of the machine's")->capture_default_str();
-  app.add_option("-o", arguments.output, "Where assets and motions are kept")
+  app.add_option("--seed", arguments.seed, "Seed of the episodes")->capture_default_str();
+  app.add_option("--threads", arguments.threads, "Threads; 0: all")->capture_default_str();
+  app.add_option("-o", arguments.output, "Output folder of assets and motions")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {

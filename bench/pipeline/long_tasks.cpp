@@ -1,9 +1,9 @@
-// What decomposing a task is worth: three long tasks (pipeline/long_tasks.h), each learnt as a
-// chain of subtasks, and undecomposed with as many samples, by the reward of what the task is for
-// and by the sum of its subtasks' rewards.
+// Compares task decomposition with end-to-end learning: three long tasks (pipeline/long_tasks.h),
+// each learned as a chain of subtasks, and undecomposed with as many samples, by the reward of the
+// task's goal and by the sum of its subtasks' rewards.
 //   bench_long_tasks --task cup_into_microwave --seed 1
 //   bench_long_tasks --task cup_into_microwave --method own --samples 200000    without the chain
-// A training that was stopped goes on; what is done is not done again: remove its folder.
+// An interrupted training resumes; finished results are kept: remove their folder to repeat them.
 #include <algorithm>
 #include <cstdio>
 
@@ -20,11 +20,11 @@ namespace simwright {
 namespace {
 namespace fs = std::filesystem;
 
-// Of an episode of each subtask, at most: after another the arm comes from far, round what stands
-// open, and takes 5 s to be there.
+// The episode length (s) of each subtask, at most: after another subtask the arm comes from far,
+// around open doors, and takes 5 s to arrive.
 constexpr double kSubtaskSeconds = 12.0;
-constexpr std::uint64_t kEvaluated = 9000;  // more than the training's seed: that of evaluations
-constexpr int kLookedAt = 40;  // chains of the script that say which subtasks' success lasts
+constexpr std::uint64_t kEvaluated = 9000;  // offset of the evaluation seed from the training seed
+constexpr int kScriptedChains = 40;  // scripted chains that show which subtasks' success lasts
 
 struct Arguments {
   std::string task = "all", method = "all", action = "delta";
@@ -39,23 +39,23 @@ struct Arguments {
   fs::path output = "out/long_tasks";
 };
 
-struct Learnt {
+struct Training {
   std::int64_t samples = 0;
   double seconds = 0.0;
 };
 
 void PrintRow(const std::string& name, const std::string& method, const Arguments& arguments,
-              const Learnt& learnt, int successes, const rl::Interval& interval) {
+              const Training& training, int successes, const rl::Interval& interval) {
   std::printf("| %s | %s | %llu | %.0fk | %.1f | %d of %d | %.1f %% (%.1f-%.1f) |\n", name.c_str(),
               method.c_str(), static_cast<unsigned long long>(arguments.seed),
-              1e-3 * static_cast<double>(learnt.samples), learnt.seconds / 60.0, successes,
+              1e-3 * static_cast<double>(training.samples), training.seconds / 60.0, successes,
               arguments.episodes, 100.0 * successes / arguments.episodes, 100.0 * interval.low,
               100.0 * interval.high);
   std::fflush(stdout);
 }
 
-Learnt SumOf(const pipeline::TrainReport& report) {
-  Learnt sum;
+Training SumOf(const pipeline::TrainReport& report) {
+  Training sum;
   for (const pipeline::TrainedSkill& skill : report.skills) {
     sum.samples += skill.samples;
     sum.seconds += skill.seconds;
@@ -66,7 +66,7 @@ Learnt SumOf(const pipeline::TrainReport& report) {
   return sum;
 }
 
-// The chain, evaluated anew from starts of its own.
+// Evaluates the chain again from its own start states.
 rl::ChainEvaluation Evaluated(const fs::path& run, const Arguments& arguments) {
   const pipeline::TrainedTask trained(run);
   return rl::EvaluateChain(trained.links(), arguments.episodes, arguments.seed + kEvaluated);
@@ -74,9 +74,9 @@ rl::ChainEvaluation Evaluated(const fs::path& run, const Arguments& arguments) {
 
 void PrintHandovers(const pipeline::TrainReport& report) {
   for (const pipeline::TrainedSkill& skill : report.skills) {
-    std::printf("    %-36s own starts %.1f %%", skill.name.c_str(), 100.0 * skill.own.rate());
+    std::printf("    %-36s own start states %.1f %%", skill.name.c_str(), 100.0 * skill.own.rate());
     if (!skill.handover.episodes.empty()) {
-      std::printf(", after the one before %.1f %%, lost %.1f", 100.0 * skill.handover.rate(),
+      std::printf(", after the previous %.1f %%, lost %.1f", 100.0 * skill.handover.rate(),
                   100.0 * skill.HandoverLoss());
     }
     std::printf(", %lldk samples\n", static_cast<long long>(skill.samples / 1000));
@@ -119,16 +119,16 @@ void RunUndecomposed(const pipeline::LongTask& task, const tasks::Task& source,
   PrintRow(task.name, method, arguments, SumOf(report), found.successes, found.interval);
 }
 
-// A task by the script that its subtasks begin with.
-struct ScriptedTask {
+// A task by the scripted expert of its subtasks.
+struct ExpertTask {
   pipeline::SkillRun run;
   std::vector<pipeline::RunSkill> skills;
   rl::ChainEvaluation chain;
 };
 
-ScriptedTask ByScript(const pipeline::LongTask& task, const fs::path& file, int episodes,
-                      std::uint64_t seed) {
-  ScriptedTask scripted;
+ExpertTask ByScript(const pipeline::LongTask& task, const fs::path& file, int episodes,
+                    std::uint64_t seed) {
+  ExpertTask scripted;
   scripted.run.robot = task.robot;
   scripted.run.options.episode_seconds = kSubtaskSeconds;
   scripted.run.set = tasks::ReadTaskFile(file);
@@ -141,22 +141,22 @@ ScriptedTask ByScript(const pipeline::LongTask& task, const fs::path& file, int 
   return scripted;
 }
 
-// What the script makes of the task, and of each subtask.
-void RunScript(const pipeline::LongTask& task, const fs::path& file, const Arguments& arguments) {
-  const ScriptedTask scripted =
-      ByScript(task, file, arguments.episodes, arguments.seed + kEvaluated);
+// Evaluates the scripted expert on the task, and on each subtask.
+void EvaluateExpert(const pipeline::LongTask& task, const fs::path& file,
+                    const Arguments& arguments) {
+  const ExpertTask scripted = ByScript(task, file, arguments.episodes, arguments.seed + kEvaluated);
   const rl::ChainEvaluation& chain = scripted.chain;
   PrintRow(task.name, "script", arguments, {}, chain.successes, chain.interval);
   for (size_t k = 0; k < scripted.skills.size(); ++k) {
     const rl::Skill& skill = *scripted.skills[k].evaluated;
     const auto starts = rl::DrawStarts(skill, arguments.episodes, arguments.seed + kEvaluated);
-    std::printf("    %-36s own starts %d of %d, after the one before %d of %d\n",
+    std::printf("    %-36s own start states %d of %d, after the previous %d of %d\n",
                 scripted.skills[k].name.c_str(), rl::EvaluateScript(skill, starts).successes,
                 arguments.episodes, chain.succeeded[k], chain.tried[k]);
   }
 }
 
-// `lasting`: the subtasks whose success holds at the end.
+// `lasting`: the subtasks whose success lasts to the end.
 void RunWhole(const pipeline::LongTask& task, const fs::path& file,
               const std::vector<bool>& lasting, std::int64_t samples, const Arguments& arguments,
               core::Progress* progress) {
@@ -172,9 +172,9 @@ void RunTask(const pipeline::LongTask& task, const Arguments& arguments) {
   core::Progress progress(core::Progress::StyleForStderr());
   const fs::path folder = arguments.output / task.name;
   const fs::path file = pipeline::MakeLongTask(task, folder, &progress);
-  if (arguments.script) return RunScript(task, file, arguments);
+  if (arguments.script) return EvaluateExpert(task, file, arguments);
   if (arguments.samples > 0) {
-    const ScriptedTask scripted = ByScript(task, file, kLookedAt, arguments.seed + kEvaluated);
+    const ExpertTask scripted = ByScript(task, file, kScriptedChains, arguments.seed + kEvaluated);
     return RunWhole(task, file, pipeline::LastingSubtasks(scripted.skills, scripted.chain),
                     arguments.samples, arguments, &progress);
   }
@@ -200,30 +200,32 @@ void RunTask(const pipeline::LongTask& task, const Arguments& arguments) {
 }  // namespace simwright
 
 int main(int argc, char** argv) {
-  CLI::App app("Long tasks: chained subtasks beside undecomposed learning");
+  CLI::App app("Long tasks: chained subtasks and undecomposed learning");
   simwright::Arguments arguments;
   app.add_option("--task", arguments.task, "One of the long tasks, or all")->capture_default_str();
-  app.add_option("--method", arguments.method, "Beside the chain: own, sum, all or none")
+  app.add_option("--method", arguments.method, "Methods beside the chain: own, sum, all or none")
       ->check(CLI::IsMember({"own", "sum", "all", "none"}))
       ->capture_default_str();
-  app.add_option("--action", arguments.action, "Action space of the undecomposed")
+  app.add_option("--action", arguments.action, "Action space of the undecomposed task")
       ->capture_default_str();
   app.add_option("--chain-action", arguments.chain_action, "Action space of the chain")
       ->capture_default_str();
-  app.add_option("--minutes", arguments.minutes, "Of each subtask's training, at most")
+  app.add_option("--minutes", arguments.minutes, "Training time per subtask, at most")
       ->capture_default_str();
-  app.add_flag("--script", arguments.script, "Only evaluate the script, without training");
-  app.add_option("--imitate", arguments.imitated, "Decisions that imitate a script at first")
+  app.add_flag("--script", arguments.script, "Only evaluate the scripted expert, without training");
+  app.add_option("--imitate", arguments.imitated,
+                 "Initial decisions that imitate the scripted expert")
       ->capture_default_str();
   app.add_option("--backward-steps", arguments.backward,
-                 "Decisions of a subtask that learns on for the one after it; 0: none does")
+                 "Decisions of fine-tuning a subtask for the next one; 0: no fine-tuning")
       ->capture_default_str();
   app.add_option("--samples", arguments.samples,
-                 "Of the undecomposed, without a chain beside them; 0: as many as the chain's")
+                 "Samples of the undecomposed task without a chain; 0: as many as the chain's")
       ->capture_default_str();
-  app.add_option("--episodes", arguments.episodes, "Of each evaluation")->capture_default_str();
-  app.add_option("--seed", arguments.seed, "Of the training")->capture_default_str();
-  app.add_option("-o", arguments.output, "Where assets and trainings are kept")
+  app.add_option("--episodes", arguments.episodes, "Episodes per evaluation")
+      ->capture_default_str();
+  app.add_option("--seed", arguments.seed, "Seed of the training")->capture_default_str();
+  app.add_option("-o", arguments.output, "Output folder of assets and trainings")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {

@@ -1,6 +1,6 @@
-// The table of models of scenes, as in the paper's Table 1: ours, MiDiffusion and DiffuScene on the
-// same data with the same updates, each so many seeds. One cell is trained and evaluated at a call,
-// into OUT/METHOD_SEED; without --method the table of what is there is printed.
+// Compares scene models as in the paper's Table 1: ours, MiDiffusion and DiffuScene on the same
+// data with the same number of updates, with several seeds each. Each call trains and evaluates one
+// cell into OUT/METHOD_SEED; without --method it prints the table of the finished cells.
 //   bench_scene_table --data out/dimsum -o out/table --method ours --seed 1
 //   bench_scene_table --data out/dimsum -o out/table
 #include <cmath>
@@ -20,8 +20,8 @@ namespace simwright {
 namespace {
 namespace fs = std::filesystem;
 
-// "ours_paper_loss": ours with the paper's weight of the classes' loss; "ours_paper_poses": noise
-// is guessed as such, and times are drawn evenly.
+// "ours_paper_loss": ours with the paper's weight of the class loss; "ours_paper_poses": predicts
+// the noise itself, and samples times uniformly.
 const std::vector<std::string> kMethods = {"ours",       "ours_paper_poses", "ours_paper_loss",
                                            "continuous", "midiffusion",      "diffuscene"};
 
@@ -29,7 +29,7 @@ struct Arguments {
   fs::path data, output, features;
   std::string method, size = "tiny";
   std::uint64_t seed = 1;
-  double held_out = 1.0 / 6.0;  // 1000 of 6000, as many as there are samples
+  double held_out = 1.0 / 6.0;  // 1000 of 6000, as many as the samples
   int steps = 10000, batch = 32, count = 1000, sample_steps = 0;
 };
 
@@ -50,7 +50,7 @@ void MakeCell(const Arguments& arguments) {
   const fs::path cell =
       arguments.output / (arguments.method + "_" + std::to_string(arguments.seed));
   if (fs::exists(cell / "cell.json")) {
-    std::printf("%s is there already\n", cell.c_str());
+    std::printf("%s already exists\n", cell.c_str());
     return;
   }
   core::Progress progress(core::Progress::StyleForStderr());
@@ -62,7 +62,7 @@ void MakeCell(const Arguments& arguments) {
   options.batch = arguments.batch;
   options.held_out = arguments.held_out;
   options.seed = arguments.seed;
-  const bool goes_on = fs::exists(cell / scene::kStateFile);  // its time is not known as a whole
+  const bool resumed = fs::exists(cell / scene::kStateFile);  // its total time is unknown
   const scene::SceneTrainingReport trained =
       scene::TrainSceneModel(dataset, ModelOf(arguments), options, cell, &progress);
   pipeline::SceneEvaluationRequest request;
@@ -81,13 +81,13 @@ void MakeCell(const Arguments& arguments) {
   json["run"] = {{"steps", arguments.steps},
                  {"batch", arguments.batch},
                  {"parameters", trained.parameters},
-                 {"seconds", goes_on ? NAN : trained.seconds},
+                 {"seconds", resumed ? NAN : trained.seconds},
                  {"held_out_loss", trained.losses.back().held_out}};
   core::WriteFile(cell / "cell.json", json.dump(2) + "\n");
   std::fputs(EvaluationTable(evaluation).c_str(), stdout);
 }
 
-// What the table says of a cell.
+// A cell's row of the table.
 struct Row {
   double accuracy = NAN, divergence = NAN, frechet = NAN, objects = NAN;
   double penetration = NAN, boxes = NAN, nearest = NAN;  // cm, cm, m
@@ -105,7 +105,7 @@ std::string MeanAndInterval(const std::vector<Row>& rows, Column column, double 
   std::snprintf(text, sizeof text, format, mean);
   std::string cell = text;
   if (rows.size() < 2) return cell;
-  // 95 % of Student's t with n - 1 degrees of freedom.
+  // The 95 % quantile of Student's t with n - 1 degrees of freedom.
   static const double kT[] = {12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36, 2.31, 2.26};
   const size_t n = rows.size();
   const double t = n - 2 < std::size(kT) ? kT[n - 2] : 1.96;
@@ -146,7 +146,7 @@ void PrintTable(const fs::path& output) {
         RowOf(nlohmann::json::parse(core::ReadFile(file))));
   }
   std::printf("%-16s %5s %9s %13s %13s %15s %15s %13s %13s %13s %6s\n", "method", "seeds",
-              "weights", "CA %", "KL x1e4", "Frechet", "MTP cm", "of boxes", "nearest m", "objects",
+              "weights", "CA %", "KL x1e4", "Frechet", "MTP cm", "of AABBs", "nearest m", "objects",
               "s");
   for (const std::string& method : kMethods) {
     const auto found = rows.find(method);
@@ -169,22 +169,22 @@ void PrintTable(const fs::path& output) {
 }  // namespace simwright
 
 int main(int argc, char** argv) {
-  CLI::App app("Models of scenes beside each other");
+  CLI::App app("Comparison of scene models");
   simwright::Arguments arguments;
   app.add_option("--data", arguments.data, "Dataset of scenes")->required();
-  app.add_option("-o,--output", arguments.output, "Folder of the cells")->required();
-  app.add_option("--method", arguments.method, "The cell to make; none: print the table")
+  app.add_option("-o,--output", arguments.output, "Output folder of the cells")->required();
+  app.add_option("--method", arguments.method, "Cell to train and evaluate; none: print the table")
       ->check(CLI::IsMember(simwright::kMethods));
-  app.add_option("--seed", arguments.seed, "Of the cell")->capture_default_str();
+  app.add_option("--seed", arguments.seed, "Seed of the cell")->capture_default_str();
   app.add_option("--size", arguments.size, "tiny, base or full")->capture_default_str();
   app.add_option("--steps", arguments.steps, "Updates")->capture_default_str();
-  app.add_option("--held-out", arguments.held_out, "Share of scenes not learned from, 1000 at most")
+  app.add_option("--held-out", arguments.held_out, "Share of held-out scenes, at most 1000")
       ->capture_default_str();
-  app.add_option("--batch", arguments.batch, "Scenes of an update")->capture_default_str();
-  app.add_option("--count", arguments.count, "Samples that are measured")->capture_default_str();
-  app.add_option("--sample-steps", arguments.sample_steps, "Of the diffusion, 0: all")
+  app.add_option("--batch", arguments.batch, "Scenes per update")->capture_default_str();
+  app.add_option("--count", arguments.count, "Samples to evaluate")->capture_default_str();
+  app.add_option("--sample-steps", arguments.sample_steps, "Diffusion steps of sampling, 0: all")
       ->capture_default_str();
-  app.add_option("--features", arguments.features, "A TorchScript module in place of ours");
+  app.add_option("--features", arguments.features, "TorchScript module instead of ours");
   CLI11_PARSE(app, argc, argv);
   try {
     simwright::core::InstallCancelHandler();

@@ -1,9 +1,9 @@
-// What training is worth, skill by skill: each cell of the suite (pipeline/skill_suite.h) is
-// trained on instances of the library and evaluated, from full starts, on others.
+// Measures training skill by skill: each cell of the suite (pipeline/skill_suite.h) is trained on
+// instances of the library and evaluated, from full start states, on others.
 //   bench_skill_suite                                the shipped policies, a minute
-//   bench_skill_suite --script                       what a script does, 3 minutes
+//   bench_skill_suite --script                       the scripted expert, 3 minutes
 //   bench_skill_suite --cell NAME --train [--ship]   trains a cell (all: one after the other)
-// A training that was stopped goes on; a cell that is done is not done again: remove its folder.
+// An interrupted training resumes; a finished cell is kept: remove its folder to repeat it.
 #include <cstdio>
 #include <optional>
 
@@ -54,7 +54,7 @@ int InstancesOf(const pipeline::SuiteCell& cell, const Arguments& arguments) {
 
 pipeline::SkillRun UnseenRun(const pipeline::SuiteCell& cell, rl::ActionSpace action,
                              const Arguments& arguments, core::Progress* progress) {
-  // What was lifted from the one photo is the one thing to pick.
+  // The object reconstructed from the one photo is the only one to pick.
   const bool photo = cell.kind == "photo";
   pipeline::SkillRun run;
   run.robot = cell.robot;
@@ -81,7 +81,7 @@ void PrintByTask(const rl::Skill& skill, const rl::SkillEvaluation& evaluation) 
   }
 }
 
-// Of a policy's file, or of the script.
+// Evaluates a policy file, or the scripted expert.
 rl::SkillEvaluation EvaluateUnseen(const pipeline::SuiteCell& cell,
                                    const std::optional<fs::path>& policy,
                                    const Arguments& arguments, core::Progress* progress) {
@@ -110,7 +110,7 @@ std::string Row(const CellResult& result) {
   return line;
 }
 
-// What was asked for in place of the cell's own.
+// Returns the flags that override the cell's own settings.
 std::string Settings(const Arguments& arguments) {
   char minutes[48] = "", instances[48] = "";
   if (arguments.minutes > 0.0) {
@@ -129,24 +129,25 @@ std::string Settings(const Arguments& arguments) {
          (other ? " --action " + arguments.action : "");
 }
 
-// What somebody who finds the file wants to know.
+// Returns the card that describes a shipped policy.
 std::string Card(const pipeline::SuiteCell& cell, const Arguments& arguments,
                  const CellResult& result) {
   std::string card = "# " + cell.name + "\n\n";
   card += "Policy of the skill suite: robot " + cell.robot + ", kind `" + cell.kind + "`, tasks `" +
           cell.pattern + "`, seed " + std::to_string(arguments.seed) +
-          ". Made and evaluated by\n\n";
+          ". Trained and evaluated by\n\n";
   card += "    build/bin/bench_skill_suite --cell " + cell.name + " --train --ship --seed " +
           std::to_string(arguments.seed) + Settings(arguments) + "\n\n";
   card +=
       "| skill | samples | minutes | successes | rate (95 %) | mean time "
       "|\n|---|---|---|---|---|---|\n";
   card += Row(result);
-  card += cell.kind == "photo"
-              ? "\nTrained and evaluated on the one that was lifted, from other full starts"
-              : "\nTrained on " + std::to_string(InstancesOf(cell, arguments)) +
-                    " instances, evaluated on " + std::to_string(pipeline::kUnseenInstances) +
-                    " others, from full starts";
+  card +=
+      cell.kind == "photo"
+          ? "\nTrained and evaluated on the one reconstructed object, from other full start states"
+          : "\nTrained on " + std::to_string(InstancesOf(cell, arguments)) +
+                " instances, evaluated on " + std::to_string(pipeline::kUnseenInstances) +
+                " others, from full start states";
   card += " (docs/skills.md).\n\n![training](" + cell.name + ".svg)\n";
   return card;
 }
@@ -212,25 +213,28 @@ void Run(const Arguments& arguments) {
 }  // namespace simwright
 
 int main(int argc, char** argv) {
-  CLI::App app("Success of trained skills on assets that they have not seen");
+  CLI::App app("Success of trained skills on unseen assets");
   simwright::Arguments arguments;
   app.add_option("--cell", arguments.cell, "One cell, or all")->capture_default_str();
-  app.add_flag("--train", arguments.train, "Train it; else the shipped policy is evaluated");
-  app.add_flag("--script", arguments.script, "Evaluate the script that training begins from");
-  app.add_option("--action", arguments.action, "What an action says (train --help)")
+  app.add_flag("--train", arguments.train, "Train the cell; else evaluate the shipped policy");
+  app.add_flag("--script", arguments.script,
+               "Evaluate the scripted expert that training starts from");
+  app.add_option("--action", arguments.action, "Action space (train --help)")
       ->capture_default_str();
-  app.add_option("--imitate", arguments.imitated, "Decisions that imitate the script at first")
+  app.add_option("--imitate", arguments.imitated,
+                 "Initial decisions that imitate the scripted expert")
       ->capture_default_str();
   app.add_flag("--ship", arguments.ship, "Write policy, card and curves into models/skills");
-  app.add_flag("--by-task", arguments.by_task, "Also say how often each task succeeds");
-  app.add_option("--minutes", arguments.minutes, "Of training; 0: the cell's own");
+  app.add_flag("--by-task", arguments.by_task, "Also print the success of each task");
+  app.add_option("--minutes", arguments.minutes, "Training time; 0: the cell's own");
   app.add_option("--instances", arguments.instances,
-                 "Of the kind, to train on; 0: the cell's own number");
+                 "Training instances; 0: the cell's own number");
   app.add_option("--finger-friction", arguments.finger_friction,
-                 "Of the evaluation; 0: the robot's own, 2");
-  app.add_option("--episodes", arguments.episodes, "Of the evaluation")->capture_default_str();
-  app.add_option("--seed", arguments.seed, "Of the training")->capture_default_str();
-  app.add_option("-o", arguments.output, "Where assets and trainings are kept")
+                 "Finger friction in the evaluation; 0: the robot's own, 2");
+  app.add_option("--episodes", arguments.episodes, "Episodes of the evaluation")
+      ->capture_default_str();
+  app.add_option("--seed", arguments.seed, "Seed of the training")->capture_default_str();
+  app.add_option("-o", arguments.output, "Output folder of assets and trainings")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {

@@ -1,5 +1,5 @@
-// Where the time of `lift`, `import` and `check` goes: seconds and share of each stage, on two
-// photos of examples/ and on a bumpy ball and a cup of about 10,000 faces.
+// Profiles `lift`, `import` and `check`: seconds and share of each stage, on two photos of
+// examples/ and on a bumpy ball and a cup of about 10,000 faces.
 //   bench_stage_shares [--runs N]      the median of N runs (3)
 #include <sys/resource.h>
 #include <unistd.h>
@@ -38,7 +38,7 @@ double PeakMebibytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-// `run` gives the seconds of its stages; what it takes beside them is "other".
+// Reports a profile. `run` returns the seconds of its stages; the remaining time is "other".
 void Report(const std::string& name, int runs, const std::function<StageSeconds()>& run) {
   std::map<std::string, std::vector<double>> seconds;
   for (int i = 0; i < runs; ++i) {
@@ -66,7 +66,8 @@ void Report(const std::string& name, int runs, const std::function<StageSeconds(
   std::fflush(stdout);
 }
 
-// Rings of a latitude-longitude net, joined; `radius` and `height` by ring (0..1).
+// Returns a surface of revolution: rings of a latitude-longitude grid; `radius` and `height` by
+// ring (0..1).
 core::TriangleMesh Lathe(int rings, int sectors, const std::function<double(double)>& radius,
                          const std::function<double(double)>& height) {
   core::TriangleMesh mesh;
@@ -91,7 +92,7 @@ core::TriangleMesh Lathe(int rings, int sectors, const std::function<double(doub
   return mesh;
 }
 
-// From the bottom's middle up the outside, over the brim, down the inside.
+// Returns a cup: from the bottom's middle up the outside, over the rim, down the inside.
 core::TriangleMesh Cup() {
   const auto radius = [](double t) {
     if (t < 0.15) return 0.035 * t / 0.15;

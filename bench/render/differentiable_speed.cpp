@@ -1,7 +1,7 @@
-// Milliseconds of a fitting step's picture and gradients: 128 x 128 pixels, moved vertices (refit
-// included), forward and backward of colour, mask and depth, on a bumpy ball.
+// Measures the milliseconds of a fitting step's rendering and gradients: 128 x 128 pixels, moved
+// vertices (refit included), forward and backward of colour, mask and depth, on a bumpy ball.
 //   bench_differentiable_speed
-// Arguments: triangles (about), samples a pixel's side, edge samples, lit with smooth normals.
+// Arguments: triangles (about), samples per pixel side, edge samples, lit with smooth normals.
 #include <cmath>
 
 #include <benchmark/benchmark.h>
@@ -14,7 +14,7 @@
 namespace simwright {
 namespace {
 
-// A latitude-longitude ball with bumps: `rings` x 2 rings quads, two triangles each.
+// Returns a latitude-longitude ball with bumps: `rings` x 2 rings quads, two triangles each.
 core::TriangleMesh BumpyBall(int rings) {
   core::TriangleMesh ball;
   const int sectors = 2 * rings;

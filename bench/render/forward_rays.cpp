@@ -1,5 +1,6 @@
-// Rays a second of the forward renderer: depth, normal, mask, label of 512 x 512 pixels, a ray a
-// pixel, on a bumpy ball of about 1k, 10k and 100k triangles that fills most of the picture.
+// Measures the rays per second of the forward renderer: depth, normal, mask, label of 512 x 512
+// pixels, one ray per pixel, on a bumpy ball of about 1k, 10k and 100k triangles that fills most of
+// the image.
 //   bench_forward_rays
 #include <cmath>
 
@@ -13,7 +14,7 @@
 namespace simwright {
 namespace {
 
-// A latitude-longitude ball with bumps: `rings` x 2 rings quads, two triangles each.
+// Returns a latitude-longitude ball with bumps: `rings` x 2 rings quads, two triangles each.
 core::TexturedMesh BumpyBall(int rings) {
   core::TexturedMesh ball;
   const int sectors = 2 * rings;

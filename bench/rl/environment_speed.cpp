@@ -1,10 +1,11 @@
-// How fast training worlds are: the Panda, a microwave with its door and knobs, a cup.
+// Measures the speed of training worlds: the Panda, a microwave with its door and knobs, a cup.
 //   bench_environment_speed [--repeats N]
-// Control steps (60 Hz, 4 substeps) a second of 64 environments on one and two threads, with random
-// actions as an untrained policy draws them, and with the hand held at the door's handle; with PPO
-// and the default networks; what each setting gives; resident memory; and physics steps (240 Hz)
-// a second of the same scene in Bullet as it is trained in, in Bullet without each of our measures,
-// and in MuJoCo. Each figure is the best of the repeats, variants taking turns.
+// Control steps (60 Hz, 4 substeps) per second of 64 environments on one and two threads, with
+// random actions as an untrained policy samples them, and with the gripper closed on the door's
+// handle; with PPO and the default networks; the effect of each setting; resident memory; and
+// physics steps (240 Hz) per second of the same scene in Bullet as in training, in Bullet without
+// each of the optimizations, and in MuJoCo. Each figure is the best of the repeats, with the
+// variants interleaved.
 #include <malloc.h>
 #include <unistd.h>
 
@@ -33,14 +34,15 @@
 namespace simwright {
 namespace {
 
-constexpr int kEnvironments = 64, kDecisions = 20;  // the latter a repeat
+constexpr int kEnvironments = 64, kDecisions = 20;  // decisions per repeat
 constexpr int kSettle = 120, kPhysicsSteps = 1200;
 
 double Now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// s of processor time, of all threads: what a step costs where other work shares the cores.
+// Returns the processor time (s) of all threads: the cost of a step while other processes share the
+// cores.
 double ProcessorSeconds() {
   timespec time;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
@@ -55,7 +57,7 @@ double ResidentMiB() {
 
 enum class Acting { kRandom, kAtHandle };
 
-// Environments of one variant, kept from repeat to repeat.
+// The environments of one variant, kept between repeats.
 class Variant {
  public:
   Variant(std::string name, const rl::SkillSubtask& scene, const rl::SkillOptions& options,
@@ -100,7 +102,7 @@ class Variant {
   int threads_;
   core::Rng rng_;
   double best_ = 0.0;      // control steps/s
-  double cheapest_ = 1e9;  // us of processor time a control step
+  double cheapest_ = 1e9;  // us of processor time per control step
 };
 
 void MeasureEnvironments(const rl::SkillSubtask& scene, int repeats) {
@@ -113,20 +115,20 @@ void MeasureEnvironments(const rl::SkillSubtask& scene, int repeats) {
   };
   add("random actions", plain, Acting::kRandom, 1);
   add("random actions", plain, Acting::kRandom, 2);
-  add("hand closed on the handle", plain, Acting::kAtHandle, 1);
-  add("hand closed on the handle", plain, Acting::kAtHandle, 2);
+  add("gripper closed on the handle", plain, Acting::kAtHandle, 1);
+  add("gripper closed on the handle", plain, Acting::kAtHandle, 2);
   add("random, 20 iterations always", all_iterations, Acting::kRandom, 2);
   for (int i = 0; i < repeats; ++i) {
     for (const auto& variant : variants) variant->Repeat();
   }
-  std::printf("\n| environment alone | threads | control steps/s | us of a core a step |\n");
+  std::printf("\n| environment alone | threads | control steps/s | us of a core per step |\n");
   std::printf("|---|---|---|---|\n");
   for (const auto& variant : variants) variant->Print();
 }
 
 void MeasureMemory(const rl::SkillSubtask& scene) {
   const auto skill = rl::MakeSkill(robot::Panda(false), {scene});
-  malloc_trim(0);  // or they go into what making the assets has left
+  malloc_trim(0);  // returns the memory freed after making the assets
   const double before = ResidentMiB();
   rl::SkillEnvironment environment(skill, kEnvironments);
   rl::Rows observations;
@@ -160,7 +162,7 @@ void MeasurePpo(const rl::SkillSubtask& scene, int repeats) {
       options.epochs, control / (collect + update), 100.0 * update / (collect + update));
 }
 
-// The scene's bodies as a training prepares them.
+// The scene's bodies as in training.
 struct Bodies {
   sim::ArticulatedBody robot, microwave, cup;
   Eigen::Isometry3d world_from_microwave, world_from_cup;
@@ -187,8 +189,8 @@ Bodies BodiesOf(const rl::SkillSubtask& scene, bool capsules, bool hull) {
   return bodies;
 }
 
-// The arm sways; the same in both engines.
-Eigen::VectorXd Sway(double time) {
+// Returns a swinging arm configuration; the same in both engines.
+Eigen::VectorXd SwingingArm(double time) {
   Eigen::VectorXd goal = robot::Panda(false).home();
   for (Eigen::Index j = 0; j < goal.size(); ++j) {
     goal[j] += 0.2 * std::sin((2.0 + 0.3 * static_cast<double>(j)) * time);
@@ -218,7 +220,7 @@ PhysicsVariant InBullet(const std::string& name, const Bodies& bodies, int itera
                                                   std::make_shared<sim::PreparedBody>(bodies.robot),
                                                   Eigen::Isometry3d::Identity(), world.get());
   return {name, [world, robot](double time) {
-            robot->Command(Sway(time), robot::Panda(false).gripper.open);
+            robot->Command(SwingingArm(time), robot::Panda(false).gripper.open);
             robot->Drive();
             world->Step();
           }};
@@ -237,7 +239,7 @@ PhysicsVariant InMujoco(const Bodies& bodies, double time_step) {
     world->SetPosition(0, panda.arm_joints[j], panda.home()[static_cast<Eigen::Index>(j)]);
   }
   return {"MuJoCo 2.2.2", [world, &panda](double time) {
-            const Eigen::VectorXd goal = Sway(time);
+            const Eigen::VectorXd goal = SwingingArm(time);
             for (size_t j = 0; j < panda.arm_joints.size(); ++j) {
               world->Hold(0, panda.arm_joints[j], goal[static_cast<Eigen::Index>(j)]);
             }
@@ -252,13 +254,13 @@ void MeasurePhysics(const rl::SkillSubtask& scene, int repeats) {
   const Bodies in_parts = BodiesOf(scene, true, false);
   const double time_step = sim::WorldOptions().time_step;
   std::vector<PhysicsVariant> variants = {
-      InBullet("Bullet, 4 iterations (nothing touched)", bodies, 4, true),
+      InBullet("Bullet, 4 iterations (no contacts)", bodies, 4, true),
       InBullet("Bullet, 20 iterations", bodies, 20, true),
-      InBullet("20, Bullet's own iterations", bodies, 20, false),
-      InBullet("20, arm of hulls instead of capsules", without_capsules, 20, true),
-      InBullet("20, cup of parts instead of its hull", in_parts, 20, true),
-      InBullet("50 iterations, Bullet's own, hulls, parts", BodiesOf(scene, false, false), 50,
-               false),
+      InBullet("20, Bullet's own solver", bodies, 20, false),
+      InBullet("20, arm of convex hulls instead of capsules", without_capsules, 20, true),
+      InBullet("20, cup of parts instead of its convex hull", in_parts, 20, true),
+      InBullet("50 iterations, Bullet's own solver, convex hulls, parts",
+               BodiesOf(scene, false, false), 50, false),
       InMujoco(bodies, time_step)};
   for (int repeat = 0; repeat < repeats; ++repeat) {
     for (PhysicsVariant& variant : variants) {

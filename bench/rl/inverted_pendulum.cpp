@@ -1,8 +1,8 @@
-// Samples until PPO keeps a pole upright, seed by seed.
+// Counts the samples until PPO balances an inverted pendulum, by seed.
 //   bench_inverted_pendulum [--seeds N] [--samples N] [--threads N]
-// Every 8192 samples the policy so far plays 20 episodes without drawing. Printed: samples until
-// their mean return is 950 of 1000 or more for the first time, the mean return from then on, and
-// that of the last 100 episodes of the training itself. CleanRL's ppo_continuous_action reaches
+// Every 8192 samples the current policy plays 20 episodes with its mean action. Prints the samples
+// until their mean return is 950 of 1000 or more for the first time, the mean return from then on,
+// and that of the last 100 episodes of the training itself. CleanRL's ppo_continuous_action reaches
 // 963 +- 22 on MuJoCo's InvertedPendulum-v4 within 1M samples (its documentation).
 #include "tests/rl/inverted_pendulum.h"
 
@@ -29,7 +29,7 @@ rl::PpoOptions Options(std::uint64_t seed) {
   return options;
 }
 
-// Mean return over one episode of each of kPlayed environments.
+// Returns the mean return over one episode of each of kPlayed environments.
 double Play(const rl::Policy& policy) {
   rl::InvertedPendulum environment(kPlayed);
   rl::Rows observations, actions;
@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
     if (flag == "--samples") samples = std::atoll(argv[i + 1]);
     if (flag == "--threads") simwright::core::SetThreadCount(std::atoi(argv[i + 1]));
   }
-  std::printf("| seed | samples to 950 | mean after | least after | last 100 drawn | s |\n");
+  std::printf("| seed | samples to 950 | mean after | least after | last 100 sampled | s |\n");
   std::printf("|---|---|---|---|---|---|\n");
   for (int seed = 1; seed <= seeds; ++seed) {
     simwright::Train(static_cast<std::uint64_t>(seed), samples);

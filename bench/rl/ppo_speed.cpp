@@ -1,7 +1,7 @@
-// Speed of acting and of learning with the default networks.
+// Measures the speed of inference and of learning with the default networks.
 //   bench_ppo_speed [--threads N] [--observations N] [--actions N]
-// Acting: one batch of 64 observations. Learning: whole updates with the default options on 64 x 64
-// samples; a sample counts once an epoch.
+// Inference: one batch of 64 observations. Learning: whole updates with the default options on 64 x
+// 64 samples; a sample counts once per epoch.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kEnvironments = 64, kActs = 2000, kUpdates = 6;
 
-// Costs nothing, so that what is left is the learner's.
+// An environment without cost, so that the remaining time is the learner's.
 class NoWorld : public rl::VectorEnvironment {
  public:
   NoWorld(int observations, int actions) : observations_(observations), actions_(actions) {}
@@ -67,7 +67,7 @@ void Run(int observations, int actions) {
   std::printf("%d observations, %d actions, %d threads\n", observations, actions,
               core::ThreadCount());
   std::printf("act, batch of %d            %.0f us\n", kEnvironments, 1e6 * act);
-  std::printf("collect, without a world    %.1f us a sample\n", 1e6 * collect / samples);
+  std::printf("collect, without a world    %.1f us per sample\n", 1e6 * collect / samples);
   std::printf("update                      %.0f samples/s (%d epochs: %.0f ms)\n",
               samples * options.epochs / update, options.epochs, 1e3 * update);
   std::printf("learner's share at 4500 environment steps/s  %.0f %%\n",

@@ -6,8 +6,9 @@
 
 namespace simwright {
 
-// A Panda before a microwave of the library with a cup beside it, and the subtask of opening the
-// microwave's door: what bench_environment_speed measures. Makes both assets, a few seconds.
+// Returns the scene of bench_environment_speed: a Panda in front of a microwave of the library with
+// a cup beside it, and the subtask of opening the microwave's door. Makes both assets, which takes
+// a few seconds.
 rl::SkillSubtask MicrowaveAndCup();
 
 }  // namespace simwright

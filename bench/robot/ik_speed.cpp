@@ -1,5 +1,5 @@
-// Inverse kinematics to a full pose: how many random reachable poses are found, from the home
-// posture, and how long finding and tracking take on one core.
+// Measures inverse kinematics to a full pose: the share of random reachable poses that are solved
+// from the home configuration, and the time of solving and tracking on one core.
 //   bench_ik_speed [POSES=10000]
 #include <algorithm>
 #include <chrono>
@@ -64,7 +64,7 @@ void PrintSolve(const RobotModel& model, int poses) {
               1.0 * iterations / poses);
 }
 
-// The tool follows a circle of 10 cm in 2 s at 60 Hz.
+// Tracks a circle of 10 cm with the tool in 2 s at 60 Hz.
 void PrintTrack(const RobotModel& model, int poses) {
   const PoseInverseKinematics solver(model.arm);
   const Posture longest = Posture::Constant(model.arm.size(), 2.0 / 60.0);

@@ -1,5 +1,5 @@
-// Motions recorded at 60 Hz made fit for a controller at 1 kHz: how much longer they get, how far
-// they leave the recording, how near they come to their limits, and how long that takes.
+// Retimes motions recorded at 60 Hz for a controller at 1 kHz: the increase in duration, the
+// deviation from the recording, the utilization of the limits, and the time it takes.
 //   bench_retiming_table [MOTIONS=10]
 #include <algorithm>
 #include <chrono>
@@ -45,7 +45,7 @@ void PrintRow(const RobotModel& model, const char* name, MotionKind kind, int mo
 int Run(int motions) {
   std::printf(
       "10 s of motion at 60 Hz to 1 kHz; longer: times the recording;\n"
-      "least: what the velocity limits alone ask for\n");
+      "least: required by the velocity limits alone\n");
   std::printf("%-8s %-14s %-7s %6s %6s %6s %8s %7s %7s %8s\n", "motion", "robot", "passed", "least",
               "longer", "most", "mrad", "mm", "limits", "seconds");
   const std::pair<const char*, MotionKind> kinds[] = {{"smooth", MotionKind::kSmooth},

@@ -1,6 +1,6 @@
-// Scenes far from feasible, as a model's samples are: things of several draws of a grammar on one
-// another's places, shaken. How long it takes to move them apart, whether that succeeds, and how
-// long 2.5 s of settling take. Assets as `simwright scene generate` keeps them.
+// Measures scenes far from feasible, like a model's samples: objects of several samples of a
+// grammar, interpenetrating and perturbed. Reports the time of the depenetration, its success, and
+// the time of 2.5 s of settling. Assets as kept by `simwright scene generate`.
 //   bench_crowded_scenes --type dimsum --assets out/dimsum/assets --objects 34
 //   bench_crowded_scenes --type restaurant_high --assets out/restaurant/assets --objects 120
 #include <algorithm>
@@ -24,7 +24,7 @@ struct Arguments {
   std::string type = "dimsum", assets;
   int objects = 34, count = 20, settled = 3;
   scene::ProjectionOptions projection;
-  double shake = 0.02;  // m, the deviation along each axis
+  double shake = 0.02;  // m, standard deviation along each axis
   std::uint64_t seed = 1;
 };
 
@@ -32,7 +32,8 @@ double MillisecondsSince(Clock::time_point start) {
   return 1e3 * std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Things of as many draws as it takes to have so many; the furniture of the first.
+// Returns the objects of as many samples as needed for their number; the furniture of the first
+// one.
 std::vector<scene::DrawnObject> Crowd(const scene::Grammar& grammar, const Arguments& arguments,
                                       core::Rng& rng) {
   std::vector<scene::DrawnObject> crowd;
@@ -65,34 +66,34 @@ void Measure(const Arguments& arguments) {
       bodies.push_back({&palette.At(object.slot).parts, object.world_from_object, object.welded});
     }
     auto start = Clock::now();
-    const scene::Projection apart = scene::ProjectApart(bodies, arguments.projection);
+    const scene::Projection depenetrated = scene::ProjectApart(bodies, arguments.projection);
     projection.push_back(MillisecondsSince(start));
-    feasible += apart.feasible;
-    rounds += apart.rounds;
-    for (const Eigen::Vector3d& one : apart.shifts) shift += one.norm() / arguments.objects;
+    feasible += depenetrated.feasible;
+    rounds += depenetrated.rounds;
+    for (const Eigen::Vector3d& one : depenetrated.shifts) shift += one.norm() / arguments.objects;
     if (k >= arguments.settled) continue;
     std::vector<sim::SettlingBody> settle;
     for (size_t i = 0; i < crowd.size(); ++i) {
       Eigen::Isometry3d pose = crowd[i].world_from_object;
-      pose.pretranslate(apart.shifts[i]);
+      pose.pretranslate(depenetrated.shifts[i]);
       settle.push_back({&palette.At(crowd[i].slot).body, pose, crowd[i].welded});
     }
     sim::SettlingOptions options;
-    options.watch = options.resting = options.pace = 0.0;  // all of the 2.5 s, and no more
+    options.watch = options.resting = options.pace = 0.0;  // the whole 2.5 s, and no more
     start = Clock::now();
     sim::Settle(settle, options);
     settling.push_back(MillisecondsSince(start));
   }
   std::sort(projection.begin(), projection.end());
   std::sort(settling.begin(), settling.end());
-  std::printf("%s, %d things, shaken by %.0f mm: %d of %d moved apart, %.1f rounds, %.0f mm\n",
+  std::printf("%s, %d objects, perturbed by %.0f mm: %d of %d depenetrated, %.1f rounds, %.0f mm\n",
               type.name.c_str(), arguments.objects, 1e3 * arguments.shake, feasible,
               arguments.count, static_cast<double>(rounds) / arguments.count,
               1e3 * shift / arguments.count);
-  std::printf("one core: projection %.1f ms in the median, %.1f at most",
+  std::printf("one core: depenetration %.1f ms median, %.1f at most",
               projection[projection.size() / 2], projection.back());
   if (!settling.empty()) {
-    std::printf("; 2.5 s of settling %.1f s in the median, %.1f at most",
+    std::printf("; 2.5 s of settling %.1f s median, %.1f at most",
                 1e-3 * settling[settling.size() / 2], 1e-3 * settling.back());
   }
   std::printf("\n");
@@ -102,21 +103,24 @@ void Measure(const Arguments& arguments) {
 }  // namespace simwright
 
 int main(int argc, char** argv) {
-  CLI::App app("Crowded scenes: how long it takes to make them feasible");
+  CLI::App app("Crowded scenes: time to make them feasible");
   simwright::Arguments arguments;
-  app.add_option("--type", arguments.type, "Of scene")->capture_default_str();
-  app.add_option("--assets", arguments.assets, "Folder of the slots' assets")->required();
-  app.add_option("--objects", arguments.objects, "Of a scene, furniture included")
+  app.add_option("--type", arguments.type, "Scene type")->capture_default_str();
+  app.add_option("--assets", arguments.assets, "Folder of the categories' assets")->required();
+  app.add_option("--objects", arguments.objects, "Objects per scene, furniture included")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  app.add_option("--count", arguments.count, "Scenes, at least 1")
+  app.add_option("--count", arguments.count, "Number of scenes, at least 1")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  app.add_option("--settled", arguments.settled, "Of these, how many settle too")
+  app.add_option("--settled", arguments.settled, "Number of them that settle too")
       ->capture_default_str();
-  app.add_option("--shake", arguments.shake, "m, deviation along each axis")->capture_default_str();
-  app.add_option("--rounds", arguments.projection.rounds, "At most")->capture_default_str();
-  app.add_option("--seed", arguments.seed, "Of the scenes")->capture_default_str();
+  app.add_option("--shake", arguments.shake,
+                 "Standard deviation of the perturbation along each axis, m")
+      ->capture_default_str();
+  app.add_option("--rounds", arguments.projection.rounds, "Depenetration rounds, at most")
+      ->capture_default_str();
+  app.add_option("--seed", arguments.seed, "Seed of the scenes")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
     simwright::Measure(arguments);

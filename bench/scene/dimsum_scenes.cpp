@@ -1,9 +1,7 @@
-// Dimsum tables from the grammar, moved apart and settled: how many physics accepts, and how long
-// each step takes. What stands on the table, and the table (else a drum), is read from a folder
-// that
-//   simwright library --kind plate,cup,teapot,serving_dish,steamer,steamer_lid,table_round -o
-//   FOLDER
-// made.
+// Samples dimsum tables from the grammar, depenetrates and settles them: how many are stable, and
+// the time of each step. The tableware, and the table (else a drum), are read from a folder made by
+//   simwright library --kind plate,cup,teapot,serving_dish,steamer,steamer_lid,table_round
+//     -o FOLDER
 #include <chrono>
 #include <cstdio>
 
@@ -32,7 +30,7 @@ struct Arguments {
 struct Outcome {
   scene::SceneDraw draw;
   scene::FeasibleScene scene;
-  double drawing = 0.0, apart = 0.0, settling = 0.0;  // s
+  double sampling = 0.0, depenetration = 0.0, settling = 0.0;  // s
 };
 
 double SecondsSince(std::chrono::steady_clock::time_point start) {
@@ -58,14 +56,14 @@ Outcome Make(const scene::Grammar& grammar, const scene::Palette& palette, int i
   core::Rng rng = core::StreamRng(arguments.seed, static_cast<std::uint64_t>(index));
   auto start = std::chrono::steady_clock::now();
   outcome.draw = scene::DrawScene(grammar, rng);
-  outcome.drawing = SecondsSince(start);
+  outcome.sampling = SecondsSince(start);
   std::vector<scene::ProjectedBody> bodies;
   for (const scene::DrawnObject& object : outcome.draw.objects) {
     bodies.push_back({&palette.At(object.slot).parts, object.world_from_object, object.welded});
   }
   start = std::chrono::steady_clock::now();
   scene::ProjectApart(bodies);
-  outcome.apart = SecondsSince(start);
+  outcome.depenetration = SecondsSince(start);
   scene::FeasibilityOptions options;
   options.settling.duration = arguments.settle;
   options.settling.watch = arguments.watch;
@@ -73,34 +71,34 @@ Outcome Make(const scene::Grammar& grammar, const scene::Palette& palette, int i
   if (arguments.whole) options.settling.resting = options.settling.pace = 0.0;
   start = std::chrono::steady_clock::now();
   outcome.scene = scene::MakeFeasible(outcome.draw.objects, palette, options);
-  outcome.settling = SecondsSince(start) - outcome.apart;
+  outcome.settling = SecondsSince(start) - outcome.depenetration;
   return outcome;
 }
 
 void Report(const std::vector<Outcome>& outcomes) {
   int sound = 0, projected = 0, dropped = 0;
-  size_t drawn = 0, kept = 0, most = 0;
-  double drawing = 0.0, apart = 0.0, settling = 0.0, moved = 0.0;
+  size_t sampled = 0, kept = 0, most = 0;
+  double sampling = 0.0, depenetration = 0.0, settling = 0.0, moved = 0.0;
   for (const Outcome& one : outcomes) {
     sound += one.scene.sound;
     projected += one.scene.projected;
     dropped += one.scene.dropped;
-    drawn += one.draw.objects.size();
+    sampled += one.draw.objects.size();
     kept += one.scene.objects.size();
     most = std::max(most, one.scene.objects.size());
-    drawing += one.drawing;
-    apart += one.apart;
+    sampling += one.sampling;
+    depenetration += one.depenetration;
     settling += one.settling;
     moved += one.scene.moved;
   }
   const double n = static_cast<double>(outcomes.size());
-  std::printf("scenes %zu, projected %d, sound %d (%.1f %%)\n", outcomes.size(), projected, sound,
-              100.0 * sound / n);
-  std::printf("objects drawn %.1f, kept %.1f in the mean, %zu at most; dropped %d\n", drawn / n,
+  std::printf("scenes %zu, depenetrated %d, valid %d (%.1f %%)\n", outcomes.size(), projected,
+              sound, 100.0 * sound / n);
+  std::printf("objects sampled %.1f, kept %.1f on average, %zu at most; dropped %d\n", sampled / n,
               kept / n, most, dropped);
-  std::printf("moved %.2f mm in the mean\n", 1e3 * moved / n);
-  std::printf("a scene, one core: drawing %.1f ms, projection %.1f ms, settling %.2f s\n",
-              1e3 * drawing / n, 1e3 * apart / n, settling / n);
+  std::printf("moved %.2f mm on average\n", 1e3 * moved / n);
+  std::printf("per scene, one core: sampling %.1f ms, depenetration %.1f ms, settling %.2f s\n",
+              1e3 * sampling / n, 1e3 * depenetration / n, settling / n);
 }
 
 void Run(const Arguments& arguments) {
@@ -115,7 +113,7 @@ void Run(const Arguments& arguments) {
   for (size_t i = 0; i < outcomes.size(); ++i) {
     const scene::FeasibleScene& one = outcomes[i].scene;
     if (one.sound) continue;
-    std::printf("not sound: scene %zu, dropped %d of %zu, drift %.2f mm, penetration %.3f mm\n", i,
+    std::printf("not valid: scene %zu, dropped %d of %zu, drift %.2f mm, penetration %.3f mm\n", i,
                 one.dropped, outcomes[i].draw.objects.size(), 1e3 * one.drift,
                 1e3 * one.penetration);
   }
@@ -131,17 +129,18 @@ void Run(const Arguments& arguments) {
 }  // namespace simwright
 
 int main(int argc, char** argv) {
-  CLI::App app("Dimsum tables: drawn, moved apart, settled");
+  CLI::App app("Dimsum tables: sampled, depenetrated, settled");
   simwright::Arguments arguments;
   app.add_option("--assets", arguments.assets, "Folder of rigid assets")->required();
-  app.add_option("--count", arguments.count, "Scenes")->capture_default_str();
-  app.add_option("--seed", arguments.seed, "Of the scenes")->capture_default_str();
-  app.add_option("--settle", arguments.settle, "s of simulation")->capture_default_str();
-  app.add_option("--watch", arguments.watch, "s, after it")->capture_default_str();
-  app.add_option("--step", arguments.step, "s, of simulation")->capture_default_str();
-  app.add_option("--hull", arguments.hulls, "Slots whose things collide as their hulls");
-  app.add_flag("--whole", arguments.whole, "Never end settling or watching early");
-  app.add_option("--picture", arguments.picture, "PNG of the first eight");
+  app.add_option("--count", arguments.count, "Number of scenes")->capture_default_str();
+  app.add_option("--seed", arguments.seed, "Seed of the scenes")->capture_default_str();
+  app.add_option("--settle", arguments.settle, "Settling time, s")->capture_default_str();
+  app.add_option("--watch", arguments.watch, "Duration of the stability check afterwards, s")
+      ->capture_default_str();
+  app.add_option("--step", arguments.step, "Simulation time step, s")->capture_default_str();
+  app.add_option("--hull", arguments.hulls, "Categories that collide by their convex hull");
+  app.add_flag("--whole", arguments.whole, "Never end settling or the stability check early");
+  app.add_option("--picture", arguments.picture, "PNG of the first eight scenes");
   CLI11_PARSE(app, argc, argv);
   try {
     simwright::core::SetThreadCount(0);

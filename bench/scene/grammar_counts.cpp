@@ -1,5 +1,5 @@
-// What each scene grammar draws: objects a scene, furniture among them and before physics, and how
-// fast.
+// Samples each scene grammar: objects per scene (including furniture, before physics), and scenes
+// per second.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -34,13 +34,13 @@ void Report(const scene::SceneType& type, int count, std::uint64_t seed) {
 }  // namespace simwright
 
 int main(int argc, char** argv) {
-  CLI::App app("Scene grammars: objects a scene and scenes a second, one core");
+  CLI::App app("Scene grammars: objects per scene and scenes per second, one core");
   int count = 2000;
   std::uint64_t seed = 77;
-  app.add_option("--count", count, "Scenes of each type")
+  app.add_option("--count", count, "Scenes per type")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  app.add_option("--seed", seed, "Of the scenes")->capture_default_str();
+  app.add_option("--seed", seed, "Seed of the scenes")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
     std::printf("%-18s %6s %6s %6s %13s %11s\n", "type", "mean", "most", "limit", "derivations",

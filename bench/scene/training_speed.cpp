@@ -1,6 +1,6 @@
-// How fast a model of scenes learns, and how much of what the machine can do that is: updates and
-// scenes a second of each denoiser, the floating-point operations of their matrix products a
-// second, and the same of one large product by libtorch's BLAS.
+// Measures the training speed of scene models and its share of the machine's peak: updates and
+// scenes per second of each denoiser, the floating-point operations of their matrix products per
+// second, and those of one large product by libtorch's BLAS.
 //   bench_training_speed --entries 34 --batch 128
 #include <chrono>
 #include <cstdio>
@@ -28,7 +28,7 @@ double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// FLOP/s of a product of two square matrices.
+// Returns the FLOP/s of a product of two square matrices.
 double Peak() {
   constexpr std::int64_t kSide = 1536;
   const torch::Tensor a = torch::randn({kSide, kSide}), b = torch::randn({kSide, kSide});
@@ -41,9 +41,10 @@ double Peak() {
   return best;
 }
 
-// Multiplications and additions of an update's matrix products, three passes (forward, and backward
-// to inputs and to weights): two a weight and token, or a weight and scene where a layer acts on
-// time alone, and two products of attention a pair of tokens (the U-Net's, linear, are left out).
+// Returns the floating-point operations of an update's matrix products, three passes (forward, and
+// backward to inputs and to weights): two per weight and token, or per weight and scene where a
+// layer acts on time alone, and two products of attention per pair of tokens (the U-Net's, linear,
+// are left out).
 double FlopOf(const scene::SceneModelOptions& model, const scene::Denoiser& denoiser,
               const Arguments& arguments) {
   double token_weights = 0.0, scene_weights = 0.0;
@@ -99,14 +100,16 @@ void Measure(const char* name, const scene::SceneModelOptions& model, const Argu
 
 int main(int argc, char** argv) {
   using namespace simwright;
-  CLI::App app("How fast models of scenes learn");
+  CLI::App app("Training speed of scene models");
   Arguments arguments;
   app.add_option("--size", arguments.size, "tiny, base or full")->capture_default_str();
-  app.add_option("--entries", arguments.entries, "Of a scene")->capture_default_str();
-  app.add_option("--classes", arguments.classes, "The empty one too")->capture_default_str();
-  app.add_option("--batch", arguments.batch, "Scenes of an update")->capture_default_str();
-  app.add_flag("--whole", arguments.whole, "All threads in each product, none for a share");
-  app.add_option("--updates", arguments.updates, "That are timed")->capture_default_str();
+  app.add_option("--entries", arguments.entries, "Entries per scene")->capture_default_str();
+  app.add_option("--classes", arguments.classes, "Classes, including the empty one")
+      ->capture_default_str();
+  app.add_option("--batch", arguments.batch, "Scenes per update")->capture_default_str();
+  app.add_flag("--whole", arguments.whole,
+               "Use all threads in each product instead of one batch share per thread");
+  app.add_option("--updates", arguments.updates, "Timed updates")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
     core::SetThreadCount(0);
@@ -114,7 +117,7 @@ int main(int argc, char** argv) {
     const double peak = Peak();
     std::printf("%d threads, largest product %.1f GFLOP/s\n", core::ThreadCount(), peak * 1e-9);
     std::printf("%-12s %9s %10s %10s %9s %9s\n", "denoiser", "weights", "updates/s", "scenes/s",
-                "GFLOP/s", "of it");
+                "GFLOP/s", "of peak");
     const scene::SceneModelOptions model = scene::SceneModelOptions::OfSize(arguments.size);
     Measure("ours", model, arguments, peak);
     Measure("midiffusion", model.AsMiDiffusion(), arguments, peak);

@@ -1,7 +1,8 @@
-// Which planted faults the verification finds, and how many sound programs it flags: the table of
-// docs/rewards.md.
+// Counts the planted faults that verification finds, and the correct programs that it flags: the
+// table of docs/rewards.md.
 //   bench_mutation_table ASSET... [--count N]
-// on the programs of the tasks that the rules make for the assets (folders, or folders of them).
+// on the programs of the tasks that the rules generate for the assets (folders, or folders of
+// them).
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -24,8 +25,8 @@ struct Count {
 
 using Counts = std::map<std::string, Count>;
 
-// The program that moves the same joint the other way.
-std::string OtherWay(const std::vector<tasks::Task>& made, const std::string& name) {
+// Returns the program that moves the same joint in the opposite direction.
+std::string OppositeProgram(const std::vector<tasks::Task>& made, const std::string& name) {
   for (const auto& [from, to] : {std::pair{"open_", "close_"},
                                  {"close_", "open_"},
                                  {"turn_on_", "turn_off_"},
@@ -86,7 +87,7 @@ int Run(const std::vector<std::string>& arguments, int count) {
     const auto at = static_cast<std::size_t>(i);
     const tasks::Task& task = made.tasks[at];
     for (const tasks::Subtask& subtask : task.subtasks) {
-      const std::string other = OtherWay(made.tasks, subtask.name);
+      const std::string other = OppositeProgram(made.tasks, subtask.name);
       Tally(model, task, tasks::PlantFaults(subtask, other), &faults[at]);
       Tally(model, task, tasks::RewriteSoundly(subtask), &rewrites[at]);
     }
@@ -94,8 +95,8 @@ int Run(const std::vector<std::string>& arguments, int count) {
   std::printf("%d tasks on %zu assets\n\n", tasks, model.things.size());
   Print("fault", faults);
   std::printf("\n");
-  Print("sound rewriting", rewrites);
-  std::printf("\nideas of the rules that were not possible:");
+  Print("correct rewriting", rewrites);
+  std::printf("\ninfeasible task candidates of the rules:");
   for (const auto& [why, times] : made.dropped) std::printf(" %s %d", why.c_str(), times);
   std::printf("\n");
   return 0;

@@ -1,4 +1,4 @@
-// Speed of reward programs on one core.
+// Measures the speed of reward programs on one core.
 //   bench_reward_speed [Google Benchmark's flags]
 //   bench_reward_speed --python [PYTHON]   the same function in python3-torch beside ours
 #include <benchmark/benchmark.h>
@@ -28,7 +28,7 @@ tasks::RewardScene Scene() {
   return {{microwave}};
 }
 
-// The program with random inputs, [num_envs, width] each.
+// A program with random inputs, [num_envs, width] each.
 struct Setup {
   Setup(const std::string& source, int num_envs)
       : scene(Scene()),
@@ -77,7 +77,7 @@ void CompileDoorReward(benchmark::State& state) {
 }
 BENCHMARK(CompileDoorReward)->Unit(benchmark::kMicrosecond);
 
-// The longest of the tests' programs, with the shapes of its parameters inferred.
+// Compiles the longest of the tests' programs, with the shapes of its parameters inferred.
 void CompileLongReward(benchmark::State& state, const char* name) {
   const std::string source = core::ReadFile(FilePath("tests/tasks/reward/corpus/") + name);
   for (auto _ : state) benchmark::DoNotOptimize(tasks::CompileReward(source, nullptr));
@@ -86,7 +86,7 @@ BENCHMARK_CAPTURE(CompileLongReward, shapes, "shapes.py")->Unit(benchmark::kMicr
 BENCHMARK_CAPTURE(CompileLongReward, numbers, "numbers.py")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(CompileLongReward, hand, "hand_spin_v5.py")->Unit(benchmark::kMicrosecond);
 
-// Of processor time, as time_python.py measures too: another program on the core does not count.
+// Returns processor time, like time_python.py: other programs on the core do not count.
 double MedianMicroseconds(Setup* setup) {
   std::vector<double> runs;
   constexpr int kCalls = 200;

@@ -1,4 +1,4 @@
-// Seconds to read assets and to make verified tasks for them, by rules.
+// Measures the seconds to read assets and to generate verified tasks for them, by rules.
 //   bench_task_speed ASSET... [--count N] [--threads N]
 #include <chrono>
 #include <cstdio>
@@ -27,7 +27,7 @@ int Run(const std::vector<std::string>& arguments, int count) {
   std::printf("%zu assets read in %.2f s\n", assets.models.size(), Seconds(start));
   start = Clock::now();
   const tasks::SceneModel model = tasks::MakeSceneModel(assets.models);
-  std::printf("their rooms and outlines in %.2f s\n", Seconds(start));
+  std::printf("their receptacles and hull points in %.2f s\n", Seconds(start));
   start = Clock::now();
   const tasks::RuleTasks made = tasks::GenerateTasksByRules(model, {count, 1});
   const double seconds = Seconds(start);
@@ -41,7 +41,7 @@ int Run(const std::vector<std::string>& arguments, int count) {
       (thing.articulated() ? articulated : rigid).insert(thing.category);
     }
   }
-  std::printf("%zu tasks of %zu subtasks in %.2f s, %.1f ms a subtask, on %d threads\n",
+  std::printf("%zu tasks of %zu subtasks in %.2f s, %.1f ms per subtask, on %d threads\n",
               made.tasks.size(), subtasks, seconds, 1e3 * seconds / static_cast<double>(subtasks),
               core::ThreadCount());
   std::printf("%zu of two or more subtasks; %zu articulated and %zu rigid categories\n", longer,

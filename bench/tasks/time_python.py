@@ -1,5 +1,6 @@
-"""Microseconds of processor time a call of door_reward.py in python3-torch on one thread, as the
-median of many runs: time_python.py DOOR_REWARD NUM_ENVS. The environment hands out ready tensors."""
+"""Prints the microseconds of processor time per call of door_reward.py in python3-torch on one
+thread, the median of many runs: time_python.py DOOR_REWARD NUM_ENVS. The environment returns
+precomputed tensors."""
 import statistics
 import sys
 import time

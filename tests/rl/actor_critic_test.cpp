@@ -1,4 +1,4 @@
-// Networks, densities and descent against libtorch's own and against definitions.
+// Networks, densities and gradient steps against libtorch's own and against definitions.
 #include "rl/actor_critic.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(ActorCritic, TheFastForwardPassGivesWhatLibtorchGives) {
     const torch::Tensor found = torch::from_blob(means.data(), {37, 3});
     EXPECT_LT((expected - found).abs().max().item<float>(), 1e-6f);
     EXPECT_GT(expected.abs().max().item<float>(), 1e-3f);
-    EXPECT_LT(expected.abs().max().item<float>(), 0.5f);  // starts about the middle
+    EXPECT_LT(expected.abs().max().item<float>(), 0.5f);  // starts near the middle
     EXPECT_NEAR(networks.Std()[1], 0.5f, 1e-6f);
   }
 }
@@ -52,7 +52,7 @@ TEST(ActorCritic, GradientsStandInOneRowAndAreTheSlopesOfTheLoss) {
   const torch::Tensor gradients = networks.parameters().gradients();
   loss().backward();
   const torch::Tensor found = gradients.clone();
-  loss().backward();  // adds
+  loss().backward();  // accumulates
   EXPECT_TRUE(torch::allclose(gradients, 2.0 * found));
   const torch::NoGradGuard no_grad;
   for (std::int64_t i = 0; i < values.numel(); i += 3) {
@@ -94,15 +94,16 @@ TEST(GaussianPolicy, DrawsHaveTheMomentsAndTheDensityTheyClaim) {
   EXPECT_NEAR(found[0], 0.5f, 0.01f);
   EXPECT_NEAR(found[1], 0.1f, 0.002f);
   EXPECT_NEAR(actions.col(0).mean(), 0.3f, 0.01f);
-  // The mean of -log density is the entropy, log(std sqrt(2 pi e)) a dimension.
+  // The mean of -log density is the entropy, log(std sqrt(2 pi e)) per dimension.
   const double entropy = std::log(0.5) + std::log(0.1) + std::log(2.0 * M_PI * M_E);
   EXPECT_NEAR(-LogDensity(actions, means, std).mean(), entropy, 0.02);
   // At the mean: 1 / (2 pi std_0 std_1).
   EXPECT_NEAR(LogDensity(means, means, std)[0], -std::log(2.0 * M_PI * 0.5 * 0.1), 1e-5);
 }
 
-// A batch that `networks` could have drawn itself, but for the means being `moved` aside.
-Samples DrawnBy(const ActorCritic& networks, int count, float moved) {
+// Returns a batch that `networks` could have sampled, except for the means, which are shifted by
+// `moved`.
+Samples SampledBy(const ActorCritic& networks, int count, float moved) {
   core::Rng rng(6);
   Rows x = Rows::Random(count, networks.sizes().observations), means, actions;
   networks.Actor().Forward(x, &means);
@@ -128,16 +129,16 @@ TEST(PpoLoss, IsThatOfThePaper) {
   const ActorCritic networks({3, 2, {16}, Activation::kTanh}, 0.4, rng, kCpu);
   PpoOptions options;
   const torch::Tensor log_std = networks.log_std().detach().clone();
-  const PpoLoss same = ComputePpoLoss(networks, DrawnBy(networks, 4000, 0.0f), log_std, options);
+  const PpoLoss same = ComputePpoLoss(networks, SampledBy(networks, 4000, 0.0f), log_std, options);
   EXPECT_NEAR(same.kl.item<double>(), 0.0, 1e-6);
   EXPECT_NEAR(same.policy.item<double>(), 0.0, 1e-5);  // ratio 1, advantages of mean 0
   EXPECT_NEAR(same.value.item<double>(), 0.125, 1e-6);
   EXPECT_EQ(same.clipped_share.item<double>(), 0.0);
   EXPECT_NEAR(same.entropy.item<double>(), 2.0 * std::log(0.4 * std::sqrt(2.0 * M_PI * M_E)), 1e-5);
 
-  const Samples apart = DrawnBy(networks, 4000, 0.2f);
+  const Samples apart = SampledBy(networks, 4000, 0.2f);
   const PpoLoss moved = ComputePpoLoss(networks, apart, log_std, options);
-  // (0.2 / 0.4)^2 / 2 a dimension; and the mean of -log ratio over draws of the old policy.
+  // (0.2 / 0.4)^2 / 2 per dimension; and the mean of -log ratio over samples of the old policy.
   EXPECT_NEAR(moved.kl.item<double>(), 0.25, 1e-5);
   double surrogate = 0.0, log_ratio = 0.0;
   const torch::Tensor means = networks.Means(apart.observations).detach();

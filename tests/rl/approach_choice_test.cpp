@@ -1,4 +1,4 @@
-// From where a hand comes to a part: not through the floor, not through what the part is on.
+// The approach of a gripper to a part: not through the floor, not through the part's support.
 #include "rl/approach_choice.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// `asset`, its joint "part_joint" to be moved, held to the floor before the robot.
+// Returns a skill that moves joint "part_joint" of `asset`, which is fixed in front of the robot.
 std::shared_ptr<const Skill> Moving(const assets::SemanticModel& asset) {
   SkillSubtask scene;
   scene.assets = {WithInertia(asset)};
@@ -29,7 +29,7 @@ std::shared_ptr<const Skill> Moving(const assets::SemanticModel& asset) {
   return MakeSkill(robot::Panda(false), {scene}, SkillOptions().ForEvaluation());
 }
 
-// A body of blocks with one part.
+// Returns a body of blocks with one part.
 assets::SemanticModel Asset(const std::vector<assets::UrdfShape>& body, const Vector3d& part_size,
                             const assets::UrdfJoint& joint,
                             const Vector3d& part_at = Vector3d::Zero()) {
@@ -49,7 +49,7 @@ Vector3d ApproachOf(const Skill& skill) {
 }
 
 TEST(ChooseApproach, AKnobBesideATallSpoutIsTakenFromAbove) {
-  // The knob stands on a deck, lower than the middle of the whole: the way out along its axis from
+  // The knob stands on a deck, lower than the middle of the whole: outwards along its axis from
   // there is down, into the deck.
   const auto skill = Moving(Asset(
       {tasks::Block({0.1, 0.3, 0.04}, {0, 0, 0.02}), tasks::Block({0.04, 0.04, 0.3}, {0, 0, 0.19})},
@@ -60,8 +60,8 @@ TEST(ChooseApproach, AKnobBesideATallSpoutIsTakenFromAbove) {
 }
 
 TEST(ChooseApproach, ALeverThatGoesDownIsPressedFromTheFront) {
-  // A block of 20 cm with the lever before its front: a hand straight from above would hit its
-  // edge, a level one brings the wrist near the floor.
+  // A block of 20 cm with the lever on its front: a gripper straight from above would hit its edge,
+  // a level one brings the flange near the floor.
   const auto skill =
       Moving(Asset({tasks::Block({0.2, 0.3, 0.2}, {0, 0, 0.1})}, {0.03, 0.04, 0.012},
                    tasks::MakeJoint("part_joint", "body", "part", assets::UrdfJointType::kPrismatic,
@@ -70,8 +70,8 @@ TEST(ChooseApproach, ALeverThatGoesDownIsPressedFromTheFront) {
 }
 
 TEST(ChooseApproach, AHandThatTakesALidDoesNotEndPointingBackAtTheRobot) {
-  // The hinge is at the back; the handle, on the lid's front, goes up and over. From above is along
-  // its way and free, but the hand turns with the lid.
+  // The hinge is at the back; the handle, on the lid's front, moves up and over. From above is
+  // along its motion and collision-free, but the gripper turns with the lid.
   const auto skill =
       Moving(Asset({tasks::Block({0.3, 0.3, 0.2}, {0, 0, 0.1})}, {0.03, 0.1, 0.03},
                    tasks::MakeJoint("part_joint", "body", "part", assets::UrdfJointType::kRevolute,
@@ -96,8 +96,8 @@ TEST(HandSurface, OfThePandaIsItsHandAndOpenFingers) {
   const std::vector<Vector3d> points = HandSurface(robot::Panda(false), 0.01).points;
   Eigen::AlignedBox3d box;
   for (const Vector3d& point : points) box.extend(point);
-  // Franka's hand is 20 cm wide from finger to finger and 6 to 7 cm thick, its flange 10.3 cm
-  // behind the fingertips' middle; the tips reach a centimetre beyond that.
+  // The Franka hand is 20 cm wide from finger to finger and 6 to 7 cm thick, its flange 10.3 cm
+  // behind the fingertips' middle; the tips extend a centimetre beyond that.
   EXPECT_NEAR(box.sizes().y(), 0.2, 0.03);
   EXPECT_NEAR(box.sizes().x(), 0.065, 0.03);
   EXPECT_NEAR(box.max().z(), 0.01, 0.006);
@@ -125,12 +125,12 @@ TEST(DeepestPoint, IsTheDistanceToTheNearestFace) {
   EXPECT_NEAR(at(-0.07, 0.1, 1), 0.03, 1e-12);   // in the body, 3 cm behind its front
   EXPECT_NEAR(at(0.0, 0.17, 1), 0.02, 1e-12);    // 2 cm below its top
   EXPECT_NEAR(at(-0.11, 0.09, 0), 0.01, 1e-12);  // in the part
-  EXPECT_EQ(at(-0.11, 0.09, 1), 0.0);            // which does not count once it is gripped
+  EXPECT_EQ(at(-0.11, 0.09, 1), 0.0);            // which is ignored once it is gripped
   EXPECT_EQ(at(-0.3, 0.1, 1), 0.0);
   EXPECT_NEAR(at(-0.3, -0.05, 1), 0.04, 1e-12);  // in the floor
 }
 
-// What its sphere tells of a surface never differs from what its points do, each looked at by the
+// The bounding sphere never changes the result over the points of a surface, checked against the
 // planes of an octahedron's eight faces.
 TEST(DeepestIn, IsThatOfThePointsOneByOne) {
   core::TriangleMesh octahedron;

@@ -1,5 +1,5 @@
-// What a training has written and something has damaged: refused in one line, or read as something
-// that can be used; never a crash, and never numbers that are none. Under the sanitizers too.
+// Damaged files of a training are refused in one line, or read as valid data; never a crash, and
+// never non-finite numbers. Under the sanitizers too.
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -13,7 +13,7 @@
 namespace simwright::rl {
 namespace {
 
-// `text` with one to four pieces of it changed, cut out, put twice, or made another number.
+// Returns `text` with one to four random edits: changed, cut, duplicated or renumbered pieces.
 std::string Damaged(const std::string& text, core::Rng& rng) {
   static const std::vector<std::string> pieces = {
       "-1", "1e308", "1e999", "null", "[]", "{}", "\"x\"", "0", "4294967296", ",", "true", "\xff"};
@@ -63,7 +63,7 @@ TEST(DamagedFiles, AStartIsRefusedOrCanBeBegun) {
       EXPECT_NE(std::string(error.what()).find("ends.jsonl:1"), std::string::npos) << error.what();
     }
   }
-  EXPECT_GT(read, 100);  // a digit more or less is another start
+  EXPECT_GT(read, 100);  // one digit more or less is another valid start state
   EXPECT_GT(refused, 1000);
 }
 

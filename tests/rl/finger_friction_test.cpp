@@ -1,4 +1,4 @@
-// The friction of the fingers is drawn with each episode, which begins with what was drawn.
+// The friction of the fingers is sampled for each episode, which begins with the sample.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,8 +52,8 @@ TEST(FingerFriction, IsKeptWithAStart) {
   EXPECT_FALSE(ParseStart(StartText(own), *skill, "here").finger_friction);
 }
 
-// A thing of 0.1 to 0.4 kg with a friction of 0.42 to 0.78 needs 0.03 to 0.23 of fingers that press
-// with 20 N each, more where it is moved: hardly any is taken with 0.02, nearly all with 2.
+// An object of 0.1 to 0.4 kg with a friction of 0.42 to 0.78 needs 0.03 to 0.23 of fingers that
+// press with 20 N each, more while it moves: with 0.02 hardly any is grasped, with 2 nearly all.
 TEST(FingerFriction, DecidesWhatAHandCanHold) {
   const auto successes = [](double friction) {
     const auto skill =

@@ -1,4 +1,4 @@
-// The frame that a policy works in, against the motion of the parts and the ways that things go.
+// The frame in which a policy acts, against the motion of parts and the paths of objects.
 #include "rl/focus_frame.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ FocusFrame FrameOf(const SkillVariant& variant, const tasks::SceneState& state,
   return FocusFrame(variant, state, Vector3d::UnitY(), pitch);
 }
 
-// A cup that shall be a way along x from where it stands, without being grasped.
+// Returns a subtask that pushes a cup by `x` without grasping it.
 SkillSubtask PushCup(double x) {
   SkillSubtask scene = PickUpCup();
   scene.subtask.program =
@@ -38,7 +38,7 @@ TEST(FocusFrame, TheWayThatADoorIsPulledIsFree) {
   const FocusFrame frame = FrameOf(variant, variant.start);
   EXPECT_EQ(frame.lean(), 0.0);
   EXPECT_NEAR(frame.free_way().norm(), 1.0, 1e-9);
-  EXPECT_LT(frame.free_way().z(), -0.9);  // towards the hand
+  EXPECT_LT(frame.free_way().z(), -0.9);  // towards the gripper
 }
 
 TEST(FocusFrame, TheWayThatADoorIsClosedIsFreeWhereverItIsMet) {
@@ -62,7 +62,7 @@ TEST(FocusFrame, APushedThingIsMetFromBehindInALevelFrame) {
   const Eigen::Isometry3d& focus = frame.world_from_focus();
   EXPECT_LT((focus.linear().col(0) - Vector3d::UnitX()).norm(), 1e-9);
   EXPECT_LT((focus.linear().col(2) + Vector3d::UnitZ()).norm(), 1e-9);
-  // Its radius and the room behind it, below its middle.
+  // Its radius and the fingers' distance behind it, below its middle.
   EXPECT_NEAR(focus.translation().x(), 0.5 - 0.03 - 0.03, 0.003);
   EXPECT_LT(focus.translation().z(), 0.5 * variant.model.things[0].height());
 }
@@ -83,7 +83,7 @@ TEST(FocusFrame, AThingThatIsALittlePastItsGoalIsStillMetFromTheSameSide) {
   EXPECT_NEAR(direction_at(root + 0.24), -1.0, 1e-9);
 }
 
-// A cup in the hand that shall stand 25 cm aside.
+// Returns a subtask that places a grasped cup 25 cm aside.
 SkillSubtask PutAside() {
   SkillSubtask scene = PickUpCup();
   scene.subtask.program =
@@ -104,7 +104,7 @@ TEST(FocusFrame, WhatHasSlidInTheHandIsBroughtOn) {
   ASSERT_TRUE(frame.at_destination());
   const Vector3d way = WayToDestination(variant, state);
   ASSERT_GT(way.norm(), 0.2);
-  // The hand has gone where it should go, and the cup has not come along.
+  // The gripper has moved to its target without the cup.
   state.grasped = true;
   state.touched = variant.focus->thing;
   state.gripper = frame.world_from_focus();
@@ -113,7 +113,7 @@ TEST(FocusFrame, WhatHasSlidInTheHandIsBroughtOn) {
   frame.Update(state);
   EXPECT_TRUE(frame.world_from_focus().translation().isApprox(
       Vector3d(state.gripper.translation() + way), 1e-9));
-  // On its way there the hand holds it as it does.
+  // On the path the gripper holds it unchanged.
   state.gripper.translation() += 0.5 * way;
   state.roots[static_cast<size_t>(variant.focus->thing)].pretranslate(0.5 * way);
   for (int i = 0; i < 8; ++i) frame.Update(state);

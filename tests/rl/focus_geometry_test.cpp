@@ -1,5 +1,5 @@
-// What a policy is told of the part that the hand works on, against differences of the joint's own
-// motion and the shapes that the scenes are built of.
+// The observed geometry of the target part, against finite differences of the joint's own motion
+// and the shapes of the test scenes.
 #include "rl/focus_geometry.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ std::shared_ptr<const Skill> Make(const SkillSubtask& scene) {
   return MakeSkill(robot::Panda(false), {scene}, SkillOptions().ForEvaluation());
 }
 
-// The frame at the part, and where its origin is once the joint has moved by `step`.
+// Compares the motion of the frame's origin with finite differences when the joint moves by `step`.
 void ExpectWayOfDifferences(const SkillVariant& variant, double position) {
   tasks::SceneState state = variant.start;
   double& joint = state.joints[0][static_cast<size_t>(variant.focus->joint)];
@@ -39,11 +39,11 @@ void ExpectWayOfDifferences(const SkillVariant& variant, double position) {
   const Vector3d moved = frame.linear().transpose() * (after.translation() - frame.translation());
   EXPECT_LT((geometry.way - moved.normalized()).norm(), 1e-5);
   if (geometry.hinge.isZero()) {
-    EXPECT_NEAR(moved.norm() / step, 1.0, 1e-5);  // slides: a metre a metre
+    EXPECT_NEAR(moved.norm() / step, 1.0, 1e-5);  // prismatic: a metre per metre
   } else {
-    EXPECT_NEAR(moved.norm() / step, geometry.hinge.norm(), 1e-5);  // turns: radius a radian
+    EXPECT_NEAR(moved.norm() / step, geometry.hinge.norm(), 1e-5);  // revolute: radius per radian
     EXPECT_NEAR(geometry.hinge.dot(moved.normalized()), 0.0, 1e-5);
-    // The axis' point stays where it is.
+    // The point on the axis does not move.
     const Vector3d axis_point = frame * geometry.hinge;
     EXPECT_LT((after * (frame.inverse() * axis_point) - axis_point).norm(), 2e-6);
   }
@@ -69,8 +69,8 @@ TEST(FocusGeometry, SizeIsTheHandlesAsTheHandSeesIt) {
   const SkillVariant& variant = skill->variants.front();
   const Eigen::Isometry3d frame = ToolAtJoint(variant.model, variant.start, *variant.focus);
   const FocusGeometry geometry = GeometryOf(variant.model, variant.start, *variant.focus, frame);
-  // A bar of 2 x 2 x 20 cm, upright, 6 cm before the hinge and 45 cm beside it: the door carries it
-  // at a right angle to the line to the hinge, where the frame's z points.
+  // A bar of 2 x 2 x 20 cm, upright, 6 cm in front of the hinge and 45 cm beside it: the door
+  // carries it at a right angle to the line to the hinge, where the frame's z points.
   const double turn = std::atan2(0.06, 0.45), side = 0.02 * (std::cos(turn) + std::sin(turn));
   EXPECT_LT((geometry.size - Vector3d(0.2, side, side)).norm(), 1e-9);
   EXPECT_NEAR(geometry.hinge.norm(), std::hypot(0.06, 0.45), 1e-9);

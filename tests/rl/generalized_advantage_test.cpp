@@ -70,8 +70,8 @@ TEST(GeneralizedAdvantage, IsTheLambdaReturnLessTheValue) {
   }
 }
 
-// A reward of 1 for ever is worth 1 / (1 - discount). Where the critic knows it, time running out
-// changes nothing; taken for an end of the task, it would cost up to the whole value.
+// A reward of 1 forever is worth 1 / (1 - discount). If the critic knows it, a time limit changes
+// nothing; treated as the end of the task, it would cost up to the whole value.
 TEST(GeneralizedAdvantage, ATimeOutCostsNothingAndAnEndOfTheTaskDoes) {
   constexpr double kDiscount = 0.99, kForEver = 1.0 / (1.0 - kDiscount);
   RewardSequence sequence = Sequence(100, 1);
@@ -90,7 +90,7 @@ TEST(GeneralizedAdvantage, ATimeOutCostsNothingAndAnEndOfTheTaskDoes) {
   EXPECT_NEAR(wrong.advantages[8], 0.99 * 0.95 * (1.0 - kForEver), 1e-3);
 }
 
-// The next episode's first value must not leak into the one before.
+// The next episode's first value must not leak into the previous episode.
 TEST(GeneralizedAdvantage, ATruncatedStepLooksAtItsOwnLastObservation) {
   RewardSequence sequence = Sequence(2, 1);
   sequence.truncated[0] = 1;

@@ -1,5 +1,5 @@
-// Goals where the scene stands otherwise than described: free where they are, above the thing where
-// furniture has come to stand in their way, with the room that the thing comes out of.
+// Goals in scenes that differ from the description: unchanged if free, above the object if
+// furniture blocks them, moving with the receptacle that the object comes out of.
 #include "rl/goal_placement.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr int kCup = 0, kMicrowave = 1;
 
-// A cup to pick up at (0.5, 0), and a microwave at `microwave`.
+// Returns a skill that picks up a cup at (0.5, 0), with a microwave at `microwave`.
 std::shared_ptr<const Skill> CupAndMicrowave(const Isometry3d& microwave,
                                              const Vector3d& cup = {0.5, 0.0, 0.0}) {
   SkillSubtask scene = PickUpCup();

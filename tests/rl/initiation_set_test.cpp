@@ -1,4 +1,4 @@
-// Where a skill can start: told from examples whose truth is known.
+// The initiation set of a skill, estimated from examples with a known truth.
 #include "rl/initiation_set.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace simwright::rl {
 namespace {
 
-// Starts of three numbers, the last without any meaning and one that never changes.
+// Start states of four numbers: the third is irrelevant, the last constant.
 struct Tried {
   Rows observations;
   std::vector<bool> succeeded;
@@ -46,7 +46,7 @@ TEST(InitiationSet, FindsTheChancesThatStartsWereDrawnWith) {
     const float* row = others.observations.row(i).data();
     off = std::max(off, std::abs(set.Chance(row) - Truth(row[0], row[1])));
   }
-  EXPECT_LT(off, 0.03);  // 20000 examples tell a weight to 0.03, a chance to a quarter of that
+  EXPECT_LT(off, 0.03);  // 20000 examples give a weight to 0.03, a probability to a quarter of that
 }
 
 TEST(InitiationSet, StartsThatCanBeToldApartAreAndStayFinite) {
@@ -68,7 +68,7 @@ TEST(InitiationSet, StartsThatCanBeToldApartAreAndStayFinite) {
   EXPECT_THROW(InitiationSet(observations, {true}), core::Error);
 }
 
-// A cup that stands where it was seen to be picked up from is worth more than one that was not.
+// A cup where it was seen to be picked up successfully is worth more than elsewhere.
 TEST(Successor, EndsAreWorthWhatWasSeenFromTheirLike) {
   const auto skill = MakeSkill(robot::Panda(false), {PickUpCup()}, SkillOptions().ForEvaluation());
   std::vector<EvaluatedEpisode> tried;
@@ -87,7 +87,7 @@ TEST(Successor, EndsAreWorthWhatWasSeenFromTheirLike) {
   EXPECT_GE(right, 51);
 }
 
-// An end's share scales what the success that ends an episode is paid, and nothing else.
+// The share of an end state scales only the reward of the success that ends an episode.
 TEST(SkillEnvironment, PaysEndsTheirShare) {
   SkillSubtask scene = PickUpCup();
   scene.subtask.program =

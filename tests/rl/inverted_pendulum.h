@@ -10,10 +10,10 @@
 namespace simwright::rl {
 
 // A pole on a cart on a rail in Bullet, after Gymnasium's InvertedPendulum-v4: a 10.47 kg cart, a
-// 5.02 kg pole of 0.6 m, joint damping 1, +-300 N on the cart, two steps of 0.02 s an action, a
-// reward of 1 a step, an end where the pole leans more than 0.2 rad, 1000 steps at most.
-// Observed: cart and pole, positions and velocities. Starts within +-0.01 m and rad at rest (there
-// with velocities of that size too). Its state cannot be saved.
+// 5.02 kg pole of 0.6 m, joint damping 1, +-300 N on the cart, two steps of 0.02 s per action, a
+// reward of 1 per step, termination if the pole leans more than 0.2 rad, 1000 steps at most.
+// Observations: positions and velocities of cart and pole. Starts within +-0.01 m and rad at rest
+// (the original with velocities of that size too). Its state cannot be saved.
 class InvertedPendulum : public VectorEnvironment {
  public:
   static constexpr int kLongest = 1000;

@@ -1,4 +1,4 @@
-// A known task in Bullet: the pole stays upright.
+// A known task in Bullet: the pole is balanced.
 #include "tests/rl/inverted_pendulum.h"
 
 #include <gtest/gtest.h>
@@ -10,16 +10,16 @@
 namespace simwright::rl {
 namespace {
 
-// Without a push a pole that leans by a falls as a' ' = m g l a / I, which the cart's give makes
-// faster: the linearised equations of cart and pole (Barto, Sutton and Anderson 1983, without
-// friction) have one growing solution, e^(k t).
+// An unforced pole that leans by a falls with a'' = m g l a / I, faster because the cart recoils:
+// the linearized equations of cart and pole (Barto, Sutton and Anderson 1983, without friction)
+// have one growing solution, e^(k t).
 TEST(InvertedPendulum, FallsAsTheEquationsOfMotionSay) {
   InvertedPendulum environment(1);
   Rows observations;
   environment.Reset(4, &observations);
   StepBatch batch;
   const Rows none = Rows::Zero(1, 1);
-  // Of the damped equations, linearised: [x, a, x', a']' = A [x, a, x', a'].
+  // The damped, linearized equations: [x, a, x', a']' = A [x, a, x', a'].
   const double cart = 10.472, pole = 5.0186, l = 0.3, g = 9.81, inertia = 0.18875 + pole * l * l;
   const Eigen::Matrix2d mass{{cart + pole, pole * l}, {pole * l, inertia}};
   const Eigen::Matrix2d lean{{0.0, 0.0}, {0.0, pole * g * l}};

@@ -74,9 +74,9 @@ TEST(ObservationNormalizer, ScalesToUnitVarianceClipsAndIsFrozenByCopying) {
   EXPECT_GT((again - scaled).cwiseAbs().maxCoeff(), 0.01f);
 }
 
-// Rewards of 3 +- 0 in episodes that never end: the discounted return tends to 3 / (1 - discount).
-// With rewards drawn at random its standard deviation is that of a sum of independent terms,
-// s / sqrt(1 - discount^2).
+// Rewards of 3 +- 0 in episodes without end: the discounted return tends to 3 / (1 - discount).
+// With random rewards its standard deviation is that of a sum of independent terms, s / sqrt(1 -
+// discount^2).
 TEST(RewardScaler, DividesByTheStandardDeviationOfTheReturn) {
   constexpr int kCount = 200;
   constexpr double kDiscount = 0.9, kSpread = 7.0;

@@ -1,4 +1,4 @@
-// Rooms that open upwards, and ways of an arm that is in nothing. Against the drawer unit's own
+// Top-opening receptacles, and collision-free paths of an arm, against the drawer unit's own
 // numbers (tests/tasks/household.h): its drawer is 0.34 deep, its walls reach 9 cm above the
 // drawer's middle, which is 15 cm above the floor, and it slides to -x.
 #include "rl/open_room.h"
@@ -46,12 +46,13 @@ TEST(OpenRoom, OfADrawerIsWhatStandsOut) {
   const Drawer drawer;
   const tasks::SceneState open = drawer.OpenBy(0.2), shut = drawer.OpenBy(0.0);
   ASSERT_TRUE(OpensUpwards(drawer.model, open, 0, drawer.room()));
-  // Its middle is 0.34 / 2 behind its front; what stands out by 0.2 has its own 0.1 behind it.
+  // Its middle is 0.34 / 2 behind its front; the middle of the part that is out by 0.2 is 0.1
+  // behind it.
   const double front = 0.8 - 0.02 - 0.2 - kHalfDepth;
   const Vector3d spot = drawer.InWorld(open, SpotFromAbove(drawer.model, open, 0, drawer.room()));
   EXPECT_NEAR(spot.x(), front + 0.1, kCell);
   EXPECT_NEAR(spot.y(), 0.0, kCell);
-  // Of a shut drawer nothing is out.
+  // No part of a shut drawer is out.
   const Vector3d none = drawer.InWorld(shut, SpotFromAbove(drawer.model, shut, 0, drawer.room()));
   EXPECT_NEAR(none.x(), 0.8 - 0.02 - kHalfDepth, kCell);
 }
@@ -66,7 +67,7 @@ TEST(OpenRoom, HasARimThatTheHandGoesOver) {
   EXPECT_FALSE(RimAround(drawer.model, open, inside + Vector3d(0.0, 0.0, 0.3)));
 }
 
-// A drawer unit before the robot, its drawer open, and a block to be put into it.
+// Returns a drawer unit in front of the robot, its drawer open, and a block to be put into it.
 std::shared_ptr<const Skill> PutIntoDrawer() {
   SkillSubtask scene;
   scene.assets = {WithInertia(tasks::DrawerUnit()),
@@ -99,8 +100,8 @@ TEST(ArmClearance, KnowsTheFloorAndWhatIsOnTheWay) {
   EXPECT_TRUE(clearance.IsClear(home));
   EXPECT_TRUE(clearance.IsWayClear(home, home));
   core::Rng rng = core::StreamRng(2, 0);
-  // A hand that points down from 6 cm above the floor has its fingertips above it; from 1 cm below
-  // it they are in it.
+  // A gripper that points down from 6 cm above the floor has its fingertips above it; from 1 cm
+  // below the floor they are in it.
   Isometry3d tool = Isometry3d::Identity();
   tool.linear() = Vector3d(1.0, -1.0, -1.0).asDiagonal();
   tool.translation() = Vector3d(0.35, 0.3, 0.06);
@@ -112,7 +113,8 @@ TEST(ArmClearance, KnowsTheFloorAndWhatIsOnTheWay) {
   ASSERT_FALSE(below.empty());
   EXPECT_FALSE(clearance.IsClear(below.front().posture));
   EXPECT_FALSE(clearance.IsWayClear(home, below.front().posture));
-  // Straight from one side of the unit to the other, 15 cm above the floor, the arm is in it.
+  // Straight from one side of the unit to the other, 15 cm above the floor, the arm collides with
+  // it.
   tool.translation() = Vector3d(0.6, 0.45, 0.15);
   const auto left = PosturesAt(*skill, variant, tool, home, rng);
   tool.translation() = Vector3d(0.6, -0.45, 0.15);
@@ -120,7 +122,7 @@ TEST(ArmClearance, KnowsTheFloorAndWhatIsOnTheWay) {
   const auto right = PosturesAt(*skill, variant, tool, left.front().posture, rng);
   ASSERT_FALSE(right.empty());
   EXPECT_FALSE(clearance.IsWayClear(left.front().posture, right.front().posture));
-  // Folded, it gets round.
+  // Folded, it passes.
   const auto detour = PlanDetour(*skill, clearance, left.front().posture, right.front().posture);
   ASSERT_TRUE(detour);
   ASSERT_FALSE(detour->empty());

@@ -1,4 +1,4 @@
-// Learning on points that are to be driven to 0, where the best policy is known.
+// Learning to drive points to 0, with a known optimal policy.
 #include "rl/ppo.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ PpoOptions SmallOptions() {
   return options;
 }
 
-// Mean reward a step over `steps` steps.
+// Returns the mean reward per step over `steps` steps.
 double MeanReward(const std::function<void(const Rows&, Rows*)>& act, int steps) {
   ReachEnvironment environment(200);
   Rows observations, actions;
@@ -41,7 +41,7 @@ double MeanReward(const std::function<void(const Rows&, Rows*)>& act, int steps)
   return sum / (200.0 * steps);
 }
 
-// Gain K of the best policy u = -K x, by iterating Riccati's equation.
+// Returns the gain K of the optimal policy u = -K x, by iterating the Riccati equation.
 Eigen::RowVector2d BestGain(double discount) {
   using Reach = ReachEnvironment;
   const Eigen::Matrix2d a{{1.0, Reach::kTimeStep}, {0.0, 1.0}};
@@ -78,7 +78,7 @@ TEST(Ppo, ComesWithinAFewPercentOfTheBestPolicy) {
   EXPECT_GT(found, 1.05 * best) << "best " << best;
   EXPECT_GT(report.explained_variance, 0.8);
   EXPECT_LT(report.std, 0.5);
-  // Later episodes end where they should.
+  // Later episodes end near the target.
   double successes = 0.0;
   for (std::size_t i = outcomes.size() - 200; i < outcomes.size(); ++i) {
     successes += outcomes[i].success;
@@ -88,7 +88,7 @@ TEST(Ppo, ComesWithinAFewPercentOfTheBestPolicy) {
   core::SetThreadCount(0);
 }
 
-// Shows the best policy, and pays nothing.
+// An environment that demonstrates the optimal policy and pays nothing.
 class ShownReach : public ReachEnvironment {
  public:
   using ReachEnvironment::ReachEnvironment;
@@ -136,8 +136,8 @@ TEST(Ppo, ImitatesWhatIsShownAndKeepsItAfterwards) {
       MeanReward([&](const Rows& x, Rows* actions) { *actions = -x * gain.transpose(); }, 240);
   EXPECT_GT(learn(30), 1.03 * best) << "best " << best;
   EXPECT_EQ(ppo.CurrentPolicy().std()[0], static_cast<float>(options.initial_std));
-  // Nothing is shown any more, and nothing is gained by doing otherwise.
-  EXPECT_GT(learn(3), 1.25 * best);  // 1.13 on one core, where sums go otherwise
+  // There are no more demonstrations, and deviating from them gains nothing.
+  EXPECT_GT(learn(3), 1.25 * best);  // 1.13 on one core, with another summation order
   core::SetThreadCount(0);
 }
 
@@ -163,7 +163,7 @@ TEST(Ppo, LetsTheCriticLearnAloneAtFirst) {
   core::SetThreadCount(0);
 }
 
-// Of a layer within, after some iterations.
+// Returns the weights of a hidden layer after some iterations.
 Eigen::MatrixXf WeightsAfter(int iterations, const PpoOptions& options) {
   ReachEnvironment environment(16);
   Ppo ppo(&environment, options);

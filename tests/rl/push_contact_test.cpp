@@ -1,4 +1,4 @@
-// Where a hand pushes a door shut: behind it, as it goes, and only where something is to be shut.
+// The pushing pose for a door: behind it, along its motion, and only if it is to be shut.
 #include "rl/push_contact.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ std::shared_ptr<const Skill> SkillOf(const SkillSubtask& scene) {
   return MakeSkill(robot::Panda(false), {scene}, SkillOptions().ForEvaluation());
 }
 
-// A panel of `width` x 0.02 x 0.3 m that turns about an upright axis at its side, wide open at 1.5.
+// Returns a panel of `width` x 0.02 x 0.3 m on a vertical axis at its side, wide open at 1.5.
 tasks::Thing Panel(double width) {
   assets::SemanticModel model;
   model.name = "panel";
@@ -43,7 +43,8 @@ TEST(ToolsPushingShut, AreBehindTheDoorAndGoItsWay) {
     state.joints[0][static_cast<size_t>(focus.joint)] -= 1e-6;
     const Isometry3d after = ToolAtJoint(variant.model, state, one);
     const Vector3d way = (after.translation() - before.translation()).normalized();
-    // The contact is a little behind the face that the hinge is in: its way is not quite x.
+    // The contact is slightly behind the face that contains the hinge: its motion is not quite
+    // along x.
     EXPECT_GT(way.dot(before.linear().col(0)), 0.95);
     for (const Vector3d& point : thing.links[static_cast<size_t>(focus.link)].outline) {
       EXPECT_GE((focus.approaches[i].inverse() * point).x(), 0.02 - 1e-9);
@@ -66,7 +67,7 @@ TEST(ToolsPushingShut, ToHighEdgesAreNotFromAbove) {
   EXPECT_NEAR(low[0].translation().x(), 0.3, 1e-9);   // three quarters of the way out
   EXPECT_NEAR(low[1].translation().z(), 0.15, 1e-9);
   EXPECT_NEAR(low[1].translation().x(), 0.37, 1e-9);
-  // It shuts clockwise: the hand is on the side that y grows to.
+  // It shuts clockwise: the gripper is on the side of positive y.
   EXPECT_NEAR(low[1].translation().y(), 0.03, 1e-9);
   // From a base 30 cm lower it is a face from 0.3 to 0.6 m: 0.4 m up is within it.
   const auto high = ToolsPushingShut(model, state, 0, hinge, -0.3);

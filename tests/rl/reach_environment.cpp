@@ -28,7 +28,7 @@ void ReachEnvironment::Reset(std::uint64_t seed, Rows* observations) {
   rng_ = core::StreamRng(seed, 0);
   for (Point& point : points_) {
     point = DrawStart();
-    // Time must not run out for all at once.
+    // The time limits must not coincide.
     point.steps = static_cast<int>(core::UniformIndex(rng_, episode_steps_));
   }
   Observe(observations);

@@ -7,11 +7,11 @@
 
 namespace simwright::rl {
 
-// Points on a line that are to be driven to 0: x' = x + h v, v' = v + h u, u = kPush times the
-// action. A step costs x^2 + kSpeedCost v^2 + kPushCost u^2: linear dynamics and quadratic costs,
-// so that the best policy is known (Riccati). An episode ends by time after `episode_steps`, with
-// success where |x| < 0.05 at its end; where |x| > 3, by itself, at a cost of kLeavingCost: more
-// than the way back would have cost.
+// Points on a line to be driven to 0: x' = x + h v, v' = v + h u, u = kPush times the action. A
+// step costs x^2 + kSpeedCost v^2 + kPushCost u^2: linear dynamics and quadratic costs, so that the
+// optimal policy is known (Riccati). An episode ends by time after `episode_steps`, with success if
+// |x| < 0.05 at its end; it terminates for |x| > 3, at a cost of kLeavingCost: more than the return
+// would have cost.
 class ReachEnvironment : public VectorEnvironment {
  public:
   static constexpr double kTimeStep = 0.1, kPush = 3.0, kSpeedCost = 0.1, kPushCost = 0.02;
@@ -27,7 +27,7 @@ class ReachEnvironment : public VectorEnvironment {
   std::string SaveState() const override;
   void RestoreState(std::string_view state, Rows* observations) override;
 
-  // The next reward of environment `i` will not be a number.
+  // Makes the next reward of environment `i` NaN.
   void Spoil(int i) { spoilt_ = i; }
 
  private:

@@ -1,4 +1,4 @@
-// What is handed from the environment to the learner, on an environment that counts.
+// The data flow from the environment to the learner, in an environment that counts.
 #include "rl/rollout_collector.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace simwright::rl {
 namespace {
 
 // Observes the step within its episode, modulo `modulus`; the episode ends by time after `length`.
-// Pays 1 a step, for ever.
+// Pays 1 per step, forever.
 class Counter : public VectorEnvironment {
  public:
   Counter(int count, int length, int modulus)
@@ -108,9 +108,10 @@ TEST(RolloutCollector, WhatLeadsToABlindObservationAndWhatIsDoneBlindlyIsDropped
   EXPECT_TRUE(rollout.observations.allFinite());
 }
 
-// Paid 1 for ever, everything is worth 1 / (1 - 0.9) = 10, wherever in its 10 steps an episode is.
-// A learner that takes time-outs for ends learns less than 6.5. The modulus makes the last
-// observation one that is acted on too: where the critic has to guess, its guesses feed themselves.
+// With a reward of 1 forever, every state is worth 1 / (1 - 0.9) = 10, at any of an episode's 10
+// steps. A learner that treats time limits as terminations learns less than 6.5. Because of the
+// modulus the last observation also occurs as an input: where the critic extrapolates, its errors
+// would feed themselves.
 TEST(PpoLearner, ItsCriticLearnsWhatAnEndlessTaskIsWorth) {
   Counter environment(16, 10, 4);
   PpoOptions options = Options();

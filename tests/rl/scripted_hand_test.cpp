@@ -1,4 +1,4 @@
-// What a script makes of skills of several kinds, without any learning.
+// The scripted expert on skills of several kinds, without any learning.
 #include "rl/scripted_hand.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ std::shared_ptr<const Skill> Evaluated(const SkillSubtask& scene) {
   return MakeSkill(robot::Panda(false), {scene}, SkillOptions().ForEvaluation());
 }
 
-// A cup in the hand shall stand 25 cm aside.
+// Returns a subtask that places a grasped cup 25 cm aside.
 SkillSubtask PutDownCup() {
   SkillSubtask scene = PickUpCup();
   scene.subtask.program =
@@ -30,7 +30,7 @@ SkillSubtask PutDownCup() {
   return scene;
 }
 
-// A box that slides easily shall be 12 cm farther.
+// Returns a subtask that pushes a slippery box by 12 cm.
 SkillSubtask PushBox() {
   SkillSubtask scene = PickUpCup();
   scene.assets = {WithInertia(tasks::Box("cup", {0.1, 0.2, 0.08}, 0.2))};
@@ -80,7 +80,7 @@ TEST(ScriptedHand, ShutsADoor) {
   EXPECT_GE(EvaluateScript(*skill, DrawStarts(*skill, 20, 5)).successes, 18);
 }
 
-// Struck as hard as the arm can, it slid past its goal, and was pushed on from there.
+// A box that is pushed as hard as the arm can slides past its goal, and must not be pushed on.
 TEST(ScriptedHand, PushesAThingToItsGoalAndNotPastIt) {
   const auto skill = Evaluated(PushBox());
   EXPECT_GE(EvaluateScript(*skill, DrawStarts(*skill, 40, 5)).successes, 34);
@@ -103,20 +103,20 @@ TEST(ScriptedHand, LeavesWhatHasSlidPastItsGoal) {
     if (missing < 0.0) {
       EXPECT_EQ(action[0], 0.0f);
     }
-    // As hard as the arm can: it slides past.
+    // Pushes as hard as the arm can: it slides past.
     if (action[0] > 0.0f && !past) action[0] = 1.0f;
     decision = episode.Step(action.data());
   }
   EXPECT_TRUE(pushed && past);
 }
 
-// Its fingers wide open, a hand that leans stood with one of them on the lid.
+// With wide open fingers, one finger of a leaning gripper would stand on the lid.
 TEST(ScriptedHand, LiftsALid) {
   const auto skill = Evaluated(LiftLid());
   EXPECT_GE(EvaluateScript(*skill, DrawStarts(*skill, 40, 5)).successes, 36);
 }
 
-// A hand that shall shut the door has to get behind it; for any other one, wide is good.
+// A gripper that shuts the door later has to get behind it; otherwise wide open is better.
 TEST(ScriptedHand, OpensADoorThatIsShutLaterLittleWiderThanItHasTo) {
   const auto alone = Evaluated(OpenDoor());
   const auto shut = MakeSkill(robot::Panda(false), {OpenDoor()}, SkillOptions().ForEvaluation(),
@@ -124,7 +124,7 @@ TEST(ScriptedHand, OpensADoorThatIsShutLaterLittleWiderThanItHasTo) {
   const std::vector<EpisodeStart> starts = DrawStarts(*shut, 20, 5);
   const SkillEvaluation wide = EvaluateScript(*alone, starts);
   const SkillEvaluation little = EvaluateScript(*shut, starts);
-  EXPECT_GE(little.successes, wide.successes - 1);  // it holds what it has reached
+  EXPECT_GE(little.successes, wide.successes - 1);  // success lasts
   const auto door = static_cast<size_t>(shut->variants.front().focus->joint);
   const auto opened = [&](const SkillEvaluation& evaluation, size_t i) {
     return evaluation.episodes[i].end.state.joints[0][door];
@@ -149,7 +149,7 @@ TEST(ScriptedHand, IsWhatAnEnvironmentShows) {
   ASSERT_TRUE(environment.Demonstrate(&shown));
   ASSERT_EQ(shown.rows(), 3);
   ASSERT_EQ(shown.cols(), 7);
-  // Far from the handle, and off its axis, a hand is open and stays back.
+  // Far from the handle, and off its axis, the gripper is open and stays back.
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(shown.row(i).head(2).cwiseAbs().maxCoeff(), 0.0f);
     EXPECT_NEAR(shown(i, 2), -0.04 / SkillOptions().reach, 1e-6);
@@ -177,7 +177,7 @@ TEST(ScriptedHand, IsWhatAGuidedHandDoesByItself) {
   }
   EXPECT_EQ(by_script.state().joints, by_itself.state().joints);
   EXPECT_TRUE(by_script.state().gripper.matrix() == by_itself.state().gripper.matrix());
-  EXPECT_LT(overruled.state().opening, 0.03);  // the script leaves it open there
+  EXPECT_LT(overruled.state().opening, 0.03);  // the scripted expert leaves it open there
 }
 
 TEST(ScriptedHand, KnowsNothingOfOtherActionSpaces) {

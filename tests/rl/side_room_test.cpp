@@ -1,5 +1,5 @@
-// Hands that go into rooms through their sides: what a microwave's is, where a cup goes in it, how
-// the hand takes the cup before, goes in, and gets out again. Against the microwave's own numbers.
+// Grippers in side-opening receptacles: detecting a microwave's, placing a cup in it, grasping the
+// cup before, entering, and retreating. Against the microwave's own numbers.
 #include "rl/side_room.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// Its body is 0.4 deep, its walls are 2 cm, its opening looks to -x (tests/tasks/household.h).
+// Its body is 0.4 deep, its walls are 2 cm, its opening faces -x (tests/tasks/household.h).
 constexpr double kHalfDepth = 0.2, kFloor = 0.02, kCell = 0.5 / 40;
 
 tasks::SceneModel Kitchen() {
@@ -35,7 +35,7 @@ tasks::SceneState At(const tasks::SceneModel& model, const Isometry3d& microwave
   return tasks::StateOf(model, start);
 }
 
-// A microwave that stands turned, and its room.
+// A rotated microwave, and its receptacle.
 struct TurnedKitchen {
   tasks::SceneModel model = Kitchen();
   Isometry3d pose = Eigen::Translation3d(0.8, 0.1, 0.0) *
@@ -44,7 +44,7 @@ struct TurnedKitchen {
   std::optional<SideRoom> room = SideRoomOf(model, state, 0, model.things[0].FindLink("body"));
 };
 
-// The rules' own task, its subtasks each with what follows: open, pick up, put into, close.
+// Returns the rules' own task, its subtasks each with the next one: open, pick up, put into, close.
 std::vector<SkillSubtask> PutCupIntoMicrowave() {
   const std::vector<assets::SemanticModel> assets = {WithInertia(tasks::Microwave()),
                                                      WithInertia(tasks::Cup())};
@@ -86,7 +86,7 @@ TEST(SideRoom, IsWhatOpensToASide) {
   ASSERT_TRUE(around);
   EXPECT_EQ(around->thing, 0);
   EXPECT_FALSE(SideRoomAround(model, state, pose * Vector3d(0.0, 0.0, 0.4)));
-  // Cups and drawers open upwards; a microwave that lies on its back does too.
+  // Cups and drawers open upwards; so does a microwave that lies on its back.
   EXPECT_FALSE(SideRoomOf(model, state, 1, 0));
   EXPECT_FALSE(SideRoomOf(model, state, 2, model.things[2].FindLink("drawer")));
   Isometry3d on_its_back = pose;
@@ -102,7 +102,7 @@ TEST(SideRoom, AThingGoesJustBehindTheOpening) {
   EXPECT_NEAR(DepthIn(*room, model, state, spot), 0.04 + 0.03, 1e-9);
   EXPECT_NEAR((pose.inverse() * spot).y(), 0.0, kCell);
   EXPECT_NEAR(spot.z(), kFloor + 0.05 + 0.01, 2 * kCell);
-  // What is deeper than the room is goes to its middle.
+  // An object deeper than the receptacle is placed at its middle.
   const Vector3d deep = pose * SpotBehindOpening(*room, model, state, {0.8, 0.06, 0.1});
   EXPECT_NEAR((pose.inverse() * deep).x(), room->box.center().x(), 1e-9);
 }
@@ -129,10 +129,10 @@ TEST(SideRoom, AThingThatGoesIntoOneIsTakenByAHandThatLeansIn) {
     EXPECT_LT(ToolAt(*picks_alone, DrawStart(*picks_alone, rng).at_work).linear().col(2).z(), -0.7);
     if (tool.linear().col(2).dot(inward) < std::sin(0.5)) continue;
     ++leaning;
-    // Fingers across the opening, as far as the cup's eight sides let them.
+    // The closing axis is across the opening, as far as the cup's eight sides permit.
     EXPECT_LT(std::abs(tool.linear().col(1).dot(inward)), std::sin(M_PI / 8 + 0.06)) << i;
   }
-  EXPECT_GE(leaning, 12);  // where the door leaves the arm no such way, it is at least taken
+  EXPECT_GE(leaning, 12);  // if the door leaves the arm no such path, it is at least grasped
 }
 
 TEST(SideRoom, AHandThatLeansIsClearInIt) {
@@ -163,7 +163,7 @@ TEST(SideRoom, InsideIsWhereTheDoorClosesBehindIt) {
   ASSERT_EQ(scenes.size(), 4u);
   const auto skill = Make(scenes[2]);
   const SkillVariant& variant = skill->variants[0];
-  const double radius = 0.035 * 1.01;  // its octagon's is a little more
+  const double radius = 0.035 * 1.01;  // slightly more for its octagon
   VariantReward reward(variant);
   const auto succeeds = [&](double behind) {
     tasks::SceneState state = variant.start;
@@ -179,7 +179,7 @@ TEST(SideRoom, InsideIsWhereTheDoorClosesBehindIt) {
   };
   EXPECT_FALSE(succeeds(-0.05));
   EXPECT_FALSE(succeeds(radius - 0.02));
-  EXPECT_TRUE(succeeds(radius + 0.02));  // where DestinationOf brings it
+  EXPECT_TRUE(succeeds(radius + 0.02));  // the placement of DestinationOf
   EXPECT_TRUE(succeeds(0.2));
 }
 
@@ -204,7 +204,8 @@ TEST(SideRoom, AHandThatIsLeftInsideGetsOutFirst) {
   EXPECT_GE(start.withdraw.norm(), 0.08 - 1e-9);
   EXPECT_LE(DepthIn(*variant.room, variant.model, end.state, refuge), -kBeforeOpening + 2e-3);
   EXPECT_GT(-there.linear().col(2).dot(start.withdraw.normalized()), 0.99);
-  // Doing nothing gets it there, in less time than the longest way has, and then to the handle.
+  // An action of zero moves it there, in less time than the longest retreat, and then to the
+  // handle.
   Episode episode(*closes);
   episode.Begin(start);
   const float nothing[7] = {0, 0, 0, 0, 0, 0, 1.0f};
@@ -214,7 +215,7 @@ TEST(SideRoom, AHandThatIsLeftInsideGetsOutFirst) {
     nearest = std::min(nearest, (episode.state().gripper.translation() - refuge).norm());
   }
   EXPECT_LT(nearest, 0.03);
-  // The file of starts keeps the way out.
+  // The file of start states keeps the retreat.
   const EpisodeStart read = ParseStart(StartText(start), *closes, "test");
   EXPECT_EQ(StartText(read), StartText(start));
   EXPECT_EQ(read.withdraw, start.withdraw);
@@ -236,8 +237,7 @@ TEST(SideRoom, TheFrameIsTheRefugeUntilTheHandIsThere) {
   frame.Update(state);
   EXPECT_FALSE(frame.withdrawing());
   EXPECT_TRUE(frame.world_from_focus().isApprox(at_work.world_from_focus(), 1e-12));
-  // A hand that is held back goes on after half a second, one that gets on slowly after one and a
-  // half.
+  // A blocked gripper continues after half a second, a slow one after one and a half.
   for (const double step : {0.0, 0.004}) {
     state = variant.start;
     FocusFrame slow(variant, state, Vector3d::UnitY(), 0.0, 5.0 * way);
@@ -267,7 +267,7 @@ TEST(SideRoom, AThingInTheHandGoesInThroughTheOpening) {
   const double depth =
       DepthIn(*variant.room, variant.model, state, frame.world_from_focus().translation());
   EXPECT_NEAR(frame.room_depth(), depth + kBeforeOpening, 1e-9);
-  // Where it is sent, as seen from where it shall come to, with the tool off that by `off`.
+  // Returns the commanded pose in the target frame, with the tool off by `off`.
   WorkFrame work;
   work.back = frame.back();
   work.room_depth = frame.room_depth();
@@ -287,7 +287,8 @@ TEST(SideRoom, AThingInTheHandGoesInThroughTheOpening) {
   const Vector3d aside = inward.cross(Vector3d::UnitZ()), before = -frame.room_depth() * inward;
   EXPECT_LT(sent_to(-0.3 * inward).norm(), 1e-6);
   EXPECT_LT(sent_to(-0.3 * inward + 0.02 * aside).norm(), 1e-6);
-  // Beside the opening: before it. Beside the room: straight back first, for its wall is between.
+  // Beside the opening: to in front of it. Beside the receptacle: straight back first, since its
+  // wall is between.
   EXPECT_LT((sent_to(0.3 * aside + before) - before).norm(), 1e-6);
   EXPECT_LT((sent_to(0.3 * aside) - (0.3 * aside + before)).norm(), 1e-6);
 }
@@ -322,7 +323,7 @@ TEST(SideRoom, AHandStaysWhereItHasLetGo) {
   FocusFrame frame(variant, state, Vector3d::UnitY(), 0.8);
   ASSERT_TRUE(frame.at_destination());
   Isometry3d& cup = state.roots[static_cast<size_t>(variant.focus->thing)];
-  // The rim goes round with a cup that turns in the hand, and the hand with it.
+  // The rim moves with a cup that rotates in the grasp, and the gripper with it.
   cup.rotate(Eigen::AngleAxisd(0.5, Vector3d::UnitZ()));
   cup.translation().x() += 0.02;
   frame.Update(state);
@@ -373,7 +374,7 @@ TEST(LaterWork, ATaskBeginsWhereAllOfItsWorkIsInReach) {
   const auto cup = static_cast<size_t>(later[0]->variants.front().focus->thing);
   far.roots[cup].translation().y() -= 3.0;
   EXPECT_FALSE(IsLaterWorkInReach(*opens, 0, far, rng));
-  EXPECT_TRUE(IsLaterWorkInReach(*later[0], 0, far, rng));  // nothing comes later
+  EXPECT_TRUE(IsLaterWorkInReach(*later[0], 0, far, rng));  // there are no later skills
   EXPECT_THROW(MakeSkill(robot::Panda(true), {scenes[0], scenes[0]}, SkillOptions(), later),
                core::Error);
 }

@@ -13,7 +13,7 @@
 
 namespace simwright::rl {
 
-// The household's masses with the inertia that their shapes have.
+// Returns the household model with the inertia of its shapes at its masses.
 inline assets::SemanticModel WithInertia(assets::SemanticModel model) {
   for (assets::UrdfLink& link : model.model.links) {
     geometry::MassProperties total;
@@ -29,7 +29,7 @@ inline assets::SemanticModel WithInertia(assets::SemanticModel model) {
   return model;
 }
 
-// A cup stands before the robot and shall be held 20 cm above the floor.
+// Returns a subtask that lifts a cup in front of the robot to 20 cm above the floor.
 inline SkillSubtask PickUpCup(const std::string& name = "cup", double radius = 0.03) {
   SkillSubtask scene;
   scene.assets = {WithInertia(tasks::Cup(name, radius))};
@@ -54,7 +54,7 @@ inline SkillSubtask PickUpCup(const std::string& name = "cup", double radius = 0
   return scene;
 }
 
-// A microwave stands before the robot, its door to be opened.
+// Returns a subtask that opens the door of a microwave in front of the robot.
 inline SkillSubtask OpenDoor(const std::string& name = "microwave") {
   SkillSubtask scene;
   scene.assets = {WithInertia(tasks::Microwave(name))};
@@ -77,7 +77,7 @@ inline SkillSubtask OpenDoor(const std::string& name = "microwave") {
   return scene;
 }
 
-// The same, its door wide open, to be closed.
+// Returns the same scene with the door wide open, to be closed.
 inline SkillSubtask CloseDoor(const std::string& name = "microwave") {
   SkillSubtask scene = OpenDoor(name);
   scene.subtask.name = "close_" + name;

@@ -1,4 +1,4 @@
-// A subtask as an environment: what the hand works on, how episodes begin, go and end.
+// A subtask as an environment: its interaction target, and how episodes begin, proceed and end.
 #include "rl/skill.h"
 
 #include <gtest/gtest.h>
@@ -29,11 +29,11 @@ TEST(Focus, OfADoorIsItsHandleFromTheFront) {
   EXPECT_EQ(variant.model.things[0].links[static_cast<size_t>(variant.focus->link)].name, "handle");
   EXPECT_FALSE(variant.destination);
   const Eigen::Isometry3d tool = ToolAtFocus(variant, variant.start, Vector3d::UnitX(), 0.0);
-  // The front looks to -x, the handle stands upright at (0.75 - 0.26, 0.15 + 0.25 - 0.45, 0.15).
+  // The front faces -x, the handle is upright at (0.75 - 0.26, 0.15 + 0.25 - 0.45, 0.15).
   EXPECT_LT((tool.translation() - Vector3d(0.49, -0.05, 0.15)).norm(), 1e-9);
-  EXPECT_LT((tool.linear().col(2) - Vector3d::UnitX()).norm(), 0.15);  // along the door's way
+  EXPECT_LT((tool.linear().col(2) - Vector3d::UnitX()).norm(), 0.15);  // along the door's motion
   EXPECT_LT(std::abs(tool.linear().col(1).z()), 0.05);                 // across the bar
-  // With the door open by a quarter turn the hand comes from where the front looks now.
+  // With the door open by a quarter turn the gripper approaches along its new normal.
   tasks::SceneState open = variant.start;
   open.joints[0][static_cast<size_t>(variant.focus->joint)] = M_PI / 2;
   const Eigen::Isometry3d turned = ToolAtFocus(variant, open, tool.linear().col(1), 0.0);
@@ -88,9 +88,8 @@ TEST(DrawStart, KeepsItsRangesAndCanBeWorkedAt) {
   }
 }
 
-// A hand that goes to zero and closes lifts the cup: by contact, from anywhere.
-// A drawer that stands open reaches to where the arm begins: things are moved away until it is
-// free, and the hand still gets to work.
+// An open drawer extends to where the arm begins: objects are moved away until the arm is
+// collision-free and still reaches its target.
 TEST(DrawStart, LeavesTheArmRoom) {
   SkillSubtask scene = OpenDoor("unit");
   scene.assets = {WithInertia(tasks::DrawerUnit("unit"))};
@@ -106,8 +105,8 @@ TEST(DrawStart, LeavesTheArmRoom) {
   EXPECT_FALSE(IsArmClear(*skill, variant, variant.start, skill->robot->home()));
   for (const EpisodeStart& start : DrawStarts(*skill, 40, 4)) {
     EXPECT_TRUE(IsArmClear(*skill, variant, start.state, start.arm));
-    EXPECT_GT((start.at_work - skill->robot->home()).norm(), 1e-6);  // work was planned
-    // No contact pushes arm or drawer before anything was done.
+    EXPECT_GT((start.at_work - skill->robot->home()).norm(), 1e-6);  // a plan was made
+    // No contact pushes arm or drawer before the first action.
     Episode episode(*skill);
     episode.Begin(start);
     EXPECT_LT(std::abs(episode.state().joints[0][0] - 0.25), 1e-3);
@@ -139,7 +138,7 @@ TEST(Episode, AScriptedHandPicksUpTheCup) {
   EXPECT_GE(successes, 11);
 }
 
-// An end by success is worth as much as success for ever: r / (1 - discount).
+// An end by success is worth as much as success forever: r / (1 - discount).
 TEST(Episode, SuccessIsPaidAsIfItWentOn) {
   SkillOptions options = SkillOptions().ForEvaluation();
   options.hold_seconds = 0.0;
@@ -177,7 +176,7 @@ void RandomActions(core::Rng& rng, Rows* actions) {
   }
 }
 
-// The same bytes on one thread and on two, and from a saved state on.
+// The same bytes on one thread and on two, and from a saved state.
 TEST(SkillEnvironment, RepeatsItselfBitForBit) {
   SkillOptions options;
   options.episode_seconds = 0.8;  // so that episodes end meanwhile
@@ -213,7 +212,7 @@ TEST(SkillEnvironment, RepeatsItselfBitForBit) {
   EXPECT_THROW(same.RestoreState(saved.substr(0, saved.size() / 2), &observations), core::Error);
 }
 
-// A hand on a door's handle holds nothing that the next skill could begin with in its hand.
+// A gripper on a door's handle grasps no object that the next skill could start with.
 TEST(HeldThing, IsNoFurniture) {
   for (const auto& [scene, held] : {std::pair{OpenDoor(), -1}, {PickUpCup(), 0}}) {
     const auto skill = Make({scene});
@@ -231,7 +230,7 @@ TEST(HeldThing, IsNoFurniture) {
   }
 }
 
-// A cup in the hand that shall be held, or while a door is opened, goes nowhere.
+// A grasped cup that is only to be held, or held while a door is opened, has no destination.
 TEST(Episode, WhatIsHeldMayHaveNoDestination) {
   SkillSubtask hold = PickUpCup();
   hold.subtask.program =
@@ -269,7 +268,7 @@ TEST(StartPool, ReadsWhatItWrites) {
   start.via = {skill->robot->home(), start.at_work};
   const EpisodeStart read = ParseStart(StartText(start), *skill, "test");
   EXPECT_EQ(StartText(read), StartText(start));
-  // It is the same start to the last bit: both episodes go the same way.
+  // The start states are identical to the last bit: both episodes proceed identically.
   Episode a(*skill), b(*skill);
   a.Begin(start);
   b.Begin(read);

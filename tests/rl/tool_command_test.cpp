@@ -28,7 +28,7 @@ const robot::JointLimits& LimitsOf(const Skill& skill, Eigen::Index j) {
   return skill.robot->limits[static_cast<size_t>(skill.robot->arm_joints[static_cast<size_t>(j)])];
 }
 
-// A target that jumps three times a second, as a policy that explores asks for.
+// A target that jumps three times a second, like that of an exploring policy.
 TEST(Approach, KeepsTheJointsSpeedsAndAccelerationsWhateverIsAskedFor) {
   const auto skill = OfPanda();
   const double dt = 1.0 / skill->options.control_rate;
@@ -66,7 +66,7 @@ TEST(Approach, KeepsTheJointsSpeedsAndAccelerationsWhateverIsAskedFor) {
     leader = command.leader;
     leader_rate = speed;
   }
-  // The limits are used, not only kept.
+  // The limits are reached, not only kept.
   EXPECT_GT(fastest, 0.5);
   EXPECT_NEAR(hardest, 0.7, 1e-6);
 }
@@ -114,7 +114,7 @@ TEST(Approach, StopsAtItsGoalWithoutGoingPastIt) {
   for (int step = 0; step < 180; ++step) {
     const robot::Posture from = command.sent;
     Approach(*skill, target, from, &command);
-    // Once the goal stands still, no joint comes to its other side.
+    // Once the goal is constant, no joint overshoots it.
     if (step < 30) continue;
     const robot::Posture way = command.goal - from, left = command.goal - command.sent;
     for (Eigen::Index j = 0; j < way.size(); ++j) {
@@ -148,7 +148,7 @@ TEST(TargetOf, StaysBackAlongItsAxisWhileItIsOffToASide) {
   const ArmCommand command = AtHome(*skill);
   const Isometry3d tool = robot::ForwardKinematics(skill->robot->arm, command.sent);
   const float nothing[7] = {0, 0, 0, 0, 0, 0, 0};
-  // How far above the focus the tool is sent, with the focus so far to the tool's (x, y).
+  // Returns how far above the target the tool is sent, for a lateral offset of (x, y).
   const auto back = [&](double x, double y, const Vector3d& free_way) {
     const Isometry3d focus = tool * Eigen::Translation3d(x, y, 0.2);
     const Isometry3d target =
@@ -159,14 +159,13 @@ TEST(TargetOf, StaysBackAlongItsAxisWhileItIsOffToASide) {
   const Vector3d none = Vector3d::Zero(), ahead = -Vector3d::UnitX();
   EXPECT_NEAR(back(0.0, 0.0, none), 0.0, 1e-12);
   EXPECT_NEAR(back(0.02, 0.0, none), 0.0, 1e-12);
-  EXPECT_NEAR(back(0.0, 0.045, none), 0.04, 1e-9);  // 2 cm more than are free, twice that back
+  EXPECT_NEAR(back(0.0, 0.045, none), 0.04, 1e-9);  // 2 cm off the free radius
   EXPECT_NEAR(back(0.3, 0.0, none), skill->options.standoff, 1e-12);
-  // On the way that is free there is nothing to stay back from; against it, and beside it, there
-  // is.
+  // Along the free direction there is no standoff; against it, and beside it, there is.
   EXPECT_NEAR(back(0.3, 0.0, ahead), 0.0, 1e-12);
   EXPECT_NEAR(back(-0.3, 0.0, ahead), skill->options.standoff, 1e-12);
   EXPECT_NEAR(back(0.3, 0.045, ahead), 0.04, 1e-9);
-  // A way that goes mostly along the axis, as a door's: what is off across it counts.
+  // A direction mostly along the axis, as a door's: an offset across it counts.
   EXPECT_NEAR(back(0.045, 0.0, Vector3d(-0.1, 0.0, -0.995)), 0.04 - 2.0 * 0.00045, 1e-9);
 }
 
@@ -192,7 +191,7 @@ TEST(TargetOf, AHandThatLeansIsMovedInTheLevelFrame) {
   const ArmCommand command = AtHome(*skill);
   const double lean = 0.6;
   Isometry3d focus = robot::ForwardKinematics(skill->robot->arm, command.sent);
-  focus.rotate(Eigen::AngleAxisd(-lean, Vector3d::UnitY()));  // so that the hand is at work
+  focus.rotate(Eigen::AngleAxisd(-lean, Vector3d::UnitY()));  // the gripper is at its target
   const float along[7] = {0.5f, 0, 0, 0, 0, 0, 0};
   const Isometry3d moved =
       focus.inverse() *

@@ -1,4 +1,4 @@
-// What a training leaves on disk, read back by us and by others.
+// The files of a training, read back by this project and by others.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ TrainingRecord RecordAt(int iteration) {
   return record;
 }
 
-// What `command` prints. Fails the test where it exits with anything but 0.
+// Returns the output of `command`. Fails the test if it exits with anything but 0.
 std::string OutputOf(const std::string& command) {
   std::string output;
   FILE* pipe = popen(command.c_str(), "r");
@@ -110,7 +110,7 @@ TEST(TrainingLog, GoesOnAfterTheCheckpointsRowAndKeepsEveryDigit) {
   EXPECT_THROW(TrainingLog(folder.path() / "none", 0), core::Error);
 }
 
-// What the curves' points are, file by file: their number, and how wide they reach.
+// Returns the numbers of points of the curves in a file, and their extent.
 std::string PointsOf(const std::filesystem::path& svg) {
   return OutputOf(
       "python3 -c \"import sys,xml.etree.ElementTree as t; r=t.parse(sys.argv[1]).getroot(); "
@@ -140,7 +140,7 @@ TEST(TrainingCurves, AreSoundXmlWithAPointARecord) {
   }
 }
 
-// Of a training that the first examination ends, there is one.
+// A training that ends at its first examination has a single record.
 TEST(TrainingCurves, ALoneRecordIsAStrokeThatIsSeen) {
   const core::TemporaryFolder folder;
   TrainingRecord record = RecordAt(1);
@@ -185,7 +185,7 @@ TEST(PolicyFile, ActsAsWrittenAndKeepsItsFacts) {
   ReadPolicy(path).Act(observations, &found);
   EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 5e-3f);
   EXPECT_GT((found - expected).cwiseAbs().maxCoeff(), 0.0f);
-  // Clamped, as environments do.
+  // Clamped, as in environments.
   EXPECT_EQ(expected.maxCoeff(), 1.0f);
 }
 

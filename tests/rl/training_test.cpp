@@ -1,4 +1,4 @@
-// A training as a whole: stopped, resumed, failing.
+// Whole trainings: interrupted, resumed, failing.
 #include "rl/training.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TrainingResult Train(const TrainingOptions& options, const fs::path& folder, boo
   return TrainPolicy(&environment, options, folder, resume, report, examine);
 }
 
-// All that does not depend on the clock is the same, bit for bit.
+// Compares everything that does not depend on the clock, bit for bit.
 void ExpectSameTraining(const fs::path& a, const fs::path& b) {
   const auto first = ReadTrainingTable(a / "training.csv", 1000);
   const auto second = ReadTrainingTable(b / "training.csv", 1000);
@@ -82,12 +82,12 @@ class TrainingTest : public testing::Test {
   fs::path whole_ = folder_.path() / "whole", part_ = folder_.path() / "part";
 };
 
-// Begun from another training's checkpoint, a training has at first the network that that one had
-// in the end, and counts from zero.
+// A training that begins from another training's checkpoint starts with that one's final network,
+// and counts from zero.
 TEST_F(TrainingTest, OneBeginsWithWhatAnotherHasLearnt) {
   TrainingOptions options = SmallTraining(1);
   options.ppo.epochs = 1;
-  options.ppo.minibatch = kIteration;  // a single descent: no weight moves further than the rate
+  options.ppo.minibatch = kIteration;  // one step: no weight moves further than the rate
   options.facts = {{"task", "another"}};
   options.begin_from = whole_ / kCheckpointFile;
   const fs::path begun = folder_.path() / "begun";
@@ -116,7 +116,7 @@ TEST_F(TrainingTest, OneThatWasStoppedGoesOnAsIfItHadNotBeen) {
   ExpectSameTraining(whole_, part_);
 }
 
-// Killed after iteration 5, it has rows that its last checkpoint, after iteration 3, does not know.
+// A training killed after iteration 5 has rows that its last checkpoint, after iteration 3, lacks.
 TEST_F(TrainingTest, OneThatWasKilledRepeatsWhatItsCheckpointDoesNotKnow) {
   struct Killed {};
   EXPECT_THROW(Train(SmallTraining(8), part_, false,
@@ -147,7 +147,7 @@ TEST_F(TrainingTest, AFullDiskKeepsTheLastCheckpoint) {
   EXPECT_EQ(core::ReadFile(part_ / kCheckpointFile), checkpoint);
   int files = 0;
   for ([[maybe_unused]] const auto& entry : fs::directory_iterator(part_)) ++files;
-  EXPECT_EQ(files, 5);  // nothing half-written beside the five that there are
+  EXPECT_EQ(files, 5);  // no temporary file beside the five
   Train(SmallTraining(8), part_, true);
   ExpectSameTraining(whole_, part_);
 }
@@ -165,11 +165,11 @@ TEST_F(TrainingTest, ACheckpointOfAnotherTrainingIsRefusedSayingWhatDiffers) {
   };
   EXPECT_NE(refusal([](TrainingOptions* o) {
               o->facts["task"] = "open";
-            }).find("its task is 'reach', wanted is 'open'"),
+            }).find("its task is 'reach', expected 'open'"),
             std::string::npos);
   EXPECT_NE(refusal([](TrainingOptions* o) {
               o->ppo.hidden = {16, 8};
-            }).find("its hidden is '16-16', wanted is '16-8'"),
+            }).find("its hidden is '16-16', expected '16-8'"),
             std::string::npos);
   ReachEnvironment more(kEnvironments + 1);
   EXPECT_THROW(TrainPolicy(&more, SmallTraining(9), whole_, true), core::Error);
@@ -179,7 +179,7 @@ TEST_F(TrainingTest, ACheckpointOfAnotherTrainingIsRefusedSayingWhatDiffers) {
   ASSERT_NE(at, std::string::npos);
   newer[at + 8] = '3';
   core::WriteFile(whole_ / kCheckpointFile, newer);
-  EXPECT_NE(refusal([](TrainingOptions*) {}).find("its version is '3', wanted is '2'"),
+  EXPECT_NE(refusal([](TrainingOptions*) {}).find("its version is '3', expected '2'"),
             std::string::npos);
   for (const double share : {0.0, 0.1, 0.5, 0.9, 0.999}) {
     const auto length = static_cast<std::size_t>(share * static_cast<double>(bytes.size()));
@@ -205,7 +205,7 @@ TEST(Training, EndsWhenTheSuccessIntervalsLowerEndHasReachedTheTarget) {
   EXPECT_GT(fs::file_size(folder.path() / "run" / kCurvesFile), 2000u);
 }
 
-// An examiner that has its own mind: the rates in turn, of 100 episodes.
+// An examiner with a given sequence of rates, of 100 episodes.
 class Examinations {
  public:
   explicit Examinations(std::vector<int> successes) : successes_(std::move(successes)) {}
@@ -254,7 +254,7 @@ TEST(Training, WhatItBeginsWithMayBeGoodAlready) {
   EXPECT_EQ(result.last.iteration, 1.0);
   TrainingOptions later = ExaminedTraining(1);
   later.examine_from = 0.35;
-  Examinations none({50});  // the last iteration is examined in any case
+  Examinations none({50});  // the last iteration is always examined
   const TrainingResult other = Train(later, folder.path() / "later", false, {}, std::ref(none));
   EXPECT_EQ(other.end, TrainingEnd::kSamples);
   EXPECT_EQ(none.policies().size(), 1u);
@@ -268,7 +268,7 @@ TEST(Training, EndsWithTheExaminationThatReachesTheTarget) {
   EXPECT_EQ(result.end, TrainingEnd::kSuccess);
   EXPECT_EQ(examinations.policies().size(), 2u);
   EXPECT_EQ(result.last.examined, 0.96);
-  // Gone on with, it is over at once.
+  // Resumed, it ends at once.
   const TrainingResult again =
       Train(ExaminedTraining(40), folder.path() / "run", true, {}, std::ref(examinations));
   EXPECT_EQ(again.end, TrainingEnd::kSuccess);
@@ -276,7 +276,7 @@ TEST(Training, EndsWithTheExaminationThatReachesTheTarget) {
   EXPECT_EQ(examinations.policies().size(), 2u);
 }
 
-// Ctrl-C cannot be taken back, so that a process of its own is asked to stop.
+// Ctrl-C is sent to a child process, since it cannot be undone.
 TEST(TrainingDeathTest, CtrlCEndsAfterTheIterationWithACheckpoint) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   const core::TemporaryFolder folder;

@@ -1,4 +1,4 @@
-// Ways round what stands between an arm's postures, each looked at again step by step.
+// Joint paths around obstacles, each checked again step by step.
 #include "rl/tree_search.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// Beside a microwave whose door stands open, low to its left and to its right.
+// Two configurations beside a microwave with an open door, low to its left and to its right.
 struct BothSides {
   std::shared_ptr<const Skill> skill =
       MakeSkill(robot::Panda(false), {CloseDoor()}, SkillOptions().ForEvaluation());
@@ -58,8 +58,8 @@ TEST(SearchDetour, GetsRoundWhatIsBetween) {
       }
     }
   }
-  EXPECT_LE(touching, looks / 20);  // between two looks it may brush something
-  // The same ends have the same way, and a clear one is straight.
+  EXPECT_LE(touching, looks / 20);  // between two checks it may graze an object
+  // The same ends give the same path, and a collision-free straight one has no waypoints.
   EXPECT_EQ(*SearchDetour(arm, clearance, scene.left, scene.right), *detour);
   const robot::Posture home = scene.skill->robot->home();
   robot::Posture turned = home;
@@ -78,8 +78,8 @@ TEST(SearchDetour, FindsNoWayIntoAWall) {
   EXPECT_FALSE(SearchDetour(scene.skill->robot->arm, clearance, scene.left, inside));
 }
 
-// Of a way of several postures the corners are half-way too, where an arm that goes on to the next
-// one is never quite on its way.
+// The clearance also holds at waypoints, where an arm that continues to the next one is never quite
+// on its path.
 TEST(SearchDetour, KeepsOffThingsAtItsCorners) {
   const BothSides scene;
   constexpr double kMargin = 0.02;

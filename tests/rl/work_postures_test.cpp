@@ -1,4 +1,4 @@
-// Postures along a joint's way, against the poses of the part, and an arm that keeps to them.
+// Configurations along a joint path, against the poses of the part, and an arm that keeps to them.
 #include "rl/work_postures.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr size_t kDoor = 0;  // the microwave, the only thing
+constexpr size_t kDoor = 0;  // the microwave, the only object
 
 std::shared_ptr<const Skill> Make(const SkillSubtask& scene, bool on_base) {
   return MakeSkill(robot::Panda(on_base), {scene}, SkillOptions().ForEvaluation());
@@ -51,7 +51,7 @@ TEST(WorkPostures, HaveTheToolAtThePartAllAlongItsWay) {
 
 TEST(WorkPostures, AreInterpolatedBetweenAndKeptBeyond) {
   WorkPostures along;
-  along.positions = {1.0, 0.5, 0.0};  // of a part that is shut
+  along.positions = {1.0, 0.5, 0.0};  // of a part that is being shut
   for (const double value : {2.0, 4.0, 8.0}) {
     along.postures.push_back(robot::Posture::Constant(2, value));
   }
@@ -74,7 +74,7 @@ TEST(WorkPostures, ThereAreNoneOfAToolThatIsNotAtWork) {
   EXPECT_TRUE(PosturesAlong(*cup, taken, taken.start, cup->robot->home(), 0.0).positions.empty());
 }
 
-// With two joints of a base to spare an arm that drifts home as it pulls folds itself up.
+// With two redundant joints of a base, an arm that drifts home while it pulls would fold itself up.
 TEST(WorkPostures, AnArmKeepsToThemWhileItPulls) {
   const auto skill = Make(OpenDoor(), true);
   Episode episode(*skill);
@@ -101,7 +101,7 @@ TEST(WorkPostures, AnArmKeepsToThemWhileItPulls) {
   EXPECT_GE(opened, 7);
 }
 
-// An arm after another skill, the door at its stop: of some places no arm shuts it in one go.
+// An arm after another skill, the door at its stop: from some poses no arm shuts it with one plan.
 TEST(Episode, ADoorAtItsStopIsShutInTwoPlans) {
   const auto skill = Make(CloseDoor(), false);
   const SkillVariant& variant = skill->variants.front();

@@ -1,4 +1,4 @@
-// Jointed things against analytic mechanics, and Bullet against MuJoCo.
+// Articulated bodies against analytic mechanics, and Bullet against MuJoCo.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ assets::ArticulatedLink BoxLink(const std::string& name, const Eigen::Vector3d& 
   return link;
 }
 
-// A heavy base and one link on one joint, 0.5 m above the base's middle.
+// Returns a heavy base and one link on one joint, 0.5 m above the base's middle.
 assets::ArticulatedAsset OneJoint(UrdfJointType type, const Eigen::Vector3d& axis,
                                   const Eigen::Vector3d& center, double friction, double damping) {
   assets::ArticulatedAsset asset;
@@ -52,7 +52,7 @@ assets::ArticulatedAsset OneJoint(UrdfJointType type, const Eigen::Vector3d& axi
   joint.type = type;
   joint.axis = axis;
   joint.parent_from_joint.translation() = Eigen::Vector3d(0.0, 0.3, 0.8);
-  // Turned, so that axes and frames differ.
+  // Rotated, so that axes and frames differ.
   joint.parent_from_joint.linear() =
       Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   joint.lower = -3.0;
@@ -100,8 +100,8 @@ TEST(Articulated, APendulumSwingsWithItsPeriodInBothEngines) {
   }
 }
 
-// Under a constant force F against friction f and damping d a slider reaches (F - f) / d, and gets
-// there as 1 - exp(-d t / m).
+// Under a constant force F against friction f and damping d a slider approaches (F - f) / d as 1 -
+// exp(-d t / m).
 TEST(Articulated, APushedDrawerApproachesItsTerminalSpeed) {
   const double friction = 2.0, damping = 6.0, force = 5.0;
   const assets::ArticulatedAsset asset =
@@ -119,7 +119,7 @@ TEST(Articulated, APushedDrawerApproachesItsTerminalSpeed) {
 }
 
 TEST(Articulated, FrictionHoldsBelowItselfAndNotAbove) {
-  // The weight's moment about the pivot, the arm held out level: m g l.
+  // The gravity moment about the pivot with the arm level: m g l.
   const double density = 800.0, mass = 0.04 * 0.06 * 0.5 * density, moment = mass * 9.81 * 0.25;
   for (const double share : {0.9, 1.1}) {
     Rigs rigs(OneJoint(UrdfJointType::kRevolute, Eigen::Vector3d::UnitY(), {0, 0, -0.25},
@@ -169,7 +169,7 @@ TEST(Articulated, MotorsHoldTheirSpeedAndStopAtLimits) {
   }
 }
 
-// A box slides down onto the floor beside a fixed thing, and its weight shows in the contacts.
+// A box slides down onto the floor beside a fixed body, and its weight appears in the contacts.
 TEST(Articulated, ARigidThingRestsInTheSameWorld) {
   ArticulatedWorld world;
   const assets::ArticulatedAsset asset =

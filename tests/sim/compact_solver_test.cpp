@@ -1,4 +1,4 @@
-// CompactSolver against Bullet's own iterations: the same rows, so the same motion but for
+// CompactSolver against Bullet's own iterations: the same constraint rows, so the same motion up to
 // rounding.
 #include "sim/driven_robot.h"
 
@@ -23,8 +23,8 @@ RigidBody Cylinder() {
   return body;
 }
 
-// A cylinder thrown along the floor, turning, so that it slides, rolls and spins; beside it a robot
-// whose joints are driven, one into its limit.
+// A cylinder thrown along the floor with spin, so that it slides, rolls and spins; beside it a
+// robot whose joints are driven, one into its limit.
 struct Scene {
   explicit Scene(bool compact) : world(Options(compact)), robot(Robot(&world)) {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -74,7 +74,7 @@ TEST(CompactSolver, MovesThingsAsBulletDoes) {
     ASSERT_LT((p - q).norm(), 1e-9) << step;
     for (const LinkContact& contact : compact.world.Contacts()) impulse += contact.impulse;
   }
-  // It did lie on the floor: all of its weight went through contacts.
+  // It did rest on the floor: contacts carried its full weight.
   const double weight = Cylinder().inertial.mass * 9.81;
   EXPECT_NEAR(impulse, weight * compact.world.time(), 0.25 * weight);
   EXPECT_GT((compact.world.LinkPose(compact.thing, 0).translation().x()), 1.05);

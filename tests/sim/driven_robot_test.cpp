@@ -1,4 +1,4 @@
-// The Panda under motors: it stands still, lifts a cup, and its fingers stay a pair.
+// The Panda under motors: it stands still, lifts a cup, and its fingers stay symmetric.
 #include "sim/driven_robot.h"
 
 #include <algorithm>
@@ -48,11 +48,11 @@ TEST(DrivenRobot, StandsStillUnderGravityForAMinute) {
       farthest = std::max(farthest, (robot.Tool().translation() - start).norm());
     }
     EXPECT_LT(farthest, 1e-3);
-    EXPECT_LT(farthest, 1e-5);  // far better than asked: the motors are solved, not tuned
+    EXPECT_LT(farthest, 1e-5);  // far better than required: the motors are solved, not tuned
   }
 }
 
-// Joint positions with the tool at `position`, pointing down.
+// Returns joint positions with the tool at `position`, pointing down.
 Eigen::VectorXd Above(const robot::RobotModel& panda, const Vector3d& position) {
   core::Rng rng(1);
   robot::InverseKinematicsOptions options;
@@ -65,7 +65,7 @@ Eigen::VectorXd Above(const robot::RobotModel& panda, const Vector3d& position) 
   return found.q;
 }
 
-// With the iterations of a check and with those of a training.
+// With the solver iterations of a check and with those of a training.
 class DrivenRobotGrasp : public testing::TestWithParam<int> {};
 
 TEST_P(DrivenRobotGrasp, LiftsACupByContactAloneAndHoldsIt) {
@@ -92,7 +92,7 @@ TEST_P(DrivenRobotGrasp, LiftsACupByContactAloneAndHoldsIt) {
   run(1.0, low, low, panda.gripper.closed);
   run(1.5, low, high, panda.gripper.closed);
   run(0.5, high, high, panda.gripper.closed);
-  // Where the cup is held, 8.5 cm above its foot, as the tool sees it.
+  // The grasp point, 8.5 cm above the cup's base, in the tool frame.
   const auto in_tool = [&] {
     return Vector3d(robot.Tool().inverse() * world.LinkPose(cup, 0) * Vector3d(0, 0, 0.085));
   };
@@ -106,7 +106,7 @@ TEST_P(DrivenRobotGrasp, LiftsACupByContactAloneAndHoldsIt) {
     slip = std::max(slip, (in_tool() - held).norm());
   }
   EXPECT_LT(slip, 1e-3);
-  // Both fingers press, and they are where the other's mirror is.
+  // Both fingers press, at mirrored positions.
   double left = 0.0, right = 0.0;
   for (const LinkContact& contact : world.Contacts()) {
     const bool cup_first = contact.body_a == cup;
@@ -124,8 +124,8 @@ TEST_P(DrivenRobotGrasp, LiftsACupByContactAloneAndHoldsIt) {
 
 INSTANTIATE_TEST_SUITE_P(Iterations, DrivenRobotGrasp, testing::Values(50, 20));
 
-// A push on one finger alone moves both, or neither.
-// m that a cup of 0.2 kg has been lifted by after it was gripped with 20 N and taken up by 0.2 m.
+// Returns the height (m) by which a cup of 0.2 kg is lifted after it was gripped with 20 N and
+// raised by 0.2 m.
 double Lifted(double finger_friction) {
   const robot::RobotModel& panda = robot::Panda(false);
   WorldOptions options;

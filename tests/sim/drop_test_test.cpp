@@ -40,7 +40,7 @@ TEST(World, FallsAsNewtonSays) {
   EXPECT_NEAR(world.LinearVelocity(0).z(), -9.81, 1e-9);
 }
 
-// It comes down at 24 m/s, 10 cm a step: more than the floor reaches up.
+// It falls at 24 m/s, 10 cm per step: more than the height of the floor's AABB.
 TEST(World, WhatIsFastDoesNotFallThroughTheFloor) {
   const RigidBody box = Box({0.1, 0.1, 0.02}, 1.0);
   WorldOptions options;
@@ -80,7 +80,7 @@ TEST(Drop, ATallBoxOnItsEdgeFalls) {
   EXPECT_NEAR(drop.tilt, std::numbers::pi / 2 - 0.9, 0.02);
 }
 
-// Positions as functions of time, of a ball of 0.1 m.
+// Prescribed positions over time of a ball of 0.1 m.
 class Watched : public ::testing::Test {
  protected:
   template <typename Motion>
@@ -113,7 +113,7 @@ TEST_F(Watched, SpinningIsNotResting) {
   EXPECT_FALSE(spins.rests);
 }
 
-// 0.02 m/s at its fastest, but never further than 0.04 mm.
+// 0.02 m/s at its fastest, but never farther than 0.04 mm.
 TEST_F(Watched, ATrembleTooSmallToSeeIsResting) {
   const DropResult trembles = Watch([](double t) { return At(2e-5 * std::sin(1000.0 * t)); });
   EXPECT_TRUE(trembles.rests);
@@ -121,7 +121,7 @@ TEST_F(Watched, ATrembleTooSmallToSeeIsResting) {
   EXPECT_FALSE(rocks.rests);
 }
 
-// Slower than the rest speed: it rests, and its drift tells.
+// Slower than the rest speed: it rests, and its drift shows the creep.
 TEST_F(Watched, CreepShowsInTheDrift) {
   const DropResult creeps = Watch([](double t) { return At(-0.005 * t); });
   EXPECT_TRUE(creeps.rests);

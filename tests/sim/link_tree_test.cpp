@@ -1,5 +1,5 @@
-// Links on fixed joints that are folded into what they are fixed to: the same motion as unfolded,
-// and each still has its own place, shape and name in contacts.
+// Links on fixed joints that are merged into their carrier: the same motion as unmerged, and each
+// keeps its own pose, shape and name in contacts.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,8 +35,8 @@ assets::UrdfJoint Joint(assets::UrdfJointType type, const Vector3d& origin, doub
   return joint;
 }
 
-// A rod on a hinge, a plate fixed to its end at an angle, a frame without mass or shape fixed to
-// that, and a second rod on a hinge from the frame.
+// Returns a rod on a hinge, a plate fixed to its end at an angle, a frame without mass or shape
+// fixed to that, and a second rod on a hinge from the frame.
 ArticulatedBody Chain() {
   ArticulatedBody body;
   body.name = "chain";
@@ -83,7 +83,7 @@ TEST(LinkTree, FoldedLinksMoveAsTheyDoApart) {
   EXPECT_GT(moved, 0.1);
 }
 
-// A plate fixed beside a heavy base: what lies on it touches the plate, at the plate's height and
+// A plate fixed beside a heavy base: an object on it touches the plate, at the plate's height and
 // with the plate's friction.
 TEST(LinkTree, ContactsNameTheFoldedLink) {
   ArticulatedBody shelf;
@@ -109,7 +109,7 @@ TEST(LinkTree, ContactsNameTheFoldedLink) {
   EXPECT_NEAR(impulse, 0.5 * 9.81 / 240.0, 1e-4);
 }
 
-// The hand, its tool frame and the flange are where the arm's kinematics say.
+// The gripper, its tool frame and the flange agree with the arm's kinematics.
 TEST(LinkTree, ThePandasToolIsWhereItsKinematicsSay) {
   const robot::RobotModel& panda = robot::Panda(false);
   ArticulatedWorld world;

@@ -1,5 +1,5 @@
-// The same things in both engines: what stands still stands where it was put, and a driven arm gets
-// to where Bullet's gets.
+// The same bodies in both engines: resting bodies stay in place, and a driven arm arrives where
+// Bullet's does.
 #include "sim/mujoco_bodies.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ TEST(MujocoBodies, AnArmGetsToWhereItIsSent) {
     world.Step();
     mujoco.Step();
   }
-  // MuJoCo's motors are springs: under the arm's weight, up to 40 N m, they give by 0.03 rad.
+  // MuJoCo's motors are springs: under the arm's weight, up to 40 N m, they yield by 0.03 rad.
   const Eigen::Isometry3d tool = mujoco.LinkPose(0, panda.tool_link);
   EXPECT_LT((tool.translation() - driven.Tool().translation()).norm(), 0.03);
   EXPECT_NEAR(mujoco.Position(0, panda.arm_joints[0]), goal[0], 1e-3);

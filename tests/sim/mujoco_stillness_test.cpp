@@ -1,4 +1,4 @@
-// Worlds in MuJoCo: what it loads has the assets' numbers, and what moves is found to move.
+// Worlds in MuJoCo: they have the assets' numbers, and moving bodies are detected.
 #include "sim/mujoco_stillness.h"
 
 #include <cmath>
@@ -29,7 +29,7 @@ class MujocoWorlds : public testing::Test {
     core::WriteFile(path, assets::WorldMjcf("room", things));
     return path;
   }
-  // Boxes of 10 cm where they are put, alone.
+  // Returns a world of boxes of 10 cm at the given poses.
   std::vector<assets::WorldThing> Boxes(const std::vector<Isometry3d>& poses) const {
     std::vector<assets::WorldThing> boxes;
     for (const Isometry3d& pose : poses) {
@@ -49,7 +49,7 @@ TEST_F(MujocoWorlds, LoadWithTheAssetsNumbers) {
   const mjModel& model = *scene.model();
   mj_forward(scene.model(), scene.data());
   ASSERT_EQ(model.nbody, 4);
-  EXPECT_EQ(model.nmesh, 4);  // two a kind, however many share them
+  EXPECT_EQ(model.nmesh, 4);  // two per kind, shared by all of it
   EXPECT_EQ(model.njnt, 2);
   for (const assets::WorldThing& thing : sample_.things) {
     const int body = mj_name2id(&model, mjOBJ_BODY, thing.name.c_str());
@@ -74,7 +74,7 @@ TEST_F(MujocoWorlds, LoadWithTheAssetsNumbers) {
   }
 }
 
-// As the file of the asset itself has it, which is tested on its own.
+// The same as in the asset's own file, which has its own test.
 TEST_F(MujocoWorlds, HaveTheOptionsOfOneAsset) {
   const MujocoScene world(Write(sample_.things), {}, MujocoScene::Ground::kOwn);
   const MujocoScene alone(folder_.path() / "assets" / "box" / "sample_box.xml");
@@ -86,7 +86,7 @@ TEST_F(MujocoWorlds, HaveTheOptionsOfOneAsset) {
   EXPECT_EQ(a.opt.impratio, b.opt.impratio);
   EXPECT_EQ(a.opt.tolerance, b.opt.tolerance);
   const auto geom_of = [](const mjModel& model, const char* body) {
-    return model.body_geomadr[mj_name2id(&model, mjOBJ_BODY, body)] + 1;  // after what is seen
+    return model.body_geomadr[mj_name2id(&model, mjOBJ_BODY, body)] + 1;  // after the visual geom
   };
   const int geom = geom_of(a, "box_1"), other = geom_of(b, "sample_box");
   for (int i = 0; i < 3; ++i) {
@@ -97,8 +97,8 @@ TEST_F(MujocoWorlds, HaveTheOptionsOfOneAsset) {
   EXPECT_GT(a.geom_contype[geom], 0);
 }
 
-// An asset's MJCF brings no options of its own: it leaves those of the model that includes it. Its
-// own scene has multiccd and stands still.
+// An asset's MJCF has no options of its own: it leaves those of the including model. Its own scene
+// has multiccd and is stable.
 TEST_F(MujocoWorlds, AnAssetCanBePartOfAnyModelAndHasASceneOfItsOwn) {
   const std::filesystem::path box = folder_.path() / "assets" / "box";
   core::WriteFile(box / "mine.xml",
@@ -132,8 +132,8 @@ TEST_F(MujocoWorlds, WhatStandsStandsAndWhatFallsFalls) {
     EXPECT_LT(watched.bodies[i].settled, 2e-4) << i;
     EXPECT_LT(watched.bodies[i].drift, 1e-4) << i;
   }
-  // g t^2 / 2 in the first quarter of a second, to the integrator's step of g t dt / 2, then the
-  // rest of its way at least.
+  // g t^2 / 2 in the first quarter of a second, to the integrator's step of g t dt / 2, then at
+  // least the rest of its fall.
   const double fallen = 0.5 * 9.81 * 0.25 * 0.25;
   EXPECT_NEAR(watched.bodies[2].settled, fallen, 9.81 * 0.25 * 0.002);
   EXPECT_GT(watched.bodies[2].drift, 0.99 * (1.0 - fallen) - 0.01);

@@ -1,4 +1,4 @@
-// Scenes left to gravity: what rests, what slides as far as Coulomb says, what falls.
+// Settling of scenes: what rests, what slides as far as Coulomb's law says, what falls.
 #include "sim/settling.h"
 
 #include <cmath>
@@ -45,7 +45,7 @@ TEST(Settle, ATowerOnATableStandsStill) {
   EXPECT_EQ(settled[0].world_from_body.matrix(), bodies[0].world_from_body.matrix());
 }
 
-// A box whose edges are chamfered by 2 mm, as of a game: a hull of 24 corners.
+// Returns a box whose edges are chamfered by 2 mm, like a board game's: a hull of 24 vertices.
 RigidBody ChamferedBox(const Vector3d& size, double mass) {
   RigidBody body = Box(size, mass);
   std::vector<Vector3d> corners;
@@ -59,8 +59,8 @@ RigidBody ChamferedBox(const Vector3d& size, double mass) {
   return body;
 }
 
-// Ten stacks of boxes of unlike sizes, each askew to what it lies on, over 6 s, as a shelf has
-// them. On contacts of single points half of them creep, by up to some millimetres.
+// Ten stacks of boxes of different sizes, each rotated against its support, over 6 s, as on a
+// shelf. With single-point contacts half of them creep, by up to some millimetres.
 TEST(Settle, WhatLiesFlatDoesNotCreep) {
   const RigidBody board = Box({8, 1, 0.02}, 0.0, 0.6);
   const RigidBody low = ChamferedBox({0.26, 0.26, 0.07}, 1.1),
@@ -101,7 +101,7 @@ TEST(Settle, WhatHangsOverTheEdgeFalls) {
   EXPECT_TRUE(settled[2].stable);
 }
 
-// What has fallen off is gone before it can knock over what stands below.
+// A fallen object is removed before it can topple objects below.
 TEST(Settle, WhatFallsKnocksNothingDown) {
   const RigidBody table = Box({1, 1, 0.1}, 0.0), box = Box({0.1, 0.1, 0.06}, 0.3);
   const RigidBody post = Box({0.03, 0.03, 0.2}, 0.1);
@@ -117,7 +117,7 @@ TEST(Settle, WhatFallsKnocksNothingDown) {
   EXPECT_TRUE(settled[2].stable);
 }
 
-// On a slope of 20 degrees, tan 0.364: friction of 0.5 holds, none lets slide.
+// On a slope of 20 degrees, tan 0.364: a friction of 0.5 holds, without friction it slides.
 TEST(Settle, WhatSlidesIsNotStable) {
   const Isometry3d slope =
       At({0, 0, 5}) * Eigen::AngleAxisd(20.0 * M_PI / 180.0, Vector3d::UnitY());
@@ -136,8 +136,8 @@ TEST(Settle, WhatSlidesIsNotStable) {
   // s = g sin(20) t^2 / 2.
   const double a = 9.81 * std::sin(20.0 * M_PI / 180.0);
   EXPECT_NEAR(settled[2].moved, 0.5 * a * 0.25, 0.005);
-  EXPECT_NEAR(settled[2].drift, 0.5 * a * 0.25, 0.005);  // it is watched from a standstill
-  // With 0.6 of its friction the rough one slides for that half second, too, and holds then.
+  EXPECT_NEAR(settled[2].drift, 0.5 * a * 0.25, 0.005);  // the check starts at zero velocity
+  // With 0.6 of its friction the rough one slides for that half second too, and then holds.
   options.settling_friction = 0.6;
   const std::vector<SettledBody> eased =
       Settle({{&plank, slope, true}, {&rough, slope * At({-1, 0.2, 0.07}), false}}, options);
@@ -146,7 +146,7 @@ TEST(Settle, WhatSlidesIsNotStable) {
   EXPECT_TRUE(eased[1].stable);
 }
 
-// A thin slab on its edge stands, but for a sway; a box does not mind it.
+// A thin slab on its edge is stable unless gravity tilts; a box is stable either way.
 TEST(Settle, WhatBalancesTipsInASway) {
   const RigidBody slab = Box({0.002, 0.1, 0.2}, 0.1), box = Box({0.1, 0.1, 0.1}, 0.3);
   const std::vector<SettlingBody> bodies = {{&slab, At({0, 0, 0.1}), false},
@@ -156,7 +156,7 @@ TEST(Settle, WhatBalancesTipsInASway) {
   options.sway = 0.1;
   options.sway_time = 0.2;
   const std::vector<SettledBody> swayed = Settle(bodies, options);
-  EXPECT_GT(swayed[0].tilted, 1.0);  // until it was taken out
+  EXPECT_GT(swayed[0].tilted, 1.0);  // until it was removed
   EXPECT_LT(swayed[1].moved, 1e-4);
   EXPECT_TRUE(swayed[1].stable);
 }

@@ -1,4 +1,4 @@
-// What Bullet is given in place of meshes: capsules, and one floor contact a shape.
+// The shapes that Bullet gets instead of meshes: capsules, and one floor contact per shape.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -100,7 +100,7 @@ double Settle(ArticulatedWorld* world, double seconds) {
   return force / world->time_step();
 }
 
-// A capsule lies at its radius, and the floor bears its weight.
+// A capsule rests at its radius, and the floor carries its weight.
 TEST(FloorContact, ACapsuleLiesAtItsRadius) {
   RigidBody body;
   AddShapes(CapsuleShapes(0.05, 0.2, Eigen::Isometry3d::Identity()), &body);
@@ -113,7 +113,7 @@ TEST(FloorContact, ACapsuleLiesAtItsRadius) {
   EXPECT_NEAR(force, 0.7 * 9.81, 0.02 * 0.7 * 9.81);
 }
 
-// A ring of 24 blocks stands on four contacts, not on 24 times four, and does not move.
+// A ring of 24 blocks rests on four contacts, not on 24 times four, and does not move.
 TEST(FloorContact, AThingOfManyPartsStandsOnFourPoints) {
   RigidBody ring;
   for (int i = 0; i < 24; ++i) {
