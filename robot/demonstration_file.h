@@ -36,7 +36,7 @@ struct DemonstrationSet {
   std::string env_kwargs = "{}";  // JSON object
   std::vector<Demonstration> demonstrations;
   std::map<std::string, std::vector<std::size_t>> filters;  // e.g. "train": demonstration indices
-  std::vector<std::string> notes;  // one per demonstration, or empty
+  std::vector<std::string> notes;                           // one per demonstration, or empty
 };
 
 // Writes robomimic's HDF5 file: a group /data with attributes `total` and `env_args`, groups

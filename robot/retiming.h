@@ -26,9 +26,9 @@ struct RetimingOptions {
   double tool_deviation = 1e-3;     // m: largest deviation of the tool, if an arm is given
   double longest_turn = 0.2;        // rad between recorded positions: a larger step is a jump
   double longest_slide = 0.05;      // m, the same for a prismatic joint
-  double ramp = 0.1;           // s, duration of the start and stop ramps
-  double fastest = 1.0;        // largest speed-up over the recording
-  double most_stretch = 50.0;  // largest slow-down over the recording; more is an error
+  double ramp = 0.1;                // s, duration of the start and stop ramps
+  double fastest = 1.0;             // largest speed-up over the recording
+  double most_stretch = 50.0;       // largest slow-down over the recording; more is an error
 
   bool IsValid(std::string* error) const;
 };

@@ -12,9 +12,9 @@ namespace simwright::scene {
 // that are enforced by rejection, then samples poses until they satisfy the others (Pfaff et al.,
 // appendix: 1000 derivations, 5000 for the restaurant and the pantry; 25 pose samples).
 struct DrawOptions {
-  int derivations = 1000;  // per try, at most
-  int pose_draws = 25;     // per try, at most; each visits every violating object once
-  int proposals = 8;       // per object and pose sample
+  int derivations = 1000;     // per try, at most
+  int pose_draws = 25;        // per try, at most; each visits every violating object once
+  int proposals = 8;          // per object and pose sample
   double temperature = 0.01;  // m, added violation that is accepted with probability 1/e
   int tries = 100;
 

@@ -99,7 +99,7 @@ TEST(ExtendPart, SaysWhatBecameOfScenesThatAreNeverSound) {
     ExtendPart(generation, 2, &part, &progress);
     FAIL() << "scenes of 30 drums were made of 5";
   } catch (const core::Error& error) {
-    EXPECT_NE(std::string(error.what()).find("of 6 scenes 0 are sound"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("of 6 scenes 0 are valid"), std::string::npos)
         << error.what();
   }
 }
