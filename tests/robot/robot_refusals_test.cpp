@@ -1,4 +1,4 @@
-// Robots that are none: each is refused with one line that names the file and what to do.
+// Invalid robots: each gives a one-line error that names the file and the remedy.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -20,7 +20,7 @@ class Refusal : public testing::Test {
       : urdf_(core::ReadFile(kRobots / "generic6/generic6.urdf")),
         side_(Json::parse(core::ReadFile(kRobots / "generic6/generic6.json"))) {}
 
-  // The error's line for the robot as it now stands; empty where it loads.
+  // Returns the error line for the current robot; empty if it loads.
   std::string Line() { return LineOfText(side_.dump(2)); }
   std::string LineOfText(const std::string& side) {
     const core::TemporaryFolder folder;

@@ -84,7 +84,7 @@ TEST(TrajectoryFile, TimesOfALongMotionReadBackToo) {
   }
 }
 
-// Python's own readers find the same numbers, bit for bit.
+// Python's readers read the same numbers, bit for bit.
 TEST(TrajectoryFile, PythonReadsTheSame) {
   const core::TemporaryFolder folder;
   const JointTrajectory trajectory = Sample();
@@ -116,7 +116,7 @@ TEST(TrajectoryFile, PythonReadsTheSame) {
   }
 }
 
-// As `ros2 topic echo` prints a message.
+// The format of `ros2 topic echo`.
 TEST(TrajectoryFile, ReadsListsOfOneEntryALine) {
   const std::string text =
       "header:\n  stamp:\n    sec: 12\n    nanosec: 5\n  frame_id: ''\n"
@@ -139,7 +139,7 @@ TEST(TrajectoryFile, RefusesAFileThatIsCutOff) {
   const JointTrajectory trajectory = Sample(5);
   for (const TrajectoryFormat format : kFormats) {
     const std::string whole = TrajectoryText(trajectory, format);
-    // Without the last line break there is still all that is said.
+    // Without the last newline no content is missing.
     for (std::size_t length = 0; length + 1 < whole.size(); ++length) {
       EXPECT_THROW(ParseTrajectory(whole.substr(0, length), format, "cut"), core::Error)
           << static_cast<int>(format) << " cut to " << length << " of " << whole.size();
@@ -147,7 +147,7 @@ TEST(TrajectoryFile, RefusesAFileThatIsCutOff) {
   }
 }
 
-// The line for `whole` with `from` replaced by `to`, the first time it stands there.
+// Returns the error line for `whole` with the first `from` replaced by `to`.
 std::string LineAfter(std::string whole, TrajectoryFormat format, const std::string& from,
                       const std::string& to) {
   const std::size_t at = whole.find(from);
