@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Installs what Simwright builds, tests and runs with, from Debian 12's packages. Does nothing for
-# what is there already. --tests adds what tests alone need (python3-torch, beside which reward
-# programs are run), --catalogue the furniture that the catalogue tests use (120 MB), --fuzz the
-# compiler of the fuzz targets. --peers alone makes .venv-peers: Drake, MuJoCo, PyBullet and yourdfpy
-# of PyPI (700 MB), in which the tests of label `peers` load what simwright writes.
+# Installs the build, test and runtime dependencies of Simwright from Debian 12's packages, if they
+# are missing. --tests adds the dependencies of the tests (python3-torch, against which reward
+# programs are compared), --catalogue the furniture of the catalogue tests (120 MB), --fuzz the
+# compiler of the fuzz targets. --peers instead creates .venv-peers with Drake, MuJoCo, PyBullet and
+# yourdfpy from PyPI (700 MB), in which the tests of label `peers` load Simwright's files.
 set -euo pipefail
 
 packages=(
@@ -22,25 +22,25 @@ for wanted in "$@"; do
     --catalogue) packages+=(sweethome3d-furniture python3-skimage) ;;
     --fuzz) packages+=(clang-14 libclang-rt-14-dev) ;;
     --peers) peers=yes ;;
-    *) echo "error: $wanted is not known (use --tests, --catalogue, --fuzz or --peers)" >&2; exit 2 ;;
+    *) echo "error: unknown option $wanted (use --tests, --catalogue, --fuzz or --peers)" >&2; exit 2 ;;
   esac
 done
 
-# Versions are pinned: what the tests measured is what is installed.
+# Versions are pinned to those that the tests were measured with.
 if [ -n "$peers" ]; then
   cd "$(dirname "$0")"
   wanted=tests/peers/requirements.txt
   cmp -s "$wanted" .venv-peers/requirements.txt && exit 0
   python=${PYTHON:-python3}
   "$python" -c 'import ensurepip' 2>/dev/null || {
-    echo "error: $python cannot make virtual environments (apt-get install python3-venv, or PYTHON=...)" >&2
+    echo "error: $python cannot create virtual environments (apt-get install python3-venv, or PYTHON=...)" >&2
     exit 1
   }
   echo "Installing $(grep -c == "$wanted") Python packages into .venv-peers"
   rm -rf .venv-peers
   "$python" -m venv .venv-peers
   .venv-peers/bin/pip install --quiet --disable-pip-version-check --only-binary :all: -r "$wanted"
-  cp "$wanted" .venv-peers/requirements.txt  # last: an environment that is not whole is made anew
+  cp "$wanted" .venv-peers/requirements.txt  # last: an incomplete environment is rebuilt
   exit 0
 fi
 
@@ -67,5 +67,5 @@ install() {
     "${run[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends \
       "${missing[@]}" >>"$log" 2>&1
 }
-# A mirror in the middle of an update answers once and not again: one more try.
+# Retries once: a mirror can fail during an update.
 install || { sleep 5; install; } || { tail -20 "$log" >&2; exit 1; }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and passes all tests. Further arguments go to ctest:
+# Installs missing dependencies, builds, and runs all tests. Arguments are passed to ctest:
 #   ./test.sh -L fast
 set -euo pipefail
 cd "$(dirname "$0")"

@@ -1,5 +1,5 @@
-# Writes OUTPUT, a source that returns the text of INPUT as std::string_view.
-# Chunks stay below the 64 KiB that every compiler takes for one literal.
+# Writes OUTPUT, a source file that returns the text of INPUT as std::string_view. Chunks stay below
+# the 64 KiB that every compiler accepts in one literal.
 file(READ ${INPUT} text)
 string(LENGTH "${text}" length)
 set(pieces "")

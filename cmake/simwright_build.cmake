@@ -1,4 +1,4 @@
-# Compiler settings, and the one function by which every module is declared.
+# Compiler settings, and the function that declares every module.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -9,8 +9,8 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 
-# -ffp-contract=off: the same numbers whichever instructions the compiler picks.
-# What g++ 12 reports falsely inside std::string, Eigen and CGAL at -O3 is off.
+# -ffp-contract=off gives the same numbers with any instruction set. Warnings that g++ 12 reports
+# falsely inside std::string, Eigen and CGAL at -O3 are off.
 add_compile_options(-Wall -Wextra -ffp-contract=off -ffunction-sections -fdata-sections)
 add_link_options(-Wl,--gc-sections -Wl,--as-needed)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -28,8 +28,8 @@ if(SIMWRIGHT_SANITIZE)
 endif()
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
-  # Relative to the source folder, so that a second clone finds what the first has compiled.
-  # Precompiled headers are compared by content, not by time.
+  # Paths relative to the source folder let a second clone reuse the cache of the first. Precompiled
+  # headers are compared by content, not by time.
   set(ccache_launcher ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}
       CCACHE_NOHASHDIR=1
       CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
@@ -38,7 +38,7 @@ if(CCACHE_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${ccache_launcher})
 endif()
 
-# What a precompiled header asks of the compiler so that ccache can serve what includes it.
+# The compiler options that let ccache serve sources with a precompiled header.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(simwright_pch_options -fpch-preprocess)
 else()
@@ -46,7 +46,7 @@ else()
 endif()
 
 # simwright_precompile(TARGET HEADER) precompiles cmake/precompiled/HEADER for TARGET;
-# simwright_precompile(TARGET REUSE OTHER) takes what was precompiled for the target OTHER.
+# simwright_precompile(TARGET REUSE OTHER) reuses the precompiled header of the target OTHER.
 function(simwright_precompile target header)
   if(header STREQUAL REUSE)
     target_precompile_headers(${target} REUSE_FROM ${ARGN})
@@ -56,9 +56,9 @@ function(simwright_precompile target header)
   target_compile_options(${target} PRIVATE ${simwright_pch_options})
 endfunction()
 
-# simwright_torch_objects(TARGET SOURCES HEADER_OWNER lib...): compiles the list SOURCES, which include libtorch,
-# beside libtorch's precompiled header and adds the objects to TARGET. The other sources of TARGET
-# stay without it: at -O3 a file pays 8 s for its inline functions.
+# simwright_torch_objects(TARGET SOURCES HEADER_OWNER lib...) compiles the list SOURCES, which
+# include libtorch, with libtorch's precompiled header and adds the objects to TARGET. The other
+# sources of TARGET do without it: at -O3 its inline functions cost 8 s per file.
 function(simwright_torch_objects target sources header_owner)
   add_library(${target}_torch OBJECT ${sources})
   target_include_directories(${target}_torch PRIVATE ${PROJECT_SOURCE_DIR})
@@ -68,9 +68,9 @@ function(simwright_torch_objects target sources header_owner)
 endfunction()
 
 # simwright_module(NAME [FOLDERS folder...] [PUBLIC lib...] [PRIVATE lib...] [TORCH file...])
-# One static library simwright::NAME from the sources of the folder, and of those FOLDERS inside it.
-# PUBLIC: what its headers include; PRIVATE: what stays behind its door; TORCH: the sources that
-# include libtorch, where not all do.
+# Declares the static library simwright::NAME with the sources of the folder and of its FOLDERS.
+# PUBLIC: libraries that its headers include; PRIVATE: libraries that only its sources include;
+# TORCH: the sources that include libtorch, if not all do.
 function(simwright_module name)
   cmake_parse_arguments(arg "" "" "FOLDERS;PUBLIC;PRIVATE;TORCH" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
@@ -113,8 +113,8 @@ function(simwright_module name)
 endfunction()
 
 # simwright_embed(TARGET NAMESPACE FILE...)
-# Compiles data files into TARGET: `data::<file_name_with_underscores>()` in simwright::NAMESPACE,
-# declared by the target's own header; so that a moved program still finds what it knows.
+# Compiles data files into TARGET as `data::<file_name_with_underscores>()` in simwright::NAMESPACE,
+# declared by the target's own header, so that an installed program needs no data folder.
 function(simwright_embed target namespace)
   foreach(file ${ARGN})
     get_filename_component(name ${file} NAME)

@@ -1,4 +1,4 @@
-# Everything from Debian 12; what each is for stands in docs/dependencies.md.
+# All dependencies are from Debian 12; docs/dependencies.md gives the purpose of each.
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
@@ -25,10 +25,10 @@ pkg_check_modules(webpdemux REQUIRED IMPORTED_TARGET libwebpdemux libwebp)
 find_package(GIF REQUIRED)
 pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
-# Debian's Torch config knows the headers and libraries; its old-style variables become one target.
+# Debian's Torch config provides the headers and libraries as variables; they become one target.
 find_package(Torch REQUIRED)
-# It defines _GLIBCXX_USE_CXX11_ABI=1, which is the default; precompiled headers are shared with
-# modules that do not link libtorch only where all definitions are the same.
+# Torch defines _GLIBCXX_USE_CXX11_ABI=1, which is the default; modules without libtorch can share
+# precompiled headers only if all definitions are equal.
 set_property(TARGET torch PROPERTY INTERFACE_COMPILE_OPTIONS)
 if(NOT TARGET simwright_torch)
   add_library(simwright_torch INTERFACE IMPORTED)

@@ -1,4 +1,5 @@
-# `cmake --install` and find_package(simwright): docs/architecture.md shows an outside project.
+# Supports `cmake --install` and find_package(simwright); docs/architecture.md shows an external
+# project.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 install(EXPORT simwright_targets NAMESPACE simwright:: DESTINATION lib/cmake/simwright)

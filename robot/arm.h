@@ -16,26 +16,26 @@ struct ArmJoint {
   bool prismatic = false;                                               // slides along its axis
 };
 
-// joint-at-zero from joint-at-`position` (rad or m).
+// Returns the joint frame at `position` (rad or m) relative to the joint frame at position zero.
 Eigen::Isometry3d JointMotion(const ArmJoint& joint, double position);
 
-// A chain of joints that turn or slide, from a base to a tool. Constant; safe from several threads.
+// A serial chain of revolute and prismatic joints from a base to a tool. Immutable and thread-safe.
 struct Arm {
   std::string name;
   std::vector<ArmJoint> joints;
   Eigen::Isometry3d last_from_tool = Eigen::Isometry3d::Identity();
-  Eigen::VectorXd ready;  // (J) rad or m, within the limits: where a motion starts
+  Eigen::VectorXd ready;  // (J) rad or m, within the limits: the initial configuration
 
   int size() const { return static_cast<int>(joints.size()); }
 };
 
-// base_from_tool at joint positions `q` (J, rad or m). Throws core::Error where q has another
-// length.
+// Returns base_from_tool at joint positions `q` (J, rad or m). Throws core::Error if the length of
+// `q` is not J.
 Eigen::Isometry3d ForwardKinematics(const Arm& arm, const Eigen::VectorXd& q);
 
-// The tool's velocity for each joint's: (6 x J), linear (m/rad) over angular, in the base's frame;
-// column j is [z_j x (p - p_j); z_j], or [z_j; 0] where the joint slides. Also gives the tool's
-// pose. Throws as ForwardKinematics.
+// Returns the geometric Jacobian of the tool (6 x J): linear rows (m/rad) over angular rows, in the
+// base frame. Column j is [z_j x (p - p_j); z_j] for a revolute joint and [z_j; 0] for a prismatic
+// one. Also writes the tool pose to `base_from_tool`. Throws as ForwardKinematics.
 Eigen::Matrix<double, 6, Eigen::Dynamic> Jacobian(const Arm& arm, const Eigen::VectorXd& q,
                                                   Eigen::Isometry3d* base_from_tool);
 

@@ -39,14 +39,14 @@ ChainKinematics::ChainKinematics(const Arm& arm) : last_from_tool_(arm.last_from
 inline void ChainKinematics::Advance(const Joint& joint, double position, Eigen::Matrix3d* rotation,
                                      Eigen::Vector3d* origin) const {
   origin->noalias() += *rotation * joint.offset;
-  Eigen::Matrix3d turn = joint.fixed;
+  Eigen::Matrix3d local = joint.fixed;
   if (joint.prismatic) {
     const Eigen::Vector3d slide = position * (joint.fixed * joint.axis);
     origin->noalias() += *rotation * slide;
   } else {
-    turn += std::sin(position) * joint.sine + (1.0 - std::cos(position)) * joint.versine;
+    local += std::sin(position) * joint.sine + (1.0 - std::cos(position)) * joint.versine;
   }
-  *rotation = *rotation * turn;
+  *rotation = *rotation * local;
 }
 
 Eigen::Isometry3d ChainKinematics::Tool(const Posture& q) const {
@@ -65,8 +65,8 @@ Eigen::Isometry3d ChainKinematics::Tool(const Posture& q, ToolJacobian* jacobian
   for (int j = 0; j < size(); ++j) {
     const Joint& joint = joints_[static_cast<std::size_t>(j)];
     Advance(joint, q[j], &rotation, &origin);
-    // The axis is the same before and after its own turn; the joint's origin waits in the upper
-    // half until the tool's is known.
+    // A joint's axis is unchanged by its own rotation; the upper half holds the joint origin until
+    // the tool position is known.
     jacobian->col(j).head<3>() = origin;
     jacobian->col(j).tail<3>().noalias() = rotation * joint.axis;
   }

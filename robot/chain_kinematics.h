@@ -9,27 +9,28 @@
 
 namespace simwright::robot {
 
-// Of an arm that is controlled: room for its postures without allocation.
+// The largest number of joints of a controlled arm: its vectors are stored without allocation.
 constexpr int kMostJoints = 12;
 using Posture = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostJoints, 1>;
 using ToolJacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, kMostJoints>;
 
-// An arm made ready for many evaluations: the same numbers as ForwardKinematics and Jacobian, to
-// rounding, without allocation and checks. Constant; safe from several threads.
+// Forward kinematics and Jacobian of an arm, precomputed for many evaluations: the same numbers as
+// ForwardKinematics and Jacobian up to rounding, without allocation or checks. Immutable and
+// thread-safe.
 class ChainKinematics {
  public:
-  // Throws core::Error where the arm has no or more than kMostJoints joints.
+  // Throws core::Error if the arm has no joints or more than kMostJoints.
   explicit ChainKinematics(const Arm& arm);
 
   int size() const { return static_cast<int>(joints_.size()); }
-  // base_from_tool at `q` (J, rad or m).
+  // Returns base_from_tool at `q` (J, rad or m).
   Eigen::Isometry3d Tool(const Posture& q) const;
-  // The same, and the tool's velocity for each joint's (6 x J), as Jacobian gives it.
+  // Returns base_from_tool and writes the geometric Jacobian (6 x J), as Jacobian does.
   Eigen::Isometry3d Tool(const Posture& q, ToolJacobian* jacobian) const;
 
  private:
-  // Turned by a, a joint's frame stands in that of the one before as
-  // fixed + sin(a) * sine + (1 - cos(a)) * versine: Rodrigues' formula, multiplied out.
+  // The rotation of a joint frame at angle a relative to the previous joint frame is fixed + sin(a)
+  // * sine + (1 - cos(a)) * versine (Rodrigues' formula, expanded).
   struct Joint {
     Eigen::Matrix3d fixed, sine, versine;
     Eigen::Vector3d offset, axis;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr core::Hdf5Storage kPacked{.rows_per_chunk = 256, .gzip = 4};
 constexpr core::Hdf5Storage kPackedImages{.rows_per_chunk = 1, .gzip = 4};
-constexpr double kActionSlack = 1e-6;  // of single precision on its way here
+constexpr double kActionSlack = 1e-6;  // rounding of single precision
 
 std::string NameOf(std::size_t index) {
   return "demo_" + std::to_string(index);
@@ -40,12 +40,14 @@ void RequireObservations(const StepObservations& seen, std::size_t steps,
                          const std::string& place) {
   const auto require_key = [&](const std::string& key) {
     if (!key.empty() && key.find('/') == std::string::npos && key != ".") return;
-    throw core::Error("'" + key + "' is no key of an observation", place);
+    throw core::Error("'" + key + "' is not a valid observation key", place);
   };
   for (const auto& [key, array] : seen.numbers) {
     require_key(key);
     RequireSteps(array, steps, place + "/" + key);
-    if (seen.images.contains(key)) throw core::Error("two observations are '" + key + "'", place);
+    if (seen.images.contains(key)) {
+      throw core::Error("two observations have the key '" + key + "'", place);
+    }
   }
   for (const auto& [key, array] : seen.images) {
     require_key(key);
@@ -55,7 +57,7 @@ void RequireObservations(const StepObservations& seen, std::size_t steps,
 
 void RequireWhole(const Demonstration& demonstration, const std::string& place) {
   const std::size_t steps = demonstration.size();
-  if (steps == 0) throw core::Error("the demonstration has no step", place);
+  if (steps == 0) throw core::Error("the demonstration has no steps", place);
   if (demonstration.dones.size() != steps) {
     throw core::Error("there are " + std::to_string(demonstration.dones.size()) + " dones for " +
                           std::to_string(steps) + " rewards",
@@ -74,7 +76,7 @@ void RequireWhole(const Demonstration& demonstration, const std::string& place) 
 }
 
 void RequireWhole(const DemonstrationSet& set, const std::string& where) {
-  if (set.demonstrations.empty()) throw core::Error("there is no demonstration", where);
+  if (set.demonstrations.empty()) throw core::Error("there are no demonstrations", where);
   if (!set.notes.empty() && set.notes.size() != set.demonstrations.size()) {
     throw core::Error("there are " + std::to_string(set.notes.size()) + " notes for " +
                           std::to_string(set.demonstrations.size()) + " demonstrations",
@@ -85,11 +87,11 @@ void RequireWhole(const DemonstrationSet& set, const std::string& where) {
   }
   for (const auto& [name, indices] : set.filters) {
     if (name.empty() || name.find('/') != std::string::npos) {
-      throw core::Error("'" + name + "' is no name of a filter", where);
+      throw core::Error("'" + name + "' is not a valid filter name", where);
     }
     for (const std::size_t index : indices) {
       if (index < set.demonstrations.size()) continue;
-      throw core::Error("the filter names " + NameOf(index) + ", which is not there",
+      throw core::Error("the filter names " + NameOf(index) + ", which does not exist",
                         where + "/mask/" + name);
     }
   }
@@ -118,7 +120,7 @@ void WriteDemonstration(const Demonstration& demonstration, core::Hdf5Group grou
   WriteObservations(demonstration.next_observations, "next_obs", &group);
 }
 
-// By the number of its dimensions: images have four.
+// Reads the observations; arrays with four dimensions are images.
 StepObservations ReadObservations(const core::Hdf5Group& demonstration, const std::string& name) {
   StepObservations seen;
   if (!demonstration.Has(name)) return seen;
@@ -150,11 +152,11 @@ Demonstration ReadDemonstration(const core::Hdf5Group& group, const std::string&
   return demonstration;
 }
 
-// "demo_7" to 7.
+// Returns the number of a demonstration: 7 for "demo_7".
 std::int64_t NumberOf(const std::string& name, const std::string& where) {
   const std::optional<std::int64_t> number =
       name.starts_with("demo_") ? IntegerFrom(name.substr(5)) : std::nullopt;
-  if (!number || *number < 0) throw core::Error("'" + name + "' is no demonstration", where);
+  if (!number || *number < 0) throw core::Error("'" + name + "' is not a demonstration", where);
   return *number;
 }
 
@@ -177,7 +179,7 @@ void WriteDemonstrations(const std::filesystem::path& path, const DemonstrationS
   const std::string where = path.string();
   RequireWhole(set, where);
   const nlohmann::json kwargs = ParseJson(set.env_kwargs, where + ": env_kwargs");
-  if (!kwargs.is_object()) throw core::Error("env_kwargs is no JSON object", where);
+  if (!kwargs.is_object()) throw core::Error("env_kwargs is not a JSON object", where);
   nlohmann::ordered_json env_args;
   env_args["env_name"] = set.env_name;
   if (!set.env_version.empty()) env_args["env_version"] = set.env_version;
@@ -231,7 +233,7 @@ DemonstrationSet ReadDemonstrations(const std::filesystem::path& path) {
       for (const std::string& name : mask.ReadTexts(filter)) {
         const auto found = place_of.find(name);
         if (found == place_of.end()) {
-          throw core::Error("the filter names '" + name + "', which is not there",
+          throw core::Error("the filter names '" + name + "', which does not exist",
                             where + "/mask/" + filter);
         }
         indices.push_back(found->second);

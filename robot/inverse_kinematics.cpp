@@ -27,7 +27,7 @@ ToolError ErrorOf(const Eigen::Isometry3d& base_from_tool, const ToolTarget& tar
     const Eigen::Vector3d cross = z.cross(*target.approach);
     const double sine = cross.norm(), cosine = z.dot(*target.approach);
     error.approach = std::atan2(sine, cosine);
-    // Straight away from the target any axis across will do.
+    // Opposite to the target any perpendicular axis is valid.
     const Eigen::Vector3d axis =
         sine > 1e-9 ? Eigen::Vector3d(cross / sine) : base_from_tool.linear().col(0);
     error.vector.tail<3>() = angle_weight * error.approach * axis;
@@ -35,7 +35,7 @@ ToolError ErrorOf(const Eigen::Isometry3d& base_from_tool, const ToolTarget& tar
   return error;
 }
 
-Eigen::VectorXd RandomPosture(const Arm& arm, core::Rng& rng) {
+Eigen::VectorXd RandomConfiguration(const Arm& arm, core::Rng& rng) {
   Eigen::VectorXd q(arm.size());
   for (int j = 0; j < arm.size(); ++j) {
     const ArmJoint& joint = arm.joints[static_cast<std::size_t>(j)];
@@ -44,8 +44,8 @@ Eigen::VectorXd RandomPosture(const Arm& arm, core::Rng& rng) {
   return q;
 }
 
-// One start; leaves the errors at the end in `result`.
-void Descend(const Arm& arm, const ToolTarget& target, const InverseKinematicsOptions& options,
+// Iterates from one start; writes the final errors to `result`.
+void Iterate(const Arm& arm, const ToolTarget& target, const InverseKinematicsOptions& options,
              InverseKinematicsResult* result) {
   for (int i = 0;; ++i) {
     Eigen::Isometry3d tool;
@@ -95,11 +95,11 @@ InverseKinematicsResult SolveInverseKinematics(const Arm& arm, const ToolTarget&
   double least = std::numeric_limits<double>::infinity();
   for (int start = 0; start < options.starts; ++start) {
     InverseKinematicsResult result;
-    result.q = start == 0 ? arm.ready : RandomPosture(arm, rng);
-    Descend(arm, target, options, &result);
-    const double misses = result.position_error + options.angle_weight * result.approach_error;
-    if (misses < least) {
-      least = misses;
+    result.q = start == 0 ? arm.ready : RandomConfiguration(arm, rng);
+    Iterate(arm, target, options, &result);
+    const double cost = result.position_error + options.angle_weight * result.approach_error;
+    if (cost < least) {
+      least = cost;
       best = result;
     }
     if (result.reached) return result;

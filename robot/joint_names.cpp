@@ -29,8 +29,8 @@ void RequireDistinct(const JointNames& names, const std::vector<std::string>& jo
     const auto found = names.names.find(joint);
     const std::string& name = found == names.names.end() ? joint : found->second;
     if (!seen.insert(name).second) {
-      throw core::Error("two joints would be called '" + name + "'", where,
-                        "give each a name of its own");
+      throw core::Error("two joints would be named '" + name + "'", where,
+                        "give them distinct names");
     }
   }
 }
@@ -50,12 +50,12 @@ JointNames FromFile(const std::string& file, const std::vector<std::string>& joi
   return names;
 }
 
-JointNames OfFranka(const std::string& prefix, const std::vector<std::string>& joints) {
+JointNames FrankaNames(const std::string& prefix, const std::vector<std::string>& joints) {
   JointNames names;
   for (const std::string& joint : joints) {
     if (!joint.starts_with(kPanda)) {
-      throw core::Error("the robot's joint '" + joint + "' is none of a Panda", "--joint-names",
-                        "give a JSON file of its joints' names");
+      throw core::Error("the robot's joint '" + joint + "' is not a Panda joint", "--joint-names",
+                        "give a JSON file with its joint names");
     }
     names.names[joint] = prefix + joint.substr(sizeof(kPanda) - 1);
   }
@@ -65,9 +65,9 @@ JointNames OfFranka(const std::string& prefix, const std::vector<std::string>& j
 }  // namespace
 
 JointNames JointNamesFor(const std::string& which, const std::vector<std::string>& joints) {
-  if (which == "panda") return OfFranka(kPanda, joints);
+  if (which == "panda") return FrankaNames(kPanda, joints);
   if (which != "fr3") return FromFile(which, joints);
-  JointNames names = OfFranka("fr3_", joints);
+  JointNames names = FrankaNames("fr3_", joints);
   for (int j = 0; j < 7; ++j) {
     names.limits["panda_joint" + std::to_string(j + 1)] = kResearch3[j];
   }

@@ -8,20 +8,21 @@
 
 namespace simwright::robot {
 
-// What a controller calls the joints of a robot, and where it is another robot of the same
-// kinematics what that can do.
+// The names that a controller uses for a robot's joints and, if the controller drives another robot
+// of the same kinematics, the limits of that robot.
 struct JointNames {
-  std::map<std::string, std::string> names;   // the robot's to the controller's
-  std::map<std::string, JointLimits> limits;  // by the robot's names; empty where none are known
+  std::map<std::string, std::string> names;   // robot name to controller name
+  std::map<std::string, JointLimits> limits;  // by robot name; empty if unknown
 };
 
-// `which`: "panda" or "fr3" (Franka Research 3: a Panda's kinematics, limits of its own, from the
-// manufacturer's specification), else a JSON file: an object of the robot's names, each with the
-// controller's. Throws core::Error: a robot that is no Panda for the first two; a file that cannot
-// be read, names a joint that the robot lacks, or gives two joints one name.
+// Returns the joint names for `which`: "panda" or "fr3" (Franka Research 3: a Panda's kinematics
+// with its own limits, from the manufacturer's specification), otherwise a JSON file: an object
+// that maps the robot's names to the controller's. Throws core::Error if the robot is not a Panda
+// for "panda" or "fr3", or if the file cannot be read, names a joint that the robot lacks, or gives
+// two joints one name.
 JointNames JointNamesFor(const std::string& which, const std::vector<std::string>& joints);
 
-// The tighter of both, bound by bound.
+// Returns the tighter of the two limits, bound by bound.
 JointLimits TighterOf(const JointLimits& a, const JointLimits& b);
 
 }  // namespace simwright::robot

@@ -12,7 +12,7 @@ namespace simwright::robot {
 void RequireWhole(const JointTrajectory& trajectory, const std::string& where) {
   const auto count = static_cast<Eigen::Index>(trajectory.joints.size());
   if (count == 0 || trajectory.size() == 0) {
-    throw core::Error("the trajectory has no joint or no sample", where);
+    throw core::Error("the trajectory has no joints or no samples", where);
   }
   std::set<std::string> names;
   for (const std::string& name : trajectory.joints) {
@@ -40,8 +40,8 @@ void RequireWhole(const JointTrajectory& trajectory, const std::string& where) {
     shown << time;
     if (!std::isfinite(time) || time < 0.0 || !(time > before)) {
       throw core::Error("the time of sample " + std::to_string(i) + ", " + shown.str() +
-                            " s, does not come after the one before",
-                        where, "give finite times that rise");
+                            " s, does not exceed the previous one",
+                        where, "give finite, increasing times");
     }
     for (const auto& [name, matrix] : matrices) {
       for (Eigen::Index j = 0; j < matrix->cols(); ++j) {

@@ -25,11 +25,11 @@ void JsonField::Fail(const std::string& what, const std::string& remedy) const {
 
 void JsonField::RequireMembers(std::initializer_list<const char*> required,
                                std::initializer_list<const char*> optional) const {
-  if (!json_.is_object()) Fail("should be an object");
+  if (!json_.is_object()) Fail("must be an object");
   for (const auto& member : json_.items()) {
     const std::string& key = member.key();
     if (Contains(required, key) || Contains(optional, key)) continue;
-    Fail("'" + key.substr(0, 40) + "' is no member that is known here", "remove it");
+    Fail("'" + key.substr(0, 40) + "' is not a known member", "remove it");
   }
   for (const char* name : required) {
     if (!json_.contains(name)) Fail(std::string("'") + name + "' is missing", "add it");
@@ -45,7 +45,7 @@ JsonField JsonField::operator[](const std::string& name) const {
 }
 
 std::vector<std::pair<std::string, JsonField>> JsonField::Members() const {
-  if (!json_.is_object()) Fail("should be an object");
+  if (!json_.is_object()) Fail("must be an object");
   std::vector<std::pair<std::string, JsonField>> members;
   for (const auto& member : json_.items()) {
     const std::string shown = member.key().substr(0, kLongestText);
@@ -56,7 +56,7 @@ std::vector<std::pair<std::string, JsonField>> JsonField::Members() const {
 }
 
 std::vector<JsonField> JsonField::Elements() const {
-  if (!json_.is_array()) Fail("should be an array");
+  if (!json_.is_array()) Fail("must be an array");
   std::vector<JsonField> elements;
   elements.reserve(json_.size());
   for (std::size_t i = 0; i < json_.size(); ++i) {
@@ -66,14 +66,14 @@ std::vector<JsonField> JsonField::Elements() const {
 }
 
 std::string JsonField::Text() const {
-  if (!json_.is_string()) Fail("should be text");
+  if (!json_.is_string()) Fail("must be a string");
   std::string text = json_.get<std::string>();
   if (text.size() > kLongestText) Fail("the text is longer than 200 bytes");
   return text;
 }
 
 double JsonField::Number() const {
-  if (!json_.is_number()) Fail("should be a number");
+  if (!json_.is_number()) Fail("must be a number");
   const double number = json_.get<double>();
   if (!std::isfinite(number)) Fail("the number is not finite");
   return number;
@@ -81,22 +81,22 @@ double JsonField::Number() const {
 
 double JsonField::PositiveNumber() const {
   const double number = Number();
-  if (!(number > 0.0)) Fail("should be above 0, is " + json_.dump());
+  if (!(number > 0.0)) Fail("must be above 0, is " + json_.dump());
   return number;
 }
 
 std::int64_t JsonField::Integer() const {
-  // An unsigned number above the signed range would come back negative.
+  // An unsigned number above the signed range would convert to a negative one.
   if (!json_.is_number_integer() ||
       (json_.is_number_unsigned() && json_.get<std::uint64_t>() > INT64_MAX)) {
-    Fail("should be a whole number");
+    Fail("must be an integer");
   }
   return json_.get<std::int64_t>();
 }
 
-// Places are made where something is wrong: a trajectory holds millions of numbers.
+// Locations are only built for errors: a trajectory holds millions of numbers.
 std::vector<double> JsonField::Numbers() const {
-  if (!json_.is_array()) Fail("should be an array");
+  if (!json_.is_array()) Fail("must be an array");
   std::vector<double> numbers;
   numbers.reserve(json_.size());
   for (std::size_t i = 0; i < json_.size(); ++i) {
@@ -119,10 +119,10 @@ Json ParseJson(const std::string& text, const std::string& file) {
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
-    throw core::Error("this is no JSON: wrong or cut off at byte " + std::to_string(error.byte),
-                      file, "mend the file there");
+    throw core::Error("invalid or truncated JSON at byte " + std::to_string(error.byte), file,
+                      "correct the file there");
   } catch (const Json::exception& error) {
-    throw core::Error(std::string("this is no JSON that can be read: ") + error.what(), file);
+    throw core::Error(std::string("cannot parse JSON: ") + error.what(), file);
   }
 }
 

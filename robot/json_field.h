@@ -9,8 +9,9 @@
 
 namespace simwright::robot {
 
-// A value of a JSON file with its place in it. Every way to read it throws core::Error, naming file
-// and place, where it is not what is asked for. Refers to the document and the file's name.
+// A value of a JSON file with its location. Every accessor throws core::Error, naming the file and
+// the location, if the value does not have the requested type. Holds references to the document and
+// to the file name.
 class JsonField {
  public:
   JsonField(const nlohmann::json& json, std::string place, const std::string& file)
@@ -18,7 +19,7 @@ class JsonField {
 
   [[noreturn]] void Fail(const std::string& what, const std::string& remedy = "") const;
 
-  // Throws unless this is an object that has all of `required` and nothing else but `optional`.
+  // Throws unless this is an object with all `required` members and no others but `optional` ones.
   void RequireMembers(std::initializer_list<const char*> required,
                       std::initializer_list<const char*> optional = {}) const;
   bool Has(const std::string& name) const;
@@ -39,7 +40,8 @@ class JsonField {
   const std::string& file_;
 };
 
-// The document in `text`. Throws core::Error where it is no JSON: cut off, NaN, numbers too large.
+// Returns the JSON document in `text`. Throws core::Error if it is invalid: truncated, NaN, or with
+// numbers that are too large.
 nlohmann::json ParseJson(const std::string& text, const std::string& file);
 
 }  // namespace simwright::robot

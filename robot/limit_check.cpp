@@ -9,7 +9,7 @@
 namespace simwright::robot {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of a limit: numbers that were meant to equal it
+constexpr double kRounding = 1e-9;  // relative tolerance for values at the limit
 constexpr double kRest = 1e-6;      // per s, s^2
 
 std::string Shown(double value) {
@@ -18,7 +18,7 @@ std::string Shown(double value) {
   return out.str();
 }
 
-// One joint's samples, and what is found of it.
+// The samples of one joint, and its findings.
 class JointCheck {
  public:
   JointCheck(const JointTrajectory& trajectory, Eigen::Index joint, const JointLimits& limits,
@@ -67,7 +67,7 @@ class JointCheck {
   void Consider(const Eigen::VectorXd& values, double limit, WorstValue* worst) const {
     for (Eigen::Index i = 0; i < values.size(); ++i) Consider(values[i], Time(i), limit, worst);
   }
-  // Divided differences of `values`, times order!: means of the derivative of that order over
+  // Checks divided differences of `values` times order!: means of the derivative of that order over
   // `order` intervals.
   void ConsiderDifferences(Eigen::VectorXd values, int order, double limit,
                            WorstValue* worst) const {
@@ -122,26 +122,26 @@ void JointCheck::CheckRates() {
   Report("limit-jerk", "jerk", result_.jerk);
 }
 
-// A motion whose jerk stays within J gains in velocity, over a step of h, what the trapezoid of its
-// accelerations says, to J h^2 / 4; and in position what that of its velocities says, corrected by
-// the accelerations' difference (Euler and Maclaurin), to J h^3 times the mean of |B_2| / 2,
-// 0.0321.
+// Over a step of h, a motion whose jerk stays within J changes its velocity by the trapezoid of its
+// accelerations, to within J h^2 / 4, and its position by the trapezoid of its velocities,
+// corrected by the difference of the accelerations (Euler-Maclaurin), to within J h^3 times the
+// mean of |B_2| / 2, 0.0321.
 void JointCheck::CheckAgreement() {
   double worst_velocity = 1.0, worst_acceleration = 1.0;
   Eigen::Index velocity_at = -1, acceleration_at = -1;
   for (Eigen::Index i = 0; i + 1 < positions_.size(); ++i) {
     const double h = Time(i + 1) - Time(i);
-    const double gained = positions_[i + 1] - positions_[i];
-    const double hastened = velocities_[i + 1] - velocities_[i];
-    const double position_miss =
-        std::abs(gained - 0.5 * h * (velocities_[i] + velocities_[i + 1]) +
+    const double position_change = positions_[i + 1] - positions_[i];
+    const double velocity_change = velocities_[i + 1] - velocities_[i];
+    const double position_error =
+        std::abs(position_change - 0.5 * h * (velocities_[i] + velocities_[i + 1]) +
                  h * h / 12.0 * (accelerations_[i + 1] - accelerations_[i]));
-    const double velocity_miss =
-        std::abs(hastened - 0.5 * h * (accelerations_[i] + accelerations_[i + 1]));
+    const double velocity_error =
+        std::abs(velocity_change - 0.5 * h * (accelerations_[i] + accelerations_[i + 1]));
     const double rounding = 1e-12 * (1.0 + std::abs(positions_[i]));
-    const double position_ratio = position_miss / (0.033 * limits_.jerk * h * h * h + rounding);
+    const double position_ratio = position_error / (0.033 * limits_.jerk * h * h * h + rounding);
     const double velocity_ratio =
-        velocity_miss / (limits_.jerk * h * h / 4.0 + rounding + 1e-12 * std::abs(velocities_[i]));
+        velocity_error / (limits_.jerk * h * h / 4.0 + rounding + 1e-12 * std::abs(velocities_[i]));
     if (position_ratio > worst_velocity) {
       worst_velocity = position_ratio;
       velocity_at = i;
@@ -152,12 +152,12 @@ void JointCheck::CheckAgreement() {
     }
   }
   if (velocity_at >= 0) {
-    Add("velocity-mismatch", Time(velocity_at), "the velocities given are not the positions' own",
-        worst_velocity);
+    Add("velocity-mismatch", Time(velocity_at),
+        "the given velocities are not the derivatives of the positions", worst_velocity);
   }
   if (acceleration_at >= 0) {
     Add("acceleration-mismatch", Time(acceleration_at),
-        "the accelerations given are not the velocities' own", worst_acceleration);
+        "the given accelerations are not the derivatives of the velocities", worst_acceleration);
   }
 }
 
@@ -165,7 +165,7 @@ void JointCheck::CheckRest() {
   for (const Eigen::Index i : {Eigen::Index(0), positions_.size() - 1}) {
     if (std::abs(velocities_[i]) <= kRest && std::abs(accelerations_[i]) <= kRest) continue;
     Add("no-rest", Time(i),
-        "it moves at an end of the trajectory: velocity " + Shown(velocities_[i]) +
+        "it is not at rest at an end of the trajectory: velocity " + Shown(velocities_[i]) +
             ", acceleration " + Shown(accelerations_[i]),
         velocities_[i]);
   }

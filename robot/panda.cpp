@@ -30,7 +30,7 @@ Arm MakePanda() {
       Joint("panda_joint6", {0, 0, 0}, kQuarter, -0.0175, 3.7525),
       Joint("panda_joint7", {0.088, 0, 0}, kQuarter, -2.8973, 2.8973),
   };
-  // Flange, then the hand turned by an eighth, then the point between the fingertips.
+  // The flange, then the hand rotated by 45 degrees, then the point between the fingertips.
   arm.last_from_tool = Eigen::Translation3d(0, 0, 0.107 + 0.1034) *
                        Eigen::AngleAxisd(-kQuarter / 2.0, Eigen::Vector3d::UnitZ());
   arm.ready.resize(7);

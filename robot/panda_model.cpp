@@ -16,7 +16,8 @@ std::string_view panda_on_base_json();
 }  // namespace data
 namespace {
 
-// By way of files, so that what is compiled in is read and checked as any other robot.
+// Writes the embedded files to a temporary folder, so that they are read and checked like any other
+// robot.
 RobotModel ReadEmbedded(const std::string& name, std::string_view urdf, std::string_view side) {
   const core::TemporaryFolder folder;
   core::WriteFile(folder.path() / (name + ".urdf"), urdf);

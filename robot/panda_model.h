@@ -4,8 +4,8 @@
 
 namespace simwright::robot {
 
-// robots/panda/panda.urdf, or panda_on_base.urdf where `on_base`, from what is compiled in. Read
-// at the first call; the same object ever after.
+// Returns the embedded robots/panda/panda.urdf, or panda_on_base.urdf if `on_base`. Parsed at the
+// first call; later calls return the same object.
 const RobotModel& Panda(bool on_base);
 
 }  // namespace simwright::robot

@@ -6,15 +6,15 @@
 namespace simwright::robot {
 namespace {
 
-constexpr double kLeastFirst = 1e-9;  // of a joint's derivative: less is none
+constexpr double kLeastFirst = 1e-9;  // smaller joint derivatives count as zero
 constexpr int kBisections = 40;
 
 struct Range {
   double lower, upper;
 };
 
-// With x = (dw/dt)^2 and u = d2w/dt2 a joint's acceleration is first * u + second * x, and from one
-// point to the next x grows by 2 step u.
+// With x = (dw/dt)^2 and u = d2w/dt2, the acceleration of a joint is first * u + second * x, and x
+// grows by 2 step u from one point to the next.
 class Reachability {
  public:
   Reachability(const PathDerivatives& path, const std::vector<JointLimits>& limits,
@@ -38,7 +38,7 @@ class Reachability {
   }
 
  private:
-  // The largest x that velocities allow.
+  // Returns the largest x within the velocity limits.
   double ByVelocity(Eigen::Index point) const {
     double most = std::pow(most_[static_cast<std::size_t>(point)], 2);
     for (Eigen::Index j = 0; j < path_.first.rows(); ++j) {
@@ -49,25 +49,25 @@ class Reachability {
     return most;
   }
 
-  // The u that accelerations allow at x; empty where lower > upper.
+  // Returns the range of u within the acceleration limits at x; empty if lower > upper.
   Range Accelerations(Eigen::Index point, double x) const {
     Range range{-1e12, 1e12};
     for (Eigen::Index j = 0; j < path_.first.rows(); ++j) {
       const double limit = limits_[static_cast<std::size_t>(j)].acceleration;
-      const double first = path_.first(j, point), bent = path_.second(j, point) * x;
+      const double first = path_.first(j, point), curvature = path_.second(j, point) * x;
       if (std::abs(first) < kLeastFirst) {
-        if (std::abs(bent) > limit) return {1.0, -1.0};
+        if (std::abs(curvature) > limit) return {1.0, -1.0};
         continue;
       }
-      const double middle = -bent / first, room = limit / std::abs(first);
-      range.lower = std::max(range.lower, middle - room);
-      range.upper = std::min(range.upper, middle + room);
+      const double middle = -curvature / first, slack = limit / std::abs(first);
+      range.lower = std::max(range.lower, middle - slack);
+      range.upper = std::min(range.upper, middle + slack);
     }
     return range;
   }
 
-  // The largest x from which the next point's, in [0, next], can be reached. Those that can make an
-  // interval that begins at 0.
+  // Returns the largest x from which a value in [0, next] of the next point is reachable. The
+  // feasible x form an interval from 0.
   double LargestBefore(Eigen::Index point, double next) const {
     const auto reaches = [&](double x) {
       const Range range = Accelerations(point, x);

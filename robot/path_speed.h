@@ -8,16 +8,17 @@
 
 namespace simwright::robot {
 
-// Derivatives of J joints by the parameter w on a fine, uniform grid over [0, length].
+// Derivatives of J joints with respect to the path parameter w on a fine, uniform grid over [0,
+// length].
 struct PathDerivatives {
-  double step = 0.0;                     // of the grid
+  double step = 0.0;                     // grid spacing
   Eigen::MatrixXd first, second, third;  // (J x points)
 };
 
-// The greatest speeds dw/dt (points) with which the path can be run within the limits of velocity
-// and acceleration, jerk left aside, and at most `most` (points): time-optimal parameterization by
-// reachability (Pham and Pham 2018). From the end back, the set of speeds from which the next
-// point's set can be reached; then forward as fast as these sets allow.
+// Returns the largest path speeds dw/dt (points) within the velocity and acceleration limits, and
+// at most `most` (points); jerk is ignored. Time-optimal path parameterization by reachability
+// (TOPP-RA, Pham and Pham 2018): a backward pass computes the controllable sets of speeds, a
+// forward pass takes the largest speed in each set.
 std::vector<double> FastestSpeeds(const PathDerivatives& path,
                                   const std::vector<JointLimits>& limits,
                                   const std::vector<double>& most);

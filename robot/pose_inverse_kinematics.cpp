@@ -15,24 +15,24 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// Of the projection that keeps joints to spare from moving the tool: far below the damping, so
-// that what leaks through is too.
+// The damping of the null-space projection: far below the damping of the step, and so is the tool
+// motion that it leaks.
 constexpr double kProjectionDamping = 1e-9;  // m^2
-// m: with the tool this far from its target no joint drifts home.
+// m: tool error above which no joint drifts home.
 constexpr double kErrorWithoutDrift = 0.05;
-// A start is given up where so many iterations did not take this share off the squared error.
+// A start is abandoned if this many iterations did not reduce the squared error by this share.
 constexpr int kPatience = 5;
 constexpr double kLeastGain = 0.3;
 
-// The turn from `from` to `to` as a vector (axis times angle), in the frame both are given in.
-Eigen::Vector3d TurnBetween(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
+// Returns the rotation vector (axis times angle) from `from` to `to`, in their common frame.
+Eigen::Vector3d RotationVectorBetween(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
   const Eigen::Matrix3d turn = to * from.transpose();
   const Eigen::Vector3d twice_sine(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0),
                                    turn(1, 0) - turn(0, 1));
   const double sine = 0.5 * twice_sine.norm(), cosine = 0.5 * (turn.trace() - 1.0);
   if (sine > 1e-4) return twice_sine * (0.5 * std::atan2(sine, cosine) / sine);
-  if (cosine > 0.0) return 0.5 * twice_sine;  // sine and angle agree to 2e-9 of it
-  const Eigen::AngleAxisd half_turn(turn);    // near a half turn the sine says too little
+  if (cosine > 0.0) return 0.5 * twice_sine;  // sine and angle agree to 2e-9, relative
+  const Eigen::AngleAxisd half_turn(turn);    // near 180 degrees the sine is ill-conditioned
   return half_turn.angle() * half_turn.axis();
 }
 
@@ -43,10 +43,10 @@ struct PoseInverseKinematics::Target {
   Eigen::Vector3d position;
 };
 
-// What one iteration knows of a posture.
+// The data of one iteration at a configuration.
 struct PoseInverseKinematics::Work {
-  ToolJacobian jacobian;  // (6 x J), the angular rows times the angle's weight
-  Vector6 vector;         // m, the error, weighted likewise
+  ToolJacobian jacobian;  // (6 x J), angular rows times the angle weight
+  Vector6 vector;         // m, the error, weighted in the same manner
   PoseError error;
   Posture step;
 
@@ -74,7 +74,7 @@ PoseInverseKinematics::PoseInverseKinematics(const Arm& arm,
   std::string wrong;
   if (!options.IsValid(&wrong)) throw core::Error(wrong, "inverse kinematics");
   if (arm.ready.size() != arm.size()) {
-    throw core::Error("the arm has no ready posture", arm.name);
+    throw core::Error("the arm has no ready configuration", arm.name);
   }
   home_ = arm.ready;
   for (int j = 0; j < arm.size(); ++j) {
@@ -95,13 +95,13 @@ void PoseInverseKinematics::Evaluate(const Target& target, const Posture& q, Wor
   const Eigen::Isometry3d tool = chain_.Tool(q, &work->jacobian);
   work->jacobian.bottomRows<3>() *= options_.angle_weight;
   work->vector.head<3>() = target.position - tool.translation();
-  const Eigen::Vector3d turn = TurnBetween(tool.linear(), target.rotation);
+  const Eigen::Vector3d turn = RotationVectorBetween(tool.linear(), target.rotation);
   work->vector.tail<3>() = options_.angle_weight * turn;
   work->error = {work->vector.head<3>().norm(), turn.norm()};
 }
 
-// The damped step from `q` among the joints that may take it: one that would leave its limits is
-// fixed, and the others solve again.
+// Computes the damped step from `q`: a joint that would leave its limits is fixed, and the others
+// are solved again.
 void PoseInverseKinematics::Step(const Posture& q, const Posture& rest, double posture_gain,
                                  Work* work) const {
   const double damping = 0.5 * work->squared() + options_.least_damping;
@@ -130,14 +130,14 @@ void PoseInverseKinematics::Step(const Posture& q, const Posture& rest, double p
     if (!again) break;
   }
   if (posture_gain <= 0.0) return;
-  // The way to rest, less what of it would move the tool.
+  // The displacement to rest, minus its component that moves the tool.
   Posture drift = posture_gain * (rest - q);
-  Vector6 moved = Vector6::Zero();
+  Vector6 tool_motion = Vector6::Zero();
   for (int j = 0; j < count; ++j) {
     if (fixed[static_cast<std::size_t>(j)]) drift[j] = 0.0;
-    moved += work->jacobian.col(j) * drift[j];
+    tool_motion += work->jacobian.col(j) * drift[j];
   }
-  const Vector6 back = normal(kProjectionDamping).ldlt().solve(moved);
+  const Vector6 back = normal(kProjectionDamping).ldlt().solve(tool_motion);
   for (int j = 0; j < count; ++j) {
     if (fixed[static_cast<std::size_t>(j)]) continue;
     work->step[j] += drift[j] - work->jacobian.col(j).dot(back);
@@ -155,7 +155,7 @@ PoseError PoseInverseKinematics::Track(const Eigen::Isometry3d& base_from_tool,
   for (int i = 0; i < options_.tracking_iterations; ++i) {
     Evaluate(target, *q, &work);
     const double near = 1.0 - std::sqrt(work.squared()) / kErrorWithoutDrift;
-    // Drifting belongs to the call, not to each of its iterations.
+    // Only the first iteration of a call drifts.
     Step(*q, rest ? *rest : home_, i == 0 ? options_.posture_gain * std::max(0.0, near) : 0.0,
          &work);
     const double largest = work.step.cwiseAbs().maxCoeff();
@@ -171,17 +171,17 @@ PoseError PoseInverseKinematics::Track(const Eigen::Isometry3d& base_from_tool,
   }
   const Eigen::Isometry3d tool = chain_.Tool(*q);
   return {(target.position - tool.translation()).norm(),
-          TurnBetween(tool.linear(), target.rotation).norm()};
+          RotationVectorBetween(tool.linear(), target.rotation).norm()};
 }
 
 PoseError PoseInverseKinematics::ErrorAt(const Eigen::Isometry3d& base_from_tool,
                                          const Posture& q) const {
   const Eigen::Isometry3d tool = chain_.Tool(q);
   return {(base_from_tool.translation() - tool.translation()).norm(),
-          TurnBetween(tool.linear(), base_from_tool.linear()).norm()};
+          RotationVectorBetween(tool.linear(), base_from_tool.linear()).norm()};
 }
 
-// One start from solution->q, which ends where the target is reached or nothing is gained.
+// Iterates from solution->q until the target is reached or progress stalls.
 void PoseInverseKinematics::Descend(const Target& target, PoseSolution* solution) const {
   Posture& q = solution->q;
   Work work;
@@ -205,8 +205,8 @@ void PoseInverseKinematics::Descend(const Target& target, PoseSolution* solution
   }
 }
 
-// Of a few random postures the one whose tool is nearest to the target: looking is cheaper than
-// descending.
+// Samples a few random configurations and returns the one whose tool is nearest to the target:
+// evaluation is cheaper than iteration.
 Posture PoseInverseKinematics::Draft(const Target& target, core::Rng& rng) const {
   Posture best(chain_.size()), draft(chain_.size());
   double least = std::numeric_limits<double>::infinity();
@@ -215,11 +215,11 @@ Posture PoseInverseKinematics::Draft(const Target& target, core::Rng& rng) const
       draft[j] = core::Uniform(rng, lower_[j], upper_[j]);
     }
     const Eigen::Isometry3d tool = chain_.Tool(draft);
-    const double misses = (target.position - tool.translation()).squaredNorm() +
-                          std::pow(options_.angle_weight, 2) *
-                              TurnBetween(tool.linear(), target.rotation).squaredNorm();
-    if (misses >= least) continue;
-    least = misses;
+    const double cost = (target.position - tool.translation()).squaredNorm() +
+                        std::pow(options_.angle_weight, 2) *
+                            RotationVectorBetween(tool.linear(), target.rotation).squaredNorm();
+    if (cost >= least) continue;
+    least = cost;
     best = draft;
   }
   return best;
@@ -245,9 +245,9 @@ PoseSolution PoseInverseKinematics::Solve(const Eigen::Isometry3d& base_from_too
     Clamp(&attempt.q);
     Descend(target, &attempt);
     iterations += attempt.iterations;
-    const double misses = attempt.error.position + options_.angle_weight * attempt.error.angle;
-    if (attempt.reached || misses < least) {
-      least = misses;
+    const double cost = attempt.error.position + options_.angle_weight * attempt.error.angle;
+    if (attempt.reached || cost < least) {
+      least = cost;
       best = attempt;
     }
     best.starts = i + 1;

@@ -7,8 +7,8 @@
 namespace simwright::robot {
 namespace {
 
-// The six pieces of the cardinal quintic B-spline over one interval, times 120: coefficients of
-// 1, x, ..., x^5, x in [0, 1].
+// The six pieces of the cardinal quintic B-spline over one interval, times 120: coefficients of 1,
+// x, ..., x^5, x in [0, 1].
 constexpr double kPieces[6][6] = {
     {1, -5, 10, -10, 5, -1},    {26, -50, 20, 20, -20, 5}, {66, 0, -60, 0, 30, -10},
     {26, 50, 20, -20, -20, 10}, {1, 5, 10, 10, 5, -5},     {0, 0, 0, 0, 0, 1},

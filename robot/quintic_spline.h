@@ -6,14 +6,14 @@
 
 namespace simwright::robot {
 
-// Curves of J joints over a parameter u in [0, intervals * spacing]: a quintic B-spline on uniform
-// knots, four times continuously differentiable, that stays between the least and the largest of
+// A curve of J joints over a parameter u in [0, intervals * spacing]: a quintic B-spline on uniform
+// knots, four times continuously differentiable, that stays between the smallest and the largest of
 // its control points.
 class QuinticSpline {
  public:
   static constexpr int kSupport = 6;  // control points that shape one interval
 
-  // Where u lies, and the weights of the control points first ... first + 5 there; of the
+  // The interval of u, and the weights of the control points first ... first + 5 there, for the
   // `derivative`-th derivative, 0 to 3.
   struct Basis {
     Eigen::Index first = 0;
@@ -28,7 +28,7 @@ class QuinticSpline {
   Eigen::Index intervals() const { return controls_.rows() - (kSupport - 1); }
   double length() const { return spacing_ * static_cast<double>(intervals()); }
   Eigen::Index joints() const { return controls_.cols(); }
-  // (J) at `u`, clamped to the curve's ends.
+  // Returns the value or a derivative (J) at `u`, clamped to the ends of the curve.
   Eigen::RowVectorXd Value(double u, int derivative = 0) const;
 
  private:

@@ -17,13 +17,14 @@ namespace {
 
 constexpr Eigen::Index kLeastPositions = 4;
 constexpr Eigen::Index kMostPositions = 500000;
-constexpr double kMostUneven = 3.0;  // a step over the mean of all
-constexpr double kShare = 0.998;      // of the limits that is used: peaks lie between grid points
-constexpr double kLessShare = 0.995;  // of that, in each further try
+constexpr double kMostUneven = 3.0;   // largest time step over the mean
+constexpr double kShare = 0.998;      // used share of the limits: peaks lie between grid points
+constexpr double kLessShare = 0.995;  // factor on the share for each retry
 constexpr int kRefinements = 12;
 constexpr int kTriesALevel = 3;
-constexpr double kLeastShare = 0.02;  // of a joint's deviation that is left to it for the tool's
-constexpr int kFinest = 4;  // knots of the smooth curve for each recorded position, at most
+constexpr double kLeastShare = 0.02;  // smallest share of a joint's deviation that the tool leaves
+                                      // it
+constexpr int kFinest = 4;            // most knots of the smooth curve per recorded position
 
 std::string Shown(double value) {
   std::ostringstream out;
@@ -46,12 +47,12 @@ void RequireShape(const RecordedPath& path, const std::vector<JointLimits>& limi
   const auto count = static_cast<Eigen::Index>(path.times.size());
   if (joints == 0 || path.positions.cols() != joints || path.positions.rows() != count ||
       limits.size() != path.joints.size() || sliding.size() != path.joints.size()) {
-    Fail("names, times, positions and limits are not of one size");
+    Fail("the sizes of names, times, positions and limits differ");
   }
   const bool paced = std::all_of(path.paces.begin(), path.paces.end(),
                                  [](double pace) { return pace > 0.0 && std::isfinite(pace); });
   if (!paced || (!path.paces.empty() && path.paces.size() != path.times.size())) {
-    Fail("the paces are not one above 0 for each position");
+    Fail("the paces are not one positive number per position");
   }
   if (count < kLeastPositions || count > kMostPositions) {
     Fail("the recording has " + std::to_string(count) + " positions",
@@ -63,7 +64,7 @@ void RequireShape(const RecordedPath& path, const std::vector<JointLimits>& limi
         limit.jerk > 0.0) {
       continue;
     }
-    Fail("the limits of joint '" + path.joints[j] + "' leave it no motion");
+    Fail("the limits of joint '" + path.joints[j] + "' allow no motion");
   }
 }
 
@@ -74,7 +75,7 @@ void RequireEvenTimes(const RecordedPath& path) {
     const double step = k == 0 ? mean : path.times[k] - path.times[k - 1];
     if (std::isfinite(path.times[k]) && step > 0.0 && step <= kMostUneven * mean) continue;
     Fail("the time of position " + std::to_string(k) + ", " + Shown(path.times[k]) +
-             " s, does not follow evenly on the one before",
+             " s, is not evenly spaced from the previous one",
          "record at a constant rate");
   }
 }
@@ -84,34 +85,34 @@ void RequirePossible(const RecordedPath& path, const std::vector<JointLimits>& l
   for (Eigen::Index j = 0; j < path.positions.cols(); ++j) {
     const bool slides = sliding[static_cast<std::size_t>(j)];
     const JointLimits& limit = limits[static_cast<std::size_t>(j)];
-    const double room = slides ? options.sliding_deviation : options.turning_deviation;
+    const double deviation = slides ? options.sliding_deviation : options.turning_deviation;
     const double longest = slides ? options.longest_slide : options.longest_turn;
     for (Eigen::Index k = 0; k < path.positions.rows(); ++k) {
       const double q = path.positions(k, j);
       if (!std::isfinite(q)) Fail(At(path, j, k) + " is not finite");
-      if (q < limit.lower - room || q > limit.upper + room) {
-        Fail(At(path, j, k) + " stands at " + Shown(q) + ", outside its limits " +
-                 Shown(limit.lower) + " to " + Shown(limit.upper),
+      if (q < limit.lower - deviation || q > limit.upper + deviation) {
+        Fail(At(path, j, k) + " is at " + Shown(q) + ", outside its limits " + Shown(limit.lower) +
+                 " to " + Shown(limit.upper),
              "record a motion within them");
       }
       const double step = k == 0 ? 0.0 : std::abs(q - path.positions(k - 1, j));
       if (step > longest) {
         Fail(At(path, j, k) + " jumps by " + Shown(step) + ", more than " + Shown(longest),
-             "record it as one motion, without resets inside");
+             "record it as one motion without resets");
       }
     }
   }
 }
 
-// Starts and ends a curve of length L at rest: u(w) rises from 0 to L over w in [0, L + ramp], with
-// u' = 0 at the ends and 1 between the ramps; u' follows x^3 (10 - 15 x + 6 x^2), so that u is
-// three times continuously differentiable.
+// A reparameterization that starts and ends a curve of length L at rest: u(w) rises from 0 to L
+// over w in [0, L + ramp], with u' = 0 at the ends and 1 between the ramps; u' follows x^3 (10 - 15
+// x + 6 x^2), so that u is three times continuously differentiable.
 class RestToRest {
  public:
   RestToRest(double length, double ramp) : length_(length), ramp_(std::min(ramp, length)) {}
 
   double length() const { return length_ + ramp_; }
-  // u and its first three derivatives at w.
+  // Returns u and its first three derivatives at w.
   Eigen::Vector4d At(double w) const {
     if (w > 0.5 * length()) {
       const Eigen::Vector4d mirrored = Start(length() - w);
@@ -145,7 +146,7 @@ class RestToRest {
   double length_, ramp_;
 };
 
-// What one motion is made of.
+// The retiming of one recorded motion.
 class Retiming {
  public:
   Retiming(const RecordedPath& path, const std::vector<JointLimits>& limits,
@@ -158,7 +159,7 @@ class Retiming {
 
  private:
   void FindArm();
-  Eigen::VectorXd ArmPosture(const Eigen::RowVectorXd& row) const;
+  Eigen::VectorXd ArmConfiguration(const Eigen::RowVectorXd& row) const;
   double Allowed(Eigen::Index joint) const;
   Eigen::MatrixXd Controls(const Eigen::VectorXd& shares, int fineness, Eigen::Index* failed) const;
   QuinticSpline Fit(const Eigen::VectorXd& shares) const;
@@ -187,7 +188,7 @@ void Retiming::FindArm() {
   }
 }
 
-Eigen::VectorXd Retiming::ArmPosture(const Eigen::RowVectorXd& row) const {
+Eigen::VectorXd Retiming::ArmConfiguration(const Eigen::RowVectorXd& row) const {
   Eigen::VectorXd q(static_cast<Eigen::Index>(arm_channels_.size()));
   for (Eigen::Index j = 0; j < q.size(); ++j)
     q[j] = row[arm_channels_[static_cast<std::size_t>(j)]];
@@ -199,9 +200,9 @@ double Retiming::Allowed(Eigen::Index joint) const {
                                                    : options_.turning_deviation;
 }
 
-// The control points of a smooth curve for each joint, with `fineness` knots a recorded position,
-// within its share (J) of what it may deviate. Empty, and the joint in `failed`, where there is
-// none.
+// Returns the control points of a smooth curve for each joint, with `fineness` knots per recorded
+// position, within its share (J) of the allowed deviation. Empty, with the joint in `failed`, if
+// there is none.
 Eigen::MatrixXd Retiming::Controls(const Eigen::VectorXd& shares, int fineness,
                                    Eigen::Index* failed) const {
   const double spacing = parameters_.back() / static_cast<double>(parameters_.size() - 1);
@@ -228,7 +229,7 @@ QuinticSpline Retiming::Fit(const Eigen::VectorXd& shares) const {
     return QuinticSpline(parameters_.back() / intervals, std::move(controls));
   }
   Fail("joint '" + path_.joints[static_cast<std::size_t>(failed)] +
-           "' has no smooth motion that stays as close to its recording as asked",
+           "' has no smooth motion within the allowed deviation from its recording",
        "allow more deviation");
 }
 
@@ -240,13 +241,14 @@ void Retiming::Measure(const QuinticSpline& curve, Retimed* result) const {
     const Eigen::RowVectorXd recorded = path_.positions.row(k);
     result->deviations = result->deviations.cwiseMax((value - recorded).cwiseAbs().transpose());
     if (arm_ == nullptr) continue;
-    const Eigen::Vector3d way = ForwardKinematics(*arm_, ArmPosture(value)).translation() -
-                                ForwardKinematics(*arm_, ArmPosture(recorded)).translation();
-    result->tool_deviation = std::max(result->tool_deviation, way.norm());
+    const Eigen::Vector3d offset =
+        ForwardKinematics(*arm_, ArmConfiguration(value)).translation() -
+        ForwardKinematics(*arm_, ArmConfiguration(recorded)).translation();
+    result->tool_deviation = std::max(result->tool_deviation, offset.norm());
   }
 }
 
-// Closer to the recording, in each joint that moves the tool, until the tool keeps to its deviation
+// Tightens the deviation of every joint that moves the tool until the tool keeps its own deviation
 // too.
 QuinticSpline Retiming::FitPath(Retimed* result) const {
   Eigen::VectorXd shares = Eigen::VectorXd::Ones(path_.positions.cols());
@@ -260,8 +262,8 @@ QuinticSpline Retiming::FitPath(Retimed* result) const {
       shares[j] = std::max(kLeastShare, factor * std::min(shares[j], used));
     }
   }
-  Fail("the tool strays " + Shown(result->tool_deviation) + " m from the recording, more than " +
-           Shown(options_.tool_deviation),
+  Fail("the tool deviates by " + Shown(result->tool_deviation) +
+           " m from the recording, more than " + Shown(options_.tool_deviation),
        "allow more deviation, or record a motion within the joints' limits");
 }
 
@@ -283,7 +285,7 @@ PathDerivatives Retiming::Derivatives(const QuinticSpline& curve, const RestToRe
   return path;
 }
 
-// How many times as fast as recorded the path may be run at w, at most.
+// Returns the largest speed-up over the recording as a function of w.
 std::function<double(double)> Retiming::Paces(const RestToRest& ends) const {
   return [this, &ends](double w) {
     if (path_.paces.empty()) return options_.fastest;
@@ -297,8 +299,8 @@ std::function<double(double)> Retiming::Paces(const RestToRest& ends) const {
   };
 }
 
-// At the rate asked for; the law is slowed by less than a sample, so that the last one falls on the
-// end.
+// Samples the trajectory at the requested rate; the law is slowed by less than a sample so that the
+// last sample falls on the end.
 JointTrajectory Retiming::Sample(const QuinticSpline& curve, const RestToRest& ends,
                                  TimeLaw* law) const {
   const double exact = TimeTable(*law).duration() * options_.rate;
@@ -327,8 +329,8 @@ JointTrajectory Retiming::Sample(const QuinticSpline& curve, const RestToRest& e
   return trajectory;
 }
 
-// Names what asks most for slowing down: velocity falls with the slowness, acceleration with its
-// square, jerk with its cube.
+// Throws an error that names the limit requiring the largest slow-down: velocity falls with the
+// slowness, acceleration with its square, jerk with its cube.
 void Retiming::FailLimits(const PathDerivatives& derivatives, const RestToRest& ends) const {
   double most = 0.0;
   std::string worst;
@@ -342,7 +344,8 @@ void Retiming::FailLimits(const PathDerivatives& derivatives, const RestToRest& 
         if (slowness <= most) return;
         most = slowness;
         worst = "joint '" + path_.joints[static_cast<std::size_t>(j)] + "' at " +
-                Shown(0.01 * std::round(100.0 * recorded)) + " s asks for " + quantity + " " + Shown(value) + ", the limit is " + Shown(bound);
+                Shown(0.01 * std::round(100.0 * recorded)) + " s needs " + quantity + " " +
+                Shown(value) + ", the limit is " + Shown(bound);
       };
       consider("velocity", derivatives.first(j, i), limit.velocity, 1);
       consider("acceleration", derivatives.second(j, i), limit.acceleration, 2);
@@ -362,7 +365,7 @@ Retimed Retiming::Run() {
   result.recorded = parameters_.back();
   double share = kShare;
   for (int i = 0; i < kRefinements; ++i, share *= kLessShare) {
-    // Where jerk peaks between the grid's points time and again, coarser knots.
+    // If jerk keeps peaking between the grid points, coarser knots are used.
     const int levels = std::max(1, kTimeLawLevels - i / kTriesALevel);
     TimeLawFit fit = FitTimeLaw(derivatives, ends.length(), limits_, share, Paces(ends), levels);
     result.stretch = TimeTable(fit.law).duration() / result.recorded;

@@ -16,7 +16,7 @@ namespace {
 using assets::UrdfJoint;
 using assets::UrdfJointType;
 
-// Where nothing is known of a joint's rates; see ReadRobot.
+// Defaults for joints without rates; see ReadRobot.
 constexpr double kTurningVelocity = 1.0, kSlidingVelocity = 0.25;
 constexpr double kAccelerationOfVelocity = 3.0, kJerkOfAcceleration = 100.0;
 
@@ -26,7 +26,7 @@ std::string Shown(double value) {
   return out.str();
 }
 
-// Joins a URDF with what its side file says.
+// Combines a URDF with its side file.
 class Assembler {
  public:
   Assembler(const fs::path& urdf, const fs::path& side_path)
@@ -84,7 +84,7 @@ void Assembler::AddLimits(std::size_t index) {
   if (!joint.Moves()) return;
   const std::string where = urdf_path_ + " joint '" + joint.name + "'";
   if (joint.type == UrdfJointType::kFloating || joint.type == UrdfJointType::kPlanar) {
-    throw core::Error("the joint floats", where, "use joints that turn or slide");
+    throw core::Error("the joint is floating or planar", where, "use revolute or prismatic joints");
   }
   limits.lower = joint.lower;
   limits.upper = joint.upper;
@@ -93,8 +93,8 @@ void Assembler::AddLimits(std::size_t index) {
     limits.upper = std::numbers::pi;
   }
   if (!(limits.upper > limits.lower)) {
-    throw core::Error("the joint has no room to move: its limits are " + Shown(limits.lower) +
-                          " to " + Shown(limits.upper),
+    throw core::Error("the joint cannot move: its limits are " + Shown(limits.lower) + " to " +
+                          Shown(limits.upper),
                       where, "give it a lower limit below its upper one, or make it fixed");
   }
   if (!std::isfinite(joint.velocity) || !std::isfinite(joint.effort) || joint.velocity < 0.0 ||
@@ -116,7 +116,8 @@ void Assembler::AddLimits(std::size_t index) {
   }
 }
 
-// From the tool to the root, then turned round: a link has one parent, a parent many children.
+// Walks from the tool to the root and reverses the chain: a link has one parent, but a parent many
+// children.
 void Assembler::AddArm() {
   std::vector<int> moving;
   const std::vector<int> parents = assets::ParentLinks(model_.urdf);
@@ -150,11 +151,11 @@ void Assembler::AddArm() {
     if (found == given) continue;
     if (given.empty()) FailSide("'" + found + "' moves the tool, but is not listed", remedy);
     if (found.empty()) FailSide("'" + given + "' does not lead to the tool", remedy);
-    FailSide("the joints are no chain: '" + given + "' stands where '" + found +
+    FailSide("the joints are not a chain: '" + given + "' is listed where '" + found +
                  "' is the next that leads to the tool",
              remedy);
   }
-  if (side_.arm_joints.empty()) FailSide("arm_joints names no joint", remedy);
+  if (side_.arm_joints.empty()) FailSide("arm_joints names no joints", remedy);
 }
 
 void Assembler::AddHome() {
@@ -162,7 +163,7 @@ void Assembler::AddHome() {
   for (int j = 0; j < model_.arm.size(); ++j) {
     const ArmJoint& joint = model_.arm.joints[static_cast<std::size_t>(j)];
     const auto found = side_.home.find(joint.name);
-    if (found == side_.home.end()) FailSide("home gives no '" + joint.name + "'", "add it");
+    if (found == side_.home.end()) FailSide("home has no '" + joint.name + "'", "add it");
     const double value = found->second;
     if (value < joint.lower || value > joint.upper) {
       FailSide("home puts '" + joint.name + "' at " + Shown(value) + ", outside its limits " +
@@ -175,7 +176,7 @@ void Assembler::AddHome() {
     const auto& joints = model_.arm.joints;
     if (std::none_of(joints.begin(), joints.end(),
                      [&name = name](const ArmJoint& joint) { return joint.name == name; })) {
-      FailSide("home names the joint '" + name + "', which is none of the arm's", "remove it");
+      FailSide("home names the joint '" + name + "', which is not in the arm", "remove it");
     }
   }
 }

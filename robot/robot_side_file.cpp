@@ -33,9 +33,9 @@ void ReadGripper(const JsonField& field, RobotSideFile* side) {
   field.RequireMembers({"joints", "finger_links", "closed", "open"},
                        {"opening_ratio", "grip_force"});
   side->gripper_joints = field["joints"].Texts();
-  if (side->gripper_joints.empty()) field["joints"].Fail("names no joint");
+  if (side->gripper_joints.empty()) field["joints"].Fail("names no joints");
   side->finger_links = field["finger_links"].Texts();
-  if (side->finger_links.empty()) field["finger_links"].Fail("names no link");
+  if (side->finger_links.empty()) field["finger_links"].Fail("names no links");
   side->closed = field["closed"].Number();
   side->open = field["open"].Number();
   if (side->closed == side->open) field.Fail("'closed' and 'open' are the same position");
@@ -49,13 +49,13 @@ RobotSideFile ReadRobotSideFile(const std::filesystem::path& path) {
   const std::string file = path.string();
   if (!std::filesystem::exists(path)) {
     throw core::Error("the robot's side file is missing", file,
-                      "docs/robots.md shows what it holds");
+                      "docs/robots.md shows its contents");
   }
   const nlohmann::json json = ParseJson(core::ReadFile(path, kMaxSideFileBytes), file);
   const JsonField root(json, "", file);
   root.RequireMembers({"format", "tool_link", "arm_joints", "home", "gripper"},
                       {"base_joints", "limits", "margin", "ignored_collisions"});
-  if (root["format"].Integer() != 1) root["format"].Fail("should be 1");
+  if (root["format"].Integer() != 1) root["format"].Fail("must be 1");
   RobotSideFile side;
   side.tool_link = root["tool_link"].Text();
   if (root.Has("base_joints")) side.base_joints = root["base_joints"].Texts();
@@ -71,7 +71,7 @@ RobotSideFile ReadRobotSideFile(const std::filesystem::path& path) {
   if (root.Has("ignored_collisions")) {
     for (const JsonField& pair : root["ignored_collisions"].Elements()) {
       const std::vector<std::string> names = pair.Texts();
-      if (names.size() != 2) pair.Fail("should name two links");
+      if (names.size() != 2) pair.Fail("must name two links");
       side.ignored_collisions.emplace_back(names[0], names[1]);
     }
   }

@@ -11,12 +11,12 @@
 
 namespace simwright::robot {
 
-// What the side file gives for one joint; the URDF gives the rest.
+// The limits that the side file gives for one joint; the URDF gives the others.
 struct StatedLimits {
   std::optional<double> velocity, acceleration, jerk, effort;
 };
 
-// A robot's side file as it stands, by names: no URDF has been asked about them yet.
+// The contents of a robot's side file, by name, not yet checked against the URDF.
 struct RobotSideFile {
   std::string tool_link;
   std::vector<std::string> base_joints, arm_joints;
@@ -28,7 +28,8 @@ struct RobotSideFile {
   std::vector<std::pair<std::string, std::string>> ignored_collisions;
 };
 
-// Throws core::Error where the file is missing, over 1 MiB, no JSON, or of another form.
+// Reads a side file. Throws core::Error if the file is missing, larger than 1 MiB, not valid JSON,
+// or of another form.
 RobotSideFile ReadRobotSideFile(const std::filesystem::path& path);
 
 }  // namespace simwright::robot

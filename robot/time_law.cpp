@@ -9,11 +9,11 @@ namespace {
 
 constexpr double kSpacing = 0.03;  // s between knots of the slowness
 constexpr int kRaisingRounds = 400;
-constexpr double kLargestRaise = 1.5;  // in one round
+constexpr double kLargestRaise = 1.5;  // in one iteration
 constexpr double kMostSlowness = 1e4;
-constexpr int kLongestStretch = 32;  // coefficients that are lowered at once
+constexpr int kLongestStretch = 32;  // most coefficients lowered together
 constexpr std::array<double, 4> kLowered = {0.7, 0.85, 0.93, 0.98};
-constexpr double kGridSteps = 8;  // between the finest knots
+constexpr double kGridSteps = 8;  // grid steps between the finest knots
 
 // The pieces of the cardinal cubic B-spline over one interval, times 6: coefficients of 1, x, x^2,
 // x^3.
@@ -30,7 +30,7 @@ Place PlaceOf(double w, double spacing, std::size_t intervals) {
   return {interval, place - static_cast<double>(interval)};
 }
 
-// s from the start of `interval` to `x` of it.
+// Returns the time in s from the start of `interval` to its fraction `x`.
 double TimeInInterval(const std::vector<double>& coefficients, std::size_t interval, double x,
                       double spacing) {
   double sum = 0.0;
@@ -50,7 +50,7 @@ TimeLaw::TimeLaw(double length, double spacing) : length_(length) {
   coefficients_.assign(static_cast<std::size_t>(intervals) + kSupport - 1, 1.0);
 }
 
-// Coefficient k stands above knot k - 1: subdivision of cubic B-splines keeps the curve.
+// Coefficient k belongs to knot k - 1. Subdivision of cubic B-splines keeps the curve.
 void TimeLaw::Refine() {
   const std::vector<double> coarse = coefficients_;
   const std::size_t intervals = coarse.size() - (kSupport - 1);
@@ -97,7 +97,7 @@ double TimeTable::Time(double w) const {
   return knot_times_[interval] + TimeInInterval(law_.coefficients(), interval, x, law_.spacing());
 }
 
-// Newton's method inside the interval that holds `t`: time rises there at least as fast as w.
+// Newton's method inside the interval that contains `t`, safeguarded by bisection.
 double TimeTable::Parameter(double t) const {
   if (t <= 0.0) return 0.0;
   if (t >= duration()) return law_.length();
@@ -163,12 +163,12 @@ class Search {
   TimeLaw law_;
   std::vector<JointLimits> limits_;
   int levels_;
-  std::vector<double> fastest_;  // (points) times the recording's pace, at most
-  std::vector<double> least_;    // slowness, of each coefficient
+  std::vector<double> fastest_;  // (points) largest speed-up over the recording
+  std::vector<double> least_;    // lower bound of each coefficient
 };
 
-// By how much the path would have to be slower at `point`, were the slowness the same all round:
-// velocity falls with it, acceleration with its square, jerk with its cube.
+// Returns the factor by which the path would have to be slower at `point` if the slowness were
+// uniform: velocity falls with it, acceleration with its square, jerk with its cube.
 double Search::Excess(Eigen::Index point) const {
   const Eigen::Vector3d rate = law_.Rates(ParameterAt(point));
   double most = 0.0;
@@ -181,7 +181,7 @@ double Search::Excess(Eigen::Index point) const {
     const double jerk = std::abs(path_.third(j, point) * rate[0] * rate[0] * rate[0] +
                                  3.0 * d2 * rate[0] * rate[1] + d1 * rate[2]) /
                         limit.jerk;
-    // The roots only where they matter: below 1 the largest ratio tells enough.
+    // Roots only where they matter: below 1 the largest ratio suffices.
     double excess = std::max({velocity, acceleration, jerk});
     if (excess > 1.0) excess = std::max({velocity, std::sqrt(acceleration), std::cbrt(jerk)});
     most = std::max(most, excess);
@@ -200,7 +200,7 @@ bool Search::HoldsBetween(double from, double to) const {
   return true;
 }
 
-// What no coefficient may be below: the slowest that is asked for where it has a say.
+// Computes the lower bound of each coefficient: the largest slowness required on its support.
 void Search::FindLeast() {
   const auto size = static_cast<std::ptrdiff_t>(law_.coefficients().size());
   least_.assign(static_cast<std::size_t>(size), 0.0);
@@ -217,13 +217,14 @@ void Search::FindLeast() {
   }
 }
 
-// A coefficient is the slowest that velocity and acceleration ask for within the knots beside it.
+// Initializes each coefficient with the mean slowness that velocity and acceleration require near
+// its knot.
 void Search::Begin() {
   const std::vector<double> speeds = FastestSpeeds(path_, limits_, fastest_);
   std::vector<double>& c = law_.coefficients();
   std::vector<double> sum(c.size(), 0.0), weight(c.size(), 0.0);
   for (Eigen::Index point = 0; point < points(); ++point) {
-    // Coefficient k stands above knot k - 1.
+    // Coefficient k belongs to knot k - 1.
     const double place = ParameterAt(point) / law_.spacing() + 1.0;
     const auto k = std::min(static_cast<std::size_t>(std::lround(place)), c.size() - 1);
     const double speed = speeds[static_cast<std::size_t>(point)];
@@ -245,7 +246,7 @@ bool Search::Raise() {
       if (excess <= 1.0) continue;
       worst = std::max(worst, excess);
       const double w = ParameterAt(point);
-      // A hair more, or the last of it takes for ever.
+      // A margin of 0.2 %, or the last excess would converge too slowly.
       const double raise = std::min(kLargestRaise, 1.002 * excess);
       const std::size_t first =
           PlaceOf(w, law_.spacing(), c.size() - (TimeLaw::kSupport - 1)).interval;

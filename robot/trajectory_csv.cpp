@@ -40,8 +40,8 @@ class CsvReader {
 
   std::string where_;
   std::size_t line_ = 0;
-  std::size_t columns_ = 0;     // of a row, the time's among them
-  std::size_t quantities_ = 0;  // how many of kQuantities there are
+  std::size_t columns_ = 0;     // of a row, including the time
+  std::size_t quantities_ = 0;  // number of kQuantities in the file
   std::vector<double> cells_;
   std::int64_t announced_ = -1;
   JointTrajectory trajectory_;
@@ -54,16 +54,17 @@ void CsvReader::ReadComment(std::string_view comment) {
   const std::string value(Trimmed(comment.substr(colon + 2)));
   if (key == "samples") {
     announced_ = IntegerFrom(value).value_or(-1);
-    if (announced_ < 0) Fail("'samples' is no count");
+    if (announced_ < 0) Fail("'samples' is not a count");
   } else {
     trajectory_.notes[key] = value;
   }
 }
 
-// time, then position.JOINT of each joint, then velocity.JOINT of each, and so on.
+// Reads the header: time, then position.JOINT of each joint, then velocity.JOINT of each, and so
+// on.
 void CsvReader::ReadHeader(std::string_view line) {
   const std::vector<std::string_view> cells = Cells(line);
-  if (cells[0] != "time") Fail("the first column should be 'time'");
+  if (cells[0] != "time") Fail("the first column must be 'time'");
   const auto begins = [](std::string_view cell, const char* quantity) {
     return cell.starts_with(std::string(quantity) + ".");
   };
@@ -80,7 +81,7 @@ void CsvReader::ReadHeader(std::string_view line) {
   for (std::size_t c = 1; c < cells.size(); ++c) {
     const std::string expected =
         std::string(kQuantities[(c - 1) / joints]) + "." + trajectory_.joints[(c - 1) % joints];
-    if (cells[c] != expected) Fail("column " + std::to_string(c) + " should be '" + expected + "'");
+    if (cells[c] != expected) Fail("column " + std::to_string(c) + " must be '" + expected + "'");
   }
   columns_ = cells.size();
 }
@@ -96,7 +97,7 @@ void CsvReader::ReadRow(std::string_view line) {
     const std::optional<double> number = NumberFrom(cells[c]);
     if (!number) {
       Fail("'" + std::string(cells[c].substr(0, 40)) + "' in column " + std::to_string(c) +
-           " is no finite number");
+           " is not a finite number");
     }
     if (c == 0) {
       trajectory_.times.push_back(*number);
@@ -117,7 +118,7 @@ Eigen::MatrixXd CsvReader::Columns(std::size_t quantity) const {
 
 JointTrajectory CsvReader::Read(std::string_view text) {
   if (!text.empty() && text.back() != '\n') {
-    throw core::Error("the last line has no end: the file is cut off", where_);
+    throw core::Error("the last line has no newline: the file is truncated", where_);
   }
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
@@ -134,11 +135,11 @@ JointTrajectory CsvReader::Read(std::string_view text) {
     }
   }
   if (columns_ == 0) throw core::Error("the table has no header", where_);
-  if (trajectory_.times.empty()) throw core::Error("the table has no row", where_);
+  if (trajectory_.times.empty()) throw core::Error("the table has no rows", where_);
   if (announced_ >= 0 && announced_ != trajectory_.size()) {
     throw core::Error("the table announces " + std::to_string(announced_) + " samples and has " +
                           std::to_string(trajectory_.size()),
-                      where_, "the file is cut off: write it again");
+                      where_, "the file is truncated: write it again");
   }
   trajectory_.positions = Columns(0);
   trajectory_.velocities = Columns(1);
@@ -157,7 +158,7 @@ std::string CsvText(const JointTrajectory& trajectory) {
   for (std::size_t m = 1; m < std::size(matrices); ++m) {
     if (matrices[m]->size() == 0) continue;
     if (quantities != m) {
-      throw core::Error(std::string("a table with column '") + kQuantities[m] + "' needs '" +
+      throw core::Error(std::string("a table with the column '") + kQuantities[m] + "' needs '" +
                             kQuantities[m - 1] + "' too",
                         "trajectory");
     }

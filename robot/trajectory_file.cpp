@@ -43,7 +43,7 @@ TrajectoryFormat TrajectoryFormatOf(const fs::path& path) {
   if (ending == ".yaml" || ending == ".yml") return TrajectoryFormat::kRosYaml;
   if (ending == ".json") return TrajectoryFormat::kRosJson;
   if (ending == ".csv") return TrajectoryFormat::kCsv;
-  throw core::Error("'" + ending + "' is no ending of a trajectory file", path.string(),
+  throw core::Error("'" + ending + "' is not an extension of a trajectory file", path.string(),
                     "use .yaml, .json or .csv");
 }
 
@@ -51,11 +51,11 @@ std::string TrajectoryText(const JointTrajectory& trajectory, TrajectoryFormat f
   RequireWhole(trajectory, "trajectory");
   if (trajectory.joints.size() > kMostTrajectoryJoints ||
       trajectory.times.size() > kMostTrajectorySamples) {
-    throw core::Error("the trajectory is larger than its readers take", "trajectory");
+    throw core::Error("the trajectory is larger than its readers accept", "trajectory");
   }
   for (const std::string& name : trajectory.joints) {
     if (IsPlainName(name)) continue;
-    throw core::Error("the joint's name '" + name + "' does not fit a trajectory file", "",
+    throw core::Error("the joint name '" + name + "' does not fit a trajectory file", "",
                       "use letters, digits, '_', '-', '.' and '/'");
   }
   RequireNotesFit(trajectory);

@@ -7,7 +7,8 @@
 
 namespace simwright::robot {
 
-// Each format's writer and reader; TrajectoryText and ParseTrajectory say what they take and throw.
+// The writers and readers of the formats; TrajectoryText and ParseTrajectory document arguments and
+// errors.
 std::string RosYamlText(const JointTrajectory& trajectory);
 std::string RosJsonText(const JointTrajectory& trajectory);
 std::string CsvText(const JointTrajectory& trajectory);

@@ -50,7 +50,9 @@ JointTrajectory Joined(const JointTrajectory& first, const JointTrajectory& seco
   for (std::size_t i = 0; same && i < first.times.size(); ++i) {
     same = std::abs(first.times[i] - second.times[i]) <= kTimeSlack;
   }
-  if (!same) throw core::Error("its times are not those of the arm's file", where, "export anew");
+  if (!same) {
+    throw core::Error("its times differ from those of the arm's file", where, "export it again");
+  }
   JointTrajectory both = first;
   both.joints.insert(both.joints.end(), second.joints.begin(), second.joints.end());
   for (const auto matrix : AllMatrices()) {

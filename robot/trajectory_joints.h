@@ -8,16 +8,17 @@
 
 namespace simwright::robot {
 
-// The motion of `joints` alone, in their order, with the same times and notes. Throws core::Error
-// where the trajectory lacks one.
+// Returns the trajectory of `joints` only, in their order, with the same times and notes. Throws
+// core::Error if the trajectory lacks one.
 JointTrajectory JointsOf(const JointTrajectory& trajectory, const std::vector<std::string>& joints);
 
-// One motion of the joints of both, with the notes of `first`. Throws core::Error, naming `where`,
-// where their times differ or a joint is in both.
+// Returns one trajectory with the joints of both and the notes of `first`. Throws core::Error,
+// naming `where`, if the times differ or a joint is in both.
 JointTrajectory Joined(const JointTrajectory& first, const JointTrajectory& second,
                        const std::string& where);
 
-// The same motion under other names (old to new); joints that are not in `names` keep theirs.
+// Returns the trajectory with renamed joints (old name to new name); joints that are not in `names`
+// keep theirs.
 JointTrajectory Renamed(const JointTrajectory& trajectory,
                         const std::map<std::string, std::string>& names);
 

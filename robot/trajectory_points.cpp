@@ -9,7 +9,7 @@ namespace simwright::robot {
 namespace {
 
 constexpr std::int64_t kNanoseconds = 1000000000;
-// 46 days: so far a double tells every nanosecond.
+// 46 days: up to here a double resolves nanoseconds.
 constexpr std::int64_t kMostSeconds = 4000000;
 
 }  // namespace
@@ -40,7 +40,7 @@ void RequireRosTimes(const JointTrajectory& trajectory) {
 
 TrajectoryPoints::TrajectoryPoints(std::vector<std::string> joints, const std::string& where)
     : joints_(std::move(joints)), where_(where) {
-  if (joints_.empty()) throw core::Error("the trajectory names no joint", where_);
+  if (joints_.empty()) throw core::Error("the trajectory names no joints", where_);
   if (joints_.size() > kMostTrajectoryJoints) {
     throw core::Error(
         "the trajectory has more than " + std::to_string(kMostTrajectoryJoints) + " joints",
@@ -57,7 +57,7 @@ void TrajectoryPoints::AddRow(const std::vector<double>& row, const char* name,
   }
   if (times_.empty()) rows->given = !row.empty();
   if (rows->given != !row.empty()) {
-    throw core::Error(std::string("some points have ") + name + " and others have not",
+    throw core::Error(std::string("some points have ") + name + " and others do not",
                       where_ + ": " + place);
   }
   rows->numbers.insert(rows->numbers.end(), row.begin(), row.end());
@@ -71,14 +71,14 @@ void TrajectoryPoints::Add(const TrajectoryPoint& point, const std::string& plac
   }
   if (point.sec < 0 || point.sec >= kMostSeconds || point.nanosec < 0 ||
       point.nanosec >= kNanoseconds) {
-    throw core::Error("its time_from_start is no time", where_ + ": " + place,
-                      "sec is in [0, 4000000), nanosec in [0, 10^9)");
+    throw core::Error("its time_from_start is not a valid time", where_ + ": " + place,
+                      "sec must be in [0, 4000000), nanosec in [0, 10^9)");
   }
-  // A quotient of whole numbers: the same number as was rounded to nanoseconds.
+  // A quotient of integers: the same number that was rounded to nanoseconds.
   const double time = static_cast<double>(point.sec * kNanoseconds + point.nanosec) /
                       static_cast<double>(kNanoseconds);
   if (!times_.empty() && !(time > times_.back())) {
-    throw core::Error("its time does not come after the one before", where_ + ": " + place);
+    throw core::Error("its time does not exceed the previous one", where_ + ": " + place);
   }
   AddRow(point.positions, "positions", place, &positions_);
   AddRow(point.velocities, "velocities", place, &velocities_);

@@ -11,30 +11,31 @@ namespace simwright::robot {
 constexpr std::size_t kMostTrajectoryJoints = 64;
 constexpr std::size_t kMostTrajectorySamples = 2000000;
 
-// One point of a ROS trajectory as it stands in a file.
+// One point of a ROS trajectory, as in a file.
 struct TrajectoryPoint {
   std::vector<double> positions, velocities, accelerations, effort;
   std::int64_t sec = 0, nanosec = 0;  // time_from_start
 };
 
-// A time in whole nanoseconds, as ROS splits it. Requires what RequireRosTimes does.
+// Returns a point with the time rounded to nanoseconds and split as ROS does. Requires the
+// conditions of RequireRosTimes.
 TrajectoryPoint PointAt(double seconds);
 
-// Throws core::Error where a time is above 4,000,000 s or falls on the one before when both are
-// rounded to nanoseconds.
+// Throws core::Error if a time exceeds 4,000,000 s or equals the previous one after rounding to
+// nanoseconds.
 void RequireRosTimes(const JointTrajectory& trajectory);
 
-// Gathers points and makes a trajectory of them. `place` of a point is what an error names.
+// Collects points and builds a trajectory from them. Errors name the `place` of a point.
 class TrajectoryPoints {
  public:
-  // Throws core::Error where there are too many.
+  // Throws core::Error if there are too many joints.
   TrajectoryPoints(std::vector<std::string> joints, const std::string& where);
 
-  // Throws core::Error where a list has neither as many numbers as there are joints nor, but for
-  // the positions, none; where the first point had one that this lacks, or the other way round;
-  // where the time does not come after the one before; where there are too many.
+  // Throws core::Error if a list does not have one number per joint (all lists but the positions
+  // may be empty), a list is given in some points only, the time does not exceed the previous one,
+  // or there are too many points.
   void Add(const TrajectoryPoint& point, const std::string& place);
-  // Throws core::Error where it has no point.
+  // Throws core::Error if there is no point.
   JointTrajectory Finish() const;
 
  private:

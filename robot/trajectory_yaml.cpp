@@ -20,8 +20,8 @@ void AppendRow(const char* name, const Eigen::MatrixXd& matrix, Eigen::Index row
   *text += "]\n  ";
 }
 
-// Reads the one shape of document that a JointTrajectory has, line by line: the lists of a point in
-// brackets on one line, or one entry a line behind "- ". No other YAML.
+// Reads the subset of YAML that a JointTrajectory needs, line by line: the lists of a point in
+// brackets on one line, or one entry per line after "- ".
 class YamlReader {
  public:
   explicit YamlReader(const std::string& where) : where_(where) {}
@@ -51,14 +51,14 @@ class YamlReader {
   std::vector<std::string> joints_;
   std::optional<TrajectoryPoints> points_;
   std::optional<TrajectoryPoint> point_;
-  std::vector<double>* list_ = nullptr;  // of point_, where entries on lines of their own go
+  std::vector<double>* list_ = nullptr;  // of point_, receives entries on separate lines
   int times_given_ = 0;                  // bits: sec 1, nanosec 2
   std::map<std::string, std::string> notes_;
 };
 
 double YamlReader::Number(std::string_view text) const {
   const std::optional<double> number = NumberFrom(text);
-  if (!number) Fail("'" + std::string(text.substr(0, 40)) + "' is no finite number");
+  if (!number) Fail("'" + std::string(text.substr(0, 40)) + "' is not a finite number");
   return *number;
 }
 
@@ -71,10 +71,10 @@ std::string YamlReader::Name(std::string_view text) const {
   return std::string(text);
 }
 
-// "[a, b]" into its entries.
+// Splits "[a, b]" into its entries.
 std::vector<std::string_view> YamlReader::Flow(std::string_view list) const {
   if (list.size() < 2 || list.front() != '[' || list.back() != ']') {
-    Fail("should be a list in brackets");
+    Fail("must be a list in brackets");
   }
   list = Trimmed(list.substr(1, list.size() - 2));
   std::vector<std::string_view> entries;
@@ -99,7 +99,7 @@ std::vector<double>* YamlReader::ListNamed(std::string_view name) {
 void YamlReader::EndPoint() {
   if (!point_) return;
   const std::string place = "the point of line " + std::to_string(point_line_);
-  if (times_given_ != 3) Fail(place + " has no whole time_from_start");
+  if (times_given_ != 3) Fail(place + " has an incomplete time_from_start");
   points_->Add(*point_, place);
   point_.reset();
   list_ = nullptr;
@@ -108,54 +108,54 @@ void YamlReader::EndPoint() {
 void YamlReader::ReadSection(std::string_view line) {
   const std::size_t colon = line.find(':');
   const std::string_view key = line.substr(0, colon);
-  if (colon == std::string_view::npos) Fail("should be a member and a colon");
+  if (colon == std::string_view::npos) Fail("must be a member and a colon");
   const std::string_view value = Trimmed(line.substr(colon + 1));
   if (key == "header") {
     section_ = Section::kHeader;
   } else if (key == "joint_names") {
-    if (!joints_.empty()) Fail("'joint_names' stands here twice");
+    if (!joints_.empty()) Fail("'joint_names' is given twice");
     section_ = Section::kNames;
     if (value.empty()) return;
     for (const std::string_view entry : Flow(value)) joints_.push_back(Name(entry));
   } else if (key == "points") {
-    if (points_) Fail("'points' stands here twice");
+    if (points_) Fail("'points' is given twice");
     section_ = Section::kPoints;
     points_.emplace(joints_, where_);
   } else {
-    Fail("'" + std::string(key.substr(0, 40)) + "' is no member of a trajectory");
+    Fail("'" + std::string(key.substr(0, 40)) + "' is not a member of a trajectory");
   }
 }
 
-// A member of a point, "key: value".
+// Reads a member of a point, "key: value".
 void YamlReader::ReadMember(std::string_view line) {
   const std::size_t colon = line.find(':');
-  if (colon == std::string_view::npos) Fail("should be a member and a colon");
+  if (colon == std::string_view::npos) Fail("must be a member and a colon");
   const std::string_view key = line.substr(0, colon), value = Trimmed(line.substr(colon + 1));
   list_ = nullptr;
   if (std::vector<double>* list = ListNamed(key)) {
-    if (!list->empty()) Fail("'" + std::string(key) + "' stands here twice");
+    if (!list->empty()) Fail("'" + std::string(key) + "' is given twice");
     if (value.empty()) {
       list_ = list;
       return;
     }
     for (const std::string_view entry : Flow(value)) list->push_back(Number(entry));
   } else if (key == "time_from_start") {
-    if (!value.empty()) Fail("time_from_start should hold sec and nanosec on lines of their own");
+    if (!value.empty()) Fail("time_from_start must hold sec and nanosec on separate lines");
   } else if (key == "sec" || key == "nanosec") {
     const std::optional<std::int64_t> number = IntegerFrom(value);
-    if (!number) Fail("'" + std::string(key) + "' should be a whole number");
+    if (!number) Fail("'" + std::string(key) + "' must be an integer");
     const int bit = key == "sec" ? 1 : 2;
-    if (times_given_ & bit) Fail("'" + std::string(key) + "' stands here twice");
+    if (times_given_ & bit) Fail("'" + std::string(key) + "' is given twice");
     times_given_ |= bit;
     (key == "sec" ? point_->sec : point_->nanosec) = *number;
   } else {
-    Fail("'" + std::string(key.substr(0, 40)) + "' is no member of a point");
+    Fail("'" + std::string(key.substr(0, 40)) + "' is not a member of a point");
   }
 }
 
 void YamlReader::ReadPointLine(std::string_view line) {
   if (!line.starts_with("- ")) {
-    if (!point_) Fail("a point should begin with '- '");
+    if (!point_) Fail("a point must begin with '- '");
     ReadMember(line);
     return;
   }
@@ -186,7 +186,7 @@ void YamlReader::ReadLine(std::string_view line) {
     ReadComment(content.substr(1));
     return;
   }
-  if (ended_) Fail("something stands after the end of the document");
+  if (ended_) Fail("unexpected text after the end of the document");
   if (content == "---" && section_ == Section::kNone) return;
   if (content == "---" || content == "...") {
     ended_ = true;
@@ -199,11 +199,11 @@ void YamlReader::ReadLine(std::string_view line) {
   }
   switch (section_) {
     case Section::kNone:
-      Fail("a member of the trajectory should stand here");
+      Fail("expected a member of the trajectory");
     case Section::kHeader:
-      return;  // says nothing of the motion
+      return;  // unrelated to the motion
     case Section::kNames:
-      if (!content.starts_with("- ")) Fail("a joint's name should stand here behind '- '");
+      if (!content.starts_with("- ")) Fail("expected a joint name after '- '");
       if (joints_.size() >= kMostTrajectoryJoints) Fail("there are too many joints");
       joints_.push_back(Name(Trimmed(content.substr(2))));
       return;
@@ -221,7 +221,7 @@ JointTrajectory YamlReader::Read(std::string_view text) {
     if (end == std::string_view::npos) break;
     text.remove_prefix(end + 1);
   }
-  if (!ended_) Fail("the end of the document, '...' or '---', is missing: the file is cut off");
+  if (!ended_) Fail("the end of the document, '...' or '---', is missing: the file is truncated");
   EndPoint();
   if (!points_) Fail("there are no points");
   JointTrajectory trajectory = points_->Finish();

@@ -11,16 +11,18 @@
 namespace simwright::robot {
 namespace {
 
-constexpr int kBand = QuinticSpline::kSupport - 1;  // control points that meet are so far apart
-// Weight of the third differences against a sample's, with a knot at each: halves what swings at
-// 2.5 Hz in samples at 60 Hz (1 + kStiffness * (2 sin(pi f / 60))^6 = 2).
+constexpr int kBand = QuinticSpline::kSupport - 1;  // largest index difference of control points
+                                                    // that interact
+// The weight of the third differences relative to a sample's, with one knot per sample: it halves
+// oscillations of 2.5 Hz in samples at 60 Hz (1 + kStiffness * (2 sin(pi f / 60))^6 = 2).
 constexpr double kStiffness = 3000.0;
-constexpr double kEndWeight = 1e10;   // of the first and the last sample: met to rounding
+constexpr double kEndWeight = 1e10;   // of the first and the last sample: met up to rounding
 constexpr double kMostWeight = 1e12;  // of any sample
 constexpr int kRounds = 80;
-constexpr double kAim = 0.9;  // of the radius: from where on a sample counts more
+constexpr double kAim = 0.9;  // share of the radius above which a sample's weight grows
 
-// The same penalty on the third derivative's square, integrated, for `fineness` knots a sample.
+// Returns the weight of the same penalty on the integral of the squared third derivative, for
+// `fineness` knots per sample.
 double StiffnessFor(double fineness) {
   return kStiffness * std::pow(fineness, 5);
 }
@@ -52,12 +54,12 @@ class TubeFit {
   bool HoldAtLimits();
   bool RaiseWeights();
 
-  Eigen::VectorXd values_, aims_;  // (K) as given, and the nearest within the limits
+  Eigen::VectorXd values_, aims_;  // (K) as given, and clamped to the limits
   Tube tube_;
   Eigen::Index intervals_, count_;
   double stiffness_;
   Eigen::VectorXd weights_;
-  std::vector<int> held_;  // (count) -1 or 1: the control point stands at its lower or upper limit
+  std::vector<int> held_;  // (count) -1 or 1: the control point is at its lower or upper limit
   std::vector<QuinticSpline::Basis> bases_;
   Eigen::MatrixXd band_;  // (kBand + 1 x count): row k, column i is the element (i + k, i)
   Eigen::VectorXd right_, controls_;
@@ -85,7 +87,8 @@ void TubeFit::Assemble() {
   }
 }
 
-// Control points that are held become known: their rows and columns leave the system.
+// Solves the normal equations. Held control points are known: their rows and columns leave the
+// system.
 void TubeFit::Solve() {
   const auto limit = [&](Eigen::Index i) {
     return held_[static_cast<std::size_t>(i)] > 0 ? tube_.upper : tube_.lower;
@@ -113,8 +116,8 @@ void TubeFit::Solve() {
   controls_ = factors.solve(right);
 }
 
-// Holds control points that left the limits, lets go those that the fit would pull inside. True
-// where that changed anything.
+// Holds control points that left the limits, and releases those that the fit would move inside.
+// Returns true if anything changed.
 bool TubeFit::HoldAtLimits() {
   Eigen::VectorXd pull = right_;  // minus half the gradient
   for (Eigen::Index i = 0; i < count_; ++i) {
@@ -137,7 +140,8 @@ bool TubeFit::HoldAtLimits() {
   return changed;
 }
 
-// Samples near the tube's wall or outside count more. True where one lies outside.
+// Increases the weights of samples near or outside the tube's wall. Returns true if a sample is
+// outside.
 bool TubeFit::RaiseWeights() {
   bool outside = false;
   for (std::size_t s = 0; s < bases_.size(); ++s) {

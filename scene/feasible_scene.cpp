@@ -27,26 +27,26 @@ void Shift(const std::vector<Vector3d>& shifts, std::vector<DrawnObject>* object
   }
 }
 
-// Moves them apart; whether that succeeded.
-bool MoveApart(const Palette& palette, const ProjectionOptions& options,
-               std::vector<DrawnObject>* objects) {
+// Resolves the penetrations of the objects; returns true on success.
+bool Depenetrate(const Palette& palette, const ProjectionOptions& options,
+                 std::vector<DrawnObject>* objects) {
   const Projection projection = ProjectApart(BodiesOf(*objects, palette), options);
   Shift(projection.shifts, objects);
   return projection.feasible;
 }
 
-// As they may be left to gravity; whether all are apart.
+// Arranges the objects for settling; returns true if no penetration remains.
 bool Arrange(const Palette& palette, const FeasibilityOptions& options,
              std::vector<DrawnObject>* objects) {
-  const bool apart = MoveApart(palette, options.projection, objects);
+  const bool apart = Depenetrate(palette, options.projection, objects);
   if (options.lowering == 0.0) return apart;
   Shift(LowerOntoSupports(BodiesOf(*objects, palette), options.lowering), objects);
-  return MoveApart(palette, options.projection, objects);  // of what has slid past walls
+  return Depenetrate(palette, options.projection, objects);  // for bodies that slid past walls
 }
 
-std::vector<sim::SettledBody> LeaveToGravity(const std::vector<DrawnObject>& objects,
-                                             const Palette& palette,
-                                             const sim::SettlingOptions& options) {
+std::vector<sim::SettledBody> SettleObjects(const std::vector<DrawnObject>& objects,
+                                            const Palette& palette,
+                                            const sim::SettlingOptions& options) {
   std::vector<sim::SettlingBody> bodies;
   for (const DrawnObject& object : objects) {
     bodies.push_back({&palette.At(object.slot).body, object.world_from_object, object.welded});
@@ -54,7 +54,7 @@ std::vector<sim::SettledBody> LeaveToGravity(const std::vector<DrawnObject>& obj
   return sim::Settle(bodies, options);
 }
 
-// Without those that are not kept; what stood on them stands on nothing that is known.
+// Returns the kept objects; the children of dropped ones lose their parent.
 std::vector<DrawnObject> Kept(const std::vector<DrawnObject>& objects,
                               const std::vector<char>& kept) {
   std::vector<int> index(objects.size(), -1);
@@ -70,7 +70,7 @@ std::vector<DrawnObject> Kept(const std::vector<DrawnObject>& objects,
   return left;
 }
 
-// Pairs of parts that are in each other by more than `depth` (m).
+// Returns the pairs of parts that interpenetrate by more than `depth` (m).
 std::vector<NearParts> Penetrations(const std::vector<DrawnObject>& objects, const Palette& palette,
                                     double depth) {
   ConvexBodies bodies;
@@ -91,10 +91,10 @@ double DeepestPenetration(const std::vector<DrawnObject>& objects, const Palette
   return deepest;
 }
 
-// Takes the lighter of two out where they are in each other too deeply, as cutlery that wedges its
-// crock's walls apart; how many.
+// Drops the lighter object of each pair that interpenetrates too deeply, such as cutlery that
+// wedges the walls of its crock apart. Returns the number of dropped objects.
 int DropWedged(const Palette& palette, double depth, std::vector<DrawnObject>* objects,
-               std::vector<Vector3d>* places) {
+               std::vector<Vector3d>* sampled_positions) {
   std::vector<char> kept(objects->size(), 1);
   const auto mass = [&](int i) {
     const DrawnObject& object = (*objects)[static_cast<size_t>(i)];
@@ -106,15 +106,15 @@ int DropWedged(const Palette& palette, double depth, std::vector<DrawnObject>* o
   }
   std::vector<Vector3d> left;
   for (size_t i = 0; i < kept.size(); ++i) {
-    if (kept[i]) left.push_back((*places)[i]);
+    if (kept[i]) left.push_back((*sampled_positions)[i]);
   }
-  *places = std::move(left);
+  *sampled_positions = std::move(left);
   *objects = Kept(*objects, kept);
   return static_cast<int>(std::count(kept.begin(), kept.end(), 0));
 }
 
-bool HasItsPlace(const sim::SettledBody& settled, const std::string& slot,
-                 const FeasibilityOptions& options) {
+bool IsInValidPose(const sim::SettledBody& settled, const std::string& slot,
+                   const FeasibilityOptions& options) {
   if (settled.fell) return false;
   return settled.tilted <= options.tilted || options.may_lie.count(slot) == 1;
 }
@@ -139,11 +139,11 @@ bool FeasibilityOptions::IsValid(std::string* error) const {
     *error = what;
     return false;
   };
-  if (!(lowering >= 0.0)) return fails("lowering has to be 0 m or more");
-  if (!(tilted > 0.0)) return fails("tilted has to be above 0 rad");
-  if (!(penetration > 0.0)) return fails("penetration has to be above 0 m");
-  if (passes < 1) return fails("passes has to be at least 1");
-  if (fewest < 0) return fails("fewest has to be at least 0");
+  if (!(lowering >= 0.0)) return fails("lowering must be 0 m or more");
+  if (!(tilted > 0.0)) return fails("tilted must be above 0 rad");
+  if (!(penetration > 0.0)) return fails("penetration must be above 0 m");
+  if (passes < 1) return fails("passes must be at least 1");
+  if (fewest < 0) return fails("fewest must be at least 0");
   return true;
 }
 
@@ -154,39 +154,40 @@ FeasibleScene MakeFeasible(const std::vector<DrawnObject>& objects, const Palett
   FeasibleScene scene;
   scene.objects = objects;
   scene.projected = Arrange(palette, options, &scene.objects);
-  std::vector<Vector3d> places;  // of the draw, of what is kept
+  std::vector<Vector3d> sampled_positions;  // sampled positions of the kept objects
   for (const DrawnObject& object : objects)
-    places.push_back(object.world_from_object.translation());
+    sampled_positions.push_back(object.world_from_object.translation());
   for (int pass = 0; pass < options.passes; ++pass) {
-    const auto settled = LeaveToGravity(scene.objects, palette, options.settling);
+    const auto settled = SettleObjects(scene.objects, palette, options.settling);
     std::vector<char> kept(settled.size(), 1);
     std::vector<Vector3d> left;
-    bool waiting = false;
+    bool any_moving = false;
     scene.drift = 0.0;
     for (size_t i = 0; i < settled.size(); ++i) {
       scene.objects[i].world_from_object = settled[i].world_from_body;
-      const bool on_its_way = !settled[i].stable && pass == 0 && options.passes > 1;
-      kept[i] = HasItsPlace(settled[i], scene.objects[i].slot, options) &&
-                (settled[i].stable || on_its_way);
+      const bool still_moving = !settled[i].stable && pass == 0 && options.passes > 1;
+      kept[i] = IsInValidPose(settled[i], scene.objects[i].slot, options) &&
+                (settled[i].stable || still_moving);
       if (!kept[i]) continue;
-      waiting = waiting || on_its_way;
-      left.push_back(places[i]);
+      any_moving = any_moving || still_moving;
+      left.push_back(sampled_positions[i]);
       scene.drift = std::max(scene.drift, settled[i].drift);
     }
     const auto gone = static_cast<int>(std::count(kept.begin(), kept.end(), 0));
     scene.objects = Kept(scene.objects, kept);
-    places = std::move(left);
+    sampled_positions = std::move(left);
     scene.dropped += gone;
-    if (gone == 0 && !waiting) {
+    if (gone == 0 && !any_moving) {
       scene.penetration = DeepestPenetration(scene.objects, palette);
       if (scene.penetration <= options.penetration || pass + 1 == options.passes) break;
-      // Bullet lets a heap's parts sink in by a fraction of a millimetre. What does so again has no
-      // room.
+      // Bullet lets the parts of a heap sink in by a fraction of a millimetre. A body that does so
+      // again has no room.
       if (pass > 0)
-        scene.dropped += DropWedged(palette, options.penetration, &scene.objects, &places);
-      MoveApart(palette, options.projection, &scene.objects);
+        scene.dropped +=
+            DropWedged(palette, options.penetration, &scene.objects, &sampled_positions);
+      Depenetrate(palette, options.projection, &scene.objects);
     }
-    // What was about the dropped, or about what moves, has not been watched without it.
+    // The objects near a dropped or moving one have not been checked without it.
     scene.drift = HUGE_VAL;
   }
   scene.penetration = DeepestPenetration(scene.objects, palette);
@@ -194,7 +195,7 @@ FeasibleScene MakeFeasible(const std::vector<DrawnObject>& objects, const Palett
   for (size_t i = 0; i < scene.objects.size(); ++i) {
     if (scene.objects[i].welded) continue;
     ++free;
-    scene.moved += (scene.objects[i].world_from_object.translation() - places[i]).norm();
+    scene.moved += (scene.objects[i].world_from_object.translation() - sampled_positions[i]).norm();
   }
   if (free > 0) scene.moved /= free;
   scene.sound = free >= options.fewest && scene.drift <= options.settling.stable &&

@@ -45,10 +45,10 @@ void Keep(const Made& made, ScenePart* part) {
   }
   const auto of = [](int count) { return std::to_string(count); };
   throw core::Error("of " + std::to_string(part.attempts.size()) + " scenes " +
-                        of(part.SceneCount()) + " are sound; in " + of(jammed) +
-                        " things cannot be moved apart, in " + of(dropped) +
-                        " some fell, tipped or did not rest",
-                    part.vocabulary.type, "look at the assets: sizes, feet, collision parts");
+                        of(part.SceneCount()) + " are valid; penetrations cannot be resolved in " +
+                        of(jammed) + ", objects fell, toppled or did not come to rest in " +
+                        of(dropped),
+                    part.vocabulary.type, "check the assets: sizes, bases, collision parts");
 }
 
 }  // namespace
@@ -59,8 +59,8 @@ void ExtendPart(const Generation& generation, int scenes, ScenePart* part,
   int have = part->SceneCount();
   while (have < scenes) {
     if (static_cast<int>(part->attempts.size()) >= most) GiveUp(*part);
-    // As many at once as are missing, but for those that fail: what is made beyond the last that is
-    // needed is thrown away.
+    // Each batch has the number of missing scenes, because some attempts fail; results beyond the
+    // last needed one are discarded.
     std::vector<Made> made(static_cast<size_t>(scenes - have));
     std::vector<char> done(made.size(), 0);
     const size_t first = part->attempts.size();
@@ -71,10 +71,10 @@ void ExtendPart(const Generation& generation, int scenes, ScenePart* part,
     try {
       core::ParallelFor(static_cast<int>(made.size()), [&](int i) {
         core::CheckCancelled();
-        const auto slot = static_cast<size_t>(i);
-        made[slot] = Attempt(generation, part->origin, first + slot);
-        done[slot] = 1;
-        if (made[slot].attempt.sound) progress->Advance();
+        const auto index = static_cast<size_t>(i);
+        made[index] = Attempt(generation, part->origin, first + index);
+        done[index] = 1;
+        if (made[index].attempt.sound) progress->Advance();
       });
     } catch (const core::Cancelled&) {
       keep();
@@ -84,8 +84,9 @@ void ExtendPart(const Generation& generation, int scenes, ScenePart* part,
   }
 }
 
-// Of grammars and physics: one more whenever the same settings give other scenes. 2: contacts in
-// all corners of faces; pantries with no two things on one place. 3: watching ends earlier.
+// The revision of grammars and physics: incremented whenever equal settings give other scenes. 2:
+// contacts at all corners of faces; pantries without coincident objects. 3: the stability check
+// ends earlier.
 constexpr int kRevision = 3;
 
 std::string SettingsText(const Generation& generation) {

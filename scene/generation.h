@@ -10,25 +10,26 @@
 
 namespace simwright::scene {
 
-// What is common to all parts of a dataset that is drawn from a grammar.
+// The settings shared by all shards of a dataset that is sampled from a grammar.
 struct Generation {
   Grammar grammar;
-  const Palette* palette = nullptr;  // not null; outlives it
+  const Palette* palette = nullptr;  // not null; must outlive this
   FeasibilityOptions feasibility;
-  // Attempts a sound scene, at most, over a part: what yields less is given up.
+  // The largest number of attempts per valid scene, over a shard; beyond it generation fails.
   int attempts_a_scene = 50;
 };
 
-// Draws scenes, moves them apart and leaves them to gravity until `part` has `scenes` sound ones;
-// goes on where it stands, in parallel, and is the same for any number of threads and of
-// interruptions. `part` has its vocabulary and origin. Attempt k of part p draws from stream
-// p 2^32 + k of the seed. Advances `progress` by one for each new scene; where that throws
-// core::Cancelled, the part holds what was made before. Throws core::Error for a slot without an
-// asset, and where sound scenes are too rare, with what became of them.
+// Samples scenes, resolves their penetrations and settles them until `part` has `scenes` valid
+// ones. Continues from the contents of `part`, runs in parallel, and gives the same result for any
+// number of threads and interruptions. `part` must have its vocabulary and origin. Attempt k of
+// shard p samples from stream p 2^32 + k of the seed. Advances `progress` by one per new scene; if
+// that throws core::Cancelled, the shard keeps the scenes that were finished before. Throws
+// core::Error for a category without an asset, and, with counts of the failures, if valid scenes
+// are too rare.
 void ExtendPart(const Generation& generation, int scenes, ScenePart* part,
                 core::Progress* progress);
 
-// The settings as JSON: of two that are alike, scenes are.
+// Returns the settings as JSON: equal settings give equal scenes.
 std::string SettingsText(const Generation& generation);
 
 }  // namespace simwright::scene

@@ -7,85 +7,85 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of each step on a row. Any below 2 converges (Cryer 1971).
+// The relaxation factor of each step. Any value below 2 converges (Cryer 1971).
 constexpr double kOverRelaxation = 1.4;
-constexpr int kSweepsBetween = 10;  // over the rows that press, between two over all
+constexpr int kActiveIterations = 10;  // over the active constraints, per iteration over all
 
-// Gauss and Seidel on the dual, one row after the other.
-class DualSweeps {
+// Projected Gauss-Seidel on the dual, constraint by constraint.
+class ProjectedGaussSeidel {
  public:
-  DualSweeps(const std::vector<char>& fixed, const LeastShiftOptions& options,
-             std::vector<SeparationRow>* rows, std::vector<Vector3d>* shifts)
+  ProjectedGaussSeidel(const std::vector<char>& fixed, const LeastShiftOptions& options,
+                       std::vector<SeparationRow>* rows, std::vector<Vector3d>* shifts)
       : options_(options), rows_(*rows), shifts_(*shifts) {
     shifts_.assign(fixed.size(), Vector3d::Zero());
-    for (const char body : fixed) free_.push_back(body ? 0.0 : 1.0);
-    for (const SeparationRow& row : rows_) Push(row, row.pressure);
+    for (const char body : fixed) inverse_mass_.push_back(body ? 0.0 : 1.0);
+    for (const SeparationRow& row : rows_) ApplyImpulse(row, row.pressure);
   }
 
-  // m that the worst row is short of.
+  // Iterates; returns the violation of the worst constraint, m.
   double Run() {
-    for (int sweep = 0; sweep < options_.sweeps; sweep += kSweepsBetween) {
-      pressing_.clear();
+    for (int iteration = 0; iteration < options_.sweeps; iteration += kActiveIterations) {
+      active_.clear();
       largest_ = 0.0;
       for (size_t i = 0; i < rows_.size(); ++i) {
-        Relax(&rows_[i]);
-        if (rows_[i].pressure > 0.0) pressing_.push_back(i);
+        SolveConstraint(&rows_[i]);
+        if (rows_[i].pressure > 0.0) active_.push_back(i);
       }
       if (largest_ < options_.tolerance) break;
       bool bounded = true;
-      for (int k = 1; k < kSweepsBetween && largest_ >= options_.tolerance; ++k) {
+      for (int k = 1; k < kActiveIterations && largest_ >= options_.tolerance; ++k) {
         largest_ = 0.0;
-        for (const size_t i : pressing_) Relax(&rows_[i]);
+        for (const size_t i : active_) SolveConstraint(&rows_[i]);
       }
-      for (const size_t i : pressing_) bounded = bounded && rows_[i].pressure < options_.unbounded;
+      for (const size_t i : active_) bounded = bounded && rows_[i].pressure < options_.unbounded;
       if (!bounded) break;
     }
     double worst = 0.0;
     for (const SeparationRow& row : rows_) {
-      if (Free(row) > 0.0) worst = std::max(worst, Missing(row));
+      if (InverseMass(row) > 0.0) worst = std::max(worst, Violation(row));
     }
     return worst;
   }
 
  private:
-  double Free(const SeparationRow& row) const {
-    return free_[static_cast<size_t>(row.a)] + free_[static_cast<size_t>(row.b)];
+  double InverseMass(const SeparationRow& row) const {
+    return inverse_mass_[static_cast<size_t>(row.a)] + inverse_mass_[static_cast<size_t>(row.b)];
   }
-  double Missing(const SeparationRow& row) const {
+  double Violation(const SeparationRow& row) const {
     return row.least - row.normal.dot(shifts_[static_cast<size_t>(row.b)] -
                                       shifts_[static_cast<size_t>(row.a)]);
   }
-  void Push(const SeparationRow& row, double pressure) {
+  void ApplyImpulse(const SeparationRow& row, double pressure) {
     const auto a = static_cast<size_t>(row.a), b = static_cast<size_t>(row.b);
-    shifts_[a] -= (free_[a] * pressure) * row.normal;
-    shifts_[b] += (free_[b] * pressure) * row.normal;
+    shifts_[a] -= (inverse_mass_[a] * pressure) * row.normal;
+    shifts_[b] += (inverse_mass_[b] * pressure) * row.normal;
   }
-  void Relax(SeparationRow* row) {
-    const double free = Free(*row);
-    if (free == 0.0) return;
+  void SolveConstraint(SeparationRow* row) {
+    const double inverse_mass = InverseMass(*row);
+    if (inverse_mass == 0.0) return;
     const double before = row->pressure;
     const double step =
-        (Missing(*row) - options_.compliance * before) / (free + options_.compliance);
+        (Violation(*row) - options_.compliance * before) / (inverse_mass + options_.compliance);
     row->pressure = std::max(0.0, before + kOverRelaxation * step);
     const double change = row->pressure - before;
     if (change == 0.0) return;
-    Push(*row, change);
+    ApplyImpulse(*row, change);
     largest_ = std::max(largest_, std::abs(change));
   }
 
   const LeastShiftOptions& options_;
   std::vector<SeparationRow>& rows_;
   std::vector<Vector3d>& shifts_;
-  std::vector<double> free_;  // 1 or 0
-  std::vector<size_t> pressing_;
-  double largest_ = 0.0;  // change of a pressure in a sweep, m
+  std::vector<double> inverse_mass_;  // 1 or 0: inverse mass
+  std::vector<size_t> active_;
+  double largest_ = 0.0;  // largest change of a multiplier in an iteration, m
 };
 
 }  // namespace
 
 double LeastShift(const std::vector<char>& fixed, const LeastShiftOptions& options,
                   std::vector<SeparationRow>* rows, std::vector<Vector3d>* shifts) {
-  return DualSweeps(fixed, options, rows, shifts).Run();
+  return ProjectedGaussSeidel(fixed, options, rows, shifts).Run();
 }
 
 }  // namespace simwright::scene

@@ -6,30 +6,32 @@
 
 namespace simwright::scene {
 
-// One linear inequality on the shifts of two bodies: normal . (shift_b - shift_a) >= least.
+// A linear inequality constraint on the displacements of two bodies: normal . (shift_b - shift_a)
+// >= least.
 struct SeparationRow {
   int a = -1, b = -1;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit
   double least = 0.0;                                 // m
-  double pressure = 0.0;  // m, at least 0: the multiplier; where to begin, and what was found
+  double pressure = 0.0;  // m, >= 0: the multiplier; initial value and result
 };
 
 struct LeastShiftOptions {
-  // m that a row may be short of once it is solved.
+  // The largest violation of a constraint in the solution, m.
   double tolerance = 1e-7;
-  // Rows that contradict each other are short by this share of their pressure in place of growing
-  // without bound; others by less than the tolerance, as pressures are no more than what moved.
+  // The constraint softness: infeasible constraints are violated by this share of their multiplier,
+  // which bounds it; feasible ones by less than the tolerance, because their multipliers do not
+  // exceed the displacements.
   double compliance = 1e-5;
-  // m: a pressure above it is of rows that contradict each other, which ends the search. What is
-  // moved by the sum of all that presses on it, in a scene, is moved by less.
+  // m: a larger multiplier means infeasible constraints and ends the iteration. In a scene, the sum
+  // of all multipliers on a body is smaller than this.
   double unbounded = 5.0;
-  int sweeps = 2000;  // at most, over the rows that press
+  int sweeps = 2000;  // most iterations over the active constraints
 };
 
-// The shifts (N x 3, m) with the least sum of squares that all rows allow; of bodies that are
-// `fixed` they are zero. Each row in turn takes the pressure that closes it (Hildreth 1957, which
-// is Gauss and Seidel on the dual), as contact solvers do, and somewhat more of it (over-relaxed).
-// Returns by how much the worst row is short, m. Rows between two fixed bodies are left out.
+// Computes the displacements (N x 3, m) with the least sum of squares that satisfy all constraints;
+// those of `fixed` bodies are zero. Projected Gauss-Seidel on the dual (Hildreth 1957), as in
+// contact solvers, with over-relaxation. Returns the violation of the worst constraint, m.
+// Constraints between two fixed bodies are ignored.
 double LeastShift(const std::vector<char>& fixed, const LeastShiftOptions& options,
                   std::vector<SeparationRow>* rows, std::vector<Eigen::Vector3d>* shifts);
 

@@ -12,9 +12,9 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-constexpr double kMeets = 1e-5;     // m between two parts that have met
-constexpr double kHolds = 0.02;     // of a normal's z: what is steeper holds nothing
-constexpr int kMostTangents = 100;  // of a pair of parts; flat faces take one
+constexpr double kContactDistance = 1e-5;   // m between two parts in contact
+constexpr double kSupportingNormal = 0.02;  // z of a contact normal: steeper faces do not support
+constexpr int kMostTangents = 100;          // per pair of parts; flat faces take one
 
 class Lowering {
  public:
@@ -33,48 +33,50 @@ class Lowering {
     });
     for (const int body : order) {
       if (bodies_.fixed(body)) continue;
-      const double room = RoomBeneath(body, most);
-      if (room < most) shifts_[static_cast<size_t>(body)].z() = -room;
+      const double clearance = ClearanceBeneath(body, most);
+      if (clearance < most) shifts_[static_cast<size_t>(body)].z() = -clearance;
     }
     return shifts_;
   }
 
  private:
-  // m that the body can go down, `most` where there is that much room or more.
-  double RoomBeneath(int body, double most) const {
-    double room = std::clamp(bodies_.Box(body, -1).min().z(), 0.0, most);
+  // Returns how far the body can move down, m, `most` if there is at least that much space.
+  double ClearanceBeneath(int body, double most) const {
+    double clearance = std::clamp(bodies_.Box(body, -1).min().z(), 0.0, most);
     for (int other = 0; other < bodies_.size(); ++other) {
-      if (other == body || !IsUnder(other, -1, body, -1, room)) continue;
+      if (other == body || !IsUnder(other, -1, body, -1, clearance)) continue;
       for (int p = 0; p < bodies_.Parts(other); ++p) {
-        if (!IsUnder(other, p, body, -1, room)) continue;
+        if (!IsUnder(other, p, body, -1, clearance)) continue;
         for (int q = 0; q < bodies_.Parts(body); ++q) {
-          if (IsUnder(other, p, body, q, room)) room = WayToMeet(other, p, body, q, room);
+          if (IsUnder(other, p, body, q, clearance))
+            clearance = DistanceToContact(other, p, body, q, clearance);
         }
       }
     }
-    return room;
+    return clearance;
   }
 
-  // Whether the box of a part of `body`, swept down by `room`, meets that of a part of `other`.
-  bool IsUnder(int other, int other_part, int body, int part, double room) const {
+  // Returns true if the AABB of a part of `body`, swept down by `clearance`, intersects that of a
+  // part of `other`.
+  bool IsUnder(int other, int other_part, int body, int part, double clearance) const {
     AlignedBox3d swept = bodies_.Box(body, part);
-    swept.min().z() -= room;
+    swept.min().z() -= clearance;
     AlignedBox3d under = bodies_.Box(other, other_part);
     under.translate(shifts_[static_cast<size_t>(other)]);
     return swept.intersects(under);
   }
 
-  // m down to where two parts meet, no more than `room`.
-  double WayToMeet(int other, int other_part, int body, int part, double room) const {
-    double way = 0.0;
-    for (int i = 0; i < kMostTangents && way < room; ++i) {
-      const Vector3d apart = -way * Vector3d::UnitZ() - shifts_[static_cast<size_t>(other)];
+  // Returns the downward distance to contact of two parts, m, no more than `clearance`.
+  double DistanceToContact(int other, int other_part, int body, int part, double clearance) const {
+    double travelled = 0.0;
+    for (int i = 0; i < kMostTangents && travelled < clearance; ++i) {
+      const Vector3d apart = -travelled * Vector3d::UnitZ() - shifts_[static_cast<size_t>(other)];
       const NearParts near = bodies_.Distance(other, other_part, body, part, apart);
-      if (near.normal.z() < kHolds) return room;
-      if (near.distance <= kMeets) return way;
-      way += near.distance / near.normal.z();
+      if (near.normal.z() < kSupportingNormal) return clearance;
+      if (near.distance <= kContactDistance) return travelled;
+      travelled += near.distance / near.normal.z();
     }
-    return std::min(way, room);
+    return std::min(travelled, clearance);
   }
 
   ConvexBodies bodies_;
@@ -84,7 +86,7 @@ class Lowering {
 }  // namespace
 
 std::vector<Vector3d> LowerOntoSupports(const std::vector<ProjectedBody>& bodies, double most) {
-  if (!(most >= 0.0)) throw core::Error("things are lowered by 0 m or more");
+  if (!(most >= 0.0)) throw core::Error("objects are lowered by 0 m or more");
   return Lowering(bodies).Run(most);
 }
 

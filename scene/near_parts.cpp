@@ -13,12 +13,12 @@ using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-geometry::ConvexShape Turned(const geometry::ConvexShape& shape, const Isometry3d& pose) {
-  geometry::ConvexShape turned;
-  turned.radius = shape.radius;
-  turned.vertices.reserve(shape.vertices.size());
-  for (const Vector3d& vertex : shape.vertices) turned.vertices.push_back(pose * vertex);
-  return turned;
+geometry::ConvexShape Transformed(const geometry::ConvexShape& shape, const Isometry3d& pose) {
+  geometry::ConvexShape transformed;
+  transformed.radius = shape.radius;
+  transformed.vertices.reserve(shape.vertices.size());
+  for (const Vector3d& vertex : shape.vertices) transformed.vertices.push_back(pose * vertex);
+  return transformed;
 }
 
 AlignedBox3d BoxOf(const geometry::ConvexShape& shape) {
@@ -40,11 +40,11 @@ void ConvexBodies::Add(const std::vector<geometry::ConvexShape>& parts,
   body.fixed = fixed;
   for (const geometry::ConvexShape& shape : parts) {
     Part part;
-    part.shape = Turned(shape, world_from_body);
+    part.shape = Transformed(shape, world_from_body);
     part.box = BoxOf(part.shape);
     const bool finite = part.box.min().allFinite() && part.box.max().allFinite();
     if (shape.vertices.empty() || !finite) {
-      throw core::Error("a convex part needs vertices that are finite", place);
+      throw core::Error("a convex part needs finite vertices", place);
     }
     body.hull.box.extend(part.box);
     body.hull.shape.radius = std::max(body.hull.shape.radius, shape.radius);

@@ -10,20 +10,20 @@
 
 namespace simwright::scene {
 
-// Two convex parts of different bodies that are near each other or in each other.
+// A narrow-phase pair: two convex parts of different bodies that are close or interpenetrating.
 struct NearParts {
   int a = -1, b = -1;            // the bodies, a < b
   int part_a = -1, part_b = -1;  // -1: the body's hull
-  double distance = 0.0;         // m; negative: how deep they are in each other
+  double distance = 0.0;         // m; negative: penetration depth
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // unit, world, from a towards b
 };
 
-// Bodies of convex parts that move without turning: finds which parts are near. Turned once, so
-// that a search costs no product with a rotation.
+// Bodies of convex parts that translate but do not rotate: finds the parts that are close. The
+// rotations are applied once, so that queries need none.
 class ConvexBodies {
  public:
-  // Adds a body. `parts` (at least one, each with vertices, finite) in the body's frame, m.
-  // A fixed body is not compared with other fixed ones.
+  // Adds a body. `parts`: at least one, each with finite vertices, in the body frame, m. Pairs of
+  // fixed bodies are ignored.
   void Add(const std::vector<geometry::ConvexShape>& parts,
            const Eigen::Isometry3d& world_from_body, bool fixed);
 
@@ -33,21 +33,21 @@ class ConvexBodies {
   int Parts(int body) const {
     return static_cast<int>(bodies_[static_cast<size_t>(body)].parts.size());
   }
-  // Of a part (-1: the body's hull) at the body's first place, m.
+  // Returns the AABB of a part (-1: the body's hull) at the body's initial position, m.
   const Eigen::AlignedBox3d& Box(int body, int part) const { return PartOf(body, part).box; }
 
-  // All pairs of parts nearer than `within` (m) once body i is shifted by shifts[i] (N x 3), in the
-  // order of a, b, part_a, part_b.
+  // Finds all pairs of parts closer than `within` (m) with body i displaced by shifts[i] (N x 3),
+  // sorted by a, b, part_a, part_b.
   void Find(const std::vector<Eigen::Vector3d>& shifts, double within,
             std::vector<NearParts>* near) const;
 
-  // All pairs a < b of bodies, not both fixed, whose bounding boxes are nearer than `within`, in
-  // order: the boxes are swept along x.
+  // Returns all sorted pairs a < b of bodies, not both fixed, whose AABBs are closer than `within`:
+  // sweep and prune along x.
   std::vector<std::pair<int, int>> NearBodies(const std::vector<Eigen::Vector3d>& shifts,
                                               double within) const;
 
-  // `visit(part_a, part_b)`, in order, for those whose bounding boxes are nearer than `within` once
-  // b is shifted by `apart` against a; by_hull: of the hulls alone, as -1, -1.
+  // Calls `visit(part_a, part_b)`, in order, for the parts whose AABBs are closer than `within`
+  // with b displaced by `apart` relative to a; with `by_hull` only for the hulls, as -1, -1.
   template <typename Visit>
   void ForPartsNear(int a, int b, const Eigen::Vector3d& apart, double within, bool by_hull,
                     const Visit& visit) const {
@@ -64,17 +64,18 @@ class ConvexBodies {
     }
   }
 
-  // Of two parts (-1: the body's hull) once b is shifted by `apart` against a.
+  // Returns the distance of two parts (-1: the body's hull) with b displaced by `apart` relative to
+  // a.
   NearParts Distance(int a, int part_a, int b, int part_b, const Eigen::Vector3d& apart) const;
 
-  // How deep the hulls are in each other along a unit `normal` from a to b, m; less than 0 where
-  // the planes across it part them.
+  // Returns the penetration depth of the hulls along a unit `normal` from a to b, m; negative if a
+  // plane normal to it separates them.
   double DepthAlong(int a, int b, const Eigen::Vector3d& apart,
                     const Eigen::Vector3d& normal) const;
 
  private:
   struct Part {
-    geometry::ConvexShape shape;  // turned, from the body's first place, m
+    geometry::ConvexShape shape;  // rotated, relative to the body's initial position, m
     Eigen::AlignedBox3d box;
   };
   struct Body {
@@ -83,8 +84,8 @@ class ConvexBodies {
     bool fixed = false;
   };
 
-  // m between two boxes along the axis on which they are farthest apart, less than 0 where they
-  // overlap: no more than their distance.
+  // Returns the gap of two AABBs along the axis where it is largest, m, negative if they overlap: a
+  // lower bound of their distance.
   static double Gap(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b,
                     const Eigen::Vector3d& apart) {
     const Eigen::Vector3d one = (b.min() + apart) - a.max();

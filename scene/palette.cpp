@@ -11,7 +11,8 @@
 namespace simwright::scene {
 namespace {
 
-// Where a line straight down through the origin meets the triangle; -1 where it does not.
+// Returns the height at which the vertical line through the origin meets the triangle; -1 if it
+// does not.
 double HeightAtOrigin(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                       const Eigen::Vector3d& c) {
   const auto cross = [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
@@ -19,13 +20,13 @@ double HeightAtOrigin(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   };
   const Eigen::Vector3d weights(cross(b, c), cross(c, a), cross(a, b));
   const double area = weights.sum();
-  if (std::abs(area) < 1e-14) return -1.0;  // m^2: upright
+  if (std::abs(area) < 1e-14) return -1.0;  // m^2: a vertical triangle
   const Eigen::Vector3d share = weights / area;
   if (share.minCoeff() < -1e-9) return -1.0;
   return share.dot(Eigen::Vector3d(a.z(), b.z(), c.z()));
 }
 
-// Where a thing stands that is put in or on the middle of the body.
+// Returns the height of an object placed in or on the middle of the body.
 double RestHeight(const sim::RigidBody& body) {
   double height = 0.0;
   for (const core::TriangleMesh& part : body.parts) {
@@ -43,7 +44,7 @@ SlotSize SizeOfBody(const sim::RigidBody& body) {
   for (const core::TriangleMesh& part : body.parts) {
     for (const Eigen::Vector3d& vertex : part.vertices) box.extend(vertex);
   }
-  // About the origin, which is where grammars place it.
+  // The size is measured around the origin, at which grammars place the asset.
   const Eigen::Vector3d farthest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs());
   return BoxSize(farthest.x(), farthest.y(), box.max().z(), RestHeight(body));
 }
@@ -51,7 +52,7 @@ SlotSize SizeOfBody(const sim::RigidBody& body) {
 }  // namespace
 
 void Palette::Add(const std::string& slot, sim::RigidBody body, core::TexturedMesh visual) {
-  if (Has(slot)) throw core::Error("two assets are to stand for one slot", slot);
+  if (Has(slot)) throw core::Error("a category has two assets", slot);
   if (body.parts.empty()) throw core::Error("an asset needs collision parts", slot);
   PaletteAsset asset;
   asset.size = SizeOfBody(body);
@@ -65,7 +66,7 @@ void Palette::Add(const std::string& slot, sim::RigidBody body, core::TexturedMe
 }
 
 void Palette::TakeAsHull(const std::string& slot) {
-  At(slot);  // that there is one
+  At(slot);  // throws for an unknown category
   PaletteAsset& asset = assets_.at(slot);
   std::vector<Eigen::Vector3d> vertices;
   for (const core::TriangleMesh& part : asset.body.parts) {
@@ -80,7 +81,7 @@ void Palette::TakeAsHull(const std::string& slot) {
 const PaletteAsset& Palette::At(const std::string& slot) const {
   const auto found = assets_.find(slot);
   if (found == assets_.end()) {
-    throw core::Error("no asset stands for this slot of the scene", slot, "add one to the palette");
+    throw core::Error("this category of the scene has no asset", slot, "add one to the asset set");
   }
   return found->second;
 }

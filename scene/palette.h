@@ -11,33 +11,35 @@
 
 namespace simwright::scene {
 
-// What stands in a scene for a slot: z = 0 is where it stands.
+// The asset of a category in its forms for physics, projection, grammars and rendering; its base is
+// at z = 0.
 struct PaletteAsset {
-  sim::RigidBody body;                       // as physics takes it
-  std::vector<geometry::ConvexShape> parts;  // the same parts, as projection takes them
-  SlotSize size;                             // as grammars take it
-  core::TexturedMesh visual;                 // as it is seen
+  sim::RigidBody body;                       // for physics
+  std::vector<geometry::ConvexShape> parts;  // the same parts, for projection
+  SlotSize size;                             // for grammars
+  core::TexturedMesh visual;                 // for rendering
 };
 
-// The assets of scenes by the name of their slot. Constant once it is filled; shared by threads.
+// An asset set: the assets of scenes by category. Thread-safe once it is filled.
 class Palette {
  public:
-  // Throws core::Error for a slot that is taken or a body without parts. Without a `visual` its
-  // parts are what is seen.
+  // Adds an asset. Throws core::Error for a category that exists or a body without parts. Without a
+  // `visual` the parts are rendered.
   void Add(const std::string& slot, sim::RigidBody body, core::TexturedMesh visual = {});
 
-  // Has it collide as the convex hull of its parts: fewer contacts where it is hollow, and nothing
-  // goes into it. Throws as At does.
+  // Replaces the collision parts by their convex hull: fewer contacts for a hollow asset, and no
+  // object fits into it. Throws as At does.
   void TakeAsHull(const std::string& slot);
 
-  // Throws core::Error, naming the slot, where nothing stands for it.
+  // Returns the asset of a category. Throws core::Error, naming the category, if there is none.
   const PaletteAsset& At(const std::string& slot) const;
   bool Has(const std::string& slot) const { return assets_.count(slot) > 0; }
 
-  // Over what physics takes of the asset: parts, inertial, friction. Throws as At does.
+  // Returns a hash of the asset's physics: parts, inertial, friction. Throws as At does.
   std::string HashOf(const std::string& slot) const;
 
-  // For grammars: the sizes of what is here, those of `others` for the rest.
+  // Returns the sizes for grammars: those of this set's assets, and those of `others` for the other
+  // categories.
   SlotSizes Sizes(const SlotSizes& others = DefaultSlotSizes()) const;
 
  private:

@@ -13,7 +13,8 @@ namespace simwright::scene {
 namespace fs = std::filesystem;
 namespace {
 
-// "teapot" of "teapot_3", "apple_2" of "apple_2_3": the number at the end is the seed.
+// Returns the category of a folder name: "teapot" of "teapot_3", "apple_2" of "apple_2_3". The
+// number at the end is the seed.
 std::string SlotOf(const std::string& name) {
   size_t digits = name.size();
   while (digits > 0 && std::isdigit(static_cast<unsigned char>(name[digits - 1]))) --digits;
@@ -21,7 +22,7 @@ std::string SlotOf(const std::string& name) {
   return seeded ? name.substr(0, digits - 1) : name;
 }
 
-// Rigid asset folders, sorted by name.
+// Returns the rigid asset folders, sorted by name.
 std::vector<fs::path> AssetFolders(const fs::path& folder) {
   if (!fs::is_directory(folder)) {
     throw core::Error("there is no folder of assets", folder.string(),
@@ -43,9 +44,9 @@ std::vector<fs::path> AssetFolders(const fs::path& folder) {
 Palette ReadPalette(const fs::path& folder) {
   SlotFolders folders;
   for (const fs::path& path : AssetFolders(folder)) {
-    folders.emplace(SlotOf(path.filename().string()), path);  // the first of a slot stays
+    folders.emplace(SlotOf(path.filename().string()), path);  // keeps the first of a category
   }
-  if (folders.empty()) throw core::Error("there is no rigid asset", folder.string());
+  if (folders.empty()) throw core::Error("there are no rigid assets", folder.string());
   return ReadPalette(folders);
 }
 

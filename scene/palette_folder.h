@@ -9,23 +9,24 @@
 
 namespace simwright::scene {
 
-// A palette of the asset folders in `folder` (docs/formats.md), rigid ones: "teapot_3" stands for
-// the slot "teapot", and of several for one slot the first by name does. Whatever else lies there
-// is passed over. Throws core::Error where the folder cannot be read, an asset is damaged, or none
-// is there.
+// Reads the asset set of the rigid asset folders in `folder` (docs/formats.md): "teapot_3" is an
+// asset of the category "teapot"; of several for one category the first by name is used. Other
+// files are ignored. Throws core::Error if the folder cannot be read, an asset is damaged, or there
+// is none.
 Palette ReadPalette(const std::filesystem::path& folder);
 
-// Asset folders by the slot that they stand for.
+// Asset folders by category.
 using SlotFolders = std::map<std::string, std::filesystem::path>;
 
-// Which of the rigid asset folders in `folder` stands for which of `slots`: the one of its name
-// ("apple"), else the first that is it with a seed ("apple_7", unless that is a slot itself), else
-// the first whose category it is. Slots that nothing stands for are left out. Throws core::Error
-// where the folder or an asset's description cannot be read.
+// Returns a rigid asset folder in `folder` for each of `slots`: the one of that name ("apple"),
+// else the first with that name and a seed ("apple_7", unless that is a category itself), else the
+// first whose asset has that category. Categories without a folder are omitted. Throws core::Error
+// if the folder or the description of an asset cannot be read.
 SlotFolders FoldersForSlots(const std::filesystem::path& folder,
                             const std::vector<std::string>& slots);
 
-// A palette of these. Throws core::Error where an asset is damaged or has no collision parts.
+// Reads the asset set of these folders. Throws core::Error if an asset is damaged or has no
+// collision parts.
 Palette ReadPalette(const SlotFolders& folders);
 
 }  // namespace simwright::scene

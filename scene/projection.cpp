@@ -11,32 +11,34 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of rows (LeastShiftOptions). Where rows contradict each other, whichever comes last has its way
-// when they are stiff; soft, all of them share what is missing.
+// Constraint softness (LeastShiftOptions). Among infeasible stiff constraints the last one
+// prevails; soft ones share the violation.
 constexpr double kStiff = 1e-6, kSoft = 0.05;
 
-// Of the largest pressure: rows that contradict each other press about alike, others far less.
-constexpr double kContradicting = 0.1;
+// A share of the largest multiplier: infeasible constraints have similar multipliers, others far
+// smaller ones.
+constexpr double kInfeasibleShare = 0.1;
 
-class Rounds {
+class ProjectionSolver {
  public:
-  Rounds(const std::vector<ProjectedBody>& bodies, const ProjectionOptions& options);
+  ProjectionSolver(const std::vector<ProjectedBody>& bodies, const ProjectionOptions& options);
   Projection Run();
 
  private:
-  bool Round(double compliance);
-  void Keep(Projection* best) const;
-  void TakeOtherWay();
+  bool SolveRound(double compliance);
+  void KeepBest(Projection* best) const;
+  void TryAlternativePlanes();
 
   const ProjectionOptions& options_;
   ConvexBodies bodies_;
   std::vector<char> fixed_;
   SeparationPlanes planes_;
   std::vector<Vector3d> shifts_;
-  std::vector<std::pair<int, int>> contradicting_;  // free bodies of the last round
+  std::vector<std::pair<int, int>> infeasible_;  // pairs of free bodies of the last round
 };
 
-Rounds::Rounds(const std::vector<ProjectedBody>& bodies, const ProjectionOptions& options)
+ProjectionSolver::ProjectionSolver(const std::vector<ProjectedBody>& bodies,
+                                   const ProjectionOptions& options)
     : options_(options),
       planes_(&bodies_, {options.influence, options.tolerance}),
       shifts_(bodies.size(), Vector3d::Zero()) {
@@ -47,32 +49,31 @@ Rounds::Rounds(const std::vector<ProjectedBody>& bodies, const ProjectionOptions
   }
 }
 
-// Where ways out contradict each other: all of them by hulls, as the parts of hollow things may
-// leave each other no way; else one of them, where that is the nearest, across the shallowest way.
-// Furniture is let be: its hull would push out what stands in it.
-void Rounds::TakeOtherWay() {
+// Handles pairs whose constraints are infeasible: represents all of them by hulls, since the parts
+// of hollow bodies may admit no separation; if they already are, gives the pair of least lateral
+// depth a lateral normal. Furniture keeps its parts: its hull would push out the objects inside.
+void ProjectionSolver::TryAlternativePlanes() {
   bool taken = false;
-  for (const auto& [a, b] : contradicting_) taken = planes_.TakeByHull(a, b) || taken;
-  if (!taken) planes_.TurnOneAcross(contradicting_, shifts_);
+  for (const auto& [a, b] : infeasible_) taken = planes_.TakeByHull(a, b) || taken;
+  if (!taken) planes_.TurnOneAcross(infeasible_, shifts_);
   planes_.Update(shifts_);
 }
 
-// Whether any body still moves.
-bool Rounds::Round(double compliance) {
+// Solves one round; returns true if a body still moves.
+bool ProjectionSolver::SolveRound(double compliance) {
   std::vector<SeparationRow> rows = planes_.Rows();
   std::vector<Vector3d> shifts;
   LeastShiftOptions least;
   least.compliance = compliance;
-  const double missing = LeastShift(fixed_, least, &rows, &shifts);
-  contradicting_.clear();
-  if (missing > options_.tolerance) {
+  const double violation = LeastShift(fixed_, least, &rows, &shifts);
+  infeasible_.clear();
+  if (violation > options_.tolerance) {
     double largest = 0.0;
     for (const SeparationRow& row : rows) largest = std::max(largest, row.pressure);
     for (SeparationRow& row : rows) {
       const bool free = !bodies_.fixed(row.a) && !bodies_.fixed(row.b);
-      if (free && row.pressure > kContradicting * largest)
-        contradicting_.emplace_back(row.a, row.b);
-      row.pressure = 0.0;  // they have grown without bound: nowhere to begin
+      if (free && row.pressure > kInfeasibleShare * largest) infeasible_.emplace_back(row.a, row.b);
+      row.pressure = 0.0;  // unbounded, so no initial value
     }
   }
   planes_.SetPressures(rows);
@@ -84,8 +85,8 @@ bool Rounds::Round(double compliance) {
   return farthest > options_.settled;
 }
 
-// Where they are now, if that is no worse than what was the best.
-void Rounds::Keep(Projection* best) const {
+// Keeps the current displacements if they are no worse than the best ones.
+void ProjectionSolver::KeepBest(Projection* best) const {
   const auto depth = [](const std::vector<Overlap>& overlaps) {
     return overlaps.empty() ? 0.0 : overlaps.front().depth;
   };
@@ -95,21 +96,21 @@ void Rounds::Keep(Projection* best) const {
   best->overlaps = std::move(overlaps);
 }
 
-Projection Rounds::Run() {
+Projection ProjectionSolver::Run() {
   Projection best;
   bool moves = true;
   for (;; ++best.rounds) {
     planes_.Update(shifts_);
-    Keep(&best);
+    KeepBest(&best);
     const bool apart = planes_.Overlaps().empty();
     if (best.rounds == options_.rounds || (!moves && apart)) break;
-    if (!contradicting_.empty()) TakeOtherWay();
-    moves = Round(kStiff);
+    if (!infeasible_.empty()) TryAlternativePlanes();
+    moves = SolveRound(kStiff);
   }
   if (!best.overlaps.empty()) {
-    Round(kSoft);
+    SolveRound(kSoft);
     planes_.Update(shifts_);
-    Keep(&best);
+    KeepBest(&best);
   }
   best.feasible = best.overlaps.empty();
   for (const Vector3d& shift : best.shifts) best.cost += shift.squaredNorm();
@@ -123,10 +124,10 @@ bool ProjectionOptions::IsValid(std::string* error) const {
     *error = what;
     return false;
   };
-  if (!(influence > 0.0)) return fails("influence has to be above 0 m");
-  if (!(tolerance > 0.0)) return fails("tolerance has to be above 0 m");
-  if (!(settled > 0.0)) return fails("settled has to be above 0 m");
-  if (rounds < 1) return fails("rounds has to be at least 1");
+  if (!(influence > 0.0)) return fails("influence must be above 0 m");
+  if (!(tolerance > 0.0)) return fails("tolerance must be above 0 m");
+  if (!(settled > 0.0)) return fails("settled must be above 0 m");
+  if (rounds < 1) return fails("rounds must be at least 1");
   return true;
 }
 
@@ -134,7 +135,7 @@ Projection ProjectApart(const std::vector<ProjectedBody>& bodies,
                         const ProjectionOptions& options) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("projection: " + error);
-  return Rounds(bodies, options).Run();
+  return ProjectionSolver(bodies, options).Run();
 }
 
 }  // namespace simwright::scene

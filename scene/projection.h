@@ -11,44 +11,44 @@
 
 namespace simwright::scene {
 
-// A thing among those that are moved apart.
+// A body of the projection.
 struct ProjectedBody {
-  // Convex parts, m, in the body's frame; not null. Many bodies may share them.
+  // Convex parts, m, in the body frame; not null. Many bodies may share them.
   const std::vector<geometry::ConvexShape>* parts = nullptr;
   Eigen::Isometry3d world_from_body = Eigen::Isometry3d::Identity();
-  bool fixed = false;  // welded furniture: stays where it is, and may be in other furniture
+  bool fixed = false;  // welded furniture: never moves, may overlap other furniture
 };
 
 struct ProjectionOptions {
-  // m: parts that are farther apart are let be. What comes nearer on its way is found by the next
-  // round; smaller, there would be more of these.
+  // The contact margin, m: pairs of parts farther apart are ignored; the next round picks up pairs
+  // that approach. A smaller margin needs more rounds.
   double influence = 0.03;
-  // m that parts may still be in each other. A tenth of what a scene may have, so that figures
+  // The remaining penetration of parts, m. A tenth of what a scene may have, so that numbers
   // written in single precision still pass.
   double tolerance = 1e-5;
-  double settled = 1e-5;  // m: a round that moves every body by less is the last
-  int rounds = 40;        // of linearising anew, at most; stacks of five take about ten
+  double settled = 1e-5;  // m: converged when no body moves farther in a round
+  int rounds = 40;        // most linearizations; stacks of five take about ten
 
   bool IsValid(std::string* error) const;
 };
 
 struct Projection {
-  bool feasible = false;                // none is in another by more than the tolerance
-  std::vector<Eigen::Vector3d> shifts;  // (N x 3) m, world; zero of what is fixed
-  std::vector<Overlap> overlaps;        // the deepest first; empty where feasible
+  bool feasible = false;                // true if no penetration exceeds the tolerance
+  std::vector<Eigen::Vector3d> shifts;  // (N x 3) m, world; zero for fixed bodies
+  std::vector<Overlap> overlaps;        // the deepest first; empty if feasible
   double cost = 0.0;                    // m^2, the sum of squared shifts
   int rounds = 0;
 };
 
-// Moves things apart by the least sum of squared shifts, rotations kept:
+// Resolves the penetrations of bodies with the least sum of squared displacements, rotations kept:
 //   min sum |p_i - p_i0|^2  with  d(part of i, part of j) >= 0  for every pair of parts,
-// one constraint a pair, so that what touches in the end truly touches. The signed distance of two
-// convex parts is convex in their shift, so that its tangent at any place, d + n . dp, is a bound
-// from below: a round's quadratic programme keeps the tangents above zero, and the next takes them
-// anew where it has come to (SeparationPlanes). The programme is solved in its dual, row by row
-// (Hildreth 1957). Where there is no solution, what comes back is the least bad that was found,
-// with its overlaps. Throws core::Error for options that are not valid, a body without parts, or
-// numbers that are not finite. Bodies: none or thousands; parts that are far apart cost nothing.
+// one constraint per pair, so that bodies in contact touch exactly. The signed distance of two
+// convex parts is convex in their displacement, so that its tangent at any point, d + n . dp, is a
+// lower bound: the quadratic program of a round keeps the tangents above zero, and the next round
+// linearizes again at its solution (SeparationPlanes). The program is solved in its dual,
+// constraint by constraint (Hildreth 1957). If there is no solution, the result is the best one
+// found, with its overlaps. Throws core::Error for invalid options, a body without parts, or
+// numbers that are not finite. Scales to thousands of bodies; distant parts cost nothing.
 Projection ProjectApart(const std::vector<ProjectedBody>& bodies,
                         const ProjectionOptions& options = {});
 

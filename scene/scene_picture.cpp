@@ -15,9 +15,9 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kElevation = 35.0 * kDegree, kAzimuth = 215.0 * kDegree;
 constexpr double kFieldOfView = 30.0 * kDegree;
-// So many times the scene's size away, lines of sight are all but parallel.
+// From this multiple of the scene's size the projection is almost orthographic.
 constexpr double kFarAbove = 50.0;
-constexpr double kRim = 1.06;  // of the picture's width to the scene's
+constexpr double kRim = 1.06;  // ratio of the image's width to the scene's
 
 Eigen::AlignedBox3d BoundsOf(const std::vector<DrawnObject>& objects, const Palette& palette) {
   Eigen::AlignedBox3d box;
@@ -63,7 +63,7 @@ core::Image SceneFromAbove(const std::vector<DrawnObject>& objects, const Palett
   camera.cx = camera.cy = 0.5 * size;
   const double wide = kRim * std::max(1e-3, box.sizes().head<2>().maxCoeff());
   const double distance = kFarAbove * std::max(wide, box.sizes().z());
-  // Of the top, which is nearest and so the widest.
+  // The scale of the top, which is nearest and therefore largest.
   camera.fx = camera.fy = size * distance / wide;
   camera.world_from_camera.linear().col(0) = Eigen::Vector3d::UnitX();
   camera.world_from_camera.linear().col(1) = -Eigen::Vector3d::UnitY();

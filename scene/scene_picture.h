@@ -9,17 +9,17 @@
 
 namespace simwright::scene {
 
-// What a camera sees of a scene, RGBA, see-through where nothing is. Throws core::Error for a slot
-// without an asset, or a scene without objects.
+// Renders a scene from a camera, RGBA, with a transparent background. Throws core::Error for a
+// category without an asset, or a scene without objects.
 core::Image ScenePicture(const std::vector<DrawnObject>& objects, const Palette& palette,
                          const core::Camera& camera);
 
-// The same from a side and above (35 degrees), so that all of it is seen. `size`: pixels a side.
+// Renders the whole scene from the side, 35 degrees above the horizontal. `size`: pixels per side.
 core::Image SceneFromTheSide(const std::vector<DrawnObject>& objects, const Palette& palette,
                              int size);
 
-// The same straight from above, from so far that lines of sight are all but parallel: x to the
-// right, y upwards.
+// Renders the whole scene from straight above, from so far that the projection is almost
+// orthographic: x to the right, y upwards.
 core::Image SceneFromAbove(const std::vector<DrawnObject>& objects, const Palette& palette,
                            int size);
 

@@ -36,8 +36,8 @@ void SeparationPlanes::UpdatePair(const std::vector<Vector3d>& shifts, BodyPair*
         if (known) {
           plane = *old;
           plane.bound = plane.normal.dot(apart) - plane.least;
-          const bool holds = plane.pressure == 0.0 && plane.bound >= -options_.tolerance;
-          if (holds || plane.taken_at == apart) return planes.push_back(plane);
+          const bool inactive = plane.pressure == 0.0 && plane.bound >= -options_.tolerance;
+          if (inactive || plane.taken_at == apart) return planes.push_back(plane);
         }
         const NearParts taken = bodies_->Distance(pair->a, part_a, pair->b, part_b, apart);
         plane.part_a = part_a;
@@ -72,15 +72,15 @@ bool SeparationPlanes::HullIsNearer(const BodyPair& pair,
   const double by_hull = -bodies_->Distance(pair.a, -1, pair.b, -1, apart).distance;
   LeastShiftOptions least;
   least.unbounded = 10.0 * by_hull;
-  std::vector<Vector3d> way;  // of b alone
-  const double missing = LeastShift({1, 0}, least, &rows, &way);
-  return missing > options_.tolerance || way[1].norm() > by_hull;
+  std::vector<Vector3d> displacement;  // of b only
+  const double missing = LeastShift({1, 0}, least, &rows, &displacement);
+  return missing > options_.tolerance || displacement[1].norm() > by_hull;
 }
 
 void SeparationPlanes::TurnOneAcross(const std::vector<std::pair<int, int>>& pairs,
                                      const std::vector<Vector3d>& shifts) {
-  constexpr int kWays = 16;
-  Plane* turned = nullptr;
+  constexpr int kDirections = 16;
+  Plane* replaced = nullptr;
   Vector3d best, taken_at;
   double shallowest = HUGE_VAL;
   for (BodyPair& pair : pairs_) {
@@ -92,23 +92,23 @@ void SeparationPlanes::TurnOneAcross(const std::vector<std::pair<int, int>>& pai
     const Vector3d apart =
         shifts[static_cast<size_t>(pair.b)] - shifts[static_cast<size_t>(pair.a)];
     const Vector3d side = plane.normal.unitOrthogonal(), other = plane.normal.cross(side);
-    for (int i = 0; i < kWays; ++i) {
-      const double angle = 2.0 * M_PI * i / kWays;
+    for (int i = 0; i < kDirections; ++i) {
+      const double angle = 2.0 * M_PI * i / kDirections;
       const Vector3d normal = std::cos(angle) * side + std::sin(angle) * other;
       const double depth = bodies_->DepthAlong(pair.a, pair.b, apart, normal);
       if (depth >= shallowest) continue;
       shallowest = depth;
       best = normal;
       taken_at = apart;
-      turned = &plane;
+      replaced = &plane;
     }
   }
-  if (!turned) return;
-  turned->normal = best;
-  turned->bound = -shallowest;
-  turned->taken_at = taken_at;
-  turned->least = best.dot(taken_at) + shallowest;
-  turned->pressure = 0.0;
+  if (!replaced) return;
+  replaced->normal = best;
+  replaced->bound = -shallowest;
+  replaced->taken_at = taken_at;
+  replaced->least = best.dot(taken_at) + shallowest;
+  replaced->pressure = 0.0;
 }
 
 std::vector<SeparationRow> SeparationPlanes::Rows() const {

@@ -11,62 +11,65 @@
 
 namespace simwright::scene {
 
-// Two bodies that are in each other, by index, a < b.
+// Two interpenetrating bodies, by index, a < b.
 struct Overlap {
   int a = -1, b = -1;
   double depth = 0.0;  // m
 };
 
 struct SeparationOptions {
-  double influence = 0.03;  // m: parts that are farther apart have no plane
-  double tolerance = 1e-5;  // m that parts may be in each other
+  double influence = 0.03;  // m, contact margin: parts farther apart have no plane
+  double tolerance = 1e-5;  // m, allowed penetration
 };
 
-// The planes that keep bodies apart. For two convex parts it is the tangent of their signed
+// The contact planes between bodies. The plane of two convex parts is the tangent of their signed
 // distance,
 //   distance >= normal . (shift_b - shift_a) - least,
-// which is a bound from below wherever the bodies go, as that distance is convex in their shift.
-// So a plane that holds nothing back stays as it is, and only those that push, or that are not met,
-// are taken anew where the bodies have come to.
+// a lower bound for all displacements, because the distance is convex in them. Planes that are
+// inactive and satisfied are therefore kept, and only active or violated ones are recomputed at the
+// current displacements.
 //
-// Two bodies in each other are taken by their parts, or by their hulls where the way out of these
-// is the shorter: the walls of two hollow things that are through each other push this way and
-// that, and contradict each other.
+// Two interpenetrating bodies are represented by their parts, or by their hulls if the displacement
+// that separates the hulls is shorter: the walls of two hollow bodies that pass through each other
+// give contradictory constraints.
 class SeparationPlanes {
  public:
   // `bodies` outlives this.
   SeparationPlanes(const ConvexBodies* bodies, const SeparationOptions& options)
       : bodies_(bodies), options_(options) {}
 
-  // The planes for bodies shifted by `shifts` (N x 3, m).
+  // Updates the planes for bodies displaced by `shifts` (N x 3, m).
   void Update(const std::vector<Eigen::Vector3d>& shifts);
 
-  // Those of parts nearer than `influence`, in the order of a, b, part_a, part_b, with the
-  // pressures that SetPressures gave their parts.
+  // Returns the constraints of parts closer than `influence`, sorted by a, b, part_a, part_b, with
+  // the multipliers of SetPressures.
   std::vector<SeparationRow> Rows() const;
-  void SetPressures(const std::vector<SeparationRow>& rows);  // of Rows()
+  void SetPressures(const std::vector<SeparationRow>& rows);  // as returned by Rows()
 
-  // Of the last Update; the deepest first.
+  // Returns the overlaps of the last Update, the deepest first.
   std::vector<Overlap> Overlaps() const;
 
-  // Takes these two by their hulls from the next Update on; false where they already are.
+  // Represents two bodies by their hulls from the next Update on; returns false if they already
+  // are.
   bool TakeByHull(int a, int b) { return by_hull_.insert({a, b}).second; }
-  // Gives one of these pairs, which are taken by their hulls, another plane until the next Update
-  // after a shift: level with the present one's tangent and the least deep there is among them.
-  // What cannot give way upwards, between two boards, may to the side.
+  // Replaces the plane of one of these pairs, which are represented by their hulls, until the
+  // Update after the next displacement: by a plane with a normal perpendicular to the current one
+  // and the least depth over all the pairs. A body that cannot move up, between two boards, can
+  // then move sideways.
   void TurnOneAcross(const std::vector<std::pair<int, int>>& pairs,
                      const std::vector<Eigen::Vector3d>& shifts);
 
  private:
   struct Plane {
     int part_a = -1, part_b = -1;
-    Eigen::Vector3d normal, taken_at;  // unit; m, the shift of b against a that it touches at
+    Eigen::Vector3d normal, taken_at;  // unit; m, the displacement of b relative to a at the
+                                       // tangent point
     double least = 0.0, pressure = 0.0;
-    double bound = 0.0;  // m, of the distance, from below; itself where it was just taken
+    double bound = 0.0;  // m, lower bound of the distance; exact at the tangent point
   };
   struct BodyPair {
     int a = -1, b = -1;
-    std::vector<Plane> planes;  // in order of part_a, part_b; far ones, too, as they are bounds
+    std::vector<Plane> planes;  // sorted by part_a, part_b; distant ones too, as bounds
   };
 
   void UpdatePair(const std::vector<Eigen::Vector3d>& shifts, BodyPair* pair);
@@ -75,7 +78,7 @@ class SeparationPlanes {
 
   const ConvexBodies* bodies_;
   SeparationOptions options_;
-  std::vector<BodyPair> pairs_;  // in order of a, b
+  std::vector<BodyPair> pairs_;  // sorted by a, b
   std::set<std::pair<int, int>> by_hull_;
 };
 

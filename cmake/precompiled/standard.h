@@ -1,7 +1,7 @@
 #pragma once
 
-// Precompiled for every module: the standard headers and Eigen, which most files include. A file
-// still includes what it uses; the precompiled header only saves parsing it again.
+// Precompiled for every module: the standard headers and Eigen, which most files include. Files
+// still include what they use; the precompiled header only avoids parsing it again.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -12,14 +12,14 @@ namespace simwright::scene {
 PartClaim::PartClaim(const std::filesystem::path& part) : path_(part.string() + ".lock") {
   for (;;) {
     file_ = open(path_.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
-    if (file_ < 0) throw core::Error("cannot lock the part", path_.string());
+    if (file_ < 0) throw core::Error("cannot lock the shard", path_.string());
     if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
       close(file_);
       file_ = -1;
       return;
     }
-    // Whoever had it before may have removed the file between the two calls: then the lock is of a
-    // file that nobody else will find.
+    // The previous owner may have removed the file between the two calls: then the lock is on a
+    // file that no other worker can find.
     struct stat held, named;
     const bool same = fstat(file_, &held) == 0 && stat(path_.c_str(), &named) == 0 &&
                       held.st_ino == named.st_ino && held.st_dev == named.st_dev;

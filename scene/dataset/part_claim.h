@@ -4,17 +4,17 @@
 
 namespace simwright::scene {
 
-// Who makes a part, among workers that share a folder: one that holds the lock of "FILE.lock".
-// A worker that dies lets go of it; the lock's file may be left, and is taken over.
+// The claim of one worker on a shard, among workers that share a folder: a lock on "FILE.lock". A
+// worker that dies releases it; a lock file that is left behind can be claimed again.
 class PartClaim {
  public:
-  // Throws core::Error where the lock's file cannot be made.
+  // Throws core::Error if the lock file cannot be created.
   explicit PartClaim(const std::filesystem::path& part);
   ~PartClaim();
   PartClaim(const PartClaim&) = delete;
   PartClaim& operator=(const PartClaim&) = delete;
 
-  // False where another worker has it.
+  // Returns false if another worker holds the claim.
   bool held() const { return file_ >= 0; }
 
  private:

@@ -10,10 +10,10 @@
 namespace simwright::scene {
 namespace {
 
-// Half the least range that is stretched to [-1, 1]: below, what is noise of settling would become
-// as large as what matters.
+// Half the smallest range that is scaled to [-1, 1]: in a smaller one the noise of settling would
+// be amplified to the size of real variation.
 constexpr double kLeastHalf = 1e-3;
-constexpr int kBlock = 256;  // scenes read at once
+constexpr int kBlock = 256;  // scenes per read
 
 }  // namespace
 
@@ -22,7 +22,7 @@ PoseRange::PoseRange(const std::array<double, kPoseWidth>& low,
     : low_(low), high_(high) {
   for (size_t i = 0; i < kPoseWidth; ++i) {
     if (!std::isfinite(low[i]) || !std::isfinite(high[i]) || low[i] > high[i]) {
-      throw core::Error("the range of a pose's feature is none", std::to_string(i));
+      throw core::Error("the range of a pose feature is invalid", std::to_string(i));
     }
   }
 }
@@ -68,10 +68,10 @@ PoseRange PoseRange::FromText(const std::string& text) {
     std::array<double, kPoseWidth> values{};
     if (!json.is_object() || !json.contains(name) || !json[name].is_array() ||
         json[name].size() != kPoseWidth) {
-      throw core::Error("these are no ranges of poses", text.substr(0, 40));
+      throw core::Error("invalid ranges of poses", text.substr(0, 40));
     }
     for (size_t i = 0; i < kPoseWidth; ++i) {
-      if (!json[name][i].is_number()) throw core::Error("a range is no number", name);
+      if (!json[name][i].is_number()) throw core::Error("a range is not a number", name);
       values[i] = json[name][i].get<double>();
     }
     return values;

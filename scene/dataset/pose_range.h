@@ -7,25 +7,25 @@
 
 namespace simwright::scene {
 
-// How poses are brought to [-1, 1]: feature by feature, from the least to the greatest value that
-// scenes have (Pfaff et al., appendix). Padding's zeros are among them, for the model has to make
-// them too.
+// The normalization of poses to [-1, 1]: feature by feature, from the smallest to the largest value
+// in the scenes (Pfaff et al., appendix). The zeros of padding are included, because the model
+// generates them too.
 class PoseRange {
  public:
-  // Throws core::Error where a low is above its high, or one is not finite.
+  // Throws core::Error if a low exceeds its high, or one is not finite.
   PoseRange(const std::array<double, kPoseWidth>& low, const std::array<double, kPoseWidth>& high);
 
-  // Of scenes first .. first + count - 1, read part by part.
+  // Returns the range of scenes first .. first + count - 1, read in blocks.
   static PoseRange Of(const SceneDataset& dataset, int first, int count);
 
   const std::array<double, kPoseWidth>& low() const { return low_; }
   const std::array<double, kPoseWidth>& high() const { return high_; }
 
-  // Of the 12 numbers of one pose; what lies outside the range comes to lie outside [-1, 1].
+  // Normalizes the 12 numbers of one pose; values outside the range map outside [-1, 1].
   void ToUnit(const float* pose, float* unit) const;
   void FromUnit(const float* unit, float* pose) const;
 
-  // As JSON, and back. Throws core::Error for what is none.
+  // Converts to JSON and back. FromText throws core::Error for text that is not a valid range.
   std::string Text() const;
   static PoseRange FromText(const std::string& text);
 

@@ -43,9 +43,9 @@ SceneDataset::SceneDataset(const fs::path& path) {
     if (!(part.vocabulary() == vocabulary()) ||
         !part.origin().SameDataset(parts_.front().origin())) {
       throw core::Error(
-          "its scenes are of another type, seed, set of assets or settings than those "
-          "of the parts before",
-          one.string(), "keep datasets in folders of their own");
+          "its scenes differ in type, seed, asset set or settings from those "
+          "of the previous shards",
+          one.string(), "keep each dataset in its own folder");
     }
     first_.push_back(scenes_);
     scenes_ += part.SceneCount();

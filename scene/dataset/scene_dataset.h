@@ -7,14 +7,14 @@
 
 namespace simwright::scene {
 
-// "part_00012.h5"
+// Returns the file name of a shard: "part_00012.h5".
 std::string PartName(int part);
 
-// The scenes of a folder of parts, or of one part's file, numbered through in order of the parts'
-// names. Holds what the parts say of themselves, no scenes. One thread at a time.
+// The scenes of a folder of shards, or of one shard file, numbered consecutively in the order of
+// the shards' names. Holds the metadata of the shards, not the scenes. Not thread-safe.
 class SceneDataset {
  public:
-  // Throws core::Error where there is no part, one is damaged, or two do not belong together.
+  // Throws core::Error if there is no shard, one is damaged, or two belong to different datasets.
   explicit SceneDataset(const std::filesystem::path& path);
 
   const Vocabulary& vocabulary() const { return parts_.front().vocabulary(); }
@@ -22,13 +22,13 @@ class SceneDataset {
   int SceneCount() const { return scenes_; }
   std::vector<SceneAttempt> Attempts() const;
 
-  // Tokens of scenes first .. first + count - 1 (count x entries x TokenWidth). Throws core::Error
-  // where they are not all there, or one is damaged.
+  // Returns the tokens of scenes first .. first + count - 1 (count x entries x TokenWidth). Throws
+  // core::Error if the dataset has fewer scenes, or a shard is damaged.
   std::vector<float> Read(int first, int count) const;
 
  private:
   std::vector<ScenePartFile> parts_;
-  std::vector<int> first_;  // scene of each part
+  std::vector<int> first_;  // first scene of each shard
   int scenes_ = 0;
 };
 

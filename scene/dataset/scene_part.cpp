@@ -14,7 +14,7 @@ constexpr char kFormat[] = "simwright scenes";
 constexpr std::int64_t kVersion = 1;
 constexpr std::size_t kScenesPerChunk = 16;
 constexpr int kGzip = 4;
-constexpr std::size_t kCounts = 5, kFigures = 3;  // numbers of an attempt
+constexpr std::size_t kCounts = 5, kFigures = 3;  // numbers per attempt
 
 void WriteAttempts(const std::vector<SceneAttempt>& attempts, core::Hdf5Group* root) {
   std::vector<std::int64_t> counts;
@@ -72,8 +72,8 @@ void WritePart(const ScenePart& part, const fs::path& path) {
 
 ScenePartFile::ScenePartFile(const fs::path& path) : path_(path) {
   if (fs::is_regular_file(path) && core::SealOf(path) == core::FileSeal::kBroken) {
-    throw core::Error("it is damaged: something in it is not as it was written", path.string(),
-                      "delete the file and generate again: only this part is made anew");
+    throw core::Error("it is damaged: its checksum does not match", path.string(),
+                      "delete the file and generate again: only this shard is recomputed");
   }
   const core::Hdf5Reader reader(path);
   const core::Hdf5Group& root = reader.root();
@@ -82,18 +82,18 @@ ScenePartFile::ScenePartFile(const fs::path& path) : path_(path) {
   const std::vector<std::size_t> shape = root.Shape("scenes");
   if (shape.size() != 3 || shape[2] != static_cast<std::size_t>(vocabulary_.TokenWidth()) ||
       shape[0] > static_cast<std::size_t>(1 << 30)) {
-    throw core::Error("the scenes have not the shape that the slots ask for", path.string());
+    throw core::Error("the shape of the scenes does not match the categories", path.string());
   }
   vocabulary_.entries = static_cast<int>(std::min<std::size_t>(shape[1], 1 << 20));
   scenes_ = static_cast<int>(shape[0]);
   std::string error;
   if (!vocabulary_.IsValid(&error)) throw core::Error(error, path.string());
-  const auto sound = std::count_if(attempts_.begin(), attempts_.end(),
+  const auto valid = std::count_if(attempts_.begin(), attempts_.end(),
                                    [](const SceneAttempt& one) { return one.sound; });
-  if (sound != scenes_) {
-    throw core::Error("it says of " + std::to_string(sound) +
-                          " scenes that they are sound and holds " + std::to_string(scenes_),
-                      path.string());
+  if (valid != scenes_) {
+    throw core::Error(
+        "it lists " + std::to_string(valid) + " valid scenes but holds " + std::to_string(scenes_),
+        path.string());
   }
 }
 
@@ -103,12 +103,13 @@ void ScenePartFile::ReadOrigin(const core::Hdf5Group& root) {
     format = root.TextAttribute("format");
   } catch (const core::Error&) {
   }
-  if (format != kFormat) throw core::Error("this file holds no scenes of ours", path_.string());
+  if (format != kFormat) throw core::Error("this file is not a scene dataset", path_.string());
   const std::int64_t version = root.IntegerAttribute("version");
   if (version != kVersion) {
-    throw core::Error("its format is version " + std::to_string(version) + ", known is " +
-                          std::to_string(kVersion),
-                      path_.string(), "make the dataset anew, or use the program that made it");
+    throw core::Error("its format is version " + std::to_string(version) +
+                          ", the known version is " + std::to_string(kVersion),
+                      path_.string(),
+                      "generate the dataset again, or use the version that wrote it");
   }
   vocabulary_.type = root.TextAttribute("type");
   vocabulary_.slots = root.ReadTexts("slots");
@@ -126,7 +127,7 @@ void ScenePartFile::ReadAttempts(const core::Hdf5Group& root) {
   const auto figures = root.Read<double>("attempt_figures");
   if (counts.shape.size() != 2 || figures.shape.size() != 2 || counts.shape[1] != kCounts ||
       figures.shape[1] != kFigures || counts.shape[0] != figures.shape[0]) {
-    throw core::Error("what it says of its attempts has another shape", path_.string());
+    throw core::Error("its attempt records have a wrong shape", path_.string());
   }
   for (std::size_t i = 0; i < counts.shape[0]; ++i) {
     const std::int64_t* const count = &counts.values[i * kCounts];
@@ -150,7 +151,7 @@ std::vector<float> ScenePartFile::Read(int first, int count) const {
         FaultOfTokens(&tokens[static_cast<std::size_t>(i) * size], vocabulary_);
     if (!fault.empty()) {
       throw core::Error(fault, path_.string() + ", scene " + std::to_string(first + i),
-                        "delete the file and generate again: only this part is made anew");
+                        "delete the file and generate again: only this shard is recomputed");
     }
   }
   return tokens;

@@ -11,29 +11,29 @@
 
 namespace simwright::scene {
 
-// What became of one draw from the grammar: what physics made of it, and whether it was kept.
+// The result of one sample of the grammar after physics.
 struct SceneAttempt {
-  int drawn = 0;             // objects of the draw, furniture included
-  int kept = 0;              // that physics left
-  int dropped = 0;           // that fell, tipped or did not rest
-  bool projected = false;    // all could be moved apart
-  bool sound = false;        // is a scene of the dataset
-  double moved = 0.0;        // m, the mean
+  int drawn = 0;             // objects of the sample, furniture included
+  int kept = 0;              // objects that remain after physics
+  int dropped = 0;           // objects that fell, toppled or did not come to rest
+  bool projected = false;    // true if all penetrations were resolved
+  bool sound = false;        // true if valid: a scene of the dataset
+  double moved = 0.0;        // m, mean displacement
   double penetration = 0.0;  // m, the deepest
-  double drift = 0.0;        // m, the farthest while it was watched
+  double drift = 0.0;        // m, largest drift during the stability check
 
   bool operator==(const SceneAttempt&) const = default;
 };
 
-// Of a scene that had `drawn` objects.
+// Returns the record of a scene that was sampled with `drawn` objects.
 SceneAttempt AttemptOf(const FeasibleScene& scene, int drawn);
 
-// Where scenes come from. Parts of one dataset differ in `part` alone.
+// The provenance of scenes. Shards of one dataset differ in `part` only.
 struct PartOrigin {
   std::uint64_t seed = 0;
   int part = 0;
-  std::string assets;    // JSON: the slots' assets and the hashes of their files
-  std::string settings;  // JSON: of drawing, moving apart and settling
+  std::string assets;    // JSON: the assets of the categories and the hashes of their files
+  std::string settings;  // JSON: of sampling, depenetration and settling
   std::string program;   // version
 
   bool SameDataset(const PartOrigin& other) const {
@@ -41,8 +41,8 @@ struct PartOrigin {
   }
 };
 
-// A piece of a dataset: a run of attempts, and the scenes among them that are sound. In a file
-// (docs/formats.md) its tokens lie compressed in chunks of a few scenes.
+// A shard of a dataset: a sequence of attempts, and the valid scenes among them. In a file
+// (docs/formats.md) its tokens are compressed in chunks of a few scenes.
 struct ScenePart {
   Vocabulary vocabulary;
   PartOrigin origin;
@@ -52,12 +52,12 @@ struct ScenePart {
   int SceneCount() const;
 };
 
-// Written beside `path` and renamed in. Throws core::Error.
+// Writes a shard atomically: to a temporary file that is renamed to `path`. Throws core::Error.
 void WritePart(const ScenePart& part, const std::filesystem::path& path);
 
-// A part in its file; scenes are read as they are asked for. Everything throws core::Error, naming
-// the file, where it is missing, cut off, of another version, or at odds with itself. One thread
-// at a time, whatever the part (core/hdf5).
+// A shard in its file; scenes are read on demand. Every member throws core::Error, naming the file,
+// if it is missing, truncated, of another version, or inconsistent. Not thread-safe, not even for
+// different shards (core/hdf5).
 class ScenePartFile {
  public:
   explicit ScenePartFile(const std::filesystem::path& path);
@@ -67,7 +67,7 @@ class ScenePartFile {
   const std::vector<SceneAttempt>& attempts() const { return attempts_; }
   int SceneCount() const { return scenes_; }
 
-  // Tokens of scenes first .. first + count - 1, each looked at (FaultOfTokens).
+  // Returns the tokens of scenes first .. first + count - 1, each validated with FaultOfTokens.
   std::vector<float> Read(int first, int count) const;
   ScenePart ReadAll() const;
 

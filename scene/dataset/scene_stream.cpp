@@ -13,10 +13,10 @@ bool StreamOptions::IsValid(std::string* error) const {
     *error = what;
     return false;
   };
-  if (first < 0) return fails("first has to be at least 0");
-  if (count < -1 || count == 0) return fails("count has to be at least 1, or -1 for all");
-  if (buffer < 1) return fails("buffer has to be at least 1 scene");
-  if (block < 1) return fails("block has to be at least 1 scene");
+  if (first < 0) return fails("first must be at least 0");
+  if (count < -1 || count == 0) return fails("count must be at least 1, or -1 for all");
+  if (buffer < 1) return fails("buffer must be at least 1 scene");
+  if (block < 1) return fails("block must be at least 1 scene");
   return true;
 }
 
@@ -28,7 +28,7 @@ SceneStream::SceneStream(const SceneDataset& dataset, const StreamOptions& optio
   const int all = dataset.SceneCount();
   last_ = options.count < 0 ? all : options.first + options.count;
   if (options.first >= all || last_ > all) {
-    throw core::Error("the dataset has " + std::to_string(all) + " scenes; more are asked for");
+    throw core::Error("the dataset has " + std::to_string(all) + " scenes; more are requested");
   }
   if (last_ - options_.first <= options_.buffer) {
     whole_ = true;

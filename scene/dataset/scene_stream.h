@@ -10,23 +10,23 @@ namespace simwright::scene {
 struct StreamOptions {
   // Scenes first .. first + count - 1 of the dataset; count -1: to the end.
   int first = 0, count = -1;
-  // Scenes held in memory, among which the next is drawn: 4096 of dimsum are 12 MB.
+  // The number of scenes in the shuffle buffer; 4096 scenes of dimsum take 12 MB.
   int buffer = 4096;
-  int block = 64;  // scenes read at once, in the order of the dataset; blocks come in random order
+  int block = 64;  // scenes per read, contiguous in the dataset; the blocks are shuffled
 
   bool IsValid(std::string* error) const;
 };
 
-// Scenes of a dataset over and over in random order, read block by block into a buffer of fixed
-// size from which each is drawn and replaced: every scene comes once a round over the dataset, give
-// or take the buffer. With a dataset that fits in the buffer, nothing is read twice. The dataset
-// must outlive it; one thread at a time.
+// An endless stream of the scenes of a dataset in random order. Blocks are read into a shuffle
+// buffer of fixed size, from which scenes are sampled and replaced: every scene comes once per
+// epoch, up to the size of the buffer. A dataset that fits into the buffer is read once only. The
+// dataset must outlive the stream; not thread-safe.
 class SceneStream {
  public:
-  // Throws core::Error for options that are not valid or name no scene.
+  // Throws core::Error for invalid options or an empty range of scenes.
   SceneStream(const SceneDataset& dataset, const StreamOptions& options, std::uint64_t seed);
 
-  // Writes `count` scenes' tokens (count x entries x TokenWidth). Throws core::Error where the
+  // Writes the tokens of `count` scenes (count x entries x TokenWidth). Throws core::Error if the
   // dataset is damaged.
   void Next(int count, float* tokens);
 
@@ -37,14 +37,14 @@ class SceneStream {
 
   const SceneDataset& dataset_;
   StreamOptions options_;
-  int last_ = 0;  // one behind
+  int last_ = 0;  // one past the last scene
   core::Rng rng_;
-  std::vector<int> order_;      // of blocks, this round
-  size_t next_block_ = 0;       // in order_
-  std::vector<float> pending_;  // of the block read last, not yet in the buffer
-  size_t next_pending_ = 0;     // scene
+  std::vector<int> order_;      // of blocks, in this epoch
+  size_t next_block_ = 0;       // index into order_
+  std::vector<float> pending_;  // tokens of the last block, not yet in the buffer
+  size_t next_pending_ = 0;     // index of a scene
   std::vector<float> buffer_;
-  bool whole_ = false;  // the buffer holds all scenes there are
+  bool whole_ = false;  // the buffer holds all scenes
   std::vector<int> whole_order_;
   size_t next_whole_ = 0;
 };

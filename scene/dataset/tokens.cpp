@@ -28,11 +28,11 @@ std::string FaultOfToken(const float* token, const Vocabulary& vocabulary) {
   if (ones != 1 || ones + zeros != vocabulary.ClassCount()) return "its class is not one-hot";
   if (ClassOfToken(token, vocabulary.ClassCount()) == vocabulary.EmptyClass()) {
     const bool blank = std::all_of(token, first, [](float x) { return x == 0.0f; });
-    return blank ? "" : "what is empty has a pose";
+    return blank ? "" : "a padding token has a pose";
   }
-  const Eigen::Matrix3d turn = Eigen::Map<const RowMajor>(token + 3).cast<double>();
-  const double off = (turn * turn.transpose() - Eigen::Matrix3d::Identity()).norm();
-  return off < 1e-3 && turn.determinant() > 0.0 ? "" : "its matrix is no rotation";
+  const Eigen::Matrix3d rotation = Eigen::Map<const RowMajor>(token + 3).cast<double>();
+  const double off = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
+  return off < 1e-3 && rotation.determinant() > 0.0 ? "" : "its matrix is not a rotation";
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix) {
 void EncodeScene(const std::vector<DrawnObject>& objects, const Vocabulary& vocabulary,
                  float* tokens) {
   if (objects.size() > static_cast<size_t>(vocabulary.entries)) {
-    throw core::Error("a scene has " + std::to_string(objects.size()) + " objects, of which " +
+    throw core::Error("a scene has " + std::to_string(objects.size()) + " objects, but at most " +
                           std::to_string(vocabulary.entries) + " fit",
                       vocabulary.type);
   }
@@ -60,12 +60,12 @@ void EncodeScene(const std::vector<DrawnObject>& objects, const Vocabulary& voca
       continue;
     }
     const int c = vocabulary.ClassOf(objects[i].slot);
-    if (c < 0) throw core::Error("the vocabulary has no such slot", objects[i].slot);
+    if (c < 0) throw core::Error("the vocabulary has no such category", objects[i].slot);
     const Eigen::Isometry3d& pose = objects[i].world_from_object;
     Eigen::Map<Eigen::Vector3f> translation(token);
-    Eigen::Map<RowMajor> turn(token + 3);
+    Eigen::Map<RowMajor> rotation(token + 3);
     translation = pose.translation().cast<float>();
-    turn = pose.linear().cast<float>();
+    rotation = pose.linear().cast<float>();
     token[kPoseWidth + c] = 1.0f;
   }
 }

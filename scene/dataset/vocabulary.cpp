@@ -17,11 +17,12 @@ bool Vocabulary::IsValid(std::string* error) const {
     return false;
   };
   if (entries < 1 || entries > 1 << 16) return fails("a scene has 1 to 65536 entries");
-  if (slots.empty() || slots.size() > 1 << 16) return fails("there are 1 to 65536 slots");
-  if (welded.size() != slots.size()) return fails("welded has to say something of each slot");
+  if (slots.empty() || slots.size() > 1 << 16)
+    return fails("a vocabulary has 1 to 65536 categories");
+  if (welded.size() != slots.size()) return fails("welded must have one entry per category");
   for (size_t i = 0; i < slots.size(); ++i) {
-    if (slots[i].empty()) return fails("a slot has no name");
-    if (i > 0 && !(slots[i - 1] < slots[i])) return fails("slots are not sorted, each once");
+    if (slots[i].empty()) return fails("a category has no name");
+    if (i > 0 && !(slots[i - 1] < slots[i])) return fails("categories are not sorted and unique");
   }
   return true;
 }
@@ -31,8 +32,8 @@ Vocabulary VocabularyOf(const Grammar& grammar) {
   vocabulary.type = grammar.name();
   vocabulary.entries = grammar.MostEntries();
   if (vocabulary.entries == 0) {
-    throw core::Error("the grammar does not say how long its scenes are at most", grammar.name(),
-                      "require EntriesAtMost");
+    throw core::Error("the grammar does not bound the length of its scenes", grammar.name(),
+                      "add the constraint EntriesAtMost");
   }
   vocabulary.slots = grammar.Slots();
   vocabulary.welded.assign(vocabulary.slots.size(), false);
@@ -41,7 +42,7 @@ Vocabulary VocabularyOf(const Grammar& grammar) {
     if (!symbol.IsObject()) continue;
     const auto c = static_cast<size_t>(vocabulary.ClassOf(symbol.slot));
     if (known[c] && vocabulary.welded[c] != symbol.welded) {
-      throw core::Error("one slot is furniture and not", grammar.name() + ": " + symbol.slot);
+      throw core::Error("a category is both welded and free", grammar.name() + ": " + symbol.slot);
     }
     known[c] = true;
     vocabulary.welded[c] = symbol.welded;

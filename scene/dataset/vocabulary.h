@@ -7,30 +7,31 @@
 
 namespace simwright::scene {
 
-// Translation (3) and rotation matrix, row by row (9): how a pose lies in a token.
+// The width of a pose in a token: translation (3) and row-major rotation matrix (9).
 inline constexpr int kPoseWidth = 12;
 
-// What the numbers of learned scenes stand for: class c is the slot slots[c], and one more, the
-// last, is the empty class of what pads a scene to its length.
+// The classes of learned scenes: class c is the category slots[c]; the last class is the empty
+// class of the padding.
 struct Vocabulary {
-  std::string type;                // of scene: "dimsum"
-  int entries = 0;                 // objects of a scene, furniture included, at most
+  std::string type;                // scene type: "dimsum"
+  int entries = 0;                 // most objects of a scene, furniture included
   std::vector<std::string> slots;  // sorted
   std::vector<bool> welded;        // (C) furniture, fixed in physics
 
   int ClassCount() const { return static_cast<int>(slots.size()) + 1; }
   int EmptyClass() const { return static_cast<int>(slots.size()); }
-  // Numbers of a token: pose and one-hot class.
+  // Returns the width of a token: pose and one-hot class.
   int TokenWidth() const { return kPoseWidth + ClassCount(); }
-  // Class of a slot; -1 for one that is not here.
+  // Returns the class of a category; -1 if it is not in the vocabulary.
   int ClassOf(const std::string& slot) const;
 
   bool IsValid(std::string* error) const;
   bool operator==(const Vocabulary&) const = default;
 };
 
-// Every slot that the grammar's symbols stand for; its length is the grammar's EntriesAtMost.
-// Throws core::Error for a grammar without that constraint, or where one slot is welded and free.
+// Returns the vocabulary of all categories of the grammar's symbols; its length is the grammar's
+// EntriesAtMost. Throws core::Error for a grammar without that constraint, or with a category that
+// is both welded and free.
 Vocabulary VocabularyOf(const Grammar& grammar);
 
 }  // namespace simwright::scene

@@ -11,10 +11,10 @@ std::vector<assets::WorldThing> ThingsOf(const std::vector<DrawnObject>& objects
   for (const DrawnObject& object : objects) {
     const auto found = assets.find(object.slot);
     if (found == assets.end()) {
-      throw core::Error("no asset stands for this slot of the scene", object.slot);
+      throw core::Error("this category of the scene has no asset", object.slot);
     }
     assets::WorldThing thing;
-    // Unlike any other slot's, for what follows the last bar is the number.
+    // Unique among all categories, because the text after the last underscore is the number.
     thing.name = object.slot + "_" + std::to_string(counts[object.slot]++);
     thing.asset = &found->second;
     thing.world_from_thing = object.world_from_object;

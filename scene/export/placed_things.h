@@ -9,11 +9,12 @@
 
 namespace simwright::scene {
 
-// The assets of exported scenes by slot: what keys, folders and numbers the files get.
+// The assets of exported scenes by category, which gives them their keys, folders and numbers.
 using ExportedAssets = std::map<std::string, assets::WorldAsset>;
 
-// The objects of a scene as things of a world, in their order, named by slot and number: "cup_0",
-// "cup_1". They point into `assets`. Throws core::Error, naming the slot, where it has no asset.
+// Returns the objects of a scene as world objects, in their order, named by category and number:
+// "cup_0", "cup_1". They point into `assets`. Throws core::Error, naming the category, if it has no
+// asset.
 std::vector<assets::WorldThing> ThingsOf(const std::vector<DrawnObject>& objects,
                                          const ExportedAssets& assets);
 

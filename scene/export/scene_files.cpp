@@ -11,13 +11,13 @@ namespace {
 
 using assets::WorldThing;
 
-Eigen::Quaterniond TurnOf(const WorldThing& thing) {
+Eigen::Quaterniond RotationOf(const WorldThing& thing) {
   Eigen::Quaterniond turn = Eigen::Quaterniond(thing.world_from_thing.linear()).normalized();
   if (turn.w() < 0.0) turn.coeffs() *= -1.0;
   return turn;
 }
 
-// With a point, without which YAML 1.1 takes 1e-05 for a text.
+// Returns the number with a decimal point: YAML 1.1 parses 1e-05 as a string.
 std::string Number(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.17g", value);
@@ -28,7 +28,7 @@ std::string Number(double value) {
   return number;
 }
 
-// A name of digits alone stays a text.
+// Quotes a name, so that a name of digits remains a string.
 std::string Quoted(const std::string& name) {
   return "\"" + name + "\"";
 }
@@ -38,7 +38,7 @@ std::string List(const Eigen::Vector3d& v) {
 }
 
 std::string PoseLines(const WorldThing& thing, const std::string& indent) {
-  const Eigen::AngleAxisd turn(TurnOf(thing));
+  const Eigen::AngleAxisd turn(RotationOf(thing));
   return indent + "translation: " + List(thing.world_from_thing.translation()) + "\n" + indent +
          "rotation: !AngleAxis {angle_deg: " + Number(turn.angle() * (180.0 / M_PI)) +
          ", axis: " + List(turn.axis()) + "}\n";
@@ -55,7 +55,7 @@ std::string SceneJson(const ExportedScene& scene) {
   json["objects"] = nlohmann::ordered_json::array();
   for (const WorldThing& thing : scene.things) {
     const Eigen::Vector3d& place = thing.world_from_thing.translation();
-    const Eigen::Quaterniond turn = TurnOf(thing);
+    const Eigen::Quaterniond turn = RotationOf(thing);
     nlohmann::ordered_json object;
     object["name"] = thing.name;
     object["slot"] = thing.asset->key;

@@ -7,7 +7,7 @@
 
 namespace simwright::scene {
 
-// Where an exported scene comes from.
+// An exported scene with its origin.
 struct ExportedScene {
   std::string name;  // "scene_00012"
   std::string type;  // "dimsum"
@@ -15,17 +15,17 @@ struct ExportedScene {
   std::vector<assets::WorldThing> things;
 };
 
-// The scene as JSON (docs/formats.md): of each thing its URDF, slot, pose and whether it is welded.
-// Numbers read back as the same doubles.
+// Returns the scene as JSON (docs/formats.md): the URDF, category, pose and welded flag of each
+// object. Numbers parse to the same doubles.
 std::string SceneJson(const ExportedScene& scene);
 
-// Model directives of Drake, YAML: an `add_model` for each thing, of the asset's SDF, whose
-// friction Drake reads; what is free gets its `default_free_body_pose`, what is welded an
-// `add_weld` to the world with `X_PC`. Rotations are `!AngleAxis`, numbers of 17 digits. Files are
-// package://PACKAGE/assets/SLOT/..., as Drake's package map finds them.
+// Returns the scene as Drake model directives (YAML): one `add_model` per object with the asset's
+// SDF, from which Drake reads the friction; free objects have a `default_free_body_pose`, welded
+// ones an `add_weld` to the world with `X_PC`. Rotations are `!AngleAxis`, numbers have 17 digits.
+// File URIs are package://PACKAGE/assets/SLOT/..., resolved by Drake's package map.
 std::string DrakeDirectives(const ExportedScene& scene, const std::string& package);
 
-// package.xml, by which Drake finds the files of `package`.
+// Returns the package.xml by which Drake finds the files of `package`.
 std::string PackageXml(const std::string& package);
 
 }  // namespace simwright::scene

@@ -10,38 +10,39 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// Probabilities, counts and places are those of Pfaff et al., Steerable Scene Generation, appendix,
-// and of its grammars (github.com/nepfaff/spatial_scene_grammars, tri_table), but for what says
-// that it is ours.
+// Probabilities, counts and positions are those of Pfaff et al., Steerable Scene Generation,
+// appendix, and of its grammars (github.com/nepfaff/spatial_scene_grammars, tri_table), except
+// where a comment says that a value is ours.
 
-// What differs between the two.
+// The parameters that differ between the two tables.
 struct Clutter {
-  std::vector<Child> pairs;                    // of settings, where they stand
-  double plate = 0.0, bowl = 0.0, none = 0.0;  // what a setting has
-  int most_plates = 0, most_bowls = 0;         // that are shared
+  std::vector<Child> pairs;                    // pairs of settings with their positions
+  double plate = 0.0, bowl = 0.0, none = 0.0;  // weights of the contents of a setting
+  int most_plates = 0, most_bowls = 0;         // most shared ones
   double cereal_stop = 0.0;
-  double toast_goes_on = 0.0;  // with another slice on top
+  double another_slice = 0.0;  // probability of another slice on top
   bool crock = false;
-  int most_entries = 0;  // of a scene, the table among them
+  int most_entries = 0;  // most entries of a scene, the table included
 };
 
-constexpr double kFromMiddle = 0.2;                // m, of a setting, along x
+constexpr double kFromMiddle = 0.2;                // m, of a setting from the middle, along x
 constexpr double kSharedX = 0.3, kSharedY = 0.6;   // m, from the middle
 constexpr double kRimMargin = 0.1;                 // m
-constexpr double kCrock = 0.7, kCrockStops = 0.1;  // that there is one; utensils in it
+constexpr double kCrock = 0.7, kCrockStops = 0.1;  // probability of a crock; stop probability of
+                                                   // its utensils
 constexpr int kMostUtensils = 10, kFewestObjects = 3;
-constexpr double kLengthwise = 0.01;             // m, deviations of cutlery along itself,
-constexpr double kSettingDeviation = 0.02;       // of a setting,
-constexpr double kMugDeviation = 0.015;          // of a mug
-constexpr double kCutleryConcentration = 100.0;  // of its yaw
-// From a plate's or bowl's middle to what lies beside it, m, and how far back that is. Sideways it
-// is ours: as published, cutlery lies 5 mm in the plate's rim.
+constexpr double kLengthwise = 0.01;             // m, deviation of cutlery along its length
+constexpr double kSettingDeviation = 0.02;       // m, of a setting
+constexpr double kMugDeviation = 0.015;          // m, of a mug
+constexpr double kCutleryConcentration = 100.0;  // of the yaw of cutlery
+// Distances from the middle of a plate or bowl to the items beside it, m, and how far back these
+// are. The sideways one is ours: as published, cutlery overlaps the rim of the plate by 5 mm.
 constexpr double kBesidePlate = 0.12, kBackOfPlate = -0.05;
 constexpr double kTopOfPlate = 0.13, kTopAside = 0.025;
 constexpr double kMug = 0.13;
 constexpr double kBesideBowl = 0.095, kTopOfBowl = 0.1;
 
-// Cutlery that varies along itself, beside a plate or at its top.
+// Cutlery that varies along its length, beside a plate or at its top.
 PoseRule Beside(double x, double y) {
   return GaussianOffset({x, y, 0.0}, {kLengthwise, 0.0, 0.0})
       .Turned(0.0, DeviationOfConcentration(kCutleryConcentration));
@@ -51,13 +52,13 @@ PoseRule AtTop(double x, double y) {
       .Turned(0.5 * std::numbers::pi, DeviationOfConcentration(kCutleryConcentration));
 }
 
-// On or in a dish.
+// Returns the pose rule of an item on or in a dish.
 PoseRule OnDish(const SlotSizes& sizes, const std::string& dish, double deviation) {
   return GaussianOffset({0.0, 0.0, SizeOf(sizes, dish).rest_height}, {deviation, deviation, 0.0})
       .FacingAnyWay();
 }
 
-// A setting's x points to the table's middle: left of it is y, and its top x.
+// The x axis of a setting points to the table's middle: +y is its left side, and +x its top.
 void AddSettings(const Clutter& clutter, const SlotSizes& sizes, GrammarBuilder* builder) {
   builder->And("settings", clutter.pairs);
   const Vector3d vary(kSettingDeviation, clutter.crock ? kSettingDeviation : 0.0, 0.0);
@@ -120,8 +121,8 @@ void AddShared(const Clutter& clutter, const SlotSizes& sizes, GrammarBuilder* b
                                               With(0.4, "pear", OnDish(sizes, "bowl", 0.015))});
 }
 
-// Utensils lie along x: stood up, x points upwards. They lean as the crock lets them, once physics
-// has them. The crock is ours but for its counts.
+// Utensils lie along x; upright ones point up with x. Physics lets them lean in the crock. The
+// crock is ours except for its counts.
 void AddCrock(const SlotSizes& sizes, GrammarBuilder* builder) {
   const SlotSize& crock = SizeOf(sizes, "utensil_crock");
   const Quaterniond upright(Eigen::AngleAxisd(-0.5 * std::numbers::pi, Vector3d::UnitY()));
@@ -142,8 +143,8 @@ void AddCrock(const SlotSizes& sizes, GrammarBuilder* builder) {
 void AddFood(const Clutter& clutter, const SlotSizes& sizes, GrammarBuilder* builder) {
   const double slice = SizeOf(sizes, "toast").height;
   builder->Or(Object("toast", "toast"),
-              {With(clutter.toast_goes_on, "toast", Offset(0.0, 0.0, slice).FacingAnyWay()),
-               With(1.0 - clutter.toast_goes_on, kNothing)});
+              {With(clutter.another_slice, "toast", Offset(0.0, 0.0, slice).FacingAnyWay()),
+               With(1.0 - clutter.another_slice, kNothing)});
   builder->Leaf(Object("bowl", "bowl"));
   for (const char* slot :
        {"fork", "knife", "spoon", "teaspoon", "mug", "apple", "pear", "cereal_box", "jug"}) {
@@ -151,11 +152,11 @@ void AddFood(const Clutter& clutter, const SlotSizes& sizes, GrammarBuilder* bui
   }
 }
 
-// Both are decided by rejection: a shared thing is nowhere nearer to a setting's than it is wide,
-// and nothing stands within 0.1 m of the rim. That favours tables with less on them.
+// Both constraints are enforced by rejection, which favours tables with fewer objects: a shared
+// object keeps its width away from the settings, and no object stands within 0.1 m of the rim.
 void RequireRoom(const Clutter& clutter, const SlotSizes& sizes, GrammarBuilder* builder) {
   KeepOut apart;
-  apart.name = "between what is shared and settings";
+  apart.name = "between shared objects and settings";
   apart.bodies = {{"shared_plate", 0.11}, {"shared_bowl", 0.08}, {"cereal_box", 0.15},
                   {"jug", 0.06},          {"own_plate", 0.0},    {"own_bowl", 0.0},
                   {"fork", 0.0},          {"knife", 0.0},        {"spoon", 0.0},
@@ -203,7 +204,7 @@ Grammar BreakfastTableLow(const SlotSizes& sizes) {
   clutter.plate = 0.7, clutter.bowl = 0.2, clutter.none = 0.1;
   clutter.most_plates = clutter.most_bowls = 2;
   clutter.cereal_stop = 0.3;
-  clutter.toast_goes_on = 0.2;
+  clutter.another_slice = 0.2;
   clutter.crock = true;
   clutter.most_entries = 35;
   return BreakfastTable("breakfast_low", clutter, sizes);
@@ -218,7 +219,7 @@ Grammar BreakfastTableHigh(const SlotSizes& sizes) {
   clutter.most_plates = 4;
   clutter.most_bowls = 6;
   clutter.cereal_stop = 0.4;
-  clutter.toast_goes_on = 0.25;
+  clutter.another_slice = 0.25;
   clutter.most_entries = 46;
   return BreakfastTable("breakfast_high", clutter, sizes);
 }

@@ -5,8 +5,9 @@
 
 namespace simwright::scene {
 
-// A breakfast table, 0.715 m by 1.4 m along y, at the world's origin. Low clutter: settings for two
-// and a crock of utensils; high: settings for six, and more that is shared.
+// Returns the grammar of a breakfast table, 0.715 m by 1.4 m along y, at the world origin. Low
+// clutter: settings for two and a crock of utensils; high: settings for six, and more shared
+// dishes.
 Grammar BreakfastTableLow(const SlotSizes& sizes = DefaultSlotSizes());
 Grammar BreakfastTableHigh(const SlotSizes& sizes = DefaultSlotSizes());
 

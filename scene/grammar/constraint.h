@@ -5,9 +5,10 @@
 
 namespace simwright::scene {
 
-// On what a derivation consists of; decided by rejection. Welded furniture is no object, but is an
-// entry of the scene. A stack: objects of one slot, each standing on the one before; what stands
-// on top of another slot (a lid) does not count.
+// Constraints on the contents of a derivation, enforced by rejection. Welded furniture does not
+// count as an object, but as an entry of the scene. A stack is a sequence of objects of one
+// category, each on top of the previous one; an object on top of another category (a lid) does not
+// count.
 enum class StructureKind {
   kSlotAtLeast,     // n objects of `slot`
   kSlotAtMost,      //
@@ -21,10 +22,10 @@ enum class StructureKind {
 struct StructureConstraint {
   StructureKind kind;
   int n = 0;
-  std::string slot;    // empty where the kind names none
-  std::string within;  // a symbol: only what was derived from it counts; empty: everything
+  std::string slot;    // empty if the kind needs none
+  std::string within;  // a symbol: only its derivation counts; empty: the whole scene
 
-  // "at least 3 stacks of steamer": what an error calls it.
+  // Returns the constraint in words, for errors: "at least 3 stacks of steamer".
   std::string Describe() const;
 };
 
@@ -36,8 +37,8 @@ StructureConstraint TallestStackAtLeast(const std::string& slot, int n);
 StructureConstraint TallestStackAtMost(const std::string& slot, int n);
 StructureConstraint StacksAtLeast(const std::string& slot, int n);
 
-// How a constraint on poses is met: by drawing anew the poses of what violates it, or by throwing
-// the derivation away, which favours derivations with room (the paper does both).
+// The enforcement of a constraint on poses: resampling the poses that violate it, or rejecting the
+// derivation, which favours derivations with free space (the paper does both).
 enum class Decision { kRedraw, kReject };
 
 struct KeepOutBody {
@@ -45,23 +46,23 @@ struct KeepOutBody {
   double radius = 0.0;  // m
 };
 
-// Objects that stand on one surface, not on each other, are at least the sum of their radii apart,
-// measured between their origins across the surface.
+// A minimum distance between objects on one surface (not stacked on each other): the sum of their
+// radii, measured between their origins in the plane of the surface.
 struct KeepOut {
   std::string name;
   std::vector<KeepOutBody> bodies;
-  // Where given, only pairs with one of these symbols count.
+  // If not empty, only pairs with one of these symbols count.
   std::vector<std::string> against;
-  // Where given, a pair derived from the same one of these symbols does not count.
+  // If not empty, pairs derived from the same instance of this symbol are exempt.
   std::string exempt_within;
   Decision decision = Decision::kRedraw;
 };
 
-// Origins of the objects that stand on the surface, not on each other, lie within its rim by
-// `margin` (m).
+// A rim: the origins of the objects on the surface (not stacked on each other) lie at least
+// `margin` (m) inside it.
 struct InsideRim {
   std::string surface;               // symbol
-  std::vector<std::string> symbols;  // objects that it is asked of; empty: all
+  std::vector<std::string> symbols;  // the objects it applies to; empty: all
   bool round = false;                // a disc of radius half_x, else a rectangle
   double half_x = 0.0;
   double half_y = 0.0;

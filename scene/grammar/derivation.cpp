@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::size_t kMostNodes = 10'000;
 
-// Index drawn by weight; the weights have a sum above 0.
-int DrawIndex(const std::vector<double>& weights, core::Rng& rng) {
+// Samples an index by weight; the sum of the weights must be above 0.
+int SampleIndex(const std::vector<double>& weights, core::Rng& rng) {
   double left = core::Uniform(rng) * std::accumulate(weights.begin(), weights.end(), 0.0);
   int last = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -23,8 +23,8 @@ int DrawIndex(const std::vector<double>& weights, core::Rng& rng) {
   return last;
 }
 
-// The branches that a node takes, in order.
-std::vector<int> DrawBranches(const Symbol& symbol, core::Rng& rng) {
+// Samples the branches of a node, in order.
+std::vector<int> SampleBranches(const Symbol& symbol, core::Rng& rng) {
   std::vector<int> taken;
   const int count = static_cast<int>(symbol.branches.size());
   switch (symbol.kind) {
@@ -36,7 +36,7 @@ std::vector<int> DrawBranches(const Symbol& symbol, core::Rng& rng) {
     case NodeKind::kOr: {
       std::vector<double> weights;
       for (const Branch& branch : symbol.branches) weights.push_back(branch.weight);
-      taken.push_back(DrawIndex(weights, rng));
+      taken.push_back(SampleIndex(weights, rng));
       break;
     }
     case NodeKind::kIndependent:
@@ -46,13 +46,13 @@ std::vector<int> DrawBranches(const Symbol& symbol, core::Rng& rng) {
       }
       break;
     case NodeKind::kRepeat:
-      taken.assign(static_cast<std::size_t>(DrawIndex(symbol.count_weights, rng)), 0);
+      taken.assign(static_cast<std::size_t>(SampleIndex(symbol.count_weights, rng)), 0);
       break;
   }
   return taken;
 }
 
-// What is still to be derived: a child of a node, by one of its symbol's branches.
+// A pending child of a node, by one of its symbol's branches.
 struct Pending {
   int parent = -1, branch = -1;
 };
@@ -77,17 +77,17 @@ bool IsWithin(const Grammar& grammar, const Derivation& derivation, int index,
   return false;
 }
 
-// What constraints count, of the objects of one slot or all.
+// The counts for constraints, over the objects of one category or all objects.
 struct Census {
-  int objects = 0;  // welded ones left out
-  int entries = 0;  // and with them
+  int objects = 0;  // without welded ones
+  int entries = 0;  // with welded ones
   int of_slot = 0, stacks = 0, tallest = 0;
 };
 
 Census CensusOf(const Grammar& grammar, const Derivation& derivation,
                 const StructureConstraint& constraint) {
   Census census;
-  std::vector<int> level(derivation.size(), 0);  // in its stack, from 1
+  std::vector<int> level(derivation.size(), 0);  // level in its stack, from 1
   for (std::size_t i = 0; i < derivation.size(); ++i) {
     const DerivedNode& node = derivation[i];
     const Symbol& symbol = SymbolOf(grammar, node);
@@ -136,14 +136,14 @@ const Symbol& SymbolOf(const Grammar& grammar, const DerivedNode& node) {
   return grammar.symbols()[static_cast<std::size_t>(node.symbol)];
 }
 
-// Depth first, by a stack of its own: a symbol that derives itself may go on for thousands.
+// Depth first with an explicit stack: a symbol that derives itself may recurse thousands of times.
 Derivation Derive(const Grammar& grammar, core::Rng& rng) {
   Derivation derivation(1);
   derivation[0].symbol = 0;
   std::vector<Pending> pending;
   for (int last = 0;; last = static_cast<int>(derivation.size()) - 1) {
     const Symbol& symbol = SymbolOf(grammar, derivation[static_cast<std::size_t>(last)]);
-    const std::vector<int> taken = DrawBranches(symbol, rng);
+    const std::vector<int> taken = SampleBranches(symbol, rng);
     for (auto branch = taken.rbegin(); branch != taken.rend(); ++branch) {
       pending.push_back({last, *branch});
     }
@@ -151,7 +151,7 @@ Derivation Derive(const Grammar& grammar, core::Rng& rng) {
     if (derivation.size() > kMostNodes) {
       throw core::Error("a derivation has more than " + std::to_string(kMostNodes) + " nodes",
                         "scene grammar " + grammar.name(),
-                        "let its symbols derive themselves with a smaller probability");
+                        "reduce the probability with which its symbols derive themselves");
     }
     derivation.push_back(ChildOf(grammar, derivation, pending.back()));
     pending.pop_back();
@@ -171,7 +171,7 @@ void DrawPosesFrom(const Grammar& grammar, int first, bool keep, core::Rng& rng,
   const Eigen::Isometry3d before_from_world = (*derivation)[begin].world_from_node.inverse();
   for (std::size_t i = begin; i < end; ++i) {
     DerivedNode& node = (*derivation)[i];
-    if (node.parent < 0) continue;  // the start is the world
+    if (node.parent < 0) continue;  // the root is the world
     if (keep && i != begin) {
       node.world_from_node =
           (*derivation)[begin].world_from_node * before_from_world * node.world_from_node;

@@ -9,13 +9,13 @@
 
 namespace simwright::scene {
 
-// A symbol of a derivation. Each is followed by all that is derived from it.
+// A node of a derivation. Each node is followed by its descendants.
 struct DerivedNode {
   int symbol = -1;   // index into Grammar::symbols()
   int parent = -1;   // index into the derivation; -1: the start
-  int branch = -1;   // of the parent's symbol: how it came about, and its pose rule
-  int surface = -1;  // the nearest node above that is a surface; -1: none, the world's
-  int carrier = -1;  // the nearest object above, welded ones left out; -1: none
+  int branch = -1;   // branch of the parent's symbol: gives the pose rule
+  int surface = -1;  // the nearest ancestor that is a surface; -1: the world
+  int carrier = -1;  // the nearest free ancestor object; -1: none
   Eigen::Isometry3d world_from_node = Eigen::Isometry3d::Identity();
 };
 
@@ -23,20 +23,20 @@ using Derivation = std::vector<DerivedNode>;
 
 const Symbol& SymbolOf(const Grammar& grammar, const DerivedNode& node);
 
-// A derivation by ancestral sampling, poses not drawn. A grammar whose derivations may be without
-// end is cut: throws core::Error above 10 000 nodes, naming the grammar.
+// Returns a derivation by ancestral sampling, without poses. Throws core::Error, naming the
+// grammar, above 10 000 nodes, which bounds grammars with infinite derivations.
 Derivation Derive(const Grammar& grammar, core::Rng& rng);
 
-// Where what is derived from node `first` ends: an index, one past the last.
+// Returns the end of the subtree of node `first`: the index one past its last node.
 int EndOf(const Derivation& derivation, int first);
 
-// Draws the pose of node `first` and of all that is below it, given those above. With `keep`, what
-// is below it goes along as it is, and only its own pose is drawn.
+// Samples the poses of node `first` and its descendants, given those of its ancestors. With `keep`,
+// only the pose of `first` is sampled and its descendants move rigidly with it.
 void DrawPosesFrom(const Grammar& grammar, int first, bool keep, core::Rng& rng,
                    Derivation* derivation);
 
-// The first of the structure constraints that the derivation does not meet, as an index into
-// Grammar::structure(); -1 where it meets all.
+// Returns the index into Grammar::structure() of the first constraint that the derivation violates;
+// -1 if it satisfies all.
 int UnmetStructure(const Grammar& grammar, const Derivation& derivation);
 
 }  // namespace simwright::scene

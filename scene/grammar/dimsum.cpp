@@ -5,7 +5,7 @@
 
 namespace simwright::scene {
 
-// Probabilities and counts of Pfaff et al., Steerable Scene Generation, appendix.
+// Probabilities and counts are those of Pfaff et al., Steerable Scene Generation, appendix.
 Grammar DimsumTable(const SlotSizes& sizes) {
   RoundTable table;
   table.slot = "table_round";

@@ -5,8 +5,9 @@
 
 namespace simwright::scene {
 
-// A round table with settings for four, and what is shared in its middle: teapots, dishes, stacks
-// of steamers, the tallest of four or more. The table stands at the world's origin.
+// Returns the grammar of a round table with settings for four and shared dishes in its middle:
+// teapots, serving dishes, stacks of steamers, the tallest of four or more. The table is at the
+// world origin.
 Grammar DimsumTable(const SlotSizes& sizes = DefaultSlotSizes());
 
 }  // namespace simwright::scene

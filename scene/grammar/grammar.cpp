@@ -11,13 +11,13 @@ namespace simwright::scene {
 bool DrawOptions::IsValid(std::string* error) const {
   const auto within = [](int value, int high) { return value >= 1 && value <= high; };
   if (!within(derivations, 10'000'000)) {
-    *error = "derivations a try must lie in 1 .. 10 000 000";
+    *error = "derivations per try must be in 1 .. 10 000 000";
   } else if (!within(pose_draws, 1'000'000)) {
-    *error = "pose draws a try must lie in 1 .. 1 000 000";
+    *error = "pose samples per try must be in 1 .. 1 000 000";
   } else if (!within(proposals, 1000)) {
-    *error = "proposals must lie in 1 .. 1000";
+    *error = "proposals must be in 1 .. 1000";
   } else if (!within(tries, 1'000'000)) {
-    *error = "tries must lie in 1 .. 1 000 000";
+    *error = "tries must be in 1 .. 1 000 000";
   } else if (!std::isfinite(temperature) || temperature <= 0.0) {
     *error = "the temperature must be positive and finite";
   } else {
@@ -28,10 +28,10 @@ bool DrawOptions::IsValid(std::string* error) const {
 
 std::vector<double> GeometricWeights(double p, int first, int last) {
   if (!(p > 0.0 && p <= 1.0)) {
-    throw core::Error("the probability of a geometric count must lie in (0, 1]", std::to_string(p));
+    throw core::Error("the probability of a geometric count must be in (0, 1]", std::to_string(p));
   }
   if (first < 0 || last < first || last > 10'000) {
-    throw core::Error("a geometric count runs from 0 or more to at most 10 000",
+    throw core::Error("a geometric count must run from 0 or more to at most 10 000",
                       std::to_string(first) + " .. " + std::to_string(last));
   }
   std::vector<double> weights(last + 1, 0.0);

@@ -8,14 +8,14 @@
 
 namespace simwright::scene {
 
-// How hard DrawScene tries. A try: derivations until one meets what is decided by rejection, then
-// draws of its poses until they meet the rest (Pfaff et al., appendix: 1000 derivations, 5000 for
-// the restaurant and the pantry; 25 draws).
+// The search limits of DrawScene. One try samples derivations until one satisfies the constraints
+// that are enforced by rejection, then samples poses until they satisfy the others (Pfaff et al.,
+// appendix: 1000 derivations, 5000 for the restaurant and the pantry; 25 pose samples).
 struct DrawOptions {
-  int derivations = 1000;  // a try, at most
-  int pose_draws = 25;     // a try, at most; each goes once over all objects that violate something
-  int proposals = 8;       // an object and draw
-  double temperature = 0.01;  // m of violation that a proposal may add with probability 1/e
+  int derivations = 1000;     // per try, at most
+  int pose_draws = 25;        // per try, at most; each visits every violating object once
+  int proposals = 8;          // per object and pose sample
+  double temperature = 0.01;  // m, added violation that is accepted with probability 1/e
   int tries = 100;
 
   bool IsValid(std::string* error) const;
@@ -24,9 +24,9 @@ struct DrawOptions {
 enum class NodeKind {
   kLeaf,         // no children
   kAnd,          // all children
-  kOr,           // one child, by its share of the weights
+  kOr,           // one child, with probability proportional to its weight
   kIndependent,  // each child with its own probability
-  kRepeat,       // the one child, k times, by the weight of k
+  kRepeat,       // its child, k times, k sampled by weight
 };
 
 struct Branch {
@@ -40,19 +40,20 @@ struct Symbol {
   NodeKind kind = NodeKind::kLeaf;
   std::vector<Branch> branches;
   std::vector<double> count_weights;  // kRepeat: of k = 0, 1, ...
-  std::string slot;                   // the asset slot of the object that it is; empty: none
+  std::string slot;                   // the category of its object; empty: no object
   bool welded = false;                // furniture, fixed in physics
-  bool surface = false;               // its frame is a surface's: z = 0 is where things stand
+  bool surface = false;               // its frame is a support surface: objects stand at z = 0
 
   bool IsObject() const { return !slot.empty(); }
 };
 
-// Weights of k = 0 .. last of the geometric count G(p, .) ~ (1 - p)^(k - first) p for
-// k = first .. last, 0 below; not normalised. Throws core::Error unless 0 < p <= 1 and
-// 0 <= first <= last.
+// Returns the weights of k = 0 .. last of the geometric count G(p, .) ~ (1 - p)^(k - first) p for k
+// = first .. last, 0 below; not normalized. Throws core::Error unless 0 < p <= 1 and 0 <= first <=
+// last.
 std::vector<double> GeometricWeights(double p, int first, int last);
 
-// A scene grammar as a constant value: symbols, from symbol 0, and constraints on what is derived.
+// An immutable scene grammar: symbols, of which symbol 0 is the start, and constraints on the
+// derivations.
 class Grammar {
  public:
   const std::string& name() const { return name_; }
@@ -62,14 +63,14 @@ class Grammar {
   const std::vector<InsideRim>& rims() const { return rims_; }
   const DrawOptions& options() const { return options_; }
 
-  // The least of its EntriesAtMost; 0 where it has none.
+  // Returns the smallest bound of its EntriesAtMost constraints; 0 if it has none.
   int MostEntries() const;
-  // Every slot that its symbols stand for, furniture among them; sorted, each once.
+  // Returns all categories of its symbols, furniture included; sorted and unique.
   std::vector<std::string> Slots() const;
 
-  // Index of a symbol, -1 for an unknown one.
+  // Returns the index of a symbol; -1 for an unknown one.
   int Find(const std::string& symbol) const;
-  // With other options. Throws core::Error for invalid ones.
+  // Returns a copy with other options. Throws core::Error for invalid ones.
   Grammar WithOptions(const DrawOptions& options) const;
 
  private:

@@ -73,7 +73,7 @@ void GrammarBuilder::Refuse(const std::string& what, const std::string& symbol) 
 void GrammarBuilder::CheckProduction(const Production& production) const {
   const std::string& name = production.head.name;
   if (production.kind != NodeKind::kLeaf && production.children.empty()) {
-    Refuse("it derives nothing: a leaf is written as such", name);
+    Refuse("it derives nothing: declare it as a leaf", name);
   }
   double total = 0.0;
   for (const Child& child : production.children) {
@@ -81,19 +81,20 @@ void GrammarBuilder::CheckProduction(const Production& production) const {
     if (!child.pose.IsValid(&error)) Refuse(error, name + " -> " + child.symbol);
     const bool negative = !(child.weight >= 0.0) || !std::isfinite(child.weight);
     if (negative || (production.kind == NodeKind::kIndependent && child.weight > 1.0)) {
-      Refuse("a weight is negative, or a probability lies outside [0, 1]",
+      Refuse("a weight is negative, or a probability is outside [0, 1]",
              name + " -> " + child.symbol);
     }
     total += child.weight;
   }
-  if (production.kind == NodeKind::kOr && total <= 0.0) Refuse("no choice has a weight", name);
+  if (production.kind == NodeKind::kOr && total <= 0.0)
+    Refuse("no choice has a positive weight", name);
   if (production.kind != NodeKind::kRepeat) return;
   double count_total = 0.0;
   for (const double weight : production.count_weights) {
     if (!(weight >= 0.0) || !std::isfinite(weight)) Refuse("a count's weight is negative", name);
     count_total += weight;
   }
-  if (count_total <= 0.0) Refuse("no count has a weight", name);
+  if (count_total <= 0.0) Refuse("no count has a positive weight", name);
 }
 
 void GrammarBuilder::Resolve(Grammar* grammar) const {
@@ -142,14 +143,14 @@ void GrammarBuilder::CheckReachable(const Grammar& grammar) const {
     const std::string& symbol = grammar.symbols()[i].name;
     if (!reached[i] && symbol != kNothing) Refuse("it is never used", symbol);
   }
-  if (!has_object) Refuse("no object can be derived: a scene has at least one", "");
+  if (!has_object) Refuse("no object can be derived: a scene needs at least one", "");
 }
 
 void GrammarBuilder::CheckStructure(const Grammar& grammar) const {
   for (const StructureConstraint& constraint : grammar.structure()) {
     const std::string text = constraint.Describe();
     const bool at_most_of_slot = constraint.kind == StructureKind::kSlotAtMost;
-    if (constraint.n < (at_most_of_slot ? 0 : 1)) Refuse("a number below 1 asks nothing", text);
+    if (constraint.n < (at_most_of_slot ? 0 : 1)) Refuse("a number below 1 has no effect", text);
     if (!constraint.within.empty() && grammar.Find(constraint.within) < 0) {
       Refuse("its symbol is not defined", text);
     }
@@ -160,7 +161,7 @@ void GrammarBuilder::CheckStructure(const Grammar& grammar) const {
     if (constraint.slot.empty() || std::none_of(symbols.begin(), symbols.end(), [&](const auto& s) {
           return s.slot == constraint.slot;
         })) {
-      Refuse("no symbol is of its slot", text);
+      Refuse("no symbol has its category", text);
     }
   }
 }
@@ -170,7 +171,7 @@ void GrammarBuilder::CheckPoseConstraints(const Grammar& grammar) const {
     for (const KeepOutBody& body : keep_out.bodies) {
       const int index = grammar.Find(body.symbol);
       if (index < 0 || !grammar.symbols()[index].IsObject()) {
-        Refuse(body.symbol + " is no object of the grammar", keep_out.name);
+        Refuse(body.symbol + " is not an object of the grammar", keep_out.name);
       }
       if (!(body.radius >= 0.0) || !std::isfinite(body.radius)) {
         Refuse("a radius is negative or not finite", keep_out.name);
@@ -185,13 +186,13 @@ void GrammarBuilder::CheckPoseConstraints(const Grammar& grammar) const {
   }
   for (const InsideRim& rim : grammar.rims()) {
     const int index = grammar.Find(rim.surface);
-    if (index < 0 || !grammar.symbols()[index].surface) Refuse("it is no surface", rim.surface);
+    if (index < 0 || !grammar.symbols()[index].surface) Refuse("it is not a surface", rim.surface);
     for (const std::string& symbol : rim.symbols) {
       if (grammar.Find(symbol) < 0) Refuse(symbol + " is not defined", rim.Describe());
     }
     const double smallest = rim.round ? rim.half_x : std::min(rim.half_x, rim.half_y);
     if (!(rim.margin >= 0.0 && smallest > rim.margin && std::isfinite(rim.half_x + rim.half_y))) {
-      Refuse("its rim leaves no room inside", rim.surface);
+      Refuse("its rim leaves no space inside", rim.surface);
     }
   }
 }

@@ -7,14 +7,14 @@
 
 namespace simwright::scene {
 
-// The left side of a production: what the symbol itself is.
+// The left side of a production: the symbol itself.
 struct Head {
   std::string name;
   std::string slot;
   bool welded = false;
   bool surface = false;
 
-  // A group: no object of its own.
+  // Constructs a group: a symbol without an object.
   Head(const char* group) : name(group) {}             // NOLINT: written as a plain string
   Head(std::string group) : name(std::move(group)) {}  // NOLINT
   Head(std::string symbol, std::string object_slot, bool is_welded)
@@ -22,10 +22,10 @@ struct Head {
 };
 Head Object(const std::string& symbol, const std::string& slot);
 Head Welded(const std::string& symbol, const std::string& slot);
-// A group whose frame things stand in, at z = 0.
+// Returns a group whose frame is a support surface at z = 0.
 Head Surface(const std::string& symbol);
 
-// The right side: a symbol by name, where it stands, and its weight or probability.
+// The right side of a production: a symbol by name, its pose rule, and its weight or probability.
 struct Child {
   std::string symbol;
   PoseRule pose;
@@ -34,21 +34,21 @@ struct Child {
 Child Always(const std::string& symbol, const PoseRule& pose = SamePose());
 Child With(double weight, const std::string& symbol, const PoseRule& pose = SamePose());
 
-// The symbol that is nothing, known to every grammar.
+// The empty symbol, defined in every grammar.
 inline constexpr char kNothing[] = "nothing";
 
-// Writes a grammar down, production by production; names may be used before they are defined, so
-// that a symbol may derive itself.
+// Builds a grammar production by production; names may be used before they are defined, so that a
+// symbol may derive itself.
 class GrammarBuilder {
  public:
-  // `start` is the symbol every derivation begins with.
+  // `start` is the symbol of the root of every derivation.
   GrammarBuilder(std::string name, std::string start);
 
   GrammarBuilder& Leaf(const Head& head);
   GrammarBuilder& And(const Head& head, const std::vector<Child>& children);
   GrammarBuilder& Or(const Head& head, const std::vector<Child>& choices);
   GrammarBuilder& Independent(const Head& head, const std::vector<Child>& children);
-  // `count_weights` of k = 0, 1, ...: GeometricWeights or any other.
+  // `count_weights`: weights of k = 0, 1, ..., from GeometricWeights or any others.
   GrammarBuilder& Repeat(const Head& head, const std::vector<double>& count_weights,
                          const Child& child);
 
@@ -57,10 +57,10 @@ class GrammarBuilder {
   GrammarBuilder& Require(const InsideRim& constraint);
   GrammarBuilder& Options(const DrawOptions& options);
 
-  // Throws core::Error naming the symbol for: a symbol defined twice, used but not defined, or
-  // never used; an Or without weight, a probability outside [0, 1], a count without weight; an
-  // invalid pose rule; a constraint on an unknown symbol or slot, or with an impossible number;
-  // invalid options; a grammar without an object.
+  // Builds the grammar. Throws core::Error, naming the symbol, for: a symbol defined twice, used
+  // but not defined, or never used; an Or without weight, a probability outside [0, 1], a count
+  // without weight; an invalid pose rule; a constraint on an unknown symbol or category, or with an
+  // impossible number; invalid options; a grammar without an object.
   Grammar Build() const;
 
  private:

@@ -11,11 +11,12 @@ using Eigen::Vector3d;
 
 constexpr char kShelf[] = "shelf_living_room";
 
-// Probabilities, counts, radii and deviations of Pfaff et al., Steerable Scene Generation,
-// appendix, and of its grammar (github.com/nepfaff/spatial_scene_grammars, tri_living_room_shelf).
-constexpr double kStackGoesOn = 0.3;
-constexpr int kMostSmallGames = 5, kMostLargeGames = 3;  // in a stack
-constexpr int kMostEntries = 23;                         // of a scene, the shelf among them
+// Probabilities, counts, radii and deviations are those of Pfaff et al., Steerable Scene
+// Generation, appendix, and of its grammar (github.com/nepfaff/spatial_scene_grammars,
+// tri_living_room_shelf).
+constexpr double kAnotherOnTop = 0.3;
+constexpr int kMostSmallGames = 5, kMostLargeGames = 3;  // per stack
+constexpr int kMostEntries = 23;                         // per scene, the shelf included
 constexpr int kFewestObjects = 3;
 constexpr double kGameDeviation = 0.01;                              // m
 constexpr double kSmallGame = 500.0;                                 // concentrations of yaws
@@ -23,10 +24,10 @@ constexpr double kLargeGameOnTop = 100.0, kLargeGameBelow = 1000.0;  //
 constexpr double kLargeGameOnOther = 5000.0;                         //
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 
-// `symbol`, of the slot of that name, on which another of its kind stands.
+// Adds the symbol `slot` of the category of the same name, with another of its kind stacked on top.
 void AddStack(const std::string& slot, const PoseRule& above, GrammarBuilder* builder) {
   builder->Or(Object(slot, slot),
-              {With(kStackGoesOn, slot, above), With(1.0 - kStackGoesOn, kNothing)});
+              {With(kAnotherOnTop, slot, above), With(1.0 - kAnotherOnTop, kNothing)});
 }
 
 void AddStacks(const SlotSizes& sizes, GrammarBuilder* builder) {
@@ -52,7 +53,7 @@ Child OnBoard(const SlotSizes& sizes, double probability, const std::string& slo
   return With(probability, slot, AnywhereOnBoard(sizes, kShelf, slot));
 }
 
-// A plate that holds something: another symbol than tables have, of the same slot.
+// Adds a plate with food: the same category as the plates of tables, but another symbol.
 void AddPlate(const SlotSizes& sizes, GrammarBuilder* builder) {
   const auto on_it = [&](double deviation) {
     return GaussianOffset({0.0, 0.0, SizeOf(sizes, "plate").rest_height},
@@ -88,7 +89,7 @@ void AddBoardSettings(const SlotSizes& sizes, GrammarBuilder* builder) {
        With(0.2, "shelf_plate", AnywhereOnBoard(sizes, kShelf, "plate"))});
 }
 
-// Large games lie along the shelf, either way round.
+// Returns large games along the shelf, in either direction.
 std::vector<Child> LargeGames(double weight, double concentration) {
   const PoseRule middle = GaussianOffset(Vector3d::Zero(), {kGameDeviation, kGameDeviation, 0.0});
   const double askew = DeviationOfConcentration(concentration);
@@ -107,12 +108,12 @@ void AddBoards(GrammarBuilder* builder) {
   builder->Or(Surface("board"), lower);
 }
 
-// On one board nothing stands in a plate or in a stack of games, or two in each other: decided by
-// rejection, which favours boards with less on them. The published check counts the games of one
-// stack against each other too, so that no stack of two small games ever passes it; ours do.
+// On one board no object overlaps a plate or a stack of games, and no two stacks overlap: enforced
+// by rejection, which favours boards with fewer objects. The published check also counts the games
+// of one stack against each other, so that no stack of two small games ever passes it; ours do.
 void RequireRoom(GrammarBuilder* builder) {
   KeepOut apart;
-  apart.name = "about stacks and plates on a board";
+  apart.name = "around stacks and plates on a board";
   apart.bodies = {{"shelf_plate", 0.11},
                   {"lamp", 0.02},
                   {"bowl", 0.1},

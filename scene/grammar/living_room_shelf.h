@@ -5,12 +5,12 @@
 
 namespace simwright::scene {
 
-// A shelf of four boards with what a living room has: games in stacks, lamps, speakers, drinks, a
-// book, toys, a plate with something on it. The shelf stands at the world's origin, open to -x.
+// Returns the grammar of a living-room shelf of four boards: stacks of games, lamps, speakers,
+// drinks, a book, toys, a plate with food. The shelf is at the world origin and opens to -x.
 Grammar LivingRoomShelf(const SlotSizes& sizes = DefaultSlotSizes());
 
-// Adds that shelf as the symbol "shelf" to a grammar, with what is required of each of them and of
-// the things on all of them.
+// Adds this shelf to a grammar as the symbol "shelf", with the constraints on each shelf and on the
+// objects of all shelves.
 void AddLivingRoomShelf(const SlotSizes& sizes, GrammarBuilder* builder);
 
 }  // namespace simwright::scene

@@ -6,11 +6,11 @@
 namespace simwright::scene {
 namespace {
 
-// Counts and probabilities of Pfaff et al., Steerable Scene Generation, appendix.
-constexpr double kStop = 0.6;     // of the geometric counts
-constexpr int kMostOfAKind = 10;  // on a board
+// Counts and probabilities are those of Pfaff et al., Steerable Scene Generation, appendix.
+constexpr double kStop = 0.6;     // stop probability of the geometric counts
+constexpr int kMostOfAKind = 10;  // per board
 constexpr double kFruitBowl = 0.2;
-constexpr int kMostEntries = 61;  // of a scene, the shelf among them
+constexpr int kMostEntries = 61;  // per scene, the shelf included
 constexpr int kFewestObjects = 3;
 constexpr double kGoodsRadius = 0.01;  // m
 
@@ -21,10 +21,10 @@ const std::vector<std::string>& Goods() {
   return goods;
 }
 
-// No two things of a board are drawn on one place. Ours: as published nothing is kept apart, and
-// while that draws 33.2 entries, the published scenes have 28.0; what loses them is not published.
-// Thrown away at 2 cm there are 28.7, and what is left is moved apart by less.
-KeepOut Uncrowded() {
+// Returns a constraint that keeps the objects of a board from sharing one position. Ours: without
+// it the grammar gives more entries than the published scenes have, and the mechanism that removes
+// them is not published.
+KeepOut KeepGoodsApart() {
   KeepOut apart;
   apart.name = "between goods";
   for (const std::string& slot : Goods()) apart.bodies.push_back({slot, kGoodsRadius});
@@ -52,7 +52,7 @@ Grammar PantryShelf(const SlotSizes& sizes) {
   builder.Independent("fruit_bowl",
                       {With(kFruitBowl, "bowl", AnywhereOnBoard(sizes, "shelf_pantry", "bowl"))});
   builder.Leaf(Object("bowl", "bowl"));
-  builder.Require(Uncrowded());
+  builder.Require(KeepGoodsApart());
   builder.Require(ObjectsAtLeast(kFewestObjects));
   builder.Require(EntriesAtMost(kMostEntries));
   DrawOptions options;

@@ -5,8 +5,8 @@
 
 namespace simwright::scene {
 
-// A shelf of four boards, each with cans, bottles and fruit all over it. The shelf stands at the
-// world's origin, open to -x.
+// Returns the grammar of a pantry shelf of four boards, each full of cans, bottles and fruit. The
+// shelf is at the world origin and opens to -x.
 Grammar PantryShelf(const SlotSizes& sizes = DefaultSlotSizes());
 
 }  // namespace simwright::scene

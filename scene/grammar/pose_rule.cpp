@@ -31,26 +31,27 @@ bool PoseRule::IsValid(std::string* error) const {
     return false;
   }
   if ((position.high - position.low).minCoeff() < 0.0) {
-    *error = "a box ends before it begins (an object too large for its surface?)";
+    *error =
+        "a box has its upper bound below its lower bound (an object too large for its surface?)";
     return false;
   }
   if (std::abs(rotation.mean.norm() - 1.0) > 1e-9) {
-    *error = "a rotation's quaternion is not of length 1";
+    *error = "a rotation's quaternion is not normalized";
     return false;
   }
   return true;
 }
 
 PoseRule PoseRule::FacingAnyWay() const {
-  PoseRule text = *this;
-  text.rotation.kind = RotationKind::kFreeYaw;
-  return text;
+  PoseRule rule = *this;
+  rule.rotation.kind = RotationKind::kFreeYaw;
+  return rule;
 }
 
 PoseRule PoseRule::Turned(double yaw) const {
-  PoseRule text = *this;
-  text.rotation.mean = Quaterniond(AngleAxisd(yaw, Vector3d::UnitZ()));
-  return text;
+  PoseRule rule = *this;
+  rule.rotation.mean = Quaterniond(AngleAxisd(yaw, Vector3d::UnitZ()));
+  return rule;
 }
 
 PoseRule PoseRule::Turned(double yaw, double yaw_deviation) const {
@@ -58,9 +59,9 @@ PoseRule PoseRule::Turned(double yaw, double yaw_deviation) const {
 }
 
 PoseRule PoseRule::Rotated(const Quaterniond& mean, const Vector3d& deviation) const {
-  PoseRule text = *this;
-  text.rotation = {RotationKind::kConcentrated, mean, deviation};
-  return text;
+  PoseRule rule = *this;
+  rule.rotation = {RotationKind::kConcentrated, mean, deviation};
+  return rule;
 }
 
 PoseRule SamePose() {
@@ -68,31 +69,31 @@ PoseRule SamePose() {
 }
 
 PoseRule Offset(double x, double y, double z) {
-  PoseRule text;
-  text.position.mean = {x, y, z};
-  return text;
+  PoseRule rule;
+  rule.position.mean = {x, y, z};
+  return rule;
 }
 
 PoseRule GaussianOffset(const Vector3d& mean, const Vector3d& deviation) {
-  PoseRule text;
-  text.position.kind = PositionKind::kGaussian;
-  text.position.mean = mean;
-  text.position.deviation = deviation;
-  return text;
+  PoseRule rule;
+  rule.position.kind = PositionKind::kGaussian;
+  rule.position.mean = mean;
+  rule.position.deviation = deviation;
+  return rule;
 }
 
 PoseRule UniformInWorld(const Vector3d& low, const Vector3d& high) {
-  PoseRule text;
-  text.position.kind = PositionKind::kBoxInWorld;
-  text.position.low = low;
-  text.position.high = high;
-  return text;
+  PoseRule rule;
+  rule.position.kind = PositionKind::kBoxInWorld;
+  rule.position.low = low;
+  rule.position.high = high;
+  return rule;
 }
 
 PoseRule UniformOnSurface(const Vector3d& low, const Vector3d& high) {
-  PoseRule text = UniformInWorld(low, high);
-  text.position.kind = PositionKind::kBoxOnSurface;
-  return text;
+  PoseRule rule = UniformInWorld(low, high);
+  rule.position.kind = PositionKind::kBoxOnSurface;
+  return rule;
 }
 
 double DeviationOfConcentration(double z) {
@@ -101,8 +102,8 @@ double DeviationOfConcentration(double z) {
 
 namespace {
 
-// One coordinate each, and no draw for what is fixed: a rule costs what it uses.
-Vector3d DrawGaussian(const Vector3d& mean, const Vector3d& deviation, core::Rng& rng) {
+// Samples each coordinate; fixed coordinates consume no random numbers.
+Vector3d SampleGaussian(const Vector3d& mean, const Vector3d& deviation, core::Rng& rng) {
   Vector3d value = mean;
   for (int i = 0; i < 3; ++i) {
     if (deviation[i] > 0.0) value[i] += deviation[i] * core::Normal(rng);
@@ -110,7 +111,7 @@ Vector3d DrawGaussian(const Vector3d& mean, const Vector3d& deviation, core::Rng
   return value;
 }
 
-Vector3d DrawInBox(const Vector3d& low, const Vector3d& high, core::Rng& rng) {
+Vector3d SampleInBox(const Vector3d& low, const Vector3d& high, core::Rng& rng) {
   Vector3d value = low;
   for (int i = 0; i < 3; ++i) {
     if (high[i] > low[i]) value[i] = core::Uniform(rng, low[i], high[i]);
@@ -118,7 +119,7 @@ Vector3d DrawInBox(const Vector3d& low, const Vector3d& high, core::Rng& rng) {
   return value;
 }
 
-Quaterniond DrawTurn(const RotationRule& rule, core::Rng& rng) {
+Quaterniond SampleRotation(const RotationRule& rule, core::Rng& rng) {
   switch (rule.kind) {
     case RotationKind::kOffset:
       return rule.mean;
@@ -128,7 +129,7 @@ Quaterniond DrawTurn(const RotationRule& rule, core::Rng& rng) {
     case RotationKind::kConcentrated:
       break;
   }
-  const Vector3d vector = DrawGaussian(Vector3d::Zero(), rule.deviation, rng);
+  const Vector3d vector = SampleGaussian(Vector3d::Zero(), rule.deviation, rng);
   const double angle = vector.norm();
   if (angle == 0.0) return rule.mean;
   return rule.mean * Quaterniond(AngleAxisd(angle, vector / angle));
@@ -146,18 +147,18 @@ Eigen::Isometry3d DrawPose(const PoseRule& rule, const Eigen::Isometry3d& world_
       break;
     case PositionKind::kGaussian:
       world_from_child.translation() =
-          world_from_parent * DrawGaussian(position.mean, position.deviation, rng);
+          world_from_parent * SampleGaussian(position.mean, position.deviation, rng);
       break;
     case PositionKind::kBoxInWorld:
-      world_from_child.translation() = DrawInBox(position.low, position.high, rng);
+      world_from_child.translation() = SampleInBox(position.low, position.high, rng);
       break;
     case PositionKind::kBoxOnSurface:
       world_from_child.translation() =
-          world_from_surface * DrawInBox(position.low, position.high, rng);
+          world_from_surface * SampleInBox(position.low, position.high, rng);
       break;
   }
   world_from_child.linear() =
-      world_from_parent.linear() * DrawTurn(rule.rotation, rng).toRotationMatrix();
+      world_from_parent.linear() * SampleRotation(rule.rotation, rng).toRotationMatrix();
   return world_from_child;
 }
 

@@ -13,7 +13,7 @@ bool Names(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// The radius that a keep-out gives the symbol; less than 0 for one that it does not name.
+// Returns the keep-out radius of a symbol; less than 0 if the keep-out does not name it.
 double RadiusIn(const KeepOut& keep_out, const std::string& symbol) {
   for (const KeepOutBody& body : keep_out.bodies) {
     if (body.symbol == symbol) return body.radius;
@@ -21,7 +21,7 @@ double RadiusIn(const KeepOut& keep_out, const std::string& symbol) {
   return -1.0;
 }
 
-// The nearest node at or above `index` of that symbol; -1 where there is none.
+// Returns the nearest node of that symbol at or above `index`; -1 if there is none.
 int Above(const Grammar& grammar, const Derivation& derivation, int index,
           const std::string& symbol) {
   for (int i = index; i >= 0; i = derivation[static_cast<std::size_t>(i)].parent) {
@@ -30,13 +30,13 @@ int Above(const Grammar& grammar, const Derivation& derivation, int index,
   return -1;
 }
 
-// What a keep-out names, of a derivation.
+// A body of a keep-out in a derivation.
 struct Body {
   int node = -1;
   double radius = 0.0;  // m
   int surface = -1;
-  bool against = false;  // one of those that a pair has to have
-  int group = -1;        // the node within which pairs do not count; -1: none
+  bool against = false;  // true if a pair needs this or another such body
+  int group = -1;        // the node within which pairs are exempt; -1: none
 };
 
 std::vector<Body> BodiesOf(const Grammar& grammar, const Derivation& derivation,
@@ -58,7 +58,7 @@ std::vector<Body> BodiesOf(const Grammar& grammar, const Derivation& derivation,
   return bodies;
 }
 
-// From a surface to a node, in the surface's frame.
+// Returns the position of a node in the frame of a surface.
 Vector3d OnSurface(const Derivation& derivation, int surface, int node) {
   const Vector3d& point = derivation[static_cast<std::size_t>(node)].world_from_node.translation();
   if (surface < 0) return point;
@@ -107,14 +107,15 @@ void PoseViolation::FindInside(const Derivation& derivation, int index) {
 
 double PoseViolation::Missing(const Derivation& derivation, const Pair& pair) const {
   const int surface = derivation[static_cast<std::size_t>(pair.a)].surface;
-  const Vector3d way = derivation[static_cast<std::size_t>(pair.b)].world_from_node.translation() -
-                       derivation[static_cast<std::size_t>(pair.a)].world_from_node.translation();
-  const double across = surface < 0 ? way.head<2>().norm()
+  const Vector3d displacement =
+      derivation[static_cast<std::size_t>(pair.b)].world_from_node.translation() -
+      derivation[static_cast<std::size_t>(pair.a)].world_from_node.translation();
+  const double across = surface < 0 ? displacement.head<2>().norm()
                                     : (derivation[static_cast<std::size_t>(surface)]
                                            .world_from_node.linear()
                                            .leftCols<2>()
                                            .transpose() *
-                                       way)
+                                       displacement)
                                           .norm();
   return std::max(0.0, pair.apart - across);
 }

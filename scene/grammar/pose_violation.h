@@ -7,26 +7,27 @@
 
 namespace simwright::scene {
 
-// By how much the poses of a derivation miss those of its grammar's keep-outs and rims that are
-// decided one way. What stands on what, and whose radius is whose, is found once: poses may then be
-// drawn as often as need be.
+// The violation of a grammar's keep-out and rim constraints of one Decision by the poses of a
+// derivation. The constrained pairs and radii are collected once, so that many sets of poses can be
+// evaluated.
 class PoseViolation {
  public:
   PoseViolation(const Grammar& grammar, const Derivation& derivation, Decision decision);
 
-  // m, the sum of all that is missing.
+  // Returns the sum of all violations, m.
   double Sum(const Derivation& derivation) const;
-  // The same of what nodes `first` to before `last` miss, among themselves and with the others.
+  // Returns the sum of the violations of nodes `first` to `last` (exclusive), among themselves and
+  // with others, m.
   double SumOf(const Derivation& derivation, int first, int last) const;
-  // The objects that violate something, as indices into the derivation.
+  // Returns the objects that violate a constraint, as indices into the derivation.
   std::vector<int> Offenders(const Derivation& derivation) const;
-  // What is missed most, in words; empty where nothing is.
+  // Returns the description of the largest violation; empty if there is none.
   std::string Worst(const Derivation& derivation) const;
 
  private:
   struct Pair {
     int a = -1, b = -1;  // nodes
-    double apart = 0.0;  // m, at least
+    double apart = 0.0;  // m, smallest distance
     int keep_out = -1;   // into Grammar::keep_outs()
   };
   struct Inside {

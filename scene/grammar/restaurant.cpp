@@ -9,9 +9,9 @@
 namespace simwright::scene {
 namespace {
 
-// m: where tables and shelves stand, and how far they are kept from each other. Pfaff et al.,
-// Steerable Scene Generation, appendix, and its grammar (github.com/nepfaff/
-// spatial_scene_grammars, dimsum_restaurant).
+// Positions of tables and shelves, and their keep-out radii, m. Pfaff et al., Steerable Scene
+// Generation, appendix, and its grammar (github.com/nepfaff/spatial_scene_grammars,
+// dimsum_restaurant).
 constexpr double kTablesFrom = -2.5, kTablesTo = 3.0, kAside = 3.0;
 constexpr double kWall = -4.75;
 constexpr double kTableRadius = 0.8, kChairRadius = 0.35, kShelfRadius = 0.3;
@@ -20,12 +20,12 @@ constexpr int kDerivations = 5000;
 struct Clutter {
   RoundTable table;
   std::vector<double> tables, shelves;  // weights of 0, 1, ...
-  int tallest = 0;                      // stack of steamers, at least
-  int most_entries = 0;                 // of a scene, welded ones among them
+  int tallest = 0;                      // smallest height of the tallest stack of steamers
+  int most_entries = 0;                 // per scene, welded ones included
 };
 
-// Decided by rejection: tables and shelves that fall into each other are many where there are many,
-// so that few are drawn more often than their weights say.
+// Enforced by rejection: overlaps of tables and shelves are frequent when there are many, so that
+// small numbers of them are sampled more often than their weights.
 void RequireRoom(GrammarBuilder* builder) {
   KeepOut apart;
   apart.name = "between tables, chairs and shelves";
@@ -44,7 +44,7 @@ Grammar Restaurant(const std::string& name, const Clutter& clutter, const SlotSi
   const PoseRule anywhere =
       UniformInWorld({kTablesFrom, -kAside, 0.0}, {kTablesTo, kAside, 0.0}).FacingAnyWay();
   builder.Repeat("tables", clutter.tables, Always("table_and_chairs", anywhere));
-  // Shelves open to their -x, so that they are turned to the room.
+  // Shelves open to their -x, so they are rotated towards the room.
   const PoseRule at_wall =
       UniformInWorld({kWall, -kAside, 0.0}, {kWall, kAside, 0.0}).Turned(std::numbers::pi);
   builder.Repeat("shelves", clutter.shelves, Always("shelf", at_wall));
@@ -75,7 +75,7 @@ Grammar RestaurantHigh(const SlotSizes& sizes) {
   return Restaurant("restaurant_high", clutter, sizes);
 }
 
-// Not published but for its mean of 35.1 things and its most, 107: ours.
+// Ours; published are only its mean of 35.1 objects and its largest number of entries, 107.
 Grammar RestaurantLow(const SlotSizes& sizes) {
   Clutter clutter;
   clutter.table.slot = "table_restaurant";

@@ -5,9 +5,10 @@
 
 namespace simwright::scene {
 
-// A restaurant of 10 m by 10 m: round tables with chairs and dim sum, and living-room shelves along
-// the wall at -x, open to the room. The floor's upper side is at z = 0; it, tables and shelves are
-// welded, chairs are free. Low: with less on the tables, and fewer shelves.
+// Returns the grammar of a restaurant of 10 m by 10 m: round tables with chairs and dim sum, and
+// living-room shelves along the wall at -x, open to the room. The top of the floor is at z = 0;
+// floor, tables and shelves are welded, chairs are free. Low: fewer objects on the tables, and
+// fewer shelves.
 Grammar RestaurantHigh(const SlotSizes& sizes = DefaultSlotSizes());
 Grammar RestaurantLow(const SlotSizes& sizes = DefaultSlotSizes());
 

@@ -11,18 +11,18 @@ using Eigen::Vector3d;
 // Probabilities, radii, counts and variances are those of Pfaff et al., Steerable Scene Generation,
 // appendix, and its grammars (github.com/nepfaff/spatial_scene_grammars, dimsum_restaurant), after
 // Izatt and Tedrake's dimsum tables.
-constexpr double kSettingRadius = 0.5;           // m, of the plates' middles about the table's
+constexpr double kSettingRadius = 0.5;           // m, of the plates' centres around the table's
 constexpr double kCupInwards = 0.25;             // m, from the plate to the table's middle
 constexpr double kChairRadius = 1.1;             // m
 constexpr double kRimMargin = 0.15;              // m
-constexpr double kOneStops = 0.5;                // of one or two teapots, dishes
+constexpr double kOneStops = 0.5;                // stop probability of one or two teapots or dishes
 const double kPlateDeviation = std::sqrt(1e-3);  // m, along and across
 const double kCupAcross = std::sqrt(5e-3);
 const double kTeapotDeviation = std::sqrt(0.01);
 const double kDishDeviation = std::sqrt(0.02);
 const double kStackDeviation = std::sqrt(0.025);
 const double kChairAlong = std::sqrt(5e-3), kChairAcross = std::sqrt(0.03);
-constexpr double kChairConcentration = 50.0;  // of its yaw
+constexpr double kChairConcentration = 50.0;  // of a chair's yaw
 
 PoseRule AboutMiddle(double deviation) {
   return GaussianOffset(Vector3d::Zero(), {deviation, deviation, 0.0}).FacingAnyWay();
@@ -31,7 +31,7 @@ PoseRule AboutMiddle(double deviation) {
 void AddSettings(const RoundTable& table, GrammarBuilder* builder) {
   std::vector<Child> places;
   for (int i = 0; i < 4; ++i) {
-    // A setting's x points to the table's middle.
+    // The x axis of a setting points to the table's middle.
     const double angle = 0.5 * std::numbers::pi * i;
     places.push_back(Always(
         "setting", Offset(-kSettingRadius * std::cos(angle), -kSettingRadius * std::sin(angle))
@@ -77,7 +77,7 @@ void AddChairs(GrammarBuilder* builder) {
   }
   places.push_back(Always("table"));
   builder->And("table_and_chairs", places);
-  // A chair's x points to where one looks who sits on it.
+  // The x axis of a chair points in the viewing direction of a sitting person.
   builder->And(
       "chair_place",
       {Always("chair", GaussianOffset({-kChairRadius, 0.0, 0.0}, {kChairAlong, kChairAcross, 0.0})
@@ -106,12 +106,12 @@ void AddRoundTable(const RoundTable& table, const SlotSizes& sizes, GrammarBuild
   AddMiddle(table, sizes, builder);
   if (table.chairs) AddChairs(builder);
   KeepOut apart;
-  apart.name = "between what stands on a table";
+  apart.name = "between objects on a table";
   apart.bodies = {
       {"plate", 0.14}, {"cup", 0.07}, {"teapot", 0.10}, {"serving_dish", 0.20}, {"steamer", 0.12}};
   builder->Require(apart);
   RequireInside({"cup", "teapot", "serving_dish", "steamer"}, size.Radius(), kRimMargin, builder);
-  // Plates stand nearer to the rim than that, at 0.5 m, but not over it.
+  // Plates stand nearer to the rim than that, at 0.5 m, but do not overhang it.
   RequireInside({"plate"}, size.Radius(), SizeOf(sizes, "plate").Radius(), builder);
 }
 

@@ -12,12 +12,12 @@
 namespace simwright::scene {
 namespace {
 
-// How often each constraint stood in the way.
+// The number of violations of each constraint.
 using Failures = std::map<std::string, int>;
 
-// Throws away what misses the structure or, once its poses are drawn, what is decided by rejection:
-// each counts as a derivation.
-std::optional<Derivation> DeriveSound(const Grammar& grammar, core::Rng& rng, SceneDraw* draw,
+// Samples derivations and rejects those that violate the structure or, once the poses are sampled,
+// a constraint that is enforced by rejection; each counts as a derivation.
+std::optional<Derivation> DeriveValid(const Grammar& grammar, core::Rng& rng, SceneDraw* draw,
                                       Failures* failures) {
   for (int i = 0; i < grammar.options().derivations; ++i) {
     ++draw->derivations;
@@ -36,8 +36,8 @@ std::optional<Derivation> DeriveSound(const Grammar& grammar, core::Rng& rng, Sc
   return std::nullopt;
 }
 
-// The node whose pose is drawn anew to move `node`: itself, or the nearest above it whose rule is
-// random and that stands on the same surface; -1 where nothing moves it.
+// Returns the node whose pose is resampled to move `node`: itself, or its nearest ancestor with a
+// random rule on the same surface; -1 if nothing moves it.
 int Movable(const Grammar& grammar, const Derivation& derivation, int node) {
   const int surface = derivation[static_cast<std::size_t>(node)].surface;
   for (int i = node; i != surface && i >= 0;) {
@@ -50,8 +50,8 @@ int Movable(const Grammar& grammar, const Derivation& derivation, int node) {
   return -1;
 }
 
-// One pass over what offends. Proposals are drawn from the pose rules, so that what is accepted
-// keeps their distribution where nothing is in the way.
+// Makes one pass over the violating objects. Proposals are sampled from the pose rules, so that
+// accepted poses keep their distribution where no constraint interferes.
 void RedrawOffenders(const Grammar& grammar, const PoseViolation& violation, core::Rng& rng,
                      Derivation* derivation) {
   for (const int offender : violation.Offenders(*derivation)) {
@@ -63,8 +63,8 @@ void RedrawOffenders(const Grammar& grammar, const PoseViolation& violation, cor
       const Derivation before(derivation->begin() + movable, derivation->begin() + end);
       DrawPosesFrom(grammar, movable, /*keep=*/true, rng, derivation);
       const double then = violation.SumOf(*derivation, movable, end);
-      const double chance = std::exp((now - then) / grammar.options().temperature);
-      if (then > now && core::Uniform(rng) >= chance) {
+      const double acceptance = std::exp((now - then) / grammar.options().temperature);
+      if (then > now && core::Uniform(rng) >= acceptance) {
         std::copy(before.begin(), before.end(), derivation->begin() + movable);
       } else {
         now = then;
@@ -73,9 +73,9 @@ void RedrawOffenders(const Grammar& grammar, const PoseViolation& violation, cor
   }
 }
 
-// Draws offenders anew until nothing offends; false where it was not enough, or where that moved
-// something into what is decided by rejection.
-bool PlaceSound(const Grammar& grammar, core::Rng& rng, Derivation* derivation, SceneDraw* draw,
+// Resamples violating poses until none violates a constraint; returns false if the attempts did not
+// suffice, or if a new pose violates a constraint that is enforced by rejection.
+bool PlaceValid(const Grammar& grammar, core::Rng& rng, Derivation* derivation, SceneDraw* draw,
                 Failures* failures) {
   const PoseViolation violation(grammar, *derivation, Decision::kRedraw);
   for (int i = 0; violation.Sum(*derivation) > 0.0; ++i) {
@@ -111,10 +111,11 @@ std::vector<DrawnObject> Flattened(const Grammar& grammar, const Derivation& der
   const auto most =
       std::max_element(failures.begin(), failures.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
-  throw core::Error("no scene meets '" + most->first + "' (missed " + std::to_string(most->second) +
-                        " times in " + std::to_string(draw.derivations) + " derivations and " +
-                        std::to_string(draw.pose_draws) + " draws of poses)",
-                    "scene grammar " + grammar.name(), "loosen it, or allow more tries");
+  throw core::Error("no scene satisfies '" + most->first + "' (violated " +
+                        std::to_string(most->second) + " times in " +
+                        std::to_string(draw.derivations) + " derivations and " +
+                        std::to_string(draw.pose_draws) + " pose samples)",
+                    "scene grammar " + grammar.name(), "relax it, or allow more tries");
 }
 
 }  // namespace
@@ -124,8 +125,8 @@ SceneDraw DrawScene(const Grammar& grammar, core::Rng& rng) {
   Failures failures;
   while (draw.tries < grammar.options().tries) {
     ++draw.tries;
-    std::optional<Derivation> derivation = DeriveSound(grammar, rng, &draw, &failures);
-    if (!derivation || !PlaceSound(grammar, rng, &*derivation, &draw, &failures)) continue;
+    std::optional<Derivation> derivation = DeriveValid(grammar, rng, &draw, &failures);
+    if (!derivation || !PlaceValid(grammar, rng, &*derivation, &draw, &failures)) continue;
     draw.objects = Flattened(grammar, *derivation);
     return draw;
   }

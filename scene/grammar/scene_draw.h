@@ -11,25 +11,25 @@
 namespace simwright::scene {
 
 struct DrawnObject {
-  std::string slot;    // of which asset it is
-  std::string symbol;  // of the grammar
+  std::string slot;    // category of its asset
+  std::string symbol;  // symbol of the grammar
   Eigen::Isometry3d world_from_object = Eigen::Isometry3d::Identity();
   bool welded = false;
-  int parent = -1;  // the object that it stands on or in, furniture too; -1: none
+  int parent = -1;  // the object that supports or contains it, furniture included; -1: none
 };
 
 struct SceneDraw {
-  std::vector<DrawnObject> objects;  // parents before what they carry
-  int tries = 0;                     // of which the last succeeded
+  std::vector<DrawnObject> objects;  // parents before their children
+  int tries = 0;                     // the last of which succeeded
   int derivations = 0;               // in all tries
-  int pose_draws = 0;                // in all tries, redraws among them
+  int pose_draws = 0;                // in all tries, resampling included
 };
 
-// A scene of the grammar, before physics: derivations with their poses until one meets what is
-// decided by rejection, then each pose that offends the rest drawn anew until none does
-// (Metropolis, with the sum of what is missing as energy). The same generator state, the same
-// scene. Throws core::Error where options().tries were not enough: what was missed most often, and
-// how many derivations or draws that took.
+// Samples a scene of the grammar, before physics: derivations with poses until one satisfies the
+// constraints that are enforced by rejection, then the violating poses are resampled until none
+// violates the others (Metropolis, with the sum of the violations as energy). Deterministic in the
+// state of the generator. Throws core::Error if options().tries did not suffice, with the most
+// frequent violation and the numbers of derivations and pose samples.
 SceneDraw DrawScene(const Grammar& grammar, core::Rng& rng);
 
 }  // namespace simwright::scene

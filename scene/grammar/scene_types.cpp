@@ -36,7 +36,7 @@ const SceneType& SceneTypeNamed(const std::string& name) {
     if (type.name == name) return type;
     names += (names.empty() ? "" : ", ") + type.name;
   }
-  throw core::Error("no scene type has this name", name, "there are " + names);
+  throw core::Error("there is no scene type of this name", name, "use " + names);
 }
 
 }  // namespace simwright::scene

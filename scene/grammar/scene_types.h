@@ -8,19 +8,19 @@
 
 namespace simwright::scene {
 
-// A kind of scene that a grammar is known for.
+// A scene type with its grammar.
 struct SceneType {
   std::string name;
-  std::string what;  // in a sentence, for who chooses one
-  int entries = 0;   // at most, of a scene, furniture among them
+  std::string what;  // description in one sentence
+  int entries = 0;   // most objects of a scene, furniture included
   Grammar (*make)(const SlotSizes&) = nullptr;
-  std::vector<std::string> slots;  // all that it may derive, furniture among them; sorted
+  std::vector<std::string> slots;  // all categories, furniture included; sorted
 };
 
-// All of them, sorted by name.
+// Returns all scene types, sorted by name.
 const std::vector<SceneType>& SceneTypes();
 
-// Throws core::Error for an unknown name, with those there are.
+// Returns a scene type. Throws core::Error for an unknown name, listing the known ones.
 const SceneType& SceneTypeNamed(const std::string& name);
 
 }  // namespace simwright::scene

@@ -6,11 +6,13 @@
 namespace simwright::scene {
 namespace {
 
-constexpr double kMiddle = 0.407;                         // m, over the foot, 17 mm of board below
+constexpr double kMiddle = 0.407;                         // m above the base, with 17 mm of board
+                                                          // below it
 constexpr double kBoards[] = {-0.39, -0.12, 0.14, 0.41};  // m, from the middle
-constexpr double kWall = 0.015;                           // m, of the shelf's sides and back
+constexpr double kWall = 0.015;                           // m, thickness of the shelf's sides and
+                                                          // back
 
-// Uniform over a board of that half size, `around` off its walls.
+// Returns a uniform rule over a board of that half size, with the margin `around` from its walls.
 PoseRule Uniform(const Eigen::Vector2d& board, const Eigen::Vector2d& around) {
   const Eigen::Vector2d room = (board - around).array() - kWall;
   const double x = std::max(0.0, room.x()), y = std::max(0.0, room.y());
@@ -21,7 +23,7 @@ PoseRule Uniform(const Eigen::Vector2d& board, const Eigen::Vector2d& around) {
 
 void AddShelf(const std::string& slot, const SlotSizes& sizes, const std::string& board,
               const std::string& top_board, GrammarBuilder* builder) {
-  SizeOf(sizes, slot);  // that it is known
+  SizeOf(sizes, slot);  // throws for an unknown category
   std::vector<Child> boards;
   for (const double height : kBoards) {
     const bool top = height == kBoards[3];

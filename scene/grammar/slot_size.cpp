@@ -7,13 +7,14 @@
 namespace simwright::scene {
 
 bool SlotSize::IsValid(std::string* error) const {
-  const auto sound = [](double value) { return std::isfinite(value) && value >= 0.0; };
-  if (!sound(half_size.x()) || !sound(half_size.y()) || !sound(height) || !sound(rest_height)) {
+  const auto is_valid = [](double value) { return std::isfinite(value) && value >= 0.0; };
+  if (!is_valid(half_size.x()) || !is_valid(half_size.y()) || !is_valid(height) ||
+      !is_valid(rest_height)) {
     *error = "half sizes and heights must be finite and at least 0";
     return false;
   }
   if (half_size.minCoeff() == 0.0 || height == 0.0) {
-    *error = "an asset has a positive size";
+    *error = "an asset must have a positive size";
     return false;
   }
   return true;
@@ -69,7 +70,7 @@ SlotSizes MakeDefaults() {
   sizes["avocado_3"] = RoundSize(0.035, 0.1);
   sizes["can"] = RoundSize(0.0334, 0.126);
   sizes["tea_bottle"] = RoundSize(0.0325, 0.208);
-  // What stands on a living room's shelf.
+  // Objects on a living-room shelf.
   sizes["book"] = BoxSize(0.07, 0.025, 0.21);
   sizes["board_game_large"] = BoxSize(0.25, 0.1325, 0.06);
   sizes["board_game_small"] = BoxSize(0.1, 0.132, 0.06);
@@ -91,11 +92,10 @@ const SlotSizes& DefaultSlotSizes() {
 const SlotSize& SizeOf(const SlotSizes& sizes, const std::string& slot) {
   const auto entry = sizes.find(slot);
   if (entry == sizes.end()) {
-    throw core::Error("no size is known of this slot", slot,
-                      "give one, or start from the defaults");
+    throw core::Error("this category has no size", slot, "add one, or start from the defaults");
   }
   std::string error;
-  if (!entry->second.IsValid(&error)) throw core::Error(error, "size of slot " + slot);
+  if (!entry->second.IsValid(&error)) throw core::Error(error, "size of category " + slot);
   return entry->second;
 }
 

@@ -7,14 +7,14 @@
 
 namespace simwright::scene {
 
-// What a grammar needs to know of an asset before it is placed: metres, in the pose in which it
-// stands, its origin at the middle of its foot (z = 0), a long thing along x with its head at +x.
+// The dimensions of an asset that a grammar needs: metres, in its rest pose, with the origin at the
+// centre of its base (z = 0) and long objects along x, their head at +x.
 struct SlotSize {
   Eigen::Vector2d half_size = Eigen::Vector2d::Zero();  // in x and y
-  double height = 0.0;                                  // where the next one of a stack stands
-  double rest_height = 0.0;  // where a thing put in or on it stands: a plate's or bowl's floor
+  double height = 0.0;                                  // height of the next object of a stack
+  double rest_height = 0.0;  // height of an object in or on it: the floor of a plate or bowl
 
-  // Of the circle that keeps others away: the larger half size.
+  // Returns the radius of the keep-out circle: the larger half size.
   double Radius() const { return half_size.maxCoeff(); }
 
   bool IsValid(std::string* error) const;
@@ -23,15 +23,15 @@ struct SlotSize {
 SlotSize RoundSize(double radius, double height, double rest_height = 0.0);
 SlotSize BoxSize(double half_x, double half_y, double height, double rest_height = 0.0);
 
-// By the name of a slot.
+// Sizes by category.
 using SlotSizes = std::map<std::string, SlotSize>;
 
-// Every slot that the grammars of this folder name, at the size of a common household thing; the
-// furniture and the steamers as Pfaff et al., Steerable Scene Generation, have them. Real assets
-// replace entries.
+// Returns all categories of the grammars of this folder, at the size of common household objects;
+// the furniture and the steamers as in Pfaff et al., Steerable Scene Generation. Real assets
+// replace the entries.
 const SlotSizes& DefaultSlotSizes();
 
-// The slot's entry. Throws core::Error where there is none, or an invalid one.
+// Returns the entry of the category. Throws core::Error if there is none or it is invalid.
 const SlotSize& SizeOf(const SlotSizes& sizes, const std::string& slot);
 
 }  // namespace simwright::scene

@@ -13,7 +13,7 @@ std::vector<std::int64_t> AssetCounts(const std::vector<std::vector<DrawnObject>
   for (const std::vector<DrawnObject>& objects : scenes) {
     for (const DrawnObject& object : objects) {
       const int index = vocabulary.ClassOf(object.slot);
-      if (index < 0) throw core::Error("the vocabulary has no such slot", object.slot);
+      if (index < 0) throw core::Error("the vocabulary has no such category", object.slot);
       ++counts[static_cast<size_t>(index)];
     }
   }

@@ -8,18 +8,19 @@
 
 namespace simwright::scene {
 
-// How often each class stands in scenes, furniture included, what pads them left out (classes
-// without the empty one). Throws core::Error for a slot that the vocabulary does not know.
+// Returns the number of objects of each class in the scenes (all classes but the empty one),
+// furniture included, padding excluded. Throws core::Error for a category that the vocabulary
+// lacks.
 std::vector<std::int64_t> AssetCounts(const std::vector<std::vector<DrawnObject>>& scenes,
                                       const Vocabulary& vocabulary);
 
-// Half an object that FrequencyDivergence adds to each class of both sides.
+// The pseudo-count that FrequencyDivergence adds to each class of both sides.
 inline constexpr double kAddedObjects = 0.5;
 
-// Kullback-Leibler divergence KL(data || generated), nats, of the classes' shares of all objects.
+// Returns the Kullback-Leibler divergence KL(data || generated), nats, of the class frequencies.
 // Half an object is added to each class on both sides (Krichevsky and Trofimov 1981), so that a
-// class that one of them never has costs much, not infinitely much. Throws core::Error where the
-// sizes differ or are 0, or a count is negative.
+// class that is missing on one side has a large but finite cost. Throws core::Error if the sizes
+// differ or are 0, or a count is negative.
 double FrequencyDivergence(const std::vector<std::int64_t>& data,
                            const std::vector<std::int64_t>& generated);
 

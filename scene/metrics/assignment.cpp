@@ -7,7 +7,7 @@
 namespace simwright::scene {
 namespace {
 
-// Rows <= columns. Row and column 0 of the arrays stand for none.
+// Requires rows <= columns. Index 0 of the arrays means none.
 class Augmentation {
  public:
   explicit Augmentation(const Eigen::MatrixXd& cost)
@@ -35,7 +35,7 @@ class Augmentation {
   const std::vector<size_t>& row_of() const { return row_of_; }
 
  private:
-  // One step of Dijkstra's search over reduced costs.
+  // Performs one step of Dijkstra's search over reduced costs.
   size_t NextColumn(size_t column, std::vector<double>* least, std::vector<char>* used) {
     const size_t row = row_of_[column];
     double step = std::numeric_limits<double>::infinity();
@@ -67,9 +67,9 @@ class Augmentation {
 }  // namespace
 
 Assignment CheapestAssignment(const Eigen::MatrixXd& cost) {
-  if (!cost.allFinite()) throw core::Error("an assignment needs costs that are finite");
-  const bool turned = cost.rows() > cost.cols();
-  const Eigen::MatrixXd wide = turned ? Eigen::MatrixXd(cost.transpose()) : cost;
+  if (!cost.allFinite()) throw core::Error("an assignment needs finite costs");
+  const bool transposed = cost.rows() > cost.cols();
+  const Eigen::MatrixXd wide = transposed ? Eigen::MatrixXd(cost.transpose()) : cost;
   Augmentation augmentation(wide);
   for (size_t row = 1; row <= static_cast<size_t>(wide.rows()); ++row) augmentation.AddRow(row);
   Assignment assignment;
@@ -79,7 +79,7 @@ Assignment CheapestAssignment(const Eigen::MatrixXd& cost) {
     if (row_of[j] == 0) continue;
     const int i = static_cast<int>(row_of[j]) - 1, k = static_cast<int>(j) - 1;
     assignment.cost += wide(i, k);
-    if (turned) {
+    if (transposed) {
       assignment.column[static_cast<size_t>(k)] = i;
     } else {
       assignment.column[static_cast<size_t>(i)] = k;

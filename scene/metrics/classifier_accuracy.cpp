@@ -29,7 +29,7 @@ struct Halves {
   torch::Tensor train, train_labels, test, test_labels;
 };
 
-// Half of each side, so that guessing is right in 50 of 100.
+// Splits both sets in halves of equal size, so that guessing is right in 50 of 100.
 Halves Split(const torch::Tensor& data, const torch::Tensor& generated, bool standardise,
              core::Rng& rng) {
   const std::int64_t count = std::min(data.size(0), generated.size(0)), half = count / 2;
@@ -54,18 +54,18 @@ Halves Split(const torch::Tensor& data, const torch::Tensor& generated, bool sta
 
 double Percent(torch::nn::Linear& linear, const Halves& halves) {
   const torch::NoGradGuard no_gradient;
-  const torch::Tensor says = linear->forward(halves.test).squeeze(1);
-  // What is exactly between the two counts half.
+  const torch::Tensor logits = linear->forward(halves.test).squeeze(1);
+  // A logit of exactly zero counts half.
   const torch::Tensor right =
-      torch::where(says == 0.0, torch::full_like(says, 0.5),
-                   ((says > 0.0) == (halves.test_labels > 0.5)).to(torch::kFloat32));
+      torch::where(logits == 0.0, torch::full_like(logits, 0.5),
+                   ((logits > 0.0) == (halves.test_labels > 0.5)).to(torch::kFloat32));
   const double percent = 100.0 * right.mean().item<double>();
   return std::max(percent, 100.0 - percent);
 }
 
 std::vector<double> Run(const Halves& halves, const AccuracyOptions& options, core::Rng& rng) {
   torch::nn::Linear linear(halves.train.size(1), 1);
-  // From zero, so that few small steps are not drowned by the start.
+  // Starts from zero, so that a random start does not dominate a few small steps.
   torch::nn::init::zeros_(linear->weight);
   torch::nn::init::zeros_(linear->bias);
   torch::optim::Adam optimizer(linear->parameters(),
@@ -96,7 +96,7 @@ void Require(const FeatureMatrix& data, const FeatureMatrix& generated) {
     throw core::Error("a classifier needs at least 4 scenes of each set");
   }
   if (!data.allFinite() || !generated.allFinite()) {
-    throw core::Error("the features of a picture are not finite");
+    throw core::Error("the features of an image are not finite");
   }
 }
 
@@ -107,15 +107,15 @@ bool AccuracyOptions::IsValid(std::string* error) const {
     *error = what;
     return false;
   };
-  if (runs < 1) return fails("runs has to be at least 1");
-  if (scored.empty() || scored.front() < 1) return fails("scored has to name passes, at least 1");
+  if (runs < 1) return fails("runs must be at least 1");
+  if (scored.empty() || scored.front() < 1) return fails("scored must name passes, at least 1");
   if (std::adjacent_find(scored.begin(), scored.end(), std::greater_equal<int>()) != scored.end()) {
-    return fails("scored has to ascend");
+    return fails("scored must ascend");
   }
   if (!(learning_rate > 0.0 && std::isfinite(learning_rate))) {
-    return fails("learning_rate has to be above 0");
+    return fails("learning_rate must be above 0");
   }
-  if (batch < 1) return fails("batch has to be at least 1");
+  if (batch < 1) return fails("batch must be at least 1");
   return true;
 }
 

@@ -10,13 +10,13 @@ namespace simwright::scene {
 
 struct AccuracyOptions {
   int runs = 10;
-  std::vector<int> scored = {50, 100};  // passes over the training half, ascending
-  // As published. Adam moves a weight by no more than this a step: of few features, which have to
-  // be weighed against each other, a classifier is only learned at a higher one.
+  std::vector<int> scored = {50, 100};  // epochs over the training half, ascending
+  // The published value. Adam moves a weight by no more than this per step; a few features that
+  // must be weighed against each other need a higher one.
   double learning_rate = 1e-4;
   int batch = 256;
-  // Each feature by the mean and deviation of the training half: for features that are of unlike
-  // size. Off as published, for a network of ImageNet.
+  // Standardizes each feature by the mean and deviation of the training half: for features of
+  // different scales. Off as published, for an ImageNet network.
   bool standardise = true;
   std::uint64_t seed = 1;
 
@@ -29,11 +29,12 @@ struct AccuracyScore {
   double deviation = 0.0;  // of the runs
 };
 
-// How well a linear classifier tells generated from data (CA): features (N x D) and (M x D), of
-// each min(N, M) drawn, halved at random, logistic regression by Adam from weights of zero on one
-// half, scored on the other; one score for each of `scored`. 50: it cannot tell. After Paschalidou
-// et al. 2021, whose classifier goes on passes over AlexNet's features. Throws core::Error for
-// options that are not valid, fewer than 4 rows, different D, or features that are not finite.
+// Returns the accuracy of a linear classifier that separates generated scenes from data (CA), one
+// score for each of `scored`: from features (N x D) and (M x D), min(N, M) of each are sampled and
+// split at random into halves; logistic regression is trained by Adam from zero weights on one half
+// and scored on the other. 50: indistinguishable. After Paschalidou et al. 2021, whose classifier
+// trains on features of AlexNet. Throws core::Error for invalid options, fewer than 4 rows,
+// different D, or features that are not finite.
 std::vector<AccuracyScore> ClassifierAccuracy(const FeatureMatrix& data,
                                               const FeatureMatrix& generated,
                                               const AccuracyOptions& options = {});

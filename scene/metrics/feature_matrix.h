@@ -4,7 +4,7 @@
 
 namespace simwright::scene {
 
-// Features of pictures: a picture a row, (N x D).
+// Features of images, one image per row (N x D).
 using FeatureMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 }  // namespace simwright::scene

@@ -5,10 +5,11 @@
 namespace simwright::scene {
 namespace {
 
-constexpr int kPatch = 4;  // pixels a side that the first convolution takes at once
+constexpr int kPatch = 4;  // pixels per side of a patch of the first convolution
 constexpr int kChannels[] = {32, 48, 64, 96};
-constexpr int kGroup = 8;  // channels of a norm
-// Of the last convolution: 160 x 120 by 4, then halved three times, rounded up.
+constexpr int kGroup = 8;  // channels per norm group
+// The output size of the last convolution: 160 x 120 divided by 4, then halved three times, rounded
+// up.
 constexpr int kLastWidth = 5, kLastHeight = 4;
 
 }  // namespace
@@ -41,12 +42,12 @@ torch::Tensor FeatureNetworkImpl::forward(const torch::Tensor& pictures) {
 }
 
 torch::Tensor PictureTensor(const std::vector<core::Image>& pictures) {
-  if (pictures.empty()) throw core::Error("there are no pictures");
+  if (pictures.empty()) throw core::Error("there are no images");
   const core::Image& first = pictures.front();
   std::vector<torch::Tensor> rows;
   for (const core::Image& one : pictures) {
     if (one.channels != 3 || one.width != first.width || one.height != first.height) {
-      throw core::Error("pictures of a batch are RGB and of one size");
+      throw core::Error("the images of a batch must be RGB and of one size");
     }
     rows.push_back(torch::from_blob(const_cast<std::uint8_t*>(one.pixels.data()),
                                     {one.height, one.width, 3}, torch::kUInt8));

@@ -5,23 +5,24 @@
 
 namespace simwright::scene {
 
-// Pictures as the network takes them, pixels.
+// The size of the network's input images, pixels.
 inline constexpr int kFeatureWidth = 160, kFeatureHeight = 120;
-// Numbers that stand for a picture.
+// The number of features of an image.
 inline constexpr int kFeatureSize = 128;
-// What it learns to tell of each class: objects in all, and in each quarter of the picture (upper
-// left, upper right, lower left, lower right), since counts alone say nothing of where things are.
+// The counts that it learns per class: objects in total, and in each quadrant of the image (upper
+// left, upper right, lower left, lower right), because totals alone contain no positions.
 inline constexpr int kCountsAClass = 5;
 
-// A small convolutional network on label renders: patches of 4 x 4 pixels, three halvings of size,
-// 32 to 96 channels with group norms, then two layers; what the first gives, after SiLU, are the
-// features.
+// A small convolutional network on label renders: patches of 4 x 4 pixels, three downsamplings by
+// two, 32 to 96 channels with group norms, then two linear layers; the features are the output of
+// the first after SiLU.
 class FeatureNetworkImpl : public torch::nn::Module {
  public:
   FeatureNetworkImpl();
-  // pictures (B x 3 x kFeatureHeight x kFeatureWidth), [0, 1] -> (B x kFeatureSize).
+  // Returns the features (B x kFeatureSize) of images (B x 3 x kFeatureHeight x kFeatureWidth) in
+  // [0, 1].
   torch::Tensor Features(const torch::Tensor& pictures);
-  // -> (B x kMostLabels x kCountsAClass), log(1 + count).
+  // Returns log(1 + count), (B x kMostLabels x kCountsAClass).
   torch::Tensor forward(const torch::Tensor& pictures);
 
  private:
@@ -32,7 +33,7 @@ TORCH_MODULE(FeatureNetwork);
 
 inline constexpr char kFeatureKind[] = "scene features";
 
-// RGB pictures, all of one size -> (B x 3 x H x W), [0, 1].
+// Returns RGB images of one size as a tensor (B x 3 x H x W) in [0, 1].
 torch::Tensor PictureTensor(const std::vector<core::Image>& pictures);
 
 }  // namespace simwright::scene

@@ -15,7 +15,7 @@ namespace {
 
 using torch::indexing::Slice;
 
-// Pictures of a step, and their counts (B x kMostLabels x kCountsAClass).
+// Images of a step, and their counts (B x kMostLabels x kCountsAClass).
 struct Batch {
   torch::Tensor pictures, counts;
 };
@@ -30,7 +30,7 @@ Batch BatchOf(const std::vector<CountedPicture>& pictures, const std::vector<siz
   return {PictureTensor(images), torch::tensor(counts).view({-1, kMostLabels, kCountsAClass})};
 }
 
-// All pictures of the batch; their quarters change places with them.
+// Mirrors all images of the batch and permutes the quadrants of their counts.
 void Mirror(bool sideways, bool upside_down, Batch* batch) {
   std::vector<std::int64_t> quarters = {0, 1, 2, 3, 4};
   if (sideways) {
@@ -52,9 +52,9 @@ std::vector<size_t> Range(size_t from, size_t to) {
   return indices;
 }
 
-// Of the counts in all.
-void Judge(FeatureNetwork network, const std::vector<CountedPicture>& pictures, int training,
-           torch::Device device, FeatureTrainingReport* report) {
+// Evaluates the predicted totals on the held-out images.
+void Evaluate(FeatureNetwork network, const std::vector<CountedPicture>& pictures, int training,
+              torch::Device device, FeatureTrainingReport* report) {
   const torch::NoGradGuard no_gradient;
   torch::Tensor mean = torch::zeros({kMostLabels});
   for (int i = 0; i < training; ++i) {
@@ -65,22 +65,22 @@ void Judge(FeatureNetwork network, const std::vector<CountedPicture>& pictures, 
   mean /= training;
   const Batch held_out = BatchOf(pictures, Range(static_cast<size_t>(training), pictures.size()));
   const torch::Tensor truth = held_out.counts.index({Slice(), Slice(), 0});
-  const torch::Tensor told = torch::expm1(
+  const torch::Tensor predicted = torch::expm1(
       network->forward(held_out.pictures.to(device)).to(torch::kCPU).index({Slice(), Slice(), 0}));
-  const torch::Tensor there = (truth.sum(0) > 0).nonzero().squeeze(1);
-  const auto error = [&](const torch::Tensor& says) {
-    return (says - truth).abs().index_select(1, there).mean().item<double>();
+  const torch::Tensor present = (truth.sum(0) > 0).nonzero().squeeze(1);
+  const auto error = [&](const torch::Tensor& prediction) {
+    return (prediction - truth).abs().index_select(1, present).mean().item<double>();
   };
-  report->error = error(told);
+  report->error = error(predicted);
   report->error_of_the_mean = error(mean.expand_as(truth));
 }
 
 void Require(const std::vector<CountedPicture>& pictures) {
-  if (pictures.size() < 10) throw core::Error("features need at least 10 pictures to learn from");
+  if (pictures.size() < 10) throw core::Error("features need at least 10 images to train on");
   for (const CountedPicture& one : pictures) {
     if (one.counts.size() != static_cast<size_t>(kMostLabels * kCountsAClass) ||
         one.picture.width != kFeatureWidth || one.picture.height != kFeatureHeight) {
-      throw core::Error("a picture is not of the size that features are learned from");
+      throw core::Error("an image does not have the size that features are trained on");
     }
   }
 }
@@ -110,7 +110,7 @@ FeatureTrainingOptions::FeatureTrainingOptions() {
   trainer.steps = 1500;
   trainer.learning_rate = 2e-3;
   trainer.ema_decay = 0.99;
-  trainer.save_every = 1 << 30;  // minutes: nothing to go on from
+  trainer.save_every = 1 << 30;  // never: training takes minutes only
 }
 
 bool FeatureTrainingOptions::IsValid(std::string* error) const {
@@ -119,8 +119,8 @@ bool FeatureTrainingOptions::IsValid(std::string* error) const {
     return false;
   };
   if (!trainer.IsValid(error)) return false;
-  if (batch < 1) return fails("batch has to be at least 1");
-  if (!(held_out > 0.0 && held_out < 1.0)) return fails("held_out has to be a share above 0");
+  if (batch < 1) return fails("batch must be at least 1");
+  if (!(held_out > 0.0 && held_out < 1.0)) return fails("held_out must be a share above 0");
   return true;
 }
 
@@ -153,13 +153,13 @@ FeatureTrainingReport TrainFeatures(const std::vector<CountedPicture>& pictures,
     Batch batch = BatchOf(pictures, chosen);
     const bool sideways = core::Uniform(rng) < 0.5, upside_down = core::Uniform(rng) < 0.5;
     Mirror(sideways, upside_down, &batch);
-    const torch::Tensor told = network->forward(batch.pictures.to(device));
-    trainer.Descend(step, torch::mse_loss(told, batch.counts.to(device).log1p()));
+    const torch::Tensor predicted = network->forward(batch.pictures.to(device));
+    trainer.Descend(step, torch::mse_loss(predicted, batch.counts.to(device).log1p()));
     progress->Advance();
   }
   trainer.CopyAverageTo(network.ptr().get());
   network->eval();
-  Judge(network, pictures, report.pictures, device, &report);
+  Evaluate(network, pictures, report.pictures, device, &report);
   network->to(torch::kCPU);
   nn::SaveCheckpoint(*network, {{"kind", kFeatureKind}}, weights);
   trainer.Finish();

@@ -12,21 +12,21 @@
 
 namespace simwright::scene {
 
-// A label render and what is in it.
+// A label render and its object counts.
 struct CountedPicture {
-  core::Image picture;        // RGB, as the network takes it
-  std::vector<float> counts;  // (kMostLabels x 5): in all, in the picture's quarters
+  core::Image picture;        // RGB, of the network's input size
+  std::vector<float> counts;  // (kMostLabels x 5): total, then per image quadrant
 };
 
-// `camera`: that of the render, from which a thing's quarter is told, by its origin. What is
-// outside the picture counts in no quarter. Throws as LabelRender does.
+// Renders and counts a scene. `camera`: the camera of the render; an object's quadrant is that of
+// its projected origin. Objects outside the image count in no quadrant. Throws as LabelRender does.
 CountedPicture CountPicture(const std::vector<DrawnObject>& objects, const Vocabulary& vocabulary,
                             const Palette& palette, const core::Camera& camera);
 
 struct FeatureTrainingOptions {
   nn::TrainerOptions trainer;
-  int batch = 32;         // pictures of a step
-  double held_out = 0.1;  // share of the pictures, the last, that are not learned from
+  int batch = 32;         // images per step
+  double held_out = 0.1;  // share of the images, the last ones, excluded from training
   std::uint64_t seed = 1;
   FeatureTrainingOptions();
 
@@ -37,14 +37,14 @@ struct FeatureTrainingReport {
   int pictures = 0, held_out = 0;
   std::int64_t parameters = 0;
   double seconds = 0.0;
-  // Mean error of a class's count, of classes that held-out pictures have, objects; and that of
-  // saying the mean of the training pictures.
+  // The mean error of the class counts, over the classes that occur in held-out images, in objects;
+  // and the error of a constant prediction of the training mean.
   double error = 0.0, error_of_the_mean = 0.0;
 };
 
-// Trains the network of SceneFeatures to tell counts, pictures mirrored at random both ways, and
-// writes its averaged weights to `weights`. Throws core::Error for options that are not valid or
-// fewer than 10 pictures.
+// Trains the network of SceneFeatures to predict counts, on images mirrored at random in both
+// directions, and writes its averaged weights to `weights`. Throws core::Error for invalid options
+// or fewer than 10 images.
 FeatureTrainingReport TrainFeatures(const std::vector<CountedPicture>& pictures,
                                     const FeatureTrainingOptions& options,
                                     const std::filesystem::path& weights, core::Progress* progress);

@@ -20,8 +20,9 @@ Eigen::MatrixXd SymmetricRoot(const Eigen::MatrixXd& matrix) {
 }  // namespace
 
 Gaussian GaussianOf(const FeatureMatrix& features) {
-  if (features.rows() < 2) throw core::Error("a covariance needs the features of 2 pictures");
-  if (!features.allFinite()) throw core::Error("the features of a picture are not finite");
+  if (features.rows() < 2)
+    throw core::Error("a covariance needs the features of at least 2 images");
+  if (!features.allFinite()) throw core::Error("the features of an image are not finite");
   const Eigen::MatrixXd rows = features.cast<double>();
   Gaussian gaussian;
   gaussian.mean = rows.colwise().mean();
@@ -34,7 +35,7 @@ double FrechetDistance(const Gaussian& a, const Gaussian& b) {
   const auto size = a.mean.size();
   const auto fits = [&](const Eigen::MatrixXd& s) { return s.rows() == size && s.cols() == size; };
   if (b.mean.size() != size || !fits(a.covariance) || !fits(b.covariance)) {
-    throw core::Error("two Gaussians of different sizes have no distance");
+    throw core::Error("the Frechet distance needs Gaussians of one size");
   }
   const Eigen::MatrixXd root = SymmetricRoot(a.covariance);
   Eigen::MatrixXd product = root * b.covariance * root;

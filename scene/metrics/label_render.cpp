@@ -18,15 +18,15 @@ namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
 
-// A room of 10 m fills it from 13 m, a table of 1.25 m from 1.7 m.
+// The vertical field of view: a room of 10 m fills it from 13 m, a table of 1.25 m from 1.7 m.
 constexpr double kFieldOfView = 0.25 * std::numbers::pi;
-// From its lowest board's edge to a bottle on its uppermost.
+// The field of view for shelves: from the edge of the lowest board to a bottle on the uppermost.
 constexpr double kShelfView = 55.0 / 180.0 * std::numbers::pi;
-// m, from where the camera looks.
+// Camera distances, m.
 constexpr double kBreakfast = 1.5, kDimsum = 1.7, kRoom = 13.0, kShelf = 1.2, kAboveMiddle = 0.1;
-constexpr double kShelfMiddle = 0.407;  // m, over its foot (scene/grammar/shelf_boards)
+constexpr double kShelfMiddle = 0.407;  // m above its base (scene/grammar/shelf_boards)
 
-// CIELAB under D65 of an sRGB colour.
+// Converts an sRGB colour to CIELAB under D65.
 Eigen::Vector3d LabOf(const Colour& colour) {
   Eigen::Vector3d linear;
   for (int i = 0; i < 3; ++i) {
@@ -89,18 +89,18 @@ double TopOf(const std::string& table) {
 std::array<std::uint8_t, 3> LabelColour(int index) {
   static const std::vector<Colour> colours = MakeColours();
   if (index < 0 || index >= kMostLabels) {
-    throw core::Error("there are " + std::to_string(kMostLabels) + " colours of classes",
+    throw core::Error("there are " + std::to_string(kMostLabels) + " class colours",
                       "class " + std::to_string(index));
   }
   return colours[static_cast<size_t>(index)];
 }
 
 core::Camera LabelCamera(const std::string& type) {
-  SceneTypeNamed(type);  // that it is one
+  SceneTypeNamed(type);  // throws for an unknown type
   if (type.starts_with("breakfast")) return FromAbove(TopOf("table_breakfast") + kBreakfast);
   if (type.starts_with("dimsum")) return FromAbove(TopOf("table_round") + kDimsum);
   if (type.starts_with("restaurant")) return FromAbove(kRoom);
-  // Ours open to their -x, the published ones to +x.
+  // Our shelves open to their -x, the published ones to +x.
   return LookingAlong({-kShelf, 0.0, kShelfMiddle + kAboveMiddle}, -Eigen::Vector3d::UnitY(),
                       Eigen::Vector3d::UnitX(), kShelfView);
 }
@@ -113,7 +113,7 @@ core::Image LabelRender(const std::vector<DrawnObject>& objects, const Vocabular
   std::vector<Colour> colours;
   for (const DrawnObject& object : objects) {
     const int index = vocabulary.ClassOf(object.slot);
-    if (index < 0) throw core::Error("the vocabulary has no such slot", object.slot);
+    if (index < 0) throw core::Error("the vocabulary has no such category", object.slot);
     colours.push_back(LabelColour(index));
     scene.Add(&palette.At(object.slot).visual, object.world_from_object);
   }

@@ -7,16 +7,16 @@
 
 namespace simwright::scene {
 
-// What a body is taken for where depths are measured.
+// The shape of a body in depth measurements.
 enum class BodyShape {
-  kParts,  // its convex parts, as physics has them
-  kBox,    // the box of its parts along its own axes: hollow things are full
+  kParts,  // its convex collision parts
+  kBox,    // the box of its parts along its own axes: fills hollow objects
 };
 
-// Sum of the depths (m, >= 0) of all pairs of shapes of different objects that are in each other,
-// welded ones not compared with welded ones: "total penetration" (Pfaff et al.), whose median over
-// scenes is MTP. A depth is the shortest way out of two convex bodies. Throws core::Error for a
-// slot without an asset, or a pose that is not finite.
+// Returns the sum of the depths (m, >= 0) of all interpenetrating pairs of shapes of different
+// objects, pairs of welded objects excluded: "total penetration" (Pfaff et al.), whose median over
+// scenes is MTP. A depth is the shortest displacement that separates two convex shapes. Throws
+// core::Error for a category without an asset, or a pose that is not finite.
 double TotalPenetration(const std::vector<DrawnObject>& objects, const Palette& palette,
                         BodyShape shape);
 

@@ -12,11 +12,11 @@ namespace simwright::scene {
 
 bool SceneDistanceOptions::IsValid(std::string* error) const {
   if (!(std::isfinite(lever) && lever >= 0.0)) {
-    *error = "lever has to be at least 0 m";
+    *error = "lever must be at least 0 m";
     return false;
   }
   if (!(std::isfinite(cut_off) && cut_off > 0.0)) {
-    *error = "cut_off has to be above 0 m";
+    *error = "cut_off must be above 0 m";
     return false;
   }
   return true;
@@ -35,7 +35,7 @@ SceneDistances::ByClass SceneDistances::Sorted(const std::vector<DrawnObject>& o
   ByClass classes(vocabulary_.slots.size());
   for (const DrawnObject& object : objects) {
     const int index = vocabulary_.ClassOf(object.slot);
-    if (index < 0) throw core::Error("the vocabulary has no such slot", object.slot);
+    if (index < 0) throw core::Error("the vocabulary has no such category", object.slot);
     classes[static_cast<size_t>(index)].push_back(
         {object.world_from_object.translation(),
          Eigen::Quaterniond(object.world_from_object.linear())});
@@ -51,8 +51,8 @@ double SceneDistances::CountCost(const ByClass& a, const ByClass& b) const {
   return options_.cut_off * static_cast<double>(left_over);
 }
 
-// Of the pairs alone. Each of the fewer objects costs at least what its nearest does, which decides
-// most comparisons without an assignment.
+// Returns the cost of the pairs only. Each object of the smaller set costs at least as much as its
+// nearest one, which decides most comparisons without an assignment.
 double SceneDistances::ClassCost(const std::vector<Place>& a, const std::vector<Place>& b,
                                  double limit) const {
   if (a.empty() || b.empty()) return 0.0;
@@ -65,7 +65,7 @@ double SceneDistances::ClassCost(const std::vector<Place>& a, const std::vector<
       const Place& other = many[static_cast<size_t>(j)];
       double apart = (one.translation - other.translation).norm();
       if (apart < options_.cut_off && options_.lever > 0.0) {
-        // The angle by its tangent: exact for small ones too.
+        // The angle from its tangent: exact for small ones too.
         const Eigen::Quaterniond turn = one.rotation.conjugate() * other.rotation;
         apart += options_.lever * 2.0 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
       }
@@ -90,7 +90,7 @@ double SceneDistances::To(const std::vector<DrawnObject>& objects, int scene) co
 }
 
 NearestScene SceneDistances::Nearest(const std::vector<DrawnObject>& objects) const {
-  if (scenes_.empty()) throw core::Error("there are no scenes to be near to");
+  if (scenes_.empty()) throw core::Error("there are no scenes to compare with");
   const ByClass sorted = Sorted(objects);
   std::vector<double> bounds(scenes_.size());
   for (size_t i = 0; i < scenes_.size(); ++i) bounds[i] = CountCost(sorted, scenes_[i]);

@@ -11,8 +11,8 @@
 namespace simwright::scene {
 
 struct SceneDistanceOptions {
-  double lever = 0.05;   // m a rad of rotation: what a point so far off the axis moves
-  double cut_off = 1.0;  // m that two objects are apart at most, and that one without another costs
+  double lever = 0.05;   // m per rad of rotation: lever arm of the rotation cost
+  double cut_off = 1.0;  // m, largest cost of a pair, and the cost of an unmatched object
 
   bool IsValid(std::string* error) const;
 };
@@ -22,21 +22,21 @@ struct NearestScene {
   double distance = 0.0;  // m
 };
 
-// How far scenes are from each other: class by class the cheapest assignment of objects, a pair
-// costing min(cut_off, |translation| + lever * angle) and an object that is left over the cut-off,
-// all added up, m. That is the OSPA metric of order 1 (Schuhmacher et al. 2008), class by class,
-// not divided by the number of objects. 0 for the same scene in any order of its objects.
+// Distances between scenes: the cheapest assignment of objects within each class, with min(cut_off,
+// |translation| + lever * angle) per pair and the cut-off per unmatched object, summed over all
+// classes, m. This is the OSPA metric of order 1 (Schuhmacher et al. 2008), by class, not divided
+// by the number of objects. 0 for equal scenes in any order of their objects.
 class SceneDistances {
  public:
-  // Throws core::Error for options that are not valid, or a slot that the vocabulary lacks.
+  // Throws core::Error for invalid options, or a category that the vocabulary lacks.
   SceneDistances(const std::vector<std::vector<DrawnObject>>& scenes, const Vocabulary& vocabulary,
                  const SceneDistanceOptions& options = {});
 
   int size() const { return static_cast<int>(scenes_.size()); }
   double To(const std::vector<DrawnObject>& objects, int scene) const;
-  // The nearest scene. Scenes are looked at in the order of what their counts
-  // alone cost, and left as soon as a bound from below is no better than the best: the answer is
-  // exact. Throws core::Error where there are no scenes.
+  // Returns the nearest scene. Scenes are searched in ascending order of the cost of their counts
+  // and skipped once a lower bound reaches the best distance; the result is exact. Throws
+  // core::Error if there are no scenes.
   NearestScene Nearest(const std::vector<DrawnObject>& objects) const;
 
  private:
@@ -49,7 +49,7 @@ class SceneDistances {
   ByClass Sorted(const std::vector<DrawnObject>& objects) const;
   double CountCost(const ByClass& a, const ByClass& b) const;
   double ClassCost(const std::vector<Place>& a, const std::vector<Place>& b, double limit) const;
-  // Exact where it is below `limit`, else anything from `limit` up.
+  // Returns the exact distance if it is below `limit`, otherwise any value >= `limit`.
   double Distance(const ByClass& a, const ByClass& b, double limit) const;
 
   Vocabulary vocabulary_;

@@ -21,10 +21,10 @@ struct SceneFeatures::Network {
     if (!own.is_empty()) return own.ptr()->Features(pictures);
     try {
       const torch::jit::IValue value = script.forward({pictures});
-      if (!value.isTensor()) throw core::Error("it does not give a tensor", name);
+      if (!value.isTensor()) throw core::Error("it does not return a tensor", name);
       return value.toTensor();
     } catch (const c10::Error& error) {
-      throw core::Error("it cannot take pictures: " + error.msg(), name);
+      throw core::Error("it cannot process images: " + error.msg(), name);
     }
   }
 };
@@ -46,7 +46,7 @@ SceneFeatures SceneFeatures::Load(const std::filesystem::path& weights) {
 }
 
 SceneFeatures SceneFeatures::LoadScript(const std::filesystem::path& module, int side) {
-  if (side < 1) throw core::Error("pictures are at least 1 pixel wide", module.string());
+  if (side < 1) throw core::Error("images must be at least 1 pixel wide", module.string());
   auto network = std::make_unique<Network>();
   network->name =
       module.string() + " (" + std::to_string(side) + " x " + std::to_string(side) + ")";
@@ -75,17 +75,17 @@ FeatureMatrix SceneFeatures::Of(const std::vector<core::Image>& pictures) const 
   const torch::NoGradGuard no_gradient;
   const torch::Tensor input = PictureTensor(pictures);
   if (input.size(3) != network_->width || input.size(2) != network_->height) {
-    throw core::Error("pictures are not of the size that the features' network takes", name());
+    throw core::Error("the images do not have the input size of the feature network", name());
   }
   const torch::Tensor output = network_->Forward(input.to(network_->device));
   if (output.dim() < 1 || output.size(0) != input.size(0)) {
-    throw core::Error("it does not give a row of features for each picture", name());
+    throw core::Error("it does not return one row of features per image", name());
   }
   const torch::Tensor rows =
       output.reshape({input.size(0), -1}).to(torch::kCPU, torch::kFloat32).contiguous();
   FeatureMatrix features(rows.size(0), rows.size(1));
   std::copy_n(rows.data_ptr<float>(), rows.numel(), features.data());
-  if (!features.allFinite()) throw core::Error("the features of a picture are not finite", name());
+  if (!features.allFinite()) throw core::Error("the features of an image are not finite", name());
   return features;
 }
 

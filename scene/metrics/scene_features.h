@@ -10,29 +10,31 @@
 
 namespace simwright::scene {
 
-// What turns label renders into the numbers by which sets of scenes are compared: our own network
-// (scene/metrics/feature_network), or a user's.
+// A feature extractor for label renders, for comparing sets of scenes: our own network
+// (scene/metrics/feature_network) or a user's.
 class SceneFeatures {
  public:
-  // Weights of our own network. Throws core::Error where they are missing, damaged, or another's.
+  // Loads weights of our own network. Throws core::Error if they are missing, damaged, or of
+  // another network.
   static SceneFeatures Load(const std::filesystem::path& weights);
-  // A TorchScript module from (B x 3 x side x side), RGB in [0, 1], to (B x D) or what flattens to
-  // it: Inception's pooled features (side 299), AlexNet's convolutions (224). What it subtracts or
-  // divides by is its own affair. Throws core::Error: missing, no TorchScript, side < 1.
+  // Loads a TorchScript module from (B x 3 x side x side), RGB in [0, 1], to (B x D) or a shape
+  // that flattens to it: Inception's pooled features (side 299), AlexNet's convolutions (224). The
+  // module does its own normalization. Throws core::Error if it is missing or not TorchScript, or
+  // if side < 1.
   static SceneFeatures LoadScript(const std::filesystem::path& module, int side);
   ~SceneFeatures();
   SceneFeatures(SceneFeatures&&) noexcept;
   SceneFeatures& operator=(SceneFeatures&&) noexcept;
 
-  // Whether these are our network's.
+  // Returns true for our own network.
   bool own() const;
-  // As reports name them: "simwright scene features", or the module's file and side.
+  // Returns the name for reports: "simwright scene features", or the module's file and side.
   const std::string& name() const;
 
-  // A label render brought to the size that the network takes. RGB.
+  // Returns a label render (RGB) resized to the network's input size.
   core::Image Shrunk(const core::Image& picture) const;
-  // Features of pictures as Shrunk gives them, (N x D). Throws core::Error for other pictures, and
-  // where a user's module fails or gives anything else than N rows of finite numbers.
+  // Returns the features (N x D) of images of Shrunk. Throws core::Error for other images, and if a
+  // user's module fails or does not return N rows of finite numbers.
   FeatureMatrix Of(const std::vector<core::Image>& pictures) const;
 
  private:

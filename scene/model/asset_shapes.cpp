@@ -6,14 +6,14 @@ namespace simwright::scene {
 
 bool AssetShapes::IsValid(const Vocabulary& vocabulary, int points, std::string* error) const {
   if (surfaces.size() != vocabulary.slots.size()) {
-    *error = "a surface of each slot is needed";
+    *error = "each category needs a surface";
     return false;
   }
   for (size_t i = 0; i < surfaces.size(); ++i) {
-    bool sound = static_cast<int>(surfaces[i].size()) == points;
-    for (const Eigen::Vector3d& point : surfaces[i]) sound = sound && point.allFinite();
-    if (sound) continue;
-    *error = vocabulary.slots[i] + " has not " + std::to_string(points) + " finite points";
+    bool valid = static_cast<int>(surfaces[i].size()) == points;
+    for (const Eigen::Vector3d& point : surfaces[i]) valid = valid && point.allFinite();
+    if (valid) continue;
+    *error = vocabulary.slots[i] + " does not have " + std::to_string(points) + " finite points";
     return false;
   }
   return true;

@@ -10,17 +10,17 @@
 
 namespace simwright::scene {
 
-// What the things of a vocabulary look like to a model that knows classes by their shape: points on
-// their surfaces, m, in each one's own frame. Class by class, without the empty one.
+// The asset surfaces of a vocabulary, for a model that identifies classes by shape: points on the
+// surfaces, m, in each asset's own frame, class by class without the empty one.
 struct AssetShapes {
   std::vector<std::vector<Eigen::Vector3d>> surfaces;  // (C x P x 3)
 
-  // As many surfaces as the vocabulary has slots, each of `points` finite points.
+  // Returns true if there is one surface per category, each of `points` finite points.
   bool IsValid(const Vocabulary& vocabulary, int points, std::string* error) const;
 };
 
-// `points` of a surface, drawn evenly by area, the same for the same surface. Throws core::Error
-// for a mesh without area.
+// Returns `points` points of a surface, sampled uniformly by area and deterministic for a surface.
+// Throws core::Error for a mesh without area.
 std::vector<Eigen::Vector3d> ShapeOf(const core::TriangleMesh& solid, int points);
 
 }  // namespace simwright::scene

@@ -5,8 +5,9 @@
 namespace simwright::scene {
 namespace {
 
-constexpr double kSure = 0.99999, kHardly = 9e-6;  // Gu et al. 2022
-constexpr double kLeast = 1e-30;                   // of a probability whose logarithm is taken: -69
+constexpr double kAlmostOne = 0.99999, kAlmostZero = 9e-6;  // Gu et al. 2022
+constexpr double kLeast = 1e-30;  // smallest probability in a logarithm: log is
+                                  // -69
 
 }  // namespace
 
@@ -15,8 +16,9 @@ CategoryDiffusion::CategoryDiffusion(int steps, int classes) : steps_(steps), cl
     throw core::Error("a diffusion of classes has at least two steps and one class");
   }
   const torch::Tensor clean = torch::tensor({1.0}, torch::kDouble);
-  kept_ = torch::cat({clean, torch::linspace(kSure, kHardly, steps, torch::kDouble)});
-  masked_ = torch::cat({1.0 - clean, torch::linspace(kHardly, kSure, steps, torch::kDouble)});
+  kept_ = torch::cat({clean, torch::linspace(kAlmostOne, kAlmostZero, steps, torch::kDouble)});
+  masked_ =
+      torch::cat({1.0 - clean, torch::linspace(kAlmostZero, kAlmostOne, steps, torch::kDouble)});
   replaced_ = (1.0 - kept_ - masked_).clamp_min(0.0) / classes;
 }
 
@@ -44,8 +46,8 @@ torch::Tensor CategoryDiffusion::AddNoise(const torch::Tensor& clean, const torc
 
 torch::Tensor CategoryDiffusion::Posterior(const torch::Tensor& noisy, const torch::Tensor& clean,
                                            const torch::Tensor& t, const torch::Tensor& s) const {
-  // From s to t: a stays, c is masked, what is left goes anywhere. That is a millionth, the
-  // difference of numbers near one: in single precision it would be noise.
+  // From s to t a class is kept with probability a, masked with c, and replaced with the rest,
+  // which is about a millionth: a difference of numbers near one that single precision would lose.
   const torch::Tensor kept = At(kept_, t) / At(kept_, s);
   const torch::Tensor stays = (1.0 - At(masked_, t)) / (1.0 - At(masked_, s));
   const auto single = [](const torch::Tensor& x) { return x.to(torch::kFloat); };
@@ -62,7 +64,7 @@ torch::Tensor CategoryDiffusion::Posterior(const torch::Tensor& noisy, const tor
   const torch::Tensor evidence = open * (a_t * classes_here + b_t) + masked_here * c_t;
   const torch::Tensor r = clean / evidence.clamp_min(kLeast);
   const torch::Tensor sum = r.sum(-1, true);
-  // q(x_t | x_s = i) for a class i, and for the mask, which stays.
+  // q(x_t | x_s = i) for a class i, and for the mask, which stays masked.
   const torch::Tensor step = open * (a * classes_here + b) + masked_here * c;
   const torch::Tensor posterior =
       torch::cat({step * (a_s * r + b_s * sum), masked_here * c_s * sum}, -1);
@@ -74,9 +76,9 @@ torch::Tensor CategoryDiffusion::Divergence(const torch::Tensor& clean, const to
                                             const torch::Tensor& t) const {
   const torch::Tensor truth =
       Posterior(noisy, torch::one_hot(clean, classes_).to(torch::kFloat), t, t - 1);
-  const torch::Tensor belief = Posterior(noisy, log_clean.exp(), t, t - 1);
+  const torch::Tensor prediction = Posterior(noisy, log_clean.exp(), t, t - 1);
   const torch::Tensor difference =
-      torch::log(truth.clamp_min(kLeast)) - torch::log(belief.clamp_min(kLeast));
+      torch::log(truth.clamp_min(kLeast)) - torch::log(prediction.clamp_min(kLeast));
   return (truth * difference).sum(-1);
 }
 

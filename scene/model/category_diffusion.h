@@ -6,11 +6,11 @@
 
 namespace simwright::scene {
 
-// Diffusion of classes by mask and replace (Austin et al. 2021, D3PM; Gu et al. 2022, whose ends
-// Pfaff et al. keep): over K classes and a mask, the class K,
+// Diffusion of classes by mask and replace (Austin et al. 2021, D3PM; Gu et al. 2022, whose end
+// values Pfaff et al. keep): over K classes and a mask, the class K,
 //   q(x_t = j | x_0 = k) = a_t [j = k] + b_t for j < K,  q(x_t = mask) = c_t,
-// a_t from 0.99999 down to 9e-6, c_t from 9e-6 up to 0.99999, both evenly; b_t = (1 - a_t - c_t) /
-// K is nearly nothing, so that a class is kept until it is masked. t = 0 .. steps - 1; the step
+// with a_t linear from 0.99999 to 9e-6 and c_t linear from 9e-6 to 0.99999; b_t = (1 - a_t - c_t) /
+// K is close to zero, so that a class is kept until it is masked. t = 0 .. steps - 1; the step
 // before the first is the clean class, a = 1.
 class CategoryDiffusion {
  public:
@@ -20,29 +20,31 @@ class CategoryDiffusion {
   int classes() const { return classes_; }
   int mask() const { return classes_; }
 
-  // a_t, b_t, c_t, t = -1 .. steps - 1.
+  // Return a_t, b_t and c_t, t = -1 .. steps - 1.
   double Kept(int t) const { return kept_[t + 1].item<double>(); }
   double Replaced(int t) const { return replaced_[t + 1].item<double>(); }
   double Masked(int t) const { return masked_[t + 1].item<double>(); }
 
-  // A draw of x_t (B x N, int64) given x_0 (B x N), t (B).
+  // Samples x_t (B x N, int64) given x_0 (B x N) and t (B).
   torch::Tensor AddNoise(const torch::Tensor& clean, const torch::Tensor& t,
                          const at::Generator& generator) const;
 
-  // p(x_s | x_t) = sum_k p(x_0 = k) q(x_s | x_t, x_0 = k), (B x N x K + 1), for what is believed of
-  // x_0, `clean` (B x N x K), probabilities; -1 <= s < t. t and s: (B).
+  // Returns p(x_s | x_t) = sum_k p(x_0 = k) q(x_s | x_t, x_0 = k), (B x N x K + 1), for the
+  // predicted probabilities of x_0, `clean` (B x N x K); -1 <= s < t. t and s: (B).
   torch::Tensor Posterior(const torch::Tensor& noisy, const torch::Tensor& clean,
                           const torch::Tensor& t, const torch::Tensor& s) const;
 
-  // KL(q(x_{t-1} | x_t, x_0) || p(x_{t-1} | x_t)), (B x N); for t = 0 that is -log p(x_0 | x_t).
+  // Returns KL(q(x_{t-1} | x_t, x_0) || p(x_{t-1} | x_t)), (B x N); for t = 0 it is -log p(x_0 |
+  // x_t).
   torch::Tensor Divergence(const torch::Tensor& clean, const torch::Tensor& noisy,
                            const torch::Tensor& log_clean, const torch::Tensor& t) const;
 
-  // A draw of each place's class from its probabilities (B x N x any), by Gumbel's maximum.
+  // Samples the class of each token from its probabilities (B x N x any), with the Gumbel-max
+  // trick.
   static torch::Tensor Draw(const torch::Tensor& probabilities, const at::Generator& generator);
 
  private:
-  // Of `table` at t (B), as (B x 1 x 1), double.
+  // Returns `table` at t (B), as (B x 1 x 1), double.
   torch::Tensor At(const torch::Tensor& table, const torch::Tensor& t) const;
 
   int steps_, classes_;

@@ -10,7 +10,7 @@ namespace {
 using torch::nn::Linear;
 
 constexpr std::int64_t kFeatures = 64;
-// m: lengths far above it count by their logarithm, so that a room's floor and a cup fit one scale.
+// m: far larger lengths enter by their logarithm, so that a room's floor and a cup fit one scale.
 constexpr double kLength = 0.05;
 
 }  // namespace
@@ -37,14 +37,14 @@ void ClassShapesImpl::Set(const AssetShapes& shapes) {
   torch::Tensor surfaces =
       torch::empty({static_cast<std::int64_t>(shapes.surfaces.size()), points, 3}, torch::kFloat);
   if (surfaces.size(0) != surfaces_.size(0)) {
-    throw core::Error("so many shapes are not the model's number of classes",
+    throw core::Error("the number of shapes differs from the model's number of classes",
                       std::to_string(surfaces.size(0)));
   }
   float* out = surfaces.data_ptr<float>();
   for (const std::vector<Eigen::Vector3d>& surface : shapes.surfaces) {
     if (static_cast<std::int64_t>(surface.size()) != points) {
-      throw core::Error("a shape has not the model's number of points",
-                        std::to_string(surface.size()), std::to_string(points) + " are wanted");
+      throw core::Error("the number of points of a shape differs from the model's",
+                        std::to_string(surface.size()), std::to_string(points) + " are needed");
     }
     for (const Eigen::Vector3d& point : surface) {
       for (int i = 0; i < 3; ++i) *out++ = static_cast<float>(point[i]);
@@ -77,9 +77,9 @@ torch::Tensor ClassShapesImpl::Entries() {
 }
 
 torch::Tensor ClassShapesImpl::Logits(const torch::Tensor& features) {
-  const torch::Tensor of_things = Features();
-  const torch::Tensor keys = torch::cat({key_map_(of_things), empty_key_.unsqueeze(0)}, 0);
-  const torch::Tensor biases = torch::cat({bias_map_(of_things).squeeze(-1), empty_bias_}, 0);
+  const torch::Tensor asset_features = Features();
+  const torch::Tensor keys = torch::cat({key_map_(asset_features), empty_key_.unsqueeze(0)}, 0);
+  const torch::Tensor biases = torch::cat({bias_map_(asset_features).squeeze(-1), empty_bias_}, 0);
   return torch::matmul(features, keys.t()) / std::sqrt(static_cast<double>(exit_)) + biases;
 }
 

@@ -5,25 +5,26 @@
 
 namespace simwright::scene {
 
-// Classes known by their shape, in place of a table of each: a network on every surface point and
-// the largest of each feature over the points (Qi et al. 2017, PointNet) give a thing's features,
-// and linear maps of these what enters a denoiser and what its logits are products with. The empty
-// class and the mask have vectors of their own. Nothing is learned of a class by its number, so
-// that one more needs no training: where its surface is like another's, it is drawn as that is. K
-// classes: things, the empty one last; the mask is not among them.
+// An embedding of classes by shape, in place of a table of classes: a network on every surface
+// point and a max-pool over the points (Qi et al. 2017, PointNet) give the features of an asset,
+// and linear maps of these give its input embedding and the key that its logits are products with.
+// The empty class and the mask have vectors of their own. No parameter belongs to a class index, so
+// that a new class needs no training: a class whose surface resembles another's is sampled like
+// that one. K classes: assets, then the empty one; the mask is not among them.
 class ClassShapesImpl : public torch::nn::Module {
  public:
-  // `classes`: K; `points`: of a surface, P; `entry`: the width that enters; `exit`: of the
-  // features that logits are of. Surfaces are points at the origin until they are set.
+  // `classes`: K; `points`: points per surface, P; `entry`: width of the input embedding; `exit`:
+  // width of the features that the logits are computed from. All surface points are at the origin
+  // until Set.
   ClassShapesImpl(int classes, int points, std::int64_t entry, std::int64_t exit);
 
-  // Throws core::Error for another number of classes or points.
+  // Sets the surfaces. Throws core::Error for another number of classes or points.
   void Set(const AssetShapes& shapes);
   AssetShapes Shapes() const;  // in single precision
 
-  // (K + 1 x entry): the classes, then the mask.
+  // Returns the input embeddings (K + 1 x entry): the classes, then the mask.
   torch::Tensor Entries();
-  // (... x exit) -> (... x K).
+  // Returns the logits (... x K) of features (... x exit).
   torch::Tensor Logits(const torch::Tensor& features);
 
  private:

@@ -12,7 +12,7 @@ namespace {
 
 void RequireShapes(const ClassShapes& shapes) {
   if (shapes) return;
-  throw core::Error("the model has a table of its classes and takes no assets by their shape", "",
+  throw core::Error("the model uses a table of classes and cannot take assets by shape", "",
                     "train one with --by-shape");
 }
 
@@ -54,7 +54,7 @@ ClassShapes Denoiser::RegisterShapes(const SceneModelOptions& options, int class
 std::shared_ptr<Denoiser> MakeDenoiser(const SceneModelOptions& options, int classes) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("model of scenes: " + error);
-  if (classes < 2) throw core::Error("a model of scenes needs a class beside the empty one");
+  if (classes < 2) throw core::Error("a model of scenes needs a class besides the empty one");
   switch (options.kind) {
     case DenoiserKind::kFlux:
       return std::make_shared<FluxDenoiser>(options, classes);
@@ -63,7 +63,7 @@ std::shared_ptr<Denoiser> MakeDenoiser(const SceneModelOptions& options, int cla
     case DenoiserKind::kUnet:
       return std::make_shared<UnetDenoiser>(options, classes);
   }
-  throw core::Error("a denoiser of no kind");
+  throw core::Error("unknown kind of denoiser");
 }
 
 std::int64_t ParameterCount(const torch::nn::Module& module) {

@@ -8,7 +8,7 @@
 
 namespace simwright::scene {
 
-// Scenes on their way to noise.
+// Noisy scenes of a diffusion.
 struct NoisyScenes {
   torch::Tensor poses;    // (B x N x 12), each feature in about [-1, 1]
   torch::Tensor classes;  // mixed: (B x N) int64, 0 .. K, K the mask; continuous: (B x N x K)
@@ -20,21 +20,23 @@ struct Denoised {
   torch::Tensor classes;     // (B x N x K): mixed: logits of the clean class; continuous: noise
 };
 
-// What predicts the noise of scenes' tokens. K counts the empty class, not the mask.
+// A network that predicts the noise of scene tokens. K counts the empty class, not the mask.
 class Denoiser : public torch::nn::Module {
  public:
-  // From several threads at once, too.
+  // Predicts the noise. Thread-safe.
   virtual Denoised Predict(const NoisyScenes& scenes) = 0;
-  // The same, each of the CPU's threads with some of the scenes.
+  // Predicts the noise with the batch split over the CPU's threads.
   Denoised PredictInShares(const NoisyScenes& scenes);
 
-  // Throws core::Error where the model has a table of its classes, or for shapes of other numbers.
+  // Sets the class shapes. Throws core::Error if the model uses a table of classes, or for shapes
+  // of another size.
   void SetShapes(const AssetShapes& shapes);
-  // What SetShapes was given, in single precision; throws likewise.
+  // Returns the shapes of SetShapes, in single precision; throws like it.
   AssetShapes Shapes() const;
 
  protected:
-  // What knows classes by their shape where `options` say so, registered; else empty.
+  // Registers and returns the shape embedding if `options` ask for one; otherwise returns an empty
+  // holder.
   ClassShapes RegisterShapes(const SceneModelOptions& options, int classes, std::int64_t entry,
                              std::int64_t exit);
 
@@ -42,7 +44,7 @@ class Denoiser : public torch::nn::Module {
   ClassShapes shapes_{nullptr};
 };
 
-// A network of random weights. Throws core::Error for options that are not valid.
+// Returns a network of random weights. Throws core::Error for invalid options.
 std::shared_ptr<Denoiser> MakeDenoiser(const SceneModelOptions& options, int classes);
 
 std::int64_t ParameterCount(const torch::nn::Module& module);

@@ -5,7 +5,7 @@ namespace {
 
 using torch::nn::Linear;
 
-constexpr std::int64_t kRatio = 4;  // of the network's width to the block's
+constexpr std::int64_t kRatio = 4;  // ratio of the MLP's width to the block's
 
 torch::Tensor Gelu(const torch::Tensor& x) {
   return torch::gelu(x, "tanh");

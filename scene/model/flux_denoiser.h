@@ -5,8 +5,8 @@
 
 namespace simwright::scene {
 
-// Attention between tokens, then a network on each, each gated (the scene's stream of Flux's
-// double blocks; a second one, of a text, would share the attention).
+// Gated attention between tokens, then a gated MLP on each token (the scene stream of Flux's
+// double-stream blocks; a text stream would share the attention).
 class DoubleBlockImpl : public torch::nn::Module {
  public:
   DoubleBlockImpl(std::int64_t width, std::int64_t heads);
@@ -21,7 +21,7 @@ class DoubleBlockImpl : public torch::nn::Module {
 };
 TORCH_MODULE(DoubleBlock);
 
-// Attention and the network at once: one linear map before both, one behind.
+// Attention and MLP in parallel: one linear map before both, one after.
 class SingleBlockImpl : public torch::nn::Module {
  public:
   SingleBlockImpl(std::int64_t width, std::int64_t heads);
@@ -35,8 +35,8 @@ class SingleBlockImpl : public torch::nn::Module {
 };
 TORCH_MODULE(SingleBlock);
 
-// Transformer without positions: a permutation of the tokens permutes what it predicts. Sizes and
-// order of blocks after Pfaff et al., Steerable Scene Generation, appendix.
+// A transformer without positional encoding: its output is equivariant to permutations of the
+// tokens. Sizes and order of the blocks as in Pfaff et al., Steerable Scene Generation, appendix.
 class FluxDenoiser : public Denoiser {
  public:
   FluxDenoiser(const SceneModelOptions& options, int classes);

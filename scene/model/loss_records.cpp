@@ -15,7 +15,7 @@ constexpr char kHeader[] = "step,total,translation,rotation,classes,cross_entrop
 
 using Value = double LossRecord::*;
 
-// Up to the panel's upper end.
+// Returns the points of a curve, clamped to the top of the panel.
 core::PlotPoints Points(const core::PlotPanel& panel, const std::vector<LossRecord>& losses,
                         Value value) {
   core::PlotPoints points;
@@ -25,8 +25,8 @@ core::PlotPoints Points(const core::PlotPanel& panel, const std::vector<LossReco
   return points;
 }
 
-// From 0 to what both reach after a twentieth of the updates: in the first ones losses fall so far
-// that nothing would be seen of the others.
+// Returns a panel from 0 to the maximum of both curves after a twentieth of the updates: the large
+// initial losses would hide the later ones.
 core::PlotPanel PanelOf(double top, double bottom, const std::vector<LossRecord>& losses, Value one,
                         Value other) {
   core::PlotPanel panel{top, bottom, 0.0, 1.0, 1.0};
@@ -43,7 +43,7 @@ core::PlotPanel PanelOf(double top, double bottom, const std::vector<LossRecord>
   return panel;
 }
 
-// A panel with two curves, named in their colours.
+// Returns a panel with two curves and their names in matching colours.
 std::string TwoCurves(double top, double bottom, const std::vector<LossRecord>& losses,
                       const std::string& label, Value one, const std::string& one_name, Value other,
                       const std::string& other_name) {

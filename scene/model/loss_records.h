@@ -6,22 +6,22 @@
 
 namespace simwright::scene {
 
-// A line of a training's losses: means over the updates since the one before.
+// A line of a training log: mean losses over the updates since the previous line.
 struct LossRecord {
   int step = 0;
   double total = 0.0, translation = 0.0, rotation = 0.0, classes = 0.0, cross_entropy = 0.0;
-  double held_out = 0.0;  // total, on held-out scenes at times and noise that are always the same
+  double held_out = 0.0;  // total on held-out scenes, at fixed times and noise
 };
 
-// As a table (CSV) with a header.
+// Returns the losses as a CSV table with a header.
 std::string LossesText(const std::vector<LossRecord>& losses);
 
-// Those of such a file up to `step`; none where there is no file. Lines that are damaged are left
-// out.
+// Reads the losses of such a file up to `step`; returns none if there is no file. Damaged lines are
+// skipped.
 std::vector<LossRecord> ReadLosses(const std::filesystem::path& path, int step);
 
-// A picture (SVG) of them: the total with the held-out one, and the errors in the noise of
-// translations and rotations, 1 being a blind guess's.
+// Returns an SVG plot: the total and the held-out loss, and the errors in the noise of translations
+// and rotations, where 1 is the error of a blind guess.
 std::string LossCurves(const std::string& title, const std::vector<LossRecord>& losses);
 
 }  // namespace simwright::scene

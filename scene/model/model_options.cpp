@@ -24,13 +24,13 @@ SceneModelOptions SceneModelOptions::OfSize(const std::string& size) {
     options.single_blocks = 10;
     return options;
   }
-  throw core::Error("there is no such size of a model", size, "tiny, base or full");
+  throw core::Error("there is no such model size", size, "tiny, base or full");
 }
 
 SceneModelOptions SceneModelOptions::AsMiDiffusion() const {
   SceneModelOptions options = *this;
   options.kind = DenoiserKind::kTransformer;
-  // A block of ours has 18 or 15 width^2 parameters, one of theirs 16.
+  // Our blocks have 18 or 15 width^2 parameters, one of theirs 16.
   options.single_blocks = (18 * double_blocks + 15 * single_blocks + 8) / 16;
   options.double_blocks = 0;
   options.heads = 4;
@@ -47,10 +47,10 @@ SceneModelOptions SceneModelOptions::AsDiffuScene() const {
   options.heads = 4;
   options.blends_clean_poses = false;
   options.time_power = 1.0;
-  // Its parameters are `kUnetShare` width^2, ours as above.
-  constexpr double kUnetShare = 132.0;
+  // It has `kUnetFactor` width^2 parameters; ours are as above.
+  constexpr double kUnetFactor = 132.0;
   const double ours = (18.0 * double_blocks + 15.0 * single_blocks) * width * width;
-  options.width = std::max(8, 4 * static_cast<int>(std::lround(std::sqrt(ours / kUnetShare) / 4)));
+  options.width = std::max(8, 4 * static_cast<int>(std::lround(std::sqrt(ours / kUnetFactor) / 4)));
   return options;
 }
 
@@ -60,24 +60,25 @@ bool SceneModelOptions::IsValid(std::string* error) const {
     return false;
   };
   if (width < 8 || width > 4096 || width % 4 != 0) {
-    return fails("width has to be 8 to 4096, in fours");
+    return fails("width must be 8 to 4096, a multiple of 4");
   }
-  if (heads < 1 || width % heads != 0) return fails("heads have to divide the width");
+  if (heads < 1 || width % heads != 0) return fails("heads must divide the width");
   if (double_blocks < 0 || single_blocks < 0 || double_blocks + single_blocks > 256) {
-    return fails("blocks have to be 0 to 256");
+    return fails("blocks must be 0 to 256");
   }
   if (kind != DenoiserKind::kUnet && double_blocks + single_blocks < 1) {
     return fails("a model needs a block");
   }
-  if (!(class_weight > 0.0)) return fails("class_weight has to be above 0");
-  if (!(time_power >= 1.0 && time_power <= 8.0)) return fails("time_power has to be 1 to 8");
-  if (shape_points < 0 || shape_points > 65536) return fails("shape_points have to be 0 to 65536");
-  if (shape_points > 0 && continuous) return fails("classes as numbers cannot be known by shape");
+  if (!(class_weight > 0.0)) return fails("class_weight must be above 0");
+  if (!(time_power >= 1.0 && time_power <= 8.0)) return fails("time_power must be 1 to 8");
+  if (shape_points < 0 || shape_points > 65536) return fails("shape_points must be 0 to 65536");
+  if (shape_points > 0 && continuous)
+    return fails("continuous classes cannot be embedded by shape");
   if (shape_points > 0 && kind == DenoiserKind::kUnet) {
-    return fails("a U-Net cannot know classes by shape");
+    return fails("a U-Net cannot embed classes by shape");
   }
   if (diffusion_steps < 2 || diffusion_steps > 100000) {
-    return fails("diffusion_steps have to be 2 to 100000");
+    return fails("diffusion_steps must be 2 to 100000");
   }
   return true;
 }
@@ -91,7 +92,7 @@ std::string NameOf(DenoiserKind kind) {
     case DenoiserKind::kUnet:
       return "unet";
   }
-  throw core::Error("a denoiser of no kind");
+  throw core::Error("unknown kind of denoiser");
 }
 
 DenoiserKind DenoiserNamed(const std::string& name) {

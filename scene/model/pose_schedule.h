@@ -4,8 +4,8 @@
 
 namespace simwright::scene {
 
-// How poses turn to noise in `steps` steps: DDPM's of Ho et al. (2020), betas that rise evenly from
-// 1e-4 to 0.02, as Pfaff et al. have it.
+// Returns the noise schedule of poses in `steps` steps: DDPM of Ho et al. (2020) with linear betas
+// from 1e-4 to 0.02, as in Pfaff et al.
 inline nn::DiffusionSchedule PoseSchedule(int steps) {
   return nn::DiffusionSchedule::Linear(steps, 1e-4, 0.02);
 }

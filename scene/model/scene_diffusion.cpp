@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kCrossEntropyShare = 5e-4;
 
-// Drawn on the CPU, so that a seed gives the same on every device.
+// Samples on the CPU, so that a seed gives the same numbers on every device.
 torch::Tensor NormalLike(const torch::Tensor& like, const at::Generator& generator) {
   return torch::randn(like.sizes(), generator, torch::kFloat).to(like.device());
 }
@@ -100,7 +100,7 @@ SceneLoss SceneDiffusion::MixedLoss(const Denoised& guess, const DenoisingBatch&
 std::vector<int> SceneDiffusion::Times(int count) const {
   const int steps = poses_.steps();
   if (count < 1 || count > steps) {
-    throw core::Error("a draw takes 1 to " + std::to_string(steps) + " steps");
+    throw core::Error("sampling takes 1 to " + std::to_string(steps) + " steps");
   }
   std::vector<int> times;
   for (int i = count; i > 0; --i) {

@@ -22,9 +22,9 @@ bool SampleOptions::IsValid(std::string* error) const {
     *error = what;
     return false;
   };
-  if (steps < 0) return fails("steps have to be at least 1, or 0 for all");
-  if (!(eta >= 0.0 && eta <= 1.0)) return fails("eta has to be 0 to 1");
-  if (batch < 1) return fails("batch has to be at least 1");
+  if (steps < 0) return fails("steps must be at least 1, or 0 for all");
+  if (!(eta >= 0.0 && eta <= 1.0)) return fails("eta must be 0 to 1");
+  if (batch < 1) return fails("batch must be at least 1");
   return true;
 }
 
@@ -49,7 +49,7 @@ void SceneModel::AddAsset(const std::string& slot, const std::vector<Eigen::Vect
   SceneModelFacts facts = network_->facts;
   Vocabulary& vocabulary = facts.vocabulary;
   AssetShapes shapes = network_->denoiser->Shapes();
-  if (vocabulary.ClassOf(slot) >= 0) throw core::Error("the model knows this slot already", slot);
+  if (vocabulary.ClassOf(slot) >= 0) throw core::Error("the model has this category already", slot);
   const auto at = std::lower_bound(vocabulary.slots.begin(), vocabulary.slots.end(), slot) -
                   vocabulary.slots.begin();
   vocabulary.slots.insert(vocabulary.slots.begin() + at, slot);
@@ -60,7 +60,7 @@ void SceneModel::AddAsset(const std::string& slot, const std::vector<Eigen::Vect
       !shapes.IsValid(vocabulary, facts.options.shape_points, &error)) {
     throw core::Error("an asset for a model of scenes: " + error);
   }
-  // No parameter belongs to a class.
+  // No parameter depends on the number of classes.
   std::shared_ptr<Denoiser> wider = MakeDenoiser(facts.options, vocabulary.ClassCount());
   const torch::NoGradGuard no_gradient;
   const auto learned = network_->denoiser->named_parameters();
@@ -76,7 +76,7 @@ std::vector<float> SceneModel::Sample(int count, const SampleOptions& options,
                                       core::Progress* progress) const {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("sampling: " + error);
-  if (count < 0) throw core::Error("so many scenes cannot be sampled", std::to_string(count));
+  if (count < 0) throw core::Error("cannot sample this number of scenes", std::to_string(count));
   nn::PrepareForWork();
   const torch::NoGradGuard no_gradient;
   const SceneModelFacts& facts = network_->facts;
@@ -87,7 +87,7 @@ std::vector<float> SceneModel::Sample(int count, const SampleOptions& options,
   std::vector<float> tokens;
   for (int first = 0; first < count; first += options.batch) {
     const int some = std::min(options.batch, count - first);
-    // Each batch draws from its own stream: more scenes leave the first ones as they were.
+    // Each batch samples from its own stream: sampling more scenes does not change the first ones.
     core::Rng rng = core::StreamRng(options.seed, static_cast<std::uint64_t>(first));
     const at::Generator generator = at::detail::createCPUGenerator(rng());
     NoisyScenes scenes = diffusion.Noise(some, facts.vocabulary.entries, generator);

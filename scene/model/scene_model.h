@@ -16,30 +16,30 @@
 namespace simwright::scene {
 
 struct SampleOptions {
-  int steps = 0;  // of the diffusion's, evenly left out; 0: all of them
-  // Share of the posterior's noise that poses keep (1: as trained; 0: none, DDIM).
+  int steps = 0;  // denoising steps, evenly spaced; 0: all of the diffusion's
+  // The share of the posterior's noise that poses receive (1: as trained; 0: none, DDIM).
   double eta = 1.0;
-  int batch = 64;  // scenes at once
+  int batch = 64;  // scenes per batch
   std::uint64_t seed = 1;
 
   bool IsValid(std::string* error) const;
 };
 
-// What a weights file says of where it comes from.
+// The metadata of a weights file.
 struct SceneModelFacts {
   Vocabulary vocabulary;
   SceneModelOptions options;
   PoseRange range;
-  int training_scenes = 0;  // scenes 0 .. training_scenes - 1 of the dataset; the rest held out
+  int training_scenes = 0;  // scenes 0 .. training_scenes - 1 of the dataset; others are held out
   std::uint64_t data_seed = 0;
   std::int64_t parameters = 0;
-  int steps = 0;  // of the training
+  int steps = 0;  // training steps
 };
 
-// A trained model of scenes. Constant; may be shared by threads.
+// A trained model of scenes. Thread-safe unless AddAsset is called.
 class SceneModel {
  public:
-  // Throws core::Error where the file is missing or no such model.
+  // Loads a model. Throws core::Error if the file is missing or not a scene model.
   static SceneModel Load(const std::filesystem::path& weights);
   ~SceneModel();
   SceneModel(SceneModel&&) noexcept;
@@ -47,14 +47,14 @@ class SceneModel {
 
   const SceneModelFacts& facts() const;
 
-  // One thing more that it may place, free, known by its surface alone (ShapeOf, of
-  // facts().options.shape_points). Throws core::Error where the model does not know classes by
-  // their shape, the slot is there already, or points are missing or not finite.
+  // Adds an asset that the model may place, free, identified by its surface only (ShapeOf, of
+  // facts().options.shape_points). Throws core::Error if the model does not embed classes by shape,
+  // the category exists already, or points are missing or not finite.
   void AddAsset(const std::string& slot, const std::vector<Eigen::Vector3d>& surface);
 
-  // Tokens of `count` new scenes (count x entries x TokenWidth), classes one-hot, matrices as the
-  // network has them (DecodeScene turns them to rotations). Advances `progress` by one a scene.
-  // Throws core::Error for options that are not valid.
+  // Samples `count` scenes. Returns their tokens (count x entries x TokenWidth), with one-hot
+  // classes and matrices as predicted (DecodeScene projects them to rotations). Advances `progress`
+  // by one per scene. Throws core::Error for invalid options.
   std::vector<float> Sample(int count, const SampleOptions& options,
                             core::Progress* progress) const;
 

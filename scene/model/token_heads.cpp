@@ -38,7 +38,8 @@ std::int64_t PoseBlend::Width() const {
 
 torch::Tensor PoseBlend::Noise(const torch::Tensor& guesses, const NoisyScenes& scenes) const {
   if (!wanted_) return guesses;
-  // g begins near nothing: x_0' is far off then, and divided by what may be a hundredth.
+  // g starts near zero: initially x_0' has large errors, which are divided by a factor down to a
+  // hundredth.
   constexpr double kGateStart = -4.0;
   const std::vector<torch::Tensor> parts = guesses.to(torch::kFloat).chunk(3, -1);
   const torch::Tensor off = (scenes.poses - schedule_.Signal(scenes.time, 3) * parts[1]) /
@@ -57,7 +58,7 @@ TokenExitImpl::TokenExitImpl(const SceneModelOptions& options, std::int64_t widt
 }
 
 Denoised TokenExitImpl::forward(const torch::Tensor& features, const NoisyScenes& scenes) {
-  // In single precision, whatever products are done in (nn::MixedPrecision).
+  // In single precision even under nn::MixedPrecision.
   const torch::Tensor normed = class_norm_(features.to(torch::kFloat));
   return {blend_.Noise(pose_->forward(features), scenes),
           shapes_ ? shapes_->Logits(normed) : class_map_(normed)};

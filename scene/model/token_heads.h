@@ -6,11 +6,11 @@
 
 namespace simwright::scene {
 
-// Tokens into a network's features and back, the same for every denoiser.
+// The input and output heads of all denoisers: tokens to features and back.
 
-// A network of two layers on the pose, an embedding of the class (a linear map of it where classes
-// are numbers), and a linear map of both to the width. With `shapes`, which has to be a module of
-// the same denoiser and enter by EntryWidth(width), it embeds classes.
+// The input head: an MLP of two layers on the pose, an embedding of the class (a linear map if
+// classes are continuous), and a linear map of both to the width. With `shapes`, a module
+// registered in the same denoiser with the entry width EntryWidth(width), it embeds the classes.
 class TokenEntryImpl : public torch::nn::Module {
  public:
   TokenEntryImpl(const SceneModelOptions& options, int classes, ClassShapes shapes = nullptr);
@@ -28,18 +28,18 @@ constexpr std::int64_t EntryWidth(std::int64_t width) {
   return width / 2;
 }
 
-// The noise of poses x = a x_0 + s e from a network's guesses at both e and x_0,
-//   e' + g (x - a x_0') / s,  0 < g < 1 a guess too.
-// With e' alone, what tells a height that is known (a table's top) from one that is not is a slope
-// of 1 / s, a hundred where the noise is least, and is learned last (docs/scenes.md has figures).
-// x_0' is a step that is flat there.
+// The noise of poses x = a x_0 + s e from predictions of both e and x_0,
+//   e' + g (x - a x_0') / s,  with a predicted gate 0 < g < 1.
+// With e' alone, a known height (a table top) differs from an unknown one by a slope of 1 / s, a
+// hundred at the least noise, which is learned last (docs/scenes.md has figures). x_0' is a step
+// function that is flat there.
 class PoseBlend {
  public:
   explicit PoseBlend(const SceneModelOptions& options)
       : wanted_(options.blends_clean_poses), schedule_(PoseSchedule(options.diffusion_steps)) {}
-  // Numbers a token that the network has to give: 12, or e', x_0' and g's, 36.
+  // Returns the number of network outputs per token: 12, or 36 for e', x_0' and the gates.
   std::int64_t Width() const;
-  // (B x N x Width()) -> (B x N x 12).
+  // Returns the noise (B x N x 12) of predictions (B x N x Width()).
   torch::Tensor Noise(const torch::Tensor& guesses, const NoisyScenes& scenes) const;
 
  private:
@@ -47,11 +47,11 @@ class PoseBlend {
   nn::DiffusionSchedule schedule_;
 };
 
-// Two heads: a network of two layers for the pose's noise, a norm and a linear map, or `shapes`,
-// for the class. Where the options say so, the first gives what PoseBlend takes.
+// The output heads: an MLP of two layers for the pose noise, and a norm with a linear map, or
+// `shapes`, for the class. If the options ask for it, the first gives the inputs of PoseBlend.
 class TokenExitImpl : public torch::nn::Module {
  public:
-  // `width` of the features that come in.
+  // `width`: width of the input features.
   TokenExitImpl(const SceneModelOptions& options, std::int64_t width, int classes,
                 ClassShapes shapes = nullptr);
   // pose_noise: (B x N x 12).
@@ -66,7 +66,7 @@ class TokenExitImpl : public torch::nn::Module {
 };
 TORCH_MODULE(TokenExit);
 
-// Time as a vector: sines and cosines of 256 / 2 frequencies through two layers.
+// An embedding of the time: sines and cosines of 256 / 2 frequencies through two layers.
 class TimeEntryImpl : public torch::nn::Module {
  public:
   explicit TimeEntryImpl(std::int64_t width);

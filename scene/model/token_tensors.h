@@ -7,11 +7,11 @@
 
 namespace simwright::scene {
 
-// Tokens (B x entries x TokenWidth) as the model takes them.
+// Converts tokens (B x entries x TokenWidth) to the tensors of the model.
 CleanScenes TensorsOf(const std::vector<float>& tokens, const Vocabulary& vocabulary,
                       const PoseRange& range);
 
-// And back: classes one-hot, empty ones' poses zero.
+// Converts tensors to tokens: one-hot classes, zero poses for empty ones.
 std::vector<float> TokensOf(const CleanScenes& scenes, const Vocabulary& vocabulary,
                             const PoseRange& range);
 

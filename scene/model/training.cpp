@@ -17,18 +17,18 @@ namespace simwright::scene {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kBadInARow = 20;     // losses that are not finite: more is no accident
-constexpr int kHeldOutBatch = 64;  // scenes, all at once
+constexpr int kBadInARow = 20;     // most consecutive losses that are not finite
+constexpr int kHeldOutBatch = 64;  // scenes, in one batch
 
 int HeldOut(int scenes, const SceneTrainingOptions& options) {
   const int share = static_cast<int>(options.held_out * scenes);
   return std::min(share, options.held_out_most);
 }
 
-// Sums of the losses since the last line.
+// The sums of the losses since the last line.
 class LossMeans {
  public:
-  // The losses of a batch's shares.
+  // Adds the losses of the shares of a batch.
   void Add(const std::vector<SceneLoss>& losses, const std::vector<double>& shares) {
     for (size_t i = 0; i < losses.size(); ++i) {
       sums_.total += shares[i] * losses[i].total.item<double>();
@@ -70,7 +70,7 @@ class Training {
         diffusion_(model, dataset.vocabulary().ClassCount()) {
     facts_.training_scenes = training_;
     facts_.data_seed = dataset.parts().front().origin().seed;
-    torch::manual_seed(options.seed);  // of the weights' start
+    torch::manual_seed(options.seed);  // for the initial weights
     denoiser_ = MakeDenoiser(model, dataset.vocabulary().ClassCount());
     facts_.parameters = ParameterCount(*denoiser_);
     denoiser_->to(device_);
@@ -129,7 +129,8 @@ class Training {
       const size_t at = static_cast<size_t>(i);
       const nn::Share share = nn::ShareOf(count, share_count, i);
       shares[at] = static_cast<double>(share.count) / static_cast<double>(count);
-      // A GPU's; products of half the width gain a CPU with AMX a tenth of an update.
+      // On a GPU only; half-precision products speed up an update on a CPU with AMX by a tenth
+      // only.
       const nn::MixedPrecision half(device_, options_.bfloat16_on_gpu && device_.is_cuda());
       losses[at] = diffusion_.Loss(denoiser_.get(), batch.Part(share.first, share.count));
       return shares[at] * losses[at].total;
@@ -143,10 +144,11 @@ class Training {
     throw core::Error(
         "the training has diverged: the loss is not a number at step " + std::to_string(step),
         output_.string(),
-        "the last good state is kept; go on from it with --resume and a lower rate");
+        "the last good state is kept; resume from it with --resume and a lower rate");
   }
 
-  // The averaged weights' loss on held-out scenes, at the same times and noise every time.
+  // Returns the loss of the averaged weights on held-out scenes, at the same times and noise in
+  // every call.
   double HeldOutLoss() {
     if (held_out_ == 0) return NAN;
     const torch::NoGradGuard no_gradient;
@@ -206,11 +208,11 @@ bool SceneTrainingOptions::IsValid(std::string* error) const {
     return false;
   };
   if (!trainer.IsValid(error)) return false;
-  if (batch < 1) return fails("batch has to be at least 1");
-  if (!(held_out >= 0.0 && held_out < 1.0)) return fails("held_out has to be a share below 1");
-  if (held_out_most < 0) return fails("held_out_most has to be at least 0");
-  if (buffer < 1) return fails("buffer has to be at least 1");
-  if (report_every < 1) return fails("report_every has to be at least 1");
+  if (batch < 1) return fails("batch must be at least 1");
+  if (!(held_out >= 0.0 && held_out < 1.0)) return fails("held_out must be a share below 1");
+  if (held_out_most < 0) return fails("held_out_most must be at least 0");
+  if (buffer < 1) return fails("buffer must be at least 1");
+  if (report_every < 1) return fails("report_every must be at least 1");
   return true;
 }
 
@@ -220,7 +222,7 @@ SceneTrainingReport TrainSceneModel(const SceneDataset& dataset, const SceneMode
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("training: " + error);
   if (dataset.SceneCount() < 2) {
-    throw core::Error("a model needs at least 2 scenes to learn from",
+    throw core::Error("a model needs at least 2 training scenes",
                       std::to_string(dataset.SceneCount()) + " are there");
   }
   if (model.shape_points > 0 &&

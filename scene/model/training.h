@@ -15,21 +15,22 @@
 namespace simwright::scene {
 
 struct SceneTrainingOptions {
-  nn::TrainerOptions trainer;  // the steps, their rate, averaging, resuming
-  // Scenes of a step. Two cores have time for few steps, and four times as many of a quarter learn
-  // more than fewer of 128 do in the same time (docs/scenes.md); a GPU has room for more.
+  nn::TrainerOptions trainer;  // steps, learning rate, averaging, resuming
+  // The batch size. Two cores have time for few steps, and four times as many steps of a quarter of
+  // the size learn more than steps of 128 in the same time (docs/scenes.md); a GPU allows larger
+  // batches.
   int batch = 32;
-  // Scenes at the dataset's end that training does not see: a share of all, but no more than so
-  // many.
+  // The held-out scenes at the end of the dataset: a share of all, and an upper bound on their
+  // number.
   double held_out = 0.1;
   int held_out_most = 1000;
   int buffer = 16384;           // scenes held in memory (SceneStream)
-  int report_every = 50;        // steps between two lines of the losses
-  bool bfloat16_on_gpu = true;  // products of matrices; as the paper trains
+  int report_every = 50;        // steps per line of the losses
+  bool bfloat16_on_gpu = true;  // for matrix products; as in the paper
   std::uint64_t seed = 1;
-  AssetShapes shapes;  // of the dataset's slots, for a model that knows classes by them
-  // The paper's rate is 2e-4 for batches of 2048 over 200k steps; of the few steps that two cores
-  // have, a higher one learns more.
+  AssetShapes shapes;  // of the dataset's categories, for a model with classes by shape
+  // Constructs the defaults. The paper's learning rate is 2e-4 for batches of 2048 over 200k steps;
+  // with the few steps that two cores allow, a higher one learns more.
   SceneTrainingOptions();
 
   bool IsValid(std::string* error) const;
@@ -40,19 +41,18 @@ struct SceneTrainingReport {
   std::int64_t parameters = 0;
   int training_scenes = 0, held_out_scenes = 0;
   double seconds = 0.0;            // of this run
-  std::vector<LossRecord> losses;  // earlier runs' included
+  std::vector<LossRecord> losses;  // including earlier runs
 };
 
-// Files of a training's folder.
+// The files of a training folder.
 inline constexpr char kWeightsFile[] = "model.pt", kStateFile[] = "training.pt",
                       kLossesFile[] = "losses.csv", kLossCurvesFile[] = "losses.svg";
 
-// Trains a model on the scenes of a dataset and writes it, the averaged weights, to
-// output/model.pt, at each state that is saved; the losses go to output/losses.csv and, as a
-// picture, losses.svg. Goes on from
-// the state in `output` where the trainer's options say so. Throws core::Error for options that are
-// not valid, a damaged dataset, and where the loss is not finite so often that the training has
-// diverged: then the last good state and weights stay.
+// Trains a model on the scenes of a dataset. At each saved state it writes the averaged weights to
+// output/model.pt and the losses to output/losses.csv and output/losses.svg. Resumes from the state
+// in `output` if the trainer's options ask for it. Throws core::Error for invalid options, for a
+// damaged dataset, and if so many losses in a row are not finite that training has diverged; the
+// last good state and weights are kept.
 SceneTrainingReport TrainSceneModel(const SceneDataset& dataset, const SceneModelOptions& model,
                                     const SceneTrainingOptions& options,
                                     const std::filesystem::path& output, core::Progress* progress);

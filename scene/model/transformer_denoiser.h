@@ -5,7 +5,7 @@
 
 namespace simwright::scene {
 
-// Attention, then a network on each token; time scales and shifts the norm before each.
+// Attention, then an MLP on each token; time scales and shifts the norm before each.
 class AdaptiveBlockImpl : public torch::nn::Module {
  public:
   AdaptiveBlockImpl(std::int64_t width, std::int64_t heads);
@@ -18,8 +18,8 @@ class AdaptiveBlockImpl : public torch::nn::Module {
 };
 TORCH_MODULE(AdaptiveBlock);
 
-// The denoiser of MiDiffusion (Hu et al. 2024): a transformer with 4 heads, networks of four times
-// the width, layer norms by time, no gates.
+// The denoiser of MiDiffusion (Hu et al. 2024): a transformer with 4 heads, MLPs of four times the
+// width, layer norms conditioned on time, no gates.
 class TransformerDenoiser : public Denoiser {
  public:
   TransformerDenoiser(const SceneModelOptions& options, int classes);

@@ -63,7 +63,7 @@ UnetDenoiser::UnetDenoiser(const SceneModelOptions& options, int classes) {
     down_->push_back(TokenResidual(width, width, width));
     down_->push_back(TokenResidual(width, width, width));
     down_->push_back(TokenAttention(width, heads, true));
-    // What comes from the way down is beside what comes from below.
+    // The features of the downward path are concatenated with those from below.
     up_->push_back(TokenResidual(2 * width, width, width));
     up_->push_back(TokenResidual(2 * width, width, width));
     up_->push_back(TokenAttention(width, heads, true));

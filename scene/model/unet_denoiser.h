@@ -4,8 +4,8 @@
 
 namespace simwright::scene {
 
-// Two convolutions of one token's width about a skip, with group norms; time scales and shifts
-// between them.
+// A residual block of two pointwise convolutions with group norms; time scales and shifts between
+// them.
 class TokenResidualImpl : public torch::nn::Module {
  public:
   TokenResidualImpl(std::int64_t in, std::int64_t out, std::int64_t time_width);
@@ -19,8 +19,8 @@ class TokenResidualImpl : public torch::nn::Module {
 };
 TORCH_MODULE(TokenResidual);
 
-// Attention between tokens about a skip. `linear`: softmax over features and over tokens apart, so
-// that its cost is linear in the tokens (Shen et al. 2021).
+// Attention between tokens with a residual connection. `linear`: softmax over features and over
+// tokens separately, so that the cost is linear in the tokens (Shen et al. 2021).
 class TokenAttentionImpl : public torch::nn::Module {
  public:
   TokenAttentionImpl(std::int64_t width, std::int64_t heads, bool linear);
@@ -35,8 +35,8 @@ class TokenAttentionImpl : public torch::nn::Module {
 TORCH_MODULE(TokenAttention);
 
 // The denoiser of DiffuScene (Tang et al. 2024): a U-Net along the scene's objects, four levels of
-// one width (multipliers 1/1/1/1). Its convolutions are of one token and its levels all as long as
-// the scene: objects have no neighbours, they meet in its attention.
+// one width (multipliers 1/1/1/1). Its convolutions are pointwise and all its levels have the
+// length of the scene: objects have no neighbours and interact in the attention only.
 class UnetDenoiser : public Denoiser {
  public:
   UnetDenoiser(const SceneModelOptions& options, int classes);

@@ -78,10 +78,10 @@ ReadModel ReadWeights(const std::filesystem::path& path) {
     model.denoiser->eval();
     return model;
   } catch (const nlohmann::json::exception&) {
-    throw core::Error("what the weights say of themselves cannot be read", path.string(),
-                      "train the model anew");
+    throw core::Error("the metadata of the weights cannot be read", path.string(),
+                      "train the model again");
   } catch (const std::out_of_range&) {
-    throw core::Error("the weights do not say of which model they are", path.string());
+    throw core::Error("the weights lack the options of their model", path.string());
   }
 }
 

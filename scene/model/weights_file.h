@@ -7,7 +7,8 @@
 
 namespace simwright::scene {
 
-// A model's weights with what it says of itself, in half precision. Written beside and renamed in.
+// Writes a model's weights with its metadata, in half precision. Atomic: writes a temporary file
+// and renames it.
 void WriteWeights(const Denoiser& denoiser, const SceneModelFacts& facts,
                   const std::filesystem::path& path);
 
@@ -15,7 +16,7 @@ struct ReadModel {
   SceneModelFacts facts;
   std::shared_ptr<Denoiser> denoiser;  // in evaluation mode
 };
-// Throws core::Error where the file is missing, damaged, or of another kind.
+// Reads a model. Throws core::Error if the file is missing, damaged, or of another kind.
 ReadModel ReadWeights(const std::filesystem::path& path);
 
 }  // namespace simwright::scene

@@ -158,7 +158,7 @@ TEST_F(SkillExport, WhatTheRobotCannotDoIsRefusedWithJointTimeAndValue) {
   rl::Skill crawling = skill;
   crawling.robot = &slow;
   const std::string crawled = ErrorOf(RecordEpisode(task.links(), 1, 0), crawling);
-  for (const char* part : {"panda_joint2", " s asks for velocity", "the limit is"}) {
+  for (const char* part : {"panda_joint2", " s needs velocity", "the limit is"}) {
     EXPECT_NE(crawled.find(part), std::string::npos) << crawled;
   }
 }

@@ -28,7 +28,8 @@ core::Hdf5Array<T> Random(std::vector<std::size_t> shape, double low, double hig
   return array;
 }
 
-// Twelve demonstrations, so that their names' order is not that of their numbers.
+// Returns twelve demonstrations, so that the order of their names differs from that of their
+// numbers.
 DemonstrationSet Sample() {
   core::Rng rng(21);
   DemonstrationSet set;
@@ -82,8 +83,8 @@ TEST(DemonstrationFile, ReadsBackEveryBit) {
   }
 }
 
-// h5py finds the same numbers, bit for bit, where robomimic looks for them; and what h5py writes
-// is read here.
+// h5py reads the same numbers, bit for bit, where robomimic expects them; files of h5py are
+// readable here.
 TEST(DemonstrationFile, PythonReadsAndWritesTheSame) {
   const core::TemporaryFolder folder;
   const DemonstrationSet set = Sample();

@@ -16,7 +16,7 @@ Eigen::VectorXd Posture(std::initializer_list<double> values) {
   return q;
 }
 
-// Poses of the manufacturer's joint origins, multiplied out independently of this code.
+// Poses from the manufacturer's joint origins, multiplied independently of this code.
 TEST(Panda, ForwardKinematicsMeetsPublishedPoses) {
   const Arm& arm = PandaArm();
   const Eigen::Isometry3d ready = ForwardKinematics(arm, arm.ready);
@@ -76,7 +76,7 @@ TEST(Panda, InverseKinematicsFindsPosesThatExist) {
   EXPECT_GE(reached, kTrials * 98 / 100);
 }
 
-// The longest reach is 0.855 m to the wrist's centre; the hand adds 0.21 m and the last link 0.088.
+// The reach is 0.855 m to the wrist centre; the hand adds 0.21 m and the last link 0.088 m.
 TEST(Panda, WhatIsTooFarIsNotReached) {
   core::Rng rng(1);
   for (const Eigen::Vector3d& far : {Eigen::Vector3d(1.3, 0, 0.4), Eigen::Vector3d(0, 0, 1.9),

@@ -44,14 +44,15 @@ Motion Sine(double size, double frequency) {
   };
 }
 
-// From rest to rest over `way` in `seconds` with the least jerk: way (10 x^3 - 15 x^4 + 6 x^5). Its
-// largest velocity is 15/8 way/T, acceleration 10/sqrt(3) way/T^2, jerk 60 way/T^3.
-Motion LeastJerk(double way, double seconds) {
+// Returns the minimum-jerk motion between rests over `distance` d in `seconds` T:
+// d (10 x^3 - 15 x^4 + 6 x^5). Its largest velocity is 15/8 d/T, acceleration 10/sqrt(3) d/T^2,
+// jerk 60 d/T^3.
+Motion LeastJerk(double distance, double seconds) {
   return [=](double t) {
     const double x = t / seconds, T = seconds;
-    return Eigen::Vector3d(way * x * x * x * (10 + x * (6 * x - 15)),
-                           way / T * 30 * x * x * (1 + x * (x - 2)),
-                           way / (T * T) * 60 * x * (1 + x * (2 * x - 3)));
+    return Eigen::Vector3d(distance * x * x * x * (10 + x * (6 * x - 15)),
+                           distance / T * 30 * x * x * (1 + x * (x - 2)),
+                           distance / (T * T) * 60 * x * (1 + x * (2 * x - 3)));
   };
 }
 
@@ -110,7 +111,7 @@ TEST(LimitCheck, DrawsTheLineAtTheLimit) {
   }
 }
 
-// Whatever sample is disturbed, the check names its joint and its time.
+// For any disturbed sample, the check names its joint and its time.
 TEST(LimitCheck, FindsADisturbedSample) {
   const JointTrajectory whole = SampledAt1Khz({LeastJerk(0.5, 1.0), LeastJerk(-0.5, 1.0)}, 1.0);
   const std::vector<JointLimits> limits(2, {-2, 2, 2, 10, 100, 50});

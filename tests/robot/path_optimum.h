@@ -9,9 +9,8 @@
 
 namespace simwright::robot {
 
-// Positions at equal steps along the way that `trajectory` goes, and the step: the way's length is
-// the joints' (a sliding one counts twenty times, in m against rad). Where it rests nothing is
-// gone.
+// Returns positions at equal steps along the path of `trajectory`, and the step: the path length is
+// measured in joint space (1 m of a prismatic joint counts as 20 rad). Rests add no length.
 inline Eigen::MatrixXd AlongTheWay(const JointTrajectory& trajectory,
                                    const std::vector<bool>& sliding, int points, double* step) {
   Eigen::RowVectorXd scale(trajectory.positions.cols());
@@ -38,10 +37,10 @@ inline Eigen::MatrixXd AlongTheWay(const JointTrajectory& trajectory,
   return rows;
 }
 
-// The least s in which the way through `rows` (equal steps `step` along it) can be gone from rest
-// to rest within limits of velocity and acceleration, whatever the jerk: derivatives by divided
-// differences, speeds by integrating back from the end and forward from the start. Knows nothing of
-// splines or laws of time.
+// Returns the shortest time in s for the path through `rows` (equal steps of `step`) from rest to
+// rest within the velocity and acceleration limits, without a jerk limit: derivatives by divided
+// differences, speeds by integration backward from the end and forward from the start. Independent
+// of splines and time laws.
 inline double LeastSeconds(const Eigen::MatrixXd& rows, double step,
                            const std::vector<JointLimits>& limits) {
   const Eigen::Index count = rows.rows(), joints = rows.cols();
@@ -51,7 +50,7 @@ inline double LeastSeconds(const Eigen::MatrixXd& rows, double step,
     first.row(i) = (rows.row(c + 1) - rows.row(c - 1)) / (2.0 * step);
     second.row(i) = (rows.row(c + 1) - 2.0 * rows.row(c) + rows.row(c - 1)) / (step * step);
   }
-  // Of the square x of the speed: the least and the largest half growth by the way.
+  // Computes the smallest and largest half growth of the squared speed x along the path.
   const auto growth = [&](Eigen::Index i, double x, double* least, double* largest) {
     *least = -1e9;
     *largest = 1e9;

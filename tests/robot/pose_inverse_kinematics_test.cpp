@@ -18,7 +18,8 @@ bool WithinLimits(const Arm& arm, const Posture& q) {
   return true;
 }
 
-// By the other kinematics and Eigen's quaternions: independent of the solver's own figures.
+// Computes the error with the other kinematics and Eigen's quaternions, independently of the
+// solver.
 PoseError TrueError(const Arm& arm, const Posture& q, const Eigen::Isometry3d& target) {
   const Eigen::Isometry3d tool = ForwardKinematics(arm, q);
   return {(tool.translation() - target.translation()).norm(),
@@ -84,7 +85,7 @@ Posture StepsOf(const RobotModel& model, double seconds) {
   return steps;
 }
 
-// A circle of 10 cm in 2 s, turning the hand as it goes, at 60 Hz.
+// A circle of 10 cm in 2 s with a rotating gripper, at 60 Hz.
 TEST(Track, FollowsAPathWithinLimitsAndSteps) {
   const RobotModel& model = Panda(false);
   const PoseInverseKinematics solver(model.arm);
@@ -107,14 +108,15 @@ TEST(Track, FollowsAPathWithinLimitsAndSteps) {
   }
 }
 
-// |weighted error|^2 of a posture: what tracking makes small.
+// Returns |weighted error|^2 of a configuration: the cost that tracking minimizes.
 double Misses(const Arm& arm, const Posture& q, const Eigen::Isometry3d& target) {
   const PoseError error = TrueError(arm, q, target);
   const double angle = PoseInverseKinematicsOptions().angle_weight * error.angle;
   return error.position * error.position + angle * angle;
 }
 
-// Out of reach it comes to rest, where no small motion within the limits brings it nearer.
+// Out of reach, tracking converges to a point where no small motion within the limits reduces the
+// error.
 TEST(Track, ComesToRestAsNearAsCanBe) {
   const RobotModel& model = Panda(false);
   const PoseInverseKinematics solver(model.arm);
@@ -146,8 +148,8 @@ TEST(Track, ComesToRestAsNearAsCanBe) {
   }
 }
 
-// With the tool where it shall be, the elbow goes home and the tool stays.
-// Another posture than home, of a 7-joint arm, with the tool at `target`.
+// With the tool at its target, the elbow drifts home and the tool stays.
+// Returns a configuration of a 7-joint arm, other than home, with the tool at `target`.
 Posture Elsewhere(const RobotModel& model, const PoseInverseKinematics& solver,
                   const Eigen::Isometry3d& target) {
   core::Rng rng(5);

@@ -5,7 +5,7 @@
 
 namespace simwright::robot {
 
-// Uniform within the joints' limits. (J)
+// Returns a configuration (J) that is uniform within the joint limits.
 inline Eigen::VectorXd RandomPosture(const Arm& arm, core::Rng& rng) {
   Eigen::VectorXd q(arm.size());
   for (int j = 0; j < arm.size(); ++j) {

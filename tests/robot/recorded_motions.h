@@ -11,7 +11,7 @@
 
 namespace simwright::robot {
 
-// What retiming needs to know of a robot's arm and gripper.
+// The inputs of retiming for a robot's arm and gripper.
 struct RetimedJoints {
   std::vector<std::string> names;
   std::vector<JointLimits> limits;  // of commands
@@ -31,13 +31,13 @@ inline RetimedJoints JointsToRetime(const RobotModel& model) {
   return joints;
 }
 
-// Motions as a simulation at 60 Hz records them: of the arm, made of `kind`, and of fingers that
-// close at their full speed, hold, and open again.
+// Motions as recorded by a simulation at 60 Hz: of the arm, of the given `kind`, and of fingers
+// that close at full speed, hold, and open again.
 enum class MotionKind {
   kSmooth,   // sines at up to half the velocity limits
   kFast,     // the same at up to three times the limits
-  kPolicy,   // a new velocity each step, up to 0.8 of the limits, behind a lag of 50 ms
-  kNoisy,    // smooth, each position off by up to 0.5 mrad or 0.1 mm
+  kPolicy,   // a new velocity per step, up to 0.8 of the limits, with a lag of 50 ms
+  kNoisy,    // smooth, with position noise of up to 0.5 mrad or 0.1 mm
   kCorners,  // straight lines at up to 0.8 of the velocity limits, with sudden turns
 };
 
@@ -68,7 +68,7 @@ inline RecordedPath MakeMotion(const RobotModel& model, MotionKind kind, double 
       if (kind == MotionKind::kPolicy || k % 20 == 0) {
         wanted = limit.velocity * core::Uniform(rng, -0.8, 0.8);
       }
-      // Turns back in time: in a third of a second it does 0.7 rad at most.
+      // Reverses in time: in a third of a second it moves 0.7 rad at most.
       if (std::abs(q - middle) > 0.5 * room) {
         wanted = std::copysign(wanted, middle - q);
       }
@@ -91,7 +91,8 @@ inline RecordedPath MakeMotion(const RobotModel& model, MotionKind kind, double 
   return path;
 }
 
-// No motion along `path` within the limits of velocity is shorter than so many times its length.
+// Returns a lower bound on the duration of a motion along `path` within the velocity limits,
+// relative to the recording.
 inline double LeastStretch(const RecordedPath& path, const std::vector<JointLimits>& limits) {
   double least = 0.0;
   for (Eigen::Index k = 1; k < path.positions.rows(); ++k) {

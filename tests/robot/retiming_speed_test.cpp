@@ -1,5 +1,5 @@
-// How fast retimed motions are: against the optimum without limits of jerk, and against the
-// recording where its pace is kept.
+// Durations of retimed motions: against the optimum without jerk limits, and against the recording
+// if its pace is kept.
 #include <gtest/gtest.h>
 
 #include "robot/limit_check.h"
@@ -26,10 +26,10 @@ TEST(FastestSpeeds, AreTheTrapezoidsOfOneJoint) {
   path.second = path.third = Eigen::MatrixXd::Zero(1, 1001);
   const std::vector<JointLimits> limits = {{-2, 2, 2, 10, 1e4, 0}};
   const std::vector<double> most(1001, 50.0);
-  // What follows the end is not asked for: the speed there is bounded by velocity alone.
+  // The speed at the end is bounded by velocity only, as no point follows.
   const std::vector<double> speeds = FastestSpeeds(path, limits, most);
   for (const double speed : speeds) EXPECT_NEAR(speed, 2.0, 1e-9);
-  // A place that must be passed at 0.5 /s: v^2 = 0.25 + 2 a way on both sides.
+  // A point that must be passed at 0.5 /s: v^2 = 0.25 + 2 a s on both sides.
   path.first(0, 500) = 4.0;
   const std::vector<double> slowed = FastestSpeeds(path, limits, most);
   EXPECT_NEAR(slowed[500], 0.5, 1e-9);
@@ -44,7 +44,7 @@ struct Pace {
 
 class AtTheLimits : public testing::TestWithParam<Pace> {};
 
-// The same way, its own positions, at the limits of velocity and acceleration alone.
+// The same path through its own positions, at the limits of velocity and acceleration only.
 TEST_P(AtTheLimits, TakesLittleMoreThanTheOptimumWithoutJerk) {
   const RobotModel& model = Panda(false);
   const RetimedJoints joints = JointsToRetime(model);
@@ -59,7 +59,7 @@ TEST_P(AtTheLimits, TakesLittleMoreThanTheOptimumWithoutJerk) {
     const double seconds = retimed.trajectory.times.back();
     const double least = LeastSeconds(rows, step, joints.limits);
     EXPECT_LT(seconds, GetParam().most * least) << seed;
-    EXPECT_GT(seconds, 0.9 * least) << seed;  // or the optimum is none
+    EXPECT_GT(seconds, 0.9 * least) << seed;  // otherwise the optimum is not one
     RecordProperty("ratio_" + std::to_string(seed), std::to_string(seconds / least));
   }
 }
@@ -71,14 +71,14 @@ INSTANTIATE_TEST_SUITE_P(Motions, AtTheLimits,
                                          Pace{MotionKind::kPolicy, 1.12},
                                          Pace{MotionKind::kCorners, 1.12}));
 
-// Rest is no motion: it takes no time unless its pace is kept.
+// Rests take no time unless the pace is kept.
 TEST(Retiming, KeepsThePaceWhereItIsAsked) {
   RecordedPath path;
   path.joints = {"joint"};
   path.positions.resize(181, 1);
   for (Eigen::Index k = 0; k <= 180; ++k) {
     path.times.push_back(static_cast<double>(k) / 60.0);
-    // A second's way of 0.1 rad, a second's rest, the way back.
+    // 0.1 rad in a second, a rest of a second, and back.
     const double t = path.times.back();
     const double way = 0.05 * (1.0 - std::cos(std::numbers::pi * std::min(t, 1.0)));
     const double back = 0.05 * (1.0 - std::cos(std::numbers::pi * std::max(t - 2.0, 0.0)));

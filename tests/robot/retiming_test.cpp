@@ -12,7 +12,7 @@
 namespace simwright::robot {
 namespace {
 
-// The trajectory at any time, by cubics through its positions and velocities.
+// Evaluates the trajectory at any time, by cubics through its positions and velocities.
 Eigen::RowVectorXd PositionsAt(const JointTrajectory& trajectory, double time) {
   const double h = trajectory.times[1];
   const Eigen::Index i =
@@ -31,8 +31,8 @@ struct Property {
 
 class AnyMotion : public testing::TestWithParam<Property> {};
 
-// What retiming promises, measured on what it returns: the independent check accepts it, it runs
-// from rest to rest, and it passes each recorded position, in order, within the deviations.
+// The guarantees of retiming, measured on its results: the independent check accepts the motion, it
+// starts and ends at rest, and it passes each recorded position, in order, within the deviations.
 TEST_P(AnyMotion, IsAcceptedAndStaysClose) {
   const RobotModel model =
       ReadRobot(std::filesystem::path(SIMWRIGHT_SOURCE_DIR) / "robots" / GetParam().robot);
@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(Motions, AnyMotion,
                                          Property{"generic6/generic6.urdf", MotionKind::kFast},
                                          Property{"generic6/generic6.urdf", MotionKind::kPolicy}));
 
-// One joint from rest to rest along a cosine, over `way` in `seconds`, then still for a second.
+// Returns a motion of one joint along a cosine, over `way` in `seconds`, then at rest for a second.
 RecordedPath Cosine(double way, double seconds) {
   RecordedPath path;
   path.joints = {"joint"};
@@ -109,19 +109,19 @@ const JointLimits kJoint = {-2.0, 2.0, 2.0, 10.0, 5000.0, 0.0};
 TEST(Retiming, WhatIsWithinTheLimitsKeepsItsTime) {
   const RecordedPath path = Cosine(1.0, 2.0);  // 0.79 rad/s, 1.23 rad/s^2
   const Retimed retimed = Retime(path, {kJoint}, {false}, nullptr);
-  // Nothing but the two ramps, of half their length each, and the last millisecond.
+  // The only additions are the two ramps, of half their length each, and the last millisecond.
   EXPECT_NEAR(retimed.trajectory.times.back(), 3.0 + RetimingOptions().ramp, 2e-3);
   EXPECT_EQ(retimed.tool_deviation, 0.0);
 }
 
-// Three times too fast: the motion takes three times as long where it is too fast, and the second
-// of rest keeps its length.
+// A motion three times too fast takes three times as long, and the rest of a second keeps its
+// length.
 TEST(Retiming, SlowsDownWhereTheLimitsAsk) {
   const RecordedPath path = Cosine(1.5, 0.4);  // 5.9 rad/s, limit 2; 46 rad/s^2, limit 10
   const Retimed retimed = Retime(path, {kJoint}, {false}, nullptr);
   const LimitReport report = CheckLimits(retimed.trajectory, {kJoint});
   EXPECT_TRUE(report.accepted());
-  EXPECT_GT(report.joints[0].velocity.ratio, 0.95);  // what is allowed is used
+  EXPECT_GT(report.joints[0].velocity.ratio, 0.95);  // uses the allowed velocity
   // At full acceleration and velocity: 1.5 / 2 + 2 / 10 = 0.95 s.
   const double rest = retimed.waypoint_times.back() - retimed.waypoint_times[24];
   EXPECT_LT(retimed.waypoint_times[24], 1.5);
@@ -139,7 +139,8 @@ TEST(Retiming, StretchesLittleMoreThanTheVelocitiesAskFor) {
   }
 }
 
-// While the fingers hold in the recording they hold in the motion, and the arm is where it was.
+// While the fingers hold in the recording they hold in the motion, and the arm has the recorded
+// configuration.
 TEST(Retiming, FingersHoldWhileTheyHeld) {
   const RobotModel& model = Panda(false);
   const RetimedJoints joints = JointsToRetime(model);
@@ -165,7 +166,8 @@ TEST(Retiming, FingersHoldWhileTheyHeld) {
 TEST(Retiming, StaysWithinLimitsThatTheRecordingTouches) {
   RecordedPath path = Cosine(1.0, 1.0);
   JointLimits limits = kJoint;
-  limits.lower = 0.0005;  // the recording starts half a milliradian below, and ends above by that
+  limits.lower = 0.0005;  // the recording starts half a milliradian below and ends half a
+                          // milliradian above
   limits.upper = 0.9995;
   const Retimed retimed = Retime(path, {limits}, {false}, nullptr);
   EXPECT_GE(retimed.trajectory.positions.minCoeff(), limits.lower);

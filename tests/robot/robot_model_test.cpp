@@ -14,7 +14,7 @@
 namespace simwright::robot {
 namespace {
 
-// Each link's pose by the URDF's own tree, which knows nothing of `Arm`.
+// Returns each link's pose from the URDF's tree, independently of `Arm`.
 Eigen::Isometry3d LinkPose(const RobotModel& model, const Eigen::VectorXd& q,
                            const std::string& link) {
   assets::JointPositions positions;
@@ -27,7 +27,7 @@ Eigen::Isometry3d LinkPose(const RobotModel& model, const Eigen::VectorXd& q,
   return Eigen::Isometry3d::Identity();
 }
 
-// Biggest element of the difference of two poses: m and unit vectors' components.
+// Returns the largest element of the difference of two poses: m and components of unit vectors.
 double Difference(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff();
 }
@@ -53,7 +53,7 @@ TEST(PandaModel, UrdfAgreesWithTheTableOfJoints) {
   EXPECT_DOUBLE_EQ(model.gripper.MaxOpening(), kPandaOpening);
 }
 
-// The maker's joint origins, multiplied out independently of this code.
+// The manufacturer's joint origins, multiplied independently of this code.
 TEST(PandaModel, MeetsPublishedPosesOfFlangeAndTool) {
   struct Golden {
     std::vector<double> q;
@@ -88,7 +88,7 @@ TEST(PandaModel, MeetsPublishedPosesOfFlangeAndTool) {
   }
 }
 
-// Jacobian and kinematics with joints that slide, against finite differences.
+// Jacobian and kinematics with prismatic joints, against finite differences.
 TEST(PandaModel, BaseSlidesAndTheJacobianKnows) {
   const RobotModel& model = Panda(true);
   ASSERT_EQ(model.arm.size(), 9);
@@ -116,8 +116,8 @@ TEST(PandaModel, BaseSlidesAndTheJacobianKnows) {
   }
 }
 
-// Masses and principal moments as published; of link 4 the moments moved to the nearest that a body
-// can have, computed here anew.
+// Masses and principal moments as published; the moments of link 4 are projected to the nearest
+// physically valid ones, recomputed here.
 TEST(PandaModel, MassesAndInertiasAreTheMakers) {
   const double masses[] = {2.3966, 2.7907, 2.5420, 2.2513, 2.2037, 2.2855, 1.353, 0.35973};
   const double moments[][3] = {
@@ -146,7 +146,7 @@ TEST(PandaModel, MassesAndInertiasAreTheMakers) {
   EXPECT_NEAR(sum, 16.18, 0.005);
 }
 
-// The full inertias as published, in the link's axes: what was turned to principal axes turns back.
+// The full inertias as published, in the link axes: the principal inertias rotate back to them.
 TEST(PandaModel, InertiaTurnsBackToTheLinksAxes) {
   const auto& links = Panda(false).urdf.links;
   const auto inertia_of = [&](const std::string& name) -> Eigen::Matrix3d {
@@ -194,8 +194,8 @@ TEST_P(EveryRobot, LoadsWithInertiasThatBodiesCanHave) {
   EXPECT_EQ(follower.mimic->joint, model.urdf.joints[model.gripper.joints[0]].name);
 }
 
-// Between the finger pads of an open gripper there is as much room as the model says, and none
-// between those of a closed one.
+// The gap between the finger pads of an open gripper equals the opening of the model; a closed
+// gripper has none.
 TEST_P(EveryRobot, OpeningIsTheRoomBetweenThePads) {
   const RobotModel model =
       ReadRobot(std::filesystem::path(SIMWRIGHT_SOURCE_DIR) / "robots" / GetParam());

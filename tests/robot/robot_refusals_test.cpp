@@ -1,4 +1,4 @@
-// Robots that are none: each is refused with one line that names the file and what to do.
+// Invalid robots: each gives a one-line error that names the file and the remedy.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -20,7 +20,7 @@ class Refusal : public testing::Test {
       : urdf_(core::ReadFile(kRobots / "generic6/generic6.urdf")),
         side_(Json::parse(core::ReadFile(kRobots / "generic6/generic6.json"))) {}
 
-  // The error's line for the robot as it now stands; empty where it loads.
+  // Returns the error line for the current robot; empty if it loads.
   std::string Line() { return LineOfText(side_.dump(2)); }
   std::string LineOfText(const std::string& side) {
     const core::TemporaryFolder folder;
@@ -103,7 +103,7 @@ TEST_F(Refusal, OfAUrdfWithoutTheGripper) {
 TEST_F(Refusal, OfJointsThatAreNoChain) {
   const Json whole = side_;
   std::swap(side_["arm_joints"][1], side_["arm_joints"][2]);
-  ExpectSays(Line(), {"no chain", "'joint3'", "'joint2'"});
+  ExpectSays(Line(), {"not a chain", "'joint3'", "'joint2'"});
   side_ = whole;
   side_["arm_joints"].erase(5);
   ExpectSays(Line(), {"'joint6' moves the tool"});
@@ -132,7 +132,7 @@ TEST_F(Refusal, OfPositionsOutsideTheLimits) {
 
 TEST_F(Refusal, OfALimitWithoutRange) {
   Replace("lower=\"-2.6\" upper=\"2.6\"", "lower=\"1.5\" upper=\"1.5\"");
-  ExpectSays(Line(), {"arm.urdf", "'joint3'", "no room to move"});
+  ExpectSays(Line(), {"arm.urdf", "'joint3'", "cannot move"});
 }
 
 TEST_F(Refusal, OfRatesThatAreNone) {
@@ -149,7 +149,7 @@ TEST_F(Refusal, OfRatesThatAreNone) {
 TEST_F(Refusal, OfTextThatIsNoSideFile) {
   const std::string whole = side_.dump(2);
   for (std::size_t length = 0; length < whole.size(); length += 97) {
-    ExpectSays(LineOfText(whole.substr(0, length)), {"arm.json", "no JSON"});
+    ExpectSays(LineOfText(whole.substr(0, length)), {"arm.json", "JSON"});
   }
   for (const char* number : {"NaN", "1e999", "-Infinity"}) {
     std::string text = whole;

@@ -1,4 +1,4 @@
-// The shapes that a robot collides with itself by, and the pairs that may meet.
+// The self-collision shapes of a robot, and the pairs whose contact is ignored.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace simwright::robot {
 namespace {
 
-// Least distance between two links' shapes, m; below 0 where they overlap.
+// Returns the smallest distance between the shapes of two links, m; below 0 if they overlap.
 double Distance(const RobotModel& model, const std::vector<Eigen::Isometry3d>& poses, std::size_t a,
                 std::size_t b) {
   double least = 10.0;
@@ -35,7 +35,7 @@ class SelfCollision : public testing::TestWithParam<const char*> {
       ignored_.insert({std::min(a, b), std::max(a, b)});
     }
   }
-  // Pairs of links that are checked and overlap with the arm at `q`.
+  // Returns the checked pairs of links that overlap with the arm at `q`.
   std::vector<std::string> Overlaps(const Eigen::VectorXd& q, double opening) const {
     assets::JointPositions positions;
     for (int j = 0; j < model_.arm.size(); ++j) positions[model_.arm.joints[j].name] = q[j];
@@ -62,7 +62,7 @@ TEST_P(SelfCollision, NoneAtHomeWithTheGripperOpenOrClosed) {
   }
 }
 
-// A pair that overlaps wherever the arm stands would stop it: such pairs must be ignored.
+// A pair that overlaps in every configuration would stop the arm: such pairs must be ignored.
 TEST_P(SelfCollision, NoPairThatIsCheckedOverlapsUsually) {
   core::Rng rng(17);
   std::map<std::string, int> overlaps;

@@ -84,7 +84,7 @@ TEST(TrajectoryFile, TimesOfALongMotionReadBackToo) {
   }
 }
 
-// Python's own readers find the same numbers, bit for bit.
+// Python's readers read the same numbers, bit for bit.
 TEST(TrajectoryFile, PythonReadsTheSame) {
   const core::TemporaryFolder folder;
   const JointTrajectory trajectory = Sample();
@@ -116,7 +116,7 @@ TEST(TrajectoryFile, PythonReadsTheSame) {
   }
 }
 
-// As `ros2 topic echo` prints a message.
+// The format of `ros2 topic echo`.
 TEST(TrajectoryFile, ReadsListsOfOneEntryALine) {
   const std::string text =
       "header:\n  stamp:\n    sec: 12\n    nanosec: 5\n  frame_id: ''\n"
@@ -139,7 +139,7 @@ TEST(TrajectoryFile, RefusesAFileThatIsCutOff) {
   const JointTrajectory trajectory = Sample(5);
   for (const TrajectoryFormat format : kFormats) {
     const std::string whole = TrajectoryText(trajectory, format);
-    // Without the last line break there is still all that is said.
+    // Without the last newline no content is missing.
     for (std::size_t length = 0; length + 1 < whole.size(); ++length) {
       EXPECT_THROW(ParseTrajectory(whole.substr(0, length), format, "cut"), core::Error)
           << static_cast<int>(format) << " cut to " << length << " of " << whole.size();
@@ -147,7 +147,7 @@ TEST(TrajectoryFile, RefusesAFileThatIsCutOff) {
   }
 }
 
-// The line for `whole` with `from` replaced by `to`, the first time it stands there.
+// Returns the error line for `whole` with the first `from` replaced by `to`.
 std::string LineAfter(std::string whole, TrajectoryFormat format, const std::string& from,
                       const std::string& to) {
   const std::size_t at = whole.find(from);
@@ -183,17 +183,17 @@ TEST(TrajectoryFile, RefusesWhatIsNoTrajectory) {
   refuses(kRosYaml, "- a\n", "- b\n", "two joints are named 'b'");
   refuses(kRosYaml, "[1.25, 1.25]", "[1.25]", "1 positions for 2 joints");
   refuses(kRosYaml, "[7.5, 7.5]", "[]", "some points have velocities");
-  refuses(kRosYaml, "nanosec: 500000000", "nanosec: 0", "does not come after");
-  refuses(kRosYaml, "nanosec: 500000000", "nanosec: 5000000000", "no time");
-  refuses(kRosYaml, "nanosec: 500000000", "nanosec: 0.5", "whole number");
-  refuses(kRosYaml, "effort", "torque", "no member");
-  refuses(kRosYaml, "points:", "dots:", "no member");
+  refuses(kRosYaml, "nanosec: 500000000", "nanosec: 0", "does not exceed");
+  refuses(kRosYaml, "nanosec: 500000000", "nanosec: 5000000000", "not a valid time");
+  refuses(kRosYaml, "nanosec: 500000000", "nanosec: 0.5", "must be an integer");
+  refuses(kRosYaml, "effort", "torque", "not a member");
+  refuses(kRosYaml, "points:", "dots:", "not a member");
   refuses(kRosJson, "[1.25, 1.25]", "[1.25]", "1 positions for 2 joints");
   refuses(kRosJson, "[1.25, 1.25]", "[1.25, null]", "points[0].positions[1]");
-  refuses(kRosJson, "500000000", "0", "does not come after");
+  refuses(kRosJson, "500000000", "0", "does not exceed");
   refuses(kRosJson, "\"effort\"", "\"torque\"", "'torque'");
   refuses(kRosJson, "\"points\"", "\"dots\"", "'dots'");
-  refuses(kCsv, "\n0.5,", "\n0.0,", "does not come after");
+  refuses(kCsv, "\n0.5,", "\n0.0,", "does not exceed");
   refuses(kCsv, "1.25,1.25", "1.25", "cells");
   refuses(kCsv, "velocity.b", "speed.b", "velocity.b");
   refuses(kCsv, "time,", "t,", "'time'");

@@ -1,4 +1,4 @@
-// Motions of some joints, joined again and under other names.
+// Trajectories of a subset of joints, joined again and renamed.
 #include "robot/trajectory_joints.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(JointNames, AreThoseOfAPandaAndOfAResearch3) {
   const JointNames fr3 = JointNamesFor("fr3", kJoints);
   EXPECT_EQ(Renamed(Sample(), fr3.names).joints,
             (std::vector<std::string>{"fr3_joint1", "fr3_joint2", "fr3_finger_joint1"}));
-  // Its joints turn less and speed up less than a Panda's: 10 against 15 rad/s^2.
+  // Its joints have smaller ranges and accelerations than a Panda's: 10 against 15 rad/s^2.
   const JointLimits panda = {-2.8973, 2.8973, 2.175, 15.0, 7500.0, 87.0};
   const JointLimits both = TighterOf(panda, fr3.limits.at("panda_joint1"));
   EXPECT_EQ(both.upper, 2.7437);

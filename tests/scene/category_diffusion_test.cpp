@@ -1,4 +1,5 @@
-// Mask-and-replace diffusion against brute force: chains of transition matrices, every path summed.
+// Mask-and-replace diffusion against brute force: chains of transition matrices, summed over all
+// paths.
 #include "scene/model/category_diffusion.h"
 
 #include <gtest/gtest.h>
@@ -111,7 +112,7 @@ TEST(CategoryDiffusion, DivergenceIsItsDefinition) {
         if (truth[i] > 0.0) expected += truth[i] * std::log(truth[i] / guess[i]);
       }
       EXPECT_NEAR(kl, expected, 1e-4 * std::max(1.0, expected)) << "t " << t;
-      // At the first step it is what the clean class costs.
+      // At the first step it is the negative log-likelihood of the clean class.
       if (t == 0 && noisy == kClasses) {
         EXPECT_NEAR(kl, -std::log(0.5), 1e-4);
       }

@@ -1,4 +1,4 @@
-// Classes known by the surfaces of their assets: their numbers mean nothing.
+// Classes embedded by the surfaces of their assets: class indices carry no information.
 #include "scene/model/class_shapes.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ SceneModelOptions Small(DenoiserKind kind) {
   return options;
 }
 
-// Weights of `to` become those of `from`; shapes stay.
+// Copies the weights of `from` to `to`; shapes are unchanged.
 void CopyParameters(const Denoiser& from, Denoiser* to) {
   const torch::NoGradGuard no_gradient;
   const auto values = from.named_parameters();
@@ -51,7 +51,7 @@ TEST_P(ClassShapesOf, AnotherOrderOfClassesIsTheSameInThatOrder) {
   a->SetShapes({{cup, plate, floor}});
   b->SetShapes({{plate, floor, cup, plate}});
   const torch::Tensor poses = torch::randn({2, kEntries, 12}), time = torch::tensor({10, 700});
-  // Of a: cup, plate, floor, empty (3), mask (4). Of b: the same things at 2, 0 or 3, 1, 4, 5.
+  // In a: cup, plate, floor, empty (3), mask (4). In b the same assets are 2, 0 or 3, 1, 4, 5.
   const torch::Tensor classes = torch::tensor({{0, 1, 2, 3, 4}, {1, 1, 4, 0, 3}});
   const torch::Tensor renamed = torch::tensor({{2, 0, 1, 4, 5}, {3, 0, 5, 2, 4}});
   const Denoised of_a = a->Predict({poses, classes, time}),
@@ -61,7 +61,7 @@ TEST_P(ClassShapesOf, AnotherOrderOfClassesIsTheSameInThatOrder) {
   EXPECT_LT((of_a.classes - taken).abs().max().item<double>(), 1e-5);
   const torch::Tensor twins = of_b.classes.select(-1, 0) - of_b.classes.select(-1, 3);
   EXPECT_LT(twins.abs().max().item<double>(), 1e-5);
-  // What differs in shape differs in logits.
+  // Different shapes have different logits.
   EXPECT_GT((of_a.classes.select(-1, 0) - of_a.classes.select(-1, 1)).abs().min().item<double>(),
             1e-4);
 }

@@ -1,4 +1,4 @@
-// Convex parts that tests are made of.
+// Convex parts for tests.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Scenes as numbers in HDF5: what is written is read, also by h5py; what is damaged is refused.
+// Scenes in HDF5: written files are readable, also by h5py; damaged ones are rejected.
 #include "scene/dataset/scene_dataset.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ DrawnObject Thing(const std::string& slot, double x, double turn) {
   return object;
 }
 
-// Scene i: a table, and a cup whose place says i.
+// Scene i: a table, and a cup whose position encodes i.
 ScenePart Part(int number, int scenes) {
   ScenePart part{Words(), {5, number, "{}", "{}", "1"}, {}, {}};
   const size_t size = static_cast<size_t>(Words().entries * Words().TokenWidth());
@@ -78,7 +78,7 @@ TEST(SceneTokens, TheNearestRotationIsTheNearest) {
   Eigen::Matrix3d stretch;
   stretch << 2.0, 0.3, 0.1, 0.3, 1.0, -0.2, 0.1, -0.2, 0.5;
   EXPECT_TRUE(NearestRotation(turn * stretch).isApprox(turn, 1e-12));
-  // Of a reflection it is still a rotation, and no other of many is nearer.
+  // For a reflection the result is still a rotation, and none of many others is nearer.
   Eigen::Matrix3d mirror = Eigen::Vector3d(1.0, 0.9, -0.3).asDiagonal();
   mirror(0, 1) = 0.2;
   const Eigen::Matrix3d nearest = NearestRotation(mirror);
@@ -194,10 +194,10 @@ TEST(SceneDataset, RefusesWhatIsDamaged) {
   part.tokens.resize(part.tokens.size() / 3 * 2);
   part.attempts.push_back({3, 3, 0, true, true, 0, 0, 0});
   WritePart(part, path);
-  EXPECT_EQ(ErrorOf(path), "");  // what is sound is counted, wherever it is
+  EXPECT_EQ(ErrorOf(path), "");  // valid scenes are counted at any position
 }
 
-// Wherever a byte has flipped: libhdf5 alone would crash for one in forty.
+// Flips bytes at all positions: libhdf5 alone would crash for one in forty.
 TEST(SceneDataset, RefusesEveryFlippedByte) {
   const core::TemporaryFolder folder;
   const fs::path path = folder.path() / PartName(0);
@@ -206,7 +206,7 @@ TEST(SceneDataset, RefusesEveryFlippedByte) {
   core::Rng rng = core::StreamRng(1, 0);
   for (int i = 0; i < 500; ++i) {
     std::string damaged = bytes;
-    // What is not of the seal, whose damage only leaves the file without one.
+    // Bytes outside the seal; damage to the seal only leaves the file without one.
     const auto at =
         static_cast<size_t>(core::Uniform(rng, 0, static_cast<double>(bytes.size() - 40)));
     damaged[at] = static_cast<char>(damaged[at] ^ (1 << (i % 8)));
@@ -239,7 +239,8 @@ TEST(SceneStream, GivesEveryScenePerRound) {
     for (size_t i = 0; i < 60; ++i) result.push_back(NumberOf(&tokens[i * size]));
     return result;
   };
-  // All in the buffer: the 60 scenes from the tenth on, each once, then each once in another order.
+  // A buffer that holds all: the 60 scenes from the tenth on, each once, then each once in another
+  // order.
   SceneStream whole(dataset, {10, 60, 100, 8}, 3);
   const std::vector<int> first = numbers(&whole), second = numbers(&whole);
   EXPECT_EQ(std::set<int>(first.begin(), first.end()).size(), 60u);
@@ -248,7 +249,7 @@ TEST(SceneStream, GivesEveryScenePerRound) {
   EXPECT_NE(first, second);
   SceneStream again(dataset, {10, 60, 100, 8}, 3);
   EXPECT_EQ(numbers(&again), first);
-  // A buffer of a quarter: over ten rounds every scene about ten times, no order kept.
+  // A buffer of a quarter: over ten epochs every scene comes about ten times, in random order.
   SceneStream streamed(dataset, {10, 60, 15, 8}, 3);
   std::map<int, int> counts;
   for (int round = 0; round < 10; ++round) {
@@ -293,7 +294,7 @@ TEST(PartClaim, OneWorkerHasIt) {
     EXPECT_FALSE(PartClaim(part).held());
   }
   EXPECT_TRUE(PartClaim(part).held());
-  // A lock's file that a worker left when it died holds nobody up.
+  // A lock file of a dead worker blocks no other worker.
   std::ofstream(part.string() + ".lock") << "";
   EXPECT_TRUE(PartClaim(part).held());
 }

@@ -10,7 +10,7 @@ inline const DrawnObject& ParentOf(const SceneDraw& draw, const DrawnObject& obj
   return draw.objects[static_cast<size_t>(object.parent)];
 }
 
-// Stands on a welded thing, not on another object.
+// Returns true if the object stands on a welded object, not on a free one.
 inline bool IsBase(const SceneDraw& draw, const DrawnObject& object) {
   return object.parent >= 0 && !object.welded && ParentOf(draw, object).welded;
 }
@@ -19,12 +19,12 @@ inline Eigen::Vector3d PlaceOf(const DrawnObject& object) {
   return object.world_from_object.translation();
 }
 
-// m, seen from above.
+// Returns the horizontal distance, m.
 inline double Across(const DrawnObject& one, const DrawnObject& other) {
   return (PlaceOf(one) - PlaceOf(other)).head<2>().norm();
 }
 
-// What an object carries: the symbols of those that have it as parent, joined.
+// Returns the joined symbols of an object's children.
 inline std::string CarriedBy(const SceneDraw& draw, size_t index) {
   std::string carried;
   for (const DrawnObject& object : draw.objects) {

@@ -1,4 +1,4 @@
-// Scenes that physics accepts: dimsum tables of drums, and what is not sound.
+// Scenes that physics accepts: dimsum tables of drums, and invalid scenes.
 #include "scene/feasible_scene.h"
 
 #include <string>
@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A drum that stands on z = 0, or reaches down from it by `below`.
+// Returns a drum that stands on z = 0, or extends below it by `below`.
 sim::RigidBody Drum(double radius, double height, double density, double below = 0.0) {
   sim::RigidBody body;
   body.name = "drum";
@@ -40,7 +40,7 @@ Palette Drums() {
   return palette;
 }
 
-// A table, and things on it or in the air, each with its parent's index.
+// A table, and objects on it or in the air, each with its parent's index.
 struct Laid {
   std::string slot;
   Vector3d place;
@@ -91,7 +91,7 @@ TEST(MakeFeasible, WhatHangsInTheAirFallsAndIsDropped) {
   options.settling.duration = 1.0;
   options.settling.watch = 0.3;
   options.fewest = 1;
-  // Half in the plate: they are moved apart.
+  // Half in the plate: the penetration is resolved.
   const std::vector<DrawnObject> objects = TableWith(
       {{"plate", {0.1, 0, 0.785}}, {"cup", {0.9, 0, 0.785}}, {"cup", {-0.04, 0, 0.785}, 1}});
   const FeasibleScene scene = MakeFeasible(objects, palette, options);
@@ -105,7 +105,7 @@ TEST(MakeFeasible, WhatHangsInTheAirFallsAndIsDropped) {
   EXPECT_EQ(scene.objects[0].world_from_object.matrix(), Eigen::Matrix4d::Identity());
 }
 
-// What falls by 8 cm is dropped, but where it is lowered first.
+// An object that falls by 8 cm is dropped unless it is lowered first.
 TEST(MakeFeasible, LowersWhatHangsInTheAir) {
   const Palette palette = Drums();
   FeasibilityOptions options;
@@ -124,8 +124,8 @@ TEST(MakeFeasible, LowersWhatHangsInTheAir) {
   EXPECT_NEAR(scene.objects[2].world_from_object.translation().z(), 0.785 + 0.018, 3e-4);
 }
 
-// From 15 mm above the table it takes 55 ms to fall, and a pass has 50: the cup is still on its way
-// when it is watched, and rests in the second pass.
+// A fall of 15 mm to the table takes 55 ms, and a pass has 50 ms: the cup still moves during the
+// first stability check, and rests in the second pass.
 TEST(MakeFeasible, WhatIsOnItsWayIsGivenTime) {
   const Palette palette = Drums();
   FeasibilityOptions options;
@@ -145,7 +145,7 @@ TEST(MakeFeasible, WhatIsOnItsWayIsGivenTime) {
   EXPECT_EQ(hasty.dropped, 1);
 }
 
-// Two upright boxes that begin to topple: what has to stand is dropped, a pear is kept as it lies.
+// Two upright boxes that topple: a category that must stand is dropped, a pear is kept lying.
 TEST(MakeFeasible, FruitMayLie) {
   Palette palette = Drums();
   sim::RigidBody box;
@@ -171,7 +171,7 @@ TEST(MakeFeasible, FruitMayLie) {
   EXPECT_EQ(scene.dropped, 1);
   ASSERT_EQ(scene.objects.size(), 2u);
   EXPECT_EQ(scene.objects[1].slot, "pear");
-  // It lies: its upright is level.
+  // It lies: its z axis is horizontal.
   EXPECT_NEAR(scene.objects[1].world_from_object.linear()(2, 2), 0.0, 0.02);
   EXPECT_TRUE(scene.sound);
 }

@@ -1,4 +1,4 @@
-// What grammars put on furniture stands on a surface of the library's furniture.
+// Objects that grammars put on furniture stand on a surface of the library's furniture.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,8 @@ Palette Furniture() {
   return palette;
 }
 
-// m, of the highest part of `asset` under the point, at most a tenth of a millimetre above it.
+// Returns the height in m of the highest part of `asset` under the point, at most a tenth of a
+// millimetre above it.
 double SurfaceUnder(const PaletteAsset& asset, const Eigen::Vector3d& point) {
   double highest = -1.0;
   for (const core::TriangleMesh& part : asset.body.parts) {

@@ -1,4 +1,4 @@
-// Parts of a dataset: the same for any number of threads and interruptions.
+// Shards of a dataset: identical for any number of threads and interruptions.
 #include "scene/generation.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,8 @@ sim::RigidBody Drum(double radius, double height) {
   return body;
 }
 
-// Drums on a table, some of which begin in each other; `reach`: how far out they are put.
+// Returns a grammar of drums on a table, some of which interpenetrate; `reach`: the largest
+// distance from the middle.
 Grammar DrumsOnATable(double reach) {
   GrammarBuilder builder("drums", "scene");
   builder.And(Welded("scene", "table"), {Always("top", Offset(0, 0, 0.5))})
@@ -54,7 +55,7 @@ ScenePart Empty(const Generation& generation) {
 
 TEST(ExtendPart, IsTheSameForAnyThreadsAndInterruptions) {
   const Palette palette = Drums();
-  // Near the rim some fall: attempts that fail are among the others.
+  // Near the rim some fall, so that some attempts fail.
   const Generation generation = Of(palette, 0.42);
   core::Progress progress;
   ScenePart whole = Empty(generation), pieces = Empty(generation);
@@ -99,7 +100,7 @@ TEST(ExtendPart, SaysWhatBecameOfScenesThatAreNeverSound) {
     ExtendPart(generation, 2, &part, &progress);
     FAIL() << "scenes of 30 drums were made of 5";
   } catch (const core::Error& error) {
-    EXPECT_NE(std::string(error.what()).find("of 6 scenes 0 are sound"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("of 6 scenes 0 are valid"), std::string::npos)
         << error.what();
   }
 }

@@ -1,5 +1,5 @@
-// Breakfast tables: their counts against closed forms, what is kept apart, and how things lie about
-// a plate.
+// Breakfast tables: counts against closed forms, distances between objects, and the layout around a
+// plate.
 #include "scene/grammar/breakfast.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ const std::vector<SceneDraw>& Draws(bool high) {
   return high ? highs : lows;
 }
 
-// The radius that a shared thing keeps free; less than 0 for what is of a setting.
+// Returns the keep-out radius of a shared object; less than 0 for objects of a setting.
 double SharedRadius(const std::string& symbol) {
   const std::map<std::string, double> radii = {{"shared_plate", 0.11},
                                                {"shared_bowl", 0.08},
@@ -73,8 +73,9 @@ double Normal(double z) {
   return 0.5 * std::erfc(-z / std::sqrt(2.0));
 }
 
-// Of n things beside a setting, 0.05 m towards the rim with deviation 0.01 m along themselves: all
-// are at most 0.2575 m from the middle, the setting being at 0.2 m with deviation 0.02 m.
+// Returns the probability that all of n items beside a setting are inside the margin: they lie 0.05
+// m towards the rim with deviation 0.01 m, at most 0.2575 m from the middle, while the setting is
+// at 0.2 m with deviation 0.02 m.
 double AllInside(int n) {
   double sum = 0.0;
   constexpr int kSteps = 4000;
@@ -88,8 +89,8 @@ double AllInside(int n) {
   return sum;
 }
 
-// Where nothing is shared, settings of the middle pair are thrown away only for what lies beyond
-// the rim's margin: what is left of each kind is known.
+// Without shared objects, settings of the middle pair are rejected only for items beyond the margin
+// of the rim, so that the remaining share of each kind is known.
 TEST(BreakfastTable, TheMiddlePairHasItsClosedForm) {
   const double fork = 0.7 * 0.2 * AllInside(1) + 0.56 * AllInside(2);
   const double plate = 0.6 * (0.06 * AllInside(0) + 0.24 * AllInside(1) + fork);
@@ -102,7 +103,7 @@ TEST(BreakfastTable, TheMiddlePairHasItsClosedForm) {
     bool middle = false;
     for (const DrawnObject& object : draw.objects) {
       const bool own = object.symbol == "own_plate" || object.symbol == "own_bowl";
-      // What belongs to a setting follows its dish.
+      // Objects of a setting follow its dish.
       if (own) middle = std::abs(PlaceOf(object).y()) <= 0.08;
       if (!middle) continue;
       plates += object.symbol == "own_plate";
@@ -121,7 +122,7 @@ TEST(BreakfastTable, TheMiddlePairHasItsClosedForm) {
   expect(forks, 0.6 * fork / total);
 }
 
-// What a dish holds decides nothing that is rejected: it is as often as published.
+// The contents of a dish do not affect rejection: they are as frequent as published.
 TEST(BreakfastTable, DishesHoldWhatIsPublished) {
   const std::map<std::string, std::map<std::string, double>> published = {
       {"own_plate", {{"toast", 0.2}, {"apple", 0.1}, {"pear", 0.1}, {"bowl", 0.2}, {"", 0.4}}},
@@ -160,11 +161,11 @@ TEST(BreakfastTable, ACrockHoldsAGeometricNumberOfUtensils) {
   }
   // The deviation of one is 3.0.
   EXPECT_NEAR(utensils / crocks, MeanOfGeometric(0.1, 10), 4.0 * 3.0 / std::sqrt(crocks));
-  EXPECT_LT(crocks, 0.7 * 3000);  // they are in the way, too
+  EXPECT_LT(crocks, 0.7 * 3000);  // crocks are rejected, too
   EXPECT_GT(crocks, 0.55 * 3000);
 }
 
-// Published, after physics: 10.1 and 10.0, the table counted. What is drawn has more.
+// Published, after physics: 10.1 and 10.0, including the table. Samples before physics have more.
 TEST(BreakfastTable, HasNotManyMoreThingsThanPublished) {
   double sums[2] = {0.0, 0.0};
   for (const bool high : {false, true}) {
@@ -180,15 +181,15 @@ TEST(BreakfastTable, HasNotManyMoreThingsThanPublished) {
   EXPECT_NEAR(sums[1], 10.0, 7.0);
 }
 
-// Seen from who sits there, forks are left of their plate and knives right, and mugs beyond.
+// Seen from the seat, forks are left of their plate and knives right, and mugs beyond.
 TEST(BreakfastTable, CutleryLiesWhereItBelongs) {
   int forks = 0, knives = 0, mugs = 0;
   for (const SceneDraw& draw : Draws(true)) {
-    const DrawnObject* plate = nullptr;  // a setting's things follow it
+    const DrawnObject* plate = nullptr;  // objects of a setting follow it
     for (const DrawnObject& object : draw.objects) {
       if (object.symbol == "own_plate") plate = &object;
       if (plate == nullptr || !IsBase(draw, object)) continue;
-      // Who sits at negative x looks along x; left is y.
+      // A person at negative x looks along x; left is y.
       const double facing = PlaceOf(*plate).x() < 0.0 ? 1.0 : -1.0;
       const Eigen::Vector3d way = facing * (PlaceOf(object) - PlaceOf(*plate));
       const double along = object.world_from_object.linear()(0, 0) * facing;

@@ -1,4 +1,4 @@
-// Dimsum tables: the published probabilities, and what holds in every scene.
+// Dimsum tables: the published probabilities and the invariants of every scene.
 #include "scene/grammar/dimsum.h"
 
 #include <algorithm>
@@ -96,7 +96,7 @@ TEST(DimsumTable, SteamersStandOnEachOther) {
   }
 }
 
-// A cup stands 0.25 m from its plate towards the middle, but for what is in its way.
+// A cup stands 0.25 m from its plate towards the middle, except where other objects interfere.
 TEST(DimsumTable, CupsStandInwardsOfTheirPlates) {
   double inwards = 0.0;
   int pairs = 0;
@@ -114,8 +114,8 @@ TEST(DimsumTable, CupsStandInwardsOfTheirPlates) {
   EXPECT_NEAR(inwards / pairs, 0.25, 0.04);
 }
 
-// Of 0.7 + 0.025 + 0.025 + 0.2. Where there are many stacks and dishes settings have less room, so
-// that those with plate and cup are thrown away more often than empty ones.
+// Weights of 0.7 + 0.025 + 0.025 + 0.2. Many stacks and dishes leave less space for settings, so
+// that those with plate and cup are rejected more often than empty ones.
 TEST(DimsumTable, SettingsAreAsOftenAsPublished) {
   int plates = 0, cups = 0;
   for (const SceneDraw& draw : Some()) {

@@ -1,4 +1,4 @@
-// Restaurants: what is kept apart, checked apart from the grammar, and their counts.
+// Restaurants: keep-out distances, checked independently of the grammar, and counts.
 #include "scene/grammar/restaurant.h"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ TEST(Restaurant, TablesChairsAndShelvesAreKeptApart) {
       {"table_restaurant", 0.8}, {"chair", 0.35}, {"shelf_living_room", 0.3}};
   for (const auto* draws : {&Highs(), &Lows()}) {
     for (const SceneDraw& draw : *draws) {
-      // And of which table: four chairs come before each.
+      // With the table of each: four chairs come before each table.
       std::vector<std::pair<size_t, int>> placed;
       int group = 0;
       for (size_t i = 0; i < draw.objects.size(); ++i) {
@@ -84,7 +84,7 @@ TEST(Restaurant, FurnitureIsWeldedAndChairsAreNot) {
         } else if (one.slot == "shelf_living_room") {
           ASSERT_NEAR(at.z(), 0.0, 1e-12);
           ASSERT_NEAR(at.x(), -4.75, 1e-12);
-          // It opens to -x of its own: to the room.
+          // It opens to its own -x: to the room.
           ASSERT_NEAR(one.world_from_object.linear()(0, 0), -1.0, 1e-12);
           ASSERT_LE(std::abs(at.y()), 3.0);
         }
@@ -113,7 +113,7 @@ TEST(Restaurant, FourChairsStandAboutEachTableAndFaceIt) {
       ASSERT_GT(one.world_from_object.linear().col(0).dot(way.normalized()), 0.4);
       sum += way.normalized();
       if (table != i + 1) continue;
-      // One a side: their ways to the table all but cancel.
+      // One per side: their displacements from the table almost cancel.
       ASSERT_LT(sum.norm(), 1.0);
       sum.setZero();
     }
@@ -160,7 +160,7 @@ TEST(Restaurant, ShelvesHoldAtLeastThreeThingsBetweenThem) {
         const auto height = std::lround(1e4 * there.z());
         ASSERT_TRUE(height == 170 || height == 2870 || height == 5470 || height == 8170);
       }
-      // What is stacked counts as well, so that one or two bases may do.
+      // Stacked objects count as well, so that one or two bases may suffice.
       ASSERT_GE(on_shelves, 1);
       int all = 0;
       for (DrawnObject one : draw.objects) {
@@ -185,7 +185,7 @@ int TallestStack(const SceneDraw& draw) {
   return tallest;
 }
 
-// Published, after physics: 60.5 and at most 125 things, 35.1 and at most 107.
+// Published, after physics: 60.5 and at most 125 objects, 35.1 and at most 107.
 TEST(Restaurant, HasAsManyThingsAsPublished) {
   double high = 0.0, low = 0.0;
   for (const SceneDraw& draw : Highs()) {

@@ -1,4 +1,4 @@
-// Shelves: their counts against closed forms, and where things stand.
+// Shelves: counts against closed forms, and positions of objects.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -17,8 +17,8 @@
 namespace simwright::scene {
 namespace {
 
-// The mean number of objects of a pantry in which no two things of a board are nearer than 2 cm, by
-// brute force: geometric counts by the inverse of their distribution, uniform places.
+// Returns the mean number of objects of a pantry without two objects of a board within 2 cm, by
+// brute force: geometric counts by inverse transform sampling, uniform positions.
 double MeanOfUncrowdedPantries(int scenes) {
   std::map<std::string, double> radii;
   for (const char* slot : {"can", "tea_bottle", "apple", "apple_2", "apple_3", "apple_4", "pear",
@@ -64,7 +64,7 @@ TEST(PantryShelf, HasTheCountsOfItsGrammar) {
     sum += static_cast<double>(draw.objects.size());
     most = std::max(most, draw.objects.size());
   }
-  // Twelve kinds on four boards, a shelf and a bowl would have 33.2: crowded ones are thrown away.
+  // Twelve kinds on four boards, a shelf and a bowl would have 33.2: crowded ones are rejected.
   // Counts deviate by 7, so that the means differ by 0.2.
   EXPECT_NEAR(sum / kScenes, MeanOfUncrowdedPantries(4000), 0.7);
   EXPECT_LT(sum / kScenes, 1.0 + 48.0 * MeanOfGeometric(0.6, 10) - 3.0);
@@ -93,8 +93,8 @@ TEST(PantryShelf, ThingsStandOnItsBoardsInsideOfIt) {
   EXPECT_EQ(heights, (std::set<int>{170, 2870, 5470, 8170}));
 }
 
-// What stands on the boards of a living room's shelf, a board by its height in 0.1 mm: the indices
-// of what stands on the board itself.
+// The objects that stand directly on the boards of a living-room shelf: indices by the height of
+// the board in 0.1 mm.
 using Boards = std::map<int, std::vector<size_t>>;
 
 Boards BoardsOf(const SceneDraw& draw) {
@@ -146,7 +146,7 @@ TEST(LivingRoomShelf, StacksAndPlatesAreKeptClear) {
         const DrawnObject& one = draw.objects[i];
         if (one.slot == "board_game_large") {
           ASSERT_EQ(indices.size(), 1u);  // it has the board for itself
-          // And lies along it.
+          // It lies along the board.
           ASSERT_GT(std::abs(one.world_from_object.linear()(1, 0)), 0.8);
         }
         if (stacks.count(one.slot) == 0) continue;
@@ -162,8 +162,8 @@ TEST(LivingRoomShelf, StacksAndPlatesAreKeptClear) {
   EXPECT_GT(pairs, 3000);
 }
 
-// Of boards on which only what is named stands, of one of it each, where other boards have the
-// three things that a scene has to have.
+// Returns the number of boards with exactly one object of each of these categories, if other boards
+// have the three objects that a scene needs.
 int BoardsWith(const std::vector<std::string>& slots) {
   int count = 0;
   for (const SceneDraw& draw : Shelves()) {
@@ -182,7 +182,7 @@ int BoardsWith(const std::vector<std::string>& slots) {
   return count;
 }
 
-// The probability that a ring and a plate, each uniform on a board, are 0.15 m apart.
+// Returns the probability that a ring and a plate, each uniform on a board, are 0.15 m apart.
 double ApartOnBoard() {
   constexpr int kSteps = 60;
   const auto at = [](int k, double half) { return half * (2.0 * (k + 0.5) / kSteps - 1.0); };
@@ -191,7 +191,7 @@ double ApartOnBoard() {
     for (int b = 0; b < kSteps; ++b) {
       for (int c = 0; c < kSteps; ++c) {
         for (int d = 0; d < kSteps; ++d) {
-          // Half the board, less its walls and the thing itself.
+          // Half the board, minus its walls and the object itself.
           const double x = at(a, 0.095) - at(b, 0.035), y = at(c, 0.245) - at(d, 0.185);
           apart += x * x + y * y >= 0.15 * 0.15;
         }
@@ -201,8 +201,8 @@ double ApartOnBoard() {
   return apart / std::pow(kSteps, 4);
 }
 
-// A toy train or a plate each stand on a lower board with probability 0.2: a train never is in a
-// ring's way, a plate where they are too near. What a plate holds changes nothing.
+// A toy train and a plate each stand on a lower board with probability 0.2: a train never
+// interferes with a ring, a plate only if they are too close. The food on a plate changes nothing.
 TEST(LivingRoomShelf, RejectionLeavesWhatItsClosedFormSays) {
   const double rings = BoardsWith({"stacking_ring"});
   ASSERT_GT(rings, 1500);
@@ -216,7 +216,7 @@ TEST(LivingRoomShelf, RejectionLeavesWhatItsClosedFormSays) {
   RecordProperty("apart", std::to_string(apart));
 }
 
-// A stack goes on with 0.3, and one of four large games is thrown away.
+// A stack continues with 0.3, and one of four large games is rejected.
 TEST(LivingRoomShelf, StacksOfLargeGamesAreGeometricUpToThree) {
   std::map<int, int> stacks;
   for (const SceneDraw& draw : Shelves()) {
@@ -226,17 +226,17 @@ TEST(LivingRoomShelf, StacksOfLargeGamesAreGeometricUpToThree) {
       if (one.slot != "board_game_large") continue;
       const int here = IsBase(draw, one) ? 1 : level[one.parent] + 1;
       level[static_cast<int>(i)] = here;
-      ++stacks[here];  // with at least so many
+      ++stacks[here];  // of at least this height
     }
   }
   EXPECT_EQ(stacks.rbegin()->first, 3);
-  // At least 2, 3 of 1 + 0.3 + 0.09: scenes of three things have them a little more often.
+  // At least 2, 3 of 1 + 0.3 + 0.09: scenes of three objects have them a little more often.
   const double ones = stacks[1];
   EXPECT_NEAR(stacks[2] / ones, (0.21 + 0.063) / 0.973, 0.03);
   EXPECT_NEAR(stacks[3] / ones, 0.063 / 0.973, 0.015);
 }
 
-// Published, after physics: 4.9, the shelf counted.
+// Published, after physics: 4.9, including the shelf.
 TEST(LivingRoomShelf, HasNotManyMoreThingsThanPublished) {
   double sum = 0.0;
   for (const SceneDraw& draw : Shelves()) {

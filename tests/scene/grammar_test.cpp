@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr int kDraws = 20000;
 
-// How often each number of objects was drawn. (up to 31)
+// Returns how often each number of objects (up to 31) was sampled.
 std::vector<int> Counts(const Grammar& grammar) {
   core::Rng rng = core::StreamRng(5, 0);
   std::vector<int> counts(32, 0);
@@ -28,7 +28,8 @@ std::vector<int> Counts(const Grammar& grammar) {
   return counts;
 }
 
-// Chi-square over what is expected at least five times; degrees of freedom one less than those.
+// Returns chi-square over the cells with an expected count of at least five; the degrees of freedom
+// are one less than their number.
 double ChiSquare(const std::vector<int>& counts, const std::vector<double>& probabilities,
                  int* cells) {
   double sum = 0.0;
@@ -122,8 +123,9 @@ TEST(Grammar, AGaussianOffsetIsInTheParentsFrame) {
   EXPECT_NEAR(deviation.x(), 0.01, 0.0003);
 }
 
-// Redrawn until they keep apart: what is drawn is uniform over what is allowed, here the corners of
-// a bar in which two discs of 0.3 m lie, |x1 - x2| >= 0.6 in [0, 1]: each is triangular.
+// Poses are resampled until they are apart, so that they are uniform over the allowed set: the
+// corners of a bar that holds two discs of 0.3 m, |x1 - x2| >= 0.6 in [0, 1], where each is
+// triangular.
 TEST(Grammar, KeepOutsAreKept) {
   GrammarBuilder builder("bar", "room");
   const PoseRule rule = UniformOnSurface({0, 0, 0}, {1, 0, 0});
@@ -148,8 +150,8 @@ TEST(Grammar, KeepOutsAreKept) {
   EXPECT_NEAR(way / kDraws, 0.6 + 0.4 / 3.0, 0.01);
 }
 
-// One disc of 0.3 m in [0, 1], or two: two stand 0.6 m apart with probability 0.4^2, and where that
-// is decided by rejection a derivation that does not counts, so that one alone is drawn more often.
+// One disc of 0.3 m in [0, 1], or two: two are 0.6 m apart with probability 0.4^2. With rejection a
+// failed derivation counts, so that a single disc is sampled more often.
 TEST(Grammar, ARejectedPoseCountsItsDerivation) {
   GrammarBuilder builder("bar", "room");
   builder.Repeat(Surface("room"), {0.0, 1.0, 1.0},
@@ -252,7 +254,7 @@ TEST(Grammar, WhatIsNotSoundIsRefusedByName) {
   DrawOptions options;
   options.tries = 0;
   EXPECT_THROW(Apples({0.0, 1.0}).Build().WithOptions(options), core::Error);
-  // A symbol that surely derives itself.
+  // A symbol that always derives itself.
   GrammarBuilder endless("endless", "tower");
   endless.And(Object("tower", "steamer"), {Always("tower")});
   core::Rng rng = core::StreamRng(1, 0);

@@ -1,4 +1,4 @@
-// A training's losses as a table and as a picture.
+// Training losses as a table and as a plot.
 #include "scene/model/loss_records.h"
 
 #include <cmath>
@@ -33,8 +33,9 @@ TEST(LossRecords, AreReadAsTheyWereWritten) {
   EXPECT_TRUE(ReadLosses(path, 0).empty());
 }
 
-// Panels are 660 pixels wide from 80 on and 220 high, the upper one's foot, 0, at 280. It reaches
-// to 1.1, as the first of the records, 2, is of the first twentieth and ends at its top.
+// Panels are 660 pixels wide from 80 on and 220 high, the zero line of the upper one at 280. It
+// reaches to 1.1, because the first record, 2, belongs to the first twentieth and is clamped to the
+// top.
 TEST(LossRecords, CurvesHaveAPointARecord) {
   const std::string svg = LossCurves("one & two", Losses(20));
   EXPECT_NE(svg.find("one &amp; two"), std::string::npos);

@@ -1,4 +1,4 @@
-// Lowering what hangs in the air, against closed forms.
+// Lowering of floating bodies, against closed forms.
 #include "scene/lowering.h"
 
 #include <cmath>
@@ -44,7 +44,7 @@ TEST(LowerOntoSupports, AStackComesDownInOrder) {
                             0.1);
   EXPECT_EQ(shifts[0], Vector3d::Zero());
   EXPECT_NEAR(shifts[2].z(), -0.03, 2e-5);
-  EXPECT_NEAR(shifts[1].z(), -0.07, 3e-5);  // onto the other, which is lower now
+  EXPECT_NEAR(shifts[1].z(), -0.07, 3e-5);  // onto the other, which has been lowered
   EXPECT_NEAR(shifts[3].z(), 0.0, 2e-5);
   for (const Vector3d& shift : shifts) EXPECT_EQ(shift.head<2>().norm(), 0.0);
 }
@@ -68,7 +68,7 @@ TEST(LowerOntoSupports, WhatMeetsNothingStays) {
   EXPECT_NEAR(shifts[3].z(), -0.09, 1e-12);
 }
 
-// Between walls that touch it, onto the bottom of a hollow thing.
+// Between walls that touch it, onto the bottom of a hollow body.
 TEST(LowerOntoSupports, WallsDoNotHold) {
   const Thing hollow{{Box({0.02, 0.1, 0.1}, {-0.06, 0, 0.05}),
                       Box({0.02, 0.1, 0.1}, {0.06, 0, 0.05}), Box({0.1, 0.1, 0.01}, {0, 0, 0.005})},

@@ -1,4 +1,4 @@
-// How far scenes are from each other, against permutations and shifts that are known.
+// Distances between scenes, against known permutations and displacements.
 #include "scene/metrics/scene_distance.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace simwright::scene {
 namespace {
 
-// The least cost of min(rows, columns) pairs by trying all.
+// Returns the least cost of min(rows, columns) pairs by trying all.
 double LeastOfAll(const Eigen::MatrixXd& cost) {
   if (cost.rows() > cost.cols()) return LeastOfAll(cost.transpose());
   std::vector<int> columns(static_cast<size_t>(cost.cols()));
@@ -66,7 +66,7 @@ Vocabulary Words() {
 
 using Objects = std::vector<DrawnObject>;
 
-// A table and up to 10 cups and plates about it, turned anyhow.
+// Returns a table and up to 10 cups and plates around it, with random rotations.
 Objects RandomScene(core::Rng& rng) {
   Objects objects(2 + static_cast<size_t>(core::UniformIndex(rng, 10)));
   for (size_t i = 0; i < objects.size(); ++i) {
@@ -107,11 +107,11 @@ TEST(SceneDistances, AMovedOneIsAsFarAsItsShift) {
   moved[1].world_from_object.translation() += Eigen::Vector3d(0.006, -0.008, 0.0);
   EXPECT_EQ(distances.Nearest(moved).scene, 7);
   EXPECT_NEAR(distances.Nearest(moved).distance, 0.01, 1e-6);
-  // A turn by half a radian at a lever of 5 cm, on top.
+  // Plus a rotation by half a radian at a lever of 5 cm.
   moved[1].world_from_object.rotate(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()));
   EXPECT_NEAR(distances.Nearest(moved).distance, 0.035, 1e-6);
   EXPECT_NEAR(distances.To(moved, 7), 0.035, 1e-6);
-  // An object more, and one that is farther off than the cut-off: 1 m each.
+  // One more object, and one farther away than the cut-off: 1 m each.
   moved.push_back(moved[1]);
   moved[0].world_from_object.translation().x() += 30.0;
   EXPECT_NEAR(distances.To(moved, 7), 2.0 + distances.To(scenes[7], 7) + 0.035, 1e-6);

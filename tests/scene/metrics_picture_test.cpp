@@ -1,4 +1,4 @@
-// Label renders, what a network learns from them, and depths of penetration, of boxes.
+// Label renders, features learned from them, and penetration depths of boxes.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -23,7 +23,7 @@ namespace {
 
 using Objects = std::vector<DrawnObject>;
 
-// Of half sizes (x, y) and height z, from its foot.
+// Returns a box of half sizes (x, y) and height z above its base.
 core::TriangleMesh Box(double x, double y, double z) {
   core::TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {
@@ -72,10 +72,10 @@ TEST(TotalPenetration, OfBoxesThatOverlap) {
   for (const BodyShape shape : {BodyShape::kParts, BodyShape::kBox}) {
     EXPECT_EQ(TotalPenetration({}, palette, shape), 0.0);
     EXPECT_EQ(TotalPenetration({At("cube", 0, 0, 0), At("cube", 0.3, 0, 0)}, palette, shape), 0.0);
-    // 3 cm in each other along x; the second 1 cm in the third, along z.
+    // Two overlap by 3 cm along x; the second and the third by 1 cm along z.
     const Objects row = {At("cube", 0, 0, 0), At("cube", 0.17, 0, 0), At("cube", 0.25, 0, 0.19)};
     EXPECT_NEAR(TotalPenetration(row, palette, shape), 0.04, 1e-6);
-    // Welded things count against others, not against each other.
+    // Welded objects count against free ones, not against each other.
     const Objects tables = {At("table", 0, 0, 0), At("table", 0.5, 0, 0),
                             At("cube", -0.3, 0, 0.48)};
     EXPECT_NEAR(TotalPenetration(tables, palette, shape), 0.02, 1e-6);
@@ -127,7 +127,7 @@ TEST(LabelRender, IsTheClassesColoursOnWhite) {
   const int down = static_cast<int>(240.0 + 0.25 / 1.5 * camera.fx);
   const std::uint8_t* const cube = image.At(right, down);
   EXPECT_EQ((std::array<std::uint8_t, 3>{cube[0], cube[1], cube[2]}), LabelColour(0));
-  // Nothing is white, and a shelf's camera looks along +x.
+  // An empty scene is white, and a shelf's camera looks along +x.
   const core::Image none = LabelRender({}, Words(), palette, camera);
   EXPECT_EQ(std::count(none.pixels.begin(), none.pixels.end(), 255), 640 * 480 * 3);
   const core::Camera shelf = LabelCamera("pantry_shelf");
@@ -184,7 +184,7 @@ TEST(SceneFeatures, LearnToCount) {
   EXPECT_LT(report.error, 0.85 * report.error_of_the_mean);
   const SceneFeatures features = SceneFeatures::Load(folder.path() / "features.pt");
   EXPECT_TRUE(features.own());
-  // Sets of few and of many are farther apart than two of many.
+  // A set of few objects is farther from a set of many than two sets of many from each other.
   const auto set = [&](int most) {
     std::vector<core::Image> images;
     for (int i = 0; i < 30; ++i) {
@@ -200,7 +200,7 @@ TEST(SceneFeatures, LearnToCount) {
 }
 
 TEST(SceneFeatures, TakesAScript) {
-  // Means of the channels, as a module of a user's.
+  // Means of the channels, as a user's module.
   const core::TemporaryFolder folder;
   torch::jit::script::Module module("means");
   module.define("def forward(self, x):\n  return x.mean([2, 3])\n");

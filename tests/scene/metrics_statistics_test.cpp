@@ -1,4 +1,4 @@
-// Metrics with answers that are known: frequencies, Gaussians, classes that are apart or the same.
+// Metrics with known answers: frequencies, Gaussians, separable and identical classes.
 #include <cmath>
 #include <limits>
 
@@ -81,10 +81,10 @@ TEST(FrequencyDivergence, IsKnown) {
   EXPECT_DOUBLE_EQ(FrequencyDivergence({10, 0, 5}, {10, 0, 5}), 0.0);
   // Shares of (1.5, 0.5) / 2 and (0.5, 1.5) / 2: 0.5 log 3.
   EXPECT_NEAR(FrequencyDivergence({1, 0}, {0, 1}), 0.5 * std::log(3.0), 1e-12);
-  // Many objects: what is added does not count.
+  // Many objects: the pseudo-counts are negligible.
   EXPECT_NEAR(FrequencyDivergence({750000, 250000}, {500000, 500000}),
               0.75 * std::log(1.5) + 0.25 * std::log(0.5), 1e-5);
-  // A class that is never generated costs much, but not infinitely much.
+  // A class that is never generated has a large but finite cost.
   const double missing = FrequencyDivergence({500, 500}, {1000, 0});
   EXPECT_GT(missing, 1.0);
   EXPECT_TRUE(std::isfinite(missing));

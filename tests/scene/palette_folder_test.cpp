@@ -1,4 +1,4 @@
-// Asset folders as a palette, and what a scene of them looks like.
+// Asset folders as an asset set, and pictures of its scenes.
 #include "scene/palette_folder.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST(FoldersForSlots, TakesNamesThenSeedsThenCategories) {
   for (const char* const name : {"apple", "apple_2", "pear_7", "pear_8", "my_find"}) {
     WriteSample(folder.path() / name);
   }
-  // What has joints stands for no slot, whatever its name.
+  // An articulated asset belongs to no category, whatever its name.
   std::filesystem::create_directories(folder.path() / "cabinet");
   assets::WriteArticulatedAsset(assets::SampleArticulated(), folder.path() / "cabinet");
   const std::string category = assets::SampleAsset().parameters.category;

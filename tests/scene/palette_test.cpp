@@ -1,4 +1,4 @@
-// What grammars learn of assets.
+// The data of assets for grammars.
 #include "scene/palette.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ TEST(Palette, AnotherAssetHasAnotherHash) {
   EXPECT_THROW(one.HashOf("cup"), core::Error);
 }
 
-// A tray taken whole: what was in it stands on it then.
+// A tray as its hull: the object inside then stands on it.
 TEST(Palette, TakesAHollowThingAsItsHull) {
   Palette palette;
   palette.Add("tray", Tray());

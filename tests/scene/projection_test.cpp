@@ -1,4 +1,5 @@
-// Moving things apart, against closed forms, isotonic regression and small moves that gain nothing.
+// Depenetration against closed forms, isotonic regression and small displacements that gain
+// nothing.
 #include "scene/projection.h"
 
 #include <algorithm>
@@ -17,14 +18,14 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using geometry::ConvexShape;
 
-// Four walls 2 cm thick about a hole.
+// Returns four walls, 2 cm thick, around a hole.
 std::vector<ConvexShape> Frame(double outer, double high) {
   const double wall = 0.02, middle = 0.5 * (outer - wall);
   return {Box({wall, outer, high}, {middle, 0, 0}), Box({wall, outer, high}, {-middle, 0, 0}),
           Box({outer, wall, high}, {0, middle, 0}), Box({outer, wall, high}, {0, -middle, 0})};
 }
 
-// Bodies that keep their parts.
+// Bodies that own their parts.
 struct Things {
   std::vector<std::vector<ConvexShape>> parts;
   std::vector<Isometry3d> poses;
@@ -44,7 +45,7 @@ struct Things {
     for (size_t i = 0; i < parts.size(); ++i) bodies.push_back({&parts[i], poses[i], fixed[i]});
     return ProjectApart(bodies, options);
   }
-  // m between two of them once they are shifted.
+  // Returns the distance of two displaced bodies, m.
   double Distance(size_t a, size_t b, const std::vector<Vector3d>& shifts) const {
     double least = 1e9;
     const Isometry3d at_a = Eigen::Translation3d(shifts[a]) * poses[a];
@@ -67,8 +68,7 @@ struct Things {
   }
 };
 
-// What is nearest to `values` in the sum of squares and never falls (Ayer et al. 1955: neighbours
-// that fall are pooled).
+// Returns the isotonic regression of `values` (Ayer et al. 1955: adjacent violators are pooled).
 std::vector<double> Isotonic(const std::vector<double>& values) {
   std::vector<std::pair<double, int>> pools;  // sum and count
   for (const double value : values) {
@@ -101,7 +101,8 @@ TEST(ProjectApart, TwoThatOverlapShareTheWay) {
 TEST(ProjectApart, FurnitureStaysAndOthersGoAllTheWay) {
   Things things;
   things.Add({Box({2, 2, 0.1})}, {0, 0, -0.05}, true);
-  things.Add({Box({0.3, 0.3, 0.3})}, {0.5, 0, -0.03}, true);  // in other furniture: as it may
+  things.Add({Box({0.3, 0.3, 0.3})}, {0.5, 0, -0.03}, true);  // in other furniture, which is
+                                                              // allowed
   things.Add({Box({0.1, 0.1, 0.1})}, {0, 0, 0.043});
   things.Add({Ball(0.05)}, {0, 0.5, 0.2});  // apart
   const Projection result = things.Apart();
@@ -112,7 +113,7 @@ TEST(ProjectApart, FurnitureStaysAndOthersGoAllTheWay) {
   EXPECT_EQ(result.shifts[3], Vector3d::Zero());
 }
 
-// Boxes in a row are an isotonic regression, once their widths are taken off.
+// Boxes in a row are an isotonic regression after subtracting their widths.
 TEST(ProjectApart, ARowIsTheIsotonicRegression) {
   core::Rng rng = core::StreamRng(7, 0);
   for (int round = 0; round < 20; ++round) {
@@ -136,7 +137,7 @@ TEST(ProjectApart, ARowIsTheIsotonicRegression) {
   }
 }
 
-// What it finds is the nearest place of all near it: no small move that is allowed gains anything.
+// The result is a local optimum: no small allowed displacement improves it.
 TEST(ProjectApart, NoSmallMoveThatIsAllowedIsNearer) {
   core::Rng rng = core::StreamRng(3, 0);
   Things things;
@@ -186,12 +187,12 @@ TEST(ProjectApart, AHeapIsApartAndWhatTouchesTouches) {
     }
     EXPECT_GT(nearest, -1e-4);
     if (result.shifts[a].norm() > 1e-3) {
-      EXPECT_LT(nearest, 1e-4) << a;  // nothing moves that nothing pushes
+      EXPECT_LT(nearest, 1e-4) << a;  // bodies without contact do not move
     }
   }
 }
 
-// Walls of two frames that are through each other push this way and that.
+// Walls of two frames that pass through each other give contradictory normals.
 TEST(ProjectApart, HollowThingsThatAreThroughEachOtherComeApart) {
   Things things;
   things.Add(Frame(0.2, 0.1), {0, 0, 0});
@@ -207,12 +208,12 @@ TEST(ProjectApart, AThingInAHollowOneStaysThere) {
   things.Add({Ball(0.03)}, {0.06, 0, 0});
   const Projection result = things.Apart();
   EXPECT_TRUE(result.feasible);
-  // The wall's inner side is at 8 cm, the ball reaches to 9: both give way by half.
+  // The wall's inner side is at 8 cm, the ball reaches to 9: both move by half.
   EXPECT_LT((result.shifts[0] - Vector3d(0.005, 0, 0)).norm(), 1e-5);
   EXPECT_LT((result.shifts[1] - Vector3d(-0.005, 0, 0)).norm(), 1e-5);
 }
 
-// A ball that is larger than the hole: out of the frame is the only way, by its hull.
+// A ball larger than the hole can only leave the frame, by its hull.
 TEST(ProjectApart, WhatDoesNotFitIntoAHollowThingLeavesIt) {
   Things things;
   things.Add(Frame(0.2, 0.1), {0, 0, 0}, true);
@@ -222,7 +223,7 @@ TEST(ProjectApart, WhatDoesNotFitIntoAHollowThingLeavesIt) {
   EXPECT_LT((result.shifts[1] - Vector3d(0, 0, 0.11)).norm(), 1e-5);  // on the rim's plane
 }
 
-// Up is the shallowest way out of each other, and boards leave no room for it.
+// Up is the direction of least penetration, and boards leave no space for it.
 TEST(ProjectApart, BetweenBoardsWhatCannotRiseGoesAside) {
   Things things;
   things.Add({Box({1, 1, 0.02})}, {0, 0, -0.01}, true);
@@ -258,7 +259,7 @@ TEST(ProjectApart, NothingIsApart) {
   EXPECT_TRUE(none.shifts.empty());
 }
 
-// Pairs in a grid: what is far away costs next to nothing.
+// Pairs in a grid: distant bodies cost almost nothing.
 TEST(ProjectApart, TenThousandThings) {
   Things things;
   for (int i = 0; i < 5000; ++i) {

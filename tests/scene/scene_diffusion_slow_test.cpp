@@ -1,5 +1,5 @@
-// The three denoisers, and what training and drawing make of them, against the denoiser that knows
-// the data: of few scenes the best prediction can be summed over all of them and all their orders.
+// The three denoisers, their training and sampling, against a denoiser that knows the data: for few
+// scenes the optimal prediction can be summed over all of them and all their orders.
 #include "scene/model/scene_diffusion.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ SceneModelOptions Small(DenoiserKind kind, bool continuous) {
   return options;
 }
 
-// As after some training: no layer is zero any more.
+// Returns a denoiser as after some training: no layer is zero any more.
 std::shared_ptr<Denoiser> Stirred(const SceneModelOptions& options) {
   torch::manual_seed(5);
   std::shared_ptr<Denoiser> denoiser = MakeDenoiser(options, kClasses);
@@ -58,7 +58,7 @@ TEST(Denoiser, AnotherOrderOfTheObjectsIsTheSamePredictionInThatOrder) {
       };
       EXPECT_LT(off(before.pose_noise, after.pose_noise), 1e-5) << NameOf(kind);
       EXPECT_LT(off(before.classes, after.classes), 1e-5) << NameOf(kind);
-      // And it depends on time, on its own token and on the others.
+      // The prediction depends on time, on its own token and on the others.
       const auto differs = [&](const NoisyScenes& other) {
         return (denoiser->Predict(other).pose_noise - after.pose_noise)
                    .abs()
@@ -79,8 +79,8 @@ TEST(Denoiser, AnotherOrderOfTheObjectsIsTheSamePredictionInThatOrder) {
   }
 }
 
-// e' + g (x - a x_0') / s with each of its guesses right or wrong.
-// Threads share a batch: what they predict, and what their losses add up to, is the whole's.
+// e' + g (x - a x_0') / s with each of its predictions right or wrong.
+// Threads share a batch: their predictions and losses equal those of the whole batch.
 TEST(Denoiser, SharesOfABatchAreTheWhole) {
   for (const DenoiserKind kind :
        {DenoiserKind::kFlux, DenoiserKind::kTransformer, DenoiserKind::kUnet}) {
@@ -148,7 +148,7 @@ TEST(Denoiser, BaselinesAreAsLargeWithinATenth) {
   EXPECT_THROW(SceneModelOptions::OfSize("huge"), core::Error);
 }
 
-// Scenes of three things: two of a class by the scene's number, one empty or of class 2.
+// Returns scenes of three objects: two of a class by the scene's number, one empty or of class 2.
 CleanScenes FewScenes(int count) {
   torch::manual_seed(11);
   CleanScenes scenes{torch::rand({count, 3, 12}) * 2.0 - 1.0,
@@ -160,7 +160,7 @@ CleanScenes FewScenes(int count) {
   return scenes;
 }
 
-// What is best to predict where scenes are drawn from `data`, in any order of their tokens.
+// The optimal predictor for scenes sampled from `data`, with tokens in any order.
 class BestDenoiser : public Denoiser {
  public:
   BestDenoiser(const CleanScenes& data, int steps)
@@ -229,8 +229,8 @@ CleanScenes Batch(const CleanScenes& data, std::int64_t count) {
           data.classes.index_select(0, pick).gather(1, order)};
 }
 
-// Products in bfloat16, of 8 bits, are not quite the same; the way down is. Of the U-Net's group
-// norm libtorch 1.13 has no such version for a CPU.
+// Products in bfloat16, of 8 bits, differ slightly; the gradient direction does not. libtorch 1.13
+// has no such group norm of the U-Net for a CPU.
 TEST(SceneDiffusion, MixedPrecisionHasTheSameGradient) {
   torch::manual_seed(1);
   const torch::Device cpu(torch::kCPU);
@@ -298,7 +298,7 @@ TEST(SceneDiffusion, OverfittingFewScenesGoesToWhereTheoryIs) {
   }
   const SceneLoss trained = loss(denoiser.get());
   const double floor = ideal.total.item<double>(), reached = trained.total.item<double>();
-  // Nothing is below what is best; training closes most of the way there.
+  // No loss is below the optimum; training closes most of the gap to it.
   EXPECT_GT(reached, floor);
   EXPECT_LT(reached - floor, 0.2 * (start - floor))
       << "from " << start << " to " << reached << ", best " << floor;
@@ -306,7 +306,7 @@ TEST(SceneDiffusion, OverfittingFewScenesGoesToWhereTheoryIs) {
               3.0 * ideal.divergence.item<double>());
 }
 
-// The index of the scene of `data` that tokens are, in any order; -1 for none.
+// Returns the index of the scene of `data` with these tokens, in any order; -1 for none.
 int Found(const CleanScenes& data, const torch::Tensor& poses, const torch::Tensor& classes) {
   for (std::int64_t i = 0; i < data.poses.size(0); ++i) {
     int matched = 0;

@@ -1,4 +1,4 @@
-// Exported scenes as JSON and as Drake's directives, which Python reads.
+// Exported scenes as JSON and as Drake directives, which Python reads.
 #include "scene/export/scene_files.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 namespace simwright::scene {
 namespace {
 
-// Reads both files and compares each pose of the directives with that of the JSON, turned into
-// matrices by Rodrigues' formula and by quaternions, whichever parser takes the numbers.
+// Reads both files and compares each pose of the directives with that of the JSON, converted to
+// matrices by Rodrigues' formula and by quaternions, with any parser of the numbers.
 constexpr char kScript[] = R"(
 import json, math, sys, yaml
 class AngleAxis(dict): pass
@@ -81,7 +81,7 @@ std::vector<DrawnObject> Objects() {
         Eigen::Quaterniond(draw(), draw(), draw(), draw()).normalized().toRotationMatrix();
     object.world_from_object.translation() = Eigen::Vector3d(draw(), 1e-5 * draw(), draw());
     if (i == 0) object.world_from_object.setIdentity();
-    if (i == 1) {  // half a turn, and hardly one
+    if (i == 1) {  // a rotation by 180 degrees, and a tiny one
       object.world_from_object.linear() =
           Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()).toRotationMatrix();
     }
@@ -140,7 +140,7 @@ TEST(SceneFiles, JsonKeepsEveryDigit) {
     const Eigen::Matrix3d turn = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
     EXPECT_LT((turn - objects[i].world_from_object.linear()).norm(), 1e-14);
   }
-  // "apple" and "apple_2" keep apart.
+  // "apple" and "apple_2" give distinct names.
   EXPECT_EQ(names.size(), objects.size());
 }
 

@@ -1,4 +1,4 @@
-// Training a small model, going on where it stopped, drawing from what it wrote.
+// Training a small model, resuming it, and sampling from its weights.
 #include "scene/model/training.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ SceneModelOptions Small() {
 }
 
 SceneTrainingOptions Short(int steps) {
-  // Beside other tests two threads wait for each other longer than one computes.
+  // Next to other tests, two threads wait for each other longer than one computes.
   core::SetThreadCount(1);
   SceneTrainingOptions options;
   options.trainer.steps = steps;
@@ -104,9 +104,8 @@ TEST(SceneTraining, LearnsWhatScenesHold) {
             std::vector<float>(model.Sample(2, options, &progress)));
 }
 
-// A model that knows classes by their shape takes a thing that it has never seen for what it is
-// like: a mug a little larger than the cups stands where cups do, as often as they, and plates stay
-// plates.
+// A model with classes by shape treats a new asset like a similar one: a mug a little larger than
+// the cups stands at the cups' positions, as often as they do, and plates remain plates.
 TEST(SceneTraining, PlacesAnAssetItHasNotSeen) {
   constexpr int kPoints = 64;
   const auto shape = [](double x, double y, double z) {

@@ -1,4 +1,4 @@
-// The list of scene types: against what their grammars draw.
+// The list of scene types, against samples of their grammars.
 #include "scene/grammar/scene_types.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ TEST(SceneTypes, DrawNothingThatIsNotAmongTheirSlots) {
     }
     const std::set<std::string> known(type.slots.begin(), type.slots.end());
     EXPECT_TRUE(std::includes(known.begin(), known.end(), seen.begin(), seen.end())) << type.name;
-    // But for what is on one shelf in twenty, all of it was drawn.
+    // All categories were sampled, except those on one shelf in twenty.
     EXPECT_GE(seen.size() + 2, known.size()) << type.name;
   }
 }
