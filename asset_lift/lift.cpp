@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "asset_lift/first_guess.h"
-#include "asset_lift/shape_example.h"
-#include "asset_lift/shape_prior.h"
-#include "asset_lift/view_prior.h"
+#include "asset_lift/priors/initial_shape.h"
+#include "asset_lift/priors/shape_example.h"
+#include "asset_lift/priors/shape_prior.h"
+#include "asset_lift/priors/view_prior.h"
 #include "core/error.h"
 #include "texture/photo_projection.h"
 
@@ -120,11 +120,11 @@ void FitAndPaint(const InflatedShape& outline, const LiftPriors& priors, const L
   const ViewFrame frame = FrameAround(lifted->matte, lifted->camera, 1.0);
   std::optional<ShapePrediction> prediction;
   if (priors.shape != nullptr) {
-    prediction =
-        priors.shape->Predict(CropPicture(lifted->photo, lifted->matte.alpha, frame), frame);
+    prediction = priors.shape->Predict(CropImage(lifted->photo, lifted->matte.alpha, frame), frame);
   }
   const bool learned = prediction && !prediction->box.isEmpty();
-  const FirstGuess guess = learned ? GuessFrom(*prediction) : GuessFrom(outline.mesh);
+  const InitialShape guess =
+      learned ? InitialShapeFrom(*prediction) : InitialShapeFrom(outline.mesh);
   lifted->start =
       learned ? "the learned prior" : std::string("the silhouette, ") + Name(outline.form);
   std::unique_ptr<ScoreDistillation> in_field, in_mesh;
@@ -192,7 +192,7 @@ ElevationEstimate LearnedElevation(const ShapePrior& shape, const LiftedMesh& li
   const ViewFrame frame =
       FrameAround(lifted.matte, PhotoCamera(lifted.matte, focal, lifted.elevation.elevation), 1.0);
   const ShapePrediction prediction =
-      shape.Predict(CropPicture(lifted.photo, lifted.matte.alpha, frame), frame);
+      shape.Predict(CropImage(lifted.photo, lifted.matte.alpha, frame), frame);
   // The network predicts the mean absolute error of a Laplace distribution.
   ElevationEstimate estimate{prediction.elevation, M_SQRT2 * prediction.elevation_deviation, ""};
   char text[80];
@@ -224,7 +224,7 @@ void PlaceCamera(double focal, const CategoryPrior& prior, const ShapePrior* sha
 // distance worse; these change it little (docs/lift.md). One photo does not constrain the hidden
 // side, so the initial shape has more weight than with many views.
 LiftOptions::LiftOptions() {
-  fit.guess_scale = 6.0;
+  fit.initial_shape_weight = 6.0;
   fit.field.weights.objective = 0.02;
   fit.mesh.objective_weight = 0.03;
   field_distillation.guidance = mesh_distillation.guidance = 1.0;
@@ -232,8 +232,8 @@ LiftOptions::LiftOptions() {
   mesh_distillation.t_max_first = mesh_distillation.t_max_last = 0.3;
 }
 
-void TrustViewPrior(LiftOptions* options) {
-  options->fit.guess_scale = ShapeFitOptions().guess_scale;
+void ConfigureForPublishedViewPrior(LiftOptions* options) {
+  options->fit.initial_shape_weight = ShapeFitOptions().initial_shape_weight;
   options->fit.field.weights.objective = FieldLossWeights().objective;
   options->fit.mesh.objective_weight = MeshFitOptions().objective_weight;
   options->field_distillation = options->mesh_distillation = ScoreDistillationOptions();

@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "asset_lift/elevation.h"
-#include "asset_lift/inflation.h"
-#include "asset_lift/score_distillation.h"
-#include "asset_lift/segmentation.h"
-#include "asset_lift/shape_fit.h"
+#include "asset_lift/camera/elevation.h"
+#include "asset_lift/mesh_fit/shape_fit.h"
+#include "asset_lift/outline/inflation.h"
+#include "asset_lift/priors/score_distillation.h"
+#include "asset_lift/segmentation/segmentation.h"
 #include "core/camera.h"
 #include "core/finding.h"
 #include "core/mesh.h"
@@ -38,7 +38,7 @@ struct LiftOptions {
   LiftEffort effort = LiftEffort::kFull;
   ShapeFitOptions fit;
   // Score distillation of the two stages. The defaults are gentle, to suit our own view prior;
-  // TrustViewPrior changes them.
+  // ConfigureForPublishedViewPrior changes them.
   ScoreDistillationOptions field_distillation, mesh_distillation;
   int fit_side = 128;  // pixels per side of the crop that the stages fit
 
@@ -63,7 +63,7 @@ struct LiftOptions {
 // Sets score distillation to the published weights, guidance and noise (Zero-1-to-3 in threestudio;
 // the mesh stage's noise is that of its second stage), and reduces the weight of the initial shape:
 // for a view prior trained at their size. All other options are unchanged.
-void TrustViewPrior(LiftOptions* options);
+void ConfigureForPublishedViewPrior(LiftOptions* options);
 
 // A photo's object as a textured, closed mesh in the world frame: z up, the camera on the side of
 // -y, arbitrary scale (the camera one unit away).

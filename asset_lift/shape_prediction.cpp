@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "asset_lift/shape_example.h"
-#include "asset_lift/shape_prior.h"
+#include "asset_lift/priors/shape_example.h"
+#include "asset_lift/priors/shape_prior.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "geometry/isosurface.h"
@@ -12,7 +12,7 @@ namespace simwright::asset_lift {
 namespace {
 
 constexpr float kOutside = -8.0f;
-constexpr size_t kPixels = static_cast<size_t>(kCropSide) * kCropSide;
+constexpr size_t kPredictionPixels = static_cast<size_t>(kCropSide) * kCropSide;
 // Log odds per unit of alpha: the silhouette is as sharp as a crop's pixel, and its half level
 // coincides with the surface's.
 constexpr float kOutlineSharpness = 10.0f;
@@ -56,8 +56,8 @@ bool InBlock(const Eigen::Vector3d& uvw) {
 float LogitAt(const ShapePrediction& prediction, const Eigen::Vector3d& uvw) {
   if (!InBlock(uvw)) return kOutside;
   const Between w = Cells((uvw.z() / kDepthReach + 1.0) * 0.5 * kDepthCells - 0.5, kDepthCells);
-  const float* near = &prediction.logits[static_cast<size_t>(w.low) * kPixels];
-  const float* far = near + kPixels;
+  const float* near = &prediction.logits[static_cast<size_t>(w.low) * kPredictionPixels];
+  const float* far = near + kPredictionPixels;
   const float logit = OverPicture(
       uvw.x(), uvw.y(), [&](size_t pixel) { return Mix(near[pixel], far[pixel], w.share); });
   const float alpha = OverPicture(uvw.x(), uvw.y(), [&](size_t pixel) {
@@ -86,14 +86,14 @@ Eigen::Vector3f ColorAt(const ShapePrediction& prediction, const Eigen::Vector3d
   return seen + share * (hidden - seen);
 }
 
-struct Span {
+struct PredictionSpan {
   double near = 0.0, far = -1.0;
 };
 
 // Returns the intersection of a ray with an AABB.
-Span Crossing(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin,
-              const Eigen::Vector3d& ray) {
-  Span span{0.0, 1e30};
+PredictionSpan Crossing(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin,
+                        const Eigen::Vector3d& ray) {
+  PredictionSpan span{0.0, 1e30};
   for (int k = 0; k < 3; ++k) {
     const double inverse = 1.0 / (std::abs(ray[k]) > 1e-12 ? ray[k] : 1e-12);
     const double a = (box.min()[k] - origin[k]) * inverse, b = (box.max()[k] - origin[k]) * inverse;
@@ -118,10 +118,11 @@ Eigen::AlignedBox3d FilledBox(const ShapePrediction& prediction) {
   const double step = 2.0 / kCropSide, deep = 2.0 * kDepthReach / kDepthCells;
   for (size_t i = 0; i < prediction.logits.size(); ++i) {
     if (prediction.logits[i] <= 0.0f) continue;
-    const size_t pixel = i % kPixels;
-    const Eigen::Vector3d middle(step * (static_cast<double>(pixel % kCropSide) + 0.5) - 1.0,
-                                 step * (static_cast<double>(pixel / kCropSide) + 0.5) - 1.0,
-                                 deep * (static_cast<double>(i / kPixels) + 0.5) - kDepthReach);
+    const size_t pixel = i % kPredictionPixels;
+    const Eigen::Vector3d middle(
+        step * (static_cast<double>(pixel % kCropSide) + 0.5) - 1.0,
+        step * (static_cast<double>(pixel / kCropSide) + 0.5) - 1.0,
+        deep * (static_cast<double>(i / kPredictionPixels) + 0.5) - kDepthReach);
     for (int corner = 0; corner < 8; ++corner) {
       box.extend(prediction.frame.PointAt(middle + Eigen::Vector3d((corner & 1 ? 1 : -1) * step,
                                                                    (corner & 2 ? 1 : -1) * step,
@@ -131,9 +132,9 @@ Eigen::AlignedBox3d FilledBox(const ShapePrediction& prediction) {
   return box;
 }
 
-PredictionPicture DrawPrediction(const ShapePrediction& prediction, const core::Camera& camera,
-                                 int samples) {
-  PredictionPicture rendered;
+RenderedPrediction RenderPrediction(const ShapePrediction& prediction, const core::Camera& camera,
+                                    int samples) {
+  RenderedPrediction rendered;
   rendered.picture.color = core::FloatImage(camera.width, camera.height, 3);
   rendered.picture.opacity = core::FloatImage(camera.width, camera.height, 1);
   rendered.depth = core::FloatImage(camera.width, camera.height, 1);
@@ -144,7 +145,7 @@ PredictionPicture DrawPrediction(const ShapePrediction& prediction, const core::
   core::ParallelFor(camera.height, [&](int y) {
     for (int x = 0; x < camera.width; ++x) {
       const Eigen::Vector3d ray = camera.Ray({x + 0.5, y + 0.5});
-      const Span span = Crossing(box, camera.position(), ray);
+      const PredictionSpan span = Crossing(box, camera.position(), ray);
       if (span.far <= span.near) continue;
       const double step = (span.far - span.near) / samples;
       const auto cells = static_cast<float>(step * ray.norm() / cell);

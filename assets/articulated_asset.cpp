@@ -27,7 +27,7 @@ UrdfModel ModelOf(const ArticulatedAsset& asset) {
   return model;
 }
 
-Inertial WholeInertial(const UrdfModel& model, const std::map<std::string, double>& positions) {
+Inertial CombinedInertial(const UrdfModel& model, const std::map<std::string, double>& positions) {
   const std::vector<Eigen::Isometry3d> poses = LinkPoses(model, positions);
   geometry::MassProperties total;
   for (size_t i = 0; i < model.links.size(); ++i) {
@@ -43,8 +43,8 @@ Inertial WholeInertial(const UrdfModel& model, const std::map<std::string, doubl
   return {total.mass, total.center_of_mass, total.inertia};
 }
 
-core::TexturedMesh PosedVisual(const ArticulatedAsset& asset,
-                               const std::map<std::string, double>& positions) {
+core::TexturedMesh VisualAtPositions(const ArticulatedAsset& asset,
+                                     const std::map<std::string, double>& positions) {
   const std::vector<Eigen::Isometry3d> poses = LinkPoses(ModelOf(asset), positions);
   core::TexturedMesh whole;
   for (size_t i = 0; i < asset.links.size(); ++i) {
@@ -62,7 +62,7 @@ core::TexturedMesh PosedVisual(const ArticulatedAsset& asset,
 }
 
 Eigen::AlignedBox3d BoundsAtZero(const ArticulatedAsset& asset) {
-  return core::Bounds(PosedVisual(asset).mesh);
+  return core::Bounds(VisualAtPositions(asset).mesh);
 }
 
 }  // namespace simwright::assets

@@ -59,12 +59,13 @@ bool IsRobot(const ArticulatedAsset& asset);
 UrdfModel ModelOf(const ArticulatedAsset& asset);
 
 // Returns mass, centre of mass and inertia of all links as one body, in the root's frame.
-Inertial WholeInertial(const UrdfModel& model, const std::map<std::string, double>& positions = {});
+Inertial CombinedInertial(const UrdfModel& model,
+                          const std::map<std::string, double>& positions = {});
 
 // Returns all visuals as one mesh in the root's frame, with the joints at `positions` (by name; rad
 // or m).
-core::TexturedMesh PosedVisual(const ArticulatedAsset& asset,
-                               const std::map<std::string, double>& positions = {});
+core::TexturedMesh VisualAtPositions(const ArticulatedAsset& asset,
+                                     const std::map<std::string, double>& positions = {});
 
 // Returns the AABB of all visuals in the root's frame, with the joints at zero.
 Eigen::AlignedBox3d BoundsAtZero(const ArticulatedAsset& asset);

@@ -50,7 +50,7 @@ Json JointJson(const UrdfJoint& joint) {
   return json;
 }
 
-Json AssetJson(const ArticulatedAsset& a) {
+Json ArticulatedJson(const ArticulatedAsset& a) {
   Json json;
   json["format"] = kFormatVersion;
   json["articulated"] = true;
@@ -62,7 +62,7 @@ Json AssetJson(const ArticulatedAsset& a) {
   const Eigen::AlignedBox3d box = BoundsAtZero(a);
   json["bounds_m"] = {{"min", ToJson(Eigen::Vector3d(box.min()))},
                       {"max", ToJson(Eigen::Vector3d(box.max()))}};
-  json.update(ToJson(WholeInertial(ModelOf(a))));
+  json.update(ToJson(CombinedInertial(ModelOf(a))));
   json["features"] = a.features;
   json["links"] = Json::array();
   for (const ArticulatedLink& link : a.links) json["links"].push_back(LinkJson(link));
@@ -130,7 +130,7 @@ ArticulatedLink LinkFrom(const Json& json, const fs::path& folder) {
 }
 
 // Requires that joint i connects an earlier link to link i + 1.
-void RequireTree(const ArticulatedAsset& asset, const std::string& where) {
+void RequireLinkTree(const ArticulatedAsset& asset, const std::string& where) {
   bool tree = !asset.links.empty() && asset.joints.size() + 1 == asset.links.size();
   for (size_t i = 0; tree && i < asset.joints.size(); ++i) {
     bool known = false;
@@ -162,7 +162,7 @@ void WriteArticulatedAsset(const ArticulatedAsset& asset, const fs::path& folder
                   MjcfSceneText(asset.name, parts, BoundsAtZero(asset)));
   core::WriteFile(folder / (asset.name + ".sdf"), ArticulatedSdfText(asset));
   core::WriteFile(folder / "semantics.txt", SemanticsText(asset));
-  core::WriteFile(folder / "asset.json", AssetJson(asset).dump(2) + "\n");
+  core::WriteFile(folder / "asset.json", ArticulatedJson(asset).dump(2) + "\n");
 }
 
 bool IsArticulatedAssetFolder(const fs::path& folder) {
@@ -200,7 +200,7 @@ ArticulatedAsset ReadArticulatedAsset(const fs::path& folder) {
     throw core::Error(std::string("is not a valid asset description: ") + error.what(),
                       file.string(), "make the asset again");
   }
-  RequireTree(asset, file.string());
+  RequireLinkTree(asset, file.string());
   return asset;
 }
 

@@ -31,11 +31,11 @@ struct Asset {
   std::vector<core::TriangleMesh> parts;  // closed, convex, cover the solid
 
   Inertial inertial;
-  double volume = 0.0;          // m^3, enclosed by the solid
-  double density = 0.0;         // kg/m^3, of the material
-  double wall_thickness = 0.0;  // m, inside the solid's surface; 0 if the solid is full
-  bool wall_on_surface = false; // folders of earlier versions: the wall is a sheet on the surface
-  std::string mass_sentence;    // how mass, volume and material were reconciled
+  double volume = 0.0;           // m^3, enclosed by the solid
+  double density = 0.0;          // kg/m^3, of the material
+  double wall_thickness = 0.0;   // m, inside the solid's surface; 0 if the solid is full
+  bool wall_on_surface = false;  // folders of earlier versions: the wall is a sheet on the surface
+  std::string mass_sentence;     // how mass, volume and material were reconciled
   double friction = 0.5;
   double restitution = 0.1;
   // The lever arm of the normal force that resists rolling, m: 0.01 of the mean radius, as for

@@ -13,7 +13,7 @@
 namespace simwright::assets {
 namespace {
 
-Json AssetJson(const Asset& a) {
+Json RigidJson(const Asset& a) {
   Json json;
   json["format"] = kFormatVersion;
   json["name"] = a.name;
@@ -91,7 +91,7 @@ void WriteAsset(const Asset& asset, const std::filesystem::path& folder) {
                   MjcfSceneText(asset.name, static_cast<int>(asset.parts.size()),
                                 core::Bounds(asset.visual.mesh)));
   core::WriteFile(folder / (asset.name + ".sdf"), SdfText(asset));
-  core::WriteFile(folder / "asset.json", AssetJson(asset).dump(2) + "\n");
+  core::WriteFile(folder / "asset.json", RigidJson(asset).dump(2) + "\n");
 }
 
 void AddFindings(const std::filesystem::path& folder, const core::Findings& findings) {

@@ -94,8 +94,8 @@ Inertial InertialFrom(const Json& json) {
 core::Findings FindingsFrom(const Json& json) {
   core::Findings findings;
   for (const Json& entry : json) {
-    core::Finding finding{entry.at("code"), core::Severity::kInfo, entry.at("place"),
-                          entry.at("sentence"), entry.at("figure"), entry.value("remedy", "")};
+    core::Finding finding{entry.at("code"),     core::Severity::kInfo, entry.at("place"),
+                          entry.at("sentence"), entry.at("figure"),    entry.value("remedy", "")};
     for (int i = 0; i < 3; ++i) {
       if (entry.at("severity") == kSeverities[i]) {
         finding.severity = static_cast<core::Severity>(i);

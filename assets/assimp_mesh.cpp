@@ -15,7 +15,7 @@
 #include <assimp/IOStream.hpp>
 #include <assimp/Importer.hpp>
 
-#include "assets/dae_head.h"
+#include "assets/dae_metadata.h"
 #include "assets/mesh_format.h"
 #include "assets/obj_materials.h"
 #include "assets/obj_text.h"
@@ -26,7 +26,7 @@ namespace simwright::assets {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uint64_t kMaxMeshBytes = 4ull << 30;
+constexpr std::uint64_t kMaxAssimpBytes = 4ull << 30;
 
 // Removes all readers but those of the supported formats. Assimp tries each of its readers on a
 // file that the format's own reader rejects, and a broken file must not reach other code.
@@ -170,8 +170,7 @@ void Collector::ReadOwnMaterial(const aiMaterial& source, core::Material* materi
   aiColor4D color;
   if (source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS) {
     const Eigen::Vector4f read(color.r, color.g, color.b, color.a);
-    material->base_color =
-        read.array().isFinite().select(read, 0.8f).cwiseMax(0.0f).cwiseMin(1.0f);
+    material->base_color = read.array().isFinite().select(read, 0.8f).cwiseMax(0.0f).cwiseMin(1.0f);
   }
   float opacity = 1.0f;
   if (source.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS && std::isfinite(opacity)) {
@@ -281,7 +280,7 @@ void Collector::AddNode(const aiNode& node, const aiMatrix4x4& parent, int depth
 class Source {
  public:
   Source(const fs::path& path, FindingList* findings) : path_(path) {
-    std::string bytes = core::ReadFile(path, kMaxMeshBytes);
+    std::string bytes = core::ReadFile(path, kMaxAssimpBytes);
     const MeshFormat format = MeshFormatOf(path);
     if (format == MeshFormat::kObj) {
       PrepareMaterials(PrepareObj(bytes), findings);
@@ -296,7 +295,7 @@ class Source {
   std::map<std::string, std::string> TakeFiles() { return std::move(files_); }
 
  private:
-  void PrepareMaterials(ObjText text, FindingList* findings) {
+  void PrepareMaterials(PreparedObj text, FindingList* findings) {
     is_obj_ = true;
     obj_.materials = ReadObjMaterials(path_, text, findings);
     obj_.colors_in_bytes = text.colors_in_bytes;
@@ -310,7 +309,7 @@ class Source {
   }
 
   void ReadHead(const std::string& bytes, FindingList* findings) {
-    const DaeHead head = ReadDaeHead(bytes);
+    const DaeMetadata head = ReadDaeMetadata(bytes);
     up_ = head.up;
     if (head.unread.empty()) return;
     findings->Add(core::Severity::kInfo, "dae-not-read", "not read: " + head.unread,
@@ -326,7 +325,7 @@ class Source {
 
 }  // namespace
 
-RawMesh ReadByAssimp(const fs::path& path, FindingList* findings) {
+RawMesh ReadWithAssimp(const fs::path& path, FindingList* findings) {
   Source source(path, findings);
   Assimp::Importer importer;
   KeepKnownFormats(&importer);

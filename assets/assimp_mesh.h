@@ -8,6 +8,6 @@ namespace simwright::assets {
 
 // Reads OBJ, STL and DAE with Assimp, in the file's own axes, in metres if a DAE gives its unit.
 // Throws core::Error for a damaged file.
-RawMesh ReadByAssimp(const std::filesystem::path& path, FindingList* findings);
+RawMesh ReadWithAssimp(const std::filesystem::path& path, FindingList* findings);
 
 }  // namespace simwright::assets

@@ -24,7 +24,7 @@ constexpr zip_int64_t kMaxEntries = 20'000;
 using Properties = std::map<int, std::map<std::string, std::string>>;
 
 // Decodes Java properties: "key#N=value", latin-1 with \uXXXX escapes, '#' and '!' start comments.
-std::string Unescaped(const std::string& text) {
+std::string UnescapedText(const std::string& text) {
   std::string result;
   for (size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '\\' || i + 1 >= text.size()) {
@@ -51,7 +51,7 @@ Properties ParseProperties(const std::string& text) {
       continue;
     }
     const int index = std::atoi(line.substr(hash + 1, equals - hash - 1).c_str());
-    properties[index][line.substr(0, hash)] = Unescaped(line.substr(equals + 1));
+    properties[index][line.substr(0, hash)] = UnescapedText(line.substr(equals + 1));
   }
   return properties;
 }

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
 
-constexpr std::uint64_t kMaxMeshBytes = 4ull << 30;
+constexpr std::uint64_t kMaxGltfBytes = 4ull << 30;
 constexpr size_t kMaxNumbers = 400'000'000;  // of one accessor
 constexpr size_t kMaxZeros = 20'000'000;     // of one accessor without a buffer
 constexpr const char* kAgain = "it is damaged or cut short: download or export it again";
@@ -46,7 +46,7 @@ size_t BytesOfType(int type) {
 }
 
 template <typename Value>
-Value As(const char* bytes) {
+Value GltfValueAs(const char* bytes) {
   Value value;
   std::memcpy(&value, bytes, sizeof(Value));
   return value;
@@ -56,25 +56,25 @@ Value As(const char* bytes) {
 double Component(const char* bytes, int type, bool normalized) {
   switch (type) {
     case 5120: {
-      const double value = As<std::int8_t>(bytes);
+      const double value = GltfValueAs<std::int8_t>(bytes);
       return normalized ? std::max(value / 127.0, -1.0) : value;
     }
     case 5121: {
-      const double value = As<std::uint8_t>(bytes);
+      const double value = GltfValueAs<std::uint8_t>(bytes);
       return normalized ? value / 255.0 : value;
     }
     case 5122: {
-      const double value = As<std::int16_t>(bytes);
+      const double value = GltfValueAs<std::int16_t>(bytes);
       return normalized ? std::max(value / 32767.0, -1.0) : value;
     }
     case 5123: {
-      const double value = As<std::uint16_t>(bytes);
+      const double value = GltfValueAs<std::uint16_t>(bytes);
       return normalized ? value / 65535.0 : value;
     }
     case 5125:
-      return As<std::uint32_t>(bytes);
+      return GltfValueAs<std::uint32_t>(bytes);
     default:
-      return As<float>(bytes);
+      return GltfValueAs<float>(bytes);
   }
 }
 
@@ -139,7 +139,7 @@ const json* Extension(const json& object, const char* name) {
 }
 
 GltfDocument::GltfDocument(const fs::path& path) : path_(path) {
-  ReadContainer(core::ReadFile(path, kMaxMeshBytes));
+  ReadContainer(core::ReadFile(path, kMaxGltfBytes));
   if (!root_.is_object()) Fail("this is not a glTF file", kAgain);
   RequireVersion();
   RequireReadableExtensions(root_, path_.string());
@@ -209,11 +209,11 @@ std::string GltfDocument::BytesOfUri(const std::string& uri, const std::string& 
     }
     return PercentDecoded(data);
   }
-  const auto found = FindFileBeside(path_.parent_path(), uri);
+  const auto found = FindSiblingFile(path_.parent_path(), uri);
   if (!found) {
     Fail(what + " '" + uri + "' is not there", "put it beside the glTF, or use one GLB");
   }
-  std::string bytes = core::ReadFile(found->path, kMaxMeshBytes);
+  std::string bytes = core::ReadFile(found->path, kMaxGltfBytes);
   if (const auto foreign = core::FindForeignContent(bytes.substr(0, 1024))) {
     throw core::Error(foreign->what, found->path.string(), foreign->remedy);
   }

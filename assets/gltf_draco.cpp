@@ -16,7 +16,7 @@ constexpr size_t kMaxFaces = 20'000'000;
                     "export it again without compression (Blender: Compression off)");
 }
 
-std::unique_ptr<draco::Mesh> Decode(std::string_view bytes, const std::string& where) {
+std::unique_ptr<draco::Mesh> DecodeDraco(std::string_view bytes, const std::string& where) {
   draco::DecoderBuffer buffer;
   buffer.Init(bytes.data(), bytes.size());
   draco::Decoder decoder;
@@ -36,7 +36,7 @@ std::unique_ptr<draco::Mesh> Decode(std::string_view bytes, const std::string& w
 DracoMesh DecodeDraco(std::string_view bytes,
                       const std::map<std::string, DracoAttribute>& attributes,
                       const std::string& where) {
-  const std::unique_ptr<draco::Mesh> mesh = Decode(bytes, where);
+  const std::unique_ptr<draco::Mesh> mesh = DecodeDraco(bytes, where);
   if (mesh->num_faces() > kMaxFaces) Fail("has more than 20 million faces", where);
   DracoMesh result;
   result.vertices = mesh->num_points();

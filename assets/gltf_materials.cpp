@@ -112,8 +112,8 @@ void GltfMaterials::ReadTexture(const json& info, GltfMaterial* material, core::
   }
   if (const auto sampler = IndexMember(texture, "sampler")) {
     const json& wrap = document_.At("samplers", *sampler);
-    material->wraps = NumberMember(wrap, "wrapS", 10497) == 10497 &&
-                      NumberMember(wrap, "wrapT", 10497) == 10497;
+    material->wraps =
+        NumberMember(wrap, "wrapS", 10497) == 10497 && NumberMember(wrap, "wrapT", 10497) == 10497;
   }
 }
 

@@ -13,12 +13,12 @@ namespace simwright::assets {
 
 // The supported part of a glTF material, and its texture coordinate transform.
 struct GltfMaterial {
-  int index = 0;                 // into the mesh's materials
-  size_t texcoord = 0;           // TEXCOORD_n of its base colour
+  int index = 0;                                          // into the mesh's materials
+  size_t texcoord = 0;                                    // TEXCOORD_n of its base colour
   Eigen::Matrix2f uv_turn = Eigen::Matrix2f::Identity();  // KHR_texture_transform
   Eigen::Vector2f uv_offset = Eigen::Vector2f::Zero();
-  bool wraps = true;             // false: its sampler clamps or mirrors
-  bool opaque = true;            // alphaMode OPAQUE: alpha is ignored
+  bool wraps = true;   // false: its sampler clamps or mirrors
+  bool opaque = true;  // alphaMode OPAQUE: alpha is ignored
 
   // Converts glTF coordinates (origin at the image's upper left) to ours (lower left).
   Eigen::Vector2f Uv(const Eigen::Vector2f& read) const;
@@ -42,7 +42,7 @@ class GltfMaterials {
   const GltfDocument& document_;
   core::TexturedMesh& mesh_;
   FindingList& findings_;
-  std::map<long long, GltfMaterial> materials_;       // by index, -1: the default
+  std::map<long long, GltfMaterial> materials_;      // by index, -1: the default
   std::map<std::pair<size_t, bool>, int> textures_;  // (image, opaque) -> texture or -1
 };
 

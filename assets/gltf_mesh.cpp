@@ -57,7 +57,9 @@ Eigen::Affine3d LocalTransform(const json& node) {
 class GltfReader {
  public:
   GltfReader(const std::filesystem::path& path, FindingList* findings)
-      : document_(path), findings_(*findings), vertices_(&raw_.mesh.mesh),
+      : document_(path),
+        findings_(*findings),
+        vertices_(&raw_.mesh.mesh),
         materials_(document_, &raw_.mesh, findings) {
     raw_.up = 'y';
     raw_.colors_multiply = true;
@@ -229,8 +231,8 @@ void GltfReader::AddNode(size_t index) {
   if (primitives == nullptr || !primitives->is_array()) document_.Fail("a mesh has no primitives");
   for (const json& source : *primitives) {
     const GltfMaterial material = materials_.Find(IndexMember(source, "material"));
-    auto primitive = ReadGltfPrimitive(document_, source, material, MorphWeights(node, mesh),
-                                       skin.has_value());
+    auto primitive =
+        ReadGltfPrimitive(document_, source, material, MorphWeights(node, mesh), skin.has_value());
     if (!primitive) continue;
     const size_t before = raw_.mesh.mesh.triangles.size();
     // Joints place a skinned mesh; its node's transform is ignored.

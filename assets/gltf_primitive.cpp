@@ -11,9 +11,9 @@ namespace simwright::assets {
 using nlohmann::json;
 namespace {
 
-class Reader {
+class PrimitiveReader {
  public:
-  Reader(const GltfDocument& document, const json& source, const GltfMaterial& material)
+  PrimitiveReader(const GltfDocument& document, const json& source, const GltfMaterial& material)
       : document_(document), source_(source), material_(material) {
     const json* attributes = Member(source, "attributes");
     if (attributes == nullptr || !attributes->is_object()) {
@@ -52,7 +52,7 @@ class Reader {
   GltfPrimitive result_;
 };
 
-void Reader::Decompress() {
+void PrimitiveReader::Decompress() {
   const json* draco = Extension(source_, "KHR_draco_mesh_compression");
   if (draco == nullptr) return;
   const json* ids = Member(*draco, "attributes");
@@ -70,8 +70,8 @@ void Reader::Decompress() {
   draco_ = DecodeDraco(document_.BufferView(*view), wanted, document_.path().string());
 }
 
-bool Reader::ReadFloats(const std::string& name, size_t components,
-                        std::vector<float>* values) const {
+bool PrimitiveReader::ReadFloats(const std::string& name, size_t components,
+                                 std::vector<float>* values) const {
   const std::optional<size_t> accessor = IndexMember(*attributes_, name.c_str());
   if (!accessor) return false;
   if (document_.ComponentsOf(*accessor) != components) {
@@ -85,7 +85,7 @@ bool Reader::ReadFloats(const std::string& name, size_t components,
   return true;
 }
 
-void Reader::ReadPositions(const std::vector<double>& weights) {
+void PrimitiveReader::ReadPositions(const std::vector<double>& weights) {
   std::vector<float> values;
   ReadFloats("POSITION", 3, &values);
   for (size_t i = 0; i + 2 < values.size(); i += 3) {
@@ -94,7 +94,7 @@ void Reader::ReadPositions(const std::vector<double>& weights) {
   Morph(weights);
 }
 
-void Reader::Morph(const std::vector<double>& weights) {
+void PrimitiveReader::Morph(const std::vector<double>& weights) {
   const json* targets = Member(source_, "targets");
   if (targets == nullptr || !targets->is_array()) return;
   for (size_t i = 0; i < std::min(targets->size(), weights.size()); ++i) {
@@ -112,7 +112,7 @@ void Reader::Morph(const std::vector<double>& weights) {
 }
 
 // Reads COLOR_0, which is linear light; alpha is used if the material blends.
-void Reader::ReadColors() {
+void PrimitiveReader::ReadColors() {
   const std::optional<size_t> accessor = IndexMember(*attributes_, "COLOR_0");
   if (!accessor) return;
   const size_t components = document_.ComponentsOf(*accessor);
@@ -126,7 +126,7 @@ void Reader::ReadColors() {
   }
 }
 
-void Reader::ReadUvs() {
+void PrimitiveReader::ReadUvs() {
   std::vector<float> values;
   if (!ReadFloats("TEXCOORD_" + std::to_string(material_.texcoord), 2, &values)) return;
   for (size_t i = 0; i + 1 < values.size(); i += 2) {
@@ -134,7 +134,7 @@ void Reader::ReadUvs() {
   }
 }
 
-void Reader::ReadInfluences() {
+void PrimitiveReader::ReadInfluences() {
   for (int set = 0; set < 8; ++set) {
     const std::string joints = "JOINTS_" + std::to_string(set);
     std::vector<float> weights;
@@ -169,7 +169,7 @@ void Reader::ReadInfluences() {
   }
 }
 
-void Reader::ReadTriangles(int mode) {
+void PrimitiveReader::ReadTriangles(int mode) {
   std::vector<std::uint32_t> indices;
   const std::optional<size_t> accessor = IndexMember(source_, "indices");
   if (draco_) {
@@ -201,7 +201,7 @@ void Reader::ReadTriangles(int mode) {
 std::optional<GltfPrimitive> ReadGltfPrimitive(const GltfDocument& document, const json& source,
                                                const GltfMaterial& material,
                                                const std::vector<double>& weights, bool skinned) {
-  return Reader(document, source, material).Read(weights, skinned);
+  return PrimitiveReader(document, source, material).Read(weights, skinned);
 }
 
 }  // namespace simwright::assets

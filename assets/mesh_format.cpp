@@ -57,7 +57,7 @@ constexpr UnreadFormat kUnreadFormats[] = {
 };
 
 const UnreadFormat* FindUnread(const fs::path& path) {
-  const std::string ending = LowerEnding(path);
+  const std::string ending = LowerCaseExtension(path);
   const auto* found = std::find_if(std::begin(kUnreadFormats), std::end(kUnreadFormats),
                                    [&](const auto& format) { return ending == format.ending; });
   return found == std::end(kUnreadFormats) ? nullptr : found;
@@ -99,7 +99,7 @@ const char* EndingOf(MeshFormat format) {
 
 }  // namespace
 
-std::string LowerEnding(const fs::path& path) {
+std::string LowerCaseExtension(const fs::path& path) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -107,7 +107,7 @@ std::string LowerEnding(const fs::path& path) {
 }
 
 MeshFormat MeshFormatOf(const fs::path& path) {
-  const std::string ending = LowerEnding(path);
+  const std::string ending = LowerCaseExtension(path);
   if (ending == ".obj") return MeshFormat::kObj;
   if (ending == ".ply") return MeshFormat::kPly;
   if (ending == ".stl") return MeshFormat::kStl;

@@ -11,7 +11,7 @@ enum class MeshFormat { kUnknown, kObj, kPly, kStl, kGlb, kGltf, kDae };
 MeshFormat MeshFormatOf(const std::filesystem::path& path);
 
 // Returns the extension in lower case, with its dot.
-std::string LowerEnding(const std::filesystem::path& path);
+std::string LowerCaseExtension(const std::filesystem::path& path);
 
 // Returns the name of a known but unsupported format ("FBX") by its extension, otherwise an empty
 // string.

@@ -37,17 +37,17 @@ RawMesh ReadRaw(const fs::path& path, FindingList* findings) {
     case MeshFormat::kPly:
       return ReadPly(path, findings);
     default:
-      return ReadByAssimp(path, findings);
+      return ReadWithAssimp(path, findings);
   }
 }
 
 }  // namespace
 
-bool HasMeshEnding(const fs::path& path) {
+bool HasMeshExtension(const fs::path& path) {
   return MeshFormatOf(path) != MeshFormat::kUnknown;
 }
 
-Eigen::Matrix3d ZUpFrom(char up) {
+Eigen::Matrix3d ZUpRotation(char up) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   if (up == 'y') turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   if (up == 'x') turn << 0, 0, -1, 0, 1, 0, 1, 0, 0;

@@ -32,7 +32,7 @@ core::TexturedMesh ReadMesh(const std::filesystem::path& path);
 
 // Returns the rotation that maps a file's `up` axis ('x', 'y' or 'z') to z: y to z about x, x to z
 // about y.
-Eigen::Matrix3d ZUpFrom(char up);
+Eigen::Matrix3d ZUpRotation(char up);
 
 // Reads the "v" and "f" lines of one of our own OBJ files with all indices preserved (Assimp would
 // weld or split). Polygons are triangulated. Throws core::Error if the file is missing or
@@ -40,6 +40,6 @@ Eigen::Matrix3d ZUpFrom(char up);
 core::TriangleMesh ReadBareObj(const std::filesystem::path& path);
 
 // Returns true if the file's extension is one that ReadMesh supports.
-bool HasMeshEnding(const std::filesystem::path& path);
+bool HasMeshExtension(const std::filesystem::path& path);
 
 }  // namespace simwright::assets

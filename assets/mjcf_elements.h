@@ -23,7 +23,7 @@ struct MjcfNames {
 void MjcfMeshes(tinyxml2::XMLPrinter* printer, const Asset& asset, const MjcfNames& names);
 
 // An instance of the asset.
-struct MjcfPlace {
+struct MjcfInstance {
   std::string body;                         // its name
   const Eigen::Isometry3d* pose = nullptr;  // world_from_body; null: not written
   bool free = true;                         // has a free joint; otherwise it is part of the world
@@ -31,6 +31,6 @@ struct MjcfPlace {
 
 // Writes <body> on principal axes: visuals in group 2, collision geoms in group 3.
 void MjcfBody(tinyxml2::XMLPrinter* printer, const Asset& asset, const MjcfNames& names,
-              const MjcfPlace& place);
+              const MjcfInstance& place);
 
 }  // namespace simwright::assets

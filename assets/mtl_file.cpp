@@ -9,27 +9,27 @@
 namespace simwright::assets {
 namespace {
 
-bool IsSpace(char c) {
+bool IsMtlSpace(char c) {
   return c == ' ' || c == '\t' || c == '\r';
 }
 
-std::string_view Trimmed(std::string_view text) {
-  while (!text.empty() && IsSpace(text.front())) text.remove_prefix(1);
-  while (!text.empty() && IsSpace(text.back())) text.remove_suffix(1);
+std::string_view TrimmedMtlLine(std::string_view text) {
+  while (!text.empty() && IsMtlSpace(text.front())) text.remove_prefix(1);
+  while (!text.empty() && IsMtlSpace(text.back())) text.remove_suffix(1);
   return text;
 }
 
-std::string_view TakeWord(std::string_view* rest) {
-  *rest = Trimmed(*rest);
+std::string_view TakeMtlWord(std::string_view* rest) {
+  *rest = TrimmedMtlLine(*rest);
   size_t end = 0;
-  while (end < rest->size() && !IsSpace((*rest)[end])) ++end;
+  while (end < rest->size() && !IsMtlSpace((*rest)[end])) ++end;
   const std::string_view word = rest->substr(0, end);
   rest->remove_prefix(end);
-  *rest = Trimmed(*rest);
+  *rest = TrimmedMtlLine(*rest);
   return word;
 }
 
-std::string Lower(std::string_view word) {
+std::string LowerKeyword(std::string_view word) {
   std::string lower(word);
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -51,7 +51,7 @@ std::vector<float> TakeNumbers(std::string_view* rest, size_t most) {
   std::vector<float> numbers;
   while (numbers.size() < most) {
     std::string_view ahead = *rest;
-    const std::optional<float> number = Number(TakeWord(&ahead));
+    const std::optional<float> number = Number(TakeMtlWord(&ahead));
     if (!number) break;
     numbers.push_back(*number);
     *rest = ahead;
@@ -71,7 +71,7 @@ TextureStatement ReadTextureStatement(std::string_view rest) {
   TextureStatement statement;
   while (rest.starts_with('-')) {
     std::string_view ahead = rest;
-    const std::string option = Lower(TakeWord(&ahead));
+    const std::string option = LowerKeyword(TakeMtlWord(&ahead));
     const auto two = [&](Eigen::Vector2f* target) {
       const std::vector<float> numbers = TakeNumbers(&ahead, 3);
       for (size_t k = 0; k < std::min<size_t>(2, numbers.size()); ++k) (*target)[k] = numbers[k];
@@ -81,7 +81,7 @@ TextureStatement ReadTextureStatement(std::string_view rest) {
     } else if (option == "-o") {
       two(&statement.offset);
     } else if (option == "-clamp") {
-      statement.clamp = Lower(TakeWord(&ahead)) == "on";
+      statement.clamp = LowerKeyword(TakeMtlWord(&ahead)) == "on";
     } else if (option == "-t") {
       TakeNumbers(&ahead, 3);
     } else if (option == "-mm") {
@@ -89,7 +89,7 @@ TextureStatement ReadTextureStatement(std::string_view rest) {
       if (range != std::vector<float>{0.0f, 1.0f}) statement.unread.insert("-mm");
     } else if (option == "-blendu" || option == "-blendv" || option == "-cc" ||
                option == "-imfchan" || option == "-type") {
-      TakeWord(&ahead);
+      TakeMtlWord(&ahead);
     } else if (option == "-bm" || option == "-boost" || option == "-texres") {
       TakeNumbers(&ahead, 1);
     } else {
@@ -97,14 +97,14 @@ TextureStatement ReadTextureStatement(std::string_view rest) {
     }
     rest = ahead;
   }
-  statement.file = Trimmed(rest);
+  statement.file = TrimmedMtlLine(rest);
   return statement;
 }
 
 class MtlReader {
  public:
   void Read(std::string_view line) {
-    const std::string keyword = Lower(TakeWord(&line));
+    const std::string keyword = LowerKeyword(TakeMtlWord(&line));
     if (keyword == "newmtl") {
       Finish();
       current_.emplace();
@@ -121,13 +121,13 @@ class MtlReader {
  private:
   void ReadStatement(const std::string& keyword, std::string_view rest) {
     static const std::set<std::string_view> kLook{
-        "map_bump", "bump",   "map_ks",   "map_ke",  "map_d", "map_ns", "disp",  "decal",
-        "refl",     "norm",   "map_kn",   "map_pr",  "map_pm", "map_ps", "map_tr", "map_opacity",
-        "map_norm", "map_rma"};
+        "map_bump", "bump",   "map_ks", "map_ke",      "map_d",    "map_ns",
+        "disp",     "decal",  "refl",   "norm",        "map_kn",   "map_pr",
+        "map_pm",   "map_ps", "map_tr", "map_opacity", "map_norm", "map_rma"};
     if (keyword == "kd") {
       ReadDiffuse(rest);
     } else if (keyword == "d" || keyword == "tr") {
-      if (Lower(rest).starts_with("-halo")) TakeWord(&rest);
+      if (LowerKeyword(rest).starts_with("-halo")) TakeMtlWord(&rest);
       const std::vector<float> value = TakeNumbers(&rest, 1);
       if (!value.empty()) (keyword == "d" ? dissolve_ : transparency_) = value[0];
     } else if (keyword == "map_kd" || keyword == "map_ka") {
@@ -138,7 +138,7 @@ class MtlReader {
   }
 
   void ReadDiffuse(std::string_view rest) {
-    if (Lower(rest).starts_with("spectral") || Lower(rest).starts_with("xyz")) {
+    if (LowerKeyword(rest).starts_with("spectral") || LowerKeyword(rest).starts_with("xyz")) {
       current_->unread.insert("kd spectral or xyz");
       return;
     }
@@ -196,7 +196,7 @@ std::vector<MtlMaterial> ReadMtl(std::string_view text) {
   while (!text.empty()) {
     // Old Macintosh files end lines with a carriage return alone.
     const size_t end = std::min(text.find_first_of("\n\r"), text.size());
-    std::string_view line = Trimmed(text.substr(0, end));
+    std::string_view line = TrimmedMtlLine(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     // A '#' begins a comment only as a separate word, because file names may contain it.
     if (!line.starts_with('#')) reader.Read(line);

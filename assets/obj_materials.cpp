@@ -26,11 +26,11 @@ class LibraryReader {
   LibraryReader(const fs::path& path, FindingList* findings)
       : path_(path), folder_(path.parent_path()), findings_(*findings) {}
 
-  void ReadAll(const ObjText& obj) {
+  void ReadAll(const PreparedObj& obj) {
     for (const std::string& line : obj.libraries) ReadLine(line);
     if (read_ > 0 || obj.materials.empty()) return;
     const std::string own = path_.stem().string() + ".mtl";
-    if (const auto found = FindFileBeside(folder_, own)) {
+    if (const auto found = FindSiblingFile(folder_, own)) {
       findings_.Add(core::Severity::kInfo, "mtl-guessed",
                     "the materials are taken from '" + own + "', which has the mesh's name",
                     "name it in the OBJ: mtllib " + own);
@@ -47,7 +47,7 @@ class LibraryReader {
  private:
   // Reads a line that holds one name with spaces, or several names.
   void ReadLine(const std::string& line) {
-    if (const auto found = FindFileBeside(folder_, line)) {
+    if (const auto found = FindSiblingFile(folder_, line)) {
       Say(*found, line);
       Read(found->path);
       return;
@@ -55,7 +55,7 @@ class LibraryReader {
     std::istringstream words(line);
     std::vector<std::string> missing;
     for (std::string word; words >> word;) {
-      if (const auto found = FindFileBeside(folder_, word)) {
+      if (const auto found = FindSiblingFile(folder_, word)) {
         Say(*found, word);
         Read(found->path);
       } else {
@@ -68,7 +68,7 @@ class LibraryReader {
                   "put it beside the OBJ");
   }
 
-  void Say(const FileBeside& found, const std::string& name) {
+  void Say(const SiblingFile& found, const std::string& name) {
     if (found.as_named) return;
     findings_.Add(core::Severity::kInfo, "mtl-elsewhere",
                   "the material library '" + name + "' was found beside the mesh",
@@ -96,7 +96,7 @@ class LibraryReader {
 
 }  // namespace
 
-std::vector<MtlMaterial> ReadObjMaterials(const fs::path& path, const ObjText& obj,
+std::vector<MtlMaterial> ReadObjMaterials(const fs::path& path, const PreparedObj& obj,
                                           FindingList* findings) {
   LibraryReader reader(path, findings);
   reader.ReadAll(obj);

@@ -7,22 +7,22 @@
 namespace simwright::assets {
 namespace {
 
-bool IsSpace(char c) {
+bool IsObjSpace(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f' || c == '\v';
 }
 
-std::string_view TakeWord(std::string_view* rest) {
-  while (!rest->empty() && IsSpace(rest->front())) rest->remove_prefix(1);
+std::string_view TakeObjWord(std::string_view* rest) {
+  while (!rest->empty() && IsObjSpace(rest->front())) rest->remove_prefix(1);
   size_t end = 0;
-  while (end < rest->size() && !IsSpace((*rest)[end])) ++end;
+  while (end < rest->size() && !IsObjSpace((*rest)[end])) ++end;
   const std::string_view word = rest->substr(0, end);
   rest->remove_prefix(end);
   return word;
 }
 
-std::string Trimmed(std::string_view text) {
-  while (!text.empty() && IsSpace(text.front())) text.remove_prefix(1);
-  while (!text.empty() && IsSpace(text.back())) text.remove_suffix(1);
+std::string TrimmedObjLine(std::string_view text) {
+  while (!text.empty() && IsObjSpace(text.front())) text.remove_prefix(1);
+  while (!text.empty() && IsObjSpace(text.back())) text.remove_suffix(1);
   return std::string(text);
 }
 
@@ -60,7 +60,7 @@ class Statements {
 std::vector<std::string_view> Words(std::string_view rest, size_t most) {
   std::vector<std::string_view> words;
   while (words.size() < most) {
-    const std::string_view word = TakeWord(&rest);
+    const std::string_view word = TakeObjWord(&rest);
     if (word.empty() || word.starts_with('#')) break;
     words.push_back(word);
   }
@@ -78,7 +78,7 @@ class Rewriter {
     if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
   }
 
-  ObjText Rewrite() {
+  PreparedObj Rewrite() {
     FindColors();
     result_.text.reserve(text_.size() + 64);
     // Assimp reads this name through the caller, who provides it.
@@ -98,14 +98,14 @@ class Rewriter {
   }
 
   std::string_view text_;
-  ObjText result_;
+  PreparedObj result_;
   std::map<std::string, int, std::less<>> material_index_;
 };
 
 void Rewriter::FindColors() {
   Statements statements(text_);
   for (std::string_view statement; statements.Next(&statement);) {
-    if (TakeWord(&statement) != "v") continue;
+    if (TakeObjWord(&statement) != "v") continue;
     const std::vector<std::string_view> words = Words(statement, 7);
     if (words.size() < 6) continue;
     result_.has_colors = true;
@@ -137,14 +137,14 @@ void Rewriter::AddVertex(std::string_view rest) {
 
 void Rewriter::Add(std::string_view statement) {
   std::string_view rest = statement;
-  const std::string_view keyword = TakeWord(&rest);
+  const std::string_view keyword = TakeObjWord(&rest);
   if (keyword.empty() || keyword.starts_with('#')) return;
   if (keyword == "v") {
     AddVertex(rest);
   } else if (keyword == "mtllib") {
-    result_.libraries.push_back(Trimmed(rest));
+    result_.libraries.push_back(TrimmedObjLine(rest));
   } else if (keyword == "usemtl") {
-    const std::string name = Trimmed(rest);
+    const std::string name = TrimmedObjLine(rest);
     const auto [entry, fresh] =
         material_index_.try_emplace(name, static_cast<int>(result_.materials.size()));
     if (fresh) result_.materials.push_back(name);
@@ -153,7 +153,7 @@ void Rewriter::Add(std::string_view statement) {
     if (Words(rest, 3).size() >= 3) Append("f", rest.substr(0, rest.find('#')));
   } else if (keyword == "vt" || keyword == "vn" || keyword == "o" || keyword == "g" ||
              keyword == "s") {
-    Append(keyword, Trimmed(rest));
+    Append(keyword, TrimmedObjLine(rest));
   } else if (IsSurfaceKeyword(keyword)) {
     result_.has_surfaces = true;
   }
@@ -162,7 +162,7 @@ void Rewriter::Add(std::string_view statement) {
 
 }  // namespace
 
-ObjText PrepareObj(std::string_view text) {
+PreparedObj PrepareObj(std::string_view text) {
   return Rewriter(text).Rewrite();
 }
 

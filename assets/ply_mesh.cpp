@@ -13,7 +13,7 @@ namespace simwright::assets {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uint64_t kMaxMeshBytes = 4ull << 30;
+constexpr std::uint64_t kMaxPlyBytes = 4ull << 30;
 
 // The columns of one element that make a colour, with their full-scale value.
 struct ColorColumns {
@@ -64,7 +64,7 @@ class PlyReader {
       : path_(path), findings_(*findings), vertices_(&raw_.mesh.mesh) {}
 
   RawMesh Read() {
-    table_ = ReadPlyTable(core::ReadFile(path_, kMaxMeshBytes), path_.string());
+    table_ = ReadPlyTable(core::ReadFile(path_, kMaxPlyBytes), path_.string());
     FindVertices();
     ReadTextures();
     if (const PlyElement* faces = table_.Find("face")) AddFaces(*faces);

@@ -17,8 +17,8 @@ enum class Layout { kAscii, kLittle, kBig };
 // Returns the canonical name of a type that has an old and a new name.
 std::string PlainType(const std::string& type) {
   static constexpr const char* kNames[][2] = {
-      {"int8", "char"},   {"uint8", "uchar"}, {"int16", "short"},   {"uint16", "ushort"},
-      {"int32", "int"},   {"uint32", "uint"}, {"float32", "float"}, {"float64", "double"}};
+      {"int8", "char"}, {"uint8", "uchar"}, {"int16", "short"},   {"uint16", "ushort"},
+      {"int32", "int"}, {"uint32", "uint"}, {"float32", "float"}, {"float64", "double"}};
   for (const auto& [alias, plain] : kNames) {
     if (type == alias || type == plain) return plain;
   }
@@ -32,29 +32,29 @@ size_t BytesOf(std::string_view type) {
 }
 
 template <typename Value>
-double As(const unsigned char* bytes) {
+double PlyValueAs(const unsigned char* bytes) {
   Value value;
   std::memcpy(&value, bytes, sizeof(Value));
   return static_cast<double>(value);
 }
 
-double Decode(std::string_view type, const unsigned char* bytes) {
-  if (type == "char") return As<std::int8_t>(bytes);
-  if (type == "uchar") return As<std::uint8_t>(bytes);
-  if (type == "short") return As<std::int16_t>(bytes);
-  if (type == "ushort") return As<std::uint16_t>(bytes);
-  if (type == "int") return As<std::int32_t>(bytes);
-  if (type == "uint") return As<std::uint32_t>(bytes);
-  return type == "float" ? As<float>(bytes) : As<double>(bytes);
+double DecodePly(std::string_view type, const unsigned char* bytes) {
+  if (type == "char") return PlyValueAs<std::int8_t>(bytes);
+  if (type == "uchar") return PlyValueAs<std::uint8_t>(bytes);
+  if (type == "short") return PlyValueAs<std::int16_t>(bytes);
+  if (type == "ushort") return PlyValueAs<std::uint16_t>(bytes);
+  if (type == "int") return PlyValueAs<std::int32_t>(bytes);
+  if (type == "uint") return PlyValueAs<std::uint32_t>(bytes);
+  return type == "float" ? PlyValueAs<float>(bytes) : PlyValueAs<double>(bytes);
 }
 
 struct CountType {
   std::string type;  // of the list's length; empty: not a list
 };
 
-class Reader {
+class PlyTableReader {
  public:
-  Reader(std::string_view bytes, const std::string& where) : rest_(bytes), where_(where) {}
+  PlyTableReader(std::string_view bytes, const std::string& where) : rest_(bytes), where_(where) {}
 
   PlyTable Read() {
     ReadHeader();
@@ -85,7 +85,7 @@ class Reader {
   Layout layout_ = Layout::kAscii;
 };
 
-std::string Reader::TakeLine() {
+std::string PlyTableReader::TakeLine() {
   const size_t end = std::min(rest_.find('\n'), rest_.size());
   std::string line(rest_.substr(0, end));
   rest_.remove_prefix(std::min(end + 1, rest_.size()));
@@ -93,7 +93,7 @@ std::string Reader::TakeLine() {
   return line;
 }
 
-void Reader::ReadProperty(std::istringstream* words) {
+void PlyTableReader::ReadProperty(std::istringstream* words) {
   if (table_.elements.empty()) Fail("a property comes before any element", "export the file again");
   PlyColumn column;
   std::string type, count;
@@ -110,7 +110,7 @@ void Reader::ReadProperty(std::istringstream* words) {
   counts_.back().push_back({count_type});
 }
 
-void Reader::ReadHeader() {
+void PlyTableReader::ReadHeader() {
   if (TakeLine() != "ply") Fail("this is not a PLY file", "export it again");
   bool has_format = false;
   for (;;) {
@@ -123,11 +123,11 @@ void Reader::ReadHeader() {
     if (keyword == "format") {
       std::string layout;
       words >> layout;
-      has_format = layout == "ascii" || layout == "binary_little_endian" ||
-                   layout == "binary_big_endian";
-      layout_ = layout == "ascii"                ? Layout::kAscii
+      has_format =
+          layout == "ascii" || layout == "binary_little_endian" || layout == "binary_big_endian";
+      layout_ = layout == "ascii"               ? Layout::kAscii
                 : layout == "binary_big_endian" ? Layout::kBig
-                                                 : Layout::kLittle;
+                                                : Layout::kLittle;
     } else if (keyword == "element") {
       PlyElement element;
       long long rows = -1;
@@ -145,7 +145,7 @@ void Reader::ReadHeader() {
   if (!has_format) Fail("the header names no known format", "export it as binary PLY");
 }
 
-bool Reader::TakeValue(const std::string& type, double* value) {
+bool PlyTableReader::TakeValue(const std::string& type, double* value) {
   if (layout_ == Layout::kAscii) {
     const size_t start = rest_.find_first_not_of(" \t\r\n");
     if (start == std::string_view::npos) return false;
@@ -163,12 +163,12 @@ bool Reader::TakeValue(const std::string& type, double* value) {
   unsigned char bytes[8];
   std::memcpy(bytes, rest_.data(), size);
   if (layout_ == Layout::kBig) std::reverse(bytes, bytes + size);
-  *value = Decode(type, bytes);
+  *value = DecodePly(type, bytes);
   rest_.remove_prefix(size);
   return true;
 }
 
-void Reader::ReadElement(size_t e) {
+void PlyTableReader::ReadElement(size_t e) {
   PlyElement& element = table_.elements[e];
   if (element.columns.empty() && element.rows > 0) return;
   // A row takes at least one byte: a row count above the byte count is forged and is rejected
@@ -197,8 +197,8 @@ void Reader::ReadElement(size_t e) {
 }  // namespace
 
 const PlyColumn* PlyElement::Find(std::string_view column) const {
-  const auto found = std::find_if(columns.begin(), columns.end(),
-                                  [&](const auto& c) { return c.name == column; });
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.name == column; });
   return found == columns.end() ? nullptr : &*found;
 }
 
@@ -209,7 +209,7 @@ const PlyElement* PlyTable::Find(std::string_view element) const {
 }
 
 PlyTable ReadPlyTable(std::string_view bytes, const std::string& where) {
-  return Reader(bytes, where).Read();
+  return PlyTableReader(bytes, where).Read();
 }
 
 }  // namespace simwright::assets

@@ -111,7 +111,7 @@ fs::path UrdfIn(const fs::path& folder) {
   const bool package = IsPackage(folder) ||
                        std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
                                    [](const fs::directory_entry& entry) {
-                                     return entry.is_directory() && HoldsUrdfs(entry.path());
+                                     return entry.is_directory() && HasUrdfFolderName(entry.path());
                                    });
   if (found.empty() && package) found = FilesBelow(folder, ".urdf");
   if (found.size() == 1) return found.front();
@@ -125,9 +125,9 @@ fs::path UrdfIn(const fs::path& folder) {
                       "name the .urdf file itself");
   }
   if (const auto xacros = FilesBelow(folder, ".xacro"); !xacros.empty()) {
-    throw core::Error("holds no URDF, but the xacro " +
-                          xacros.front().lexically_relative(folder).string(),
-                      folder.string(), "expand it first: xacro FILE.xacro > FILE.urdf");
+    throw core::Error(
+        "holds no URDF, but the xacro " + xacros.front().lexically_relative(folder).string(),
+        folder.string(), "expand it first: xacro FILE.xacro > FILE.urdf");
   }
   throw core::Error("holds no URDF", folder.string(), "name the .urdf file itself");
 }
@@ -142,7 +142,8 @@ std::vector<fs::path> FilesBelow(const fs::path& folder, const std::string& endi
       if (at->is_directory()) at.disable_recursion_pending();
       continue;
     }
-    if (at->path().extension() == ending && !at->is_symlink() && at->is_regular_file()) found.push_back(at->path());
+    if (at->path().extension() == ending && !at->is_symlink() && at->is_regular_file())
+      found.push_back(at->path());
     if (at.depth() >= kMostDepth) at.disable_recursion_pending();
   }
   std::sort(found.begin(), found.end());

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMostEntries = 20'000;  // maximum folder entries compared case-insensitively
 
-std::string Lower(std::string text) {
+std::string LowerPath(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
@@ -23,7 +23,7 @@ std::string Lower(std::string text) {
 bool IsTextureFolder(const std::string& name) {
   static const char* const kNames[] = {"textures", "texture", "tex",       "maps",    "map",
                                        "images",   "image",   "materials", "material"};
-  const std::string lower = Lower(name);
+  const std::string lower = LowerPath(name);
   return std::find(std::begin(kNames), std::end(kNames), lower) != std::end(kNames);
 }
 
@@ -50,12 +50,12 @@ std::optional<fs::path> FindBelow(const fs::path& root, const fs::path& relative
     if (component == ".." || component == "/") return std::nullopt;
     fs::path next = at / component;
     if (!fs::exists(next, code)) {
-      const std::string wanted = Lower(component.string());
+      const std::string wanted = LowerPath(component.string());
       std::vector<fs::path> alike;
       int looked = 0;
       for (const auto& entry : fs::directory_iterator(at, code)) {
         if (++looked > kMostEntries) break;
-        if (Lower(entry.path().filename().string()) == wanted) alike.push_back(entry.path());
+        if (LowerPath(entry.path().filename().string()) == wanted) alike.push_back(entry.path());
       }
       if (alike.empty()) return std::nullopt;
       next = *std::min_element(alike.begin(), alike.end());
@@ -84,19 +84,19 @@ std::vector<fs::path> TextureFoldersIn(const fs::path& parent) {
   return folders;
 }
 
-// Implements FindFileBeside for a name as written.
-std::optional<FileBeside> FindWritten(const fs::path& folder, const std::string& name) {
+// Implements FindSiblingFile for a name as written.
+std::optional<SiblingFile> FindWritten(const fs::path& folder, const std::string& name) {
   const fs::path named = Portable(name);
   if (named.filename().empty()) return std::nullopt;
   if (!named.is_absolute()) {
-    if (const auto found = FindBelow(folder, named)) return FileBeside{*found, true};
+    if (const auto found = FindBelow(folder, named)) return SiblingFile{*found, true};
   }
-  if (const auto found = FindBelow(folder, named.filename())) return FileBeside{*found, false};
+  if (const auto found = FindBelow(folder, named.filename())) return SiblingFile{*found, false};
   return std::nullopt;
 }
 
 // Implements FindTextureFile for a name as written.
-std::optional<FileBeside> FindWrittenTexture(const fs::path& folder, const std::string& name) {
+std::optional<SiblingFile> FindWrittenTexture(const fs::path& folder, const std::string& name) {
   if (auto found = FindWritten(folder, name); found && found->as_named) return found;
   const fs::path named = fs::path(Portable(name)).lexically_normal();
   if (named.filename().empty()) return std::nullopt;
@@ -107,7 +107,7 @@ std::optional<FileBeside> FindWrittenTexture(const fs::path& folder, const std::
     fs::path rest;
     for (++component; component != named.end(); ++component) rest /= *component;
     if (rest.begin() != rest.end() && IsTextureFolder(rest.begin()->string())) {
-      if (const auto found = FindBelow(parent, rest)) return FileBeside{*found, true};
+      if (const auto found = FindBelow(parent, rest)) return SiblingFile{*found, true};
     }
   }
   if (auto found = FindWritten(folder, name)) return found;
@@ -115,7 +115,7 @@ std::optional<FileBeside> FindWrittenTexture(const fs::path& folder, const std::
     if (place.empty()) continue;
     for (const fs::path& textures : TextureFoldersIn(place)) {
       if (const auto found = FindBelow(textures, named.filename())) {
-        return FileBeside{*found, false};
+        return SiblingFile{*found, false};
       }
     }
   }
@@ -139,7 +139,7 @@ std::string PercentDecoded(std::string_view text) {
   return decoded;
 }
 
-std::optional<FileBeside> FindFileBeside(const fs::path& folder, const std::string& name) {
+std::optional<SiblingFile> FindSiblingFile(const fs::path& folder, const std::string& name) {
   auto found = FindWritten(folder, name);
   if (!found && name.find('%') != std::string::npos) {
     found = FindWritten(folder, PercentDecoded(name));
@@ -147,7 +147,7 @@ std::optional<FileBeside> FindFileBeside(const fs::path& folder, const std::stri
   return found;
 }
 
-std::optional<FileBeside> FindTextureFile(const fs::path& folder, const std::string& name) {
+std::optional<SiblingFile> FindTextureFile(const fs::path& folder, const std::string& name) {
   auto found = FindWrittenTexture(folder, name);
   if (!found && name.find('%') != std::string::npos) {
     found = FindWrittenTexture(folder, PercentDecoded(name));

@@ -8,7 +8,7 @@
 namespace simwright::assets {
 
 // A file that a mesh names, beside the mesh.
-struct FileBeside {
+struct SiblingFile {
   std::filesystem::path path;
   bool as_named = true;  // false: found by its file name in another folder than named
 };
@@ -18,12 +18,12 @@ struct FileBeside {
 // name, in `folder` and in texture folders inside it and beside it ("../textures", as download
 // sites pack "source/" and "textures/"); nowhere else. Links that lead outside are not followed. A
 // name that is not found as written is searched with its percent escapes decoded ("a%20b.png").
-std::optional<FileBeside> FindTextureFile(const std::filesystem::path& folder,
-                                          const std::string& name);
+std::optional<SiblingFile> FindTextureFile(const std::filesystem::path& folder,
+                                           const std::string& name);
 
 // Finds other files than images (material libraries, buffers), inside `folder` alone.
-std::optional<FileBeside> FindFileBeside(const std::filesystem::path& folder,
-                                         const std::string& name);
+std::optional<SiblingFile> FindSiblingFile(const std::filesystem::path& folder,
+                                           const std::string& name);
 
 // Decodes percent escapes: "a%20b" -> "a b".
 std::string PercentDecoded(std::string_view text);

@@ -13,7 +13,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-std::string Attribute(const XMLElement* element, const char* name) {
+std::string MaterialAttribute(const XMLElement* element, const char* name) {
   const char* value = element == nullptr ? nullptr : element->Attribute(name);
   return value == nullptr ? "" : value;
 }
@@ -37,8 +37,8 @@ std::string Rgba(const std::string& text) {
 }
 
 Paint PaintOf(const XMLElement& material) {
-  return {Rgba(Attribute(material.FirstChildElement("color"), "rgba")),
-          Attribute(material.FirstChildElement("texture"), "filename")};
+  return {Rgba(MaterialAttribute(material.FirstChildElement("color"), "rgba")),
+          MaterialAttribute(material.FirstChildElement("texture"), "filename")};
 }
 
 class Materials {
@@ -47,7 +47,7 @@ class Materials {
 
   // `global`: defined beside the links, where a name must be unique.
   void Define(const XMLElement& material, bool global) {
-    const std::string name = Attribute(&material, "name");
+    const std::string name = MaterialAttribute(&material, "name");
     const Paint paint = PaintOf(material);
     if (name.empty() || !paint.defined()) return;
     const auto [known, is_new] = paints_.emplace(name, paint);
@@ -59,7 +59,7 @@ class Materials {
   }
 
   void Apply(const std::string& link, XMLElement* visual, XMLElement* material) {
-    const std::string name = Attribute(material, "name");
+    const std::string name = MaterialAttribute(material, "name");
     Paint paint = PaintOf(*material);
     if (!paint.defined()) {
       const auto found = paints_.find(name);
@@ -101,7 +101,8 @@ class Materials {
 // Calls visit(link, visual, material) for each visual that has a material.
 template <typename Visit>
 void ForEachVisual(XMLElement* robot, const Visit& visit) {
-  for (auto* link = robot->FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
+  for (auto* link = robot->FirstChildElement("link"); link;
+       link = link->NextSiblingElement("link")) {
     for (auto* visual = link->FirstChildElement("visual"); visual;
          visual = visual->NextSiblingElement("visual")) {
       if (auto* material = visual->FirstChildElement("material")) visit(link, visual, material);
@@ -121,7 +122,7 @@ void ResolveMaterials(XMLElement* robot, core::Findings* findings) {
     materials.Define(*material, false);
   });
   ForEachVisual(robot, [&](XMLElement* link, XMLElement* visual, XMLElement* material) {
-    materials.Apply(Attribute(link, "name"), visual, material);
+    materials.Apply(MaterialAttribute(link, "name"), visual, material);
   });
 }
 

@@ -25,12 +25,12 @@ std::string LowerCase(std::string text) {
 // Returns true for the usual names of mesh folders beside a URDF's.
 bool HoldsMeshes(const std::string& name) {
   static const std::set<std::string> kNames{
-      "mesh", "meshes", "dae",       "obj",    "objs",   "stl",          "stls", "glb",
-      "gltf", "visual", "collision", "assets", "parts",  "textured_objs", "geometry", "media"};
+      "mesh", "meshes", "dae",       "obj",    "objs",  "stl",           "stls",     "glb",
+      "gltf", "visual", "collision", "assets", "parts", "textured_objs", "geometry", "media"};
   return kNames.contains(LowerCase(name));
 }
 
-std::string Unescaped(const std::string& text) {
+std::string UnescapedUri(const std::string& text) {
   std::string plain;
   for (size_t i = 0; i < text.size(); ++i) {
     const bool escape = text[i] == '%' && i + 2 < text.size() &&
@@ -86,8 +86,8 @@ bool IsPackage(const fs::path& folder) {
          fs::is_regular_file(folder / "model.config");
 }
 
-bool HoldsUrdfs(const fs::path& folder) {
-  static const std::set<std::string> kNames{"urdf",  "urdfs", "robot",       "robots", "model",
+bool HasUrdfFolderName(const fs::path& folder) {
+  static const std::set<std::string> kNames{"urdf",   "urdfs", "robot",       "robots", "model",
                                             "models", "xacro", "description", "sdf",    "xml"};
   return kNames.contains(LowerCase(folder.filename().string()));
 }
@@ -101,8 +101,8 @@ fs::path PackageRootOf(const fs::path& urdf) {
   }
   place = folder;
   for (int level = 0; level + 1 < kMostLevels && place.has_relative_path(); ++level) {
-    if (HoldsUrdfs(place)) {
-      while (HoldsUrdfs(place.parent_path())) place = place.parent_path();
+    if (HasUrdfFolderName(place)) {
+      while (HasUrdfFolderName(place.parent_path())) place = place.parent_path();
       return place.parent_path();
     }
     place = place.parent_path();
@@ -184,8 +184,8 @@ std::optional<fs::path> MeshFinder::Look(const std::string& name) const {
   }
   const fs::path normal = path.lexically_normal();
   const std::vector<fs::path> parts(normal.begin(), normal.end());
-  if (parts.size() > 2 && parts[0] == ".." && parts[1] != ".." &&
-      HoldsMeshes(parts[1].string()) && fs::is_directory(folder_.parent_path() / parts[1])) {
+  if (parts.size() > 2 && parts[0] == ".." && parts[1] != ".." && HoldsMeshes(parts[1].string()) &&
+      fs::is_directory(folder_.parent_path() / parts[1])) {
     const MeshFinder beside(folder_ / "x", folder_.parent_path() / parts[1]);
     if (!fs::is_symlink(folder_.parent_path() / parts[1])) {
       return beside.Existing((folder_ / path).lexically_normal());
@@ -200,19 +200,19 @@ std::optional<FoundMesh> MeshFinder::Find(const std::string& name) const {
   std::optional<fs::path> found = Look(name);
   const std::string slashed = Slashed(name);
   if (!found && slashed != name) found = Look(slashed);
-  if (!found && Unescaped(slashed) != slashed) found = Look(Unescaped(slashed));
+  if (!found && UnescapedUri(slashed) != slashed) found = Look(UnescapedUri(slashed));
   if (!found) return std::nullopt;
   FoundMesh mesh{*found, ""};
-  const std::string wanted = fs::path(Unescaped(slashed)).filename().string();
-  const bool absolute = slashed.starts_with("file:///") || slashed.starts_with("/") ||
-                        HasDrive(slashed);
+  const std::string wanted = fs::path(UnescapedUri(slashed)).filename().string();
+  const bool absolute =
+      slashed.starts_with("file:///") || slashed.starts_with("/") || HasDrive(slashed);
   const std::string path = slashed.starts_with("file://") ? slashed.substr(7) : slashed;
   if (absolute && !(fs::exists(path) && fs::equivalent(path, *found))) {
-    mesh.mended = "'" + name + "' is not in this folder: '" +
-                  found->lexically_relative(root_).string() + "' is used instead";
+    mesh.resolution_note = "'" + name + "' is not in this folder: '" +
+                           found->lexically_relative(root_).string() + "' is used instead";
   } else if (wanted != found->filename() && name.find("://") == std::string::npos &&
              LowerCase(wanted) == LowerCase(found->filename().string())) {
-    mesh.mended = "'" + name + "' was found as '" + found->filename().string() + "'";
+    mesh.resolution_note = "'" + name + "' was found as '" + found->filename().string() + "'";
   }
   return mesh;
 }

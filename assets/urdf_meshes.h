@@ -14,11 +14,12 @@ std::filesystem::path PackageRootOf(const std::filesystem::path& urdf);
 // Returns true for a ROS or Gazebo package: a folder with a package.xml or model.config.
 bool IsPackage(const std::filesystem::path& folder);
 // Returns true if the folder has a usual name for a package's URDFs: urdf, robots, model ...
-bool HoldsUrdfs(const std::filesystem::path& folder);
+bool HasUrdfFolderName(const std::filesystem::path& folder);
 
 struct FoundMesh {
   std::filesystem::path file;
-  std::string mended;  // how the name was resolved, for the user; empty if found as written
+  std::string
+      resolution_note;  // how the name was resolved, for the user; empty if found as written
 };
 
 // Finds the files that a URDF names, only inside `root`: links are followed, and a path that leads

@@ -17,15 +17,16 @@ using tinyxml2::XMLElement;
 
 bool IsNumeric(std::string_view attribute) {
   static const std::set<std::string_view> kNames{
-      "xyz",   "rpy",   "rgba",     "size",    "scale",    "radius", "length",     "value",
-      "ixx",   "ixy",   "ixz",      "iyy",     "iyz",      "izz",    "lower",      "upper",
+      "xyz",    "rpy",      "rgba",    "size",     "scale",      "radius", "length", "value",
+      "ixx",    "ixy",      "ixz",     "iyy",      "iyz",        "izz",    "lower",  "upper",
       "effort", "velocity", "damping", "friction", "multiplier", "offset"};
   return kNames.contains(attribute);
 }
 
 // Returns the numbers of `text` separated by spaces; empty if a word is not a number.
 std::string Cleaned(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
   std::istringstream words(text);
   std::string cleaned;
   for (std::string word; words >> word;) {
@@ -55,7 +56,7 @@ bool IsClean(const std::string& text) {
 
 }  // namespace
 
-void MendNumbers(XMLElement* robot, core::Findings* findings) {
+void RepairNumbers(XMLElement* robot, core::Findings* findings) {
   for (auto* child = robot->FirstChildElement(); child; child = child->NextSiblingElement()) {
     const std::string_view kind = child->Name();
     if (kind == "gazebo" || kind == "transmission") continue;
@@ -71,7 +72,7 @@ void MendNumbers(XMLElement* robot, core::Findings* findings) {
                            0.0, "write numbers with spaces between them"});
       child->SetAttribute(a->Name(), cleaned.c_str());
     }
-    MendNumbers(child, findings);
+    RepairNumbers(child, findings);
   }
 }
 

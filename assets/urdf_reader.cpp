@@ -12,10 +12,10 @@
 #include "assets/collision_exclusion.h"
 #include "assets/mesh_import.h"
 #include "assets/primitive_meshes.h"
-#include "assets/urdf_mesh_up.h"
 #include "assets/urdf_meshes.h"
 #include "assets/urdf_sanity.h"
 #include "assets/urdf_text.h"
+#include "assets/urdf_up_axis.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "geometry/mass_properties.h"
@@ -57,9 +57,9 @@ struct MeshShape {
   char up = 0;  // see UrdfShape::up
 };
 
-class Reader {
+class UrdfParser {
  public:
-  Reader(const fs::path& path, const UrdfReadOptions& options)
+  UrdfParser(const fs::path& path, const UrdfReadOptions& options)
       : path_(path),
         options_(options),
         finder_(path, options.root.empty() ? PackageRootOf(path) : options.root) {}
@@ -91,7 +91,7 @@ class Reader {
   UrdfModel model_;
 };
 
-const MeshShape* Reader::MeshNamed(const std::string& name, std::string* file) {
+const MeshShape* UrdfParser::MeshNamed(const std::string& name, std::string* file) {
   const auto known = files_.find(name);
   if (known == files_.end()) {
     std::string& place = files_[name];
@@ -101,7 +101,8 @@ const MeshShape* Reader::MeshNamed(const std::string& name, std::string* file) {
            "put it into the URDF's folder or package, or give the folder that holds both");
       return nullptr;
     }
-    if (!found->mended.empty()) Say("urdf-mesh-name", core::Severity::kInfo, found->mended, 0.0);
+    if (!found->resolution_note.empty())
+      Say("urdf-mesh-name", core::Severity::kInfo, found->resolution_note, 0.0);
     try {
       if (!meshes_.contains(found->file.string())) {
         MeshShape shape;
@@ -122,8 +123,8 @@ const MeshShape* Reader::MeshNamed(const std::string& name, std::string* file) {
   return file->empty() ? nullptr : &meshes_.at(*file);
 }
 
-void Reader::AddShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
-                      const urdf::MaterialSharedPtr& material, std::vector<UrdfShape>* shapes) {
+void UrdfParser::AddShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
+                          const urdf::MaterialSharedPtr& material, std::vector<UrdfShape>* shapes) {
   UrdfShape shape;
   if (material && material->texture_filename.empty()) {
     const urdf::Color& c = material->color;
@@ -169,7 +170,7 @@ void Reader::AddShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
 }
 
 // Adds the file's inertial, or a replacement for an impossible one.
-void Reader::AddInertial(const urdf::Inertial& from, UrdfLink* link) {
+void UrdfParser::AddInertial(const urdf::Inertial& from, UrdfLink* link) {
   const std::string where = path_.string() + " link '" + link->name + "'";
   const bool shapes = !link->visuals.empty() || !link->collisions.empty();
   if (from.mass == 0.0 && !shapes) return;  // a frame
@@ -181,7 +182,7 @@ void Reader::AddInertial(const urdf::Inertial& from, UrdfLink* link) {
   local << from.ixx, from.ixy, from.ixz, from.ixy, from.iyy, from.iyz, from.ixz, from.iyz, from.izz;
   inertial.inertia = pose.linear() * local * pose.linear().transpose();
   const InertialFault fault = FaultOf(inertial);
-  if (!options_.mend_inertials) {
+  if (!options_.repair_inertials) {
     RequirePhysical(inertial, where);
     link->inertial = inertial;
     return;
@@ -197,7 +198,8 @@ void Reader::AddInertial(const urdf::Inertial& from, UrdfLink* link) {
              (massive ? "it is replaced" : "it is ignored"),
          fault.remedy);
     if (!massive) return;
-    const Eigen::Vector3d s = shapes ? Eigen::Vector3d(box.sizes()) : Eigen::Vector3d(Eigen::Vector3d::Constant(0.01));
+    const Eigen::Vector3d s =
+        shapes ? Eigen::Vector3d(box.sizes()) : Eigen::Vector3d(Eigen::Vector3d::Constant(0.01));
     const Eigen::Vector3d q = s.cwiseMax(1e-4).cwiseAbs2();
     inertial.inertia = inertial.mass / 12.0 *
                        Eigen::Vector3d(q.y() + q.z(), q.x() + q.z(), q.x() + q.y()).asDiagonal();
@@ -216,7 +218,7 @@ void Reader::AddInertial(const urdf::Inertial& from, UrdfLink* link) {
   link->inertial = inertial;
 }
 
-void Reader::AddLink(const urdf::Link& source) {
+void UrdfParser::AddLink(const urdf::Link& source) {
   UrdfLink link;
   link.name = source.name;
   for (const auto& visual : source.visual_array) {
@@ -237,7 +239,7 @@ void Reader::AddLink(const urdf::Link& source) {
 }
 
 // Reads <contact> from the text, because urdfdom does not provide it.
-void Reader::ReadContacts(const std::string& text) {
+void UrdfParser::ReadContacts(const std::string& text) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) return;
   const auto* robot = document.FirstChildElement("robot");
@@ -280,7 +282,7 @@ UrdfJointType TypeOf(const urdf::Joint& joint) {
   }
 }
 
-void Reader::AddJoint(const urdf::Joint& source) {
+void UrdfParser::AddJoint(const urdf::Joint& source) {
   UrdfJoint joint;
   joint.name = source.name;
   joint.parent = source.parent_link_name;
@@ -316,16 +318,17 @@ void Reader::AddJoint(const urdf::Joint& source) {
   model_.joints.push_back(std::move(joint));
 }
 
-UrdfModel Reader::Read() {
+UrdfModel UrdfParser::Read() {
   const std::string written = core::ReadFile(path_, kMaxUrdfBytes);
-  if (written.find("<!DOCTYPE") == std::string::npos && written.find("<!ENTITY") == std::string::npos) {
-    MendedUrdf mended = MendUrdfText(written, path_.string());
+  if (written.find("<!DOCTYPE") == std::string::npos &&
+      written.find("<!ENTITY") == std::string::npos) {
+    RepairedUrdf mended = RepairUrdfText(written, path_.string());
     text_ = std::move(mended.text);
     model_.findings = std::move(mended.findings);
   } else {
     text_ = written;  // rejected below
   }
-  RequireHarmlessUrdfText(text_, path_.string());
+  RequireSafeUrdfText(text_, path_.string());
   urdf::ModelInterfaceSharedPtr parsed;
   {
     UrdfdomMessages heard;
@@ -354,14 +357,14 @@ UrdfModel Reader::Read() {
     throw core::Error("the joints form a loop", path_.string(), "a URDF is a tree of links");
   }
   ReadContacts(text_);
-  TurnMeshesUp(&model_);
+  RotateMeshesToZUp(&model_);
   return std::move(model_);
 }
 
 }  // namespace
 
 UrdfModel ReadUrdf(const fs::path& path, const UrdfReadOptions& options) {
-  return Reader(path, options).Read();
+  return UrdfParser(path, options).Read();
 }
 
 }  // namespace simwright::assets

@@ -70,8 +70,8 @@ using ExcludedPair = std::pair<std::string, std::string>;
 
 struct UrdfModel {
   std::string name;
-  std::vector<UrdfLink> links;    // the root first; parents precede their children
-  std::vector<UrdfJoint> joints;  // joints[i] leads to links[i + 1]
+  std::vector<UrdfLink> links;                    // the root first; parents precede their children
+  std::vector<UrdfJoint> joints;                  // joints[i] leads to links[i + 1]
   std::vector<ExcludedPair> excluded_pairs = {};  // by <drake:collision_filter_group>
   core::Findings findings = {};                   // missing and repaired content
   bool root_is_world = false;  // the root is the world frame: a simulator must fix it
@@ -83,10 +83,10 @@ struct UrdfReadOptions {
   // If true, an impossible inertial is a finding, not an error, for callers that recompute
   // inertials. A mass that is not positive leaves the link without an inertial; an impossible
   // inertia is replaced by that of the bounding box of the link's shapes with the same mass.
-  bool mend_inertials = false;
+  bool repair_inertials = false;
 };
 
-// Reads a URDF with urdfdom, which parses the output of MendUrdfText; meshes are found by
+// Reads a URDF with urdfdom, which parses the output of RepairUrdfText; meshes are found by
 // MeshFinder. A mesh that is missing or cannot be read is skipped with a warning; a missing
 // inertial and a mimic joint are reported. A link without shapes may have mass zero: it is a frame.
 // Drake's collision filter groups that name one link each become excluded pairs. Throws core::Error

@@ -19,7 +19,7 @@ std::string LinkOf(const tinyxml2::XMLElement& joint, const char* role) {
   return name == nullptr ? "" : name;
 }
 
-void RequireTree(const tinyxml2::XMLElement& robot, const std::string& where) {
+void RequireUrdfTree(const tinyxml2::XMLElement& robot, const std::string& where) {
   std::set<std::string> links;
   for (auto* link = robot.FirstChildElement("link"); link;
        link = link->NextSiblingElement("link")) {
@@ -57,7 +57,7 @@ void RequireTree(const tinyxml2::XMLElement& robot, const std::string& where) {
 
 }  // namespace
 
-void RequireHarmlessUrdfText(const std::string& text, const std::string& where) {
+void RequireSafeUrdfText(const std::string& text, const std::string& where) {
   if (text.find("<!DOCTYPE") != std::string::npos || text.find("<!ENTITY") != std::string::npos) {
     throw core::Error("declares a DOCTYPE or entities, which a URDF does not need", where,
                       "remove the declaration");
@@ -69,7 +69,7 @@ void RequireHarmlessUrdfText(const std::string& text, const std::string& where) 
   }
   const auto* robot = document.FirstChildElement("robot");
   if (robot == nullptr) throw core::Error("this is not a URDF: it has no <robot>", where);
-  RequireTree(*robot, where);
+  RequireUrdfTree(*robot, where);
 }
 
 InertialFault FaultOf(const Inertial& inertial) {

@@ -11,7 +11,7 @@ namespace simwright::assets {
 
 // Requires text without a DOCTYPE or entities (they can grow without bound or name other files)
 // that is XML with a <robot> root, whose joints name existing links, with no link its own ancestor.
-void RequireHarmlessUrdfText(const std::string& text, const std::string& where);
+void RequireSafeUrdfText(const std::string& text, const std::string& where);
 
 // The fault of an inertial and its remedy; both are empty if a rigid body can have it: a mass above
 // zero, an inertia that is finite and positive definite, principal moments that satisfy the

@@ -22,7 +22,7 @@ using tinyxml2::XMLElement;
 constexpr const char* kExpand =
     "expand it first: xacro FILE.xacro > FILE.urdf (ROS 2: ros2 run xacro xacro), then give that";
 
-std::string Attribute(const XMLElement& element, const char* name) {
+std::string UrdfAttribute(const XMLElement& element, const char* name) {
   const char* value = element.Attribute(name);
   return value == nullptr ? "" : value;
 }
@@ -87,7 +87,7 @@ class Mending {
     }
   }
 
-  MendedUrdf Mend() {
+  RepairedUrdf Mend() {
     XMLElement* robot = document_.FirstChildElement("robot");
     if (robot == nullptr) throw core::Error("this is not a URDF: it has no <robot>", where_);
     std::string xacro;
@@ -95,10 +95,10 @@ class Mending {
     if (!xacro.empty()) {
       throw core::Error("is a xacro that was not expanded: " + xacro, where_, kExpand);
     }
-    if (Attribute(*robot, "name").empty()) {
+    if (UrdfAttribute(*robot, "name").empty()) {
       robot->SetAttribute("name", std::filesystem::path(where_).stem().string().c_str());
     }
-    MendNumbers(robot, &findings_);
+    RepairNumbers(robot, &findings_);
     ResolveMaterials(robot, &findings_);
     for (auto* link = robot->FirstChildElement("link"); link != nullptr;
          link = link->NextSiblingElement("link")) {
@@ -128,14 +128,14 @@ class Mending {
     XMLElement* inertia = inertial->FirstChildElement("inertia");
     const XMLElement* mass = inertial->FirstChildElement("mass");
     bool whole = mass != nullptr && inertia != nullptr &&
-                 NumbersOf(Attribute(*mass, "value")).size() == 1;
+                 NumbersOf(UrdfAttribute(*mass, "value")).size() == 1;
     for (const char* key : {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"}) {
       if (!whole) break;
       if (key[1] != key[2] && inertia->Attribute(key) == nullptr) inertia->SetAttribute(key, "0");
-      whole = NumbersOf(Attribute(*inertia, key)).size() == 1;
+      whole = NumbersOf(UrdfAttribute(*inertia, key)).size() == 1;
     }
     if (whole) return;
-    Say("urdf-bad-inertial", core::Severity::kWarning, Attribute(*link, "name"),
+    Say("urdf-bad-inertial", core::Severity::kWarning, UrdfAttribute(*link, "name"),
         "its inertial lacks a readable mass or inertia and is ignored", 0.0,
         "give <mass value> and all of <inertia>");
     link->DeleteChild(inertial);
@@ -161,18 +161,18 @@ class Mending {
   }
 
   void Skip(XMLElement* link, XMLElement* shape, const std::string& what) {
-    Say("urdf-unknown-geometry", core::Severity::kWarning, Attribute(*link, "name"),
+    Say("urdf-unknown-geometry", core::Severity::kWarning, UrdfAttribute(*link, "name"),
         std::string("a <") + shape->Name() + "> has " + what + " and is skipped", 0.0,
         "use a mesh, box, cylinder, sphere or capsule");
     link->DeleteChild(shape);
   }
 
   void MendMesh(XMLElement* link, XMLElement* shape, XMLElement* mesh) {
-    if (Attribute(*mesh, "filename").empty()) {
+    if (UrdfAttribute(*mesh, "filename").empty()) {
       Skip(link, shape, "a mesh without a file");
       return;
     }
-    const std::string scale = Attribute(*mesh, "scale");
+    const std::string scale = UrdfAttribute(*mesh, "scale");
     if (!scale.empty() && NumbersOf(scale).size() == 1) {
       mesh->SetAttribute("scale", (scale + " " + scale + " " + scale).c_str());
     }
@@ -194,11 +194,11 @@ class Mending {
       return std::string(text);
     };
     std::vector<double> xyz{0, 0, 0}, rpy{0, 0, 0};
-    if (origin != nullptr && NumbersOf(Attribute(*origin, "xyz")).size() == 3) {
-      xyz = NumbersOf(Attribute(*origin, "xyz"));
+    if (origin != nullptr && NumbersOf(UrdfAttribute(*origin, "xyz")).size() == 3) {
+      xyz = NumbersOf(UrdfAttribute(*origin, "xyz"));
     }
-    if (origin != nullptr && NumbersOf(Attribute(*origin, "rpy")).size() == 3) {
-      rpy = NumbersOf(Attribute(*origin, "rpy"));
+    if (origin != nullptr && NumbersOf(UrdfAttribute(*origin, "rpy")).size() == 3) {
+      rpy = NumbersOf(UrdfAttribute(*origin, "rpy"));
     }
     // The third column of Rz(yaw) Ry(pitch) Rx(roll).
     const double sr = std::sin(rpy[0]), cr = std::cos(rpy[0]), sp = std::sin(rpy[1]);
@@ -229,7 +229,7 @@ class Mending {
   }
 
   void MendJoint(XMLElement* joint) {
-    const std::string type = Attribute(*joint, "type"), name = Attribute(*joint, "name");
+    const std::string type = UrdfAttribute(*joint, "type"), name = UrdfAttribute(*joint, "name");
     static const std::set<std::string> kTypes{"fixed",     "revolute", "continuous",
                                               "prismatic", "floating", "planar"};
     if (!kTypes.contains(type)) {
@@ -253,7 +253,7 @@ class Mending {
       joint->DeleteChild(axis);
       return;
     }
-    const std::vector<double> xyz = NumbersOf(Attribute(*axis, "xyz"));
+    const std::vector<double> xyz = NumbersOf(UrdfAttribute(*axis, "xyz"));
     if (xyz.size() != 3) return;  // urdfdom reports the error
     const double length = std::hypot(xyz[0], xyz[1], xyz[2]);
     if (!(length > 1e-9)) {
@@ -289,7 +289,7 @@ class Mending {
 
 }  // namespace
 
-MendedUrdf MendUrdfText(const std::string& text, const std::string& where) {
+RepairedUrdf RepairUrdfText(const std::string& text, const std::string& where) {
   return Mending(text, where).Mend();
 }
 

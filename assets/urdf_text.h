@@ -6,7 +6,7 @@
 
 namespace simwright::assets {
 
-struct MendedUrdf {
+struct RepairedUrdf {
   std::string text;         // the input of urdfdom
   core::Findings findings;  // the changes and omissions, by link or joint
 };
@@ -21,6 +21,6 @@ struct MendedUrdf {
 //   unknown kinds, a mesh without a file, a scale of one number.
 // Throws core::Error for a text in UTF-16, an unexpanded xacro (with the command to expand it), or
 // a joint that moves about an axis of zero length.
-MendedUrdf MendUrdfText(const std::string& text, const std::string& where);
+RepairedUrdf RepairUrdfText(const std::string& text, const std::string& where);
 
 }  // namespace simwright::assets

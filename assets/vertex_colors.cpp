@@ -34,7 +34,9 @@ CornerColor MeanOf(const TriangleColors& colors) {
 class Painter {
  public:
   Painter(RawMesh* raw, FindingList* findings)
-      : mesh_(raw->mesh), colors_(raw->corner_colors), multiply_(raw->colors_multiply),
+      : mesh_(raw->mesh),
+        colors_(raw->corner_colors),
+        multiply_(raw->colors_multiply),
         findings_(*findings) {}
 
   void Paint() {

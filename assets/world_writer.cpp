@@ -28,10 +28,10 @@ void RequireName(const std::string& name) {
 }
 
 // Returns the assets of the objects, each once, by key.
-std::map<std::string, const WorldAsset*> AssetsOf(const std::vector<WorldThing>& objects) {
+std::map<std::string, const WorldAsset*> AssetsOf(const std::vector<WorldObject>& objects) {
   std::map<std::string, const WorldAsset*> assets;
   std::set<std::string> names = {kGround};
-  for (const WorldThing& object : objects) {
+  for (const WorldObject& object : objects) {
     RequireName(object.name);
     RequireName(object.asset->key);
     if (!names.insert(object.name).second) {
@@ -48,9 +48,9 @@ std::map<std::string, const WorldAsset*> AssetsOf(const std::vector<WorldThing>&
 // memory for the square of the rows, 0.8 GB for 8000; above 15 000 it fails. Scenes of tables and
 // shelves have up to two contacts per part of a free object. `nstack`, its working memory, would
 // also be reserved by the square.
-void MjcfSize(tinyxml2::XMLPrinter* printer, const std::vector<WorldThing>& objects) {
+void MjcfSize(tinyxml2::XMLPrinter* printer, const std::vector<WorldObject>& objects) {
   int contacts = 100, free = 0;
-  for (const WorldThing& object : objects) {
+  for (const WorldObject& object : objects) {
     if (object.welded) continue;
     ++free;
     contacts += std::min(8 + 2 * static_cast<int>(object.asset->asset.parts.size()), 60);
@@ -91,14 +91,14 @@ void SdfGround(tinyxml2::XMLPrinter* printer) {
   }
 }
 
-void SdfModel(tinyxml2::XMLPrinter* printer, const WorldThing& object) {
+void SdfModel(tinyxml2::XMLPrinter* printer, const WorldObject& object) {
   const Asset& asset = object.asset->asset;
   Element model(printer, "model");
   model.Set("name", object.name);
   if (object.welded) Leaf(printer, "static", "true");
   {
-    const Eigen::Vector3d& place = object.world_from_thing.translation();
-    const Eigen::Quaterniond turn(object.world_from_thing.linear());
+    const Eigen::Vector3d& place = object.world_from_object.translation();
+    const Eigen::Quaterniond turn(object.world_from_object.linear());
     Element(printer, "pose")
         .Set("rotation_format", "quat_xyzw")
         .Text(Numbers({place.x(), place.y(), place.z(), turn.x(), turn.y(), turn.z(), turn.w()}));
@@ -134,7 +134,7 @@ void SdfSun(tinyxml2::XMLPrinter* printer) {
 
 }  // namespace
 
-std::string WorldMjcf(const std::string& name, const std::vector<WorldThing>& objects) {
+std::string WorldMjcf(const std::string& name, const std::vector<WorldObject>& objects) {
   const std::map<std::string, const WorldAsset*> assets = AssetsOf(objects);
   tinyxml2::XMLPrinter printer;
   {
@@ -157,15 +157,15 @@ std::string WorldMjcf(const std::string& name, const std::vector<WorldThing>& ob
         .Set("size", "0 0 1")
         .Set("condim", "6")
         .Set("friction", "0.01 1e-5 1e-5");
-    for (const WorldThing& object : objects) {
+    for (const WorldObject& object : objects) {
       MjcfBody(&printer, object.asset->asset, {object.asset->key, object.asset->folder},
-               {object.name, &object.world_from_thing, !object.welded});
+               {object.name, &object.world_from_object, !object.welded});
     }
   }
   return printer.CStr();
 }
 
-std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& objects,
+std::string WorldSdf(const std::string& name, const std::vector<WorldObject>& objects,
                      SdfReader reader) {
   AssetsOf(objects);
   tinyxml2::XMLPrinter printer;
@@ -181,7 +181,7 @@ std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& obj
       SdfSun(&printer);
     }
     SdfGround(&printer);
-    for (const WorldThing& object : objects) SdfModel(&printer, object);
+    for (const WorldObject& object : objects) SdfModel(&printer, object);
   }
   return printer.CStr();
 }

@@ -17,10 +17,10 @@ struct WorldAsset {
 };
 
 // An object of a world.
-struct WorldThing {
+struct WorldObject {
   std::string name;                   // unique, valid as a file name
   const WorldAsset* asset = nullptr;  // not null; equal objects share it
-  Eigen::Isometry3d world_from_thing = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d world_from_object = Eigen::Isometry3d::Identity();
   bool welded = false;  // part of the world, like furniture
 };
 
@@ -31,13 +31,13 @@ struct WorldThing {
 // MJCF: one mesh per file for all objects that share it; free objects have a free joint, welded
 // ones none; capacity for the contacts of all parts; steps of 1 ms, because stacks creep at an
 // asset's own 2 ms.
-std::string WorldMjcf(const std::string& name, const std::vector<WorldThing>& objects);
+std::string WorldMjcf(const std::string& name, const std::vector<WorldObject>& objects);
 // The reader of an SDF world. Drake warns about gravity, physics and light in it; Gazebo needs them
 // to light the objects.
 enum class SdfReader { kAny, kGazebo };
 // Returns the world as SDF 1.9: models in the world, poses as quaternions, which keep all digits
 // near gimbal lock; welded objects are static; the ground is a box whose top is z = 0.
-std::string WorldSdf(const std::string& name, const std::vector<WorldThing>& objects,
+std::string WorldSdf(const std::string& name, const std::vector<WorldObject>& objects,
                      SdfReader reader = SdfReader::kAny);
 // Returns the same ground as a separate model.
 std::string GroundSdf();

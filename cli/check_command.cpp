@@ -8,73 +8,73 @@
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "core/error.h"
-#include "pipeline/check.h"
-#include "pipeline/check_folder.h"
+#include "validation/check.h"
+#include "validation/check_folder.h"
 
 namespace simwright::cli {
 namespace {
 
-struct Flags {
+struct CheckFlags {
   std::vector<std::filesystem::path> inputs;
   std::filesystem::path root;
 };
 
 // The reports of all inputs; `many` is true if an input is a folder of assets.
 struct Checked {
-  std::vector<pipeline::CheckReport> reports;
+  std::vector<validation::CheckReport> reports;
   bool many = false;
 };
 
-void CheckInput(const std::filesystem::path& input, const Flags& flags, core::Progress* progress,
-                Checked* checked) {
+void CheckInput(const std::filesystem::path& input, const CheckFlags& flags,
+                core::Progress* progress, Checked* checked) {
   if (!std::filesystem::exists(input)) throw core::Error("no such file or folder", input);
   if (!std::filesystem::is_directory(input)) {
-    checked->reports.push_back(pipeline::CheckUrdf(input, flags.root));
+    checked->reports.push_back(validation::CheckUrdf(input, flags.root));
     return;
   }
   if (assets::IsAssetFolder(input)) {
-    checked->reports.push_back(pipeline::CheckAsset(input));
+    checked->reports.push_back(validation::CheckAsset(input));
     return;
   }
-  const std::vector<std::filesystem::path> folders = pipeline::AssetFoldersIn(input);
+  const std::vector<std::filesystem::path> folders = validation::AssetFoldersIn(input);
   if (folders.empty()) {
     throw core::Error("has no asset.json, and neither has any folder in it", input.string(),
                       "give an asset folder, a folder of asset folders, or a .urdf file");
   }
   checked->many = true;
-  for (pipeline::CheckReport& report : pipeline::CheckFolders(folders, progress)) {
+  for (validation::CheckReport& report : validation::CheckFolders(folders, progress)) {
     checked->reports.push_back(std::move(report));
   }
 }
 
-int PrintReportsJson(const std::vector<pipeline::CheckReport>& reports, bool passed) {
+int PrintReportsJson(const std::vector<validation::CheckReport>& reports, bool passed) {
   nlohmann::ordered_json json = {{"passed", passed}};
   json["reports"] = nlohmann::ordered_json::array();
   core::Findings findings;
-  for (const pipeline::CheckReport& report : reports) {
-    json["reports"].push_back(nlohmann::ordered_json::parse(pipeline::CheckJson(report)));
-    const core::Findings rows = pipeline::NotableRows(report);
+  for (const validation::CheckReport& report : reports) {
+    json["reports"].push_back(nlohmann::ordered_json::parse(validation::CheckJson(report)));
+    const core::Findings rows = validation::NotableResults(report);
     findings.insert(findings.end(), rows.begin(), rows.end());
   }
   PrintJson(std::move(json), findings);
   return passed ? 0 : 1;
 }
 
-int Check(const Flags& flags, const CommonOptions& common) {
+int Check(const CheckFlags& flags, const CommonOptions& common) {
   core::Progress progress(common.ProgressStyle());
   Checked checked;
   for (const std::filesystem::path& input : flags.inputs) {
     CheckInput(input, flags, &progress, &checked);
   }
-  const std::vector<pipeline::CheckReport>& reports = checked.reports;
+  const std::vector<validation::CheckReport>& reports = checked.reports;
   const bool passed = std::all_of(reports.begin(), reports.end(),
                                   [](const auto& report) { return report.passed(); });
   if (common.json) return PrintReportsJson(reports, passed);
   if (checked.many) {
-    std::fputs(pipeline::CheckSummary(reports).c_str(), stdout);
+    std::fputs(validation::CheckSummary(reports).c_str(), stdout);
   } else {
-    for (const pipeline::CheckReport& report : reports) {
-      std::fputs(pipeline::CheckTable(report).c_str(), stdout);
+    for (const validation::CheckReport& report : reports) {
+      std::fputs(validation::CheckTable(report).c_str(), stdout);
     }
   }
   return passed ? 0 : 1;
@@ -83,7 +83,7 @@ int Check(const Flags& flags, const CommonOptions& common) {
 }  // namespace
 
 void AddCheck(CLI::App* app, CommonOptions* common, Run* run) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<CheckFlags>();
   CLI::App* command = app->add_subcommand(
       "check", "Check geometry, inertia, file readers, a drop test, and joint motion");
   command->footer(

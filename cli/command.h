@@ -34,7 +34,7 @@ using Run = std::function<int()>;
 
 // Prints that a run was stopped, that `folder` keeps its progress and that --resume continues it;
 // returns kInterrupted.
-int StoppedWith(const std::filesystem::path& folder);
+int ReportStopped(const std::filesystem::path& folder);
 
 void AddCommon(CLI::App* command, CommonOptions* common);
 void AddForce(CLI::App* command, CommonOptions* common);

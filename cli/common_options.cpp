@@ -4,7 +4,7 @@
 
 namespace simwright::cli {
 
-int StoppedWith(const std::filesystem::path& folder) {
+int ReportStopped(const std::filesystem::path& folder) {
   std::fprintf(stderr,
                "error: stopped; finished work is kept in %s, the same command with --resume "
                "continues\n",

@@ -5,7 +5,7 @@
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "core/parallel.h"
-#include "pipeline/doctor.h"
+#include "workflows/doctor.h"
 
 namespace simwright::cli {
 
@@ -17,7 +17,7 @@ void AddDoctor(CLI::App* app, CommonOptions* common, Run* run) {
   command->callback([common, run] {
     *run = [common] {
       bool passed = true;
-      const core::Findings findings = pipeline::Examine();
+      const core::Findings findings = workflows::Examine();
       for (const core::Finding& finding : findings) {
         const bool bad = finding.severity == core::Severity::kError;
         passed = passed && !bad;

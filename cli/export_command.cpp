@@ -5,23 +5,23 @@
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/usage.h"
-#include "pipeline/skill_export.h"
+#include "workflows/skills/skill_export.h"
 
 namespace simwright::cli {
 namespace {
 
-int Export(const pipeline::ExportRequest& given, const CommonOptions& common) {
-  pipeline::ExportRequest request = given;
+int ExportSkillOrAsset(const workflows::ExportRequest& given, const CommonOptions& common) {
+  workflows::ExportRequest request = given;
   request.seed = common.seed;
   request.force = common.force;
   core::Progress progress(common.ProgressStyle());
-  const pipeline::ExportReport report = pipeline::Export(request, &progress);
+  const workflows::ExportReport report = workflows::Export(request, &progress);
   progress.Finish();
   if (common.json) {
-    PrintJson(pipeline::ExportJson(report), report.findings);
+    PrintJson(workflows::ExportJson(report), report.findings);
     return 0;
   }
-  if (!common.quiet) std::fputs(pipeline::ExportTable(report).c_str(), stdout);
+  if (!common.quiet) std::fputs(workflows::ExportTable(report).c_str(), stdout);
   PrintFindings(report.findings, common);
   std::printf("%s\n", report.output.c_str());
   return 0;
@@ -30,11 +30,12 @@ int Export(const pipeline::ExportRequest& given, const CommonOptions& common) {
 }  // namespace
 
 void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
-  using pipeline::ExportFormat;
-  static const std::map<std::string, ExportFormat> formats = {{"ros2", ExportFormat::kRos2},
-                                                       {"csv", ExportFormat::kCsv},
-                                                       {"robomimic", ExportFormat::kRobomimic}};
-  auto request = std::make_shared<pipeline::ExportRequest>();
+  using workflows::ExportFormat;
+  static const std::map<std::string, ExportFormat> formats = {
+      {"ros2", ExportFormat::kRos2},
+      {"csv", ExportFormat::kCsv},
+      {"robomimic", ExportFormat::kRobomimic}};
+  auto request = std::make_shared<workflows::ExportRequest>();
   CLI::App* command = app->add_subcommand(
       "export", "Export trained skills as robot trajectories or demonstrations");
   command->footer(
@@ -56,7 +57,7 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
                       "limits), or a JSON file; default: the robot's own names");
   command
       ->add_option(
-          "--pace", request->at_recorded_pace,
+          "--pace", request->at_recorded_speed,
           "limits: as fast as the limits and the task allow; recorded: at most as recorded")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, bool>{{"limits", false}, {"recorded", true}}))
@@ -66,7 +67,8 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
       ->capture_default_str();
   AddCommon(command, common);
   AddForce(command, common);
-  command->callback([request, common, run] { *run = [=] { return Export(*request, *common); }; });
+  command->callback(
+      [request, common, run] { *run = [=] { return ExportSkillOrAsset(*request, *common); }; });
 }
 
 }  // namespace simwright::cli

@@ -45,9 +45,8 @@ void PrintWarnings(const core::Findings& findings, const CommonOptions& common, 
 void PrintJson(nlohmann::ordered_json object, const core::Findings& findings) {
   object["findings"] = core::FindingsJson(findings);
   // Names and answers may contain invalid UTF-8.
-  std::printf(
-      "%s\n",
-      object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+  std::printf("%s\n",
+              object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
 }
 
 void PrintJson(const std::string& object, const core::Findings& findings) {

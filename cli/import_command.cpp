@@ -10,16 +10,16 @@
 #include "cli/stated_options.h"
 #include "core/error.h"
 #include "physics_params/size_plausibility.h"
-#include "pipeline/import.h"
+#include "workflows/import/import.h"
 
 namespace simwright::cli {
 namespace {
 
-struct Flags {
+struct ImportFlags {
   std::vector<std::filesystem::path> inputs;
   std::filesystem::path output;
   std::string up, unit;
-  pipeline::ImportOptions options;
+  workflows::ImportOptions options;
   bool no_check = false;
 };
 
@@ -34,21 +34,21 @@ core::Findings Placed(core::Findings findings, const std::string& name) {
   return findings;
 }
 
-nlohmann::ordered_json ToJson(const pipeline::ImportOutcome& outcome) {
+nlohmann::ordered_json ImportToJson(const workflows::ImportOutcome& outcome) {
   nlohmann::ordered_json json;
   json["name"] = outcome.name;
   json["folder"] = outcome.folder.string();
   if (!outcome.refusal.empty()) json["refused"] = outcome.refusal;
   if (outcome.check) {
     json["passed"] = outcome.check->passed();
-    json["grade"] = pipeline::GradeName(outcome.check->grade());
+    json["grade"] = validation::GradeName(outcome.check->grade());
   }
   if (outcome.kept) json["kept"] = true;
   json["seconds"] = outcome.seconds;
   return json;
 }
 
-void PrintLine(const pipeline::ImportOutcome& outcome) {
+void PrintImportLine(const workflows::ImportOutcome& outcome) {
   if (!outcome.refusal.empty()) {
     std::printf("refused  %s\n", outcome.name.c_str());
     return;
@@ -58,22 +58,22 @@ void PrintLine(const pipeline::ImportOutcome& outcome) {
     return;
   }
   const char* const state =
-      outcome.check ? pipeline::GradeSentence(outcome.check->grade()) : "written";
+      outcome.check ? validation::GradeSentence(outcome.check->grade()) : "written";
   std::printf("%s  %s  (%.1f s)\n", state, outcome.folder.c_str(), outcome.seconds.at("total"));
 }
 
-int CountRefused(const std::vector<pipeline::ImportOutcome>& outcomes) {
-  return static_cast<int>(
-      std::count_if(outcomes.begin(), outcomes.end(),
-                    [](const auto& outcome) { return !outcome.refusal.empty(); }));
+int CountRefused(const std::vector<workflows::ImportOutcome>& outcomes) {
+  return static_cast<int>(std::count_if(outcomes.begin(), outcomes.end(), [](const auto& outcome) {
+    return !outcome.refusal.empty();
+  }));
 }
 
-int PrintOutcomesJson(const std::vector<pipeline::ImportOutcome>& outcomes) {
+int PrintOutcomesJson(const std::vector<workflows::ImportOutcome>& outcomes) {
   nlohmann::ordered_json json;
   json["assets"] = nlohmann::ordered_json::array();
   core::Findings all;
-  for (const pipeline::ImportOutcome& outcome : outcomes) {
-    json["assets"].push_back(ToJson(outcome));
+  for (const workflows::ImportOutcome& outcome : outcomes) {
+    json["assets"].push_back(ImportToJson(outcome));
     const core::Findings placed = Placed(outcome.findings, outcome.name);
     all.insert(all.end(), placed.begin(), placed.end());
   }
@@ -83,18 +83,18 @@ int PrintOutcomesJson(const std::vector<pipeline::ImportOutcome>& outcomes) {
   return refused > 0 ? 1 : 0;
 }
 
-int PrintOutcomes(const std::vector<pipeline::ImportOutcome>& outcomes,
+int PrintOutcomes(const std::vector<workflows::ImportOutcome>& outcomes,
                   const CommonOptions& common) {
   const bool one = outcomes.size() == 1;
   int notes = 0;
-  for (const pipeline::ImportOutcome& outcome : outcomes) {
+  for (const workflows::ImportOutcome& outcome : outcomes) {
     if (one) {
       PrintFindings(outcome.findings, common);
       if (!outcome.refusal.empty()) return 1;
     } else {
       PrintWarnings(Placed(outcome.findings, outcome.name), common, &notes);
     }
-    PrintLine(outcome);
+    PrintImportLine(outcome);
   }
   const int refused = CountRefused(outcomes);
   if (one && !common.quiet) {
@@ -109,7 +109,7 @@ int PrintOutcomes(const std::vector<pipeline::ImportOutcome>& outcomes,
   return refused > 0 ? 1 : 0;
 }
 
-int Import(Flags flags, const CommonOptions& common) {
+int Import(ImportFlags flags, const CommonOptions& common) {
   flags.options.seed = common.seed;
   flags.options.force = common.force;
   flags.options.check = !flags.no_check;
@@ -118,14 +118,14 @@ int Import(Flags flags, const CommonOptions& common) {
   if (flags.options.unit_stated) {
     flags.options.unit = physics_params::MetresOfUnit(flags.unit);
   }
-  pipeline::Validate(flags.options.size);
+  asset_build::Validate(flags.options.size);
   Validate(flags.options.stated);
   if (!flags.options.category.empty()) physics_params::RequireCategory(flags.options.category);
   core::Progress progress(common.ProgressStyle());
-  const std::vector<pipeline::ImportItem> items =
-      pipeline::ListImports(flags.inputs, flags.options);
-  const std::vector<pipeline::ImportOutcome> outcomes =
-      pipeline::ImportAll(items, flags.output, flags.options, &progress);
+  const std::vector<workflows::ImportItem> items =
+      workflows::ListImports(flags.inputs, flags.options);
+  const std::vector<workflows::ImportOutcome> outcomes =
+      workflows::ImportAll(items, flags.output, flags.options, &progress);
   const bool one = outcomes.size() == 1;
   if (one && !outcomes[0].refusal.empty()) core::CheckCancelled();
   return common.json ? PrintOutcomesJson(outcomes) : PrintOutcomes(outcomes, common);
@@ -134,7 +134,7 @@ int Import(Flags flags, const CommonOptions& common) {
 }  // namespace
 
 void AddImport(CLI::App* app, CommonOptions* common, Run* run) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<ImportFlags>();
   CLI::App* command =
       app->add_subcommand("import", "Import meshes, URDFs and catalogues as assets");
   command->footer(

@@ -15,8 +15,7 @@ void AddLanguageModel(CLI::App* command, LanguageModelOptions* options) {
       "Query the language model at this address, e.g. http://localhost:8080/v1; 'env': the one in "
       "SIMWRIGHT_LLM_URL. The key is read from SIMWRIGHT_LLM_KEY");
   const auto needs_server = [&](CLI::Option* option) { return option->needs(url); };
-  needs_server(command->add_option("--llm-model", options->model,
-                                   "The model's name"))
+  needs_server(command->add_option("--llm-model", options->model, "The model's name"))
       ->default_str("SIMWRIGHT_LLM_MODEL");
   needs_server(command->add_option("--llm-cache", options->cache, "Folder that caches answers"));
   needs_server(command

@@ -8,15 +8,15 @@
 #include "cli/number_validators.h"
 #include "core/error.h"
 #include "core/image.h"
-#include "library/kinds.h"
-#include "library/rigid_kinds.h"
-#include "pipeline/library.h"
+#include "library/articulated/articulated_kinds.h"
+#include "library/rigid/rigid_kinds.h"
+#include "workflows/library/library.h"
 
 namespace simwright::cli {
 namespace {
 
-struct Flags {
-  pipeline::LibraryOptions options;
+struct LibraryFlags {
+  workflows::LibraryOptions options;
   std::filesystem::path output, sheet;
   bool list = false, no_check = false;
 };
@@ -34,7 +34,7 @@ void ListKinds(const Kinds& kinds, const char* heading, bool rigid, bool as_json
   }
 }
 
-int List(bool as_json) {
+int ListKinds(bool as_json) {
   nlohmann::ordered_json kinds = nlohmann::ordered_json::array();
   ListKinds(library::Kinds(), "articulated", false, as_json, &kinds);
   ListKinds(library::RigidKinds(), "\nrigid", true, as_json, &kinds);
@@ -43,7 +43,7 @@ int List(bool as_json) {
   return 0;
 }
 
-nlohmann::ordered_json ToJson(const pipeline::LibraryOutcome& outcome) {
+nlohmann::ordered_json KindToJson(const workflows::LibraryOutcome& outcome) {
   nlohmann::ordered_json json;
   json["name"] = outcome.name;
   json["kind"] = outcome.kind;
@@ -51,7 +51,7 @@ nlohmann::ordered_json ToJson(const pipeline::LibraryOutcome& outcome) {
   if (!outcome.refusal.empty()) json["refused"] = outcome.refusal;
   if (outcome.check) {
     json["passed"] = outcome.check->passed();
-    json["grade"] = pipeline::GradeName(outcome.check->grade());
+    json["grade"] = validation::GradeName(outcome.check->grade());
   }
   json["links"] = outcome.links;
   json["joints"] = outcome.joints;
@@ -60,13 +60,13 @@ nlohmann::ordered_json ToJson(const pipeline::LibraryOutcome& outcome) {
   return json;
 }
 
-void PrintLine(const pipeline::LibraryOutcome& outcome) {
+void PrintKindLine(const workflows::LibraryOutcome& outcome) {
   if (!outcome.refusal.empty()) {
     std::printf("refused  %s\n", outcome.name.c_str());
     return;
   }
   const char* const state =
-      outcome.check ? pipeline::GradeSentence(outcome.check->grade()) : "written";
+      outcome.check ? validation::GradeSentence(outcome.check->grade()) : "written";
   if (outcome.joints == 0) {
     std::printf("%s  %s  %.3f kg  (%.1f s)\n", state, outcome.folder.c_str(), outcome.mass,
                 outcome.seconds);
@@ -76,8 +76,8 @@ void PrintLine(const pipeline::LibraryOutcome& outcome) {
               outcome.links, outcome.joints, outcome.mass, outcome.seconds);
 }
 
-int Library(Flags flags, const CommonOptions& common) {
-  if (flags.list) return List(common.json);
+int Library(LibraryFlags flags, const CommonOptions& common) {
+  if (flags.list) return ListKinds(common.json);
   if (flags.output.empty()) {
     throw core::Error("no output folder is given", "", "give -o FOLDER, or --list");
   }
@@ -85,21 +85,21 @@ int Library(Flags flags, const CommonOptions& common) {
   flags.options.force = common.force;
   flags.options.check = !flags.no_check;
   core::Progress progress(common.ProgressStyle());
-  const std::vector<pipeline::LibraryOutcome> outcomes =
-      pipeline::MakeLibrary(flags.options, flags.output, &progress);
+  const std::vector<workflows::LibraryOutcome> outcomes =
+      workflows::MakeLibrary(flags.options, flags.output, &progress);
   int refused = 0;
   int notes = 0;  // about the kinds, the same in every run
   core::Findings findings;
   nlohmann::ordered_json json;
   json["assets"] = nlohmann::ordered_json::array();
-  for (const pipeline::LibraryOutcome& outcome : outcomes) {
+  for (const workflows::LibraryOutcome& outcome : outcomes) {
     refused += !outcome.refusal.empty();
     findings.insert(findings.end(), outcome.findings.begin(), outcome.findings.end());
     if (common.json) {
-      json["assets"].push_back(ToJson(outcome));
+      json["assets"].push_back(KindToJson(outcome));
     } else {
       PrintWarnings(outcome.findings, common, &notes);
-      PrintLine(outcome);
+      PrintKindLine(outcome);
     }
   }
   if (common.json) {
@@ -108,14 +108,14 @@ int Library(Flags flags, const CommonOptions& common) {
   } else if (outcomes.size() > 1) {
     std::printf("%zu made, %d refused\n", outcomes.size() - refused, refused);
   }
-  if (!flags.sheet.empty()) core::WritePng(flags.sheet, pipeline::LibrarySheet(outcomes));
+  if (!flags.sheet.empty()) core::WritePng(flags.sheet, workflows::LibrarySheet(outcomes));
   return refused > 0 ? 1 : 0;
 }
 
 }  // namespace
 
 void AddLibrary(CLI::App* app, CommonOptions* common, Run* run) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<LibraryFlags>();
   CLI::App* command =
       app->add_subcommand("library", "Generate parametric household assets, articulated and rigid");
   command->footer(

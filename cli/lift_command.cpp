@@ -8,17 +8,17 @@
 #include "cli/number_validators.h"
 #include "cli/stated_options.h"
 #include "core/error.h"
-#include "pipeline/lift.h"
+#include "workflows/lift/lift.h"
 
 namespace simwright::cli {
 namespace {
 
-struct Flags {
+struct LiftFlags {
   std::vector<std::filesystem::path> photos;
   std::filesystem::path mask;
   std::filesystem::path cameras;
   bool fast = false, outline = false;
-  pipeline::LiftRequest request;
+  workflows::LiftRequest request;
 };
 
 // Prints the outcome of each photo: immediately for people, in one final object for machines.
@@ -27,7 +27,7 @@ class LiftPrinter {
   explicit LiftPrinter(const CommonOptions& common) : common_(common) {
     json_["assets"] = nlohmann::ordered_json::array();
   }
-  void Print(const pipeline::LiftOutcome& outcome);
+  void Print(const workflows::LiftOutcome& outcome);
   void Finish() {
     if (common_.json) PrintJson(json_, findings_);
   }
@@ -38,7 +38,7 @@ class LiftPrinter {
   core::Findings findings_;
 };
 
-void LiftPrinter::Print(const pipeline::LiftOutcome& outcome) {
+void LiftPrinter::Print(const workflows::LiftOutcome& outcome) {
   findings_.insert(findings_.end(), outcome.findings.begin(), outcome.findings.end());
   if (common_.json) {
     json_["assets"].push_back({{"folder", outcome.folder.string()},
@@ -51,8 +51,8 @@ void LiftPrinter::Print(const pipeline::LiftOutcome& outcome) {
               (outcome.folder / "preview.png").c_str());
 }
 
-int Lift(Flags flags, const CommonOptions& common) {
-  pipeline::Validate(flags.request.size);
+int Lift(LiftFlags flags, const CommonOptions& common) {
+  asset_build::Validate(flags.request.size);
   Validate(flags.request.stated);
   core::Progress progress(common.ProgressStyle());
   LiftPrinter printer(common);
@@ -64,10 +64,10 @@ int Lift(Flags flags, const CommonOptions& common) {
   if (!flags.cameras.empty()) {
     if (flags.photos.size() < 2) throw core::Error("--cameras needs several photos of one object");
     if (flags.request.mask) throw core::Error("--mask needs a single photo");
-    const pipeline::LiftRequest& one = flags.request;
-    printer.Print(pipeline::LiftToFolder(
-        pipeline::MultiLiftRequest{flags.photos, flags.cameras, one.category, one.height, one.size,
-                                   one.stated, one.effort, one.seed, one.output, one.force},
+    const workflows::LiftRequest& one = flags.request;
+    printer.Print(workflows::LiftToFolder(
+        workflows::MultiLiftRequest{flags.photos, flags.cameras, one.category, one.height, one.size,
+                                    one.stated, one.effort, one.seed, one.output, one.force},
         &progress));
     printer.Finish();
     return 0;
@@ -80,7 +80,7 @@ int Lift(Flags flags, const CommonOptions& common) {
     flags.request.photo = photo;
     // Several photos show several objects, with a folder each.
     flags.request.output = flags.photos.size() > 1 ? output / photo.stem() : output;
-    printer.Print(pipeline::LiftToFolder(flags.request, &progress));
+    printer.Print(workflows::LiftToFolder(flags.request, &progress));
   }
   printer.Finish();
   return 0;
@@ -89,7 +89,7 @@ int Lift(Flags flags, const CommonOptions& common) {
 }  // namespace
 
 void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<LiftFlags>();
   CLI::App* command =
       app->add_subcommand("lift", "Reconstruct a simulation-ready asset from a photo");
   command->footer(
@@ -112,8 +112,9 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
   command->get_option("--height")->excludes("--size");
   command->add_option("--cameras", flags->cameras,
                       "JSON with the cameras of several photos of one object (docs/formats.md)");
-  command->add_option("--prior", flags->request.prior,
-                      "A TorchScript view prior, e.g. an exported Zero-1-to-3")
+  command
+      ->add_option("--prior", flags->request.prior,
+                   "A TorchScript view prior, e.g. an exported Zero-1-to-3")
       ->default_str("the shipped one");
   command->add_flag("--fast", flags->fast, "Without radiance field: under a minute");
   command->add_flag("--outline", flags->outline, "Only inflate the silhouette: a few seconds");

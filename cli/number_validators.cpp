@@ -9,7 +9,8 @@ CLI::Validator Positive() {
   return CLI::Validator(
       [](std::string& text) -> std::string {
         double value = 0.0;
-        if (CLI::detail::lexical_cast(text, value) && value > 0.0 && std::isfinite(value)) return "";
+        if (CLI::detail::lexical_cast(text, value) && value > 0.0 && std::isfinite(value))
+          return "";
         return "'" + text + "' has to be a number above 0";
       },
       "POSITIVE");

@@ -19,7 +19,7 @@ namespace {
 using physics_params::Estimate;
 using physics_params::PhysicalParameters;
 
-struct Flags {
+struct PhysicsFlags {
   std::string category;
   std::filesystem::path asset;
   LanguageModelOptions language_model;
@@ -32,7 +32,7 @@ struct Result {
   std::string usage;  // one line; empty if no model was queried
 };
 
-nlohmann::ordered_json ToJson(const Estimate& e) {
+nlohmann::ordered_json PhysicsToJson(const Estimate& e) {
   return {{"min", e.min}, {"max", e.max}, {"sample", e.sample}};
 }
 
@@ -41,16 +41,16 @@ void PrintResultJson(const Result& result) {
   nlohmann::ordered_json json;
   json["category"] = p.category;
   json["resolution"] = p.resolution;
-  json["length_m"] = ToJson(p.length);
-  json["width_m"] = ToJson(p.width);
-  json["height_m"] = ToJson(p.height);
-  json["mass_kg"] = ToJson(p.mass);
+  json["length_m"] = PhysicsToJson(p.length);
+  json["width_m"] = PhysicsToJson(p.width);
+  json["height_m"] = PhysicsToJson(p.height);
+  json["mass_kg"] = PhysicsToJson(p.mass);
   json["material"] = p.material;
   json["fill"] = physics_params::FillName(p.fill);
   json["shape"] = physics_params::ShapeName(p.shape);
-  json["density_kg_m3"] = ToJson(p.density);
-  json["friction"] = ToJson(p.friction);
-  json["restitution"] = ToJson(p.restitution);
+  json["density_kg_m3"] = PhysicsToJson(p.density);
+  json["friction"] = PhysicsToJson(p.friction);
+  json["restitution"] = PhysicsToJson(p.restitution);
   json["sources"] = {{"length", p.length.source},
                      {"width", p.width.source},
                      {"height", p.height.source},
@@ -91,7 +91,7 @@ void PrintTable(const Result& result, bool quiet) {
   if (!result.usage.empty()) std::printf("  %s\n", result.usage.c_str());
 }
 
-Result AskModel(const Flags& flags, const CommonOptions& common) {
+Result AskModel(const PhysicsFlags& flags, const CommonOptions& common) {
   const physics_params::KnowledgeBase& base = physics_params::KnowledgeBase::Shipped();
   const std::unique_ptr<llm::ChatModel> model = MakeLanguageModel(flags.language_model, common);
   core::Progress progress(common.ProgressStyle());
@@ -102,7 +102,7 @@ Result AskModel(const Flags& flags, const CommonOptions& common) {
           UsageLine(model->usage())};
 }
 
-int Physics(const Flags& flags, const CommonOptions& common) {
+int Physics(const PhysicsFlags& flags, const CommonOptions& common) {
   Result result;
   if (!flags.asset.empty()) {
     if (flags.language_model.given()) {
@@ -133,7 +133,7 @@ int Physics(const Flags& flags, const CommonOptions& common) {
 }  // namespace
 
 void AddPhysics(CLI::App* app, CommonOptions* common, Run* run) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<PhysicsFlags>();
   CLI::App* command =
       app->add_subcommand("physics", "Print the sizes, mass and contact parameters of a category");
   command->footer(

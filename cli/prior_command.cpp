@@ -1,21 +1,21 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/number_validators.h"
 #include "core/error.h"
 #include "core/folder_lock.h"
-#include "pipeline/prior_training.h"
+#include "workflows/priors/prior_training.h"
 
 namespace simwright::cli {
 namespace {
 
-struct Flags {
-  pipeline::PriorTrainingRequest request;
+struct PriorFlags {
+  workflows::PriorTrainingRequest request;
   bool parametric_only = false;
   bool resume = false;
   int batch = 0, pool = 0;  // 0: the defaults
@@ -24,7 +24,7 @@ struct Flags {
   std::string only;
 };
 
-void PrintLine(const pipeline::TrainedPrior& prior) {
+void PrintPriorLine(const workflows::TrainedPrior& prior) {
   std::printf("%s prior, step %d, loss %.4f", prior.name.c_str(), prior.report.step,
               prior.report.loss);
   for (const auto& [metric, value] : prior.report.metrics) {
@@ -34,9 +34,9 @@ void PrintLine(const pipeline::TrainedPrior& prior) {
   std::fflush(stdout);
 }
 
-void PrintTrainedJson(const std::vector<pipeline::TrainedPrior>& trained) {
+void PrintTrainedJson(const std::vector<workflows::TrainedPrior>& trained) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const pipeline::TrainedPrior& prior : trained) {
+  for (const workflows::TrainedPrior& prior : trained) {
     nlohmann::ordered_json entry;
     entry["prior"] = prior.name;
     entry["weights"] = prior.weights.string();
@@ -51,14 +51,14 @@ void PrintTrainedJson(const std::vector<pipeline::TrainedPrior>& trained) {
 
 // Returns true if a training has left a state for --resume, or final weights.
 bool HoldsState(const std::filesystem::path& folder) {
-  return std::filesystem::exists(pipeline::ShapeWeights(folder).string() + ".state") ||
-         std::filesystem::exists(pipeline::ViewWeights(folder).string() + ".state");
+  return std::filesystem::exists(workflows::ShapeWeights(folder).string() + ".state") ||
+         std::filesystem::exists(workflows::ViewWeights(folder).string() + ".state");
 }
 
-int Train(Flags flags, const CommonOptions& common) {
+int TrainPriors(PriorFlags flags, const CommonOptions& common) {
   core::Progress progress(common.ProgressStyle());
   if (flags.request.catalogues.empty() && !flags.parametric_only) {
-    flags.request.catalogues = {pipeline::DefaultTrainingCatalogue()};
+    flags.request.catalogues = {workflows::DefaultTrainingCatalogue()};
   }
   flags.request.shape = flags.only != "view";
   flags.request.view = flags.only != "shape";
@@ -70,28 +70,28 @@ int Train(Flags flags, const CommonOptions& common) {
     if (flags.rate > 0.0) options->trainer.learning_rate = flags.rate;
   }
   if (!flags.from.empty()) {
-    flags.request.shape_options.start = pipeline::ShapeWeights(flags.from);
-    flags.request.view_options.start = pipeline::ViewWeights(flags.from);
+    flags.request.shape_options.start = workflows::ShapeWeights(flags.from);
+    flags.request.view_options.start = workflows::ViewWeights(flags.from);
   }
   std::optional<core::FolderLock> lock;
   if (std::filesystem::exists(flags.request.output)) {
     lock.emplace(flags.request.output, "a training");
   }
-  std::vector<pipeline::TrainedPrior> trained;
+  std::vector<workflows::TrainedPrior> trained;
   try {
     trained =
-        pipeline::TrainPriors(flags.request, &progress, [&](const pipeline::TrainedPrior& prior) {
-          if (!common.quiet && !common.json) PrintLine(prior);
+        workflows::TrainPriors(flags.request, &progress, [&](const workflows::TrainedPrior& prior) {
+          if (!common.quiet && !common.json) PrintPriorLine(prior);
         });
   } catch (const core::Cancelled&) {
     if (!HoldsState(flags.request.output)) throw;
     progress.Finish();
-    return StoppedWith(flags.request.output);
+    return ReportStopped(flags.request.output);
   }
   if (common.json) {
     PrintTrainedJson(trained);
   } else {
-    for (const pipeline::TrainedPrior& prior : trained) {
+    for (const workflows::TrainedPrior& prior : trained) {
       std::printf("weights: %s\n", prior.weights.c_str());
     }
   }
@@ -103,7 +103,7 @@ int Train(Flags flags, const CommonOptions& common) {
 void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
   CLI::App* prior = app->add_subcommand("prior", "The learned priors of reconstruction");
   prior->require_subcommand(1);
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<PriorFlags>();
   CLI::App* command = prior->add_subcommand("train", "Train the priors");
   command->footer(
       "Example (reproduces the shipped weights in about three hours on two cores):\n"
@@ -139,7 +139,7 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
                       "Folder of initial weights, to fine-tune on your own catalogue");
   command->add_flag("--resume", flags->resume, "Resume an earlier run in the folder");
   AddCommon(command, common);
-  command->callback([flags, common, run] { *run = [=] { return Train(*flags, *common); }; });
+  command->callback([flags, common, run] { *run = [=] { return TrainPriors(*flags, *common); }; });
 }
 
 }  // namespace simwright::cli

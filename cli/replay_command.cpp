@@ -3,19 +3,19 @@
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
-#include "pipeline/skill_replay.h"
+#include "workflows/skills/skill_replay.h"
 
 namespace simwright::cli {
 namespace {
 
-int Replay(const pipeline::ReplayRequest& request, const CommonOptions& common) {
+int Replay(const workflows::ReplayRequest& request, const CommonOptions& common) {
   core::Progress progress(common.ProgressStyle());
-  const pipeline::ReplayReport report = pipeline::Replay(request, &progress);
+  const workflows::ReplayReport report = workflows::Replay(request, &progress);
   progress.Finish();
   if (common.json) {
-    PrintJson(pipeline::ReplayJson(report), {});
+    PrintJson(workflows::ReplayJson(report), {});
   } else {
-    std::fputs(pipeline::ReplayTable(report).c_str(), stdout);
+    std::fputs(workflows::ReplayTable(report).c_str(), stdout);
   }
   return report.successes > 0 ? 0 : 1;
 }
@@ -23,7 +23,7 @@ int Replay(const pipeline::ReplayRequest& request, const CommonOptions& common) 
 }  // namespace
 
 void AddReplay(CLI::App* app, CommonOptions* common, Run* run) {
-  auto request = std::make_shared<pipeline::ReplayRequest>();
+  auto request = std::make_shared<workflows::ReplayRequest>();
   CLI::App* command =
       app->add_subcommand("replay", "Replay exported motions and demonstrations in simulation");
   command->footer(

@@ -3,24 +3,24 @@
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
-#include "pipeline/reward_check.h"
+#include "workflows/tasks/reward_check.h"
 
 namespace simwright::cli {
 namespace {
 
-struct Flags {
-  pipeline::RewardCheckRequest request;
+struct RewardFlags {
+  workflows::RewardCheckRequest request;
   bool no_scene = false;
 };
 
-int Reward(const Flags& flags, const CommonOptions& common) {
-  pipeline::RewardCheckRequest request = flags.request;
+int Reward(const RewardFlags& flags, const CommonOptions& common) {
+  workflows::RewardCheckRequest request = flags.request;
   request.scene = !flags.no_scene;
-  const pipeline::RewardCheckReport report = pipeline::CheckReward(request);
+  const workflows::RewardCheckReport report = workflows::CheckReward(request);
   if (common.json) {
-    PrintJson(pipeline::RewardCheckJson(report), report.findings);
+    PrintJson(workflows::RewardCheckJson(report), report.findings);
   } else if (!common.quiet || !report.passed()) {
-    std::fputs(pipeline::RewardCheckText(report).c_str(), stdout);
+    std::fputs(workflows::RewardCheckText(report).c_str(), stdout);
   }
   return report.passed() ? 0 : 1;
 }
@@ -28,7 +28,7 @@ int Reward(const Flags& flags, const CommonOptions& common) {
 }  // namespace
 
 void AddReward(CLI::App* app, CommonOptions* common, Run* run) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<RewardFlags>();
   CLI::App* command = app->add_subcommand("reward", "Check a reward program before training");
   command->footer(
       "Examples:\n  simwright reward open_door.py --assets microwave\n"

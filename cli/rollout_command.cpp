@@ -3,21 +3,21 @@
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
-#include "pipeline/skill_rollout.h"
+#include "workflows/skills/skill_rollout.h"
 
 namespace simwright::cli {
 namespace {
 
-int Rollout(const pipeline::RolloutRequest& given, const CommonOptions& common) {
-  pipeline::RolloutRequest request = given;
+int Rollout(const workflows::RolloutRequest& given, const CommonOptions& common) {
+  workflows::RolloutRequest request = given;
   request.seed = common.seed;
   core::Progress progress(common.ProgressStyle());
-  const pipeline::RolloutReport report = pipeline::Rollout(request, &progress);
+  const workflows::RolloutReport report = workflows::Rollout(request, &progress);
   progress.Finish();
   if (common.json) {
-    PrintJson(pipeline::RolloutJson(report), {});
+    PrintJson(workflows::RolloutJson(report), {});
   } else {
-    std::fputs(pipeline::RolloutTable(report).c_str(), stdout);
+    std::fputs(workflows::RolloutTable(report).c_str(), stdout);
   }
   return 0;
 }
@@ -25,7 +25,7 @@ int Rollout(const pipeline::RolloutRequest& given, const CommonOptions& common) 
 }  // namespace
 
 void AddRollout(CLI::App* app, CommonOptions* common, Run* run) {
-  auto request = std::make_shared<pipeline::RolloutRequest>();
+  auto request = std::make_shared<workflows::RolloutRequest>();
   CLI::App* command = app->add_subcommand(
       "rollout", "Measure the success rate of a trained task, with its 95 % interval");
   command->footer(

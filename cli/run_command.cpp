@@ -8,33 +8,33 @@
 #include "cli/training_options.h"
 #include "cli/usage.h"
 #include "core/error.h"
-#include "pipeline/photo_run.h"
+#include "workflows/photo_run/photo_run.h"
 
 namespace simwright::cli {
 namespace {
 
-struct Flags {
+struct RunFlags {
   std::filesystem::path mask;
-  pipeline::PhotoRunRequest request;
+  workflows::PhotoRunRequest request;
 };
 
-int RunOnPhoto(const Flags& flags, const CommonOptions& common) {
-  pipeline::PhotoRunRequest request = flags.request;
+int RunOnPhoto(const RunFlags& flags, const CommonOptions& common) {
+  workflows::PhotoRunRequest request = flags.request;
   if (!flags.mask.empty()) request.mask = flags.mask;
   request.seed = common.seed;
   request.force = common.force;
   core::Progress progress(common.ProgressStyle());
   try {
-    const pipeline::PhotoRunOutcome outcome = pipeline::RunPhoto(request, &progress);
+    const workflows::PhotoRunOutcome outcome = workflows::RunPhoto(request, &progress);
     if (common.json) {
       PrintJson(outcome.json, outcome.findings);
     } else {
       PrintFindings(outcome.findings, common);
-      std::fputs(pipeline::PhotoRunTable(outcome).c_str(), stdout);
+      std::fputs(workflows::PhotoRunTable(outcome).c_str(), stdout);
     }
   } catch (const core::Cancelled&) {
     if (!std::filesystem::exists(request.output)) throw;
-    return StoppedWith(request.output);
+    return ReportStopped(request.output);
   }
   return 0;
 }
@@ -45,8 +45,8 @@ void AddRun(CLI::App* app, CommonOptions* common, Run* run) {
   using asset_lift::LiftEffort;
   static const std::map<std::string, LiftEffort> efforts = {
       {"outline", LiftEffort::kOutline}, {"fast", LiftEffort::kFast}, {"full", LiftEffort::kFull}};
-  auto flags = std::make_shared<Flags>();
-  pipeline::PhotoRunRequest* request = &flags->request;
+  auto flags = std::make_shared<RunFlags>();
+  workflows::PhotoRunRequest* request = &flags->request;
   CLI::App* command = app->add_subcommand(
       "run", "Turn a photo into an asset, a task, a trained skill and a trajectory, with one page");
   command->footer(

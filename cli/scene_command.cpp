@@ -3,25 +3,25 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/category_folders.h"
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/scene_export_command.h"
 #include "cli/scene_model_commands.h"
-#include "cli/slot_folders.h"
 #include "core/error.h"
-#include "pipeline/scene_generation.h"
-#include "scene/grammar/scene_types.h"
+#include "scene/scene_types/scene_types.h"
+#include "workflows/scenes/scene_generation.h"
 
 namespace simwright::cli {
 namespace {
 
 struct GenerateFlags {
-  pipeline::SceneGenerationRequest request;
+  workflows::SceneGenerationRequest request;
   std::vector<std::string> chosen;  // "apple=out/my_apple"
   bool list = false;
 };
 
-int List(const CommonOptions& common) {
+int ListSceneTypes(const CommonOptions& common) {
   nlohmann::ordered_json types = nlohmann::ordered_json::array();
   for (const scene::SceneType& type : scene::SceneTypes()) {
     types.push_back({{"type", type.name}, {"what", type.what}});
@@ -32,27 +32,27 @@ int List(const CommonOptions& common) {
 }
 
 int Generate(GenerateFlags flags, const CommonOptions& common) {
-  if (flags.list) return List(common);
+  if (flags.list) return ListSceneTypes(common);
   if (flags.request.type.empty() || flags.request.output.empty()) {
     throw core::Error("scenes need a type and an output", "",
                       "give --type dimsum -o FOLDER, or --list");
   }
   flags.request.seed = common.seed;
-  flags.request.chosen = SlotFoldersOf(flags.chosen, "--asset");
+  flags.request.chosen = ParseCategoryFolders(flags.chosen, "--asset");
   core::Progress progress(common.ProgressStyle());
-  const pipeline::SceneStatistics statistics = pipeline::GenerateScenes(flags.request, &progress);
+  const workflows::SceneStatistics statistics = workflows::GenerateScenes(flags.request, &progress);
   if (common.json) {
-    PrintJson(pipeline::StatisticsJson(statistics), statistics.findings);
+    PrintJson(workflows::StatisticsJson(statistics), statistics.findings);
     return 0;
   }
   PrintFindings(statistics.findings, common);
-  std::fputs(pipeline::StatisticsTable(statistics).c_str(), stdout);
+  std::fputs(workflows::StatisticsTable(statistics).c_str(), stdout);
   return 0;
 }
 
 void AddGenerate(CLI::App* scene, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<GenerateFlags>();
-  pipeline::SceneGenerationRequest& request = flags->request;
+  workflows::SceneGenerationRequest& request = flags->request;
   CLI::App* command = scene->add_subcommand(
       "generate", "Generate a dataset of physically valid scenes from a grammar");
   command->footer(

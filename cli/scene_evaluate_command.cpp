@@ -5,29 +5,29 @@
 
 #include "cli/findings_output.h"
 #include "cli/scene_model_commands.h"
-#include "pipeline/scene_evaluation.h"
-#include "pipeline/scene_feature_training.h"
+#include "workflows/scenes/scene_evaluation.h"
+#include "workflows/scenes/scene_feature_training.h"
 
 namespace simwright::cli {
 namespace {
 
-int Evaluate(pipeline::SceneEvaluationRequest request, const CommonOptions& common) {
+int Evaluate(workflows::SceneEvaluationRequest request, const CommonOptions& common) {
   request.seed = request.sampling.seed = common.seed;
   core::Progress progress(common.ProgressStyle());
-  const pipeline::SceneEvaluation evaluation = pipeline::EvaluateScenes(request, &progress);
+  const workflows::SceneEvaluation evaluation = workflows::EvaluateScenes(request, &progress);
   if (common.json) {
-    PrintJson(pipeline::EvaluationJson(evaluation), evaluation.findings);
+    PrintJson(workflows::EvaluationJson(evaluation), evaluation.findings);
     return 0;
   }
-  std::fputs(pipeline::EvaluationTable(evaluation).c_str(), stdout);
+  std::fputs(workflows::EvaluationTable(evaluation).c_str(), stdout);
   PrintFindings(evaluation.findings, common);
   return 0;
 }
 
-int TrainFeatures(pipeline::SceneFeatureTrainingRequest request, const CommonOptions& common) {
+int TrainFeatures(workflows::SceneFeatureTrainingRequest request, const CommonOptions& common) {
   request.options.seed = common.seed;
   core::Progress progress(common.ProgressStyle());
-  const scene::FeatureTrainingReport report = pipeline::TrainSceneFeatures(request, &progress);
+  const scene::FeatureTrainingReport report = workflows::TrainSceneFeatures(request, &progress);
   if (common.json) {
     const nlohmann::ordered_json json = {{"weights", request.weights.string()},
                                          {"parameters", report.parameters},
@@ -48,7 +48,7 @@ int TrainFeatures(pipeline::SceneFeatureTrainingRequest request, const CommonOpt
 }
 
 void AddTrainFeatures(CLI::App* features, CommonOptions* common, Run* run) {
-  auto request = std::make_shared<pipeline::SceneFeatureTrainingRequest>();
+  auto request = std::make_shared<workflows::SceneFeatureTrainingRequest>();
   CLI::App* command = features->add_subcommand(
       "train", "Train the network whose features compare images of scenes");
   command->footer(
@@ -81,7 +81,7 @@ void AddSceneFeatures(CLI::App* scene, CommonOptions* common, Run* run) {
 }
 
 void AddSceneEvaluate(CLI::App* scene, CommonOptions* common, Run* run) {
-  auto request = std::make_shared<pipeline::SceneEvaluationRequest>();
+  auto request = std::make_shared<workflows::SceneEvaluationRequest>();
   CLI::App* command =
       scene->add_subcommand("evaluate", "Compare a model's scenes with its training data");
   command->footer(

@@ -8,23 +8,23 @@
 #include "cli/findings_output.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "pipeline/scene_export.h"
+#include "workflows/scenes/scene_export.h"
 
 namespace simwright::cli {
 namespace {
 
-int Export(pipeline::SceneExportRequest request, const std::vector<std::string>& formats,
-           const CommonOptions& common) {
+int ExportScenes(workflows::SceneExportRequest request, const std::vector<std::string>& formats,
+                 const CommonOptions& common) {
   request.formats = {formats.begin(), formats.end()};
   request.force = common.force;
   core::Progress progress(common.ProgressStyle());
-  const pipeline::SceneExportReport report = pipeline::ExportScenes(request, &progress);
+  const workflows::SceneExportReport report = workflows::ExportScenes(request, &progress);
   if (common.json) {
-    PrintJson(pipeline::ExportJson(report), {});
+    PrintJson(workflows::ExportJson(report), {});
   } else {
-    std::fputs(pipeline::ExportTable(report).c_str(), stdout);
+    std::fputs(workflows::ExportTable(report).c_str(), stdout);
   }
-  return report.StillShare() < 1.0 ? 1 : 0;
+  return report.StableFraction() < 1.0 ? 1 : 0;
 }
 
 struct ViewFlags {
@@ -37,7 +37,7 @@ int View(const ViewFlags& flags, const CommonOptions& common) {
     throw core::Error("already exists", flags.output.string(), "--force replaces it");
   }
   core::WritePng(flags.output,
-                 pipeline::SceneView(flags.dataset, flags.assets, flags.scene, flags.size));
+                 workflows::SceneView(flags.dataset, flags.assets, flags.scene, flags.size));
   if (common.json) {
     PrintJson(nlohmann::ordered_json{{"picture", flags.output.string()}}, {});
   } else if (!common.quiet) {
@@ -49,7 +49,7 @@ int View(const ViewFlags& flags, const CommonOptions& common) {
 }  // namespace
 
 void AddSceneExport(CLI::App* scene, CommonOptions* common, Run* run) {
-  auto request = std::make_shared<pipeline::SceneExportRequest>();
+  auto request = std::make_shared<workflows::SceneExportRequest>();
   auto formats = std::make_shared<std::vector<std::string>>(1, "all");
   CLI::App* command =
       scene->add_subcommand("export", "Export scenes of a dataset as world files for simulators");
@@ -78,7 +78,7 @@ void AddSceneExport(CLI::App* scene, CommonOptions* common, Run* run) {
   AddCommon(command, common);
   AddForce(command, common);
   command->callback([request, formats, common, run] {
-    *run = [=] { return Export(*request, *formats, *common); };
+    *run = [=] { return ExportScenes(*request, *formats, *common); };
   });
 }
 

@@ -6,14 +6,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/category_folders.h"
 #include "cli/findings_output.h"
-#include "cli/slot_folders.h"
 #include "core/error.h"
 #include "core/folder_lock.h"
-#include "pipeline/scene_sampling.h"
-#include "pipeline/scene_shapes.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/model/training.h"
+#include "workflows/scenes/scene_sampling.h"
+#include "workflows/scenes/scene_shapes.h"
 
 namespace simwright::cli {
 namespace {
@@ -50,7 +50,7 @@ nlohmann::ordered_json ReportJson(const scene::SceneTrainingReport& report) {
   return json;
 }
 
-int Train(TrainFlags flags, const CommonOptions& common) {
+int TrainSceneModel(TrainFlags flags, const CommonOptions& common) {
   flags.options.seed = common.seed;
   const std::filesystem::path weights = flags.output / scene::kWeightsFile;
   if (std::filesystem::exists(weights) && !flags.options.trainer.resume && !common.force) {
@@ -60,8 +60,8 @@ int Train(TrainFlags flags, const CommonOptions& common) {
   const scene::SceneDataset dataset(flags.dataset);
   const scene::SceneModelOptions model = ModelOf(flags);
   if (model.shape_points > 0) {
-    flags.options.shapes = pipeline::ShapesOfDataset(flags.dataset, flags.assets,
-                                                     dataset.vocabulary(), model.shape_points);
+    flags.options.shapes = workflows::ShapesOfDataset(flags.dataset, flags.assets,
+                                                      dataset.vocabulary(), model.shape_points);
   }
   std::optional<core::FolderLock> lock;
   if (std::filesystem::exists(flags.output)) lock.emplace(flags.output, "a training");
@@ -72,7 +72,7 @@ int Train(TrainFlags flags, const CommonOptions& common) {
   } catch (const core::Cancelled&) {
     if (!std::filesystem::exists(flags.output / scene::kStateFile)) throw;
     progress.Finish();
-    return StoppedWith(flags.output);
+    return ReportStopped(flags.output);
   }
   if (common.json) {
     PrintJson(ReportJson(report), {});
@@ -88,17 +88,17 @@ int Train(TrainFlags flags, const CommonOptions& common) {
   return 0;
 }
 
-int Sample(pipeline::SceneSamplingRequest request, const CommonOptions& common) {
+int Sample(workflows::SceneSamplingRequest request, const CommonOptions& common) {
   request.sampling.seed = common.seed;
   request.force = common.force;
   core::Progress progress(common.ProgressStyle());
-  const pipeline::SceneSamplingReport report = pipeline::SampleScenes(request, &progress);
+  const workflows::SceneSamplingReport report = workflows::SampleScenes(request, &progress);
   if (common.json) {
-    PrintJson(pipeline::SamplingJson(report), report.statistics.findings);
+    PrintJson(workflows::SamplingJson(report), report.statistics.findings);
     return 0;
   }
   PrintFindings(report.statistics.findings, common);
-  std::fputs(pipeline::SamplingTable(report).c_str(), stdout);
+  std::fputs(workflows::SamplingTable(report).c_str(), stdout);
   return 0;
 }
 
@@ -140,11 +140,12 @@ void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run) {
   command->add_flag("--resume", options.trainer.resume, "Resume from the folder's checkpoint");
   AddCommon(command, common);
   AddForce(command, common);
-  command->callback([flags, common, run] { *run = [=] { return Train(*flags, *common); }; });
+  command->callback(
+      [flags, common, run] { *run = [=] { return TrainSceneModel(*flags, *common); }; });
 }
 
 void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run) {
-  auto request = std::make_shared<pipeline::SceneSamplingRequest>();
+  auto request = std::make_shared<workflows::SceneSamplingRequest>();
   auto added = std::make_shared<std::vector<std::string>>();
   CLI::App* command =
       scene->add_subcommand("sample", "Sample new, physically valid scenes from a trained model");
@@ -174,7 +175,7 @@ void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run) {
   AddForce(command, common);
   command->callback([request, added, common, run] {
     *run = [=] {
-      request->added = SlotFoldersOf(*added, "--add");
+      request->added = ParseCategoryFolders(*added, "--add");
       return Sample(*request, *common);
     };
   });

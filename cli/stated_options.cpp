@@ -4,7 +4,7 @@
 
 namespace simwright::cli {
 
-void AddStatedOptions(CLI::App* command, pipeline::StatedSize* size,
+void AddStatedOptions(CLI::App* command, asset_build::StatedSize* size,
                       physics_params::StatedPhysics* stated) {
   command
       ->add_option(

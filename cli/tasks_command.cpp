@@ -4,31 +4,31 @@
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/language_model_options.h"
-#include "pipeline/task_making.h"
+#include "workflows/tasks/task_making.h"
 
 namespace simwright::cli {
 namespace {
 
-struct Flags {
-  pipeline::TasksRequest request;
+struct TasksFlags {
+  workflows::TasksRequest request;
   LanguageModelOptions language;
 };
 
-int Tasks(const Flags& flags, const CommonOptions& common) {
-  pipeline::TasksRequest request = flags.request;
+int Tasks(const TasksFlags& flags, const CommonOptions& common) {
+  workflows::TasksRequest request = flags.request;
   request.seed = common.seed;
   request.force = common.force;
   std::unique_ptr<llm::ChatModel> model;
   if (flags.language.given()) model = MakeLanguageModel(flags.language, common);
   request.model = model.get();
   core::Progress progress(common.ProgressStyle());
-  const pipeline::TasksReport report = pipeline::MakeTasks(request, &progress);
+  const workflows::TasksReport report = workflows::MakeTasks(request, &progress);
   progress.Finish();
   if (common.json) {
-    PrintJson(pipeline::TasksJson(report), report.findings);
+    PrintJson(workflows::TasksJson(report), report.findings);
     return report.passed() ? 0 : 1;
   }
-  if (!common.quiet) std::fputs(pipeline::TasksTable(report).c_str(), stdout);
+  if (!common.quiet) std::fputs(workflows::TasksTable(report).c_str(), stdout);
   PrintFindings(report.findings, common);
   if (model != nullptr && !common.quiet) std::printf("%s\n", UsageLine(model->usage()).c_str());
   std::printf("%zu tasks: %s\npage: %s\n", report.set.tasks.size(), report.file.c_str(),
@@ -39,7 +39,7 @@ int Tasks(const Flags& flags, const CommonOptions& common) {
 }  // namespace
 
 void AddTasks(CLI::App* app, CommonOptions* common, Run* run) {
-  auto flags = std::make_shared<Flags>();
+  auto flags = std::make_shared<TasksFlags>();
   CLI::App* command = app->add_subcommand(
       "tasks", "Generate tasks, subtasks and verified reward programs for assets");
   command->footer(

@@ -6,29 +6,29 @@
 #include "cli/findings_output.h"
 #include "cli/training_options.h"
 #include "core/error.h"
-#include "pipeline/skill_training.h"
+#include "workflows/skills/skill_training.h"
 
 namespace simwright::cli {
 namespace {
 
-int Train(const pipeline::TrainRequest& given, const CommonOptions& common) {
-  pipeline::TrainRequest request = given;
+int TrainSkill(const workflows::TrainRequest& given, const CommonOptions& common) {
+  workflows::TrainRequest request = given;
   request.seed = common.seed;
   core::Progress progress(common.ProgressStyle());
-  pipeline::TrainReport report;
+  workflows::TrainReport report;
   try {
-    report = pipeline::TrainTask(request, &progress);
+    report = workflows::TrainTask(request, &progress);
   } catch (const core::Cancelled&) {
     progress.Finish();
     if (!std::filesystem::exists(request.output)) throw;  // it was stopped before it started
-    return StoppedWith(request.output);
+    return ReportStopped(request.output);
   }
   progress.Finish();
   if (common.json) {
-    PrintJson(pipeline::TrainJson(report), {});
+    PrintJson(workflows::TrainJson(report), {});
     return 0;
   }
-  if (!common.quiet) std::fputs(pipeline::TrainTable(report).c_str(), stdout);
+  if (!common.quiet) std::fputs(workflows::TrainTable(report).c_str(), stdout);
   std::printf("%.0f %% success: %s\n", 100.0 * report.success(), report.folder.c_str());
   return 0;
 }
@@ -36,7 +36,7 @@ int Train(const pipeline::TrainRequest& given, const CommonOptions& common) {
 }  // namespace
 
 void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
-  auto request = std::make_shared<pipeline::TrainRequest>();
+  auto request = std::make_shared<workflows::TrainRequest>();
   CLI::App* command =
       app->add_subcommand("train", "Train a policy for each subtask of a task, in Bullet");
   command->footer(
@@ -59,7 +59,7 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
   command
       ->add_option_function<std::string>(
           "--action",
-          [request](const std::string& name) { request->action = rl::ActionSpaceOf(name); },
+          [request](const std::string& name) { request->action = skills::ActionSpaceOf(name); },
           "Action space: the tool's pose in the interaction target's frame (focus), as a "
           "correction\n"
           "of a scripted expert (guided), in the robot's frame (absolute), as a step of the tool\n"
@@ -80,7 +80,8 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
       ->capture_default_str();
   command->add_flag("--resume", request->resume, "Resume an interrupted run");
   AddCommon(command, common);
-  command->callback([request, common, run] { *run = [=] { return Train(*request, *common); }; });
+  command->callback(
+      [request, common, run] { *run = [=] { return TrainSkill(*request, *common); }; });
 }
 
 }  // namespace simwright::cli

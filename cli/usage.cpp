@@ -5,7 +5,7 @@
 
 #include "cli/findings_output.h"
 #include "core/finding_text.h"
-#include "tasks/reward/spelling.h"
+#include "reward/frontend/spelling.h"
 
 namespace simwright::cli {
 namespace {
@@ -52,7 +52,7 @@ std::string FullName(const CLI::App& app) {
 }
 
 std::string NearestHint(const std::string& name, const std::vector<std::string>& known) {
-  const std::string nearest = tasks::reward::NearestName(name, known);
+  const std::string nearest = reward::NearestName(name, known);
   return nearest.empty() ? "" : ", did you mean " + nearest + "?";
 }
 

@@ -3,7 +3,7 @@
 namespace simwright::core {
 namespace {
 
-std::string OneLine(std::string text) {
+std::string ErrorLine(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   }
@@ -13,7 +13,7 @@ std::string OneLine(std::string text) {
 std::string Compose(const std::string& what, const std::string& where, const std::string& remedy) {
   std::string message = where.empty() ? what : where + ": " + what;
   if (!remedy.empty()) message += " (" + remedy + ")";
-  return OneLine(message);
+  return ErrorLine(message);
 }
 
 }  // namespace

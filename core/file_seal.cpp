@@ -24,7 +24,7 @@ void SealFile(const std::filesystem::path& path) {
   if (!file) throw Error("cannot finish writing the file", path.string());
 }
 
-FileSeal SealOf(const std::filesystem::path& path) {
+FileSeal CheckSeal(const std::filesystem::path& path) {
   const std::string bytes = ReadFile(path);
   if (bytes.size() < kLength) return FileSeal::kNone;
   const std::string_view all = bytes;

@@ -17,6 +17,6 @@ enum class FileSeal {
 void SealFile(const std::filesystem::path& path);
 
 // Checks a file's seal. Throws core::Error if the file cannot be read.
-FileSeal SealOf(const std::filesystem::path& path);
+FileSeal CheckSeal(const std::filesystem::path& path);
 
 }  // namespace simwright::core

@@ -181,7 +181,7 @@ void StagedFolder::Commit() {
   if (!old.empty()) fs::remove_all(old, code);
 }
 
-void RemoveHalfWritten(const fs::path& folder) {
+void RemoveStagingLeftovers(const fs::path& folder) {
   std::vector<fs::path> leftovers;
   std::error_code code;
   for (fs::recursive_directory_iterator at(folder, code), end; !code && at != end;

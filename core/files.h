@@ -63,7 +63,7 @@ class StagedFolder {
 
 // Removes the staging files and folders that a killed program left in `folder` and below. No other
 // process may be writing there.
-void RemoveHalfWritten(const std::filesystem::path& folder);
+void RemoveStagingLeftovers(const std::filesystem::path& folder);
 
 // A new folder below the system's temporary folder; the destructor deletes it.
 class TemporaryFolder {

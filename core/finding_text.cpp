@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kLongestPart = 600;  // bytes; longer text is a listing and not a sentence
 
-std::string OneLine(std::string line) {
+std::string FindingLine(std::string line) {
   std::replace_if(
       line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
   return line;
@@ -48,7 +48,7 @@ const char* SeverityName(Severity severity) {
   }
 }
 
-std::string Bounded(std::string_view text, std::size_t most) {
+std::string Truncated(std::string_view text, std::size_t most) {
   if (text.size() <= most) return std::string(text);
   std::size_t end = most > 3 ? most - 3 : 0;
   while (end > 0 && Continues(text[end])) --end;
@@ -81,7 +81,9 @@ std::string Wrapped(std::string_view text, std::size_t width) {
 
 std::string FindingText(const Finding& finding, std::size_t width) {
   std::string line = SeverityName(finding.severity);
-  const auto part = [](const std::string& text) { return OneLine(Bounded(text, kLongestPart)); };
+  const auto part = [](const std::string& text) {
+    return FindingLine(Truncated(text, kLongestPart));
+  };
   if (!finding.place.empty()) line += ": " + part(finding.place);
   line += ": " + part(finding.sentence);
   if (!finding.remedy.empty()) line += " (" + part(finding.remedy) + ")";
@@ -96,7 +98,7 @@ std::string Millimetres(double metres) {
 }
 
 Finding FindingOf(const Error& error) {
-  Finding finding{"error", Severity::kError, OneLine(error.where()), error.what()};
+  Finding finding{"error", Severity::kError, FindingLine(error.where()), error.what()};
   std::string& sentence = finding.sentence;
   if (!finding.place.empty() && sentence.starts_with(finding.place + ": ")) {
     sentence.erase(0, finding.place.size() + 2);

@@ -14,7 +14,7 @@ const char* SeverityName(Severity severity);
 
 // Truncates `text` to at most `most` bytes at a UTF-8 character boundary, with "..." where it was
 // cut.
-std::string Bounded(std::string_view text, std::size_t most);
+std::string Truncated(std::string_view text, std::size_t most);
 
 // Wraps `text` at blanks into lines of at most `width` characters, with lines after the first
 // indented by two. Returns one line if `width` is 0.

@@ -31,8 +31,8 @@ bool IsArchive(std::string_view bytes) {
 
 bool IsEncrypted(std::string_view bytes) {
   using namespace std::literals;
-  for (const std::string_view magic : {"Salted__"sv, "-----BEGIN PGP MESSAGE"sv,
-                                       "age-encryption.org/"sv, "\0GITCRYPT\0"sv}) {
+  for (const std::string_view magic :
+       {"Salted__"sv, "-----BEGIN PGP MESSAGE"sv, "age-encryption.org/"sv, "\0GITCRYPT\0"sv}) {
     if (bytes.starts_with(magic)) return true;
   }
   return false;
@@ -72,15 +72,15 @@ std::optional<ForeignContent> FindForeignContent(std::string_view bytes) {
   return std::nullopt;
 }
 
-std::optional<ForeignContent> FindUnreadPicture(std::string_view bytes) {
+std::optional<ForeignContent> FindUnsupportedImageFormat(std::string_view bytes) {
   using namespace std::literals;
   const auto named = [](const char* format) {
     return ForeignContent{std::string("this is ") + format + ", which cannot be read",
                           "convert it to PNG or JPEG"};
   };
   const std::string_view brand = MediaBrand(bytes);
-  for (const std::string_view heic : {"heic"sv, "heix"sv, "hevc"sv, "mif1"sv, "msf1"sv, "heim"sv,
-                                      "heis"sv}) {
+  for (const std::string_view heic :
+       {"heic"sv, "heix"sv, "hevc"sv, "mif1"sv, "msf1"sv, "heim"sv, "heis"sv}) {
     if (brand == heic) return named("an HEIC image (the iPhone default)");
   }
   if (brand == "avif" || brand == "avis") return named("an AVIF image");

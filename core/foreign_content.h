@@ -18,6 +18,6 @@ std::optional<ForeignContent> FindForeignContent(std::string_view bytes);
 
 // Recognises, by the first bytes, known image formats that cannot be read: HEIC, AVIF, KTX, KTX2
 // (Basis), DDS, SVG, Photoshop, JPEG XL.
-std::optional<ForeignContent> FindUnreadPicture(std::string_view bytes);
+std::optional<ForeignContent> FindUnsupportedImageFormat(std::string_view bytes);
 
 }  // namespace simwright::core

@@ -92,7 +92,7 @@ Image DecodeImage(std::string_view bytes, const std::string& where,
   }
   const ImageHeader header = ReadImageHeader(bytes);
   std::optional<ForeignContent> foreign = FindForeignContent(bytes);
-  if (!foreign) foreign = FindUnreadPicture(bytes);
+  if (!foreign) foreign = FindUnsupportedImageFormat(bytes);
   if (foreign) throw Error(foreign->what, where, foreign->remedy);
   if (header.format == ImageFormat::kUnknown) {
     throw Error("this is not a readable image", where,

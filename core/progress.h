@@ -11,9 +11,9 @@ namespace simwright::core {
 // The progress of a stage, as a progress line shows it.
 struct ProgressState {
   std::string name;
-  std::string detail;       // shown beside the count; may be empty
-  int done = 0, total = 0;  // steps; total 0: unknown
-  double elapsed = 0.0;     // s
+  std::string detail;               // shown beside the count; may be empty
+  int done = 0, total = 0;          // steps; total 0: unknown
+  double elapsed = 0.0;             // s
   std::optional<double> most_left;  // s, upper bound of the remaining time, e.g. a time limit
 };
 

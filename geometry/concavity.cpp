@@ -21,7 +21,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector4d;
 
-constexpr int kBlock = 1024;  // samples per task, independent of the thread count
+constexpr int kConcavityBlock = 1024;  // samples per task, independent of the thread count
 
 void RequireMesh(const core::TriangleMesh& mesh, const char* where) {
   core::RequireValid(mesh, where);
@@ -43,7 +43,7 @@ class PartSet {
   bool Contains(const Vector3d& p, double depth, int except) const {
     for (int i = 0; i < static_cast<int>(planes_.size()); ++i) {
       if (i == except || boxes_[i].exteriorDistance(p) > std::max(0.0, -depth)) continue;
-      if (HeightOver(planes_[i], p) < -depth) return true;
+      if (MaxPlaneDistance(planes_[i], p) < -depth) return true;
     }
     return false;
   }
@@ -52,12 +52,12 @@ class PartSet {
   // a face normal of a part that contains `p`, to a point that no other part contains.
   double ExitDistance(const Vector3d& p, double step, double best) const {
     for (int i = 0; i < static_cast<int>(planes_.size()); ++i) {
-      if (!boxes_[i].contains(p) || HeightOver(planes_[i], p) > 0.0) continue;
+      if (!boxes_[i].contains(p) || MaxPlaneDistance(planes_[i], p) > 0.0) continue;
       for (const Vector4d& plane : planes_[i]) {
         const double depth = plane[3] - plane.head<3>().dot(p);
         if (depth >= best) continue;
         const Vector3d end = p + (depth + step) * plane.head<3>();
-        if (HeightOver(planes_[i], end) <= 2.0 * step && !Contains(end, 0.0, i)) best = depth;
+        if (MaxPlaneDistance(planes_[i], end) <= 2.0 * step && !Contains(end, 0.0, i)) best = depth;
       }
     }
     return best;
@@ -69,9 +69,9 @@ class PartSet {
 };
 
 // Finds the nearest of a fixed set of points: a bucket grid, searched ring by ring.
-class PointGrid {
+class SampleGrid {
  public:
-  explicit PointGrid(std::vector<Vector3d> points) : points_(std::move(points)) {
+  explicit SampleGrid(std::vector<Vector3d> points) : points_(std::move(points)) {
     for (const Vector3d& p : points_) box_.extend(p);
     const double longest = std::max(box_.sizes().maxCoeff(), 1e-300);
     cell_ = longest / std::max(1.0, std::sqrt(static_cast<double>(points_.size()) / 6.0));
@@ -165,12 +165,12 @@ void MeasureVolumes(const core::TriangleMesh& solid, const TriangleTree& tree, c
                     DecompositionQuality* quality) {
   Eigen::AlignedBox3d box = core::Bounds(solid);
   for (const core::TriangleMesh& part : parts) box.extend(core::Bounds(part));
-  const int blocks = (options.volume_samples + kBlock - 1) / kBlock;
+  const int blocks = (options.volume_samples + kConcavityBlock - 1) / kConcavityBlock;
   std::vector<std::array<int, 3>> counts(blocks, {0, 0, 0});  // in the solid, excess, missing
   core::ParallelFor(blocks, [&](int b) {
     core::Rng rng = core::StreamRng(options.seed, 1000 + b);
-    const int end = std::min(options.volume_samples, (b + 1) * kBlock);
-    for (int i = b * kBlock; i < end; ++i) {
+    const int end = std::min(options.volume_samples, (b + 1) * kConcavityBlock);
+    for (int i = b * kConcavityBlock; i < end; ++i) {
       Vector3d p;
       for (int k = 0; k < 3; ++k) p[k] = core::Uniform(rng, box.min()[k], box.max()[k]);
       const bool in_solid = InsideSurface(solid, tree, p);
@@ -195,10 +195,10 @@ void MeasureVolumes(const core::TriangleMesh& solid, const TriangleTree& tree, c
 
 double CoveredShare(const std::vector<Vector3d>& points, const PartSet& set, double tolerance) {
   const int n = static_cast<int>(points.size());
-  const int blocks = (n + kBlock - 1) / kBlock;
+  const int blocks = (n + kConcavityBlock - 1) / kConcavityBlock;
   std::vector<int> covered(blocks, 0);
   core::ParallelFor(blocks, [&](int b) {
-    for (int i = b * kBlock; i < std::min(n, (b + 1) * kBlock); ++i) {
+    for (int i = b * kConcavityBlock; i < std::min(n, (b + 1) * kConcavityBlock); ++i) {
       covered[b] += set.Contains(points[i], -tolerance, -1);
     }
   });
@@ -227,7 +227,7 @@ DecompositionQuality MeasureDecomposition(const core::TriangleMesh& solid,
   const std::vector<Vector3d> on_solid =
       SampleSurface(solid, options.surface_samples, options.seed);
   const std::vector<Vector3d> on_parts = SampleUnion(parts, set, diagonal, options);
-  const PointGrid grid(on_parts);
+  const SampleGrid grid(on_parts);
   core::TriangleMesh all_parts;
   for (const core::TriangleMesh& part : parts) core::Append(part, &all_parts);
   const TriangleTree parts_tree(all_parts);
@@ -235,23 +235,28 @@ DecompositionQuality MeasureDecomposition(const core::TriangleMesh& solid,
   DecompositionQuality quality;
   std::vector<double> to_parts(on_solid.size()), outside(on_solid.size(), 0.0);
   std::vector<double> to_solid(on_parts.size());
-  core::ParallelFor(static_cast<int>(on_solid.size() + kBlock - 1) / kBlock, [&](int b) {
-    const std::size_t end = std::min(on_solid.size(), static_cast<std::size_t>(b + 1) * kBlock);
-    for (std::size_t i = static_cast<std::size_t>(b) * kBlock; i < end; ++i) {
-      const Vector3d& p = on_solid[i];
-      if (set.Contains(p, 0.0, -1)) {
-        to_parts[i] = set.ExitDistance(p, options.coverage_tolerance * diagonal, grid.Distance(p));
-      } else {
-        to_parts[i] = outside[i] = parts_tree.Closest(p).distance;
-      }
-    }
-  });
-  core::ParallelFor(static_cast<int>(on_parts.size() + kBlock - 1) / kBlock, [&](int b) {
-    const std::size_t end = std::min(on_parts.size(), static_cast<std::size_t>(b + 1) * kBlock);
-    for (std::size_t i = static_cast<std::size_t>(b) * kBlock; i < end; ++i) {
-      to_solid[i] = tree.Closest(on_parts[i]).distance;
-    }
-  });
+  core::ParallelFor(
+      static_cast<int>(on_solid.size() + kConcavityBlock - 1) / kConcavityBlock, [&](int b) {
+        const std::size_t end =
+            std::min(on_solid.size(), static_cast<std::size_t>(b + 1) * kConcavityBlock);
+        for (std::size_t i = static_cast<std::size_t>(b) * kConcavityBlock; i < end; ++i) {
+          const Vector3d& p = on_solid[i];
+          if (set.Contains(p, 0.0, -1)) {
+            to_parts[i] =
+                set.ExitDistance(p, options.coverage_tolerance * diagonal, grid.Distance(p));
+          } else {
+            to_parts[i] = outside[i] = parts_tree.Closest(p).distance;
+          }
+        }
+      });
+  core::ParallelFor(
+      static_cast<int>(on_parts.size() + kConcavityBlock - 1) / kConcavityBlock, [&](int b) {
+        const std::size_t end =
+            std::min(on_parts.size(), static_cast<std::size_t>(b + 1) * kConcavityBlock);
+        for (std::size_t i = static_cast<std::size_t>(b) * kConcavityBlock; i < end; ++i) {
+          to_solid[i] = tree.Closest(on_parts[i]).distance;
+        }
+      });
   quality.uncovered = *std::max_element(outside.begin(), outside.end()) / diagonal;
   if (!on_parts.empty()) {
     quality.solid_to_parts = *std::max_element(to_parts.begin(), to_parts.end()) / diagonal;

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 constexpr double kOnPlane = 1e-9;      // of the solid's diagonal
 constexpr double kMinFragment = 1e-9;  // of the solid's volume
-constexpr double kSlab = 5e-3;         // of the solid's diagonal: thinnest slab cut off
+constexpr double kCutSlab = 5e-3;      // of the solid's diagonal: thinnest slab cut off
 constexpr double kWorthAhead = 2e-3;   // of the solid's excess: less is cut greedily
 constexpr int kFeatures = 8;           // feature heights tried along a direction
 
@@ -62,7 +62,7 @@ void AddPlanes(const Piece& piece, const Vector3d& axis, int count, const CutCon
     low = std::min(low, axis.dot(p));
     high = std::max(high, axis.dot(p));
   }
-  const double slab = kSlab * context.diagonal;
+  const double slab = kCutSlab * context.diagonal;
   if (high - low < 2.0 * slab) return;
   std::vector<double> heights =
       FeatureHeights(piece.mesh, axis, 0.1 * slab, std::min(count, kFeatures));
@@ -80,7 +80,7 @@ void AddPlanes(const Piece& piece, const Vector3d& axis, int count, const CutCon
 }
 
 // Returns the normals of candidate cuts: the axes, and the piece's principal axes if they differ.
-std::vector<Vector3d> Directions(const Piece& piece, bool own) {
+std::vector<Vector3d> CutDirections(const Piece& piece, bool own) {
   std::vector<Vector3d> directions{Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
   if (!own) return directions;
   const MassProperties properties = ShellMassProperties(piece.mesh, 1.0, 1.0);
@@ -97,7 +97,7 @@ std::vector<Vector3d> Directions(const Piece& piece, bool own) {
 std::vector<CutPlane> Candidates(const Piece& piece, int count, bool own,
                                  const CutContext& context) {
   std::vector<CutPlane> planes;
-  for (const Vector3d& axis : Directions(piece, own)) {
+  for (const Vector3d& axis : CutDirections(piece, own)) {
     AddPlanes(piece, axis, count, context, &planes);
   }
   return planes;
@@ -159,7 +159,7 @@ Piece MakePiece(core::TriangleMesh mesh, const CutContext& context) {
 
 std::vector<Piece> CutPiece(const Piece& piece, const CutPlane& plane, const CutContext& context) {
   std::vector<Piece> pieces;
-  for (core::TriangleMesh& mesh : CutApart(piece.mesh, plane, kOnPlane * context.diagonal)) {
+  for (core::TriangleMesh& mesh : SplitByPlane(piece.mesh, plane, kOnPlane * context.diagonal)) {
     const double size = core::Bounds(mesh).diagonal().norm();
     if (SignedVolume(mesh) < kMinFragment * context.solid_volume &&
         size < 10 * context.options->min_thickness * context.diagonal) {

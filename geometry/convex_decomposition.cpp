@@ -137,7 +137,7 @@ void GrowHulls(const core::TriangleMesh& solid, const CutContext& context,
     std::size_t home = 0;
     for (std::size_t i = 0; i < pieces->size() && nearest > reach; ++i) {
       if (boxes[i].exteriorDistance(v) >= nearest) continue;
-      const double height = HeightOver(planes[i], v);
+      const double height = MaxPlaneDistance(planes[i], v);
       if (height >= nearest) continue;
       nearest = height;
       home = i;
@@ -158,7 +158,7 @@ ConvexDecomposition DecomposeUnit(const core::TriangleMesh& solid,
                                   const DecompositionOptions& options) {
   const double diagonal = core::Bounds(solid).diagonal().norm();
   const double volume = SignedVolume(solid);
-  const HullFit fit(solid, kSolidSamples, options.seed);
+  const HullDeviation fit(solid, kSolidSamples, options.seed);
   CutContext context{&options, &fit, diagonal, volume, 0.0};
   context.excess = MakePiece(solid, context).Excess();
 

@@ -35,7 +35,7 @@ double DiagonalOf(const std::vector<Vector3d>& points) {
 }
 
 // Returns the principal directions of the points, thinnest first (columns), right-handed.
-Eigen::Matrix3d Directions(const std::vector<Vector3d>& points) {
+Eigen::Matrix3d HullDirections(const std::vector<Vector3d>& points) {
   Vector3d middle = Vector3d::Zero();
   for (const Vector3d& p : points) middle += p;
   middle /= static_cast<double>(points.size());
@@ -75,7 +75,7 @@ std::optional<core::TriangleMesh> TryHull(const std::vector<Vector3d>& points, d
                                           int max_vertices) {
   if (auto hull = TryHullAsIs(points, diagonal, max_vertices)) return hull;
   // An affine map of a hull is a hull, and noise on a thin sheet is harmless after stretching.
-  const Eigen::Matrix3d frame = Directions(points);
+  const Eigen::Matrix3d frame = HullDirections(points);
   Eigen::AlignedBox3d box;
   for (const Vector3d& p : points) box.extend(Vector3d(frame.transpose() * p));
   if (!(box.sizes().minCoeff() > kFlat * diagonal)) return std::nullopt;
@@ -126,7 +126,7 @@ core::TriangleMesh ThickenedConvexHull(const std::vector<Vector3d>& points, doub
   if (!(min_thickness > 0.0) || !std::isfinite(min_thickness)) {
     throw core::Error("the minimum thickness is not positive", "convex hull");
   }
-  const Eigen::Matrix3d directions = Directions(points);
+  const Eigen::Matrix3d directions = HullDirections(points);
   std::vector<Vector3d> grown = points;
   bool thickened = false;
   for (int k = 0; k < 3; ++k) {

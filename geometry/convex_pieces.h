@@ -15,7 +15,7 @@ struct Piece {
   core::TriangleMesh hull;   // of all of its vertices
   double volume = 0.0;       // m^3, of the piece
   double hull_volume = 0.0;  // m^3
-  double concavity = 0.0;    // HullFit's; -1: not measured yet
+  double concavity = 0.0;    // HullDeviation's; -1: not measured yet
 
   double Excess() const { return hull_volume > volume ? hull_volume - volume : 0.0; }
 };
@@ -23,7 +23,7 @@ struct Piece {
 // The data shared by the steps of one decomposition.
 struct CutContext {
   const DecompositionOptions* options;
-  const HullFit* fit;
+  const HullDeviation* fit;
   double diagonal = 0.0;      // m, of the solid
   double solid_volume = 0.0;  // m^3
   double excess = 0.0;        // m^3, excess of the whole solid's hull over the solid

@@ -65,7 +65,7 @@ std::vector<Vector4d> FacePlanes(const core::TriangleMesh& hull) {
   return planes;
 }
 
-double HeightOver(const std::vector<Vector4d>& planes, const Vector3d& p) {
+double MaxPlaneDistance(const std::vector<Vector4d>& planes, const Vector3d& p) {
   double height = -std::numeric_limits<double>::infinity();
   for (const Vector4d& plane : planes) {
     height = std::max(height, plane.head<3>().dot(p) - plane[3]);
@@ -78,22 +78,22 @@ bool InsideSurface(const core::TriangleMesh& mesh, const TriangleTree& tree, con
   return hit && core::TriangleAreaVector(mesh, hit->triangle).dot(SkewDirection()) > 0.0;
 }
 
-HullFit::HullFit(const core::TriangleMesh& solid, int samples, std::uint64_t seed)
+HullDeviation::HullDeviation(const core::TriangleMesh& solid, int samples, std::uint64_t seed)
     : solid_(solid),
       tree_(solid),
       samples_(SampleSurface(solid, samples, seed)),
       unit_(0.5 * core::Bounds(solid).sizes().maxCoeff()) {}
 
-double HullFit::VolumeConcavity(double excess_volume) const {
+double HullDeviation::VolumeConcavity(double excess_volume) const {
   const double radius = std::cbrt(3.0 * std::max(0.0, excess_volume) / (4.0 * std::numbers::pi));
   return kVolumeWeight * radius / unit_;
 }
 
-bool HullFit::Outside(const Vector3d& p) const {
+bool HullDeviation::Outside(const Vector3d& p) const {
   return !InsideSurface(solid_, tree_, p);
 }
 
-double HullFit::Overhang(const core::TriangleMesh& hull, double enough) const {
+double HullDeviation::Overhang(const core::TriangleMesh& hull, double enough) const {
   double farthest = 0.0;
   VisitSurface(hull, kHullPoints, [&](const Vector3d& p) {
     // Most points are nearer than the farthest so far, which is cheaper to test than their
@@ -104,19 +104,20 @@ double HullFit::Overhang(const core::TriangleMesh& hull, double enough) const {
   return farthest;
 }
 
-double HullFit::Buried(const core::TriangleMesh& hull, double enough) const {
+double HullDeviation::Buried(const core::TriangleMesh& hull, double enough) const {
   const Eigen::AlignedBox3d box = core::Bounds(hull);
   const std::vector<Vector4d> planes = FacePlanes(hull);
   double deepest = 0.0;
   for (const Vector3d& p : samples_) {
     if (!box.contains(p)) continue;
-    deepest = std::max(deepest, -HeightOver(planes, p));
+    deepest = std::max(deepest, -MaxPlaneDistance(planes, p));
     if (deepest > enough) break;
   }
   return deepest;
 }
 
-double HullFit::Concavity(const core::TriangleMesh& hull, double volume, double enough) const {
+double HullDeviation::Concavity(const core::TriangleMesh& hull, double volume,
+                                double enough) const {
   double concavity = VolumeConcavity(SignedVolume(hull) - volume);
   if (concavity > enough) return concavity;
   concavity = std::max(concavity, Buried(hull, enough * unit_) / unit_);

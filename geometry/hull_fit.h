@@ -14,11 +14,11 @@ namespace simwright::geometry {
 // Measures how far the hull of a part of one solid deviates from that solid: CoACD's concavity,
 // computed against the solid instead of the piece, so that the caps between pieces do not count.
 // Queries are const and thread-safe.
-class HullFit {
+class HullDeviation {
  public:
   // `solid` must be closed and oriented outward. `samples` points on it serve to measure how deep a
   // hull buries the surface.
-  HullFit(const core::TriangleMesh& solid, int samples, std::uint64_t seed);
+  HullDeviation(const core::TriangleMesh& solid, int samples, std::uint64_t seed);
 
   // Returns max(Hausdorff distance, 0.3 Rv), in units of half the solid's longest side. The
   // Hausdorff distance is the larger of that from points on `hull` outside the solid to the solid's
@@ -47,7 +47,7 @@ class HullFit {
 std::vector<Eigen::Vector4d> FacePlanes(const core::TriangleMesh& hull);
 
 // Returns the largest signed distance of `p` to any of the planes; inside it is minus the depth.
-double HeightOver(const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d& p);
+double MaxPlaneDistance(const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d& p);
 
 // Returns true if `p` is inside the closed surface under `tree`, oriented outward: the first face
 // that a ray from `p` hits is seen from behind.

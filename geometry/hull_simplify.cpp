@@ -10,9 +10,9 @@
 
 #include "core/error.h"
 #include "geometry/convex_hull.h"
+#include "geometry/convex_hull_2d.h"
 #include "geometry/hull_fit.h"
 #include "geometry/mass_properties.h"
-#include "geometry/plane_hull.h"
 #include "geometry/round_hull.h"
 #include "geometry/weld.h"
 
@@ -22,14 +22,14 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMinVertices = 16;
-constexpr double kThinnest = 1e-4;    // of the diagonal
-constexpr double kSamePlane = 1e-5;   // of the diagonal: faces of one flat side
-constexpr double kFlatShare = 0.04;   // of the surface: smallest flat side that is kept
-constexpr double kSideLoss = 0.005;   // of a flat side's area that its corners may cut off
-constexpr double kMirrored = 1e-3;    // of the diagonal: largest distance of a vertex from its
-                                      // image
-constexpr double kMostGrowth = 2.0;   // of the protrusion above a face
-constexpr int kGrowthSteps = 20;      // bisection steps for the volume
+constexpr double kThinnest = 1e-4;       // of the diagonal
+constexpr double kSameHullPlane = 1e-5;  // of the diagonal: faces of one flat side
+constexpr double kFlatShare = 0.04;      // of the surface: smallest flat side that is kept
+constexpr double kSideLoss = 0.005;      // of a flat side's area that its corners may cut off
+constexpr double kMirrored = 1e-3;       // of the diagonal: largest distance of a vertex from its
+                                         // image
+constexpr double kMostGrowth = 2.0;      // of the protrusion above a face
+constexpr int kGrowthSteps = 20;         // bisection steps for the volume
 
 // Returns how far `points` protrude from each plane. Each point counts for the plane that it is
 // highest above, and for all within `tie` of that, so that the order of faces does not matter.
@@ -115,14 +115,13 @@ std::vector<int> ImagesUnder(const std::vector<Vector3d>& vertices, const Vector
 // axes, or to the principal axes if more of these are symmetry planes.
 Images MirrorImages(const core::TriangleMesh& hull, double diagonal) {
   const MassProperties mass = SolidMassProperties(hull, 1.0);
-  const Eigen::Matrix3d principal =
-      PrincipalInertiaOf(mass.inertia).axes.toRotationMatrix();
+  const Eigen::Matrix3d principal = PrincipalInertiaOf(mass.inertia).axes.toRotationMatrix();
   Images best;
   for (const Eigen::Matrix3d& axes : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), principal}) {
     Images images;
     for (int k = 0; k < 3; ++k) {
-      std::vector<int> of = ImagesUnder(hull.vertices, mass.center_of_mass, axes.col(k),
-                                        kMirrored * diagonal);
+      std::vector<int> of =
+          ImagesUnder(hull.vertices, mass.center_of_mass, axes.col(k), kMirrored * diagonal);
       if (!of.empty()) images.push_back(std::move(of));
     }
     if (images.size() > best.size()) best = std::move(images);
@@ -182,7 +181,7 @@ std::vector<int> CornersOfSide(const core::TriangleMesh& hull, const std::vector
     }
   }
   std::vector<int> corners;
-  for (const Eigen::Vector2d& corner : FewerCorners(PlaneHull(flat), most, kSideLoss)) {
+  for (const Eigen::Vector2d& corner : SimplifyConvexPolygon(ConvexHull2d(flat), most, kSideLoss)) {
     const auto at = std::find(flat.begin(), flat.end(), corner);
     corners.push_back(of[static_cast<std::size_t>(at - flat.begin())]);
   }
@@ -198,7 +197,8 @@ void AddFarthest(const core::TriangleMesh& hull, double diagonal, Selection* sel
     if (grown) {
       const auto planes =
           FacePlanes(ThickenedConvexHull(selection->Points(), kThinnest * diagonal));
-      for (std::size_t i = 0; i < count; ++i) height[i] = HeightOver(planes, hull.vertices[i]);
+      for (std::size_t i = 0; i < count; ++i)
+        height[i] = MaxPlaneDistance(planes, hull.vertices[i]);
     }
     int next = -1;
     double highest = 0.5 * kThinnest * diagonal;
@@ -218,7 +218,7 @@ void AddFarthest(const core::TriangleMesh& hull, double diagonal, Selection* sel
 std::vector<Vector3d> PickVertices(const core::TriangleMesh& hull, double diagonal,
                                    int max_vertices) {
   const std::vector<Eigen::Vector4d> planes = FacePlanes(hull);
-  const auto sides = FlatSides(hull, planes, kSamePlane * diagonal);
+  const auto sides = FlatSides(hull, planes, kSameHullPlane * diagonal);
   const Images images = MirrorImages(hull, diagonal);
   Selection selection(hull, images, max_vertices);
   const Vector3d middle = core::Bounds(hull).center();
@@ -253,7 +253,7 @@ core::TriangleMesh GrownToVolume(const core::TriangleMesh& picked,
       farthest[v] = std::max(farthest[v], out[f]);
     }
   }
-  const auto sides = FlatSides(picked, planes, kSamePlane * diagonal);
+  const auto sides = FlatSides(picked, planes, kSameHullPlane * diagonal);
   for (int round = 0; round < 3; ++round) {
     for (const std::vector<int>& side : sides) {
       const Vector3d normal = planes[static_cast<std::size_t>(side[0])].head<3>();

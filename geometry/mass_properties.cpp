@@ -123,8 +123,8 @@ MassProperties HollowMassProperties(const core::TriangleMesh& mesh, double wall_
   MassProperties hollow;
   hollow.volume = solid.volume * u * cubic;
   hollow.mass = hollow.volume * density;
-  hollow.center_of_mass = sheet_weight * sheet.center_of_mass +
-                          (1.0 - sheet_weight) * solid.center_of_mass;
+  hollow.center_of_mass =
+      sheet_weight * sheet.center_of_mass + (1.0 - sheet_weight) * solid.center_of_mass;
   hollow.inertia = hollow.mass * (sheet_weight / sheet.mass * sheet.inertia +
                                   (1.0 - sheet_weight) / solid.mass * solid.inertia);
   return hollow;

@@ -247,7 +247,7 @@ class Cut {
   Side below_{-1, {}, {}};
 };
 
-int Root(std::vector<int>* parent, int i) {
+int ClipRoot(std::vector<int>* parent, int i) {
   while ((*parent)[i] != i) i = (*parent)[i] = (*parent)[(*parent)[i]];
   return i;
 }
@@ -259,14 +259,14 @@ std::vector<core::TriangleMesh> ConnectedBodies(const core::TriangleMesh& mesh) 
   std::vector<int> parent(n);
   std::iota(parent.begin(), parent.end(), 0);
   for (const Vector3i& t : mesh.triangles) {
-    const int a = Root(&parent, t[0]);
-    parent[Root(&parent, t[1])] = a;
-    parent[Root(&parent, t[2])] = a;
+    const int a = ClipRoot(&parent, t[0]);
+    parent[ClipRoot(&parent, t[1])] = a;
+    parent[ClipRoot(&parent, t[2])] = a;
   }
   std::vector<int> body_of(n, -1), index(n, -1);
   std::vector<core::TriangleMesh> bodies;
   for (Vector3i t : mesh.triangles) {
-    int& body = body_of[Root(&parent, t[0])];
+    int& body = body_of[ClipRoot(&parent, t[0])];
     if (body < 0) {
       body = static_cast<int>(bodies.size());
       bodies.emplace_back();
@@ -300,8 +300,8 @@ std::vector<core::TriangleMesh> ConnectedBodies(const core::TriangleMesh& mesh) 
   return outer;
 }
 
-std::vector<core::TriangleMesh> CutApart(const core::TriangleMesh& mesh, const CutPlane& plane,
-                                         double tolerance) {
+std::vector<core::TriangleMesh> SplitByPlane(const core::TriangleMesh& mesh, const CutPlane& plane,
+                                             double tolerance) {
   Cut cut(mesh, plane, tolerance);
   if (!cut.BothSides()) return {};
   std::vector<core::TriangleMesh> pieces;

@@ -18,8 +18,8 @@ struct CutPlane {
 // closed again by a cap. Vertices within `tolerance` (m) of the plane count as on it; faces within
 // it are rebuilt with the cap. Returns nothing if one side of the plane is empty or the volumes of
 // the pieces do not add up to the mesh's; the caller then tries another plane.
-std::vector<core::TriangleMesh> CutApart(const core::TriangleMesh& mesh, const CutPlane& plane,
-                                         double tolerance);
+std::vector<core::TriangleMesh> SplitByPlane(const core::TriangleMesh& mesh, const CutPlane& plane,
+                                             double tolerance);
 
 // Splits a mesh into bodies that share no vertex. An inward surface (a void) stays with the body
 // around it.

@@ -11,8 +11,8 @@
 
 #include "core/error.h"
 #include "geometry/convex_hull.h"
+#include "geometry/convex_hull_2d.h"
 #include "geometry/mass_properties.h"
-#include "geometry/plane_hull.h"
 #include "geometry/weld.h"
 
 namespace simwright::geometry {
@@ -25,10 +25,10 @@ constexpr double kBallTolerance = 0.02;     // of its radius: largest deviation 
                                             // vertex
 constexpr double kProfileTolerance = 0.02;  // of the largest radius: largest deviation of a solid
                                             // of revolution's vertex
-constexpr double kSweptShare = 0.96;   // of the swept profile's volume: a prism of 13 corners
-constexpr double kNearAxis = 1e-3;     // of the largest radius: a vertex on the axis
-constexpr double kSameRing = 1e-5;     // of the largest radius: rounding within a ring
-constexpr int kVolumeSteps = 30;       // bisection steps
+constexpr double kSweptShare = 0.96;        // of the swept profile's volume: a prism of 13 corners
+constexpr double kNearAxis = 1e-3;          // of the largest radius: a vertex on the axis
+constexpr double kSameRing = 1e-5;          // of the largest radius: rounding within a ring
+constexpr int kVolumeSteps = 30;            // bisection steps
 constexpr std::array<int, 7> kCorners{32, 24, 16, 12, 10, 8, 6};  // corners per ring
 
 // The hull's centre and principal axes (columns, right-handed), and the spread along each.
@@ -126,11 +126,11 @@ std::optional<core::TriangleMesh> AsEllipsoid(const core::TriangleMesh& hull, co
 // A hull viewed along one of its principal axes, scaled so that its cross-section is round.
 struct Revolution {
   Frame frame;
-  int axis = 2;                    // column of frame.axes
+  int axis = 2;  // column of frame.axes
   double stretch_u = 1.0, stretch_v = 1.0;
-  std::vector<Vector2d> profile;   // (radius, height), ascending height, radius 0 at closed ends
-  double radius = 0.0;             // m, the largest
-  double phase = 0.0;              // rad, of the outermost corner
+  std::vector<Vector2d> profile;  // (radius, height), ascending height, radius 0 at closed ends
+  double radius = 0.0;            // m, the largest
+  double phase = 0.0;             // rad, of the outermost corner
 
   Vector3d ToRound(const Vector3d& p) const {
     const Vector3d q = frame.ToFrame(p);
@@ -150,8 +150,8 @@ double SweptVolume(const std::vector<Vector2d>& profile) {
   double volume = 0.0;
   for (size_t i = 1; i < profile.size(); ++i) {
     const double a = profile[i - 1].x(), b = profile[i].x();
-    volume += std::numbers::pi / 3.0 * (profile[i].y() - profile[i - 1].y()) *
-              (a * a + a * b + b * b);
+    volume +=
+        std::numbers::pi / 3.0 * (profile[i].y() - profile[i - 1].y()) * (a * a + a * b + b * b);
   }
   return volume;
 }
@@ -173,7 +173,7 @@ std::vector<Vector2d> ProfileOf(const std::vector<Vector2d>& points, double near
   std::vector<Vector2d> both = points;
   for (const Vector2d& p : points) both.emplace_back(-p.x(), p.y());
   std::vector<Vector2d> profile;
-  for (const Vector2d& p : PlaneHull(std::move(both))) {
+  for (const Vector2d& p : ConvexHull2d(std::move(both))) {
     if (p.x() >= -near_axis) profile.emplace_back(p.x() < near_axis ? 0.0 : p.x(), p.y());
   }
   std::sort(profile.begin(), profile.end(), [](const Vector2d& a, const Vector2d& b) {

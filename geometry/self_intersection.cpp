@@ -20,16 +20,16 @@ Point ToPoint(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z()};
 }
 
-using Corners = std::array<Point, 3>;
+using TriangleCorners = std::array<Point, 3>;
 
-Corners CornersOf(const core::TriangleMesh& mesh, int triangle) {
+TriangleCorners CornersOf(const core::TriangleMesh& mesh, int triangle) {
   const Eigen::Vector3i& t = mesh.triangles[triangle];
   return {ToPoint(mesh.vertices[t[0]]), ToPoint(mesh.vertices[t[1]]), ToPoint(mesh.vertices[t[2]])};
 }
 
 // Returns true if all of `points` lie strictly on one side of the plane of `t`.
 template <std::size_t N>
-bool OnOneSide(const Corners& t, const std::array<Point, N>& points) {
+bool OnOneSide(const TriangleCorners& t, const std::array<Point, N>& points) {
   const CGAL::Orientation first = CGAL::orientation(t[0], t[1], t[2], points[0]);
   if (first == CGAL::COPLANAR) return false;
   for (std::size_t i = 1; i < N; ++i) {
@@ -53,8 +53,8 @@ bool MeetBesidesShared(const core::TriangleMesh& mesh, int ta, int tb) {
     }
   }
   if (shared == 3) return true;
-  const Corners pa = CornersOf(mesh, ta);
-  const Corners pb = CornersOf(mesh, tb);
+  const TriangleCorners pa = CornersOf(mesh, ta);
+  const TriangleCorners pb = CornersOf(mesh, tb);
   if (shared == 2) {
     const Point& p = pa[at_a[0]];
     const Point& q = pa[at_a[1]];
@@ -80,7 +80,7 @@ bool MeetBesidesShared(const core::TriangleMesh& mesh, int ta, int tb) {
 }  // namespace
 
 bool IsDegenerate(const core::TriangleMesh& mesh, int triangle) {
-  const Corners p = CornersOf(mesh, triangle);
+  const TriangleCorners p = CornersOf(mesh, triangle);
   return CGAL::collinear(p[0], p[1], p[2]);
 }
 

@@ -14,8 +14,8 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "geometry/edge_collapse.h"
+#include "geometry/mesh_validity.h"
 #include "geometry/self_intersection.h"
-#include "geometry/soundness.h"
 #include "geometry/surface_distance.h"
 #include "geometry/triangle_tree.h"
 
@@ -55,8 +55,8 @@ Boxes IntersectingRegions(const core::TriangleMesh& mesh) {
 
 // Appends AABBs that span each point farther than `limit` from `mesh` and its nearest surface
 // point.
-void AppendDistant(const std::vector<Vector3d>& points, const core::TriangleMesh& mesh,
-                   double limit, Boxes* boxes) {
+void AppendSimplifyDistant(const std::vector<Vector3d>& points, const core::TriangleMesh& mesh,
+                           double limit, Boxes* boxes) {
   const TriangleTree tree(mesh);
   std::vector<char> far(points.size());
   constexpr int kBlock = 4096;
@@ -91,8 +91,8 @@ Boxes DistantRegions(const core::TriangleMesh& source, const Thinned& result, do
   const std::vector<Vector3d> inside = SampleSurface(source, kFewestSamples, 2);
   removed.insert(removed.end(), inside.begin(), inside.end());
   Boxes boxes;
-  AppendDistant(removed, result.mesh, limit, &boxes);
-  AppendDistant(SampleSurface(result.mesh, samples, 1), source, limit, &boxes);
+  AppendSimplifyDistant(removed, result.mesh, limit, &boxes);
+  AppendSimplifyDistant(SampleSurface(result.mesh, samples, 1), source, limit, &boxes);
   return boxes;
 }
 
@@ -153,7 +153,7 @@ constexpr int kBlockFaces = 40000;  // fits into a core's cache with its quadric
 
 // Groups faces into blocks that are close in space: along a space-filling curve (Morton) over their
 // centroids.
-std::vector<std::vector<int>> Blocks(const core::TriangleMesh& mesh) {
+std::vector<std::vector<int>> FaceBlocks(const core::TriangleMesh& mesh) {
   const Eigen::AlignedBox3d box = core::Bounds(mesh);
   const double scale = 1023.0 / std::max(box.sizes().maxCoeff(), 1e-300);
   std::vector<std::pair<std::uint32_t, int>> order(mesh.triangles.size());
@@ -181,7 +181,7 @@ std::vector<std::vector<int>> Blocks(const core::TriangleMesh& mesh) {
 class BlockSimplifier {
  public:
   explicit BlockSimplifier(const core::TriangleMesh& mesh)
-      : mesh_(mesh), blocks_(Blocks(mesh)), owner_(mesh.vertices.size(), kNobody) {
+      : mesh_(mesh), blocks_(FaceBlocks(mesh)), owner_(mesh.vertices.size(), kNobody) {
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       for (const int t : blocks_[b]) {
         for (int c = 0; c < 3; ++c) {
@@ -278,7 +278,7 @@ class BlockSimplifier {
 }  // namespace
 
 core::TriangleMesh Simplify(const core::TriangleMesh& mesh, const SimplifyOptions& options) {
-  const Soundness state = Examine(mesh, 0);
+  const MeshValidity state = Examine(mesh, 0);
   if (mesh.empty() || !state.closed || !state.manifold) {
     throw core::Error("only a closed, manifold mesh can be simplified", "simplify",
                       "make it a solid first");

@@ -9,10 +9,10 @@
 #include "core/progress.h"
 #include "geometry/alpha_wrap.h"
 #include "geometry/cluster_vertices.h"
-#include "geometry/hidden_sights.h"
-#include "geometry/nesting.h"
+#include "geometry/mesh_validity.h"
+#include "geometry/nested_components.h"
+#include "geometry/occlusion_sampling.h"
 #include "geometry/simplify.h"
-#include "geometry/soundness.h"
 #include "geometry/surface_distance.h"
 #include "geometry/surface_wrap.h"
 #include "geometry/weld.h"
@@ -35,14 +35,14 @@ bool KeepOuterShells(TriangleMesh* mesh, int* dropped) {
   *dropped = 0;
   TriangleMesh oriented = *mesh;
   if (!OrientConsistently(&oriented)) return false;
-  const Soundness state = Examine(oriented, 1);
+  const MeshValidity state = Examine(oriented, 1);
   if (!state.closed || !state.manifold || state.self_intersections > 0 ||
       state.degenerate_triangles > 0) {
     return false;
   }
   int count = 0;
   const std::vector<int> component = EdgeComponents(oriented, &count);
-  const std::vector<int> winding = EnclosingWinding(oriented, component, count);
+  const std::vector<int> winding = EnclosingWindingNumbers(oriented, component, count);
   TriangleMesh kept;
   kept.vertices = oriented.vertices;
   for (std::size_t t = 0; t < component.size(); ++t) {
@@ -50,7 +50,7 @@ bool KeepOuterShells(TriangleMesh* mesh, int* dropped) {
   }
   for (const int w : winding) *dropped += w != 0;
   *mesh = *dropped > 0 ? Weld(kept, 0.0) : kept;
-  return Examine(*mesh, 1).Sound();
+  return Examine(*mesh, 1).IsSolid();
 }
 
 // Flat closed shells enclose no real volume, only rounding errors.
@@ -108,7 +108,7 @@ struct Wrapped {
   double sheet_share = 0.0;
   double wall = 0.0;      // given to sheets, share of the diagonal
   double distance = 0.0;  // the larger of both directions, share of the diagonal
-  int beyond = 0;         // random hits of HiddenSights beyond the tolerance
+  int beyond = 0;         // random hits of SampleOccludedHits beyond the tolerance
 };
 
 // Compares by the number of hits beyond the tolerance, which a check is likely to find; the
@@ -142,8 +142,8 @@ Wrapped WrapOnce(const TriangleMesh& unit, const Effort& effort,
   wrap_options.cell = options.cell_ratio / fineness;
   while (WrapGridNodes(unit, wrap_options) > options.max_nodes) wrap_options.cell *= 1.1;
   wrap_options.closing = wrap_options.cell;
-  wrap_options.seen = SampleOuterHits(unit, effort.rays, 7);
-  wrap_options.seen.insert(wrap_options.seen.end(), sights.begin(), sights.end());
+  wrap_options.visible_hits = SampleOuterHits(unit, effort.rays, 7);
+  wrap_options.visible_hits.insert(wrap_options.visible_hits.end(), sights.begin(), sights.end());
   if (effort.carves) wrap_options.reach = 0.7 * options.tolerance_ratio;
   const SurfaceWrap wrap = WrapSurface(unit, wrap_options);
   if (wrap.mesh.empty()) {
@@ -154,7 +154,7 @@ Wrapped WrapOnce(const TriangleMesh& unit, const Effort& effort,
       Simplify(wrap.mesh, {options.face_budget, kSimplifyShare * options.tolerance_ratio / fineness,
                            kSimplifyMost * options.tolerance_ratio / fineness});
   // Removes specks that simplification moved into a neighbour.
-  DropBuried(&wrapped.mesh);
+  RemoveBuriedComponents(&wrapped.mesh);
   wrapped.sheet_share = wrap.sheet_share;
   wrapped.wall = wrap_options.wall;
   SurfaceDistanceOptions check;
@@ -174,13 +174,14 @@ std::vector<OuterHit> ProbeDoubtfulRegions(const TriangleMesh& unit, std::uint64
   for (const double d : DistancesToSurface(wrapped->mesh.vertices, unit)) {
     wrapped->distance = std::max(wrapped->distance, d);
   }
-  HiddenSightOptions hidden;
+  OcclusionSamplingOptions hidden;
   hidden.reach = kProbeFrom * options.tolerance_ratio;
   if (wrapped->distance <= hidden.reach) return {};
   hidden.radius = kSlitDepth;
   hidden.seed = seed;
   int random_count = 0;
-  const std::vector<OuterHit> sights = HiddenSights(unit, wrapped->mesh, hidden, &random_count);
+  const std::vector<OuterHit> sights =
+      SampleOccludedHits(unit, wrapped->mesh, hidden, &random_count);
   std::vector<Vector3d> ends;
   for (const OuterHit& hit : sights) ends.push_back(hit.point);
   const std::vector<double> distances = DistancesToSurface(ends, wrapped->mesh);
@@ -211,11 +212,11 @@ void WrapSolid(const TriangleMesh& welded, const Vector3d& center, double diagon
   TriangleMesh mesh = std::move(wrapped.mesh);
   for (Vector3d& v : mesh.vertices) v = center + diagonal * v;
   solid->method = SolidMethod::kWrapped;
-  if (!Examine(mesh, 1).Sound()) {
+  if (!Examine(mesh, 1).IsSolid()) {
     Add(solid, "solid-alpha-wrap", Severity::kWarning,
         "the wrapped surface was not a valid solid; alpha wrapping replaced it", 0.0);
     mesh = AlphaWrap(welded);
-    if (!Examine(mesh, 1).Sound()) {
+    if (!Examine(mesh, 1).IsSolid()) {
       throw core::Error("no closed surface free of self-intersections could be made", "solid",
                         "simplify or repair the mesh in a modeller");
     }

@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 #include "geometry/convex_hull.h"
-#include "geometry/plane_hull.h"
+#include "geometry/convex_hull_2d.h"
 
 namespace simwright::geometry {
 namespace {
@@ -19,9 +19,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kSameAngle = 0.5 * std::numbers::pi / 180.0;
-constexpr double kSamePlane = 1e-4;  // of the diagonal
-constexpr double kInside = 1e-6;     // of the diagonal
-constexpr double kBarrier = 0.0525;  // of the height; 1 / cos(18 degrees) - 1 plus rounding
+constexpr double kSameRestPlane = 1e-4;  // of the diagonal
+constexpr double kInside = 1e-6;         // of the diagonal
+constexpr double kBarrier = 0.0525;      // of the height; 1 / cos(18 degrees) - 1 plus rounding
 constexpr double kRolled = 75.0 * std::numbers::pi / 180.0;
 
 struct Edge {
@@ -93,7 +93,7 @@ std::vector<int> FacetOfTriangle(const core::TriangleMesh& hull, double diagonal
         bool same = areas[other].normalized().dot(normal) > std::cos(kSameAngle);
         for (int j = 0; j < 3 && same; ++j) {
           const double off = normal.dot(hull.vertices[hull.triangles[other][j]]) - offset;
-          same = std::abs(off) <= kSamePlane * diagonal;
+          same = std::abs(off) <= kSameRestPlane * diagonal;
         }
         if (!same) continue;
         facet[other] = *count;
@@ -152,7 +152,7 @@ std::vector<Facet> Facets(const core::TriangleMesh& hull, const Vector3d& center
 }
 
 // Returns the corners in order around the facet.
-std::vector<Vector3d> Corners(const Facet& facet) {
+std::vector<Vector3d> FaceCorners(const Facet& facet) {
   Vector3d middle = Vector3d::Zero();
   for (const Edge& edge : facet.edges) middle += edge.from;
   middle /= static_cast<double>(facet.edges.size());
@@ -176,7 +176,7 @@ StablePose PoseOn(const Facet& facet, const Vector3d& center) {
   pose.margin = facet.margin;
   pose.center_height = facet.height;
   pose.tipping_angle = std::atan2(facet.margin, facet.height);
-  pose.support = Corners(facet);
+  pose.support = FaceCorners(facet);
   const Eigen::Quaterniond turn =
       Eigen::Quaterniond::FromTwoVectors(facet.normal, -Vector3d::UnitZ());
   pose.resting_from_body.linear() = turn.toRotationMatrix();
@@ -214,10 +214,9 @@ double Barrier(const Facet& from, const Facet& to, const Edge& edge, const Vecto
 
 bool Rolls(const core::TriangleMesh& solid, const Vector3d& center, const Vector3d& down) {
   const std::vector<Facet> facets = RequireFacets(solid, center);
-  const auto start = std::max_element(facets.begin(), facets.end(), [&](const auto& a,
-                                                                        const auto& b) {
-    return a.normal.dot(down) < b.normal.dot(down);
-  });
+  const auto start = std::max_element(
+      facets.begin(), facets.end(),
+      [&](const auto& a, const auto& b) { return a.normal.dot(down) < b.normal.dot(down); });
   const double highest = start->height * (1.0 + kBarrier);
   const double lowest = start->height * (1.0 - kBarrier);
   std::vector<bool> reached(facets.size(), false);
@@ -285,7 +284,7 @@ double TippingAngle(const core::TriangleMesh& solid, const Vector3d& center, con
     if (n.dot(p - center) >= lowest - slack)
       support.emplace_back(u.dot(p - center), v.dot(p - center));
   }
-  support = PlaneHull(std::move(support));
+  support = ConvexHull2d(std::move(support));
   const std::size_t count = support.size();
   double inside = std::numeric_limits<double>::infinity();
   double outside = std::numeric_limits<double>::infinity();

@@ -15,23 +15,24 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kBlock = 1024;  // points per task; also the unit of the random streams
+constexpr int kDistanceBlock = 1024;  // points per task; also the unit of the random streams
 
 void RequireFaces(const core::TriangleMesh& mesh, const char* where) {
   core::RequireValid(mesh, where);
   if (mesh.empty()) throw core::Error("the mesh has no faces", where);
 }
 
-int Blocks(std::size_t count) {
-  return static_cast<int>((count + kBlock - 1) / kBlock);
+int SampleBlocks(std::size_t count) {
+  return static_cast<int>((count + kDistanceBlock - 1) / kDistanceBlock);
 }
 
 std::vector<double> Distances(const std::vector<Vector3d>& points, const TriangleTree& tree) {
   std::vector<double> distances(points.size());
-  core::ParallelFor(Blocks(points.size()), [&](int block) {
+  core::ParallelFor(SampleBlocks(points.size()), [&](int block) {
     core::CheckCancelled();
-    const std::size_t end = std::min(points.size(), static_cast<std::size_t>(block + 1) * kBlock);
-    for (std::size_t i = static_cast<std::size_t>(block) * kBlock; i < end; ++i) {
+    const std::size_t end =
+        std::min(points.size(), static_cast<std::size_t>(block + 1) * kDistanceBlock);
+    for (std::size_t i = static_cast<std::size_t>(block) * kDistanceBlock; i < end; ++i) {
       distances[i] = tree.Closest(points[i]).distance;
     }
   });
@@ -49,12 +50,12 @@ std::vector<OuterHit> OuterHits(const core::TriangleMesh& mesh, const TriangleTr
   const Eigen::AlignedBox3d bounds = core::Bounds(mesh);
   const Vector3d center = bounds.center();
   const double radius = 0.5 * bounds.diagonal().norm() * 1.001;
-  const int blocks = Blocks(std::max(rays, 0));
+  const int blocks = SampleBlocks(std::max(rays, 0));
   std::vector<std::vector<OuterHit>> hits(blocks);
   core::ParallelFor(blocks, [&](int block) {
     core::CheckCancelled();
     core::Rng rng = core::StreamRng(seed, block);
-    const int count = std::min(kBlock, rays - block * kBlock);
+    const int count = std::min(kDistanceBlock, rays - block * kDistanceBlock);
     for (int i = 0; i < count; ++i) {
       // The chord through two uniform points of a sphere is uniform and isotropic (Santalo 1976).
       const Vector3d from = center + radius * core::UniformDirection(rng);

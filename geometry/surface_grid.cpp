@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 constexpr double kPieceCells = 6.0;  // length at which most of a slanted piece's AABB is still in
                                      // the band
-constexpr int kSlab = 8;             // layers per task
+constexpr int kGridSlab = 8;         // layers per task
 // Rounding of a coordinate in cells is below 1e-12; a line this close to a triangle's edge counts
 // as a crossing, so that none slips between two neighbours.
 constexpr double kSlack = 1e-7;
@@ -112,20 +112,20 @@ SurfaceGrid::SurfaceGrid(const core::TriangleMesh& mesh, double cell, double ban
   nearest_.assign(nodes, -1);
   crossed_.assign(nodes, 0);
   Subdivide(mesh);
-  const int slabs = (size_[2] + kSlab - 1) / kSlab;
+  const int slabs = (size_[2] + kGridSlab - 1) / kGridSlab;
   std::vector<std::vector<int>> in_slab(slabs);
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
     const Piece& piece = pieces_[p];
     const double low = std::min({piece.a.z(), piece.b.z(), piece.c.z()}) - band_ - 1.0;
     const double high = std::max({piece.a.z(), piece.b.z(), piece.c.z()}) + band_ + 1.0;
-    const int first = std::clamp(static_cast<int>(std::floor(low / kSlab)), 0, slabs - 1);
-    const int last = std::clamp(static_cast<int>(std::floor(high / kSlab)), 0, slabs - 1);
+    const int first = std::clamp(static_cast<int>(std::floor(low / kGridSlab)), 0, slabs - 1);
+    const int last = std::clamp(static_cast<int>(std::floor(high / kGridSlab)), 0, slabs - 1);
     for (int s = first; s <= last; ++s) in_slab[s].push_back(static_cast<int>(p));
   }
   core::ParallelFor(slabs, [&](int slab) {
     core::CheckCancelled();
-    const int low_k = slab * kSlab;
-    const int high_k = std::min(size_[2] - 1, low_k + kSlab - 1);
+    const int low_k = slab * kGridSlab;
+    const int high_k = std::min(size_[2] - 1, low_k + kGridSlab - 1);
     for (const int p : in_slab[slab]) {
       EnterDistances(pieces_[p], p, low_k, high_k);
       EnterCrossings(pieces_[p], low_k, high_k);

@@ -14,7 +14,7 @@
 #include "core/progress.h"
 #include "core/random.h"
 #include "geometry/isosurface.h"
-#include "geometry/nesting.h"
+#include "geometry/nested_components.h"
 #include "geometry/surface_grid.h"
 #include "geometry/triangle_tree.h"
 #include "geometry/weld.h"
@@ -24,7 +24,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kMargin = 3;
+constexpr int kWrapMargin = 3;
 // The largest distance in cells between a visible point and the outside node that reaches it: in a
 // corner of three walls the nearest node can be sqrt(3) away.
 constexpr double kReached = 1.75;
@@ -43,13 +43,13 @@ double Band(const SurfaceWrapOptions& options) {
 class Wrapper {
  public:
   Wrapper(const core::TriangleMesh& mesh, const SurfaceWrapOptions& options)
-      : mesh_(mesh), options_(options), grid_(mesh, options.cell, Band(options), kMargin) {
+      : mesh_(mesh), options_(options), grid_(mesh, options.cell, Band(options), kWrapMargin) {
     outside_.assign(grid_.count(), 0);
   }
 
   SurfaceWrap Run() {
     FloodFromBorder();
-    Creep(Front(), options_.creep_steps);
+    Creep(Front(), options_.growth_steps);
     if (!MeetsAll()) {
       Creep(Front(), std::numeric_limits<int>::max());
       CarveLinesOfSight();
@@ -156,16 +156,16 @@ class Wrapper {
   Vector3d InCells(const Vector3d& point) const { return (point - grid_.origin()) / grid_.cell(); }
 
   bool MeetsAll() const {
-    return std::all_of(options_.seen.begin(), options_.seen.end(), [&](const OuterHit& hit) {
-      return NearOutside(InCells(hit.point), hit.normal, kReached);
-    });
+    return std::all_of(
+        options_.visible_hits.begin(), options_.visible_hits.end(),
+        [&](const OuterHit& hit) { return NearOutside(InCells(hit.point), hit.normal, kReached); });
   }
 
   // Opens the lines of sight to points that no outside node is near, then probes around each of
   // them for more: a slit that one ray in ten thousand enters is carved along its whole mouth.
   void CarveLinesOfSight() {
     std::vector<OuterHit> hidden;
-    for (const OuterHit& hit : options_.seen) {
+    for (const OuterHit& hit : options_.visible_hits) {
       if (Carve(hit)) hidden.push_back(hit);
     }
     if (hidden.empty()) return;
@@ -183,7 +183,7 @@ class Wrapper {
         for (const OuterHit& hit : some) {
           if (!Carve(hit)) continue;
           hidden.push_back(hit);
-          options_.seen.push_back(hit);
+          options_.visible_hits.push_back(hit);
         }
       }
     }
@@ -232,19 +232,19 @@ class Wrapper {
   // there were any.
   bool CarveWalls(const core::TriangleMesh& mesh, ScalarGrid* field) const {
     const TriangleTree tree(mesh);
-    const int count = static_cast<int>(options_.seen.size());
-    std::vector<char> buried(options_.seen.size());
+    const int count = static_cast<int>(options_.visible_hits.size());
+    std::vector<char> buried(options_.visible_hits.size());
     constexpr int kBlock = 1024;
     core::ParallelFor((count + kBlock - 1) / kBlock, [&](int block) {
       for (int h = block * kBlock; h < std::min(count, (block + 1) * kBlock); ++h) {
-        buried[h] = !tree.Within(options_.seen[h].point, options_.reach);
+        buried[h] = !tree.Within(options_.visible_hits[h].point, options_.reach);
       }
     });
     bool carved = false;
     for (std::size_t h = 0; h < buried.size(); ++h) {
       if (!buried[h]) continue;
       carved = true;
-      OpenTube(options_.seen[h], field);
+      OpenTube(options_.visible_hits[h], field);
     }
     return carved;
   }
@@ -384,7 +384,7 @@ class Wrapper {
       if (keep[component[t]]) kept.push_back(mesh->triangles[t]);
     }
     mesh->triangles.swap(kept);
-    DropBuried(mesh);
+    RemoveBuriedComponents(mesh);
   }
 
   // Keeps the bubbles of which a visible point has a vertex, and none of the outer surface, within
@@ -403,7 +403,7 @@ class Wrapper {
         if (!outer && cell == kNone) cell = component[t];
       }
     }
-    for (const OuterHit& hit : options_.seen) {
+    for (const OuterHit& hit : options_.visible_hits) {
       const std::size_t base = CellOf(InCells(hit.point));
       int bubble = kNone;
       for (int n = 0; n < 27 && bubble != kOuter; ++n) {
@@ -434,7 +434,7 @@ class Wrapper {
 }  // namespace
 
 double WrapGridNodes(const core::TriangleMesh& mesh, const SurfaceWrapOptions& options) {
-  const std::array<int, 3> size = SurfaceGrid::Size(mesh, options.cell, Band(options), kMargin);
+  const std::array<int, 3> size = SurfaceGrid::Size(mesh, options.cell, Band(options), kWrapMargin);
   return static_cast<double>(size[0]) * size[1] * size[2];
 }
 

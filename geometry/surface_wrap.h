@@ -11,11 +11,11 @@ namespace simwright::geometry {
 struct SurfaceWrapOptions {
   double cell = 0.0;     // edge of a grid cell, > 0
   double closing = 0.0;  // holes and gaps narrower than twice this are closed in the first step
-  int creep_steps = 2;   // cells by which the outside region then grows through gaps
+  int growth_steps = 2;  // cells by which the outside region then grows through gaps
   // Surface points that are visible from outside. Where the outside region misses one, it grows
   // without limit, and slits that are still too narrow for the grid are carved open along the lines
   // of sight. If empty, growth stops after `creep_steps`.
-  std::vector<OuterHit> seen;
+  std::vector<OuterHit> visible_hits;
   // The lines of sight of visible points farther than this from the surface are carved out of the
   // walls too. 0: walls are not carved.
   double reach = 0.0;

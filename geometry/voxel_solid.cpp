@@ -10,7 +10,7 @@
 namespace simwright::geometry {
 namespace {
 
-constexpr int kMargin = 2;
+constexpr int kVoxelMargin = 2;
 constexpr double kBandCells = 2.0;
 
 // A flood fill over the grid's nodes along edges that no triangle crosses.
@@ -120,7 +120,7 @@ VoxelSolid::VoxelSolid(const core::TriangleMesh& mesh, const VoxelSolidOptions& 
   if (!(longest > 0.0)) throw core::Error("a mesh without extent fills nothing");
   cell_ = longest / options.resolution;
   const double band = std::max(kBandCells, options.gap_cells + 0.5);
-  const int margin = kMargin + static_cast<int>(std::ceil(options.gap_cells));
+  const int margin = kVoxelMargin + static_cast<int>(std::ceil(options.gap_cells));
   const SurfaceGrid grid(mesh, cell_, band * cell_, margin);
   const double bottom = core::Bounds(mesh).min().z() - grid.origin().z();
   // The first layer of nodes that is not below the mesh.

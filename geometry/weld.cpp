@@ -73,7 +73,7 @@ std::vector<int> NearRepresentatives(const std::vector<Vector3d>& vertices, doub
   return to;
 }
 
-int Root(std::vector<int>& parent, int x) {
+int WeldRoot(std::vector<int>& parent, int x) {
   while (parent[x] != x) x = parent[x] = parent[parent[x]];
   return x;
 }
@@ -166,14 +166,14 @@ std::vector<int> EdgeComponents(const core::TriangleMesh& mesh, int* count) {
   std::iota(parent.begin(), parent.end(), 0);
   for (std::size_t i = 1; i < uses.size(); ++i) {
     if (uses[i].key != uses[i - 1].key) continue;
-    const int a = Root(parent, uses[i - 1].triangle);
-    const int b = Root(parent, uses[i].triangle);
+    const int a = WeldRoot(parent, uses[i - 1].triangle);
+    const int b = WeldRoot(parent, uses[i].triangle);
     parent[std::max(a, b)] = std::min(a, b);
   }
   std::vector<int> component(mesh.triangles.size(), -1);
   int found = 0;
   for (std::size_t t = 0; t < parent.size(); ++t) {
-    const int root = Root(parent, static_cast<int>(t));
+    const int root = WeldRoot(parent, static_cast<int>(t));
     component[t] = root == static_cast<int>(t) ? found++ : component[root];
   }
   if (count != nullptr) *count = found;

@@ -15,10 +15,10 @@ constexpr int kEmpty = -1;
 // The cells of space cut by the planes of all faces: a cell lies in a plank entirely or not at all.
 class CellGrid {
  public:
-  explicit CellGrid(const std::vector<Plank>& planks) : planks_(planks) {
+  explicit CellGrid(const std::vector<FurnitureBox>& planks) : planks_(planks) {
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<double>& cuts = cuts_[static_cast<size_t>(axis)];
-      for (const Plank& plank : planks) {
+      for (const FurnitureBox& plank : planks) {
         cuts.push_back(plank.box.min()[axis]);
         cuts.push_back(plank.box.max()[axis]);
       }
@@ -43,14 +43,14 @@ class CellGrid {
       if (cell[axis] < 0 || cell[axis] >= Cells(axis)) return kEmpty;
     }
     const Eigen::Vector3d middle = 0.5 * (Corner(cell) + Corner(cell + Eigen::Vector3i::Ones()));
-    for (const Plank& plank : planks_) {
+    for (const FurnitureBox& plank : planks_) {
       if (plank.box.contains(middle)) return plank.look;
     }
     return kEmpty;
   }
 
  private:
-  const std::vector<Plank>& planks_;
+  const std::vector<FurnitureBox>& planks_;
   std::array<std::vector<double>, 3> cuts_;
 };
 
@@ -91,7 +91,7 @@ class SurfaceOfCells {
 
 }  // namespace
 
-core::TexturedMesh BoxUnion(const std::vector<Plank>& planks,
+core::TexturedMesh BoxUnion(const std::vector<FurnitureBox>& planks,
                             const std::vector<core::Material>& looks) {
   core::TexturedMesh mesh;
   mesh.materials = looks;
@@ -114,9 +114,9 @@ core::TexturedMesh BoxUnion(const std::vector<Plank>& planks,
   return mesh;
 }
 
-std::vector<core::TriangleMesh> PlankParts(const std::vector<Plank>& planks) {
+std::vector<core::TriangleMesh> FurnitureBoxParts(const std::vector<FurnitureBox>& planks) {
   std::vector<core::TriangleMesh> parts;
-  for (const Plank& plank : planks) {
+  for (const FurnitureBox& plank : planks) {
     parts.push_back(Box(plank.box.min(), plank.box.max(), 0.0));
   }
   return parts;

@@ -15,7 +15,7 @@
 namespace simwright::llm {
 namespace {
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using CacheJson = nlohmann::json;
 
 constexpr std::uint64_t kLargestEntry = 64u << 20;  // bytes
 
@@ -34,9 +34,9 @@ CachingChatModel::CachingChatModel(std::unique_ptr<ChatModel> inner, const fs::p
 
 ChatAnswer CachingChatModel::Ask(const ChatRequest& request, core::Progress* progress) {
   RequireValid(request);
-  const Json content = {
+  const CacheJson content = {
       {"model", inner_->name()}, {"server", identity_}, {"request", CanonicalRequest(request)}};
-  const std::string text = content.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = content.dump(-1, ' ', false, CacheJson::error_handler_t::replace);
   const fs::path file = folder_ / (core::ContentHash(text) + ".json");
   ChatAnswer answer;
   if (Read(file, text, &answer)) {
@@ -53,7 +53,7 @@ bool CachingChatModel::Read(const fs::path& file, const std::string& content, Ch
   if (!fs::exists(file, code)) return false;
   std::string fault = "is not a cache entry";
   try {
-    const Json json = ParseJson(core::ReadFile(file, kLargestEntry));
+    const CacheJson json = ParseJson(core::ReadFile(file, kLargestEntry));
     if (json.is_object() && json.contains("content") && json.contains("answer")) {
       // Another request has the same hash: ask again and replace this entry.
       if (json["content"] != content) return false;
@@ -71,7 +71,7 @@ void CachingChatModel::Write(const fs::path& file, const std::string& content,
                              const ChatAnswer& answer) {
   const nlohmann::ordered_json json = {{"content", content}, {"answer", AnswerToJson(answer)}};
   try {
-    core::WriteFile(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+    core::WriteFile(file, json.dump(1, ' ', false, CacheJson::error_handler_t::replace) + "\n");
   } catch (const core::Error& error) {
     // The answer exists and may have cost money: do not lose it.
     findings_.push_back({"llm-cache-not-written", core::Severity::kWarning, file.string(),

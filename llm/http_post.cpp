@@ -75,7 +75,7 @@ std::size_t OnBody(char* bytes, std::size_t, std::size_t count, void* user) {
   return count;
 }
 
-std::string LowerCase(std::string text) {
+std::string LowerCaseHeader(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
@@ -89,7 +89,7 @@ std::size_t OnHeader(char* bytes, std::size_t, std::size_t count, void* user) {
   const std::size_t first = line.find_first_not_of(" \t", colon + 1);
   const std::size_t last = line.find_last_not_of(" \t\r\n");
   if (first == std::string::npos || last < first) return count;
-  const std::string name = LowerCase(line.substr(0, colon));
+  const std::string name = LowerCaseHeader(line.substr(0, colon));
   const std::string value = line.substr(first, last - first + 1);
   if (name == "content-type") reply->content_type = value;
   if (name == "retry-after") reply->retry_after = value;
@@ -197,7 +197,7 @@ UrlParts SplitUrl(const std::string& url) {
   const UrlHandle handle = ParseUrl(url);
   UrlParts parts;
   parts.scheme = Part(handle.get(), CURLUPART_SCHEME, 0);
-  parts.host = LowerCase(Part(handle.get(), CURLUPART_HOST, 0));
+  parts.host = LowerCaseHeader(Part(handle.get(), CURLUPART_HOST, 0));
   parts.port = Part(handle.get(), CURLUPART_PORT, CURLU_DEFAULT_PORT);
   parts.path = Part(handle.get(), CURLUPART_PATH, 0);
   parts.password = Part(handle.get(), CURLUPART_PASSWORD, CURLU_URLDECODE);

@@ -7,18 +7,18 @@
 namespace simwright::llm {
 namespace {
 
-using Json = nlohmann::json;
+using TextJson = nlohmann::json;
 
 constexpr int kDeepest = 64;        // levels
 constexpr int kMostFailures = 200;  // brackets that begin no JSON, so that time stays linear
 
-Json ParseBounded(std::string_view text, bool comments, bool* too_deep) {
-  const auto bounded = [too_deep](int depth, Json::parse_event_t, Json&) {
+TextJson ParseBounded(std::string_view text, bool comments, bool* too_deep) {
+  const auto bounded = [too_deep](int depth, TextJson::parse_event_t, TextJson&) {
     *too_deep = *too_deep || depth >= kDeepest;
     return depth < kDeepest;
   };
-  Json json = Json::parse(text, bounded, false, comments);
-  return *too_deep ? Json(Json::value_t::discarded) : json;
+  TextJson json = TextJson::parse(text, bounded, false, comments);
+  return *too_deep ? TextJson(TextJson::value_t::discarded) : json;
 }
 
 // Returns the length of the bracketed text at the start of `text`, respecting quotes; 0 if
@@ -61,22 +61,22 @@ std::string WithoutTrailingCommas(std::string_view text) {
 
 }  // namespace
 
-Json ParseJson(std::string_view text, bool* too_deep) {
+TextJson ParseJson(std::string_view text, bool* too_deep) {
   bool deep = false;
-  Json json = ParseBounded(text, false, &deep);
+  TextJson json = ParseBounded(text, false, &deep);
   if (too_deep != nullptr) *too_deep = deep;
   return json;
 }
 
-std::vector<Json> JsonInText(std::string_view text) {
-  std::vector<Json> found;
+std::vector<TextJson> JsonInText(std::string_view text) {
+  std::vector<TextJson> found;
   int failures = 0;
   for (std::size_t at = text.find_first_of("{["); at != std::string_view::npos;
        at = text.find_first_of("{[", at)) {
     const std::size_t length = BracketedLength(text.substr(at));
     if (length > 0) {
       bool too_deep = false;
-      Json json = ParseBounded(WithoutTrailingCommas(text.substr(at, length)), true, &too_deep);
+      TextJson json = ParseBounded(WithoutTrailingCommas(text.substr(at, length)), true, &too_deep);
       if (!json.is_discarded()) {
         found.push_back(std::move(json));
         at += length;

@@ -10,15 +10,15 @@
 namespace simwright::llm {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using RequestJson = nlohmann::ordered_json;
 
-Json MessageJson(const ChatMessage& message) {
-  Json json = {{"role", RoleName(message.role)}};
+RequestJson MessageJson(const ChatMessage& message) {
+  RequestJson json = {{"role", RoleName(message.role)}};
   if (message.images.empty()) {
     json["content"] = message.text;
     return json;
   }
-  Json parts = Json::array();
+  RequestJson parts = RequestJson::array();
   if (!message.text.empty()) parts.push_back({{"type", "text"}, {"text", message.text}});
   for (const ChatImage& image : message.images) {
     const std::string url = "data:" + image.mime_type + ";base64," + core::Base64(image.bytes);
@@ -28,7 +28,7 @@ Json MessageJson(const ChatMessage& message) {
   return json;
 }
 
-std::string LowerCase(std::string text) {
+std::string LowerCaseName(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
@@ -38,9 +38,9 @@ std::string LowerCase(std::string text) {
 
 std::string RequestBody(const ChatRequest& request, const std::string& model,
                         const Dialect& dialect) {
-  Json json;
+  RequestJson json;
   if (!model.empty()) json["model"] = model;
-  json["messages"] = Json::array();
+  json["messages"] = RequestJson::array();
   for (const ChatMessage& message : request.messages) {
     json["messages"].push_back(MessageJson(message));
   }
@@ -52,11 +52,11 @@ std::string RequestBody(const ChatRequest& request, const std::string& model,
   if (request.seed && dialect.seed) json["seed"] = *request.seed;
   if (request.json && dialect.json_mode) json["response_format"] = {{"type", "json_object"}};
   json["stream"] = false;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump(-1, ' ', false, RequestJson::error_handler_t::replace);
 }
 
 std::string Narrow(const std::string& message, const ChatRequest& request, Dialect* dialect) {
-  const std::string text = LowerCase(message);
+  const std::string text = LowerCaseName(message);
   const auto names = [&](const char* word) { return text.find(word) != std::string::npos; };
   if (request.max_tokens && !dialect->max_completion_tokens && names("max_completion_tokens")) {
     dialect->max_completion_tokens = true;

@@ -8,17 +8,17 @@
 namespace simwright::llm {
 namespace {
 
-using Json = nlohmann::json;
+using KeyJson = nlohmann::json;
 
 constexpr std::size_t kWordsShown = 60;  // bytes
 
 }  // namespace
 
 std::string CanonicalRequest(const ChatRequest& request) {
-  Json json;
-  json["messages"] = Json::array();
+  KeyJson json;
+  json["messages"] = KeyJson::array();
   for (const ChatMessage& message : request.messages) {
-    Json entry = {{"role", RoleName(message.role)}, {"text", message.text}};
+    KeyJson entry = {{"role", RoleName(message.role)}, {"text", message.text}};
     for (const ChatImage& image : message.images) {
       entry["images"].push_back({{"type", image.mime_type},
                                  {"bytes", image.bytes.size()},
@@ -30,7 +30,7 @@ std::string CanonicalRequest(const ChatRequest& request) {
   if (request.max_tokens) json["max_tokens"] = *request.max_tokens;
   if (request.seed) json["seed"] = *request.seed;
   if (request.json) json["json"] = true;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump(-1, ' ', false, KeyJson::error_handler_t::replace);
 }
 
 std::string FirstWords(const ChatRequest& request) {

@@ -10,21 +10,21 @@
 namespace simwright::llm {
 namespace {
 
-using Json = nlohmann::json;
+using ResponseJson = nlohmann::json;
 
-const Json* Member(const Json& object, const char* name) {
+const ResponseJson* Member(const ResponseJson& object, const char* name) {
   if (!object.is_object()) return nullptr;
   const auto found = object.find(name);
   return found == object.end() ? nullptr : &*found;
 }
 
-std::string StringMember(const Json& object, const char* name) {
-  const Json* member = Member(object, name);
+std::string StringMember(const ResponseJson& object, const char* name) {
+  const ResponseJson* member = Member(object, name);
   return member != nullptr && member->is_string() ? member->get<std::string>() : "";
 }
 
-std::int64_t CountMember(const Json* object, const char* name) {
-  const Json* member = object == nullptr ? nullptr : Member(*object, name);
+std::int64_t CountMember(const ResponseJson* object, const char* name) {
+  const ResponseJson* member = object == nullptr ? nullptr : Member(*object, name);
   if (member == nullptr || !member->is_number()) return 0;
   const double count = member->get<double>();
   constexpr double kMost = 1e12;  // no model reads more; larger values are not counts
@@ -32,11 +32,11 @@ std::int64_t CountMember(const Json* object, const char* name) {
 }
 
 // Returns a string, or the texts of an array of parts.
-std::string ContentText(const Json& content) {
+std::string ContentText(const ResponseJson& content) {
   if (content.is_string()) return content.get<std::string>();
   std::string text;
   if (content.is_array()) {
-    for (const Json& part : content) text += StringMember(part, "text");
+    for (const ResponseJson& part : content) text += StringMember(part, "text");
   }
   return text;
 }
@@ -49,13 +49,13 @@ ReadResponse NoResponse(const std::string& message) {
 
 // Reads {"error": {"message", "type", "code"}}, {"error": "text"}, and vLLM's {"object": "error",
 // ...}.
-ReadResponse ErrorResponse(const Json& error) {
+ReadResponse ErrorResponse(const ResponseJson& error) {
   ReadResponse response;
   response.kind = ReadResponse::Kind::kError;
   if (error.is_string()) response.message = error.get<std::string>();
   response.message += StringMember(error, "message");
   if (response.message.empty()) {
-    response.message = error.dump(-1, ' ', false, Json::error_handler_t::replace);
+    response.message = error.dump(-1, ' ', false, ResponseJson::error_handler_t::replace);
   }
   response.error_code = StringMember(error, "code");
   if (response.error_code.empty()) response.error_code = StringMember(error, "type");
@@ -64,10 +64,11 @@ ReadResponse ErrorResponse(const Json& error) {
   return response;
 }
 
-ReadResponse FromChoice(const Json& json, const Json& choice) {
+ReadResponse FromChoice(const ResponseJson& json, const ResponseJson& choice) {
   ReadResponse response;
-  const Json* message = Member(choice, "message");
-  const Json* content = message == nullptr ? Member(choice, "text") : Member(*message, "content");
+  const ResponseJson* message = Member(choice, "message");
+  const ResponseJson* content =
+      message == nullptr ? Member(choice, "text") : Member(*message, "content");
   const std::string refusal = message == nullptr ? "" : StringMember(*message, "refusal");
   if (!refusal.empty()) {
     response.kind = ReadResponse::Kind::kError;
@@ -78,7 +79,7 @@ ReadResponse FromChoice(const Json& json, const Json& choice) {
   response.kind = ReadResponse::Kind::kAnswer;
   response.answer.text = WithoutReasoning(ContentText(*content));
   response.answer.finish_reason = StringMember(choice, "finish_reason");
-  const Json* usage = Member(json, "usage");
+  const ResponseJson* usage = Member(json, "usage");
   response.answer.tokens.input = CountMember(usage, "prompt_tokens");
   response.answer.tokens.output = CountMember(usage, "completion_tokens");
   return response;
@@ -94,7 +95,7 @@ ReadResponse ReadChatResponse(std::string_view body) {
     return empty;
   }
   bool too_deep = false;
-  const Json json = ParseJson(body, &too_deep);
+  const ResponseJson json = ParseJson(body, &too_deep);
   if (too_deep) return NoResponse("the answer is nested deeper than 64 levels");
   if (json.is_discarded()) {
     if (body[first] == '<') return NoResponse("the answer is HTML, not JSON");
@@ -105,17 +106,17 @@ ReadResponse ReadChatResponse(std::string_view body) {
     }
     return response;
   }
-  const Json* error = Member(json, "error");
+  const ResponseJson* error = Member(json, "error");
   if (error != nullptr && !error->is_null()) return ErrorResponse(*error);
   if (StringMember(json, "object") == "error") return ErrorResponse(json);
-  const Json* choices = Member(json, "choices");
+  const ResponseJson* choices = Member(json, "choices");
   if (choices == nullptr || !choices->is_array() || choices->empty()) {
     ReadResponse response = NoResponse("the answer is JSON without choices");
     // FastAPI servers (vLLM) report errors in "detail".
-    const Json* detail = Member(json, "detail");
+    const ResponseJson* detail = Member(json, "detail");
     if (detail != nullptr) {
       response.kind = ReadResponse::Kind::kError;
-      response.message = detail->dump(-1, ' ', false, Json::error_handler_t::replace);
+      response.message = detail->dump(-1, ' ', false, ResponseJson::error_handler_t::replace);
     }
     return response;
   }

@@ -20,7 +20,7 @@
 namespace simwright::llm {
 namespace {
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using TranscriptJson = nlohmann::json;
 
 constexpr const char* kFormat = "simwright-llm";
 constexpr int kVersion = 1;
@@ -32,12 +32,12 @@ std::string Dump(const J& json) {
   return json.dump(-1, ' ', false, J::error_handler_t::replace);
 }
 
-std::string StringOf(const Json& object, const char* name) {
+std::string StringOf(const TranscriptJson& object, const char* name) {
   const auto found = object.find(name);
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-void ReadHead(const Json& json, const std::string& where) {
+void ReadHead(const TranscriptJson& json, const std::string& where) {
   if (!json.is_object() || StringOf(json, "transcript") != kFormat) {
     throw core::Error("is not a transcript: its first line is different", where,
                       "make one with --record");
@@ -48,7 +48,7 @@ void ReadHead(const Json& json, const std::string& where) {
   }
 }
 
-TranscriptEntry ReadEntry(const Json& json, const std::string& where) {
+TranscriptEntry ReadEntry(const TranscriptJson& json, const std::string& where) {
   if (!json.is_object()) throw core::Error("the line is truncated or damaged", where);
   TranscriptEntry entry;
   entry.task = StringOf(json, "task");
@@ -72,11 +72,11 @@ TranscriptEntry ReadEntry(const Json& json, const std::string& where) {
 
 // Returns all texts of a canonical request, concatenated.
 std::string TextOf(const std::string& canonical) {
-  const Json json = ParseJson(canonical);
+  const TranscriptJson json = ParseJson(canonical);
   std::string text;
   const auto messages = json.is_object() ? json.find("messages") : json.end();
   if (!json.is_object() || messages == json.end() || !messages->is_array()) return text;
-  for (const Json& message : *messages) {
+  for (const TranscriptJson& message : *messages) {
     if (message.is_object()) text += StringOf(message, "text") + "\n";
   }
   return text;
@@ -117,7 +117,7 @@ std::string TranscriptLine(const TranscriptEntry& entry) {
   const nlohmann::ordered_json json = {{"hash", core::ContentHash(entry.request)},
                                        {"task", entry.task},
                                        {"model", entry.model},
-                                       {"request", Json::parse(entry.request)},
+                                       {"request", TranscriptJson::parse(entry.request)},
                                        {"answer", AnswerToJson(entry.answer)}};
   return Dump(json) + "\n";
 }
@@ -132,7 +132,7 @@ std::vector<TranscriptEntry> ReadTranscript(std::string_view text, const std::st
     text.remove_prefix(std::min(end + 1, text.size()));
     ++number;
     if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
-    const Json json = ParseJson(line);
+    const TranscriptJson json = ParseJson(line);
     const std::string place = where + " line " + std::to_string(number);
     if (head) {
       ReadHead(json, place);

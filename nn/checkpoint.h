@@ -9,20 +9,21 @@
 namespace simwright::nn {
 
 // The metadata of a weights file: the kind and sizes from which the network is built.
-using CheckpointFacts = std::map<std::string, std::string>;
+using CheckpointMetadata = std::map<std::string, std::string>;
 
 // Writes the module's parameters and buffers in half precision, at half the size and without loss
 // of quality, to a sibling file that is renamed into place. `facts` must contain "kind".
-void SaveCheckpoint(const torch::nn::Module& module, const CheckpointFacts& facts,
+void SaveCheckpoint(const torch::nn::Module& module, const CheckpointMetadata& facts,
                     const std::filesystem::path& path);
 
 // Reads the metadata of a weights file before a network is built. Throws like LoadCheckpoint.
-CheckpointFacts ReadCheckpointFacts(const std::filesystem::path& path, const std::string& kind);
+CheckpointMetadata ReadCheckpointMetadata(const std::filesystem::path& path,
+                                          const std::string& kind);
 
 // Loads the module's weights and returns the metadata. Throws core::Error if the file is missing,
 // damaged, of another kind than `kind`, or holds other names or shapes than the module, naming the
 // first mismatch.
-CheckpointFacts LoadCheckpoint(const std::filesystem::path& path, const std::string& kind,
-                               torch::nn::Module* module);
+CheckpointMetadata LoadCheckpoint(const std::filesystem::path& path, const std::string& kind,
+                                  torch::nn::Module* module);
 
 }  // namespace simwright::nn

@@ -54,11 +54,11 @@ void PrepareForWork() {
 }
 
 // libtorch sets a thread's number of workers on first use.
-LoopsAlone::LoopsAlone() : before_(at::get_num_threads()) {
+SingleThreadedLoops::SingleThreadedLoops() : before_(at::get_num_threads()) {
   if (omp_set_num_threads != nullptr) omp_set_num_threads(1);
 }
 
-LoopsAlone::~LoopsAlone() {
+SingleThreadedLoops::~SingleThreadedLoops() {
   if (omp_set_num_threads != nullptr) omp_set_num_threads(before_);
 }
 
@@ -73,7 +73,7 @@ void ForEachShare(int count, const std::function<void(int)>& body) {
   const SingleThreadedProducts products;
   core::ParallelFor(count, [&](int i) {
     const at::ThreadLocalStateGuard as_here(state);
-    const LoopsAlone loops;
+    const SingleThreadedLoops loops;
     body(i);
   });
 }

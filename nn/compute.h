@@ -15,12 +15,12 @@ void PrepareForWork();
 
 // A scope guard that makes libtorch's loops on the constructing thread single-threaded: waking
 // another thread takes longer than a loop over some ten thousand numbers.
-class LoopsAlone {
+class SingleThreadedLoops {
  public:
-  LoopsAlone();
-  ~LoopsAlone();
-  LoopsAlone(const LoopsAlone&) = delete;
-  LoopsAlone& operator=(const LoopsAlone&) = delete;
+  SingleThreadedLoops();
+  ~SingleThreadedLoops();
+  SingleThreadedLoops(const SingleThreadedLoops&) = delete;
+  SingleThreadedLoops& operator=(const SingleThreadedLoops&) = delete;
 
  private:
   int before_;

@@ -64,7 +64,7 @@ double Trainer::Descend(int step, int shares, const std::function<torch::Tensor(
   });
   const double sum = std::accumulate(losses.begin(), losses.end(), 0.0);
   if (!std::isfinite(sum)) return sum;
-  const LoopsAlone alone;
+  const SingleThreadedLoops alone;
   for (size_t p = 0; p < parameters.size(); ++p) {
     torch::Tensor whole;
     for (const torch::autograd::variable_list& share : gradients) {
@@ -78,7 +78,7 @@ double Trainer::Descend(int step, int shares, const std::function<torch::Tensor(
 }
 
 void Trainer::TakeStep(int step) {
-  const LoopsAlone alone;
+  const SingleThreadedLoops alone;
   for (auto& group : optimizer_->param_groups()) {
     static_cast<torch::optim::AdamWOptions&>(group.options()).lr(LearningRate(step));
   }

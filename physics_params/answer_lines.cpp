@@ -18,14 +18,14 @@ using Json = nlohmann::json;
 constexpr std::size_t kMostRead = 64u << 10;  // bytes; an answer has a few hundred
 constexpr std::size_t kLongestName = 60;      // bytes
 
-std::string Trimmed(std::string_view text) {
+std::string TrimmedLine(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r";
   const std::size_t first = text.find_first_not_of(kBlanks);
   if (first == std::string_view::npos) return "";
   return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
 }
 
-std::vector<std::string> Split(std::string_view text, char separator) {
+std::vector<std::string> SplitLines(std::string_view text, char separator) {
   std::vector<std::string> pieces;
   for (;;) {
     const std::size_t end = text.find(separator);
@@ -47,7 +47,7 @@ bool IsQuantity(std::string_view text) {
                      [&](const char* word) { return text.find(word) != std::string_view::npos; });
 }
 
-bool IsNaming(std::string_view label) {
+bool IsNamingLine(std::string_view label) {
   constexpr std::array kWords = {"object", "name", "item", "category", "thing", "product"};
   return std::find(kWords.begin(), kWords.end(), label) != kWords.end();
 }
@@ -59,7 +59,7 @@ std::string Label(std::string_view key) {
   std::replace(label.begin(), label.end(), '[', '(');
   std::replace(label.begin(), label.end(), ']', ')');
   std::replace(label.begin(), label.end(), ':', ' ');
-  label = Trimmed(label);
+  label = TrimmedLine(label);
   const std::size_t blank = label.rfind(' ');
   if (blank != std::string::npos && FindUnit(label.substr(blank + 1))) {
     label = label.substr(0, blank) + " (" + label.substr(blank + 1) + ")";
@@ -124,27 +124,29 @@ void JsonLines(const Json& json, const std::string& above, std::vector<std::stri
   if (!json.is_object()) return;
   // The name first, wherever it is among the members.
   for (const auto& [key, value] : json.items()) {
-    if (IsNaming(Label(key)) && value.is_string()) lines->push_back("object: " + ValueText(value));
+    if (IsNamingLine(Label(key)) && value.is_string())
+      lines->push_back("object: " + ValueText(value));
   }
   for (const auto& [key, value] : json.items()) {
     const std::string label = Label(above.empty() ? key : above + " " + key);
     const std::string text = ValueText(value);
     if (!text.empty()) {
-      if (!IsNaming(label)) lines->push_back(label + ": " + text);
+      if (!IsNamingLine(label)) lines->push_back(label + ": " + text);
     } else {
       const bool quantity = IsQuantity(label);
-      if (value.is_object() && !quantity && !IsNaming(label)) lines->push_back("object: " + label);
+      if (value.is_object() && !quantity && !IsNamingLine(label))
+        lines->push_back("object: " + label);
       JsonLines(value, quantity ? label : "", lines);
     }
   }
 }
 
 std::vector<std::string> Cells(const std::string& row) {
-  std::string inner = Trimmed(row);
+  std::string inner = TrimmedLine(row);
   if (inner.starts_with("|")) inner.erase(0, 1);
   if (inner.ends_with("|")) inner.pop_back();
-  std::vector<std::string> cells = Split(inner, '|');
-  for (std::string& cell : cells) cell = Trimmed(cell);
+  std::vector<std::string> cells = SplitLines(inner, '|');
+  for (std::string& cell : cells) cell = TrimmedLine(cell);
   return cells;
 }
 
@@ -182,23 +184,23 @@ void TableLines(const std::vector<std::string>& rows, std::vector<std::string>* 
 // Converts a heading, or a line that only names the next object, to "object: NAME". Removes list
 // markers.
 std::string ProseLine(const std::string& raw) {
-  const std::string plain = Trimmed(PlainText(raw));
-  const bool bold = Trimmed(raw).starts_with("**") && Trimmed(raw).ends_with("**");
+  const std::string plain = TrimmedLine(PlainText(raw));
+  const bool bold = TrimmedLine(raw).starts_with("**") && TrimmedLine(raw).ends_with("**");
   std::string line = plain;
   const bool heading = line.starts_with("#");
   line.erase(0, line.find_first_not_of("#> "));
   bool listed = false;
   if (line.starts_with("- ") || line.starts_with("+ ") || line.starts_with("\u2022")) {
-    line = Trimmed(line.substr(line.starts_with("\u2022") ? 3 : 2));
+    line = TrimmedLine(line.substr(line.starts_with("\u2022") ? 3 : 2));
   }
   const std::size_t digits = line.find_first_not_of("0123456789");
   if (digits > 0 && digits != std::string::npos && digits + 1 < line.size() &&
       (line[digits] == '.' || line[digits] == ')') && line[digits + 1] == ' ') {
-    line = Trimmed(line.substr(digits + 1));
+    line = TrimmedLine(line.substr(digits + 1));
     listed = true;
   }
   const bool colon = line.ends_with(":");
-  const std::string name = Trimmed(colon ? line.substr(0, line.size() - 1) : line);
+  const std::string name = TrimmedLine(colon ? line.substr(0, line.size() - 1) : line);
   const bool names = (heading || bold || listed || colon) && !name.empty() &&
                      name.size() <= kLongestName && !HasDigit(name) && !IsQuantity(name) &&
                      name.find_first_of(":,;.!?") == std::string::npos;
@@ -222,7 +224,7 @@ std::vector<std::string> AnswerLines(std::string_view answer) {
     if (!table.empty()) TableLines(table, &lines);
     table.clear();
   };
-  for (const std::string& raw : Split(answer, '\n')) {
+  for (const std::string& raw : SplitLines(answer, '\n')) {
     if (std::count(raw.begin(), raw.end(), '|') >= (table.empty() ? 2 : 1)) {
       table.push_back(PlainText(raw));
       continue;

@@ -49,14 +49,14 @@ void Report(EstimatedCategory* estimate, const std::string& code, core::Severity
 }
 
 // Merges one quantity: the known range becomes the intersection, or the winner's range.
-struct Quantity {
+struct ReconciledQuantity {
   const char* name;
   double unit;
   const char* unit_name;
   Tolerance tolerance;
 };
 
-void Join(const Quantity& quantity, const std::optional<Interval>& said, bool exact,
+void Join(const ReconciledQuantity& quantity, const std::optional<Interval>& said, bool exact,
           const std::string& model, Interval* known, std::string* source,
           EstimatedCategory* estimate) {
   if (!said) return;
@@ -265,7 +265,9 @@ EstimatedCategory ReconcileAnswer(const Resolution& known, const ObjectAnswer& s
   ObjectAnswer answer = said;
   PermuteSides(*known.category, &answer, &estimate);
   CheckMass(category, base, &answer, &estimate);
-  const auto side = [&](const char* name) { return Quantity{name, 1e-2, "cm", kSizeTolerance}; };
+  const auto side = [&](const char* name) {
+    return ReconciledQuantity{name, 1e-2, "cm", kSizeTolerance};
+  };
   Join(side("a length"), answer.length, known.exact, model, &category.length,
        &estimate.length_source, &estimate);
   Join(side("a width"), answer.width, known.exact, model, &category.width, &estimate.width_source,

@@ -14,14 +14,14 @@ constexpr int kAnimal = 5, kArtifact = 6, kFood = 13;
 constexpr struct {
   std::string_view category;
   int sense;
-} kSenses[] = {{"plate", 3},     {"canister", 1},     {"salad bowl", 1}, {"casserole", 1},
-               {"ramekin", 1},   {"steamer", 1},      {"tin can", 1},    {"wooden spoon", 1},
-               {"cake", 2},      {"iron", 2},         {"toilet", 1},     {"binder", 1},
-               {"marker", 1},    {"keyboard", 1},     {"monitor", 2},    {"television", 1},
-               {"mixer", 2},     {"shutter", 1},      {"column", 1},     {"barrel", 1},
-               {"scooter", 1},   {"hut", 1},          {"hammer", 1},     {"screw", 2},
-               {"helmet", 1},    {"tablet", -1},      {"plant", -1},     {"horse", -1},
-               {"sponge", -1},   {"tape", -1},        {"object", -1},    {"person", -1}};
+} kSenses[] = {{"plate", 3},   {"canister", 1}, {"salad bowl", 1}, {"casserole", 1},
+               {"ramekin", 1}, {"steamer", 1},  {"tin can", 1},    {"wooden spoon", 1},
+               {"cake", 2},    {"iron", 2},     {"toilet", 1},     {"binder", 1},
+               {"marker", 1},  {"keyboard", 1}, {"monitor", 2},    {"television", 1},
+               {"mixer", 2},   {"shutter", 1},  {"column", 1},     {"barrel", 1},
+               {"scooter", 1}, {"hut", 1},      {"hammer", 1},     {"screw", 2},
+               {"helmet", 1},  {"tablet", -1},  {"plant", -1},     {"horse", -1},
+               {"sponge", -1}, {"tape", -1},    {"object", -1},    {"person", -1}};
 
 bool IsGoods(WordNet::Synset synset, const WordNet& wordnet) {
   const int file = wordnet.LexicographerFile(synset);

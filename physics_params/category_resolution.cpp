@@ -14,11 +14,12 @@ constexpr size_t kSuggestions = 3;
 // Names that WordNet lacks or knows by a rarer sense.
 constexpr struct {
   std::string_view name, category;
-} kAliases[] = {{"torch", "flashlight"},     {"lorry", "truck"},         {"cafetiere", "french press"},
-                {"mobile", "phone"},         {"cellphone", "phone"},     {"tin", "tin can"},
-                {"trashbin", "trash can"},   {"garbage bin", "trash can"}, {"bin", "trash can"},
-                {"hob", "cooktop"},          {"cooker", "stove"},        {"clock", "wall clock"},
-                {"timepiece", "wall clock"}, {"sideboard", "cabinet"},   {"tankard", "beer mug"}};
+} kAliases[] = {
+    {"torch", "flashlight"},     {"lorry", "truck"},           {"cafetiere", "french press"},
+    {"mobile", "phone"},         {"cellphone", "phone"},       {"tin", "tin can"},
+    {"trashbin", "trash can"},   {"garbage bin", "trash can"}, {"bin", "trash can"},
+    {"hob", "cooktop"},          {"cooker", "stove"},          {"clock", "wall clock"},
+    {"timepiece", "wall clock"}, {"sideboard", "cabinet"},     {"tankard", "beer mug"}};
 
 int EditDistance(std::string_view a, std::string_view b) {
   std::vector<int> row(b.size() + 1);
@@ -98,8 +99,9 @@ Resolution Resolver::Meant(const std::string& name) const {
 bool Resolver::IsWordOfItsOwn(const std::string& name) const {
   if (wordnet_ == nullptr) return false;
   const std::vector<std::string> words = WordsOf(name);
-  return words.size() > 1 && (!wordnet_->PhysicalSenses(name).empty() ||
-                              !wordnet_->PhysicalSenses(Joined(words, 0, words.size(), "")).empty());
+  return words.size() > 1 &&
+         (!wordnet_->PhysicalSenses(name).empty() ||
+          !wordnet_->PhysicalSenses(Joined(words, 0, words.size(), "")).empty());
 }
 
 // Resolves by the head: "red coffee mug" -> "coffee mug" -> "mug", since English puts it last.
@@ -123,7 +125,7 @@ Resolution Resolver::Resolve(std::string_view name) const {
     return {spelled, true, "'" + wanted + "' is in the knowledge base", {}};
   }
   const std::string plain = PlainName(name);
-  const std::string head = WithoutComplement(plain);
+  const std::string head = PhraseHead(plain);
   Resolution found = Meant(head);
   if (found.category == nullptr && IsSmallCopy(head)) {
     found = Taken(base_.FindCategory("toy"), ", a small copy");
@@ -131,7 +133,8 @@ Resolution Resolver::Resolve(std::string_view name) const {
     found = OfHead(head);
   }
   if (found.category != nullptr) {
-    found.sentence = "'" + wanted + "' is taken for '" + found.category->name + "'" + found.sentence;
+    found.sentence =
+        "'" + wanted + "' is taken for '" + found.category->name + "'" + found.sentence;
     return found;
   }
   found.closest = Suggestions(plain);

@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kFillNames[] = {"solid", "hollow", "open", "frame"};
 constexpr const char* kShapeNames[] = {"round", "revolved", "box", "flat", "long", "free"};
 
-std::vector<std::string> Split(std::string_view text, char separator) {
+std::vector<std::string> SplitColumns(std::string_view text, char separator) {
   std::vector<std::string> pieces;
   for (size_t start = 0;;) {
     const size_t end = text.find(separator, start);
@@ -48,7 +48,7 @@ double ParseNumber(const Row& row, std::string_view text) {
 }
 
 Interval Row::Range(size_t cell, double unit) const {
-  const std::vector<std::string> ends = Split(cells[cell], '-');
+  const std::vector<std::string> ends = SplitColumns(cells[cell], '-');
   if (ends.size() != 2) Fail("'" + cells[cell] + "' is not a range such as 2-5");
   const Interval range{ParseNumber(*this, ends[0]) * unit, ParseNumber(*this, ends[1]) * unit};
   if (!(range.min > 0.0 && range.min <= range.max)) {
@@ -68,10 +68,10 @@ int Row::Choice(size_t cell, const char* const (&names)[N]) const {
 std::vector<Row> Rows(std::string_view table, const std::string& name, size_t columns) {
   std::vector<Row> rows;
   int line_number = 0;
-  for (const std::string& line : Split(table, '\n')) {
+  for (const std::string& line : SplitColumns(table, '\n')) {
     ++line_number;
     if (line.empty() || line[0] == '#') continue;
-    Row row{Split(line, '|'), name + " line " + std::to_string(line_number)};
+    Row row{SplitColumns(line, '|'), name + " line " + std::to_string(line_number)};
     if (row.cells.size() != columns) {
       row.Fail("has " + std::to_string(row.cells.size()) + " columns instead of " +
                std::to_string(columns));
@@ -116,7 +116,7 @@ KnowledgeBase::KnowledgeBase(std::string_view categories, std::string_view mater
     category.width = row.Range(2, kCentimetre);
     category.height = row.Range(3, kCentimetre);
     category.mass = row.Range(4, kGram);
-    category.materials = Split(row.cells[5], ',');
+    category.materials = SplitColumns(row.cells[5], ',');
     for (const std::string& material : category.materials) {
       if (FindMaterial(material) == nullptr) row.Fail("unknown material '" + material + "'");
     }

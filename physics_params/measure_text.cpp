@@ -12,22 +12,22 @@ namespace {
 constexpr double kPound = 0.45359237, kOunce = kPound / 16.0;  // kg
 constexpr double kInch = 0.0254, kFoot = 0.3048;               // m
 
-bool IsDigit(char c) {
+bool IsMeasureDigit(char c) {
   return c >= '0' && c <= '9';
 }
-bool IsLetter(char c) {
+bool IsUnitLetter(char c) {
   return c >= 'a' && c <= 'z';
 }
 
 // A number with its unit.
-struct Number {
+struct NumberIn {
   std::size_t begin, end;
   double value;
   bool minus;  // a '-' before it: a sign, unless it joins two numbers
   std::optional<Unit> unit;
 };
 
-std::string_view Trimmed(std::string_view text) {
+std::string_view TrimmedMeasure(std::string_view text) {
   const std::size_t first = text.find_first_not_of(' ');
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(' ') - first + 1);
@@ -35,7 +35,7 @@ std::string_view Trimmed(std::string_view text) {
 
 std::string_view WordAt(std::string_view text, std::size_t at) {
   std::size_t end = at;
-  while (end < text.size() && IsLetter(text[end])) ++end;
+  while (end < text.size() && IsUnitLetter(text[end])) ++end;
   return text.substr(at, end - at);
 }
 
@@ -43,12 +43,12 @@ std::string_view WordAt(std::string_view text, std::size_t at) {
 std::size_t NumberEnd(std::string_view text, std::size_t at, Comma comma, std::string* digits) {
   const auto digits_from = [&](std::size_t from) {
     std::size_t end = from;
-    while (end < text.size() && IsDigit(text[end])) ++end;
+    while (end < text.size() && IsMeasureDigit(text[end])) ++end;
     return end - from;
   };
   bool point = false;
   while (at < text.size()) {
-    if (IsDigit(text[at])) {
+    if (IsMeasureDigit(text[at])) {
       *digits += text[at++];
       continue;
     }
@@ -86,7 +86,7 @@ bool IsPreposition(std::string_view text, std::size_t behind) {
          FindUnit(word).has_value();
 }
 
-void ReadUnit(std::string_view text, Number* number) {
+void ReadUnit(std::string_view text, NumberIn* number) {
   const std::size_t at = text.find_first_not_of(' ', number->end);
   if (at == std::string_view::npos || at > number->end + 2) return;
   if (text[at] == '"' && at == number->end) {
@@ -100,26 +100,26 @@ void ReadUnit(std::string_view text, Number* number) {
   if (number->unit) number->end = at + word.size();
 }
 
-std::vector<Number> ReadNumbers(std::string_view text, Comma comma) {
-  std::vector<Number> numbers;
+std::vector<NumberIn> ReadNumbers(std::string_view text, Comma comma) {
+  std::vector<NumberIn> numbers;
   for (std::size_t at = 0; at < text.size();) {
-    if (IsLetter(text[at])) {
+    if (IsUnitLetter(text[at])) {
       // A word; 'x' may be between numbers.
       const bool cross = text[at] == 'x' && WordAt(text, at).size() == 1;
       ++at;
       if (!cross) {
-        while (at < text.size() && (IsLetter(text[at]) || IsDigit(text[at]))) ++at;
+        while (at < text.size() && (IsUnitLetter(text[at]) || IsMeasureDigit(text[at]))) ++at;
       }
       continue;
     }
-    const bool begins =
-        IsDigit(text[at]) || (text[at] == '.' && at + 1 < text.size() && IsDigit(text[at + 1]));
+    const bool begins = IsMeasureDigit(text[at]) ||
+                        (text[at] == '.' && at + 1 < text.size() && IsMeasureDigit(text[at + 1]));
     if (!begins) {
       ++at;
       continue;
     }
     std::string digits;
-    Number number{at, at, 0.0, at > 0 && text[at - 1] == '-', std::nullopt};
+    NumberIn number{at, at, 0.0, at > 0 && text[at - 1] == '-', std::nullopt};
     number.end = NumberEnd(text, at, comma, &digits);
     const auto [end, code] =
         std::from_chars(digits.data(), digits.data() + digits.size(), number.value);
@@ -132,8 +132,8 @@ std::vector<Number> ReadNumbers(std::string_view text, Comma comma) {
   return numbers;
 }
 
-bool Joins(std::string_view text, const Number& first, const Number& second) {
-  const std::string_view between = Trimmed(text.substr(first.end, second.begin - first.end));
+bool Joins(std::string_view text, const NumberIn& first, const NumberIn& second) {
+  const std::string_view between = TrimmedMeasure(text.substr(first.end, second.begin - first.end));
   constexpr std::array kJoints = {"-", "--", "to", "~", "..", "...", "up to", "- about"};
   if (std::find(kJoints.begin(), kJoints.end(), between) != kJoints.end()) return true;
   const std::size_t before = text.substr(0, first.begin).rfind("between");
@@ -169,15 +169,15 @@ std::optional<Unit> FindUnit(std::string_view word) {
 }
 
 std::vector<TextRange> ReadRanges(std::string_view text, Comma comma) {
-  const std::vector<Number> numbers = ReadNumbers(text, comma);
+  const std::vector<NumberIn> numbers = ReadNumbers(text, comma);
   std::vector<TextRange> ranges;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const Number& first = numbers[i];
+    const NumberIn& first = numbers[i];
     const double low = first.minus ? -first.value : first.value;
     TextRange range{first.begin, first.end, {low, low}, first.unit};
     if (i + 1 < numbers.size()) {
-      const Number& second = numbers[i + 1];
-      const bool spread = Trimmed(text.substr(first.end, second.begin - first.end)) == "+/-";
+      const NumberIn& second = numbers[i + 1];
+      const bool spread = TrimmedMeasure(text.substr(first.end, second.begin - first.end)) == "+/-";
       if (spread || Joins(text, first, second)) {
         // "200 g - 0.3 kg": convert the first number to the second's unit.
         double from = low;

@@ -32,7 +32,7 @@ const Material& SampleMaterial(const Category& category, const KnowledgeBase& ba
   return *base.FindMaterial(category.materials[chosen]);
 }
 
-std::string Rounded(double value) {
+std::string RoundedText(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.3g", value);
   return text;
@@ -74,8 +74,8 @@ PhysicalParameters SampleParameters(const Category& category, const KnowledgeBas
   return p;
 }
 
-std::string FollowSize(const Category& category, const Eigen::Vector3d& size, double solid_volume,
-                       PhysicalParameters* p) {
+std::string ScaleMassToSize(const Category& category, const Eigen::Vector3d& size,
+                            double solid_volume, PhysicalParameters* p) {
   const double sampled_box = p->length.sample * p->width.sample * p->height.sample;
   p->length.sample = std::max(size.x(), size.y());
   p->width.sample = std::min(size.x(), size.y());
@@ -97,9 +97,8 @@ std::string FollowSize(const Category& category, const Eigen::Vector3d& size, do
     p->mass.sample = std::clamp(p->mass.sample, p->mass.min, p->mass.max);
     return "";
   }
-  return "its size of " + Rounded(p->length.sample) + " x " + Rounded(p->width.sample) + " x " +
-         Rounded(size.z()) + " m is unusual for '" + category.name +
-         "'";
+  return "its size of " + RoundedText(p->length.sample) + " x " + RoundedText(p->width.sample) +
+         " x " + RoundedText(size.z()) + " m is unusual for '" + category.name + "'";
 }
 
 MassModel ReconcileMass(const PhysicalParameters& parameters, const Category& category,
@@ -112,18 +111,18 @@ MassModel ReconcileMass(const PhysicalParameters& parameters, const Category& ca
   model.material = material.name;
   model.mass = parameters.mass.sample;
   const double full_density = model.mass / volume;
-  const std::string against = " in " + material.name + " of " + Rounded(material.density.min) +
-                              "-" + Rounded(material.density.max) + " kg/m3";
+  const std::string against = " in " + material.name + " of " + RoundedText(material.density.min) +
+                              "-" + RoundedText(material.density.max) + " kg/m3";
   if (material.density.Contains(full_density)) {
     model.density = full_density;
-    model.sentence = "full: " + Rounded(full_density) + " kg/m3 over its volume lies" + against;
+    model.sentence = "full: " + RoundedText(full_density) + " kg/m3 over its volume lies" + against;
     return model;
   }
   if (full_density < material.density.min) {
     model.density = parameters.density.sample;
     model.wall_thickness = geometry::WallThickness(full_density / model.density, volume, area);
-    model.sentence = "shell: " + Rounded(full_density) + " kg/m3 over its volume is too light" +
-                     against + ", so a wall of " + Rounded(model.wall_thickness * 1e3) +
+    model.sentence = "shell: " + RoundedText(full_density) + " kg/m3 over its volume is too light" +
+                     against + ", so a wall of " + RoundedText(model.wall_thickness * 1e3) +
                      " mm carries the mass";
     return model;
   }
@@ -133,7 +132,7 @@ MassModel ReconcileMass(const PhysicalParameters& parameters, const Category& ca
     if (other.density.Contains(full_density)) {
       model.material = other.name;
       model.density = full_density;
-      model.sentence = "full: " + Rounded(full_density) + " kg/m3 is too heavy" + against +
+      model.sentence = "full: " + RoundedText(full_density) + " kg/m3 is too heavy" + against +
                        ", and fits " + other.name;
       return model;
     }
@@ -141,8 +140,8 @@ MassModel ReconcileMass(const PhysicalParameters& parameters, const Category& ca
   model.density = material.density.max;
   model.mass = model.density * volume;
   model.within_range = category.mass.Contains(model.mass);
-  model.sentence = "full: " + Rounded(full_density) + " kg/m3 would be too heavy" + against +
-                   ", so the mass was lowered to " + Rounded(model.mass) + " kg";
+  model.sentence = "full: " + RoundedText(full_density) + " kg/m3 would be too heavy" + against +
+                   ", so the mass was lowered to " + RoundedText(model.mass) + " kg";
   return model;
 }
 

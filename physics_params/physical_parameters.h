@@ -45,8 +45,8 @@ PhysicalParameters SampleParameters(const Category& category, const KnowledgeBas
 // category's range if the size is in its ranges too. The catch-all category "object" has no mass:
 // it uses 250 kg/m^3, typical of hollow household goods, over `solid_volume` (m^3). Returns a
 // sentence if the size is outside the category's ranges, else an empty string.
-std::string FollowSize(const Category& category, const Eigen::Vector3d& size, double solid_volume,
-                       PhysicalParameters* parameters);
+std::string ScaleMassToSize(const Category& category, const Eigen::Vector3d& size,
+                            double solid_volume, PhysicalParameters* parameters);
 
 // The mass and density of a given shape.
 struct MassModel {

@@ -13,45 +13,45 @@ namespace {
 
 constexpr double kGram = 1e-3, kCentimetre = 1e-2;  // the default units
 
-enum class Quantity { kMass, kLength, kWidth, kHeight, kSides, kDimensions };
+enum class AnswerQuantity { kMass, kLength, kWidth, kHeight, kSides, kDimensions };
 
 struct Keyword {
   std::size_t begin, end;
-  Quantity quantity;
+  AnswerQuantity quantity;
   bool follows;  // "10 cm long": the value precedes the word
 };
 
 struct Word {
   const char* text;
-  Quantity quantity;
+  AnswerQuantity quantity;
   bool follows;
 };
-constexpr std::array<Word, 24> kWords = {{{"mass", Quantity::kMass, false},
-                                          {"masses", Quantity::kMass, false},
-                                          {"weight", Quantity::kMass, false},
-                                          {"weighs", Quantity::kMass, false},
-                                          {"weigh", Quantity::kMass, false},
-                                          {"weighing", Quantity::kMass, false},
-                                          {"length", Quantity::kLength, false},
-                                          {"width", Quantity::kWidth, false},
-                                          {"depth", Quantity::kWidth, false},
-                                          {"height", Quantity::kHeight, false},
-                                          {"diameter", Quantity::kSides, false},
-                                          {"dimensions", Quantity::kDimensions, false},
-                                          {"dimension", Quantity::kDimensions, false},
-                                          {"size", Quantity::kDimensions, false},
-                                          {"sizes", Quantity::kDimensions, false},
-                                          {"measures", Quantity::kDimensions, false},
-                                          {"measuring", Quantity::kDimensions, false},
-                                          {"long", Quantity::kLength, true},
-                                          {"wide", Quantity::kWidth, true},
-                                          {"deep", Quantity::kWidth, true},
-                                          {"tall", Quantity::kHeight, true},
-                                          {"high", Quantity::kHeight, true},
-                                          {"thick", Quantity::kHeight, true},
-                                          {"across", Quantity::kSides, true}}};
+constexpr std::array<Word, 24> kWords = {{{"mass", AnswerQuantity::kMass, false},
+                                          {"masses", AnswerQuantity::kMass, false},
+                                          {"weight", AnswerQuantity::kMass, false},
+                                          {"weighs", AnswerQuantity::kMass, false},
+                                          {"weigh", AnswerQuantity::kMass, false},
+                                          {"weighing", AnswerQuantity::kMass, false},
+                                          {"length", AnswerQuantity::kLength, false},
+                                          {"width", AnswerQuantity::kWidth, false},
+                                          {"depth", AnswerQuantity::kWidth, false},
+                                          {"height", AnswerQuantity::kHeight, false},
+                                          {"diameter", AnswerQuantity::kSides, false},
+                                          {"dimensions", AnswerQuantity::kDimensions, false},
+                                          {"dimension", AnswerQuantity::kDimensions, false},
+                                          {"size", AnswerQuantity::kDimensions, false},
+                                          {"sizes", AnswerQuantity::kDimensions, false},
+                                          {"measures", AnswerQuantity::kDimensions, false},
+                                          {"measuring", AnswerQuantity::kDimensions, false},
+                                          {"long", AnswerQuantity::kLength, true},
+                                          {"wide", AnswerQuantity::kWidth, true},
+                                          {"deep", AnswerQuantity::kWidth, true},
+                                          {"tall", AnswerQuantity::kHeight, true},
+                                          {"high", AnswerQuantity::kHeight, true},
+                                          {"thick", AnswerQuantity::kHeight, true},
+                                          {"across", AnswerQuantity::kSides, true}}};
 
-bool IsLetter(char c) {
+bool IsAnswerLetter(char c) {
   return c >= 'a' && c <= 'z';
 }
 
@@ -59,7 +59,7 @@ std::vector<Keyword> FindKeywords(std::string_view line) {
   std::vector<Keyword> found;
   for (std::size_t at = 0; at < line.size();) {
     std::size_t end = at;
-    while (end < line.size() && IsLetter(line[end])) ++end;
+    while (end < line.size() && IsAnswerLetter(line[end])) ++end;
     for (const Word& word : kWords) {
       if (line.substr(at, end - at) == word.text) {
         found.push_back({at, end, word.quantity, word.follows});
@@ -70,8 +70,8 @@ std::vector<Keyword> FindKeywords(std::string_view line) {
   return found;
 }
 
-Dimension DimensionOf(Quantity quantity) {
-  return quantity == Quantity::kMass ? Dimension::kMass : Dimension::kLength;
+Dimension DimensionOf(AnswerQuantity quantity) {
+  return quantity == AnswerQuantity::kMass ? Dimension::kMass : Dimension::kLength;
 }
 
 // Returns the last unit of `dimension` in a label such as "mass of mug in grams (g)"; single
@@ -80,7 +80,7 @@ std::optional<Unit> LabelUnit(std::string_view label, Dimension dimension) {
   std::optional<Unit> unit;
   for (std::size_t at = 0; at < label.size();) {
     std::size_t end = at;
-    while (end < label.size() && IsLetter(label[end])) ++end;
+    while (end < label.size() && IsAnswerLetter(label[end])) ++end;
     const std::string_view word = label.substr(at, end - at);
     const std::string_view before = label.substr(0, at);
     const bool marked = before.ends_with("(") || before.ends_with(" in ");
@@ -114,7 +114,7 @@ std::string WithoutConversions(const std::string& line) {
 
 // A quantity and its values.
 struct Statement {
-  Quantity quantity;
+  AnswerQuantity quantity;
   Interval value;  // SI, as written
 };
 
@@ -160,7 +160,7 @@ class LineReading {
 
   void Assign(const std::vector<Keyword>& group, const std::vector<TextRange>& values,
               Dimension dimension) {
-    const std::vector<Quantity> quantities = QuantitiesOf(group, dimension);
+    const std::vector<AnswerQuantity> quantities = QuantitiesOf(group, dimension);
     if (quantities.empty()) return;
     const bool mixed = std::any_of(group.begin(), group.end(), [&](const Keyword& keyword) {
       return DimensionOf(keyword.quantity) != dimension;
@@ -191,13 +191,13 @@ class LineReading {
   }
 
   // Returns the group's quantities of one dimension; "dimensions" means three if none is named.
-  static std::vector<Quantity> QuantitiesOf(const std::vector<Keyword>& group,
-                                            Dimension dimension) {
-    std::vector<Quantity> quantities;
+  static std::vector<AnswerQuantity> QuantitiesOf(const std::vector<Keyword>& group,
+                                                  Dimension dimension) {
+    std::vector<AnswerQuantity> quantities;
     bool whole = false;
     for (const Keyword& keyword : group) {
       if (DimensionOf(keyword.quantity) != dimension) continue;
-      if (keyword.quantity == Quantity::kDimensions) {
+      if (keyword.quantity == AnswerQuantity::kDimensions) {
         whole = true;
       } else if (std::find(quantities.begin(), quantities.end(), keyword.quantity) ==
                  quantities.end()) {
@@ -205,14 +205,14 @@ class LineReading {
       }
     }
     if (whole && quantities.empty()) {
-      quantities = {Quantity::kLength, Quantity::kWidth, Quantity::kHeight};
+      quantities = {AnswerQuantity::kLength, AnswerQuantity::kWidth, AnswerQuantity::kHeight};
     }
     return quantities;
   }
 
-  void Add(Quantity quantity, const TextRange& range, std::optional<Unit> unit) {
+  void Add(AnswerQuantity quantity, const TextRange& range, std::optional<Unit> unit) {
     if (range.unit) unit = range.unit;
-    const bool mass = quantity == Quantity::kMass;
+    const bool mass = quantity == AnswerQuantity::kMass;
     if (unit && (unit->dimension == Dimension::kMass) != mass) return;
     const double factor = unit ? unit->factor : mass ? kGram : kCentimetre;
     statements_.push_back({quantity, {range.value.min * factor, range.value.max * factor}});
@@ -235,7 +235,7 @@ LineReading ReadLine(std::string_view line) {
   return first;
 }
 
-std::string Trimmed(std::string_view text) {
+std::string TrimmedAnswer(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\"'.";
   const std::size_t first = text.find_first_not_of(kBlanks);
   if (first == std::string_view::npos) return "";
@@ -243,10 +243,10 @@ std::string Trimmed(std::string_view text) {
 }
 
 // Reads "object: red mug" into `name`; returns false for every other line.
-bool IsNaming(const std::string& line, std::string* name) {
+bool IsNamingAnswer(const std::string& line, std::string* name) {
   for (const std::string_view label : {"object:", "name:", "item:", "category:"}) {
     if (line.starts_with(label)) {
-      *name = NormaliseName(Trimmed(std::string_view(line).substr(label.size())));
+      *name = NormaliseName(TrimmedAnswer(std::string_view(line).substr(label.size())));
       return true;
     }
   }
@@ -265,7 +265,7 @@ std::string NameInLabel(std::string_view line) {
   for (const std::string_view article : {"a ", "an ", "the ", "one "}) {
     if (label.starts_with(article)) label.remove_prefix(article.size());
   }
-  return NormaliseName(Trimmed(label));
+  return NormaliseName(TrimmedAnswer(label));
 }
 
 // Removes numbers in the label, as in "mass of 2-liter bottle: 2000": they are not values.
@@ -283,7 +283,7 @@ std::string WithoutLabelNumbers(std::string line) {
 std::string MaterialIn(const std::string& line) {
   const std::size_t word = line.find("material");
   const std::size_t colon = word == std::string::npos ? word : line.find(':', word);
-  return colon == std::string::npos ? "" : Trimmed(std::string_view(line).substr(colon + 1));
+  return colon == std::string::npos ? "" : TrimmedAnswer(std::string_view(line).substr(colon + 1));
 }
 
 // Collects the statements of all lines into objects.
@@ -292,7 +292,7 @@ class AnswerReading {
   PhysicsAnswer Read(std::string_view answer) {
     for (const std::string& line : AnswerLines(answer)) {
       std::string name;
-      if (IsNaming(line, &name)) {
+      if (IsNamingAnswer(line, &name)) {
         Begin(name);
       } else {
         ReadStatements(line);
@@ -352,11 +352,11 @@ class AnswerReading {
     const auto set = [&](std::optional<Interval>* quantity) {
       if (!*quantity) *quantity = value;  // the first value counts; more are conversions
     };
-    if (statement.quantity == Quantity::kMass) set(&object_.mass);
-    if (statement.quantity == Quantity::kHeight) set(&object_.height);
-    const bool sides = statement.quantity == Quantity::kSides;
-    if (statement.quantity == Quantity::kLength || sides) set(&object_.length);
-    if (statement.quantity == Quantity::kWidth || sides) set(&object_.width);
+    if (statement.quantity == AnswerQuantity::kMass) set(&object_.mass);
+    if (statement.quantity == AnswerQuantity::kHeight) set(&object_.height);
+    const bool sides = statement.quantity == AnswerQuantity::kSides;
+    if (statement.quantity == AnswerQuantity::kLength || sides) set(&object_.length);
+    if (statement.quantity == AnswerQuantity::kWidth || sides) set(&object_.width);
   }
 
   void Report(const std::string& code, const std::string& sentence) {

@@ -20,7 +20,7 @@ Interval LongestSide(const Category& category) {
           std::max({category.length.max, category.width.max, category.height.max})};
 }
 
-std::string Rounded(double value) {
+std::string SizeText(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.3g", value);
   return text;
@@ -61,17 +61,17 @@ double ProportionMisfit(const Category& category, const Eigen::Vector3d& size) {
 }
 
 std::string SizeText(const Eigen::Vector3d& size) {
-  return Rounded(size.x()) + " x " + Rounded(size.y()) + " x " + Rounded(size.z()) + " m";
+  return SizeText(size.x()) + " x " + SizeText(size.y()) + " x " + SizeText(size.z()) + " m";
 }
 
 std::string SizeSentence(const Category& category, const Eigen::Vector3d& size) {
   const Interval usual = LongestSide(category);
   const double factor = SizeFactor(category, size);
   const std::string times = factor > 1.0
-                                ? Rounded(factor) + " times that of the largest"
-                                : "1/" + Rounded(1.0 / factor) + " of that of the smallest";
+                                ? SizeText(factor) + " times that of the largest"
+                                : "1/" + SizeText(1.0 / factor) + " of that of the smallest";
   return "its size of " + SizeText(size) + " is " + times + " '" + category.name +
-         "', whose longest side is " + Rounded(usual.min) + " to " + Rounded(usual.max) + " m";
+         "', whose longest side is " + SizeText(usual.min) + " to " + SizeText(usual.max) + " m";
 }
 
 std::vector<std::string> UnitsThatFit(const Category& category, const Eigen::Vector3d& numbers) {

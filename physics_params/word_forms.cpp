@@ -14,7 +14,7 @@ bool Among(std::string_view word, const std::array<std::string_view, N>& words) 
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-bool IsDigit(char c) {
+bool IsWordDigit(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
@@ -32,7 +32,7 @@ std::string SplitWords(std::string_view name) {
   for (size_t i = 0; i < name.size(); ++i) {
     const char c = name[i];
     if (i > 0 && IsUpper(c) && IsLower(name[i - 1])) parted += ' ';
-    parted += IsDigit(c) || c == '.' ? ' ' : c;
+    parted += IsWordDigit(c) || c == '.' ? ' ' : c;
   }
   return parted;
 }
@@ -67,7 +67,7 @@ std::string Joined(const std::vector<std::string>& words, size_t first, size_t l
   return joined;
 }
 
-std::string WithoutComplement(std::string_view name) {
+std::string PhraseHead(std::string_view name) {
   static constexpr std::array<std::string_view, 7> kPrepositions = {"of", "with", "without", "for",
                                                                     "in", "on",   "from"};
   // Words for a part or a quantity: neither is the object that it is named after.

@@ -18,7 +18,7 @@ std::string Joined(const std::vector<std::string>& words, size_t first, size_t l
 // Returns the head of a name with "of", "with", "for" ...: "bottle of wine" gives "bottle", "pair
 // of scissors" gives "scissors", "slice of pizza" nothing (a part is not the whole). Returns the
 // name itself if it has no such word.
-std::string WithoutComplement(std::string_view name);
+std::string PhraseHead(std::string_view name);
 
 // Returns true if a word marks a small copy: "toy truck", "miniature castle".
 bool IsSmallCopy(std::string_view name);

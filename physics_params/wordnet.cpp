@@ -33,7 +33,7 @@ void ForEachRecord(std::string_view text, const Handle& handle) {
   }
 }
 
-int Number(std::string_view field, int base = 10) {
+int WordnetNumber(std::string_view field, int base = 10) {
   int value = -1;
   std::from_chars(field.data(), field.data() + field.size(), value, base);
   return value;
@@ -68,26 +68,28 @@ WordNet::WordNet(const std::filesystem::path& folder) {
   // wndb(5): offset lex_filenum ss_type w_cnt(hex) {word lex_id} p_cnt {symbol offset pos st}
   ForEachRecord(core::ReadFile(folder / "data.noun"), [&](const auto& fields) {
     if (fields.size() < 6) return;
-    const size_t pointers_at = 4 + 2 * static_cast<size_t>(std::max(0, Number(fields[3], 16)));
+    const size_t pointers_at =
+        4 + 2 * static_cast<size_t>(std::max(0, WordnetNumber(fields[3], 16)));
     if (pointers_at >= fields.size()) return;
     Node node;
-    node.lexicographer_file = Number(fields[1]);
-    const int count = Number(fields[pointers_at]);
+    node.lexicographer_file = WordnetNumber(fields[1]);
+    const int count = WordnetNumber(fields[pointers_at]);
     for (int i = 0; i < count; ++i) {
       const size_t at = pointers_at + 1 + 4 * static_cast<size_t>(i);
       if (at + 1 >= fields.size()) break;
-      if (fields[at] == "@" || fields[at] == "@i") node.hypernyms.push_back(Number(fields[at + 1]));
+      if (fields[at] == "@" || fields[at] == "@i")
+        node.hypernyms.push_back(WordnetNumber(fields[at + 1]));
     }
-    nodes_.emplace(Number(fields[0]), std::move(node));
+    nodes_.emplace(WordnetNumber(fields[0]), std::move(node));
   });
   // wndb(5): lemma pos synset_cnt p_cnt [symbol...] sense_cnt tagsense_cnt offset [offset...]
   ForEachRecord(core::ReadFile(folder / "index.noun"), [&](const auto& fields) {
     if (fields.size() < 6) return;
-    const int pointers = Number(fields[3]);
+    const int pointers = WordnetNumber(fields[3]);
     if (pointers < 0) return;
     std::vector<Synset>& senses = senses_[std::string(fields[0])];
     for (size_t i = 6 + static_cast<size_t>(pointers); i < fields.size(); ++i) {
-      if (!fields[i].empty()) senses.push_back(Number(fields[i]));
+      if (!fields[i].empty()) senses.push_back(WordnetNumber(fields[i]));
     }
   });
   if (nodes_.empty() || senses_.empty()) {

@@ -100,7 +100,7 @@ class DifferentiableRenderer::Implementation {
       : options_(options), pass_(&objects_, &tree_, &options_) {
     std::string error;
     if (!options.IsValid(&error)) throw core::Error(error, "renderer");
-    const bool steps = !options.smooth_normals && (options.lit || options.draw_normals);
+    const bool steps = !options.smooth_normals && (options.lit || options.render_normals);
     for (DifferentiableObject& object : objects) {
       RequireValid(object);
       PreparedObject prepared;

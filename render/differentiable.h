@@ -40,7 +40,7 @@ struct DifferentiableOptions {
   // discontinuity in a lit image and in the normals, and is sampled as one.
   bool smooth_normals = true;
   // Fills, and differentiates, `normal`.
-  bool draw_normals = false;
+  bool render_normals = false;
   // The near plane (m, along the optical axis). Where it cuts a surface, the cut has no gradient.
   double near = 1e-3;
   SphericalHarmonicsLight light = SphericalHarmonicsLight::Studio({0.4f, -0.5f, 0.75f});

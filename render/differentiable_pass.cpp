@@ -12,7 +12,7 @@ namespace {
 
 // Hashes `x` (the mixer of Steele, Lea and Flood 2014, "Fast splittable pseudorandom number
 // generators").
-std::uint64_t Mixed(std::uint64_t x) {
+std::uint64_t MixedColors(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ull;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
@@ -110,14 +110,14 @@ void DifferentiablePass::Prepare() {
       const Eigen::Vector3f& p = of.camera[t[0]];
       of.front[f] = p.dot((of.camera[t[1]] - p).cross(of.camera[t[2]] - p)) < 0.0f;
     }
-    if (options_.lit || options_.draw_normals) ComputeNormals(options_.smooth_normals, &of);
+    if (options_.lit || options_.render_normals) ComputeNormals(options_.smooth_normals, &of);
   }
 }
 
 Eigen::Vector2d DifferentiablePass::SamplePosition(int x, int y, int sample) const {
   const int n = options_.samples_per_side;
   const std::uint64_t index = (static_cast<std::uint64_t>(y) * camera_.width + x) * n * n + sample;
-  const std::uint64_t bits = Mixed(seed_ ^ Mixed(index));
+  const std::uint64_t bits = MixedColors(seed_ ^ MixedColors(index));
   return {x + (sample % n + High(bits)) / n, y + (sample / n + Low(bits)) / n};
 }
 
@@ -145,13 +145,13 @@ void DifferentiablePass::TraceRow(int y, SeenPoint* seen) const {
 void DifferentiablePass::Draw(const core::Camera& camera, std::uint64_t seed,
                               DifferentiableBuffers* buffers) {
   camera_ = camera;
-  seed_ = Mixed(seed);
+  seed_ = MixedColors(seed);
   origin_ = camera.position().cast<float>();
   Prepare();
   Resize(camera, 3, &buffers->color);
   Resize(camera, 1, &buffers->mask);
   Resize(camera, 1, &buffers->depth);
-  if (options_.draw_normals) Resize(camera, 3, &buffers->normal);
+  if (options_.render_normals) Resize(camera, 3, &buffers->normal);
   const std::size_t samples =
       static_cast<std::size_t>(options_.samples_per_side) * options_.samples_per_side;
   seen_.resize(static_cast<std::size_t>(camera.width) * camera.height * samples);
@@ -181,7 +181,7 @@ void DifferentiablePass::DrawRow(int y, DifferentiableBuffers* buffers) {
     Eigen::Map<Eigen::Vector3f>(buffers->color.At(x, y)) = (share * color).cast<float>();
     *buffers->mask.At(x, y) = static_cast<float>(share * covered);
     *buffers->depth.At(x, y) = static_cast<float>(share * depth);
-    if (options_.draw_normals) {
+    if (options_.render_normals) {
       Eigen::Map<Eigen::Vector3f>(buffers->normal.At(x, y)) = (share * normal).cast<float>();
     }
   }
@@ -297,7 +297,8 @@ void DifferentiablePass::BackpropagateEdges(int slice, int slices,
   const double stratum = edges_.length() / static_cast<double>(samples);
   int hint = -1;
   for (std::int64_t i = first; i < last; ++i) {
-    const double jitter = High(Mixed(seed_ ^ kEdgeStream ^ Mixed(static_cast<std::uint64_t>(i))));
+    const double jitter =
+        High(MixedColors(seed_ ^ kEdgeStream ^ MixedColors(static_cast<std::uint64_t>(i))));
     const EdgePoint point = edges_.Locate((static_cast<double>(i) + jitter) * stratum, hint);
     hint = point.edge;
     BackpropagateEdgePoint(point, stratum, gradient, sums);

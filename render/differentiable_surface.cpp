@@ -77,10 +77,10 @@ SurfaceValue SurfaceShading::Value(const SeenPoint& point) const {
   SurfaceValue value;
   value.depth = point.depth;
   value.color = of.object.base_color.cwiseProduct(albedo.vertex).cwiseProduct(albedo.texture);
-  if (!options_.lit && !options_.draw_normals) return value;
+  if (!options_.lit && !options_.render_normals) return value;
   const Eigen::Vector3f normal = RawNormal(of, point).stableNormalized();
   if (options_.lit) value.color = value.color.cwiseProduct(light_.Shade(normal));
-  if (options_.draw_normals) value.normal = normal;
+  if (options_.render_normals) value.normal = normal;
   return value;
 }
 
@@ -167,7 +167,7 @@ void SurfaceShading::Backpropagate(const SeenPoint& point, const Eigen::Vector3f
   ObjectSums& own = sums->objects[point.object];
   float g1 = 0.0f, g2 = 0.0f;  // dL/d(b1), dL/d(b2); b0 = 1 - b1 - b2
   Eigen::Vector3f raw = Eigen::Vector3f::Zero(), unit = Eigen::Vector3f::Zero();
-  const bool needs_normal = options_.lit || options_.draw_normals;
+  const bool needs_normal = options_.lit || options_.render_normals;
   if (needs_normal) {
     raw = RawNormal(of, point);
     unit = raw.stableNormalized();

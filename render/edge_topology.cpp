@@ -85,7 +85,7 @@ bool ColorSteps(const DifferentiableObject& object, const EdgeTopology& topology
 
 }  // namespace
 
-EdgeTopology FindEdges(const DifferentiableObject& object, bool steps_at_faces) {
+EdgeTopology FindEdges(const DifferentiableObject& object, bool flat_shading) {
   EdgeTopology topology;
   topology.welded = FirstAtPosition(object.mesh.vertices);
   topology.welded_triangles.reserve(object.mesh.triangles.size());
@@ -109,7 +109,7 @@ EdgeTopology FindEdges(const DifferentiableObject& object, bool steps_at_faces) 
     }
     edge.count = static_cast<int>(end - i);
     edge.crease =
-        edge.count >= 2 && (steps_at_faces || ColorSteps(object, topology, use, uses[i + 1]));
+        edge.count >= 2 && (flat_shading || ColorSteps(object, topology, use, uses[i + 1]));
     topology.closed = topology.closed && edge.count >= 2;
     topology.edges.push_back(edge);
   }

@@ -9,7 +9,7 @@ namespace simwright::render {
 namespace {
 
 // Hashes `x` (Wellons, "lowbias32"), so that sub-pixel directions differ between neighbours.
-std::uint32_t Mixed(std::uint32_t x) {
+std::uint32_t MixedVertices(std::uint32_t x) {
   x = (x ^ (x >> 16)) * 0x7feb352du;
   x = (x ^ (x >> 15)) * 0x846ca68bu;
   return x ^ (x >> 16);
@@ -40,7 +40,7 @@ class Shader {
                  std::uint32_t seed) const {
     const Eigen::Vector3f tangent = normal.unitOrthogonal();
     const Eigen::Vector3f bitangent = normal.cross(tangent);
-    const float turn = static_cast<float>(Mixed(seed)) * 0x1.0p-32f;
+    const float turn = static_cast<float>(MixedVertices(seed)) * 0x1.0p-32f;
     const Eigen::Vector3f start = point + 1e-3f * reach_ * normal;
     int open = 0;
     for (int i = 0; i < options_.occlusion_rays; ++i) {

@@ -5,7 +5,8 @@
 
 namespace simwright::rl {
 
-void DrawActions(const Rows& means, const Eigen::RowVectorXf& std, core::Rng& rng, Rows* actions) {
+void SampleActions(const Rows& means, const Eigen::RowVectorXf& std, core::Rng& rng,
+                   Rows* actions) {
   actions->resize(means.rows(), means.cols());
   for (Eigen::Index i = 0; i < means.rows(); ++i) {
     for (Eigen::Index j = 0; j < means.cols(); ++j) {

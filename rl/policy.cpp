@@ -5,7 +5,7 @@
 namespace simwright::rl {
 
 Policy::Policy(const ObservationScale& scale, const Mlp& actor, const Eigen::RowVectorXf& std,
-               const Facts& facts)
+               const Metadata& facts)
     : scale_(scale), actor_(actor), std_(std), facts_(facts) {
   if (scale.mean().size() != actor.input_size() || scale.factor().size() != actor.input_size() ||
       std.size() != actor.output_size()) {

@@ -12,14 +12,14 @@
 namespace simwright::rl {
 
 // The metadata of a file, such as the task's name; keys and values without line breaks.
-using Facts = std::map<std::string, std::string>;
+using Metadata = std::map<std::string, std::string>;
 
 // A trained policy, frozen. Constant and thread-safe.
 class Policy {
  public:
   // Throws core::Error if the sizes do not match.
   Policy(const ObservationScale& scale, const Mlp& actor, const Eigen::RowVectorXf& std,
-         const Facts& facts = {});
+         const Metadata& facts = {});
 
   // Writes the mean action for each of `observations` (n x O): (n x A), clamped to [-1, 1].
   void Act(const Rows& observations, Rows* actions) const;
@@ -30,13 +30,13 @@ class Policy {
   const Mlp& actor() const { return actor_; }
   // Returns the standard deviations (A) of training, for callers that sample actions.
   const Eigen::RowVectorXf& std() const { return std_; }
-  const Facts& facts() const { return facts_; }
+  const Metadata& facts() const { return facts_; }
 
  private:
   ObservationScale scale_;
   Mlp actor_;
   Eigen::RowVectorXf std_;
-  Facts facts_;
+  Metadata facts_;
 };
 
 }  // namespace simwright::rl

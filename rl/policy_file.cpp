@@ -1,12 +1,12 @@
 #include "rl/policy_file.h"
 
 #include "core/error.h"
-#include "rl/fact_tensor.h"
+#include "rl/metadata_tensor.h"
 
 namespace simwright::rl {
 namespace {
 
-constexpr char kKind[] = "simwright policy 1";  // includes the format's version
+constexpr char kPolicyKind[] = "simwright policy 1";  // includes the format's version
 constexpr int kMostLayers = 64;
 
 torch::Tensor TensorOf(const Rows& rows, torch::ScalarType type) {
@@ -30,9 +30,9 @@ Rows RowsOf(const nn::NamedTensors& tensors, const std::string& name) {
 Policy PolicyFrom(const nn::NamedTensors& tensors) {
   const auto kind = tensors.find("kind");
   if (kind == tensors.end()) throw core::Error("is not a policy");
-  if (UnpackBytes(kind->second) != kKind) {
-    throw core::Error("is '" + UnpackBytes(kind->second).substr(0, 40) + "', expected '" + kKind +
-                      "'");
+  if (UnpackBytes(kind->second) != kPolicyKind) {
+    throw core::Error("is '" + UnpackBytes(kind->second).substr(0, 40) + "', expected '" +
+                      kPolicyKind + "'");
   }
   const bool tanh = UnpackBytes(TakeTensor(tensors, "activation", torch::kUInt8, 1)) == "tanh";
   std::vector<Mlp::Layer> layers;
@@ -44,7 +44,7 @@ Policy PolicyFrom(const nn::NamedTensors& tensors) {
                                RowsOf(tensors, "observation_factor"));
   return Policy(scale, Mlp(std::move(layers), tanh ? Activation::kTanh : Activation::kElu),
                 RowsOf(tensors, "std"),
-                UnpackFacts(TakeTensor(tensors, "facts", torch::kUInt8, 1)));
+                UnpackMetadata(TakeTensor(tensors, "facts", torch::kUInt8, 1)));
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ Policy PolicyFrom(const nn::NamedTensors& tensors) {
 void WritePolicy(const Policy& policy, const std::filesystem::path& path, Precision precision) {
   const auto type = precision == Precision::kHalf ? torch::kHalf : torch::kFloat;
   nn::NamedTensors tensors;
-  tensors["kind"] = PackBytes(kKind);
+  tensors["kind"] = PackBytes(kPolicyKind);
   tensors["activation"] =
       PackBytes(policy.actor().activation() == Activation::kTanh ? "tanh" : "elu");
   const std::vector<Mlp::Layer>& layers = policy.actor().layers();
@@ -63,7 +63,7 @@ void WritePolicy(const Policy& policy, const std::filesystem::path& path, Precis
   tensors["observation_mean"] = TensorOf(policy.scale().mean(), torch::kFloat);
   tensors["observation_factor"] = TensorOf(policy.scale().factor(), torch::kFloat);
   tensors["std"] = TensorOf(policy.std(), torch::kFloat);
-  tensors["facts"] = PackFacts(policy.facts());
+  tensors["facts"] = PackMetadata(policy.facts());
   nn::WriteTensors(tensors, path);
 }
 

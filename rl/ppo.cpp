@@ -7,7 +7,7 @@
 namespace simwright::rl {
 namespace {
 
-const PpoOptions& Checked(const PpoOptions& options, const VectorEnvironment& environment) {
+const PpoOptions& CheckedOptions(const PpoOptions& options, const VectorEnvironment& environment) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error(error, "training options");
   if (environment.size() < 1 || environment.observation_size() < 1 ||
@@ -26,7 +26,7 @@ struct Ppo::Learner : PpoLearner {
 };
 
 Ppo::Ppo(VectorEnvironment* environment, const PpoOptions& options)
-    : options_(Checked(options, *environment)),
+    : options_(CheckedOptions(options, *environment)),
       collector_(environment, options),
       learner_(std::make_unique<Learner>(
           ActorCriticSizes{environment->observation_size(), environment->action_size(),

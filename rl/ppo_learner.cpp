@@ -233,7 +233,7 @@ void PpoLearner::RestoreState(const LearnerState& state) {
   std::istringstream generator(state.generator);
   if (!(generator >> rng_)) throw core::Error("holds no random generator");
   values.copy_(state.parameters);
-  adam_.Restore(state.gradient_means, state.gradient_squares, state.descents);
+  adam_.Restore(state.gradient_means, state.gradient_squares, state.gradient_steps);
   learning_rate_ = state.learning_rate;
   shown_ = {};
   if (shown.observations.defined()) {

@@ -18,7 +18,7 @@ namespace simwright::rl {
 // The state that the next update depends on, except for the rollout. On the CPU.
 struct LearnerState {
   torch::Tensor parameters, gradient_means, gradient_squares;  // (P)
-  std::int64_t descents = 0;
+  std::int64_t gradient_steps = 0;
   double learning_rate = 0.0;
   std::string generator;  // of core::Rng
   Demonstrations shown;   // so far, during imitation

@@ -12,7 +12,7 @@ double Mean(const std::deque<Outcome>& outcomes, const Value& value) {
 
 }  // namespace
 
-void RecentOutcomes::Add(const Outcome& outcome) {
+void OutcomeWindow::Add(const Outcome& outcome) {
   outcomes_.push_back(outcome);
   successes_ += outcome.success;
   if (size() <= window_) return;
@@ -20,15 +20,15 @@ void RecentOutcomes::Add(const Outcome& outcome) {
   outcomes_.pop_front();
 }
 
-double RecentOutcomes::MeanReward() const {
+double OutcomeWindow::MeanReward() const {
   return Mean(outcomes_, [](const Outcome& outcome) { return outcome.total_reward; });
 }
 
-double RecentOutcomes::MeanSteps() const {
+double OutcomeWindow::MeanSteps() const {
   return Mean(outcomes_, [](const Outcome& outcome) { return outcome.steps; });
 }
 
-double RecentOutcomes::SuccessRate() const {
+double OutcomeWindow::SuccessRate() const {
   return Mean(outcomes_, [](const Outcome& outcome) { return outcome.success ? 1.0 : 0.0; });
 }
 

@@ -14,9 +14,9 @@ struct Outcome {
 };
 
 // The outcomes of the last `window` episodes.
-class RecentOutcomes {
+class OutcomeWindow {
  public:
-  explicit RecentOutcomes(int window) : window_(window) {}
+  explicit OutcomeWindow(int window) : window_(window) {}
 
   void Add(const Outcome& outcome);
 

@@ -57,7 +57,7 @@ void RolloutCollector::Collect(const Mlp& actor, const Eigen::RowVectorXf& std, 
     normalizer_.Update(batch_.observations);
     Normalize(batch_.observations, &normalized);
     actor.Forward(normalized, &means);
-    DrawActions(means, std, rng_, &actions_);
+    SampleActions(means, std, rng_, &actions_);
     rollout->observations.middleRows(first, count) = normalized;
     rollout->means.middleRows(first, count) = means;
     rollout->actions.middleRows(first, count) = actions_;

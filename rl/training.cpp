@@ -24,7 +24,7 @@ double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-const TrainingOptions& Checked(const TrainingOptions& options) {
+const TrainingOptions& CheckedRequest(const TrainingOptions& options) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error(error, "training options");
   return options;
@@ -51,7 +51,7 @@ class Training {
  public:
   Training(VectorEnvironment* environment, const TrainingOptions& options,
            const std::filesystem::path& folder, bool resume, const Examiner& examine)
-      : options_(Checked(options)),
+      : options_(CheckedRequest(options)),
         folder_(folder),
         examine_(examine),
         ppo_(environment, options.ppo),
@@ -90,7 +90,7 @@ class Training {
   std::filesystem::path folder_;
   Examiner examine_;
   Ppo ppo_;
-  RecentOutcomes recent_;
+  OutcomeWindow recent_;
   TrainingProgress progress_;
   std::optional<TrainingLog> log_;
 };
@@ -188,7 +188,7 @@ void Training::Save() const {
 TrainingResult TrainPolicy(VectorEnvironment* environment, const TrainingOptions& options,
                            const std::filesystem::path& folder, bool resume,
                            const TrainingListener& report, const Examiner& examine) {
-  Checked(options);
+  CheckedRequest(options);
   Training training(environment, options, folder, Prepare(folder, resume), examine);
   std::optional<TrainingEnd> end = training.End();
   while (!end) {

@@ -5,13 +5,13 @@
 
 #include "core/error.h"
 #include "nn/tensor_file.h"
-#include "rl/fact_tensor.h"
+#include "rl/metadata_tensor.h"
 #include "rl/ppo_learner.h"
 
 namespace simwright::rl {
 namespace {
 
-constexpr char kKind[] = "simwright training";
+constexpr char kCheckpointKind[] = "simwright training";
 constexpr char kVersion[] = "2";
 
 torch::Tensor PackDoubles(std::span<const double> numbers) {
@@ -84,7 +84,7 @@ void PackLearner(const LearnerState& state, nn::NamedTensors* tensors) {
   (*tensors)["parameters"] = state.parameters;
   (*tensors)["adam.means"] = state.gradient_means;
   (*tensors)["adam.squares"] = state.gradient_squares;
-  const double numbers[] = {static_cast<double>(state.descents), state.learning_rate};
+  const double numbers[] = {static_cast<double>(state.gradient_steps), state.learning_rate};
   (*tensors)["adam.steps_and_rate"] = PackDoubles(numbers);
   (*tensors)["learner_generator"] = PackBytes(state.generator);
   if (!state.shown.observations.defined()) return;
@@ -109,7 +109,7 @@ LearnerState Learner(const nn::NamedTensors& tensors) {
           Shown(tensors)};
 }
 
-void PackOutcomes(const RecentOutcomes& recent, nn::NamedTensors* tensors) {
+void PackOutcomes(const OutcomeWindow& recent, nn::NamedTensors* tensors) {
   std::vector<double> numbers;
   for (const Outcome& outcome : recent.outcomes()) {
     numbers.insert(numbers.end(),
@@ -118,7 +118,7 @@ void PackOutcomes(const RecentOutcomes& recent, nn::NamedTensors* tensors) {
   (*tensors)["outcomes"] = PackDoubles(numbers);
 }
 
-void AddOutcomes(const nn::NamedTensors& tensors, RecentOutcomes* recent) {
+void AddOutcomes(const nn::NamedTensors& tensors, OutcomeWindow* recent) {
   const std::vector<double> numbers = Doubles(tensors, "outcomes");
   for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) {
     recent->Add({numbers[i], numbers[i + 1], numbers[i + 2] != 0.0});
@@ -126,11 +126,11 @@ void AddOutcomes(const nn::NamedTensors& tensors, RecentOutcomes* recent) {
 }
 
 // Returns the metadata that must match for a training to resume.
-Facts NetworkFacts(const Ppo& ppo) {
+Metadata NetworkFacts(const Ppo& ppo) {
   const Policy policy = ppo.CurrentPolicy();
   std::ostringstream hidden;
   for (const int size : ppo.options().hidden) hidden << (hidden.tellp() > 0 ? "-" : "") << size;
-  return {{"kind", kKind},
+  return {{"kind", kCheckpointKind},
           {"version", kVersion},
           {"observations", std::to_string(policy.observation_size())},
           {"actions", std::to_string(policy.action_size())},
@@ -138,7 +138,7 @@ Facts NetworkFacts(const Ppo& ppo) {
           {"activation", ppo.options().activation == Activation::kTanh ? "tanh" : "elu"}};
 }
 
-void CheckFacts(const Facts& wanted, const Facts& found) {
+void CheckFacts(const Metadata& wanted, const Metadata& found) {
   for (const auto& [key, value] : wanted) {
     const auto other = found.find(key);
     const std::string has = other == found.end() ? "none" : "'" + other->second + "'";
@@ -148,9 +148,9 @@ void CheckFacts(const Facts& wanted, const Facts& found) {
   }
 }
 
-TrainingProgress Restore(const nn::NamedTensors& tensors, const Facts& facts, Ppo* ppo,
-                         RecentOutcomes* recent) {
-  const Facts found = UnpackFacts(TakeTensor(tensors, "facts", torch::kUInt8, 1));
+TrainingProgress Restore(const nn::NamedTensors& tensors, const Metadata& facts, Ppo* ppo,
+                         OutcomeWindow* recent) {
+  const Metadata found = UnpackMetadata(TakeTensor(tensors, "facts", torch::kUInt8, 1));
   CheckFacts(NetworkFacts(*ppo), found);
   CheckFacts(facts, found);
   const std::vector<double> progress = Doubles(tensors, "progress", 5);
@@ -162,8 +162,8 @@ TrainingProgress Restore(const nn::NamedTensors& tensors, const Facts& facts, Pp
 
 }  // namespace
 
-void WriteCheckpoint(const Ppo& ppo, const TrainingProgress& progress, const RecentOutcomes& recent,
-                     const Facts& facts, const std::filesystem::path& path) {
+void WriteCheckpoint(const Ppo& ppo, const TrainingProgress& progress, const OutcomeWindow& recent,
+                     const Metadata& facts, const std::filesystem::path& path) {
   nn::NamedTensors tensors;
   PackCollector(ppo.CollectorPart(), &tensors);
   PackLearner(ppo.LearnerPart(), &tensors);
@@ -172,16 +172,16 @@ void WriteCheckpoint(const Ppo& ppo, const TrainingProgress& progress, const Rec
                             static_cast<double>(progress.episodes), progress.seconds, progress.best,
                             progress.learnt ? 1.0 : 0.0};
   tensors["progress"] = PackDoubles(numbers);
-  Facts all = facts;
+  Metadata all = facts;
   all.merge(NetworkFacts(ppo));
-  tensors["facts"] = PackFacts(all);
+  tensors["facts"] = PackMetadata(all);
   nn::WriteTensors(tensors, path);
 }
 
 void BeginFromCheckpoint(const std::filesystem::path& path, Ppo* ppo) {
   const nn::NamedTensors tensors = nn::ReadTensors(path);
   try {
-    CheckFacts(NetworkFacts(*ppo), UnpackFacts(TakeTensor(tensors, "facts", torch::kUInt8, 1)));
+    CheckFacts(NetworkFacts(*ppo), UnpackMetadata(TakeTensor(tensors, "facts", torch::kUInt8, 1)));
     const CollectorState known = Collector(tensors);
     CollectorState state = ppo->CollectorPart();
     state.observations = known.observations;
@@ -192,8 +192,8 @@ void BeginFromCheckpoint(const std::filesystem::path& path, Ppo* ppo) {
   }
 }
 
-TrainingProgress ReadCheckpoint(const std::filesystem::path& path, const Facts& facts, Ppo* ppo,
-                                RecentOutcomes* recent) {
+TrainingProgress ReadCheckpoint(const std::filesystem::path& path, const Metadata& facts, Ppo* ppo,
+                                OutcomeWindow* recent) {
   const nn::NamedTensors tensors = nn::ReadTensors(path);
   try {
     return Restore(tensors, facts, ppo, recent);

@@ -49,7 +49,7 @@ inline void ChainKinematics::Advance(const Joint& joint, double position, Eigen:
   *rotation = *rotation * local;
 }
 
-Eigen::Isometry3d ChainKinematics::Tool(const Posture& q) const {
+Eigen::Isometry3d ChainKinematics::Tool(const JointVector& q) const {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   for (int j = 0; j < size(); ++j) {
@@ -58,7 +58,7 @@ Eigen::Isometry3d ChainKinematics::Tool(const Posture& q) const {
   return Pose(rotation, origin) * last_from_tool_;
 }
 
-Eigen::Isometry3d ChainKinematics::Tool(const Posture& q, ToolJacobian* jacobian) const {
+Eigen::Isometry3d ChainKinematics::Tool(const JointVector& q, ToolJacobian* jacobian) const {
   jacobian->resize(6, size());
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();

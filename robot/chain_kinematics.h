@@ -11,7 +11,7 @@ namespace simwright::robot {
 
 // The largest number of joints of a controlled arm: its vectors are stored without allocation.
 constexpr int kMostJoints = 12;
-using Posture = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostJoints, 1>;
+using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostJoints, 1>;
 using ToolJacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, kMostJoints>;
 
 // Forward kinematics and Jacobian of an arm, precomputed for many evaluations: the same numbers as
@@ -24,9 +24,9 @@ class ChainKinematics {
 
   int size() const { return static_cast<int>(joints_.size()); }
   // Returns base_from_tool at `q` (J, rad or m).
-  Eigen::Isometry3d Tool(const Posture& q) const;
+  Eigen::Isometry3d Tool(const JointVector& q) const;
   // Returns base_from_tool and writes the geometric Jacobian (6 x J), as Jacobian does.
-  Eigen::Isometry3d Tool(const Posture& q, ToolJacobian* jacobian) const;
+  Eigen::Isometry3d Tool(const JointVector& q, ToolJacobian* jacobian) const;
 
  private:
   // The rotation of a joint frame at angle a relative to the previous joint frame is fixed + sin(a)

@@ -55,7 +55,7 @@ void RequireObservations(const StepObservations& seen, std::size_t steps,
   }
 }
 
-void RequireWhole(const Demonstration& demonstration, const std::string& place) {
+void RequireWellFormed(const Demonstration& demonstration, const std::string& place) {
   const std::size_t steps = demonstration.size();
   if (steps == 0) throw core::Error("the demonstration has no steps", place);
   if (demonstration.dones.size() != steps) {
@@ -75,7 +75,7 @@ void RequireWhole(const Demonstration& demonstration, const std::string& place) 
   RequireObservations(demonstration.next_observations, steps, place + "/next_obs");
 }
 
-void RequireWhole(const DemonstrationSet& set, const std::string& where) {
+void RequireWellFormed(const DemonstrationSet& set, const std::string& where) {
   if (set.demonstrations.empty()) throw core::Error("there are no demonstrations", where);
   if (!set.notes.empty() && set.notes.size() != set.demonstrations.size()) {
     throw core::Error("there are " + std::to_string(set.notes.size()) + " notes for " +
@@ -83,7 +83,7 @@ void RequireWhole(const DemonstrationSet& set, const std::string& where) {
                       where + "/simwright/notes");
   }
   for (std::size_t i = 0; i < set.demonstrations.size(); ++i) {
-    RequireWhole(set.demonstrations[i], where + "/data/" + NameOf(i));
+    RequireWellFormed(set.demonstrations[i], where + "/data/" + NameOf(i));
   }
   for (const auto& [name, indices] : set.filters) {
     if (name.empty() || name.find('/') != std::string::npos) {
@@ -177,7 +177,7 @@ void ReadEnvironment(const std::string& env_args, const std::string& where, Demo
 
 void WriteDemonstrations(const std::filesystem::path& path, const DemonstrationSet& set) {
   const std::string where = path.string();
-  RequireWhole(set, where);
+  RequireWellFormed(set, where);
   const nlohmann::json kwargs = ParseJson(set.env_kwargs, where + ": env_kwargs");
   if (!kwargs.is_object()) throw core::Error("env_kwargs is not a JSON object", where);
   nlohmann::ordered_json env_args;
@@ -243,7 +243,7 @@ DemonstrationSet ReadDemonstrations(const std::filesystem::path& path) {
   if (reader.root().Has("simwright")) {
     set.notes = reader.root().Open("simwright").ReadTexts("notes");
   }
-  RequireWhole(set, where);
+  RequireWellFormed(set, where);
   return set;
 }
 

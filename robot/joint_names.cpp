@@ -14,13 +14,11 @@ constexpr char kPanda[] = "panda_";
 constexpr std::uint64_t kMostBytes = 1 << 20;
 
 // Franka Research 3, "Robot limits" of the manufacturer's specification: rad, 1/s, 1/s^2, 1/s^3.
-constexpr JointLimits kResearch3[7] = {{-2.7437, 2.7437, 2.62, 10.0, 5000.0, 87.0},
-                                       {-1.7837, 1.7837, 2.62, 10.0, 5000.0, 87.0},
-                                       {-2.9007, 2.9007, 2.62, 10.0, 5000.0, 87.0},
-                                       {-3.0421, -0.1518, 2.62, 10.0, 5000.0, 87.0},
-                                       {-2.8065, 2.8065, 5.26, 10.0, 5000.0, 12.0},
-                                       {0.5445, 4.5169, 4.18, 10.0, 5000.0, 12.0},
-                                       {-3.0159, 3.0159, 5.26, 10.0, 5000.0, 12.0}};
+constexpr JointLimits kResearch3[7] = {
+    {-2.7437, 2.7437, 2.62, 10.0, 5000.0, 87.0}, {-1.7837, 1.7837, 2.62, 10.0, 5000.0, 87.0},
+    {-2.9007, 2.9007, 2.62, 10.0, 5000.0, 87.0}, {-3.0421, -0.1518, 2.62, 10.0, 5000.0, 87.0},
+    {-2.8065, 2.8065, 5.26, 10.0, 5000.0, 12.0}, {0.5445, 4.5169, 4.18, 10.0, 5000.0, 12.0},
+    {-3.0159, 3.0159, 5.26, 10.0, 5000.0, 12.0}};
 
 void RequireDistinct(const JointNames& names, const std::vector<std::string>& joints,
                      const std::string& where) {
@@ -74,7 +72,7 @@ JointNames JointNamesFor(const std::string& which, const std::vector<std::string
   return names;
 }
 
-JointLimits TighterOf(const JointLimits& a, const JointLimits& b) {
+JointLimits TighterLimits(const JointLimits& a, const JointLimits& b) {
   JointLimits both;
   both.lower = std::max(a.lower, b.lower);
   both.upper = std::min(a.upper, b.upper);

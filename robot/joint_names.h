@@ -23,6 +23,6 @@ struct JointNames {
 JointNames JointNamesFor(const std::string& which, const std::vector<std::string>& joints);
 
 // Returns the tighter of the two limits, bound by bound.
-JointLimits TighterOf(const JointLimits& a, const JointLimits& b);
+JointLimits TighterLimits(const JointLimits& a, const JointLimits& b);
 
 }  // namespace simwright::robot

@@ -9,7 +9,7 @@
 
 namespace simwright::robot {
 
-void RequireWhole(const JointTrajectory& trajectory, const std::string& where) {
+void RequireWellFormed(const JointTrajectory& trajectory, const std::string& where) {
   const auto count = static_cast<Eigen::Index>(trajectory.joints.size());
   if (count == 0 || trajectory.size() == 0) {
     throw core::Error("the trajectory has no joints or no samples", where);

@@ -25,6 +25,6 @@ struct JointTrajectory {
 // Throws core::Error, naming `where`, the joint and the time, unless `trajectory` has at least one
 // joint and one sample, distinct joint names, matrices of matching size, finite numbers, and times
 // that increase from 0 or above.
-void RequireWhole(const JointTrajectory& trajectory, const std::string& where);
+void RequireWellFormed(const JointTrajectory& trajectory, const std::string& where);
 
 }  // namespace simwright::robot

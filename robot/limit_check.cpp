@@ -12,7 +12,7 @@ namespace {
 constexpr double kRounding = 1e-9;  // relative tolerance for values at the limit
 constexpr double kRest = 1e-6;      // per s, s^2
 
-std::string Shown(double value) {
+std::string LimitText(double value) {
   std::ostringstream out;
   out << value;
   return out.str();
@@ -50,13 +50,14 @@ class JointCheck {
 
   void Add(const std::string& code, double time, const std::string& sentence, double figure) {
     report_->findings.push_back({code, core::Severity::kError,
-                                 "joint '" + result_.joint + "' at " + Shown(time) + " s", sentence,
-                                 figure});
+                                 "joint '" + result_.joint + "' at " + LimitText(time) + " s",
+                                 sentence, figure});
   }
   void Report(const std::string& code, const std::string& quantity, const WorstValue& worst) {
     if (worst.ratio <= 1.0 + kRounding) return;
     Add(code, worst.time,
-        "its " + quantity + " is " + Shown(worst.value) + ", the limit " + Shown(worst.limit),
+        "its " + quantity + " is " + LimitText(worst.value) + ", the limit " +
+            LimitText(worst.limit),
         worst.value);
   }
   static void Consider(double value, double time, double limit, WorstValue* worst) {
@@ -165,8 +166,8 @@ void JointCheck::CheckRest() {
   for (const Eigen::Index i : {Eigen::Index(0), positions_.size() - 1}) {
     if (std::abs(velocities_[i]) <= kRest && std::abs(accelerations_[i]) <= kRest) continue;
     Add("no-rest", Time(i),
-        "it is not at rest at an end of the trajectory: velocity " + Shown(velocities_[i]) +
-            ", acceleration " + Shown(accelerations_[i]),
+        "it is not at rest at an end of the trajectory: velocity " + LimitText(velocities_[i]) +
+            ", acceleration " + LimitText(accelerations_[i]),
         velocities_[i]);
   }
 }
@@ -174,7 +175,7 @@ void JointCheck::CheckRest() {
 }  // namespace
 
 LimitReport CheckLimits(const JointTrajectory& trajectory, const std::vector<JointLimits>& limits) {
-  RequireWhole(trajectory, "limit check");
+  RequireWellFormed(trajectory, "limit check");
   if (trajectory.velocities.size() == 0 || trajectory.accelerations.size() == 0) {
     throw core::Error("the trajectory has no velocities or no accelerations", "limit check",
                       "retime it first");

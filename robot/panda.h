@@ -10,6 +10,6 @@ namespace simwright::robot {
 const Arm& PandaArm();
 
 // The opening of the gripper between its fingers when open, m.
-constexpr double kPandaOpening = 0.08;
+constexpr double kPandaGripperOpening = 0.08;
 
 }  // namespace simwright::robot

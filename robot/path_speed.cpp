@@ -90,7 +90,7 @@ class Reachability {
 
 }  // namespace
 
-std::vector<double> FastestSpeeds(const PathDerivatives& path,
+std::vector<double> MaxPathSpeeds(const PathDerivatives& path,
                                   const std::vector<JointLimits>& limits,
                                   const std::vector<double>& most) {
   return Reachability(path, limits, most).Run();

@@ -19,7 +19,7 @@ struct PathDerivatives {
 // at most `most` (points); jerk is ignored. Time-optimal path parameterization by reachability
 // (TOPP-RA, Pham and Pham 2018): a backward pass computes the controllable sets of speeds, a
 // forward pass takes the largest speed in each set.
-std::vector<double> FastestSpeeds(const PathDerivatives& path,
+std::vector<double> MaxPathSpeeds(const PathDerivatives& path,
                                   const std::vector<JointLimits>& limits,
                                   const std::vector<double>& most);
 

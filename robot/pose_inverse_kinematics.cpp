@@ -48,7 +48,7 @@ struct PoseInverseKinematics::Work {
   ToolJacobian jacobian;  // (6 x J), angular rows times the angle weight
   Vector6 vector;         // m, the error, weighted in the same manner
   PoseError error;
-  Posture step;
+  JointVector step;
 
   double squared() const { return vector.squaredNorm(); }
 };
@@ -58,12 +58,12 @@ bool PoseInverseKinematicsOptions::IsValid(std::string* error) const {
   if (!(position_tolerance > 0.0)) wrong = "position_tolerance must be above 0";
   if (!(angle_tolerance > 0.0)) wrong = "angle_tolerance must be above 0";
   if (!(angle_weight > 0.0)) wrong = "angle_weight must be above 0";
-  if (!(least_damping > 0.0)) wrong = "least_damping must be above 0";
+  if (!(min_damping > 0.0)) wrong = "min_damping must be above 0";
   if (!(longest_step > 0.0)) wrong = "longest_step must be above 0";
-  if (iterations < 1 || starts < 1 || drafts < 1 || tracking_iterations < 1) {
-    wrong = "iterations, starts, drafts and tracking_iterations must be at least 1";
+  if (iterations < 1 || starts < 1 || samples_per_start < 1 || tracking_iterations < 1) {
+    wrong = "iterations, starts, samples_per_start and tracking_iterations must be at least 1";
   }
-  if (!(posture_gain >= 0.0 && posture_gain <= 1.0)) wrong = "posture_gain must be in [0, 1]";
+  if (!(rest_gain >= 0.0 && rest_gain <= 1.0)) wrong = "rest_gain must be in [0, 1]";
   if (wrong != nullptr && error != nullptr) *error = wrong;
   return wrong == nullptr;
 }
@@ -83,7 +83,7 @@ PoseInverseKinematics::PoseInverseKinematics(const Arm& arm,
   }
 }
 
-void PoseInverseKinematics::Clamp(Posture* q) const {
+void PoseInverseKinematics::Clamp(JointVector* q) const {
   *q = q->cwiseMax(lower_).cwiseMin(upper_);
 }
 
@@ -91,7 +91,7 @@ bool PoseInverseKinematics::Reached(const PoseError& error) const {
   return error.position <= options_.position_tolerance && error.angle <= options_.angle_tolerance;
 }
 
-void PoseInverseKinematics::Evaluate(const Target& target, const Posture& q, Work* work) const {
+void PoseInverseKinematics::Evaluate(const Target& target, const JointVector& q, Work* work) const {
   const Eigen::Isometry3d tool = chain_.Tool(q, &work->jacobian);
   work->jacobian.bottomRows<3>() *= options_.angle_weight;
   work->vector.head<3>() = target.position - tool.translation();
@@ -102,9 +102,9 @@ void PoseInverseKinematics::Evaluate(const Target& target, const Posture& q, Wor
 
 // Computes the damped step from `q`: a joint that would leave its limits is fixed, and the others
 // are solved again.
-void PoseInverseKinematics::Step(const Posture& q, const Posture& rest, double posture_gain,
+void PoseInverseKinematics::Step(const JointVector& q, const JointVector& rest, double posture_gain,
                                  Work* work) const {
-  const double damping = 0.5 * work->squared() + options_.least_damping;
+  const double damping = 0.5 * work->squared() + options_.min_damping;
   const int count = chain_.size();
   std::array<bool, kMostJoints> fixed{};
   const auto normal = [&](double diagonal) {
@@ -131,7 +131,7 @@ void PoseInverseKinematics::Step(const Posture& q, const Posture& rest, double p
   }
   if (posture_gain <= 0.0) return;
   // The displacement to rest, minus its component that moves the tool.
-  Posture drift = posture_gain * (rest - q);
+  JointVector drift = posture_gain * (rest - q);
   Vector6 tool_motion = Vector6::Zero();
   for (int j = 0; j < count; ++j) {
     if (fixed[static_cast<std::size_t>(j)]) drift[j] = 0.0;
@@ -145,25 +145,24 @@ void PoseInverseKinematics::Step(const Posture& q, const Posture& rest, double p
 }
 
 PoseError PoseInverseKinematics::Track(const Eigen::Isometry3d& base_from_tool,
-                                       const Posture& longest_step, Posture* q,
-                                       const Posture* rest) const {
+                                       const JointVector& longest_step, JointVector* q,
+                                       const JointVector* rest) const {
   const Target target{base_from_tool.linear(), base_from_tool.translation()};
   Clamp(q);
-  const Posture before = *q;
+  const JointVector before = *q;
   Work work;
   work.step.resize(chain_.size());
   for (int i = 0; i < options_.tracking_iterations; ++i) {
     Evaluate(target, *q, &work);
     const double near = 1.0 - std::sqrt(work.squared()) / kErrorWithoutDrift;
     // Only the first iteration of a call drifts.
-    Step(*q, rest ? *rest : home_, i == 0 ? options_.posture_gain * std::max(0.0, near) : 0.0,
-         &work);
+    Step(*q, rest ? *rest : home_, i == 0 ? options_.rest_gain * std::max(0.0, near) : 0.0, &work);
     const double largest = work.step.cwiseAbs().maxCoeff();
     if (largest > options_.longest_step) work.step *= options_.longest_step / largest;
     *q += work.step;
     Clamp(q);
   }
-  const Posture way = *q - before;
+  const JointVector way = *q - before;
   const double ratio = (way.cwiseAbs().cwiseQuotient(longest_step)).maxCoeff();
   if (ratio > 1.0) {
     *q = before + way / ratio;
@@ -175,7 +174,7 @@ PoseError PoseInverseKinematics::Track(const Eigen::Isometry3d& base_from_tool,
 }
 
 PoseError PoseInverseKinematics::ErrorAt(const Eigen::Isometry3d& base_from_tool,
-                                         const Posture& q) const {
+                                         const JointVector& q) const {
   const Eigen::Isometry3d tool = chain_.Tool(q);
   return {(base_from_tool.translation() - tool.translation()).norm(),
           RotationVectorBetween(tool.linear(), base_from_tool.linear()).norm()};
@@ -183,7 +182,7 @@ PoseError PoseInverseKinematics::ErrorAt(const Eigen::Isometry3d& base_from_tool
 
 // Iterates from solution->q until the target is reached or progress stalls.
 void PoseInverseKinematics::Descend(const Target& target, PoseSolution* solution) const {
-  Posture& q = solution->q;
+  JointVector& q = solution->q;
   Work work;
   work.step.resize(chain_.size());
   std::array<double, kPatience> earlier;
@@ -207,10 +206,10 @@ void PoseInverseKinematics::Descend(const Target& target, PoseSolution* solution
 
 // Samples a few random configurations and returns the one whose tool is nearest to the target:
 // evaluation is cheaper than iteration.
-Posture PoseInverseKinematics::Draft(const Target& target, core::Rng& rng) const {
-  Posture best(chain_.size()), draft(chain_.size());
+JointVector PoseInverseKinematics::SampleStart(const Target& target, core::Rng& rng) const {
+  JointVector best(chain_.size()), draft(chain_.size());
   double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < options_.drafts; ++i) {
+  for (int i = 0; i < options_.samples_per_start; ++i) {
     for (int j = 0; j < chain_.size(); ++j) {
       draft[j] = core::Uniform(rng, lower_[j], upper_[j]);
     }
@@ -226,7 +225,7 @@ Posture PoseInverseKinematics::Draft(const Target& target, core::Rng& rng) const
 }
 
 PoseSolution PoseInverseKinematics::Solve(const Eigen::Isometry3d& base_from_tool,
-                                          const Posture& start, core::Rng& rng) const {
+                                          const JointVector& start, core::Rng& rng) const {
   if (!base_from_tool.matrix().allFinite() || !start.allFinite()) {
     throw core::Error("the target or the start is not finite", "inverse kinematics");
   }
@@ -241,7 +240,7 @@ PoseSolution PoseInverseKinematics::Solve(const Eigen::Isometry3d& base_from_too
   int iterations = 0;
   for (int i = 0; i < options_.starts && !best.reached; ++i) {
     PoseSolution attempt;
-    attempt.q = i == 0 ? start : Draft(target, rng);
+    attempt.q = i == 0 ? start : SampleStart(target, rng);
     Clamp(&attempt.q);
     Descend(target, &attempt);
     iterations += attempt.iterations;

@@ -22,13 +22,13 @@ struct PoseInverseKinematicsOptions {
   double position_tolerance = 1e-3;                       // m
   double angle_tolerance = 0.5 * std::numbers::pi / 180;  // rad
   double angle_weight = 0.3;    // m/rad: weight of angular against linear error
-  double least_damping = 1e-5;  // m^2: damping at the target
+  double min_damping = 1e-5;    // m^2: damping at the target
   double longest_step = 0.5;    // rad or m, largest joint step of an iteration
   int iterations = 40;          // per start of Solve, at most
   int starts = 30;              // of Solve: the first at the given configuration, the others random
-  int drafts = 8;               // random configurations per start; the nearest is used
+  int samples_per_start = 8;    // random configurations per start; the nearest is used
   int tracking_iterations = 2;  // per call of Track
-  double posture_gain = 0.02;   // fraction of the null-space displacement to `rest` per call of
+  double rest_gain = 0.02;      // fraction of the null-space displacement to `rest` per call of
                                 // Track
 
   bool IsValid(std::string* error) const;
@@ -36,7 +36,7 @@ struct PoseInverseKinematicsOptions {
 
 struct PoseSolution {
   bool reached = false;  // true if both tolerances are met
-  Posture q;             // (J) rad or m, within the limits; the best found
+  JointVector q;         // (J) rad or m, within the limits; the best found
   PoseError error;
   int starts = 0;      // number of starts used
   int iterations = 0;  // summed over all starts
@@ -59,32 +59,32 @@ class PoseInverseKinematics {
   // configuration) in the null space, less the farther the tool is from its target. Returns the
   // remaining error. Repeated calls with one target converge, whether it is reachable or not.
   // Requires finite values and vectors of the arm's length.
-  PoseError Track(const Eigen::Isometry3d& base_from_tool, const Posture& longest_step, Posture* q,
-                  const Posture* rest = nullptr) const;
+  PoseError Track(const Eigen::Isometry3d& base_from_tool, const JointVector& longest_step,
+                  JointVector* q, const JointVector* rest = nullptr) const;
 
   // Solves from `start` (J), then from random configurations, until both tolerances are met. A
   // failure does not prove that no solution exists. Throws core::Error for a target or start that
   // is not finite or of another length.
-  PoseSolution Solve(const Eigen::Isometry3d& base_from_tool, const Posture& start,
+  PoseSolution Solve(const Eigen::Isometry3d& base_from_tool, const JointVector& start,
                      core::Rng& rng) const;
 
-  PoseError ErrorAt(const Eigen::Isometry3d& base_from_tool, const Posture& q) const;
+  PoseError ErrorAt(const Eigen::Isometry3d& base_from_tool, const JointVector& q) const;
 
  private:
   struct Target;
   struct Work;
-  void Evaluate(const Target& target, const Posture& q, Work* work) const;
+  void Evaluate(const Target& target, const JointVector& q, Work* work) const;
   // Adds a null-space displacement to the step: `posture_gain` times the displacement to `rest`,
   // projected so that the tool does not move.
-  void Step(const Posture& q, const Posture& rest, double posture_gain, Work* work) const;
+  void Step(const JointVector& q, const JointVector& rest, double rest_gain, Work* work) const;
   bool Reached(const PoseError& error) const;
   void Descend(const Target& target, PoseSolution* solution) const;
-  Posture Draft(const Target& target, core::Rng& rng) const;
-  void Clamp(Posture* q) const;
+  JointVector SampleStart(const Target& target, core::Rng& rng) const;
+  void Clamp(JointVector* q) const;
 
   PoseInverseKinematicsOptions options_;
   ChainKinematics chain_;
-  Posture lower_, upper_, home_;
+  JointVector lower_, upper_, home_;
 };
 
 }  // namespace simwright::robot

@@ -26,7 +26,7 @@ constexpr double kLeastShare = 0.02;  // smallest share of a joint's deviation t
                                       // it
 constexpr int kFinest = 4;            // most knots of the smooth curve per recorded position
 
-std::string Shown(double value) {
+std::string RetimingText(double value) {
   std::ostringstream out;
   out << value;
   return out.str();
@@ -38,7 +38,7 @@ std::string Shown(double value) {
 
 std::string At(const RecordedPath& path, Eigen::Index j, Eigen::Index k) {
   return "joint '" + path.joints[static_cast<std::size_t>(j)] + "' at " +
-         Shown(path.times[static_cast<std::size_t>(k)]) + " s";
+         RetimingText(path.times[static_cast<std::size_t>(k)]) + " s";
 }
 
 void RequireShape(const RecordedPath& path, const std::vector<JointLimits>& limits,
@@ -49,9 +49,9 @@ void RequireShape(const RecordedPath& path, const std::vector<JointLimits>& limi
       limits.size() != path.joints.size() || sliding.size() != path.joints.size()) {
     Fail("the sizes of names, times, positions and limits differ");
   }
-  const bool paced = std::all_of(path.paces.begin(), path.paces.end(),
+  const bool paced = std::all_of(path.speed_ups.begin(), path.speed_ups.end(),
                                  [](double pace) { return pace > 0.0 && std::isfinite(pace); });
-  if (!paced || (!path.paces.empty() && path.paces.size() != path.times.size())) {
+  if (!paced || (!path.speed_ups.empty() && path.speed_ups.size() != path.times.size())) {
     Fail("the paces are not one positive number per position");
   }
   if (count < kLeastPositions || count > kMostPositions) {
@@ -74,7 +74,7 @@ void RequireEvenTimes(const RecordedPath& path) {
   for (std::size_t k = 0; k < path.times.size(); ++k) {
     const double step = k == 0 ? mean : path.times[k] - path.times[k - 1];
     if (std::isfinite(path.times[k]) && step > 0.0 && step <= kMostUneven * mean) continue;
-    Fail("the time of position " + std::to_string(k) + ", " + Shown(path.times[k]) +
+    Fail("the time of position " + std::to_string(k) + ", " + RetimingText(path.times[k]) +
              " s, is not evenly spaced from the previous one",
          "record at a constant rate");
   }
@@ -85,19 +85,20 @@ void RequirePossible(const RecordedPath& path, const std::vector<JointLimits>& l
   for (Eigen::Index j = 0; j < path.positions.cols(); ++j) {
     const bool slides = sliding[static_cast<std::size_t>(j)];
     const JointLimits& limit = limits[static_cast<std::size_t>(j)];
-    const double deviation = slides ? options.sliding_deviation : options.turning_deviation;
-    const double longest = slides ? options.longest_slide : options.longest_turn;
+    const double deviation = slides ? options.prismatic_deviation : options.revolute_deviation;
+    const double longest = slides ? options.max_prismatic_step : options.max_revolute_step;
     for (Eigen::Index k = 0; k < path.positions.rows(); ++k) {
       const double q = path.positions(k, j);
       if (!std::isfinite(q)) Fail(At(path, j, k) + " is not finite");
       if (q < limit.lower - deviation || q > limit.upper + deviation) {
-        Fail(At(path, j, k) + " is at " + Shown(q) + ", outside its limits " + Shown(limit.lower) +
-                 " to " + Shown(limit.upper),
+        Fail(At(path, j, k) + " is at " + RetimingText(q) + ", outside its limits " +
+                 RetimingText(limit.lower) + " to " + RetimingText(limit.upper),
              "record a motion within them");
       }
       const double step = k == 0 ? 0.0 : std::abs(q - path.positions(k - 1, j));
       if (step > longest) {
-        Fail(At(path, j, k) + " jumps by " + Shown(step) + ", more than " + Shown(longest),
+        Fail(At(path, j, k) + " jumps by " + RetimingText(step) + ", more than " +
+                 RetimingText(longest),
              "record it as one motion without resets");
       }
     }
@@ -196,8 +197,8 @@ Eigen::VectorXd Retiming::ArmConfiguration(const Eigen::RowVectorXd& row) const 
 }
 
 double Retiming::Allowed(Eigen::Index joint) const {
-  return sliding_[static_cast<std::size_t>(joint)] ? options_.sliding_deviation
-                                                   : options_.turning_deviation;
+  return sliding_[static_cast<std::size_t>(joint)] ? options_.prismatic_deviation
+                                                   : options_.revolute_deviation;
 }
 
 // Returns the control points of a smooth curve for each joint, with `fineness` knots per recorded
@@ -211,7 +212,7 @@ Eigen::MatrixXd Retiming::Controls(const Eigen::VectorXd& shares, int fineness,
     const JointLimits& limits = limits_[static_cast<std::size_t>(j)];
     const Tube tube{shares[j] * Allowed(j), limits.lower, limits.upper};
     const Eigen::VectorXd fitted =
-        FitInTube(parameters_, path_.positions.col(j), spacing / fineness, tube);
+        FitWithinTube(parameters_, path_.positions.col(j), spacing / fineness, tube);
     *failed = j;
     if (fitted.size() == 0) return {};
     if (j == 0) controls.resize(fitted.size(), path_.positions.cols());
@@ -262,8 +263,8 @@ QuinticSpline Retiming::FitPath(Retimed* result) const {
       shares[j] = std::max(kLeastShare, factor * std::min(shares[j], used));
     }
   }
-  Fail("the tool deviates by " + Shown(result->tool_deviation) +
-           " m from the recording, more than " + Shown(options_.tool_deviation),
+  Fail("the tool deviates by " + RetimingText(result->tool_deviation) +
+           " m from the recording, more than " + RetimingText(options_.tool_deviation),
        "allow more deviation, or record a motion within the joints' limits");
 }
 
@@ -288,14 +289,14 @@ PathDerivatives Retiming::Derivatives(const QuinticSpline& curve, const RestToRe
 // Returns the largest speed-up over the recording as a function of w.
 std::function<double(double)> Retiming::Paces(const RestToRest& ends) const {
   return [this, &ends](double w) {
-    if (path_.paces.empty()) return options_.fastest;
+    if (path_.speed_ups.empty()) return options_.max_speed_up;
     const double u = ends.At(w)[0];
     const auto after = std::upper_bound(parameters_.begin(), parameters_.end(), u);
     const auto next = std::min<std::ptrdiff_t>(after - parameters_.begin(),
                                                static_cast<std::ptrdiff_t>(parameters_.size()) - 1);
     const auto last = std::max<std::ptrdiff_t>(next - 1, 0);
-    return std::min({options_.fastest, path_.paces[static_cast<std::size_t>(last)],
-                     path_.paces[static_cast<std::size_t>(next)]});
+    return std::min({options_.max_speed_up, path_.speed_ups[static_cast<std::size_t>(last)],
+                     path_.speed_ups[static_cast<std::size_t>(next)]});
   };
 }
 
@@ -344,15 +345,15 @@ void Retiming::FailLimits(const PathDerivatives& derivatives, const RestToRest& 
         if (slowness <= most) return;
         most = slowness;
         worst = "joint '" + path_.joints[static_cast<std::size_t>(j)] + "' at " +
-                Shown(0.01 * std::round(100.0 * recorded)) + " s needs " + quantity + " " +
-                Shown(value) + ", the limit is " + Shown(bound);
+                RetimingText(0.01 * std::round(100.0 * recorded)) + " s needs " + quantity + " " +
+                RetimingText(value) + ", the limit is " + RetimingText(bound);
       };
       consider("velocity", derivatives.first(j, i), limit.velocity, 1);
       consider("acceleration", derivatives.second(j, i), limit.acceleration, 2);
       consider("jerk", derivatives.third(j, i), limit.jerk, 3);
     }
   }
-  Fail("the motion would take more than " + Shown(options_.most_stretch) +
+  Fail("the motion would take more than " + RetimingText(options_.max_stretch) +
            " times as long as its recording: " + worst,
        "allow more deviation or a longer stretch");
 }
@@ -369,7 +370,7 @@ Retimed Retiming::Run() {
     const int levels = std::max(1, kTimeLawLevels - i / kTriesALevel);
     TimeLawFit fit = FitTimeLaw(derivatives, ends.length(), limits_, share, Paces(ends), levels);
     result.stretch = TimeTable(fit.law).duration() / result.recorded;
-    if (!fit.found || result.stretch > options_.most_stretch) FailLimits(derivatives, ends);
+    if (!fit.found || result.stretch > options_.max_stretch) FailLimits(derivatives, ends);
     result.trajectory = Sample(curve, ends, &fit.law);
     if (!CheckLimits(result.trajectory, limits_).accepted()) continue;
     const TimeTable table(fit.law);
@@ -388,13 +389,14 @@ Retimed Retiming::Run() {
 bool RetimingOptions::IsValid(std::string* error) const {
   const char* wrong = nullptr;
   if (!(rate >= 10.0 && rate <= 1e4)) wrong = "rate must be in [10, 10000]";
-  if (!(turning_deviation > 0.0 && sliding_deviation > 0.0 && tool_deviation > 0.0)) {
+  if (!(revolute_deviation > 0.0 && prismatic_deviation > 0.0 && tool_deviation > 0.0)) {
     wrong = "deviations must be above 0";
   }
-  if (!(longest_turn > 0.0 && longest_slide > 0.0)) wrong = "longest steps must be above 0";
+  if (!(max_revolute_step > 0.0 && max_prismatic_step > 0.0))
+    wrong = "longest steps must be above 0";
   if (!(ramp >= 0.01 && ramp <= 10.0)) wrong = "ramp must be in [0.01, 10]";
-  if (!(fastest >= 1.0 && fastest <= 100.0)) wrong = "fastest must be in [1, 100]";
-  if (!(most_stretch >= 1.0)) wrong = "most_stretch must be at least 1";
+  if (!(max_speed_up >= 1.0 && max_speed_up <= 100.0)) wrong = "max_speed_up must be in [1, 100]";
+  if (!(max_stretch >= 1.0)) wrong = "max_stretch must be at least 1";
   if (wrong != nullptr && error != nullptr) *error = wrong;
   return wrong == nullptr;
 }

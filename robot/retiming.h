@@ -16,19 +16,19 @@ struct RecordedPath {
   std::vector<std::string> joints;  // (J) names; the fingers may be among them
   std::vector<double> times;        // (K) s, increasing, at roughly uniform intervals
   Eigen::MatrixXd positions;        // (K x J) rad or m
-  std::vector<double> paces;        // (K) largest speed-up at each position, or empty
+  std::vector<double> speed_ups;    // (K) largest speed-up at each position, or empty
 };
 
 struct RetimingOptions {
-  double rate = 1000.0;             // Hz: 1 kHz as libfranka requires
-  double turning_deviation = 2e-3;  // rad: largest deviation of a revolute joint
-  double sliding_deviation = 5e-4;  // m: largest deviation of a prismatic joint
-  double tool_deviation = 1e-3;     // m: largest deviation of the tool, if an arm is given
-  double longest_turn = 0.2;        // rad between recorded positions: a larger step is a jump
-  double longest_slide = 0.05;      // m, the same for a prismatic joint
-  double ramp = 0.1;                // s, duration of the start and stop ramps
-  double fastest = 1.0;             // largest speed-up over the recording
-  double most_stretch = 50.0;       // largest slow-down over the recording; more is an error
+  double rate = 1000.0;               // Hz: 1 kHz as libfranka requires
+  double revolute_deviation = 2e-3;   // rad: largest deviation of a revolute joint
+  double prismatic_deviation = 5e-4;  // m: largest deviation of a prismatic joint
+  double tool_deviation = 1e-3;       // m: largest deviation of the tool, if an arm is given
+  double max_revolute_step = 0.2;     // rad between recorded positions: a larger step is a jump
+  double max_prismatic_step = 0.05;   // m, the same for a prismatic joint
+  double ramp = 0.1;                  // s, duration of the start and stop ramps
+  double max_speed_up = 1.0;          // largest speed-up over the recording
+  double max_stretch = 50.0;          // largest slow-down over the recording; more is an error
 
   bool IsValid(std::string* error) const;
 };

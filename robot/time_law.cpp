@@ -205,11 +205,10 @@ void Search::FindLeast() {
   const auto size = static_cast<std::ptrdiff_t>(law_.coefficients().size());
   least_.assign(static_cast<std::size_t>(size), 0.0);
   for (Eigen::Index point = 0; point < points(); ++point) {
-    const std::ptrdiff_t first =
-        static_cast<std::ptrdiff_t>(
-            PlaceOf(ParameterAt(point), law_.spacing(),
-                    static_cast<std::size_t>(size - (TimeLaw::kSupport - 1)))
-                .interval);
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(
+        PlaceOf(ParameterAt(point), law_.spacing(),
+                static_cast<std::size_t>(size - (TimeLaw::kSupport - 1)))
+            .interval);
     for (std::ptrdiff_t k = first; k < first + TimeLaw::kSupport; ++k) {
       double& least = least_[static_cast<std::size_t>(k)];
       least = std::max(least, 1.0 / fastest_[static_cast<std::size_t>(point)]);
@@ -220,7 +219,7 @@ void Search::FindLeast() {
 // Initializes each coefficient with the mean slowness that velocity and acceleration require near
 // its knot.
 void Search::Begin() {
-  const std::vector<double> speeds = FastestSpeeds(path_, limits_, fastest_);
+  const std::vector<double> speeds = MaxPathSpeeds(path_, limits_, fastest_);
   std::vector<double>& c = law_.coefficients();
   std::vector<double> sum(c.size(), 0.0), weight(c.size(), 0.0);
   for (Eigen::Index point = 0; point < points(); ++point) {

@@ -145,7 +145,7 @@ JointTrajectory CsvReader::Read(std::string_view text) {
   trajectory_.velocities = Columns(1);
   trajectory_.accelerations = Columns(2);
   trajectory_.efforts = Columns(3);
-  RequireWhole(trajectory_, where_);
+  RequireWellFormed(trajectory_, where_);
   return std::move(trajectory_);
 }
 

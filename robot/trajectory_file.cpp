@@ -48,7 +48,7 @@ TrajectoryFormat TrajectoryFormatOf(const fs::path& path) {
 }
 
 std::string TrajectoryText(const JointTrajectory& trajectory, TrajectoryFormat format) {
-  RequireWhole(trajectory, "trajectory");
+  RequireWellFormed(trajectory, "trajectory");
   if (trajectory.joints.size() > kMostTrajectoryJoints ||
       trajectory.times.size() > kMostTrajectorySamples) {
     throw core::Error("the trajectory is larger than its readers accept", "trajectory");

@@ -63,7 +63,7 @@ JointTrajectory Joined(const JointTrajectory& first, const JointTrajectory& seco
     (both.*matrix).resize(first.size(), (first.*matrix).cols() + (second.*matrix).cols());
     (both.*matrix) << first.*matrix, second.*matrix;
   }
-  RequireWhole(both, where);
+  RequireWellFormed(both, where);
   return both;
 }
 
@@ -74,7 +74,7 @@ JointTrajectory Renamed(const JointTrajectory& trajectory,
     const auto found = names.find(joint);
     if (found != names.end()) joint = found->second;
   }
-  RequireWhole(renamed, "joint names");
+  RequireWellFormed(renamed, "joint names");
   return renamed;
 }
 

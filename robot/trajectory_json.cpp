@@ -6,8 +6,8 @@
 namespace simwright::robot {
 namespace {
 
-void AppendRow(const char* name, const Eigen::MatrixXd& matrix, Eigen::Index row,
-               std::string* text) {
+void AppendJsonRow(const char* name, const Eigen::MatrixXd& matrix, Eigen::Index row,
+                   std::string* text) {
   *text += '"';
   *text += name;
   *text += "\": [";
@@ -31,10 +31,10 @@ std::string RosJsonText(const JointTrajectory& trajectory) {
   text += "],\n  \"points\": [\n";
   for (Eigen::Index i = 0; i < trajectory.size(); ++i) {
     text += i == 0 ? "    {" : ",\n    {";
-    AppendRow("positions", trajectory.positions, i, &text);
-    AppendRow("velocities", trajectory.velocities, i, &text);
-    AppendRow("accelerations", trajectory.accelerations, i, &text);
-    AppendRow("effort", trajectory.efforts, i, &text);
+    AppendJsonRow("positions", trajectory.positions, i, &text);
+    AppendJsonRow("velocities", trajectory.velocities, i, &text);
+    AppendJsonRow("accelerations", trajectory.accelerations, i, &text);
+    AppendJsonRow("effort", trajectory.efforts, i, &text);
     const TrajectoryPoint point = PointAt(trajectory.times[static_cast<std::size_t>(i)]);
     text += "\"time_from_start\": {\"sec\": " + std::to_string(point.sec) +
             ", \"nanosec\": " + std::to_string(point.nanosec) + "}}";

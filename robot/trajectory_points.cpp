@@ -102,7 +102,7 @@ JointTrajectory TrajectoryPoints::Finish() const {
   trajectory.velocities = MatrixOf(velocities_);
   trajectory.accelerations = MatrixOf(accelerations_);
   trajectory.efforts = MatrixOf(efforts_);
-  RequireWhole(trajectory, where_);
+  RequireWellFormed(trajectory, where_);
   return trajectory;
 }
 

@@ -9,8 +9,8 @@
 namespace simwright::robot {
 namespace {
 
-void AppendRow(const char* name, const Eigen::MatrixXd& matrix, Eigen::Index row,
-               std::string* text) {
+void AppendYamlRow(const char* name, const Eigen::MatrixXd& matrix, Eigen::Index row,
+                   std::string* text) {
   *text += name;
   *text += ": [";
   for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
@@ -240,10 +240,10 @@ std::string RosYamlText(const JointTrajectory& trajectory) {
   text += "points:\n";
   for (Eigen::Index i = 0; i < trajectory.size(); ++i) {
     text += "- ";
-    AppendRow("positions", trajectory.positions, i, &text);
-    AppendRow("velocities", trajectory.velocities, i, &text);
-    AppendRow("accelerations", trajectory.accelerations, i, &text);
-    AppendRow("effort", trajectory.efforts, i, &text);
+    AppendYamlRow("positions", trajectory.positions, i, &text);
+    AppendYamlRow("velocities", trajectory.velocities, i, &text);
+    AppendYamlRow("accelerations", trajectory.accelerations, i, &text);
+    AppendYamlRow("effort", trajectory.efforts, i, &text);
     const TrajectoryPoint point = PointAt(trajectory.times[static_cast<std::size_t>(i)]);
     text += "time_from_start:\n    sec: " + std::to_string(point.sec) +
             "\n    nanosec: " + std::to_string(point.nanosec) + "\n";

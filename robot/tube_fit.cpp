@@ -172,8 +172,8 @@ Eigen::VectorXd TubeFit::Run() {
 
 }  // namespace
 
-Eigen::VectorXd FitInTube(const std::vector<double>& times, const Eigen::VectorXd& values,
-                          double spacing, const Tube& tube) {
+Eigen::VectorXd FitWithinTube(const std::vector<double>& times, const Eigen::VectorXd& values,
+                              double spacing, const Tube& tube) {
   return TubeFit(times, values, spacing, tube).Run();
 }
 

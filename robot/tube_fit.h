@@ -20,7 +20,7 @@ struct Tube {
 // samples grow between iterations. `spacing` is the sample spacing divided by a whole number: near
 // a limit, which no control point passes, a finer curve can turn more sharply. Returns an empty
 // vector if no such curve was found.
-Eigen::VectorXd FitInTube(const std::vector<double>& times, const Eigen::VectorXd& values,
-                          double spacing, const Tube& tube);
+Eigen::VectorXd FitWithinTube(const std::vector<double>& times, const Eigen::VectorXd& values,
+                              double spacing, const Tube& tube);
 
 }  // namespace simwright::robot

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "assets/joint_load.h"
+#include "assets/joint_gravity_load.h"
 #include "assets/urdf_reader.h"
 #include "sim/rigid_body.h"
 

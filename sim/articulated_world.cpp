@@ -18,7 +18,7 @@
 #include "sim/bullet_shape.h"
 #include "sim/compact_solver.h"
 #include "sim/floor_contact.h"
-#include "sim/joint_velocity_row.h"
+#include "sim/joint_velocity_constraint.h"
 
 namespace simwright::sim {
 namespace {
@@ -44,7 +44,7 @@ double FrictionOf(const RigidBody& link, int index, const Placement& placement) 
 // The constraints of one movable joint.
 struct LoadedJoint {
   double friction = 0.0;
-  std::unique_ptr<JointVelocityRow> motor;  // with friction and damping
+  std::unique_ptr<JointVelocityConstraint> motor;  // with friction and damping
   std::unique_ptr<btMultiBodyJointLimitConstraint> limit;
   std::unique_ptr<btMultiBodyGearConstraint> gear;  // to the leader of a mimic joint
 };
@@ -56,7 +56,7 @@ struct Offset {
   btTransform carrier_from_collider;
 };
 
-struct LoadedBody {
+struct LoadedTree {
   std::shared_ptr<const PreparedBody> prepared;
   const LinkTree* tree = nullptr;
   std::vector<Offset> offsets;  // a carrier's own collider after those of its links
@@ -83,7 +83,7 @@ struct LoadedBody {
 };
 
 // Sets up link `index` >= 1 of the body, rotated to its principal axes.
-void SetUpLink(const ArticulatedBody& body, int index, double mass_scale, LoadedBody* loaded) {
+void SetUpLink(const ArticulatedBody& body, int index, double mass_scale, LoadedTree* loaded) {
   const size_t i = static_cast<size_t>(index);
   const assets::UrdfJoint& joint = body.joints[i - 1];
   const TreeLink& link = loaded->tree->links[i];
@@ -132,7 +132,7 @@ void RequireMass(const ArticulatedBody& body, bool fixed) {
 
 // Couples joint `follower` to multiplier * leader + offset.
 std::unique_ptr<btMultiBodyGearConstraint> GearTo(const assets::UrdfMimic& mimic, int leader,
-                                                  int follower, LoadedBody* loaded) {
+                                                  int follower, LoadedTree* loaded) {
   const btVector3 zero(0, 0, 0);
   const btMatrix3x3 unturned = btMatrix3x3::getIdentity();
   auto gear = std::make_unique<btMultiBodyGearConstraint>(
@@ -144,7 +144,7 @@ std::unique_ptr<btMultiBodyGearConstraint> GearTo(const assets::UrdfMimic& mimic
   return gear;
 }
 
-void AddOffsets(LoadedBody* loaded) {
+void AddOffsets(LoadedTree* loaded) {
   for (const bool own : {false, true}) {
     for (size_t i = 0; i < loaded->colliders.size(); ++i) {
       const int link = static_cast<int>(i);
@@ -171,8 +171,8 @@ class ExclusionFilter : public btOverlapFilterCallback {
     const auto* other = static_cast<const btCollisionObject*>(b->m_clientObject);
     if (one->getUserIndex() != other->getUserIndex()) return true;
     const auto found = pairs_.find(one->getUserIndex());
-    return found == pairs_.end() || !found->second.contains(std::minmax(one->getUserIndex2(),
-                                                                        other->getUserIndex2()));
+    return found == pairs_.end() ||
+           !found->second.contains(std::minmax(one->getUserIndex2(), other->getUserIndex2()));
   }
 
  private:
@@ -209,7 +209,7 @@ struct ArticulatedWorld::Bullet {
   std::unique_ptr<btMultiBodyDynamicsWorld> world;
   btStaticPlaneShape floor_shape{btVector3(0, 0, 1), 0};
   std::unique_ptr<btRigidBody> floor;
-  std::vector<std::unique_ptr<LoadedBody>> bodies;
+  std::vector<std::unique_ptr<LoadedTree>> bodies;
   btAlignedObjectArray<btQuaternion> scratch_turns;
   btAlignedObjectArray<btVector3> scratch_origins;
 
@@ -228,11 +228,11 @@ struct ArticulatedWorld::Bullet {
     world->removeRigidBody(floor.get());
   }
 
-  LoadedBody& Body(int index) { return *bodies.at(static_cast<size_t>(index)); }
+  LoadedTree& Body(int index) { return *bodies.at(static_cast<size_t>(index)); }
 
-  void AddColliders(const ArticulatedBody& body, const Placement& placement, LoadedBody* loaded);
-  void AddJoints(const ArticulatedBody& body, double scale, LoadedBody* loaded);
-  void UpdatePoses(LoadedBody* loaded) {
+  void AddColliders(const ArticulatedBody& body, const Placement& placement, LoadedTree* loaded);
+  void AddJoints(const ArticulatedBody& body, double scale, LoadedTree* loaded);
+  void UpdatePoses(LoadedTree* loaded) {
     loaded->multi->forwardKinematics(scratch_turns, scratch_origins);
     loaded->multi->updateCollisionObjectWorldTransforms(scratch_turns, scratch_origins);
     loaded->PlaceColliders();
@@ -243,7 +243,7 @@ struct ArticulatedWorld::Bullet {
 };
 
 void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const Placement& placement,
-                                            LoadedBody* loaded) {
+                                            LoadedTree* loaded) {
   if (placement.self_contacts && !body.excluded_pairs.empty()) {
     exclusion.Exclude(static_cast<int>(bodies.size()), body.excluded_pairs);
     broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&exclusion);
@@ -286,7 +286,7 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const P
 }
 
 void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double scale,
-                                         LoadedBody* loaded) {
+                                         LoadedTree* loaded) {
   loaded->joints.resize(body.joints.size());
   for (const int i : body.MovingJoints()) {
     const assets::UrdfJoint& joint = body.joints[static_cast<size_t>(i)];
@@ -294,8 +294,8 @@ void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double sca
     const int link = loaded->Joint(i);
     entry.friction = scale * joint.friction;
     entry.motor =
-        std::make_unique<JointVelocityRow>(loaded->multi.get(), link, scale * joint.damping);
-    entry.motor->Wish(0.0, -entry.friction, entry.friction);
+        std::make_unique<JointVelocityConstraint>(loaded->multi.get(), link, scale * joint.damping);
+    entry.motor->SetTarget(0.0, -entry.friction, entry.friction);
     world->addMultiBodyConstraint(entry.motor->constraint());
     if (joint.mimic) {
       entry.gear =
@@ -355,7 +355,7 @@ int ArticulatedWorld::Add(std::shared_ptr<const PreparedBody> prepared,
                           const Placement& placement) {
   const ArticulatedBody& body = prepared->body();
   RequireMass(body, placement.fixed);
-  auto loaded = std::make_unique<LoadedBody>();
+  auto loaded = std::make_unique<LoadedTree>();
   loaded->shapes_by_link = &prepared->shapes_;
   // Links that may collide stay separate: merged into one carrier, they would not.
   loaded->tree = placement.self_contacts ? &prepared->whole_ : &prepared->folded_;
@@ -388,14 +388,14 @@ int ArticulatedWorld::Add(const RigidBody& body, const Eigen::Isometry3d& world_
 }
 
 void ArticulatedWorld::SetPosition(int body, int joint, double position) {
-  LoadedBody& loaded = bullet_->Body(body);
+  LoadedTree& loaded = bullet_->Body(body);
   loaded.multi->setJointPos(loaded.Joint(joint), position);
   loaded.multi->setJointVel(loaded.Joint(joint), 0.0);
   bullet_->UpdatePoses(&loaded);
 }
 
 void ArticulatedWorld::SetRootPose(int body, const Eigen::Isometry3d& world_from_root) {
-  LoadedBody& loaded = bullet_->Body(body);
+  LoadedTree& loaded = bullet_->Body(body);
   loaded.multi->setBaseWorldTransform(
       ToBullet(Eigen::Isometry3d(world_from_root * loaded.tree->links[0].link_from_principal)));
   loaded.multi->setBaseVel(btVector3(0, 0, 0));
@@ -411,17 +411,17 @@ void ArticulatedWorld::Drive(int body, int joint, double velocity, double max_fo
   // Friction takes its share of the force along the motion, and adds to it when braking.
   if (velocity == 0.0 || spare <= 0.0) {
     const double hold = velocity == 0.0 ? max_force + friction : friction;
-    entry.motor->Wish(0.0, -hold, hold);
+    entry.motor->SetTarget(0.0, -hold, hold);
   } else if (velocity > 0.0) {
-    entry.motor->Wish(velocity, -max_force - friction, spare);
+    entry.motor->SetTarget(velocity, -max_force - friction, spare);
   } else {
-    entry.motor->Wish(velocity, -spare, max_force + friction);
+    entry.motor->SetTarget(velocity, -spare, max_force + friction);
   }
 }
 
-void ArticulatedWorld::LetGo(int body, int joint) {
+void ArticulatedWorld::Release(int body, int joint) {
   LoadedJoint& entry = bullet_->Body(body).joints.at(static_cast<size_t>(joint));
-  if (entry.motor) entry.motor->Wish(0.0, -entry.friction, entry.friction);
+  if (entry.motor) entry.motor->SetTarget(0.0, -entry.friction, entry.friction);
 }
 
 void ArticulatedWorld::LimitMimic(int body, int joint, double max_force) {
@@ -431,7 +431,7 @@ void ArticulatedWorld::LimitMimic(int body, int joint, double max_force) {
 }
 
 void ArticulatedWorld::Push(int body, int joint, double force) {
-  LoadedBody& loaded = bullet_->Body(body);
+  LoadedTree& loaded = bullet_->Body(body);
   loaded.multi->addJointTorque(loaded.Joint(joint), force);
 }
 
@@ -454,17 +454,17 @@ void ArticulatedWorld::Step() {
 }
 
 double ArticulatedWorld::Position(int body, int joint) const {
-  const LoadedBody& loaded = bullet_->Body(body);
+  const LoadedTree& loaded = bullet_->Body(body);
   return loaded.multi->getJointPos(loaded.Joint(joint));
 }
 
 double ArticulatedWorld::Velocity(int body, int joint) const {
-  const LoadedBody& loaded = bullet_->Body(body);
+  const LoadedTree& loaded = bullet_->Body(body);
   return loaded.multi->getJointVel(loaded.Joint(joint));
 }
 
 Eigen::Isometry3d ArticulatedWorld::LinkPose(int body, int link) const {
-  const LoadedBody& loaded = bullet_->Body(body);
+  const LoadedTree& loaded = bullet_->Body(body);
   const auto pose = [&](int i) -> Eigen::Isometry3d {
     return FromBullet(loaded.Collider(i)->getWorldTransform()) *
            loaded.Shape(i).body_from_principal().inverse();
@@ -501,7 +501,7 @@ void ArticulatedWorld::Contacts(std::vector<LinkContact>* contacts) const {
 }
 
 assets::Inertial ArticulatedWorld::LoadedInertial(int body, int link) const {
-  const LoadedBody& loaded = bullet_->Body(body);
+  const LoadedTree& loaded = bullet_->Body(body);
   const btMultiBody& multi = *loaded.multi;
   const TreeLink& place = loaded.tree->links.at(static_cast<size_t>(link));
   assets::Inertial inertial;

@@ -88,7 +88,7 @@ class ArticulatedWorld {
   // Drives the joint at `velocity` (rad/s or m/s) with at most `max_force` (N m or N), which
   // includes the joint's friction. Velocity 0 brakes.
   void Drive(int body, int joint, double velocity, double max_force);
-  void LetGo(int body, int joint);
+  void Release(int body, int joint);
   // Limits the force (N m or N) that keeps a mimic joint on its leader; unlimited by default. No
   // effect on other joints.
   void LimitMimic(int body, int joint, double max_force);

@@ -26,7 +26,8 @@ int SphereAt(const std::vector<UrdfShape>& shapes, const std::vector<bool>& used
   return -1;
 }
 
-void Add(const core::TriangleMesh& mesh, const std::optional<Capsule>& capsule, RigidBody* body) {
+void AddCapsule(const core::TriangleMesh& mesh, const std::optional<Capsule>& capsule,
+                RigidBody* body) {
   body->capsules.resize(body->parts.size());
   body->parts.push_back(mesh);
   body->capsules.push_back(capsule);
@@ -51,7 +52,7 @@ void AddShapes(const std::vector<UrdfShape>& shapes, RigidBody* body) {
     used[i] = used[static_cast<size_t>(lower)] = true;
     core::TriangleMesh mesh = assets::CapsuleMesh(shape.radius, shape.length);
     core::Transform(Eigen::Affine3d(shape.link_from_primitive), &mesh);
-    Add(mesh, capsule, body);
+    AddCapsule(mesh, capsule, body);
   }
   for (size_t i = 0; i < shapes.size(); ++i) {
     if (used[i]) continue;
@@ -61,7 +62,7 @@ void AddShapes(const std::vector<UrdfShape>& shapes, RigidBody* body) {
       const Eigen::Vector3d center = shape.link_from_primitive.translation();
       capsule = Capsule{center, center, shape.radius};
     }
-    Add(shape.mesh, capsule, body);
+    AddCapsule(shape.mesh, capsule, body);
   }
 }
 

@@ -34,7 +34,7 @@ double Dot(const double* a, const double* b, int count) {
   return even + odd;
 }
 
-void Add(const double* response, double impulse, int count, double* changed) {
+void AddImpulse(const double* response, double impulse, int count, double* changed) {
   for (int i = 0; i < count; ++i) changed[i] += response[i] * impulse;
 }
 
@@ -162,8 +162,8 @@ double CompactSolver::UnboundedChange(const Row& row) {
 // Changes the impulse; returns the square of the change.
 double CompactSolver::Change(double change, Row* row) {
   row->impulse += change;
-  Add(row->a.response, change, row->a.response_count, row->a.changed);
-  Add(row->b.response, change, row->b.response_count, row->b.changed);
+  AddImpulse(row->a.response, change, row->a.response_count, row->a.changed);
+  AddImpulse(row->b.response, change, row->b.response_count, row->b.changed);
   return change * change;
 }
 

@@ -23,8 +23,8 @@ Eigen::Isometry3d StartPose(const RigidBody& body, const DropOptions& options) {
   return pose;
 }
 
-DropWatch::DropWatch(const RigidBody& body, const DropOptions& options,
-                     const Eigen::Isometry3d& start)
+DropObserver::DropObserver(const RigidBody& body, const DropOptions& options,
+                           const Eigen::Isometry3d& start)
     : body_(body),
       options_(options),
       start_(start),
@@ -32,7 +32,7 @@ DropWatch::DropWatch(const RigidBody& body, const DropOptions& options,
       anchor_(start),
       half_(start) {}
 
-void DropWatch::Observe(double time, const Eigen::Isometry3d& world_from_body) {
+void DropObserver::Observe(double time, const Eigen::Isometry3d& world_from_body) {
   if (time <= options_.settle_time + 1e-9) {
     const Eigen::Vector3d moved =
         world_from_body * body_.inertial.center_of_mass - anchor_ * body_.inertial.center_of_mass;
@@ -51,11 +51,11 @@ void DropWatch::Observe(double time, const Eigen::Isometry3d& world_from_body) {
   const double height = (world_from_body * body_.inertial.center_of_mass).z();
   highest_ = time <= options_.settle_time + 1e-9 ? height : std::max(highest_, height);
   result_.fall = std::max(result_.fall, highest_ - height);
-  if (time <= options_.settle_time + 0.5 * options_.watch_time + 1e-9) half_ = world_from_body;
+  if (time <= options_.settle_time + 0.5 * options_.drift_time + 1e-9) half_ = world_from_body;
   result_.final_pose = world_from_body;
 }
 
-DropResult DropWatch::Finish() const {
+DropResult DropObserver::Finish() const {
   DropResult result = result_;
   result.tilt = TiltBetween(start_, result.rest_pose);
   const auto distance = [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
@@ -74,8 +74,8 @@ DropResult DropInBullet(const RigidBody& body, const DropOptions& options) {
   World world;
   const Eigen::Isometry3d start = StartPose(body, options);
   const int index = world.Add(body, start);
-  DropWatch watch(body, options, start);
-  while (world.time() < options.settle_time + options.watch_time - 1e-9) {
+  DropObserver watch(body, options, start);
+  while (world.time() < options.settle_time + options.drift_time - 1e-9) {
     world.Step();
     watch.Observe(world.time(), world.Pose(index));
   }

@@ -9,7 +9,7 @@ namespace simwright::sim {
 struct DropOptions {
   double height = 0.01;      // m, initial height of the lowest point above the floor
   double settle_time = 2.0;  // s, within which the body must come to rest
-  double watch_time = 2.0;   // s, of the drift measurement afterwards
+  double drift_time = 2.0;   // s, of the drift measurement afterwards
   // The largest speed (m/s) of a resting body: over rest_window, no point moves farther than at
   // this speed. It is ODE's default for putting bodies to sleep, which also averages over some
   // steps. Slower creep shows in the drift.
@@ -40,9 +40,9 @@ DropResult DropInBullet(const RigidBody& body, const DropOptions& options = {});
 double TiltBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);
 
 // Accumulates a DropResult from the trajectory of any engine.
-class DropWatch {
+class DropObserver {
  public:
-  DropWatch(const RigidBody& body, const DropOptions& options, const Eigen::Isometry3d& start);
+  DropObserver(const RigidBody& body, const DropOptions& options, const Eigen::Isometry3d& start);
   // Processes a step. Called once per step, with the time since the start.
   void Observe(double time, const Eigen::Isometry3d& world_from_body);
   DropResult Finish() const;

@@ -26,7 +26,7 @@ double LowerOf(const assets::UrdfJoint& joint) {
 
 void ResetJoints(const ArticulatedBody& body, JointRig* rig) {
   for (const int i : body.MovingJoints()) {
-    rig->LetGo(i);
+    rig->Release(i);
     rig->SetPosition(i, std::max(0.0, LowerOf(JointOf(body, i))));
   }
 }
@@ -79,12 +79,12 @@ SweepResult SweepJoint(const ArticulatedBody& body, int joint, JointRig* rig) {
     if (direction < 0.0) result.lowest = reached;
     core::CheckCancelled();
   }
-  rig->LetGo(joint);
+  rig->Release(joint);
   return result;
 }
 
-double DriftWhenLetGo(const ArticulatedBody& body, int joint, double position, double seconds,
-                      JointRig* rig) {
+double DriftAfterRelease(const ArticulatedBody& body, int joint, double position, double seconds,
+                         JointRig* rig) {
   ResetJoints(body, rig);
   rig->SetPosition(joint, position);
   double drift = 0.0;
@@ -114,7 +114,7 @@ double TiltWhenOpened(const ArticulatedBody& body, int joint, JointRig* rig) {
   run(0.25, false);  // settle first
   rig->Drive(joint, drive.velocity, drive.max_force);
   run(kSweepSeconds, true);
-  rig->LetGo(joint);
+  rig->Release(joint);
   run(1.0, false);
   core::CheckCancelled();
   return tilt;
@@ -123,9 +123,9 @@ double TiltWhenOpened(const ArticulatedBody& body, int joint, JointRig* rig) {
 DropResult DropRig(const RigidBody& whole, const DropOptions& options, JointRig* rig) {
   const Eigen::Isometry3d start = StartPose(whole, options);
   rig->SetRootPose(start);
-  DropWatch watch(whole, options, start);
+  DropObserver watch(whole, options, start);
   for (const double begin = rig->time();
-       rig->time() - begin < options.settle_time + options.watch_time - 1e-9;) {
+       rig->time() - begin < options.settle_time + options.drift_time - 1e-9;) {
     rig->Step();
     watch.Observe(rig->time() - begin, rig->LinkPose(0));
   }

@@ -33,8 +33,8 @@ struct SweepResult {
 SweepResult SweepJoint(const ArticulatedBody& body, int joint, JointRig* rig);
 
 // Returns how far the joint moves in `seconds` after its release at `position`; rad or m.
-double DriftWhenLetGo(const ArticulatedBody& body, int joint, double position, double seconds,
-                      JointRig* rig);
+double DriftAfterRelease(const ArticulatedBody& body, int joint, double position, double seconds,
+                         JointRig* rig);
 
 // Opens one joint of a body that stands free on the floor and releases it: returns the largest tilt
 // of its root until one second after, rad. The rig's root must be free.

@@ -21,7 +21,7 @@ class RigInBullet : public JointRig {
   void Drive(int joint, double velocity, double max_force) override {
     world_.Drive(index_, joint, velocity, max_force);
   }
-  void LetGo(int joint) override { world_.LetGo(index_, joint); }
+  void Release(int joint) override { world_.Release(index_, joint); }
   void Step() override { world_.Step(); }
   double time() const override { return world_.time(); }
   double Position(int joint) const override { return world_.Position(index_, joint); }

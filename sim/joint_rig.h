@@ -31,7 +31,7 @@ class JointRig {
   // Drives the joint at `velocity` with at most about `max_force`, which includes the joint's
   // friction and load.
   virtual void Drive(int joint, double velocity, double max_force) = 0;
-  virtual void LetGo(int joint) = 0;
+  virtual void Release(int joint) = 0;
   virtual void Step() = 0;
   virtual double time() const = 0;  // s
   virtual double Position(int joint) const = 0;

@@ -79,8 +79,8 @@ DropResult DropInMujoco(const RigidBody& body, const fs::path& mjcf, const DropO
   MujocoWorld world(mjcf);
   const Eigen::Isometry3d start = StartPose(body, options);
   world.SetPose(0, start);
-  DropWatch watch(body, options, start);
-  while (world.time() < options.settle_time + options.watch_time - 1e-9) {
+  DropObserver watch(body, options, start);
+  while (world.time() < options.settle_time + options.drift_time - 1e-9) {
     world.Step();
     watch.Observe(world.time(), world.Pose(0));
   }

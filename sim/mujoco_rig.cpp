@@ -61,10 +61,10 @@ class RigInMujoco : public JointRig {
     ZeroVelocities();
   }
   void Drive(int joint, double velocity, double max_force) override {
-    LetGo(joint);
+    Release(joint);
     motors_[joint] = {velocity, max_force, data_->time};
   }
-  void LetGo(int joint) override {
+  void Release(int joint) override {
     motors_.erase(joint);
     const int dof = Dof(joint);
     model_->dof_damping[dof] = damping_[static_cast<size_t>(dof)];

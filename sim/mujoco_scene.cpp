@@ -39,7 +39,8 @@ class SceneFile {
     const fs::path folder = fs::absolute(mjcf).parent_path();
     const std::string model = core::ReadFile(mjcf);
     int geoms = 0;
-    for (size_t at = model.find("<geom"); at != std::string::npos; at = model.find("<geom", at + 1)) {
+    for (size_t at = model.find("<geom"); at != std::string::npos;
+         at = model.find("<geom", at + 1)) {
       ++geoms;
     }
     std::string pattern = (fs::temp_directory_path() / "simwright_scene_XXXXXX.xml").string();

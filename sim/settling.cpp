@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "sim/drop_test.h"
-#include "sim/point_way.h"
+#include "sim/max_displacement.h"
 #include "sim/world.h"
 
 namespace simwright::sim {
@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 double Displacement(const RigidBody& body, double radius, const Isometry3d& from,
                     const Isometry3d& to) {
-  return FarthestWay(body.inertial.center_of_mass, radius, from, to);
+  return MaxDisplacement(body.inertial.center_of_mass, radius, from, to);
 }
 
 void Load(const std::vector<SettlingBody>& bodies, World* world) {
@@ -69,9 +69,9 @@ class Simulation {
       SettledBody stays;
       stays.world_from_body = bodies_[i].world_from_body;
       settled.push_back(bodies_[i].fixed ? stays
-                                         : ResultOf(bodies_[i], PoseOf(i), options_.fallen));
+                                         : ResultOf(bodies_[i], PoseOf(i), options_.fall_distance));
     }
-    world_.Rest();  // cached contact impulses may hold an object that slips without them
+    world_.ZeroVelocities();  // cached contact impulses may hold an object that slips without them
     CheckStability(&settled);
     for (size_t i = 0; i < settled.size(); ++i) {
       if (removed_[i]) settled[i].drift = HUGE_VAL;
@@ -85,7 +85,7 @@ class Simulation {
     WorldOptions world;
     world.time_step = options.time_step;
     world.solver_iterations = options.solver_iterations;
-    world.firm_contacts = true;
+    world.full_warm_start = true;
     world.floor_reach = kFloorReach;
     return world;
   }
@@ -117,7 +117,7 @@ class Simulation {
   void RemoveFallen() {
     for (size_t i = 0; i < bodies_.size(); ++i) {
       if (bodies_[i].fixed || removed_[i]) continue;
-      removed_[i] = HasFallen(bodies_[i], PoseOf(i), options_.fallen);
+      removed_[i] = HasFallen(bodies_[i], PoseOf(i), options_.fall_distance);
       if (removed_[i]) world_.Remove(static_cast<int>(i));
     }
   }
@@ -125,11 +125,13 @@ class Simulation {
   // Tilts gravity once around, then restores it.
   void TiltGravity() {
     const double down = WorldOptions().gravity;
-    const int steps = static_cast<int>(std::lround(options_.sway_time / options_.time_step));
+    const int steps =
+        static_cast<int>(std::lround(options_.gravity_tilt_time / options_.time_step));
     for (int i = 0; i < steps; ++i) {
-      const double turn = 2.0 * std::numbers::pi * i / steps, aside = std::sin(options_.sway);
+      const double turn = 2.0 * std::numbers::pi * i / steps,
+                   aside = std::sin(options_.gravity_tilt);
       world_.SetGravity(down * Vector3d(aside * std::cos(turn), aside * std::sin(turn),
-                                        -std::cos(options_.sway)));
+                                        -std::cos(options_.gravity_tilt)));
       world_.Step();
     }
     world_.SetGravity({0.0, 0.0, -down});
@@ -137,9 +139,9 @@ class Simulation {
 
   void Settle() {
     double elapsed = 0.0;
-    if (options_.sway > 0.0 && options_.sway_time < options_.duration) {
+    if (options_.gravity_tilt > 0.0 && options_.gravity_tilt_time < options_.duration) {
       TiltGravity();
-      elapsed = options_.sway_time;
+      elapsed = options_.gravity_tilt_time;
     }
     std::vector<Isometry3d> before = Poses();
     while (elapsed < options_.duration - 1e-9) {
@@ -199,15 +201,16 @@ bool SettlingOptions::IsValid(std::string* error) const {
     return fails("time_step must be above 0 and at most 0.02 s");
   }
   if (solver_iterations < 1) return fails("solver_iterations must be at least 1");
-  if (!(sway >= 0.0) || sway > 0.5) return fails("sway must be 0 to 0.5 rad");
+  if (!(gravity_tilt >= 0.0) || gravity_tilt > 0.5)
+    return fails("gravity_tilt must be 0 to 0.5 rad");
   if (!(settling_friction >= 0.0) || settling_friction > 10.0) {
     return fails("settling_friction must be 0 to 10");
   }
-  if (!(sway_time >= 0.0)) return fails("sway_time must be at least 0 s");
+  if (!(gravity_tilt_time >= 0.0)) return fails("gravity_tilt_time must be at least 0 s");
   if (!(stable > 0.0)) return fails("stable must be above 0 m");
   if (!(resting >= 0.0)) return fails("resting must be at least 0 m");
   if (!(pace >= 0.0)) return fails("pace must be at least 0");
-  if (!(fallen > 0.0)) return fails("fallen must be above 0 m");
+  if (!(fall_distance > 0.0)) return fails("fall_distance must be above 0 m");
   return true;
 }
 

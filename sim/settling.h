@@ -22,8 +22,8 @@ struct SettlingOptions {
   double watch = 2.0;     // s, of the stability check afterwards
   // The angle (rad) by which gravity tilts, once around, in the first `sway_time` (s): topples
   // balanced objects.
-  double sway = 0.0;
-  double sway_time = 0.1;
+  double gravity_tilt = 0.0;
+  double gravity_tilt_time = 0.1;
   // The friction factor during settling: below 1, resting objects have a friction margin.
   double settling_friction = 1.0;
   // s. Stacks of five are stable at 1 ms; at 240 Hz the upper ones creep.
@@ -41,12 +41,12 @@ struct SettlingOptions {
   double pace = 4.0;
   // m below its initial height: a lower object has fallen off its support. It is removed, so that
   // it topples nothing and its rolling delays nobody; not if `resting` is 0.
-  double fallen = 0.05;
+  double fall_distance = 0.05;
 
   bool IsValid(std::string* error) const;
 };
 
-// The result for one body. Displacements are the largest of any of its points (FarthestWay).
+// The result for one body. Displacements are the largest of any of its points (MaxDisplacement).
 struct SettledBody {
   Eigen::Isometry3d world_from_body = Eigen::Isometry3d::Identity();  // after settling
   double moved = 0.0;   // m, displacement from the initial pose

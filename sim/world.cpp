@@ -75,7 +75,7 @@ World::World(const WorldOptions& options)
   bullet_->world.setGravity(btVector3(0, 0, -options.gravity));
   btContactSolverInfo& solver = bullet_->world.getSolverInfo();
   solver.m_numIterations = options.solver_iterations;
-  if (options.firm_contacts) {
+  if (options.full_warm_start) {
     solver.m_warmstartingFactor = 1.0;
     solver.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
   }
@@ -145,7 +145,7 @@ void World::ScaleFriction(double scale) {
   bullet_->floor->setFriction(share * options_.floor_friction);
 }
 
-void World::Rest() {
+void World::ZeroVelocities() {
   const btVector3 zero(0, 0, 0);
   btOverlappingPairCache* const pairs = bullet_->broadphase.getOverlappingPairCache();
   for (const LoadedBody& body : bullet_->bodies) {

@@ -19,7 +19,7 @@ struct WorldOptions {
   // World only: contacts warm-start with all of the last step's impulses and have two friction
   // directions, which reduces the creep of resting objects. Drop tests keep Bullet's own settings,
   // with which their figures were measured.
-  bool firm_contacts = false;
+  bool full_warm_start = false;
   // The height (m) of the floor's AABB: more than an object falls in a step. With Bullet's own
   // infinite bound, each part of all objects on a table is tested against the floor in each step.
   // Drop tests keep that: another contact order may end in another resting pose.
@@ -57,7 +57,7 @@ class World {
   void SetGravity(const Eigen::Vector3d& gravity);
 
   // Zeroes velocities and clears the contact cache.
-  void Rest();
+  void ZeroVelocities();
 
   // Advances by one time step.
   void Step();

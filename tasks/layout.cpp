@@ -32,22 +32,24 @@ Pose Turned(double angle) {
 }
 
 // Returns the yaw that turns the object's front, the side of its handles and receptacles, to -x.
-double YawToFront(const Thing& thing) {
-  const std::vector<Pose> poses = LinkPosesOf(thing, RestPositions(thing));
+double YawToFront(const ArticulatedObject& object) {
+  const std::vector<Pose> poses = LinkPosesOf(object, RestPositions(object));
   Eigen::Vector2d front = Eigen::Vector2d::Zero();
-  const Eigen::AlignedBox3d& body = thing.links[0].outline.empty() ? thing.box : thing.links[0].box;
+  const Eigen::AlignedBox3d& body =
+      object.links[0].extreme_points.empty() ? object.box : object.links[0].box;
   const Eigen::Vector2d middle = body.center().head<2>();
-  for (const ThingJoint& joint : thing.joints) {
-    const auto grip = static_cast<std::size_t>(joint.grip);
-    const Eigen::Vector3d point = poses[grip] * thing.links[grip].middle;
+  for (const ObjectJoint& joint : object.joints) {
+    const auto grip = static_cast<std::size_t>(joint.grasp_link);
+    const Eigen::Vector3d point = poses[grip] * object.links[grip].middle;
     // The side on which the handle is located or protrudes.
     const Eigen::Vector2d out =
         (point.head<2>() - middle).cwiseQuotient(body.sizes().head<2>().cwiseMax(1e-6));
     const int axis = std::abs(out.x()) >= std::abs(out.y()) ? 0 : 1;
     front[axis] += out[axis] > 0.0 ? 1.0 : -1.0;
   }
-  for (const Cavity& cavity : thing.cavities) {
-    front += (poses[static_cast<std::size_t>(cavity.link)].linear() * cavity.opening).head<2>();
+  for (const Receptacle& receptacle : object.receptacles) {
+    front +=
+        (poses[static_cast<std::size_t>(receptacle.link)].linear() * receptacle.opening).head<2>();
   }
   if (front.norm() < 0.05) return 0.0;  // library assets face -x
   const int axis = std::abs(front.x()) >= std::abs(front.y()) ? 0 : 1;
@@ -56,9 +58,9 @@ double YawToFront(const Thing& thing) {
   return std::numbers::pi - angle;
 }
 
-class Planner {
+class LayoutPlanner {
  public:
-  Planner(const SceneModel& model, const LayoutRequest& request, core::Rng& rng)
+  LayoutPlanner(const SceneModel& model, const LayoutRequest& request, core::Rng& rng)
       : model_(model), request_(request), rng_(rng) {}
 
   std::optional<InitialState> Plan() {
@@ -72,57 +74,57 @@ class Planner {
                                          Eigen::Vector2d::Constant(kRobotRadius))};
         if (PlaceAll()) return start_;
       }
-      if (request_.worked.empty()) break;
+      if (request_.operated.empty()) break;
     }
     return std::nullopt;
   }
 
  private:
-  bool IsSupported(int thing) const {
+  bool IsSupported(int object) const {
     return std::any_of(request_.resting.begin(), request_.resting.end(),
-                       [&](const Resting& resting) { return resting.thing == thing; });
+                       [&](const SupportRelation& resting) { return resting.object == object; });
   }
 
   bool PlaceAll() {
     int articulated = 0;
-    for (int thing : request_.things) {
-      if (!model_.things[static_cast<std::size_t>(thing)].articulated() || IsSupported(thing))
+    for (int object : request_.objects) {
+      if (!model_.objects[static_cast<std::size_t>(object)].articulated() || IsSupported(object))
         continue;
       constexpr std::array<double, 4> kDirections = {0.0, 80.0, -80.0, 160.0};
       if (articulated == static_cast<int>(kDirections.size())) return false;
-      if (!PlaceArticulated(thing,
+      if (!PlaceArticulated(object,
                             kDirections[static_cast<std::size_t>(articulated++)] * kDegree)) {
         return false;
       }
     }
-    for (int thing : request_.things) {
-      if (model_.things[static_cast<std::size_t>(thing)].articulated() || IsSupported(thing))
+    for (int object : request_.objects) {
+      if (model_.objects[static_cast<std::size_t>(object)].articulated() || IsSupported(object))
         continue;
-      if (!PlaceBeside(thing)) return false;
+      if (!PlaceBeside(object)) return false;
     }
-    for (const Resting& resting : request_.resting) {
+    for (const SupportRelation& resting : request_.resting) {
       if (!PlaceResting(resting)) return false;
     }
     return true;
   }
 
-  void Add(int thing, const Pose& pose) {
-    const Thing& known = model_.things[static_cast<std::size_t>(thing)];
+  void Add(int object, const Pose& pose) {
+    const ArticulatedObject& known = model_.objects[static_cast<std::size_t>(object)];
     start_.placements.push_back({known.name, pose, known.articulated()});
   }
 
   SceneState State() const { return StateOf(model_, start_); }
 
   // Returns the grasp positions of the operated joints along their paths, in the root's frame.
-  std::vector<Eigen::Vector3d> GripPoints(int thing) const {
-    const auto t = static_cast<std::size_t>(thing);
-    const Thing& known = model_.things[t];
+  std::vector<Eigen::Vector3d> GripPoints(int object) const {
+    const auto t = static_cast<std::size_t>(object);
+    const ArticulatedObject& known = model_.objects[t];
     std::vector<double> positions = RestPositions(known);
     std::vector<Eigen::Vector3d> points;
-    for (const auto& [owner, j] : request_.worked) {
-      if (owner != thing) continue;
-      const ThingJoint& joint = known.joints[static_cast<std::size_t>(j)];
-      const auto grip = static_cast<std::size_t>(joint.grip);
+    for (const auto& [owner, j] : request_.operated) {
+      if (owner != object) continue;
+      const ObjectJoint& joint = known.joints[static_cast<std::size_t>(j)];
+      const auto grip = static_cast<std::size_t>(joint.grasp_link);
       for (double share : {0.0, 0.5, 1.0}) {
         positions[static_cast<std::size_t>(j)] =
             joint.rest() + share * path_share_ * (joint.far() - joint.rest());
@@ -135,21 +137,21 @@ class Planner {
 
   // Returns the AABB that the object sweeps, including the grasp positions of its operated joints,
   // in the root's frame.
-  Eigen::AlignedBox3d SweptBox(int thing) const {
-    const Thing& known = model_.things[static_cast<std::size_t>(thing)];
+  Eigen::AlignedBox3d SweptBox(int object) const {
+    const ArticulatedObject& known = model_.objects[static_cast<std::size_t>(object)];
     Eigen::AlignedBox3d box = known.box;
-    for (const Eigen::Vector3d& point : GripPoints(thing)) box.extend(point);
+    for (const Eigen::Vector3d& point : GripPoints(object)) box.extend(point);
     return box;
   }
 
-  bool PlaceArticulated(int thing, double direction) {
-    const Thing& known = model_.things[static_cast<std::size_t>(thing)];
+  bool PlaceArticulated(int object, double direction) {
+    const ArticulatedObject& known = model_.objects[static_cast<std::size_t>(object)];
     const Pose turn = Turned(YawToFront(known));
     Eigen::AlignedBox3d turned;
     for (int corner = 0; corner < 8; ++corner) {
       turned.extend(turn * known.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
     }
-    const std::vector<Eigen::Vector3d> grips = GripPoints(thing);
+    const std::vector<Eigen::Vector3d> grips = GripPoints(object);
     for (double distance : {0.45, 0.35, 0.55, 0.65, 0.75, 0.9, 1.05}) {
       for (double aside : {0.0, 0.2, -0.2, 0.4, -0.4, 0.6, -0.6, 0.8, -0.8}) {
         const Eigen::Vector3d shift(distance - turned.min().x(), aside - turned.center().y(),
@@ -159,11 +161,11 @@ class Planner {
             std::all_of(grips.begin(), grips.end(), [&](const Eigen::Vector3d& point) {
               // A swinging part must not hit the robot's base.
               return (pose * point).head<2>().norm() > kRobotRadius + 0.05 &&
-                     Reaches(start_.world_from_robot, pose * point);
+                     IsPointReachable(start_.world_from_robot, pose * point);
             });
         if (!reached || !IsFree(pose, known.box)) continue;
-        Add(thing, pose);
-        Occupy(pose, SweptBox(thing));
+        Add(object, pose);
+        Occupy(pose, SweptBox(object));
         return true;
       }
     }
@@ -193,8 +195,8 @@ class Planner {
   }
 
   // Places an object on free floor within reach.
-  bool PlaceBeside(int thing) {
-    const Thing& known = model_.things[static_cast<std::size_t>(thing)];
+  bool PlaceBeside(int object) {
+    const ArticulatedObject& known = model_.objects[static_cast<std::size_t>(object)];
     const double turn = core::Uniform(rng_, -0.3, 0.3);
     const int first = static_cast<int>(core::UniformIndex(rng_, 4));
     constexpr std::array<double, 4> kRadii = {0.45, 0.55, 0.38, 0.65};
@@ -207,8 +209,9 @@ class Planner {
                                                -known.box.min().z()) *
                           Turned(turn) * Eigen::Translation3d(-middle.x(), -middle.y(), 0.0);
         if (!IsFree(pose, known.box)) continue;
-        if (!Reaches(start_.world_from_robot, pose * middle, -Eigen::Vector3d::UnitZ())) continue;
-        Add(thing, pose);
+        if (!IsPointReachable(start_.world_from_robot, pose * middle, -Eigen::Vector3d::UnitZ()))
+          continue;
+        Add(object, pose);
         Occupy(pose, known.box);
         return true;
       }
@@ -216,25 +219,27 @@ class Planner {
     return false;
   }
 
-  bool PlaceResting(const Resting& resting) {
-    const Thing& known = model_.things[static_cast<std::size_t>(resting.thing)];
-    const Thing& holder = model_.things[static_cast<std::size_t>(resting.holder)];
+  bool PlaceResting(const SupportRelation& resting) {
+    const ArticulatedObject& known = model_.objects[static_cast<std::size_t>(resting.object)];
+    const ArticulatedObject& holder = model_.objects[static_cast<std::size_t>(resting.holder)];
     const SceneState state = State();
     const auto h = static_cast<std::size_t>(resting.holder);
     Eigen::Vector3d base;  // position of the centre of its underside
-    if (resting.cavity < 0) {
-      const Eigen::AlignedBox3d box = WorldBox(model_, state, resting.holder, 0);
+    if (resting.receptacle < 0) {
+      const Eigen::AlignedBox3d box = WorldAabb(model_, state, resting.holder, 0);
       base << box.center().head<2>(), box.max().z();
     } else {
-      const Cavity& cavity = holder.cavities[static_cast<std::size_t>(resting.cavity)];
-      Eigen::Vector3d floor = cavity.box.center();
-      const Pose link = state.roots[h] *
-                        LinkPosesOf(holder, state.joints[h])[static_cast<std::size_t>(cavity.link)];
+      const Receptacle& receptacle =
+          holder.receptacles[static_cast<std::size_t>(resting.receptacle)];
+      Eigen::Vector3d floor = receptacle.box.center();
+      const Pose link =
+          state.roots[h] *
+          LinkPosesOf(holder, state.joints[h])[static_cast<std::size_t>(receptacle.link)];
       base = link * floor;
-      base.z() -= 0.5 * cavity.box.sizes().z();
-      const Eigen::Vector3d opening = link.linear() * cavity.opening;
+      base.z() -= 0.5 * receptacle.box.sizes().z();
+      const Eigen::Vector3d opening = link.linear() * receptacle.opening;
       if (std::abs(opening.z()) < kSideOpening) {
-        const double depth = std::abs(cavity.box.sizes().dot(cavity.opening));
+        const double depth = std::abs(receptacle.box.sizes().dot(receptacle.opening));
         const double half = 0.5 * known.box.sizes().head<2>().maxCoeff();
         base += std::max(0.0, 0.5 * depth - half - kBehindOpening) * opening;
       }
@@ -242,8 +247,8 @@ class Planner {
     const Eigen::Vector3d under(known.box.center().x(), known.box.center().y(),
                                 known.box.min().z());
     const Pose pose = Eigen::Translation3d(base - under) * Pose::Identity();
-    if (!Reaches(start_.world_from_robot, pose * known.box.center())) return false;
-    Add(resting.thing, pose);
+    if (!IsPointReachable(start_.world_from_robot, pose * known.box.center())) return false;
+    Add(resting.object, pose);
     return true;
   }
 
@@ -257,13 +262,13 @@ class Planner {
 
 }  // namespace
 
-std::optional<InitialState> LayOut(const SceneModel& model, const LayoutRequest& request,
-                                   core::Rng& rng) {
-  return Planner(model, request, rng).Plan();
+std::optional<InitialState> PlanLayout(const SceneModel& model, const LayoutRequest& request,
+                                       core::Rng& rng) {
+  return LayoutPlanner(model, request, rng).Plan();
 }
 
-bool Reaches(const Eigen::Isometry3d& world_from_robot, const Eigen::Vector3d& point,
-             const std::optional<Eigen::Vector3d>& approach) {
+bool IsPointReachable(const Eigen::Isometry3d& world_from_robot, const Eigen::Vector3d& point,
+                      const std::optional<Eigen::Vector3d>& approach) {
   const Pose robot_from_world = world_from_robot.inverse();
   if (!point.allFinite()) return false;
   robot::ToolTarget target;

@@ -9,18 +9,18 @@
 namespace simwright::tasks {
 
 // The support relation of an object at the start.
-struct Resting {
-  int thing = -1;
-  int holder = -1;  // the object that supports or contains it
-  int cavity = -1;  // the holder's receptacle; in its front where it opens to a side; -1: on top of
-                    // it
+struct SupportRelation {
+  int object = -1;
+  int holder = -1;      // the object that supports or contains it
+  int receptacle = -1;  // the holder's receptacle; in its front where it opens to a side; -1: on
+                        // top of it
 };
 
 struct LayoutRequest {
-  std::vector<int> things;  // all objects to place
-  std::vector<Resting> resting;
+  std::vector<int> objects;  // all objects to place
+  std::vector<SupportRelation> resting;
   // The joints that the robot must be able to reach, as pairs of object and joint.
-  std::vector<std::pair<int, int>> worked;
+  std::vector<std::pair<int, int>> operated;
   // The joints that do not start at their rest position.
   std::vector<JointCondition> joints;
 };
@@ -30,12 +30,12 @@ struct LayoutRequest {
 // reach the handles along their whole path (or at least 0.8 of it). Other objects are placed beside
 // them within reach, or where `resting` specifies. Footprints do not overlap. Returns nullopt if no
 // such placement is found.
-std::optional<InitialState> LayOut(const SceneModel& model, const LayoutRequest& request,
-                                   core::Rng& rng);
+std::optional<InitialState> PlanLayout(const SceneModel& model, const LayoutRequest& request,
+                                       core::Rng& rng);
 
 // Returns true if a Panda on its base can bring the point between its fingertips to `point` (m,
 // world).
-bool Reaches(const Eigen::Isometry3d& world_from_robot, const Eigen::Vector3d& point,
-             const std::optional<Eigen::Vector3d>& approach = std::nullopt);
+bool IsPointReachable(const Eigen::Isometry3d& world_from_robot, const Eigen::Vector3d& point,
+                      const std::optional<Eigen::Vector3d>& approach = std::nullopt);
 
 }  // namespace simwright::tasks

@@ -6,16 +6,16 @@
 namespace simwright::tasks {
 namespace {
 
-std::optional<RewardJointType> TypeOf(assets::UrdfJointType type) {
+std::optional<reward::RewardJointType> TypeOf(assets::UrdfJointType type) {
   switch (type) {
     case assets::UrdfJointType::kFixed:
-      return RewardJointType::kFixed;
+      return reward::RewardJointType::kFixed;
     case assets::UrdfJointType::kRevolute:
-      return RewardJointType::kRevolute;
+      return reward::RewardJointType::kRevolute;
     case assets::UrdfJointType::kContinuous:
-      return RewardJointType::kContinuous;
+      return reward::RewardJointType::kContinuous;
     case assets::UrdfJointType::kPrismatic:
-      return RewardJointType::kPrismatic;
+      return reward::RewardJointType::kPrismatic;
     case assets::UrdfJointType::kFloating:
     case assets::UrdfJointType::kPlanar:
       return std::nullopt;
@@ -25,16 +25,16 @@ std::optional<RewardJointType> TypeOf(assets::UrdfJointType type) {
 
 }  // namespace
 
-RewardAsset NamesOf(const std::string& name, const assets::UrdfModel& model) {
-  RewardAsset asset;
+reward::RewardAsset MakeRewardAsset(const std::string& name, const assets::UrdfModel& model) {
+  reward::RewardAsset asset;
   asset.name = name;
   for (const assets::UrdfLink& link : model.links) asset.links.push_back(link.name);
   for (const assets::UrdfJoint& joint : model.joints) {
-    const std::optional<RewardJointType> type = TypeOf(joint.type);
+    const std::optional<reward::RewardJointType> type = TypeOf(joint.type);
     if (!type) continue;
-    RewardJoint names{joint.name, *type, joint.lower, joint.upper};
-    if (*type == RewardJointType::kFixed) names.lower = names.upper = 0.0;
-    if (*type == RewardJointType::kContinuous) {  // the state wraps around
+    reward::RewardJoint names{joint.name, *type, joint.lower, joint.upper};
+    if (*type == reward::RewardJointType::kFixed) names.lower = names.upper = 0.0;
+    if (*type == reward::RewardJointType::kContinuous) {  // the state wraps around
       names.lower = -std::numbers::pi;
       names.upper = std::numbers::pi;
     }

@@ -14,22 +14,23 @@ Eigen::Vector3d TurnRate(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to,
 }
 
 struct SlotPlace {
-  std::size_t thing = 0;
+  std::size_t object = 0;
   int link = -1;   // -1: the asset as a whole
   int joint = -1;  // -1: none
 };
 
-SlotPlace PlaceOf(const SceneModel& model, const RewardSlot& slot) {
+SlotPlace PlaceOf(const SceneModel& model, const reward::RewardSlot& slot) {
   SlotPlace place;
   if (slot.asset.empty()) return place;
-  const int thing = model.Find(slot.asset);
-  if (thing < 0) throw core::Error("there is no asset '" + slot.asset + "'", "reward program");
-  place.thing = static_cast<std::size_t>(thing);
+  const int object = model.Find(slot.asset);
+  if (object < 0) throw core::Error("there is no asset '" + slot.asset + "'", "reward program");
+  place.object = static_cast<std::size_t>(object);
   if (slot.part.empty()) return place;
-  const bool of_joint =
-      slot.input == RewardInput::kJointState || slot.input == RewardInput::kJointVelocity ||
-      slot.input == RewardInput::kJointLower || slot.input == RewardInput::kJointUpper;
-  const Thing& known = model.things[place.thing];
+  const bool of_joint = slot.input == reward::RewardInput::kJointState ||
+                        slot.input == reward::RewardInput::kJointVelocity ||
+                        slot.input == reward::RewardInput::kJointLower ||
+                        slot.input == reward::RewardInput::kJointUpper;
+  const ArticulatedObject& known = model.objects[place.object];
   (of_joint ? place.joint : place.link) =
       of_joint ? known.FindJoint(slot.part) : known.FindLink(slot.part);
   if (!of_joint && place.link < 0) {
@@ -56,20 +57,20 @@ void Put(const Eigen::AlignedBox3d& box, std::vector<float>* row) {
   }
 }
 
-bool Touches(const SceneState& state, const RewardSlot& slot, const SlotPlace& place) {
+bool Touches(const SceneState& state, const reward::RewardSlot& slot, const SlotPlace& place) {
   if (state.touched < 0) return false;
   if (slot.asset.empty()) return true;
-  return state.touched == static_cast<int>(place.thing) &&
+  return state.touched == static_cast<int>(place.object) &&
          (place.link < 0 || place.link == state.touched_link);
 }
 
 }  // namespace
 
 // The poses of one state; link poses are computed once per object.
-class SignalReader::Moment {
+class SignalReader::StatePoses {
  public:
-  explicit Moment(const SceneModel& model)
-      : model_(model), poses_(model.things.size()), known_(model.things.size()) {}
+  explicit StatePoses(const SceneModel& model)
+      : model_(model), poses_(model.objects.size()), known_(model.objects.size()) {}
 
   void Take(const SceneState* state) {
     state_ = state;
@@ -78,25 +79,25 @@ class SignalReader::Moment {
   bool given() const { return state_ != nullptr; }
   const SceneState& state() const { return *state_; }
 
-  Eigen::Isometry3d LinkPose(std::size_t thing, std::size_t link) {
-    if (!known_[thing]) {
-      LinkPosesOf(model_.things[thing], state_->joints[thing], &poses_[thing]);
-      known_[thing] = true;
+  Eigen::Isometry3d LinkPose(std::size_t object, std::size_t link) {
+    if (!known_[object]) {
+      LinkPosesOf(model_.objects[object], state_->joints[object], &poses_[object]);
+      known_[object] = true;
     }
-    return state_->roots[thing] * poses_[thing][link];
+    return state_->roots[object] * poses_[object][link];
   }
-  Eigen::Vector3d LinkMiddle(std::size_t thing, std::size_t link) {
-    return LinkPose(thing, link) * model_.things[thing].links[link].middle;
+  Eigen::Vector3d LinkMiddle(std::size_t object, std::size_t link) {
+    return LinkPose(object, link) * model_.objects[object].links[link].middle;
   }
-  Eigen::AlignedBox3d Box(std::size_t thing, int link) {
+  Eigen::AlignedBox3d Box(std::size_t object, int link) {
     Eigen::AlignedBox3d box;
-    const std::vector<ThingLink>& links = model_.things[thing].links;
+    const std::vector<ObjectLink>& links = model_.objects[object].links;
     for (std::size_t l = 0; l < links.size(); ++l) {
       if (link >= 0 && l != static_cast<std::size_t>(link)) continue;
-      const Eigen::Isometry3d pose = LinkPose(thing, l);
-      for (const Eigen::Vector3d& point : links[l].outline) box.extend(pose * point);
+      const Eigen::Isometry3d pose = LinkPose(object, l);
+      for (const Eigen::Vector3d& point : links[l].extreme_points) box.extend(pose * point);
     }
-    if (box.isEmpty()) box.extend(state_->roots[thing].translation());
+    if (box.isEmpty()) box.extend(state_->roots[object].translation());
     return box;
   }
 
@@ -109,12 +110,12 @@ class SignalReader::Moment {
 
 struct SignalReader::Place : SlotPlace {};
 
-SignalReader::SignalReader(const SceneModel& model, const std::vector<RewardSlot>& slots)
+SignalReader::SignalReader(const SceneModel& model, const std::vector<reward::RewardSlot>& slots)
     : model_(model),
       slots_(slots),
-      now_(std::make_unique<Moment>(model)),
-      before_(std::make_unique<Moment>(model)) {
-  for (const RewardSlot& slot : slots_) places_.push_back({PlaceOf(model, slot)});
+      now_(std::make_unique<StatePoses>(model)),
+      before_(std::make_unique<StatePoses>(model)) {
+  for (const reward::RewardSlot& slot : slots_) places_.push_back({PlaceOf(model, slot)});
 }
 
 SignalReader::~SignalReader() = default;
@@ -131,35 +132,35 @@ void SignalReader::Read(const SceneState& state, const SceneState* previous, dou
 }
 
 void SignalReader::Write(std::size_t index, double time_step, std::vector<float>* row) {
-  const RewardSlot& slot = slots_[index];
+  const reward::RewardSlot& slot = slots_[index];
   const Place& place = places_[index];
   const auto link = static_cast<std::size_t>(std::max(place.link, 0));
   switch (slot.input) {
-    case RewardInput::kLinkPosition:
-    case RewardInput::kAssetPosition:
-      return Put(now_->LinkMiddle(place.thing, link), row);
-    case RewardInput::kLinkOrientation:
-    case RewardInput::kAssetOrientation:
-      return Put(Eigen::Matrix3d(now_->LinkPose(place.thing, link).linear()), row);
-    case RewardInput::kLinkLinearVelocity:
-    case RewardInput::kAssetLinearVelocity:
+    case reward::RewardInput::kLinkPosition:
+    case reward::RewardInput::kAssetPosition:
+      return Put(now_->LinkMiddle(place.object, link), row);
+    case reward::RewardInput::kLinkOrientation:
+    case reward::RewardInput::kAssetOrientation:
+      return Put(Eigen::Matrix3d(now_->LinkPose(place.object, link).linear()), row);
+    case reward::RewardInput::kLinkLinearVelocity:
+    case reward::RewardInput::kAssetLinearVelocity:
       if (!before_->given()) return;
-      return Put(Eigen::Vector3d((now_->LinkMiddle(place.thing, link) -
-                                  before_->LinkMiddle(place.thing, link)) /
+      return Put(Eigen::Vector3d((now_->LinkMiddle(place.object, link) -
+                                  before_->LinkMiddle(place.object, link)) /
                                  time_step),
                  row);
-    case RewardInput::kLinkAngularVelocity:
-    case RewardInput::kAssetAngularVelocity:
+    case reward::RewardInput::kLinkAngularVelocity:
+    case reward::RewardInput::kAssetAngularVelocity:
       if (!before_->given()) return;
-      return Put(TurnRate(before_->LinkPose(place.thing, link).linear(),
-                          now_->LinkPose(place.thing, link).linear(), time_step),
+      return Put(TurnRate(before_->LinkPose(place.object, link).linear(),
+                          now_->LinkPose(place.object, link).linear(), time_step),
                  row);
-    case RewardInput::kLinkBoundingBox:
-    case RewardInput::kAssetBoundingBox:
-      return Put(now_->Box(place.thing, place.link), row);
-    case RewardInput::kGoalPosition:
+    case reward::RewardInput::kLinkBoundingBox:
+    case reward::RewardInput::kAssetBoundingBox:
+      return Put(now_->Box(place.object, place.link), row);
+    case reward::RewardInput::kGoalPosition:
       return Put(now_->state().goal, row);
-    case RewardInput::kParameter:
+    case reward::RewardInput::kParameter:
       return;
     default:
       return place.joint >= 0 ? WriteJoint(index, time_step, row)
@@ -168,31 +169,31 @@ void SignalReader::Write(std::size_t index, double time_step, std::vector<float>
 }
 
 void SignalReader::WriteGripper(std::size_t index, double time_step, std::vector<float>* row) {
-  const RewardSlot& slot = slots_[index];
+  const reward::RewardSlot& slot = slots_[index];
   const Place& place = places_[index];
   const SceneState& state = now_->state();
   switch (slot.input) {
-    case RewardInput::kGripperPosition:
+    case reward::RewardInput::kGripperPosition:
       return Put(Eigen::Vector3d(state.gripper.translation()), row);
-    case RewardInput::kGripperOrientation:
+    case reward::RewardInput::kGripperOrientation:
       return Put(Eigen::Matrix3d(state.gripper.linear()), row);
-    case RewardInput::kGripperLinearVelocity:
+    case reward::RewardInput::kGripperLinearVelocity:
       if (!before_->given()) return;
       return Put(
           Eigen::Vector3d((state.gripper.translation() - before_->state().gripper.translation()) /
                           time_step),
           row);
-    case RewardInput::kGripperAngularVelocity:
+    case reward::RewardInput::kGripperAngularVelocity:
       if (!before_->given()) return;
       return Put(TurnRate(before_->state().gripper.linear(), state.gripper.linear(), time_step),
                  row);
-    case RewardInput::kGripperOpening:
+    case reward::RewardInput::kGripperOpening:
       (*row)[0] = static_cast<float>(state.opening);
       return;
-    case RewardInput::kGripperContact:
+    case reward::RewardInput::kGripperContact:
       (*row)[0] = Touches(state, slot, place) ? 1.0f : 0.0f;
       return;
-    case RewardInput::kGrasped:
+    case reward::RewardInput::kGrasped:
       (*row)[0] = state.grasped && Touches(state, slot, place) ? 1.0f : 0.0f;
       return;
     default:
@@ -201,25 +202,25 @@ void SignalReader::WriteGripper(std::size_t index, double time_step, std::vector
 }
 
 void SignalReader::WriteJoint(std::size_t index, double time_step, std::vector<float>* row) {
-  const RewardSlot& slot = slots_[index];
+  const reward::RewardSlot& slot = slots_[index];
   const Place& place = places_[index];
   const auto j = static_cast<std::size_t>(place.joint);
-  const ThingJoint& joint = model_.things[place.thing].joints[j];
-  const Thing& thing = model_.things[place.thing];
-  const double q = JointPosition(thing, now_->state().joints[place.thing], j);
+  const ObjectJoint& joint = model_.objects[place.object].joints[j];
+  const ArticulatedObject& object = model_.objects[place.object];
+  const double q = JointPosition(object, now_->state().joints[place.object], j);
   double value = q;
-  if (slot.input == RewardInput::kJointLower) value = joint.lower;
-  if (slot.input == RewardInput::kJointUpper) value = joint.upper;
-  if (slot.input == RewardInput::kJointVelocity) {
+  if (slot.input == reward::RewardInput::kJointLower) value = joint.lower;
+  if (slot.input == reward::RewardInput::kJointUpper) value = joint.upper;
+  if (slot.input == reward::RewardInput::kJointVelocity) {
     value = !before_->given()
                 ? 0.0
-                : (q - JointPosition(thing, before_->state().joints[place.thing], j)) / time_step;
+                : (q - JointPosition(object, before_->state().joints[place.object], j)) / time_step;
   }
   (*row)[0] = static_cast<float>(value);
 }
 
 void SlotValues(const SceneModel& model, const SceneState& state, const SceneState* previous,
-                double time_step, const std::vector<RewardSlot>& slots,
+                double time_step, const std::vector<reward::RewardSlot>& slots,
                 std::vector<std::vector<float>>* values) {
   SignalReader(model, slots).Read(state, previous, time_step, values);
 }

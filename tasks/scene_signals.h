@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "tasks/reward/reward_slot.h"
+#include "reward/reward_slot.h"
 #include "tasks/scene_state.h"
 
 namespace simwright::tasks {
@@ -15,7 +15,7 @@ class SignalReader {
  public:
   // Throws core::Error for a slot of an asset or link that the model does not have. `model` must
   // outlive the reader.
-  SignalReader(const SceneModel& model, const std::vector<RewardSlot>& slots);
+  SignalReader(const SceneModel& model, const std::vector<reward::RewardSlot>& slots);
   ~SignalReader();
   SignalReader(const SignalReader&) = delete;
   SignalReader& operator=(const SignalReader&) = delete;
@@ -28,21 +28,21 @@ class SignalReader {
             std::vector<std::vector<float>>* values);
 
  private:
-  class Moment;
+  class StatePoses;
   struct Place;
   void Write(std::size_t slot, double time_step, std::vector<float>* row);
   void WriteGripper(std::size_t slot, double time_step, std::vector<float>* row);
   void WriteJoint(std::size_t slot, double time_step, std::vector<float>* row);
 
   const SceneModel& model_;
-  std::vector<RewardSlot> slots_;
+  std::vector<reward::RewardSlot> slots_;
   std::vector<Place> places_;
-  std::unique_ptr<Moment> now_, before_;
+  std::unique_ptr<StatePoses> now_, before_;
 };
 
 // Reads one state. Throws as SignalReader does.
 void SlotValues(const SceneModel& model, const SceneState& state, const SceneState* previous,
-                double time_step, const std::vector<RewardSlot>& slots,
+                double time_step, const std::vector<reward::RewardSlot>& slots,
                 std::vector<std::vector<float>>* values);
 
 }  // namespace simwright::tasks

@@ -6,16 +6,16 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "tasks/reward/reward_scene.h"
+#include "reward/reward_scene.h"
+#include "tasks/articulated_object.h"
 #include "tasks/task.h"
-#include "tasks/thing.h"
 
 namespace simwright::tasks {
 
 // The objects that tasks may name. Immutable; shared by any number of states.
 struct SceneModel {
-  std::vector<Thing> things;
-  RewardScene names;  // the same objects as programs may name them
+  std::vector<ArticulatedObject> objects;
+  reward::RewardScene names;  // the same objects as programs may name them
 
   int Find(const std::string& name) const;  // -1: none
 };
@@ -43,10 +43,11 @@ SceneState StateOf(const SceneModel& model, const InitialState& start,
 
 // Returns the position of a link: the centre of its own bounding box, m. The API's position of an
 // asset is that of its root link.
-Eigen::Vector3d LinkPoint(const SceneModel& model, const SceneState& state, int thing, int link);
+Eigen::Vector3d LinkPosition(const SceneModel& model, const SceneState& state, int object,
+                             int link);
 
 // Returns the AABB in the world frame; of all links where `link` is -1.
-Eigen::AlignedBox3d WorldBox(const SceneModel& model, const SceneState& state, int thing,
-                             int link = -1);
+Eigen::AlignedBox3d WorldAabb(const SceneModel& model, const SceneState& state, int object,
+                              int link = -1);
 
 }  // namespace simwright::tasks

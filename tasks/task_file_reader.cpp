@@ -14,16 +14,16 @@
 namespace simwright::tasks {
 namespace {
 
-using Json = nlohmann::json;
+using TaskJson = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr int kDeepest = 32;  // nesting levels; the format has 8
+constexpr int kDeepestTaskFile = 32;  // nesting levels; the format has 8
 
 // A JSON value with its position in the file. Its accessors throw core::Error if it is not of the
 // requested type.
 class Value {
  public:
-  Value(const Json& json, std::string place, const std::string& file)
+  Value(const TaskJson& json, std::string place, const std::string& file)
       : json_(json), place_(std::move(place)), file_(file) {}
 
   [[noreturn]] void Fail(const std::string& what) const {
@@ -89,7 +89,7 @@ class Value {
   }
 
  private:
-  const Json& json_;
+  const TaskJson& json_;
   std::string place_;
   const std::string& file_;
 };
@@ -187,7 +187,7 @@ class TaskReader {
     subtask.description = value["description"].Text();
     subtask.program = LinesFrom(value["program"]);
     subtask.success = value["success"].Text();
-    subtask.start = StartFrom(value["start"]);
+    subtask.start = StartOfNextSubtask(value["start"]);
     if (!value["goal"].is_null()) subtask.goal = VectorFrom(value["goal"]);
     subtask.findings = FindingsFrom(value["findings"]);
     for (const Value& entry : value["attempts"].Elements()) {
@@ -197,7 +197,7 @@ class TaskReader {
     return subtask;
   }
 
-  InitialState StartFrom(const Value& value) const {
+  InitialState StartOfNextSubtask(const Value& value) const {
     value.RequireMembers({"robot", "placements", "joints", "held"});
     InitialState start;
     value["robot"].RequireMembers({"position", "quaternion_wxyz"});
@@ -233,21 +233,21 @@ TaskAsset TaskAssetFrom(const Value& value, const fs::path& folder) {
   return asset;
 }
 
-Json Parsed(std::string_view text, const std::string& where) {
+TaskJson Parsed(std::string_view text, const std::string& where) {
   bool too_deep = false;
-  const auto bounded = [&too_deep](int depth, Json::parse_event_t, Json&) {
-    too_deep = too_deep || depth >= kDeepest;
+  const auto bounded = [&too_deep](int depth, TaskJson::parse_event_t, TaskJson&) {
+    too_deep = too_deep || depth >= kDeepestTaskFile;
     return !too_deep;
   };
-  Json json;
+  TaskJson json;
   try {
-    json = Json::parse(text, bounded);
-  } catch (const Json::parse_error& error) {
+    json = TaskJson::parse(text, bounded);
+  } catch (const TaskJson::parse_error& error) {
     if (too_deep) throw core::Error("is nested too deeply for tasks", where);
     const std::size_t end = std::min<std::size_t>(error.byte, text.size());
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(end), '\n');
     throw core::Error("is no JSON from line " + std::to_string(line) + " on", where);
-  } catch (const Json::exception&) {  // a number beyond the range of every type
+  } catch (const TaskJson::exception&) {  // a number beyond the range of every type
     throw core::Error("holds a number that is too large", where);
   }
   if (too_deep) throw core::Error("is nested too deeply for tasks", where);
@@ -257,7 +257,7 @@ Json Parsed(std::string_view text, const std::string& where) {
 }  // namespace
 
 TaskSet ReadTaskFileText(std::string_view text, const std::string& where, const fs::path& folder) {
-  const Json json = Parsed(text, where);
+  const TaskJson json = Parsed(text, where);
   const Value root(json, "", where);
   if (!json.is_object() || !json.contains("format")) {
     root.Fail("is not a task file: 'format' is missing");

@@ -11,7 +11,7 @@
 namespace simwright::tasks {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedTaskJson = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 double Finite(double value, const std::string& place) {
@@ -19,7 +19,7 @@ double Finite(double value, const std::string& place) {
   return value;
 }
 
-Json ToJson(const Eigen::Vector3d& v, const std::string& place) {
+OrderedTaskJson ToJson(const Eigen::Vector3d& v, const std::string& place) {
   return {Finite(v.x(), place), Finite(v.y(), place), Finite(v.z(), place)};
 }
 
@@ -41,7 +41,7 @@ Eigen::Quaterniond SettledRotation(const Eigen::Isometry3d& pose) {
   return q;
 }
 
-Json PoseJson(const Eigen::Isometry3d& pose, const std::string& place) {
+OrderedTaskJson PoseJson(const Eigen::Isometry3d& pose, const std::string& place) {
   const Eigen::Quaterniond q = SettledRotation(pose);
   return {
       {"position", ToJson(Eigen::Vector3d(pose.translation()), place)},
@@ -50,8 +50,8 @@ Json PoseJson(const Eigen::Isometry3d& pose, const std::string& place) {
 }
 
 // Returns a program as its lines; joining them with line breaks restores it.
-Json LinesJson(std::string_view text) {
-  Json lines = Json::array();
+OrderedTaskJson LinesJson(std::string_view text) {
+  OrderedTaskJson lines = OrderedTaskJson::array();
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     lines.push_back(std::string(text.substr(0, end)));
@@ -62,8 +62,8 @@ Json LinesJson(std::string_view text) {
   return lines;
 }
 
-Json ToJson(const core::Findings& findings, const std::string& place) {
-  Json list = Json::array();
+OrderedTaskJson ToJson(const core::Findings& findings, const std::string& place) {
+  OrderedTaskJson list = OrderedTaskJson::array();
   for (const core::Finding& f : findings) {
     list.push_back({{"code", f.code},
                     {"severity", task_file::kSeverities[static_cast<std::size_t>(f.severity)]},
@@ -75,15 +75,15 @@ Json ToJson(const core::Findings& findings, const std::string& place) {
   return list;
 }
 
-Json ToJson(const InitialState& start, const std::string& place) {
-  Json placements = Json::array();
+OrderedTaskJson ToJson(const InitialState& start, const std::string& place) {
+  OrderedTaskJson placements = OrderedTaskJson::array();
   for (const AssetPlacement& placement : start.placements) {
-    Json entry = {{"asset", placement.asset}};
+    OrderedTaskJson entry = {{"asset", placement.asset}};
     entry.update(PoseJson(placement.world_from_asset, place + ".placements"));
     entry["fixed"] = placement.fixed;
     placements.push_back(entry);
   }
-  Json joints = Json::array();
+  OrderedTaskJson joints = OrderedTaskJson::array();
   for (const JointCondition& joint : start.joints) {
     joints.push_back({{"asset", joint.asset},
                       {"joint", joint.joint},
@@ -95,24 +95,25 @@ Json ToJson(const InitialState& start, const std::string& place) {
           {"held", start.held}};
 }
 
-Json ToJson(const Subtask& subtask, const std::string& place) {
-  Json attempts = Json::array();
+OrderedTaskJson ToJson(const Subtask& subtask, const std::string& place) {
+  OrderedTaskJson attempts = OrderedTaskJson::array();
   for (const Attempt& attempt : subtask.attempts) {
     attempts.push_back({{"program", LinesJson(attempt.program)},
                         {"findings", ToJson(attempt.findings, place + ".attempts")}});
   }
-  return {{"name", subtask.name},
-          {"description", subtask.description},
-          {"program", LinesJson(subtask.program)},
-          {"success", subtask.success},
-          {"start", ToJson(subtask.start, place + ".start")},
-          {"goal", subtask.goal ? ToJson(*subtask.goal, place + ".goal") : Json(nullptr)},
-          {"findings", ToJson(subtask.findings, place + ".findings")},
-          {"attempts", attempts}};
+  return {
+      {"name", subtask.name},
+      {"description", subtask.description},
+      {"program", LinesJson(subtask.program)},
+      {"success", subtask.success},
+      {"start", ToJson(subtask.start, place + ".start")},
+      {"goal", subtask.goal ? ToJson(*subtask.goal, place + ".goal") : OrderedTaskJson(nullptr)},
+      {"findings", ToJson(subtask.findings, place + ".findings")},
+      {"attempts", attempts}};
 }
 
-Json ToJson(const Task& task, const std::string& place) {
-  Json subtasks = Json::array();
+OrderedTaskJson ToJson(const Task& task, const std::string& place) {
+  OrderedTaskJson subtasks = OrderedTaskJson::array();
   for (std::size_t i = 0; i < task.subtasks.size(); ++i) {
     subtasks.push_back(ToJson(task.subtasks[i], place + ".subtasks[" + std::to_string(i) + "]"));
   }
@@ -135,12 +136,15 @@ std::string StoredPath(const std::string& path, const fs::path& folder) {
 }
 
 // Appends `json` as Json::dump does, with related numbers on one line.
-void AppendIndented(const Json& json, std::size_t indentation, std::string* text) {
-  const auto leaf = [](const Json& value) { return !value.is_structured() || value.empty(); };
-  const bool numbers = json.is_array() && std::all_of(json.begin(), json.end(),
-                                                      [](const Json& n) { return n.is_number(); });
+void AppendIndented(const OrderedTaskJson& json, std::size_t indentation, std::string* text) {
+  const auto leaf = [](const OrderedTaskJson& value) {
+    return !value.is_structured() || value.empty();
+  };
+  const bool numbers =
+      json.is_array() &&
+      std::all_of(json.begin(), json.end(), [](const OrderedTaskJson& n) { return n.is_number(); });
   if (leaf(json) || numbers) {
-    std::string line = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string line = json.dump(-1, ' ', false, OrderedTaskJson::error_handler_t::replace);
     for (std::size_t i = 0; numbers && i < line.size(); ++i) {
       if (line[i] == ',') line.insert(++i, " ");
     }
@@ -161,17 +165,18 @@ void AppendIndented(const Json& json, std::size_t indentation, std::string* text
 }  // namespace
 
 std::string TaskFileText(const TaskSet& set, const fs::path& folder) {
-  Json assets = Json::array();
+  OrderedTaskJson assets = OrderedTaskJson::array();
   for (const TaskAsset& asset : set.assets) {
     assets.push_back({{"name", asset.name},
                       {"path", StoredPath(asset.path, folder)},
                       {"category", asset.category}});
   }
-  Json tasks = Json::array();
+  OrderedTaskJson tasks = OrderedTaskJson::array();
   for (std::size_t i = 0; i < set.tasks.size(); ++i) {
     tasks.push_back(ToJson(set.tasks[i], "tasks[" + std::to_string(i) + "]"));
   }
-  const Json json = {{"format", task_file::kFormat}, {"assets", assets}, {"tasks", tasks}};
+  const OrderedTaskJson json = {
+      {"format", task_file::kFormat}, {"assets", assets}, {"tasks", tasks}};
   std::string text;
   AppendIndented(json, 0, &text);
   return text + "\n";

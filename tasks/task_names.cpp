@@ -6,13 +6,13 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr std::size_t kLongest = 64;  // bytes; with a suffix and an extension far below 255
+constexpr std::size_t kLongestTaskName = 64;  // bytes; with a suffix and an extension far below 255
 
 bool IsAsciiLetter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-bool IsDigit(char c) {
+bool IsNameDigit(char c) {
   return c >= '0' && c <= '9';
 }
 
@@ -67,12 +67,12 @@ std::string SafeName(std::string_view title) {
     std::size_t length = 0;
     const std::uint32_t character = FirstCharacter(title, &length);
     const bool ascii = length == 1;
-    const bool alone = ascii && (IsAsciiLetter(title[0]) || IsDigit(title[0]));
+    const bool alone = ascii && (IsAsciiLetter(title[0]) || IsNameDigit(title[0]));
     const bool joint = ascii && (title[0] == '-' || title[0] == '_') && !name.empty();
     const bool stays = alone || joint || (length > 1 && IsForeignLetter(character));
     if (stays) {
       const bool bridge = gap && !joint && !name.empty() && name.back() != '_';
-      if (name.size() + (bridge ? 1 : 0) + length > kLongest) break;
+      if (name.size() + (bridge ? 1 : 0) + length > kLongestTaskName) break;
       if (bridge) name += '_';
       name += title.substr(0, length);
     }
@@ -87,15 +87,16 @@ std::string UniqueName(const std::string& name, std::set<std::string>* taken) {
   std::string unique = name;
   for (int i = 2; !taken->insert(Folded(unique)).second; ++i) {
     const std::string suffix = "_" + std::to_string(i);
-    unique = WholeCharacters(name, kLongest - suffix.size()) + suffix;
+    unique = WholeCharacters(name, kLongestTaskName - suffix.size()) + suffix;
   }
   return unique;
 }
 
 bool IsAssetName(std::string_view name) {
-  return !name.empty() && name.size() <= kLongest && IsAsciiLetter(name[0]) &&
-         std::all_of(name.begin(), name.end(),
-                     [](char c) { return IsAsciiLetter(c) || IsDigit(c) || c == '_' || c == '-'; });
+  return !name.empty() && name.size() <= kLongestTaskName && IsAsciiLetter(name[0]) &&
+         std::all_of(name.begin(), name.end(), [](char c) {
+           return IsAsciiLetter(c) || IsNameDigit(c) || c == '_' || c == '-';
+         });
 }
 
 }  // namespace simwright::tasks

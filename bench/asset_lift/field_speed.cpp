@@ -12,13 +12,13 @@
 #include <cmath>
 #include <vector>
 
-#include "asset_lift/field_adam.h"
-#include "asset_lift/field_fit.h"
-#include "asset_lift/field_model.h"
-#include "asset_lift/field_surface.h"
-#include "asset_lift/field_targets.h"
-#include "asset_lift/radiance_field.h"
-#include "asset_lift/volume_rendering.h"
+#include "asset_lift/radiance_field/field_adam.h"
+#include "asset_lift/radiance_field/field_fit.h"
+#include "asset_lift/radiance_field/field_model.h"
+#include "asset_lift/radiance_field/field_surface.h"
+#include "asset_lift/radiance_field/field_targets.h"
+#include "asset_lift/radiance_field/radiance_field.h"
+#include "asset_lift/radiance_field/volume_rendering.h"
 #include "core/parallel.h"
 #include "core/random.h"
 
@@ -104,12 +104,12 @@ void View(benchmark::State& state) {
   options.density_scale = 0.1;  // thin: no ray terminates early
   const RadianceField field(options, 1);
   PixelRays pixels;
-  pixels.AppendPicture(core::OrbitCamera(Eigen::Vector3d::Zero(), 2.0, 0.4, 0.7, 0.35, 64, 64));
+  pixels.AppendImage(core::OrbitCamera(Eigen::Vector3d::Zero(), 2.0, 0.4, 0.7, 0.35, 64, 64));
   VolumeRenderOptions render;
   render.finest_step = 1e-3;
   VolumeRenderer<float> renderer(render);
   const OccupancyGrid everywhere;
-  RayPictures<float> pictures, gradient;
+  RayRenderings<float> pictures, gradient;
   gradient.Resize(pixels.rays.size());
   std::fill(gradient.color.begin(), gradient.color.end(), 1e-3f);
   FieldGradient<float> sum;
@@ -153,14 +153,14 @@ ObservedView BallView() {
 }
 
 // An objective that makes each image a little brighter where there is density.
-class Brighter : public PictureObjective {
+class Brighter : public ImageObjective {
  public:
   core::Camera NextCamera(double, core::Rng* rng) override {
     return core::OrbitCamera(Eigen::Vector3d::Zero(), 1.0, core::Uniform(*rng, -0.2, 1.0),
                              core::Uniform(*rng, -M_PI, M_PI), 0.5, 64, 64);
   }
-  double Evaluate(const core::Camera&, const ObjectPicture& picture, double, core::Rng*,
-                  ObjectPicture* gradient) override {
+  double Evaluate(const core::Camera&, const ObjectImage& picture, double, core::Rng*,
+                  ObjectImage* gradient) override {
     *gradient = picture;
     for (float& x : gradient->color.values) x = x > 0.0f ? -1e-3f : 0.0f;
     return 0.0;

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "asset_lift/visual_hull.h"
+#include "asset_lift/multi_view/visual_hull.h"
 #include "core/camera.h"
 #include "geometry/isosurface.h"
 #include "geometry/remesh.h"

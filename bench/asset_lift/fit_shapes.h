@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "asset_lift/observed_view.h"
+#include "asset_lift/camera/observed_view.h"
 #include "core/mesh.h"
 
 namespace simwright {

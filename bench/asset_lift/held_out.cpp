@@ -9,9 +9,9 @@
 #include "assets/furniture_catalogue.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "importers/catalogue_meshes.h"
 #include "physics_params/category_resolution.h"
-#include "pipeline/catalogue_meshes.h"
-#include "pipeline/lift.h"
+#include "workflows/lift/lift.h"
 
 namespace simwright::bench {
 namespace fs = std::filesystem;
@@ -44,7 +44,7 @@ bool CanBeLifted(const assets::FurnitureCatalogue& catalogue, const assets::Cata
   const double longest = piece.size_m.maxCoeff();
   if (longest < 0.03 || longest > 0.9 || CategoryOf(piece.name) == nullptr) return false;
   try {
-    return IsColored(pipeline::ReadCataloguePiece(catalogue, piece, nullptr));
+    return IsColored(importers::ReadCataloguePiece(catalogue, piece, nullptr));
   } catch (const core::Error&) {
     return false;
   }
@@ -125,8 +125,8 @@ std::vector<CatalogueObject> LoadHeldOut(const std::vector<HeldOutPiece>& pieces
                         "--choose writes the list again");
     }
     objects.push_back({wanted.name, category->name,
-                       pipeline::ReadCataloguePiece(*catalogue, *found, nullptr),
-                       pipeline::PriorOf(*category)});
+                       importers::ReadCataloguePiece(*catalogue, *found, nullptr),
+                       workflows::PriorOf(*category)});
   }
   return objects;
 }

@@ -35,7 +35,7 @@
 #include "lift_quality_sheet.h"
 #include "lift_quality_table.h"
 #include "lift_quality_variants.h"
-#include "pipeline/prior_weights.h"
+#include "workflows/priors/prior_weights.h"
 
 namespace simwright::bench {
 namespace fs = std::filesystem;
@@ -216,7 +216,7 @@ std::vector<size_t> Wanted(const std::vector<HeldOutPiece>& pieces, const Settin
 VariantSettings LoadPriors(const Settings& settings) {
   VariantSettings variants;
   core::Findings findings;
-  variants.priors = pipeline::LoadLiftPriors({}, &findings);
+  variants.priors = workflows::LoadLiftPriors({}, &findings);
   for (const core::Finding& finding : findings) {
     std::fprintf(stderr, "%s\n", finding.sentence.c_str());
   }

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "asset_lift/first_guess.h"
-#include "asset_lift/shape_fit.h"
-#include "asset_lift/view_frame.h"
+#include "asset_lift/camera/view_frame.h"
+#include "asset_lift/mesh_fit/shape_fit.h"
+#include "asset_lift/priors/initial_shape.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "texture/photo_projection.h"
@@ -58,7 +58,7 @@ void MakeEllipsoid(asset_lift::LiftedMesh* lifted) {
   const asset_lift::ViewFrame frame = asset_lift::FrameAround(lifted->matte, lifted->camera, 1.0);
   const asset_lift::Matte& matte = lifted->matte;
   const Eigen::Vector2d half(matte.right - matte.left, matte.bottom - matte.top);
-  Paint(asset_lift::EllipsoidGuess(frame, 0.5 * half / frame.half).surface, frame, {}, lifted);
+  Paint(asset_lift::InitialEllipsoid(frame, 0.5 * half / frame.half).surface, frame, {}, lifted);
   lifted->start = "an ellipsoid";
 }
 
@@ -74,7 +74,7 @@ void FitWithoutPrior(const CatalogueObject& object, const asset_lift::LiftOption
   core::Progress silent;
   const asset_lift::ShapeFit fit = asset_lift::FitShape(
       {asset_lift::CropView(lifted->photo, lifted->matte.alpha, frame, options.fit_side)},
-      asset_lift::GuessFrom(outline.mesh), nullptr, nullptr, stages, &silent);
+      asset_lift::InitialShapeFrom(outline.mesh), nullptr, nullptr, stages, &silent);
   Paint(fit.mesh, frame, fit.colors, lifted);
 }
 

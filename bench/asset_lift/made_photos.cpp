@@ -8,10 +8,10 @@
 #include "assets/furniture_catalogue.h"
 #include "core/error.h"
 #include "core/image.h"
+#include "importers/catalogue_meshes.h"
 #include "physics_params/category_resolution.h"
-#include "pipeline/catalogue_meshes.h"
-#include "pipeline/lift.h"
 #include "render/forward.h"
+#include "workflows/lift/lift.h"
 
 namespace simwright::bench {
 namespace fs = std::filesystem;
@@ -113,8 +113,8 @@ std::vector<CatalogueObject> HouseholdObjects(const std::vector<fs::path>& catal
       if (found.category == nullptr || !taken.insert(piece.name).second) continue;
       try {
         objects.push_back({piece.name, found.category->name,
-                           pipeline::ReadCataloguePiece(catalogue, piece, nullptr),
-                           pipeline::PriorOf(*found.category)});
+                           importers::ReadCataloguePiece(catalogue, piece, nullptr),
+                           workflows::PriorOf(*found.category)});
       } catch (const core::Error& error) {
         std::fprintf(stderr, "skipped: %s\n", error.what());
       }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "asset_lift/elevation.h"
-#include "asset_lift/segmentation.h"
+#include "asset_lift/camera/elevation.h"
+#include "asset_lift/segmentation/segmentation.h"
 #include "core/camera.h"
 #include "core/mesh.h"
 #include "core/random.h"

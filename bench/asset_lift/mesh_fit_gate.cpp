@@ -11,12 +11,12 @@
 #include <numeric>
 #include <string>
 
-#include "asset_lift/mesh_fit.h"
-#include "asset_lift/visual_hull.h"
+#include "asset_lift/mesh_fit/mesh_fit.h"
+#include "asset_lift/multi_view/visual_hull.h"
 #include "bench/asset_lift/fit_shapes.h"
 #include "core/parallel.h"
 #include "geometry/alpha_wrap.h"
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 
 namespace simwright {
 namespace {
@@ -56,7 +56,7 @@ void Fit(const FitShape& shape, const std::string& from, int count, int size) {
       asset_lift::FitMesh(start, views, nullptr, options, nullptr);
   const double took = seconds();
   const double processor = static_cast<double>(std::clock() - clock) / CLOCKS_PER_SEC;
-  const geometry::Soundness sound = geometry::Examine(result.mesh);
+  const geometry::MeshValidity sound = geometry::Examine(result.mesh);
   std::printf("%-13s %-7s %6zu  %7.3f%%  %7.3f%%   %.4f   %.4f  %6.1f  %6.1f  %6.1f  %s\n",
               shape.name.c_str(), from.c_str(), result.mesh.triangles.size(),
               100.0 * Chamfer(start, shape.mesh) / diagonal,

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "asset_lift/inflation.h"
+#include "asset_lift/outline/inflation.h"
 #include "core/error.h"
 #include "core/image.h"
 #include "core/parallel.h"

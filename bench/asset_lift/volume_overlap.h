@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "asset_lift/segmentation.h"
+#include "asset_lift/segmentation/segmentation.h"
 #include "core/camera.h"
 #include "core/mesh.h"
 

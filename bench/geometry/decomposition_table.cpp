@@ -22,7 +22,7 @@
 #include "geometry/concavity.h"
 #include "geometry/convex_decomposition.h"
 #include "geometry/convex_hull.h"
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 
 namespace simwright::bench {
 namespace {

@@ -15,8 +15,8 @@
 #include "assets/furniture_catalogue.h"
 #include "assets/mesh_import.h"
 #include "core/error.h"
+#include "geometry/mesh_validity.h"
 #include "geometry/solid.h"
-#include "geometry/soundness.h"
 #include "geometry/surface_distance.h"
 
 namespace simwright::bench {
@@ -39,11 +39,11 @@ void Measure(const core::TriangleMesh& visual, const std::string& name, Tally* t
     const geometry::Solid solid = geometry::MakeSolid(visual);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const geometry::Soundness state = geometry::Examine(solid.mesh);
+    const geometry::MeshValidity state = geometry::Examine(solid.mesh);
     const geometry::SurfaceDistance d = geometry::OuterSurfaceDistance(visual, solid.mesh);
-    const bool good = state.Sound() && d.MaxRatio() <= 0.005;
+    const bool good = state.IsSolid() && d.MaxRatio() <= 0.005;
     tally->seconds.push_back(seconds);
-    tally->sound += state.Sound();
+    tally->sound += state.IsSolid();
     tally->good += good;
     std::printf(
         "%-3s %-32s %-9s faces %7zu -> %6zu  %6.2f s  visual to solid %.3f%% (99%%: %.3f%%)"
@@ -52,7 +52,7 @@ void Measure(const core::TriangleMesh& visual, const std::string& name, Tally* t
         solid.mesh.triangles.size(), seconds, 100.0 * d.visual_to_solid_max / d.diagonal,
         100.0 * d.visual_to_solid_p99 / d.diagonal, 100.0 * d.solid_to_visual_max / d.diagonal,
         100.0 * d.solid_to_visual_p99 / d.diagonal,
-        state.Sound() ? "" : ("  " + geometry::Describe(state)).c_str());
+        state.IsSolid() ? "" : ("  " + geometry::Describe(state)).c_str());
   } catch (const core::Error& error) {
     ++tally->refused;
     std::printf("--- %-32s refused: %s\n", name.c_str(), error.what());

@@ -26,10 +26,10 @@
 #include "core/random.h"
 #include "geometry/convex_hull.h"
 #include "rl/ppo.h"
-#include "rl/skill_environment.h"
 #include "robot/panda_model.h"
 #include "sim/driven_robot.h"
 #include "sim/mujoco_bodies.h"
+#include "skills/skill_environment.h"
 
 namespace simwright {
 namespace {
@@ -60,10 +60,10 @@ enum class Acting { kRandom, kAtHandle };
 // The environments of one variant, kept between repeats.
 class Variant {
  public:
-  Variant(std::string name, const rl::SkillSubtask& scene, const rl::SkillOptions& options,
+  Variant(std::string name, const skills::SkillSubtask& scene, const skills::SkillOptions& options,
           Acting acting, int threads)
       : name_(std::move(name)),
-        environment_(rl::MakeSkill(robot::Panda(false), {scene}, options), kEnvironments),
+        environment_(skills::MakeSkill(robot::Panda(false), {scene}, options), kEnvironments),
         acting_(acting),
         threads_(threads),
         rng_(3) {
@@ -96,7 +96,7 @@ class Variant {
 
  private:
   std::string name_;
-  rl::SkillEnvironment environment_;
+  skills::SkillEnvironment environment_;
   rl::Rows observations_;
   Acting acting_;
   int threads_;
@@ -105,11 +105,11 @@ class Variant {
   double cheapest_ = 1e9;  // us of processor time per control step
 };
 
-void MeasureEnvironments(const rl::SkillSubtask& scene, int repeats) {
-  rl::SkillOptions plain, all_iterations;
+void MeasureEnvironments(const skills::SkillSubtask& scene, int repeats) {
+  skills::SkillOptions plain, all_iterations;
   all_iterations.free_iterations = all_iterations.contact_iterations;
   std::vector<std::unique_ptr<Variant>> variants;
-  const auto add = [&](const char* name, const rl::SkillOptions& options, Acting acting,
+  const auto add = [&](const char* name, const skills::SkillOptions& options, Acting acting,
                        int threads) {
     variants.push_back(std::make_unique<Variant>(name, scene, options, acting, threads));
   };
@@ -126,11 +126,11 @@ void MeasureEnvironments(const rl::SkillSubtask& scene, int repeats) {
   for (const auto& variant : variants) variant->Print();
 }
 
-void MeasureMemory(const rl::SkillSubtask& scene) {
-  const auto skill = rl::MakeSkill(robot::Panda(false), {scene});
+void MeasureMemory(const skills::SkillSubtask& scene) {
+  const auto skill = skills::MakeSkill(robot::Panda(false), {scene});
   malloc_trim(0);  // returns the memory freed after making the assets
   const double before = ResidentMiB();
-  rl::SkillEnvironment environment(skill, kEnvironments);
+  skills::SkillEnvironment environment(skill, kEnvironments);
   rl::Rows observations;
   environment.Reset(1, &observations);
   const rl::Rows actions = rl::Rows::Zero(kEnvironments, environment.action_size());
@@ -140,9 +140,10 @@ void MeasureMemory(const rl::SkillSubtask& scene) {
               ResidentMiB() - before, ResidentMiB());
 }
 
-void MeasurePpo(const rl::SkillSubtask& scene, int repeats) {
+void MeasurePpo(const skills::SkillSubtask& scene, int repeats) {
   core::SetThreadCount(2);
-  rl::SkillEnvironment environment(rl::MakeSkill(robot::Panda(false), {scene}), kEnvironments);
+  skills::SkillEnvironment environment(skills::MakeSkill(robot::Panda(false), {scene}),
+                                       kEnvironments);
   const rl::PpoOptions options;
   rl::Ppo ppo(&environment, options);
   std::vector<rl::Outcome> outcomes;
@@ -168,7 +169,7 @@ struct Bodies {
   Eigen::Isometry3d world_from_microwave, world_from_cup;
 };
 
-Bodies BodiesOf(const rl::SkillSubtask& scene, bool capsules, bool hull) {
+Bodies BodiesOf(const skills::SkillSubtask& scene, bool capsules, bool hull) {
   Bodies bodies;
   bodies.robot = sim::ArticulatedBodyFrom(robot::Panda(false).urdf);
   bodies.microwave = sim::ArticulatedBodyFrom(scene.assets[0].model);
@@ -248,7 +249,7 @@ PhysicsVariant InMujoco(const Bodies& bodies, double time_step) {
           }};
 }
 
-void MeasurePhysics(const rl::SkillSubtask& scene, int repeats) {
+void MeasurePhysics(const skills::SkillSubtask& scene, int repeats) {
   const Bodies bodies = BodiesOf(scene, true, true);
   const Bodies without_capsules = BodiesOf(scene, false, true);
   const Bodies in_parts = BodiesOf(scene, true, false);
@@ -285,7 +286,7 @@ int main(int argc, char** argv) {
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::string(argv[i]) == "--repeats") repeats = std::atoi(argv[i + 1]);
   }
-  const simwright::rl::SkillSubtask scene = simwright::MicrowaveAndCup();
+  const simwright::skills::SkillSubtask scene = simwright::MicrowaveAndCup();
   simwright::MeasureMemory(scene);
   simwright::MeasurePhysics(scene, repeats);
   simwright::MeasureEnvironments(scene, repeats);

@@ -53,7 +53,7 @@ void Train(std::uint64_t seed, std::int64_t samples) {
   const auto start = std::chrono::steady_clock::now();
   rl::InvertedPendulum environment(kEnvironments);
   rl::Ppo ppo(&environment, Options(seed));
-  rl::RecentOutcomes recent(100);
+  rl::OutcomeWindow recent(100);
   std::int64_t solved = 0;
   double sum = 0.0, smallest = 1000.0;
   int played = 0;

@@ -6,7 +6,7 @@
 #include "assets/semantic_model.h"
 #include "core/files.h"
 #include "core/progress.h"
-#include "pipeline/library.h"
+#include "workflows/library/library.h"
 
 namespace simwright {
 namespace {
@@ -24,13 +24,13 @@ constexpr const char* kProgram = R"(def compute_reward(env):
 )";
 
 void Place(const std::string& kind, const Eigen::Vector3d& position, bool fixed,
-           const std::filesystem::path& folder, rl::SkillSubtask* scene) {
-  pipeline::LibraryOptions options;
+           const std::filesystem::path& folder, skills::SkillSubtask* scene) {
+  workflows::LibraryOptions options;
   options.kind = kind;
   options.seed = 2;
   options.check = false;
   core::Progress progress;
-  const auto made = pipeline::MakeLibrary(options, folder, &progress);
+  const auto made = workflows::MakeLibrary(options, folder, &progress);
   assets::SemanticModel model = assets::ReadSemanticModel(made.front().folder);
   model.name = kind;
   scene->assets.push_back(std::move(model));
@@ -43,9 +43,9 @@ void Place(const std::string& kind, const Eigen::Vector3d& position, bool fixed,
 
 }  // namespace
 
-rl::SkillSubtask MicrowaveAndCup() {
+skills::SkillSubtask MicrowaveAndCup() {
   const core::TemporaryFolder folder;
-  rl::SkillSubtask scene;
+  skills::SkillSubtask scene;
   scene.subtask.name = "open_microwave";
   scene.subtask.program = kProgram;
   Place("microwave", {0.675, 0.2, 0.0}, true, folder.path(), &scene);

@@ -21,8 +21,8 @@ double Microseconds(Clock::time_point since) {
   return std::chrono::duration<double, std::micro>(Clock::now() - since).count();
 }
 
-Posture RandomPosture(const Arm& arm, core::Rng& rng) {
-  Posture q(arm.size());
+JointVector RandomPosture(const Arm& arm, core::Rng& rng) {
+  JointVector q(arm.size());
   for (int j = 0; j < arm.size(); ++j) {
     const ArmJoint& joint = arm.joints[static_cast<std::size_t>(j)];
     q[j] = core::Uniform(rng, joint.lower, joint.upper);
@@ -50,7 +50,7 @@ void PrintSolve(const RobotModel& model, int poses) {
   int reached = 0, starts = 0, iterations = 0;
   for (int i = 0; i < poses; ++i) {
     const Eigen::Isometry3d target = ForwardKinematics(model.arm, RandomPosture(model.arm, rng));
-    const Posture home = model.home();
+    const JointVector home = model.home();
     const Clock::time_point start = Clock::now();
     const PoseSolution solution = solver.Solve(target, home, rng);
     times.all.push_back(Microseconds(start));
@@ -67,8 +67,8 @@ void PrintSolve(const RobotModel& model, int poses) {
 // Tracks a circle of 10 cm with the tool in 2 s at 60 Hz.
 void PrintTrack(const RobotModel& model, int poses) {
   const PoseInverseKinematics solver(model.arm);
-  const Posture longest = Posture::Constant(model.arm.size(), 2.0 / 60.0);
-  Posture q = model.home();
+  const JointVector longest = JointVector::Constant(model.arm.size(), 2.0 / 60.0);
+  JointVector q = model.home();
   const Eigen::Isometry3d home = ForwardKinematics(model.arm, model.home());
   Times times;
   int within = 0;

@@ -9,10 +9,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "scene/grammar/scene_draw.h"
-#include "scene/grammar/scene_types.h"
-#include "scene/palette_folder.h"
-#include "scene/projection.h"
+#include "scene/asset_set/asset_set_folder.h"
+#include "scene/feasibility/depenetration.h"
+#include "scene/grammar/scene_sample.h"
+#include "scene/scene_types/scene_types.h"
 #include "sim/settling.h"
 
 namespace simwright {
@@ -34,11 +34,11 @@ double MillisecondsSince(Clock::time_point start) {
 
 // Returns the objects of as many samples as needed for their number; the furniture of the first
 // one.
-std::vector<scene::DrawnObject> Crowd(const scene::Grammar& grammar, const Arguments& arguments,
+std::vector<scene::SceneObject> Crowd(const scene::Grammar& grammar, const Arguments& arguments,
                                       core::Rng& rng) {
-  std::vector<scene::DrawnObject> crowd;
+  std::vector<scene::SceneObject> crowd;
   for (bool first = true; static_cast<int>(crowd.size()) < arguments.objects; first = false) {
-    for (scene::DrawnObject& object : scene::DrawScene(grammar, rng).objects) {
+    for (scene::SceneObject& object : scene::SampleGrammar(grammar, rng).objects) {
       if ((object.welded && !first) || static_cast<int>(crowd.size()) == arguments.objects)
         continue;
       for (int axis = 0; axis < 3 && !object.welded; ++axis) {
@@ -52,21 +52,22 @@ std::vector<scene::DrawnObject> Crowd(const scene::Grammar& grammar, const Argum
 
 void Measure(const Arguments& arguments) {
   const scene::SceneType& type = scene::SceneTypeNamed(arguments.type);
-  const scene::Palette palette =
-      scene::ReadPalette(scene::FoldersForSlots(arguments.assets, type.slots));
-  const scene::Grammar grammar = type.make(palette.Sizes());
+  const scene::AssetSet asset_set =
+      scene::ReadAssetSet(scene::FoldersForCategories(arguments.assets, type.categories));
+  const scene::Grammar grammar = type.make(asset_set.Sizes());
   std::vector<double> projection, settling;
   int feasible = 0, rounds = 0;
   double shift = 0.0;
   for (int k = 0; k < arguments.count; ++k) {
     core::Rng rng = core::StreamRng(arguments.seed, static_cast<std::uint64_t>(k));
-    const std::vector<scene::DrawnObject> crowd = Crowd(grammar, arguments, rng);
+    const std::vector<scene::SceneObject> crowd = Crowd(grammar, arguments, rng);
     std::vector<scene::ProjectedBody> bodies;
-    for (const scene::DrawnObject& object : crowd) {
-      bodies.push_back({&palette.At(object.slot).parts, object.world_from_object, object.welded});
+    for (const scene::SceneObject& object : crowd) {
+      bodies.push_back(
+          {&asset_set.At(object.category).parts, object.world_from_object, object.welded});
     }
     auto start = Clock::now();
-    const scene::Projection depenetrated = scene::ProjectApart(bodies, arguments.projection);
+    const scene::Projection depenetrated = scene::ResolvePenetrations(bodies, arguments.projection);
     projection.push_back(MillisecondsSince(start));
     feasible += depenetrated.feasible;
     rounds += depenetrated.rounds;
@@ -76,7 +77,7 @@ void Measure(const Arguments& arguments) {
     for (size_t i = 0; i < crowd.size(); ++i) {
       Eigen::Isometry3d pose = crowd[i].world_from_object;
       pose.pretranslate(depenetrated.shifts[i]);
-      settle.push_back({&palette.At(crowd[i].slot).body, pose, crowd[i].welded});
+      settle.push_back({&asset_set.At(crowd[i].category).body, pose, crowd[i].welded});
     }
     sim::SettlingOptions options;
     options.watch = options.resting = options.pace = 0.0;  // the whole 2.5 s, and no more

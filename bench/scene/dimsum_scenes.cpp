@@ -10,10 +10,10 @@
 #include "core/image.h"
 #include "core/parallel.h"
 #include "library/convex_shapes.h"
-#include "scene/feasible_scene.h"
-#include "scene/grammar/dimsum.h"
-#include "scene/palette_folder.h"
-#include "scene/scene_picture.h"
+#include "scene/asset_set/asset_set_folder.h"
+#include "scene/export/scene_picture.h"
+#include "scene/feasibility/feasible_scene.h"
+#include "scene/scene_types/dimsum.h"
 
 namespace simwright {
 namespace {
@@ -28,7 +28,7 @@ struct Arguments {
 };
 
 struct Outcome {
-  scene::SceneDraw draw;
+  scene::SceneSample draw;
   scene::FeasibleScene scene;
   double sampling = 0.0, depenetration = 0.0, settling = 0.0;  // s
 };
@@ -37,32 +37,33 @@ double SecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-scene::Palette PaletteOf(const std::string& folder) {
-  scene::Palette palette = scene::ReadPalette(folder);
-  if (palette.Has("table_round")) return palette;
-  const scene::SlotSize& size = scene::SizeOf(scene::DefaultSlotSizes(), "table_round");
+scene::AssetSet PaletteOf(const std::string& folder) {
+  scene::AssetSet asset_set = scene::ReadAssetSet(folder);
+  if (asset_set.Has("table_round")) return asset_set;
+  const scene::CategorySize& size = scene::SizeOf(scene::DefaultCategorySizes(), "table_round");
   sim::RigidBody table;
   table.name = "table_round";
   table.friction = 0.6;
   const Eigen::Vector3d top(0.0, 0.0, size.height);
   table.parts = {library::Rod(top - Eigen::Vector3d(0.0, 0.0, 0.04), top, size.Radius(), 32)};
-  if (!palette.Has("table_round")) palette.Add("table_round", table);
-  return palette;
+  if (!asset_set.Has("table_round")) asset_set.Add("table_round", table);
+  return asset_set;
 }
 
-Outcome Make(const scene::Grammar& grammar, const scene::Palette& palette, int index,
+Outcome Make(const scene::Grammar& grammar, const scene::AssetSet& asset_set, int index,
              const Arguments& arguments) {
   Outcome outcome;
   core::Rng rng = core::StreamRng(arguments.seed, static_cast<std::uint64_t>(index));
   auto start = std::chrono::steady_clock::now();
-  outcome.draw = scene::DrawScene(grammar, rng);
+  outcome.draw = scene::SampleGrammar(grammar, rng);
   outcome.sampling = SecondsSince(start);
   std::vector<scene::ProjectedBody> bodies;
-  for (const scene::DrawnObject& object : outcome.draw.objects) {
-    bodies.push_back({&palette.At(object.slot).parts, object.world_from_object, object.welded});
+  for (const scene::SceneObject& object : outcome.draw.objects) {
+    bodies.push_back(
+        {&asset_set.At(object.category).parts, object.world_from_object, object.welded});
   }
   start = std::chrono::steady_clock::now();
-  scene::ProjectApart(bodies);
+  scene::ResolvePenetrations(bodies);
   outcome.depenetration = SecondsSince(start);
   scene::FeasibilityOptions options;
   options.settling.duration = arguments.settle;
@@ -70,7 +71,7 @@ Outcome Make(const scene::Grammar& grammar, const scene::Palette& palette, int i
   options.settling.time_step = arguments.step;
   if (arguments.whole) options.settling.resting = options.settling.pace = 0.0;
   start = std::chrono::steady_clock::now();
-  outcome.scene = scene::MakeFeasible(outcome.draw.objects, palette, options);
+  outcome.scene = scene::MakeFeasible(outcome.draw.objects, asset_set, options);
   outcome.settling = SecondsSince(start) - outcome.depenetration;
   return outcome;
 }
@@ -102,12 +103,12 @@ void Report(const std::vector<Outcome>& outcomes) {
 }
 
 void Run(const Arguments& arguments) {
-  scene::Palette palette = PaletteOf(arguments.assets);
-  for (const std::string& slot : arguments.hulls) palette.TakeAsHull(slot);
-  const scene::Grammar grammar = scene::DimsumTable(palette.Sizes());
+  scene::AssetSet asset_set = PaletteOf(arguments.assets);
+  for (const std::string& category : arguments.hulls) asset_set.UseConvexHullCollision(category);
+  const scene::Grammar grammar = scene::DimsumTable(asset_set.Sizes());
   std::vector<Outcome> outcomes(static_cast<size_t>(arguments.count));
   core::ParallelFor(arguments.count, [&](int i) {
-    outcomes[static_cast<size_t>(i)] = Make(grammar, palette, i, arguments);
+    outcomes[static_cast<size_t>(i)] = Make(grammar, asset_set, i, arguments);
   });
   Report(outcomes);
   for (size_t i = 0; i < outcomes.size(); ++i) {
@@ -120,7 +121,7 @@ void Run(const Arguments& arguments) {
   if (arguments.picture.empty()) return;
   std::vector<core::Image> pictures;
   for (size_t i = 0; i < std::min<size_t>(8, outcomes.size()); ++i) {
-    pictures.push_back(scene::SceneFromTheSide(outcomes[i].scene.objects, palette, 420));
+    pictures.push_back(scene::RenderFromSide(outcomes[i].scene.objects, asset_set, 420));
   }
   core::WritePng(arguments.picture, core::ContactSheet(pictures, 4));
 }

@@ -6,20 +6,20 @@
 
 #include <CLI/CLI.hpp>
 
-#include "scene/grammar/scene_draw.h"
-#include "scene/grammar/scene_types.h"
+#include "scene/grammar/scene_sample.h"
+#include "scene/scene_types/scene_types.h"
 
 namespace simwright {
 namespace {
 
 void Report(const scene::SceneType& type, int count, std::uint64_t seed) {
-  const scene::Grammar grammar = type.make(scene::DefaultSlotSizes());
+  const scene::Grammar grammar = type.make(scene::DefaultCategorySizes());
   double sum = 0.0, derivations = 0.0;
   size_t most = 0;
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < count; ++i) {
     core::Rng rng = core::StreamRng(seed, static_cast<std::uint64_t>(i));
-    const scene::SceneDraw draw = scene::DrawScene(grammar, rng);
+    const scene::SceneSample draw = scene::SampleGrammar(grammar, rng);
     sum += static_cast<double>(draw.objects.size());
     derivations += draw.derivations;
     most = std::max(most, draw.objects.size());

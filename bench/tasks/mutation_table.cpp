@@ -11,10 +11,10 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "pipeline/task_assets.h"
 #include "tasks/rules/rule_tasks.h"
 #include "tasks/verification/subtask_verifier.h"
-#include "tests/tasks/reward_mutations.h"
+#include "tests/reward/reward_mutations.h"
+#include "workflows/tasks/task_assets.h"
 
 namespace simwright {
 namespace {
@@ -41,8 +41,8 @@ std::string OppositeProgram(const std::vector<tasks::Task>& made, const std::str
 }
 
 void Tally(const tasks::SceneModel& model, const tasks::Task& task,
-           const std::vector<tasks::Mutant>& mutants, Counts* counts) {
-  for (const tasks::Mutant& mutant : mutants) {
+           const std::vector<reward::Mutant>& mutants, Counts* counts) {
+  for (const reward::Mutant& mutant : mutants) {
     tasks::SubtaskVerifier verifier(model);
     tasks::Subtask subtask = mutant.subtask;
     const core::Findings findings = verifier.Verify(task, &subtask);
@@ -78,7 +78,7 @@ void Print(const char* title, const std::vector<Counts>& parts) {
 }
 
 int Run(const std::vector<std::string>& arguments, int count) {
-  const pipeline::TaskAssets assets = pipeline::ReadTaskAssets(arguments);
+  const workflows::TaskAssets assets = workflows::ReadTaskAssets(arguments);
   const tasks::SceneModel model = tasks::MakeSceneModel(assets.models);
   const tasks::RuleTasks made = tasks::GenerateTasksByRules(model, {count, 1});
   const int tasks = static_cast<int>(made.tasks.size());
@@ -88,11 +88,11 @@ int Run(const std::vector<std::string>& arguments, int count) {
     const tasks::Task& task = made.tasks[at];
     for (const tasks::Subtask& subtask : task.subtasks) {
       const std::string other = OppositeProgram(made.tasks, subtask.name);
-      Tally(model, task, tasks::PlantFaults(subtask, other), &faults[at]);
-      Tally(model, task, tasks::RewriteSoundly(subtask), &rewrites[at]);
+      Tally(model, task, reward::PlantFaults(subtask, other), &faults[at]);
+      Tally(model, task, reward::RewriteSoundly(subtask), &rewrites[at]);
     }
   });
-  std::printf("%d tasks on %zu assets\n\n", tasks, model.things.size());
+  std::printf("%d tasks on %zu assets\n\n", tasks, model.objects.size());
   Print("fault", faults);
   std::printf("\n");
   Print("correct rewriting", rewrites);

@@ -11,7 +11,7 @@
 #include <random>
 
 #include "core/files.h"
-#include "tasks/reward/reward_program.h"
+#include "reward/reward_program.h"
 
 namespace simwright::bench {
 namespace {
@@ -20,11 +20,11 @@ std::string FilePath(const char* name) {
   return std::string(SIMWRIGHT_SOURCE_DIR) + "/" + name;
 }
 
-tasks::RewardScene Scene() {
-  tasks::RewardAsset microwave;
+reward::RewardScene Scene() {
+  reward::RewardAsset microwave;
   microwave.name = "microwave";
   microwave.links = {"link_0", "handle_0"};
-  microwave.joints = {{"joint_0", tasks::RewardJointType::kRevolute, 0.25, 1.5}};
+  microwave.joints = {{"joint_0", reward::RewardJointType::kRevolute, 0.25, 1.5}};
   return {{microwave}};
 }
 
@@ -32,13 +32,13 @@ tasks::RewardScene Scene() {
 struct Setup {
   Setup(const std::string& source, int num_envs)
       : scene(Scene()),
-        outcome(tasks::CompileReward(source, &scene)),
+        outcome(reward::CompileReward(source, &scene)),
         workspace(*outcome.program, num_envs),
         reward(num_envs),
         success(num_envs) {
     std::mt19937 generator(1);
     std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
-    for (const tasks::RewardSlot& slot : outcome.program->slots()) {
+    for (const reward::RewardSlot& slot : outcome.program->slots()) {
       inputs.emplace_back(static_cast<std::size_t>(num_envs) * slot.width);
       for (float& value : inputs.back()) value = uniform(generator);
     }
@@ -49,11 +49,11 @@ struct Setup {
                          success.data());
   }
 
-  tasks::RewardScene scene;
-  tasks::CompileOutcome outcome;
-  tasks::RewardWorkspace workspace;
+  reward::RewardScene scene;
+  reward::CompileOutcome outcome;
+  reward::RewardWorkspace workspace;
   std::vector<std::vector<float>> inputs;
-  std::vector<tasks::RewardBinding> bindings;
+  std::vector<reward::RewardBinding> bindings;
   std::vector<float> reward;
   std::vector<std::uint8_t> success;
 };
@@ -72,15 +72,15 @@ BENCHMARK(DoorReward)->Arg(256)->Arg(4096)->Unit(benchmark::kMicrosecond);
 
 void CompileDoorReward(benchmark::State& state) {
   const std::string source = core::ReadFile(FilePath("bench/tasks/door_reward.py"));
-  const tasks::RewardScene scene = Scene();
-  for (auto _ : state) benchmark::DoNotOptimize(tasks::CompileReward(source, &scene));
+  const reward::RewardScene scene = Scene();
+  for (auto _ : state) benchmark::DoNotOptimize(reward::CompileReward(source, &scene));
 }
 BENCHMARK(CompileDoorReward)->Unit(benchmark::kMicrosecond);
 
 // Compiles the longest of the tests' programs, with the shapes of its parameters inferred.
 void CompileLongReward(benchmark::State& state, const char* name) {
-  const std::string source = core::ReadFile(FilePath("tests/tasks/reward/corpus/") + name);
-  for (auto _ : state) benchmark::DoNotOptimize(tasks::CompileReward(source, nullptr));
+  const std::string source = core::ReadFile(FilePath("tests/reward/corpus/") + name);
+  for (auto _ : state) benchmark::DoNotOptimize(reward::CompileReward(source, nullptr));
 }
 BENCHMARK_CAPTURE(CompileLongReward, shapes, "shapes.py")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(CompileLongReward, numbers, "numbers.py")->Unit(benchmark::kMicrosecond);

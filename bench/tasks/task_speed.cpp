@@ -9,8 +9,8 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "pipeline/task_assets.h"
 #include "tasks/rules/rule_tasks.h"
+#include "workflows/tasks/task_assets.h"
 
 namespace simwright {
 namespace {
@@ -23,7 +23,7 @@ double Seconds(Clock::time_point since) {
 
 int Run(const std::vector<std::string>& arguments, int count) {
   Clock::time_point start = Clock::now();
-  const pipeline::TaskAssets assets = pipeline::ReadTaskAssets(arguments);
+  const workflows::TaskAssets assets = workflows::ReadTaskAssets(arguments);
   std::printf("%zu assets read in %.2f s\n", assets.models.size(), Seconds(start));
   start = Clock::now();
   const tasks::SceneModel model = tasks::MakeSceneModel(assets.models);
@@ -37,8 +37,9 @@ int Run(const std::vector<std::string>& arguments, int count) {
     subtasks += task.subtasks.size();
     longer += task.subtasks.size() >= 2;
     for (const std::string& name : task.assets) {
-      const tasks::Thing& thing = model.things[static_cast<std::size_t>(model.Find(name))];
-      (thing.articulated() ? articulated : rigid).insert(thing.category);
+      const tasks::ArticulatedObject& object =
+          model.objects[static_cast<std::size_t>(model.Find(name))];
+      (object.articulated() ? articulated : rigid).insert(object.category);
     }
   }
   std::printf("%zu tasks of %zu subtasks in %.2f s, %.1f ms per subtask, on %d threads\n",

@@ -30,7 +30,7 @@ std::vector<fs::path> PartPaths(const fs::path& path) {
 
 }  // namespace
 
-std::string PartName(int part) {
+std::string ShardName(int part) {
   char name[32];
   std::snprintf(name, sizeof name, "part_%05d.h5", part);
   return name;
@@ -39,7 +39,7 @@ std::string PartName(int part) {
 SceneDataset::SceneDataset(const fs::path& path) {
   for (const fs::path& one : PartPaths(path)) {
     parts_.emplace_back(one);
-    const ScenePartFile& part = parts_.back();
+    const SceneShardFile& part = parts_.back();
     if (!(part.vocabulary() == vocabulary()) ||
         !part.origin().SameDataset(parts_.front().origin())) {
       throw core::Error(
@@ -54,7 +54,7 @@ SceneDataset::SceneDataset(const fs::path& path) {
 
 std::vector<SceneAttempt> SceneDataset::Attempts() const {
   std::vector<SceneAttempt> attempts;
-  for (const ScenePartFile& part : parts_) {
+  for (const SceneShardFile& part : parts_) {
     attempts.insert(attempts.end(), part.attempts().begin(), part.attempts().end());
   }
   return attempts;

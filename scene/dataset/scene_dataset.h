@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <vector>
 
-#include "scene/dataset/scene_part.h"
+#include "scene/dataset/scene_shard.h"
 
 namespace simwright::scene {
 
 // Returns the file name of a shard: "part_00012.h5".
-std::string PartName(int part);
+std::string ShardName(int part);
 
 // The scenes of a folder of shards, or of one shard file, numbered consecutively in the order of
 // the shards' names. Holds the metadata of the shards, not the scenes. Not thread-safe.
@@ -18,7 +18,7 @@ class SceneDataset {
   explicit SceneDataset(const std::filesystem::path& path);
 
   const Vocabulary& vocabulary() const { return parts_.front().vocabulary(); }
-  const std::vector<ScenePartFile>& parts() const { return parts_; }
+  const std::vector<SceneShardFile>& parts() const { return parts_; }
   int SceneCount() const { return scenes_; }
   std::vector<SceneAttempt> Attempts() const;
 
@@ -27,7 +27,7 @@ class SceneDataset {
   std::vector<float> Read(int first, int count) const;
 
  private:
-  std::vector<ScenePartFile> parts_;
+  std::vector<SceneShardFile> parts_;
   std::vector<int> first_;  // first scene of each shard
   int scenes_ = 0;
 };

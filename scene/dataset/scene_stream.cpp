@@ -16,7 +16,7 @@ bool StreamOptions::IsValid(std::string* error) const {
   if (first < 0) return fails("first must be at least 0");
   if (count < -1 || count == 0) return fails("count must be at least 1, or -1 for all");
   if (buffer < 1) return fails("buffer must be at least 1 scene");
-  if (block < 1) return fails("block must be at least 1 scene");
+  if (scenes_per_block < 1) return fails("scenes_per_block must be at least 1 scene");
   return true;
 }
 
@@ -57,7 +57,7 @@ size_t SceneStream::SceneSize() const {
 }
 
 int SceneStream::BlockCount() const {
-  return (last_ - options_.first + options_.block - 1) / options_.block;
+  return (last_ - options_.first + options_.scenes_per_block - 1) / options_.scenes_per_block;
 }
 
 void SceneStream::ReadBlock() {
@@ -65,8 +65,8 @@ void SceneStream::ReadBlock() {
     core::Shuffle(&order_, rng_);
     next_block_ = 0;
   }
-  const int from = options_.first + order_[next_block_++] * options_.block;
-  pending_ = dataset_.Read(from, std::min(options_.block, last_ - from));
+  const int from = options_.first + order_[next_block_++] * options_.scenes_per_block;
+  pending_ = dataset_.Read(from, std::min(options_.scenes_per_block, last_ - from));
   next_pending_ = 0;
 }
 

@@ -12,7 +12,7 @@ struct StreamOptions {
   int first = 0, count = -1;
   // The number of scenes in the shuffle buffer; 4096 scenes of dimsum take 12 MB.
   int buffer = 4096;
-  int block = 64;  // scenes per read, contiguous in the dataset; the blocks are shuffled
+  int scenes_per_block = 64;  // scenes per read, contiguous in the dataset; the blocks are shuffled
 
   bool IsValid(std::string* error) const;
 };

@@ -44,7 +44,7 @@ Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix) {
   return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
 }
 
-void EncodeScene(const std::vector<DrawnObject>& objects, const Vocabulary& vocabulary,
+void EncodeScene(const std::vector<SceneObject>& objects, const Vocabulary& vocabulary,
                  float* tokens) {
   if (objects.size() > static_cast<size_t>(vocabulary.entries)) {
     throw core::Error("a scene has " + std::to_string(objects.size()) + " objects, but at most " +
@@ -59,8 +59,8 @@ void EncodeScene(const std::vector<DrawnObject>& objects, const Vocabulary& voca
       token[kPoseWidth + vocabulary.EmptyClass()] = 1.0f;
       continue;
     }
-    const int c = vocabulary.ClassOf(objects[i].slot);
-    if (c < 0) throw core::Error("the vocabulary has no such category", objects[i].slot);
+    const int c = vocabulary.ClassOf(objects[i].category);
+    if (c < 0) throw core::Error("the vocabulary has no such category", objects[i].category);
     const Eigen::Isometry3d& pose = objects[i].world_from_object;
     Eigen::Map<Eigen::Vector3f> translation(token);
     Eigen::Map<RowMajor> rotation(token + 3);
@@ -70,14 +70,14 @@ void EncodeScene(const std::vector<DrawnObject>& objects, const Vocabulary& voca
   }
 }
 
-std::vector<DrawnObject> DecodeScene(const float* tokens, const Vocabulary& vocabulary) {
-  std::vector<DrawnObject> objects;
+std::vector<SceneObject> DecodeScene(const float* tokens, const Vocabulary& vocabulary) {
+  std::vector<SceneObject> objects;
   for (int i = 0; i < vocabulary.entries; ++i) {
     const float* const token = tokens + i * vocabulary.TokenWidth();
     const int c = ClassOfToken(token, vocabulary.ClassCount());
     if (c == vocabulary.EmptyClass()) continue;
-    DrawnObject object;
-    object.slot = vocabulary.slots[static_cast<size_t>(c)];
+    SceneObject object;
+    object.category = vocabulary.categories[static_cast<size_t>(c)];
     object.welded = vocabulary.welded[static_cast<size_t>(c)];
     object.world_from_object.translation() =
         Eigen::Map<const Eigen::Vector3f>(token).cast<double>();
@@ -88,7 +88,7 @@ std::vector<DrawnObject> DecodeScene(const float* tokens, const Vocabulary& voca
   return objects;
 }
 
-std::string FaultOfTokens(const float* tokens, const Vocabulary& vocabulary) {
+std::string ValidateTokens(const float* tokens, const Vocabulary& vocabulary) {
   for (int i = 0; i < vocabulary.entries; ++i) {
     const std::string fault = FaultOfToken(tokens + i * vocabulary.TokenWidth(), vocabulary);
     if (!fault.empty()) return "entry " + std::to_string(i) + ": " + fault;

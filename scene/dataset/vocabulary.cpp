@@ -6,9 +6,11 @@
 
 namespace simwright::scene {
 
-int Vocabulary::ClassOf(const std::string& slot) const {
-  const auto found = std::lower_bound(slots.begin(), slots.end(), slot);
-  return found == slots.end() || *found != slot ? -1 : static_cast<int>(found - slots.begin());
+int Vocabulary::ClassOf(const std::string& category) const {
+  const auto found = std::lower_bound(categories.begin(), categories.end(), category);
+  return found == categories.end() || *found != category
+             ? -1
+             : static_cast<int>(found - categories.begin());
 }
 
 bool Vocabulary::IsValid(std::string* error) const {
@@ -17,12 +19,13 @@ bool Vocabulary::IsValid(std::string* error) const {
     return false;
   };
   if (entries < 1 || entries > 1 << 16) return fails("a scene has 1 to 65536 entries");
-  if (slots.empty() || slots.size() > 1 << 16)
+  if (categories.empty() || categories.size() > 1 << 16)
     return fails("a vocabulary has 1 to 65536 categories");
-  if (welded.size() != slots.size()) return fails("welded must have one entry per category");
-  for (size_t i = 0; i < slots.size(); ++i) {
-    if (slots[i].empty()) return fails("a category has no name");
-    if (i > 0 && !(slots[i - 1] < slots[i])) return fails("categories are not sorted and unique");
+  if (welded.size() != categories.size()) return fails("welded must have one entry per category");
+  for (size_t i = 0; i < categories.size(); ++i) {
+    if (categories[i].empty()) return fails("a category has no name");
+    if (i > 0 && !(categories[i - 1] < categories[i]))
+      return fails("categories are not sorted and unique");
   }
   return true;
 }
@@ -30,19 +33,20 @@ bool Vocabulary::IsValid(std::string* error) const {
 Vocabulary VocabularyOf(const Grammar& grammar) {
   Vocabulary vocabulary;
   vocabulary.type = grammar.name();
-  vocabulary.entries = grammar.MostEntries();
+  vocabulary.entries = grammar.MaxEntries();
   if (vocabulary.entries == 0) {
     throw core::Error("the grammar does not bound the length of its scenes", grammar.name(),
                       "add the constraint EntriesAtMost");
   }
-  vocabulary.slots = grammar.Slots();
-  vocabulary.welded.assign(vocabulary.slots.size(), false);
-  std::vector<bool> known(vocabulary.slots.size(), false);
+  vocabulary.categories = grammar.Categories();
+  vocabulary.welded.assign(vocabulary.categories.size(), false);
+  std::vector<bool> known(vocabulary.categories.size(), false);
   for (const Symbol& symbol : grammar.symbols()) {
     if (!symbol.IsObject()) continue;
-    const auto c = static_cast<size_t>(vocabulary.ClassOf(symbol.slot));
+    const auto c = static_cast<size_t>(vocabulary.ClassOf(symbol.category));
     if (known[c] && vocabulary.welded[c] != symbol.welded) {
-      throw core::Error("a category is both welded and free", grammar.name() + ": " + symbol.slot);
+      throw core::Error("a category is both welded and free",
+                        grammar.name() + ": " + symbol.category);
     }
     known[c] = true;
     vocabulary.welded[c] = symbol.welded;

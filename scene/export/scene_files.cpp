@@ -9,10 +9,10 @@
 namespace simwright::scene {
 namespace {
 
-using assets::WorldThing;
+using assets::WorldObject;
 
-Eigen::Quaterniond RotationOf(const WorldThing& thing) {
-  Eigen::Quaterniond turn = Eigen::Quaterniond(thing.world_from_thing.linear()).normalized();
+Eigen::Quaterniond RotationOf(const WorldObject& instance) {
+  Eigen::Quaterniond turn = Eigen::Quaterniond(instance.world_from_object.linear()).normalized();
   if (turn.w() < 0.0) turn.coeffs() *= -1.0;
   return turn;
 }
@@ -37,9 +37,9 @@ std::string List(const Eigen::Vector3d& v) {
   return "[" + Number(v.x()) + ", " + Number(v.y()) + ", " + Number(v.z()) + "]";
 }
 
-std::string PoseLines(const WorldThing& thing, const std::string& indent) {
-  const Eigen::AngleAxisd turn(RotationOf(thing));
-  return indent + "translation: " + List(thing.world_from_thing.translation()) + "\n" + indent +
+std::string PoseLines(const WorldObject& instance, const std::string& indent) {
+  const Eigen::AngleAxisd turn(RotationOf(instance));
+  return indent + "translation: " + List(instance.world_from_object.translation()) + "\n" + indent +
          "rotation: !AngleAxis {angle_deg: " + Number(turn.angle() * (180.0 / M_PI)) +
          ", axis: " + List(turn.axis()) + "}\n";
 }
@@ -53,16 +53,16 @@ std::string SceneJson(const ExportedScene& scene) {
   json["type"] = scene.type;
   json["scene"] = scene.index;
   json["objects"] = nlohmann::ordered_json::array();
-  for (const WorldThing& thing : scene.things) {
-    const Eigen::Vector3d& place = thing.world_from_thing.translation();
-    const Eigen::Quaterniond turn = RotationOf(thing);
+  for (const WorldObject& instance : scene.objects) {
+    const Eigen::Vector3d& place = instance.world_from_object.translation();
+    const Eigen::Quaterniond turn = RotationOf(instance);
     nlohmann::ordered_json object;
-    object["name"] = thing.name;
-    object["slot"] = thing.asset->key;
-    object["urdf"] = thing.asset->folder + thing.asset->asset.name + ".urdf";
+    object["name"] = instance.name;
+    object["slot"] = instance.asset->key;
+    object["urdf"] = instance.asset->folder + instance.asset->asset.name + ".urdf";
     object["translation"] = {place.x(), place.y(), place.z()};
     object["quaternion_wxyz"] = {turn.w(), turn.x(), turn.y(), turn.z()};
-    object["welded"] = thing.welded;
+    object["welded"] = instance.welded;
     json["objects"].push_back(std::move(object));
   }
   return json.dump(2) + "\n";
@@ -71,16 +71,16 @@ std::string SceneJson(const ExportedScene& scene) {
 std::string DrakeDirectives(const ExportedScene& scene, const std::string& package) {
   std::string text = "# " + scene.name + ": model directives of Drake\ndirectives:\n";
   text += "- add_model:\n    name: ground\n    file: package://" + package + "/ground.sdf\n";
-  for (const WorldThing& thing : scene.things) {
-    const std::string& link = thing.asset->asset.name;
-    text += "- add_model:\n    name: " + Quoted(thing.name) + "\n    file: package://" + package +
-            "/assets/" + thing.asset->key + "/" + link + ".sdf\n";
-    if (thing.welded) {
-      text += "- add_weld:\n    parent: world\n    child: " + Quoted(thing.name + "::" + link) +
-              "\n    X_PC:\n" + PoseLines(thing, "      ");
+  for (const WorldObject& instance : scene.objects) {
+    const std::string& link = instance.asset->asset.name;
+    text += "- add_model:\n    name: " + Quoted(instance.name) + "\n    file: package://" +
+            package + "/assets/" + instance.asset->key + "/" + link + ".sdf\n";
+    if (instance.welded) {
+      text += "- add_weld:\n    parent: world\n    child: " + Quoted(instance.name + "::" + link) +
+              "\n    X_PC:\n" + PoseLines(instance, "      ");
     } else {
       text += "    default_free_body_pose:\n      " + Quoted(link) + ":\n" +
-              PoseLines(thing, "        ");
+              PoseLines(instance, "        ");
     }
   }
   return text;

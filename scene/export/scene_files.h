@@ -12,7 +12,7 @@ struct ExportedScene {
   std::string name;  // "scene_00012"
   std::string type;  // "dimsum"
   int index = 0;     // in its dataset
-  std::vector<assets::WorldThing> things;
+  std::vector<assets::WorldObject> objects;
 };
 
 // Returns the scene as JSON (docs/formats.md): the URDF, category, pose and welded flag of each

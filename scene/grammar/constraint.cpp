@@ -6,29 +6,29 @@ std::string StructureConstraint::Describe() const {
   const std::string count = std::to_string(n);
   const std::string place = within.empty() ? "" : " within " + within;
   switch (kind) {
-    case StructureKind::kSlotAtLeast:
-      return "at least " + count + " of " + slot + place;
-    case StructureKind::kSlotAtMost:
-      return "at most " + count + " of " + slot + place;
+    case StructureKind::kCategoryAtLeast:
+      return "at least " + count + " of " + category + place;
+    case StructureKind::kCategoryAtMost:
+      return "at most " + count + " of " + category + place;
     case StructureKind::kObjectsAtLeast:
       return "at least " + count + " objects" + place;
     case StructureKind::kEntriesAtMost:
       return "at most " + count + " entries" + place;
     case StructureKind::kTallestAtLeast:
-      return "tallest stack of " + slot + " at least " + count + place;
+      return "tallest stack of " + category + " at least " + count + place;
     case StructureKind::kTallestAtMost:
-      return "tallest stack of " + slot + " at most " + count + place;
+      return "tallest stack of " + category + " at most " + count + place;
     case StructureKind::kStacksAtLeast:
-      return "at least " + count + " stacks of " + slot + place;
+      return "at least " + count + " stacks of " + category + place;
   }
   return "";
 }
 
-StructureConstraint SlotAtLeast(const std::string& slot, int n) {
-  return {StructureKind::kSlotAtLeast, n, slot, ""};
+StructureConstraint CategoryAtLeast(const std::string& category, int n) {
+  return {StructureKind::kCategoryAtLeast, n, category, ""};
 }
-StructureConstraint SlotAtMost(const std::string& slot, int n) {
-  return {StructureKind::kSlotAtMost, n, slot, ""};
+StructureConstraint CategoryAtMost(const std::string& category, int n) {
+  return {StructureKind::kCategoryAtMost, n, category, ""};
 }
 StructureConstraint ObjectsAtLeast(int n, const std::string& within) {
   return {StructureKind::kObjectsAtLeast, n, "", within};
@@ -36,14 +36,14 @@ StructureConstraint ObjectsAtLeast(int n, const std::string& within) {
 StructureConstraint EntriesAtMost(int n) {
   return {StructureKind::kEntriesAtMost, n, "", ""};
 }
-StructureConstraint TallestStackAtLeast(const std::string& slot, int n) {
-  return {StructureKind::kTallestAtLeast, n, slot, ""};
+StructureConstraint TallestStackAtLeast(const std::string& category, int n) {
+  return {StructureKind::kTallestAtLeast, n, category, ""};
 }
-StructureConstraint TallestStackAtMost(const std::string& slot, int n) {
-  return {StructureKind::kTallestAtMost, n, slot, ""};
+StructureConstraint TallestStackAtMost(const std::string& category, int n) {
+  return {StructureKind::kTallestAtMost, n, category, ""};
 }
-StructureConstraint StacksAtLeast(const std::string& slot, int n) {
-  return {StructureKind::kStacksAtLeast, n, slot, ""};
+StructureConstraint StacksAtLeast(const std::string& category, int n) {
+  return {StructureKind::kStacksAtLeast, n, category, ""};
 }
 
 std::string InsideRim::Describe() const {

@@ -10,36 +10,36 @@ namespace simwright::scene {
 // category, each on top of the previous one; an object on top of another category (a lid) does not
 // count.
 enum class StructureKind {
-  kSlotAtLeast,     // n objects of `slot`
-  kSlotAtMost,      //
-  kObjectsAtLeast,  // n objects
-  kEntriesAtMost,   // n entries, welded ones included: the length of a learned scene
-  kTallestAtLeast,  // the tallest stack of `slot` has n members
-  kTallestAtMost,   //
-  kStacksAtLeast,   // n stacks of `slot`
+  kCategoryAtLeast,  // n objects of `slot`
+  kCategoryAtMost,   //
+  kObjectsAtLeast,   // n objects
+  kEntriesAtMost,    // n entries, welded ones included: the length of a learned scene
+  kTallestAtLeast,   // the tallest stack of `slot` has n members
+  kTallestAtMost,    //
+  kStacksAtLeast,    // n stacks of `slot`
 };
 
 struct StructureConstraint {
   StructureKind kind;
   int n = 0;
-  std::string slot;    // empty if the kind needs none
-  std::string within;  // a symbol: only its derivation counts; empty: the whole scene
+  std::string category;  // empty if the kind needs none
+  std::string within;    // a symbol: only its derivation counts; empty: the whole scene
 
   // Returns the constraint in words, for errors: "at least 3 stacks of steamer".
   std::string Describe() const;
 };
 
-StructureConstraint SlotAtLeast(const std::string& slot, int n);
-StructureConstraint SlotAtMost(const std::string& slot, int n);
+StructureConstraint CategoryAtLeast(const std::string& category, int n);
+StructureConstraint CategoryAtMost(const std::string& category, int n);
 StructureConstraint ObjectsAtLeast(int n, const std::string& within = "");
 StructureConstraint EntriesAtMost(int n);
-StructureConstraint TallestStackAtLeast(const std::string& slot, int n);
-StructureConstraint TallestStackAtMost(const std::string& slot, int n);
-StructureConstraint StacksAtLeast(const std::string& slot, int n);
+StructureConstraint TallestStackAtLeast(const std::string& category, int n);
+StructureConstraint TallestStackAtMost(const std::string& category, int n);
+StructureConstraint StacksAtLeast(const std::string& category, int n);
 
 // The enforcement of a constraint on poses: resampling the poses that violate it, or rejecting the
 // derivation, which favours derivations with free space (the paper does both).
-enum class Decision { kRedraw, kReject };
+enum class Decision { kResample, kReject };
 
 struct KeepOutBody {
   std::string symbol;
@@ -55,7 +55,7 @@ struct KeepOut {
   std::vector<std::string> against;
   // If not empty, pairs derived from the same instance of this symbol are exempt.
   std::string exempt_within;
-  Decision decision = Decision::kRedraw;
+  Decision decision = Decision::kResample;
 };
 
 // A rim: the origins of the objects on the surface (not stacked on each other) lie at least
@@ -67,7 +67,7 @@ struct InsideRim {
   double half_x = 0.0;
   double half_y = 0.0;
   double margin = 0.0;
-  Decision decision = Decision::kRedraw;
+  Decision decision = Decision::kResample;
 
   std::string Describe() const;
 };

@@ -98,7 +98,7 @@ Census CensusOf(const Grammar& grammar, const Derivation& derivation,
     }
     ++census.entries;
     if (!symbol.welded) ++census.objects;
-    if (symbol.slot != constraint.slot) continue;
+    if (symbol.category != constraint.category) continue;
     ++census.of_slot;
     const bool based = node.carrier < 0 || level[static_cast<std::size_t>(node.carrier)] == 0;
     if (based) ++census.stacks;
@@ -112,9 +112,9 @@ bool Meets(const Grammar& grammar, const Derivation& derivation,
            const StructureConstraint& constraint) {
   const Census census = CensusOf(grammar, derivation, constraint);
   switch (constraint.kind) {
-    case StructureKind::kSlotAtLeast:
+    case StructureKind::kCategoryAtLeast:
       return census.of_slot >= constraint.n;
-    case StructureKind::kSlotAtMost:
+    case StructureKind::kCategoryAtMost:
       return census.of_slot <= constraint.n;
     case StructureKind::kObjectsAtLeast:
       return census.objects >= constraint.n;
@@ -164,8 +164,8 @@ int EndOf(const Derivation& derivation, int first) {
   return static_cast<int>(end);
 }
 
-void DrawPosesFrom(const Grammar& grammar, int first, bool keep, core::Rng& rng,
-                   Derivation* derivation) {
+void SamplePosesFrom(const Grammar& grammar, int first, bool keep, core::Rng& rng,
+                     Derivation* derivation) {
   const auto begin = static_cast<std::size_t>(first);
   const auto end = static_cast<std::size_t>(EndOf(*derivation, first));
   const Eigen::Isometry3d before_from_world = (*derivation)[begin].world_from_node.inverse();
@@ -183,11 +183,11 @@ void DrawPosesFrom(const Grammar& grammar, int first, bool keep, core::Rng& rng,
     const Eigen::Isometry3d surface =
         node.surface < 0 ? Eigen::Isometry3d::Identity()
                          : (*derivation)[static_cast<std::size_t>(node.surface)].world_from_node;
-    node.world_from_node = DrawPose(rule, (*derivation)[parent].world_from_node, surface, rng);
+    node.world_from_node = SamplePose(rule, (*derivation)[parent].world_from_node, surface, rng);
   }
 }
 
-int UnmetStructure(const Grammar& grammar, const Derivation& derivation) {
+int FirstViolatedStructure(const Grammar& grammar, const Derivation& derivation) {
   for (std::size_t i = 0; i < grammar.structure().size(); ++i) {
     if (!Meets(grammar, derivation, grammar.structure()[i])) return static_cast<int>(i);
   }

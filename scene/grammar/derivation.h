@@ -32,11 +32,11 @@ int EndOf(const Derivation& derivation, int first);
 
 // Samples the poses of node `first` and its descendants, given those of its ancestors. With `keep`,
 // only the pose of `first` is sampled and its descendants move rigidly with it.
-void DrawPosesFrom(const Grammar& grammar, int first, bool keep, core::Rng& rng,
-                   Derivation* derivation);
+void SamplePosesFrom(const Grammar& grammar, int first, bool keep, core::Rng& rng,
+                     Derivation* derivation);
 
 // Returns the index into Grammar::structure() of the first constraint that the derivation violates;
 // -1 if it satisfies all.
-int UnmetStructure(const Grammar& grammar, const Derivation& derivation);
+int FirstViolatedStructure(const Grammar& grammar, const Derivation& derivation);
 
 }  // namespace simwright::scene

@@ -8,7 +8,7 @@
 
 namespace simwright::scene {
 
-bool DrawOptions::IsValid(std::string* error) const {
+bool GrammarSampleOptions::IsValid(std::string* error) const {
   const auto within = [](int value, int high) { return value >= 1 && value <= high; };
   if (!within(derivations, 10'000'000)) {
     *error = "derivations per try must be in 1 .. 10 000 000";
@@ -39,7 +39,7 @@ std::vector<double> GeometricWeights(double p, int first, int last) {
   return weights;
 }
 
-int Grammar::MostEntries() const {
+int Grammar::MaxEntries() const {
   int most = 0;
   for (const StructureConstraint& one : structure_) {
     if (one.kind != StructureKind::kEntriesAtMost) continue;
@@ -48,12 +48,12 @@ int Grammar::MostEntries() const {
   return most;
 }
 
-std::vector<std::string> Grammar::Slots() const {
-  std::set<std::string> slots;
+std::vector<std::string> Grammar::Categories() const {
+  std::set<std::string> categories;
   for (const Symbol& symbol : symbols_) {
-    if (symbol.IsObject()) slots.insert(symbol.slot);
+    if (symbol.IsObject()) categories.insert(symbol.category);
   }
-  return {slots.begin(), slots.end()};
+  return {categories.begin(), categories.end()};
 }
 
 int Grammar::Find(const std::string& symbol) const {
@@ -63,7 +63,7 @@ int Grammar::Find(const std::string& symbol) const {
   return -1;
 }
 
-Grammar Grammar::WithOptions(const DrawOptions& options) const {
+Grammar Grammar::WithOptions(const GrammarSampleOptions& options) const {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error(error, "scene grammar " + name_);
   Grammar changed = *this;

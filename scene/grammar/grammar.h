@@ -8,10 +8,11 @@
 
 namespace simwright::scene {
 
-// The search limits of DrawScene. One try samples derivations until one satisfies the constraints
-// that are enforced by rejection, then samples poses until they satisfy the others (Pfaff et al.,
-// appendix: 1000 derivations, 5000 for the restaurant and the pantry; 25 pose samples).
-struct DrawOptions {
+// The search limits of SampleGrammar. One try samples derivations until one satisfies the
+// constraints that are enforced by rejection, then samples poses until they satisfy the others
+// (Pfaff et al., appendix: 1000 derivations, 5000 for the restaurant and the pantry; 25 pose
+// samples).
+struct GrammarSampleOptions {
   int derivations = 1000;     // per try, at most
   int pose_draws = 25;        // per try, at most; each visits every violating object once
   int proposals = 8;          // per object and pose sample
@@ -40,11 +41,11 @@ struct Symbol {
   NodeKind kind = NodeKind::kLeaf;
   std::vector<Branch> branches;
   std::vector<double> count_weights;  // kRepeat: of k = 0, 1, ...
-  std::string slot;                   // the category of its object; empty: no object
+  std::string category;               // the category of its object; empty: no object
   bool welded = false;                // furniture, fixed in physics
   bool surface = false;               // its frame is a support surface: objects stand at z = 0
 
-  bool IsObject() const { return !slot.empty(); }
+  bool IsObject() const { return !category.empty(); }
 };
 
 // Returns the weights of k = 0 .. last of the geometric count G(p, .) ~ (1 - p)^(k - first) p for k
@@ -61,17 +62,17 @@ class Grammar {
   const std::vector<StructureConstraint>& structure() const { return structure_; }
   const std::vector<KeepOut>& keep_outs() const { return keep_outs_; }
   const std::vector<InsideRim>& rims() const { return rims_; }
-  const DrawOptions& options() const { return options_; }
+  const GrammarSampleOptions& options() const { return options_; }
 
   // Returns the smallest bound of its EntriesAtMost constraints; 0 if it has none.
-  int MostEntries() const;
+  int MaxEntries() const;
   // Returns all categories of its symbols, furniture included; sorted and unique.
-  std::vector<std::string> Slots() const;
+  std::vector<std::string> Categories() const;
 
   // Returns the index of a symbol; -1 for an unknown one.
   int Find(const std::string& symbol) const;
   // Returns a copy with other options. Throws core::Error for invalid ones.
-  Grammar WithOptions(const DrawOptions& options) const;
+  Grammar WithOptions(const GrammarSampleOptions& options) const;
 
  private:
   friend class GrammarBuilder;
@@ -80,7 +81,7 @@ class Grammar {
   std::vector<StructureConstraint> structure_;
   std::vector<KeepOut> keep_outs_;
   std::vector<InsideRim> rims_;
-  DrawOptions options_;
+  GrammarSampleOptions options_;
 };
 
 }  // namespace simwright::scene

@@ -10,7 +10,7 @@ namespace simwright::scene {
 // The left side of a production: the symbol itself.
 struct Head {
   std::string name;
-  std::string slot;
+  std::string category;
   bool welded = false;
   bool surface = false;
 
@@ -18,10 +18,10 @@ struct Head {
   Head(const char* group) : name(group) {}             // NOLINT: written as a plain string
   Head(std::string group) : name(std::move(group)) {}  // NOLINT
   Head(std::string symbol, std::string object_slot, bool is_welded)
-      : name(std::move(symbol)), slot(std::move(object_slot)), welded(is_welded) {}
+      : name(std::move(symbol)), category(std::move(object_slot)), welded(is_welded) {}
 };
-Head Object(const std::string& symbol, const std::string& slot);
-Head Welded(const std::string& symbol, const std::string& slot);
+Head Object(const std::string& symbol, const std::string& category);
+Head Welded(const std::string& symbol, const std::string& category);
 // Returns a group whose frame is a support surface at z = 0.
 Head Surface(const std::string& symbol);
 
@@ -55,7 +55,7 @@ class GrammarBuilder {
   GrammarBuilder& Require(const StructureConstraint& constraint);
   GrammarBuilder& Require(const KeepOut& constraint);
   GrammarBuilder& Require(const InsideRim& constraint);
-  GrammarBuilder& Options(const DrawOptions& options);
+  GrammarBuilder& Options(const GrammarSampleOptions& options);
 
   // Builds the grammar. Throws core::Error, naming the symbol, for: a symbol defined twice, used
   // but not defined, or never used; an Or without weight, a probability outside [0, 1], a count
@@ -73,7 +73,7 @@ class GrammarBuilder {
 
   GrammarBuilder& Add(Production production);
   void Resolve(Grammar* grammar) const;
-  [[noreturn]] void Refuse(const std::string& what, const std::string& symbol) const;
+  [[noreturn]] void Fail(const std::string& what, const std::string& symbol) const;
   void CheckProduction(const Production& production) const;
   void CheckReachable(const Grammar& grammar) const;
   void CheckStructure(const Grammar& grammar) const;
@@ -85,7 +85,7 @@ class GrammarBuilder {
   std::vector<StructureConstraint> structure_;
   std::vector<KeepOut> keep_outs_;
   std::vector<InsideRim> rims_;
-  DrawOptions options_;
+  GrammarSampleOptions options_;
 };
 
 }  // namespace simwright::scene

@@ -42,23 +42,23 @@ bool PoseRule::IsValid(std::string* error) const {
   return true;
 }
 
-PoseRule PoseRule::FacingAnyWay() const {
+PoseRule PoseRule::WithFreeYaw() const {
   PoseRule rule = *this;
   rule.rotation.kind = RotationKind::kFreeYaw;
   return rule;
 }
 
-PoseRule PoseRule::Turned(double yaw) const {
+PoseRule PoseRule::WithYaw(double yaw) const {
   PoseRule rule = *this;
   rule.rotation.mean = Quaterniond(AngleAxisd(yaw, Vector3d::UnitZ()));
   return rule;
 }
 
-PoseRule PoseRule::Turned(double yaw, double yaw_deviation) const {
-  return Rotated(Quaterniond(AngleAxisd(yaw, Vector3d::UnitZ())), {0.0, 0.0, yaw_deviation});
+PoseRule PoseRule::WithYaw(double yaw, double yaw_deviation) const {
+  return WithRotation(Quaterniond(AngleAxisd(yaw, Vector3d::UnitZ())), {0.0, 0.0, yaw_deviation});
 }
 
-PoseRule PoseRule::Rotated(const Quaterniond& mean, const Vector3d& deviation) const {
+PoseRule PoseRule::WithRotation(const Quaterniond& mean, const Vector3d& deviation) const {
   PoseRule rule = *this;
   rule.rotation = {RotationKind::kConcentrated, mean, deviation};
   return rule;
@@ -137,8 +137,8 @@ Quaterniond SampleRotation(const RotationRule& rule, core::Rng& rng) {
 
 }  // namespace
 
-Eigen::Isometry3d DrawPose(const PoseRule& rule, const Eigen::Isometry3d& world_from_parent,
-                           const Eigen::Isometry3d& world_from_surface, core::Rng& rng) {
+Eigen::Isometry3d SamplePose(const PoseRule& rule, const Eigen::Isometry3d& world_from_parent,
+                             const Eigen::Isometry3d& world_from_surface, core::Rng& rng) {
   Eigen::Isometry3d world_from_child = world_from_parent;
   const PositionRule& position = rule.position;
   switch (position.kind) {

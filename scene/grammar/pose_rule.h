@@ -51,17 +51,17 @@ struct PoseRule {
 
   // Returns a rule with the same position and another rotation. Yaw: about z, counter-clockwise
   // from above; rad.
-  PoseRule FacingAnyWay() const;
-  PoseRule Turned(double yaw) const;
-  PoseRule Turned(double yaw, double yaw_deviation) const;
-  PoseRule Rotated(const Eigen::Quaterniond& mean, const Eigen::Vector3d& deviation) const;
+  PoseRule WithFreeYaw() const;
+  PoseRule WithYaw(double yaw) const;
+  PoseRule WithYaw(double yaw, double yaw_deviation) const;
+  PoseRule WithRotation(const Eigen::Quaterniond& mean, const Eigen::Vector3d& deviation) const;
 
   // Returns false for a rule that always gives the same pose.
   bool IsRandom() const;
   bool IsValid(std::string* error) const;
 };
 
-// Builders of rules, as in `GaussianOffset(...).FacingAnyWay()`.
+// Builders of rules, as in `GaussianOffset(...).WithFreeYaw()`.
 PoseRule SamePose();
 PoseRule Offset(double x, double y, double z = 0.0);
 PoseRule GaussianOffset(const Eigen::Vector3d& mean, const Eigen::Vector3d& deviation);
@@ -73,7 +73,7 @@ PoseRule UniformOnSurface(const Eigen::Vector3d& low, const Eigen::Vector3d& hig
 double DeviationOfConcentration(double z);
 
 // Samples world_from_child. `world_from_surface`: the nearest surface above the child.
-Eigen::Isometry3d DrawPose(const PoseRule& rule, const Eigen::Isometry3d& world_from_parent,
-                           const Eigen::Isometry3d& world_from_surface, core::Rng& rng);
+Eigen::Isometry3d SamplePose(const PoseRule& rule, const Eigen::Isometry3d& world_from_parent,
+                             const Eigen::Isometry3d& world_from_surface, core::Rng& rng);
 
 }  // namespace simwright::scene

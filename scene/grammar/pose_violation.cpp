@@ -39,8 +39,8 @@ struct Body {
   int group = -1;        // the node within which pairs are exempt; -1: none
 };
 
-std::vector<Body> BodiesOf(const Grammar& grammar, const Derivation& derivation,
-                           const KeepOut& keep_out) {
+std::vector<Body> ViolationBodies(const Grammar& grammar, const Derivation& derivation,
+                                  const KeepOut& keep_out) {
   std::vector<Body> bodies;
   for (std::size_t i = 0; i < derivation.size(); ++i) {
     const std::string& symbol = SymbolOf(grammar, derivation[i]).name;
@@ -80,7 +80,7 @@ PoseViolation::PoseViolation(const Grammar& grammar, const Derivation& derivatio
 
 void PoseViolation::FindPairs(const Derivation& derivation, int index) {
   const KeepOut& keep_out = grammar_.keep_outs()[static_cast<std::size_t>(index)];
-  const std::vector<Body> bodies = BodiesOf(grammar_, derivation, keep_out);
+  const std::vector<Body> bodies = ViolationBodies(grammar_, derivation, keep_out);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < bodies.size(); ++j) {
       const Body &one = bodies[i], &other = bodies[j];
@@ -105,7 +105,7 @@ void PoseViolation::FindInside(const Derivation& derivation, int index) {
   }
 }
 
-double PoseViolation::Missing(const Derivation& derivation, const Pair& pair) const {
+double PoseViolation::Violation(const Derivation& derivation, const Pair& pair) const {
   const int surface = derivation[static_cast<std::size_t>(pair.a)].surface;
   const Vector3d displacement =
       derivation[static_cast<std::size_t>(pair.b)].world_from_node.translation() -
@@ -120,7 +120,7 @@ double PoseViolation::Missing(const Derivation& derivation, const Pair& pair) co
   return std::max(0.0, pair.apart - across);
 }
 
-double PoseViolation::Missing(const Derivation& derivation, const Inside& inside) const {
+double PoseViolation::Violation(const Derivation& derivation, const Inside& inside) const {
   const InsideRim& rim = grammar_.rims()[static_cast<std::size_t>(inside.rim)];
   const int surface = derivation[static_cast<std::size_t>(inside.node)].surface;
   const Vector3d place = OnSurface(derivation, surface, inside.node);
@@ -132,8 +132,8 @@ double PoseViolation::Missing(const Derivation& derivation, const Inside& inside
 
 double PoseViolation::Sum(const Derivation& derivation) const {
   double sum = 0.0;
-  for (const Pair& pair : pairs_) sum += Missing(derivation, pair);
-  for (const Inside& inside : insides_) sum += Missing(derivation, inside);
+  for (const Pair& pair : pairs_) sum += Violation(derivation, pair);
+  for (const Inside& inside : insides_) sum += Violation(derivation, inside);
   return sum;
 }
 
@@ -141,21 +141,21 @@ double PoseViolation::SumOf(const Derivation& derivation, int first, int last) c
   const auto within = [&](int node) { return node >= first && node < last; };
   double sum = 0.0;
   for (const Pair& pair : pairs_) {
-    if (within(pair.a) || within(pair.b)) sum += Missing(derivation, pair);
+    if (within(pair.a) || within(pair.b)) sum += Violation(derivation, pair);
   }
   for (const Inside& inside : insides_) {
-    if (within(inside.node)) sum += Missing(derivation, inside);
+    if (within(inside.node)) sum += Violation(derivation, inside);
   }
   return sum;
 }
 
-std::vector<int> PoseViolation::Offenders(const Derivation& derivation) const {
+std::vector<int> PoseViolation::ViolatingObjects(const Derivation& derivation) const {
   std::set<int> offenders;
   for (const Pair& pair : pairs_) {
-    if (Missing(derivation, pair) > 0.0) offenders.insert({pair.a, pair.b});
+    if (Violation(derivation, pair) > 0.0) offenders.insert({pair.a, pair.b});
   }
   for (const Inside& inside : insides_) {
-    if (Missing(derivation, inside) > 0.0) offenders.insert(inside.node);
+    if (Violation(derivation, inside) > 0.0) offenders.insert(inside.node);
   }
   return {offenders.begin(), offenders.end()};
 }
@@ -164,13 +164,13 @@ std::string PoseViolation::Worst(const Derivation& derivation) const {
   double most = 0.0;
   std::string what;
   for (const Pair& pair : pairs_) {
-    const double missing = Missing(derivation, pair);
+    const double missing = Violation(derivation, pair);
     if (missing <= most) continue;
     most = missing;
     what = "keep-out " + grammar_.keep_outs()[static_cast<std::size_t>(pair.keep_out)].name;
   }
   for (const Inside& inside : insides_) {
-    const double missing = Missing(derivation, inside);
+    const double missing = Violation(derivation, inside);
     if (missing <= most) continue;
     most = missing;
     what = grammar_.rims()[static_cast<std::size_t>(inside.rim)].Describe();

@@ -20,7 +20,7 @@ class PoseViolation {
   // with others, m.
   double SumOf(const Derivation& derivation, int first, int last) const;
   // Returns the objects that violate a constraint, as indices into the derivation.
-  std::vector<int> Offenders(const Derivation& derivation) const;
+  std::vector<int> ViolatingObjects(const Derivation& derivation) const;
   // Returns the description of the largest violation; empty if there is none.
   std::string Worst(const Derivation& derivation) const;
 
@@ -35,8 +35,8 @@ class PoseViolation {
     int rim = -1;  // into Grammar::rims()
   };
 
-  double Missing(const Derivation& derivation, const Pair& pair) const;
-  double Missing(const Derivation& derivation, const Inside& inside) const;
+  double Violation(const Derivation& derivation, const Pair& pair) const;
+  double Violation(const Derivation& derivation, const Inside& inside) const;
   void FindPairs(const Derivation& derivation, int keep_out);
   void FindInside(const Derivation& derivation, int rim);
 

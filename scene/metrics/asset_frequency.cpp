@@ -7,13 +7,13 @@
 
 namespace simwright::scene {
 
-std::vector<std::int64_t> AssetCounts(const std::vector<std::vector<DrawnObject>>& scenes,
+std::vector<std::int64_t> AssetCounts(const std::vector<std::vector<SceneObject>>& scenes,
                                       const Vocabulary& vocabulary) {
-  std::vector<std::int64_t> counts(vocabulary.slots.size(), 0);
-  for (const std::vector<DrawnObject>& objects : scenes) {
-    for (const DrawnObject& object : objects) {
-      const int index = vocabulary.ClassOf(object.slot);
-      if (index < 0) throw core::Error("the vocabulary has no such category", object.slot);
+  std::vector<std::int64_t> counts(vocabulary.categories.size(), 0);
+  for (const std::vector<SceneObject>& objects : scenes) {
+    for (const SceneObject& object : objects) {
+      const int index = vocabulary.ClassOf(object.category);
+      if (index < 0) throw core::Error("the vocabulary has no such category", object.category);
       ++counts[static_cast<size_t>(index)];
     }
   }

@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "scene/dataset/vocabulary.h"
-#include "scene/grammar/scene_draw.h"
+#include "scene/grammar/scene_sample.h"
 
 namespace simwright::scene {
 
 // Returns the number of objects of each class in the scenes (all classes but the empty one),
 // furniture included, padding excluded. Throws core::Error for a category that the vocabulary
 // lacks.
-std::vector<std::int64_t> AssetCounts(const std::vector<std::vector<DrawnObject>>& scenes,
+std::vector<std::int64_t> AssetCounts(const std::vector<std::vector<SceneObject>>& scenes,
                                       const Vocabulary& vocabulary);
 
 // The pseudo-count that FrequencyDivergence adds to each class of both sides.

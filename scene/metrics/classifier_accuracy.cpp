@@ -71,7 +71,7 @@ std::vector<double> Run(const Halves& halves, const AccuracyOptions& options, co
   torch::optim::Adam optimizer(linear->parameters(),
                                torch::optim::AdamOptions(options.learning_rate));
   std::vector<double> scores;
-  for (int pass = 1; pass <= options.scored.back(); ++pass) {
+  for (int pass = 1; pass <= options.scored_epochs.back(); ++pass) {
     const torch::Tensor order = Shuffled(halves.train.size(0), rng);
     for (const torch::Tensor& batch : order.split(options.batch)) {
       optimizer.zero_grad();
@@ -81,14 +81,14 @@ std::vector<double> Run(const Halves& halves, const AccuracyOptions& options, co
           .backward();
       optimizer.step();
     }
-    if (std::binary_search(options.scored.begin(), options.scored.end(), pass)) {
+    if (std::binary_search(options.scored_epochs.begin(), options.scored_epochs.end(), pass)) {
       scores.push_back(Percent(linear, halves));
     }
   }
   return scores;
 }
 
-void Require(const FeatureMatrix& data, const FeatureMatrix& generated) {
+void RequireSamples(const FeatureMatrix& data, const FeatureMatrix& generated) {
   if (data.cols() != generated.cols() || data.cols() == 0) {
     throw core::Error("a classifier needs features of one size");
   }
@@ -108,9 +108,11 @@ bool AccuracyOptions::IsValid(std::string* error) const {
     return false;
   };
   if (runs < 1) return fails("runs must be at least 1");
-  if (scored.empty() || scored.front() < 1) return fails("scored must name passes, at least 1");
-  if (std::adjacent_find(scored.begin(), scored.end(), std::greater_equal<int>()) != scored.end()) {
-    return fails("scored must ascend");
+  if (scored_epochs.empty() || scored_epochs.front() < 1)
+    return fails("scored_epochs must name passes, at least 1");
+  if (std::adjacent_find(scored_epochs.begin(), scored_epochs.end(), std::greater_equal<int>()) !=
+      scored_epochs.end()) {
+    return fails("scored_epochs must ascend");
   }
   if (!(learning_rate > 0.0 && std::isfinite(learning_rate))) {
     return fails("learning_rate must be above 0");
@@ -124,11 +126,11 @@ std::vector<AccuracyScore> ClassifierAccuracy(const FeatureMatrix& data,
                                               const AccuracyOptions& options) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("classifier: " + error);
-  Require(data, generated);
+  RequireSamples(data, generated);
   nn::PrepareForWork();
   const torch::Tensor a = TensorOf(data), b = TensorOf(generated);
-  std::vector<AccuracyScore> scores(options.scored.size());
-  for (size_t i = 0; i < scores.size(); ++i) scores[i].passes = options.scored[i];
+  std::vector<AccuracyScore> scores(options.scored_epochs.size());
+  for (size_t i = 0; i < scores.size(); ++i) scores[i].passes = options.scored_epochs[i];
   std::vector<double> squares(scores.size(), 0.0);
   for (int run = 0; run < options.runs; ++run) {
     core::Rng rng = core::StreamRng(options.seed, static_cast<std::uint64_t>(run));

@@ -10,7 +10,7 @@ namespace simwright::scene {
 
 struct AccuracyOptions {
   int runs = 10;
-  std::vector<int> scored = {50, 100};  // epochs over the training half, ascending
+  std::vector<int> scored_epochs = {50, 100};  // epochs over the training half, ascending
   // The published value. Adam moves a weight by no more than this per step; a few features that
   // must be weighed against each other need a higher one.
   double learning_rate = 1e-4;

@@ -29,7 +29,8 @@ FeatureNetworkImpl::FeatureNetworkImpl() {
   register_module("convolutions", convolutions_);
   features_ =
       register_module("features", torch::nn::Linear(in * kLastWidth * kLastHeight, kFeatureSize));
-  counts_ = register_module("counts", torch::nn::Linear(kFeatureSize, kMostLabels * kCountsAClass));
+  counts_ =
+      register_module("counts", torch::nn::Linear(kFeatureSize, kMaxLabels * kCountsPerClass));
 }
 
 torch::Tensor FeatureNetworkImpl::Features(const torch::Tensor& pictures) {
@@ -38,7 +39,7 @@ torch::Tensor FeatureNetworkImpl::Features(const torch::Tensor& pictures) {
 }
 
 torch::Tensor FeatureNetworkImpl::forward(const torch::Tensor& pictures) {
-  return counts_->forward(Features(pictures)).view({-1, kMostLabels, kCountsAClass});
+  return counts_->forward(Features(pictures)).view({-1, kMaxLabels, kCountsPerClass});
 }
 
 torch::Tensor PictureTensor(const std::vector<core::Image>& pictures) {

@@ -11,7 +11,7 @@ inline constexpr int kFeatureWidth = 160, kFeatureHeight = 120;
 inline constexpr int kFeatureSize = 128;
 // The counts that it learns per class: objects in total, and in each quadrant of the image (upper
 // left, upper right, lower left, lower right), because totals alone contain no positions.
-inline constexpr int kCountsAClass = 5;
+inline constexpr int kCountsPerClass = 5;
 
 // A small convolutional network on label renders: patches of 4 x 4 pixels, three downsamplings by
 // two, 32 to 96 channels with group norms, then two linear layers; the features are the output of
@@ -22,7 +22,7 @@ class FeatureNetworkImpl : public torch::nn::Module {
   // Returns the features (B x kFeatureSize) of images (B x 3 x kFeatureHeight x kFeatureWidth) in
   // [0, 1].
   torch::Tensor Features(const torch::Tensor& pictures);
-  // Returns log(1 + count), (B x kMostLabels x kCountsAClass).
+  // Returns log(1 + count), (B x kMaxLabels x kCountsPerClass).
   torch::Tensor forward(const torch::Tensor& pictures);
 
  private:

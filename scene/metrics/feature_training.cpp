@@ -15,7 +15,7 @@ namespace {
 
 using torch::indexing::Slice;
 
-// Images of a step, and their counts (B x kMostLabels x kCountsAClass).
+// Images of a step, and their counts (B x kMaxLabels x kCountsPerClass).
 struct Batch {
   torch::Tensor pictures, counts;
 };
@@ -27,7 +27,7 @@ Batch BatchOf(const std::vector<CountedPicture>& pictures, const std::vector<siz
     images.push_back(pictures[i].picture);
     counts.insert(counts.end(), pictures[i].counts.begin(), pictures[i].counts.end());
   }
-  return {PictureTensor(images), torch::tensor(counts).view({-1, kMostLabels, kCountsAClass})};
+  return {PictureTensor(images), torch::tensor(counts).view({-1, kMaxLabels, kCountsPerClass})};
 }
 
 // Mirrors all images of the batch and permutes the quadrants of their counts.
@@ -56,10 +56,10 @@ std::vector<size_t> Range(size_t from, size_t to) {
 void Evaluate(FeatureNetwork network, const std::vector<CountedPicture>& pictures, int training,
               torch::Device device, FeatureTrainingReport* report) {
   const torch::NoGradGuard no_gradient;
-  torch::Tensor mean = torch::zeros({kMostLabels});
+  torch::Tensor mean = torch::zeros({kMaxLabels});
   for (int i = 0; i < training; ++i) {
     mean += torch::tensor(pictures[static_cast<size_t>(i)].counts)
-                .view({kMostLabels, kCountsAClass})
+                .view({kMaxLabels, kCountsPerClass})
                 .index({Slice(), 0});
   }
   mean /= training;
@@ -75,10 +75,10 @@ void Evaluate(FeatureNetwork network, const std::vector<CountedPicture>& picture
   report->error_of_the_mean = error(mean.expand_as(truth));
 }
 
-void Require(const std::vector<CountedPicture>& pictures) {
+void RequireTrainable(const std::vector<CountedPicture>& pictures) {
   if (pictures.size() < 10) throw core::Error("features need at least 10 images to train on");
   for (const CountedPicture& one : pictures) {
-    if (one.counts.size() != static_cast<size_t>(kMostLabels * kCountsAClass) ||
+    if (one.counts.size() != static_cast<size_t>(kMaxLabels * kCountsPerClass) ||
         one.picture.width != kFeatureWidth || one.picture.height != kFeatureHeight) {
       throw core::Error("an image does not have the size that features are trained on");
     }
@@ -87,15 +87,15 @@ void Require(const std::vector<CountedPicture>& pictures) {
 
 }  // namespace
 
-CountedPicture CountPicture(const std::vector<DrawnObject>& objects, const Vocabulary& vocabulary,
-                            const Palette& palette, const core::Camera& camera) {
+CountedPicture CountPicture(const std::vector<SceneObject>& objects, const Vocabulary& vocabulary,
+                            const AssetSet& asset_set, const core::Camera& camera) {
   CountedPicture counted;
-  counted.picture = core::Resize(LabelRender(objects, vocabulary, palette, camera), kFeatureWidth,
+  counted.picture = core::Resize(LabelRender(objects, vocabulary, asset_set, camera), kFeatureWidth,
                                  kFeatureHeight);
-  counted.counts.assign(static_cast<size_t>(kMostLabels * kCountsAClass), 0.0f);
-  for (const DrawnObject& object : objects) {
+  counted.counts.assign(static_cast<size_t>(kMaxLabels * kCountsPerClass), 0.0f);
+  for (const SceneObject& object : objects) {
     float* const counts =
-        &counted.counts[static_cast<size_t>(vocabulary.ClassOf(object.slot) * kCountsAClass)];
+        &counted.counts[static_cast<size_t>(vocabulary.ClassOf(object.category) * kCountsPerClass)];
     counts[0] += 1.0f;
     const Eigen::Vector3d seen = camera.Project(object.world_from_object.translation());
     const bool inside = seen.z() > 0.0 && seen.x() >= 0.0 && seen.x() < camera.width &&
@@ -130,7 +130,7 @@ FeatureTrainingReport TrainFeatures(const std::vector<CountedPicture>& pictures,
                                     core::Progress* progress) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("training of features: " + error);
-  Require(pictures);
+  RequireTrainable(pictures);
   nn::PrepareForWork();
   const auto start = std::chrono::steady_clock::now();
   FeatureTrainingReport report;

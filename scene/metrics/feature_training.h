@@ -15,13 +15,13 @@ namespace simwright::scene {
 // A label render and its object counts.
 struct CountedPicture {
   core::Image picture;        // RGB, of the network's input size
-  std::vector<float> counts;  // (kMostLabels x 5): total, then per image quadrant
+  std::vector<float> counts;  // (kMaxLabels x 5): total, then per image quadrant
 };
 
 // Renders and counts a scene. `camera`: the camera of the render; an object's quadrant is that of
 // its projected origin. Objects outside the image count in no quadrant. Throws as LabelRender does.
-CountedPicture CountPicture(const std::vector<DrawnObject>& objects, const Vocabulary& vocabulary,
-                            const Palette& palette, const core::Camera& camera);
+CountedPicture CountPicture(const std::vector<SceneObject>& objects, const Vocabulary& vocabulary,
+                            const AssetSet& asset_set, const core::Camera& camera);
 
 struct FeatureTrainingOptions {
   nn::TrainerOptions trainer;

@@ -10,8 +10,8 @@
 #include "core/error.h"
 #include "render/forward.h"
 #include "render/scene.h"
-#include "scene/grammar/scene_types.h"
-#include "scene/grammar/slot_size.h"
+#include "scene/grammar/category_size.h"
+#include "scene/scene_types/scene_types.h"
 
 namespace simwright::scene {
 namespace {
@@ -19,7 +19,7 @@ namespace {
 using Colour = std::array<std::uint8_t, 3>;
 
 // The vertical field of view: a room of 10 m fills it from 13 m, a table of 1.25 m from 1.7 m.
-constexpr double kFieldOfView = 0.25 * std::numbers::pi;
+constexpr double kLabelFieldOfView = 0.25 * std::numbers::pi;
 // The field of view for shelves: from the edge of the lowest board to a bottle on the uppermost.
 constexpr double kShelfView = 55.0 / 180.0 * std::numbers::pi;
 // Camera distances, m.
@@ -51,7 +51,7 @@ std::vector<Colour> MakeColours() {
   std::vector<double> apart(candidates.size(), std::numeric_limits<double>::infinity());
   std::vector<Colour> colours;
   Colour last = {255, 255, 255};
-  while (static_cast<int>(colours.size()) < kMostLabels) {
+  while (static_cast<int>(colours.size()) < kMaxLabels) {
     for (size_t i = 0; i < candidates.size(); ++i) {
       apart[i] = std::min(apart[i], (LabOf(candidates[i]) - LabOf(last)).norm());
     }
@@ -77,19 +77,19 @@ core::Camera LookingAlong(const Eigen::Vector3d& position, const Eigen::Vector3d
 
 core::Camera FromAbove(double height) {
   return LookingAlong({0.0, 0.0, height}, Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitZ(),
-                      kFieldOfView);
+                      kLabelFieldOfView);
 }
 
 double TopOf(const std::string& table) {
-  return SizeOf(DefaultSlotSizes(), table).height;
+  return SizeOf(DefaultCategorySizes(), table).height;
 }
 
 }  // namespace
 
 std::array<std::uint8_t, 3> LabelColour(int index) {
   static const std::vector<Colour> colours = MakeColours();
-  if (index < 0 || index >= kMostLabels) {
-    throw core::Error("there are " + std::to_string(kMostLabels) + " class colours",
+  if (index < 0 || index >= kMaxLabels) {
+    throw core::Error("there are " + std::to_string(kMaxLabels) + " class colours",
                       "class " + std::to_string(index));
   }
   return colours[static_cast<size_t>(index)];
@@ -105,17 +105,17 @@ core::Camera LabelCamera(const std::string& type) {
                       Eigen::Vector3d::UnitX(), kShelfView);
 }
 
-core::Image LabelRender(const std::vector<DrawnObject>& objects, const Vocabulary& vocabulary,
-                        const Palette& palette, const core::Camera& camera) {
+core::Image LabelRender(const std::vector<SceneObject>& objects, const Vocabulary& vocabulary,
+                        const AssetSet& asset_set, const core::Camera& camera) {
   core::Image image(camera.width, camera.height, 3, 255);
   if (objects.empty()) return image;
   render::Scene scene;
   std::vector<Colour> colours;
-  for (const DrawnObject& object : objects) {
-    const int index = vocabulary.ClassOf(object.slot);
-    if (index < 0) throw core::Error("the vocabulary has no such category", object.slot);
+  for (const SceneObject& object : objects) {
+    const int index = vocabulary.ClassOf(object.category);
+    if (index < 0) throw core::Error("the vocabulary has no such category", object.category);
     colours.push_back(LabelColour(index));
-    scene.Add(&palette.At(object.slot).visual, object.world_from_object);
+    scene.Add(&asset_set.At(object.category).visual, object.world_from_object);
   }
   scene.Commit();
   const render::ForwardBuffers buffers = render::RenderForward(scene, camera);

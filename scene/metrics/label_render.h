@@ -7,18 +7,18 @@
 
 #include "core/camera.h"
 #include "core/image.h"
+#include "scene/asset_set/asset_set.h"
 #include "scene/dataset/vocabulary.h"
-#include "scene/grammar/scene_draw.h"
-#include "scene/palette.h"
+#include "scene/grammar/scene_sample.h"
 
 namespace simwright::scene {
 
 inline constexpr int kLabelWidth = 640, kLabelHeight = 480;  // pixels
 // The largest number of classes: more than any of our vocabularies has; the colours of more would
 // be hard to distinguish.
-inline constexpr int kMostLabels = 48;
+inline constexpr int kMaxLabels = 48;
 
-// Returns red, green and blue (0 .. 255) of class `index`, 0 .. kMostLabels - 1, for any scene
+// Returns red, green and blue (0 .. 255) of class `index`, 0 .. kMaxLabels - 1, for any scene
 // type: each colour, of six levels per channel, is the farthest in CIELAB from white and all
 // previous ones. Throws core::Error for another index.
 std::array<std::uint8_t, 3> LabelColour(int index);
@@ -34,7 +34,7 @@ core::Camera LabelCamera(const std::string& type);
 // Returns an RGB render of the scene, each object in the unlit colour of its class, furniture
 // included, on white; an empty scene gives a white image. Throws core::Error for a category without
 // an asset or a class, or for more classes than colours.
-core::Image LabelRender(const std::vector<DrawnObject>& objects, const Vocabulary& vocabulary,
-                        const Palette& palette, const core::Camera& camera);
+core::Image LabelRender(const std::vector<SceneObject>& objects, const Vocabulary& vocabulary,
+                        const AssetSet& asset_set, const core::Camera& camera);
 
 }  // namespace simwright::scene

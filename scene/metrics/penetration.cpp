@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "scene/near_parts.h"
+#include "scene/feasibility/narrow_phase.h"
 
 namespace simwright::scene {
 namespace {
 
-geometry::ConvexShape BoxOf(const std::vector<geometry::ConvexShape>& parts) {
+geometry::ConvexShape ObjectBox(const std::vector<geometry::ConvexShape>& parts) {
   Eigen::AlignedBox3d box;
   for (const geometry::ConvexShape& part : parts) {
     const Eigen::Vector3d grown = Eigen::Vector3d::Constant(part.radius);
@@ -25,22 +25,22 @@ geometry::ConvexShape BoxOf(const std::vector<geometry::ConvexShape>& parts) {
 
 }  // namespace
 
-double TotalPenetration(const std::vector<DrawnObject>& objects, const Palette& palette,
+double TotalPenetration(const std::vector<SceneObject>& objects, const AssetSet& asset_set,
                         BodyShape shape) {
   ConvexBodies bodies;
-  for (const DrawnObject& object : objects) {
-    const std::vector<geometry::ConvexShape>& parts = palette.At(object.slot).parts;
+  for (const SceneObject& object : objects) {
+    const std::vector<geometry::ConvexShape>& parts = asset_set.At(object.category).parts;
     if (shape == BodyShape::kParts) {
       bodies.Add(parts, object.world_from_object, object.welded);
     } else {
-      bodies.Add({BoxOf(parts)}, object.world_from_object, object.welded);
+      bodies.Add({ObjectBox(parts)}, object.world_from_object, object.welded);
     }
   }
-  std::vector<NearParts> near;
+  std::vector<NarrowPhasePair> near;
   const std::vector<Eigen::Vector3d> unmoved(objects.size(), Eigen::Vector3d::Zero());
   bodies.Find(unmoved, 0.0, &near);
   double sum = 0.0;
-  for (const NearParts& pair : near) sum += std::max(0.0, -pair.distance);
+  for (const NarrowPhasePair& pair : near) sum += std::max(0.0, -pair.distance);
   return sum;
 }
 

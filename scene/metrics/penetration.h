@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "scene/grammar/scene_draw.h"
-#include "scene/palette.h"
+#include "scene/asset_set/asset_set.h"
+#include "scene/grammar/scene_sample.h"
 
 namespace simwright::scene {
 
@@ -17,7 +17,7 @@ enum class BodyShape {
 // objects, pairs of welded objects excluded: "total penetration" (Pfaff et al.), whose median over
 // scenes is MTP. A depth is the shortest displacement that separates two convex shapes. Throws
 // core::Error for a category without an asset, or a pose that is not finite.
-double TotalPenetration(const std::vector<DrawnObject>& objects, const Palette& palette,
+double TotalPenetration(const std::vector<SceneObject>& objects, const AssetSet& asset_set,
                         BodyShape shape);
 
 }  // namespace simwright::scene

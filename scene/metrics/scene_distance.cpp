@@ -22,20 +22,20 @@ bool SceneDistanceOptions::IsValid(std::string* error) const {
   return true;
 }
 
-SceneDistances::SceneDistances(const std::vector<std::vector<DrawnObject>>& scenes,
+SceneDistances::SceneDistances(const std::vector<std::vector<SceneObject>>& scenes,
                                const Vocabulary& vocabulary, const SceneDistanceOptions& options)
     : vocabulary_(vocabulary), options_(options) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("distance of scenes: " + error);
   scenes_.reserve(scenes.size());
-  for (const std::vector<DrawnObject>& objects : scenes) scenes_.push_back(Sorted(objects));
+  for (const std::vector<SceneObject>& objects : scenes) scenes_.push_back(Sorted(objects));
 }
 
-SceneDistances::ByClass SceneDistances::Sorted(const std::vector<DrawnObject>& objects) const {
-  ByClass classes(vocabulary_.slots.size());
-  for (const DrawnObject& object : objects) {
-    const int index = vocabulary_.ClassOf(object.slot);
-    if (index < 0) throw core::Error("the vocabulary has no such category", object.slot);
+SceneDistances::ByClass SceneDistances::Sorted(const std::vector<SceneObject>& objects) const {
+  ByClass classes(vocabulary_.categories.size());
+  for (const SceneObject& object : objects) {
+    const int index = vocabulary_.ClassOf(object.category);
+    if (index < 0) throw core::Error("the vocabulary has no such category", object.category);
     classes[static_cast<size_t>(index)].push_back(
         {object.world_from_object.translation(),
          Eigen::Quaterniond(object.world_from_object.linear())});
@@ -84,12 +84,12 @@ double SceneDistances::Distance(const ByClass& a, const ByClass& b, double limit
   return sum;
 }
 
-double SceneDistances::To(const std::vector<DrawnObject>& objects, int scene) const {
+double SceneDistances::To(const std::vector<SceneObject>& objects, int scene) const {
   return Distance(Sorted(objects), scenes_.at(static_cast<size_t>(scene)),
                   std::numeric_limits<double>::infinity());
 }
 
-NearestScene SceneDistances::Nearest(const std::vector<DrawnObject>& objects) const {
+NearestScene SceneDistances::Nearest(const std::vector<SceneObject>& objects) const {
   if (scenes_.empty()) throw core::Error("there are no scenes to compare with");
   const ByClass sorted = Sorted(objects);
   std::vector<double> bounds(scenes_.size());

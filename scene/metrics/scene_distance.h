@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "scene/dataset/vocabulary.h"
-#include "scene/grammar/scene_draw.h"
+#include "scene/grammar/scene_sample.h"
 
 namespace simwright::scene {
 
@@ -29,15 +29,15 @@ struct NearestScene {
 class SceneDistances {
  public:
   // Throws core::Error for invalid options, or a category that the vocabulary lacks.
-  SceneDistances(const std::vector<std::vector<DrawnObject>>& scenes, const Vocabulary& vocabulary,
+  SceneDistances(const std::vector<std::vector<SceneObject>>& scenes, const Vocabulary& vocabulary,
                  const SceneDistanceOptions& options = {});
 
   int size() const { return static_cast<int>(scenes_.size()); }
-  double To(const std::vector<DrawnObject>& objects, int scene) const;
+  double To(const std::vector<SceneObject>& objects, int scene) const;
   // Returns the nearest scene. Scenes are searched in ascending order of the cost of their counts
   // and skipped once a lower bound reaches the best distance; the result is exact. Throws
   // core::Error if there are no scenes.
-  NearestScene Nearest(const std::vector<DrawnObject>& objects) const;
+  NearestScene Nearest(const std::vector<SceneObject>& objects) const;
 
  private:
   struct Place {
@@ -46,7 +46,7 @@ class SceneDistances {
   };
   using ByClass = std::vector<std::vector<Place>>;
 
-  ByClass Sorted(const std::vector<DrawnObject>& objects) const;
+  ByClass Sorted(const std::vector<SceneObject>& objects) const;
   double CountCost(const ByClass& a, const ByClass& b) const;
   double ClassCost(const std::vector<Place>& a, const std::vector<Place>& b, double limit) const;
   // Returns the exact distance if it is below `limit`, otherwise any value >= `limit`.

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "nn/checkpoint.h"
 #include "nn/compute.h"
-#include "nn/script.h"
+#include "nn/torch_script.h"
 #include "scene/metrics/feature_network.h"
 
 namespace simwright::scene {
@@ -45,13 +45,13 @@ SceneFeatures SceneFeatures::Load(const std::filesystem::path& weights) {
   return SceneFeatures(std::move(network));
 }
 
-SceneFeatures SceneFeatures::LoadScript(const std::filesystem::path& module, int side) {
+SceneFeatures SceneFeatures::LoadTorchScript(const std::filesystem::path& module, int side) {
   if (side < 1) throw core::Error("images must be at least 1 pixel wide", module.string());
   auto network = std::make_unique<Network>();
   network->name =
       module.string() + " (" + std::to_string(side) + " x " + std::to_string(side) + ")";
   network->width = network->height = side;
-  network->script = nn::LoadScript(module);
+  network->script = nn::LoadTorchScript(module);
   network->script.eval();
   network->device = nn::BestDevice();
   network->script.to(network->device);
@@ -66,7 +66,7 @@ const std::string& SceneFeatures::name() const {
   return network_->name;
 }
 
-core::Image SceneFeatures::Shrunk(const core::Image& picture) const {
+core::Image SceneFeatures::Resized(const core::Image& picture) const {
   return core::Resize(picture, network_->width, network_->height);
 }
 

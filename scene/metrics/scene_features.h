@@ -21,7 +21,7 @@ class SceneFeatures {
   // that flattens to it: Inception's pooled features (side 299), AlexNet's convolutions (224). The
   // module does its own normalization. Throws core::Error if it is missing or not TorchScript, or
   // if side < 1.
-  static SceneFeatures LoadScript(const std::filesystem::path& module, int side);
+  static SceneFeatures LoadTorchScript(const std::filesystem::path& module, int side);
   ~SceneFeatures();
   SceneFeatures(SceneFeatures&&) noexcept;
   SceneFeatures& operator=(SceneFeatures&&) noexcept;
@@ -32,9 +32,9 @@ class SceneFeatures {
   const std::string& name() const;
 
   // Returns a label render (RGB) resized to the network's input size.
-  core::Image Shrunk(const core::Image& picture) const;
-  // Returns the features (N x D) of images of Shrunk. Throws core::Error for other images, and if a
-  // user's module fails or does not return N rows of finite numbers.
+  core::Image Resized(const core::Image& picture) const;
+  // Returns the features (N x D) of images of Resized. Throws core::Error for other images, and if
+  // a user's module fails or does not return N rows of finite numbers.
   FeatureMatrix Of(const std::vector<core::Image>& pictures) const;
 
  private:

@@ -5,7 +5,7 @@
 namespace simwright::scene {
 
 bool AssetShapes::IsValid(const Vocabulary& vocabulary, int points, std::string* error) const {
-  if (surfaces.size() != vocabulary.slots.size()) {
+  if (surfaces.size() != vocabulary.categories.size()) {
     *error = "each category needs a surface";
     return false;
   }
@@ -13,7 +13,8 @@ bool AssetShapes::IsValid(const Vocabulary& vocabulary, int points, std::string*
     bool valid = static_cast<int>(surfaces[i].size()) == points;
     for (const Eigen::Vector3d& point : surfaces[i]) valid = valid && point.allFinite();
     if (valid) continue;
-    *error = vocabulary.slots[i] + " does not have " + std::to_string(points) + " finite points";
+    *error =
+        vocabulary.categories[i] + " does not have " + std::to_string(points) + " finite points";
     return false;
   }
   return true;

@@ -72,7 +72,7 @@ torch::Tensor ClassShapesImpl::Features() {
   return whole_->forward(std::get<0>(point_->forward(scaled).max(1)));
 }
 
-torch::Tensor ClassShapesImpl::Entries() {
+torch::Tensor ClassShapesImpl::InputEmbeddings() {
   return torch::cat({entry_map_(Features()), own_entries_}, 0);
 }
 

@@ -23,7 +23,7 @@ class ClassShapesImpl : public torch::nn::Module {
   AssetShapes Shapes() const;  // in single precision
 
   // Returns the input embeddings (K + 1 x entry): the classes, then the mask.
-  torch::Tensor Entries();
+  torch::Tensor InputEmbeddings();
   // Returns the logits (... x K) of features (... x exit).
   torch::Tensor Logits(const torch::Tensor& features);
 

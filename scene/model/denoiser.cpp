@@ -18,7 +18,7 @@ void RequireShapes(const ClassShapes& shapes) {
 
 }  // namespace
 
-Denoised Denoiser::PredictInShares(const NoisyScenes& scenes) {
+Denoised Denoiser::PredictParallel(const NoisyScenes& scenes) {
   const std::int64_t count = scenes.poses.size(0);
   const int shares = nn::ShareCount(scenes.poses.device(), count);
   std::vector<torch::Tensor> noise(static_cast<size_t>(shares)), classes(noise.size());

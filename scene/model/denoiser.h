@@ -26,7 +26,7 @@ class Denoiser : public torch::nn::Module {
   // Predicts the noise. Thread-safe.
   virtual Denoised Predict(const NoisyScenes& scenes) = 0;
   // Predicts the noise with the batch split over the CPU's threads.
-  Denoised PredictInShares(const NoisyScenes& scenes);
+  Denoised PredictParallel(const NoisyScenes& scenes);
 
   // Sets the class shapes. Throws core::Error if the model uses a table of classes, or for shapes
   // of another size.

@@ -55,8 +55,8 @@ torch::Tensor SingleBlockImpl::forward(const torch::Tensor& x, const torch::Tens
 FluxDenoiser::FluxDenoiser(const SceneModelOptions& options, int classes) {
   const std::int64_t width = options.width;
   const ClassShapes shapes = RegisterShapes(options, classes, EntryWidth(width), width / 2);
-  entry_ = register_module("entry", TokenEntry(options, classes, shapes));
-  time_ = register_module("time", TimeEntry(width));
+  entry_ = register_module("entry", TokenInputHead(options, classes, shapes));
+  time_ = register_module("time", TimeEmbedding(width));
   for (int i = 0; i < options.double_blocks; ++i) {
     double_blocks_->push_back(DoubleBlock(width, options.heads));
   }
@@ -67,7 +67,7 @@ FluxDenoiser::FluxDenoiser(const SceneModelOptions& options, int classes) {
   register_module("single_blocks", single_blocks_);
   last_ = register_module("last", nn::Modulation(width, 2));
   narrow_ = register_module("narrow", Linear(width, width / 2));
-  exit_ = register_module("exit", TokenExit(options, width / 2, classes, shapes));
+  exit_ = register_module("exit", TokenOutputHead(options, width / 2, classes, shapes));
 }
 
 Denoised FluxDenoiser::Predict(const NoisyScenes& scenes) {

@@ -43,12 +43,12 @@ class FluxDenoiser : public Denoiser {
   Denoised Predict(const NoisyScenes& scenes) override;
 
  private:
-  TokenEntry entry_{nullptr};
-  TimeEntry time_{nullptr};
+  TokenInputHead entry_{nullptr};
+  TimeEmbedding time_{nullptr};
   torch::nn::ModuleList double_blocks_, single_blocks_;
   nn::Modulation last_{nullptr};
   torch::nn::Linear narrow_{nullptr};
-  TokenExit exit_{nullptr};
+  TokenOutputHead exit_{nullptr};
 };
 
 }  // namespace simwright::scene

@@ -122,7 +122,7 @@ void SceneDiffusion::Step(Denoiser* denoiser, int t, int previous, double eta,
                           const at::Generator& generator, NoisyScenes* scenes) const {
   scenes->time =
       torch::full({scenes->poses.size(0)}, t, scenes->classes.options().dtype(torch::kLong));
-  const Denoised guess = denoiser->PredictInShares(*scenes);
+  const Denoised guess = denoiser->PredictParallel(*scenes);
   const auto advance = [&](const torch::Tensor& noisy, const torch::Tensor& noise) {
     const torch::Tensor clean = poses_.CleanFrom(noisy, noise, scenes->time).clamp(-1.0, 1.0);
     return poses_.StochasticStep(noisy, clean, t, previous, eta, NormalLike(noisy, generator));

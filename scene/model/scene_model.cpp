@@ -12,7 +12,7 @@
 namespace simwright::scene {
 
 struct SceneModel::Network {
-  SceneModelFacts facts;
+  SceneModelMetadata facts;
   std::shared_ptr<Denoiser> denoiser;
   torch::Device device;
 };
@@ -41,18 +41,21 @@ SceneModel SceneModel::Load(const std::filesystem::path& weights) {
       Network{std::move(model.facts), std::move(model.denoiser), device}));
 }
 
-const SceneModelFacts& SceneModel::facts() const {
+const SceneModelMetadata& SceneModel::facts() const {
   return network_->facts;
 }
 
-void SceneModel::AddAsset(const std::string& slot, const std::vector<Eigen::Vector3d>& surface) {
-  SceneModelFacts facts = network_->facts;
+void SceneModel::AddAsset(const std::string& category,
+                          const std::vector<Eigen::Vector3d>& surface) {
+  SceneModelMetadata facts = network_->facts;
   Vocabulary& vocabulary = facts.vocabulary;
   AssetShapes shapes = network_->denoiser->Shapes();
-  if (vocabulary.ClassOf(slot) >= 0) throw core::Error("the model has this category already", slot);
-  const auto at = std::lower_bound(vocabulary.slots.begin(), vocabulary.slots.end(), slot) -
-                  vocabulary.slots.begin();
-  vocabulary.slots.insert(vocabulary.slots.begin() + at, slot);
+  if (vocabulary.ClassOf(category) >= 0)
+    throw core::Error("the model has this category already", category);
+  const auto at =
+      std::lower_bound(vocabulary.categories.begin(), vocabulary.categories.end(), category) -
+      vocabulary.categories.begin();
+  vocabulary.categories.insert(vocabulary.categories.begin() + at, category);
   vocabulary.welded.insert(vocabulary.welded.begin() + at, false);
   shapes.surfaces.insert(shapes.surfaces.begin() + at, surface);
   std::string error;
@@ -79,7 +82,7 @@ std::vector<float> SceneModel::Sample(int count, const SampleOptions& options,
   if (count < 0) throw core::Error("cannot sample this number of scenes", std::to_string(count));
   nn::PrepareForWork();
   const torch::NoGradGuard no_gradient;
-  const SceneModelFacts& facts = network_->facts;
+  const SceneModelMetadata& facts = network_->facts;
   const SceneDiffusion diffusion(facts.options, facts.vocabulary.ClassCount());
   std::vector<int> times =
       diffusion.Times(options.steps == 0 ? facts.options.diffusion_steps : options.steps);

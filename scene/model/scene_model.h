@@ -10,7 +10,7 @@
 #include "core/progress.h"
 #include "scene/dataset/pose_range.h"
 #include "scene/dataset/vocabulary.h"
-#include "scene/grammar/scene_draw.h"
+#include "scene/grammar/scene_sample.h"
 #include "scene/model/model_options.h"
 
 namespace simwright::scene {
@@ -26,7 +26,7 @@ struct SampleOptions {
 };
 
 // The metadata of a weights file.
-struct SceneModelFacts {
+struct SceneModelMetadata {
   Vocabulary vocabulary;
   SceneModelOptions options;
   PoseRange range;
@@ -45,12 +45,12 @@ class SceneModel {
   SceneModel(SceneModel&&) noexcept;
   SceneModel& operator=(SceneModel&&) noexcept;
 
-  const SceneModelFacts& facts() const;
+  const SceneModelMetadata& facts() const;
 
   // Adds an asset that the model may place, free, identified by its surface only (ShapeOf, of
   // facts().options.shape_points). Throws core::Error if the model does not embed classes by shape,
   // the category exists already, or points are missing or not finite.
-  void AddAsset(const std::string& slot, const std::vector<Eigen::Vector3d>& surface);
+  void AddAsset(const std::string& category, const std::vector<Eigen::Vector3d>& surface);
 
   // Samples `count` scenes. Returns their tokens (count x entries x TokenWidth), with one-hot
   // classes and matrices as predicted (DecodeScene projects them to rotations). Advances `progress`

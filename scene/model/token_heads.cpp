@@ -12,7 +12,8 @@ constexpr int kTimeFeatures = 256;
 
 }  // namespace
 
-TokenEntryImpl::TokenEntryImpl(const SceneModelOptions& options, int classes, ClassShapes shapes)
+TokenInputHeadImpl::TokenInputHeadImpl(const SceneModelOptions& options, int classes,
+                                       ClassShapes shapes)
     : shapes_(std::move(shapes)) {
   const std::int64_t half = EntryWidth(options.width);
   pose_ = register_module("pose", torch::nn::Sequential(Linear(kPoseWidth, half), torch::nn::SiLU(),
@@ -25,10 +26,11 @@ TokenEntryImpl::TokenEntryImpl(const SceneModelOptions& options, int classes, Cl
   join_ = register_module("join", Linear(2 * half, options.width));
 }
 
-torch::Tensor TokenEntryImpl::forward(const NoisyScenes& scenes) {
+torch::Tensor TokenInputHeadImpl::forward(const NoisyScenes& scenes) {
   const torch::Tensor classes = class_map_ ? class_map_(scenes.classes)
-                                : shapes_  ? torch::embedding(shapes_->Entries(), scenes.classes)
-                                           : class_(scenes.classes);
+                                : shapes_
+                                    ? torch::embedding(shapes_->InputEmbeddings(), scenes.classes)
+                                    : class_(scenes.classes);
   return join_(torch::cat({pose_->forward(scenes.poses), classes}, -1));
 }
 
@@ -47,8 +49,8 @@ torch::Tensor PoseBlend::Noise(const torch::Tensor& guesses, const NoisyScenes& 
   return parts[0] + torch::sigmoid(parts[2] + kGateStart) * off;
 }
 
-TokenExitImpl::TokenExitImpl(const SceneModelOptions& options, std::int64_t width, int classes,
-                             ClassShapes shapes)
+TokenOutputHeadImpl::TokenOutputHeadImpl(const SceneModelOptions& options, std::int64_t width,
+                                         int classes, ClassShapes shapes)
     : blend_(options), shapes_(std::move(shapes)) {
   pose_ = register_module("pose", torch::nn::Sequential(Linear(width, width), torch::nn::SiLU(),
                                                         Linear(width, blend_.Width())));
@@ -57,19 +59,19 @@ TokenExitImpl::TokenExitImpl(const SceneModelOptions& options, std::int64_t widt
   if (!shapes_) class_map_ = register_module("class_map", Linear(width, classes));
 }
 
-Denoised TokenExitImpl::forward(const torch::Tensor& features, const NoisyScenes& scenes) {
+Denoised TokenOutputHeadImpl::forward(const torch::Tensor& features, const NoisyScenes& scenes) {
   // In single precision even under nn::MixedPrecision.
   const torch::Tensor normed = class_norm_(features.to(torch::kFloat));
   return {blend_.Noise(pose_->forward(features), scenes),
           shapes_ ? shapes_->Logits(normed) : class_map_(normed)};
 }
 
-TimeEntryImpl::TimeEntryImpl(std::int64_t width) {
+TimeEmbeddingImpl::TimeEmbeddingImpl(std::int64_t width) {
   map_ = register_module("map", torch::nn::Sequential(Linear(kTimeFeatures, width),
                                                       torch::nn::SiLU(), Linear(width, width)));
 }
 
-torch::Tensor TimeEntryImpl::forward(const torch::Tensor& time) {
+torch::Tensor TimeEmbeddingImpl::forward(const torch::Tensor& time) {
   return map_->forward(nn::SinusoidalEmbedding(time, kTimeFeatures));
 }
 

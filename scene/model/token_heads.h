@@ -11,9 +11,9 @@ namespace simwright::scene {
 // The input head: an MLP of two layers on the pose, an embedding of the class (a linear map if
 // classes are continuous), and a linear map of both to the width. With `shapes`, a module
 // registered in the same denoiser with the entry width EntryWidth(width), it embeds the classes.
-class TokenEntryImpl : public torch::nn::Module {
+class TokenInputHeadImpl : public torch::nn::Module {
  public:
-  TokenEntryImpl(const SceneModelOptions& options, int classes, ClassShapes shapes = nullptr);
+  TokenInputHeadImpl(const SceneModelOptions& options, int classes, ClassShapes shapes = nullptr);
   torch::Tensor forward(const NoisyScenes& scenes);  // (B x N x width)
 
  private:
@@ -22,7 +22,7 @@ class TokenEntryImpl : public torch::nn::Module {
   torch::nn::Embedding class_{nullptr};
   torch::nn::Linear class_map_{nullptr}, join_{nullptr};
 };
-TORCH_MODULE(TokenEntry);
+TORCH_MODULE(TokenInputHead);
 
 constexpr std::int64_t EntryWidth(std::int64_t width) {
   return width / 2;
@@ -49,11 +49,11 @@ class PoseBlend {
 
 // The output heads: an MLP of two layers for the pose noise, and a norm with a linear map, or
 // `shapes`, for the class. If the options ask for it, the first gives the inputs of PoseBlend.
-class TokenExitImpl : public torch::nn::Module {
+class TokenOutputHeadImpl : public torch::nn::Module {
  public:
   // `width`: width of the input features.
-  TokenExitImpl(const SceneModelOptions& options, std::int64_t width, int classes,
-                ClassShapes shapes = nullptr);
+  TokenOutputHeadImpl(const SceneModelOptions& options, std::int64_t width, int classes,
+                      ClassShapes shapes = nullptr);
   // pose_noise: (B x N x 12).
   Denoised forward(const torch::Tensor& features, const NoisyScenes& scenes);
 
@@ -64,17 +64,17 @@ class TokenExitImpl : public torch::nn::Module {
   torch::nn::LayerNorm class_norm_{nullptr};
   torch::nn::Linear class_map_{nullptr};
 };
-TORCH_MODULE(TokenExit);
+TORCH_MODULE(TokenOutputHead);
 
 // An embedding of the time: sines and cosines of 256 / 2 frequencies through two layers.
-class TimeEntryImpl : public torch::nn::Module {
+class TimeEmbeddingImpl : public torch::nn::Module {
  public:
-  explicit TimeEntryImpl(std::int64_t width);
+  explicit TimeEmbeddingImpl(std::int64_t width);
   torch::Tensor forward(const torch::Tensor& time);  // (B) -> (B x width)
 
  private:
   torch::nn::Sequential map_{nullptr};
 };
-TORCH_MODULE(TimeEntry);
+TORCH_MODULE(TimeEmbedding);
 
 }  // namespace simwright::scene

@@ -182,7 +182,7 @@ class Training {
   fs::path output_;
   torch::Device device_;
   int held_out_, training_;
-  SceneModelFacts facts_;
+  SceneModelMetadata facts_;
   SceneDiffusion diffusion_;
   std::shared_ptr<Denoiser> denoiser_, average_;
   std::unique_ptr<nn::Trainer> trainer_;

@@ -23,13 +23,13 @@ torch::Tensor AdaptiveBlockImpl::forward(torch::Tensor x, const torch::Tensor& v
 TransformerDenoiser::TransformerDenoiser(const SceneModelOptions& options, int classes) {
   const std::int64_t width = options.width;
   const ClassShapes shapes = RegisterShapes(options, classes, EntryWidth(width), width);
-  entry_ = register_module("entry", TokenEntry(options, classes, shapes));
-  time_ = register_module("time", TimeEntry(width));
+  entry_ = register_module("entry", TokenInputHead(options, classes, shapes));
+  time_ = register_module("time", TimeEmbedding(width));
   for (int i = 0; i < options.double_blocks + options.single_blocks; ++i) {
     blocks_->push_back(AdaptiveBlock(width, options.heads));
   }
   register_module("blocks", blocks_);
-  exit_ = register_module("exit", TokenExit(options, width, classes, shapes));
+  exit_ = register_module("exit", TokenOutputHead(options, width, classes, shapes));
 }
 
 Denoised TransformerDenoiser::Predict(const NoisyScenes& scenes) {

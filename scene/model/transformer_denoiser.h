@@ -26,10 +26,10 @@ class TransformerDenoiser : public Denoiser {
   Denoised Predict(const NoisyScenes& scenes) override;
 
  private:
-  TokenEntry entry_{nullptr};
-  TimeEntry time_{nullptr};
+  TokenInputHead entry_{nullptr};
+  TimeEmbedding time_{nullptr};
   torch::nn::ModuleList blocks_;
-  TokenExit exit_{nullptr};
+  TokenOutputHead exit_{nullptr};
 };
 
 }  // namespace simwright::scene

@@ -57,8 +57,8 @@ torch::Tensor TokenAttentionImpl::forward(const torch::Tensor& x) {
 
 UnetDenoiser::UnetDenoiser(const SceneModelOptions& options, int classes) {
   const std::int64_t width = options.width, heads = options.heads;
-  entry_ = register_module("entry", TokenEntry(options, classes));
-  time_ = register_module("time", TimeEntry(width));
+  entry_ = register_module("entry", TokenInputHead(options, classes));
+  time_ = register_module("time", TimeEmbedding(width));
   for (int level = 0; level < kLevels; ++level) {
     down_->push_back(TokenResidual(width, width, width));
     down_->push_back(TokenResidual(width, width, width));
@@ -74,7 +74,7 @@ UnetDenoiser::UnetDenoiser(const SceneModelOptions& options, int classes) {
   register_module("down", down_);
   register_module("middle", middle_);
   register_module("up", up_);
-  exit_ = register_module("exit", TokenExit(options, width, classes));
+  exit_ = register_module("exit", TokenOutputHead(options, width, classes));
 }
 
 Denoised UnetDenoiser::Predict(const NoisyScenes& scenes) {

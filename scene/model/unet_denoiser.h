@@ -43,10 +43,10 @@ class UnetDenoiser : public Denoiser {
   Denoised Predict(const NoisyScenes& scenes) override;
 
  private:
-  TokenEntry entry_{nullptr};
-  TimeEntry time_{nullptr};
+  TokenInputHead entry_{nullptr};
+  TimeEmbedding time_{nullptr};
   torch::nn::ModuleList down_, middle_, up_;
-  TokenExit exit_{nullptr};
+  TokenOutputHead exit_{nullptr};
 };
 
 }  // namespace simwright::scene

@@ -26,13 +26,13 @@ SceneModelOptions OptionsOf(const nlohmann::json& json) {
   return options;
 }
 
-SceneModelFacts FactsOf(const nlohmann::json& json) {
+SceneModelMetadata FactsOf(const nlohmann::json& json) {
   Vocabulary vocabulary;
   vocabulary.type = json.at("type");
   vocabulary.entries = json.at("entries");
-  vocabulary.slots = json.at("slots").get<std::vector<std::string>>();
+  vocabulary.categories = json.at("slots").get<std::vector<std::string>>();
   vocabulary.welded = json.at("welded").get<std::vector<bool>>();
-  SceneModelFacts facts{vocabulary, OptionsOf(json), PoseRange::FromText(json.at("range"))};
+  SceneModelMetadata facts{vocabulary, OptionsOf(json), PoseRange::FromText(json.at("range"))};
   facts.training_scenes = json.at("training_scenes");
   facts.data_seed = json.at("data_seed");
   facts.steps = json.at("steps");
@@ -41,12 +41,12 @@ SceneModelFacts FactsOf(const nlohmann::json& json) {
 
 }  // namespace
 
-void WriteWeights(const Denoiser& denoiser, const SceneModelFacts& facts,
+void WriteWeights(const Denoiser& denoiser, const SceneModelMetadata& facts,
                   const std::filesystem::path& path) {
   nlohmann::ordered_json json;
   json["type"] = facts.vocabulary.type;
   json["entries"] = facts.vocabulary.entries;
-  json["slots"] = facts.vocabulary.slots;
+  json["slots"] = facts.vocabulary.categories;
   json["welded"] = facts.vocabulary.welded;
   json["range"] = facts.range.Text();
   json["denoiser"] = NameOf(facts.options.kind);
@@ -67,7 +67,7 @@ void WriteWeights(const Denoiser& denoiser, const SceneModelFacts& facts,
 }
 
 ReadModel ReadWeights(const std::filesystem::path& path) {
-  const nn::CheckpointFacts facts = nn::ReadCheckpointFacts(path, kKind);
+  const nn::CheckpointMetadata facts = nn::ReadCheckpointMetadata(path, kKind);
   std::string error;
   try {
     ReadModel model{FactsOf(nlohmann::json::parse(facts.at("model"))), nullptr};

@@ -91,7 +91,7 @@ constexpr std::array kWords = {
     Word{"title", Label::kName},
 };
 
-bool IsDigit(char c) {
+bool IsLabelDigit(char c) {
   return c >= '0' && c <= '9';
 }
 
@@ -104,7 +104,7 @@ bool Skip(std::string_view what, std::string_view* text) {
 // Consumes a number at the start, such as "12"; returns 0 if there is none or it exceeds 9999.
 int TakeNumber(std::string_view* text) {
   int number = 0;
-  for (int digits = 0; digits < 4 && !text->empty() && IsDigit(text->front()); ++digits) {
+  for (int digits = 0; digits < 4 && !text->empty() && IsLabelDigit(text->front()); ++digits) {
     number = number * 10 + (text->front() - '0');
     text->remove_prefix(1);
   }
@@ -123,7 +123,7 @@ bool TakeListMark(std::string_view* text, int* number) {
   const bool bracket = Skip("(", &rest);
   int count = TakeNumber(&rest);
   if (count == 0) return false;
-  while (rest.size() > 1 && rest[0] == '.' && IsDigit(rest[1])) {
+  while (rest.size() > 1 && rest[0] == '.' && IsLabelDigit(rest[1])) {
     rest.remove_prefix(1);
     count = TakeNumber(&rest);
   }
@@ -199,7 +199,7 @@ int TakeLabelNumber(std::string_view* text, int* parts) {
     if (Skip(kChinese[i], text)) return static_cast<int>(i) + 1;
   }
   int number = TakeNumber(text);
-  for (*parts = 1; text->size() > 1 && (*text)[0] == '.' && IsDigit((*text)[1]); ++*parts) {
+  for (*parts = 1; text->size() > 1 && (*text)[0] == '.' && IsLabelDigit((*text)[1]); ++*parts) {
     text->remove_prefix(1);
     number = TakeNumber(text);
   }

@@ -246,7 +246,7 @@ class OutlineReader {
 
 }  // namespace
 
-std::vector<OutlineEntry> OutlineOf(std::string_view answer) {
+std::vector<OutlineEntry> ReadOutline(std::string_view answer) {
   return OutlineReader(answer).Read();
 }
 

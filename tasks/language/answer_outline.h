@@ -20,6 +20,6 @@ struct OutlineEntry {
 // code fences may be missing, left open, or enclose the whole answer. Functions of one fence are
 // split into separate programs, and helper functions are added to the programs that call them.
 // Blank lines and fences are left out. `answer` is text as PlainAnswer returns it.
-std::vector<OutlineEntry> OutlineOf(std::string_view answer);
+std::vector<OutlineEntry> ReadOutline(std::string_view answer);
 
 }  // namespace simwright::tasks

@@ -22,26 +22,26 @@ constexpr const char* kTensorExpressions[] = {"torch.norm(x, dim=-1)",
                                               "torch.sum(x * x, dim=-1)",
                                               "x[:, 2]"};
 
-std::string ResultText(const ApiFunction& function) {
+std::string ResultText(const reward::ApiFunction& function) {
   switch (function.result) {
-    case ApiResult::kVector:
+    case reward::ApiResult::kVector:
       return function.width == 1 ? "[N]" : "[N, " + std::to_string(function.width) + "]";
-    case ApiResult::kFlag:
-    case ApiResult::kInsideBox:
+    case reward::ApiResult::kFlag:
+    case reward::ApiResult::kInsideBox:
       return "[N], true or false";
-    case ApiResult::kLimits:
+    case reward::ApiResult::kLimits:
       return "{\"lower\": number, \"upper\": number}";
-    case ApiResult::kLimitPair:
+    case reward::ApiResult::kLimitPair:
       return "(lower, upper), two numbers";
-    case ApiResult::kLower:
+    case reward::ApiResult::kLower:
       return "a number, the lower limit";
-    case ApiResult::kUpper:
+    case reward::ApiResult::kUpper:
       return "a number, the upper limit";
-    case ApiResult::kBox:
+    case reward::ApiResult::kBox:
       return "(low [N, 3], high [N, 3])";
-    case ApiResult::kPose:
+    case reward::ApiResult::kPose:
       return "(position [N, 3], orientation [N, 4])";
-    case ApiResult::kDistance:
+    case reward::ApiResult::kDistance:
       return "[N]";
   }
   return "";
@@ -53,7 +53,7 @@ std::string ArgumentName(const std::string& kind) {
 
 }  // namespace
 
-std::string ApiCall(const ApiFunction& function) {
+std::string ApiCall(const reward::ApiFunction& function) {
   std::string call = "env." + std::string(function.names.substr(0, function.names.find(' '))) + "(";
   std::istringstream arguments{std::string(function.arguments)};
   std::string kind, before, closing;
@@ -72,7 +72,7 @@ std::string ApiCall(const ApiFunction& function) {
 
 std::string ApiListing() {
   std::string listing;
-  for (const ApiFunction& function : EnvironmentApi()) {
+  for (const reward::ApiFunction& function : reward::EnvironmentApi()) {
     listing += ApiCall(function) + "  # " + ResultText(function);
     listing += ": " + std::string(function.document) + "\n";
   }

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "tasks/reward/environment_api.h"
+#include "reward/environment_api.h"
 
 namespace simwright::tasks {
 
@@ -13,7 +13,7 @@ std::string ApiListing();
 
 // Returns the call alone, e.g. "env.get_position(asset_name)"; optional arguments stand in
 // brackets.
-std::string ApiCall(const ApiFunction& function);
+std::string ApiCall(const reward::ApiFunction& function);
 
 // Returns the torch expressions that the prompt lists, in terms of `x`, [N, 3], and `a`, `b`, [N].
 // Reward programs may use far more (docs/rewards.md).

@@ -14,9 +14,9 @@
 namespace simwright::tasks {
 namespace {
 
-using Json = nlohmann::json;
+using AnswerJson = nlohmann::json;
 
-constexpr int kDeepest = 6;  // nesting levels of objects around tasks
+constexpr int kDeepestAnswer = 6;  // nesting levels of objects around tasks
 
 // Normalizes a key: "Task Description" and "task_description" are equal.
 std::string PlainKey(std::string_view key) {
@@ -27,7 +27,7 @@ std::string PlainKey(std::string_view key) {
   return plain;
 }
 
-const Json* Member(const Json& object, std::initializer_list<std::string_view> names) {
+const AnswerJson* Member(const AnswerJson& object, std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
     for (const auto& [key, value] : object.items()) {
       if (PlainKey(key) == name) return &value;
@@ -36,7 +36,7 @@ const Json* Member(const Json& object, std::initializer_list<std::string_view> n
   return nullptr;
 }
 
-std::string TextOf(const Json* json) {
+std::string TextOf(const AnswerJson* json) {
   return json != nullptr && json->is_string() ? Unquoted(json->get<std::string>()) : "";
 }
 
@@ -51,13 +51,13 @@ std::string WithoutFence(const std::string& program) {
 }
 
 // Returns a program given as text or as lines, directly or one level down ({"code": ...}).
-std::string ProgramOf(const Json* json, int depth = 0) {
+std::string ProgramOf(const AnswerJson* json, int depth = 0) {
   if (json == nullptr) return "";
   std::string program;
   if (json->is_string()) {
     program = WithoutFence(json->get<std::string>());
   } else if (json->is_array()) {
-    for (const Json& line : *json) {
+    for (const AnswerJson& line : *json) {
       if (!line.is_string()) return "";
       program += line.get<std::string>() + (line.get<std::string>().ends_with('\n') ? "" : "\n");
     }
@@ -69,17 +69,17 @@ std::string ProgramOf(const Json* json, int depth = 0) {
   return code ? program + (program.ends_with('\n') ? "" : "\n") : "";
 }
 
-const Json* ProgramMember(const Json& object) {
+const AnswerJson* ProgramMember(const AnswerJson& object) {
   return Member(object,
                 {"program", "rewardfunction", "rewardcode", "reward", "code", "computereward",
                  "function", "rewardprogram", "pythoncode", "python", "rewardfn"});
 }
 
-const Json* SubtasksMember(const Json& object) {
+const AnswerJson* SubtasksMember(const AnswerJson& object) {
   return Member(object, {"subtasks", "subtask", "decomposition", "subtaskdecomposition", "steps"});
 }
 
-std::string TitleMember(const Json& object) {
+std::string TitleMember(const AnswerJson& object) {
   for (const std::string_view name :
        {"name", "taskname", "subtaskname", "task", "subtask", "title", "tasktitle"}) {
     const std::string title = TextOf(Member(object, {name}));
@@ -88,7 +88,7 @@ std::string TitleMember(const Json& object) {
   return "";
 }
 
-Subtask SubtaskOf(const Json& object, const std::string& title) {
+Subtask SubtaskOf(const AnswerJson& object, const std::string& title) {
   Subtask subtask;
   subtask.name = TitleMember(object);
   if (subtask.name.empty()) subtask.name = title;
@@ -97,38 +97,38 @@ Subtask SubtaskOf(const Json& object, const std::string& title) {
   subtask.program = ProgramOf(ProgramMember(object));
   subtask.success = TextOf(
       Member(object, {"success", "successcondition", "successcriterion", "successcriteria"}));
-  if (subtask.success.empty()) subtask.success = SuccessOf(subtask.program);
-  if (const Json* goal = Member(object, {"goal", "goalposition", "targetposition"})) {
-    subtask.goal = StatedGoal(goal->dump(-1, ' ', false, Json::error_handler_t::replace));
+  if (subtask.success.empty()) subtask.success = SuccessExpression(subtask.program);
+  if (const AnswerJson* goal = Member(object, {"goal", "goalposition", "targetposition"})) {
+    subtask.goal = StatedGoal(goal->dump(-1, ' ', false, AnswerJson::error_handler_t::replace));
   }
   return subtask;
 }
 
 // Returns the members of `object` in the order of their keys in the answer, which the JSON parser
 // does not keep.
-std::vector<std::pair<std::string, const Json*>> InOrder(const Json& object,
-                                                         std::string_view answer) {
-  std::vector<std::pair<std::size_t, std::pair<std::string, const Json*>>> placed;
+std::vector<std::pair<std::string, const AnswerJson*>> InOrder(const AnswerJson& object,
+                                                               std::string_view answer) {
+  std::vector<std::pair<std::size_t, std::pair<std::string, const AnswerJson*>>> placed;
   for (const auto& [key, value] : object.items()) {
     placed.push_back({answer.find('"' + key + '"'), {key, &value}});
   }
   std::stable_sort(placed.begin(), placed.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<std::pair<std::string, const Json*>> members;
+  std::vector<std::pair<std::string, const AnswerJson*>> members;
   for (auto& [place, member] : placed) members.push_back(std::move(member));
   return members;
 }
 
 // Returns the subtasks, given as objects, as titles, or as a map from title to object or program.
-std::vector<Subtask> SubtasksOf(const Json& json, std::string_view answer) {
+std::vector<Subtask> SubtasksOf(const AnswerJson& json, std::string_view answer) {
   std::vector<Subtask> subtasks;
-  const auto add = [&](const std::string& key, const Json& value) {
+  const auto add = [&](const std::string& key, const AnswerJson& value) {
     if (value.is_object()) {
       subtasks.push_back(SubtaskOf(value, key));
     } else if (value.is_string() || value.is_array()) {
       Subtask subtask;
       subtask.program = ProgramOf(&value);
-      subtask.success = SuccessOf(subtask.program);
+      subtask.success = SuccessExpression(subtask.program);
       subtask.name = subtask.program.empty() && value.is_string() && key.empty()
                          ? Unquoted(value.get<std::string>())
                          : key;
@@ -136,7 +136,7 @@ std::vector<Subtask> SubtasksOf(const Json& json, std::string_view answer) {
     }
   };
   if (json.is_array()) {
-    for (const Json& element : json) add("", element);
+    for (const AnswerJson& element : json) add("", element);
   } else if (json.is_object()) {
     const bool single = ProgramMember(json) != nullptr;
     if (single) add("", json);
@@ -147,14 +147,14 @@ std::vector<Subtask> SubtasksOf(const Json& json, std::string_view answer) {
 }
 
 // Assigns programs listed beside the subtasks, in order or by title.
-void AddProgramsBeside(const Json& object, std::vector<Subtask>* subtasks) {
-  const Json* beside = Member(
+void AddProgramsBeside(const AnswerJson& object, std::vector<Subtask>* subtasks) {
+  const AnswerJson* beside = Member(
       object, {"rewardfunctions", "rewards", "programs", "functions", "rewardfunction", "reward"});
   if (beside == nullptr || !(beside->is_array() || beside->is_object())) return;
   std::size_t next = 0;
   for (const auto& member : beside->items()) {
     const std::string& key = member.key();
-    const Json& value = member.value();
+    const AnswerJson& value = member.value();
     const auto named = std::find_if(subtasks->begin(), subtasks->end(), [&](const Subtask& s) {
       return beside->is_object() && Lower(s.name) == Lower(key);
     });
@@ -164,23 +164,23 @@ void AddProgramsBeside(const Json& object, std::vector<Subtask>* subtasks) {
     ++next;
     if (subtask == nullptr || !subtask->program.empty()) continue;
     subtask->program = value.is_object() ? ProgramOf(ProgramMember(value)) : ProgramOf(&value);
-    if (subtask->success.empty()) subtask->success = SuccessOf(subtask->program);
+    if (subtask->success.empty()) subtask->success = SuccessExpression(subtask->program);
   }
 }
 
-bool IsTask(const Json& json) {
+bool IsTask(const AnswerJson& json) {
   if (!json.is_object()) return false;
   if (!ProgramOf(ProgramMember(json)).empty()) return true;
-  const Json* subtasks = SubtasksMember(json);
+  const AnswerJson* subtasks = SubtasksMember(json);
   return subtasks != nullptr && (subtasks->is_array() || subtasks->is_object());
 }
 
-Task TaskOf(const Json& json, const std::string& title, std::string_view answer) {
+Task TaskOf(const AnswerJson& json, const std::string& title, std::string_view answer) {
   Task task;
   task.name = TitleMember(json);
   if (task.name.empty()) task.name = title;
   task.description = TextOf(Member(json, {"taskdescription", "description"}));
-  if (const Json* subtasks = SubtasksMember(json)) {
+  if (const AnswerJson* subtasks = SubtasksMember(json)) {
     task.subtasks = SubtasksOf(*subtasks, answer);
     AddProgramsBeside(json, &task.subtasks);
   }
@@ -192,13 +192,13 @@ Task TaskOf(const Json& json, const std::string& title, std::string_view answer)
 }
 
 // Descends to the objects that are tasks; `key` is the key of the current object.
-void Collect(const Json& json, const std::string& key, std::string_view answer, int depth,
+void Collect(const AnswerJson& json, const std::string& key, std::string_view answer, int depth,
              std::vector<Task>* tasks) {
-  if (depth > kDeepest) return;
+  if (depth > kDeepestAnswer) return;
   if (IsTask(json)) {
     tasks->push_back(TaskOf(json, key, answer));
   } else if (json.is_array()) {
-    for (const Json& element : json) Collect(element, "", answer, depth + 1, tasks);
+    for (const AnswerJson& element : json) Collect(element, "", answer, depth + 1, tasks);
   } else if (json.is_object()) {
     for (const auto& [name, value] : InOrder(json, answer)) {
       if (!value->is_primitive()) Collect(*value, name, answer, depth + 1, tasks);
@@ -235,7 +235,7 @@ std::string Repaired(std::string_view text) {
 
 std::vector<Task> TasksInText(std::string_view text) {
   std::vector<Task> tasks;
-  for (const Json& json : llm::JsonInText(text)) Collect(json, "", text, 0, &tasks);
+  for (const AnswerJson& json : llm::JsonInText(text)) Collect(json, "", text, 0, &tasks);
   return tasks;
 }
 

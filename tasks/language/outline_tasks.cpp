@@ -15,10 +15,10 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr std::size_t kLongestTitle = 100;  // bytes; a longer text is a description
+constexpr std::size_t kLongestOutlineTitle = 100;  // bytes; a longer text is a description
 constexpr std::size_t kMostPlanned = 30;
 // Limits on what is collected, far above the number that is kept of an answer.
-constexpr std::size_t kMostTasks = 300, kMostSubtasks = 3000;
+constexpr std::size_t kMostOutlineTasks = 300, kMostSubtasks = 3000;
 constexpr int kCommentLevel = 9;  // below every heading level, above every list level
 
 struct Heading {
@@ -30,7 +30,7 @@ struct Heading {
 
 class TaskAssembler {
  public:
-  bool full() const { return tasks_.size() >= kMostTasks || subtasks_ >= kMostSubtasks; }
+  bool full() const { return tasks_.size() >= kMostOutlineTasks || subtasks_ >= kMostSubtasks; }
 
   void Take(const OutlineEntry& entry) {
     if (!entry.program.empty()) {
@@ -65,7 +65,7 @@ class TaskAssembler {
         TakeName(line);
         break;
       case Label::kCode:
-        if (!line.text.empty() && line.text.size() <= kLongestTitle && line.heading) {
+        if (!line.text.empty() && line.text.size() <= kLongestOutlineTitle && line.heading) {
           TakeHeading(line.text, line.level);
         }
         break;
@@ -217,7 +217,8 @@ class TaskAssembler {
   }
 
   void TakeHeading(const std::string& title, int level) {
-    const bool section = IsSectionTitle(title) || title.empty() || title.size() > kLongestTitle;
+    const bool section =
+        IsSectionTitle(title) || title.empty() || title.size() > kLongestOutlineTitle;
     if (section && headings_since_) return;  // "### Code" below "### Open the door"
     while (!headings_.empty() && headings_.back().level >= level) headings_.pop_back();
     if (section) return;
@@ -240,7 +241,7 @@ class TaskAssembler {
       if (enclosing.level < line.level) outer_item_ = enclosing;
     }
     const std::string title = TitlePart(line.text);
-    if (!title.empty() && title.size() <= kLongestTitle)
+    if (!title.empty() && title.size() <= kLongestOutlineTitle)
       items_.push_back({title, line.level, true});
   }
 
@@ -271,7 +272,7 @@ class TaskAssembler {
     if (Subtask* open = OpenSubtask(); open != nullptr && open->name.empty()) {
       open->name = Unquoted(text);
     } else if (!headings_since_ && !tasks_.empty() && tasks_.back().name.empty() &&
-               tasks_.back().subtasks.empty() && text.size() <= kLongestTitle) {
+               tasks_.back().subtasks.empty() && text.size() <= kLongestOutlineTitle) {
       tasks_.back().name = Unquoted(text);
     } else if (std::string* place = DescriptionPlace(Label::kDescription); place->empty()) {
       *place = Unquoted(text);
@@ -296,7 +297,7 @@ class TaskAssembler {
     subtask->program = entry.program;
     if (subtask->description.empty()) subtask->description = description_;
     if (subtask->success.empty()) subtask->success = success_;
-    if (subtask->success.empty()) subtask->success = SuccessOf(entry.program);
+    if (subtask->success.empty()) subtask->success = SuccessExpression(entry.program);
     if (!subtask->goal) subtask->goal = goal_;
     subtask_open_ = false;
     description_.clear();
@@ -412,7 +413,7 @@ class TaskAssembler {
 
 }  // namespace
 
-std::vector<Task> TasksOf(const std::vector<OutlineEntry>& outline) {
+std::vector<Task> TasksInOutline(const std::vector<OutlineEntry>& outline) {
   TaskAssembler assembler;
   for (const OutlineEntry& entry : outline) {
     if (!assembler.full()) assembler.Take(entry);

@@ -11,6 +11,6 @@ namespace simwright::tasks {
 // the answer gives none. A program belongs to the subtask or task named above it. Programs without
 // a name above them are assigned in order to the entries of an earlier list. A subtask named
 // without a program has an empty program.
-std::vector<Task> TasksOf(const std::vector<OutlineEntry>& outline);
+std::vector<Task> TasksInOutline(const std::vector<OutlineEntry>& outline);
 
 }  // namespace simwright::tasks

@@ -8,7 +8,7 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr std::size_t kLongestTitle = 80;          // bytes; a longer text is an explanation
+constexpr std::size_t kLongestBlockTitle = 80;     // bytes; a longer text is an explanation
 constexpr std::size_t kMostFunctions = 200;        // per block; later functions stay with the last
                                                    // chunk
 constexpr std::size_t kLongestProgram = 64 << 10;  // bytes; the compiler rejects longer ones
@@ -35,7 +35,7 @@ struct Chunk {
 
 // The lines split into functions at the outer level; the lines before the first one are the
 // preamble.
-struct Cut {
+struct CutProgram {
   std::string preamble;
   std::vector<Chunk> chunks;
 };
@@ -51,13 +51,13 @@ std::string TitleIn(const std::vector<std::string>& comments) {
       text.remove_suffix(1);
       text = Trimmed(text);
     }
-    if (!text.empty() && text.size() <= kLongestTitle) return std::string(text);
+    if (!text.empty() && text.size() <= kLongestBlockTitle) return std::string(text);
   }
   return "";
 }
 
-Cut CutIntoFunctions(const std::vector<std::string>& lines) {
-  Cut cut;
+CutProgram CutIntoFunctions(const std::vector<std::string>& lines) {
+  CutProgram cut;
   std::vector<std::string> waiting;  // comments and decorators that may belong to the next function
   std::vector<std::string> comments;
   const auto flush = [&](std::string* to) {
@@ -153,7 +153,7 @@ bool IsImport(std::string_view line) {
 }
 
 BlockPrograms SplitProgramBlock(const std::vector<std::string>& lines) {
-  const Cut cut = CutIntoFunctions(lines);
+  const CutProgram cut = CutIntoFunctions(lines);
   BlockPrograms block;
   std::vector<const Chunk*> rewards;
   for (const Chunk& chunk : cut.chunks) {
@@ -200,7 +200,7 @@ std::string WithHelpers(const std::string& program,
   return whole;
 }
 
-std::string SuccessOf(std::string_view program) {
+std::string SuccessExpression(std::string_view program) {
   const std::size_t at = program.rfind("return ");
   if (at == std::string_view::npos) return "";
   const std::size_t begin = at + 7;

@@ -36,6 +36,6 @@ std::string WithHelpers(const std::string& program,
 
 // Returns the source of the expression that `program` returns as success; empty where it cannot be
 // determined.
-std::string SuccessOf(std::string_view program);
+std::string SuccessExpression(std::string_view program);
 
 }  // namespace simwright::tasks

@@ -151,7 +151,8 @@ std::string AssetText(const NamedModel& asset, const std::vector<Part>& parts, i
   return text;
 }
 
-core::Finding Cut(const std::string& place, std::size_t left_out, const std::string& what) {
+core::Finding CutDescription(const std::string& place, std::size_t left_out,
+                             const std::string& what) {
   return {"description-cut", core::Severity::kWarning, place,
           std::to_string(left_out) + " " + what + " omitted from the prompt for the language model",
           static_cast<double>(left_out)};
@@ -193,12 +194,12 @@ SceneDescription DescribeScene(std::span<const NamedModel> scene, const Descript
     description.text += AssetText(told[i], kept, static_cast<int>(i) + 1);
     const std::size_t all = told[i].model->model.links.size();
     if (kept.size() < all) {
-      description.findings.push_back(Cut(told[i].name, all - kept.size(), "parts are"));
+      description.findings.push_back(CutDescription(told[i].name, all - kept.size(), "parts are"));
       description.text += "   (" + std::to_string(all - kept.size()) + " more parts, not to use)\n";
     }
   }
   if (told.size() < scene.size()) {
-    description.findings.push_back(Cut("", scene.size() - told.size(), "assets are"));
+    description.findings.push_back(CutDescription("", scene.size() - told.size(), "assets are"));
   }
   return description;
 }

@@ -13,7 +13,7 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr std::size_t kMostTasks = 100, kMostSubtasks = 30;
+constexpr std::size_t kMostAnswerTasks = 100, kMostSubtasks = 30;
 constexpr std::size_t kLongestSentence = 2000;  // bytes of a description
 
 std::size_t ProgramsOf(const std::vector<Task>& tasks) {
@@ -40,7 +40,7 @@ void FillInOrder(const std::vector<Task>& from, std::vector<Task>* tasks) {
   if (programs.size() != subtasks.size() || ProgramsOf(*tasks) > 0) return;
   for (std::size_t i = 0; i < programs.size(); ++i) {
     subtasks[i]->program = programs[i];
-    if (subtasks[i]->success.empty()) subtasks[i]->success = SuccessOf(programs[i]);
+    if (subtasks[i]->success.empty()) subtasks[i]->success = SuccessExpression(programs[i]);
   }
 }
 
@@ -78,11 +78,11 @@ void Describe(const std::string& title, const std::string& name, std::string* de
 }
 
 void Bound(std::vector<Task>* tasks, core::Findings* findings) {
-  if (tasks->size() > kMostTasks) {
+  if (tasks->size() > kMostAnswerTasks) {
     findings->push_back({"answer-too-many-tasks", core::Severity::kWarning, "",
-                         "only the first " + std::to_string(kMostTasks) + " tasks are kept",
+                         "only the first " + std::to_string(kMostAnswerTasks) + " tasks are kept",
                          static_cast<double>(tasks->size())});
-    tasks->resize(kMostTasks);
+    tasks->resize(kMostAnswerTasks);
   }
   for (Task& task : *tasks) {
     if (task.subtasks.size() <= kMostSubtasks) continue;
@@ -128,7 +128,7 @@ TaskAnswer ReadTaskAnswer(std::string_view answer) {
         {"answer-empty", core::Severity::kError, "", "the answer is empty", 0.0});
     return read;
   }
-  read.tasks = TasksOf(OutlineOf(plain));
+  read.tasks = TasksInOutline(ReadOutline(plain));
   std::vector<Task> in_json = TasksInJson(plain);
   FillInOrder(read.tasks, &in_json);
   if (!in_json.empty() && ProgramsOf(in_json) >= ProgramsOf(read.tasks)) {

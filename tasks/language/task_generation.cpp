@@ -53,8 +53,8 @@ class TaskGeneration {
 
   GeneratedTasks Run() {
     while (missing() > 0 && !failed_) {
-      std::vector<Task> proposed = Propose(std::min(missing(), options_.most_in_a_question));
-      asked_ += std::min(missing(), options_.most_in_a_question);
+      std::vector<Task> proposed = Propose(std::min(missing(), options_.tasks_per_question));
+      asked_ += std::min(missing(), options_.tasks_per_question);
       for (Task& task : proposed) {
         core::CheckCancelled();
         Complete(&task);
@@ -136,7 +136,7 @@ class TaskGeneration {
       }
       if (!answer.tasks.empty()) proposed = std::move(answer.tasks);
       proposed_ = proposed_ || !proposed.empty();
-      request.messages.push_back({llm::Role::kUser, AskForTasksAgain(), {}});
+      request.messages.push_back({llm::Role::kUser, RetryQuestion(), {}});
     }
     proposed_ = proposed_ || !proposed.empty();
     return WithUniqueNames(std::move(proposed));
@@ -224,12 +224,12 @@ class TaskGeneration {
       } else {
         subtask->attempts.push_back({before, subtask->findings});
         subtask->program = program;
-        const std::string success = SuccessOf(program);
+        const std::string success = SuccessExpression(program);
         if (!success.empty()) subtask->success = success;
         Verify(task, subtask);
       }
       request.messages.push_back(
-          {llm::Role::kUser, RepairAgain(program, before, subtask->findings), {}});
+          {llm::Role::kUser, RepairRetryQuestion(program, before, subtask->findings), {}});
     }
   }
 
@@ -254,7 +254,7 @@ bool TaskGenerationOptions::IsValid(std::string* error) const {
     return false;
   };
   if (count < 1 || count > 200) return refuse("the number of tasks must be between 1 and 200");
-  if (most_in_a_question < 1 || most_in_a_question > 100) {
+  if (tasks_per_question < 1 || tasks_per_question > 100) {
     return refuse("a question must ask for 1 to 100 tasks");
   }
   if (repairs < 0 || repairs > 10) return refuse("the number of repairs must be between 0 and 10");

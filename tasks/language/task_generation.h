@@ -17,7 +17,7 @@ namespace simwright::tasks {
 
 struct TaskGenerationOptions {
   int count = 8;                      // number of tasks to ask for, 1 to 200
-  int most_in_a_question = 8;         // tasks per answer, 1 to 100; longer answers are cut off
+  int tasks_per_question = 8;         // tasks per answer, 1 to 100; longer answers are cut off
   int repairs = 3;                    // repair attempts per subtask, 0 to 10
   std::optional<double> temperature;  // see llm::ChatRequest
   std::optional<std::uint64_t> seed;

@@ -1,9 +1,9 @@
 #include "tasks/language/task_question.h"
 
+#include "reward/reward_program.h"
 #include "tasks/language/api_listing.h"
 #include "tasks/language/scene_description.h"
 #include "tasks/language/worked_example.h"
-#include "tasks/reward/reward_program.h"
 
 namespace simwright::tasks {
 namespace {
@@ -61,7 +61,7 @@ std::string RenderedFindings(const core::Findings& findings, const std::string& 
       const bool error = finding.severity == core::Severity::kError;
       text += (error ? "error: " : "warning: ") + finding.sentence + "\n";
     } else {
-      text += RenderFinding(finding, program);
+      text += reward::RenderFinding(finding, program);
     }
   }
   return text;
@@ -93,7 +93,7 @@ llm::ChatRequest TaskQuestion(const std::string& description, int count,
   return request;
 }
 
-std::string AskForTasksAgain() {
+std::string RetryQuestion() {
   return "That holds no task with a reward function that can be read. Give the tasks in the form "
          "of section 4: the lines Task, Task Description, Subtask, Subtask Description, Success, "
          "and a ```python block with compute_reward(env) for each subtask.";
@@ -120,8 +120,8 @@ llm::ChatRequest RepairQuestion(const std::string& description, const Task& task
   return request;
 }
 
-std::string RepairAgain(const std::string& answered, const std::string& before,
-                        const core::Findings& findings) {
+std::string RepairRetryQuestion(const std::string& answered, const std::string& before,
+                                const core::Findings& findings) {
   if (answered.empty()) {
     return std::string("That holds no function that can be read. ") + kWholeFunction + "\n";
   }

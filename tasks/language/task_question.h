@@ -17,7 +17,7 @@ llm::ChatRequest TaskQuestion(const std::string& description, int count,
                               const std::vector<std::string>& have);
 
 // Returns the follow-up prompt after an answer without any task.
-std::string AskForTasksAgain();
+std::string RetryQuestion();
 
 // Returns the prompt that asks for a subtask's whole reward function again and lists its findings
 // with source lines and carets. An empty program is requested as a missing one.
@@ -27,7 +27,7 @@ llm::ChatRequest RepairQuestion(const std::string& description, const Task& task
 // Returns the follow-up prompt after a repaired function that is still wrong. `answered` is the
 // program read from the answer, empty where there was none; `before` is the program that it should
 // have repaired.
-std::string RepairAgain(const std::string& answered, const std::string& before,
-                        const core::Findings& findings);
+std::string RepairRetryQuestion(const std::string& answered, const std::string& before,
+                                const core::Findings& findings);
 
 }  // namespace simwright::tasks

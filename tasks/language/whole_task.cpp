@@ -56,7 +56,7 @@ std::string All(const std::vector<std::string>& flags) {
   return text;
 }
 
-void RequireParts(const Task& task, const WholeTaskParts& parts) {
+void RequireParts(const Task& task, const SubtaskSelection& parts) {
   const auto any = [](const std::vector<bool>& flags) {
     return std::find(flags.begin(), flags.end(), true) != flags.end();
   };
@@ -74,7 +74,7 @@ void RequireParts(const Task& task, const WholeTaskParts& parts) {
 
 }  // namespace
 
-Task WholeTask(const Task& task, const WholeTaskParts& parts, const std::string& name) {
+Task MergeSubtasks(const Task& task, const SubtaskSelection& parts, const std::string& name) {
   RequireParts(task, parts);
   const auto taken = [&](size_t k) { return parts.rewarded[k] || parts.required[k]; };
   size_t last_goal = task.subtasks.size();

@@ -8,7 +8,7 @@
 namespace simwright::tasks {
 
 // The selection of subtask rewards and success conditions that makes up an undecomposed task.
-struct WholeTaskParts {
+struct SubtaskSelection {
   std::vector<bool> rewarded;  // (subtasks) whose rewards are summed
   std::vector<bool> required;  // (subtasks) whose success conditions must hold simultaneously
 };
@@ -18,6 +18,6 @@ struct WholeTaskParts {
 // goal, get_goal_pose returns the last one's and the other goals are constants in the program.
 // Throws core::Error, naming the task, if `parts` has another length or selects no reward or no
 // success condition, or if a program's reward function cannot be determined.
-Task WholeTask(const Task& task, const WholeTaskParts& parts, const std::string& name);
+Task MergeSubtasks(const Task& task, const SubtaskSelection& parts, const std::string& name);
 
 }  // namespace simwright::tasks

@@ -6,19 +6,19 @@ namespace simwright::tasks {
 namespace {
 
 constexpr std::size_t kMostSteps = 12;
-constexpr int kDeepest = 6;
+constexpr int kDeepestPlan = 6;
 
-class Planner {
+class ForwardPlanner {
  public:
-  Planner(const std::vector<Operator>& operators, Facts facts)
+  ForwardPlanner(const std::vector<Operator>& operators, Metadata facts)
       : operators_(operators), facts_(std::move(facts)) {}
 
-  bool Achieve(const Fact& goal, int depth) {
+  bool Achieve(const Predicate& goal, int depth) {
     if (facts_.contains(goal)) return true;
-    if (depth == kDeepest) return false;
+    if (depth == kDeepestPlan) return false;
     for (const Operator& one : operators_) {
       if (std::find(one.adds.begin(), one.adds.end(), goal) == one.adds.end()) continue;
-      const Facts before = facts_;
+      const Metadata before = facts_;
       const std::size_t steps = steps_.size();
       if (Apply(one, depth)) return true;
       facts_ = before;
@@ -27,42 +27,42 @@ class Planner {
     return false;
   }
 
-  const Facts& facts() const { return facts_; }
+  const Metadata& facts() const { return facts_; }
   std::vector<Operator> Take() { return std::move(steps_); }
 
  private:
-  bool Holds(const std::vector<Fact>& facts) const {
+  bool Holds(const std::vector<Predicate>& facts) const {
     return std::all_of(facts.begin(), facts.end(),
-                       [&](const Fact& fact) { return facts_.contains(fact); });
+                       [&](const Predicate& fact) { return facts_.contains(fact); });
   }
 
   bool Apply(const Operator& one, int depth) {
     if (!Holds(one.given)) return false;
-    for (const Fact& fact : one.wanted) {
+    for (const Predicate& fact : one.wanted) {
       if (!Achieve(fact, depth + 1)) return false;
     }
     // Achieving one precondition may have undone another.
     if (!Holds(one.given) || !Holds(one.wanted) || steps_.size() == kMostSteps) return false;
-    for (const Fact& fact : one.removes) facts_.erase(fact);
-    for (const Fact& fact : one.adds) facts_.insert(fact);
+    for (const Predicate& fact : one.removes) facts_.erase(fact);
+    for (const Predicate& fact : one.adds) facts_.insert(fact);
     steps_.push_back(one);
     return true;
   }
 
   const std::vector<Operator>& operators_;
-  Facts facts_;
+  Metadata facts_;
   std::vector<Operator> steps_;
 };
 
 }  // namespace
 
-std::vector<Operator> Plan(const std::vector<Operator>& operators, const std::vector<Fact>& goals,
-                           Facts* facts) {
-  Planner planner(operators, *facts);
-  for (const Fact& goal : goals) {
+std::vector<Operator> Plan(const std::vector<Operator>& operators,
+                           const std::vector<Predicate>& goals, Metadata* facts) {
+  ForwardPlanner planner(operators, *facts);
+  for (const Predicate& goal : goals) {
     if (!planner.Achieve(goal, 0)) return {};
   }
-  for (const Fact& goal : goals) {
+  for (const Predicate& goal : goals) {
     if (!planner.facts().contains(goal)) return {};
   }
   *facts = planner.facts();

@@ -8,10 +8,10 @@
 
 namespace simwright::tasks {
 
-enum class FactKind {
+enum class PredicateKind {
   kJointAway,    // the object's joint `part` is open or on
   kJointAtRest,  // the joint is closed or off
-  kHandEmpty,
+  kGripperEmpty,
   kHolding,  // the gripper holds the object
   kOnFloor,  // the object is on the floor
   kOn,       // the object stands on `other`
@@ -23,36 +23,36 @@ enum class FactKind {
 };
 
 // A ground predicate of the planner.
-struct Fact {
-  FactKind kind = FactKind::kHandEmpty;
-  int thing = -1, other = -1, part = -1;
-  auto operator<=>(const Fact&) const = default;
+struct Predicate {
+  PredicateKind kind = PredicateKind::kGripperEmpty;
+  int object = -1, other = -1, part = -1;
+  auto operator<=>(const Predicate&) const = default;
 };
 
-using Facts = std::set<Fact>;
+using Metadata = std::set<Predicate>;
 
-enum class Verb { kOpen, kClose, kPick, kPlaceOn, kPutInto, kPutDown, kPush, kPour };
+enum class ActionType { kOpen, kClose, kPick, kPlaceOn, kPutInto, kPutDown, kPush, kPour };
 
 // An action with its preconditions and effects: STRIPS (Fikes and Nilsson, 1971).
 struct Operator {
-  Verb verb = Verb::kPick;
-  int thing = -1;            // the object that is handled
-  int other = -1;            // the object that it goes onto, into or over
-  int part = -1;             // a joint, or a receptacle of `other`
-  std::vector<Fact> given;   // preconditions that must hold already; the planner does not achieve
-                             // them
-  std::vector<Fact> wanted;  // preconditions that the planner achieves first, in this order
-  std::vector<Fact> adds, removes;
+  ActionType verb = ActionType::kPick;
+  int object = -1;               // the object that is handled
+  int other = -1;                // the object that it goes onto, into or over
+  int part = -1;                 // a joint, or a receptacle of `other`
+  std::vector<Predicate> given;  // preconditions that must hold already; the planner does not
+                                 // achieve them
+  std::vector<Predicate> wanted;  // preconditions that the planner achieves first, in this order
+  std::vector<Predicate> adds, removes;
 };
 
 // Returns the operators on the given objects: joints that the gripper can move, objects that it can
 // lift, flat tops, and receptacles that the object fits.
-std::vector<Operator> OperatorsFor(const SceneModel& model, const std::vector<int>& things);
+std::vector<Operator> OperatorsFor(const SceneModel& model, const std::vector<int>& objects);
 
 // Returns operators that achieve `goals` one after the other from `facts`, by means-ends analysis:
 // the preconditions of a step are achieved before it. Returns an empty plan if none exists within
 // 12 steps. Updates `facts` to the state after the plan.
-std::vector<Operator> Plan(const std::vector<Operator>& operators, const std::vector<Fact>& goals,
-                           Facts* facts);
+std::vector<Operator> Plan(const std::vector<Operator>& operators,
+                           const std::vector<Predicate>& goals, Metadata* facts);
 
 }  // namespace simwright::tasks

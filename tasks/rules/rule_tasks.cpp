@@ -8,8 +8,8 @@
 #include "core/parallel.h"
 #include "tasks/layout.h"
 #include "tasks/rules/affordances.h"
-#include "tasks/rules/idea.h"
 #include "tasks/rules/step.h"
+#include "tasks/rules/task_candidate.h"
 #include "tasks/task_names.h"
 #include "tasks/verification/start_planning.h"
 #include "tasks/verification/subtask_verifier.h"
@@ -22,26 +22,27 @@ constexpr int kCandidatesPerTask = 4;  // some are infeasible
 constexpr int kBatch = 64;             // candidates processed in parallel
 
 // Returns the predicates that hold in the layout of a candidate.
-Facts InitialFacts(const SceneModel& model, const Idea& candidate, const SceneState& state) {
-  Facts facts{{FactKind::kHandEmpty}};
-  for (int t : candidate.layout.things) {
-    const Thing& thing = model.things[static_cast<std::size_t>(t)];
-    for (std::size_t j = 0; j < thing.joints.size(); ++j) {
-      const bool away = state.joints[static_cast<std::size_t>(t)][j] != thing.joints[j].rest();
-      facts.insert(
-          {away ? FactKind::kJointAway : FactKind::kJointAtRest, t, -1, static_cast<int>(j)});
+Metadata InitialFacts(const SceneModel& model, const TaskCandidate& candidate,
+                      const SceneState& state) {
+  Metadata facts{{PredicateKind::kGripperEmpty}};
+  for (int t : candidate.layout.objects) {
+    const ArticulatedObject& object = model.objects[static_cast<std::size_t>(t)];
+    for (std::size_t j = 0; j < object.joints.size(); ++j) {
+      const bool away = state.joints[static_cast<std::size_t>(t)][j] != object.joints[j].rest();
+      facts.insert({away ? PredicateKind::kJointAway : PredicateKind::kJointAtRest, t, -1,
+                    static_cast<int>(j)});
     }
-    facts.insert({FactKind::kFree, t});
+    facts.insert({PredicateKind::kFree, t});
     const auto resting =
         std::find_if(candidate.layout.resting.begin(), candidate.layout.resting.end(),
-                     [&](const Resting& one) { return one.thing == t; });
+                     [&](const SupportRelation& one) { return one.object == t; });
     if (resting == candidate.layout.resting.end()) {
-      facts.insert({FactKind::kOnFloor, t});
-    } else if (resting->cavity >= 0) {
-      facts.insert({FactKind::kIn, t, resting->holder, resting->cavity});
+      facts.insert({PredicateKind::kOnFloor, t});
+    } else if (resting->receptacle >= 0) {
+      facts.insert({PredicateKind::kIn, t, resting->holder, resting->receptacle});
     } else {
-      facts.insert({FactKind::kOn, t, resting->holder});
-      facts.erase({FactKind::kFree, resting->holder});
+      facts.insert({PredicateKind::kOn, t, resting->holder});
+      facts.erase({PredicateKind::kFree, resting->holder});
     }
   }
   return facts;
@@ -53,26 +54,26 @@ struct Outcome {
   std::string dropped;
 };
 
-Outcome BuildTask(const SceneModel& model, const Idea& candidate, std::uint64_t seed,
+Outcome BuildTask(const SceneModel& model, const TaskCandidate& candidate, std::uint64_t seed,
                   std::uint64_t index) {
   core::Rng rng = core::StreamRng(seed, index);
-  const std::optional<InitialState> start = LayOut(model, candidate.layout, rng);
+  const std::optional<InitialState> start = PlanLayout(model, candidate.layout, rng);
   if (!start) return {std::nullopt, "no-layout"};
   SceneState state = StateOf(model, *start);
-  Facts facts = InitialFacts(model, candidate, state);
+  Metadata facts = InitialFacts(model, candidate, state);
   const std::vector<Operator> plan =
-      Plan(OperatorsFor(model, candidate.layout.things), candidate.goals, &facts);
+      Plan(OperatorsFor(model, candidate.layout.objects), candidate.goals, &facts);
   if (plan.empty()) return {std::nullopt, "no-plan"};
   Task task;
   task.source = "rules";
-  for (int thing : candidate.layout.things) {
-    task.assets.push_back(model.things[static_cast<std::size_t>(thing)].name);
+  for (int object : candidate.layout.objects) {
+    task.assets.push_back(model.objects[static_cast<std::size_t>(object)].name);
   }
   SubtaskVerifier verifier(model);
   InitialState now = *start;
   std::set<std::string> names;  // repeated steps are numbered
   for (const Operator& one : plan) {
-    const Step step = StepOf(model, state, one);
+    const Step step = MakeStep(model, state, one);
     Subtask subtask;
     subtask.name = UniqueName(step.name, &names);
     subtask.description = step.description;
@@ -85,7 +86,7 @@ Outcome BuildTask(const SceneModel& model, const Idea& candidate, std::uint64_t 
     task.subtasks.push_back(std::move(subtask));
     state.goal = step.goal.value_or(Eigen::Vector3d::Zero());
     state = MakeMotion(model, state, {step.action}).states.back();
-    now = StartFrom(model, state, now);
+    now = StartOfNextSubtask(model, state, now);
     state = StateOf(model, now);
   }
   const bool single = task.subtasks.size() == 1;
@@ -109,18 +110,20 @@ core::Findings FindUnusedObjects(const SceneModel& model, const RuleTasks& gener
   std::set<std::string> used;
   for (const Task& task : generated.tasks) used.insert(task.assets.begin(), task.assets.end());
   core::Findings findings;
-  for (const Thing& thing : model.things) {
-    if (used.contains(thing.name)) continue;
-    NoUse why = WhyOfNoUse(thing);
+  for (const ArticulatedObject& object : model.objects) {
+    if (used.contains(object.name)) continue;
+    UnusableReason why = ExplainUnusable(object);
     if (why.sentence.empty()) {
       const std::string dropped = DroppedText(generated.dropped);
       why = dropped.empty()
-                ? NoUse{"the tasks of other assets reach the requested count", "a larger --count"}
-                : NoUse{"no task with it passed verification; dropped: " + dropped,
-                        "docs/tasks.md explains the codes; another --seed gives another layout"};
+                ? UnusableReason{"the tasks of other assets reach the requested count",
+                                 "a larger --count"}
+                : UnusableReason{
+                      "no task with it passed verification; dropped: " + dropped,
+                      "docs/tasks.md explains the codes; another --seed gives another layout"};
     }
     findings.push_back(
-        {"no-task", core::Severity::kWarning, thing.name, why.sentence, 0.0, why.remedy});
+        {"no-task", core::Severity::kWarning, object.name, why.sentence, 0.0, why.remedy});
   }
   return findings;
 }
@@ -148,10 +151,10 @@ namespace {
 
 RuleTasks Generate(const SceneModel& model, const RuleOptions& options, core::Progress* progress) {
   const int wanted =
-      options.count > 0 ? options.count : kTasksPerObject * static_cast<int>(model.things.size());
+      options.count > 0 ? options.count : kTasksPerObject * static_cast<int>(model.objects.size());
   core::Rng rng = core::StreamRng(options.seed, 0);
-  const std::vector<Idea> candidates =
-      ThinkOfTasks(model, static_cast<std::size_t>(kCandidatesPerTask) * wanted, rng);
+  const std::vector<TaskCandidate> candidates =
+      GenerateCandidates(model, static_cast<std::size_t>(kCandidatesPerTask) * wanted, rng);
   RuleTasks result;
   std::set<std::string> names;
   if (progress != nullptr) progress->Stage("tasks", wanted);

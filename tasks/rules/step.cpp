@@ -11,11 +11,11 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr double kAway = 0.7;     // share of a joint's range that counts as open, on, pressed
-constexpr double kAtRest = 0.05;  // share below which it counts as closed, off
-constexpr double kLift = 0.15;    // m
-constexpr double kSide = 0.18;    // m; offset of the place where objects are put or pushed
-constexpr double kTilt = 2.2;     // rad
+constexpr double kAway = 0.7;         // share of a joint's range that counts as open, on, pressed
+constexpr double kAtRest = 0.05;      // share below which it counts as closed, off
+constexpr double kLiftHeight = 0.15;  // m
+constexpr double kSide = 0.18;        // m; offset of the place where objects are put or pushed
+constexpr double kTilt = 2.2;         // rad
 
 std::string Number(double value) {
   char text[32];
@@ -78,8 +78,8 @@ Verbs VerbsOf(JointUse use) {
 
 // Returns the share of its range that the joint has moved, as an expression of `state` and
 // `limits`; for a continuous joint, the share of half a turn.
-std::string ShareText(const ThingJoint& joint) {
-  if (joint.type == RewardJointType::kContinuous) return "state / " + Number(joint.far());
+std::string ShareText(const ObjectJoint& joint) {
+  if (joint.type == reward::RewardJointType::kContinuous) return "state / " + Number(joint.far());
   const bool up = joint.far() == joint.upper;
   const std::string far = up ? "limits[\"upper\"]" : "limits[\"lower\"]";
   const std::string near = up ? "limits[\"lower\"]" : "limits[\"upper\"]";
@@ -92,26 +92,26 @@ std::string ShareText(const ThingJoint& joint) {
 }
 
 Step JointStep(const SceneModel& model, const Operator& one) {
-  const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
-  const ThingJoint& joint = thing.joints[static_cast<std::size_t>(one.part)];
-  const bool away = one.verb == Verb::kOpen;
-  const Verbs verbs = VerbsOf(UseOf(thing, joint));
-  const std::string part = PartName(thing, joint);
-  const std::string grip = thing.links[static_cast<std::size_t>(joint.grip)].name;
+  const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
+  const ObjectJoint& joint = object.joints[static_cast<std::size_t>(one.part)];
+  const bool away = one.verb == ActionType::kOpen;
+  const Verbs verbs = VerbsOf(GetJointUse(object, joint));
+  const std::string part = ShardName(object, joint);
+  const std::string grip = object.links[static_cast<std::size_t>(joint.grasp_link)].name;
   Step step;
-  step.name = NameFrom(std::string(away ? verbs.away_name : verbs.back_name) + "_" + thing.name +
+  step.name = NameFrom(std::string(away ? verbs.away_name : verbs.back_name) + "_" + object.name +
                        "_" + part);
   const bool numbered = std::isdigit(static_cast<unsigned char>(part.back())) != 0;
-  const bool itself = thing.category == part;  // for example the door of a door
+  const bool itself = object.category == part;  // for example the door of a door
   step.description = std::string(away ? verbs.away : verbs.back) + (numbered ? " " : " the ") +
-                     (itself ? SpokenName(thing) : part + " of the " + SpokenName(thing)) + ".";
+                     (itself ? SpokenName(object) : part + " of the " + SpokenName(object)) + ".";
   Program program("Reach for the " + grip + ", then move the joint.");
-  program.Line("handle = env.get_pose_by_link_name(" + Quoted(thing.name) + ", " + Quoted(grip) +
+  program.Line("handle = env.get_pose_by_link_name(" + Quoted(object.name) + ", " + Quoted(grip) +
                ")");
   AddReach("handle", &program);
-  const std::string names = Quoted(thing.name) + ", " + Quoted(joint.name);
+  const std::string names = Quoted(object.name) + ", " + Quoted(joint.name);
   program.Line("state = env.get_state_by_joint_name(" + names + ")");
-  if (joint.type != RewardJointType::kContinuous) {
+  if (joint.type != reward::RewardJointType::kContinuous) {
     program.Line("limits = env.get_limits_by_joint_name(" + names + ")");
   }
   program.Line("moved = " + ShareText(joint));
@@ -124,37 +124,37 @@ Step JointStep(const SceneModel& model, const Operator& one) {
   }
   program.Returns();
   step.program = program.Text();
-  step.success = joint.name + " of " + thing.name +
+  step.success = joint.name + " of " + object.name +
                  (away ? " past " + std::to_string(std::lround(100.0 * kAway)) + " % of its way"
                        : " within 5 % of its rest");
-  const double target = away ? joint.acted() : joint.rest();
-  step.action = {ActionKind::kMoveJoint, one.thing, one.part, target, Eigen::Vector3d::Zero()};
+  const double target = away ? joint.joint_target() : joint.rest();
+  step.action = {ActionKind::kMoveJoint, one.object, one.part, target, Eigen::Vector3d::Zero()};
   return step;
 }
 
 Step PickStep(const SceneModel& model, const SceneState& state, const Operator& one) {
-  const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
-  const std::string spoken = SpokenName(thing), name = Quoted(thing.name);
+  const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
+  const std::string spoken = SpokenName(object), name = Quoted(object.name);
   Step step;
-  step.name = NameFrom("pick_up_" + thing.name);
+  step.name = NameFrom("pick_up_" + object.name);
   step.description = "Pick up the " + spoken + ".";
-  const Eigen::Vector3d middle = LinkPoint(model, state, one.thing, 0);
-  Eigen::Vector3d raised = middle + Eigen::Vector3d(0, 0, kLift);
+  const Eigen::Vector3d middle = LinkPosition(model, state, one.object, 0);
+  Eigen::Vector3d raised = middle + Eigen::Vector3d(0, 0, kLiftHeight);
   if (one.part >= 0) {
     // The object leaves through the opening first, then moves up.
-    const Thing& holder = model.things[static_cast<std::size_t>(one.other)];
+    const ArticulatedObject& holder = model.objects[static_cast<std::size_t>(one.other)];
     step.name += NameFrom("_from_" + holder.name);
     step.description = "Take the " + spoken + " out of the " + SpokenName(holder) + ".";
-    const Cavity& cavity = holder.cavities[static_cast<std::size_t>(one.part)];
+    const Receptacle& cavity = holder.receptacles[static_cast<std::size_t>(one.part)];
     const auto h = static_cast<std::size_t>(one.other);
     const Eigen::Isometry3d link =
         state.roots[h] *
         LinkPosesOf(holder, state.joints[h])[static_cast<std::size_t>(cavity.link)];
     const Eigen::Vector3d out = link.linear() * cavity.opening;
     const double depth = std::abs(cavity.box.sizes().dot(cavity.opening));
-    raised = middle + (0.6 * depth + 0.5 * thing.box.sizes().maxCoeff() + 0.05) * out;
+    raised = middle + (0.6 * depth + 0.5 * object.box.sizes().maxCoeff() + 0.05) * out;
   } else if (one.other >= 0) {
-    step.name += NameFrom("_from_" + model.things[static_cast<std::size_t>(one.other)].name);
+    step.name += NameFrom("_from_" + model.objects[static_cast<std::size_t>(one.other)].name);
   }
   step.goal = raised;
   Program program("Grasp the " + spoken + " and bring it to the goal.");
@@ -166,28 +166,28 @@ Step PickStep(const SceneModel& model, const SceneState& state, const Operator& 
       .Line("success = torch.logical_and(grasped, missing <= 0.03)");
   program.Returns();
   step.program = program.Text();
-  step.success = thing.name + " held within 3 cm of the goal";
-  step.action = {ActionKind::kCarry, one.thing, -1, 0.0, raised};
+  step.success = object.name + " held within 3 cm of the goal";
+  step.action = {ActionKind::kCarry, one.object, -1, 0.0, raised};
   return step;
 }
 
 // Returns a position on the floor beside the object, on the side nearer to the centre.
-Eigen::Vector3d BesideOf(const SceneModel& model, const SceneState& state, int thing) {
-  const Thing& known = model.things[static_cast<std::size_t>(thing)];
-  Eigen::Vector3d target = LinkPoint(model, state, thing, 0);
+Eigen::Vector3d BesideOf(const SceneModel& model, const SceneState& state, int object) {
+  const ArticulatedObject& known = model.objects[static_cast<std::size_t>(object)];
+  Eigen::Vector3d target = LinkPosition(model, state, object, 0);
   target.y() += target.y() > 0.0 ? -kSide : kSide;
   target.z() = known.links[0].middle.z() - known.box.min().z();
   return target;
 }
 
 Step PutDownStep(const SceneModel& model, const SceneState& state, const Operator& one) {
-  const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
-  const std::string name = Quoted(thing.name);
+  const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
+  const std::string name = Quoted(object.name);
   Step step;
-  step.name = NameFrom("put_down_" + thing.name);
-  step.description = "Put the " + SpokenName(thing) + " down at the goal.";
-  step.goal = BesideOf(model, state, one.thing);
-  Program program("Bring the " + SpokenName(thing) + " to the goal and let go of it.");
+  step.name = NameFrom("put_down_" + object.name);
+  step.description = "Put the " + SpokenName(object) + " down at the goal.";
+  step.goal = BesideOf(model, state, one.object);
+  Program program("Bring the " + SpokenName(object) + " to the goal and let go of it.");
   program.Line("thing = env.get_position(" + name + ")")
       .Line("distance = torch.norm(env.get_goal_pose() - thing, dim=-1)")
       .Line("there = distance <= 0.03")
@@ -196,47 +196,47 @@ Step PutDownStep(const SceneModel& model, const SceneState& state, const Operato
       .Line("reward = there.float() + success.float() - 2.0 * distance");
   program.Returns();
   step.program = program.Text();
-  step.success = thing.name + " within 3 cm of the goal, not held";
-  step.action = {ActionKind::kPlace, one.thing, -1, 0.0, *step.goal};
+  step.success = object.name + " within 3 cm of the goal, not held";
+  step.action = {ActionKind::kPlace, one.object, -1, 0.0, *step.goal};
   return step;
 }
 
 Step PlaceOnStep(const SceneModel& model, const SceneState& state, const Operator& one) {
-  const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
-  const Thing& holder = model.things[static_cast<std::size_t>(one.other)];
+  const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
+  const ArticulatedObject& holder = model.objects[static_cast<std::size_t>(one.other)];
   Step step;
-  step.name = NameFrom("place_" + thing.name + "_on_" + holder.name);
-  step.description = "Place the " + SpokenName(thing) + " on the " + SpokenName(holder) + ".";
-  Program program("Stand the " + SpokenName(thing) + " on top and let go of it.");
+  step.name = NameFrom("place_" + object.name + "_on_" + holder.name);
+  step.description = "Place the " + SpokenName(object) + " on the " + SpokenName(holder) + ".";
+  Program program("Stand the " + SpokenName(object) + " on top and let go of it.");
   program
       .Line("low, high = env.get_bounding_box_link(" + Quoted(holder.name) + ", " +
             Quoted(holder.links[0].name) + ")")
       .Line("top = 0.5 * (low + high)")
       .Line("top[:, 2] = high[:, 2]")
-      .Line("foot_low, foot_high = env.get_bounding_box(" + Quoted(thing.name) + ")")
+      .Line("foot_low, foot_high = env.get_bounding_box(" + Quoted(object.name) + ")")
       .Line("foot = 0.5 * (foot_low + foot_high)")
       .Line("foot[:, 2] = foot_low[:, 2]")
       .Line("distance = torch.norm(top - foot, dim=-1)")
       .Line("there = distance <= 0.03")
-      .Line("released = torch.logical_not(env.check_grasped(" + Quoted(thing.name) + "))")
+      .Line("released = torch.logical_not(env.check_grasped(" + Quoted(object.name) + "))")
       .Line("success = torch.logical_and(there, released)")
       .Line("reward = there.float() + success.float() - 2.0 * distance");
   program.Returns();
   step.program = program.Text();
-  step.success = "the foot of " + thing.name + " within 3 cm of the middle of " + holder.name +
+  step.success = "the foot of " + object.name + " within 3 cm of the middle of " + holder.name +
                  "'s top, not held";
-  const Eigen::AlignedBox3d body = WorldBox(model, state, one.other, 0);
+  const Eigen::AlignedBox3d body = WorldAabb(model, state, one.other, 0);
   Eigen::Vector3d target = body.center();
-  target.z() = body.max().z() + 0.5 * thing.height() + 1e-3;
-  step.action = {ActionKind::kPlace, one.thing, -1, 0.0, target};
+  target.z() = body.max().z() + 0.5 * object.height() + 1e-3;
+  step.action = {ActionKind::kPlace, one.object, -1, 0.0, target};
   return step;
 }
 
 // Returns the position of the object's centre in a receptacle (world frame): the receptacle's
 // centre, or else a position beside it that is free of other objects.
-Eigen::Vector3d FreePosition(const SceneModel& model, const SceneState& state, int thing,
+Eigen::Vector3d FreePosition(const SceneModel& model, const SceneState& state, int object,
                              const Eigen::AlignedBox3d& receptacle) {
-  const Eigen::Vector3d size = model.things[static_cast<std::size_t>(thing)].box.sizes();
+  const Eigen::Vector3d size = model.objects[static_cast<std::size_t>(object)].box.sizes();
   Eigen::Vector3d middle = receptacle.center();
   middle.z() = receptacle.min().z() + 0.5 * size.z() + 1e-3;
   const Eigen::Vector3d spare = (0.5 * (receptacle.sizes() - size)).cwiseMax(0.0);
@@ -245,9 +245,9 @@ Eigen::Vector3d FreePosition(const SceneModel& model, const SceneState& state, i
     const Eigen::Vector3d spot = middle + Eigen::Vector3d(x * spare.x(), y * spare.y(), 0.0);
     const Eigen::AlignedBox3d taken(spot - 0.5 * size, spot + 0.5 * size);
     bool is_free = true;
-    for (std::size_t other = 0; other < model.things.size(); ++other) {
-      if (static_cast<int>(other) == thing || model.things[other].articulated()) continue;
-      is_free = is_free && !taken.intersects(WorldBox(model, state, static_cast<int>(other)));
+    for (std::size_t other = 0; other < model.objects.size(); ++other) {
+      if (static_cast<int>(other) == object || model.objects[other].articulated()) continue;
+      is_free = is_free && !taken.intersects(WorldAabb(model, state, static_cast<int>(other)));
     }
     if (is_free) return spot;
   }
@@ -271,10 +271,10 @@ void KeepBehindDoor(const Eigen::Vector3d& opening, const Eigen::Vector3d& size,
 }
 
 Step PutIntoStep(const SceneModel& model, const SceneState& state, const Operator& one) {
-  const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
-  const Thing& holder = model.things[static_cast<std::size_t>(one.other)];
-  const Cavity& cavity = holder.cavities[static_cast<std::size_t>(one.part)];
-  const ThingLink& link = holder.links[static_cast<std::size_t>(cavity.link)];
+  const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
+  const ArticulatedObject& holder = model.objects[static_cast<std::size_t>(one.other)];
+  const Receptacle& cavity = holder.receptacles[static_cast<std::size_t>(one.part)];
+  const ObjectLink& link = holder.links[static_cast<std::size_t>(cavity.link)];
   const auto h = static_cast<std::size_t>(one.other);
   const Eigen::Isometry3d pose =
       state.roots[h] * LinkPosesOf(holder, state.joints[h])[static_cast<std::size_t>(cavity.link)];
@@ -284,50 +284,50 @@ Step PutIntoStep(const SceneModel& model, const SceneState& state, const Operato
     receptacle.extend(pose *
                       cavity.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
   }
-  const Eigen::AlignedBox3d box = WorldBox(model, state, one.other, cavity.link);
+  const Eigen::AlignedBox3d box = WorldAabb(model, state, one.other, cavity.link);
   const Eigen::Vector3d size = box.sizes().cwiseMax(1e-6);
-  const Eigen::Vector3d target = FreePosition(model, state, one.thing, receptacle);
+  const Eigen::Vector3d target = FreePosition(model, state, one.object, receptacle);
   // An object that protrudes from a cup has its centre above the cup's receptacle.
   const double lift = std::max(0.0, target.z() + 0.02 - receptacle.max().z());
   if (cavity.door >= 0) {
-    KeepBehindDoor(pose.linear() * cavity.opening, thing.box.sizes(), target, &receptacle);
+    KeepBehindDoor(pose.linear() * cavity.opening, object.box.sizes(), target, &receptacle);
   }
   const Eigen::Vector3d low = (receptacle.min() - box.min()).cwiseQuotient(size);
   const Eigen::Vector3d high =
       (receptacle.max() + Eigen::Vector3d(0, 0, lift) - box.min()).cwiseQuotient(size);
   const Eigen::Vector3d wanted = (target - box.min()).cwiseQuotient(size);
   Step step;
-  step.name = NameFrom("put_" + thing.name + "_into_" + holder.name);
-  step.description = "Put the " + SpokenName(thing) + " into the " + SpokenName(holder) + ".";
-  Program program("Bring the " + SpokenName(thing) + " inside and let go of it.");
-  program.Line("thing = env.get_position(" + Quoted(thing.name) + ")")
+  step.name = NameFrom("put_" + object.name + "_into_" + holder.name);
+  step.description = "Put the " + SpokenName(object) + " into the " + SpokenName(holder) + ".";
+  Program program("Bring the " + SpokenName(object) + " inside and let go of it.");
+  program.Line("thing = env.get_position(" + Quoted(object.name) + ")")
       .Line("low, high = env.get_bounding_box_link(" + Quoted(holder.name) + ", " +
             Quoted(link.name) + ")")
       .Line("size = high - low")
       .Line("inside = env.in_bbox(thing, low + size * " + Triple(low) + ",")
       .Line("                     low + size * " + Triple(high) + ")")
       .Line("distance = torch.norm(low + size * " + Triple(wanted) + " - thing, dim=-1)")
-      .Line("released = torch.logical_not(env.check_grasped(" + Quoted(thing.name) + "))")
+      .Line("released = torch.logical_not(env.check_grasped(" + Quoted(object.name) + "))")
       .Line("success = torch.logical_and(inside, released)")
       .Line("reward = inside.float() + success.float() - 2.0 * distance");
   program.Returns();
   step.program = program.Text();
   step.success =
-      "the middle of " + thing.name + " inside " + link.name + " of " + holder.name + ", not held";
-  step.action = {ActionKind::kPlace, one.thing, -1, 0.0, target};
+      "the middle of " + object.name + " inside " + link.name + " of " + holder.name + ", not held";
+  step.action = {ActionKind::kPlace, one.object, -1, 0.0, target};
   return step;
 }
 
 Step PushStep(const SceneModel& model, const SceneState& state, const Operator& one) {
-  const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
+  const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
   Step step;
-  step.name = NameFrom("push_" + thing.name);
-  step.description = "Push the " + SpokenName(thing) + " along the floor to the goal.";
-  Eigen::Vector3d goal = LinkPoint(model, state, one.thing, 0);
+  step.name = NameFrom("push_" + object.name);
+  step.description = "Push the " + SpokenName(object) + " along the floor to the goal.";
+  Eigen::Vector3d goal = LinkPosition(model, state, one.object, 0);
   goal.y() += goal.y() > 0.0 ? -kSide : kSide;
   step.goal = goal;
-  Program program("Reach for the " + SpokenName(thing) + " and push it to the goal.");
-  program.Line("thing = env.get_position(" + Quoted(thing.name) + ")");
+  Program program("Reach for the " + SpokenName(object) + " and push it to the goal.");
+  program.Line("thing = env.get_position(" + Quoted(object.name) + ")");
   AddReach("thing", &program);
   program.Line("goal = env.get_goal_pose()")
       .Line("distance = torch.norm(goal[:, :2] - thing[:, :2], dim=-1)")
@@ -335,36 +335,36 @@ Step PushStep(const SceneModel& model, const SceneState& state, const Operator& 
       .Line("success = distance <= 0.03");
   program.Returns();
   step.program = program.Text();
-  step.success = thing.name + " within 3 cm of the goal, seen from above";
-  step.action = {ActionKind::kPush, one.thing, -1, 0.0, goal};
+  step.success = object.name + " within 3 cm of the goal, seen from above";
+  step.action = {ActionKind::kPush, one.object, -1, 0.0, goal};
   return step;
 }
 
 Step PourStep(const SceneModel& model, const SceneState& state, const Operator& one) {
-  const Thing& thing = model.things[static_cast<std::size_t>(one.thing)];
-  const Thing& holder = model.things[static_cast<std::size_t>(one.other)];
+  const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
+  const ArticulatedObject& holder = model.objects[static_cast<std::size_t>(one.other)];
   Step step;
-  step.name = NameFrom("pour_" + thing.name + "_over_" + holder.name);
-  step.description = "Hold the " + SpokenName(thing) + " over the " + SpokenName(holder) +
+  step.name = NameFrom("pour_" + object.name + "_over_" + holder.name);
+  step.description = "Hold the " + SpokenName(object) + " over the " + SpokenName(holder) +
                      " and tilt it as if to pour.";
-  const Eigen::AlignedBox3d box = WorldBox(model, state, one.other);
+  const Eigen::AlignedBox3d box = WorldAabb(model, state, one.other);
   Eigen::Vector3d above = box.center();
-  above.z() = box.max().z() + 0.5 * thing.box.sizes().maxCoeff() + 0.05;
+  above.z() = box.max().z() + 0.5 * object.box.sizes().maxCoeff() + 0.05;
   Program program("Hold it above, then tilt it: upright is 1, on its side 0, upside down -1.");
-  program.Line("thing = env.get_position(" + Quoted(thing.name) + ")")
+  program.Line("thing = env.get_position(" + Quoted(object.name) + ")")
       .Line("low, high = env.get_bounding_box(" + Quoted(holder.name) + ")")
       .Line("above = 0.5 * (low + high)")
       .Line("above[:, 2] = high[:, 2] + " + Number(above.z() - box.max().z()))
       .Line("distance = torch.norm(above - thing, dim=-1)")
-      .Line("turn = env.get_orientation(" + Quoted(thing.name) + ")")
+      .Line("turn = env.get_orientation(" + Quoted(object.name) + ")")
       .Line("upright = 1.0 - 2.0 * (turn[:, 0] ** 2 + turn[:, 1] ** 2)")
       .Line("near = distance <= 0.1")
       .Line("reward = -2.0 * distance - torch.where(near, upright, torch.ones_like(upright))")
       .Line("success = torch.logical_and(near, upright <= -0.2)");
   program.Returns();
   step.program = program.Text();
-  step.success = thing.name + " above " + holder.name + ", tilted by more than 100 degrees";
-  step.action = {ActionKind::kTilt, one.thing, -1, kTilt, above};
+  step.success = object.name + " above " + holder.name + ", tilted by more than 100 degrees";
+  step.action = {ActionKind::kTilt, one.object, -1, kTilt, above};
   return step;
 }
 
@@ -376,26 +376,26 @@ std::string NameFrom(std::string text) {
   return text;
 }
 
-std::string SpokenName(const Thing& thing) {
-  std::string name = thing.name;
+std::string SpokenName(const ArticulatedObject& object) {
+  std::string name = object.name;
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
 
-Step StepOf(const SceneModel& model, const SceneState& state, const Operator& one) {
+Step MakeStep(const SceneModel& model, const SceneState& state, const Operator& one) {
   switch (one.verb) {
-    case Verb::kOpen:
-    case Verb::kClose:
+    case ActionType::kOpen:
+    case ActionType::kClose:
       return JointStep(model, one);
-    case Verb::kPick:
+    case ActionType::kPick:
       return PickStep(model, state, one);
-    case Verb::kPlaceOn:
+    case ActionType::kPlaceOn:
       return PlaceOnStep(model, state, one);
-    case Verb::kPutInto:
+    case ActionType::kPutInto:
       return PutIntoStep(model, state, one);
-    case Verb::kPutDown:
+    case ActionType::kPutDown:
       return PutDownStep(model, state, one);
-    case Verb::kPush:
+    case ActionType::kPush:
       return PushStep(model, state, one);
     default:
       return PourStep(model, state, one);

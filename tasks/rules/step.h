@@ -21,11 +21,11 @@ struct Step {
 
 // Returns the step for operator `one` in `state`. The reward of every step is bounded, increases
 // monotonically up to success, and requires contact where an object is held.
-Step StepOf(const SceneModel& model, const SceneState& state, const Operator& one);
+Step MakeStep(const SceneModel& model, const SceneState& state, const Operator& one);
 
 // Returns the object's name as it appears in a sentence: its name with blanks ("red mug" for
 // red_mug).
-std::string SpokenName(const Thing& thing);
+std::string SpokenName(const ArticulatedObject& object);
 
 // Returns `text` as the name of a task or subtask: ASCII characters other than letters and digits
 // become '_'.

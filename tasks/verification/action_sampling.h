@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "tasks/reward/reward_slot.h"
+#include "reward/reward_slot.h"
 #include "tasks/verification/motion.h"
 
 namespace simwright::tasks {
@@ -23,6 +23,6 @@ struct ActionSequences {
 // Returns action sequences for the objects, links and joints that `slots` name, starting at
 // `start`.
 ActionSequences SampleActions(const SceneModel& model, const SceneState& start,
-                              const std::vector<RewardSlot>& slots);
+                              const std::vector<reward::RewardSlot>& slots);
 
 }  // namespace simwright::tasks

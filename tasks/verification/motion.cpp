@@ -26,19 +26,19 @@ class MotionMaker {
   void Do(const Action& action) {
     switch (action.kind) {
       case ActionKind::kReach:
-        return Approach(LinkPoint(model_, state_, action.thing, action.part), std::nullopt);
+        return Approach(LinkPosition(model_, state_, action.object, action.part), std::nullopt);
       case ActionKind::kMoveJoint:
-        return MoveJoint(action.thing, action.part, action.position);
+        return MoveJoint(action.object, action.part, action.position);
       case ActionKind::kCarry:
       case ActionKind::kPlace:
-        Grasp(action.thing);
+        Grasp(action.object);
         MoveHeldObject(action.target, action.kind == ActionKind::kPlace);
         if (action.kind == ActionKind::kPlace) Release();
         return;
       case ActionKind::kPush:
-        return Push(action.thing, action.target);
+        return Push(action.object, action.target);
       case ActionKind::kTilt:
-        Grasp(action.thing);
+        Grasp(action.object);
         MoveHeldObject(action.target, false);
         return Tilt(action.position);
     }
@@ -52,11 +52,11 @@ class MotionMaker {
     motion_.phases.push_back(phase);
   }
 
-  Eigen::Vector3d Center(int thing) const { return WorldBox(model_, state_, thing).center(); }
+  Eigen::Vector3d Center(int object) const { return WorldAabb(model_, state_, object).center(); }
 
-  void Hold(int thing) {
-    held_ = thing;
-    gripper_from_held_ = state_.gripper.inverse() * state_.roots[static_cast<std::size_t>(thing)];
+  void Hold(int object) {
+    held_ = object;
+    gripper_from_held_ = state_.gripper.inverse() * state_.roots[static_cast<std::size_t>(object)];
   }
 
   void MoveGripper(const Eigen::Isometry3d& to, double share) {
@@ -88,19 +88,19 @@ class MotionMaker {
     Travel(to, kApproachSteps, MotionPhase::kApproach);
   }
 
-  void Grasp(int thing) {
-    if (held_ == thing) return;
+  void Grasp(int object) {
+    if (held_ == object) return;
     if (held_ >= 0) Release();
-    Approach(Center(thing), -Eigen::Vector3d::UnitZ());
-    Touch(thing, 0);
-    const Eigen::Vector3d size = WorldBox(model_, state_, thing).sizes();
+    Approach(Center(object), -Eigen::Vector3d::UnitZ());
+    Touch(object, 0);
+    const Eigen::Vector3d size = WorldAabb(model_, state_, object).sizes();
     state_.opening = std::min(kOpen, size.head<2>().minCoeff());
-    Hold(thing);
+    Hold(object);
     Record(MotionPhase::kMove);
   }
 
-  void Touch(int thing, int link) {
-    state_.touched = thing;
+  void Touch(int object, int link) {
+    state_.touched = object;
     state_.touched_link = link;
     state_.grasped = true;
   }
@@ -144,33 +144,33 @@ class MotionMaker {
     }
   }
 
-  void Push(int thing, const Eigen::Vector3d& target) {
+  void Push(int object, const Eigen::Vector3d& target) {
     if (held_ >= 0) Release();
-    const Eigen::Vector3d start = Center(thing);
+    const Eigen::Vector3d start = Center(object);
     Eigen::Vector3d displacement = target - start;
     displacement.z() = 0.0;
     const double length = displacement.norm();
     if (!(length > 1e-6)) return;
-    const double behind = 0.5 * WorldBox(model_, state_, thing).sizes().head<2>().minCoeff();
+    const double behind = 0.5 * WorldAabb(model_, state_, object).sizes().head<2>().minCoeff();
     Approach(start - behind * displacement / length, std::nullopt);
-    state_.touched = thing;
+    state_.touched = object;
     state_.touched_link = 0;
-    const Eigen::Isometry3d root = state_.roots[static_cast<std::size_t>(thing)];
+    const Eigen::Isometry3d root = state_.roots[static_cast<std::size_t>(object)];
     const Eigen::Vector3d gripper_start = state_.gripper.translation();
     for (int i = 1; i <= kJointSteps; ++i) {
       const Eigen::Vector3d moved = displacement * i / kJointSteps;
-      state_.roots[static_cast<std::size_t>(thing)].translation() = root.translation() + moved;
+      state_.roots[static_cast<std::size_t>(object)].translation() = root.translation() + moved;
       state_.gripper.translation() = gripper_start + moved;
       Record(MotionPhase::kMove);
     }
   }
 
   // Returns the objects inside the link that the joint moves.
-  std::vector<int> Contents(int thing, int link) const {
-    const Eigen::AlignedBox3d box = WorldBox(model_, state_, thing, link);
+  std::vector<int> Contents(int object, int link) const {
+    const Eigen::AlignedBox3d box = WorldAabb(model_, state_, object, link);
     std::vector<int> contents;
-    for (std::size_t other = 0; other < model_.things.size(); ++other) {
-      if (static_cast<int>(other) == thing || model_.things[other].articulated()) continue;
+    for (std::size_t other = 0; other < model_.objects.size(); ++other) {
+      if (static_cast<int>(other) == object || model_.objects[other].articulated()) continue;
       if (static_cast<int>(other) == held_) continue;
       if (box.contains(Center(static_cast<int>(other)))) {
         contents.push_back(static_cast<int>(other));
@@ -179,30 +179,30 @@ class MotionMaker {
     return contents;
   }
 
-  Eigen::Isometry3d LinkPose(int thing, int link) const {
-    const auto t = static_cast<std::size_t>(thing);
+  Eigen::Isometry3d LinkPose(int object, int link) const {
+    const auto t = static_cast<std::size_t>(object);
     return state_.roots[t] *
-           LinkPosesOf(model_.things[t], state_.joints[t])[static_cast<std::size_t>(link)];
+           LinkPosesOf(model_.objects[t], state_.joints[t])[static_cast<std::size_t>(link)];
   }
 
-  void MoveJoint(int thing, int index, double position) {
+  void MoveJoint(int object, int index, double position) {
     if (held_ >= 0) Release();
-    const auto t = static_cast<std::size_t>(thing), j = static_cast<std::size_t>(index);
-    const ThingJoint& joint = model_.things[t].joints[j];
-    const Eigen::Vector3d grip = LinkPoint(model_, state_, thing, joint.grip);
+    const auto t = static_cast<std::size_t>(object), j = static_cast<std::size_t>(index);
+    const ObjectJoint& joint = model_.objects[t].joints[j];
+    const Eigen::Vector3d grip = LinkPosition(model_, state_, object, joint.grasp_link);
     Eigen::Vector3d towards = grip - state_.gripper.translation();
     towards.z() = 0.0;
     Approach(grip, towards.norm() > 1e-6 ? towards.normalized() : -Eigen::Vector3d::UnitZ());
-    Touch(thing, joint.grip);
+    Touch(object, joint.grasp_link);
     state_.opening = 0.02;
     const Eigen::Isometry3d link_from_gripper =
-        LinkPose(thing, joint.link).inverse() * state_.gripper;
-    const std::vector<int> contents = Contents(thing, joint.link);
+        LinkPose(object, joint.link).inverse() * state_.gripper;
+    const std::vector<int> contents = Contents(object, joint.link);
     const double start = state_.joints[t][j];
     for (int i = 1; i <= kJointSteps; ++i) {
-      const Eigen::Isometry3d before = LinkPose(thing, joint.link);
+      const Eigen::Isometry3d before = LinkPose(object, joint.link);
       state_.joints[t][j] = start + (position - start) * i / kJointSteps;
-      const Eigen::Isometry3d after = LinkPose(thing, joint.link);
+      const Eigen::Isometry3d after = LinkPose(object, joint.link);
       state_.gripper = after * link_from_gripper;
       for (int content : contents) {
         Eigen::Isometry3d& root = state_.roots[static_cast<std::size_t>(content)];

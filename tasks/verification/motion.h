@@ -19,7 +19,7 @@ enum class ActionKind {
 // A single manipulation action.
 struct Action {
   ActionKind kind = ActionKind::kReach;
-  int thing = -1;
+  int object = -1;
   int part = -1;                                     // link (kReach) or joint (kMoveJoint)
   double position = 0.0;                             // rad or m
   Eigen::Vector3d target = Eigen::Vector3d::Zero();  // m, world

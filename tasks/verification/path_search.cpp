@@ -68,7 +68,7 @@ bool IsReachable(const Motion& motion, std::size_t first, const Eigen::Isometry3
   constexpr std::size_t kSamples = 5;
   for (std::size_t i = 0; i < kSamples; ++i) {
     const std::size_t at = first - i * first / (2 * kSamples);
-    if (!Reaches(robot, motion.states[at].gripper.translation())) return false;
+    if (!IsPointReachable(robot, motion.states[at].gripper.translation())) return false;
   }
   return true;
 }
@@ -84,8 +84,8 @@ void RewardRange::Add(float reward, bool success) {
   ever_success = ever_success || success;
 }
 
-std::optional<SuccessPath> FindSuccessPath(const RewardProgram& program, const SceneModel& model,
-                                           const SceneState& start,
+std::optional<SuccessPath> FindSuccessPath(const reward::RewardProgram& program,
+                                           const SceneModel& model, const SceneState& start,
                                            const Eigen::Isometry3d& world_from_robot,
                                            const std::vector<std::vector<Action>>& sequences,
                                            bool stop_early, RewardRange* range) {

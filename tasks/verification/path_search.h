@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "tasks/reward/reward_program.h"
+#include "reward/reward_program.h"
 #include "tasks/verification/motion.h"
 
 namespace simwright::tasks {
@@ -31,8 +31,8 @@ struct RewardRange {
 // Returns the best path to success among `sequences`: reachable paths come before unreachable ones,
 // then the agreement decides. If `stop_early`, returns at the first good enough path. Every
 // evaluated state is added to `range` unless it is null.
-std::optional<SuccessPath> FindSuccessPath(const RewardProgram& program, const SceneModel& model,
-                                           const SceneState& start,
+std::optional<SuccessPath> FindSuccessPath(const reward::RewardProgram& program,
+                                           const SceneModel& model, const SceneState& start,
                                            const Eigen::Isometry3d& world_from_robot,
                                            const std::vector<std::vector<Action>>& sequences,
                                            bool stop_early, RewardRange* range);

@@ -4,11 +4,11 @@
 
 namespace simwright::tasks {
 
-TrialResult RunOnStates(const RewardProgram& program, const SceneModel& model,
+TrialResult RunOnStates(const reward::RewardProgram& program, const SceneModel& model,
                         const std::vector<SceneState>& states, bool follows) {
   TrialResult result;
   if (states.empty()) return result;
-  const std::vector<RewardSlot>& slots = program.slots();
+  const std::vector<reward::RewardSlot>& slots = program.slots();
   std::vector<std::vector<float>> rows(slots.size());
   std::vector<std::vector<float>> values;
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -19,31 +19,31 @@ TrialResult RunOnStates(const RewardProgram& program, const SceneModel& model,
       rows[s].insert(rows[s].end(), values[s].begin(), values[s].end());
     }
   }
-  std::vector<RewardBinding> bindings;
+  std::vector<reward::RewardBinding> bindings;
   for (const std::vector<float>& row : rows) bindings.push_back({row.data()});
   const int count = static_cast<int>(states.size());
   result.reward.resize(states.size());
   result.success.assign(states.size(), 0);
-  RewardWorkspace workspace(program, count);
+  reward::RewardWorkspace workspace(program, count);
   program.Run(bindings, count, &workspace, result.reward.data(),
               program.has_success() ? result.success.data() : nullptr);
   return result;
 }
 
 std::vector<SceneState> RandomStates(const SceneModel& model, const SceneState& start,
-                                     const std::vector<RewardSlot>& slots, int count,
+                                     const std::vector<reward::RewardSlot>& slots, int count,
                                      core::Rng& rng) {
-  std::vector<int> things;
-  for (const RewardSlot& slot : slots) {
-    const int thing = model.Find(slot.asset);
-    if (thing >= 0 && (things.empty() || things.back() != thing)) things.push_back(thing);
+  std::vector<int> objects;
+  for (const reward::RewardSlot& slot : slots) {
+    const int object = model.Find(slot.asset);
+    if (object >= 0 && (objects.empty() || objects.back() != object)) objects.push_back(object);
   }
   std::vector<SceneState> states;
   for (int i = 0; i < count; ++i) {
     SceneState state = start;
-    for (int thing : things) {
-      const auto t = static_cast<std::size_t>(thing);
-      const Thing& known = model.things[t];
+    for (int object : objects) {
+      const auto t = static_cast<std::size_t>(object);
+      const ArticulatedObject& known = model.objects[t];
       for (std::size_t j = 0; j < known.joints.size(); ++j) {
         const double beyond = 0.2 * (known.joints[j].upper - known.joints[j].lower);
         state.joints[t][j] =
@@ -58,14 +58,14 @@ std::vector<SceneState> RandomStates(const SceneModel& model, const SceneState& 
     const Eigen::Vector3d around = core::Uniform(rng) * core::UniformDirection(rng);
     state.touched = -1;
     state.grasped = false;
-    if (!things.empty() && core::Uniform(rng) < 0.6) {
-      const int thing = things[static_cast<std::size_t>(
-          core::UniformIndex(rng, static_cast<std::int64_t>(things.size())))];
+    if (!objects.empty() && core::Uniform(rng) < 0.6) {
+      const int object = objects[static_cast<std::size_t>(
+          core::UniformIndex(rng, static_cast<std::int64_t>(objects.size())))];
       const auto links =
-          static_cast<std::int64_t>(model.things[static_cast<std::size_t>(thing)].links.size());
+          static_cast<std::int64_t>(model.objects[static_cast<std::size_t>(object)].links.size());
       const int link = static_cast<int>(core::UniformIndex(rng, links));
-      state.gripper.translation() = LinkPoint(model, state, thing, link) + 0.05 * around;
-      state.touched = thing;
+      state.gripper.translation() = LinkPosition(model, state, object, link) + 0.05 * around;
+      state.touched = object;
       state.touched_link = link;
       state.grasped = core::Uniform(rng) < 0.5;
     } else {

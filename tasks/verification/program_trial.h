@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "tasks/reward/reward_program.h"
+#include "reward/reward_program.h"
 #include "tasks/scene_state.h"
 #include "tasks/verification/motion.h"
 
@@ -18,14 +18,14 @@ struct TrialResult {
 
 // Runs `program` on `states`, each as one environment. If `follows` is true, velocities are
 // computed along the sequence: state i follows state i - 1. Returns empty results for no states.
-TrialResult RunOnStates(const RewardProgram& program, const SceneModel& model,
+TrialResult RunOnStates(const reward::RewardProgram& program, const SceneModel& model,
                         const std::vector<SceneState>& states, bool follows);
 
 // Returns random states: joints up to a fifth of their range beyond their limits, the objects that
 // the program reads within a metre of their start, the gripper at a link or anywhere near, holding
 // an object or not.
 std::vector<SceneState> RandomStates(const SceneModel& model, const SceneState& start,
-                                     const std::vector<RewardSlot>& slots, int count,
+                                     const std::vector<reward::RewardSlot>& slots, int count,
                                      core::Rng& rng);
 
 }  // namespace simwright::tasks

@@ -24,18 +24,18 @@ std::string Lower(const std::string& text) {
 // Returns the joints whose state the program reads; if there are none, the joints that move the
 // links it reads.
 std::set<std::pair<int, int>> JointsRead(const SceneModel& model,
-                                         const std::vector<RewardSlot>& slots) {
+                                         const std::vector<reward::RewardSlot>& slots) {
   std::set<std::pair<int, int>> states, above;
-  for (const RewardSlot& slot : slots) {
-    const int thing = model.Find(slot.asset);
-    if (thing < 0 || slot.part.empty()) continue;
-    const Thing& known = model.things[static_cast<std::size_t>(thing)];
+  for (const reward::RewardSlot& slot : slots) {
+    const int object = model.Find(slot.asset);
+    if (object < 0 || slot.part.empty()) continue;
+    const ArticulatedObject& known = model.objects[static_cast<std::size_t>(object)];
     const int joint = known.FindJoint(slot.part);
-    if (joint >= 0) states.insert({thing, joint});
+    if (joint >= 0) states.insert({object, joint});
     for (int at = known.FindLink(slot.part); at > 0;
          at = known.links[static_cast<std::size_t>(at)].parent) {
       const int moved_by = known.links[static_cast<std::size_t>(at)].joint;
-      if (moved_by >= 0) above.insert({thing, moved_by});
+      if (moved_by >= 0) above.insert({object, moved_by});
     }
   }
   return states.empty() ? above : states;
@@ -43,14 +43,14 @@ std::set<std::pair<int, int>> JointsRead(const SceneModel& model,
 
 // Returns the object that the title takes `thing` out of: the microwave in "take the cup out of the
 // microwave". -1: none.
-int TakenOutOf(const SceneModel& model, const std::string& title, int thing) {
+int TakenOutOf(const SceneModel& model, const std::string& title, int object) {
   for (const char* words : {"out of ", "from inside ", "from "}) {
     const std::size_t at = title.find(words);
     if (at == std::string::npos) continue;
     const std::string rest = title.substr(at);
-    for (std::size_t other = 0; other < model.things.size(); ++other) {
-      const Thing& known = model.things[other];
-      if (static_cast<int>(other) == thing || known.cavities.empty()) continue;
+    for (std::size_t other = 0; other < model.objects.size(); ++other) {
+      const ArticulatedObject& known = model.objects[other];
+      if (static_cast<int>(other) == object || known.receptacles.empty()) continue;
       const bool named =
           rest.find(Lower(known.name)) != std::string::npos ||
           (!known.category.empty() && rest.find(Lower(known.category)) != std::string::npos);
@@ -62,71 +62,72 @@ int TakenOutOf(const SceneModel& model, const std::string& title, int thing) {
 
 }  // namespace
 
-std::optional<InitialState> PlanStart(const SceneModel& model, const std::vector<RewardSlot>& slots,
+std::optional<InitialState> PlanStart(const SceneModel& model,
+                                      const std::vector<reward::RewardSlot>& slots,
                                       const std::vector<std::string>& assets,
                                       const std::string& title, TitleDirection direction,
                                       core::Rng& rng) {
   LayoutRequest request;
   const auto want = [&](const std::string& name) {
-    const int thing = model.Find(name);
+    const int object = model.Find(name);
     const bool known =
-        std::find(request.things.begin(), request.things.end(), thing) != request.things.end();
-    if (thing >= 0 && !known && request.things.size() < kMaxObjects)
-      request.things.push_back(thing);
+        std::find(request.objects.begin(), request.objects.end(), object) != request.objects.end();
+    if (object >= 0 && !known && request.objects.size() < kMaxObjects)
+      request.objects.push_back(object);
   };
-  for (const RewardSlot& slot : slots) want(slot.asset);
+  for (const reward::RewardSlot& slot : slots) want(slot.asset);
   for (const std::string& asset : assets) want(asset);
-  for (const auto& [thing, joint] : JointsRead(model, slots)) {
-    request.worked.emplace_back(thing, joint);
-    const Thing& known = model.things[static_cast<std::size_t>(thing)];
-    const ThingJoint& moved = known.joints[static_cast<std::size_t>(joint)];
+  for (const auto& [object, joint] : JointsRead(model, slots)) {
+    request.operated.emplace_back(object, joint);
+    const ArticulatedObject& known = model.objects[static_cast<std::size_t>(object)];
+    const ObjectJoint& moved = known.joints[static_cast<std::size_t>(joint)];
     if (direction == TitleDirection::kBack) {
-      request.joints.push_back({known.name, moved.name, moved.acted()});
+      request.joints.push_back({known.name, moved.name, moved.joint_target()});
     }
   }
   const std::string text = Lower(title);
-  for (int thing : request.things) {
-    if (model.things[static_cast<std::size_t>(thing)].articulated()) continue;
-    const int holder = TakenOutOf(model, text, thing);
+  for (int object : request.objects) {
+    if (model.objects[static_cast<std::size_t>(object)].articulated()) continue;
+    const int holder = TakenOutOf(model, text, object);
     const bool placed =
-        std::find(request.things.begin(), request.things.end(), holder) != request.things.end();
-    if (placed) request.resting.push_back({thing, holder, 0});
+        std::find(request.objects.begin(), request.objects.end(), holder) != request.objects.end();
+    if (placed) request.resting.push_back({object, holder, 0});
   }
-  return LayOut(model, request, rng);
+  return PlanLayout(model, request, rng);
 }
 
 Eigen::Vector3d PlanGoal(const SceneModel& model, const SceneState& start,
-                         const std::vector<RewardSlot>& slots) {
-  for (const RewardSlot& slot : slots) {
-    const int thing = model.Find(slot.asset);
-    if (thing < 0 || model.things[static_cast<std::size_t>(thing)].articulated()) continue;
-    return WorldBox(model, start, thing).center() + Eigen::Vector3d(0, kGoalAside, kGoalAbove);
+                         const std::vector<reward::RewardSlot>& slots) {
+  for (const reward::RewardSlot& slot : slots) {
+    const int object = model.Find(slot.asset);
+    if (object < 0 || model.objects[static_cast<std::size_t>(object)].articulated()) continue;
+    return WorldAabb(model, start, object).center() + Eigen::Vector3d(0, kGoalAside, kGoalAbove);
   }
-  for (const auto& [thing, joint] : JointsRead(model, slots)) {
-    const auto t = static_cast<std::size_t>(thing), j = static_cast<std::size_t>(joint);
+  for (const auto& [object, joint] : JointsRead(model, slots)) {
+    const auto t = static_cast<std::size_t>(object), j = static_cast<std::size_t>(joint);
     SceneState end = start;
-    end.joints[t][j] = model.things[t].joints[j].far();
-    return LinkPoint(model, end, thing, model.things[t].joints[j].grip);
+    end.joints[t][j] = model.objects[t].joints[j].far();
+    return LinkPosition(model, end, object, model.objects[t].joints[j].grasp_link);
   }
   return start.gripper.translation() + Eigen::Vector3d(0, kGoalAside, 0);
 }
 
-InitialState StartFrom(const SceneModel& model, const SceneState& state,
-                       const InitialState& before) {
+InitialState StartOfNextSubtask(const SceneModel& model, const SceneState& state,
+                                const InitialState& before) {
   InitialState start;
   start.world_from_robot = before.world_from_robot;
   for (const AssetPlacement& placement : before.placements) {
-    const auto thing = static_cast<std::size_t>(model.Find(placement.asset));
-    start.placements.push_back({placement.asset, state.roots[thing], placement.fixed});
-    const Thing& known = model.things[thing];
+    const auto object = static_cast<std::size_t>(model.Find(placement.asset));
+    start.placements.push_back({placement.asset, state.roots[object], placement.fixed});
+    const ArticulatedObject& known = model.objects[object];
     for (std::size_t j = 0; j < known.joints.size(); ++j) {
-      if (state.joints[thing][j] == known.joints[j].rest()) continue;
-      start.joints.push_back({known.name, known.joints[j].name, state.joints[thing][j]});
+      if (state.joints[object][j] == known.joints[j].rest()) continue;
+      start.joints.push_back({known.name, known.joints[j].name, state.joints[object][j]});
     }
   }
   if (state.grasped && state.touched >= 0 &&
-      !model.things[static_cast<std::size_t>(state.touched)].articulated()) {
-    start.held = model.things[static_cast<std::size_t>(state.touched)].name;
+      !model.objects[static_cast<std::size_t>(state.touched)].articulated()) {
+    start.held = model.objects[static_cast<std::size_t>(state.touched)].name;
   }
   return start;
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "tasks/reward/reward_slot.h"
+#include "reward/reward_slot.h"
 #include "tasks/scene_state.h"
 #include "tasks/verification/title_direction.h"
 
@@ -15,7 +15,8 @@ namespace simwright::tasks {
 // `assets`, in front of the robot. Joints that it reads are at rest, or at their far limit if the
 // title asks to move them back to rest. An object that the title takes out of another starts inside
 // it ("take the cup out of the microwave"). Returns nullopt if no placement is found.
-std::optional<InitialState> PlanStart(const SceneModel& model, const std::vector<RewardSlot>& slots,
+std::optional<InitialState> PlanStart(const SceneModel& model,
+                                      const std::vector<reward::RewardSlot>& slots,
                                       const std::vector<std::string>& assets,
                                       const std::string& title, TitleDirection direction,
                                       core::Rng& rng);
@@ -23,10 +24,10 @@ std::optional<InitialState> PlanStart(const SceneModel& model, const std::vector
 // Returns a goal for programs that need one: a reachable point beside and above the first object
 // that can be carried, else the position of a handle at the far limit of its joint.
 Eigen::Vector3d PlanGoal(const SceneModel& model, const SceneState& start,
-                         const std::vector<RewardSlot>& slots);
+                         const std::vector<reward::RewardSlot>& slots);
 
 // Returns `state` as the start of the next subtask: objects, joints and the held object.
-InitialState StartFrom(const SceneModel& model, const SceneState& state,
-                       const InitialState& before);
+InitialState StartOfNextSubtask(const SceneModel& model, const SceneState& state,
+                                const InitialState& before);
 
 }  // namespace simwright::tasks

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "reward/reward_program.h"
 #include "tasks/language/program_blocks.h"
-#include "tasks/reward/reward_program.h"
 #include "tasks/verification/action_sampling.h"
 #include "tasks/verification/path_search.h"
 #include "tasks/verification/program_trial.h"
@@ -50,8 +50,7 @@ void PromoteToErrors(core::Findings* findings) {
   for (core::Finding& finding : *findings) {
     if (finding.code == "constant-reward" || finding.code == "constant-success" ||
         finding.code == "self-distance" || finding.code == "norm-over-environments" ||
-        finding.code == "reduction-over-environments" ||
-        finding.code == "shared-reward") {
+        finding.code == "reduction-over-environments" || finding.code == "shared-reward") {
       finding.severity = Severity::kError;
     }
   }
@@ -62,9 +61,9 @@ void PromoteToErrors(core::Findings* findings) {
 TitleDirection DirectionOf(const SceneModel& model, const SceneState& from, const SceneState& to) {
   double most = 0.05;
   TitleDirection direction = TitleDirection::kNone;
-  for (std::size_t t = 0; t < model.things.size(); ++t) {
-    for (std::size_t j = 0; j < model.things[t].joints.size(); ++j) {
-      const ThingJoint& joint = model.things[t].joints[j];
+  for (std::size_t t = 0; t < model.objects.size(); ++t) {
+    for (std::size_t j = 0; j < model.objects[t].joints.size(); ++j) {
+      const ObjectJoint& joint = model.objects[t].joints[j];
       const double share =
           std::abs(to.joints[t][j] - from.joints[t][j]) / std::max(joint.upper - joint.lower, 1e-9);
       if (share <= most) continue;
@@ -80,8 +79,8 @@ TitleDirection DirectionOf(const SceneModel& model, const SceneState& from, cons
 // The verification of one program from one start.
 class Trial {
  public:
-  Trial(const SceneModel& model, const VerificationOptions& options, const RewardProgram& program,
-        const Subtask& subtask, const std::string& title)
+  Trial(const SceneModel& model, const VerificationOptions& options,
+        const reward::RewardProgram& program, const Subtask& subtask, const std::string& title)
       : model_(model),
         options_(options),
         program_(program),
@@ -173,14 +172,14 @@ class Trial {
   bool SucceedsFromOtherEnd() {
     SceneState other = start_;
     bool any = false;
-    for (const RewardSlot& slot : program_.slots()) {
-      const int thing = model_.Find(slot.asset);
-      if (thing < 0 || slot.part.empty()) continue;
-      const auto t = static_cast<std::size_t>(thing);
-      const int joint = model_.things[t].FindJoint(slot.part);
+    for (const reward::RewardSlot& slot : program_.slots()) {
+      const int object = model_.Find(slot.asset);
+      if (object < 0 || slot.part.empty()) continue;
+      const auto t = static_cast<std::size_t>(object);
+      const int joint = model_.objects[t].FindJoint(slot.part);
       if (joint < 0) continue;
       const auto j = static_cast<std::size_t>(joint);
-      const ThingJoint& moved = model_.things[t].joints[j];
+      const ObjectJoint& moved = model_.objects[t].joints[j];
       const bool open = std::abs(start_.joints[t][j] - moved.far()) <
                         std::abs(start_.joints[t][j] - moved.rest());
       other.joints[t][j] = open ? moved.rest() : moved.far();
@@ -247,7 +246,7 @@ class Trial {
 
   const SceneModel& model_;
   const VerificationOptions& options_;
-  const RewardProgram& program_;
+  const reward::RewardProgram& program_;
   const Subtask& subtask_;
   TitleDirection asked_;
   std::string place_;
@@ -257,26 +256,30 @@ class Trial {
   core::Findings findings_;
 };
 
-bool ReadsGoal(const RewardProgram& program) {
-  return std::any_of(program.slots().begin(), program.slots().end(), [](const RewardSlot& slot) {
-    return slot.input == RewardInput::kGoalPosition;
-  });
+bool ReadsGoal(const reward::RewardProgram& program) {
+  return std::any_of(program.slots().begin(), program.slots().end(),
+                     [](const reward::RewardSlot& slot) {
+                       return slot.input == reward::RewardInput::kGoalPosition;
+                     });
 }
 
 // Returns true if `start` places anything, and every object that the program reads.
-bool PlacesAllObjects(const InitialState& start, const RewardProgram& program) {
+bool PlacesAllObjects(const InitialState& start, const reward::RewardProgram& program) {
   const auto& placed = start.placements;
   return !placed.empty() &&
-         std::all_of(program.slots().begin(), program.slots().end(), [&](const RewardSlot& slot) {
-           return slot.asset.empty() ||
-                  std::any_of(placed.begin(), placed.end(),
-                              [&](const AssetPlacement& one) { return one.asset == slot.asset; });
-         });
+         std::all_of(
+             program.slots().begin(), program.slots().end(), [&](const reward::RewardSlot& slot) {
+               return slot.asset.empty() ||
+                      std::any_of(placed.begin(), placed.end(), [&](const AssetPlacement& one) {
+                        return one.asset == slot.asset;
+                      });
+             });
 }
 
-bool TakesParameters(const RewardProgram& program) {
-  return std::any_of(program.slots().begin(), program.slots().end(),
-                     [](const RewardSlot& slot) { return slot.input == RewardInput::kParameter; });
+bool TakesParameters(const reward::RewardProgram& program) {
+  return std::any_of(
+      program.slots().begin(), program.slots().end(),
+      [](const reward::RewardSlot& slot) { return slot.input == reward::RewardInput::kParameter; });
 }
 
 // Returns the title that describes the joint's motion: the subtask's own text first.
@@ -304,8 +307,8 @@ SubtaskVerifier::SubtaskVerifier(const SceneModel& model, const VerificationOpti
   if (!options_.IsValid(&error)) throw core::Error(error, "verification");
 }
 
-std::optional<InitialState> SubtaskVerifier::EndBefore(const Task& task, const Subtask& subtask,
-                                                       const RewardProgram& program) const {
+std::optional<InitialState> SubtaskVerifier::PreviousEndState(
+    const Task& task, const Subtask& subtask, const reward::RewardProgram& program) const {
   const auto self = std::find_if(task.subtasks.begin(), task.subtasks.end(),
                                  [&](const Subtask& s) { return s.name == subtask.name; });
   if (self == task.subtasks.begin() || self == task.subtasks.end()) return std::nullopt;
@@ -316,12 +319,13 @@ std::optional<InitialState> SubtaskVerifier::EndBefore(const Task& task, const S
 }
 
 core::Findings SubtaskVerifier::Verify(const Task& task, Subtask* subtask) {
-  RewardOptions compile_options;
+  reward::RewardOptions compile_options;
   compile_options.entry = options_.entry;
-  CompileOutcome outcome = CompileReward(subtask->program, &model_.names, compile_options);
+  reward::CompileOutcome outcome =
+      reward::CompileReward(subtask->program, &model_.names, compile_options);
   core::Findings findings = std::move(outcome.findings);
   PromoteToErrors(&findings);
-  if (subtask->success.empty()) subtask->success = SuccessOf(subtask->program);
+  if (subtask->success.empty()) subtask->success = SuccessExpression(subtask->program);
   if (!outcome.program || HasError(findings)) return findings;
   if (TakesParameters(*outcome.program)) {
     if (options_.needs_success) {
@@ -334,7 +338,7 @@ core::Findings SubtaskVerifier::Verify(const Task& task, Subtask* subtask) {
   }
   const std::string title = TitleOf(task, *subtask);
   if (!PlacesAllObjects(subtask->start, *outcome.program)) {
-    std::optional<InitialState> planned = EndBefore(task, *subtask, *outcome.program);
+    std::optional<InitialState> planned = PreviousEndState(task, *subtask, *outcome.program);
     if (!planned) {
       core::Rng rng = core::StreamRng(options_.seed, 0);
       planned = PlanStart(model_, outcome.program->slots(), task.assets, title,
@@ -354,8 +358,8 @@ core::Findings SubtaskVerifier::Verify(const Task& task, Subtask* subtask) {
   const core::Findings seen = trial.Run();
   findings.insert(findings.end(), seen.begin(), seen.end());
   if (trial.path()) {
-    ends_[{task.name, subtask->name}] =
-        StartFrom(model_, trial.path()->motion.states[trial.path()->first], subtask->start);
+    ends_[{task.name, subtask->name}] = StartOfNextSubtask(
+        model_, trial.path()->motion.states[trial.path()->first], subtask->start);
   }
   return findings;
 }

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/finding.h"
-#include "tasks/reward/reward_program.h"
+#include "reward/reward_program.h"
 #include "tasks/scene_state.h"
 #include "tasks/task.h"
 
@@ -48,8 +48,8 @@ class SubtaskVerifier {
 
  private:
   // Returns the end state of the preceding subtask, if it places every object that `program` reads.
-  std::optional<InitialState> EndBefore(const Task& task, const Subtask& subtask,
-                                        const RewardProgram& program) const;
+  std::optional<InitialState> PreviousEndState(const Task& task, const Subtask& subtask,
+                                               const reward::RewardProgram& program) const;
 
   const SceneModel& model_;
   VerificationOptions options_;

@@ -1,22 +1,22 @@
-#include "asset_lift/field_fit.h"
+#include "asset_lift/radiance_field/field_fit.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "asset_lift/field_carving.h"
-#include "asset_lift/field_losses.h"
-#include "asset_lift/field_surface.h"
-#include "asset_lift/field_targets.h"
+#include "asset_lift/radiance_field/field_carving.h"
+#include "asset_lift/radiance_field/field_losses.h"
+#include "asset_lift/radiance_field/field_surface.h"
+#include "asset_lift/radiance_field/field_targets.h"
 #include "core/error.h"
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 #include "tests/sanitized.h"
 
 namespace simwright::asset_lift {
 namespace {
 
-constexpr double kFov = 0.5;
+constexpr double kFieldFitFov = 0.5;
 
 // Renders an unlit ball of radius 0.15 about `center`, red where x > center.x, blue elsewhere, with
 // 3 x 3 rays per pixel.
@@ -25,7 +25,7 @@ ObservedView BallView(double azimuth, double elevation, int size,
   constexpr double kRadius = 0.15;
   ObservedView view;
   view.camera =
-      core::OrbitCamera(Eigen::Vector3d::Zero(), 1.0, elevation, azimuth, kFov, size, size);
+      core::OrbitCamera(Eigen::Vector3d::Zero(), 1.0, elevation, azimuth, kFieldFitFov, size, size);
   view.color = core::FloatImage(size, size, 3);
   view.opacity = core::FloatImage(size, size, 1);
   view.depth = core::FloatImage(size, size, 1);
@@ -111,7 +111,7 @@ TEST(FieldFit, EightViewsOfABallGiveItsShapeAndColours) {
   EXPECT_TRUE(surface.findings.empty());
   EXPECT_GT(surface.iou, 0.93);  // 2.5 pixels of 48 off the radius would give 0.7
   EXPECT_GT(BallIou(fit, surface.level, Eigen::Vector3d::Zero()), 0.85);
-  EXPECT_TRUE(geometry::Examine(surface.mesh).Sound());
+  EXPECT_TRUE(geometry::Examine(surface.mesh).IsSolid());
   ASSERT_EQ(surface.colors.size(), surface.mesh.vertices.size());
   double error = 0.0;
   int counted = 0;
@@ -128,18 +128,19 @@ TEST(FieldFit, EightViewsOfABallGiveItsShapeAndColours) {
 
 // An objective whose target is the ball's image; non-finite from step `nan_from` on, `nan_count`
 // times.
-class BallObjective : public PictureObjective {
+class BallObjective : public ImageObjective {
  public:
   core::Camera NextCamera(double progress, core::Rng* rng) override {
     EXPECT_GE(progress, 0.0);
     EXPECT_LT(progress, 1.0);
     azimuth_ = core::Uniform(*rng, -M_PI, M_PI);
     elevation_ = core::Uniform(*rng, -0.5, 0.8);
-    return core::OrbitCamera(Eigen::Vector3d::Zero(), 1.0, elevation_, azimuth_, kFov, 32, 32);
+    return core::OrbitCamera(Eigen::Vector3d::Zero(), 1.0, elevation_, azimuth_, kFieldFitFov, 32,
+                             32);
   }
 
-  double Evaluate(const core::Camera& camera, const ObjectPicture& picture, double, core::Rng*,
-                  ObjectPicture* gradient) override {
+  double Evaluate(const core::Camera& camera, const ObjectImage& picture, double, core::Rng*,
+                  ObjectImage* gradient) override {
     EXPECT_EQ(camera.width, 32);
     const ObservedView truth = BallView(azimuth_, elevation_, 32, center);
     *gradient = picture;
@@ -186,7 +187,7 @@ TEST(FieldFit, OneViewAndAnObjectiveGiveTheBackToo) {
   const FieldSurface without = QuickSurface(alone, views);
   const FieldSurface with = QuickSurface(fit, views);
   EXPECT_FALSE(without.mesh.empty());
-  EXPECT_TRUE(geometry::Examine(without.mesh).Sound());
+  EXPECT_TRUE(geometry::Examine(without.mesh).IsSolid());
   const double iou = BallIou(fit, with.level, center);
   EXPECT_GT(iou, 0.8);
   EXPECT_GT(iou, BallIou(alone, without.level, center) + 0.1);
@@ -228,7 +229,7 @@ TEST(FieldFit, NamesTheViewThatContradictsTheOthers) {
   for (int i = 0; i < 5; ++i) views.push_back(BallView(i * 1.2, 0.2, 32, {0.03, 0.0, 0.02}));
   FieldFitOptions options = QuickOptions(2, 32);
   EXPECT_TRUE(FitField(views, nullptr, options, nullptr).findings.empty());
-  views[3].camera = core::OrbitCamera({-0.08, 0.15, 0.16}, 1.0, 0.2, 3.6, kFov, 32, 32);
+  views[3].camera = core::OrbitCamera({-0.08, 0.15, 0.16}, 1.0, 0.2, 3.6, kFieldFitFov, 32, 32);
   const FieldFit fit = FitField(views, nullptr, options, nullptr);
   ASSERT_EQ(fit.findings.size(), 1u);
   EXPECT_EQ(fit.findings[0].code, "view-contradicts");
@@ -278,7 +279,7 @@ TEST(FieldSurface, HasFacesHoweverEmptyTheField) {
     fit.occupancy.Restrict(carving.allowed);
     const FieldSurface surface = QuickSurface(fit, views);
     EXPECT_GT(surface.mesh.triangles.size(), 100u);
-    EXPECT_TRUE(geometry::Examine(surface.mesh).Sound());
+    EXPECT_TRUE(geometry::Examine(surface.mesh).IsSolid());
     EXPECT_GT(surface.iou, 0.5);  // a cell and a pixel wider than the ball of 19 pixels
     ASSERT_FALSE(surface.findings.empty());
     EXPECT_EQ(surface.findings[0].code, "field-surface-faint");
@@ -343,13 +344,13 @@ void ExpectSlopes(std::vector<float>* values, const std::vector<float>& gradient
 }
 
 TEST(FieldLosses, GradientsAreThoseOfFiniteDifferences) {
-  TargetDeck deck({BallView(0.5, 0.3, 16)}, true);
+  PatchSampler deck({BallView(0.5, 0.3, 16)}, true);
   RayTargets targets;
   core::Rng rng(3);
-  deck.Deal(64, &rng, &targets);
+  deck.NextBatch(64, &rng, &targets);
   const std::size_t count = targets.opacity.size();
   ASSERT_EQ(count, 64u);
-  RayPictures<float> seen, gradient;
+  RayRenderings<float> seen, gradient;
   seen.Resize(count);
   for (float& x : seen.color) x = static_cast<float>(core::Uniform(rng));
   for (float& x : seen.depth) x = static_cast<float>(core::Uniform(rng));
@@ -364,7 +365,7 @@ TEST(FieldLosses, GradientsAreThoseOfFiniteDifferences) {
     return AddObservationLoss(targets, seen, {0.2f, 0.5f, 0.8f}, 0.25, weights, &gradient);
   };
   observation();
-  RayPictures<float> expected = gradient;
+  RayRenderings<float> expected = gradient;
   ExpectSlopes(&seen.color, expected.color, observation);
   ExpectSlopes(&seen.opacity, expected.opacity, observation);
   ExpectSlopes(&seen.depth, expected.depth, observation);
@@ -405,18 +406,18 @@ TEST(FieldTargets, ScaledViewsKeepWhatTheySee) {
 }
 
 TEST(FieldTargets, DeckDealsEachPatchOnceBeforeAnyTwice) {
-  TargetDeck deck({BallView(0.5, 0.3, 32)}, true);
+  PatchSampler deck({BallView(0.5, 0.3, 32)}, true);
   ASSERT_EQ(deck.size(), 32 * 32);
   core::Rng rng(3);
   RayTargets hand;
   std::vector<int> seen(32 * 32, 0);
   for (int n = 0; n < 4; ++n) {
-    deck.Deal(256, &rng, &hand);
+    deck.NextBatch(256, &rng, &hand);
     for (const int pixel : hand.pixels.pixel) ++seen[pixel];
   }
   EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), 32 * 32);
   for (int n = 0; n < 5; ++n) {
-    deck.Deal(3 * 256, &rng, &hand);
+    deck.NextBatch(3 * 256, &rng, &hand);
     std::fill(seen.begin(), seen.end(), 0);
     for (const int pixel : hand.pixels.pixel) ++seen[pixel];
     EXPECT_EQ(*std::max_element(seen.begin(), seen.end()), 1);

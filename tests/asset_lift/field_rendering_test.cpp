@@ -5,11 +5,11 @@
 
 #include <Eigen/Geometry>
 
-#include "asset_lift/field_adam.h"
-#include "asset_lift/field_model.h"
-#include "asset_lift/occupancy_grid.h"
-#include "asset_lift/radiance_field.h"
-#include "asset_lift/volume_rendering.h"
+#include "asset_lift/radiance_field/field_adam.h"
+#include "asset_lift/radiance_field/field_model.h"
+#include "asset_lift/radiance_field/occupancy_grid.h"
+#include "asset_lift/radiance_field/radiance_field.h"
+#include "asset_lift/radiance_field/volume_rendering.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
@@ -247,11 +247,11 @@ TEST(VolumeRendering, GradientOfARayIsThatOfFiniteDifferences) {
   Stir(&field);
   VolumeRenderOptions options;
   options.normals = true;
-  options.least_transmittance = 0.0;
+  options.min_transmittance = 0.0;
   VolumeRenderer<double> renderer(options);
   const OccupancyGrid everywhere;
   const std::vector<FieldRay> rays = RaysThrough(100, 0.2);
-  RayPictures<double> pictures, weights;
+  RayRenderings<double> pictures, weights;
   weights.Resize(rays.size());
   core::Rng rng(8);
   const auto loss = [&] {
@@ -297,7 +297,7 @@ TEST(VolumeRendering, HomogeneousCubeLosesLightWithTheChord) {
   const RadianceField field = OnlyBias(options);
   const double density = std::log1p(std::exp(0.7)) / 0.4;
   VolumeRenderer<float> renderer({});
-  RayPictures<float> pictures;
+  RayRenderings<float> pictures;
   // Straight through, on the diagonal of a face, from within, and past it.
   const std::vector<FieldRay> rays = {{{-2, 0.1, 0.05}, {1, 0, 0}},
                                       {{-2, -2, 0.1}, {3, 3, 0}},
@@ -342,7 +342,7 @@ TEST(VolumeRendering, HomogeneousSphereLosesLightWithTheChord) {
     rays.push_back({off * aside - 3.0 * along, along});
     chords.push_back(2.0 * std::sqrt(kRadius * kRadius - off * off));
   }
-  RayPictures<float> pictures;
+  RayRenderings<float> pictures;
   renderer.Render(field, occupancy, rays, 5, &pictures);
   double sum = 0.0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -366,7 +366,7 @@ TEST(VolumeRendering, BlobLosesLightAndFacesOutward) {
   VolumeRenderer<float> renderer(render);
   std::vector<FieldRay> rays;
   for (int i = 1; i < 20; ++i) rays.push_back({{-3.0, 0.025 * i, 0.0}, {1.0, 0.0, 0.0}});
-  RayPictures<float> pictures;
+  RayRenderings<float> pictures;
   renderer.Render(field, OccupancyGrid(), rays, 5, &pictures);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const double b = rays[i].origin.y();
@@ -389,7 +389,7 @@ TEST(VolumeRendering, PicturesDoNotDependOnThreadsAndEmptyCellsDoNotMatter) {
   const std::vector<FieldRay> rays = RaysThrough(300, 0.25);
   OccupancyGrid occupancy;
   VolumeRenderer<float> renderer({});
-  RayPictures<float> all, one, skipping;
+  RayRenderings<float> all, one, skipping;
   renderer.Render(field, occupancy, rays, 6, &all);
   core::SetThreadCount(1);
   renderer.Render(field, occupancy, rays, 6, &one);
@@ -412,13 +412,13 @@ TEST(VolumeRendering, PicturesDoNotDependOnThreadsAndEmptyCellsDoNotMatter) {
 TEST(VolumeRendering, RefusesRaysAndOptionsThatCannotBe) {
   const RadianceField field(RadianceFieldOptions(), 4);
   VolumeRenderer<float> renderer({});
-  RayPictures<float> pictures;
+  RayRenderings<float> pictures;
   EXPECT_THROW(renderer.Render(field, OccupancyGrid(), {{{0, 0, NAN}, {1, 0, 0}}}, 1, &pictures),
                core::Error);
   EXPECT_THROW(renderer.Render(field, OccupancyGrid(), {{{0, 0, 1}, {0, 0, 0}}}, 1, &pictures),
                core::Error);
   renderer.Render(field, OccupancyGrid(), {{{0, 0, 1}, {1, 0, 0}}}, 1, &pictures);
-  RayPictures<float> other;
+  RayRenderings<float> other;
   other.Resize(7);
   FieldGradient<float> gradient;
   EXPECT_THROW(renderer.AddGradient(field, other, &gradient), core::Error);

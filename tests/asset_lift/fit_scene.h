@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "asset_lift/observed_view.h"
+#include "asset_lift/camera/observed_view.h"
 #include "core/camera.h"
 #include "geometry/isosurface.h"
 #include "render/differentiable.h"

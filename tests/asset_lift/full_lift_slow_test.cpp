@@ -2,13 +2,13 @@
 // with them.
 #include <gtest/gtest.h>
 
-#include "asset_lift/learned_view_prior.h"
 #include "asset_lift/lift.h"
-#include "asset_lift/prior_training.h"
-#include "asset_lift/shape_prior.h"
+#include "asset_lift/priors/learned_view_prior.h"
+#include "asset_lift/priors/prior_training.h"
+#include "asset_lift/priors/shape_prior.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 #include "render/forward.h"
 
 namespace simwright::asset_lift {
@@ -46,7 +46,7 @@ core::TexturedMesh Steps() {
   return mesh;
 }
 
-core::Image Photograph(const core::TexturedMesh& mesh, int size) {
+core::Image FullLiftPhotograph(const core::TexturedMesh& mesh, int size) {
   render::Scene scene;
   scene.Add(&mesh);
   scene.Commit();
@@ -104,12 +104,12 @@ TEST_F(FullLift, BothStagesGiveASolidThatShowsThePhoto) {
   options.fit.mesh.steps_per_round = 6;
   options.texture_size = 512;
   core::Progress silent;
-  const core::Image photo = Photograph(Steps(), 256);
+  const core::Image photo = FullLiftPhotograph(Steps(), 256);
   for (const LiftEffort effort : {LiftEffort::kFull, LiftEffort::kFast}) {
     options.effort = effort;
     const LiftedMesh lifted = LiftPhoto(photo, {}, priors, options, &silent);
     EXPECT_EQ(lifted.start, "the learned prior");
-    EXPECT_TRUE(geometry::Examine(lifted.mesh.mesh).Sound());
+    EXPECT_TRUE(geometry::Examine(lifted.mesh.mesh).IsSolid());
     // Even four steps of training must not lead the shape away from its silhouette.
     EXPECT_GT(lifted.silhouette_iou, 0.85);
     EXPECT_EQ(lifted.mesh.textures.size(), 1u);

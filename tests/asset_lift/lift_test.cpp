@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "geometry/mass_properties.h"
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 #include "render/forward.h"
 #include "tests/sanitized.h"
 
@@ -15,7 +15,7 @@ namespace simwright::asset_lift {
 namespace {
 
 // A cylinder standing on z = 0, closed.
-core::TexturedMesh Cylinder(double radius, double height) {
+core::TexturedMesh LiftCylinder(double radius, double height) {
   core::TexturedMesh mesh;
   constexpr int kSides = 96;
   mesh.mesh.vertices = {{0, 0, 0}, {0, 0, height}};
@@ -34,16 +34,16 @@ core::TexturedMesh Cylinder(double radius, double height) {
   return mesh;
 }
 
-constexpr double kFov = 0.61;
+constexpr double kLiftFov = 0.61;
 
 // RGBA photo of a mesh from `elevation`, its background transparent.
-core::Image Photograph(const core::TexturedMesh& mesh, double elevation, int size) {
+core::Image LiftPhotograph(const core::TexturedMesh& mesh, double elevation, int size) {
   render::Scene scene;
   scene.Add(&mesh);
   scene.Commit();
   const Eigen::AlignedBox3d box = core::Bounds(mesh.mesh);
   const core::Camera camera = core::OrbitCamera(box.center(), 1.9 * box.diagonal().norm(),
-                                                elevation, -M_PI / 2, kFov, size, size);
+                                                elevation, -M_PI / 2, kLiftFov, size, size);
   render::ForwardOptions options;
   options.shaded = true;
   options.samples_per_side = 3;
@@ -62,15 +62,15 @@ CategoryPrior PotPrior() {
 
 TEST(Lift, ACylinderComesBackAsOne) {
   const double elevation = 0.45;
-  const core::Image photo = Photograph(Cylinder(0.04, 0.1), elevation, 300);
+  const core::Image photo = LiftPhotograph(LiftCylinder(0.04, 0.1), elevation, 300);
   LiftOptions options;
   options.elevation = elevation;
   core::Progress progress;
   const LiftedMesh lifted = LiftPhoto(photo, PotPrior(), {}, options, &progress);
   EXPECT_GE(lifted.silhouette_iou, 0.97);
   EXPECT_EQ(lifted.form, ShapeForm::kUpright);
-  const geometry::Soundness soundness = geometry::Examine(lifted.mesh.mesh);
-  EXPECT_TRUE(soundness.Sound()) << geometry::Describe(soundness);
+  const geometry::MeshValidity soundness = geometry::Examine(lifted.mesh.mesh);
+  EXPECT_TRUE(soundness.IsSolid()) << geometry::Describe(soundness);
   // Volume over that of the bounding box: pi / 4 for any upright cylinder.
   const Eigen::Vector3d size = core::Bounds(lifted.mesh.mesh).sizes();
   const double volume = geometry::SolidMassProperties(lifted.mesh.mesh, 1.0).volume;
@@ -82,8 +82,8 @@ TEST(Lift, EstimatesTheElevationOfAPot) {
   SKIP_UNDER_SANITIZERS();
   for (const double elevation : {0.2, 0.4, 0.6}) {
     core::Progress progress;
-    const LiftedMesh lifted =
-        LiftPhoto(Photograph(Cylinder(0.04, 0.1), elevation, 300), PotPrior(), {}, {}, &progress);
+    const LiftedMesh lifted = LiftPhoto(LiftPhotograph(LiftCylinder(0.04, 0.1), elevation, 300),
+                                        PotPrior(), {}, {}, &progress);
     EXPECT_NEAR(lifted.elevation.elevation, elevation, 0.175) << elevation;
   }
 }
@@ -112,7 +112,7 @@ TEST(Lift, AHoleInTheOutlineGoesThroughTheMesh) {
   core::Progress progress;
   const LiftedMesh lifted = LiftPhoto(photo, {}, {}, options, &progress);
   EXPECT_GE(lifted.silhouette_iou, 0.97);
-  EXPECT_TRUE(geometry::Examine(lifted.mesh.mesh).Sound());
+  EXPECT_TRUE(geometry::Examine(lifted.mesh.mesh).IsSolid());
   // A ring has Euler characteristic 0, a ball 2.
   const long v = static_cast<long>(lifted.mesh.mesh.vertices.size());
   const long f = static_cast<long>(lifted.mesh.mesh.triangles.size());

@@ -1,4 +1,4 @@
-#include "asset_lift/mesh_fit.h"
+#include "asset_lift/mesh_fit/mesh_fit.h"
 
 #include <gtest/gtest.h>
 
@@ -6,12 +6,12 @@
 #include <limits>
 #include <numeric>
 
-#include "asset_lift/crossing_repair.h"
-#include "asset_lift/large_steps.h"
-#include "asset_lift/normal_penalty.h"
-#include "asset_lift/view_loss.h"
+#include "asset_lift/mesh_fit/large_steps.h"
+#include "asset_lift/mesh_fit/normal_penalty.h"
+#include "asset_lift/mesh_fit/self_intersection_smoothing.h"
+#include "asset_lift/mesh_fit/view_loss.h"
 #include "core/error.h"
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 #include "geometry/surface_distance.h"
 #include "tests/asset_lift/fit_scene.h"
 
@@ -128,8 +128,8 @@ TEST(CrossingRepair, AFoldIsSmoothedAway) {
   core::TriangleMesh mesh = Sphere(0.1);
   mesh.vertices[50] = -1.1 * mesh.vertices[50];  // through the other side
   ASSERT_GT(geometry::Examine(mesh).self_intersections, 0);
-  EXPECT_TRUE(SmoothCrossings(&mesh, 15));
-  EXPECT_TRUE(geometry::Examine(mesh).Sound());
+  EXPECT_TRUE(SmoothSelfIntersections(&mesh, 15));
+  EXPECT_TRUE(geometry::Examine(mesh).IsSolid());
 }
 
 TEST(MeshFit, ABumpySphereFromASphere) {
@@ -140,7 +140,7 @@ TEST(MeshFit, ABumpySphereFromASphere) {
   const double diagonal = core::Bounds(truth).diagonal().norm();
   EXPECT_GT(Chamfer(start, truth), 0.03 * diagonal);
   EXPECT_LT(Chamfer(result.mesh, truth), 0.007 * diagonal);
-  EXPECT_TRUE(geometry::Examine(result.mesh).Sound());
+  EXPECT_TRUE(geometry::Examine(result.mesh).IsSolid());
   EXPECT_TRUE(result.complete);
   EXPECT_EQ(result.steps, 80);
   ASSERT_EQ(result.mask_iou.size(), 8u);
@@ -174,7 +174,7 @@ TEST(MeshFit, DepthsPlaceWhatMasksAloneCannot) {
 }
 
 // An objective whose target is a view's image, from the view's camera; may become non-finite.
-class LikeAView : public PictureObjective {
+class LikeAView : public ImageObjective {
  public:
   LikeAView(const std::vector<ObservedView>& views, int wrong_from, int wrong_to)
       : wrong_from_(wrong_from), wrong_to_(wrong_to) {
@@ -184,8 +184,8 @@ class LikeAView : public PictureObjective {
     at_ = static_cast<int>(core::UniformIndex(*rng, static_cast<int>(targets_.size())));
     return targets_[at_].camera;
   }
-  double Evaluate(const core::Camera&, const ObjectPicture& picture, double, core::Rng*,
-                  ObjectPicture* gradient) override {
+  double Evaluate(const core::Camera&, const ObjectImage& picture, double, core::Rng*,
+                  ObjectImage* gradient) override {
     render::DifferentiableBuffers shown, slope;
     shown.color = picture.color;
     shown.mask = picture.opacity;
@@ -240,7 +240,7 @@ TEST(MeshFit, NotFiniteForGoodStopsWithTheLastGoodMesh) {
   EXPECT_FALSE(result.complete);
   EXPECT_EQ(Count(result, "stopped-early"), 1);
   EXPECT_EQ(result.steps, 30);
-  EXPECT_TRUE(geometry::Examine(result.mesh).Sound());
+  EXPECT_TRUE(geometry::Examine(result.mesh).IsSolid());
   EXPECT_LT(Chamfer(result.mesh, truth), 0.03 * core::Bounds(truth).diagonal().norm());
 }
 

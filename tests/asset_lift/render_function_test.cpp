@@ -1,8 +1,8 @@
-#include "asset_lift/render_function.h"
+#include "asset_lift/priors/render_function.h"
 
 #include <gtest/gtest.h>
 
-#include "asset_lift/shape_parts.h"
+#include "asset_lift/priors/shape_parts.h"
 #include "core/error.h"
 
 namespace simwright::asset_lift {
@@ -15,7 +15,7 @@ torch::Tensor Tensor(const std::vector<Eigen::Vector3d>& rows) {
 }
 
 // Descent through libtorch's graph moves a displaced ball back to where its picture was taken.
-TEST(DrawTensors, LeadGradientsOfPicturesToVerticesAndColours) {
+TEST(RenderTensors, LeadGradientsOfPicturesToVerticesAndColours) {
   const core::TriangleMesh ball = SuperquadricPart({0.3, 0.3, 0.3}, 1, 1, 24);
   render::DifferentiableObject object;
   object.mesh = ball;
@@ -25,7 +25,7 @@ TEST(DrawTensors, LeadGradientsOfPicturesToVerticesAndColours) {
       core::OrbitCamera(Eigen::Vector3d::Zero(), 2.0, 0.2, 0.3, 0.6, 48, 48);
   const torch::Tensor truth = Tensor(ball.vertices);
   const torch::Tensor red = torch::zeros({truth.size(0), 3}) + torch::tensor({0.9f, 0.1f, 0.1f});
-  const DrawnTensors target = DrawTensors(&renderer, truth, red, camera, 1);
+  const RenderedTensors target = RenderTensors(&renderer, truth, red, camera, 1);
   EXPECT_NEAR(target.mask.max().item<double>(), 1.0, 1e-6);
   EXPECT_NEAR(target.color[24][24][0].item<double>(), 0.9, 1e-4);
   EXPECT_NEAR(target.depth[24][24].item<double>(), 1.7, 0.02);
@@ -38,9 +38,9 @@ TEST(DrawTensors, LeadGradientsOfPicturesToVerticesAndColours) {
   torch::optim::Adam adam({offset, color}, torch::optim::AdamOptions(0.01));
   for (int step = 0; step < 80; ++step) {
     adam.zero_grad();
-    const DrawnTensors drawn =
-        DrawTensors(&renderer, truth + offset, color.unsqueeze(0).expand({truth.size(0), 3}),
-                    camera, static_cast<std::uint64_t>(step));
+    const RenderedTensors drawn =
+        RenderTensors(&renderer, truth + offset, color.unsqueeze(0).expand({truth.size(0), 3}),
+                      camera, static_cast<std::uint64_t>(step));
     const torch::Tensor loss =
         torch::mse_loss(drawn.color, target.color) + torch::mse_loss(drawn.mask, target.mask);
     loss.backward();
@@ -53,11 +53,11 @@ TEST(DrawTensors, LeadGradientsOfPicturesToVerticesAndColours) {
   EXPECT_NEAR(color[1].item<double>(), 0.1, 0.05);
 }
 
-TEST(DrawTensors, RefuseSizesThatDoNotFit) {
+TEST(RenderTensors, RefuseSizesThatDoNotFit) {
   render::DifferentiableObject object;
   object.mesh = BoxPart({1, 1, 1});
   render::DifferentiableRenderer renderer({object});
-  EXPECT_THROW(DrawTensors(&renderer, torch::zeros({3, 3}), {}, core::Camera{}, 1), core::Error);
+  EXPECT_THROW(RenderTensors(&renderer, torch::zeros({3, 3}), {}, core::Camera{}, 1), core::Error);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include "asset_lift/segmentation.h"
+#include "asset_lift/segmentation/segmentation.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "tests/sanitized.h"

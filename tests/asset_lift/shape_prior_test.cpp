@@ -1,18 +1,18 @@
 // The training examples of the shape prior, and the evaluation of its predictions at points, as
 // images and as surfaces.
-#include "asset_lift/shape_prior.h"
+#include "asset_lift/priors/shape_prior.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "asset_lift/first_guess.h"
-#include "asset_lift/outline_hold.h"
-#include "asset_lift/shape_example.h"
-#include "asset_lift/training_shapes.h"
+#include "asset_lift/priors/initial_shape.h"
+#include "asset_lift/priors/shape_example.h"
+#include "asset_lift/priors/silhouette_consistency.h"
+#include "asset_lift/priors/training_shapes.h"
 #include "core/error.h"
 #include "geometry/mass_properties.h"
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 
 namespace simwright::asset_lift {
 namespace {
@@ -66,13 +66,13 @@ TEST(ShapePrediction, ABallIsABallInOddsSurfaceAndPicture) {
   EXPECT_LT(ball.Logit({9, 0, 0}), -7.0f);  // outside the block
 
   const core::TriangleMesh surface = PredictedSurface(ball, 64);
-  EXPECT_TRUE(geometry::Examine(surface).Sound());
+  EXPECT_TRUE(geometry::Examine(surface).IsSolid());
   EXPECT_NEAR(geometry::SolidMassProperties(surface, 1.0).mass, M_PI / 6, 0.03);
 
   // From the side: half of it red, half blue, and as large as the ball's outline.
   const core::Camera side =
       core::OrbitCamera(Eigen::Vector3d::Zero(), 5.0, 0.0, -1.2 + M_PI / 2, 0.3, 48, 48);
-  const PredictionPicture drawn = DrawPrediction(ball, side);
+  const RenderedPrediction drawn = RenderPrediction(ball, side);
   double area = 0.0, red = 0.0, blue = 0.0;
   for (int i = 0; i < 48 * 48; ++i) {
     area += drawn.picture.opacity.values[static_cast<size_t>(i)];
@@ -124,7 +124,7 @@ TEST(OutlineHold, UnsureColumnsGetASmoothSheetAndSureOnesKeepTheirWord) {
       }
     }
   }
-  HoldToOutline(&held);
+  EnforceSilhouetteConsistency(&held);
   EXPECT_EQ(FilledCells(held, 20, 30), Eigen::Vector3i(28, 31, 4));
   EXPECT_EQ(FilledCells(held, 4, 30), Eigen::Vector3i(-1, -1, 0));  // beside the outline
   // The sheet is one piece, near the mean of the rows' readings, although they alternate.
@@ -140,10 +140,10 @@ TEST(OutlineHold, UnsureColumnsGetASmoothSheetAndSureOnesKeepTheirWord) {
   EXPECT_LT(held.front_w[at], held.back_w[at]);
 }
 
-TEST(FirstGuess, OddsOfAMeshFollowItsSurface) {
-  const FirstGuess guess = EllipsoidGuess(BallPrediction().frame, {0.8, 0.4});
+TEST(InitialShape, OddsOfAMeshFollowItsSurface) {
+  const InitialShape guess = InitialEllipsoid(BallPrediction().frame, {0.8, 0.4});
   const double unit = BallPrediction().frame.Radius();
-  EXPECT_TRUE(geometry::Examine(guess.surface).Sound());
+  EXPECT_TRUE(geometry::Examine(guess.surface).IsSolid());
   EXPECT_NEAR(geometry::SolidMassProperties(guess.surface, 1.0).mass,
               4.0 / 3 * M_PI * 0.8 * 0.4 * 0.4 * unit * unit * unit, 0.03 * unit * unit * unit);
   EXPECT_NEAR(guess.odds({0, 0, 0}), 4.0, 1e-9);

@@ -6,14 +6,14 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "asset_lift/inflation.h"
-#include "asset_lift/upright_body.h"
+#include "asset_lift/outline/inflation.h"
+#include "asset_lift/outline/upright_body.h"
 
 namespace simwright::asset_lift {
 namespace {
 
 constexpr int kSide = 480;
-constexpr double kRadius = 0.1, kHeight = 0.3;  // the camera is 1 away
+constexpr double kRadius = 0.1, kRimHeight = 0.3;  // the camera is 1 away
 constexpr double kDegree = M_PI / 180.0;
 
 core::Camera CameraAt(double elevation_degrees) {
@@ -24,11 +24,11 @@ core::Camera CameraAt(double elevation_degrees) {
   return PhotoCamera(matte, 760.0, elevation_degrees * kDegree);
 }
 
-UprightBody Cylinder() {
+UprightBody UprightRimCylinder() {
   UprightBody body;
   constexpr int kLevels = 60;
-  body.bottom = -0.5 * kHeight;
-  body.step = kHeight / (kLevels - 1);
+  body.bottom = -0.5 * kRimHeight;
+  body.step = kRimHeight / (kLevels - 1);
   body.radius.assign(kLevels, kRadius);
   return body;
 }
@@ -38,13 +38,13 @@ double RadiusAtShare(const UprightBody& body, double share) {
 }
 
 TEST(UprightRim, AWronglyEstimatedElevationMakesNoShoulder) {
-  const cv::Mat mask = Silhouette(Cylinder(), CameraAt(20.0));
+  const cv::Mat mask = Silhouette(UprightRimCylinder(), CameraAt(20.0));
   for (const double estimated : {11.0, 14.0, 17.0}) {
     UprightBody body = FitUprightBody(mask, CameraAt(estimated));
     if (estimated < 15.0) {
       EXPECT_LT(RadiusAtShare(body, 0.99), 0.9 * RadiusAtShare(body, 0.5)) << estimated;
     }
-    ASSERT_TRUE(SharpenRim(mask, CameraAt(estimated), &body)) << estimated;
+    ASSERT_TRUE(RestoreRim(mask, CameraAt(estimated), &body)) << estimated;
     for (const double share : {0.05, 0.25, 0.75, 0.9, 0.97, 1.0}) {
       EXPECT_NEAR(RadiusAtShare(body, share), RadiusAtShare(body, 0.5), 0.05 * kRadius)
           << estimated << " " << share;
@@ -57,19 +57,19 @@ TEST(UprightRim, AWronglyEstimatedElevationMakesNoShoulder) {
 }
 
 TEST(UprightRim, WhatNarrowsTowardsItsTopStaysSo) {
-  UprightBody cone = Cylinder();
+  UprightBody cone = UprightRimCylinder();
   for (size_t i = 0; i < cone.radius.size(); ++i) {
     cone.radius[i] = kRadius * (1.0 - 0.5 * static_cast<double>(i) / 59.0);
   }
   const cv::Mat mask = Silhouette(cone, CameraAt(20.0));
   UprightBody body = FitUprightBody(mask, CameraAt(20.0));
-  SharpenRim(mask, CameraAt(20.0), &body);
+  RestoreRim(mask, CameraAt(20.0), &body);
   EXPECT_NEAR(RadiusAtShare(body, 0.97) / RadiusAtShare(body, 0.03), 0.53, 0.06);
 }
 
 TEST(UprightRim, AHandleDoesNotWidenTheWall) {
   const core::Camera camera = CameraAt(20.0);
-  cv::Mat mask = Silhouette(Cylinder(), camera);
+  cv::Mat mask = Silhouette(UprightRimCylinder(), camera);
   const Eigen::Vector3d side = camera.Project({kRadius, 0.0, 0.0});
   cv::ellipse(mask, cv::Point(static_cast<int>(side.x()), static_cast<int>(side.y())),
               cv::Size(55, 65), 0.0, -90.0, 90.0, cv::Scalar(255), 16);

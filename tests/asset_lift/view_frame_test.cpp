@@ -1,4 +1,4 @@
-#include "asset_lift/view_frame.h"
+#include "asset_lift/camera/view_frame.h"
 
 #include <gtest/gtest.h>
 

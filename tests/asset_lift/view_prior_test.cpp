@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "asset_lift/score_distillation.h"
-#include "asset_lift/scripted_view_prior.h"
-#include "asset_lift/view_prior.h"
+#include "asset_lift/priors/score_distillation.h"
+#include "asset_lift/priors/scripted_view_prior.h"
+#include "asset_lift/priors/view_prior.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "nn/script.h"
+#include "nn/torch_script.h"
 
 namespace simwright::asset_lift {
 namespace {
@@ -60,9 +60,9 @@ def forward(self, image, camera, noisy, t):
   const ReferenceView view = Reference();
   ScoreDistillation distillation(prior, view.frame, view.photo, view.alpha);
   core::Rng rng(3);
-  ObjectPicture picture{core::FloatImage(32, 32, 3, 0.1f), core::FloatImage(32, 32, 1, 1.0f)};
+  ObjectImage picture{core::FloatImage(32, 32, 3, 0.1f), core::FloatImage(32, 32, 1, 1.0f)};
   for (int step = 0; step < 150; ++step) {
-    ObjectPicture gradient;
+    ObjectImage gradient;
     const core::Camera camera = distillation.NextCamera(step / 150.0, &rng);
     EXPECT_NEAR(camera.position().norm(), 1.0, 1e-9);
     distillation.Evaluate(camera, picture, step / 150.0, &rng, &gradient);

@@ -1,4 +1,4 @@
-#include "asset_lift/visual_hull.h"
+#include "asset_lift/multi_view/visual_hull.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "asset_lift/view_agreement.h"
+#include "asset_lift/multi_view/view_consistency.h"
 #include "core/error.h"
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 #include "geometry/surface_distance.h"
 #include "geometry/weld.h"
 #include "tests/asset_lift/fit_scene.h"
@@ -43,7 +43,7 @@ TEST(VisualHull, OfASphereIsASphere) {
   VisualHullOptions options;
   options.cells = 64;
   const core::TriangleMesh hull = VisualHull(WithoutDepths(ViewsOf(sphere, 12, 64)), options);
-  EXPECT_TRUE(geometry::Examine(hull).Sound());
+  EXPECT_TRUE(geometry::Examine(hull).IsSolid());
   // Twelve cones about a ball hold a little more than the ball.
   const double ball = 4.0 / 3.0 * std::numbers::pi * 1e-3;
   EXPECT_GT(geometry::SignedVolume(hull), 0.97 * ball);
@@ -119,20 +119,20 @@ ObservedView Turned(ObservedView view, double angle) {
   return view;
 }
 
-TEST(ViewAgreement, TrueCamerasAgree) {
-  const ViewAgreement agreement = ExamineViews(ViewsOf(Hook(), 8, 64));
+TEST(ViewConsistency, TrueCamerasAgree) {
+  const ViewConsistency agreement = CheckViewConsistency(ViewsOf(Hook(), 8, 64));
   EXPECT_TRUE(agreement.contradicting.empty());
   EXPECT_TRUE(agreement.findings.empty());
   ASSERT_EQ(agreement.unexplained.size(), 8u);
   for (const double share : agreement.unexplained) EXPECT_LT(share, 0.03);
 }
 
-TEST(ViewAgreement, AWrongCameraIsNamed) {
+TEST(ViewConsistency, AWrongCameraIsNamed) {
   const std::vector<ObservedView> good = ViewsOf(Hook(), 8, 64);
   for (const int wrong : {0, 3, 6}) {
     std::vector<ObservedView> views = good;
     views[wrong] = Turned(views[wrong], 0.7);
-    const ViewAgreement agreement = ExamineViews(views);
+    const ViewConsistency agreement = CheckViewConsistency(views);
     EXPECT_EQ(agreement.contradicting, std::vector<int>{wrong});
     ASSERT_EQ(agreement.findings.size(), 1u);
     EXPECT_EQ(agreement.findings[0].place, "view " + std::to_string(wrong));
@@ -140,22 +140,22 @@ TEST(ViewAgreement, AWrongCameraIsNamed) {
   }
 }
 
-TEST(ViewAgreement, TwoWrongCamerasAreNamed) {
+TEST(ViewConsistency, TwoWrongCamerasAreNamed) {
   std::vector<ObservedView> views = ViewsOf(Hook(), 9, 64);
   views[2] = Turned(views[2], 0.8);
   views[5] = Turned(views[5], -1.1);
-  EXPECT_EQ(ExamineViews(views).contradicting, (std::vector<int>{2, 5}));
+  EXPECT_EQ(CheckViewConsistency(views).contradicting, (std::vector<int>{2, 5}));
 }
 
 // If two views contradict each other, it is undecidable which is wrong.
-TEST(ViewAgreement, OfTwoViewsBothAreNamed) {
+TEST(ViewConsistency, OfTwoViewsBothAreNamed) {
   std::vector<ObservedView> views = ViewsOf(Hook(), 2, 64);
-  EXPECT_TRUE(ExamineViews(views).contradicting.empty());
+  EXPECT_TRUE(CheckViewConsistency(views).contradicting.empty());
   // The picture's upper half is cut off: the other view shows more than this one allows.
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 64; ++x) *views[1].opacity.At(x, y) = 0.0f;
   }
-  EXPECT_EQ(ExamineViews(views).contradicting, (std::vector<int>{0, 1}));
+  EXPECT_EQ(CheckViewConsistency(views).contradicting, (std::vector<int>{0, 1}));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "assets/articulated_writer.h"
 #include "assets/asset_folder.h"
-#include "assets/joint_load.h"
+#include "assets/joint_gravity_load.h"
 #include "assets/joint_poses.h"
 #include "core/error.h"
 #include "core/files.h"

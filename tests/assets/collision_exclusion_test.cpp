@@ -5,8 +5,8 @@
 
 #include <fstream>
 
-#include <sdf/sdf.hh>
 #include <tinyxml2.h>
+#include <sdf/sdf.hh>
 
 #include "assets/articulated_folder.h"
 #include "assets/articulated_writer.h"

@@ -24,18 +24,26 @@ class DaeImport : public MeshFolder {
     const std::string floats = "type=\"float\"/>";
     std::string text =
         "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
-        "version=\"1.4.1\"><asset>" + asset + "</asset><library_effects><effect id=\"e\">"
+        "version=\"1.4.1\"><asset>" +
+        asset +
+        "</asset><library_effects><effect id=\"e\">"
         "<profile_COMMON><technique sid=\"c\"><lambert><diffuse><color>0 0 1 1</color></diffuse>" +
-        effect + "</lambert></technique></profile_COMMON></effect></library_effects>"
+        effect +
+        "</lambert></technique></profile_COMMON></effect></library_effects>"
         "<library_materials><material id=\"m\"><instance_effect url=\"#e\"/></material>"
         "</library_materials><library_geometries><geometry id=\"g\"><mesh><source id=\"p\">"
-        "<float_array id=\"pa\" count=\"24\">" + positions + "</float_array><technique_common>"
-        "<accessor source=\"#pa\" count=\"8\" stride=\"3\"><param name=\"X\" " + floats +
-        "<param name=\"Y\" " + floats + "<param name=\"Z\" " + floats +
+        "<float_array id=\"pa\" count=\"24\">" +
+        positions +
+        "</float_array><technique_common>"
+        "<accessor source=\"#pa\" count=\"8\" stride=\"3\"><param name=\"X\" " +
+        floats + "<param name=\"Y\" " + floats + "<param name=\"Z\" " + floats +
         "</accessor></technique_common></source><source id=\"c\"><float_array id=\"ca\" "
-        "count=\"24\">" + rgb + "</float_array><technique_common><accessor source=\"#ca\" "
-        "count=\"8\" stride=\"3\"><param name=\"R\" " + floats + "<param name=\"G\" " + floats +
-        "<param name=\"B\" " + floats + "</accessor></technique_common></source>"
+        "count=\"24\">" +
+        rgb +
+        "</float_array><technique_common><accessor source=\"#ca\" "
+        "count=\"8\" stride=\"3\"><param name=\"R\" " +
+        floats + "<param name=\"G\" " + floats + "<param name=\"B\" " + floats +
+        "</accessor></technique_common></source>"
         "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices>"
         "<triangles count=\"12\" material=\"s\"><input semantic=\"VERTEX\" source=\"#v\" "
         "offset=\"0\"/>" +
@@ -49,7 +57,8 @@ class DaeImport : public MeshFolder {
     for (size_t at = placed.find('@'); at != std::string::npos; at = placed.find('@')) {
       placed.replace(at, 1, instance);
     }
-    return text + placed + "</visual_scene></library_visual_scenes><scene>"
+    return text + placed +
+           "</visual_scene></library_visual_scenes><scene>"
            "<instance_visual_scene url=\"#s\"/></scene></COLLADA>";
   }
   static std::string Up(const std::string& axis) { return "<up_axis>" + axis + "</up_axis>"; }
@@ -60,8 +69,10 @@ class DaeImport : public MeshFolder {
     std::string text = "<robot name=\"r\"><link name=\"body\"><visual><geometry><mesh filename=\"" +
                        mesh + "\"/></geometry></visual>" + more + "</link>";
     if (!joint.empty()) {
-      text += "<link name=\"door\"/><joint name=\"j\" type=\"fixed\"><parent link=\"body\"/>"
-              "<child link=\"door\"/><origin xyz=\"" + joint + "\"/></joint>";
+      text +=
+          "<link name=\"door\"/><joint name=\"j\" type=\"fixed\"><parent link=\"body\"/>"
+          "<child link=\"door\"/><origin xyz=\"" +
+          joint + "\"/></joint>";
     }
     return text + "</robot>";
   }
@@ -81,22 +92,23 @@ TEST_F(DaeImport, CoordinatesStayInTheirAxesAndBecomeMetres) {
         Write("a.dae", Dae("<unit name=\"centimeter\" meter=\"0.01\"/>" + Up(name), low, high)));
     EXPECT_EQ(file.up, up);
     EXPECT_NEAR((core::Bounds(file.mesh.mesh).sizes() - Eigen::Vector3d(.01, .02, .03)).norm(), 0.0,
-                1e-8) << name;
+                1e-8)
+        << name;
     EXPECT_NEAR(Volume(file.mesh.mesh), 6e-6, 1e-11) << name;
   }
   EXPECT_EQ(ReadMeshFile(Write("b.dae", Dae("", low, high))).up, 0);
   EXPECT_EQ(ReadMeshFile(Write("c.dae", Dae("<up_axis> Z_UP </up_axis>", low, high))).up, 'z');
   // The rotations that map the axis to z.
-  EXPECT_NEAR((ZUpFrom('y') * Eigen::Vector3d::UnitY()).z(), 1.0, 1e-12);
-  EXPECT_NEAR((ZUpFrom('x') * Eigen::Vector3d::UnitX()).z(), 1.0, 1e-12);
-  for (const char up : {'x', 'y', 'z'}) EXPECT_NEAR(ZUpFrom(up).determinant(), 1.0, 1e-12);
+  EXPECT_NEAR((ZUpRotation('y') * Eigen::Vector3d::UnitY()).z(), 1.0, 1e-12);
+  EXPECT_NEAR((ZUpRotation('x') * Eigen::Vector3d::UnitX()).z(), 1.0, 1e-12);
+  for (const char up : {'x', 'y', 'z'}) EXPECT_NEAR(ZUpRotation(up).determinant(), 1.0, 1e-12);
 }
 
 TEST_F(DaeImport, InstancesStandWhereTheirNodesSay) {
-  const core::TexturedMesh mesh = ReadMesh(Write(
-      "i.dae", Dae(Up("Z_UP"), {0, 0, 0}, {1, 1, 1}, "",
-                   "<node id=\"a\">@</node><node id=\"b\"><translate>5 0 0</translate>"
-                   "<scale>1 1 -2</scale>@</node>")));
+  const core::TexturedMesh mesh = ReadMesh(
+      Write("i.dae", Dae(Up("Z_UP"), {0, 0, 0}, {1, 1, 1}, "",
+                         "<node id=\"a\">@</node><node id=\"b\"><translate>5 0 0</translate>"
+                         "<scale>1 1 -2</scale>@</node>")));
   EXPECT_NEAR(Volume(mesh.mesh), 3.0, 1e-6);
   const Eigen::AlignedBox3d box = core::Bounds(mesh.mesh);
   EXPECT_NEAR((box.max() - Eigen::Vector3d(6, 1, 1)).norm(), 0.0, 1e-6);
@@ -111,15 +123,19 @@ TEST_F(DaeImport, OpacityByItsModes) {
   };
   const std::string white = "<color>1 1 1 1</color></transparent>";
   EXPECT_NEAR(alpha("<transparent opaque=\"A_ONE\">" + white +
-                    "<transparency><float>0.25</float></transparency>").first, 0.25, 1e-6);
+                    "<transparency><float>0.25</float></transparency>")
+                  .first,
+              0.25, 1e-6);
   EXPECT_NEAR(alpha("<transparent opaque=\"RGB_ZERO\">" + white +
-                    "<transparency><float>0.75</float></transparency>").first, 0.25, 1e-6);
+                    "<transparency><float>0.75</float></transparency>")
+                  .first,
+              0.25, 1e-6);
   EXPECT_EQ(alpha("<transparency><float>0</float></transparency>"), std::pair(1.0f, 1));
 }
 
 TEST_F(DaeImport, ColoursAtVerticesAreKept) {
-  const MeshFile file = ReadMeshFile(
-      Write("c.dae", Dae(Up("Z_UP"), {0, 0, 0}, {1, 1, 1}, "", "", true)));
+  const MeshFile file =
+      ReadMeshFile(Write("c.dae", Dae(Up("Z_UP"), {0, 0, 0}, {1, 1, 1}, "", "", true)));
   double red_above = 0.0, green_below = 0.0;
   for (size_t t = 0; t < file.mesh.mesh.triangles.size(); ++t) {
     double z = 0.0;
@@ -138,12 +154,13 @@ TEST_F(DaeImport, PicturesByUriAreFound) {
   text.replace(text.find(color), color.size(), "<texture texture=\"sampler\" texcoord=\"UV\"/>");
   const std::string profile = "<profile_COMMON>";
   text.replace(text.find(profile), profile.size(),
-               profile + "<newparam sid=\"surface\"><surface type=\"2D\"><init_from>i</init_from>"
-                         "</surface></newparam><newparam sid=\"sampler\"><sampler2D><source>surface"
-                         "</source></sampler2D></newparam>");
+               profile +
+                   "<newparam sid=\"surface\"><surface type=\"2D\"><init_from>i</init_from>"
+                   "</surface></newparam><newparam sid=\"sampler\"><sampler2D><source>surface"
+                   "</source></sampler2D></newparam>");
   const std::string effects = "<library_effects>";
-  for (const char* uri : {"tex/my%20wood.png", "file:///C:/models/tex/my%20wood.png",
-                          "..\\tex\\my wood.png"}) {
+  for (const char* uri :
+       {"tex/my%20wood.png", "file:///C:/models/tex/my%20wood.png", "..\\tex\\my wood.png"}) {
     std::string whole = text;
     whole.replace(whole.find(effects), effects.size(),
                   "<library_images><image id=\"i\"><init_from>" + std::string(uri) +
@@ -174,8 +191,9 @@ TEST_F(DaeImport, UrdfsTurnMeshesToZUp) {
 TEST_F(DaeImport, UrdfsWhosePartsFitAsTheyLieAreNotTurned) {
   const Eigen::Vector3d upright(0.4, 0.5, 0.6);
   Write("m.dae", Dae(Up("Y_UP"), {0, 0, 0}, upright));
-  const std::string box = "<collision><origin xyz=\"0.2 0.25 0.3\"/><geometry>"
-                          "<box size=\"0.4 0.5 0.6\"/></geometry></collision>";
+  const std::string box =
+      "<collision><origin xyz=\"0.2 0.25 0.3\"/><geometry>"
+      "<box size=\"0.4 0.5 0.6\"/></geometry></collision>";
   UrdfModel model = ReadUrdf(Write("b.urdf", Urdf("m.dae", box)));
   EXPECT_NEAR((SizeIn(model) - upright).norm(), 0.0, 1e-6);
   EXPECT_EQ(SaidUp(model), 1);
@@ -200,8 +218,9 @@ TEST_F(DaeImport, GltfInsideUrdfsStandsUp) {
   // link_from_file holds the turn: whoever reads the file again finds the same mesh.
   core::TexturedMesh again = ReadMesh(folder_ / "m.glb");
   core::Transform(model.links[0].visuals[0].link_from_file, &again.mesh);
-  EXPECT_NEAR((core::Bounds(again.mesh).max() -
-               core::Bounds(model.links[0].visuals[0].mesh).max()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(
+      (core::Bounds(again.mesh).max() - core::Bounds(model.links[0].visuals[0].mesh).max()).norm(),
+      0.0, 1e-12);
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ class GltfBuilder {
   template <typename Value>
   int Add(const std::vector<Value>& values, int component_type, const char* type, int components,
           bool normalized = false) {
-    const int view = AddBytes({reinterpret_cast<const char*>(values.data()),
-                               values.size() * sizeof(Value)});
+    const int view =
+        AddBytes({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)});
     nlohmann::json accessor = {{"bufferView", view},
                                {"componentType", component_type},
                                {"count", values.size() / static_cast<size_t>(components)},
@@ -70,8 +70,8 @@ class GltfBuilder {
     while (text.size() % 4 != 0) text.push_back(' ');
     std::string binary = buffer_;
     while (binary.size() % 4 != 0) binary.push_back('\0');
-    std::string glb = "glTF" + Uint(2) +
-                      Uint(static_cast<std::uint32_t>(28 + text.size() + binary.size()));
+    std::string glb =
+        "glTF" + Uint(2) + Uint(static_cast<std::uint32_t>(28 + text.size() + binary.size()));
     glb += Uint(static_cast<std::uint32_t>(text.size())) + "JSON" + text;
     return glb + Uint(static_cast<std::uint32_t>(binary.size())) + std::string("BIN\0", 4) + binary;
   }

@@ -57,8 +57,7 @@ TEST_F(GltfImport, BuffersBesideInsideAndInDataUrisAreOne) {
     EXPECT_EQ(file.up, 'y') << path;
     EXPECT_TRUE(file.findings.empty()) << path;
   }
-  const std::string missing =
-      Refusal(Write("missing.gltf", builder.GltfWithBuffer("gone.bin")));
+  const std::string missing = Refusal(Write("missing.gltf", builder.GltfWithBuffer("gone.bin")));
   EXPECT_NE(missing.find("gone.bin"), std::string::npos) << missing;
   Write("lfs.bin", "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 9\n");
   EXPECT_NE(Refusal(Write("lfs.gltf", builder.GltfWithBuffer("lfs.bin"))).find("LFS"),
@@ -169,9 +168,9 @@ TEST_F(GltfImport, SkinsStandInThePoseOfTheirJoints) {
   // Vertices 0 to 2 hang on joint 0, the tip on joint 1, which stands 3 higher than when bound.
   Primitive(&builder)["attributes"]["JOINTS_0"] = builder.Add(
       std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0}, 5121, "VEC4", 4);
-  Primitive(&builder)["attributes"]["WEIGHTS_0"] = builder.AddFloats(
-      {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
-  const int inverse = builder.AddFloats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
+  Primitive(&builder)["attributes"]["WEIGHTS_0"] =
+      builder.AddFloats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
+  const int inverse = builder.AddFloats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0,  1,
                                          1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -1, 1},
                                         "MAT4", 16);
   builder.root["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", inverse}}};
@@ -212,10 +211,10 @@ TEST_F(GltfImport, FactorsAndVertexColoursAreLinearLight) {
 
   const std::vector<float> floats{0.5, 0, 0, 0, 0.5, 0, 0, 0, 0.5, 1, 1, 1};
   const std::vector<float> floats4{0.5, 0, 0, 0.1f, 0, 0.5, 0, 0.1f, 0, 0, 0.5, 0.1f, 1, 1, 1, 1};
-  const std::vector<std::uint8_t> bytes{128, 0, 0, 255, 0, 128, 0, 255, 0, 0, 128, 255,
-                                        255, 255, 255, 255};
-  const std::vector<std::uint16_t> shorts{32768, 0, 0, 0, 32768, 0, 0, 0, 32768,
-                                          65535, 65535, 65535};
+  const std::vector<std::uint8_t> bytes{128, 0, 0,   255, 0,   128, 0,   255,
+                                        0,   0, 128, 255, 255, 255, 255, 255};
+  const std::vector<std::uint16_t> shorts{32768, 0, 0,     0,     32768, 0,
+                                          0,     0, 32768, 65535, 65535, 65535};
   const int kinds[] = {builder.AddFloats(floats, "VEC3", 3), builder.AddFloats(floats4, "VEC4", 4),
                        builder.Add(bytes, 5121, "VEC4", 4, true),
                        builder.Add(shorts, 5123, "VEC3", 3, true)};

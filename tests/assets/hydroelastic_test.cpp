@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <sdf/sdf.hh>
 #include <tinyxml2.h>
+#include <sdf/sdf.hh>
 
 #include "assets/articulated_sdf.h"
 #include "assets/articulated_writer.h"

@@ -68,7 +68,8 @@ class MeshFolder : public ::testing::Test {
     for (const Eigen::Vector3i& t : mesh.triangles) {
       volume += mesh.vertices[static_cast<size_t>(t[0])].dot(
                     mesh.vertices[static_cast<size_t>(t[1])].cross(
-                        mesh.vertices[static_cast<size_t>(t[2])])) / 6.0;
+                        mesh.vertices[static_cast<size_t>(t[2])])) /
+                6.0;
     }
     return volume;
   }

@@ -57,15 +57,16 @@ TEST_F(MeshFormats, FormatsThatAreNotReadAreNamedWithARemedy) {
 
 TEST_F(MeshFormats, EndingsCountInAnyCase) {
   EXPECT_EQ(ReadMesh(Write("A.OBJ", kTriangle)).mesh.triangles.size(), 1u);
-  EXPECT_TRUE(HasMeshEnding("a.GLB"));
-  EXPECT_FALSE(HasMeshEnding("a.fbx"));
+  EXPECT_TRUE(HasMeshExtension("a.GLB"));
+  EXPECT_FALSE(HasMeshExtension("a.fbx"));
 }
 
 // Every prefix of a file is rejected or read, never with more content than it has.
 TEST_F(MeshFormats, FilesCutShortAreRefusedInWords) {
-  const std::string whole = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty "
-                            "float y\nproperty float z\nelement face 1\nproperty list uchar int "
-                            "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const std::string whole =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty "
+      "float y\nproperty float z\nelement face 1\nproperty list uchar int "
+      "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   for (size_t length = 1; length < whole.size() - 2; ++length) {
     EXPECT_NE(Refusal(Write("cut.ply", whole.substr(0, length))), "") << length;
   }

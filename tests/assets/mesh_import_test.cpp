@@ -9,7 +9,7 @@
 #include "assets/obj_file.h"
 #include "assets/primitive_meshes.h"
 #include "core/error.h"
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 
 namespace simwright::assets {
 namespace {

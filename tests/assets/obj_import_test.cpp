@@ -14,8 +14,9 @@ class ObjImport : public MeshFolder {
   // A square whose left half shows the left half of its texture.
   fs::path WriteSquare(const std::string& mtl, const std::string& name = "a.obj") {
     Write("a.mtl", mtl);
-    return Write(name, "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
-                       "vt 0 1\nusemtl wood\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
+    return Write(name,
+                 "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+                 "vt 0 1\nusemtl wood\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
   }
   static bool ShowsRedAndBlue(const core::TexturedMesh& mesh) {
     const Eigen::Vector4f right = Shown(mesh, 0, {0.1f, 0.8f, 0.1f});  // near (1, 0)
@@ -26,8 +27,8 @@ class ObjImport : public MeshFolder {
 
 struct Naming {
   const char* written;
-  const char* place;     // below the mesh's folder
-  bool elsewhere;        // a finding reports another location
+  const char* place;  // below the mesh's folder
+  bool elsewhere;     // a finding reports another location
 };
 
 TEST_F(ObjImport, TexturesAreFoundByNamesOfOtherMachines) {
@@ -50,9 +51,8 @@ TEST_F(ObjImport, TexturesAreFoundByNamesOfOtherMachines) {
   };
   for (const Naming& naming : cases) {
     WriteRedBlue(naming.place);
-    const MeshFile file =
-        ReadMeshFile(WriteSquare("newmtl wood\nKd 1 1 1\nmap_Kd " + std::string(naming.written) +
-                                 "\r\n"));
+    const MeshFile file = ReadMeshFile(
+        WriteSquare("newmtl wood\nKd 1 1 1\nmap_Kd " + std::string(naming.written) + "\r\n"));
     ASSERT_EQ(file.mesh.textures.size(), 1u) << naming.written;
     EXPECT_TRUE(ShowsRedAndBlue(file.mesh)) << naming.written;
     EXPECT_EQ(CountOf(file, "texture-elsewhere"), naming.elsewhere ? 1 : 0) << naming.written;
@@ -135,10 +135,12 @@ TEST_F(ObjImport, PathsWithDotsFindTheSameTextures) {
 
 TEST_F(ObjImport, ClampedTexturesThatRepeatAreSaid) {
   WriteRedBlue("w.png");
-  EXPECT_EQ(CountOf(ReadMeshFile(WriteSquare("newmtl wood\nmap_Kd -clamp on w.png\n")),
-                    "texture-wraps"), 0);
+  EXPECT_EQ(
+      CountOf(ReadMeshFile(WriteSquare("newmtl wood\nmap_Kd -clamp on w.png\n")), "texture-wraps"),
+      0);
   EXPECT_EQ(CountOf(ReadMeshFile(WriteSquare("newmtl wood\nmap_Kd -s 2 2 -clamp on w.png\n")),
-                    "texture-wraps"), 1);
+                    "texture-wraps"),
+            1);
 }
 
 TEST_F(ObjImport, WhollyTransparentMaterialsAreShownAndSaid) {
@@ -149,8 +151,8 @@ TEST_F(ObjImport, WhollyTransparentMaterialsAreShownAndSaid) {
     EXPECT_FLOAT_EQ(Shown(file.mesh, 0)[3], 1.0f) << line;
   }
   // An unused invisible material is not reported.
-  EXPECT_TRUE(ReadMeshFile(WriteSquare("newmtl air\nd 0\nnewmtl wood\nKd 1 0 0\n"))
-                  .findings.empty());
+  EXPECT_TRUE(
+      ReadMeshFile(WriteSquare("newmtl air\nd 0\nnewmtl wood\nKd 1 0 0\n")).findings.empty());
 }
 
 TEST_F(ObjImport, MaterialsThatAreMissingAreSaid) {
@@ -179,9 +181,10 @@ TEST_F(ObjImport, MaterialsThatAreMissingAreSaid) {
 
 TEST_F(ObjImport, UnreadMapsAndSurfacesAreSaid) {
   Write("a.mtl", "newmtl wood\nKd 1 1 1\nmap_Bump n.png\nmap_d cut.png\n");
-  const MeshFile file = ReadMeshFile(
-      Write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl wood\nf 1 2 3\n"
-                     "cstype bezier\nsurf 0 1 0 1 1 2 3\nend\n"));
+  const MeshFile file =
+      ReadMeshFile(Write("a.obj",
+                         "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl wood\nf 1 2 3\n"
+                         "cstype bezier\nsurf 0 1 0 1 1 2 3\nend\n"));
   EXPECT_EQ(CountOf(file, "mtl-not-read"), 1);
   EXPECT_EQ(CountOf(file, "obj-surfaces"), 1);
 }
@@ -194,8 +197,8 @@ TEST_F(ObjImport, OddStatementsKeepTheShape) {
   EXPECT_NEAR(Volume(negative.mesh.mesh), 1.0 / 6.0, 1e-9);
   EXPECT_EQ(negative.mesh.mesh.vertices.size(), 4u);
   // An L of area 3 out of one polygon.
-  const core::TexturedMesh concave = ReadMesh(Write(
-      "l.obj", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n"));
+  const core::TexturedMesh concave = ReadMesh(
+      Write("l.obj", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n"));
   double area = 0.0;
   for (size_t t = 0; t < concave.mesh.triangles.size(); ++t) {
     area += 0.5 * core::TriangleAreaVector(concave.mesh, static_cast<int>(t)).z();
@@ -236,8 +239,7 @@ TEST_F(ObjImport, ColoursAtVerticesSurviveInVisualObj) {
     const bool plain = std::string(last) == " 1 0 0";
     std::string vertices = "v 0 0 0 1 0 0\n";
     vertices += plain ? "v 1 0 0 1 0 0\nv 0 1 0 1 0 0\n" : "v 1 0 0 0 1 0\nv 0 1 0 0 0 1\n";
-    const MeshFile file =
-        ReadMeshFile(Write("c.obj", vertices + "v 0 0 1" + last + "\n" + faces));
+    const MeshFile file = ReadMeshFile(Write("c.obj", vertices + "v 0 0 1" + last + "\n" + faces));
     EXPECT_EQ(file.mesh.textures.size(), plain ? 0u : 1u);
     fs::create_directories(folder_ / "asset");
     WriteVisual(file.mesh, folder_ / "asset");

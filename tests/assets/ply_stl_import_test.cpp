@@ -59,8 +59,7 @@ class PlyImport : public MeshFolder {
     EXPECT_TRUE(file.findings.empty());
   }
 
-  inline static const std::string kXyz =
-      "property float x\nproperty float y\nproperty float z\n";
+  inline static const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
   inline static const std::string kList = "property list uchar int vertex_indices\n";
   inline static const std::vector<std::string> kBytes{"255 0 0", "0 255 0", "0 0 255", "255 255 0"};
   inline static const std::vector<std::string> kFractions{"1 0 0", "0 1 0", "0 0 1", "1 1 0"};
@@ -133,15 +132,16 @@ TEST_F(PlyImport, TexturesByVertexAndByCorner) {
   // By corner, as MeshLab and Metashape write it: face 1 is blue, the others red, though they
   // share vertices.
   const std::string red = "6 0.25 0 0.25 0 0.25 0", blue = "6 0.75 0 0.75 0 0.75 0";
-  const MeshFile file = ReadMeshFile(Write(
-      "w.ply", Ascii("", "property list uchar float texcoord\n", {}, {red, blue, red, red},
-                     comment)));
+  const MeshFile file =
+      ReadMeshFile(Write("w.ply", Ascii("", "property list uchar float texcoord\n", {},
+                                        {red, blue, red, red}, comment)));
   EXPECT_GT(Shown(file.mesh, 0)[0], 0.9f);
   EXPECT_GT(Shown(file.mesh, 1)[2], 0.9f);
   EXPECT_GT(Shown(file.mesh, 2)[0], 0.9f);
-  EXPECT_EQ(CountOf(ReadMeshFile(Write(
-                "m.ply", Ascii("", "", {}, {}, "comment TextureFile gone.png\n"))),
-                    "texture-missing"), 1);
+  EXPECT_EQ(
+      CountOf(ReadMeshFile(Write("m.ply", Ascii("", "", {}, {}, "comment TextureFile gone.png\n"))),
+              "texture-missing"),
+      1);
 }
 
 TEST_F(PlyImport, StripsAndPolygons) {
@@ -155,14 +155,17 @@ TEST_F(PlyImport, StripsAndPolygons) {
 
 TEST_F(PlyImport, WhatHasNoSurfaceIsNamed) {
   EXPECT_NE(Refusal(Write("cloud.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" + kXyz +
-                                           "end_header\n0 0 0\n")).find("point cloud"),
+                                           "end_header\n0 0 0\n"))
+                .find("point cloud"),
             std::string::npos);
   EXPECT_NE(Refusal(Write("splat.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" + kXyz +
                                            "property float f_dc_0\nproperty float rot_0\n"
-                                           "end_header\n0 0 0 1 1\n")).find("Gaussian splats"),
+                                           "end_header\n0 0 0 1 1\n"))
+                .find("Gaussian splats"),
             std::string::npos);
-  EXPECT_NE(Refusal(Write("index.ply", Ascii("", "", {}, {}).replace(
-                                           Ascii("", "", {}, {}).rfind("3 0 3 2"), 7, "3 0 3 9")))
+  EXPECT_NE(Refusal(Write("index.ply",
+                          Ascii("", "", {}, {})
+                              .replace(Ascii("", "", {}, {}).rfind("3 0 3 2"), 7, "3 0 3 9")))
                 .find("vertex 9"),
             std::string::npos);
   EXPECT_NE(Refusal(Write("huge.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\n" + kXyz +
@@ -184,8 +187,15 @@ TEST(PolygonTriangles, CoverConcavePolygonsOnce) {
   };
   EXPECT_NEAR(area({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}), 3.0, 1e-12);
   EXPECT_NEAR(area({{0, 0, 0}, {2, 2, 0}, {0, 1, 0}, {-2, 2, 0}}), 2.0, 1e-12);  // an arrow head
-  EXPECT_NEAR(area({{1, 1, 0}, {0, 4, 0}, {-1, 1, 0}, {-4, 0, 0}, {-1, -1, 0}, {0, -4, 0},
-                    {1, -1, 0}, {4, 0, 0}}), 16.0, 1e-12);  // a star
+  EXPECT_NEAR(area({{1, 1, 0},
+                    {0, 4, 0},
+                    {-1, 1, 0},
+                    {-4, 0, 0},
+                    {-1, -1, 0},
+                    {0, -4, 0},
+                    {1, -1, 0},
+                    {4, 0, 0}}),
+              16.0, 1e-12);  // a star
 }
 
 class StlImport : public MeshFolder {

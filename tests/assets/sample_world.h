@@ -20,11 +20,11 @@ struct SampleWorld {
     Add("shelf_0", shelf, {0.0, 0.0, 0.0}, 0.3, true);
     Add("box_0", box, {0.31234567890123456, -0.2, 0.0}, -2.7, false);
     Add("box_1", box, {-0.4, 0.1, 0.3}, 0.0, false);
-    things.back().world_from_thing.rotate(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY()));
+    objects.back().world_from_object.rotate(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY()));
   }
 
   std::list<WorldAsset> assets;
-  std::vector<WorldThing> things;
+  std::vector<WorldObject> objects;
 
  private:
   const WorldAsset* AddAsset(const std::filesystem::path& folder, const std::string& key,
@@ -38,7 +38,7 @@ struct SampleWorld {
            double yaw, bool welded) {
     Eigen::Isometry3d pose(Eigen::AngleAxisd(yaw, Eigen::Vector3d(0.1, 0.0, 1.0).normalized()));
     pose.translation() = place;
-    things.push_back({name, asset, pose, welded});
+    objects.push_back({name, asset, pose, welded});
   }
 };
 

@@ -42,15 +42,14 @@ class UrdfMeshes : public ::testing::Test {
 TEST_F(UrdfMeshes, PackagesInTheirLayouts) {
   Touch("p_description/package.xml");
   Touch("p_description/meshes/body.stl");
-  for (const char* urdf : {"p_description/robots/r.urdf", "p_description/urdf/r.urdf",
-                           "p_description/urdf/arm/r.urdf", "p_description/r.urdf",
-                           "p_description/config/deep/r.urdf"}) {
+  for (const char* urdf :
+       {"p_description/robots/r.urdf", "p_description/urdf/r.urdf", "p_description/urdf/arm/r.urdf",
+        "p_description/r.urdf", "p_description/config/deep/r.urdf"}) {
     Touch(urdf);
     EXPECT_EQ(Found(urdf, "package://p_description/meshes/body.stl"),
               "p_description/meshes/body.stl")
         << urdf;
-    EXPECT_EQ(Found(urdf, "package://other_name/meshes/body.stl"),
-              "p_description/meshes/body.stl")
+    EXPECT_EQ(Found(urdf, "package://other_name/meshes/body.stl"), "p_description/meshes/body.stl")
         << urdf;
   }
 }
@@ -97,11 +96,12 @@ TEST_F(UrdfMeshes, PathsOfAnotherMachineEndInTheFolder) {
         "file:///home/user/cab/../cab/meshes/body.stl"}) {
     EXPECT_EQ(Found("cab/r.urdf", name), "cab/meshes/body.stl") << name;
     const MeshFinder finder(folder_.path() / "cab/r.urdf", folder_.path() / "cab");
-    EXPECT_NE(finder.Find(name)->mended.find("meshes/body.stl"), std::string::npos) << name;
+    EXPECT_NE(finder.Find(name)->resolution_note.find("meshes/body.stl"), std::string::npos)
+        << name;
   }
   EXPECT_EQ(Found("cab/r.urdf", "/home/user/elsewhere.stl"), "none");
   const MeshFinder finder(folder_.path() / "cab/r.urdf", folder_.path() / "cab");
-  EXPECT_EQ(finder.Find("meshes/body.stl")->mended, "");
+  EXPECT_EQ(finder.Find("meshes/body.stl")->resolution_note, "");
 }
 
 TEST_F(UrdfMeshes, NothingOutsideIsRead) {
@@ -110,10 +110,10 @@ TEST_F(UrdfMeshes, NothingOutsideIsRead) {
   Touch("cab/r.urdf");
   fs::create_symlink(folder_.path() / "outside.stl", folder_.path() / "cab/link.stl");
   fs::create_directory_symlink(folder_.path(), folder_.path() / "cab/up");
-  for (const char* name : {"../outside.stl", "link.stl", "up/outside.stl", "/etc/passwd",
-                           "file:///etc/passwd", "package://x/../../outside.stl",
-                           "model://cab/../../outside.stl", "..\\outside.stl",
-                           "%2e%2e/outside.stl", "meshes/../../outside.stl"}) {
+  for (const char* name :
+       {"../outside.stl", "link.stl", "up/outside.stl", "/etc/passwd", "file:///etc/passwd",
+        "package://x/../../outside.stl", "model://cab/../../outside.stl", "..\\outside.stl",
+        "%2e%2e/outside.stl", "meshes/../../outside.stl"}) {
     EXPECT_EQ(Found("cab/r.urdf", name, "cab"), "refused") << name;
   }
   // A link beside the folder, called like a folder of meshes.

@@ -26,13 +26,13 @@ int Count(const core::Findings& findings, const std::string& code) {
 
 class UrdfText : public ::testing::Test {
  protected:
-  UrdfModel ReadWhole(const std::string& text, bool mend_inertials = false) const {
+  UrdfModel ReadWhole(const std::string& text, bool repair_inertials = false) const {
     const fs::path file = folder_.path() / "thing.urdf";
     std::ofstream(file, std::ios::binary) << text;
-    return ReadUrdf(file, {.root = {}, .mend_inertials = mend_inertials});
+    return ReadUrdf(file, {.root = {}, .repair_inertials = repair_inertials});
   }
-  UrdfModel Read(const std::string& body, bool mend_inertials = false) const {
-    return ReadWhole("<robot name='thing'>" + body + "</robot>", mend_inertials);
+  UrdfModel Read(const std::string& body, bool repair_inertials = false) const {
+    return ReadWhole("<robot name='thing'>" + body + "</robot>", repair_inertials);
   }
   std::string ErrorOf(const std::string& body) const {
     try {
@@ -54,19 +54,20 @@ class UrdfText : public ::testing::Test {
 };
 
 TEST_F(UrdfText, ByteOrderMarksCommentsAndNamelessRobots) {
-  const UrdfModel model = ReadWhole("\xef\xbb\xbf<?xml version='1.0' encoding='utf-8'?>\n"
-                                    "<!-- made by hand -->\n<robot><!-- x -->" +
-                                    Box("") + "</robot>");
+  const UrdfModel model = ReadWhole(
+      "\xef\xbb\xbf<?xml version='1.0' encoding='utf-8'?>\n"
+      "<!-- made by hand -->\n<robot><!-- x -->" +
+      Box("") + "</robot>");
   EXPECT_EQ(model.name, "thing");
   ASSERT_EQ(model.links.size(), 1u);
   EXPECT_EQ(model.links[0].visuals.size(), 1u);
 }
 
 TEST_F(UrdfText, ADeclarationMayStandTooLate) {
-  EXPECT_EQ(ReadWhole("\n<!-- licence -->\n<?xml version='1.0'?><robot name='r'>" + Box("") +
-                      "</robot>")
-                .links.size(),
-            1u);
+  EXPECT_EQ(
+      ReadWhole("\n<!-- licence -->\n<?xml version='1.0'?><robot name='r'>" + Box("") + "</robot>")
+          .links.size(),
+      1u);
 }
 
 TEST_F(UrdfText, JointsOfUnknownTypesAreNamed) {
@@ -152,9 +153,9 @@ TEST_F(UrdfText, ControllersAndEmptyDynamicsArePassedOver) {
 // The capsule's volume and inertia are known in closed form; its pieces overlap, so that volumes
 // are compared by their hull.
 TEST_F(UrdfText, CapsulesAreACylinderAndTwoBalls) {
-  const UrdfModel model =
-      Read("<link name='a'><collision><origin xyz='1 2 3' rpy='0 1.5707963267948966 0'/>"
-           "<geometry><capsule radius='0.1' length='0.4'/></geometry></collision></link>");
+  const UrdfModel model = Read(
+      "<link name='a'><collision><origin xyz='1 2 3' rpy='0 1.5707963267948966 0'/>"
+      "<geometry><capsule radius='0.1' length='0.4'/></geometry></collision></link>");
   ASSERT_EQ(model.links[0].collisions.size(), 3u);
   Eigen::AlignedBox3d box;
   for (const UrdfShape& shape : model.links[0].collisions) box.extend(core::Bounds(shape.mesh));
@@ -165,10 +166,10 @@ TEST_F(UrdfText, CapsulesAreACylinderAndTwoBalls) {
 }
 
 TEST_F(UrdfText, UnknownGeometryIsLeftOutAndSaid) {
-  const UrdfModel model =
-      Read("<link name='a'><visual><geometry><plane normal='0 0 1'/></geometry></visual>"
-           "<visual/><collision><geometry><mesh/></geometry></collision>"
-           "<visual><geometry><box size='1 1 1'/></geometry></visual></link>");
+  const UrdfModel model = Read(
+      "<link name='a'><visual><geometry><plane normal='0 0 1'/></geometry></visual>"
+      "<visual/><collision><geometry><mesh/></geometry></collision>"
+      "<visual><geometry><box size='1 1 1'/></geometry></visual></link>");
   EXPECT_EQ(model.links[0].visuals.size(), 1u);
   EXPECT_TRUE(model.links[0].collisions.empty());
   EXPECT_EQ(Count(model.findings, "urdf-unknown-geometry"), 3);
@@ -223,8 +224,7 @@ TEST_F(UrdfText, ImpossibleInertiasAreThoseOfABox) {
   const UrdfModel weightless = Read(WithInertial(Inertial(-1, 1, 1, 1), true), true);
   EXPECT_FALSE(weightless.links[0].inertial);
   EXPECT_EQ(Count(weightless.findings, "urdf-impossible-inertial"), 1);
-  EXPECT_NE(ErrorOf(WithInertial(Inertial(3, 0.01, 0.01, 5), true)).find("'a'"),
-            std::string::npos);
+  EXPECT_NE(ErrorOf(WithInertial(Inertial(3, 0.01, 0.01, 5), true)).find("'a'"), std::string::npos);
 }
 
 TEST_F(UrdfText, InertiaOfALargerBodyIsSaid) {
@@ -239,9 +239,11 @@ TEST_F(UrdfText, InertiaOfALargerBodyIsSaid) {
 TEST_F(UrdfText, NumbersThatOtherReadersTakeAreMended) {
   const UrdfModel model = Read(
       "<link name='a'><visual><origin xyz='0.1, 0.2,0.3'/><geometry><box size='1f 1 1'/></geometry>"
-      "</visual></link>" + Box("", "b") +
-      Joint("revolute", "<axis xyz='0 0 1'/><limit lower='-1.57.' upper='1' effort='1' "
-                        "velocity='1'/>"));
+      "</visual></link>" +
+      Box("", "b") +
+      Joint("revolute",
+            "<axis xyz='0 0 1'/><limit lower='-1.57.' upper='1' effort='1' "
+            "velocity='1'/>"));
   EXPECT_NEAR(core::Bounds(model.links[0].visuals[0].mesh).center().y(), 0.2, 1e-12);
   EXPECT_NEAR(core::Bounds(model.links[0].visuals[0].mesh).sizes().x(), 1.0, 1e-12);
   EXPECT_DOUBLE_EQ(model.joints[0].lower, -1.57);

@@ -24,22 +24,22 @@ Eigen::Isometry3d PoseOf(const ignition::math::Pose3d& pose) {
 TEST(WorldSdf, LibsdformatFindsTheSameWorld) {
   const core::TemporaryFolder folder;
   const SampleWorld sample(folder.path());
-  core::WriteFile(folder.path() / "scene" / "world.sdf", WorldSdf("room", sample.things));
+  core::WriteFile(folder.path() / "scene" / "world.sdf", WorldSdf("room", sample.objects));
   sdf::Root root;
   const sdf::Errors errors = root.Load((folder.path() / "scene" / "world.sdf").string());
   for (const auto& error : errors) ADD_FAILURE() << error.Message();
   ASSERT_EQ(root.WorldCount(), 1u);
   const sdf::World& world = *root.WorldByIndex(0);
-  EXPECT_EQ(world.ModelCount(), sample.things.size() + 1);  // and the ground
-  for (const WorldThing& thing : sample.things) {
-    const sdf::Model* const model = world.ModelByName(thing.name);
-    ASSERT_NE(model, nullptr) << thing.name;
-    EXPECT_EQ(model->Static(), thing.welded);
+  EXPECT_EQ(world.ModelCount(), sample.objects.size() + 1);  // and the ground
+  for (const WorldObject& object : sample.objects) {
+    const sdf::Model* const model = world.ModelByName(object.name);
+    ASSERT_NE(model, nullptr) << object.name;
+    EXPECT_EQ(model->Static(), object.welded);
     ignition::math::Pose3d pose;
     EXPECT_TRUE(model->SemanticPose().Resolve(pose).empty());
-    EXPECT_TRUE(PoseOf(pose).isApprox(thing.world_from_thing, 1e-12)) << thing.name;
+    EXPECT_TRUE(PoseOf(pose).isApprox(object.world_from_object, 1e-12)) << object.name;
     const sdf::Link& link = *model->LinkByIndex(0);
-    const Asset& asset = thing.asset->asset;
+    const Asset& asset = object.asset->asset;
     EXPECT_NEAR(link.Inertial().MassMatrix().Mass(), asset.inertial.mass, 1e-9);
     EXPECT_NEAR(link.Inertial().Moi()(0, 1), asset.inertial.inertia(0, 1), 1e-9);
     ASSERT_EQ(link.CollisionCount(), asset.parts.size());
@@ -55,8 +55,8 @@ TEST(WorldSdf, LibsdformatFindsTheSameWorld) {
 TEST(WorldSdf, TheGroundIsABoxForDrake) {
   const core::TemporaryFolder folder;
   const SampleWorld sample(folder.path());
-  for (const std::string& text : {WorldSdf("room", sample.things), GroundSdf(),
-                                  WorldSdf("room", sample.things, SdfReader::kGazebo)}) {
+  for (const std::string& text : {WorldSdf("room", sample.objects), GroundSdf(),
+                                  WorldSdf("room", sample.objects, SdfReader::kGazebo)}) {
     sdf::Root root;
     EXPECT_TRUE(root.LoadSdfString(text).empty());
     const sdf::Model* const ground =
@@ -71,23 +71,23 @@ TEST(WorldSdf, TheGroundIsABoxForDrake) {
     EXPECT_TRUE(drake->HasElement("drake:rigid_hydroelastic"));
   }
   // Gazebo needs a light; Drake warns of it.
-  EXPECT_EQ(WorldSdf("room", sample.things).find("<light"), std::string::npos);
-  EXPECT_NE(WorldSdf("room", sample.things, SdfReader::kGazebo).find("<light"), std::string::npos);
+  EXPECT_EQ(WorldSdf("room", sample.objects).find("<light"), std::string::npos);
+  EXPECT_NE(WorldSdf("room", sample.objects, SdfReader::kGazebo).find("<light"), std::string::npos);
 }
 
 TEST(WorldWriter, RefusesNamesThatClash) {
   const core::TemporaryFolder folder;
   const SampleWorld sample(folder.path());
-  std::vector<WorldThing> twice = {sample.things[0], sample.things[0]};
+  std::vector<WorldObject> twice = {sample.objects[0], sample.objects[0]};
   EXPECT_THROW(WorldSdf("room", twice), core::Error);
   EXPECT_THROW(WorldMjcf("room", twice), core::Error);
   // Another asset of the same key.
-  const WorldAsset other = *sample.things[0].asset;
+  const WorldAsset other = *sample.objects[0].asset;
   twice[1].name = "other";
   EXPECT_NO_THROW(WorldMjcf("room", twice));
   twice[1].asset = &other;
   EXPECT_THROW(WorldMjcf("room", twice), core::Error);
-  twice[1] = sample.things[1];
+  twice[1] = sample.objects[1];
   twice[1].name = "../outside";
   EXPECT_THROW(WorldMjcf("room", twice), core::Error);
   twice[1].name = "ground";

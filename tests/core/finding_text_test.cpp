@@ -12,7 +12,7 @@
 namespace simwright::core {
 namespace {
 
-const Finding kUnusual{"unusual-size", Severity::kWarning, "chair", "it is 89.5 m tall",
+const Finding kUnusual{"unusual-size", Severity::kWarning,          "chair", "it is 89.5 m tall",
                        89.5,           "--unit cm makes it 0.895 m"};
 
 TEST(FindingText, SaysSeverityPlaceSentenceRemedyAndCode) {
@@ -50,11 +50,11 @@ TEST(FindingText, IsBoundedAndOneLine) {
 }
 
 TEST(FindingText, CutsWholeCharactersOnly) {
-  EXPECT_EQ(Bounded("abcdef", 6), "abcdef");
-  EXPECT_EQ(Bounded("abcdefg", 6), "abc...");
-  EXPECT_EQ(Bounded("ab\xc3\xa9"
-                    "defg",
-                    6),
+  EXPECT_EQ(Truncated("abcdef", 6), "abcdef");
+  EXPECT_EQ(Truncated("abcdefg", 6), "abc...");
+  EXPECT_EQ(Truncated("ab\xc3\xa9"
+                      "defg",
+                      6),
             "ab...");
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "tasks/reward/reward_program.h"
+#include "reward/reward_program.h"
 
 namespace {
 

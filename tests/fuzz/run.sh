@@ -37,7 +37,7 @@ if command -v python3 > /dev/null; then
 fi
 rm -rf "$folder"
 mkdir -p "$build/seeds/reward_fuzz"
-cp "$root"/tests/tasks/reward/corpus/*.py "$build/seeds/reward_fuzz"
+cp "$root"/tests/reward/corpus/*.py "$build/seeds/reward_fuzz"
 # All at once: most of the time of some goes into files, that of others into decoding. An input has
 # a minute: ten targets share the cores, and planning where things of a URDF stand takes a second.
 fuzz() {

@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::string written;
     try {
       read = ParseTrajectory(text, format, "file");
-      RequireWhole(read, "file");
+      RequireWellFormed(read, "file");
       written = TrajectoryText(read, format);
     } catch (const simwright::core::Error&) {
       continue;  // no trajectory, or one with names that are not written

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/convex_hull.h"
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 #include "geometry/weld.h"
 
 namespace simwright::geometry {

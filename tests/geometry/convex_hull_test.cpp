@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "geometry/exact_hull.h"
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 #include "geometry/weld.h"
 #include "tests/geometry/solid_shapes.h"
 #include "tests/sanitized.h"
@@ -28,8 +28,8 @@ double Outside(const core::TriangleMesh& hull, const std::vector<Vector3d>& poin
 }
 
 void ExpectSound(const core::TriangleMesh& hull) {
-  const Soundness s = Examine(hull);
-  EXPECT_TRUE(s.Sound()) << Describe(s);
+  const MeshValidity s = Examine(hull);
+  EXPECT_TRUE(s.IsSolid()) << Describe(s);
   EXPECT_EQ(hull.triangles.size(), 2 * hull.vertices.size() - 4);  // Euler
 }
 
@@ -77,7 +77,7 @@ TEST(ConvexHull, HoldsEveryPointOfAwkwardSets) {
           points.push_back(base[kind] + noise * core::UniformDirection(rng));
         }
         const core::TriangleMesh hull = ConvexHull(points);
-        const Soundness s = Examine(hull);
+        const MeshValidity s = Examine(hull);
         EXPECT_TRUE(s.closed && s.oriented && s.signed_volume > 0.0)
             << kind << ' ' << noise << ' ' << seed << ' ' << Describe(s);
         EXPECT_EQ(s.degenerate_triangles, 0);

@@ -8,9 +8,9 @@
 #include "geometry/concavity.h"
 #include "geometry/convex_hull.h"
 #include "geometry/distance.h"
+#include "geometry/mesh_validity.h"
 #include "geometry/plane_clip.h"
 #include "geometry/simplify.h"
-#include "geometry/soundness.h"
 #include "geometry/weld.h"
 #include "tests/geometry/solid_shapes.h"
 #include "tests/sanitized.h"
@@ -26,7 +26,7 @@ using shapes::BoxUnion;
 void ExpectConvexParts(const ConvexDecomposition& decomposition) {
   ASSERT_FALSE(decomposition.parts.empty());
   for (const ConvexPart& part : decomposition.parts) {
-    const Soundness s = Examine(part.hull);
+    const MeshValidity s = Examine(part.hull);
     EXPECT_TRUE(s.closed && s.oriented && s.manifold) << Describe(s);
     EXPECT_EQ(s.degenerate_triangles, 0);
     EXPECT_GT(s.signed_volume, 0.0);
@@ -42,7 +42,7 @@ void ExpectConvexParts(const ConvexDecomposition& decomposition) {
   }
 }
 
-TEST(CutApart, VolumesAddUpAndPiecesAreClosed) {
+TEST(SplitByPlane, VolumesAddUpAndPiecesAreClosed) {
   core::Rng rng(4);
   const core::TriangleMesh solids[] = {
       shapes::Torus(1.0, 0.3, 40, 16), shapes::Cup(.5, 1, .1, 40),
@@ -51,11 +51,11 @@ TEST(CutApart, VolumesAddUpAndPiecesAreClosed) {
     for (int i = 0; i < 60; ++i) {
       const Vector3d normal = core::UniformDirection(rng);
       const Vector3d through = core::Bounds(solid).sample();
-      const auto pieces = CutApart(solid, {normal, normal.dot(through)}, 1e-9);
+      const auto pieces = SplitByPlane(solid, {normal, normal.dot(through)}, 1e-9);
       if (pieces.empty()) continue;
       double sum = 0.0;
       for (const core::TriangleMesh& piece : pieces) {
-        const Soundness s = Examine(piece, 1);
+        const MeshValidity s = Examine(piece, 1);
         EXPECT_TRUE(s.closed) << Describe(s);
         sum += s.signed_volume;
       }
@@ -64,29 +64,29 @@ TEST(CutApart, VolumesAddUpAndPiecesAreClosed) {
   }
 }
 
-TEST(CutApart, ThroughVerticesAndFacesAndAcrossHoles) {
+TEST(SplitByPlane, ThroughVerticesAndFacesAndAcrossHoles) {
   // At the height of the U's notch the plane contains faces; two legs and a base remain.
   const core::TriangleMesh u =
       BoxUnion({BoxAt(0, 0, 0, 3, 1, 1), BoxAt(0, 0, 0, 1, 1, 3), BoxAt(2, 0, 0, 3, 1, 3)});
-  const auto pieces = CutApart(u, {Vector3d::UnitZ(), 1.0}, 1e-9);
+  const auto pieces = SplitByPlane(u, {Vector3d::UnitZ(), 1.0}, 1e-9);
   ASSERT_EQ(pieces.size(), 3u);
   for (const core::TriangleMesh& piece : pieces) {
     EXPECT_TRUE(Examine(piece).closed);
     EXPECT_NEAR(SignedVolume(piece), SignedVolume(ConvexHull(piece.vertices)), 1e-9);
   }
   // Across the ring: caps are rings, too. Along it: two C shapes, with two discs each.
-  EXPECT_EQ(CutApart(shapes::Torus(1, .3, 32, 16), {Vector3d::UnitZ(), 0.05}, 1e-9).size(), 2u);
-  EXPECT_EQ(CutApart(shapes::Torus(1, .3, 32, 16), {Vector3d::UnitX(), 0.0}, 1e-9).size(), 2u);
-  EXPECT_TRUE(CutApart(u, {Vector3d::UnitZ(), 3.0}, 1e-9).empty());
-  EXPECT_TRUE(CutApart(u, {Vector3d::UnitZ(), 5.0}, 1e-9).empty());
+  EXPECT_EQ(SplitByPlane(shapes::Torus(1, .3, 32, 16), {Vector3d::UnitZ(), 0.05}, 1e-9).size(), 2u);
+  EXPECT_EQ(SplitByPlane(shapes::Torus(1, .3, 32, 16), {Vector3d::UnitX(), 0.0}, 1e-9).size(), 2u);
+  EXPECT_TRUE(SplitByPlane(u, {Vector3d::UnitZ(), 3.0}, 1e-9).empty());
+  EXPECT_TRUE(SplitByPlane(u, {Vector3d::UnitZ(), 5.0}, 1e-9).empty());
 }
 
-TEST(CutApart, VoidStaysWithItsBody) {
+TEST(SplitByPlane, VoidStaysWithItsBody) {
   core::TriangleMesh hollow = shapes::Box(3, 3, 3), inner = shapes::Box(1, 1, 1);
   core::Transform(Eigen::Affine3d(Eigen::Translation3d(1, 1, 1)), &inner);
   for (auto& t : inner.triangles) std::swap(t[0], t[1]);
   core::Append(inner, &hollow);
-  const auto pieces = CutApart(hollow, {Vector3d::UnitX(), 0.5}, 1e-9);
+  const auto pieces = SplitByPlane(hollow, {Vector3d::UnitX(), 0.5}, 1e-9);
   ASSERT_EQ(pieces.size(), 2u);
   EXPECT_NEAR(SignedVolume(pieces[0]) + SignedVolume(pieces[1]), 26.0, 1e-9);
 }

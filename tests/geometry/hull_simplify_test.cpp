@@ -8,9 +8,9 @@
 #include "core/random.h"
 #include "geometry/convex_decomposition.h"
 #include "geometry/convex_hull.h"
+#include "geometry/convex_hull_2d.h"
 #include "geometry/mass_properties.h"
-#include "geometry/plane_hull.h"
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 #include "geometry/weld.h"
 #include "tests/geometry/solid_shapes.h"
 
@@ -27,7 +27,7 @@ double FaceArea(const core::TriangleMesh& mesh, double z) {
   for (const Vector3d& v : mesh.vertices) {
     if (std::abs(v.z() - z) < 1e-9) points.emplace_back(v.x(), v.y());
   }
-  const std::vector<Vector2d> outline = PlaneHull(points);
+  const std::vector<Vector2d> outline = ConvexHull2d(points);
   double area = 0.0;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vector2d &a = outline[i], &b = outline[(i + 1) % outline.size()];
@@ -48,7 +48,7 @@ Simplified ExpectStandsFor(const core::TriangleMesh& shape, int most, double vol
   s.full = ConvexHull(shape.vertices);
   s.simple = SimplifyHull(s.full, most);
   EXPECT_LE(s.simple.vertices.size(), static_cast<std::size_t>(most));
-  const Soundness sound = Examine(s.simple);
+  const MeshValidity sound = Examine(s.simple);
   EXPECT_TRUE(sound.closed && sound.oriented) << Describe(sound);
   s.mass = SolidMassProperties(s.simple, 1.0);
   EXPECT_NEAR(s.mass.volume / volume, 1.0, 0.01);
@@ -68,8 +68,8 @@ TEST(SimplifyHull, CylindersAndDiscsKeepVolumeFootAndRoundness) {
       for (const double height : {2e-3, 0.02, 0.1, 1.0}) {
         SCOPED_TRACE(std::to_string(n) + " sides, height " + std::to_string(height));
         const double area = PolygonArea(0.05, n);
-        const Simplified s = ExpectStandsFor(shapes::Cylinder(0.05, height, n), most,
-                                             area * height, 1e-6);
+        const Simplified s =
+            ExpectStandsFor(shapes::Cylinder(0.05, height, n), most, area * height, 1e-6);
         EXPECT_NEAR(FaceArea(s.simple, 0.0) / area, 1.0, 0.01);
         EXPECT_NEAR(FaceArea(s.simple, height) / area, 1.0, 0.01);
         EXPECT_NEAR(core::Bounds(s.simple).sizes().z(), height, 1e-12);
@@ -106,8 +106,8 @@ TEST(SimplifyHull, ConesAndFrustums) {
       EXPECT_NEAR(FaceArea(cone.simple, 0.0) / base, 1.0, 0.01);
       const core::TriangleMesh frustum =
           shapes::Revolved({{0.0, 0.0}, {0.05, 0.0}, {0.02, height}, {0.0, height}}, n);
-      const Simplified cut = ExpectStandsFor(
-          frustum, 56, height / 3.0 * (base + top + std::sqrt(base * top)), 1e-3);
+      const Simplified cut =
+          ExpectStandsFor(frustum, 56, height / 3.0 * (base + top + std::sqrt(base * top)), 1e-3);
       EXPECT_NEAR(FaceArea(cut.simple, 0.0) / base, 1.0, 0.01);
       EXPECT_NEAR(FaceArea(cut.simple, height) / top, 1.0, 0.01);
     }
@@ -118,8 +118,8 @@ TEST(SimplifyHull, ConesAndFrustums) {
 TEST(SimplifyHull, BallsAndEllipsoids) {
   for (const Vector3d& radii : {Vector3d(1, 1, 1), Vector3d(1, 1, 1.4), Vector3d(3, 2, 1)}) {
     for (core::TriangleMesh ball :
-         {shapes::Icosphere(2), shapes::Icosphere(3), shapes::Icosphere(4),
-          shapes::Sphere(1.0, 24), shapes::Sphere(1.0, 48)}) {
+         {shapes::Icosphere(2), shapes::Icosphere(3), shapes::Icosphere(4), shapes::Sphere(1.0, 24),
+          shapes::Sphere(1.0, 48)}) {
       for (Vector3d& v : ball.vertices) v = v.cwiseProduct(radii);
       for (const int most : {64, 56, 52}) {
         const Simplified s = ExpectStandsFor(ball, most, SignedVolume(ball), 2e-3);
@@ -231,9 +231,9 @@ TEST(Decompose, RoundSolidsBecomeOnePartOfTheirVolume) {
       const ConvexDecomposition d = Decompose(solid);
       ASSERT_EQ(d.parts.size(), 1u);
       EXPECT_NEAR(SignedVolume(d.parts[0].hull) / SignedVolume(solid), 1.0, 0.01);
-      EXPECT_NEAR(FaceArea(d.parts[0].hull, core::Bounds(d.parts[0].hull).min().z()) /
-                      FaceArea(solid, 0.0),
-                  1.0, 0.01);
+      EXPECT_NEAR(
+          FaceArea(d.parts[0].hull, core::Bounds(d.parts[0].hull).min().z()) / FaceArea(solid, 0.0),
+          1.0, 0.01);
       EXPECT_NEAR(core::Bounds(d.parts[0].hull).min().z(), 0.0, 1e-9);
     }
   }

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 
 namespace simwright::geometry {
 namespace {
@@ -32,8 +32,8 @@ TEST(Isosurface, SphereHasItsVolume) {
     }
   }
   const core::TriangleMesh mesh = ExtractIsosurface(grid, 0.0f);
-  const Soundness state = Examine(mesh);
-  EXPECT_TRUE(state.Sound()) << Describe(state);
+  const MeshValidity state = Examine(mesh);
+  EXPECT_TRUE(state.IsSolid()) << Describe(state);
   const double volume = 4.0 / 3.0 * std::numbers::pi * std::pow(0.7, 3);
   EXPECT_NEAR(state.signed_volume, volume, 0.003 * volume);
   for (const Eigen::Vector3d& v : mesh.vertices) EXPECT_NEAR(v.norm(), 0.7, 0.001);
@@ -45,7 +45,7 @@ TEST(Isosurface, NoiseGivesASoundMesh) {
     core::Rng rng(seed);
     ScalarGrid grid = Grid(16);
     for (float& v : grid.values) v = static_cast<float>(core::Uniform(rng, -1.0, 1.0));
-    const Soundness state = Examine(ExtractIsosurface(grid, 0.1f));
+    const MeshValidity state = Examine(ExtractIsosurface(grid, 0.1f));
     EXPECT_TRUE(state.closed && state.manifold) << Describe(state);
     EXPECT_EQ(state.self_intersections, 0);
     EXPECT_EQ(state.degenerate_triangles, 0);
@@ -58,7 +58,7 @@ TEST(Isosurface, EmptyFullAndBadFields) {
   std::fill(grid.values.begin(), grid.values.end(), 1.0f);
   EXPECT_TRUE(ExtractIsosurface(grid, 0.0f).empty());
   std::fill(grid.values.begin(), grid.values.end(), -1.0f);
-  EXPECT_TRUE(Examine(ExtractIsosurface(grid, 0.0f)).Sound());
+  EXPECT_TRUE(Examine(ExtractIsosurface(grid, 0.0f)).IsSolid());
   std::fill(grid.values.begin(), grid.values.end(), std::nanf(""));
   EXPECT_TRUE(ExtractIsosurface(grid, 0.0f).empty());
   grid.values.pop_back();

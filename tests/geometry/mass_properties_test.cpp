@@ -168,8 +168,8 @@ TEST(HollowMassProperties, CubesAndSpheresMinusTheirCavities) {
 }
 
 TEST(HollowMassProperties, TendsToTheSheetAndToTheSolid) {
-  const core::TriangleMesh body = shapes::BoxUnion(
-      {shapes::BoxAt(0, 0, 0, 2, 1, 1), shapes::BoxAt(2, 0, 0, 3, 1, 4)});
+  const core::TriangleMesh body =
+      shapes::BoxUnion({shapes::BoxAt(0, 0, 0, 2, 1, 1), shapes::BoxAt(2, 0, 0, 3, 1, 4)});
   const MassProperties solid = SolidMassProperties(body, 500.0);
   const MassProperties sheet = ShellMassProperties(body, 1e-9, 500.0);
   const MassProperties thin = HollowMassProperties(body, 1e-9, 500.0);

@@ -10,8 +10,8 @@
 #include "geometry/alpha_wrap.h"
 #include "geometry/edge_collapse.h"
 #include "geometry/isosurface.h"
+#include "geometry/mesh_validity.h"
 #include "geometry/remesh.h"
-#include "geometry/soundness.h"
 #include "geometry/surface_distance.h"
 #include "geometry/weld.h"
 
@@ -45,11 +45,11 @@ TriangleMesh SphereUnderPlate(int n) {
 
 TEST(Simplify, KeepsItSoundAndInPlace) {
   const TriangleMesh fine = SphereUnderPlate(81);
-  const Soundness before = Examine(fine);
-  ASSERT_TRUE(before.Sound()) << Describe(before);
+  const MeshValidity before = Examine(fine);
+  ASSERT_TRUE(before.IsSolid()) << Describe(before);
   const TriangleMesh coarse = Simplify(fine, {800, 0.0});
-  const Soundness after = Examine(coarse);
-  EXPECT_TRUE(after.Sound()) << Describe(after);
+  const MeshValidity after = Examine(coarse);
+  EXPECT_TRUE(after.IsSolid()) << Describe(after);
   EXPECT_LE(coarse.triangles.size(), 800u);
   EXPECT_EQ(after.components, before.components);
   EXPECT_NEAR(after.signed_volume, before.signed_volume, 0.01 * before.signed_volume);
@@ -93,7 +93,7 @@ TEST(Simplify, TheDistanceLimitKeepsWhatTheMeanHides) {
   EXPECT_GT(farthest(fine, Simplify(fine, mean)), 0.12);
   const SimplifyOptions both{4, 0.03, 0.05};
   const TriangleMesh kept = Simplify(fine, both);
-  EXPECT_TRUE(Examine(kept).Sound());
+  EXPECT_TRUE(Examine(kept).IsSolid());
   EXPECT_LT(kept.triangles.size(), fine.triangles.size() / 3);
   // At most three passes, each within the limit.
   EXPECT_LT(farthest(fine, kept), 3 * 0.05);
@@ -125,8 +125,8 @@ TEST(AlphaWrap, LiesItsOffsetOutside) {
   sheet.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
   const TriangleMesh wrap = AlphaWrap(sheet, {1.0 / 20.0, 1.0 / 100.0});
-  const Soundness state = Examine(wrap);
-  EXPECT_TRUE(state.Sound()) << Describe(state);
+  const MeshValidity state = Examine(wrap);
+  EXPECT_TRUE(state.IsSolid()) << Describe(state);
   const double offset = std::sqrt(2.0) / 100.0;
   for (const double d : DistancesToSurface(wrap.vertices, sheet))
     EXPECT_NEAR(d, offset, 0.3 * offset);
@@ -141,7 +141,7 @@ TEST(Remesh, EdgesComeNearTheTarget) {
   RemeshOptions options;
   options.edge_length = 0.1;
   const TriangleMesh even = RemeshIsotropic(box, options);
-  EXPECT_TRUE(Examine(even).Sound());
+  EXPECT_TRUE(Examine(even).IsSolid());
   EXPECT_NEAR(SignedVolume(even), 1.0, 1e-9);
   double sum = 0.0;
   for (const auto& t : even.triangles) {

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 #include "geometry/surface_distance.h"
 #include "geometry/weld.h"
 #include "tests/geometry/solid_shapes.h"
@@ -46,8 +46,8 @@ void TurnRound(TriangleMesh* mesh) {
 }
 
 void ExpectAccepted(const TriangleMesh& visual, const Solid& solid, double tolerance = 0.005) {
-  const Soundness state = Examine(solid.mesh);
-  EXPECT_TRUE(state.Sound()) << Describe(state);
+  const MeshValidity state = Examine(solid.mesh);
+  EXPECT_TRUE(state.IsSolid()) << Describe(state);
   EXPECT_LE(OuterSurfaceDistance(visual, solid.mesh).MaxRatio(), tolerance);
 }
 

@@ -149,12 +149,12 @@ TEST(Rolls, BallsLyingCylindersAndConesDo) {
 
 TEST(Rolls, WhatRocksStandsOrTipsDoesNot) {
   const Vector3d below = -Vector3d::UnitZ();
-  EXPECT_FALSE(RollsThere(shapes::Box(1, 1, 1), below));            // a die
+  EXPECT_FALSE(RollsThere(shapes::Box(1, 1, 1), below));                    // a die
   EXPECT_FALSE(RollsThere(shapes::Cylinder(1, 20, 6), Vector3d::UnitX()));  // a pencil
-  EXPECT_FALSE(RollsThere(shapes::Cylinder(1, 40, 64), below));     // on its end: it falls
-  EXPECT_FALSE(RollsThere(shapes::Cylinder(1, 0.1, 64), below));    // a coin
-  EXPECT_FALSE(RollsThere(shapes::Bowl(1, 0.1, 32), below));        // rocks on its round side
-  EXPECT_FALSE(RollsThere(shapes::Bowl(1, 0.1, 32), -below));       // on its rim
+  EXPECT_FALSE(RollsThere(shapes::Cylinder(1, 40, 64), below));             // on its end: it falls
+  EXPECT_FALSE(RollsThere(shapes::Cylinder(1, 0.1, 64), below));            // a coin
+  EXPECT_FALSE(RollsThere(shapes::Bowl(1, 0.1, 32), below));   // rocks on its round side
+  EXPECT_FALSE(RollsThere(shapes::Bowl(1, 0.1, 32), -below));  // on its rim
   EXPECT_FALSE(RollsThere(shapes::Torus(1, 0.3, 48, 16), below));
   EXPECT_TRUE(RollsThere(shapes::Torus(1, 0.3, 48, 16), Vector3d::UnitX()));  // as a wheel
   core::TriangleMesh pebble = shapes::Sphere(1.0, 32);

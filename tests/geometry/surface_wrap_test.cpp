@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 #include "geometry/surface_distance.h"
 #include "geometry/triangle_tree.h"
 #include "tests/geometry/solid_shapes.h"
@@ -32,7 +32,7 @@ class HairlineSlit : public ::testing::Test {
 
 TEST_F(HairlineSlit, StaysClosedWhereNobodyLooksIn) {
   const SurfaceWrap wrap = WrapSurface(mesh_, options_);
-  EXPECT_TRUE(Examine(wrap.mesh).Sound());
+  EXPECT_TRUE(Examine(wrap.mesh).IsSolid());
   EXPECT_GT(TriangleTree(wrap.mesh).Closest({0, 0, 0.1}).distance, 0.08);
 }
 
@@ -40,14 +40,14 @@ TEST_F(HairlineSlit, ObliqueLinesOfSightOpenIt) {
   // Along the slit, neither along an axis nor through nodes of the grid.
   for (const double slope : {-1.3, -0.41, 0.0, 0.77}) {
     const Vector3d to_eye = Vector3d(0, slope, 1).normalized();
-    options_.seen.push_back({{0, 0.1 * slope, 0.1}, to_eye, Vector3d::UnitZ()});
+    options_.visible_hits.push_back({{0, 0.1 * slope, 0.1}, to_eye, Vector3d::UnitZ()});
   }
   options_.reach = 0.02;
   const SurfaceWrap wrap = WrapSurface(mesh_, options_);
-  const Soundness state = Examine(wrap.mesh);
-  EXPECT_TRUE(state.Sound()) << Describe(state);
+  const MeshValidity state = Examine(wrap.mesh);
+  EXPECT_TRUE(state.IsSolid()) << Describe(state);
   const TriangleTree tree(wrap.mesh);
-  for (const OuterHit& hit : options_.seen) {
+  for (const OuterHit& hit : options_.visible_hits) {
     EXPECT_LT(tree.Closest(hit.point).distance, options_.reach) << hit.point.transpose();
   }
   // Nothing else has moved.

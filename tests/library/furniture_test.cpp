@@ -8,9 +8,9 @@
 #include <set>
 
 #include "geometry/mass_properties.h"
-#include "geometry/soundness.h"
+#include "geometry/mesh_validity.h"
 #include "library/box_union.h"
-#include "library/rigid_kinds.h"
+#include "library/rigid/rigid_kinds.h"
 #include "physics_params/knowledge_base.h"
 
 namespace simwright::library {
@@ -18,29 +18,29 @@ namespace {
 
 class EveryFurniture : public ::testing::TestWithParam<std::string> {
  protected:
-  RigidThing Make(std::uint64_t seed = 1) const {
-    return MakeRigidThing(*FindRigidKind(GetParam()), seed);
+  RigidObject Make(std::uint64_t seed = 1) const {
+    return MakeRigidObject(*FindRigidKind(GetParam()), seed);
   }
 };
 
 TEST_P(EveryFurniture, IsOneSoundSolidOfItsSize) {
-  const RigidThing thing = Make();
-  const geometry::Soundness s = geometry::Examine(thing.visual.mesh);
-  EXPECT_TRUE(s.Sound()) << geometry::Describe(s);
+  const RigidObject object = Make();
+  const geometry::MeshValidity s = geometry::Examine(object.visual.mesh);
+  EXPECT_TRUE(s.IsSolid()) << geometry::Describe(s);
   EXPECT_EQ(s.components, 1);
-  const Eigen::AlignedBox3d box = core::Bounds(thing.visual.mesh);
+  const Eigen::AlignedBox3d box = core::Bounds(object.visual.mesh);
   EXPECT_LT((box.sizes() - FindRigidKind(GetParam())->size).norm(), 1e-9);
   EXPECT_NEAR(box.min().z(), 0.0, 1e-12);
   EXPECT_LT(box.center().head<2>().norm(), 1e-9);
 }
 
 TEST_P(EveryFurniture, IsOfFewClosedConvexPartsThatReachAsFarAsIsSeen) {
-  const RigidThing thing = Make();
-  EXPECT_LE(thing.parts.size(), 9u);
+  const RigidObject object = Make();
+  EXPECT_LE(object.parts.size(), 9u);
   Eigen::AlignedBox3d all;
-  for (const core::TriangleMesh& part : thing.parts) {
-    const geometry::Soundness s = geometry::Examine(part);
-    EXPECT_TRUE(s.Sound()) << geometry::Describe(s);
+  for (const core::TriangleMesh& part : object.parts) {
+    const geometry::MeshValidity s = geometry::Examine(part);
+    EXPECT_TRUE(s.IsSolid()) << geometry::Describe(s);
     EXPECT_LE(part.vertices.size(), 64u);
     for (size_t t = 0; t < part.triangles.size(); ++t) {
       const Eigen::Vector3d normal =
@@ -50,7 +50,7 @@ TEST_P(EveryFurniture, IsOfFewClosedConvexPartsThatReachAsFarAsIsSeen) {
     }
     all.extend(core::Bounds(part));
   }
-  const Eigen::AlignedBox3d box = core::Bounds(thing.visual.mesh);
+  const Eigen::AlignedBox3d box = core::Bounds(object.visual.mesh);
   EXPECT_LT((all.min() - box.min()).norm() + (all.max() - box.max()).norm(), 1e-9);
 }
 
@@ -59,9 +59,9 @@ TEST_P(EveryFurniture, IsOfFewClosedConvexPartsThatReachAsFarAsIsSeen) {
 TEST_P(EveryFurniture, WeighsAsMuchAsItsMatter) {
   const auto& base = physics_params::KnowledgeBase::Shipped();
   const physics_params::Category& row = *base.FindCategory(FindRigidKind(GetParam())->category);
-  const RigidThing thing = Make();
-  const physics_params::Interval density = base.FindMaterial(thing.parameters.material)->density;
-  const double volume = geometry::SolidMassProperties(thing.visual.mesh, 1.0).volume;
+  const RigidObject object = Make();
+  const physics_params::Interval density = base.FindMaterial(object.parameters.material)->density;
+  const double volume = geometry::SolidMassProperties(object.visual.mesh, 1.0).volume;
   EXPECT_GE(row.mass.min, density.min * volume);
   EXPECT_LE(row.mass.max, density.max * volume);
   EXPECT_EQ(row.materials.size(), 1u);
@@ -87,9 +87,9 @@ INSTANTIATE_TEST_SUITE_P(Library, EveryFurniture, ::testing::ValuesIn([] {
 
 // Returns the horizontal tops, m, of parts that a plumb line through (x, y) meets, rounded to 0.1
 // mm.
-std::set<long> LevelsAt(const RigidThing& thing, double x, double y) {
+std::set<long> LevelsAt(const RigidObject& object, double x, double y) {
   std::set<long> levels;
-  for (const core::TriangleMesh& part : thing.parts) {
+  for (const core::TriangleMesh& part : object.parts) {
     for (size_t t = 0; t < part.triangles.size(); ++t) {
       const Eigen::Vector3d area = core::TriangleAreaVector(part, static_cast<int>(t));
       if (area.z() < (1.0 - 1e-9) * area.norm()) continue;  // not level, or seen from below
@@ -115,7 +115,7 @@ std::set<long> LevelsAt(const RigidThing& thing, double x, double y) {
 // -0.39, -0.12, 0.14 and 0.41 m from the middle that is 0.407 m over the foot.
 TEST(Furniture, ShelvesHaveTheirBoardsWhereThingsStand) {
   for (const char* kind : {"shelf_living_room", "shelf_pantry"}) {
-    const RigidThing shelf = MakeRigidThing(*FindRigidKind(kind), 1);
+    const RigidObject shelf = MakeRigidObject(*FindRigidKind(kind), 1);
     for (const double x : {-0.149, -0.03, 0.08, 0.134}) {
       for (const double y : {-0.284, -0.1, 0.12, 0.284}) {
         EXPECT_EQ(LevelsAt(shelf, x, y), (std::set<long>{170, 2870, 5470, 8170})) << x << " " << y;
@@ -135,7 +135,7 @@ TEST(Furniture, TablesAreLevelUpToTheirRims) {
   const std::map<std::string, long> tops = {
       {"table_round", 7850}, {"table_restaurant", 7850}, {"table_breakfast", 7500}};
   for (const auto& [kind, height] : tops) {
-    const RigidThing table = MakeRigidThing(*FindRigidKind(kind), 1);
+    const RigidObject table = MakeRigidObject(*FindRigidKind(kind), 1);
     for (int k = 0; k < 24; ++k) {
       const double angle = 2.0 * std::numbers::pi * (k + 0.31) / 24, share = (k % 6) / 5.0;
       const bool round = kind != "table_breakfast";
@@ -149,23 +149,23 @@ TEST(Furniture, TablesAreLevelUpToTheirRims) {
 }
 
 TEST(Furniture, SeatAndFloorAreAtTheirHeights) {
-  EXPECT_EQ(*LevelsAt(MakeRigidThing(*FindRigidKind("chair"), 1), 0.05, 0.01).rbegin(), 4600);
-  EXPECT_EQ(*LevelsAt(MakeRigidThing(*FindRigidKind("floor"), 1), 4.9, -4.8).rbegin(), 500);
+  EXPECT_EQ(*LevelsAt(MakeRigidObject(*FindRigidKind("chair"), 1), 0.05, 0.01).rbegin(), 4600);
+  EXPECT_EQ(*LevelsAt(MakeRigidObject(*FindRigidKind("floor"), 1), 4.9, -4.8).rbegin(), 500);
 }
 
 // The volume of two overlapping planks is their sum minus the overlap; a third that only touches
 // adds its own.
 TEST(BoxUnion, IsClosedAndCountsSharedMatterOnce) {
   const auto plank = [](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-    return Plank{Eigen::AlignedBox3d(low, high), 0};
+    return FurnitureBox{Eigen::AlignedBox3d(low, high), 0};
   };
-  const std::vector<Plank> planks = {plank({0, 0, 0}, {3, 1, 1}), plank({1, -1, 0}, {2, 2, 1}),
-                                     plank({3, 0, 0}, {4, 1, 2})};
+  const std::vector<FurnitureBox> planks = {
+      plank({0, 0, 0}, {3, 1, 1}), plank({1, -1, 0}, {2, 2, 1}), plank({3, 0, 0}, {4, 1, 2})};
   const core::TexturedMesh mesh = BoxUnion(planks, {Look("wood", .5f, .4f, .3f)});
-  const geometry::Soundness s = geometry::Examine(mesh.mesh);
-  EXPECT_TRUE(s.Sound()) << geometry::Describe(s);
+  const geometry::MeshValidity s = geometry::Examine(mesh.mesh);
+  EXPECT_TRUE(s.IsSolid()) << geometry::Describe(s);
   EXPECT_NEAR(s.signed_volume, 3.0 + 3.0 - 1.0 + 2.0, 1e-12);
-  EXPECT_EQ(PlankParts(planks).size(), 3u);
+  EXPECT_EQ(FurnitureBoxParts(planks).size(), 3u);
 }
 
 }  // namespace

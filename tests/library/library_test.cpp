@@ -7,8 +7,8 @@
 #include "core/error.h"
 #include "geometry/distance.h"
 #include "geometry/mass_properties.h"
-#include "geometry/soundness.h"
-#include "library/kinds.h"
+#include "geometry/mesh_validity.h"
+#include "library/articulated/articulated_kinds.h"
 
 namespace simwright::library {
 namespace {
@@ -53,7 +53,7 @@ TEST_P(EveryKind, LinksStayApartAtRandomPositions) {
 }
 
 // Mass by another formula than the divergence theorem's inertia code: tetrahedra from a corner.
-double Volume(const core::TriangleMesh& mesh) {
+double LibraryVolume(const core::TriangleMesh& mesh) {
   double volume = 0.0;
   for (const Eigen::Vector3i& t : mesh.triangles) {
     const Eigen::Vector3d o = mesh.vertices[0];
@@ -73,8 +73,8 @@ TEST_P(EveryKind, WeighsItsVolumesTimesTheirDensities) {
       double mass = 0.0, volume = 0.0;
       for (size_t i = 0; i < link.parts.size(); ++i) {
         EXPECT_GT(link.densities[i], 10.0) << link.name;
-        volume += Volume(link.parts[i]);
-        mass += Volume(link.parts[i]) * link.densities[i];
+        volume += LibraryVolume(link.parts[i]);
+        mass += LibraryVolume(link.parts[i]) * link.densities[i];
       }
       EXPECT_NEAR(link.inertial.mass, mass, 1e-9 * mass) << link.name;
       EXPECT_NEAR(link.volume, volume, 1e-9 * volume) << link.name;
@@ -91,8 +91,8 @@ TEST_P(EveryKind, PartsAreClosedConvexAndSmall) {
   const ArticulatedAsset asset = Make(4);
   for (const ArticulatedLink& link : asset.links) {
     for (const core::TriangleMesh& part : link.parts) {
-      const geometry::Soundness s = geometry::Examine(part);
-      EXPECT_TRUE(s.Sound()) << link.name << ": " << geometry::Describe(s);
+      const geometry::MeshValidity s = geometry::Examine(part);
+      EXPECT_TRUE(s.IsSolid()) << link.name << ": " << geometry::Describe(s);
       EXPECT_LE(part.vertices.size(), 64u) << link.name;
       const double size = core::Bounds(part).diagonal().norm();
       for (size_t t = 0; t < part.triangles.size(); ++t) {

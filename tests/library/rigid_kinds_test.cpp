@@ -1,4 +1,4 @@
-#include "library/rigid_kinds.h"
+#include "library/rigid/rigid_kinds.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "geometry/soundness.h"
-#include "library/kinds.h"
+#include "geometry/mesh_validity.h"
+#include "library/articulated/articulated_kinds.h"
 #include "physics_params/knowledge_base.h"
 
 namespace simwright::library {
@@ -16,16 +16,16 @@ namespace {
 
 class EveryRigidKind : public ::testing::TestWithParam<std::string> {
  protected:
-  RigidThing Make(std::uint64_t seed) const {
-    return MakeRigidThing(*FindRigidKind(GetParam()), seed);
+  RigidObject Make(std::uint64_t seed) const {
+    return MakeRigidObject(*FindRigidKind(GetParam()), seed);
   }
 };
 
 TEST_P(EveryRigidKind, IsClosedAndOfTheSampledSize) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
-    const RigidThing thing = Make(seed);
-    core::RequireValid(thing.visual, GetParam());
-    const geometry::Soundness s = geometry::Examine(thing.visual.mesh);
+    const RigidObject object = Make(seed);
+    core::RequireValid(object.visual, GetParam());
+    const geometry::MeshValidity s = geometry::Examine(object.visual.mesh);
     EXPECT_TRUE(s.closed && s.oriented && s.manifold) << geometry::Describe(s);
     EXPECT_EQ(s.degenerate_triangles, 0);
     EXPECT_GT(s.signed_volume, 0.0);
@@ -33,8 +33,8 @@ TEST_P(EveryRigidKind, IsClosedAndOfTheSampledSize) {
     if (s.components == 1) {
       EXPECT_EQ(s.self_intersections, 0) << seed;
     }
-    const Eigen::AlignedBox3d box = core::Bounds(thing.visual.mesh);
-    EXPECT_LT((box.sizes() - thing.size).norm(), 1e-9);
+    const Eigen::AlignedBox3d box = core::Bounds(object.visual.mesh);
+    EXPECT_LT((box.sizes() - object.size).norm(), 1e-9);
     EXPECT_NEAR(box.min().z(), 0.0, 1e-12);
     EXPECT_LT(box.center().head<2>().norm(), 1e-9);
   }
@@ -56,26 +56,26 @@ TEST_P(EveryRigidKind, IsAsLargeAsItsKind) {
 // Parts that a kind defines itself: closed, convex, small, and with the extent of the visual mesh.
 TEST_P(EveryRigidKind, OwnPartsAreSoundAndReachAsFar) {
   for (const std::uint64_t seed : {1, 2, 5}) {
-    const RigidThing thing = Make(seed);
-    if (thing.parts.empty()) continue;
-    EXPECT_LE(thing.parts.size(), 15u);
+    const RigidObject object = Make(seed);
+    if (object.parts.empty()) continue;
+    EXPECT_LE(object.parts.size(), 15u);
     Eigen::AlignedBox3d all;
-    for (const core::TriangleMesh& part : thing.parts) {
-      const geometry::Soundness s = geometry::Examine(part);
-      EXPECT_TRUE(s.Sound()) << geometry::Describe(s);
+    for (const core::TriangleMesh& part : object.parts) {
+      const geometry::MeshValidity s = geometry::Examine(part);
+      EXPECT_TRUE(s.IsSolid()) << geometry::Describe(s);
       EXPECT_LE(part.vertices.size(), 64u);
       for (size_t t = 0; t < part.triangles.size(); ++t) {
         const Eigen::Vector3d normal =
             core::TriangleAreaVector(part, static_cast<int>(t)).normalized();
         const Eigen::Vector3d& corner = part.vertices[static_cast<size_t>(part.triangles[t][0])];
         for (const Eigen::Vector3d& v : part.vertices) {
-          ASSERT_LT(normal.dot(v - corner), 1e-6 * thing.size.norm()) << "not convex";
+          ASSERT_LT(normal.dot(v - corner), 1e-6 * object.size.norm()) << "not convex";
         }
       }
       all.extend(core::Bounds(part));
     }
     EXPECT_NEAR(all.min().z(), 0.0, 1e-9);  // it stands on them
-    const Eigen::AlignedBox3d box = core::Bounds(thing.visual.mesh);
+    const Eigen::AlignedBox3d box = core::Bounds(object.visual.mesh);
     EXPECT_LT((all.min() - box.min()).cwiseAbs().maxCoeff(), 0.02 * box.diagonal().norm());
     EXPECT_LT((all.max() - box.max()).cwiseAbs().maxCoeff(), 0.02 * box.diagonal().norm());
   }
@@ -106,7 +106,7 @@ double RadiusAt(const core::TriangleMesh& mesh, double z) {
 // its floor, which is 12 mm above the base.
 TEST(RigidKinds, SteamersStackAndAreHollow) {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const RigidThing steamer = MakeRigidThing(*FindRigidKind("steamer"), seed);
+    const RigidObject steamer = MakeRigidObject(*FindRigidKind("steamer"), seed);
     const core::TriangleMesh& mesh = steamer.visual.mesh;
     const double high = steamer.size.z(), radius = 0.5 * steamer.size.x();
     EXPECT_NEAR(RadiusAt(mesh, 0.0), radius, 1e-9);
@@ -129,7 +129,7 @@ TEST(RigidKinds, SteamersStackAndAreHollow) {
 
 // The spout is at x and ends high; the handle is opposite, and its hole is open.
 TEST(RigidKinds, TeapotsHaveASpoutAndAHandle) {
-  const RigidThing teapot = MakeRigidThing(*FindRigidKind("teapot"), 1);
+  const RigidObject teapot = MakeRigidObject(*FindRigidKind("teapot"), 1);
   const double body = 0.5 * teapot.size.y(), high = teapot.size.z();
   double spout = 0.0, handle_low = high, handle_high = 0.0;
   for (const Eigen::Vector3d& v : teapot.visual.mesh.vertices) {
@@ -157,7 +157,7 @@ TEST(RigidKinds, WhatGrammarsUseOftenBringsFewParts) {
                                                                 {"lamp", 5},
                                                                 {"soda_can", 2},
                                                                 {"toy_train", 11}}) {
-    const size_t parts = MakeRigidThing(*FindRigidKind(kind), 1).parts.size();
+    const size_t parts = MakeRigidObject(*FindRigidKind(kind), 1).parts.size();
     EXPECT_GE(parts, 1u) << kind;
     EXPECT_LE(parts, most) << kind;
   }

@@ -127,7 +127,7 @@ TEST_F(Transcript, DamagedLinesAreNamed) {
     ExpectHas(error_of(good + line.substr(0, length)), "t.jsonl line 3");
   }
   ExpectHas(error_of(""), "empty");
-  ExpectHas(error_of(line), "t.jsonl line 1: is no transcript");
+  ExpectHas(error_of(line), "t.jsonl line 1: is not a transcript");
   ExpectHas(error_of("{\"transcript\":\"simwright-llm\",\"version\":99}\n"), "version");
   ExpectHas(error_of(good + "{\"request\":{}}\n"), "line 3: the line has no answer");
   ExpectHas(error_of(good + "{\"answer\":{\"text\":\"x\"}}\n"), "line 3: the line has no request");

@@ -20,8 +20,8 @@ ObjectAnswer Only(const std::string& text) {
   return answer.objects.empty() ? ObjectAnswer() : answer.objects[0];
 }
 
-void ExpectRange(const std::optional<Interval>& range, double min, double max,
-                 const std::string& text) {
+void PhysicsAnswerExpectRange(const std::optional<Interval>& range, double min, double max,
+                              const std::string& text) {
   ASSERT_TRUE(range.has_value()) << text;
   EXPECT_NEAR(range->min, min, 1e-9 * max) << text;
   EXPECT_NEAR(range->max, max, 1e-9 * max) << text;
@@ -29,15 +29,15 @@ void ExpectRange(const std::optional<Interval>& range, double min, double max,
 
 // Grams.
 void ExpectMass(const std::string& text, double min, double max) {
-  ExpectRange(Only(text).mass, 1e-3 * min, 1e-3 * max, text);
+  PhysicsAnswerExpectRange(Only(text).mass, 1e-3 * min, 1e-3 * max, text);
 }
 
 // Centimetres.
 void ExpectSizes(const std::string& text, const std::array<double, 6>& sizes) {
   const ObjectAnswer object = Only(text);
-  ExpectRange(object.length, 1e-2 * sizes[0], 1e-2 * sizes[1], text);
-  ExpectRange(object.width, 1e-2 * sizes[2], 1e-2 * sizes[3], text);
-  ExpectRange(object.height, 1e-2 * sizes[4], 1e-2 * sizes[5], text);
+  PhysicsAnswerExpectRange(object.length, 1e-2 * sizes[0], 1e-2 * sizes[1], text);
+  PhysicsAnswerExpectRange(object.width, 1e-2 * sizes[2], 1e-2 * sizes[3], text);
+  PhysicsAnswerExpectRange(object.height, 1e-2 * sizes[4], 1e-2 * sizes[5], text);
 }
 
 // Gen2Sim, table I: a language model's answers in grams and centimetres.
@@ -85,10 +85,10 @@ TEST(PhysicsAnswer, Gen2SimTableOneIsReadExactly) {
       const ObjectAnswer& object = answer.objects[i];
       EXPECT_EQ(object.name, NormaliseName(row.name));
       EXPECT_EQ(FindObject(answer, row.name), &object);
-      ExpectRange(object.mass, 1e-3 * row.values[0], 1e-3 * row.values[1], row.name);
-      ExpectRange(object.length, 1e-2 * row.values[2], 1e-2 * row.values[3], row.name);
-      ExpectRange(object.width, 1e-2 * row.values[4], 1e-2 * row.values[5], row.name);
-      ExpectRange(object.height, 1e-2 * row.values[6], 1e-2 * row.values[7], row.name);
+      PhysicsAnswerExpectRange(object.mass, 1e-3 * row.values[0], 1e-3 * row.values[1], row.name);
+      PhysicsAnswerExpectRange(object.length, 1e-2 * row.values[2], 1e-2 * row.values[3], row.name);
+      PhysicsAnswerExpectRange(object.width, 1e-2 * row.values[4], 1e-2 * row.values[5], row.name);
+      PhysicsAnswerExpectRange(object.height, 1e-2 * row.values[6], 1e-2 * row.values[7], row.name);
     }
   }
 }
@@ -171,10 +171,10 @@ TEST(PhysicsAnswer, TablesInEitherDirection) {
   const PhysicsAnswer answer = ReadPhysicsAnswer(across);
   ASSERT_EQ(answer.objects.size(), 2u);
   EXPECT_EQ(answer.objects[0].name, "mug");
-  ExpectRange(answer.objects[0].mass, 0.3, 0.4, across);
-  ExpectRange(answer.objects[0].height, 0.07, 0.08, across);
-  ExpectRange(answer.objects[1].mass, 0.5, 0.5, across);
-  ExpectRange(answer.objects[1].height, 0.02, 0.03, across);
+  PhysicsAnswerExpectRange(answer.objects[0].mass, 0.3, 0.4, across);
+  PhysicsAnswerExpectRange(answer.objects[0].height, 0.07, 0.08, across);
+  PhysicsAnswerExpectRange(answer.objects[1].mass, 0.5, 0.5, across);
+  PhysicsAnswerExpectRange(answer.objects[1].height, 0.02, 0.03, across);
   const std::string down =
       "| Property | Value |\n|---|---|\n| Mass | 300\u2013400 g |\n| Length | 10-12 cm |\n"
       "| Width | 8-9 cm |\n| Height | 7-8 cm |\n| Material | ceramic |\n";
@@ -193,9 +193,9 @@ TEST(PhysicsAnswer, ProseAroundAndSeveralObjects) {
   ASSERT_EQ(answer.objects.size(), 2u);
   EXPECT_EQ(answer.objects[0].name, "coffee mug");
   EXPECT_EQ(answer.objects[0].material, "glazed ceramic");
-  ExpectRange(answer.objects[0].width, 0.08, 0.09, text);
+  PhysicsAnswerExpectRange(answer.objects[0].width, 0.08, 0.09, text);
   EXPECT_EQ(answer.objects[1].name, "plate");
-  ExpectRange(answer.objects[1].mass, 0.4, 0.6, text);
+  PhysicsAnswerExpectRange(answer.objects[1].mass, 0.4, 0.6, text);
   EXPECT_EQ(FindObject(answer, "Plate"), &answer.objects[1]);
   EXPECT_EQ(FindObject(answer, "red coffee mug"), &answer.objects[0]);
   EXPECT_EQ(FindObject(answer, "violin"), nullptr);

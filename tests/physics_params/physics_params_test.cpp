@@ -11,13 +11,13 @@
 namespace simwright::physics_params {
 namespace {
 
-const KnowledgeBase& Base() {
+const KnowledgeBase& PhysicsParamsBase() {
   return KnowledgeBase::Shipped();
 }
 
 TEST(KnowledgeBase, KnowsThreeHundredKindsEachWithASource) {
-  EXPECT_GE(Base().categories().size(), 300u);
-  for (const Category& category : Base().categories()) {
+  EXPECT_GE(PhysicsParamsBase().categories().size(), 300u);
+  for (const Category& category : PhysicsParamsBase().categories()) {
     EXPECT_FALSE(category.source.empty()) << category.name;
     EXPECT_LE(category.width.min, category.length.max) << category.name;
   }
@@ -25,10 +25,10 @@ TEST(KnowledgeBase, KnowsThreeHundredKindsEachWithASource) {
 
 // An independent bound: nothing is denser over its bounding box than its densest material.
 TEST(KnowledgeBase, MassesArePossibleForTheirSizes) {
-  for (const Category& c : Base().categories()) {
+  for (const Category& c : PhysicsParamsBase().categories()) {
     double densest = 0.0;
     for (const std::string& name : c.materials) {
-      densest = std::max(densest, Base().FindMaterial(name)->density.max);
+      densest = std::max(densest, PhysicsParamsBase().FindMaterial(name)->density.max);
     }
     const double largest_box = c.length.max * c.width.max * c.height.max;
     const double smallest_box = c.length.min * c.width.min * c.height.min;
@@ -77,40 +77,39 @@ TEST(Resolution, UnknownNameNamesTheClosest) {
   }
   EXPECT_THROW(RequireCategory(""), core::Error);
   EXPECT_THROW(RequireCategory("democracy"), core::Error);
-  const Resolution alone = ResolveCategory("demitasse", Base(), nullptr);
+  const Resolution alone = ResolveCategory("demitasse", PhysicsParamsBase(), nullptr);
   EXPECT_EQ(alone.category, nullptr);
   EXPECT_FALSE(alone.closest.empty());
 }
 
 TEST(Sampling, StaysInItsRangesAndRepeats) {
-  for (const Category& category : Base().categories()) {
+  for (const Category& category : PhysicsParamsBase().categories()) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-      const PhysicalParameters p = SampleParameters(category, Base(), seed);
+      const PhysicalParameters p = SampleParameters(category, PhysicsParamsBase(), seed);
       for (const Estimate* e :
            {&p.length, &p.width, &p.height, &p.mass, &p.density, &p.friction, &p.restitution}) {
         EXPECT_GE(e->sample, e->min) << category.name;
         EXPECT_LE(e->sample, e->max) << category.name;
       }
       EXPECT_GE(p.length.sample + 1e-12, p.width.sample) << category.name;
-      EXPECT_EQ(p.mass.sample, SampleParameters(category, Base(), seed).mass.sample);
+      EXPECT_EQ(p.mass.sample, SampleParameters(category, PhysicsParamsBase(), seed).mass.sample);
     }
   }
 }
 
 TEST(Reconciliation, MassVolumeAndDensityAlwaysAgree) {
-  for (const Category& category : Base().categories()) {
+  for (const Category& category : PhysicsParamsBase().categories()) {
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
-      const PhysicalParameters p = SampleParameters(category, Base(), seed);
+      const PhysicalParameters p = SampleParameters(category, PhysicsParamsBase(), seed);
       const double box = p.length.sample * p.width.sample * p.height.sample;
       const double area = 2 * (p.length.sample * p.width.sample +
                                (p.length.sample + p.width.sample) * p.height.sample);
       for (double filling : {0.02, 0.3, 1.0}) {
-        const MassModel m = ReconcileMass(p, category, Base(), filling * box, area);
-        const Material& material = *Base().FindMaterial(m.material);
+        const MassModel m = ReconcileMass(p, category, PhysicsParamsBase(), filling * box, area);
+        const Material& material = *PhysicsParamsBase().FindMaterial(m.material);
         // A hollow body's cavity is the body scaled by 1 - wall A / (3 V).
-        const double cavity = m.wall_thickness > 0
-                                  ? 1.0 - m.wall_thickness * area / (3.0 * filling * box)
-                                  : 0.0;
+        const double cavity =
+            m.wall_thickness > 0 ? 1.0 - m.wall_thickness * area / (3.0 * filling * box) : 0.0;
         const double matter = filling * box * (1.0 - std::pow(cavity, 3));
         EXPECT_NEAR(m.density * matter, m.mass, 1e-9 * m.mass) << category.name;
         EXPECT_TRUE(m.density >= material.density.min * (1 - 1e-12) &&
@@ -119,8 +118,10 @@ TEST(Reconciliation, MassVolumeAndDensityAlwaysAgree) {
       }
     }
   }
-  const Category& mug = *Base().FindCategory("mug");
-  EXPECT_THROW(ReconcileMass(SampleParameters(mug, Base(), 1), mug, Base(), 0.0, 1.0), core::Error);
+  const Category& mug = *PhysicsParamsBase().FindCategory("mug");
+  EXPECT_THROW(ReconcileMass(SampleParameters(mug, PhysicsParamsBase(), 1), mug,
+                             PhysicsParamsBase(), 0.0, 1.0),
+               core::Error);
 }
 
 }  // namespace

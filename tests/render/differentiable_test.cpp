@@ -12,15 +12,15 @@
 namespace simwright::render {
 namespace {
 
-// A square of side 2 h at height z, seen straight from above by FromAbove.
-DifferentiableObject Square(double h, double z) {
+// A square of side 2 h at height z, seen straight from above by DifferentiableFromAbove.
+DifferentiableObject DifferentiableSquare(double h, double z) {
   DifferentiableObject square;
   square.mesh.vertices = {{-h, -h, z}, {h, -h, z}, {h, h, z}, {-h, h, z}};
   square.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   return square;
 }
 
-core::Camera FromAbove(double height, int size, double focal) {
+core::Camera DifferentiableFromAbove(double height, int size, double focal) {
   core::Camera camera;
   camera.width = camera.height = size;
   camera.fx = camera.fy = focal;
@@ -39,11 +39,11 @@ DifferentiableBuffers Constant(const core::Camera& camera, float color, float ma
 }
 
 TEST(Differentiable, ValuesOfASquare) {
-  const core::Camera camera = FromAbove(2.0, 40, 20.0);
-  DifferentiableObject square = Square(1.0, 0.0);
+  const core::Camera camera = DifferentiableFromAbove(2.0, 40, 20.0);
+  DifferentiableObject square = DifferentiableSquare(1.0, 0.0);
   square.base_color = {0.2f, 0.4f, 0.6f};
   DifferentiableOptions options;
-  options.draw_normals = true;
+  options.render_normals = true;
   DifferentiableRenderer renderer({square}, options);
   const DifferentiableBuffers& picture = renderer.Render(camera, 1);
   // 10 pixels per metre: the square covers 20 x 20 pixels around the centre.
@@ -61,8 +61,8 @@ TEST(Differentiable, ValuesOfASquare) {
 // The covered area is (2 h f / z)^2 pixels: its derivatives are known exactly.
 TEST(Differentiable, TheAreaOfASquareGrowsAsItsFormulaSays) {
   const double h = 1.0, z = 2.0, f = 20.0;
-  const core::Camera camera = FromAbove(z, 40, f);
-  DifferentiableRenderer renderer({Square(h, 0.0)});
+  const core::Camera camera = DifferentiableFromAbove(z, 40, f);
+  DifferentiableRenderer renderer({DifferentiableSquare(h, 0.0)});
   renderer.Render(camera, 3);
   SceneGradients gradients;
   renderer.Backward(Constant(camera, 0.0f, 1.0f, 0.0f), &gradients);
@@ -81,10 +81,10 @@ TEST(Differentiable, TheAreaOfASquareGrowsAsItsFormulaSays) {
 
 // The mean depth of a tilted plane that fills the image: interior derivatives only.
 TEST(Differentiable, DepthOfAPlaneThatFillsThePicture) {
-  const core::Camera camera = FromAbove(2.0, 16, 32.0);
+  const core::Camera camera = DifferentiableFromAbove(2.0, 16, 32.0);
   DifferentiableOptions options;
   options.samples_per_side = 8;
-  DifferentiableRenderer renderer({Square(4.0, 0.0)}, options);
+  DifferentiableRenderer renderer({DifferentiableSquare(4.0, 0.0)}, options);
   renderer.Render(camera, 3);
   SceneGradients gradients;
   renderer.Backward(Constant(camera, 0.0f, 0.0f, 1.0f / 256.0f), &gradients);
@@ -250,22 +250,22 @@ TEST(Differentiable, MovedVerticesAreDrawnWhereTheyWent) {
 
 TEST(Differentiable, BadInputIsNamed) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const core::Camera camera = FromAbove(2.0, 8, 8.0);
+  const core::Camera camera = DifferentiableFromAbove(2.0, 8, 8.0);
   EXPECT_THROW(DifferentiableRenderer({DifferentiableObject{}}), core::Error);
-  DifferentiableObject square = Square(1.0, 0.0);
+  DifferentiableObject square = DifferentiableSquare(1.0, 0.0);
   square.vertex_colors.resize(3);
   EXPECT_THROW(DifferentiableRenderer({square}), core::Error);
-  square = Square(1.0, 0.0);
+  square = DifferentiableSquare(1.0, 0.0);
   square.texture = core::FloatImage(2, 2, 3);
   EXPECT_THROW(DifferentiableRenderer({square}), core::Error) << "no texture coordinates";
-  square = Square(1.0, 0.0);
+  square = DifferentiableSquare(1.0, 0.0);
   square.mesh.vertices[0].x() = 1e300;
   EXPECT_THROW(DifferentiableRenderer({square}), core::Error);
   DifferentiableOptions options;
   options.samples_per_side = 0;
-  EXPECT_THROW(DifferentiableRenderer({Square(1.0, 0.0)}, options), core::Error);
+  EXPECT_THROW(DifferentiableRenderer({DifferentiableSquare(1.0, 0.0)}, options), core::Error);
 
-  DifferentiableRenderer renderer({Square(1.0, 0.0)});
+  DifferentiableRenderer renderer({DifferentiableSquare(1.0, 0.0)});
   SceneGradients gradients;
   EXPECT_THROW(renderer.Backward({}, &gradients), core::Error) << "no picture yet";
   core::Camera bad = camera;

@@ -12,7 +12,7 @@
 namespace simwright::render {
 namespace {
 
-core::TexturedMesh Square(double side, double z) {
+core::TexturedMesh ForwardSquare(double side, double z) {
   core::TexturedMesh mesh;
   const double h = 0.5 * side;
   mesh.mesh.vertices = {{-h, -h, z}, {h, -h, z}, {h, h, z}, {-h, h, z}};
@@ -21,7 +21,7 @@ core::TexturedMesh Square(double side, double z) {
 }
 
 // Looks down from above: image right is world +x, image down is world -y.
-core::Camera FromAbove(double height, int size, double focal) {
+core::Camera ForwardFromAbove(double height, int size, double focal) {
   core::Camera camera;
   camera.width = camera.height = size;
   camera.fx = camera.fy = focal;
@@ -32,12 +32,12 @@ core::Camera FromAbove(double height, int size, double focal) {
 }
 
 TEST(Forward, DepthMaskNormalAndLabelOfASquare) {
-  const core::TexturedMesh far = Square(10.0, 0.0), near = Square(1.0, 0.5);
+  const core::TexturedMesh far = ForwardSquare(10.0, 0.0), near = ForwardSquare(1.0, 0.5);
   Scene scene;
   EXPECT_EQ(scene.Add(&far), 0);
   EXPECT_EQ(scene.Add(&near), 1);
   scene.Commit();
-  const core::Camera camera = FromAbove(2.5, 100, 100.0);
+  const core::Camera camera = ForwardFromAbove(2.5, 100, 100.0);
   ForwardOptions options;
   options.samples_per_side = 4;
   const ForwardBuffers buffers = RenderForward(scene, camera, options);
@@ -54,11 +54,11 @@ TEST(Forward, DepthMaskNormalAndLabelOfASquare) {
 }
 
 TEST(Forward, CoverageIsTheAreaToAFractionOfAPixel) {
-  const core::TexturedMesh square = Square(1.0, 0.0);
+  const core::TexturedMesh square = ForwardSquare(1.0, 0.0);
   Scene scene;
   scene.Add(&square);
   scene.Commit();
-  const core::Camera camera = FromAbove(2.0, 64, 50.3);  // 25.15 pixels wide
+  const core::Camera camera = ForwardFromAbove(2.0, 64, 50.3);  // 25.15 pixels wide
   ForwardOptions options;
   options.samples_per_side = 16;
   const ForwardBuffers buffers = RenderForward(scene, camera, options);
@@ -68,7 +68,7 @@ TEST(Forward, CoverageIsTheAreaToAFractionOfAPixel) {
 }
 
 TEST(Forward, MovedVerticesAreRefitted) {
-  core::TexturedMesh square = Square(1.0, 0.0);
+  core::TexturedMesh square = ForwardSquare(1.0, 0.0);
   Scene scene;
   scene.Add(&square);
   scene.Commit();
@@ -82,7 +82,7 @@ TEST(Forward, MovedVerticesAreRefitted) {
 }
 
 TEST(Forward, TextureAppearsWhereItsCoordinatesSay) {
-  core::TexturedMesh square = Square(2.0, 0.0);
+  core::TexturedMesh square = ForwardSquare(2.0, 0.0);
   core::Image texture(2, 2, 3);
   texture.At(0, 0)[0] = 255;  // upper left red, the rest black
   square.textures.push_back(texture);
@@ -95,14 +95,14 @@ TEST(Forward, TextureAppearsWhereItsCoordinatesSay) {
   ForwardOptions options;
   options.shaded = true;
   options.lit = false;
-  const ForwardBuffers buffers = RenderForward(scene, FromAbove(2.0, 40, 40.0), options);
+  const ForwardBuffers buffers = RenderForward(scene, ForwardFromAbove(2.0, 40, 40.0), options);
   // World (-0.5, 0.5) is the texture's upper left, seen at image (10, 10).
   EXPECT_GT(buffers.color.At(10, 10)[0], 200);
   EXPECT_LT(buffers.color.At(30, 30)[0], 60);
 }
 
 TEST(Forward, ThreadsDoNotChangeThePicture) {
-  const core::TexturedMesh square = Square(1.0, 0.0);
+  const core::TexturedMesh square = ForwardSquare(1.0, 0.0);
   Scene scene;
   scene.Add(&square);
   scene.Commit();
@@ -110,9 +110,9 @@ TEST(Forward, ThreadsDoNotChangeThePicture) {
   options.shaded = true;
   options.occlusion_rays = 4;
   core::SetThreadCount(1);
-  const ForwardBuffers one = RenderForward(scene, FromAbove(2.0, 50, 60.0), options);
+  const ForwardBuffers one = RenderForward(scene, ForwardFromAbove(2.0, 50, 60.0), options);
   core::SetThreadCount(3);
-  const ForwardBuffers three = RenderForward(scene, FromAbove(2.0, 50, 60.0), options);
+  const ForwardBuffers three = RenderForward(scene, ForwardFromAbove(2.0, 50, 60.0), options);
   core::SetThreadCount(0);
   EXPECT_EQ(one.color.pixels, three.color.pixels);
   EXPECT_EQ(one.depth, three.depth);

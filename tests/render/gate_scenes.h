@@ -35,7 +35,7 @@ inline GateScene TriangleScene(int size) {
   for (Eigen::Vector3d& v : scene.objects[0].mesh.vertices) v *= kSceneScale;
   scene.objects[0].mesh.triangles = {{0, 1, 2}};
   Paint(&scene.objects[0]);
-  scene.options.draw_normals = true;
+  scene.options.render_normals = true;
   return scene;
 }
 
@@ -112,7 +112,7 @@ inline GateScene BumpySphereScene(int size, int n) {
   scene.objects.resize(1);
   scene.objects[0].mesh = BumpySphere(n);
   Paint(&scene.objects[0]);
-  scene.options.draw_normals = true;
+  scene.options.render_normals = true;
   scene.options.lit = true;
   return scene;
 }
@@ -152,7 +152,7 @@ inline GateScene TexturedQuadScene(int size) {
       }
     }
   }
-  scene.options.draw_normals = true;
+  scene.options.render_normals = true;
   scene.options.lit = true;
   return scene;
 }

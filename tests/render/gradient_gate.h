@@ -77,7 +77,7 @@ inline DifferentiableBuffers LossImages(const GateScene& scene) {
   images.color = SmoothImage(scene.camera, 3, 1);
   images.mask = SmoothImage(scene.camera, 1, 2);
   images.depth = SmoothImage(scene.camera, 1, 3);
-  if (scene.options.draw_normals) images.normal = SmoothImage(scene.camera, 3, 4);
+  if (scene.options.render_normals) images.normal = SmoothImage(scene.camera, 3, 4);
   return images;
 }
 

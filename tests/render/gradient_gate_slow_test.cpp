@@ -57,7 +57,7 @@ TEST(GradientGateSlow, AFlatShadedSphereWhoseEdgesAreAllSteps) {
 TEST(GradientGateSlow, FourThousandEdgeSamplesAreEnoughUpToAHundredThousandTriangles) {
   for (const int n : {7, 22, 71}) {
     GateScene scene = BumpySphereScene(128, n);
-    scene.options.lit = scene.options.draw_normals = false;
+    scene.options.lit = scene.options.render_normals = false;
     DifferentiableBuffers mask;
     mask.mask = SmoothImage(scene.camera, 1, 2);
     const auto gradient = [&](int edge_samples, std::uint64_t seed) {

@@ -89,7 +89,7 @@ TEST(GaussianPolicy, DrawsHaveTheMomentsAndTheDensityTheyClaim) {
   means.col(0).setConstant(0.3f);
   means.col(1).setConstant(-2.0f);
   const Eigen::RowVectorXf std{{0.5f, 0.1f}};
-  DrawActions(means, std, rng, &actions);
+  SampleActions(means, std, rng, &actions);
   const Eigen::RowVectorXf found = (actions - means).array().square().colwise().mean().sqrt();
   EXPECT_NEAR(found[0], 0.5f, 0.01f);
   EXPECT_NEAR(found[1], 0.1f, 0.002f);
@@ -108,7 +108,7 @@ Samples SampledBy(const ActorCritic& networks, int count, float moved) {
   Rows x = Rows::Random(count, networks.sizes().observations), means, actions;
   networks.Actor().Forward(x, &means);
   means.array() += moved;
-  DrawActions(means, networks.Std(), rng, &actions);
+  SampleActions(means, networks.Std(), rng, &actions);
   Eigen::VectorXf density = LogDensity(actions, means, networks.Std());
   const auto tensor = [](Rows& rows) {
     return torch::from_blob(rows.data(), {rows.rows(), rows.cols()}).clone();

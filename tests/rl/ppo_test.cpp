@@ -198,7 +198,7 @@ TEST(Ppo, GoesOnWithWhatWasShownAsIfItHadNotStopped) {
   ShownReach environment(16), other(16);
   Ppo whole(&environment, options), resumed(&other, options);
   learn(&whole, 3);
-  RecentOutcomes recent(20);
+  OutcomeWindow recent(20);
   WriteCheckpoint(whole, {}, recent, {}, folder.path() / "checkpoint.pt");
   ReadCheckpoint(folder.path() / "checkpoint.pt", {}, &resumed, &recent);
   learn(&whole, 5);

@@ -12,7 +12,7 @@ namespace simwright::rl {
 ReachEnvironment::ReachEnvironment(int count, int episode_steps)
     : episode_steps_(episode_steps), points_(static_cast<std::size_t>(count)) {}
 
-ReachEnvironment::Point ReachEnvironment::DrawStart() {
+ReachEnvironment::Point ReachEnvironment::SampleStart() {
   return {core::Uniform(rng_, -1.0, 1.0), core::Uniform(rng_, -0.5, 0.5), 0};
 }
 
@@ -27,7 +27,7 @@ void ReachEnvironment::Observe(Rows* observations) const {
 void ReachEnvironment::Reset(std::uint64_t seed, Rows* observations) {
   rng_ = core::StreamRng(seed, 0);
   for (Point& point : points_) {
-    point = DrawStart();
+    point = SampleStart();
     // The time limits must not coincide.
     point.steps = static_cast<int>(core::UniformIndex(rng_, episode_steps_));
   }
@@ -55,7 +55,7 @@ void ReachEnvironment::Step(const Rows& actions, StepBatch* batch) {
     if (!batch->terminated[i] && !batch->truncated[i]) continue;
     batch->success[i] = std::abs(point.x) < 0.05;
     batch->last_observations.row(row) << static_cast<float>(point.x), static_cast<float>(point.v);
-    point = DrawStart();
+    point = SampleStart();
   }
   if (spoilt_ >= 0) {
     batch->rewards[static_cast<std::size_t>(spoilt_)] = std::numeric_limits<float>::quiet_NaN();

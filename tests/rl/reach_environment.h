@@ -35,7 +35,7 @@ class ReachEnvironment : public VectorEnvironment {
     double x = 0.0, v = 0.0;
     int steps = 0;
   };
-  Point DrawStart();
+  Point SampleStart();
   void Observe(Rows* observations) const;
 
   int episode_steps_;

@@ -15,7 +15,7 @@ namespace simwright::robot {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr const char* kPython = "/usr/bin/python3";
+constexpr const char* kDemonstrationFilePython = "/usr/bin/python3";
 
 template <typename T>
 core::Hdf5Array<T> Random(std::vector<std::size_t> shape, double low, double high, core::Rng& rng) {
@@ -30,7 +30,7 @@ core::Hdf5Array<T> Random(std::vector<std::size_t> shape, double low, double hig
 
 // Returns twelve demonstrations, so that the order of their names differs from that of their
 // numbers.
-DemonstrationSet Sample() {
+DemonstrationSet DemonstrationFileSample() {
   core::Rng rng(21);
   DemonstrationSet set;
   set.env_name = "microwave";
@@ -54,14 +54,14 @@ DemonstrationSet Sample() {
 }
 
 template <typename T>
-void ExpectSame(const core::Hdf5Array<T>& a, const core::Hdf5Array<T>& b) {
+void DemonstrationFileExpectSame(const core::Hdf5Array<T>& a, const core::Hdf5Array<T>& b) {
   EXPECT_EQ(a.shape, b.shape);
   EXPECT_EQ(a.values, b.values);
 }
 
 TEST(DemonstrationFile, ReadsBackEveryBit) {
   const core::TemporaryFolder folder;
-  const DemonstrationSet set = Sample();
+  const DemonstrationSet set = DemonstrationFileSample();
   WriteDemonstrations(folder.path() / "a.hdf5", set);
   const DemonstrationSet read = ReadDemonstrations(folder.path() / "a.hdf5");
   EXPECT_EQ(read.env_name, "microwave");
@@ -72,14 +72,17 @@ TEST(DemonstrationFile, ReadsBackEveryBit) {
   for (std::size_t i = 0; i < set.demonstrations.size(); ++i) {
     const Demonstration& a = read.demonstrations[i];
     const Demonstration& b = set.demonstrations[i];
-    ExpectSame(a.actions, b.actions);
-    ExpectSame(a.states, b.states);
+    DemonstrationFileExpectSame(a.actions, b.actions);
+    DemonstrationFileExpectSame(a.states, b.states);
     EXPECT_EQ(a.rewards, b.rewards);
     EXPECT_EQ(a.dones, b.dones);
-    ExpectSame(a.observations.numbers.at("pose"), b.observations.numbers.at("pose"));
-    ExpectSame(a.observations.images.at("eye"), b.observations.images.at("eye"));
-    ExpectSame(a.next_observations.numbers.at("pose"), b.next_observations.numbers.at("pose"));
-    ExpectSame(a.next_observations.images.at("eye"), b.next_observations.images.at("eye"));
+    DemonstrationFileExpectSame(a.observations.numbers.at("pose"),
+                                b.observations.numbers.at("pose"));
+    DemonstrationFileExpectSame(a.observations.images.at("eye"), b.observations.images.at("eye"));
+    DemonstrationFileExpectSame(a.next_observations.numbers.at("pose"),
+                                b.next_observations.numbers.at("pose"));
+    DemonstrationFileExpectSame(a.next_observations.images.at("eye"),
+                                b.next_observations.images.at("eye"));
   }
 }
 
@@ -87,11 +90,11 @@ TEST(DemonstrationFile, ReadsBackEveryBit) {
 // readable here.
 TEST(DemonstrationFile, PythonReadsAndWritesTheSame) {
   const core::TemporaryFolder folder;
-  const DemonstrationSet set = Sample();
+  const DemonstrationSet set = DemonstrationFileSample();
   const fs::path ours = folder.path() / "ours.hdf5", theirs = folder.path() / "theirs.hdf5";
   const fs::path printed = folder.path() / "printed.txt";
   WriteDemonstrations(ours, set);
-  const std::string command = std::string(kPython) + " '" + SIMWRIGHT_TEST_DATA +
+  const std::string command = std::string(kDemonstrationFilePython) + " '" + SIMWRIGHT_TEST_DATA +
                               "/read_demonstrations.py' '" + ours.string() + "' '" +
                               theirs.string() + "' > '" + printed.string() + "'";
   ASSERT_EQ(std::system(command.c_str()), 0) << "python3-h5py is missing? " << command;
@@ -151,7 +154,7 @@ TEST(DemonstrationFile, PythonReadsAndWritesTheSame) {
 TEST(DemonstrationFile, RefusesWhatIsNotWhole) {
   const core::TemporaryFolder folder;
   const fs::path path = folder.path() / "a.hdf5";
-  const DemonstrationSet whole = Sample();
+  const DemonstrationSet whole = DemonstrationFileSample();
   const auto refuses = [&](const DemonstrationSet& set, const std::string& word) {
     try {
       WriteDemonstrations(path, set);
@@ -199,7 +202,7 @@ TEST(DemonstrationFile, RefusesAFileThatIsAnother) {
     writer.Commit();
   }
   EXPECT_THROW(ReadDemonstrations(path), core::Error);
-  WriteDemonstrations(path, Sample());
+  WriteDemonstrations(path, DemonstrationFileSample());
   const std::string bytes = core::ReadFile(path);
   core::WriteFile(path, bytes.substr(0, bytes.size() - 1000));
   EXPECT_THROW(ReadDemonstrations(path), core::Error);

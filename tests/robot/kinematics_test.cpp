@@ -5,12 +5,12 @@
 #include "core/error.h"
 #include "robot/inverse_kinematics.h"
 #include "robot/panda.h"
-#include "tests/robot/random_posture.h"
+#include "tests/robot/random_configuration.h"
 
 namespace simwright::robot {
 namespace {
 
-Eigen::VectorXd Posture(std::initializer_list<double> values) {
+Eigen::VectorXd Positions(std::initializer_list<double> values) {
   Eigen::VectorXd q(values.size());
   std::copy(values.begin(), values.end(), q.data());
   return q;
@@ -24,7 +24,7 @@ TEST(Panda, ForwardKinematicsMeetsPublishedPoses) {
   EXPECT_LT(Eigen::Quaterniond(0, 1, 0, 0).angularDistance(Eigen::Quaterniond(ready.linear())),
             1e-7);
   const Eigen::Isometry3d other =
-      ForwardKinematics(arm, Posture({0.1, -0.2, 0.3, -1.5, 0.5, 1.2, -0.7}));
+      ForwardKinematics(arm, Positions({0.1, -0.2, 0.3, -1.5, 0.5, 1.2, -0.7}));
   EXPECT_LT((other.translation() - Eigen::Vector3d(0.346015617, 0.282112390, 0.639389732)).norm(),
             1e-8);
   const Eigen::Quaterniond expected(-0.205092871, 0.513637207, 0.830950836, 0.060286333);
@@ -95,7 +95,7 @@ TEST(InverseKinematics, RefusesWhatIsNoTargetOrOption) {
   InverseKinematicsOptions options;
   options.damping = 0.0;
   EXPECT_THROW(SolveInverseKinematics(PandaArm(), {}, rng, options), core::Error);
-  EXPECT_THROW(ForwardKinematics(PandaArm(), Posture({0, 0})), core::Error);
+  EXPECT_THROW(ForwardKinematics(PandaArm(), Positions({0, 0})), core::Error);
 }
 
 }  // namespace

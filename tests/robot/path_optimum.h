@@ -31,8 +31,8 @@ inline Eigen::MatrixXd AlongTheWay(const JointTrajectory& trajectory,
     const double span = gone[at + 1] - gone[at];
     const double share = span > 0.0 ? std::clamp((place - gone[at]) / span, 0.0, 1.0) : 0.0;
     const auto row = static_cast<Eigen::Index>(at);
-    rows.row(i) = (1.0 - share) * trajectory.positions.row(row) +
-                  share * trajectory.positions.row(row + 1);
+    rows.row(i) =
+        (1.0 - share) * trajectory.positions.row(row) + share * trajectory.positions.row(row + 1);
   }
   return rows;
 }
@@ -77,8 +77,8 @@ inline double LeastSeconds(const Eigen::MatrixXd& rows, double step,
       const double x = 0.5 * (low + high);
       double least, largest;
       growth(i, x, &least, &largest);
-      const bool can = std::max(least, -x / (2.0 * step)) <=
-                       std::min(largest, (next - x) / (2.0 * step));
+      const bool can =
+          std::max(least, -x / (2.0 * step)) <= std::min(largest, (next - x) / (2.0 * step));
       (can ? low : high) = x;
     }
     most[static_cast<std::size_t>(i)] = low;

@@ -4,14 +4,14 @@
 
 #include "core/error.h"
 #include "robot/panda_model.h"
-#include "tests/robot/random_posture.h"
+#include "tests/robot/random_configuration.h"
 
 namespace simwright::robot {
 namespace {
 
 constexpr double kHalfDegree = 0.5 * std::numbers::pi / 180;
 
-bool WithinLimits(const Arm& arm, const Posture& q) {
+bool WithinLimits(const Arm& arm, const JointVector& q) {
   for (int j = 0; j < arm.size(); ++j) {
     if (!(q[j] >= arm.joints[j].lower && q[j] <= arm.joints[j].upper)) return false;
   }
@@ -20,7 +20,7 @@ bool WithinLimits(const Arm& arm, const Posture& q) {
 
 // Computes the error with the other kinematics and Eigen's quaternions, independently of the
 // solver.
-PoseError TrueError(const Arm& arm, const Posture& q, const Eigen::Isometry3d& target) {
+PoseError TrueError(const Arm& arm, const JointVector& q, const Eigen::Isometry3d& target) {
   const Eigen::Isometry3d tool = ForwardKinematics(arm, q);
   return {(tool.translation() - target.translation()).norm(),
           Eigen::Quaterniond(tool.linear()).angularDistance(Eigen::Quaterniond(target.linear()))};
@@ -78,8 +78,8 @@ INSTANTIATE_TEST_SUITE_P(Robots, EveryArm,
                          testing::Values("panda/panda.urdf", "panda/panda_on_base.urdf",
                                          "generic6/generic6.urdf"));
 
-Posture StepsOf(const RobotModel& model, double seconds) {
-  Posture steps(model.arm.size());
+JointVector StepsOf(const RobotModel& model, double seconds) {
+  JointVector steps(model.arm.size());
   const std::vector<JointLimits> limits = model.ArmLimits();
   for (int j = 0; j < model.arm.size(); ++j) steps[j] = limits[j].velocity * seconds;
   return steps;
@@ -90,14 +90,14 @@ TEST(Track, FollowsAPathWithinLimitsAndSteps) {
   const RobotModel& model = Panda(false);
   const PoseInverseKinematics solver(model.arm);
   const Eigen::Isometry3d home = ForwardKinematics(model.arm, model.home());
-  const Posture steps = StepsOf(model, 1.0 / 60.0);
-  Posture q = model.home();
+  const JointVector steps = StepsOf(model, 1.0 / 60.0);
+  JointVector q = model.home();
   for (int i = 0; i < 600; ++i) {
     const double angle = std::numbers::pi * i / 60.0;
     Eigen::Isometry3d target = home;
     target.translation() += 0.1 * Eigen::Vector3d(0, std::sin(angle), 1.0 - std::cos(angle));
     target.rotate(Eigen::AngleAxisd(0.3 * std::sin(angle), Eigen::Vector3d::UnitX()));
-    const Posture before = q;
+    const JointVector before = q;
     const PoseError said = solver.Track(target, steps, &q);
     ASSERT_TRUE(WithinLimits(model.arm, q));
     for (int j = 0; j < 7; ++j) EXPECT_LE(std::abs(q[j] - before[j]), steps[j] * (1 + 1e-12));
@@ -109,7 +109,7 @@ TEST(Track, FollowsAPathWithinLimitsAndSteps) {
 }
 
 // Returns |weighted error|^2 of a configuration: the cost that tracking minimizes.
-double Misses(const Arm& arm, const Posture& q, const Eigen::Isometry3d& target) {
+double Misses(const Arm& arm, const JointVector& q, const Eigen::Isometry3d& target) {
   const PoseError error = TrueError(arm, q, target);
   const double angle = PoseInverseKinematicsOptions().angle_weight * error.angle;
   return error.position * error.position + angle * angle;
@@ -120,14 +120,14 @@ double Misses(const Arm& arm, const Posture& q, const Eigen::Isometry3d& target)
 TEST(Track, ComesToRestAsNearAsCanBe) {
   const RobotModel& model = Panda(false);
   const PoseInverseKinematics solver(model.arm);
-  const Posture steps = StepsOf(model, 1.0 / 60.0);
+  const JointVector steps = StepsOf(model, 1.0 / 60.0);
   core::Rng rng(4);
   for (const Eigen::Vector3d& far :
        {Eigen::Vector3d(1.5, 0.2, 0.4), Eigen::Vector3d(0.1, 0, 1.9),
         Eigen::Vector3d(-1.0, 0.9, 0.8), Eigen::Vector3d(0, 0, -0.8)}) {
     Eigen::Isometry3d target = ForwardKinematics(model.arm, model.home());
     target.translation() = far;
-    Posture q = model.home(), before = q;
+    JointVector q = model.home(), before = q;
     double largest = 0.0;
     for (int i = 0; i < 3000; ++i) {
       before = q;
@@ -138,7 +138,7 @@ TEST(Track, ComesToRestAsNearAsCanBe) {
     EXPECT_LT(largest, 1e-5) << far.transpose();  // rad a call: no jitter
     const double rest = Misses(model.arm, q, target);
     for (int trial = 0; trial < 2000; ++trial) {
-      Posture other = q;
+      JointVector other = q;
       for (int j = 0; j < 7; ++j) {
         other[j] = std::clamp(q[j] + 1e-3 * core::Normal(rng), model.arm.joints[j].lower,
                               model.arm.joints[j].upper);
@@ -150,10 +150,10 @@ TEST(Track, ComesToRestAsNearAsCanBe) {
 
 // With the tool at its target, the elbow drifts home and the tool stays.
 // Returns a configuration of a 7-joint arm, other than home, with the tool at `target`.
-Posture Elsewhere(const RobotModel& model, const PoseInverseKinematics& solver,
-                  const Eigen::Isometry3d& target) {
+JointVector Elsewhere(const RobotModel& model, const PoseInverseKinematics& solver,
+                      const Eigen::Isometry3d& target) {
   core::Rng rng(5);
-  Posture away = model.home();
+  JointVector away = model.home();
   away[0] += 0.5;
   away[2] -= 0.6;
   return solver.Solve(target, away, rng).q;
@@ -163,9 +163,9 @@ TEST(Track, DriftsHomeWithoutMovingTheTool) {
   const RobotModel& model = Panda(false);
   const PoseInverseKinematics solver(model.arm);
   const Eigen::Isometry3d target = ForwardKinematics(model.arm, model.home());
-  Posture q = Elsewhere(model, solver, target);
+  JointVector q = Elsewhere(model, solver, target);
   ASSERT_GT((q - model.home()).norm(), 0.3);
-  const Posture steps = StepsOf(model, 1.0 / 60.0);
+  const JointVector steps = StepsOf(model, 1.0 / 60.0);
   for (int i = 0; i < 20; ++i) solver.Track(target, steps, &q);
   for (int i = 0; i < 600; ++i) {
     const PoseError error = solver.Track(target, steps, &q);
@@ -179,10 +179,10 @@ TEST(Track, DriftsToRestWhereThatIsNotHome) {
   const RobotModel& model = Panda(false);
   const PoseInverseKinematics solver(model.arm);
   const Eigen::Isometry3d target = ForwardKinematics(model.arm, model.home());
-  const Posture rest = Elsewhere(model, solver, target);
+  const JointVector rest = Elsewhere(model, solver, target);
   ASSERT_GT((rest - model.home()).norm(), 0.3);
-  Posture q = model.home();
-  const Posture steps = StepsOf(model, 1.0 / 60.0);
+  JointVector q = model.home();
+  const JointVector steps = StepsOf(model, 1.0 / 60.0);
   for (int i = 0; i < 600; ++i) {
     const PoseError error = solver.Track(target, steps, &q, &rest);
     EXPECT_LT(error.position, 1e-3);
@@ -194,7 +194,7 @@ TEST(Track, DriftsToRestWhereThatIsNotHome) {
 TEST(Track, PutsAPostureOutsideItsLimitsBack) {
   const RobotModel& model = Panda(false);
   const PoseInverseKinematics solver(model.arm);
-  Posture q = Posture::Constant(7, 9.0);
+  JointVector q = JointVector::Constant(7, 9.0);
   solver.Track(ForwardKinematics(model.arm, model.home()), StepsOf(model, 1.0 / 60.0), &q);
   EXPECT_TRUE(WithinLimits(model.arm, q));
 }
@@ -216,7 +216,7 @@ TEST(PoseInverseKinematics, RefusesWhatIsNoTargetOptionOrArm) {
   const PoseInverseKinematics solver(model.arm);
   core::Rng rng(1);
   Eigen::Isometry3d target = Eigen::Isometry3d::Identity();
-  EXPECT_THROW(solver.Solve(target, Posture::Zero(6), rng), core::Error);
+  EXPECT_THROW(solver.Solve(target, JointVector::Zero(6), rng), core::Error);
   target.translation().x() = std::nan("");
   EXPECT_THROW(solver.Solve(target, model.home(), rng), core::Error);
   PoseInverseKinematicsOptions options;

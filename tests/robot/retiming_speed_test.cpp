@@ -19,7 +19,7 @@ TEST(LeastSeconds, IsTheTrapezoidOfOneJoint) {
   EXPECT_NEAR(LeastSeconds(rows, 1.0 / 2000.0, {{-2, 2, 2, 10, 1e4, 0}}), 0.7, 1e-3);
 }
 
-TEST(FastestSpeeds, AreTheTrapezoidsOfOneJoint) {
+TEST(MaxPathSpeeds, AreTheTrapezoidsOfOneJoint) {
   PathDerivatives path;
   path.step = 0.001;
   path.first = Eigen::MatrixXd::Ones(1, 1001);
@@ -27,11 +27,11 @@ TEST(FastestSpeeds, AreTheTrapezoidsOfOneJoint) {
   const std::vector<JointLimits> limits = {{-2, 2, 2, 10, 1e4, 0}};
   const std::vector<double> most(1001, 50.0);
   // The speed at the end is bounded by velocity only, as no point follows.
-  const std::vector<double> speeds = FastestSpeeds(path, limits, most);
+  const std::vector<double> speeds = MaxPathSpeeds(path, limits, most);
   for (const double speed : speeds) EXPECT_NEAR(speed, 2.0, 1e-9);
   // A point that must be passed at 0.5 /s: v^2 = 0.25 + 2 a s on both sides.
   path.first(0, 500) = 4.0;
-  const std::vector<double> slowed = FastestSpeeds(path, limits, most);
+  const std::vector<double> slowed = MaxPathSpeeds(path, limits, most);
   EXPECT_NEAR(slowed[500], 0.5, 1e-9);
   EXPECT_NEAR(slowed[450], std::sqrt(0.25 + 20.0 * 0.05), 0.02);
   EXPECT_NEAR(slowed[550], std::sqrt(0.25 + 20.0 * 0.05), 0.02);
@@ -49,7 +49,7 @@ TEST_P(AtTheLimits, TakesLittleMoreThanTheOptimumWithoutJerk) {
   const RobotModel& model = Panda(false);
   const RetimedJoints joints = JointsToRetime(model);
   RetimingOptions options;
-  options.fastest = 100.0;
+  options.max_speed_up = 100.0;
   for (std::uint64_t seed = 30; seed < 33; ++seed) {
     const RecordedPath path = MakeMotion(model, GetParam().kind, 4.0, seed);
     const Retimed retimed = Retime(path, joints.limits, joints.sliding, &model.arm, options);
@@ -86,11 +86,11 @@ TEST(Retiming, KeepsThePaceWhereItIsAsked) {
   }
   const std::vector<JointLimits> limits = {{-2, 2, 2, 10, 5000, 0}};
   RetimingOptions options;
-  options.fastest = 100.0;
+  options.max_speed_up = 100.0;
   // Twice 0.1 rad at 10 rad/s^2 takes 0.2 s, and each of four halts some hundredths.
   EXPECT_LT(Retime(path, limits, {false}, nullptr, options).trajectory.times.back(), 0.62);
-  path.paces.assign(181, 100.0);
-  for (Eigen::Index k = 60; k <= 120; ++k) path.paces[static_cast<std::size_t>(k)] = 1.0;
+  path.speed_ups.assign(181, 100.0);
+  for (Eigen::Index k = 60; k <= 120; ++k) path.speed_ups[static_cast<std::size_t>(k)] = 1.0;
   const Retimed kept = Retime(path, limits, {false}, nullptr, options);
   EXPECT_GE(kept.waypoint_times[120] - kept.waypoint_times[60], 0.999);
   EXPECT_LT(kept.trajectory.times.back(), 1.75);

@@ -61,8 +61,8 @@ TEST_P(AnyMotion, IsAcceptedAndStaysClose) {
       const Eigen::RowVectorXd q = PositionsAt(trajectory, retimed.waypoint_times[k]);
       for (Eigen::Index j = 0; j < q.size(); ++j) {
         const double allowed = joints.sliding[static_cast<std::size_t>(j)]
-                                   ? options.sliding_deviation
-                                   : options.turning_deviation;
+                                   ? options.prismatic_deviation
+                                   : options.revolute_deviation;
         const double way = std::abs(q[j] - path.positions(row, j));
         ASSERT_LE(way, allowed + 1e-7) << path.joints[static_cast<std::size_t>(j)] << " " << k;
         ASSERT_LE(way, retimed.deviations[j] + 1e-7);
@@ -219,9 +219,9 @@ TEST(Retiming, RefusesWhatCannotBeMade) {
   path.positions.conservativeResize(3, 1);
   ExpectRefused(path, {}, {"3 positions"});
   path.positions.conservativeResize(2, 1);
-  ExpectRefused(path, {}, {"one size"});
+  ExpectRefused(path, {}, {"sizes of names"});
   RetimingOptions options;
-  options.most_stretch = 1.0;
+  options.max_stretch = 1.0;
   ExpectRefused(Cosine(1.5, 0.4), options,
                 {"'joint' at 0.2 s", "velocity 5.8", "limit is 2", "than 1 times"});
   options = {};

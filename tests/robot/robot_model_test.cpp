@@ -9,7 +9,7 @@
 #include "geometry/mass_properties.h"
 #include "robot/panda.h"
 #include "robot/panda_model.h"
-#include "tests/robot/random_posture.h"
+#include "tests/robot/random_configuration.h"
 
 namespace simwright::robot {
 namespace {
@@ -50,7 +50,7 @@ TEST(PandaModel, UrdfAgreesWithTheTableOfJoints) {
     EXPECT_EQ(model.arm.joints[j].upper, PandaArm().joints[j].upper);
   }
   EXPECT_TRUE(model.home().isApprox(PandaArm().ready, 1e-15));
-  EXPECT_DOUBLE_EQ(model.gripper.MaxOpening(), kPandaOpening);
+  EXPECT_DOUBLE_EQ(model.gripper.MaxOpening(), kPandaGripperOpening);
 }
 
 // The manufacturer's joint origins, multiplied independently of this code.

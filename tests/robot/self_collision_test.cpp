@@ -8,7 +8,7 @@
 #include "assets/joint_poses.h"
 #include "geometry/distance.h"
 #include "robot/robot_model.h"
-#include "tests/robot/random_posture.h"
+#include "tests/robot/random_configuration.h"
 
 namespace simwright::robot {
 namespace {

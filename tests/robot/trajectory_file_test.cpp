@@ -16,12 +16,12 @@ namespace simwright::robot {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr const char* kPython = "/usr/bin/python3";
+constexpr const char* kTrajectoryFilePython = "/usr/bin/python3";
 constexpr TrajectoryFormat kFormats[] = {TrajectoryFormat::kRosYaml, TrajectoryFormat::kRosJson,
                                          TrajectoryFormat::kCsv};
 
 // Numbers of all sizes and signs, at 1 kHz; at least 5 samples.
-JointTrajectory Sample(Eigen::Index samples = 50, bool efforts = true) {
+JointTrajectory TrajectoryFileSample(Eigen::Index samples = 50, bool efforts = true) {
   core::Rng rng(8);
   JointTrajectory trajectory;
   trajectory.joints = {"panda_joint1", "arm/elbow.2"};
@@ -46,7 +46,7 @@ JointTrajectory Sample(Eigen::Index samples = 50, bool efforts = true) {
   return trajectory;
 }
 
-void ExpectSame(const JointTrajectory& a, const JointTrajectory& b) {
+void TrajectoryFileExpectSame(const JointTrajectory& a, const JointTrajectory& b) {
   EXPECT_EQ(a.joints, b.joints);
   EXPECT_EQ(a.times, b.times);
   EXPECT_EQ(a.positions, b.positions);
@@ -58,12 +58,12 @@ void ExpectSame(const JointTrajectory& a, const JointTrajectory& b) {
 TEST(TrajectoryFile, ReadsBackEveryBit) {
   const core::TemporaryFolder folder;
   for (const bool efforts : {true, false}) {
-    JointTrajectory trajectory = Sample(50, efforts);
+    JointTrajectory trajectory = TrajectoryFileSample(50, efforts);
     trajectory.notes = {{"task", "open the door: slowly"}, {"seed", "7"}};
     for (const char* name : {"a.yaml", "a.yml", "a.json", "a.csv"}) {
       WriteTrajectory(folder.path() / name, trajectory);
       const JointTrajectory read = ReadTrajectory(folder.path() / name);
-      ExpectSame(read, trajectory);
+      TrajectoryFileExpectSame(read, trajectory);
       if (std::string(name) != "a.json") {
         EXPECT_EQ(read.notes, trajectory.notes);
       }
@@ -80,18 +80,19 @@ TEST(TrajectoryFile, TimesOfALongMotionReadBackToo) {
   }
   trajectory.positions = Eigen::MatrixXd::Zero(kSamples, 1);
   for (const TrajectoryFormat format : kFormats) {
-    ExpectSame(ParseTrajectory(TrajectoryText(trajectory, format), format, "text"), trajectory);
+    TrajectoryFileExpectSame(ParseTrajectory(TrajectoryText(trajectory, format), format, "text"),
+                             trajectory);
   }
 }
 
 // Python's readers read the same numbers, bit for bit.
 TEST(TrajectoryFile, PythonReadsTheSame) {
   const core::TemporaryFolder folder;
-  const JointTrajectory trajectory = Sample();
+  const JointTrajectory trajectory = TrajectoryFileSample();
   for (const std::string name : {"a.yaml", "a.json"}) {
     const fs::path file = folder.path() / name, printed = folder.path() / "printed.txt";
     WriteTrajectory(file, trajectory);
-    const std::string command = std::string(kPython) + " '" + SIMWRIGHT_TEST_DATA +
+    const std::string command = std::string(kTrajectoryFilePython) + " '" + SIMWRIGHT_TEST_DATA +
                                 "/read_trajectory.py' '" + file.string() + "' > '" +
                                 printed.string() + "'";
     ASSERT_EQ(std::system(command.c_str()), 0) << "python3-yaml is missing? " << command;
@@ -136,7 +137,7 @@ TEST(TrajectoryFile, ReadsListsOfOneEntryALine) {
 }
 
 TEST(TrajectoryFile, RefusesAFileThatIsCutOff) {
-  const JointTrajectory trajectory = Sample(5);
+  const JointTrajectory trajectory = TrajectoryFileSample(5);
   for (const TrajectoryFormat format : kFormats) {
     const std::string whole = TrajectoryText(trajectory, format);
     // Without the last newline no content is missing.
@@ -201,7 +202,7 @@ TEST(TrajectoryFile, RefusesWhatIsNoTrajectory) {
 }
 
 TEST(TrajectoryFile, RefusesToWriteWhatItCouldNotRead) {
-  const JointTrajectory whole = Sample(5);
+  const JointTrajectory whole = TrajectoryFileSample(5);
   const core::TemporaryFolder folder;
   EXPECT_THROW(WriteTrajectory(folder.path() / "a.txt", whole), core::Error);
   for (const TrajectoryFormat format : kFormats) {
@@ -227,9 +228,9 @@ TEST(TrajectoryFile, RefusesToWriteWhatItCouldNotRead) {
   JointTrajectory gap = whole;
   gap.velocities.resize(0, 0);
   EXPECT_THROW(TrajectoryText(gap, TrajectoryFormat::kCsv), core::Error);
-  ExpectSame(ParseTrajectory(TrajectoryText(gap, TrajectoryFormat::kRosJson),
-                             TrajectoryFormat::kRosJson, "text"),
-             gap);
+  TrajectoryFileExpectSame(ParseTrajectory(TrajectoryText(gap, TrajectoryFormat::kRosJson),
+                                           TrajectoryFormat::kRosJson, "text"),
+                           gap);
 }
 
 }  // namespace

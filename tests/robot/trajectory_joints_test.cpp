@@ -12,7 +12,7 @@ namespace {
 
 const std::vector<std::string> kJoints = {"panda_joint1", "panda_joint2", "panda_finger_joint1"};
 
-JointTrajectory Sample() {
+JointTrajectory TrajectoryJointsSample() {
   JointTrajectory trajectory;
   trajectory.joints = kJoints;
   trajectory.times = {0.0, 0.1};
@@ -23,7 +23,7 @@ JointTrajectory Sample() {
 }
 
 TEST(TrajectoryJoints, PartsJoinToTheWhole) {
-  const JointTrajectory whole = Sample();
+  const JointTrajectory whole = TrajectoryJointsSample();
   const JointTrajectory arm = JointsOf(whole, {kJoints[0], kJoints[1]});
   EXPECT_EQ(arm.positions, whole.positions.leftCols(2));
   EXPECT_EQ(arm.accelerations.size(), 0);
@@ -41,13 +41,14 @@ TEST(TrajectoryJoints, PartsJoinToTheWhole) {
 }
 
 TEST(JointNames, AreThoseOfAPandaAndOfAResearch3) {
-  EXPECT_EQ(Renamed(Sample(), JointNamesFor("panda", kJoints).names).joints, kJoints);
+  EXPECT_EQ(Renamed(TrajectoryJointsSample(), JointNamesFor("panda", kJoints).names).joints,
+            kJoints);
   const JointNames fr3 = JointNamesFor("fr3", kJoints);
-  EXPECT_EQ(Renamed(Sample(), fr3.names).joints,
+  EXPECT_EQ(Renamed(TrajectoryJointsSample(), fr3.names).joints,
             (std::vector<std::string>{"fr3_joint1", "fr3_joint2", "fr3_finger_joint1"}));
   // Its joints have smaller ranges and accelerations than a Panda's: 10 against 15 rad/s^2.
   const JointLimits panda = {-2.8973, 2.8973, 2.175, 15.0, 7500.0, 87.0};
-  const JointLimits both = TighterOf(panda, fr3.limits.at("panda_joint1"));
+  const JointLimits both = TighterLimits(panda, fr3.limits.at("panda_joint1"));
   EXPECT_EQ(both.upper, 2.7437);
   EXPECT_EQ(both.velocity, 2.175);
   EXPECT_EQ(both.acceleration, 10.0);
@@ -59,7 +60,8 @@ TEST(JointNames, AreReadFromAFile) {
   const core::TemporaryFolder folder;
   const std::string file = folder.path() / "names.json";
   core::WriteFile(file, R"({"panda_joint2": "left/elbow"})");
-  EXPECT_EQ(Renamed(Sample(), JointNamesFor(file, kJoints).names).joints[1], "left/elbow");
+  EXPECT_EQ(Renamed(TrajectoryJointsSample(), JointNamesFor(file, kJoints).names).joints[1],
+            "left/elbow");
   for (const char* text : {"{\"panda_joint2\": \"panda_joint1\"}", "{\"elbow\": \"a\"}", "[1]",
                            "{\"panda_joint2\": 1}", "{\"panda_joint2\": "}) {
     core::WriteFile(file, text);

@@ -16,7 +16,7 @@ std::vector<Eigen::Vector3d> BoxShape(double x, double y, double z) {
   return ShapeOf(assets::BoxMesh({x, y, z}), kPoints);
 }
 
-SceneModelOptions Small(DenoiserKind kind) {
+SceneModelOptions ClassShapesSmall(DenoiserKind kind) {
   SceneModelOptions options;
   options.kind = kind;
   options.width = 32;
@@ -44,8 +44,9 @@ TEST_P(ClassShapesOf, AnotherOrderOfClassesIsTheSameInThatOrder) {
   torch::manual_seed(3);
   const auto cup = BoxShape(0.08, 0.08, 0.1), plate = BoxShape(0.25, 0.25, 0.02),
              floor = BoxShape(10, 10, 0.1);
-  const auto start = MakeDenoiser(Small(GetParam()), 4), a = MakeDenoiser(Small(GetParam()), 4),
-             b = MakeDenoiser(Small(GetParam()), 5);
+  const auto start = MakeDenoiser(ClassShapesSmall(GetParam()), 4),
+             a = MakeDenoiser(ClassShapesSmall(GetParam()), 4),
+             b = MakeDenoiser(ClassShapesSmall(GetParam()), 5);
   CopyParameters(*start, a.get());
   CopyParameters(*start, b.get());
   a->SetShapes({{cup, plate, floor}});
@@ -70,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Denoisers, ClassShapesOf,
                          ::testing::Values(DenoiserKind::kFlux, DenoiserKind::kTransformer));
 
 TEST(ClassShapes, KeepsWhatItWasGiven) {
-  const auto denoiser = MakeDenoiser(Small(DenoiserKind::kFlux), 3);
+  const auto denoiser = MakeDenoiser(ClassShapesSmall(DenoiserKind::kFlux), 3);
   const AssetShapes shapes = {{BoxShape(0.1, 0.2, 0.3), BoxShape(1, 1, 1)}};
   denoiser->SetShapes(shapes);
   const AssetShapes kept = denoiser->Shapes();
@@ -82,14 +83,14 @@ TEST(ClassShapes, KeepsWhatItWasGiven) {
 }
 
 TEST(ClassShapes, RefusesOtherNumbersAndModelsWithATable) {
-  const auto denoiser = MakeDenoiser(Small(DenoiserKind::kFlux), 3);
+  const auto denoiser = MakeDenoiser(ClassShapesSmall(DenoiserKind::kFlux), 3);
   EXPECT_THROW(denoiser->SetShapes({{BoxShape(1, 1, 1)}}), core::Error);
   EXPECT_THROW(denoiser->SetShapes({{BoxShape(1, 1, 1), {{0, 0, 0}}}}), core::Error);
-  SceneModelOptions table = Small(DenoiserKind::kFlux);
+  SceneModelOptions table = ClassShapesSmall(DenoiserKind::kFlux);
   table.shape_points = 0;
   EXPECT_THROW(MakeDenoiser(table, 3)->Shapes(), core::Error);
-  EXPECT_THROW(MakeDenoiser(Small(DenoiserKind::kUnet), 3), core::Error);
-  SceneModelOptions numbers = Small(DenoiserKind::kFlux);
+  EXPECT_THROW(MakeDenoiser(ClassShapesSmall(DenoiserKind::kUnet), 3), core::Error);
+  SceneModelOptions numbers = ClassShapesSmall(DenoiserKind::kFlux);
   numbers.continuous = true;
   EXPECT_THROW(MakeDenoiser(numbers, 3), core::Error);
 }

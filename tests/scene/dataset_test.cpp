@@ -10,37 +10,38 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "scene/dataset/part_claim.h"
 #include "scene/dataset/pose_range.h"
 #include "scene/dataset/scene_stream.h"
+#include "scene/dataset/shard_claim.h"
 #include "scene/dataset/tokens.h"
-#include "scene/grammar/dimsum.h"
+#include "scene/scene_types/dimsum.h"
 
 namespace simwright::scene {
 namespace {
 namespace fs = std::filesystem;
 
-Vocabulary Words() {
+Vocabulary DatasetWords() {
   return {"test", 4, {"bowl", "cup", "table"}, {false, false, true}};
 }
 
-DrawnObject Thing(const std::string& slot, double x, double turn) {
-  DrawnObject object;
-  object.slot = slot;
-  object.welded = slot == "table";
+SceneObject DatasetArticulatedObject(const std::string& category, double x, double turn) {
+  SceneObject object;
+  object.category = category;
+  object.welded = category == "table";
   object.world_from_object = Eigen::Translation3d(x, -x, 0.7) *
                              Eigen::AngleAxisd(turn, Eigen::Vector3d(1, 2, 3).normalized());
   return object;
 }
 
 // Scene i: a table, and a cup whose position encodes i.
-ScenePart Part(int number, int scenes) {
-  ScenePart part{Words(), {5, number, "{}", "{}", "1"}, {}, {}};
-  const size_t size = static_cast<size_t>(Words().entries * Words().TokenWidth());
+SceneShard Part(int number, int scenes) {
+  SceneShard part{DatasetWords(), {5, number, "{}", "{}", "1"}, {}, {}};
+  const size_t size = static_cast<size_t>(DatasetWords().entries * DatasetWords().TokenWidth());
   for (int i = 0; i < scenes; ++i) {
     part.tokens.resize(part.tokens.size() + size);
-    EncodeScene({Thing("table", 0.0, 0.1), Thing("cup", 100 * number + i, 0.3 * i)}, Words(),
-                &part.tokens[part.tokens.size() - size]);
+    EncodeScene({DatasetArticulatedObject("table", 0.0, 0.1),
+                 DatasetArticulatedObject("cup", 100 * number + i, 0.3 * i)},
+                DatasetWords(), &part.tokens[part.tokens.size() - size]);
     part.attempts.push_back({3, 2, 1, true, true, 1e-3 * i, 1e-5, 2e-4});
     part.attempts.push_back({4, 1, 3, false, false, 0.0, 0.5, 0.1});
   }
@@ -48,26 +49,31 @@ ScenePart Part(int number, int scenes) {
 }
 
 int NumberOf(const float* tokens) {
-  return static_cast<int>(tokens[Words().TokenWidth()]);
+  return static_cast<int>(tokens[DatasetWords().TokenWidth()]);
 }
 
 TEST(SceneTokens, ComeBackAsTheyWere) {
-  const std::vector<DrawnObject> objects = {Thing("table", 0.0, 0.0), Thing("cup", 0.31, 2.9),
-                                            Thing("bowl", -0.2, -1.0)};
-  std::vector<float> tokens(static_cast<size_t>(Words().entries * Words().TokenWidth()));
-  EncodeScene(objects, Words(), tokens.data());
-  EXPECT_EQ(FaultOfTokens(tokens.data(), Words()), "");
+  const std::vector<SceneObject> objects = {DatasetArticulatedObject("table", 0.0, 0.0),
+                                            DatasetArticulatedObject("cup", 0.31, 2.9),
+                                            DatasetArticulatedObject("bowl", -0.2, -1.0)};
+  std::vector<float> tokens(
+      static_cast<size_t>(DatasetWords().entries * DatasetWords().TokenWidth()));
+  EncodeScene(objects, DatasetWords(), tokens.data());
+  EXPECT_EQ(ValidateTokens(tokens.data(), DatasetWords()), "");
   EXPECT_EQ(tokens[12 + 2], 1.0f);  // a table is class 2 of (bowl, cup, table, empty)
-  EXPECT_EQ(tokens[static_cast<size_t>(3 * Words().TokenWidth() + 12 + 3)], 1.0f);
-  const std::vector<DrawnObject> back = DecodeScene(tokens.data(), Words());
+  EXPECT_EQ(tokens[static_cast<size_t>(3 * DatasetWords().TokenWidth() + 12 + 3)], 1.0f);
+  const std::vector<SceneObject> back = DecodeScene(tokens.data(), DatasetWords());
   ASSERT_EQ(back.size(), 3u);
   for (size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(back[i].slot, objects[i].slot);
+    EXPECT_EQ(back[i].category, objects[i].category);
     EXPECT_EQ(back[i].welded, objects[i].welded);
     EXPECT_TRUE(back[i].world_from_object.isApprox(objects[i].world_from_object, 1e-6));
   }
-  EXPECT_THROW(EncodeScene({Thing("spoon", 0, 0)}, Words(), tokens.data()), core::Error);
-  EXPECT_THROW(EncodeScene(std::vector<DrawnObject>(5, Thing("cup", 0, 0)), Words(), tokens.data()),
+  EXPECT_THROW(
+      EncodeScene({DatasetArticulatedObject("spoon", 0, 0)}, DatasetWords(), tokens.data()),
+      core::Error);
+  EXPECT_THROW(EncodeScene(std::vector<SceneObject>(5, DatasetArticulatedObject("cup", 0, 0)),
+                           DatasetWords(), tokens.data()),
                core::Error);
 }
 
@@ -90,12 +96,13 @@ TEST(SceneTokens, TheNearestRotationIsTheNearest) {
 }
 
 TEST(SceneTokens, SayWhatIsWrong) {
-  std::vector<float> sound(static_cast<size_t>(Words().entries * Words().TokenWidth()));
-  EncodeScene({Thing("cup", 0.1, 0.5)}, Words(), sound.data());
+  std::vector<float> sound(
+      static_cast<size_t>(DatasetWords().entries * DatasetWords().TokenWidth()));
+  EncodeScene({DatasetArticulatedObject("cup", 0.1, 0.5)}, DatasetWords(), sound.data());
   const auto fault = [&](size_t index, float value) {
     std::vector<float> tokens = sound;
     tokens[index] = value;
-    return FaultOfTokens(tokens.data(), Words());
+    return ValidateTokens(tokens.data(), DatasetWords());
   };
   EXPECT_NE(fault(1, NAN).find("finite"), std::string::npos);
   EXPECT_NE(fault(12, 1.0f).find("one-hot"), std::string::npos);
@@ -115,13 +122,13 @@ TEST(SceneVocabulary, IsTheGrammars) {
 
 TEST(SceneDataset, ReadsAcrossItsParts) {
   const core::TemporaryFolder folder;
-  for (int i = 0; i < 3; ++i) WritePart(Part(i, 5 + i), folder.path() / PartName(i));
+  for (int i = 0; i < 3; ++i) WriteShard(Part(i, 5 + i), folder.path() / ShardName(i));
   const SceneDataset dataset(folder.path());
   EXPECT_EQ(dataset.SceneCount(), 18);
-  EXPECT_EQ(dataset.vocabulary(), Words());
+  EXPECT_EQ(dataset.vocabulary(), DatasetWords());
   EXPECT_EQ(dataset.Attempts().size(), 36u);
   EXPECT_EQ(dataset.Attempts()[2], Part(0, 5).attempts[2]);
-  const size_t size = static_cast<size_t>(Words().entries * Words().TokenWidth());
+  const size_t size = static_cast<size_t>(DatasetWords().entries * DatasetWords().TokenWidth());
   const std::vector<float> tokens = dataset.Read(3, 9);
   ASSERT_EQ(tokens.size(), 9 * size);
   std::vector<int> numbers;
@@ -129,12 +136,12 @@ TEST(SceneDataset, ReadsAcrossItsParts) {
   EXPECT_EQ(numbers, (std::vector<int>{3, 4, 100, 101, 102, 103, 104, 105, 200}));
   EXPECT_THROW(dataset.Read(10, 9), core::Error);
   EXPECT_THROW(dataset.Read(-1, 2), core::Error);
-  EXPECT_EQ(SceneDataset(folder.path() / PartName(1)).SceneCount(), 6);
+  EXPECT_EQ(SceneDataset(folder.path() / ShardName(1)).SceneCount(), 6);
 }
 
 TEST(SceneDataset, H5pyReadsTheSame) {
   const core::TemporaryFolder folder;
-  WritePart(Part(0, 5), folder.path() / PartName(0));
+  WriteShard(Part(0, 5), folder.path() / ShardName(0));
   const std::string script =
       "import h5py, numpy as np, sys\n"
       "f = h5py.File(sys.argv[1])\n"
@@ -151,11 +158,11 @@ TEST(SceneDataset, H5pyReadsTheSame) {
       "assert f['attempt_counts'].shape == (10, 5) and f['attempt_figures'].shape == (10, 3)\n";
   core::WriteFile(folder.path() / "read.py", script);
   const std::string command = "/usr/bin/python3 " + (folder.path() / "read.py").string() + " " +
-                              (folder.path() / PartName(0)).string();
+                              (folder.path() / ShardName(0)).string();
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
-std::string ErrorOf(const fs::path& path) {
+std::string DatasetErrorOf(const fs::path& path) {
   try {
     const SceneDataset dataset(path);
     dataset.Read(0, dataset.SceneCount());
@@ -167,41 +174,42 @@ std::string ErrorOf(const fs::path& path) {
 
 TEST(SceneDataset, RefusesWhatIsDamaged) {
   const core::TemporaryFolder folder;
-  const fs::path path = folder.path() / PartName(0);
-  EXPECT_NE(ErrorOf(folder.path()).find("no scenes"), std::string::npos);
-  WritePart(Part(0, 40), path);
+  const fs::path path = folder.path() / ShardName(0);
+  EXPECT_NE(DatasetErrorOf(folder.path()).find("no scenes"), std::string::npos);
+  WriteShard(Part(0, 40), path);
   const std::string bytes = core::ReadFile(path);
-  EXPECT_EQ(ErrorOf(path), "");
+  EXPECT_EQ(DatasetErrorOf(path), "");
   for (const double share : {0.0, 0.3, 0.7, 0.99}) {
     core::WriteFile(path, bytes.substr(0, static_cast<size_t>(share * bytes.size())));
-    EXPECT_NE(ErrorOf(path).find(path.string()), std::string::npos) << share;
+    EXPECT_NE(DatasetErrorOf(path).find(path.string()), std::string::npos) << share;
   }
   core::WriteFile(path, "no HDF5 at all");
-  EXPECT_NE(ErrorOf(path).find("HDF5"), std::string::npos);
+  EXPECT_NE(DatasetErrorOf(path).find("HDF5"), std::string::npos);
   {
     core::Hdf5Writer writer(path);
     writer.root().SetAttribute("format", "simwright scenes");
     writer.root().SetAttribute("version", std::int64_t{2});
     writer.Commit();
   }
-  EXPECT_NE(ErrorOf(path).find("version 2"), std::string::npos);
-  ScenePart part = Part(0, 3);
+  EXPECT_NE(DatasetErrorOf(path).find("version 2"), std::string::npos);
+  SceneShard part = Part(0, 3);
   part.tokens[20] = NAN;
-  WritePart(part, path);
-  EXPECT_NE(ErrorOf(path).find("scene 0: entry 1: a number is not finite"), std::string::npos);
+  WriteShard(part, path);
+  EXPECT_NE(DatasetErrorOf(path).find("scene 0: entry 1: a number is not finite"),
+            std::string::npos);
   part = Part(0, 3);
   part.attempts[0].sound = false;
   part.tokens.resize(part.tokens.size() / 3 * 2);
   part.attempts.push_back({3, 3, 0, true, true, 0, 0, 0});
-  WritePart(part, path);
-  EXPECT_EQ(ErrorOf(path), "");  // valid scenes are counted at any position
+  WriteShard(part, path);
+  EXPECT_EQ(DatasetErrorOf(path), "");  // valid scenes are counted at any position
 }
 
 // Flips bytes at all positions: libhdf5 alone would crash for one in forty.
 TEST(SceneDataset, RefusesEveryFlippedByte) {
   const core::TemporaryFolder folder;
-  const fs::path path = folder.path() / PartName(0);
-  WritePart(Part(0, 40), path);
+  const fs::path path = folder.path() / ShardName(0);
+  WriteShard(Part(0, 40), path);
   const std::string bytes = core::ReadFile(path);
   core::Rng rng = core::StreamRng(1, 0);
   for (int i = 0; i < 500; ++i) {
@@ -211,27 +219,27 @@ TEST(SceneDataset, RefusesEveryFlippedByte) {
         static_cast<size_t>(core::Uniform(rng, 0, static_cast<double>(bytes.size() - 40)));
     damaged[at] = static_cast<char>(damaged[at] ^ (1 << (i % 8)));
     core::WriteFile(path, damaged);
-    ASSERT_NE(ErrorOf(path).find("damaged"), std::string::npos) << at;
+    ASSERT_NE(DatasetErrorOf(path).find("damaged"), std::string::npos) << at;
   }
   std::string unsealed = bytes.substr(0, bytes.size() - 39);
   core::WriteFile(path, unsealed);  // as another program writes it
-  EXPECT_EQ(ErrorOf(path), "");
+  EXPECT_EQ(DatasetErrorOf(path), "");
 }
 
 TEST(SceneDataset, RefusesPartsThatDoNotBelongTogether) {
   const core::TemporaryFolder folder;
-  WritePart(Part(0, 3), folder.path() / PartName(0));
-  ScenePart other = Part(1, 3);
+  WriteShard(Part(0, 3), folder.path() / ShardName(0));
+  SceneShard other = Part(1, 3);
   other.origin.seed = 6;
-  WritePart(other, folder.path() / PartName(1));
-  EXPECT_NE(ErrorOf(folder.path()).find(PartName(1)), std::string::npos);
+  WriteShard(other, folder.path() / ShardName(1));
+  EXPECT_NE(DatasetErrorOf(folder.path()).find(ShardName(1)), std::string::npos);
 }
 
 TEST(SceneStream, GivesEveryScenePerRound) {
   const core::TemporaryFolder folder;
-  for (int i = 0; i < 4; ++i) WritePart(Part(i, 20), folder.path() / PartName(i));
+  for (int i = 0; i < 4; ++i) WriteShard(Part(i, 20), folder.path() / ShardName(i));
   const SceneDataset dataset(folder.path());
-  const size_t size = static_cast<size_t>(Words().entries * Words().TokenWidth());
+  const size_t size = static_cast<size_t>(DatasetWords().entries * DatasetWords().TokenWidth());
   std::vector<float> tokens(60 * size);
   const auto numbers = [&](SceneStream* stream) {
     stream->Next(60, tokens.data());
@@ -263,7 +271,7 @@ TEST(SceneStream, GivesEveryScenePerRound) {
 
 TEST(PoseRange, BringsFeaturesToTheUnitRange) {
   const core::TemporaryFolder folder;
-  WritePart(Part(0, 5), folder.path() / PartName(0));
+  WriteShard(Part(0, 5), folder.path() / ShardName(0));
   const SceneDataset dataset(folder.path());
   const PoseRange range = PoseRange::Of(dataset, 0, 5);
   EXPECT_EQ(range.low()[0], 0.0);
@@ -272,12 +280,12 @@ TEST(PoseRange, BringsFeaturesToTheUnitRange) {
   EXPECT_NEAR(range.high()[2], 0.7, 1e-6);
   const std::vector<float> tokens = dataset.Read(4, 1);
   float unit[kPoseWidth], pose[kPoseWidth];
-  range.ToUnit(&tokens[static_cast<size_t>(Words().TokenWidth())], unit);
+  range.ToUnit(&tokens[static_cast<size_t>(DatasetWords().TokenWidth())], unit);
   EXPECT_FLOAT_EQ(unit[0], 1.0f);
   EXPECT_FLOAT_EQ(unit[1], -1.0f);
   range.FromUnit(unit, pose);
   for (size_t i = 0; i < kPoseWidth; ++i) {
-    EXPECT_NEAR(pose[i], tokens[static_cast<size_t>(Words().TokenWidth()) + i], 1e-6);
+    EXPECT_NEAR(pose[i], tokens[static_cast<size_t>(DatasetWords().TokenWidth()) + i], 1e-6);
   }
   const PoseRange back = PoseRange::FromText(range.Text());
   EXPECT_EQ(back.low(), range.low());
@@ -285,18 +293,18 @@ TEST(PoseRange, BringsFeaturesToTheUnitRange) {
   EXPECT_THROW(PoseRange::FromText("{\"low\": 3}"), core::Error);
 }
 
-TEST(PartClaim, OneWorkerHasIt) {
+TEST(ShardClaim, OneWorkerHasIt) {
   const core::TemporaryFolder folder;
-  const fs::path part = folder.path() / PartName(0);
+  const fs::path part = folder.path() / ShardName(0);
   {
-    const PartClaim mine(part);
+    const ShardClaim mine(part);
     EXPECT_TRUE(mine.held());
-    EXPECT_FALSE(PartClaim(part).held());
+    EXPECT_FALSE(ShardClaim(part).held());
   }
-  EXPECT_TRUE(PartClaim(part).held());
+  EXPECT_TRUE(ShardClaim(part).held());
   // A lock file of a dead worker blocks no other worker.
   std::ofstream(part.string() + ".lock") << "";
-  EXPECT_TRUE(PartClaim(part).held());
+  EXPECT_TRUE(ShardClaim(part).held());
 }
 
 }  // namespace

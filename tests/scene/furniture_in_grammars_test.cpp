@@ -4,33 +4,33 @@
 #include <cmath>
 #include <set>
 
-#include "library/rigid_kinds.h"
-#include "scene/grammar/breakfast.h"
-#include "scene/grammar/dimsum.h"
-#include "scene/grammar/living_room_shelf.h"
-#include "scene/grammar/pantry_shelf.h"
-#include "scene/grammar/restaurant.h"
-#include "scene/grammar/scene_draw.h"
-#include "scene/palette.h"
+#include "library/rigid/rigid_kinds.h"
+#include "scene/asset_set/asset_set.h"
+#include "scene/grammar/scene_sample.h"
+#include "scene/scene_types/breakfast.h"
+#include "scene/scene_types/dimsum.h"
+#include "scene/scene_types/living_room_shelf.h"
+#include "scene/scene_types/pantry_shelf.h"
+#include "scene/scene_types/restaurant.h"
 
 namespace simwright::scene {
 namespace {
 
-Palette Furniture() {
-  Palette palette;
+AssetSet Furniture() {
+  AssetSet asset_set;
   for (const library::RigidKind& kind : library::FurnitureKinds()) {
     sim::RigidBody body;
     body.name = kind.name;
-    body.parts = library::MakeRigidThing(kind, 1).parts;
+    body.parts = library::MakeRigidObject(kind, 1).parts;
     body.inertial.mass = 1.0;
-    palette.Add(kind.name, body);
+    asset_set.Add(kind.name, body);
   }
-  return palette;
+  return asset_set;
 }
 
 // Returns the height in m of the highest part of `asset` under the point, at most a tenth of a
 // millimetre above it.
-double SurfaceUnder(const PaletteAsset& asset, const Eigen::Vector3d& point) {
+double SurfaceUnder(const SceneAsset& asset, const Eigen::Vector3d& point) {
   double highest = -1.0;
   for (const core::TriangleMesh& part : asset.body.parts) {
     const Eigen::AlignedBox3d box = core::Bounds(part);
@@ -42,22 +42,22 @@ double SurfaceUnder(const PaletteAsset& asset, const Eigen::Vector3d& point) {
 }
 
 TEST(FurnitureInGrammars, ThingsStandOnItsSurfaces) {
-  const Palette palette = Furniture();
-  const SlotSizes sizes = palette.Sizes();
+  const AssetSet asset_set = Furniture();
+  const CategorySizes sizes = asset_set.Sizes();
   for (const Grammar& grammar :
        {DimsumTable(sizes), BreakfastTableLow(sizes), BreakfastTableHigh(sizes), PantryShelf(sizes),
         LivingRoomShelf(sizes), RestaurantHigh(sizes), RestaurantLow(sizes)}) {
     core::Rng rng = core::StreamRng(5, 0);
     int standing = 0;
     for (int scene = 0; scene < 3; ++scene) {
-      const SceneDraw draw = DrawScene(grammar, rng);
-      for (const DrawnObject& object : draw.objects) {
+      const SceneSample draw = SampleGrammar(grammar, rng);
+      for (const SceneObject& object : draw.objects) {
         if (object.parent < 0 || !draw.objects[static_cast<size_t>(object.parent)].welded) continue;
-        const DrawnObject& furniture = draw.objects[static_cast<size_t>(object.parent)];
+        const SceneObject& furniture = draw.objects[static_cast<size_t>(object.parent)];
         const Eigen::Vector3d at =
             furniture.world_from_object.inverse() * object.world_from_object.translation();
-        EXPECT_NEAR(SurfaceUnder(palette.At(furniture.slot), at), at.z(), 1e-9)
-            << grammar.name() << ": " << object.slot;
+        EXPECT_NEAR(SurfaceUnder(asset_set.At(furniture.category), at), at.z(), 1e-9)
+            << grammar.name() << ": " << object.category;
         ++standing;
       }
     }
@@ -66,10 +66,10 @@ TEST(FurnitureInGrammars, ThingsStandOnItsSurfaces) {
 }
 
 TEST(FurnitureInGrammars, IsOfTheSizesThatGrammarsStartFrom) {
-  const SlotSizes sizes = Furniture().Sizes();
+  const CategorySizes sizes = Furniture().Sizes();
   for (const library::RigidKind& kind : library::FurnitureKinds()) {
-    const SlotSize& expected = SizeOf(DefaultSlotSizes(), kind.name);
-    const SlotSize& found = sizes.at(kind.name);
+    const CategorySize& expected = SizeOf(DefaultCategorySizes(), kind.name);
+    const CategorySize& found = sizes.at(kind.name);
     EXPECT_LT((found.half_size - expected.half_size).norm(), 1e-9) << kind.name;
     EXPECT_NEAR(found.height, expected.height, 1e-9) << kind.name;
   }

@@ -1,5 +1,5 @@
 // Shards of a dataset: identical for any number of threads and interruptions.
-#include "scene/generation.h"
+#include "scene/dataset/generation.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-sim::RigidBody Drum(double radius, double height) {
+sim::RigidBody GenerationDrum(double radius, double height) {
   sim::RigidBody body;
   body.name = "drum";
   body.friction = 0.6;
@@ -35,35 +35,35 @@ Grammar DrumsOnATable(double reach) {
   return builder.Build();
 }
 
-Palette Drums() {
-  Palette palette;
-  palette.Add("table", Drum(0.5, 0.5));
-  palette.Add("drum", Drum(0.05, 0.08));
-  return palette;
+AssetSet GenerationDrums() {
+  AssetSet asset_set;
+  asset_set.Add("table", GenerationDrum(0.5, 0.5));
+  asset_set.Add("drum", GenerationDrum(0.05, 0.08));
+  return asset_set;
 }
 
-Generation Of(const Palette& palette, double reach) {
-  Generation generation{DrumsOnATable(reach), &palette, {}};
+Generation Of(const AssetSet& asset_set, double reach) {
+  Generation generation{DrumsOnATable(reach), &asset_set, {}};
   generation.feasibility.settling.duration = 0.3;
   generation.feasibility.settling.watch = 0.1;
   return generation;
 }
 
-ScenePart Empty(const Generation& generation) {
+SceneShard Empty(const Generation& generation) {
   return {VocabularyOf(generation.grammar), {7, 3, "", SettingsText(generation), "1"}, {}, {}};
 }
 
-TEST(ExtendPart, IsTheSameForAnyThreadsAndInterruptions) {
-  const Palette palette = Drums();
+TEST(ExtendShard, IsTheSameForAnyThreadsAndInterruptions) {
+  const AssetSet asset_set = GenerationDrums();
   // Near the rim some fall, so that some attempts fail.
-  const Generation generation = Of(palette, 0.42);
+  const Generation generation = Of(asset_set, 0.42);
   core::Progress progress;
-  ScenePart whole = Empty(generation), pieces = Empty(generation);
+  SceneShard whole = Empty(generation), pieces = Empty(generation);
   core::SetThreadCount(2);
-  ExtendPart(generation, 10, &whole, &progress);
+  ExtendShard(generation, 10, &whole, &progress);
   core::SetThreadCount(1);
   for (const int scenes : {2, 5, 9, 10}) {
-    ExtendPart(generation, scenes, &pieces, &progress);
+    ExtendShard(generation, scenes, &pieces, &progress);
     EXPECT_EQ(pieces.SceneCount(), scenes);
   }
   core::SetThreadCount(0);
@@ -73,10 +73,10 @@ TEST(ExtendPart, IsTheSameForAnyThreadsAndInterruptions) {
   const size_t size = static_cast<size_t>(whole.vocabulary.entries * whole.vocabulary.TokenWidth());
   ASSERT_EQ(whole.tokens.size(), 10 * size);
   for (size_t i = 0; i < 10; ++i) {
-    EXPECT_EQ(FaultOfTokens(&whole.tokens[i * size], whole.vocabulary), "");
-    const std::vector<DrawnObject> objects = DecodeScene(&whole.tokens[i * size], whole.vocabulary);
+    EXPECT_EQ(ValidateTokens(&whole.tokens[i * size], whole.vocabulary), "");
+    const std::vector<SceneObject> objects = DecodeScene(&whole.tokens[i * size], whole.vocabulary);
     EXPECT_GE(objects.size(), 4u);
-    for (const DrawnObject& object : objects) {
+    for (const SceneObject& object : objects) {
       const double height = object.world_from_object.translation().z();
       EXPECT_GT(height, object.welded ? -1e-9 : 0.5 - 1e-3);
     }
@@ -85,19 +85,19 @@ TEST(ExtendPart, IsTheSameForAnyThreadsAndInterruptions) {
     if (!one.sound) continue;
     EXPECT_LE(one.penetration, 1e-4);
     EXPECT_LE(one.drift, 1e-3);
-    EXPECT_EQ(one.kept + one.dropped, one.drawn);
+    EXPECT_EQ(one.kept + one.dropped, one.sampled);
   }
 }
 
-TEST(ExtendPart, SaysWhatBecameOfScenesThatAreNeverSound) {
-  const Palette palette = Drums();
-  Generation generation = Of(palette, 0.3);
-  generation.feasibility.fewest = 30;
-  generation.attempts_a_scene = 3;
+TEST(ExtendShard, SaysWhatBecameOfScenesThatAreNeverSound) {
+  const AssetSet asset_set = GenerationDrums();
+  Generation generation = Of(asset_set, 0.3);
+  generation.feasibility.min_objects = 30;
+  generation.attempts_per_scene = 3;
   core::Progress progress;
-  ScenePart part = Empty(generation);
+  SceneShard part = Empty(generation);
   try {
-    ExtendPart(generation, 2, &part, &progress);
+    ExtendShard(generation, 2, &part, &progress);
     FAIL() << "scenes of 30 drums were made of 5";
   } catch (const core::Error& error) {
     EXPECT_NE(std::string(error.what()).find("of 6 scenes 0 are valid"), std::string::npos)

@@ -1,6 +1,6 @@
 // Breakfast tables: counts against closed forms, distances between objects, and the layout around a
 // plate.
-#include "scene/grammar/breakfast.h"
+#include "scene/scene_types/breakfast.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,25 +8,25 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/scene/drawn_objects.h"
 #include "tests/scene/geometric_mean.h"
+#include "tests/scene/sampled_objects.h"
 
 namespace simwright::scene {
 namespace {
 
 constexpr double kHalfX = 0.3575, kHalfY = 0.7, kMargin = 0.1;  // m
 
-const std::vector<SceneDraw>& Draws(bool high) {
+const std::vector<SceneSample>& GrammarBreakfastDraws(bool high) {
   static const auto draw = [](const Grammar& grammar) {
-    std::vector<SceneDraw> draws;
+    std::vector<SceneSample> draws;
     for (std::uint64_t i = 0; i < 3000; ++i) {
       core::Rng rng = core::StreamRng(6, i);
-      draws.push_back(DrawScene(grammar, rng));
+      draws.push_back(SampleGrammar(grammar, rng));
     }
     return draws;
   };
-  static const std::vector<SceneDraw> highs = draw(BreakfastTableHigh());
-  static const std::vector<SceneDraw> lows = draw(BreakfastTableLow());
+  static const std::vector<SceneSample> highs = draw(BreakfastTableHigh());
+  static const std::vector<SceneSample> lows = draw(BreakfastTableLow());
   return high ? highs : lows;
 }
 
@@ -41,23 +41,23 @@ double SharedRadius(const std::string& symbol) {
   return found == radii.end() ? -1.0 : found->second;
 }
 
-bool HasShared(const SceneDraw& draw) {
+bool HasShared(const SceneSample& draw) {
   return std::any_of(draw.objects.begin(), draw.objects.end(),
-                     [](const DrawnObject& o) { return SharedRadius(o.symbol) >= 0.0; });
+                     [](const SceneObject& o) { return SharedRadius(o.symbol) >= 0.0; });
 }
 
 TEST(BreakfastTable, KeepsSettingsAndSharedThingsApartAndInsideTheRim) {
   for (const bool high : {false, true}) {
     int pairs = 0;
-    for (const SceneDraw& draw : Draws(high)) {
-      for (const DrawnObject& one : draw.objects) {
+    for (const SceneSample& draw : GrammarBreakfastDraws(high)) {
+      for (const SceneObject& one : draw.objects) {
         if (!IsBase(draw, one)) continue;
         ASSERT_LE(std::abs(PlaceOf(one).x()), kHalfX - kMargin + 1e-12);
         ASSERT_LE(std::abs(PlaceOf(one).y()), kHalfY - kMargin + 1e-12);
         ASSERT_NEAR(PlaceOf(one).z(), 0.75, 1e-12);
         const double radius = SharedRadius(one.symbol);
         if (radius < 0.0) continue;
-        for (const DrawnObject& other : draw.objects) {
+        for (const SceneObject& other : draw.objects) {
           if (!IsBase(draw, other) || SharedRadius(other.symbol) >= 0.0) continue;
           ASSERT_GE(Across(one, other), radius - 1e-12) << one.symbol << " " << other.symbol;
           ++pairs;
@@ -97,11 +97,11 @@ TEST(BreakfastTable, TheMiddlePairHasItsClosedForm) {
   const double bowl = 0.2 * (2.0 / 3.0 * AllInside(0) + 1.0 / 3.0 * AllInside(1));
   const double total = plate + bowl + 0.2;
   int scenes = 0, plates = 0, bowls = 0, forks = 0;
-  for (const SceneDraw& draw : Draws(true)) {
+  for (const SceneSample& draw : GrammarBreakfastDraws(true)) {
     if (HasShared(draw)) continue;
     ++scenes;
     bool middle = false;
-    for (const DrawnObject& object : draw.objects) {
+    for (const SceneObject& object : draw.objects) {
       const bool own = object.symbol == "own_plate" || object.symbol == "own_bowl";
       // Objects of a setting follow its dish.
       if (own) middle = std::abs(PlaceOf(object).y()) <= 0.08;
@@ -132,7 +132,7 @@ TEST(BreakfastTable, DishesHoldWhatIsPublished) {
       {"toast", {{"toast", 0.25}, {"", 0.75}}}};
   std::map<std::string, std::map<std::string, int>> seen;
   std::map<std::string, int> dishes;
-  for (const SceneDraw& draw : Draws(true)) {
+  for (const SceneSample& draw : GrammarBreakfastDraws(true)) {
     for (size_t i = 0; i < draw.objects.size(); ++i) {
       const std::string& dish = draw.objects[i].symbol;
       if (published.count(dish) == 0) continue;
@@ -153,10 +153,10 @@ TEST(BreakfastTable, DishesHoldWhatIsPublished) {
 
 TEST(BreakfastTable, ACrockHoldsAGeometricNumberOfUtensils) {
   double crocks = 0.0, utensils = 0.0;
-  for (const SceneDraw& draw : Draws(false)) {
-    for (const DrawnObject& object : draw.objects) {
-      crocks += object.slot == "utensil_crock";
-      utensils += object.parent > 0 && ParentOf(draw, object).slot == "utensil_crock";
+  for (const SceneSample& draw : GrammarBreakfastDraws(false)) {
+    for (const SceneObject& object : draw.objects) {
+      crocks += object.category == "utensil_crock";
+      utensils += object.parent > 0 && ParentOf(draw, object).category == "utensil_crock";
     }
   }
   // The deviation of one is 3.0.
@@ -169,7 +169,7 @@ TEST(BreakfastTable, ACrockHoldsAGeometricNumberOfUtensils) {
 TEST(BreakfastTable, HasNotManyMoreThingsThanPublished) {
   double sums[2] = {0.0, 0.0};
   for (const bool high : {false, true}) {
-    for (const SceneDraw& draw : Draws(high)) {
+    for (const SceneSample& draw : GrammarBreakfastDraws(high)) {
       sums[high] += static_cast<double>(draw.objects.size()) / 3000.0;
       ASSERT_LE(draw.objects.size(), high ? 46u : 35u);
       ASSERT_GE(draw.objects.size(), 4u);
@@ -184,22 +184,22 @@ TEST(BreakfastTable, HasNotManyMoreThingsThanPublished) {
 // Seen from the seat, forks are left of their plate and knives right, and mugs beyond.
 TEST(BreakfastTable, CutleryLiesWhereItBelongs) {
   int forks = 0, knives = 0, mugs = 0;
-  for (const SceneDraw& draw : Draws(true)) {
-    const DrawnObject* plate = nullptr;  // objects of a setting follow it
-    for (const DrawnObject& object : draw.objects) {
+  for (const SceneSample& draw : GrammarBreakfastDraws(true)) {
+    const SceneObject* plate = nullptr;  // objects of a setting follow it
+    for (const SceneObject& object : draw.objects) {
       if (object.symbol == "own_plate") plate = &object;
       if (plate == nullptr || !IsBase(draw, object)) continue;
       // A person at negative x looks along x; left is y.
       const double facing = PlaceOf(*plate).x() < 0.0 ? 1.0 : -1.0;
       const Eigen::Vector3d way = facing * (PlaceOf(object) - PlaceOf(*plate));
       const double along = object.world_from_object.linear()(0, 0) * facing;
-      if (object.slot == "fork" || object.slot == "knife") {
-        const bool is_fork = object.slot == "fork";
+      if (object.category == "fork" || object.category == "knife") {
+        const bool is_fork = object.category == "fork";
         ++(is_fork ? forks : knives);
         ASSERT_NEAR(way.y(), is_fork ? 0.12 : -0.12, 1e-12);
         ASSERT_NEAR(way.x(), -0.05, 0.06);
         ASSERT_GT(along, 0.7);
-      } else if (object.slot == "mug") {
+      } else if (object.category == "mug") {
         ++mugs;
         ASSERT_NEAR(way.x(), 0.13, 0.08);
         ASSERT_NEAR(way.y(), -0.13, 0.08);
@@ -211,14 +211,14 @@ TEST(BreakfastTable, CutleryLiesWhereItBelongs) {
 
 TEST(BreakfastTable, UtensilsStandInTheirCrock) {
   int standing = 0;
-  for (const SceneDraw& draw : Draws(false)) {
-    for (const DrawnObject& object : draw.objects) {
+  for (const SceneSample& draw : GrammarBreakfastDraws(false)) {
+    for (const SceneObject& object : draw.objects) {
       if (object.parent <= 0) continue;
-      const DrawnObject& below = ParentOf(draw, object);
-      if (below.slot != "utensil_crock") continue;
+      const SceneObject& below = ParentOf(draw, object);
+      if (below.category != "utensil_crock") continue;
       ++standing;
       ASSERT_NEAR(object.world_from_object.linear().col(0).z(), 1.0, 1e-9);
-      const SlotSize& size = SizeOf(DefaultSlotSizes(), object.slot);
+      const CategorySize& size = SizeOf(DefaultCategorySizes(), object.category);
       const double floor = PlaceOf(below).z() + 0.01;
       ASSERT_NEAR(PlaceOf(object).z() - size.half_size.x(), floor, 1e-9);
     }

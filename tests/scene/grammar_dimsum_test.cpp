@@ -1,5 +1,5 @@
 // Dimsum tables: the published probabilities and the invariants of every scene.
-#include "scene/grammar/dimsum.h"
+#include "scene/scene_types/dimsum.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/grammar/scene_draw.h"
+#include "scene/grammar/scene_sample.h"
 
 namespace simwright::scene {
 namespace {
@@ -16,34 +16,35 @@ using Eigen::Vector3d;
 
 constexpr double kTabletop = 0.785;
 
-std::vector<SceneDraw> Draws(int count) {
+std::vector<SceneSample> GrammarDimsumDraws(int count) {
   const Grammar grammar = DimsumTable();
-  std::vector<SceneDraw> draws;
+  std::vector<SceneSample> draws;
   for (int i = 0; i < count; ++i) {
     core::Rng rng = core::StreamRng(1, static_cast<std::uint64_t>(i));
-    draws.push_back(DrawScene(grammar, rng));
+    draws.push_back(SampleGrammar(grammar, rng));
   }
   return draws;
 }
 
 constexpr int kScenes = 300;
 
-const std::vector<SceneDraw>& Some() {
-  static const std::vector<SceneDraw> draws = Draws(kScenes);
+const std::vector<SceneSample>& Some() {
+  static const std::vector<SceneSample> draws = GrammarDimsumDraws(kScenes);
   return draws;
 }
 
-int CountOf(const SceneDraw& draw, const std::string& slot) {
-  return static_cast<int>(std::count_if(draw.objects.begin(), draw.objects.end(),
-                                        [&](const DrawnObject& o) { return o.slot == slot; }));
+int CountGrammarDimsumOf(const SceneSample& draw, const std::string& category) {
+  return static_cast<int>(
+      std::count_if(draw.objects.begin(), draw.objects.end(),
+                    [&](const SceneObject& o) { return o.category == category; }));
 }
 
 // The height of each stack of steamers.
-std::vector<int> Stacks(const SceneDraw& draw) {
+std::vector<int> Stacks(const SceneSample& draw) {
   std::map<int, int> level;
   std::vector<int> heights;
   for (size_t i = 0; i < draw.objects.size(); ++i) {
-    if (draw.objects[i].slot != "steamer") continue;
+    if (draw.objects[i].category != "steamer") continue;
     const auto below = level.find(draw.objects[i].parent);
     level[static_cast<int>(i)] = below == level.end() ? 1 : below->second + 1;
     if (below == level.end()) heights.push_back(1);
@@ -52,44 +53,45 @@ std::vector<int> Stacks(const SceneDraw& draw) {
   return heights;
 }
 
-double KeepOutOf(const std::string& slot) {
+double GrammarDimsumKeepOutOf(const std::string& category) {
   const std::map<std::string, double> radii = {
       {"plate", 0.14}, {"cup", 0.07}, {"teapot", 0.10}, {"serving_dish", 0.20}, {"steamer", 0.12}};
-  const auto found = radii.find(slot);
+  const auto found = radii.find(category);
   return found == radii.end() ? 0.0 : found->second;
 }
 
 TEST(DimsumTable, EverySceneKeepsItsConstraints) {
-  for (const SceneDraw& draw : Some()) {
+  for (const SceneSample& draw : Some()) {
     const std::vector<int> stacks = Stacks(draw);
     ASSERT_GE(stacks.size(), 3u);
     ASSERT_GE(*std::max_element(stacks.begin(), stacks.end()), 4);
     ASSERT_LE(draw.objects.size(), 34u);
-    ASSERT_EQ(draw.objects[0].slot, "table_round");
+    ASSERT_EQ(draw.objects[0].category, "table_round");
     ASSERT_TRUE(draw.objects[0].welded);
     for (size_t i = 1; i < draw.objects.size(); ++i) {
-      const DrawnObject& one = draw.objects[i];
+      const SceneObject& one = draw.objects[i];
       const Vector3d at = one.world_from_object.translation();
       if (one.parent != 0) continue;  // stands on another
       ASSERT_NEAR(at.z(), kTabletop, 1e-12);
-      const double margin = one.slot == "plate" ? 0.1 : 0.15;
+      const double margin = one.category == "plate" ? 0.1 : 0.15;
       ASSERT_LE(at.head<2>().norm(), 0.625 - margin + 1e-9);
       for (size_t j = i + 1; j < draw.objects.size(); ++j) {
-        const DrawnObject& other = draw.objects[j];
+        const SceneObject& other = draw.objects[j];
         if (other.parent != 0) continue;
         const Vector3d way = other.world_from_object.translation() - at;
-        ASSERT_GE(way.head<2>().norm(), KeepOutOf(one.slot) + KeepOutOf(other.slot) - 1e-9);
+        ASSERT_GE(way.head<2>().norm(), GrammarDimsumKeepOutOf(one.category) +
+                                            GrammarDimsumKeepOutOf(other.category) - 1e-9);
       }
     }
   }
 }
 
 TEST(DimsumTable, SteamersStandOnEachOther) {
-  for (const SceneDraw& draw : Some()) {
-    for (const DrawnObject& one : draw.objects) {
+  for (const SceneSample& draw : Some()) {
+    for (const SceneObject& one : draw.objects) {
       if (one.parent <= 0) continue;
-      const DrawnObject& below = draw.objects[static_cast<size_t>(one.parent)];
-      ASSERT_EQ(below.slot, "steamer");
+      const SceneObject& below = draw.objects[static_cast<size_t>(one.parent)];
+      ASSERT_EQ(below.category, "steamer");
       const Vector3d way = below.world_from_object.inverse() * one.world_from_object.translation();
       ASSERT_LT((way - Vector3d(0, 0, 0.091)).norm(), 1e-12);
     }
@@ -100,9 +102,9 @@ TEST(DimsumTable, SteamersStandOnEachOther) {
 TEST(DimsumTable, CupsStandInwardsOfTheirPlates) {
   double inwards = 0.0;
   int pairs = 0;
-  for (const SceneDraw& draw : Some()) {
+  for (const SceneSample& draw : Some()) {
     for (size_t i = 0; i + 1 < draw.objects.size(); ++i) {
-      if (draw.objects[i].slot != "plate" || draw.objects[i + 1].slot != "cup") continue;
+      if (draw.objects[i].category != "plate" || draw.objects[i + 1].category != "cup") continue;
       ++pairs;
       const Vector3d plate = draw.objects[i].world_from_object.translation();
       const Vector3d cup = draw.objects[i + 1].world_from_object.translation();
@@ -118,9 +120,9 @@ TEST(DimsumTable, CupsStandInwardsOfTheirPlates) {
 // that those with plate and cup are rejected more often than empty ones.
 TEST(DimsumTable, SettingsAreAsOftenAsPublished) {
   int plates = 0, cups = 0;
-  for (const SceneDraw& draw : Some()) {
-    plates += CountOf(draw, "plate");
-    cups += CountOf(draw, "cup");
+  for (const SceneSample& draw : Some()) {
+    plates += CountGrammarDimsumOf(draw, "plate");
+    cups += CountGrammarDimsumOf(draw, "cup");
   }
   const double settings = 4.0 * kScenes;
   EXPECT_NEAR(plates / settings, 0.725 / 0.95, 0.06);
@@ -130,7 +132,7 @@ TEST(DimsumTable, SettingsAreAsOftenAsPublished) {
 TEST(DimsumTable, HasAsManyObjectsAsPublished) {
   double sum = 0.0;
   size_t most = 0;
-  for (const SceneDraw& draw : Some()) {
+  for (const SceneSample& draw : Some()) {
     sum += static_cast<double>(draw.objects.size());
     most = std::max(most, draw.objects.size());
   }
@@ -141,9 +143,9 @@ TEST(DimsumTable, HasAsManyObjectsAsPublished) {
 }
 
 TEST(DimsumTable, TheSameStateGivesTheSameScene) {
-  const std::vector<SceneDraw> again = Draws(5);
+  const std::vector<SceneSample> again = GrammarDimsumDraws(5);
   for (size_t k = 0; k < again.size(); ++k) {
-    const SceneDraw& draw = Some()[k];
+    const SceneSample& draw = Some()[k];
     ASSERT_EQ(again[k].objects.size(), draw.objects.size());
     for (size_t i = 0; i < draw.objects.size(); ++i) {
       EXPECT_EQ(again[k].objects[i].world_from_object.matrix(),

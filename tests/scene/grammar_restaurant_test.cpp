@@ -1,5 +1,5 @@
 // Restaurants: keep-out distances, checked independently of the grammar, and counts.
-#include "scene/grammar/restaurant.h"
+#include "scene/scene_types/restaurant.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/scene/drawn_objects.h"
 #include "tests/sanitized.h"
+#include "tests/scene/sampled_objects.h"
 
 namespace simwright::scene {
 namespace {
@@ -18,27 +18,28 @@ using Eigen::Vector3d;
 
 constexpr int kHighs = 100, kLows = 300;
 
-std::vector<SceneDraw> Draws(const Grammar& grammar, int count) {
-  std::vector<SceneDraw> draws;
+std::vector<SceneSample> GrammarRestaurantDraws(const Grammar& grammar, int count) {
+  std::vector<SceneSample> draws;
   for (int i = 0; i < count; ++i) {
     core::Rng rng = core::StreamRng(9, static_cast<std::uint64_t>(i));
-    draws.push_back(DrawScene(grammar, rng));
+    draws.push_back(SampleGrammar(grammar, rng));
   }
   return draws;
 }
 
-const std::vector<SceneDraw>& Highs() {
-  static const std::vector<SceneDraw> draws = Draws(RestaurantHigh(), kHighs);
+const std::vector<SceneSample>& Highs() {
+  static const std::vector<SceneSample> draws = GrammarRestaurantDraws(RestaurantHigh(), kHighs);
   return draws;
 }
-const std::vector<SceneDraw>& Lows() {
-  static const std::vector<SceneDraw> draws = Draws(RestaurantLow(), kLows);
+const std::vector<SceneSample>& Lows() {
+  static const std::vector<SceneSample> draws = GrammarRestaurantDraws(RestaurantLow(), kLows);
   return draws;
 }
 
-int CountOf(const SceneDraw& draw, const std::string& slot) {
-  return static_cast<int>(std::count_if(draw.objects.begin(), draw.objects.end(),
-                                        [&](const DrawnObject& o) { return o.slot == slot; }));
+int CountGrammarRestaurantOf(const SceneSample& draw, const std::string& category) {
+  return static_cast<int>(
+      std::count_if(draw.objects.begin(), draw.objects.end(),
+                    [&](const SceneObject& o) { return o.category == category; }));
 }
 
 TEST(Restaurant, TablesChairsAndShelvesAreKeptApart) {
@@ -46,22 +47,22 @@ TEST(Restaurant, TablesChairsAndShelvesAreKeptApart) {
   const std::map<std::string, double> radii = {
       {"table_restaurant", 0.8}, {"chair", 0.35}, {"shelf_living_room", 0.3}};
   for (const auto* draws : {&Highs(), &Lows()}) {
-    for (const SceneDraw& draw : *draws) {
+    for (const SceneSample& draw : *draws) {
       // With the table of each: four chairs come before each table.
       std::vector<std::pair<size_t, int>> placed;
       int group = 0;
       for (size_t i = 0; i < draw.objects.size(); ++i) {
-        const DrawnObject& one = draw.objects[i];
-        if (radii.count(one.slot) == 0) continue;
+        const SceneObject& one = draw.objects[i];
+        if (radii.count(one.category) == 0) continue;
         placed.emplace_back(i, group);
-        group += one.slot != "chair";
+        group += one.category != "chair";
       }
       for (size_t a = 0; a < placed.size(); ++a) {
         for (size_t b = a + 1; b < placed.size(); ++b) {
           if (placed[a].second == placed[b].second) continue;
-          const DrawnObject &one = draw.objects[placed[a].first],
+          const SceneObject &one = draw.objects[placed[a].first],
                             &other = draw.objects[placed[b].first];
-          ASSERT_GE(Across(one, other), radii.at(one.slot) + radii.at(other.slot) - 1e-12);
+          ASSERT_GE(Across(one, other), radii.at(one.category) + radii.at(other.category) - 1e-12);
         }
       }
     }
@@ -71,17 +72,17 @@ TEST(Restaurant, TablesChairsAndShelvesAreKeptApart) {
 TEST(Restaurant, FurnitureIsWeldedAndChairsAreNot) {
   const std::set<std::string> welded = {"floor", "table_restaurant", "shelf_living_room"};
   for (const auto* draws : {&Highs(), &Lows()}) {
-    for (const SceneDraw& draw : *draws) {
-      ASSERT_EQ(CountOf(draw, "floor"), 1);
-      ASSERT_EQ(draw.objects[0].slot, "floor");
+    for (const SceneSample& draw : *draws) {
+      ASSERT_EQ(CountGrammarRestaurantOf(draw, "floor"), 1);
+      ASSERT_EQ(draw.objects[0].category, "floor");
       ASSERT_NEAR(PlaceOf(draw.objects[0]).z(), -0.05, 1e-12);  // its upper side is at 0
-      for (const DrawnObject& one : draw.objects) {
-        ASSERT_EQ(one.welded, welded.count(one.slot) == 1) << one.slot;
+      for (const SceneObject& one : draw.objects) {
+        ASSERT_EQ(one.welded, welded.count(one.category) == 1) << one.category;
         const Vector3d at = PlaceOf(one);
-        if (one.slot == "table_restaurant") {
+        if (one.category == "table_restaurant") {
           ASSERT_NEAR(at.z(), 0.0, 1e-12);
           ASSERT_TRUE(at.x() >= -2.5 && at.x() <= 3.0 && std::abs(at.y()) <= 3.0);
-        } else if (one.slot == "shelf_living_room") {
+        } else if (one.category == "shelf_living_room") {
           ASSERT_NEAR(at.z(), 0.0, 1e-12);
           ASSERT_NEAR(at.x(), -4.75, 1e-12);
           // It opens to its own -x: to the room.
@@ -96,17 +97,18 @@ TEST(Restaurant, FurnitureIsWeldedAndChairsAreNot) {
 TEST(Restaurant, FourChairsStandAboutEachTableAndFaceIt) {
   double distance = 0.0;
   int chairs = 0;
-  for (const SceneDraw& draw : Highs()) {
-    ASSERT_EQ(CountOf(draw, "chair"), 4 * CountOf(draw, "table_restaurant"));
+  for (const SceneSample& draw : Highs()) {
+    ASSERT_EQ(CountGrammarRestaurantOf(draw, "chair"),
+              4 * CountGrammarRestaurantOf(draw, "table_restaurant"));
     Vector3d sum = Vector3d::Zero();
     for (size_t i = 0; i < draw.objects.size(); ++i) {
-      const DrawnObject& one = draw.objects[i];
-      if (one.slot != "chair") continue;
-      ASSERT_EQ(ParentOf(draw, one).slot, "floor");
+      const SceneObject& one = draw.objects[i];
+      if (one.category != "chair") continue;
+      ASSERT_EQ(ParentOf(draw, one).category, "floor");
       ASSERT_NEAR(PlaceOf(one).z(), 0.0, 1e-12);
       size_t table = i;  // their table follows
-      while (draw.objects[table].slot == "chair") ++table;
-      ASSERT_EQ(draw.objects[table].slot, "table_restaurant");
+      while (draw.objects[table].category == "chair") ++table;
+      ASSERT_EQ(draw.objects[table].category, "table_restaurant");
       const Vector3d way = PlaceOf(draw.objects[table]) - PlaceOf(one);
       distance += way.norm();
       ++chairs;
@@ -128,17 +130,17 @@ TEST(Restaurant, WhatStandsOnATableIsKeptApartAndInside) {
       {"plate", 0.14}, {"cup", 0.07}, {"teapot", 0.10}, {"serving_dish", 0.20}, {"steamer", 0.12}};
   int pairs = 0;
   for (const auto* draws : {&Highs(), &Lows()}) {
-    for (const SceneDraw& draw : *draws) {
+    for (const SceneSample& draw : *draws) {
       for (size_t i = 0; i < draw.objects.size(); ++i) {
-        const DrawnObject& one = draw.objects[i];
+        const SceneObject& one = draw.objects[i];
         if (!IsBase(draw, one)) continue;
-        if (ParentOf(draw, one).slot != "table_restaurant") continue;
+        if (ParentOf(draw, one).category != "table_restaurant") continue;
         ASSERT_NEAR(PlaceOf(one).z(), 0.785, 1e-12);
-        ASSERT_LE(Across(one, ParentOf(draw, one)), one.slot == "plate" ? 0.525 : 0.475);
+        ASSERT_LE(Across(one, ParentOf(draw, one)), one.category == "plate" ? 0.525 : 0.475);
         for (size_t j = i + 1; j < draw.objects.size(); ++j) {
-          const DrawnObject& other = draw.objects[j];
+          const SceneObject& other = draw.objects[j];
           if (other.parent != one.parent) continue;
-          ASSERT_GE(Across(one, other), radii.at(one.slot) + radii.at(other.slot) - 1e-9);
+          ASSERT_GE(Across(one, other), radii.at(one.category) + radii.at(other.category) - 1e-9);
           ++pairs;
         }
       }
@@ -149,10 +151,10 @@ TEST(Restaurant, WhatStandsOnATableIsKeptApartAndInside) {
 
 TEST(Restaurant, ShelvesHoldAtLeastThreeThingsBetweenThem) {
   for (const auto* draws : {&Highs(), &Lows()}) {
-    for (const SceneDraw& draw : *draws) {
+    for (const SceneSample& draw : *draws) {
       int on_shelves = 0;
-      for (const DrawnObject& one : draw.objects) {
-        if (!IsBase(draw, one) || ParentOf(draw, one).slot != "shelf_living_room") continue;
+      for (const SceneObject& one : draw.objects) {
+        if (!IsBase(draw, one) || ParentOf(draw, one).category != "shelf_living_room") continue;
         ++on_shelves;
         const Vector3d there = ParentOf(draw, one).world_from_object.inverse() * PlaceOf(one);
         ASSERT_LT(std::abs(there.x()), 0.15);
@@ -163,20 +165,20 @@ TEST(Restaurant, ShelvesHoldAtLeastThreeThingsBetweenThem) {
       // Stacked objects count as well, so that one or two bases may suffice.
       ASSERT_GE(on_shelves, 1);
       int all = 0;
-      for (DrawnObject one : draw.objects) {
+      for (SceneObject one : draw.objects) {
         while (!one.welded) one = ParentOf(draw, one);
-        all += one.slot == "shelf_living_room";
+        all += one.category == "shelf_living_room";
       }
-      ASSERT_GE(all - CountOf(draw, "shelf_living_room"), 3);
+      ASSERT_GE(all - CountGrammarRestaurantOf(draw, "shelf_living_room"), 3);
     }
   }
 }
 
-int TallestStack(const SceneDraw& draw) {
+int TallestStack(const SceneSample& draw) {
   int tallest = 0;
-  for (DrawnObject one : draw.objects) {
+  for (SceneObject one : draw.objects) {
     int height = 0;
-    while (one.slot == "steamer") {
+    while (one.category == "steamer") {
       ++height;
       one = ParentOf(draw, one);
     }
@@ -188,16 +190,16 @@ int TallestStack(const SceneDraw& draw) {
 // Published, after physics: 60.5 and at most 125 objects, 35.1 and at most 107.
 TEST(Restaurant, HasAsManyThingsAsPublished) {
   double high = 0.0, low = 0.0;
-  for (const SceneDraw& draw : Highs()) {
+  for (const SceneSample& draw : Highs()) {
     high += static_cast<double>(draw.objects.size()) / kHighs;
     ASSERT_LE(draw.objects.size(), 125u);
     ASSERT_GE(TallestStack(draw), 3);
-    const int tables = CountOf(draw, "table_restaurant");
+    const int tables = CountGrammarRestaurantOf(draw, "table_restaurant");
     ASSERT_TRUE(tables >= 3 && tables <= 10);
-    ASSERT_GE(CountOf(draw, "shelf_living_room"), 1);
-    ASSERT_LE(CountOf(draw, "shelf_living_room"), 5);
+    ASSERT_GE(CountGrammarRestaurantOf(draw, "shelf_living_room"), 1);
+    ASSERT_LE(CountGrammarRestaurantOf(draw, "shelf_living_room"), 5);
   }
-  for (const SceneDraw& draw : Lows()) {
+  for (const SceneSample& draw : Lows()) {
     low += static_cast<double>(draw.objects.size()) / kLows;
     ASSERT_LE(draw.objects.size(), 107u);
     ASSERT_GE(TallestStack(draw), 2);
@@ -209,7 +211,7 @@ TEST(Restaurant, HasAsManyThingsAsPublished) {
 }
 
 TEST(Restaurant, TheSameStateGivesTheSameScene) {
-  const std::vector<SceneDraw> again = Draws(RestaurantHigh(), 2);
+  const std::vector<SceneSample> again = GrammarRestaurantDraws(RestaurantHigh(), 2);
   for (size_t k = 0; k < again.size(); ++k) {
     ASSERT_EQ(again[k].objects.size(), Highs()[k].objects.size());
     for (size_t i = 0; i < again[k].objects.size(); ++i) {

@@ -9,10 +9,10 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/grammar/living_room_shelf.h"
-#include "scene/grammar/pantry_shelf.h"
-#include "tests/scene/drawn_objects.h"
+#include "scene/scene_types/living_room_shelf.h"
+#include "scene/scene_types/pantry_shelf.h"
 #include "tests/scene/geometric_mean.h"
+#include "tests/scene/sampled_objects.h"
 
 namespace simwright::scene {
 namespace {
@@ -21,9 +21,9 @@ namespace {
 // brute force: geometric counts by inverse transform sampling, uniform positions.
 double MeanOfUncrowdedPantries(int scenes) {
   std::map<std::string, double> radii;
-  for (const char* slot : {"can", "tea_bottle", "apple", "apple_2", "apple_3", "apple_4", "pear",
-                           "pear_2", "pear_3", "avocado", "avocado_2", "avocado_3"}) {
-    radii[slot] = SizeOf(DefaultSlotSizes(), slot).Radius();
+  for (const char* category : {"can", "tea_bottle", "apple", "apple_2", "apple_3", "apple_4",
+                               "pear", "pear_2", "pear_3", "avocado", "avocado_2", "avocado_3"}) {
+    radii[category] = SizeOf(DefaultCategorySizes(), category).Radius();
   }
   core::Rng rng = core::StreamRng(11, 0);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -39,11 +39,11 @@ double MeanOfUncrowdedPantries(int scenes) {
         for (const auto& other : places) crowded = crowded || (at - other).norm() < 0.02;
         places.push_back(at);
       };
-      for (const auto& [slot, radius] : radii) {
+      for (const auto& [category, radius] : radii) {
         const int n = static_cast<int>(std::log(1.0 - uniform(rng)) / std::log(1.0 - 0.6));
         for (int i = 0; i < std::min(n, 10); ++i) stand(radius);
       }
-      if (board == 3 && uniform(rng) < 0.2) stand(SizeOf(DefaultSlotSizes(), "bowl").Radius());
+      if (board == 3 && uniform(rng) < 0.2) stand(SizeOf(DefaultCategorySizes(), "bowl").Radius());
       count += static_cast<int>(places.size());
     }
     if (crowded || count > 61) continue;
@@ -60,7 +60,7 @@ TEST(PantryShelf, HasTheCountsOfItsGrammar) {
   double sum = 0.0;
   size_t most = 0;
   for (int i = 0; i < kScenes; ++i) {
-    const SceneDraw draw = DrawScene(grammar, rng);
+    const SceneSample draw = SampleGrammar(grammar, rng);
     sum += static_cast<double>(draw.objects.size());
     most = std::max(most, draw.objects.size());
   }
@@ -77,14 +77,14 @@ TEST(PantryShelf, ThingsStandOnItsBoardsInsideOfIt) {
   core::Rng rng = core::StreamRng(4, 0);
   std::set<int> heights;
   for (int i = 0; i < 200; ++i) {
-    for (const DrawnObject& object : DrawScene(grammar, rng).objects) {
+    for (const SceneObject& object : SampleGrammar(grammar, rng).objects) {
       if (object.welded) {
-        EXPECT_EQ(object.slot, "shelf_pantry");
+        EXPECT_EQ(object.category, "shelf_pantry");
         continue;
       }
       EXPECT_EQ(object.parent, 0);
       const Eigen::Vector3d at = object.world_from_object.translation();
-      const double radius = SizeOf(DefaultSlotSizes(), object.slot).Radius();
+      const double radius = SizeOf(DefaultCategorySizes(), object.category).Radius();
       EXPECT_LE(std::abs(at.x()), 0.15 - radius);
       EXPECT_LE(std::abs(at.y()), 0.3 - radius);
       heights.insert(static_cast<int>(std::lround(1e4 * at.z())));
@@ -97,7 +97,7 @@ TEST(PantryShelf, ThingsStandOnItsBoardsInsideOfIt) {
 // the board in 0.1 mm.
 using Boards = std::map<int, std::vector<size_t>>;
 
-Boards BoardsOf(const SceneDraw& draw) {
+Boards BoardsOf(const SceneSample& draw) {
   Boards boards;
   for (size_t i = 0; i < draw.objects.size(); ++i) {
     if (!IsBase(draw, draw.objects[i])) continue;
@@ -108,20 +108,20 @@ Boards BoardsOf(const SceneDraw& draw) {
 
 constexpr int kShelves = 30000;
 
-const std::vector<SceneDraw>& Shelves() {
-  static const std::vector<SceneDraw> draws = [] {
+const std::vector<SceneSample>& Shelves() {
+  static const std::vector<SceneSample> draws = [] {
     const Grammar grammar = LivingRoomShelf();
-    std::vector<SceneDraw> made;
+    std::vector<SceneSample> made;
     for (std::uint64_t i = 0; i < kShelves; ++i) {
       core::Rng rng = core::StreamRng(3, i);
-      made.push_back(DrawScene(grammar, rng));
+      made.push_back(SampleGrammar(grammar, rng));
     }
     return made;
   }();
   return draws;
 }
 
-double KeepOutOf(const std::string& slot) {
+double GrammarShelfKeepOutOf(const std::string& category) {
   const std::map<std::string, double> radii = {{"plate", 0.11},
                                                {"lamp", 0.02},
                                                {"bowl", 0.1},
@@ -133,27 +133,28 @@ double KeepOutOf(const std::string& slot) {
                                                {"console_game", 0.07},
                                                {"speaker", 0.0875},
                                                {"board_game_small", 0.132}};
-  return radii.at(slot);
+  return radii.at(category);
 }
 
 TEST(LivingRoomShelf, StacksAndPlatesAreKeptClear) {
   const std::set<std::string> stacks = {"plate", "console_game", "board_game_small"};
   int pairs = 0;
-  for (const SceneDraw& draw : Shelves()) {
+  for (const SceneSample& draw : Shelves()) {
     for (const auto& [height, indices] : BoardsOf(draw)) {
       ASSERT_TRUE(height == 170 || height == 2870 || height == 5470 || height == 8170) << height;
       for (const size_t i : indices) {
-        const DrawnObject& one = draw.objects[i];
-        if (one.slot == "board_game_large") {
+        const SceneObject& one = draw.objects[i];
+        if (one.category == "board_game_large") {
           ASSERT_EQ(indices.size(), 1u);  // it has the board for itself
           // It lies along the board.
           ASSERT_GT(std::abs(one.world_from_object.linear()(1, 0)), 0.8);
         }
-        if (stacks.count(one.slot) == 0) continue;
+        if (stacks.count(one.category) == 0) continue;
         for (const size_t j : indices) {
           if (i == j) continue;
-          const DrawnObject& other = draw.objects[j];
-          ASSERT_GE(Across(one, other), KeepOutOf(one.slot) + KeepOutOf(other.slot) - 1e-12);
+          const SceneObject& other = draw.objects[j];
+          ASSERT_GE(Across(one, other), GrammarShelfKeepOutOf(one.category) +
+                                            GrammarShelfKeepOutOf(other.category) - 1e-12);
           ++pairs;
         }
       }
@@ -164,19 +165,19 @@ TEST(LivingRoomShelf, StacksAndPlatesAreKeptClear) {
 
 // Returns the number of boards with exactly one object of each of these categories, if other boards
 // have the three objects that a scene needs.
-int BoardsWith(const std::vector<std::string>& slots) {
+int BoardsWith(const std::vector<std::string>& categories) {
   int count = 0;
-  for (const SceneDraw& draw : Shelves()) {
+  for (const SceneSample& draw : Shelves()) {
     for (const auto& [height, indices] : BoardsOf(draw)) {
       std::multiset<std::string> here;
       size_t carried = 0;
       for (const size_t i : indices) {
-        here.insert(draw.objects[i].slot);
+        here.insert(draw.objects[i].category);
         carried += !CarriedBy(draw, i).empty();
       }
       const bool others = draw.objects.size() >= 4 + indices.size() + carried;
       count += others && height != 8170 &&
-               here == std::multiset<std::string>(slots.begin(), slots.end());
+               here == std::multiset<std::string>(categories.begin(), categories.end());
     }
   }
   return count;
@@ -219,11 +220,11 @@ TEST(LivingRoomShelf, RejectionLeavesWhatItsClosedFormSays) {
 // A stack continues with 0.3, and one of four large games is rejected.
 TEST(LivingRoomShelf, StacksOfLargeGamesAreGeometricUpToThree) {
   std::map<int, int> stacks;
-  for (const SceneDraw& draw : Shelves()) {
+  for (const SceneSample& draw : Shelves()) {
     std::map<int, int> level;
     for (size_t i = 0; i < draw.objects.size(); ++i) {
-      const DrawnObject& one = draw.objects[i];
-      if (one.slot != "board_game_large") continue;
+      const SceneObject& one = draw.objects[i];
+      if (one.category != "board_game_large") continue;
       const int here = IsBase(draw, one) ? 1 : level[one.parent] + 1;
       level[static_cast<int>(i)] = here;
       ++stacks[here];  // of at least this height
@@ -239,7 +240,7 @@ TEST(LivingRoomShelf, StacksOfLargeGamesAreGeometricUpToThree) {
 // Published, after physics: 4.9, including the shelf.
 TEST(LivingRoomShelf, HasNotManyMoreThingsThanPublished) {
   double sum = 0.0;
-  for (const SceneDraw& draw : Shelves()) {
+  for (const SceneSample& draw : Shelves()) {
     sum += static_cast<double>(draw.objects.size());
     ASSERT_LE(draw.objects.size(), 23u);
     ASSERT_GE(draw.objects.size(), 4u);
@@ -250,21 +251,21 @@ TEST(LivingRoomShelf, HasNotManyMoreThingsThanPublished) {
 
 TEST(LivingRoomShelf, GamesAreStackedAndFoodIsOnPlates) {
   std::map<std::string, int> carried;
-  for (const SceneDraw& draw : Shelves()) {
-    for (const DrawnObject& object : draw.objects) {
+  for (const SceneSample& draw : Shelves()) {
+    for (const SceneObject& object : draw.objects) {
       if (object.parent <= 0) continue;
-      const DrawnObject& below = ParentOf(draw, object);
+      const SceneObject& below = ParentOf(draw, object);
       const Eigen::Vector3d way = below.world_from_object.inverse() * PlaceOf(object);
-      const SlotSize& size = SizeOf(DefaultSlotSizes(), below.slot);
-      ++carried[below.slot];
-      ASSERT_NEAR(way.z(), below.slot == "plate" ? size.rest_height : size.height, 1e-12);
+      const CategorySize& size = SizeOf(DefaultCategorySizes(), below.category);
+      ++carried[below.category];
+      ASSERT_NEAR(way.z(), below.category == "plate" ? size.rest_height : size.height, 1e-12);
       ASSERT_LT(way.head<2>().norm(), 0.08);  // no further than five deviations
-      if (below.slot == "plate") continue;
-      ASSERT_EQ(below.slot, object.slot);
+      if (below.category == "plate") continue;
+      ASSERT_EQ(below.category, object.category);
     }
   }
   EXPECT_EQ(carried.size(), 4u);
-  for (const auto& [slot, count] : carried) EXPECT_GT(count, 2000) << slot;
+  for (const auto& [category, count] : carried) EXPECT_GT(count, 2000) << category;
 }
 
 }  // namespace

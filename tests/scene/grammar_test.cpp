@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "scene/grammar/grammar_builder.h"
-#include "scene/grammar/scene_draw.h"
+#include "scene/grammar/scene_sample.h"
 
 namespace simwright::scene {
 namespace {
@@ -23,7 +23,7 @@ std::vector<int> Counts(const Grammar& grammar) {
   core::Rng rng = core::StreamRng(5, 0);
   std::vector<int> counts(32, 0);
   for (int i = 0; i < kDraws; ++i) {
-    ++counts[std::min<size_t>(31, DrawScene(grammar, rng).objects.size())];
+    ++counts[std::min<size_t>(31, SampleGrammar(grammar, rng).objects.size())];
   }
   return counts;
 }
@@ -46,7 +46,7 @@ double ChiSquare(const std::vector<int>& counts, const std::vector<double>& prob
 GrammarBuilder Apples(const std::vector<double>& counts) {
   GrammarBuilder builder("apples", "room");
   builder.Repeat("room", counts,
-                 Always("apple", UniformInWorld({-1, -1, 0}, {1, 1, 0}).FacingAnyWay()));
+                 Always("apple", UniformInWorld({-1, -1, 0}, {1, 1, 0}).WithFreeYaw()));
   builder.Leaf(Object("apple", "apple"));
   return builder;
 }
@@ -90,7 +90,8 @@ TEST(Grammar, MembersOfAnIndependentSetAreIndependent) {
   std::map<std::string, int> seen;
   for (int i = 0; i < kDraws; ++i) {
     std::string all;
-    for (const DrawnObject& object : DrawScene(grammar, rng).objects) all += object.slot + " ";
+    for (const SceneObject& object : SampleGrammar(grammar, rng).objects)
+      all += object.category + " ";
     ++seen[all];
   }
   // Four standard deviations of a share of 0.45.
@@ -103,7 +104,7 @@ TEST(Grammar, MembersOfAnIndependentSetAreIndependent) {
 
 TEST(Grammar, AGaussianOffsetIsInTheParentsFrame) {
   GrammarBuilder builder("offset", "room");
-  builder.And("room", {Always("plate", Offset(1.0, 0.0).Turned(0.5 * M_PI))});
+  builder.And("room", {Always("plate", Offset(1.0, 0.0).WithYaw(0.5 * M_PI))});
   builder.And(Object("plate", "plate"),
               {Always("cup", GaussianOffset({0.3, 0.0, 0.0}, {0.05, 0.01, 0.0}))});
   builder.Leaf(Object("cup", "cup"));
@@ -111,7 +112,7 @@ TEST(Grammar, AGaussianOffsetIsInTheParentsFrame) {
   core::Rng rng = core::StreamRng(7, 0);
   Vector3d sum = Vector3d::Zero(), squares = Vector3d::Zero();
   for (int i = 0; i < kDraws; ++i) {
-    const Vector3d at = DrawScene(grammar, rng).objects[1].world_from_object.translation();
+    const Vector3d at = SampleGrammar(grammar, rng).objects[1].world_from_object.translation();
     sum += at;
     squares += at.cwiseAbs2();
   }
@@ -140,7 +141,7 @@ TEST(Grammar, KeepOutsAreKept) {
   core::Rng rng = core::StreamRng(8, 0);
   double way = 0.0;
   for (int i = 0; i < kDraws; ++i) {
-    const SceneDraw draw = DrawScene(grammar, rng);
+    const SceneSample draw = SampleGrammar(grammar, rng);
     const double x = std::abs(draw.objects[0].world_from_object.translation().x() -
                               draw.objects[1].world_from_object.translation().x());
     ASSERT_GE(x, 0.6 - 1e-12);
@@ -166,7 +167,7 @@ TEST(Grammar, ARejectedPoseCountsItsDerivation) {
   core::Rng rng = core::StreamRng(8, 1);
   int both = 0, derivations = 0;
   for (int i = 0; i < kDraws; ++i) {
-    const SceneDraw draw = DrawScene(grammar, rng);
+    const SceneSample draw = SampleGrammar(grammar, rng);
     derivations += draw.derivations;
     if (draw.objects.size() < 2) continue;
     ++both;
@@ -191,7 +192,7 @@ TEST(Grammar, StructureIsDecidedByRejection) {
   std::vector<int> counts(32, 0);
   int derivations = 0;
   for (int i = 0; i < kDraws; ++i) {
-    const SceneDraw draw = DrawScene(grammar, rng);
+    const SceneSample draw = SampleGrammar(grammar, rng);
     ++counts[draw.objects.size()];
     derivations += draw.derivations;
   }
@@ -206,7 +207,7 @@ TEST(Grammar, StructureIsDecidedByRejection) {
   EXPECT_NEAR(derivations / static_cast<double>(kDraws), 1.0 / accepted, 0.2);
 }
 
-std::string ErrorOf(const std::function<void()>& act) {
+std::string GrammarErrorOf(const std::function<void()>& act) {
   try {
     act();
   } catch (const core::Error& error) {
@@ -218,11 +219,11 @@ std::string ErrorOf(const std::function<void()>& act) {
 TEST(Grammar, WhatCanNeverBeSaysWhichConstraintAndHowOften) {
   GrammarBuilder builder = Apples(GeometricWeights(0.5, 0, 3));
   builder.Require(ObjectsAtLeast(5));
-  DrawOptions options;
+  GrammarSampleOptions options;
   options.tries = 2;
   builder.Options(options);
   core::Rng rng = core::StreamRng(1, 0);
-  const std::string error = ErrorOf([&] { DrawScene(builder.Build(), rng); });
+  const std::string error = GrammarErrorOf([&] { SampleGrammar(builder.Build(), rng); });
   EXPECT_NE(error.find("at least 5 objects"), std::string::npos) << error;
   EXPECT_NE(error.find("2000 derivations"), std::string::npos) << error;
 
@@ -236,29 +237,29 @@ TEST(Grammar, WhatCanNeverBeSaysWhichConstraintAndHowOften) {
   apart.bodies = {{"a", 0.3}, {"b", 0.3}};
   crowd.Require(apart);
   crowd.Options(options);
-  const std::string second = ErrorOf([&] { DrawScene(crowd.Build(), rng); });
+  const std::string second = GrammarErrorOf([&] { SampleGrammar(crowd.Build(), rng); });
   EXPECT_NE(second.find("keep-out of the crowd"), std::string::npos) << second;
 }
 
 TEST(Grammar, WhatIsNotSoundIsRefusedByName) {
   GrammarBuilder twice = Apples({1.0});
   twice.Leaf(Object("apple", "pear"));
-  EXPECT_NE(ErrorOf([&] { twice.Build(); }).find("apple"), std::string::npos);
+  EXPECT_NE(GrammarErrorOf([&] { twice.Build(); }).find("apple"), std::string::npos);
   GrammarBuilder missing("missing", "room");
   missing.And("room", {Always("ghost")});
-  EXPECT_NE(ErrorOf([&] { missing.Build(); }).find("ghost"), std::string::npos);
+  EXPECT_NE(GrammarErrorOf([&] { missing.Build(); }).find("ghost"), std::string::npos);
   GrammarBuilder empty("empty", "room");
   empty.Leaf("room");
-  EXPECT_NE(ErrorOf([&] { empty.Build(); }).find("no object"), std::string::npos);
+  EXPECT_NE(GrammarErrorOf([&] { empty.Build(); }).find("no object"), std::string::npos);
   EXPECT_THROW(GeometricWeights(0.0, 0, 3), core::Error);
-  DrawOptions options;
+  GrammarSampleOptions options;
   options.tries = 0;
   EXPECT_THROW(Apples({0.0, 1.0}).Build().WithOptions(options), core::Error);
   // A symbol that always derives itself.
   GrammarBuilder endless("endless", "tower");
   endless.And(Object("tower", "steamer"), {Always("tower")});
   core::Rng rng = core::StreamRng(1, 0);
-  EXPECT_NE(ErrorOf([&] { DrawScene(endless.Build(), rng); }).find("10000 nodes"),
+  EXPECT_NE(GrammarErrorOf([&] { SampleGrammar(endless.Build(), rng); }).find("10000 nodes"),
             std::string::npos);
 }
 

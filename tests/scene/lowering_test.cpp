@@ -1,5 +1,5 @@
 // Lowering of floating bodies, against closed forms.
-#include "scene/lowering.h"
+#include "scene/feasibility/lowering.h"
 
 #include <cmath>
 
@@ -15,24 +15,24 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using geometry::ConvexShape;
 
-struct Thing {
+struct LoweringArticulatedObject {
   std::vector<ConvexShape> parts;
   Vector3d place;
   bool fixed = false;
 };
 
-std::vector<Vector3d> Lower(const std::vector<Thing>& things, double most) {
+std::vector<Vector3d> Lower(const std::vector<LoweringArticulatedObject>& objects, double most) {
   std::vector<ProjectedBody> bodies;
-  for (const Thing& thing : things) {
+  for (const LoweringArticulatedObject& object : objects) {
     Isometry3d pose = Isometry3d::Identity();
-    pose.translation() = thing.place;
-    bodies.push_back({&thing.parts, pose, thing.fixed});
+    pose.translation() = object.place;
+    bodies.push_back({&object.parts, pose, object.fixed});
   }
   return LowerOntoSupports(bodies, most);
 }
 
 // Its top is at 0.5.
-Thing Table() {
+LoweringArticulatedObject Table() {
   return {{Box({1.0, 1.0, 0.1})}, {0, 0, 0.45}, true};
 }
 
@@ -70,10 +70,11 @@ TEST(LowerOntoSupports, WhatMeetsNothingStays) {
 
 // Between walls that touch it, onto the bottom of a hollow body.
 TEST(LowerOntoSupports, WallsDoNotHold) {
-  const Thing hollow{{Box({0.02, 0.1, 0.1}, {-0.06, 0, 0.05}),
-                      Box({0.02, 0.1, 0.1}, {0.06, 0, 0.05}), Box({0.1, 0.1, 0.01}, {0, 0, 0.005})},
-                     {0, 0, 0.5},
-                     true};
+  const LoweringArticulatedObject hollow{
+      {Box({0.02, 0.1, 0.1}, {-0.06, 0, 0.05}), Box({0.02, 0.1, 0.1}, {0.06, 0, 0.05}),
+       Box({0.1, 0.1, 0.01}, {0, 0, 0.005})},
+      {0, 0, 0.5},
+      true};
   const auto shifts = Lower({hollow, {{Box({0.1, 0.05, 0.04})}, {0, 0, 0.6}}}, 0.1);
   EXPECT_NEAR(shifts[1].z(), -(0.58 - 0.51), 2e-5);
 }

@@ -60,17 +60,17 @@ TEST(CheapestAssignment, IsTheBestOfAllPermutations) {
   EXPECT_THROW(CheapestAssignment(Eigen::MatrixXd::Constant(2, 2, NAN)), core::Error);
 }
 
-Vocabulary Words() {
+Vocabulary MetricsDistanceWords() {
   return {"test", 12, {"cup", "plate", "table"}, {false, false, true}};
 }
 
-using Objects = std::vector<DrawnObject>;
+using MetricsDistanceObjects = std::vector<SceneObject>;
 
 // Returns a table and up to 10 cups and plates around it, with random rotations.
-Objects RandomScene(core::Rng& rng) {
-  Objects objects(2 + static_cast<size_t>(core::UniformIndex(rng, 10)));
+MetricsDistanceObjects RandomScene(core::Rng& rng) {
+  MetricsDistanceObjects objects(2 + static_cast<size_t>(core::UniformIndex(rng, 10)));
   for (size_t i = 0; i < objects.size(); ++i) {
-    objects[i].slot = i == 0 ? "table" : i % 2 == 0 ? "cup" : "plate";
+    objects[i].category = i == 0 ? "table" : i % 2 == 0 ? "cup" : "plate";
     if (i == 0) continue;
     objects[i].world_from_object.translation() << core::Uniform(rng, -0.5, 0.5),
         core::Uniform(rng, -0.5, 0.5), 0.7;
@@ -81,18 +81,18 @@ Objects RandomScene(core::Rng& rng) {
   return objects;
 }
 
-std::vector<Objects> RandomScenes(int count) {
+std::vector<MetricsDistanceObjects> RandomScenes(int count) {
   core::Rng rng = core::StreamRng(3, 0);
-  std::vector<Objects> scenes;
+  std::vector<MetricsDistanceObjects> scenes;
   for (int i = 0; i < count; ++i) scenes.push_back(RandomScene(rng));
   return scenes;
 }
 
 TEST(SceneDistances, ACopyIsAtItsPlace) {
-  const std::vector<Objects> scenes = RandomScenes(200);
-  const SceneDistances distances(scenes, Words());
+  const std::vector<MetricsDistanceObjects> scenes = RandomScenes(200);
+  const SceneDistances distances(scenes, MetricsDistanceWords());
   for (int i = 0; i < 200; i += 20) {
-    Objects copy = scenes[static_cast<size_t>(i)];
+    MetricsDistanceObjects copy = scenes[static_cast<size_t>(i)];
     std::reverse(copy.begin(), copy.end());
     const NearestScene nearest = distances.Nearest(copy);
     EXPECT_EQ(nearest.scene, i);
@@ -101,9 +101,9 @@ TEST(SceneDistances, ACopyIsAtItsPlace) {
 }
 
 TEST(SceneDistances, AMovedOneIsAsFarAsItsShift) {
-  const std::vector<Objects> scenes = RandomScenes(200);
-  const SceneDistances distances(scenes, Words());
-  Objects moved = scenes[7];
+  const std::vector<MetricsDistanceObjects> scenes = RandomScenes(200);
+  const SceneDistances distances(scenes, MetricsDistanceWords());
+  MetricsDistanceObjects moved = scenes[7];
   moved[1].world_from_object.translation() += Eigen::Vector3d(0.006, -0.008, 0.0);
   EXPECT_EQ(distances.Nearest(moved).scene, 7);
   EXPECT_NEAR(distances.Nearest(moved).distance, 0.01, 1e-6);
@@ -118,11 +118,11 @@ TEST(SceneDistances, AMovedOneIsAsFarAsItsShift) {
 }
 
 TEST(SceneDistances, IsTheNearestOfAll) {
-  const std::vector<Objects> scenes = RandomScenes(300);
-  const SceneDistances distances(scenes, Words());
+  const std::vector<MetricsDistanceObjects> scenes = RandomScenes(300);
+  const SceneDistances distances(scenes, MetricsDistanceWords());
   core::Rng rng = core::StreamRng(9, 0);
   for (int round = 0; round < 30; ++round) {
-    const Objects scene = RandomScene(rng);
+    const MetricsDistanceObjects scene = RandomScene(rng);
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < distances.size(); ++i) least = std::min(least, distances.To(scene, i));
     EXPECT_NEAR(distances.Nearest(scene).distance, least, 1e-9);
@@ -131,12 +131,12 @@ TEST(SceneDistances, IsTheNearestOfAll) {
 }
 
 TEST(SceneDistances, RefusesWhatIsNone) {
-  EXPECT_THROW(SceneDistances({}, Words()).Nearest({}), core::Error);
-  Objects spoon(1);
-  spoon[0].slot = "spoon";
-  EXPECT_THROW(SceneDistances({spoon}, Words()), core::Error);
-  EXPECT_THROW(SceneDistances({}, Words(), {-1.0, 1.0}), core::Error);
-  EXPECT_THROW(SceneDistances({}, Words(), {0.05, 0.0}), core::Error);
+  EXPECT_THROW(SceneDistances({}, MetricsDistanceWords()).Nearest({}), core::Error);
+  MetricsDistanceObjects spoon(1);
+  spoon[0].category = "spoon";
+  EXPECT_THROW(SceneDistances({spoon}, MetricsDistanceWords()), core::Error);
+  EXPECT_THROW(SceneDistances({}, MetricsDistanceWords(), {-1.0, 1.0}), core::Error);
+  EXPECT_THROW(SceneDistances({}, MetricsDistanceWords(), {0.05, 0.0}), core::Error);
 }
 
 }  // namespace

@@ -95,13 +95,13 @@ TEST(FrequencyDivergence, IsKnown) {
 
 TEST(AssetCounts, CountsObjectsByClass) {
   const Vocabulary words{"test", 4, {"cup", "plate", "table"}, {false, false, true}};
-  std::vector<std::vector<DrawnObject>> scenes(2);
+  std::vector<std::vector<SceneObject>> scenes(2);
   scenes[0].resize(3);
-  scenes[0][0].slot = "table", scenes[0][1].slot = "cup", scenes[0][2].slot = "cup";
+  scenes[0][0].category = "table", scenes[0][1].category = "cup", scenes[0][2].category = "cup";
   scenes[1].resize(1);
-  scenes[1][0].slot = "table";
+  scenes[1][0].category = "table";
   EXPECT_EQ(AssetCounts(scenes, words), (std::vector<std::int64_t>{2, 0, 2}));
-  scenes[1][0].slot = "spoon";
+  scenes[1][0].category = "spoon";
   EXPECT_THROW(AssetCounts(scenes, words), core::Error);
 }
 
@@ -145,7 +145,7 @@ TEST(ClassifierAccuracy, RefusesWhatIsNone) {
   EXPECT_THROW(ClassifierAccuracy(features, NormalRows(3, 3, 1)), core::Error);
   for (const std::vector<int>& scored : {std::vector<int>{}, {0}, {5, 5}, {9, 3}}) {
     AccuracyOptions options;
-    options.scored = scored;
+    options.scored_epochs = scored;
     EXPECT_THROW(ClassifierAccuracy(features, features, options), core::Error);
   }
 }

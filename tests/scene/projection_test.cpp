@@ -1,6 +1,6 @@
 // Depenetration against closed forms, isotonic regression and small displacements that gain
 // nothing.
-#include "scene/projection.h"
+#include "scene/feasibility/depenetration.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ struct Things {
   Projection Apart(const ProjectionOptions& options = {}) const {
     std::vector<ProjectedBody> bodies;
     for (size_t i = 0; i < parts.size(); ++i) bodies.push_back({&parts[i], poses[i], fixed[i]});
-    return ProjectApart(bodies, options);
+    return ResolvePenetrations(bodies, options);
   }
   // Returns the distance of two displaced bodies, m.
   double Distance(size_t a, size_t b, const std::vector<Vector3d>& shifts) const {
@@ -87,25 +87,25 @@ std::vector<double> Isotonic(const std::vector<double>& values) {
   return result;
 }
 
-TEST(ProjectApart, TwoThatOverlapShareTheWay) {
-  Things things;
-  things.Add({Box({0.1, 0.2, 0.2})}, {0, 0, 0});
-  things.Add({Box({0.1, 0.2, 0.2})}, {0.08, 0.01, 0});
-  const Projection result = things.Apart();
+TEST(ResolvePenetrations, TwoThatOverlapShareTheWay) {
+  Things objects;
+  objects.Add({Box({0.1, 0.2, 0.2})}, {0, 0, 0});
+  objects.Add({Box({0.1, 0.2, 0.2})}, {0.08, 0.01, 0});
+  const Projection result = objects.Apart();
   EXPECT_TRUE(result.feasible);
   EXPECT_LT((result.shifts[0] - Vector3d(-0.01, 0, 0)).norm(), 1e-6);
   EXPECT_LT((result.shifts[1] - Vector3d(0.01, 0, 0)).norm(), 1e-6);
   EXPECT_NEAR(result.cost, 2e-4, 1e-8);
 }
 
-TEST(ProjectApart, FurnitureStaysAndOthersGoAllTheWay) {
-  Things things;
-  things.Add({Box({2, 2, 0.1})}, {0, 0, -0.05}, true);
-  things.Add({Box({0.3, 0.3, 0.3})}, {0.5, 0, -0.03}, true);  // in other furniture, which is
-                                                              // allowed
-  things.Add({Box({0.1, 0.1, 0.1})}, {0, 0, 0.043});
-  things.Add({Ball(0.05)}, {0, 0.5, 0.2});  // apart
-  const Projection result = things.Apart();
+TEST(ResolvePenetrations, FurnitureStaysAndOthersGoAllTheWay) {
+  Things objects;
+  objects.Add({Box({2, 2, 0.1})}, {0, 0, -0.05}, true);
+  objects.Add({Box({0.3, 0.3, 0.3})}, {0.5, 0, -0.03}, true);  // in other furniture, which is
+                                                               // allowed
+  objects.Add({Box({0.1, 0.1, 0.1})}, {0, 0, 0.043});
+  objects.Add({Ball(0.05)}, {0, 0.5, 0.2});  // apart
+  const Projection result = objects.Apart();
   EXPECT_TRUE(result.feasible);
   EXPECT_EQ(result.shifts[0], Vector3d::Zero());
   EXPECT_EQ(result.shifts[1], Vector3d::Zero());
@@ -114,21 +114,21 @@ TEST(ProjectApart, FurnitureStaysAndOthersGoAllTheWay) {
 }
 
 // Boxes in a row are an isotonic regression after subtracting their widths.
-TEST(ProjectApart, ARowIsTheIsotonicRegression) {
+TEST(ResolvePenetrations, ARowIsTheIsotonicRegression) {
   core::Rng rng = core::StreamRng(7, 0);
   for (int round = 0; round < 20; ++round) {
-    Things things;
+    Things objects;
     std::vector<double> wished;
     double place = 0.0, taken = 0.0;
     for (int i = 0; i < 8; ++i) {
       const double wide = core::Uniform(rng, 0.02, 0.06);
       place += core::Uniform(rng, 0.01, 0.07);
-      things.Add({Box({wide, 1.0, 1.0})}, {place, 0, 0});
+      objects.Add({Box({wide, 1.0, 1.0})}, {place, 0, 0});
       wished.push_back(place - (taken + 0.5 * wide));
       taken += wide;
     }
     const std::vector<double> truth = Isotonic(wished);
-    const Projection result = things.Apart();
+    const Projection result = objects.Apart();
     EXPECT_TRUE(result.feasible);
     for (size_t i = 0; i < truth.size(); ++i) {
       EXPECT_NEAR(result.shifts[i].x(), truth[i] - wished[i], 1e-5) << round << " " << i;
@@ -138,14 +138,14 @@ TEST(ProjectApart, ARowIsTheIsotonicRegression) {
 }
 
 // The result is a local optimum: no small allowed displacement improves it.
-TEST(ProjectApart, NoSmallMoveThatIsAllowedIsNearer) {
+TEST(ResolvePenetrations, NoSmallMoveThatIsAllowedIsNearer) {
   core::Rng rng = core::StreamRng(3, 0);
-  Things things;
+  Things objects;
   for (int i = 0; i < 5; ++i) {
-    things.Add({Ball(0.05)}, {core::Uniform(rng, 0, 0.12), core::Uniform(rng, 0, 0.12),
-                              core::Uniform(rng, 0, 0.12)});
+    objects.Add({Ball(0.05)}, {core::Uniform(rng, 0, 0.12), core::Uniform(rng, 0, 0.12),
+                               core::Uniform(rng, 0, 0.12)});
   }
-  const Projection result = things.Apart();
+  const Projection result = objects.Apart();
   ASSERT_TRUE(result.feasible);
   ASSERT_GT(result.cost, 1e-3);
   int allowed = 0;
@@ -157,33 +157,33 @@ TEST(ProjectApart, NoSmallMoveThatIsAllowedIsNearer) {
                                core::Uniform(rng, -1, 1));
       cost += shift.squaredNorm();
     }
-    if (things.Closest(moved) < 0.0) continue;
+    if (objects.Closest(moved) < 0.0) continue;
     ++allowed;
     EXPECT_GT(cost, result.cost - 1e-5);
   }
   EXPECT_GT(allowed, 20);
 }
 
-TEST(ProjectApart, AHeapIsApartAndWhatTouchesTouches) {
+TEST(ResolvePenetrations, AHeapIsApartAndWhatTouchesTouches) {
   core::Rng rng = core::StreamRng(5, 0);
-  Things things;
-  things.Add({Box({2, 2, 0.1})}, {0, 0, -0.05}, true);
+  Things objects;
+  objects.Add({Box({2, 2, 0.1})}, {0, 0, -0.05}, true);
   for (int i = 0; i < 34; ++i) {
     const Vector3d size(core::Uniform(rng, 0.03, 0.12), core::Uniform(rng, 0.03, 0.12),
                         core::Uniform(rng, 0.03, 0.12));
     const Vector3d place(core::Uniform(rng, -0.25, 0.25), core::Uniform(rng, -0.25, 0.25),
                          core::Uniform(rng, 0.0, 0.15));
-    things.Add({Box(size)}, place, false,
-               Eigen::AngleAxisd(core::Uniform(rng, 0, 3), Vector3d(1, 2, 3).normalized())
-                   .toRotationMatrix());
+    objects.Add({Box(size)}, place, false,
+                Eigen::AngleAxisd(core::Uniform(rng, 0, 3), Vector3d(1, 2, 3).normalized())
+                    .toRotationMatrix());
   }
-  const Projection result = things.Apart();
+  const Projection result = objects.Apart();
   EXPECT_TRUE(result.feasible);
   EXPECT_LE(result.rounds, 40);
-  for (size_t a = 1; a < things.parts.size(); ++a) {
+  for (size_t a = 1; a < objects.parts.size(); ++a) {
     double nearest = 1e9;
-    for (size_t b = 0; b < things.parts.size(); ++b) {
-      if (a != b) nearest = std::min(nearest, things.Distance(a, b, result.shifts));
+    for (size_t b = 0; b < objects.parts.size(); ++b) {
+      if (a != b) nearest = std::min(nearest, objects.Distance(a, b, result.shifts));
     }
     EXPECT_GT(nearest, -1e-4);
     if (result.shifts[a].norm() > 1e-3) {
@@ -193,20 +193,20 @@ TEST(ProjectApart, AHeapIsApartAndWhatTouchesTouches) {
 }
 
 // Walls of two frames that pass through each other give contradictory normals.
-TEST(ProjectApart, HollowThingsThatAreThroughEachOtherComeApart) {
-  Things things;
-  things.Add(Frame(0.2, 0.1), {0, 0, 0});
-  things.Add(Frame(0.2, 0.1), {0.07, 0.05, 0.02});
-  const Projection result = things.Apart();
+TEST(ResolvePenetrations, HollowThingsThatAreThroughEachOtherComeApart) {
+  Things objects;
+  objects.Add(Frame(0.2, 0.1), {0, 0, 0});
+  objects.Add(Frame(0.2, 0.1), {0.07, 0.05, 0.02});
+  const Projection result = objects.Apart();
   EXPECT_TRUE(result.feasible);
-  EXPECT_GT(things.Distance(0, 1, result.shifts), -1e-4);
+  EXPECT_GT(objects.Distance(0, 1, result.shifts), -1e-4);
 }
 
-TEST(ProjectApart, AThingInAHollowOneStaysThere) {
-  Things things;
-  things.Add(Frame(0.2, 0.1), {0, 0, 0});
-  things.Add({Ball(0.03)}, {0.06, 0, 0});
-  const Projection result = things.Apart();
+TEST(ResolvePenetrations, AThingInAHollowOneStaysThere) {
+  Things objects;
+  objects.Add(Frame(0.2, 0.1), {0, 0, 0});
+  objects.Add({Ball(0.03)}, {0.06, 0, 0});
+  const Projection result = objects.Apart();
   EXPECT_TRUE(result.feasible);
   // The wall's inner side is at 8 cm, the ball reaches to 9: both move by half.
   EXPECT_LT((result.shifts[0] - Vector3d(0.005, 0, 0)).norm(), 1e-5);
@@ -214,23 +214,23 @@ TEST(ProjectApart, AThingInAHollowOneStaysThere) {
 }
 
 // A ball larger than the hole can only leave the frame, by its hull.
-TEST(ProjectApart, WhatDoesNotFitIntoAHollowThingLeavesIt) {
-  Things things;
-  things.Add(Frame(0.2, 0.1), {0, 0, 0}, true);
-  things.Add({Ball(0.09)}, {0, 0, 0.03});  // 8 cm to the walls
-  const Projection result = things.Apart();
+TEST(ResolvePenetrations, WhatDoesNotFitIntoAHollowThingLeavesIt) {
+  Things objects;
+  objects.Add(Frame(0.2, 0.1), {0, 0, 0}, true);
+  objects.Add({Ball(0.09)}, {0, 0, 0.03});  // 8 cm to the walls
+  const Projection result = objects.Apart();
   EXPECT_TRUE(result.feasible);
   EXPECT_LT((result.shifts[1] - Vector3d(0, 0, 0.11)).norm(), 1e-5);  // on the rim's plane
 }
 
 // Up is the direction of least penetration, and boards leave no space for it.
-TEST(ProjectApart, BetweenBoardsWhatCannotRiseGoesAside) {
-  Things things;
-  things.Add({Box({1, 1, 0.02})}, {0, 0, -0.01}, true);
-  things.Add({Box({1, 1, 0.02})}, {0, 0, 0.11}, true);
-  things.Add({Box({0.12, 0.5, 0.06})}, {0, 0, 0.03});
-  things.Add({Box({0.12, 0.5, 0.06})}, {0.02, 0, 0.07});  // 0.02 m deep in it, 0.1 m to the side
-  const Projection result = things.Apart();
+TEST(ResolvePenetrations, BetweenBoardsWhatCannotRiseGoesAside) {
+  Things objects;
+  objects.Add({Box({1, 1, 0.02})}, {0, 0, -0.01}, true);
+  objects.Add({Box({1, 1, 0.02})}, {0, 0, 0.11}, true);
+  objects.Add({Box({0.12, 0.5, 0.06})}, {0, 0, 0.03});
+  objects.Add({Box({0.12, 0.5, 0.06})}, {0.02, 0, 0.07});  // 0.02 m deep in it, 0.1 m to the side
+  const Projection result = objects.Apart();
   EXPECT_TRUE(result.feasible);
   EXPECT_NEAR(result.shifts[2].x(), -0.05, 1e-3);
   EXPECT_NEAR(result.shifts[3].x(), 0.05, 1e-3);
@@ -238,12 +238,12 @@ TEST(ProjectApart, BetweenBoardsWhatCannotRiseGoesAside) {
   EXPECT_NEAR(result.shifts[3].z(), 0.0, 1e-3);
 }
 
-TEST(ProjectApart, WhereThereIsNoRoomTheLeastBadIsNamed) {
-  Things things;
-  things.Add({Box({0.1, 1, 1})}, {-0.09, 0, 0}, true);
-  things.Add({Box({0.1, 1, 1})}, {0.09, 0, 0}, true);
-  things.Add({Box({0.1, 0.1, 0.1})}, {0.004, 0, 0});
-  const Projection result = things.Apart();
+TEST(ResolvePenetrations, WhereThereIsNoRoomTheLeastBadIsNamed) {
+  Things objects;
+  objects.Add({Box({0.1, 1, 1})}, {-0.09, 0, 0}, true);
+  objects.Add({Box({0.1, 1, 1})}, {0.09, 0, 0}, true);
+  objects.Add({Box({0.1, 0.1, 0.1})}, {0.004, 0, 0});
+  const Projection result = objects.Apart();
   EXPECT_FALSE(result.feasible);
   ASSERT_EQ(result.overlaps.size(), 2u);
   for (const Overlap& overlap : result.overlaps) {
@@ -253,36 +253,36 @@ TEST(ProjectApart, WhereThereIsNoRoomTheLeastBadIsNamed) {
   EXPECT_NEAR(result.shifts[2].x(), -0.004, 1e-4);
 }
 
-TEST(ProjectApart, NothingIsApart) {
-  const Projection none = ProjectApart({});
+TEST(ResolvePenetrations, NothingIsApart) {
+  const Projection none = ResolvePenetrations({});
   EXPECT_TRUE(none.feasible);
   EXPECT_TRUE(none.shifts.empty());
 }
 
 // Pairs in a grid: distant bodies cost almost nothing.
-TEST(ProjectApart, TenThousandThings) {
-  Things things;
+TEST(ResolvePenetrations, TenThousandThings) {
+  Things objects;
   for (int i = 0; i < 5000; ++i) {
     const Vector3d place(0.5 * (i % 71), 0.5 * (i / 71), 0.0);
-    things.Add({Box({0.1, 0.1, 0.1})}, place);
-    things.Add({Box({0.1, 0.1, 0.1})}, place + Vector3d(0.08, 0, 0));
+    objects.Add({Box({0.1, 0.1, 0.1})}, place);
+    objects.Add({Box({0.1, 0.1, 0.1})}, place + Vector3d(0.08, 0, 0));
   }
-  const Projection result = things.Apart();
+  const Projection result = objects.Apart();
   EXPECT_TRUE(result.feasible);
   EXPECT_NEAR(result.cost, 10000 * 1e-4, 1e-4);
   for (const Vector3d& shift : result.shifts) EXPECT_NEAR(std::abs(shift.x()), 0.01, 1e-6);
 }
 
-TEST(ProjectApart, WhatIsNotSoundIsRefused) {
-  Things things;
-  things.Add({Ball(0.03)}, {std::nan(""), 0, 0});
-  EXPECT_THROW(things.Apart(), core::Error);
-  EXPECT_THROW(ProjectApart({ProjectedBody()}), core::Error);
+TEST(ResolvePenetrations, WhatIsNotSoundIsRefused) {
+  Things objects;
+  objects.Add({Ball(0.03)}, {std::nan(""), 0, 0});
+  EXPECT_THROW(objects.Apart(), core::Error);
+  EXPECT_THROW(ResolvePenetrations({ProjectedBody()}), core::Error);
   const std::vector<ConvexShape> none;
-  EXPECT_THROW(ProjectApart({{&none, Isometry3d::Identity(), false}}), core::Error);
+  EXPECT_THROW(ResolvePenetrations({{&none, Isometry3d::Identity(), false}}), core::Error);
   ProjectionOptions options;
   options.influence = 0.0;
-  EXPECT_THROW(ProjectApart({}, options), core::Error);
+  EXPECT_THROW(ResolvePenetrations({}, options), core::Error);
 }
 
 }  // namespace

@@ -15,9 +15,9 @@
 namespace simwright::scene {
 namespace {
 
-constexpr int kClasses = 4;  // the last is the empty one
+constexpr int kSceneDiffusionClasses = 4;  // the last is the empty one
 
-SceneModelOptions Small(DenoiserKind kind, bool continuous) {
+SceneModelOptions SceneDiffusionSmall(DenoiserKind kind, bool continuous) {
   SceneModelOptions options;
   options.kind = kind;
   options.continuous = continuous;
@@ -31,7 +31,7 @@ SceneModelOptions Small(DenoiserKind kind, bool continuous) {
 // Returns a denoiser as after some training: no layer is zero any more.
 std::shared_ptr<Denoiser> Stirred(const SceneModelOptions& options) {
   torch::manual_seed(5);
-  std::shared_ptr<Denoiser> denoiser = MakeDenoiser(options, kClasses);
+  std::shared_ptr<Denoiser> denoiser = MakeDenoiser(options, kSceneDiffusionClasses);
   const torch::NoGradGuard no_gradient;
   for (torch::Tensor& one : denoiser->parameters()) one.add_(0.1 * torch::randn_like(one));
   return denoiser;
@@ -42,11 +42,12 @@ TEST(Denoiser, AnotherOrderOfTheObjectsIsTheSamePredictionInThatOrder) {
   for (const DenoiserKind kind :
        {DenoiserKind::kFlux, DenoiserKind::kTransformer, DenoiserKind::kUnet}) {
     for (const bool continuous : {false, true}) {
-      const std::shared_ptr<Denoiser> denoiser = Stirred(Small(kind, continuous));
+      const std::shared_ptr<Denoiser> denoiser = Stirred(SceneDiffusionSmall(kind, continuous));
       const torch::NoGradGuard no_gradient;
       NoisyScenes scenes{torch::randn({3, 7, 12}),
-                         continuous ? torch::randn({3, 7, kClasses})
-                                    : torch::randint(0, kClasses + 1, {3, 7}, torch::kLong),
+                         continuous
+                             ? torch::randn({3, 7, kSceneDiffusionClasses})
+                             : torch::randint(0, kSceneDiffusionClasses + 1, {3, 7}, torch::kLong),
                          torch::tensor({3, 500, 999}, torch::kLong)};
       const Denoised before = denoiser->Predict(scenes);
       const torch::Tensor order = torch::randperm(7, torch::kLong);
@@ -85,16 +86,16 @@ TEST(Denoiser, SharesOfABatchAreTheWhole) {
   for (const DenoiserKind kind :
        {DenoiserKind::kFlux, DenoiserKind::kTransformer, DenoiserKind::kUnet}) {
     for (const bool continuous : {false, true}) {
-      const SceneModelOptions options = Small(kind, continuous);
+      const SceneModelOptions options = SceneDiffusionSmall(kind, continuous);
       const std::shared_ptr<Denoiser> denoiser = Stirred(options);
-      const SceneDiffusion diffusion(options, kClasses);
+      const SceneDiffusion diffusion(options, kSceneDiffusionClasses);
       const torch::NoGradGuard no_gradient;
       const CleanScenes scenes{torch::rand({7, 5, 12}) * 2.0 - 1.0,
-                               torch::randint(0, kClasses, {7, 5}, torch::kLong)};
+                               torch::randint(0, kSceneDiffusionClasses, {7, 5}, torch::kLong)};
       const DenoisingBatch batch = diffusion.AddNoise(scenes, at::detail::createCPUGenerator(3));
       const Denoised whole = denoiser->Predict(batch.noisy);
       core::SetThreadCount(3);
-      const Denoised shared = denoiser->PredictInShares(batch.noisy);
+      const Denoised shared = denoiser->PredictParallel(batch.noisy);
       core::SetThreadCount(0);
       const auto off = [](const torch::Tensor& a, const torch::Tensor& b) {
         return (a - b).abs().max().item<double>();
@@ -164,7 +165,8 @@ CleanScenes FewScenes(int count) {
 class BestDenoiser : public Denoiser {
  public:
   BestDenoiser(const CleanScenes& data, int steps)
-      : poses_(nn::DiffusionSchedule::Linear(steps, 1e-4, 0.02)), classes_(steps, kClasses) {
+      : poses_(nn::DiffusionSchedule::Linear(steps, 1e-4, 0.02)),
+        classes_(steps, kSceneDiffusionClasses) {
     std::vector<torch::Tensor> poses, classes;
     std::vector<std::int64_t> order(static_cast<size_t>(data.poses.size(1)));
     std::iota(order.begin(), order.end(), 0);
@@ -188,9 +190,9 @@ class BestDenoiser : public Denoiser {
     const torch::Tensor weight = torch::softmax(log_weight, 1);
     const torch::Tensor clean = torch::matmul(weight, data);
     const torch::Tensor one_hot =
-        torch::one_hot(data_.classes, kClasses).to(torch::kFloat).flatten(1);
-    const torch::Tensor share =
-        torch::matmul(weight, one_hot).reshape({batch, noisy.poses.size(1), kClasses});
+        torch::one_hot(data_.classes, kSceneDiffusionClasses).to(torch::kFloat).flatten(1);
+    const torch::Tensor share = torch::matmul(weight, one_hot)
+                                    .reshape({batch, noisy.poses.size(1), kSceneDiffusionClasses});
     return {((x - signal * clean) / spread).reshape(noisy.poses.sizes()),
             torch::log(share.clamp_min(1e-12))};
   }
@@ -199,7 +201,7 @@ class BestDenoiser : public Denoiser {
   // log q(classes_t | classes_0) over the tokens, (B).
   torch::Tensor ClassEvidence(const NoisyScenes& noisy, const torch::Tensor& clean) const {
     const torch::Tensor same = noisy.classes.eq(clean.unsqueeze(0)).to(torch::kFloat);
-    const torch::Tensor masked = noisy.classes.eq(kClasses).to(torch::kFloat);
+    const torch::Tensor masked = noisy.classes.eq(kSceneDiffusionClasses).to(torch::kFloat);
     std::vector<float> kept, replaced, mask;
     for (std::int64_t b = 0; b < noisy.time.size(0); ++b) {
       const int t = noisy.time[b].item<int>();
@@ -235,11 +237,11 @@ TEST(SceneDiffusion, MixedPrecisionHasTheSameGradient) {
   torch::manual_seed(1);
   const torch::Device cpu(torch::kCPU);
   for (const DenoiserKind kind : {DenoiserKind::kFlux, DenoiserKind::kTransformer}) {
-    const SceneModelOptions options = Small(kind, false);
+    const SceneModelOptions options = SceneDiffusionSmall(kind, false);
     const std::shared_ptr<Denoiser> denoiser = Stirred(options);
-    const SceneDiffusion diffusion(options, kClasses);
+    const SceneDiffusion diffusion(options, kSceneDiffusionClasses);
     const CleanScenes scenes{torch::rand({16, 6, 12}) * 2.0 - 1.0,
-                             torch::randint(0, kClasses, {16, 6}, torch::kLong)};
+                             torch::randint(0, kSceneDiffusionClasses, {16, 6}, torch::kLong)};
     double losses[2];
     torch::Tensor gradients[2];
     for (const bool half : {false, true}) {
@@ -268,14 +270,14 @@ TEST(SceneDiffusion, MixedPrecisionHasTheSameGradient) {
 
 TEST(SceneDiffusion, OverfittingFewScenesGoesToWhereTheoryIs) {
   const CleanScenes data = FewScenes(8);
-  SceneModelOptions options = Small(DenoiserKind::kFlux, false);
+  SceneModelOptions options = SceneDiffusionSmall(DenoiserKind::kFlux, false);
   options.width = 48;
   options.double_blocks = 2;
   options.diffusion_steps = 100;
   options.class_weight = 30.0;
-  const SceneDiffusion diffusion(options, kClasses);
+  const SceneDiffusion diffusion(options, kSceneDiffusionClasses);
   torch::manual_seed(2);
-  const std::shared_ptr<Denoiser> denoiser = MakeDenoiser(options, kClasses);
+  const std::shared_ptr<Denoiser> denoiser = MakeDenoiser(options, kSceneDiffusionClasses);
   BestDenoiser best(data, options.diffusion_steps);
   const auto loss = [&](Denoiser* one) {
     const torch::NoGradGuard no_gradient;
@@ -325,7 +327,7 @@ TEST(SceneDiffusion, WithTheBestDenoiserItDrawsTheDataEvenly) {
   const CleanScenes data = FewScenes(4);
   SceneModelOptions options;
   options.diffusion_steps = 200;
-  const SceneDiffusion diffusion(options, kClasses);
+  const SceneDiffusion diffusion(options, kSceneDiffusionClasses);
   BestDenoiser best(data, options.diffusion_steps);
   const torch::NoGradGuard no_gradient;
   for (const auto& [steps, eta] : {std::pair(200, 1.0), std::pair(40, 1.0), std::pair(25, 0.0)}) {
@@ -352,7 +354,7 @@ TEST(SceneDiffusion, WithTheBestDenoiserItDrawsTheDataEvenly) {
 
 TEST(SceneDiffusion, TimesEndAtTheFirstStep) {
   SceneModelOptions options;
-  const SceneDiffusion diffusion(options, kClasses);
+  const SceneDiffusion diffusion(options, kSceneDiffusionClasses);
   EXPECT_EQ(diffusion.Times(1000).size(), 1000u);
   EXPECT_EQ(diffusion.Times(1000).back(), 0);
   EXPECT_EQ(diffusion.Times(1), std::vector<int>{999});

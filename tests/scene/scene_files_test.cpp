@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/random.h"
-#include "scene/export/placed_things.h"
+#include "scene/export/placed_objects.h"
 
 namespace simwright::scene {
 namespace {
@@ -69,12 +69,12 @@ for thing in scene['objects']:
             assert abs(ours[i][j] - theirs[i][j]) < 1e-12, thing
 )";
 
-std::vector<DrawnObject> Objects() {
+std::vector<SceneObject> SceneFilesObjects() {
   core::Rng rng = core::StreamRng(4, 1);
-  std::vector<DrawnObject> objects;
+  std::vector<SceneObject> objects;
   for (int i = 0; i < 42; ++i) {
-    DrawnObject object;
-    object.slot = i % 3 == 0 ? "apple_2" : i % 3 == 1 ? "apple" : "1_0";
+    SceneObject object;
+    object.category = i % 3 == 0 ? "apple_2" : i % 3 == 1 ? "apple" : "1_0";
     object.welded = i % 5 == 0;
     const auto draw = [&] { return core::Uniform(rng, -1.0, 1.0); };
     object.world_from_object.linear() =
@@ -97,10 +97,10 @@ std::vector<DrawnObject> Objects() {
 
 ExportedAssets Assets() {
   ExportedAssets assets;
-  for (const char* const slot : {"apple", "apple_2", "1_0"}) {
+  for (const char* const category : {"apple", "apple_2", "1_0"}) {
     assets::Asset asset;
-    asset.name = std::string(slot) + "_7";
-    assets[slot] = {slot, std::string("../assets/") + slot + "/", asset};
+    asset.name = std::string(category) + "_7";
+    assets[category] = {category, std::string("../assets/") + category + "/", asset};
   }
   return assets;
 }
@@ -108,7 +108,8 @@ ExportedAssets Assets() {
 TEST(SceneFiles, PythonReadsTheSamePosesFromBoth) {
   const core::TemporaryFolder folder;
   const ExportedAssets assets = Assets();
-  const ExportedScene scene{"scene_00003", "pantry", 3, ThingsOf(Objects(), assets)};
+  const ExportedScene scene{"scene_00003", "pantry", 3,
+                            WorldObjectsOf(SceneFilesObjects(), assets)};
   const auto at = [&](const char* name) { return (folder.path() / name).string(); };
   core::WriteFile(at("scene.json"), SceneJson(scene));
   core::WriteFile(at("scene.dmd.yaml"), DrakeDirectives(scene, "rooms"));
@@ -120,17 +121,18 @@ TEST(SceneFiles, PythonReadsTheSamePosesFromBoth) {
 
 TEST(SceneFiles, JsonKeepsEveryDigit) {
   const ExportedAssets assets = Assets();
-  const std::vector<DrawnObject> objects = Objects();
-  const auto json =
-      nlohmann::json::parse(SceneJson({"scene_00003", "pantry", 3, ThingsOf(objects, assets)}));
+  const std::vector<SceneObject> objects = SceneFilesObjects();
+  const auto json = nlohmann::json::parse(
+      SceneJson({"scene_00003", "pantry", 3, WorldObjectsOf(objects, assets)}));
   EXPECT_EQ(json["scene"], 3);
   ASSERT_EQ(json["objects"].size(), objects.size());
   std::set<std::string> names;
   for (size_t i = 0; i < objects.size(); ++i) {
     const auto& thing = json["objects"][i];
     names.insert(thing["name"].get<std::string>());
-    EXPECT_EQ(thing["slot"], objects[i].slot);
-    EXPECT_EQ(thing["urdf"], "../assets/" + objects[i].slot + "/" + objects[i].slot + "_7.urdf");
+    EXPECT_EQ(thing["slot"], objects[i].category);
+    EXPECT_EQ(thing["urdf"],
+              "../assets/" + objects[i].category + "/" + objects[i].category + "_7.urdf");
     EXPECT_EQ(thing["welded"], objects[i].welded);
     for (int k = 0; k < 3; ++k) {
       EXPECT_EQ(thing["translation"][k].get<double>(),
@@ -144,11 +146,11 @@ TEST(SceneFiles, JsonKeepsEveryDigit) {
   EXPECT_EQ(names.size(), objects.size());
 }
 
-TEST(ThingsOf, SaysWhichSlotHasNoAsset) {
+TEST(WorldObjectsOf, SaysWhichSlotHasNoAsset) {
   ExportedAssets assets = Assets();
   assets.erase("apple_2");
   try {
-    ThingsOf(Objects(), assets);
+    WorldObjectsOf(SceneFilesObjects(), assets);
     FAIL();
   } catch (const core::Error& error) {
     EXPECT_NE(std::string(error.what()).find("apple_2"), std::string::npos) << error.what();

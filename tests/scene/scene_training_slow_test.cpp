@@ -14,32 +14,33 @@ namespace simwright::scene {
 namespace {
 namespace fs = std::filesystem;
 
-Vocabulary Words() {
+Vocabulary SceneTrainingWords() {
   return {"test", 4, {"cup", "plate", "table"}, {false, false, true}};
 }
 
 // A table at the origin, a cup at x = 1 on it, and in half of the scenes a plate at x = -1.
 void WriteScenes(const fs::path& folder, int count) {
-  ScenePart part{Words(), {5, 0, "{}", "{}", "1"}, {}, {}};
-  const size_t size = static_cast<size_t>(Words().entries * Words().TokenWidth());
+  SceneShard part{SceneTrainingWords(), {5, 0, "{}", "{}", "1"}, {}, {}};
+  const size_t size =
+      static_cast<size_t>(SceneTrainingWords().entries * SceneTrainingWords().TokenWidth());
   core::Rng rng = core::StreamRng(4, 0);
   for (int i = 0; i < count; ++i) {
-    std::vector<DrawnObject> objects(2 + i % 2);
-    objects[0].slot = "table";
-    objects[1].slot = "cup";
+    std::vector<SceneObject> objects(2 + i % 2);
+    objects[0].category = "table";
+    objects[1].category = "cup";
     objects[1].world_from_object.translation() << 1.0 + 0.05 * core::Normal(rng), 0.0, 0.5;
     if (i % 2 == 1) {
-      objects[2].slot = "plate";
+      objects[2].category = "plate";
       objects[2].world_from_object.translation() << -1.0, 0.05 * core::Normal(rng), 0.5;
     }
     part.tokens.resize(part.tokens.size() + size);
-    EncodeScene(objects, Words(), &part.tokens[part.tokens.size() - size]);
+    EncodeScene(objects, SceneTrainingWords(), &part.tokens[part.tokens.size() - size]);
     part.attempts.push_back({3, 3, 0, true, true, 0, 0, 0});
   }
-  WritePart(part, folder / PartName(0));
+  WriteShard(part, folder / ShardName(0));
 }
 
-SceneModelOptions Small() {
+SceneModelOptions SceneTrainingSmall() {
   SceneModelOptions options;
   options.width = 64;
   options.double_blocks = 1;
@@ -66,8 +67,9 @@ TEST(SceneTraining, LearnsWhatScenesHold) {
   const core::TemporaryFolder folder;
   WriteScenes(folder.path(), 200);
   core::Progress progress;
-  const SceneTrainingReport report = TrainSceneModel(SceneDataset(folder.path()), Small(),
-                                                     Short(400), folder.path() / "run", &progress);
+  const SceneTrainingReport report =
+      TrainSceneModel(SceneDataset(folder.path()), SceneTrainingSmall(), Short(400),
+                      folder.path() / "run", &progress);
   EXPECT_EQ(report.training_scenes, 180);
   EXPECT_EQ(report.held_out_scenes, 20);
 
@@ -75,24 +77,26 @@ TEST(SceneTraining, LearnsWhatScenesHold) {
   EXPECT_LT(report.losses.back().held_out, 0.5 * report.losses.front().held_out);
 
   const SceneModel model = SceneModel::Load(report.weights);
-  EXPECT_EQ(model.facts().vocabulary, Words());
+  EXPECT_EQ(model.facts().vocabulary, SceneTrainingWords());
   EXPECT_EQ(model.facts().training_scenes, 180);
   EXPECT_EQ(model.facts().parameters, report.parameters);
   SampleOptions options;
   options.steps = 50;
   constexpr int kScenes = 64;
   const std::vector<float> tokens = model.Sample(kScenes, options, &progress);
-  const size_t size = static_cast<size_t>(Words().entries * Words().TokenWidth());
+  const size_t size =
+      static_cast<size_t>(SceneTrainingWords().entries * SceneTrainingWords().TokenWidth());
   ASSERT_EQ(tokens.size(), kScenes * size);
   int right = 0, plates = 0;
   for (int i = 0; i < kScenes; ++i) {
     int cups = 0, tables = 0, others = 0;
-    for (const DrawnObject& object : DecodeScene(&tokens[static_cast<size_t>(i) * size], Words())) {
+    for (const SceneObject& object :
+         DecodeScene(&tokens[static_cast<size_t>(i) * size], SceneTrainingWords())) {
       const Eigen::Vector3d at = object.world_from_object.translation();
       EXPECT_TRUE(object.world_from_object.linear().isUnitary(1e-9));
-      cups += object.slot == "cup" && (at - Eigen::Vector3d(1, 0, 0.5)).norm() < 0.3;
-      tables += object.slot == "table" && at.norm() < 0.3;
-      others += object.slot == "plate" && (at - Eigen::Vector3d(-1, 0, 0.5)).norm() < 0.3;
+      cups += object.category == "cup" && (at - Eigen::Vector3d(1, 0, 0.5)).norm() < 0.3;
+      tables += object.category == "table" && at.norm() < 0.3;
+      others += object.category == "plate" && (at - Eigen::Vector3d(-1, 0, 0.5)).norm() < 0.3;
     }
     right += cups == 1 && tables == 1 && others <= 1;
     plates += others == 1;
@@ -114,7 +118,7 @@ TEST(SceneTraining, PlacesAnAssetItHasNotSeen) {
   const core::TemporaryFolder folder;
   WriteScenes(folder.path(), 200);
   core::Progress progress;
-  SceneModelOptions options = Small();
+  SceneModelOptions options = SceneTrainingSmall();
   options.shape_points = kPoints;
   SceneTrainingOptions training = Short(700);
   EXPECT_THROW(TrainSceneModel(SceneDataset(folder.path()), options, training,
@@ -127,7 +131,7 @@ TEST(SceneTraining, PlacesAnAssetItHasNotSeen) {
   model.AddAsset("mug", shape(0.085, 0.085, 0.105));
   EXPECT_THROW(model.AddAsset("mug", shape(1, 1, 1)), core::Error);
   const Vocabulary words = model.facts().vocabulary;
-  EXPECT_EQ(words.slots, (std::vector<std::string>{"cup", "mug", "plate", "table"}));
+  EXPECT_EQ(words.categories, (std::vector<std::string>{"cup", "mug", "plate", "table"}));
   EXPECT_EQ(words.welded, (std::vector<bool>{false, false, false, true}));
   SampleOptions sampling;
   sampling.steps = 50;
@@ -137,12 +141,12 @@ TEST(SceneTraining, PlacesAnAssetItHasNotSeen) {
   int cups = 0, mugs = 0, mugs_at_cups = 0, right = 0;
   for (int i = 0; i < kScenes; ++i) {
     int drinks = 0;
-    for (const DrawnObject& object : DecodeScene(&tokens[static_cast<size_t>(i) * size], words)) {
+    for (const SceneObject& object : DecodeScene(&tokens[static_cast<size_t>(i) * size], words)) {
       const Eigen::Vector3d at = object.world_from_object.translation();
-      drinks += object.slot == "cup" || object.slot == "mug";
-      cups += object.slot == "cup";
-      mugs += object.slot == "mug";
-      mugs_at_cups += object.slot == "mug" && (at - Eigen::Vector3d(1, 0, 0.5)).norm() < 0.3;
+      drinks += object.category == "cup" || object.category == "mug";
+      cups += object.category == "cup";
+      mugs += object.category == "mug";
+      mugs_at_cups += object.category == "mug" && (at - Eigen::Vector3d(1, 0, 0.5)).norm() < 0.3;
     }
     right += drinks == 1;
   }
@@ -157,16 +161,16 @@ TEST(SceneTraining, GoesOnWhereItStopped) {
   const SceneDataset dataset(folder.path());
   core::Progress progress;
   SceneTrainingOptions options = Short(40);
-  TrainSceneModel(dataset, Small(), options, folder.path() / "run", &progress);
+  TrainSceneModel(dataset, SceneTrainingSmall(), options, folder.path() / "run", &progress);
   options.trainer.steps = 60;
   options.trainer.resume = true;
   const SceneTrainingReport report =
-      TrainSceneModel(dataset, Small(), options, folder.path() / "run", &progress);
+      TrainSceneModel(dataset, SceneTrainingSmall(), options, folder.path() / "run", &progress);
   ASSERT_EQ(report.losses.size(), 6u);
   EXPECT_EQ(report.losses.front().step, 10);
   EXPECT_EQ(report.losses.back().step, 60);
   EXPECT_EQ(SceneModel::Load(report.weights).facts().steps, 60);
-  SceneModelOptions other = Small();
+  SceneModelOptions other = SceneTrainingSmall();
   other.width = 32;
   EXPECT_THROW(TrainSceneModel(dataset, other, options, folder.path() / "run", &progress),
                core::Error);
@@ -179,7 +183,7 @@ TEST(SceneTraining, KeepsTheLastGoodWeightsWhereItDiverges) {
   core::Progress progress;
   SceneTrainingOptions options = Short(40);
   const SceneTrainingReport good =
-      TrainSceneModel(dataset, Small(), options, folder.path() / "run", &progress);
+      TrainSceneModel(dataset, SceneTrainingSmall(), options, folder.path() / "run", &progress);
   const std::string weights = core::ReadFile(good.weights);
   options.trainer.steps = 400;
   options.trainer.save_every = 1000;
@@ -187,7 +191,7 @@ TEST(SceneTraining, KeepsTheLastGoodWeightsWhereItDiverges) {
   options.trainer.learning_rate = 1e18;
   options.trainer.largest_norm = 1e30;
   try {
-    TrainSceneModel(dataset, Small(), options, folder.path() / "run", &progress);
+    TrainSceneModel(dataset, SceneTrainingSmall(), options, folder.path() / "run", &progress);
     FAIL() << "a rate of 1e18 did not diverge";
   } catch (const core::Error& error) {
     EXPECT_NE(std::string(error.what()).find("diverged"), std::string::npos) << error.what();

@@ -1,5 +1,5 @@
 // The list of scene types, against samples of their grammars.
-#include "scene/grammar/scene_types.h"
+#include "scene/scene_types/scene_types.h"
 
 #include <algorithm>
 #include <map>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "scene/grammar/scene_draw.h"
+#include "scene/grammar/scene_sample.h"
 
 namespace simwright::scene {
 namespace {
@@ -28,17 +28,17 @@ TEST(SceneTypes, AreThePublishedOnesWithTheirLengths) {
 
 TEST(SceneTypes, DrawNothingThatIsNotAmongTheirSlots) {
   for (const SceneType& type : SceneTypes()) {
-    const Grammar grammar = type.make(DefaultSlotSizes());
+    const Grammar grammar = type.make(DefaultCategorySizes());
     EXPECT_EQ(grammar.name(), type.name);
-    EXPECT_TRUE(std::is_sorted(type.slots.begin(), type.slots.end()));
+    EXPECT_TRUE(std::is_sorted(type.categories.begin(), type.categories.end()));
     std::set<std::string> seen;
     core::Rng rng = core::StreamRng(11, 0);
     for (int i = 0; i < 60; ++i) {
-      const SceneDraw draw = DrawScene(grammar, rng);
+      const SceneSample draw = SampleGrammar(grammar, rng);
       EXPECT_LE(draw.objects.size(), static_cast<size_t>(type.entries)) << type.name;
-      for (const DrawnObject& object : draw.objects) seen.insert(object.slot);
+      for (const SceneObject& object : draw.objects) seen.insert(object.category);
     }
-    const std::set<std::string> known(type.slots.begin(), type.slots.end());
+    const std::set<std::string> known(type.categories.begin(), type.categories.end());
     EXPECT_TRUE(std::includes(known.begin(), known.end(), seen.begin(), seen.end())) << type.name;
     // All categories were sampled, except those on one shelf in twenty.
     EXPECT_GE(seen.size() + 2, known.size()) << type.name;

@@ -125,7 +125,7 @@ TEST(Articulated, FrictionHoldsBelowItselfAndNotAbove) {
     Rigs rigs(OneJoint(UrdfJointType::kRevolute, Eigen::Vector3d::UnitY(), {0, 0, -0.25},
                        share * moment, 0.01));
     for (JointRig* rig : {rigs.bullet.get(), rigs.mujoco.get()}) {
-      const double drift = DriftWhenLetGo(rigs.body, 0, 0.5 * M_PI, 1.0, rig);
+      const double drift = DriftAfterRelease(rigs.body, 0, 0.5 * M_PI, 1.0, rig);
       if (share > 1.0) {
         EXPECT_LT(drift, 1e-4);
       } else {
@@ -160,12 +160,12 @@ TEST(Articulated, MotorsHoldTheirSpeedAndStopAtLimits) {
     for (const double start = rig->time(); rig->time() - start < 2.0;) rig->Step();
     EXPECT_NEAR(rig->Velocity(0), 0.5, 0.005);
     EXPECT_NEAR(rig->Position(0), 0.0, 0.035);  // 2 s at 0.5 m/s, less MuJoCo's 0.1 s of start
-    rig->LetGo(0);
+    rig->Release(0);
     rig->SetPosition(0, 2.95);
     rig->Drive(0, 0.5, 60.0);
     for (const double start = rig->time(); rig->time() - start < 1.0;) rig->Step();
     EXPECT_NEAR(rig->Position(0), 3.0, 0.003);
-    rig->LetGo(0);
+    rig->Release(0);
   }
 }
 

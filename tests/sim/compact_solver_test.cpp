@@ -11,7 +11,7 @@
 namespace simwright::sim {
 namespace {
 
-RigidBody Cylinder() {
+RigidBody CompactSolverCylinder() {
   RigidBody body;
   body.name = "cylinder";
   core::TriangleMesh mesh = assets::CylinderMesh(0.03, 0.1);
@@ -30,7 +30,7 @@ struct Scene {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.translation() = Eigen::Vector3d(1.0, 0.0, 0.08);
     pose.linear() = Eigen::AngleAxisd(1.2, Eigen::Vector3d(1.0, 0.3, 0.2).normalized()).matrix();
-    thing = world.Add(Cylinder(), pose);
+    object = world.Add(CompactSolverCylinder(), pose);
   }
   static WorldOptions Options(bool compact) {
     WorldOptions options;
@@ -47,13 +47,13 @@ struct Scene {
     command[0] += 0.4;
     command[3] = -4.0;  // past its limit of -3.07
     robot.Command(command, robot::Panda(false).gripper.closed);
-    if (world.time() < 0.05) world.PushRoot(thing, {3.0, 1.0, 0.0});
+    if (world.time() < 0.05) world.PushRoot(object, {3.0, 1.0, 0.0});
     robot.Drive();
     world.Step();
   }
   ArticulatedWorld world;
   DrivenRobot robot;
-  int thing = -1;
+  int object = -1;
 };
 
 TEST(CompactSolver, MovesThingsAsBulletDoes) {
@@ -62,8 +62,8 @@ TEST(CompactSolver, MovesThingsAsBulletDoes) {
   for (int step = 0; step < 240; ++step) {
     compact.Step();
     bullet.Step();
-    const Eigen::Isometry3d a = compact.world.LinkPose(compact.thing, 0);
-    const Eigen::Isometry3d b = bullet.world.LinkPose(bullet.thing, 0);
+    const Eigen::Isometry3d a = compact.world.LinkPose(compact.object, 0);
+    const Eigen::Isometry3d b = bullet.world.LinkPose(bullet.object, 0);
     // It touches from step 19 on. Later rounding decides which of two corners touches first.
     if (step < 60) {
       ASSERT_LT((a.matrix() - b.matrix()).norm(), 1e-9) << step;
@@ -75,9 +75,9 @@ TEST(CompactSolver, MovesThingsAsBulletDoes) {
     for (const LinkContact& contact : compact.world.Contacts()) impulse += contact.impulse;
   }
   // It did rest on the floor: contacts carried its full weight.
-  const double weight = Cylinder().inertial.mass * 9.81;
+  const double weight = CompactSolverCylinder().inertial.mass * 9.81;
   EXPECT_NEAR(impulse, weight * compact.world.time(), 0.25 * weight);
-  EXPECT_GT((compact.world.LinkPose(compact.thing, 0).translation().x()), 1.05);
+  EXPECT_GT((compact.world.LinkPose(compact.object, 0).translation().x()), 1.05);
 }
 
 // The same start gives the same bits.
@@ -87,8 +87,8 @@ TEST(CompactSolver, RepeatsItselfBitForBit) {
     first.Step();
     second.Step();
   }
-  const Eigen::Matrix4d a = first.world.LinkPose(first.thing, 0).matrix();
-  EXPECT_EQ(a, Eigen::Matrix4d(second.world.LinkPose(second.thing, 0).matrix()));
+  const Eigen::Matrix4d a = first.world.LinkPose(first.object, 0).matrix();
+  EXPECT_EQ(a, Eigen::Matrix4d(second.world.LinkPose(second.object, 0).matrix()));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-RigidBody Cylinder(double radius, double height, double mass) {
+RigidBody DrivenRobotCylinder(double radius, double height, double mass) {
   RigidBody body;
   body.name = "cup";
   core::TriangleMesh mesh = assets::CylinderMesh(radius, height);
@@ -33,7 +33,7 @@ TEST(DrivenRobot, StandsStillUnderGravityForAMinute) {
   const robot::RobotModel& panda = robot::Panda(false);
   const auto body = RobotBody(panda);
   core::Rng rng(5);
-  for (int posture = 0; posture < 3; ++posture) {
+  for (int configuration = 0; configuration < 3; ++configuration) {
     ArticulatedWorld world;
     DrivenRobot robot(panda, body, Eigen::Isometry3d::Identity(), &world);
     Eigen::VectorXd q = panda.home();
@@ -73,8 +73,8 @@ TEST_P(DrivenRobotGrasp, LiftsACupByContactAloneAndHoldsIt) {
   WorldOptions options;
   options.solver_iterations = GetParam();
   ArticulatedWorld world(options);
-  const int cup =
-      world.Add(Cylinder(0.03, 0.1, 0.2), Eigen::Isometry3d(Eigen::Translation3d(0.45, 0.1, 0.0)));
+  const int cup = world.Add(DrivenRobotCylinder(0.03, 0.1, 0.2),
+                            Eigen::Isometry3d(Eigen::Translation3d(0.45, 0.1, 0.0)));
   DrivenRobot robot(panda, RobotBody(panda), Eigen::Isometry3d::Identity(), &world);
   const Eigen::VectorXd low = Above(panda, {0.45, 0.1, 0.085}),
                         high = Above(panda, {0.45, 0.1, 0.3});
@@ -131,8 +131,8 @@ double Lifted(double finger_friction) {
   WorldOptions options;
   options.solver_iterations = 50;
   ArticulatedWorld world(options);
-  const int cup =
-      world.Add(Cylinder(0.03, 0.1, 0.2), Eigen::Isometry3d(Eigen::Translation3d(0.45, 0.1, 0.0)));
+  const int cup = world.Add(DrivenRobotCylinder(0.03, 0.1, 0.2),
+                            Eigen::Isometry3d(Eigen::Translation3d(0.45, 0.1, 0.0)));
   MotorOptions motors;
   motors.finger_friction = finger_friction;
   DrivenRobot robot(panda, RobotBody(panda), Eigen::Isometry3d::Identity(), &world, motors);

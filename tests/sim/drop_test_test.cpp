@@ -16,7 +16,7 @@
 namespace simwright::sim {
 namespace {
 
-RigidBody Box(const Eigen::Vector3d& size, double mass) {
+RigidBody DropTestBox(const Eigen::Vector3d& size, double mass) {
   RigidBody body;
   body.name = "box";
   body.parts = {assets::BoxMesh(size)};
@@ -29,7 +29,7 @@ RigidBody Box(const Eigen::Vector3d& size, double mass) {
 }
 
 TEST(World, FallsAsNewtonSays) {
-  const RigidBody box = Box({0.1, 0.1, 0.1}, 1.0);
+  const RigidBody box = DropTestBox({0.1, 0.1, 0.1}, 1.0);
   World world;
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
   start.translation().z() = 10.0;
@@ -42,7 +42,7 @@ TEST(World, FallsAsNewtonSays) {
 
 // It falls at 24 m/s, 10 cm per step: more than the height of the floor's AABB.
 TEST(World, WhatIsFastDoesNotFallThroughTheFloor) {
-  const RigidBody box = Box({0.1, 0.1, 0.02}, 1.0);
+  const RigidBody box = DropTestBox({0.1, 0.1, 0.02}, 1.0);
   WorldOptions options;
   options.floor_reach = 0.05;
   World world(options);
@@ -65,7 +65,7 @@ TEST(World, KeepsTheInertialItWasGiven) {
 }
 
 TEST(Drop, ABoxRestsOnTheFloorAndStays) {
-  const DropResult drop = DropInBullet(Box({0.1, 0.08, 0.06}, 0.4));
+  const DropResult drop = DropInBullet(DropTestBox({0.1, 0.08, 0.06}, 0.4));
   EXPECT_TRUE(drop.rests);
   EXPECT_LT(drop.tilt, 1e-3);
   EXPECT_LT(drop.drift, 1e-5);
@@ -75,7 +75,7 @@ TEST(Drop, ABoxRestsOnTheFloorAndStays) {
 TEST(Drop, ATallBoxOnItsEdgeFalls) {
   DropOptions options;
   options.start.linear() = Eigen::AngleAxisd(0.9, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  const DropResult drop = DropInBullet(Box({0.05, 0.05, 0.3}, 0.4), options);
+  const DropResult drop = DropInBullet(DropTestBox({0.05, 0.05, 0.3}, 0.4), options);
   EXPECT_TRUE(drop.rests);
   EXPECT_NEAR(drop.tilt, std::numbers::pi / 2 - 0.9, 0.02);
 }
@@ -85,7 +85,7 @@ class Watched : public ::testing::Test {
  protected:
   template <typename Motion>
   DropResult Watch(Motion motion) const {
-    DropWatch watch(body_, DropOptions(), Eigen::Isometry3d::Identity());
+    DropObserver watch(body_, DropOptions(), Eigen::Isometry3d::Identity());
     for (int i = 1; i <= 2000; ++i) {
       const double t = i * 0.002;
       watch.Observe(t, motion(t));
@@ -98,7 +98,7 @@ class Watched : public ::testing::Test {
     pose.linear() = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     return pose;
   }
-  const RigidBody body_ = Box({0.1, 0.1, 0.1}, 1.0);
+  const RigidBody body_ = DropTestBox({0.1, 0.1, 0.1}, 1.0);
 };
 
 TEST_F(Watched, RestsFromWhenItStops) {
@@ -129,7 +129,7 @@ TEST_F(Watched, CreepShowsInTheDrift) {
 }
 
 TEST(Drop, RepeatsBitForBit) {
-  const RigidBody box = Box({0.1, 0.08, 0.06}, 0.4);
+  const RigidBody box = DropTestBox({0.1, 0.08, 0.06}, 0.4);
   const DropResult a = DropInBullet(box), b = DropInBullet(box);
   EXPECT_EQ(a.final_pose.matrix(), b.final_pose.matrix());
 }

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-RigidBody Box(const std::string& name, const Vector3d& size, double mass) {
+RigidBody LinkTreeBox(const std::string& name, const Vector3d& size, double mass) {
   RigidBody body;
   body.name = name;
   body.parts = {assets::BoxMesh(size)};
@@ -42,8 +42,10 @@ ArticulatedBody Chain() {
   body.name = "chain";
   RigidBody frame;
   frame.name = "frame";
-  body.links = {Box("base", {0.1, 0.1, 0.1}, 1.0), Box("rod", {0.3, 0.04, 0.04}, 0.7),
-                Box("plate", {0.1, 0.1, 0.01}, 0.4), frame, Box("end", {0.2, 0.02, 0.02}, 0.2)};
+  body.links = {LinkTreeBox("base", {0.1, 0.1, 0.1}, 1.0),
+                LinkTreeBox("rod", {0.3, 0.04, 0.04}, 0.7),
+                LinkTreeBox("plate", {0.1, 0.1, 0.01}, 0.4), frame,
+                LinkTreeBox("end", {0.2, 0.02, 0.02}, 0.2)};
   using Type = assets::UrdfJointType;
   body.joints = {
       Joint(Type::kRevolute, {0.2, 0.0, 0.0}, 0.0), Joint(Type::kFixed, {0.2, 0.03, 0.02}, 0.5),
@@ -88,14 +90,15 @@ TEST(LinkTree, FoldedLinksMoveAsTheyDoApart) {
 TEST(LinkTree, ContactsNameTheFoldedLink) {
   ArticulatedBody shelf;
   shelf.name = "shelf";
-  shelf.links = {Box("base", {0.1, 0.1, 0.4}, 5.0), Box("plate", {0.3, 0.3, 0.02}, 1.0)};
+  shelf.links = {LinkTreeBox("base", {0.1, 0.1, 0.4}, 5.0),
+                 LinkTreeBox("plate", {0.3, 0.3, 0.02}, 1.0)};
   shelf.joints = {Joint(assets::UrdfJointType::kFixed, {0.4, 0.0, 0.1}, 0.0)};
   shelf.parents = {0};
   ArticulatedWorld world;
   Placement placement;
   placement.world_from_root.translation() = Vector3d(0.0, 0.0, 0.2);
   world.Add(shelf, placement);
-  const int box = world.Add(Box("box", {0.1, 0.1, 0.1}, 0.5),
+  const int box = world.Add(LinkTreeBox("box", {0.1, 0.1, 0.1}, 0.5),
                             Eigen::Isometry3d(Eigen::Translation3d(0.4, 0.0, 0.362)));
   while (world.time() < 1.0) world.Step();
   EXPECT_NEAR(world.LinkPose(box, 0).translation().z(), 0.3 + 0.01 + 0.05, 3e-4);

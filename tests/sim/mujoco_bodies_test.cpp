@@ -19,8 +19,8 @@ TEST(MujocoBodies, AnArmGetsToWhereItIsSent) {
   box.name = "box";
   box.parts = {assets::BoxMesh({0.1, 0.1, 0.1})};
   box.inertial = {0.5, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity() * 0.5 * 0.01 / 6.0};
-  const ArticulatedBody thing = ArticulatedBodyFrom(box);
-  MujocoPlacement robot{&arm->body()}, standing{&thing};
+  const ArticulatedBody object = ArticulatedBodyFrom(box);
+  MujocoPlacement robot{&arm->body()}, standing{&object};
   for (const auto& limits : panda.limits) robot.motor_forces.push_back(limits.effort);
   standing.fixed = false;
   standing.world_from_root.translation() = Eigen::Vector3d(1.0, 0.0, 0.05);

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-RigidBody Box(const Vector3d& size, double mass, double friction = 0.5) {
+RigidBody SettlingBox(const Vector3d& size, double mass, double friction = 0.5) {
   RigidBody body;
   body.name = "box";
   body.parts = {assets::BoxMesh(size)};
@@ -32,7 +32,7 @@ Isometry3d At(const Vector3d& place) {
 }
 
 TEST(Settle, ATowerOnATableStandsStill) {
-  const RigidBody table = Box({1, 1, 0.1}, 0.0), box = Box({0.1, 0.1, 0.06}, 0.3);
+  const RigidBody table = SettlingBox({1, 1, 0.1}, 0.0), box = SettlingBox({0.1, 0.1, 0.06}, 0.3);
   std::vector<SettlingBody> bodies = {{&table, At({0, 0, 0.5}), true}};
   for (int i = 0; i < 5; ++i) bodies.push_back({&box, At({0.2, 0, 0.58 + 0.06 * i}), false});
   const std::vector<SettledBody> settled = Settle(bodies);
@@ -47,7 +47,7 @@ TEST(Settle, ATowerOnATableStandsStill) {
 
 // Returns a box whose edges are chamfered by 2 mm, like a board game's: a hull of 24 vertices.
 RigidBody ChamferedBox(const Vector3d& size, double mass) {
-  RigidBody body = Box(size, mass);
+  RigidBody body = SettlingBox(size, mass);
   std::vector<Vector3d> corners;
   for (const Vector3d& corner : assets::BoxMesh(size).vertices) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -62,7 +62,7 @@ RigidBody ChamferedBox(const Vector3d& size, double mass) {
 // Ten stacks of boxes of different sizes, each rotated against its support, over 6 s, as on a
 // shelf. With single-point contacts half of them creep, by up to some millimetres.
 TEST(Settle, WhatLiesFlatDoesNotCreep) {
-  const RigidBody board = Box({8, 1, 0.02}, 0.0, 0.6);
+  const RigidBody board = SettlingBox({8, 1, 0.02}, 0.0, 0.6);
   const RigidBody low = ChamferedBox({0.26, 0.26, 0.07}, 1.1),
                   high = ChamferedBox({0.18, 0.12, 0.05}, 0.4);
   std::vector<SettlingBody> bodies = {{&board, At({0, 0, 0.5}), true}};
@@ -90,7 +90,7 @@ TEST(Settle, WhatLiesFlatDoesNotCreep) {
 }
 
 TEST(Settle, WhatHangsOverTheEdgeFalls) {
-  const RigidBody table = Box({1, 1, 0.1}, 0.0), box = Box({0.1, 0.1, 0.06}, 0.3);
+  const RigidBody table = SettlingBox({1, 1, 0.1}, 0.0), box = SettlingBox({0.1, 0.1, 0.06}, 0.3);
   // Its middle is 1 cm outside, another's 1 cm inside.
   const std::vector<SettledBody> settled = Settle({{&table, At({0, 0, 0.5}), true},
                                                    {&box, At({0.51, 0.2, 0.581}), false},
@@ -103,8 +103,8 @@ TEST(Settle, WhatHangsOverTheEdgeFalls) {
 
 // A fallen object is removed before it can topple objects below.
 TEST(Settle, WhatFallsKnocksNothingDown) {
-  const RigidBody table = Box({1, 1, 0.1}, 0.0), box = Box({0.1, 0.1, 0.06}, 0.3);
-  const RigidBody post = Box({0.03, 0.03, 0.2}, 0.1);
+  const RigidBody table = SettlingBox({1, 1, 0.1}, 0.0), box = SettlingBox({0.1, 0.1, 0.06}, 0.3);
+  const RigidBody post = SettlingBox({0.03, 0.03, 0.2}, 0.1);
   const std::vector<SettlingBody> bodies = {{&table, At({0, 0, 0.5}), true},
                                             {&box, At({0.52, 0.2, 0.581}), false},
                                             {&post, At({0.56, 0.2, 0.1}), false}};
@@ -121,8 +121,9 @@ TEST(Settle, WhatFallsKnocksNothingDown) {
 TEST(Settle, WhatSlidesIsNotStable) {
   const Isometry3d slope =
       At({0, 0, 5}) * Eigen::AngleAxisd(20.0 * M_PI / 180.0, Vector3d::UnitY());
-  const RigidBody plank = Box({4, 1, 0.1}, 0.0, 1.0);
-  const RigidBody rough = Box({0.1, 0.1, 0.04}, 0.3, 0.5), smooth = Box({0.1, 0.1, 0.04}, 0.3, 0.0);
+  const RigidBody plank = SettlingBox({4, 1, 0.1}, 0.0, 1.0);
+  const RigidBody rough = SettlingBox({0.1, 0.1, 0.04}, 0.3, 0.5),
+                  smooth = SettlingBox({0.1, 0.1, 0.04}, 0.3, 0.0);
   SettlingOptions options;
   options.duration = 0.5;
   options.watch = 0.5;
@@ -148,13 +149,14 @@ TEST(Settle, WhatSlidesIsNotStable) {
 
 // A thin slab on its edge is stable unless gravity tilts; a box is stable either way.
 TEST(Settle, WhatBalancesTipsInASway) {
-  const RigidBody slab = Box({0.002, 0.1, 0.2}, 0.1), box = Box({0.1, 0.1, 0.1}, 0.3);
+  const RigidBody slab = SettlingBox({0.002, 0.1, 0.2}, 0.1),
+                  box = SettlingBox({0.1, 0.1, 0.1}, 0.3);
   const std::vector<SettlingBody> bodies = {{&slab, At({0, 0, 0.1}), false},
                                             {&box, At({0.5, 0, 0.05}), false}};
   SettlingOptions options;
   EXPECT_LT(Settle(bodies, options)[0].tilted, 1e-3);
-  options.sway = 0.1;
-  options.sway_time = 0.2;
+  options.gravity_tilt = 0.1;
+  options.gravity_tilt_time = 0.2;
   const std::vector<SettledBody> swayed = Settle(bodies, options);
   EXPECT_GT(swayed[0].tilted, 1.0);  // until it was removed
   EXPECT_LT(swayed[1].moved, 1e-4);
@@ -162,7 +164,7 @@ TEST(Settle, WhatBalancesTipsInASway) {
 }
 
 TEST(Settle, IsTheSameEveryTime) {
-  const RigidBody box = Box({0.1, 0.1, 0.06}, 0.3);
+  const RigidBody box = SettlingBox({0.1, 0.1, 0.06}, 0.3);
   const std::vector<SettlingBody> bodies = {{&box, At({0, 0, 0.1}), false},
                                             {&box, At({0.06, 0.03, 0.2}), false}};
   const auto one = Settle(bodies), two = Settle(bodies);
@@ -172,15 +174,16 @@ TEST(Settle, IsTheSameEveryTime) {
 }
 
 TEST(Settle, RefusesWhatIsNotSound) {
-  const RigidBody box = Box({0.1, 0.1, 0.06}, 0.3), no_mass = Box({0.1, 0.1, 0.06}, 0.0);
+  const RigidBody box = SettlingBox({0.1, 0.1, 0.06}, 0.3),
+                  no_mass = SettlingBox({0.1, 0.1, 0.06}, 0.0);
   EXPECT_TRUE(Settle({}).empty());
   EXPECT_THROW(Settle({{}}), core::Error);
   EXPECT_THROW(Settle({{&no_mass, At({0, 0, 1}), false}}), core::Error);
   EXPECT_THROW(Settle({{&box, At({0, 0, std::nan("")}), false}}), core::Error);
   SettlingOptions options;
-  options.sway = -0.1;
+  options.gravity_tilt = -0.1;
   EXPECT_THROW(Settle({{&box, At({0, 0, 1}), false}}, options), core::Error);
-  options.sway = 0.0;
+  options.gravity_tilt = 0.0;
   options.settling_friction = -1.0;
   EXPECT_THROW(Settle({{&box, At({0, 0, 1}), false}}, options), core::Error);
   options.settling_friction = 1.0;

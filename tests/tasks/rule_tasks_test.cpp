@@ -13,16 +13,16 @@
 namespace simwright::tasks {
 namespace {
 
-SceneModel Kitchen() {
+SceneModel RuleTasksKitchen() {
   return MakeSceneModel({Microwave(), DrawerUnit(), Cup(), Cup("jug", 0.045, 0.16),
                          Box("book", {0.2, 0.15, 0.03}, 0.6), Box("tin", {0.06, 0.06, 0.08}, 0.3)});
 }
 
 TEST(Cavities, AMicrowavesRoomIsWhatItsWallsEnclose) {
   const SceneModel model = MakeSceneModel({Microwave()});
-  const Thing& thing = model.things[0];
-  ASSERT_EQ(thing.cavities.size(), 1u);
-  const Cavity& room = thing.cavities[0];
+  const ArticulatedObject& object = model.objects[0];
+  ASSERT_EQ(object.receptacles.size(), 1u);
+  const Receptacle& room = object.receptacles[0];
   // The interior is 0.38 x 0.46 x 0.26, from the back wall to the front. A cell is 1/40 of 0.5 m.
   const double cell = 0.5 / 40;
   EXPECT_NEAR(room.box.sizes().x(), 0.38, 2 * cell);
@@ -30,27 +30,27 @@ TEST(Cavities, AMicrowavesRoomIsWhatItsWallsEnclose) {
   EXPECT_NEAR(room.box.sizes().z(), 0.26, 2 * cell);
   EXPECT_NEAR(room.box.center().y(), 0.0, cell);
   EXPECT_EQ(room.opening, -Eigen::Vector3d::UnitX());
-  ASSERT_EQ(room.door, thing.FindJoint("door_joint"));
+  ASSERT_EQ(room.door, object.FindJoint("door_joint"));
 }
 
 TEST(Cavities, ACupOpensAboveAndABlockHasNone) {
   const SceneModel model = MakeSceneModel({Cup(), Box("block", {0.1, 0.1, 0.1}, 0.5)});
-  ASSERT_EQ(model.things[0].cavities.size(), 1u);
-  EXPECT_EQ(model.things[0].cavities[0].opening, Eigen::Vector3d::UnitZ());
-  EXPECT_EQ(model.things[0].cavities[0].door, -1);
-  EXPECT_GT(model.things[0].cavities[0].box.sizes().z(), 0.08);
-  EXPECT_TRUE(model.things[1].cavities.empty());
+  ASSERT_EQ(model.objects[0].receptacles.size(), 1u);
+  EXPECT_EQ(model.objects[0].receptacles[0].opening, Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(model.objects[0].receptacles[0].door, -1);
+  EXPECT_GT(model.objects[0].receptacles[0].box.sizes().z(), 0.08);
+  EXPECT_TRUE(model.objects[1].receptacles.empty());
 }
 
 // The cabinet's interior is filled by its drawer; the drawer's receptacle is opened by pulling it
 // out.
 TEST(Cavities, ADrawersRoomIsOpenedByTheDrawer) {
   const SceneModel model = MakeSceneModel({DrawerUnit()});
-  const Thing& thing = model.things[0];
-  ASSERT_EQ(thing.cavities.size(), 1u);
-  EXPECT_EQ(thing.cavities[0].link, thing.FindLink("drawer"));
-  EXPECT_EQ(thing.cavities[0].door, thing.FindJoint("drawer_joint"));
-  EXPECT_EQ(thing.cavities[0].opening, Eigen::Vector3d::UnitZ());
+  const ArticulatedObject& object = model.objects[0];
+  ASSERT_EQ(object.receptacles.size(), 1u);
+  EXPECT_EQ(object.receptacles[0].link, object.FindLink("drawer"));
+  EXPECT_EQ(object.receptacles[0].door, object.FindJoint("drawer_joint"));
+  EXPECT_EQ(object.receptacles[0].opening, Eigen::Vector3d::UnitZ());
 }
 
 // Two drawers, one above the other: each opens its own receptacle, although the upper one covers
@@ -69,53 +69,55 @@ TEST(Cavities, DrawersAboveEachOtherAreOpenedEachByItself) {
   chest.model.joints.push_back(MakeJoint("upper_joint", "body", "drawer_1",
                                          assets::UrdfJointType::kPrismatic, {-0.02, 0, 0.27},
                                          {-1, 0, 0}, 0.0, 0.25));
-  const Thing thing = ThingOf("chest", chest);
-  ASSERT_EQ(thing.cavities.size(), 2u);
-  for (const Cavity& cavity : thing.cavities) {
-    EXPECT_EQ(thing.joints[static_cast<std::size_t>(cavity.door)].link, cavity.link);
+  const ArticulatedObject object = MakeArticulatedObject("chest", chest);
+  ASSERT_EQ(object.receptacles.size(), 2u);
+  for (const Receptacle& receptacle : object.receptacles) {
+    EXPECT_EQ(object.joints[static_cast<std::size_t>(receptacle.door)].link, receptacle.link);
   }
 }
 
 TEST(Affordances, FollowFromLabelsAndSizes) {
-  const SceneModel model = Kitchen();
-  const Thing& microwave = model.things[0];
-  EXPECT_EQ(UseOf(microwave, microwave.joints[microwave.FindJoint("door_joint")]), JointUse::kOpen);
-  EXPECT_EQ(UseOf(microwave, microwave.joints[microwave.FindJoint("button_joint")]),
+  const SceneModel model = RuleTasksKitchen();
+  const ArticulatedObject& microwave = model.objects[0];
+  EXPECT_EQ(GetJointUse(microwave, microwave.joints[microwave.FindJoint("door_joint")]),
+            JointUse::kOpen);
+  EXPECT_EQ(GetJointUse(microwave, microwave.joints[microwave.FindJoint("button_joint")]),
             JointUse::kPress);
-  EXPECT_TRUE(CanBeLifted(model.things[2]));
+  EXPECT_TRUE(CanBeLifted(model.objects[2]));
   EXPECT_FALSE(CanBeLifted(microwave));
-  EXPECT_FALSE(CanBeLifted(MakeSceneModel({Box("brick", {0.2, 0.2, 0.2}, 1.0)}).things[0]));
-  EXPECT_FALSE(CanBeLifted(MakeSceneModel({Box("lead", {0.05, 0.05, 0.05}, 6.0)}).things[0]));
-  EXPECT_TRUE(StandsOn(model.things[5], model.things[4]));   // the tin on the book
-  EXPECT_FALSE(StandsOn(model.things[4], model.things[5]));  // not the book on the tin
-  EXPECT_FALSE(StandsOn(model.things[5], model.things[2]));  // a cup has no top
-  EXPECT_TRUE(FitsInto(model.things[2], microwave, 0));
+  EXPECT_FALSE(CanBeLifted(MakeSceneModel({Box("brick", {0.2, 0.2, 0.2}, 1.0)}).objects[0]));
+  EXPECT_FALSE(CanBeLifted(MakeSceneModel({Box("lead", {0.05, 0.05, 0.05}, 6.0)}).objects[0]));
+  EXPECT_TRUE(CanStandOn(model.objects[5], model.objects[4]));   // the tin on the book
+  EXPECT_FALSE(CanStandOn(model.objects[4], model.objects[5]));  // not the book on the tin
+  EXPECT_FALSE(CanStandOn(model.objects[5], model.objects[2]));  // a cup has no top
+  EXPECT_TRUE(FitsInto(model.objects[2], microwave, 0));
   EXPECT_FALSE(FitsInto(microwave, microwave, 0));
 }
 
 TEST(Planner, OpensBeforeItFillsAndClosesAfter) {
-  const SceneModel model = Kitchen();
+  const SceneModel model = RuleTasksKitchen();
   const int microwave = 0, cup = 2;
-  const int door = model.things[0].FindJoint("door_joint");
-  Facts facts{{FactKind::kHandEmpty},
-              {FactKind::kJointAtRest, microwave, -1, door},
-              {FactKind::kOnFloor, cup},
-              {FactKind::kFree, cup},
-              {FactKind::kFree, microwave}};
+  const int door = model.objects[0].FindJoint("door_joint");
+  Metadata facts{{PredicateKind::kGripperEmpty},
+                 {PredicateKind::kJointAtRest, microwave, -1, door},
+                 {PredicateKind::kOnFloor, cup},
+                 {PredicateKind::kFree, cup},
+                 {PredicateKind::kFree, microwave}};
   const std::vector<Operator> plan = Plan(
       OperatorsFor(model, {microwave, cup}),
-      {{FactKind::kIn, cup, microwave, 0}, {FactKind::kJointAtRest, microwave, -1, door}}, &facts);
+      {{PredicateKind::kIn, cup, microwave, 0}, {PredicateKind::kJointAtRest, microwave, -1, door}},
+      &facts);
   ASSERT_EQ(plan.size(), 4u);
-  EXPECT_EQ(plan[0].verb, Verb::kOpen);
-  EXPECT_EQ(plan[1].verb, Verb::kPick);
-  EXPECT_EQ(plan[2].verb, Verb::kPutInto);
-  EXPECT_EQ(plan[3].verb, Verb::kClose);
-  EXPECT_TRUE(facts.contains({FactKind::kIn, cup, microwave, 0}));
-  EXPECT_FALSE(facts.contains({FactKind::kJointAway, microwave, -1, door}));
+  EXPECT_EQ(plan[0].verb, ActionType::kOpen);
+  EXPECT_EQ(plan[1].verb, ActionType::kPick);
+  EXPECT_EQ(plan[2].verb, ActionType::kPutInto);
+  EXPECT_EQ(plan[3].verb, ActionType::kClose);
+  EXPECT_TRUE(facts.contains({PredicateKind::kIn, cup, microwave, 0}));
+  EXPECT_FALSE(facts.contains({PredicateKind::kJointAway, microwave, -1, door}));
 }
 
 TEST(RuleTasks, AreSoundAndOfEveryKind) {
-  const SceneModel model = Kitchen();
+  const SceneModel model = RuleTasksKitchen();
   RuleOptions options;
   options.count = 60;
   const RuleTasks result = GenerateTasksByRules(model, options);
@@ -168,28 +170,29 @@ TEST(RuleTasks, NamesWithQuotesAndLineBreaksStayNames) {
 
 // Two objects stored in one receptacle do not interpenetrate.
 TEST(RuleTasks, StoredThingsStandApart) {
-  const SceneModel model = Kitchen();
+  const SceneModel model = RuleTasksKitchen();
   const RuleTasks result = GenerateTasksByRules(model, {60, 1});
   int stored = 0;
   for (const Task& task : result.tasks) {
     if (task.name.rfind("store_", 0) != 0) continue;
     ++stored;
     const SceneState state = StateOf(model, task.subtasks.back().start);  // before it is closed
-    std::vector<int> things;
+    std::vector<int> objects;
     for (const std::string& name : task.assets) {
-      if (!model.things[static_cast<std::size_t>(model.Find(name))].articulated()) {
-        things.push_back(model.Find(name));
+      if (!model.objects[static_cast<std::size_t>(model.Find(name))].articulated()) {
+        objects.push_back(model.Find(name));
       }
     }
-    ASSERT_EQ(things.size(), 2u);
-    EXPECT_FALSE(WorldBox(model, state, things[0]).intersects(WorldBox(model, state, things[1])))
+    ASSERT_EQ(objects.size(), 2u);
+    EXPECT_FALSE(
+        WorldAabb(model, state, objects[0]).intersects(WorldAabb(model, state, objects[1])))
         << task.name;
   }
   EXPECT_GE(stored, 2);
 }
 
 TEST(RuleTasks, AreTheSameForASeed) {
-  const SceneModel model = Kitchen();
+  const SceneModel model = RuleTasksKitchen();
   const RuleTasks a = GenerateTasksByRules(model, {12, 5});
   const RuleTasks b = GenerateTasksByRules(model, {12, 5});
   ASSERT_EQ(a.tasks.size(), b.tasks.size());

@@ -32,7 +32,7 @@ std::ostream& operator<<(std::ostream& out, const Case& one) {
   return out << one.name;
 }
 
-const SceneModel& Kitchen() {
+const SceneModel& SubtaskVerifierKitchen() {
   static const auto* model = new SceneModel(
       MakeSceneModel({Microwave(), DrawerUnit(), Cup(), Box("tin", {0.06, 0.06, 0.08}, 0.3)}));
   return *model;
@@ -44,7 +44,7 @@ core::Findings Verify(const std::string& title, const std::string& body) {
   Subtask subtask;
   subtask.name = title;
   subtask.program = "def compute_reward(env):\n" + body;
-  SubtaskVerifier verifier(Kitchen());
+  SubtaskVerifier verifier(SubtaskVerifierKitchen());
   return verifier.Verify(task, &subtask);
 }
 
@@ -159,7 +159,7 @@ TEST(SubtaskVerifier, ASubtaskStartsWhereTheOneBeforeEnded) {
   Subtask& close = task.subtasks[1];
   close.name = "close_door";
   close.program = "def compute_reward(env):\n" DOOR "    return -q - reach, q <= 0.1\n";
-  SubtaskVerifier verifier(Kitchen());
+  SubtaskVerifier verifier(SubtaskVerifierKitchen());
   EXPECT_TRUE(verifier.Verify(task, &open).empty());
   EXPECT_TRUE(verifier.Verify(task, &close).empty());
   ASSERT_EQ(close.start.joints.size(), 1u);
@@ -176,10 +176,10 @@ TEST(SubtaskVerifier, FillsInAGoalWhereTheProgramAsksForOne) {
                     "    d = torch.norm(env.get_goal_pose() - cup, dim=-1)\n"
                     "    success = d < 0.05\n"
                     "    return -d - reach, success\n";
-  SubtaskVerifier verifier(Kitchen());
+  SubtaskVerifier verifier(SubtaskVerifierKitchen());
   EXPECT_TRUE(verifier.Verify(task, &subtask).empty());
   ASSERT_TRUE(subtask.goal.has_value());
-  EXPECT_TRUE(Reaches(subtask.start.world_from_robot, *subtask.goal));
+  EXPECT_TRUE(IsPointReachable(subtask.start.world_from_robot, *subtask.goal));
   EXPECT_EQ(subtask.success, "d < 0.05");
 }
 
@@ -211,7 +211,7 @@ TEST(TitleDirection, IsTheFirstVerbs) {
 
 // The handle of a door that is open by q lies on a circle around its hinge.
 TEST(SceneSignals, FollowTheJoints) {
-  const SceneModel& model = Kitchen();
+  const SceneModel& model = SubtaskVerifierKitchen();
   InitialState start;
   start.placements = {{"microwave", Eigen::Isometry3d(Eigen::Translation3d(0.7, 0.1, 0.0)), true}};
   start.joints = {{"microwave", "door_joint", 1.2}};
@@ -220,14 +220,14 @@ TEST(SceneSignals, FollowTheJoints) {
   const Eigen::Vector3d closed(-0.06, -0.45, 0.15);
   const double x = hinge.x() + std::cos(1.2) * closed.x() + std::sin(1.2) * closed.y();
   const double y = hinge.y() - std::sin(1.2) * closed.x() + std::cos(1.2) * closed.y();
-  std::vector<RewardSlot> slots(3);
-  slots[0] = {RewardInput::kLinkPosition, "microwave", "handle", 3, "[N, 3]", false};
-  slots[1] = {RewardInput::kJointState, "microwave", "door_joint", 1, "[N]", false};
-  slots[2] = {RewardInput::kJointVelocity, "microwave", "door_joint", 1, "[N]", false};
+  std::vector<reward::RewardSlot> slots(3);
+  slots[0] = {reward::RewardInput::kLinkPosition, "microwave", "handle", 3, "[N, 3]", false};
+  slots[1] = {reward::RewardInput::kJointState, "microwave", "door_joint", 1, "[N]", false};
+  slots[2] = {reward::RewardInput::kJointVelocity, "microwave", "door_joint", 1, "[N]", false};
   std::vector<std::vector<float>> values;
   SceneState before = state;
   before.joints[0][1] = 1.1;
-  ASSERT_EQ(model.things[0].joints[1].name, "door_joint");
+  ASSERT_EQ(model.objects[0].joints[1].name, "door_joint");
   SlotValues(model, state, &before, 0.5, slots, &values);
   EXPECT_NEAR(values[0][0], x, 1e-6);
   EXPECT_NEAR(values[0][1], y, 1e-6);
@@ -248,72 +248,74 @@ TEST(SceneSignals, AMimicJointFollowsItsLeader) {
                                          assets::UrdfJointType::kRevolute, {0.3, 0, 0.1}, {0, 0, 1},
                                          -2.0, 2.0));
   model.model.joints.back().mimic = assets::UrdfMimic{"door_joint", -0.5, 0.1};
-  const Thing thing = ThingOf("microwave", model);
-  std::vector<double> positions = RestPositions(thing);
-  positions[static_cast<std::size_t>(thing.FindJoint("door_joint"))] = 1.2;
+  const ArticulatedObject object = MakeArticulatedObject("microwave", model);
+  std::vector<double> positions = RestPositions(object);
+  positions[static_cast<std::size_t>(object.FindJoint("door_joint"))] = 1.2;
   const Eigen::Isometry3d pose =
-      LinkPosesOf(thing, positions)[static_cast<std::size_t>(thing.FindLink("twin"))];
+      LinkPosesOf(object, positions)[static_cast<std::size_t>(object.FindLink("twin"))];
   const Eigen::AngleAxisd expected(-0.5 * 1.2 + 0.1, Eigen::Vector3d::UnitZ());
   EXPECT_LT((pose.linear() - expected.toRotationMatrix()).norm(), 1e-12);
-  EXPECT_EQ(UseOf(thing, thing.joints[static_cast<std::size_t>(thing.FindJoint("twin_joint"))]),
-            JointUse::kNone);
+  EXPECT_EQ(
+      GetJointUse(object, object.joints[static_cast<std::size_t>(object.FindJoint("twin_joint"))]),
+      JointUse::kNone);
 }
 
 // A cup in a drawer moves with it.
 TEST(Motion, WhatIsInADrawerMovesWithIt) {
-  const SceneModel& model = Kitchen();
+  const SceneModel& model = SubtaskVerifierKitchen();
   const int chest = model.Find("drawer_unit"), cup = model.Find("cup");
   LayoutRequest request;
-  request.things = {chest, cup};
+  request.objects = {chest, cup};
   request.resting = {{cup, chest, 0}};
-  request.worked = {{chest, 0}};
+  request.operated = {{chest, 0}};
   core::Rng rng(1);
-  const std::optional<InitialState> start = LayOut(model, request, rng);
+  const std::optional<InitialState> start = PlanLayout(model, request, rng);
   ASSERT_TRUE(start.has_value());
   const SceneState first = StateOf(model, *start);
   const Motion motion =
       MakeMotion(model, first, {{ActionKind::kMoveJoint, chest, 0, 0.2, Eigen::Vector3d::Zero()}});
   const Eigen::Vector3d moved =
-      LinkPoint(model, motion.states.back(), cup, 0) - LinkPoint(model, first, cup, 0);
+      LinkPosition(model, motion.states.back(), cup, 0) - LinkPosition(model, first, cup, 0);
   EXPECT_NEAR(moved.norm(), 0.2, 1e-9);
   EXPECT_NEAR(moved.z(), 0.0, 1e-9);
 }
 
 TEST(Layout, WhatRestsInAMicrowaveStandsInItsFront) {
-  const SceneModel& model = Kitchen();
+  const SceneModel& model = SubtaskVerifierKitchen();
   const int microwave = model.Find("microwave"), cup = model.Find("cup");
   LayoutRequest request;
-  request.things = {microwave, cup};
+  request.objects = {microwave, cup};
   request.resting = {{cup, microwave, 0}};
   core::Rng rng(1);
-  const std::optional<InitialState> start = LayOut(model, request, rng);
+  const std::optional<InitialState> start = PlanLayout(model, request, rng);
   ASSERT_TRUE(start.has_value());
   const SceneState state = StateOf(model, *start);
   // The body is 0.4 deep around its centre and opens to -x (household.h), in the frame of its
   // placement.
   const Eigen::Isometry3d& pose = state.roots[static_cast<size_t>(microwave)];
-  const Eigen::Vector3d at = pose.inverse() * LinkPoint(model, state, cup, 0);
-  const double half = 0.5 * model.things[static_cast<size_t>(cup)].box.sizes().head<2>().maxCoeff();
+  const Eigen::Vector3d at = pose.inverse() * LinkPosition(model, state, cup, 0);
+  const double half =
+      0.5 * model.objects[static_cast<size_t>(cup)].box.sizes().head<2>().maxCoeff();
   EXPECT_NEAR(at.x() - half, -0.2 + 0.03, 0.4 / 40);
   EXPECT_NEAR(at.y(), 0.0, 0.4 / 40);
-  EXPECT_NEAR(WorldBox(model, state, cup).min().z(), pose.translation().z() + 0.02, 0.4 / 40);
+  EXPECT_NEAR(WorldAabb(model, state, cup).min().z(), pose.translation().z() + 0.02, 0.4 / 40);
 }
 
 // Nothing overlaps and everything is within reach.
-TEST(LayOut, KeepsThingsApart) {
-  const SceneModel& model = Kitchen();
+TEST(PlanLayout, KeepsThingsApart) {
+  const SceneModel& model = SubtaskVerifierKitchen();
   LayoutRequest request;
-  request.things = {0, 1, 2, 3};
-  request.worked = {{0, 1}, {1, 0}};
+  request.objects = {0, 1, 2, 3};
+  request.operated = {{0, 1}, {1, 0}};
   core::Rng rng(4);
-  const std::optional<InitialState> start = LayOut(model, request, rng);
+  const std::optional<InitialState> start = PlanLayout(model, request, rng);
   ASSERT_TRUE(start.has_value());
   ASSERT_EQ(start->placements.size(), 4u);
   const SceneState state = StateOf(model, *start);
   for (int a = 0; a < 4; ++a) {
-    const Eigen::AlignedBox3d box = WorldBox(model, state, a);
+    const Eigen::AlignedBox3d box = WorldAabb(model, state, a);
     EXPECT_NEAR(box.min().z(), 0.0, 1e-9);
-    for (int b = a + 1; b < 4; ++b) EXPECT_FALSE(box.intersects(WorldBox(model, state, b)));
+    for (int b = a + 1; b < 4; ++b) EXPECT_FALSE(box.intersects(WorldAabb(model, state, b)));
   }
 }
 
@@ -333,7 +335,7 @@ TEST(SubtaskVerifier, TheWorkedExampleIsSound) {
 TEST(SubtaskVerifier, RefusesOptionsThatMakeNoSense) {
   VerificationOptions options;
   options.unclear = -0.5;
-  EXPECT_THROW(SubtaskVerifier(Kitchen(), options), core::Error);
+  EXPECT_THROW(SubtaskVerifier(SubtaskVerifierKitchen(), options), core::Error);
 }
 
 }  // namespace

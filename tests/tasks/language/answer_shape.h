@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "reward/reward_program.h"
 #include "tasks/language/task_answer.h"
-#include "tasks/reward/reward_program.h"
 
 namespace simwright::tasks {
 
@@ -38,11 +38,11 @@ inline std::string Shape(const TaskAnswer& answer) {
     for (const Subtask& subtask : task.subtasks) {
       std::string joint = "-";
       if (!subtask.program.empty()) {
-        const CompileOutcome outcome = CompileReward(subtask.program, nullptr);
+        const reward::CompileOutcome outcome = reward::CompileReward(subtask.program, nullptr);
         joint = "!";
         if (outcome.program) {
-          for (const RewardSlot& slot : outcome.program->slots()) {
-            if (slot.input == RewardInput::kJointState) joint = slot.part;
+          for (const reward::RewardSlot& slot : outcome.program->slots()) {
+            if (slot.input == reward::RewardInput::kJointState) joint = slot.part;
           }
         }
       }

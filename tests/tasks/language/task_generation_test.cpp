@@ -106,7 +106,8 @@ TEST_F(TaskGeneration, AWrongJointGoesBackWithTheNearestNameAndIsRepaired) {
   EXPECT_EQ(made.repaired, 1);
   EXPECT_EQ(made.questions, 2);
   const std::string asked = LastMessage(server.body(1));
-  EXPECT_NE(asked.find(RenderFinding(subtask.attempts[0].findings[0], subtask.attempts[0].program)),
+  EXPECT_NE(asked.find(reward::RenderFinding(subtask.attempts[0].findings[0],
+                                             subtask.attempts[0].program)),
             std::string::npos)
       << asked;
 }

@@ -15,7 +15,8 @@
 namespace simwright::tasks {
 namespace {
 
-bool Compiles(const std::string& line, const RewardScene& scene, core::Findings* why = nullptr) {
+bool Compiles(const std::string& line, const reward::RewardScene& scene,
+              core::Findings* why = nullptr) {
   const std::string program =
       "def compute_reward(env):\n"
       "    x = env.get_position(\"block\")\n"
@@ -25,7 +26,7 @@ bool Compiles(const std::string& line, const RewardScene& scene, core::Findings*
       "    low, high = env.get_bounding_box(\"chest\")\n"
       "    asset_name, link_name, joint_name = \"chest\", \"drawer\", \"drawer_slide\"\n" +
       line + "    return a, a > 0\n";
-  const CompileOutcome outcome = CompileReward(program, &scene);
+  const reward::CompileOutcome outcome = reward::CompileReward(program, &scene);
   if (why != nullptr) *why = outcome.findings;
   return outcome.program.has_value();
 }
@@ -42,9 +43,9 @@ TEST(WorkedExample, IsReadAndCompilesWithoutAFinding) {
   ASSERT_EQ(answer.tasks.size(), 1u);
   EXPECT_EQ(answer.tasks[0].name, "store_block");
   ASSERT_EQ(answer.tasks[0].subtasks.size(), 3u);
-  const RewardScene scene = NamesOfScene(ExampleScene());
+  const reward::RewardScene scene = NamesOfScene(ExampleScene());
   for (const Subtask& subtask : answer.tasks[0].subtasks) {
-    const CompileOutcome outcome = CompileReward(subtask.program, &scene);
+    const reward::CompileOutcome outcome = reward::CompileReward(subtask.program, &scene);
     EXPECT_TRUE(outcome.findings.empty()) << Text(outcome.findings);
     ASSERT_TRUE(outcome.program.has_value());
     EXPECT_TRUE(outcome.program->has_success());
@@ -55,14 +56,14 @@ TEST(WorkedExample, IsReadAndCompilesWithoutAFinding) {
 
 // Returns the reward and success of a program in which each input of a kind has the given numbers.
 std::pair<float, bool> RunOn(const std::string& source,
-                             const std::map<RewardInput, std::vector<float>>& numbers) {
-  const RewardScene scene = NamesOfScene(ExampleScene());
-  const CompileOutcome outcome = CompileReward(source, &scene);
-  std::vector<RewardBinding> bindings;
-  for (const RewardSlot& slot : outcome.program->slots()) {
+                             const std::map<reward::RewardInput, std::vector<float>>& numbers) {
+  const reward::RewardScene scene = NamesOfScene(ExampleScene());
+  const reward::CompileOutcome outcome = reward::CompileReward(source, &scene);
+  std::vector<reward::RewardBinding> bindings;
+  for (const reward::RewardSlot& slot : outcome.program->slots()) {
     bindings.push_back({numbers.at(slot.input).data()});
   }
-  RewardWorkspace workspace(*outcome.program, 1);
+  reward::RewardWorkspace workspace(*outcome.program, 1);
   float reward = 0.0f;
   std::uint8_t success = 2;
   outcome.program->Run(bindings, 1, &workspace, &reward, &success);
@@ -72,7 +73,7 @@ std::pair<float, bool> RunOn(const std::string& source,
 // From start to success the reward of each example function only increases, in states computed by
 // hand.
 TEST(WorkedExample, RewardsRiseToSuccess) {
-  using enum RewardInput;
+  using enum reward::RewardInput;
   const Task task = ReadTaskAnswer(ExampleAnswer()).tasks.at(0);
   for (int step = 0; step <= 20; ++step) {
     const float t = static_cast<float>(step) / 20.0f;
@@ -103,10 +104,10 @@ TEST(WorkedExample, RewardsRiseToSuccess) {
 
 // The listing is correct: each call is known, compiles, and gives the stated shape.
 TEST(ApiListing, EachFunctionCompilesAsItIsListed) {
-  const RewardScene scene = NamesOfScene(ExampleScene());
+  const reward::RewardScene scene = NamesOfScene(ExampleScene());
   const std::string listing = ApiListing();
   int listed = 0;
-  for (const ApiFunction& function : EnvironmentApi()) {
+  for (const reward::ApiFunction& function : reward::EnvironmentApi()) {
     std::string call = ApiCall(function);
     EXPECT_NE(listing.find(call + "  # "), std::string::npos) << call;
     ++listed;
@@ -120,18 +121,18 @@ TEST(ApiListing, EachFunctionCompilesAsItIsListed) {
       }
       core::Findings why;
       EXPECT_TRUE(Compiles("    value = " + plain + "\n", scene, &why)) << plain << Text(why);
-      if (function.result == ApiResult::kVector && function.width > 1) {
+      if (function.result == reward::ApiResult::kVector && function.width > 1) {
         const std::string last = std::to_string(function.width - 1);
         const std::string beyond = std::to_string(function.width);
         EXPECT_TRUE(Compiles("    a = " + plain + "[:, " + last + "]\n", scene));
         EXPECT_FALSE(Compiles("    a = " + plain + "[:, " + beyond + "]\n", scene));
         EXPECT_NE(listing.find(call + "  # [N, " + beyond + "]"), std::string::npos);
-      } else if (function.result == ApiResult::kVector) {
+      } else if (function.result == reward::ApiResult::kVector) {
         EXPECT_TRUE(Compiles("    a = a + " + plain + "\n", scene));
         EXPECT_FALSE(Compiles("    a = " + plain + "[:, 0]\n", scene));
-      } else if (function.result == ApiResult::kLimits) {
+      } else if (function.result == reward::ApiResult::kLimits) {
         EXPECT_TRUE(Compiles("    a = a + " + plain + "[\"upper\"]\n", scene));
-      } else if (function.result == ApiResult::kBox) {
+      } else if (function.result == reward::ApiResult::kBox) {
         EXPECT_TRUE(Compiles("    p, q = " + plain + "\n    a = (p - q)[:, 2]\n", scene));
       }
     }
@@ -140,7 +141,7 @@ TEST(ApiListing, EachFunctionCompilesAsItIsListed) {
 }
 
 TEST(ApiListing, EachTensorExpressionCompiles) {
-  const RewardScene scene = NamesOfScene(ExampleScene());
+  const reward::RewardScene scene = NamesOfScene(ExampleScene());
   for (const char* expression : TensorExpressions()) {
     core::Findings why;
     EXPECT_TRUE(Compiles(std::string("    y = ") + expression + "\n", scene, &why))
@@ -169,7 +170,7 @@ TEST(TaskQuestion, HoldsTheFourSections) {
 }
 
 TEST(TaskQuestion, ARepairShowsThePlaceWithACaret) {
-  const RewardScene scene = NamesOfScene(ExampleScene());
+  const reward::RewardScene scene = NamesOfScene(ExampleScene());
   Task task;
   task.name = "open";
   Subtask subtask;
@@ -177,18 +178,19 @@ TEST(TaskQuestion, ARepairShowsThePlaceWithACaret) {
   subtask.program =
       "def compute_reward(env):\n    s = env.get_joint_state(\"chest\", \"drawer_slid\")\n"
       "    return s, s > 0.2\n";
-  const core::Findings findings = CompileReward(subtask.program, &scene).findings;
+  const core::Findings findings = reward::CompileReward(subtask.program, &scene).findings;
   ASSERT_EQ(findings.size(), 1u);
   const std::string text = RepairQuestion("S", task, subtask, findings).messages[1].text;
   EXPECT_NE(text.find(subtask.program), std::string::npos);
-  EXPECT_NE(text.find(RenderFinding(findings[0], subtask.program)), std::string::npos);
+  EXPECT_NE(text.find(reward::RenderFinding(findings[0], subtask.program)), std::string::npos);
   EXPECT_NE(text.find("drawer_slide"), std::string::npos);  // the nearest name
   EXPECT_NE(text.find("^\n"), std::string::npos);
   EXPECT_NE(text.find("whole function"), std::string::npos);
   subtask.program.clear();
   EXPECT_NE(RepairQuestion("S", task, subtask, {}).messages[1].text.find("is missing"),
             std::string::npos);
-  EXPECT_NE(RepairAgain("same", "same", {}).find("the same function as before"), std::string::npos);
+  EXPECT_NE(RepairRetryQuestion("same", "same", {}).find("the same function as before"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "tasks/reward/reward_program.h"
+#include "reward/reward_program.h"
 #include "tasks/rules/rule_tasks.h"
 #include "tasks/scene_signals.h"
 #include "tests/tasks/household.h"
@@ -19,7 +19,7 @@ struct Gain {
 };
 
 Gain GainOf(const SceneModel& model, const Subtask& subtask, SceneState state) {
-  const CompileOutcome outcome = CompileReward(subtask.program, &model.names);
+  const reward::CompileOutcome outcome = reward::CompileReward(subtask.program, &model.names);
   for (const core::Finding& finding : outcome.findings) {
     EXPECT_NE(finding.severity, core::Severity::kError)
         << finding.sentence << " " << finding.place << "\n"
@@ -30,9 +30,9 @@ Gain GainOf(const SceneModel& model, const Subtask& subtask, SceneState state) {
   SignalReader reader(model, outcome.program->slots());
   std::vector<std::vector<float>> values;
   reader.Read(state, &state, 0.05, &values);
-  std::vector<RewardBinding> bindings(values.size());
+  std::vector<reward::RewardBinding> bindings(values.size());
   for (size_t i = 0; i < values.size(); ++i) bindings[i].data = values[i].data();
-  RewardWorkspace workspace(*outcome.program, 1);
+  reward::RewardWorkspace workspace(*outcome.program, 1);
   Gain gain;
   std::uint8_t done = 0;
   outcome.program->Run(bindings, 1, &workspace, &gain.reward, &done);
@@ -79,8 +79,8 @@ TEST_F(WholeTaskTest, ItsRewardIsTheSumAndItsSuccessAllOfThem) {
       "def compute_reward(env):\n"
       "    off = torch.norm(env.get_goal_pose() - env.get_position(\"cup\"), dim=-1)\n"
       "    return -off, off <= 0.4\n";
-  const WholeTaskParts parts{{true, true, false, true}, {false, false, true, true}};
-  const Task whole = WholeTask(task_, parts, "whole");
+  const SubtaskSelection parts{{true, true, false, true}, {false, false, true, true}};
+  const Task whole = MergeSubtasks(task_, parts, "whole");
   ASSERT_EQ(whole.subtasks.size(), 1u);
   EXPECT_EQ(whole.name, "whole");
   EXPECT_EQ(whole.subtasks[0].start.placements.size(), task_.subtasks[0].start.placements.size());
@@ -96,12 +96,12 @@ TEST_F(WholeTaskTest, ItsRewardIsTheSumAndItsSuccessAllOfThem) {
 }
 
 TEST_F(WholeTaskTest, WhatCannotBePutTogetherIsRefused) {
-  EXPECT_THROW(WholeTask(task_, {{true}, {true}}, "w"), core::Error);
+  EXPECT_THROW(MergeSubtasks(task_, {{true}, {true}}, "w"), core::Error);
   const std::vector<bool> none(4, false), all(4, true);
-  EXPECT_THROW(WholeTask(task_, {none, all}, "w"), core::Error);
-  EXPECT_THROW(WholeTask(task_, {all, none}, "w"), core::Error);
+  EXPECT_THROW(MergeSubtasks(task_, {none, all}, "w"), core::Error);
+  EXPECT_THROW(MergeSubtasks(task_, {all, none}, "w"), core::Error);
   task_.subtasks[2].program = "x = 1\n";
-  EXPECT_THROW(WholeTask(task_, {all, all}, "w"), core::Error);
+  EXPECT_THROW(MergeSubtasks(task_, {all, all}, "w"), core::Error);
 }
 
 }  // namespace

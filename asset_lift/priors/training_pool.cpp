@@ -1,0 +1,46 @@
+#include "asset_lift/priors/training_pool.h"
+
+#include <cmath>
+
+#include "asset_lift/priors/training_shapes.h"
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace simwright::asset_lift {
+
+TrainingPool::TrainingPool(const std::vector<core::TexturedMesh>* meshes, int size,
+                           double parametric_share, std::uint64_t seed)
+    : meshes_(meshes), parametric_share_(parametric_share), seed_(seed) {
+  objects_.resize(static_cast<size_t>(size));
+  core::ParallelFor(
+      size, [&](int i) { objects_[static_cast<size_t>(i)] = Make(static_cast<std::uint64_t>(i)); });
+  made_ = static_cast<std::uint64_t>(size);
+}
+
+void TrainingPool::Exchange(int count) {
+  core::ParallelFor(count, [&](int i) {
+    const std::uint64_t number = made_ + static_cast<std::uint64_t>(i);
+    objects_[number % objects_.size()] = Make(number);
+  });
+  made_ += static_cast<std::uint64_t>(count);
+}
+
+std::unique_ptr<TrainingObject> TrainingPool::Make(std::uint64_t number) const {
+  // A mesh without extent is replaced by another sample.
+  for (int attempt = 0; attempt < 10; ++attempt) {
+    core::Rng rng = core::StreamRng(seed_, number * 16 + static_cast<std::uint64_t>(attempt));
+    Eigen::Vector3d stretch;
+    for (int axis = 0; axis < 3; ++axis) stretch[axis] = std::exp(0.18 * core::Normal(rng));
+    const bool parametric = meshes_->empty() || core::Uniform(rng) < parametric_share_;
+    try {
+      if (parametric) return std::make_unique<TrainingObject>(MakeTrainingShape(&rng), stretch);
+      const auto at = core::UniformIndex(rng, static_cast<std::int64_t>(meshes_->size()));
+      return std::make_unique<TrainingObject>((*meshes_)[static_cast<size_t>(at)], stretch);
+    } catch (const core::Error&) {
+      if (attempt == 9) throw;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace simwright::asset_lift

@@ -1,0 +1,99 @@
+#include "manipulation/carry_plan.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "manipulation/collision_checker.h"
+#include "manipulation/ik_solutions.h"
+#include "manipulation/rrt_connect.h"
+#include "manipulation/tool_path.h"
+
+namespace simwright::manipulation {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr double kCarryTurns[] = {0.0,         0.25 * M_PI, -0.25 * M_PI, 0.5 * M_PI,
+                                  -0.5 * M_PI, 0.75 * M_PI, -0.75 * M_PI, M_PI};  // rad
+// The number of arrivals for which RRT-Connect is tried if no simple path exists: it is slow.
+constexpr size_t kMostSearches = 3;
+
+struct Arrival {
+  CarryPlan plan;
+  robot::JointVector there;  // (J) with the tool at the destination
+};
+
+// Returns the arrivals with the gripper turned by `turn`, the one reached soonest first.
+std::vector<Arrival> ArrivalsAt(const PlanningArm& context, const Interaction& interaction,
+                                const CarryTask& task, double turn,
+                                const robot::JointVector& from) {
+  core::Rng rng = core::StreamRng(0, 0);  // deterministic
+  Isometry3d there = task.there;
+  there.linear() = Eigen::AngleAxisd(turn, Vector3d::UnitZ()) * there.linear();
+  Isometry3d before = there;
+  before.translation() += task.back;
+  std::vector<IkSolution> configurations =
+      SolveIkFromManyStarts(context, interaction, before, from, rng);
+  std::sort(configurations.begin(), configurations.end(),
+            [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
+  std::vector<Arrival> arrivals;
+  for (const IkSolution& reaching : configurations) {
+    CartesianFollower follower(context, interaction, reaching.configuration);
+    if (!follower.MoveTo(there)) continue;
+    arrivals.push_back({{turn, reaching.configuration, {}}, follower.configuration()});
+  }
+  return arrivals;
+}
+
+// Returns the convex hull points of the grasped object, in the tool's frame.
+SurfacePoints PayloadPoints(const Interaction& interaction, const tasks::SceneState& state) {
+  const auto object = static_cast<size_t>(interaction.target->object);
+  const std::vector<Isometry3d> links =
+      tasks::LinkPosesOf(interaction.model.objects[object], state.joints[object]);
+  const Isometry3d tool_from_object = state.gripper.inverse() * state.roots[object];
+  std::vector<Vector3d> points;
+  for (size_t l = 0; l < links.size(); ++l) {
+    for (const Vector3d& point : interaction.model.objects[object].links[l].extreme_points) {
+      points.push_back(tool_from_object * links[l] * point);
+    }
+  }
+  return SurfacePoints(std::move(points));
+}
+
+}  // namespace
+
+std::optional<CarryPlan> PlanCarry(const PlanningArm& context, const Interaction& interaction,
+                                   const tasks::SceneState& state, const CarryTask& task,
+                                   const robot::JointVector& from) {
+  CollisionChecker clearance(context, interaction, state, interaction.target->object);
+  clearance.SetPayload(PayloadPoints(interaction, state));
+  std::optional<CarryPlan> any, by_waypoints;
+  std::vector<CarryPlan> blocked;  // not reachable by simple waypoints
+  for (const double turn : kCarryTurns) {
+    if (turn != 0.0 && !task.may_turn) break;
+    for (const Arrival& arrival : ArrivalsAt(context, interaction, task, turn, from)) {
+      if (!any) any = arrival.plan;
+      if (!clearance.IsCollisionFree(arrival.there)) continue;
+      const auto way = PlanSimplePath(context, clearance, from, arrival.plan.arrival);
+      if (way && way->empty()) return arrival.plan;
+      if (!way && blocked.size() < kMostSearches &&
+          clearance.IsCollisionFree(arrival.plan.arrival)) {
+        blocked.push_back(arrival.plan);
+      }
+      if (!way || by_waypoints) continue;
+      by_waypoints = arrival.plan;
+      by_waypoints->via = *way;
+    }
+  }
+  if (by_waypoints) return by_waypoints;
+  for (CarryPlan& plan : blocked) {
+    const auto way = PlanRrtConnect(context.robot->arm, clearance, from, plan.arrival);
+    if (!way) continue;
+    plan.via = *way;
+    return plan;
+  }
+  return any;
+}
+
+}  // namespace simwright::manipulation

@@ -1,0 +1,123 @@
+#include "manipulation/gripper_penetration.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "assets/joint_poses.h"
+
+namespace simwright::manipulation {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// Returns, by link, true if it is `root` or a descendant of it.
+std::vector<bool> DescendantsOf(const assets::UrdfModel& urdf, int root) {
+  std::vector<bool> hangs(urdf.links.size(), false);
+  hangs[static_cast<size_t>(root)] = true;
+  const std::vector<int> parents = assets::ParentLinks(urdf);
+  for (size_t j = 0; j < urdf.joints.size(); ++j) {  // to links[j + 1], parents first
+    if (hangs[static_cast<size_t>(parents[j])]) hangs[j + 1] = true;
+  }
+  return hangs;
+}
+
+void AddSurface(const core::TriangleMesh& mesh, const Isometry3d& tool_from_link, double spacing,
+                std::vector<Vector3d>* points) {
+  for (const Eigen::Vector3i& triangle : mesh.triangles) {
+    const Vector3d a = tool_from_link * mesh.vertices[static_cast<size_t>(triangle[0])];
+    const Vector3d b = tool_from_link * mesh.vertices[static_cast<size_t>(triangle[1])] - a;
+    const Vector3d c = tool_from_link * mesh.vertices[static_cast<size_t>(triangle[2])] - a;
+    const double longest = std::max({b.norm(), c.norm(), (b - c).norm()});
+    const int steps = std::max(1, static_cast<int>(std::ceil(longest / spacing)));
+    for (int i = 0; i <= steps; ++i) {
+      for (int j = 0; i + j <= steps; ++j) {
+        points->push_back(a + (i * b + j * c) / steps);
+      }
+    }
+  }
+}
+
+// Returns one of the points in each cube of side `spacing`: meshes of round shapes are much finer.
+std::vector<Vector3d> Thinned(const std::vector<Vector3d>& points, double spacing) {
+  std::set<std::array<int, 3>> cubes;
+  std::vector<Vector3d> thinned;
+  for (const Vector3d& point : points) {
+    const Eigen::Vector3i cube = (point / spacing).array().floor().cast<int>();
+    if (cubes.insert({cube.x(), cube.y(), cube.z()}).second) thinned.push_back(point);
+  }
+  return thinned;
+}
+
+}  // namespace
+
+SurfacePoints GripperSurface(const robot::RobotModel& robot, double spacing) {
+  assets::JointPositions open;
+  const assets::UrdfModel& urdf = robot.urdf;
+  if (!robot.gripper.joints.empty()) {
+    open[urdf.joints[static_cast<size_t>(robot.gripper.joints.front())].name] = robot.gripper.open;
+  }
+  const std::vector<Isometry3d> poses = assets::LinkPoses(urdf, open);
+  const Isometry3d tool_from_root = poses[static_cast<size_t>(robot.tool_link)].inverse();
+  const std::vector<bool> hand = DescendantsOf(urdf, robot.arm_joints.back() + 1);
+  std::vector<Vector3d> points;
+  for (size_t l = 0; l < urdf.links.size(); ++l) {
+    if (!hand[l]) continue;
+    for (const assets::UrdfShape& shape : urdf.links[l].collisions) {
+      AddSurface(shape.mesh, tool_from_root * poses[l], 0.5 * spacing, &points);
+    }
+  }
+  return SurfacePoints(Thinned(points, 0.5 * spacing));
+}
+
+double PenetrationDepth(const SurfacePoints& surface, const Isometry3d& world_from_surface,
+                        const BodyParts& body, const std::vector<Isometry3d>& world_from_links,
+                        int gripped) {
+  double deepest = 0.0;
+  for (const Vector3d& point : surface.points) {
+    deepest = std::max(deepest, -(world_from_surface * point).z());
+  }
+  return std::max(
+      deepest, PenetrationIntoBody(surface, world_from_surface, body, world_from_links, gripped));
+}
+
+double PenetrationIntoBody(const SurfacePoints& surface, const Isometry3d& world_from_surface,
+                           const BodyParts& body, const std::vector<Isometry3d>& world_from_links,
+                           int gripped) {
+  double deepest = 0.0;
+  for (size_t l = 0; l < body.size(); ++l) {
+    if (static_cast<int>(l) == gripped) continue;
+    const Isometry3d link_from_surface = world_from_links[l].inverse() * world_from_surface;
+    for (const ConvexPart& solid : body[l]) {
+      deepest = std::max(deepest, PenetrationIntoPart(solid, surface, link_from_surface));
+    }
+  }
+  return deepest;
+}
+
+std::vector<Isometry3d> BodyPoses(const sim::ArticulatedBody& body,
+                                  const tasks::ArticulatedObject& object, const Isometry3d& root,
+                                  const std::vector<double>& joints) {
+  const std::vector<Isometry3d> poses = tasks::LinkPosesOf(object, joints);
+  std::vector<Isometry3d> of_body;
+  for (const sim::RigidBody& link : body.links) {
+    of_body.push_back(root * poses[static_cast<size_t>(object.FindLink(link.name))]);
+  }
+  return of_body;
+}
+
+std::vector<SurfacePoints> RobotSurface(const robot::RobotModel& robot, double spacing) {
+  std::vector<SurfacePoints> surface;
+  for (const assets::UrdfLink& link : robot.urdf.links) {
+    std::vector<Vector3d> points;
+    for (const assets::UrdfShape& shape : link.collisions) {
+      AddSurface(shape.mesh, Isometry3d::Identity(), 0.5 * spacing, &points);
+    }
+    surface.emplace_back(Thinned(points, 0.5 * spacing));
+  }
+  return surface;
+}
+
+}  // namespace simwright::manipulation

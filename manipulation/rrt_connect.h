@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+
+#include "manipulation/collision_checker.h"
+#include "manipulation/joint_path.h"
+
+namespace simwright::manipulation {
+
+// Plans a collision-free joint path from `from` to `to` (J) by RRT-Connect (Kuffner and LaValle
+// 2000): two trees grow towards each other from both ends, and the path is then shortcut.
+// Deterministic for the same ends. `from` is assumed to be collision-free. None if `to` is not, or
+// if 600 rounds find no path, or only one with more than a dozen waypoints.
+std::optional<Detour> PlanRrtConnect(const robot::Arm& arm, const CollisionChecker& clearance,
+                                     const robot::JointVector& from, const robot::JointVector& to);
+
+}  // namespace simwright::manipulation

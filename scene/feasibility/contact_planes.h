@@ -1,0 +1,86 @@
+#pragma once
+
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "scene/feasibility/narrow_phase.h"
+#include "scene/feasibility/pgs_solver.h"
+
+namespace simwright::scene {
+
+// Two interpenetrating bodies, by index, a < b.
+struct Overlap {
+  int a = -1, b = -1;
+  double depth = 0.0;  // m
+};
+
+struct ContactPlaneOptions {
+  double influence = 0.03;  // m, contact margin: parts farther apart have no plane
+  double tolerance = 1e-5;  // m, allowed penetration
+};
+
+// The contact planes between bodies. The plane of two convex parts is the tangent of their signed
+// distance,
+//   distance >= normal . (shift_b - shift_a) - least,
+// a lower bound for all displacements, because the distance is convex in them. Planes that are
+// inactive and satisfied are therefore kept, and only active or violated ones are recomputed at the
+// current displacements.
+//
+// Two interpenetrating bodies are represented by their parts, or by their hulls if the displacement
+// that separates the hulls is shorter: the walls of two hollow bodies that pass through each other
+// give contradictory constraints.
+class ContactPlanes {
+ public:
+  // `bodies` outlives this.
+  ContactPlanes(const ConvexBodies* bodies, const ContactPlaneOptions& options)
+      : bodies_(bodies), options_(options) {}
+
+  // Updates the planes for bodies displaced by `shifts` (N x 3, m).
+  void Update(const std::vector<Eigen::Vector3d>& shifts);
+
+  // Returns the constraints of parts closer than `influence`, sorted by a, b, part_a, part_b, with
+  // the multipliers of SetMultipliers.
+  std::vector<SeparationConstraint> Rows() const;
+  void SetMultipliers(const std::vector<SeparationConstraint>& rows);  // as returned by Rows()
+
+  // Returns the overlaps of the last Update, the deepest first.
+  std::vector<Overlap> Overlaps() const;
+
+  // Represents two bodies by their hulls from the next Update on; returns false if they already
+  // are.
+  bool UseConvexHull(int a, int b) { return by_hull_.insert({a, b}).second; }
+  // Replaces the plane of one of these pairs, which are represented by their hulls, until the
+  // Update after the next displacement: by a plane with a normal perpendicular to the current one
+  // and the least depth over all the pairs. A body that cannot move up, between two boards, can
+  // then move sideways.
+  void SwitchToLateralNormal(const std::vector<std::pair<int, int>>& pairs,
+                             const std::vector<Eigen::Vector3d>& shifts);
+
+ private:
+  struct Plane {
+    int part_a = -1, part_b = -1;
+    Eigen::Vector3d normal, taken_at;  // unit; m, the displacement of b relative to a at the
+                                       // tangent point
+    double least = 0.0, lambda = 0.0;
+    double bound = 0.0;  // m, lower bound of the distance; exact at the tangent point
+  };
+  struct BodyPair {
+    int a = -1, b = -1;
+    std::vector<Plane> planes;  // sorted by part_a, part_b; distant ones too, as bounds
+  };
+
+  void UpdatePair(const std::vector<Eigen::Vector3d>& shifts, BodyPair* pair);
+  bool IsHullSeparationShorter(const BodyPair& pair,
+                               const std::vector<Eigen::Vector3d>& shifts) const;
+  double Deepest(const BodyPair& pair) const;
+
+  const ConvexBodies* bodies_;
+  ContactPlaneOptions options_;
+  std::vector<BodyPair> pairs_;  // sorted by a, b
+  std::set<std::pair<int, int>> by_hull_;
+};
+
+}  // namespace simwright::scene

@@ -1,0 +1,104 @@
+// The colours of links of a foreign URDF whose files use a texture or vertex colours.
+#include "importers/link_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/image.h"
+
+namespace simwright::importers {
+namespace {
+namespace fs = std::filesystem;
+
+class LinkColors : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / "simwright_link_colors";
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  // Eight triangles in a fan of unit legs; the two halves have different materials.
+  core::TexturedMesh Seen(const std::string& vertex_colors, const std::string& uvs) {
+    std::ofstream obj(folder_ / "m.obj");
+    obj << "mtllib m.mtl\nusemtl m\n" << vertex_colors << uvs;
+    for (int i = 0; i < 8; ++i) {
+      const int base = 3 * i + 1;
+      obj << "f";
+      for (int k = 0; k < 3; ++k) {
+        obj << " " << base + k;
+        if (!uvs.empty()) obj << "/" << i + 1;
+      }
+      obj << "\n";
+    }
+    obj.close();
+    assets::UrdfLink link;
+    assets::UrdfShape shape;
+    shape.file = (folder_ / "m.obj").string();
+    link.visuals.push_back(shape);
+    return ColoredVisual(link);
+  }
+  static std::string Corners(const char* first, const char* second) {
+    std::string text;
+    for (int i = 0; i < 8; ++i) {
+      for (const char* corner : {"0 0 ", "1 0 ", "0 1 "}) {
+        text += "v " + std::string(corner) + std::to_string(i) + (i < 4 ? first : second) + "\n";
+      }
+    }
+    return text;
+  }
+  static int Triangles(const core::TexturedMesh& mesh, const Eigen::Vector3f& color) {
+    int count = 0;
+    for (const int material : mesh.triangle_material) {
+      const Eigen::Vector4f& base = mesh.materials[static_cast<size_t>(material)].base_color;
+      count += (base.head<3>() - color).norm() < 0.02f;
+    }
+    return count;
+  }
+  fs::path folder_;
+};
+
+TEST_F(LinkColors, ColoursAtVerticesStay) {
+  const core::TexturedMesh mesh = Seen(Corners(" 1 0 0", " 0 1 0"), "");
+  EXPECT_EQ(Triangles(mesh, {1, 0, 0}), 4);
+  EXPECT_EQ(Triangles(mesh, {0, 1, 0}), 4);
+}
+
+TEST_F(LinkColors, PalettesStayAndPicturesBecomeTheirMean) {
+  std::ofstream(folder_ / "m.mtl") << "newmtl m\nKd 1 1 1\nmap_Kd t.png\n";
+  std::string uvs;
+  for (int i = 0; i < 8; ++i) uvs += "vt " + std::to_string((i + 0.5) / 8.0) + " 0.5\n";
+  core::Image asset_set(8, 1, 3);
+  for (int x = 0; x < 8; ++x) asset_set.At(x, 0)[x < 4 ? 0 : 2] = 255;
+  core::WritePng(folder_ / "t.png", asset_set);
+  core::TexturedMesh mesh = Seen(Corners("", ""), uvs);
+  EXPECT_EQ(Triangles(mesh, {1, 0, 0}), 4);
+  EXPECT_EQ(Triangles(mesh, {0, 0, 1}), 4);
+}
+
+TEST_F(LinkColors, ManyColoursBecomeTheirMean) {
+  std::ofstream(folder_ / "m.mtl") << "newmtl m\nKd 1 1 1\nmap_Kd t.png\n";
+  core::Image ramp(64, 1, 3);
+  for (int x = 0; x < 64; ++x) {
+    ramp.At(x, 0)[0] = static_cast<std::uint8_t>(x % 8 * 36);
+    ramp.At(x, 0)[1] = static_cast<std::uint8_t>(x / 8 * 36);
+  }
+  core::WritePng(folder_ / "t.png", ramp);
+  std::ofstream obj(folder_ / "m.obj");
+  obj << "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 64; ++i) obj << "vt " << (i + 0.5) / 64.0 << " 0.5\n";
+  for (int i = 1; i <= 64; ++i) obj << "f 1/" << i << " 2/" << i << " 3/" << i << "\n";
+  obj.close();
+  assets::UrdfLink link;
+  assets::UrdfShape shape;
+  shape.file = (folder_ / "m.obj").string();
+  link.visuals.push_back(shape);
+  // The mean of 0, 36 ... 252 is 126.
+  EXPECT_EQ(Triangles(ColoredVisual(link), {126 / 255.0f, 126 / 255.0f, 0}), 64);
+}
+
+}  // namespace
+}  // namespace simwright::importers

@@ -1,0 +1,130 @@
+// The program's flags: unknown ones are answered with the nearest, help shows every default, --json
+// is JSON everywhere, and --config may stand anywhere.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <sstream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "core/files.h"
+#include "program.h"
+
+namespace simwright {
+namespace {
+namespace fs = std::filesystem;
+
+void ExpectUsage(const std::string& arguments, const std::string& says) {
+  const Outcome outcome = RunProgram(arguments);
+  EXPECT_EQ(outcome.code, 2) << outcome.text;
+  EXPECT_EQ(outcome.text.rfind("error: ", 0), 0u) << outcome.text;
+  EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
+  EXPECT_NE(outcome.text.find(says), std::string::npos) << outcome.text;
+}
+
+TEST(Usage, TheNearestIsNamed) {
+  ExpectUsage("lfit", "did you mean lift?");
+  ExpectUsage("imprt a.obj -o b", "did you mean import?");
+  ExpectUsage("scene smaple --type dimsum -o x", "did you mean sample?");
+  ExpectUsage("lift a.jpg --categroy mug -o b", "did you mean --category?");
+  ExpectUsage("import a.obj -o b --heigth 1", "did you mean --height?");
+  ExpectUsage("zorbelflux", "unknown subcommand zorbelflux");
+  ExpectUsage("export run --format rso2 -o x", "ros2");
+  ExpectUsage("run a.jpg --category mug --lift slow", "fast");
+}
+
+const char* const kCommands[] = {"lift",
+                                 "import",
+                                 "physics",
+                                 "check",
+                                 "library",
+                                 "prior train",
+                                 "tasks",
+                                 "reward",
+                                 "train",
+                                 "rollout",
+                                 "export",
+                                 "replay",
+                                 "run",
+                                 "doctor",
+                                 "version",
+                                 "scene generate",
+                                 "scene train",
+                                 "scene sample",
+                                 "scene evaluate",
+                                 "scene export",
+                                 "scene view",
+                                 "scene features train"};
+
+TEST(Usage, HelpGivesEveryDefaultAndNamesOfChoices) {
+  for (const char* command : kCommands) {
+    const Outcome help = RunProgram(std::string(command) + " --help");
+    ASSERT_EQ(help.code, 0) << command;
+    std::istringstream lines(help.text);
+    for (std::string line; std::getline(lines, line);) {
+      if (line.rfind("  --", 0) != 0 && line.rfind("  -", 0) != 0) continue;
+      const bool takes = line.find("TEXT") != std::string::npos ||
+                         line.find("INT") != std::string::npos ||
+                         line.find("FLOAT") != std::string::npos;
+      if (!takes) continue;
+      line = std::regex_replace(line, std::regex(" in \\[[^\\]]*\\]"), "");  // a range
+      EXPECT_TRUE(line.find('[') != std::string::npos || line.find("REQUIRED") != std::string::npos)
+          << command << ": " << line;
+      EXPECT_EQ(line.find("->"), std::string::npos) << command << ": " << line;
+    }
+  }
+}
+
+TEST(Usage, JsonIsJson) {
+  for (const char* command : {"version", "doctor", "scene generate --list", "library --list",
+                              "physics --category mug", "import none -o x", "check none"}) {
+    const Outcome outcome = RunProgram(std::string(command) + " --json", "/dev/null");
+    ASSERT_TRUE(nlohmann::json::accept(outcome.text)) << command << ": " << outcome.text;
+    EXPECT_TRUE(nlohmann::json::parse(outcome.text)["findings"].is_array()) << command;
+  }
+  const auto version = nlohmann::json::parse(RunProgram("version --json").text);
+  EXPECT_EQ(RunProgram("version").text,
+            "simwright " + version["version"].get<std::string>() + "\n");
+}
+
+TEST(Usage, DoctorNamesWhatItNeeds) {
+  const Outcome doctor = RunProgram("doctor");
+  EXPECT_EQ(doctor.code, 0) << doctor.text;
+  for (const char* word : {"bullet", "MuJoCo ", "urdfdom", "wordnet", "weights"}) {
+    EXPECT_NE(doctor.text.find(word), std::string::npos) << word << "\n" << doctor.text;
+  }
+}
+
+class ConfigFile : public ::testing::Test {
+ protected:
+  std::string Write(const std::string& text) const {
+    core::WriteFile(folder_.path() / "flags.toml", text);
+    return (folder_.path() / "flags.toml").string();
+  }
+  const core::TemporaryFolder folder_;
+};
+
+TEST_F(ConfigFile, MayStandBeforeAndBehindTheSubcommand) {
+  const std::string file = Write("[physics]\ncategory = \"teapot\"\n");
+  const std::string before = RunProgram("--config " + file + " physics --quiet").text;
+  EXPECT_EQ(before.rfind("teapot ", 0), 0u) << before;
+  EXPECT_EQ(RunProgram("physics --quiet --config " + file).text, before);
+  EXPECT_EQ(RunProgram("physics --config=" + file + " --quiet").text, before);
+  const std::string flag = RunProgram("physics --config " + file + " --category mug --quiet").text;
+  EXPECT_EQ(flag.rfind("mug ", 0), 0u) << flag;
+}
+
+TEST_F(ConfigFile, TyposAreRefusedWithTheNearest) {
+  ExpectUsage("physics --config " + Write("[physics]\ncategroy = \"mug\"\n"),
+              "did you mean category?");
+  ExpectUsage("physics --category mug --config " + Write("[phsyics]\nseed = 3\n"),
+              "did you mean physics?");
+  ExpectUsage("physics --category mug --config " + Write("[scene.generate]\ncuont = 3\n"),
+              "did you mean count?");
+}
+
+}  // namespace
+}  // namespace simwright

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+
+#include "validation/check.h"
+
+namespace simwright::validation {
+
+// Implements CheckAsset for a folder whose asset.json says `articulated`.
+CheckReport CheckArticulatedAsset(const std::filesystem::path& folder, const CheckLimits& limits);
+
+}  // namespace simwright::validation

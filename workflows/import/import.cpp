@@ -1,0 +1,404 @@
+#include "workflows/import/import.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <set>
+
+#include "asset_build/articulated_preview.h"
+#include "asset_build/preview.h"
+#include "assets/articulated_folder.h"
+#include "assets/asset_folder.h"
+#include "assets/furniture_catalogue.h"
+#include "assets/mesh_format.h"
+#include "assets/mesh_import.h"
+#include "assets/semantic_model.h"
+#include "assets/urdf_meshes.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/finding_text.h"
+#include "core/parallel.h"
+#include "importers/articulated_import.h"
+#include "importers/catalogue_meshes.h"
+#include "importers/import_category.h"
+#include "importers/link_shapes.h"
+#include "importers/rigid_urdf.h"
+#include "importers/up_axis.h"
+
+namespace simwright::workflows {
+namespace fs = std::filesystem;
+namespace {
+
+// The densities of a URDF's bounding box, kg/m3: below that of an empty carton, and that of osmium.
+constexpr double kLightest = 1.0, kOsmium = 22600.0;
+constexpr double kThinnest = 1e-3;  // m, the minimum side of that box
+
+constexpr const char* kStopped = "stopped before it was done";
+
+bool IsCatalogue(const fs::path& path) {
+  return path.extension() == ".sh3f";
+}
+
+bool IsUrdf(const fs::path& path) {
+  return path.extension() == ".urdf";
+}
+
+std::string Unique(std::string name, std::set<std::string>* taken) {
+  const std::string base = name;
+  for (int i = 2; !taken->insert(name).second; ++i) name = base + "_" + std::to_string(i);
+  return name;
+}
+
+// Returns an asset's name: that of its file, or of its folder for PartNet-Mobility, whose URDFs all
+// have the same file name.
+std::string NameOfFile(const fs::path& file) {
+  const bool partnet =
+      file.filename() == "mobility.urdf" || file.filename() == assets::kGapartnetUrdf;
+  const fs::path named = partnet ? fs::absolute(file).parent_path().filename() : file.stem();
+  return assets::FileSafeName(named.string());
+}
+
+// Returns the folder outside which no mesh is read: the given one, or the package around it.
+fs::path RootOf(const fs::path& urdf, const fs::path& given) {
+  const fs::path package = assets::PackageRootOf(urdf);
+  const fs::path folder = fs::weakly_canonical(given);
+  const fs::path inside = package.lexically_relative(folder);
+  return !inside.empty() && *inside.begin() != ".." ? folder : package;
+}
+
+// Lists the folder's own URDF, or its meshes and the contents of its subfolders, by name. `top`:
+// the folder is an input itself, and a package with several URDFs or only a xacro is an error.
+// Meshes beside URDFs, or in a folder beside them, belong to them and are not listed.
+void ListFolder(const fs::path& folder, const fs::path& given, std::vector<ImportItem>* items,
+                std::set<std::string>* taken) {
+  const bool top = folder == given;
+  const auto add = [&](const fs::path& urdf, const std::string& name) {
+    ImportItem item{urdf, -1, Unique(assets::FileSafeName(name), taken)};
+    item.root = RootOf(urdf, given);
+    items->push_back(item);
+  };
+  const std::string name = fs::weakly_canonical(folder).filename().string();
+  fs::path urdf = importers::ArticulatedUrdfIn(folder);
+  if (urdf.empty() && assets::IsPackage(folder)) {
+    const std::vector<fs::path> all = assets::FilesBelow(folder, ".urdf");
+    if (all.size() == 1 || top) urdf = assets::UrdfIn(folder);  // throws unless it has one
+  }
+  if (!urdf.empty()) {
+    add(urdf, name);
+    return;
+  }
+  std::vector<fs::path> entries;
+  for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
+  std::sort(entries.begin(), entries.end());
+  const bool own_urdfs = std::any_of(entries.begin(), entries.end(), IsUrdf);
+  for (const fs::path& entry : entries) {
+    if (fs::is_directory(entry) && !fs::is_symlink(entry)) {
+      const bool theirs = own_urdfs && assets::FilesBelow(entry, ".urdf").empty();
+      if (!theirs) ListFolder(entry, given, items, taken);
+    } else if (fs::is_regular_file(entry) && IsUrdf(entry)) {
+      add(entry, NameOfFile(entry));
+    } else if (fs::is_regular_file(entry) && assets::HasMeshExtension(entry) && !own_urdfs) {
+      items->push_back({entry, -1, Unique(NameOfFile(entry), taken)});
+    }
+  }
+}
+
+// Throws for a folder without readable files, naming the files it has instead.
+[[noreturn]] void RefuseFolder(const fs::path& folder) {
+  std::error_code code;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, code)) {
+    const std::string format = assets::UnreadMeshFormat(entry.path());
+    if (format.empty() || !entry.is_regular_file()) continue;
+    throw core::Error("has no readable meshes and no URDF, but '" +
+                          entry.path().filename().string() + "' (" + format + ")",
+                      folder.string(), "convert it to GLB or OBJ (Blender)");
+  }
+  if (!assets::FilesBelow(folder, ".xacro").empty()) assets::UrdfIn(folder);  // throws, naming it
+  throw core::Error("has no meshes and no URDF", folder.string());
+}
+
+void ListCatalogue(const fs::path& input, const ImportOptions& options,
+                   std::vector<ImportItem>* items, std::set<std::string>* taken) {
+  const assets::FurnitureCatalogue catalogue(input);
+  int found = 0;
+  for (size_t i = 0; i < catalogue.pieces().size(); ++i) {
+    const assets::CataloguePiece& piece = catalogue.pieces()[i];
+    const bool wanted = options.only.empty() ||
+                        piece.name.find(options.only) != std::string::npos ||
+                        piece.id.find(options.only) != std::string::npos;
+    if (!wanted || (options.limit > 0 && found >= options.limit)) continue;
+    ++found;
+    const std::string tail = piece.id.substr(piece.id.find('#') + 1);
+    items->push_back({input, static_cast<int>(i), Unique(assets::FileSafeName(tail), taken)});
+  }
+  if (found == 0) throw core::Error("has no such piece", input.string());
+}
+
+// Returns the category hint of a file's location; for a URDF, that of the files beside it.
+std::string MeantBy(const ImportItem& item) {
+  if (!IsUrdf(item.mesh)) return item.mesh.stem().string();
+  const assets::SemanticModel source = assets::ReadSemanticModel(item.mesh, {item.root, true});
+  return source.category.empty() ? source.name : source.category;
+}
+
+// Reads a URDF without moving joints as one mesh in the file's units.
+core::TexturedMesh ReadRigidUrdf(const fs::path& urdf, const fs::path& root,
+                                 core::Findings* findings) {
+  const assets::UrdfModel model = assets::ReadUrdf(urdf, {root, true});
+  for (core::Finding finding : model.findings) {
+    if (finding.code == "urdf-no-inertial") continue;  // it is recomputed
+    if (finding.place == urdf.string()) finding.place = urdf.filename().string();
+    findings->push_back(finding);
+  }
+  if (std::any_of(model.links.begin(), model.links.end(), importers::HasOwnCollisions)) {
+    findings->push_back(
+        {"urdf-collisions-left-out", core::Severity::kInfo, urdf.filename().string(),
+         "its collision shapes are ignored: parts are computed from the visuals", 0.0});
+  }
+  findings->push_back({"urdf-rigid", core::Severity::kInfo, urdf.filename().string(),
+                       "no joint moves: it becomes one rigid object", 0.0});
+  return importers::RigidVisual(model, findings);
+}
+
+// Earlier findings are kept, because they may explain the refusal.
+void RefuseItem(const core::Error& error, ImportOutcome* outcome) {
+  outcome->refusal = error.what();
+  outcome->findings.push_back(core::FindingOf(error));
+}
+
+class Importer {
+ public:
+  Importer(const fs::path& output, const ImportOptions& options)
+      : output_(output), options_(options) {}
+
+  // Imports one item. Throws core::Error if the mesh or URDF cannot become an asset.
+  void Import(const ImportItem& item, const assets::FurnitureCatalogue* catalogue,
+              core::Progress* progress, ImportOutcome* outcome) const {
+    // A URDF is imported as articulated, or as rigid if no joint moves.
+    if (IsUrdf(item.mesh)) {
+      assets::SemanticModel source = assets::ReadSemanticModel(item.mesh, {item.root, true});
+      outcome->findings = source.model.findings;  // they explain a refusal
+      if (importers::HasMovingJoint(source)) {
+        ImportJointed(item, std::move(source), progress, outcome);
+        return;
+      }
+      outcome->findings.clear();  // they are added again below
+    }
+    ImportRigid(item, catalogue, progress, outcome);
+  }
+
+ private:
+  void ImportJointed(const ImportItem& item, assets::SemanticModel source, core::Progress* progress,
+                     ImportOutcome* outcome) const {
+    importers::ArticulatedImportOptions options;
+    options.name = item.name;
+    options.category = options_.category;
+    options.height = options_.height;
+    options.unit = options_.unit;
+    options.unit_stated = options_.unit_stated;
+    options.size = options_.size;
+    options.stated = options_.stated;
+    options.seed = options_.seed;
+    const assets::ArticulatedAsset asset =
+        importers::ImportArticulated(std::move(source), options, progress);
+    outcome->findings = asset.findings;
+    Keep(item, outcome, [&](const fs::path& folder) {
+      assets::WriteArticulatedAsset(asset, folder);
+      core::WritePng(folder / "preview.png", asset_build::ArticulatedPreview(asset));
+    });
+  }
+
+  void ImportRigid(const ImportItem& item, const assets::FurnitureCatalogue* catalogue,
+                   core::Progress* progress, ImportOutcome* outcome) const {
+    asset_build::BuildRequest request;
+    request.name = item.name;
+    request.seed = options_.seed;
+    core::Findings& findings = outcome->findings;
+    core::TexturedMesh visual;
+    if (catalogue != nullptr) {
+      const assets::CataloguePiece& piece = catalogue->pieces()[static_cast<size_t>(item.piece)];
+      visual = importers::ReadCataloguePiece(*catalogue, piece, &findings);
+      request.source = item.mesh.filename().string() + ":" + piece.id;
+      request.category = importers::ImportCategory(options_.category, piece.name);
+    } else {
+      request.source = item.mesh.filename().string();
+      request.category = importers::ImportCategory(options_.category, MeantBy(item));
+      visual = ReadInWorld(item.mesh, *request.category.category, options_, &findings, item.root);
+      RequireMeantSize(*request.category.category, core::Bounds(visual.mesh).sizes(), item.mesh);
+    }
+    request.stated = options_.stated;
+    if (IsUrdf(item.mesh)) TakeMassOfFile(item, visual.mesh, &request.stated, &findings);
+    asset_build::BuiltAsset built = asset_build::BuildAsset(visual, request, progress);
+    built.asset.findings.insert(built.asset.findings.begin(), findings.begin(), findings.end());
+    findings = built.asset.findings;
+    outcome->seconds = built.seconds;
+    Keep(item, outcome, [&](const fs::path& folder) {
+      assets::WriteAsset(built.asset, folder);
+      core::WritePng(folder / "preview.png", asset_build::AssetPreview(built.asset));
+    });
+  }
+
+  // Uses a rigid URDF's own mass unless a mass or size is stated or the density is impossible.
+  void TakeMassOfFile(const ImportItem& item, const core::TriangleMesh& visual,
+                      physics_params::StatedPhysics* stated, core::Findings* findings) const {
+    if (stated->mass || stated->density || options_.unit != 1.0 || options_.height > 0.0 ||
+        !options_.size.empty()) {
+      return;
+    }
+    const double mass = importers::StatedMass(assets::ReadUrdf(item.mesh, {item.root, true}));
+    if (!(mass > 0.0)) return;
+    const double volume = core::Bounds(visual).sizes().cwiseMax(kThinnest).prod();
+    const bool possible = mass > kLightest * volume && mass < kOsmium * volume;
+    char text[160];
+    std::snprintf(text, sizeof(text),
+                  possible ? "its mass, %.4g kg, is the file's; its centre and inertia follow "
+                             "from the shape"
+                           : "no material of its size has the file's mass, %.4g kg: its kind's "
+                             "mass is used",
+                  mass);
+    findings->push_back({"urdf-mass", possible ? core::Severity::kInfo : core::Severity::kWarning,
+                         item.mesh.filename().string(), text, mass,
+                         possible ? "" : "correct the file's mass, or give --mass"});
+    if (possible) stated->mass = mass;
+  }
+
+  // Refuses an implausible size that is not stated, and any size that cannot be simulated.
+  void RequireMeantSize(const physics_params::Category& category, const Eigen::Vector3d& sides,
+                        const fs::path& mesh) const {
+    const bool stated = options_.unit_stated || options_.height > 0.0 || !options_.size.empty();
+    if (!stated) {
+      const double most = IsUrdf(mesh) ? asset_build::kAbsurdUrdf : physics_params::kAbsurdFactor;
+      asset_build::RequirePlausibleSize(category, sides, options_.unit, mesh.string(), most);
+    }
+    const double longest = sides.maxCoeff();
+    if (longest >= 1e-4 && longest <= 100.0) return;
+    char text[120];
+    std::snprintf(text, sizeof(text), "the mesh is %.3g m across", longest);
+    throw core::Error(text, mesh.string(),
+                      "0.1 mm to 100 m can be simulated: correct --unit, --height or --size");
+  }
+
+  // Writes the asset and keeps it if it passes its check.
+  void Keep(const ImportItem& item, ImportOutcome* outcome,
+            const std::function<void(const fs::path&)>& write) const {
+    const fs::path target = output_ / item.name;
+    core::StagedFolder staged(target, options_.force);
+    write(staged.staging());
+    if (options_.check) {
+      outcome->check = validation::CheckBeforeKeeping(staged.staging(), item.name);
+      const core::Findings warnings = outcome->check->Warnings();
+      outcome->findings.insert(outcome->findings.end(), warnings.begin(), warnings.end());
+    }
+    staged.Commit();
+    outcome->folder = target;
+  }
+
+  const fs::path output_;
+  const ImportOptions& options_;
+};
+
+}  // namespace
+
+core::TexturedMesh ReadInWorld(const fs::path& mesh_path, const physics_params::Category& category,
+                               const ImportOptions& options, core::Findings* findings,
+                               const fs::path& root) {
+  assets::MeshFile file;
+  if (IsUrdf(mesh_path)) {
+    file.mesh = ReadRigidUrdf(mesh_path, root, findings);
+    file.up = 'z';
+  } else {
+    file = assets::ReadMeshFile(mesh_path);
+  }
+  findings->insert(findings->end(), file.findings.begin(), file.findings.end());
+  core::TexturedMesh mesh = std::move(file.mesh);
+  char up = options.up != 0 ? options.up : file.up;
+  if (up == 0) up = importers::GuessUpAxis(mesh_path, mesh.mesh, category, findings);
+  Eigen::Affine3d world_from_file = Eigen::Affine3d::Identity();
+  world_from_file.linear() = options.unit * assets::ZUpRotation(up);
+  core::Transform(world_from_file, &mesh.mesh);
+  if (options.height > 0.0) {
+    const double height = core::Bounds(mesh.mesh).sizes().z();
+    if (!(height > 0.0)) {
+      throw core::Error("a flat mesh cannot be scaled to a height", mesh_path.string(),
+                        "use --unit instead");
+    }
+    core::Transform(Eigen::Affine3d(Eigen::Scaling(options.height / height)), &mesh.mesh);
+  }
+  asset_build::ScaleToSize(options.size, mesh_path.string(), &mesh.mesh, findings);
+  return mesh;
+}
+
+std::vector<ImportItem> ListImports(const std::vector<fs::path>& inputs,
+                                    const ImportOptions& options) {
+  std::vector<ImportItem> items;
+  std::set<std::string> taken;
+  for (const fs::path& input : inputs) {
+    if (!fs::exists(input)) throw core::Error("no such file or folder", input.string());
+    if (fs::is_directory(input)) {
+      const size_t before = items.size();
+      ListFolder(input, input, &items, &taken);
+      if (items.size() == before) RefuseFolder(input);
+    } else if (IsCatalogue(input)) {
+      ListCatalogue(input, options, &items, &taken);
+    } else {
+      items.push_back({input, -1, Unique(NameOfFile(input), &taken)});
+    }
+  }
+  return items;
+}
+
+std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items, const fs::path& output,
+                                     const ImportOptions& options, core::Progress* progress) {
+  for (const ImportItem& item : items) {
+    if (!options.force && !options.resume && fs::exists(output / item.name)) {
+      throw core::Error("the output exists already", (output / item.name).string(),
+                        "choose another folder, keep existing ones with --resume, or replace them "
+                        "with --force");
+    }
+  }
+  std::map<fs::path, std::unique_ptr<assets::FurnitureCatalogue>> catalogues;
+  for (const ImportItem& item : items) {
+    if (item.piece >= 0 && !catalogues.contains(item.mesh)) {
+      catalogues[item.mesh] = std::make_unique<assets::FurnitureCatalogue>(item.mesh);
+    }
+  }
+  std::vector<ImportOutcome> outcomes(items.size());
+  const Importer importer(output, options);
+  const bool many = items.size() > 1;
+  if (many) progress->Stage("import", static_cast<int>(items.size()));
+  core::Progress silent;
+  core::ParallelFor(static_cast<int>(items.size()), [&](int i) {
+    const ImportItem& item = items[static_cast<size_t>(i)];
+    ImportOutcome& outcome = outcomes[static_cast<size_t>(i)];
+    outcome.name = item.name;
+    if (options.resume && fs::exists(output / item.name)) {
+      outcome.folder = output / item.name;
+      outcome.kept = true;
+      return;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      core::CheckCancelled();
+      const auto found = catalogues.find(item.mesh);
+      importer.Import(item, item.piece >= 0 ? found->second.get() : nullptr,
+                      many ? &silent : progress, &outcome);
+    } catch (const validation::CheckFailed& error) {
+      RefuseItem(error, &outcome);
+      outcome.findings.insert(outcome.findings.end(), error.rows().begin(), error.rows().end());
+    } catch (const core::Error& error) {
+      RefuseItem(error, &outcome);
+    } catch (const core::Cancelled&) {
+      RefuseItem(core::Error(kStopped, item.name, "--resume imports the rest"), &outcome);
+    }
+    outcome.seconds["total"] =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (many && !core::CancelRequested()) progress->Advance();
+  });
+  progress->Finish();
+  return outcomes;
+}
+
+}  // namespace simwright::workflows

@@ -1,0 +1,225 @@
+#include "workflows/lift/lift.h"
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "asset_build/preview.h"
+#include "asset_lift/multi_view/multi_view_lift.h"
+#include "assets/asset_folder.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "physics_params/size_plausibility.h"
+#include "render/forward.h"
+#include "workflows/lift/camera_file.h"
+#include "workflows/priors/prior_weights.h"
+
+namespace simwright::workflows {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+core::Image CutOut(const asset_lift::LiftedMesh& lifted) {
+  core::Image cut(lifted.photo.width, lifted.photo.height, 4);
+  for (int y = 0; y < cut.height; ++y) {
+    for (int x = 0; x < cut.width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        cut.At(x, y)[c] = lifted.photo.At(x, y)[lifted.photo.channels < 3 ? 0 : c];
+      }
+      cut.At(x, y)[3] = lifted.matte.alpha.At(x, y)[0];
+    }
+  }
+  return cut;
+}
+
+// Composes the photo, the matte, and the mesh from the photo's camera side by side.
+core::Image LiftSheet(const asset_lift::LiftedMesh& lifted, const core::Image& cut) {
+  render::Scene scene;
+  scene.Add(&lifted.mesh);
+  scene.Commit();
+  render::ForwardOptions options;
+  options.samples_per_side = 2;
+  options.shaded = true;
+  options.lit = false;
+  return core::ContactSheet(
+      {lifted.photo, cut, render::RenderForward(scene, lifted.camera, options).color}, 3);
+}
+
+// Returns the factor from the reconstruction's arbitrary scale to metres: by the requested height,
+// or else so that the volume of the bounding box equals the sampled one, which spreads the error of
+// a wrong proportion over all sides.
+double ScaleOf(double height, const physics_params::PhysicalParameters& parameters,
+               const core::TriangleMesh& mesh) {
+  const Eigen::Vector3d size = asset_build::GroundBoxOf(mesh).sides;
+  if (height > 0.0) return height / size.z();
+  const double wanted =
+      parameters.length.sample * parameters.width.sample * parameters.height.sample;
+  return std::cbrt(wanted / size.prod());
+}
+
+}  // namespace
+
+asset_lift::CategoryPrior PriorOf(const physics_params::Category& category) {
+  asset_lift::CategoryPrior prior;
+  prior.length_min = category.length.min;
+  prior.length_max = category.length.max;
+  prior.width_min = category.width.min;
+  prior.width_max = category.width.max;
+  prior.height_min = category.height.min;
+  prior.height_max = category.height.max;
+  prior.round = category.shape == physics_params::Shape::kRound;
+  prior.revolved = category.shape == physics_params::Shape::kRevolved;
+  prior.open = category.fill == physics_params::Fill::kOpen;
+  prior.flat = category.shape == physics_params::Shape::kFlat;
+  prior.angular = category.shape == physics_params::Shape::kBox;
+  return prior;
+}
+
+namespace {
+
+// The settings of the steps that follow both kinds of reconstruction: true size, asset, pictures,
+// folder.
+struct Finishing {
+  std::filesystem::path output;
+  std::string source;
+  physics_params::Resolution category;
+  double height = 0.0;           // m; 0: see `metric`
+  asset_build::StatedSize size;  // overrides `height`
+  physics_params::StatedPhysics stated;
+  bool metric = false;  // the mesh is already in metres
+  std::uint64_t seed = 1;
+};
+
+// Reports that the size was sampled, because a single photo does not determine it.
+core::Finding SizeDrawn(const physics_params::Category& category, const Eigen::Vector3d& sides,
+                        const std::string& photo) {
+  const bool unknown = category.name == "object";
+  return {"size-drawn",
+          unknown ? core::Severity::kWarning : core::Severity::kInfo,
+          photo,
+          "its size was sampled from the usual range of '" + category.name +
+              "': " + physics_params::SizeText(sides),
+          sides.maxCoeff(),
+          "give the true size with --height or --size"};
+}
+
+LiftOutcome FinishLift(const Finishing& finishing, double lift_seconds,
+                       asset_lift::LiftedMesh lifted, core::StagedFolder* staged,
+                       core::Progress* progress) {
+  const physics_params::PhysicalParameters parameters = physics_params::SampleParameters(
+      *finishing.category.category, physics_params::KnowledgeBase::Shipped(), finishing.seed);
+  const core::Image cut = CutOut(lifted);
+  const core::Image sheet = LiftSheet(lifted, cut);
+  double scale = finishing.metric && finishing.height <= 0.0
+                     ? 1.0
+                     : ScaleOf(finishing.height, parameters, lifted.mesh.mesh);
+  core::Transform(Eigen::Affine3d(Eigen::Scaling(scale)), &lifted.mesh.mesh);
+  const double before = core::Bounds(lifted.mesh.mesh).volume();
+  asset_build::ScaleToSize(finishing.size, finishing.source, &lifted.mesh.mesh, &lifted.findings);
+  scale *= std::cbrt(core::Bounds(lifted.mesh.mesh).volume() / before);
+  if (finishing.height <= 0.0 && finishing.size.empty() && !finishing.metric) {
+    lifted.findings.push_back(SizeDrawn(*finishing.category.category,
+                                        asset_build::GroundBoxOf(lifted.mesh.mesh).sides,
+                                        finishing.source));
+  }
+
+  asset_build::BuildRequest build;
+  build.name = finishing.output.filename().empty()
+                   ? finishing.output.parent_path().filename().string()
+                   : finishing.output.filename().string();
+  build.source = finishing.source;
+  build.category = finishing.category;
+  build.stated = finishing.stated;
+  build.seed = finishing.seed;
+  asset_build::BuiltAsset built = asset_build::BuildAsset(lifted.mesh, build, progress);
+  built.asset.scale = scale;
+  built.asset.findings.insert(built.asset.findings.begin(), lifted.findings.begin(),
+                              lifted.findings.end());
+  assets::WriteAsset(built.asset, staged->staging());
+  core::WritePng(staged->staging() / "preview.png", asset_build::AssetPreview(built.asset));
+  core::WritePng(staged->staging() / "matte.png", cut);
+  core::WritePng(staged->staging() / "lift.png", sheet);
+  staged->Commit();
+  LiftOutcome outcome{finishing.output, built.seconds, built.asset.findings, lifted.silhouette_iou};
+  outcome.seconds["lift"] = lift_seconds;
+  return outcome;
+}
+
+double LiftSeconds(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
+  core::StagedFolder staged(request.output, request.force);
+  Finishing finishing{request.output,
+                      request.photo.filename().string(),
+                      physics_params::RequireCategory(request.category),
+                      request.height,
+                      request.size,
+                      request.stated,
+                      false,
+                      request.seed};
+  const std::string bytes = core::ReadFile(request.photo, 1ull << 30);
+  asset_lift::LiftOptions options;
+  core::ImageReadOptions read;
+  read.max_side = options.max_side;
+  const core::Image photo = core::DecodeImage(bytes, request.photo.string(), read);
+  if (request.mask) options.mask = core::ReadImage(*request.mask);
+  if (request.elevation_degrees >= 0.0) options.elevation = request.elevation_degrees * kDegree;
+  options.field_of_view = request.fov_degrees * kDegree;
+  options.focal_35mm = core::ExifFocalLength35mm(bytes);
+  options.seed = request.seed;
+  options.effort = request.effort;
+  if (!request.prior.empty()) asset_lift::ConfigureForPublishedViewPrior(&options);
+  const auto start = std::chrono::steady_clock::now();
+  core::Findings findings;
+  asset_lift::LiftPriors priors;
+  if (request.effort != asset_lift::LiftEffort::kOutline) {
+    priors = LoadLiftPriors(request.prior, &findings);
+  }
+  asset_lift::LiftedMesh lifted;
+  try {
+    lifted = asset_lift::LiftPhoto(photo, PriorOf(*finishing.category.category), priors, options,
+                                   progress);
+  } catch (const core::Error& error) {
+    throw core::Error(error.what(), request.photo.string());
+  }
+  lifted.findings.insert(lifted.findings.begin(), findings.begin(), findings.end());
+  return FinishLift(finishing, LiftSeconds(start), std::move(lifted), &staged, progress);
+}
+
+LiftOutcome LiftToFolder(const MultiLiftRequest& request, core::Progress* progress) {
+  core::StagedFolder staged(request.output, request.force);
+  Finishing finishing{request.output,
+                      request.cameras.filename().string(),
+                      physics_params::RequireCategory(request.category),
+                      request.height,
+                      request.size,
+                      request.stated,
+                      true,
+                      request.seed};
+  const std::map<std::string, core::Camera> cameras = ReadCameraFile(request.cameras);
+  std::vector<asset_lift::PosedPhoto> photos;
+  for (const std::filesystem::path& path : request.photos) {
+    const auto found = cameras.find(path.filename().string());
+    if (found == cameras.end()) {
+      throw core::Error("has no camera for " + path.filename().string(), request.cameras.string());
+    }
+    photos.push_back({core::ReadImage(path), found->second, path.filename().string()});
+    if (photos.back().photo.width != found->second.width ||
+        photos.back().photo.height != found->second.height) {
+      throw core::Error("does not have the size of its camera", path.string());
+    }
+  }
+  asset_lift::MultiViewOptions options;
+  options.field_stage = request.effort == asset_lift::LiftEffort::kFull;
+  options.seed = request.seed;
+  const auto start = std::chrono::steady_clock::now();
+  asset_lift::LiftedMesh lifted =
+      asset_lift::LiftPhotos(photos, PriorOf(*finishing.category.category), options, progress);
+  return FinishLift(finishing, LiftSeconds(start), std::move(lifted), &staged, progress);
+}
+
+}  // namespace simwright::workflows

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asset_build/asset_builder.h"
+#include "asset_build/true_size.h"
+#include "asset_lift/lift.h"
+#include "core/progress.h"
+#include "validation/check.h"
+
+namespace simwright::workflows {
+
+struct LiftRequest {
+  std::filesystem::path photo;
+  std::string category;  // required
+  std::optional<std::filesystem::path> mask;
+  double height = 0.0;           // m; 0: sampled from the category's range
+  asset_build::StatedSize size;  // overrides `height`
+  physics_params::StatedPhysics stated;
+  double elevation_degrees = -1.0;  // negative: estimated
+  double fov_degrees = 0.0;         // 0: EXIF or the default
+  asset_lift::LiftEffort effort = asset_lift::LiftEffort::kFull;
+  std::filesystem::path prior;  // the user's TorchScript view prior; empty: the shipped one
+  std::uint64_t seed = 1;
+  std::filesystem::path output;  // the asset folder
+  bool force = false;
+};
+
+// Several photos of one object with known cameras.
+struct MultiLiftRequest {
+  std::vector<std::filesystem::path> photos;
+  std::filesystem::path cameras;  // cams.json, see camera_file.h
+  std::string category;
+  double height = 0.0;           // m; 0: the size that the cameras give
+  asset_build::StatedSize size;  // overrides `height`
+  physics_params::StatedPhysics stated;
+  asset_lift::LiftEffort effort = asset_lift::LiftEffort::kFull;
+  std::uint64_t seed = 1;
+  std::filesystem::path output;
+  bool force = false;
+};
+
+struct LiftOutcome {
+  std::filesystem::path folder;
+  asset_build::StageSeconds seconds;
+  core::Findings findings;
+  double silhouette_iou = 0.0;
+};
+
+// Reconstructs an asset folder from a photo, and writes beside it matte.png (the matte) and
+// lift.png (the photo, the matte, and the mesh from the photo's camera). Throws core::Error if the
+// photo cannot be read, the category is unknown, no single object stands out, or the output exists;
+// throws core::Cancelled.
+LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress);
+
+// Reconstructs an asset folder from photos with known cameras. Also throws core::Error if the
+// cameras and the photos do not match.
+LiftOutcome LiftToFolder(const MultiLiftRequest& request, core::Progress* progress);
+
+// Returns the reconstruction prior of a category.
+asset_lift::CategoryPrior PriorOf(const physics_params::Category& category);
+
+}  // namespace simwright::workflows

@@ -1,0 +1,147 @@
+#include "workflows/photo_run/photo_run_report.h"
+
+#include <cstdio>
+
+#include "assets/asset_folder.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/finding_json.h"
+
+namespace simwright::workflows {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json ReadJson(const fs::path& file) {
+  try {
+    return Json::parse(core::ReadFile(file, 1 << 26));
+  } catch (const nlohmann::json::exception&) {
+    throw core::Error("is damaged", file.string(), "--force starts over");
+  }
+}
+
+// Returns the named members of `from`.
+Json Some(const Json& from, const std::vector<std::string>& names) {
+  Json some;
+  for (const std::string& name : names) {
+    if (from.contains(name)) some[name] = from.at(name);
+  }
+  return some;
+}
+
+Json TaskJson(const tasks::Task& task) {
+  Json json = {{"name", task.name}, {"description", task.description}};
+  for (const tasks::Subtask& subtask : task.subtasks) {
+    json["subtasks"].push_back({{"name", subtask.name},
+                                {"description", subtask.description},
+                                {"success", subtask.success}});
+  }
+  return json;
+}
+
+Json SuccessJson(const Json& rollout) {
+  Json json = Some(rollout, {"episodes", "successes", "low", "high", "mean_seconds"});
+  for (const Json& subtask : rollout.at("subtasks")) {
+    const rl::Interval interval =
+        rl::WilsonInterval(subtask.at("succeeded").get<int>(), subtask.at("tried").get<int>());
+    json["subtasks"].push_back({{"name", subtask.at("name")},
+                                {"tried", subtask.at("tried")},
+                                {"succeeded", subtask.at("succeeded")},
+                                {"low", interval.low},
+                                {"high", interval.high}});
+  }
+  return json;
+}
+
+Json TrajectoryJson(const PhotoRunFolder& folder, const std::string& refusal) {
+  if (!refusal.empty()) return {{"refusal", refusal}};
+  const Json made = ReadJson(folder.Export());
+  Json json = {{"file", folder.Trajectory().filename().string()}};
+  json.update(Some(made, {"mean_seconds", "stretch", "tool_deviation", "joints"}));
+  json["replayed"] = ReadJson(folder.Replay()).at("successes").get<int>() > 0;
+  return json;
+}
+
+std::string Shown(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", value);
+  return text;
+}
+
+// Quotes text for a shell.
+std::string Quoted(const std::string& text) {
+  if (text.find_first_not_of(
+          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/") ==
+          std::string::npos &&
+      !text.empty()) {
+    return text;
+  }
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
+
+Json PhotoRunReport(const PhotoRunRequest& request, const PhotoRunFolder& folder,
+                    const tasks::Task& task, const std::vector<RunStage>& stages,
+                    const std::string& refusal) {
+  Json report = {{"format", 1},
+                 {"photo", request.photo.filename().string()},
+                 {"category", request.category},
+                 {"seed", request.seed},
+                 {"command", PhotoRunCommand(request)}};
+  try {
+    report["asset"] = {{"folder", folder.asset_name}};
+    report["asset"].update(Some(ReadJson(folder.Asset() / "asset.json"),
+                                {"category", "size_m", "mass_kg", "material", "friction",
+                                 "restitution", "mass", "findings"}));
+    report["findings"] = core::FindingsJson(assets::ReadAsset(folder.Asset()).findings);
+    report["check"] = Some(ReadJson(folder.Check()), {"passed", "rows"});
+    report["scene"] = ReadJson(folder.Scene());
+    report["task"] = TaskJson(task);
+    report["training"] = Some(ReadJson(folder.Skill() / "report.json"), {"subtasks", "chain"});
+    report["success"] = SuccessJson(ReadJson(folder.Rollout()));
+    report["trajectory"] = TrajectoryJson(folder, refusal);
+  } catch (const nlohmann::json::exception& error) {
+    throw core::Error("a stage's file is damaged: " + std::string(error.what()),
+                      folder.root.string(), "--force starts over");
+  }
+  double seconds = 0.0;
+  report["stages"] = Json::array();
+  for (const RunStage& stage : stages) {
+    report["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
+    seconds += stage.seconds;
+  }
+  report["seconds"] = seconds;
+  return report;
+}
+
+std::string PhotoRunCommand(const PhotoRunRequest& request) {
+  const PhotoRunRequest usual;
+  // Pages may be passed on and must not contain their maker's folders.
+  const auto file = [](const fs::path& path) {
+    return Quoted(path.is_absolute() ? path.filename().string() : path.string());
+  };
+  std::string command =
+      "simwright run " + file(request.photo) + " --category " + Quoted(request.category);
+  const auto add = [&](bool given, const std::string& flag, const std::string& value) {
+    if (given) command += " " + flag + " " + value;
+  };
+  add(request.mask.has_value(), "--mask", request.mask ? file(*request.mask) : "");
+  add(request.height > 0.0, "--height", Shown(request.height));
+  add(request.effort == asset_lift::LiftEffort::kFull, "--lift", "full");
+  add(request.effort == asset_lift::LiftEffort::kOutline, "--lift", "outline");
+  add(request.furniture != usual.furniture, "--furniture", request.furniture);
+  add(!request.task.empty(), "--task", Quoted(request.task));
+  add(request.environments != usual.environments, "--envs", std::to_string(request.environments));
+  add(request.samples != usual.samples, "--steps", std::to_string(request.samples));
+  add(request.minutes != usual.minutes, "--minutes", Shown(request.minutes));
+  add(request.target != usual.target, "--target", Shown(request.target));
+  add(request.episodes != usual.episodes, "--episodes", std::to_string(request.episodes));
+  add(request.seed != usual.seed, "--seed", std::to_string(request.seed));
+  return command + " -o " + file(request.output);
+}
+
+}  // namespace simwright::workflows

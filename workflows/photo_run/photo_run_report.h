@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tasks/task.h"
+#include "workflows/photo_run/photo_run.h"
+#include "workflows/photo_run/photo_run_folder.h"
+#include "workflows/photo_run/photo_run_record.h"
+
+namespace simwright::workflows {
+
+// Returns the results of all stages, read from their files (docs/run.md describes the members).
+// Contains no path outside the folder. `refusal`: the reason why there is no trajectory; empty if
+// there is one. Throws core::Error if a stage's file is missing or damaged.
+nlohmann::ordered_json PhotoRunReport(const PhotoRunRequest& request, const PhotoRunFolder& folder,
+                                      const tasks::Task& task, const std::vector<RunStage>& stages,
+                                      const std::string& refusal);
+
+// Returns the command that repeats the run, with only the options that differ from the defaults.
+std::string PhotoRunCommand(const PhotoRunRequest& request);
+
+}  // namespace simwright::workflows

@@ -1,0 +1,85 @@
+#include "workflows/priors/prior_training.h"
+
+#include <iterator>
+
+#include "core/error.h"
+#include "importers/catalogue_meshes.h"
+
+namespace simwright::workflows {
+namespace {
+
+// Reports missing files before the minutes that reading takes.
+void RequireFiles(const PriorTrainingRequest& request) {
+  for (const std::filesystem::path& path : request.catalogues) {
+    if (!std::filesystem::exists(path)) {
+      throw core::Error("no such catalogue", path.string(),
+                        "./setup.sh --catalogue installs the one that the shipped weights learned "
+                        "from; --parametric-only learns without one");
+    }
+  }
+  const auto require_start = [](bool wanted, const asset_lift::PriorTrainingOptions& options) {
+    if (wanted && !options.start.empty() && !std::filesystem::exists(options.start)) {
+      throw core::Error("no such weights to start from", options.start.string(),
+                        "--from names a folder written by `simwright prior train`");
+    }
+  };
+  require_start(request.shape, request.shape_options);
+  require_start(request.view, request.view_options);
+  if (request.view && !request.shape && !std::filesystem::exists(ShapeWeights(request.output))) {
+    throw core::Error("the view prior needs a shape prior", ShapeWeights(request.output),
+                      "train it too, or copy one there");
+  }
+}
+
+}  // namespace
+
+std::filesystem::path DefaultTrainingCatalogue() {
+  return "/usr/share/sweethome3d/furniture/BlendSwap-CC-0.sh3f";
+}
+
+PriorTrainingRequest::PriorTrainingRequest() {
+  shape_options.trainer.steps = 9200;
+  shape_options.trainer.learning_rate = 8e-4;
+  view_options.trainer.steps = 2250;
+  view_options.trainer.learning_rate = 1e-3;
+}
+
+std::filesystem::path ShapeWeights(const std::filesystem::path& folder) {
+  return folder / "shape_prior.pt";
+}
+
+std::filesystem::path ViewWeights(const std::filesystem::path& folder) {
+  return folder / "view_prior.pt";
+}
+
+std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core::Progress* progress,
+                                      const TrainedPriorListener& listener) {
+  RequireFiles(request);
+  std::vector<core::TexturedMesh> meshes;
+  for (const std::filesystem::path& path : request.catalogues) {
+    std::vector<core::TexturedMesh> read = importers::ReadCatalogue(path, progress);
+    std::move(read.begin(), read.end(), std::back_inserter(meshes));
+  }
+  std::filesystem::create_directories(request.output);
+  const std::filesystem::path shape = ShapeWeights(request.output),
+                              view = ViewWeights(request.output);
+  const auto named = [&](const char* name, const std::filesystem::path& weights) {
+    return [&listener, name, weights](const asset_lift::PriorTrainingReport& report) {
+      if (listener) listener({name, weights, report});
+    };
+  };
+  std::vector<TrainedPrior> trained;
+  if (request.shape) {
+    trained.push_back({"shape", shape,
+                       asset_lift::TrainShapeNetwork(meshes, request.shape_options, shape, progress,
+                                                     named("shape", shape))});
+  }
+  if (request.view) {
+    trained.push_back({"view", view,
+                       asset_lift::TrainViewNetwork(meshes, shape, request.view_options, view,
+                                                    progress, named("view", view))});
+  }
+  return trained;
+}
+
+}  // namespace simwright::workflows

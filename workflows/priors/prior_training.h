@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "asset_lift/priors/prior_training.h"
+#include "core/progress.h"
+
+namespace simwright::workflows {
+
+struct PriorTrainingRequest {
+  // The furniture catalogues (.sh3f) with the training pieces; missing ones are an error.
+  std::vector<std::filesystem::path> catalogues;
+  std::filesystem::path output;  // the weights' folder
+  bool shape = true;             // trains the shape prior
+  bool view = true;              // trains the view prior, which uses the shape prior in the folder
+  asset_lift::PriorTrainingOptions shape_options, view_options;
+
+  // Sets the options that reproduce the shipped weights.
+  PriorTrainingRequest();
+};
+
+// Returns the path of the CC0 catalogue of Debian's sweethome3d-furniture, the training data of the
+// shipped weights.
+std::filesystem::path DefaultTrainingCatalogue();
+
+// Returns the path of each prior's weights in a folder.
+std::filesystem::path ShapeWeights(const std::filesystem::path& folder);
+std::filesystem::path ViewWeights(const std::filesystem::path& folder);
+
+struct TrainedPrior {
+  std::string name;                        // "shape" or "view"
+  std::filesystem::path weights;           // a file in the request's folder
+  asset_lift::PriorTrainingReport report;  // the report on the last steps
+};
+
+// A listener that is called with each prior's report from time to time.
+using TrainedPriorListener = std::function<void(const TrainedPrior&)>;
+
+// Trains the learned priors and writes their weights into the folder. Throws core::Error and
+// core::Cancelled.
+std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core::Progress* progress,
+                                      const TrainedPriorListener& listener = {});
+
+}  // namespace simwright::workflows

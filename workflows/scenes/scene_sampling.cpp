@@ -1,0 +1,176 @@
+#include "workflows/scenes/scene_sampling.h"
+
+#include <chrono>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "assets/asset.h"
+#include "core/content_hash.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "scene/dataset/scene_dataset.h"
+#include "scene/dataset/tokens.h"
+#include "workflows/scenes/scene_assets.h"
+#include "workflows/scenes/scene_shapes.h"
+#include "workflows/scenes/scene_sheet.h"
+#include "workflows/scenes/scene_weights.h"
+
+namespace simwright::workflows {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// The distance that objects are lowered, m: about one shelf spacing, so that an object between two
+// boards comes down on the lower one; less than a table's height, so that an object beside it
+// falls.
+constexpr double kLowering = 0.25;
+
+double SamplingSeconds(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct Sampled {
+  scene::SceneAttempt attempt;
+  std::vector<scene::SceneObject> objects;
+};
+
+Sampled AsSampled(std::vector<scene::SceneObject> objects) {
+  Sampled sampled;
+  const int count = static_cast<int>(objects.size());
+  sampled.attempt = {count, count, 0, false, true, 0.0, 0.0, 0.0};
+  sampled.objects = std::move(objects);
+  return sampled;
+}
+
+Sampled Settled(const std::vector<scene::SceneObject>& objects, const scene::AssetSet& asset_set) {
+  scene::FeasibilityOptions options;
+  options.lowering = kLowering;
+  scene::FeasibleScene feasible = MakeFeasible(objects, asset_set, options);
+  Sampled sampled;
+  sampled.attempt = AttemptOf(feasible, static_cast<int>(objects.size()));
+  sampled.objects = std::move(feasible.objects);
+  return sampled;
+}
+
+std::vector<Sampled> FinishScenes(const std::vector<float>& tokens,
+                                  const scene::Vocabulary& vocabulary,
+                                  const scene::AssetSet& asset_set, bool raw,
+                                  core::Progress* progress) {
+  const auto size = static_cast<size_t>(vocabulary.entries * vocabulary.TokenWidth());
+  std::vector<Sampled> scenes(tokens.size() / size);
+  progress->Stage(raw ? "writing" : "settling", static_cast<int>(scenes.size()));
+  core::ParallelFor(static_cast<int>(scenes.size()), [&](int i) {
+    core::CheckCancelled();
+    const auto index = static_cast<size_t>(i);
+    std::vector<scene::SceneObject> objects = DecodeScene(&tokens[index * size], vocabulary);
+    scenes[index] = raw ? AsSampled(std::move(objects)) : Settled(objects, asset_set);
+    progress->Advance();
+  });
+  return scenes;
+}
+
+scene::SceneShard PartOf(const std::vector<Sampled>& scenes, const scene::Vocabulary& vocabulary,
+                         const scene::ShardOrigin& origin) {
+  scene::SceneShard part{vocabulary, origin, {}, {}};
+  const auto size = static_cast<size_t>(vocabulary.entries * vocabulary.TokenWidth());
+  for (const Sampled& one : scenes) {
+    part.attempts.push_back(one.attempt);
+    if (!one.attempt.sound) continue;
+    part.tokens.resize(part.tokens.size() + size);
+    EncodeScene(one.objects, vocabulary, &part.tokens[part.tokens.size() - size]);
+  }
+  return part;
+}
+
+fs::path SamplingWeights(const SceneSamplingRequest& request) {
+  if (request.weights.empty() == request.type.empty()) {
+    throw core::Error("give either weights or a scene type to sample from", "",
+                      "name a weights file, or a --type with shipped weights");
+  }
+  return request.weights.empty() ? ShippedSceneWeights(request.type) : request.weights;
+}
+
+scene::ShardOrigin OriginOf(const SceneSamplingRequest& request, const fs::path& weights) {
+  nlohmann::ordered_json settings;
+  settings["weights"] = core::ContentHash(core::ReadFile(weights));
+  settings["steps"] = request.sampling.steps;
+  settings["eta"] = request.sampling.eta;
+  settings["raw"] = request.raw;
+  if (!request.raw) settings["lowering"] = kLowering;
+  return {request.sampling.seed, 0, "{}", settings.dump(), SIMWRIGHT_VERSION};
+}
+
+}  // namespace
+
+SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Progress* progress) {
+  if (request.count < 1) throw core::Error("at least 1 scene must be sampled", "--count");
+  const fs::path weights = SamplingWeights(request);
+  scene::SceneModel model = scene::SceneModel::Load(weights);
+  for (const auto& [category, folder] : request.added) {
+    if (assets::FileSafeName(category) != category) {
+      throw core::Error("a category must be a valid folder name", category);
+    }
+    model.AddAsset(category, ShapeOfAsset(folder, model.facts().options.shape_points));
+  }
+  const scene::Vocabulary& vocabulary = model.facts().vocabulary;
+  core::StagedFolder staged(request.output, request.force);
+  core::Findings findings;
+  const scene::AssetSet asset_set =
+      scene::ReadAssetSet(GatherSceneAssets({vocabulary.categories, request.added, request.assets,
+                                             staged.staging() / "assets", &findings},
+                                            progress));
+  SceneSamplingReport report;
+  report.output = request.output;
+  report.raw = request.raw;
+  progress->Stage("sampling", request.count);
+  auto start = Clock::now();
+  const std::vector<float> tokens = model.Sample(request.count, request.sampling, progress);
+  report.sampling_seconds = SamplingSeconds(start);
+  start = Clock::now();
+  const std::vector<Sampled> scenes =
+      FinishScenes(tokens, vocabulary, asset_set, request.raw, progress);
+  report.physics_seconds = SamplingSeconds(start);
+  const scene::SceneShard part = PartOf(scenes, vocabulary, OriginOf(request, weights));
+  scene::WriteShard(part, staged.staging() / scene::ShardName(0));
+  report.statistics = StatisticsOf(part.attempts);
+  report.statistics.type = vocabulary.type;
+  report.statistics.findings = std::move(findings);
+  if (!request.raw) {
+    const core::Findings dropped = DroppedFindings(report.statistics);
+    report.statistics.findings.insert(report.statistics.findings.end(), dropped.begin(),
+                                      dropped.end());
+  }
+  core::WriteFile(staged.staging() / "statistics.json", StatisticsJson(report.statistics));
+  WriteSceneSheet(scene::SceneDataset(staged.staging()), asset_set,
+                  staged.staging() / "scenes.png");
+  progress->Finish();
+  staged.Commit();
+  return report;
+}
+
+std::string SamplingTable(const SceneSamplingReport& report) {
+  char line[256];
+  std::snprintf(line, sizeof line, "%s: sampled in %.1f s (%.1f scenes/s)", report.output.c_str(),
+                report.sampling_seconds,
+                report.statistics.attempts / std::max(1e-9, report.sampling_seconds));
+  std::string text = line;
+  if (!report.raw) {
+    std::snprintf(line, sizeof line, ", physics in %.1f s", report.physics_seconds);
+    text += line;
+  }
+  return text + "\n" + StatisticsTable(report.statistics);
+}
+
+std::string SamplingJson(const SceneSamplingReport& report) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(StatisticsJson(report.statistics));
+  json["output"] = report.output.string();
+  json["raw"] = report.raw;
+  json["sampling_seconds"] = report.sampling_seconds;
+  json["physics_seconds"] = report.physics_seconds;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace simwright::workflows

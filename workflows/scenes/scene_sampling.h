@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "scene/model/scene_model.h"
+#include "workflows/scenes/scene_generation.h"
+
+namespace simwright::workflows {
+
+struct SceneSamplingRequest {
+  std::filesystem::path weights;
+  std::string type;  // the scene type of the shipped weights, if `weights` is empty
+  int count = 16;
+  std::filesystem::path output;
+  std::vector<std::filesystem::path> assets;  // searched in this order, then the library
+  // Assets that the model has not seen, by their new category.
+  scene::CategoryFolders added;
+  scene::SampleOptions sampling;
+  bool raw = false;    // keeps the model's samples unchanged
+  bool force = false;  // replaces an existing output
+};
+
+struct SceneSamplingReport {
+  std::filesystem::path output;
+  SceneStatistics statistics;  // "yield": the fraction that is valid after projection
+  bool raw = false;
+  double sampling_seconds = 0.0, physics_seconds = 0.0;
+};
+
+// Samples scenes from a trained model into output/part_00000.h5, a dataset in the format of `scene
+// generate`, with its assets and a contact sheet. Unless `raw`, interpenetrations of each scene are
+// resolved and it is settled; scenes that are then not valid are omitted and counted. Throws
+// core::Error for a file without weights, an existing output, a type without weights, or assets for
+// a model that does not embed shapes.
+SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Progress* progress);
+
+std::string SamplingTable(const SceneSamplingReport& report);
+std::string SamplingJson(const SceneSamplingReport& report);
+
+}  // namespace simwright::workflows

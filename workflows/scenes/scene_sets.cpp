@@ -1,0 +1,149 @@
+#include "workflows/scenes/scene_sets.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "scene/asset_set/asset_set_folder.h"
+#include "scene/dataset/scene_dataset.h"
+#include "scene/dataset/tokens.h"
+#include "workflows/scenes/scene_assets.h"
+#include "workflows/scenes/scene_generation.h"
+#include "workflows/scenes/scene_sampling.h"
+#include "workflows/scenes/scene_weights.h"
+
+namespace simwright::workflows {
+namespace fs = std::filesystem;
+namespace {
+
+SceneSet Decoded(const scene::SceneDataset& dataset, int first, int count) {
+  SceneSet set;
+  if (count == 0) return set;
+  const std::vector<float> tokens = dataset.Read(first, count);
+  const size_t size = tokens.size() / static_cast<size_t>(count);
+  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
+    set.push_back(DecodeScene(&tokens[i * size], dataset.vocabulary()));
+  }
+  return set;
+}
+
+// Returns the weights to sample from or to get the training scenes from; empty if none are needed.
+fs::path SetWeights(const SceneEvaluationRequest& request) {
+  if (!request.weights.empty()) return request.weights;
+  if (!request.samples.empty()) return {};
+  if (request.type.empty()) {
+    throw core::Error("there is nothing to evaluate", "",
+                      "give --samples, --model or a --type that has shipped weights");
+  }
+  return ShippedSceneWeights(request.type);
+}
+
+std::vector<fs::path> AssetFolders(const SceneEvaluationRequest& request, const fs::path& data) {
+  std::vector<fs::path> folders = request.assets;
+  for (const fs::path& one : {data / "assets", request.samples / "assets"}) {
+    if (fs::is_directory(one)) folders.push_back(one);
+  }
+  return folders;
+}
+
+// Generates a dataset that our models were not trained on: with another seed than their data.
+fs::path Generated(const SceneEvaluationRequest& request, const std::string& type,
+                   std::uint64_t data_seed, const fs::path& folder, core::Progress* progress) {
+  constexpr std::uint64_t kElsewhere = 1'000'003;
+  SceneGenerationRequest generation;
+  generation.type = type;
+  generation.count = request.count;
+  generation.seed = data_seed + kElsewhere + request.seed;
+  generation.assets = request.assets;
+  generation.output = folder / "held_out";
+  GenerateScenes(generation, progress);
+  return generation.output;
+}
+
+int TrainingScenes(const SceneEvaluationRequest& request, const scene::SceneDataset& data,
+                   const std::optional<scene::SceneModelMetadata>& facts,
+                   core::Findings* findings) {
+  const int there = data.SceneCount();
+  if (request.training_scenes > there) {
+    throw core::Error("the dataset has " + std::to_string(there) + " scenes", request.data.string(),
+                      "--training-scenes cannot be more");
+  }
+  if (request.training_scenes >= 0) return request.training_scenes;
+  if (request.data.empty() || !facts) return 0;
+  if (facts->data_seed != data.parts().front().origin().seed) return 0;
+  if (facts->training_scenes > there) {
+    findings->push_back({"scenes-missing", core::Severity::kWarning, request.data.string(),
+                         "the model was trained on more scenes of this dataset than are present",
+                         static_cast<double>(facts->training_scenes)});
+  }
+  return std::min(there, facts->training_scenes);
+}
+
+void Sample(const SceneEvaluationRequest& request, const fs::path& weights,
+            const std::vector<fs::path>& assets, const fs::path& output, core::Progress* progress) {
+  SceneSamplingRequest sampling;
+  sampling.weights = weights;
+  sampling.count = request.count;
+  sampling.output = output;
+  sampling.assets = assets;
+  sampling.sampling = request.sampling;
+  sampling.raw = true;
+  sampling.force = true;
+  SampleScenes(sampling, progress);
+}
+
+// Warns if the samples are not the model's raw output.
+void WarnOfPhysics(const scene::SceneDataset& samples, const fs::path& path,
+                   core::Findings* findings) {
+  const auto settings = nlohmann::json::parse(samples.parts().front().origin().settings, nullptr,
+                                              /*allow_exceptions=*/false);
+  if (settings.is_object() && settings.contains("raw") && settings["raw"] == true) return;
+  findings->push_back({"scenes-processed", core::Severity::kWarning, path.string(),
+                       "these scenes are not a model's raw samples: their penetration was "
+                       "resolved (sample with --raw)",
+                       0.0});
+}
+
+}  // namespace
+
+SceneSets GatherSceneSets(const SceneEvaluationRequest& request, const fs::path& folder,
+                          core::Findings* findings, core::Progress* progress) {
+  const fs::path weights = SetWeights(request);
+  std::optional<scene::SceneModelMetadata> facts;
+  if (!weights.empty()) facts = scene::SceneModel::Load(weights).facts();
+  std::optional<scene::SceneDataset> samples;
+  if (!request.samples.empty()) samples.emplace(request.samples);
+  SceneSets sets;
+  sets.vocabulary = samples ? samples->vocabulary() : facts->vocabulary;
+  const std::string& type = sets.vocabulary.type;
+  if (!request.type.empty() && request.type != type) {
+    throw core::Error("these are scenes of the type " + type, "--type " + request.type);
+  }
+  const fs::path data_folder =
+      !request.data.empty()
+          ? request.data
+          : Generated(request, type, facts ? facts->data_seed : 0, folder, progress);
+  const scene::SceneDataset data(data_folder);
+  const std::vector<fs::path> assets = AssetFolders(request, data_folder);
+  if (!samples) {
+    Sample(request, weights, assets, folder / "samples", progress);
+    samples.emplace(folder / "samples");
+  } else {
+    WarnOfPhysics(*samples, request.samples, findings);
+  }
+  if (!(data.vocabulary() == sets.vocabulary && samples->vocabulary() == sets.vocabulary)) {
+    throw core::Error("data, samples and model have different scene types or categories",
+                      data_folder.string());
+  }
+  sets.asset_set = scene::ReadAssetSet(
+      GatherSceneAssets({sets.vocabulary.categories, {}, assets, folder / "assets"}, progress));
+  const int training = TrainingScenes(request, data, facts, findings);
+  sets.samples = Decoded(*samples, 0, std::min(request.count, samples->SceneCount()));
+  sets.training = Decoded(data, 0, training);
+  sets.held_out = Decoded(data, training, std::min(request.count, data.SceneCount() - training));
+  return sets;
+}
+
+}  // namespace simwright::workflows

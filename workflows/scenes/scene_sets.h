@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/finding.h"
+#include "core/progress.h"
+#include "scene/asset_set/asset_set.h"
+#include "scene/dataset/vocabulary.h"
+#include "workflows/scenes/scene_evaluation.h"
+
+namespace simwright::workflows {
+
+using SceneSet = std::vector<std::vector<scene::SceneObject>>;
+
+// The scene sets that an evaluation compares.
+struct SceneSets {
+  scene::Vocabulary vocabulary;
+  scene::AssetSet asset_set;
+  SceneSet samples;
+  SceneSet training;  // all training scenes
+  SceneSet held_out;  // at most `count`
+};
+
+// Finds, generates and samples the requested sets; keeps new ones in `folder`. Throws as
+// EvaluateScenes does.
+SceneSets GatherSceneSets(const SceneEvaluationRequest& request,
+                          const std::filesystem::path& folder, core::Findings* findings,
+                          core::Progress* progress);
+
+}  // namespace simwright::workflows

@@ -1,0 +1,115 @@
+#include "workflows/skills/motion_files.h"
+
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "robot/trajectory_file.h"
+#include "robot/trajectory_joints.h"
+
+namespace simwright::workflows {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+using robot::JointTrajectory;
+
+constexpr char kGripperNote[] = "gripper";     // in the arm's file: there is also a gripper file
+constexpr char kJointNote[] = "robot_joints";  // the robot's names, in column order
+
+bool IsRos(const fs::path& file) {
+  return robot::TrajectoryFormatOf(file) != robot::TrajectoryFormat::kCsv;
+}
+
+std::string WithSpaces(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
+  return text;
+}
+
+void WriteWithNotes(const JointTrajectory& trajectory, const fs::path& file) {
+  robot::WriteTrajectory(file, trajectory);
+  if (file.extension() != ".json") return;
+  core::WriteFile(MetadataFileBeside(file), json(trajectory.notes).dump(2) + "\n");
+}
+
+std::map<std::string, std::string> NotesOfJson(const fs::path& file) {
+  const fs::path notes = MetadataFileBeside(file);
+  if (!fs::exists(notes)) {
+    throw core::Error("its metadata file is not beside it", file.string(),
+                      "keep " + notes.filename().string() + " with it, or export YAML");
+  }
+  try {
+    return json::parse(core::ReadFile(notes, 1 << 24)).get<std::map<std::string, std::string>>();
+  } catch (const json::exception&) {
+    throw core::Error("has no metadata", notes.string(), "export it again");
+  }
+}
+
+// Renames the joints to the robot's own names, which the metadata lists.
+JointTrajectory UnderOwnNames(JointTrajectory trajectory, const fs::path& file) {
+  const auto note = trajectory.notes.find(kJointNote);
+  if (note == trajectory.notes.end()) return trajectory;
+  std::istringstream words(note->second);
+  std::vector<std::string> own;
+  for (std::string word; words >> word;) own.push_back(word);
+  if (own.size() != trajectory.joints.size()) {
+    throw core::Error("its metadata entry '" + std::string(kJointNote) + "' names " +
+                          std::to_string(own.size()) + " joints, it has " +
+                          std::to_string(trajectory.joints.size()),
+                      file.string(), "export it again");
+  }
+  trajectory.joints = own;
+  trajectory.notes.erase(kJointNote);
+  return trajectory;
+}
+
+}  // namespace
+
+fs::path GripperBeside(const fs::path& motion) {
+  return fs::path(motion).replace_extension(".gripper" + motion.extension().string());
+}
+
+fs::path MetadataFileBeside(const fs::path& motion) {
+  return fs::path(motion).replace_extension(".notes.json");
+}
+
+bool IsMotionSideFile(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  return stem.ends_with(".gripper") || stem.ends_with(".notes");
+}
+
+void WriteMotion(const JointTrajectory& trajectory, const fs::path& file,
+                 const robot::JointNames& names) {
+  JointTrajectory named = robot::Renamed(trajectory, names.names);
+  if (named.joints != trajectory.joints) named.notes[kJointNote] = WithSpaces(trajectory.joints);
+  if (!IsRos(file)) {
+    WriteWithNotes(named, file);
+    return;
+  }
+  const std::vector<std::string> arm(named.joints.begin(), named.joints.end() - 1);
+  JointTrajectory of_arm = robot::JointsOf(named, arm);
+  of_arm.notes[kGripperNote] = "beside";
+  WriteWithNotes(of_arm, file);
+  JointTrajectory gripper = robot::JointsOf(named, {named.joints.back()});
+  gripper.notes = {{"beside", file.filename().string()}};
+  robot::WriteTrajectory(GripperBeside(file), gripper);
+}
+
+JointTrajectory ReadMotion(const fs::path& file) {
+  JointTrajectory trajectory = robot::ReadTrajectory(file);
+  if (file.extension() == ".json") trajectory.notes = NotesOfJson(file);
+  if (trajectory.notes.erase(kGripperNote) > 0) {
+    const fs::path gripper = GripperBeside(file);
+    if (!fs::exists(gripper)) {
+      throw core::Error("the gripper's motion is not beside it", file.string(),
+                        "keep " + gripper.filename().string() + " with it, or export again");
+    }
+    trajectory = robot::Joined(trajectory, robot::ReadTrajectory(gripper), gripper.string());
+  }
+  return UnderOwnNames(std::move(trajectory), file);
+}
+
+}  // namespace simwright::workflows

@@ -1,0 +1,127 @@
+#include "workflows/skills/skill_metadata.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "skills/start_pool.h"
+
+namespace simwright::workflows {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kMetadataRemedy = "give a file of `simwright export`, with its metadata";
+
+const std::string& MetadataLine(const std::map<std::string, std::string>& lines, const char* key,
+                                const std::string& where) {
+  const auto found = lines.find(key);
+  if (found != lines.end()) return found->second;
+  throw core::Error(std::string("lacks the metadata entry '") + key + "'", where, kMetadataRemedy);
+}
+
+std::uint64_t NumberField(const std::string& text, const char* key, const std::string& where) {
+  std::uint64_t number = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (fault == std::errc() && end == text.data() + text.size()) return number;
+  throw core::Error("the entry '" + std::string(key) + "' is not a number: '" + text + "'", where,
+                    kMetadataRemedy);
+}
+
+void ReadSubtasks(const std::string& text, SkillMetadata* notes) {
+  double last = 0.0;
+  for (const json& one : json::parse(text)) {
+    const SubtaskTimes times{one.at("begin").get<double>(), one.at("end").get<double>()};
+    if (!(times.begin >= last) || !(times.end > times.begin) || !std::isfinite(times.end)) {
+      throw std::invalid_argument("times that do not increase");
+    }
+    last = times.end;
+    notes->subtasks.push_back(one.at("name").get<std::string>());
+    notes->times.push_back(times);
+  }
+}
+
+[[noreturn]] void MetadataError(const std::string& what, const std::string& theirs,
+                                const std::string& ours, const std::string& where) {
+  throw core::Error("was made for " + what + " '" + theirs + "', the run has '" + ours + "'", where,
+                    "give the run it was exported from");
+}
+
+}  // namespace
+
+SkillMetadata MetadataOf(const SkillRun& run, const std::vector<RunSkill>& skills,
+                         const ChainRecording& recording, std::uint64_t seed) {
+  const skills::StartState& start = recording.subtasks.front().start;
+  SkillMetadata notes;
+  notes.robot = run.robot;
+  notes.task = run.set.tasks[static_cast<size_t>(start.variant)].name;
+  notes.run = std::filesystem::weakly_canonical(run.folder).string();
+  notes.assets = run.hashes;
+  notes.seed = seed;
+  notes.episode = recording.episode;
+  notes.start = skills::StartText(start);
+  for (const RunSkill& skill : skills) notes.subtasks.push_back(skill.name);
+  return notes;
+}
+
+std::map<std::string, std::string> MetadataLines(const SkillMetadata& notes) {
+  json subtasks = json::array();
+  for (size_t i = 0; i < notes.subtasks.size(); ++i) {
+    subtasks.push_back({{"name", notes.subtasks[i]},
+                        {"begin", notes.times[i].begin},
+                        {"end", notes.times[i].end}});
+  }
+  return {{"robot", notes.robot},
+          {"task", notes.task},
+          {"run", notes.run},
+          {"assets", json(notes.assets).dump()},
+          {"seed", std::to_string(notes.seed)},
+          {"episode", std::to_string(notes.episode)},
+          {"start", notes.start},
+          {"subtasks", subtasks.dump()}};
+}
+
+SkillMetadata MetadataFrom(const std::map<std::string, std::string>& lines,
+                           const std::string& where) {
+  SkillMetadata notes;
+  notes.robot = MetadataLine(lines, "robot", where);
+  notes.task = MetadataLine(lines, "task", where);
+  notes.run = MetadataLine(lines, "run", where);
+  notes.start = MetadataLine(lines, "start", where);
+  notes.seed = NumberField(MetadataLine(lines, "seed", where), "seed", where);
+  notes.episode = NumberField(MetadataLine(lines, "episode", where), "episode", where);
+  try {
+    notes.assets =
+        json::parse(MetadataLine(lines, "assets", where)).get<std::vector<std::string>>();
+    ReadSubtasks(MetadataLine(lines, "subtasks", where), &notes);
+  } catch (const json::exception&) {
+    throw core::Error("the entries 'assets' and 'subtasks' are damaged", where, kMetadataRemedy);
+  } catch (const std::invalid_argument& error) {
+    throw core::Error(std::string("the entry 'subtasks' has ") + error.what(), where,
+                      kMetadataRemedy);
+  }
+  return notes;
+}
+
+void RequireMatchingRun(const SkillMetadata& notes, const SkillRun& run,
+                        const std::vector<RunSkill>& skills, const std::string& where) {
+  if (notes.robot != run.robot) MetadataError("the robot", notes.robot, run.robot, where);
+  const bool known = std::any_of(run.set.tasks.begin(), run.set.tasks.end(),
+                                 [&](const tasks::Task& task) { return task.name == notes.task; });
+  if (!known) MetadataError("the task", notes.task, run.set.tasks.front().name, where);
+  if (notes.assets != run.hashes) {
+    throw core::Error("the assets have changed since it was exported", where,
+                      "give the run it was exported from, or export again");
+  }
+  bool same = notes.subtasks.size() == skills.size();
+  for (size_t i = 0; same && i < skills.size(); ++i) same = notes.subtasks[i] == skills[i].name;
+  if (!same) {
+    throw core::Error("its subtasks are not those of the run", where,
+                      "give the run it was exported from");
+  }
+}
+
+}  // namespace simwright::workflows

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "rl/policy.h"
+#include "skills/skill_chain.h"
+#include "workflows/skills/skill_run.h"
+
+namespace simwright::workflows {
+
+struct RolloutRequest {
+  std::filesystem::path run;  // a folder written by TrainTask
+  int episodes = 100;
+  std::uint64_t seed = 1;
+  // Other similar tasks, to evaluate on assets that are not in the training set: a file, and names
+  // or patterns in it (ChooseTasks). Empty: the run's own.
+  std::filesystem::path on;
+  std::vector<std::string> tasks;
+  // The friction of the fingers' surfaces, the same in all episodes; none: sampled as in training.
+  std::optional<double> finger_friction;
+  // Output files for the first successful episode, else the first one: pictures (PNG) and poses
+  // (JSON lines; rollout_pictures.h). Empty: none.
+  std::filesystem::path pictures, poses;
+};
+
+struct RolloutReport {
+  std::vector<std::string> subtasks;
+  skills::ChainEvaluation chain;  // one link if the task has one subtask
+  double seconds = 0.0;           // mean of the successful episodes
+};
+
+// A run's skills and policies, ready to act. Neither copyable nor movable, because links point into
+// it.
+class TrainedTask {
+ public:
+  // `on`: tasks to act in instead of the run's own; `finger_friction`: as in RolloutRequest. Throws
+  // core::Error if the folder has no run, its assets have changed, a subtask has no policy (naming
+  // it), or `on` does not match.
+  explicit TrainedTask(const std::filesystem::path& run,
+                       const std::optional<tasks::TaskSet>& on = std::nullopt,
+                       std::optional<double> finger_friction = std::nullopt);
+  TrainedTask(const TrainedTask&) = delete;
+  TrainedTask& operator=(const TrainedTask&) = delete;
+
+  const SkillRun& run() const { return run_; }
+  const std::vector<RunSkill>& skills() const { return skills_; }
+  const std::vector<skills::ChainLink>& links() const { return links_; }
+
+ private:
+  SkillRun run_;
+  std::vector<RunSkill> skills_;
+  std::vector<rl::Policy> policies_;
+  std::vector<skills::ChainLink> links_;
+};
+
+// Runs the whole task from fresh starts sampled with the seed. An episode succeeds if the success
+// of every subtask has held for half a second at its end.
+RolloutReport Rollout(const RolloutRequest& request, core::Progress* progress);
+
+std::string RolloutTable(const RolloutReport& report);
+std::string RolloutJson(const RolloutReport& report);
+
+}  // namespace simwright::workflows

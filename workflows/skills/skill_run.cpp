@@ -1,0 +1,204 @@
+#include "workflows/skills/skill_run.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "assets/semantic_model.h"
+#include "core/content_hash.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "robot/panda_model.h"
+#include "tasks/task_file.h"
+
+namespace simwright::workflows {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+constexpr int kSkillRunFormat = 2;
+constexpr const char* kRunFile = "run.json";
+constexpr const char* kTasksFile = "tasks.json";
+
+std::string SomeNames(const tasks::TaskSet& set) {
+  std::string names;
+  for (size_t i = 0; i < set.tasks.size() && i < 8; ++i) {
+    names += (i > 0 ? ", " : "") + set.tasks[i].name;
+  }
+  return set.tasks.size() > 8 ? names + " ..." : names;
+}
+
+json RunJson(const SkillRun& run) {
+  json text;
+  text["format"] = kSkillRunFormat;
+  text["robot"] = run.robot;
+  text["environments"] = run.environments;
+  text["seed"] = run.seed;
+  for (const std::string& hash : run.hashes) text["asset_hashes"].push_back(hash);
+  text["episode_seconds"] = run.options.episode_seconds;
+  text["discount"] = run.options.discount;
+  text["action"] = skills::NameOf(run.options.action);
+  if (run.options.finger_friction) {
+    text["finger_friction"] = {run.options.finger_friction->low, run.options.finger_friction->high};
+  }
+  return text;
+}
+
+// Runs from before friction was sampled used the robot's own.
+std::optional<skills::FactorRange> FingerFrictionOf(const json& text) {
+  if (!text.contains("finger_friction")) return std::nullopt;
+  const auto range = text["finger_friction"].get<std::array<double, 2>>();
+  return skills::FactorRange{range[0], range[1]};
+}
+
+std::vector<std::string> HashesOf(const tasks::TaskSet& set) {
+  std::vector<std::string> hashes;
+  for (const tasks::TaskAsset& asset : set.assets) {
+    if (!fs::exists(asset.path)) {
+      throw core::Error("the asset '" + asset.name + "' no longer exists", asset.path,
+                        "restore it, or train again");
+    }
+    hashes.push_back(core::ContentHashOf(asset.path));
+  }
+  return hashes;
+}
+
+}  // namespace
+
+tasks::TaskSet ChooseTasks(const tasks::TaskSet& set, const std::vector<std::string>& patterns,
+                           const std::string& file) {
+  tasks::TaskSet chosen;
+  std::set<std::string> names, used;
+  for (const std::string& pattern : patterns) {
+    bool any = false;
+    for (const tasks::Task& task : set.tasks) {
+      if (fnmatch(pattern.c_str(), task.name.c_str(), 0) != 0) continue;
+      any = true;
+      if (!names.insert(task.name).second) continue;
+      chosen.tasks.push_back(task);
+      used.insert(task.assets.begin(), task.assets.end());
+    }
+    if (!any) {
+      throw core::Error("there is no task '" + pattern + "'", file, "it has " + SomeNames(set));
+    }
+  }
+  for (const tasks::TaskAsset& asset : set.assets) {
+    if (used.contains(asset.name)) chosen.assets.push_back(asset);
+  }
+  for (const tasks::Task& task : chosen.tasks) {
+    if (task.subtasks.size() == chosen.tasks.front().subtasks.size()) continue;
+    throw core::Error("'" + task.name + "' differs in its number of subtasks from '" +
+                          chosen.tasks.front().name + "'",
+                      file, "train them one by one");
+  }
+  return chosen;
+}
+
+void WriteRun(const SkillRun& given) {
+  SkillRun run = given;
+  run.hashes = HashesOf(run.set);
+  const fs::path file = run.folder / kRunFile;
+  const std::string text = RunJson(run).dump(2) + "\n";
+  if (fs::exists(file)) {
+    if (core::ReadFile(file) != text) {
+      throw core::Error("the folder has a run with other tasks, assets or options",
+                        run.folder.string(), "give another folder");
+    }
+    return;
+  }
+  fs::create_directories(run.folder);
+  tasks::WriteTaskFile(run.set, run.folder / kTasksFile);
+  core::WriteFile(file, text);
+}
+
+SkillRun ReadRun(const fs::path& folder) {
+  const fs::path file = folder / kRunFile;
+  if (!fs::exists(file)) {
+    throw core::Error("is not a training folder", folder.string(), "see `simwright train`");
+  }
+  SkillRun run;
+  run.folder = folder;
+  try {
+    const json text = json::parse(core::ReadFile(file, 1 << 24));
+    if (text.at("format").get<int>() != kSkillRunFormat) {
+      throw core::Error("was written by another version", file.string(), "train again");
+    }
+    run.robot = text.at("robot").get<std::string>();
+    run.environments = text.at("environments").get<int>();
+    run.seed = text.at("seed").get<std::uint64_t>();
+    run.hashes = text.at("asset_hashes").get<std::vector<std::string>>();
+    run.options.episode_seconds = text.at("episode_seconds").get<double>();
+    run.options.discount = text.at("discount").get<double>();
+    run.options.action = skills::ActionSpaceOf(text.at("action").get<std::string>());
+    run.options.finger_friction = FingerFrictionOf(text);
+  } catch (const json::exception&) {
+    throw core::Error("is damaged", file.string(), "train again");
+  }
+  run.set = tasks::ReadTaskFile(folder / kTasksFile);
+  const std::vector<std::string> now = HashesOf(run.set);
+  for (size_t i = 0; i < now.size(); ++i) {
+    if (i < run.hashes.size() && now[i] == run.hashes[i]) continue;
+    throw core::Error("the asset '" + run.set.assets[i].name + "' has changed since the training",
+                      run.set.assets[i].path, "restore the old one, or train again");
+  }
+  return run;
+}
+
+const robot::RobotModel& RobotOf(const std::string& name) {
+  if (name == "panda") return robot::Panda(false);
+  if (name == "panda_on_base") return robot::Panda(true);
+  static std::mutex mutex;
+  static std::map<std::string, std::unique_ptr<robot::RobotModel>> known;
+  const std::lock_guard lock(mutex);
+  std::unique_ptr<robot::RobotModel>& model = known[name];
+  if (!model) model = std::make_unique<robot::RobotModel>(robot::ReadRobot(name));
+  return *model;
+}
+
+std::vector<RunSkill> PrepareSkills(const SkillRun& run) {
+  return PrepareSkillsOn(run.set, run);
+}
+
+std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun& run) {
+  const std::vector<tasks::Subtask>& named = run.set.tasks.front().subtasks;
+  if (set.tasks.front().subtasks.size() != named.size()) {
+    throw core::Error("differs in its number of subtasks from '" + run.set.tasks.front().name + "'",
+                      set.tasks.front().name, "choose a task with the same steps");
+  }
+  std::map<std::string, assets::SemanticModel> models;
+  for (const tasks::TaskAsset& asset : set.assets) {
+    assets::SemanticModel model = assets::ReadSemanticModel(asset.path);
+    model.name = asset.name;
+    models.emplace(asset.name, std::move(model));
+  }
+  const robot::RobotModel& robot = RobotOf(run.robot);
+  std::vector<RunSkill> skills(named.size());
+  std::vector<std::shared_ptr<const skills::Skill>> later;  // of the first one, which is made last
+  for (size_t k = named.size(); k-- > 0;) {
+    std::vector<skills::SkillSubtask> subtasks;
+    for (const tasks::Task& task : set.tasks) {
+      skills::SkillSubtask& one = subtasks.emplace_back();
+      one.subtask = task.subtasks[k];
+      if (k + 1 < task.subtasks.size()) one.next = task.subtasks[k + 1];
+      for (const std::string& name : task.assets) one.assets.push_back(models.at(name));
+    }
+    RunSkill& skill = skills[k];
+    skill.name = named[k].name;
+    skill.folder = run.folder / (std::to_string(k + 1) + "_" + skill.name);
+    const auto followers = k == 0 ? later : std::vector<std::shared_ptr<const skills::Skill>>();
+    skill.skill = skills::MakeSkill(robot, subtasks, run.options, followers);
+    skill.evaluated = skills::MakeSkill(robot, subtasks, run.options.ForEvaluation(), followers);
+    later.insert(later.begin(), skill.evaluated);
+  }
+  return skills;
+}
+
+}  // namespace simwright::workflows

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "skills/skill.h"
+#include "tasks/task.h"
+
+namespace simwright::workflows {
+
+// The tasks and settings of a training; its folder stores them as run.json beside tasks.json.
+struct SkillRun {
+  std::filesystem::path folder;
+  // The training tasks: one, or several similar ones (a door on six microwaves) with the same
+  // number of subtasks; subtasks at the same position share a policy.
+  tasks::TaskSet set;
+  std::vector<std::string> hashes;  // content hashes of set.assets at the start of the run
+  std::string robot = "panda";      // panda, panda_on_base, or a URDF with its side file
+  skills::SkillOptions options;
+  int environments = 64;
+  std::uint64_t seed = 1;
+};
+
+// One subtask of the run.
+struct RunSkill {
+  std::string name;
+  std::filesystem::path folder;
+  std::shared_ptr<const skills::Skill> skill;      // for training
+  std::shared_ptr<const skills::Skill> evaluated;  // for evaluation, without easier starts
+};
+
+// Returns the tasks of `set`, read from `file`, whose names match one of `patterns` ('*' matches
+// any characters, as in a shell), without duplicates. Throws core::Error, listing the known names,
+// if a pattern matches none, or if the tasks have different numbers of subtasks.
+tasks::TaskSet ChooseTasks(const tasks::TaskSet& set, const std::vector<std::string>& patterns,
+                           const std::string& file);
+
+// Writes run.json and tasks.json into run.folder, or compares them with the existing ones: a run
+// resumes only with the settings it started with. Throws core::Error, naming the difference.
+void WriteRun(const SkillRun& run);
+
+// Reads a run. Throws core::Error if the folder has no run, or if an asset is missing or has
+// changed since, naming it.
+SkillRun ReadRun(const std::filesystem::path& folder);
+
+// Returns the robot of this name; it lives as long as the program.
+const robot::RobotModel& RobotOf(const std::string& name);
+
+// Reads the assets and prepares each subtask.
+std::vector<RunSkill> PrepareSkills(const SkillRun& run);
+
+// Prepares the run's subtasks in the scenes of other similar tasks, to evaluate skills on other
+// assets. Throws core::Error if those have a different number of subtasks.
+std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun& run);
+
+}  // namespace simwright::workflows
