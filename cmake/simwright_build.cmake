@@ -16,6 +16,10 @@ add_link_options(-Wl,--gc-sections -Wl,--as-needed)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(-Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow
                       -Wno-restrict)
+  if(SIMWRIGHT_UNITY)
+    # A source in a batch is no main file: g++ takes its unnamed namespaces for a header's.
+    add_compile_options(-Wno-subobject-linkage)
+  endif()
 endif()
 if(SIMWRIGHT_WERROR)
   add_compile_options(-Werror)
