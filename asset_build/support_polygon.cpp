@@ -130,21 +130,21 @@ bool IsOutside(const Polygon& polygon, const Eigen::Vector2d& p, double slack) {
 
 // Returns the part with its portion of the support face and the `added` corners (see
 // PreserveSupportFace).
-core::TriangleMesh WithSupportFace(const core::TriangleMesh& part, const SupportPolygon& foot,
+core::TriangleMesh WithSupportFace(const core::TriangleMesh& part, const SupportPolygon& support,
                                    double diagonal, const std::vector<Eigen::Vector3d>& added,
                                    bool alone, int max_vertices) {
-  const SupportPlane plane(foot.down);
+  const SupportPlane plane(support.down);
   double height = 0.0;
   for (const Eigen::Vector3d& p : part.vertices) {
-    height = std::max(height, foot.reach - p.dot(foot.down));
+    height = std::max(height, support.reach - p.dot(support.down));
   }
   // If the support is a point, only vertices beyond it are moved.
   const double level =
-      foot.corners.size() < 3 ? 0.0 : std::min(kLevel * diagonal, kThinLevel * height);
+      support.corners.size() < 3 ? 0.0 : std::min(kLevel * diagonal, kThinLevel * height);
   std::vector<Eigen::Vector3d> points;
   Polygon spread;
   for (const Eigen::Vector3d& p : part.vertices) {
-    if (p.dot(foot.down) - foot.reach < -level) {
+    if (p.dot(support.down) - support.reach < -level) {
       points.push_back(p);
     } else {
       spread.push_back(plane.Project(p));
@@ -162,7 +162,7 @@ core::TriangleMesh WithSupportFace(const core::TriangleMesh& part, const Support
   const int room = std::max(3, max_vertices - static_cast<int>(points.size()));
   Polygon chosen = ReducedCorners(corners, std::min(kPartCorners, room));
   if (alone && room >= 2 * kEnoughCorners) chosen = WithMoreCorners(chosen);
-  for (const Eigen::Vector2d& p : chosen) points.push_back(plane.Unproject(p, foot.reach));
+  for (const Eigen::Vector2d& p : chosen) points.push_back(plane.Unproject(p, support.reach));
   const double thinnest = 1e-3 * core::Bounds(part).diagonal().norm();
   return geometry::ThickenedConvexHull(points, thinnest, max_vertices);
 }
@@ -171,7 +171,7 @@ core::TriangleMesh WithSupportFace(const core::TriangleMesh& part, const Support
 
 SupportPolygon FindSupportPolygon(const core::TriangleMesh& solid,
                                   const Eigen::Vector3d& center_of_mass, int count) {
-  SupportPolygon foot;
+  SupportPolygon support;
   double least = kNearDown;
   const geometry::StablePose* nearest = nullptr;
   const auto poses = geometry::StablePoses(geometry::ConvexHull(solid.vertices), center_of_mass);
@@ -183,7 +183,7 @@ SupportPolygon FindSupportPolygon(const core::TriangleMesh& solid,
   }
   std::vector<Eigen::Vector3d> low;
   if (nearest != nullptr) {
-    foot.down = nearest->face_normal;
+    support.down = nearest->face_normal;
     low = nearest->support;
   } else {
     const Eigen::AlignedBox3d box = core::Bounds(solid);
@@ -192,18 +192,18 @@ SupportPolygon FindSupportPolygon(const core::TriangleMesh& solid,
       if (vertex.z() <= level) low.push_back(vertex);
     }
   }
-  foot.reach = -std::numeric_limits<double>::infinity();
+  support.reach = -std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& v : solid.vertices)
-    foot.reach = std::max(foot.reach, v.dot(foot.down));
-  foot.corners = Outline(low, foot.down, foot.reach, count);
-  return foot;
+    support.reach = std::max(support.reach, v.dot(support.down));
+  support.corners = Outline(low, support.down, support.reach, count);
+  return support;
 }
 
-void PreserveSupportFace(const SupportPolygon& foot, int max_vertices,
+void PreserveSupportFace(const SupportPolygon& support, int max_vertices,
                          std::vector<core::TriangleMesh>* parts) {
   std::vector<std::vector<Eigen::Vector3d>> added(parts->size());
-  for (const Eigen::Vector3d& corner : foot.corners) {
-    if (foot.corners.size() < 3) break;
+  for (const Eigen::Vector3d& corner : support.corners) {
+    if (support.corners.size() < 3) break;
     size_t nearest = 0;
     double least = std::numeric_limits<double>::infinity();
     for (size_t i = 0; i < parts->size(); ++i) {
@@ -217,7 +217,7 @@ void PreserveSupportFace(const SupportPolygon& foot, int max_vertices,
   Eigen::AlignedBox3d box;
   for (const core::TriangleMesh& part : *parts) box.extend(core::Bounds(part));
   for (size_t i = 0; i < parts->size(); ++i) {
-    (*parts)[i] = WithSupportFace((*parts)[i], foot, box.diagonal().norm(), added[i],
+    (*parts)[i] = WithSupportFace((*parts)[i], support, box.diagonal().norm(), added[i],
                                   parts->size() == 1, max_vertices);
   }
 }

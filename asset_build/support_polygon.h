@@ -29,7 +29,7 @@ SupportPolygon FindSupportPolygon(const core::TriangleMesh& solid,
 // vertices beyond it are moved. Adds at most 32 corners per part, evenly spread around a round
 // face; a round face of 7 to 15 corners that is alone gets more corners on its sides, which bulge
 // by a thousandth of its width. No part exceeds `max_vertices`.
-void PreserveSupportFace(const SupportPolygon& foot, int max_vertices,
+void PreserveSupportFace(const SupportPolygon& support, int max_vertices,
                          std::vector<core::TriangleMesh>* parts);
 
 }  // namespace simwright::asset_build

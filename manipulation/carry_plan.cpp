@@ -75,22 +75,22 @@ std::optional<CarryPlan> PlanCarry(const PlanningArm& context, const Interaction
     for (const Arrival& arrival : ArrivalsAt(context, interaction, task, turn, from)) {
       if (!any) any = arrival.plan;
       if (!clearance.IsCollisionFree(arrival.there)) continue;
-      const auto way = PlanSimplePath(context, clearance, from, arrival.plan.arrival);
-      if (way && way->empty()) return arrival.plan;
-      if (!way && blocked.size() < kMostSearches &&
+      const auto path = PlanSimplePath(context, clearance, from, arrival.plan.arrival);
+      if (path && path->empty()) return arrival.plan;
+      if (!path && blocked.size() < kMostSearches &&
           clearance.IsCollisionFree(arrival.plan.arrival)) {
         blocked.push_back(arrival.plan);
       }
-      if (!way || by_waypoints) continue;
+      if (!path || by_waypoints) continue;
       by_waypoints = arrival.plan;
-      by_waypoints->via = *way;
+      by_waypoints->waypoints = *path;
     }
   }
   if (by_waypoints) return by_waypoints;
   for (CarryPlan& plan : blocked) {
-    const auto way = PlanRrtConnect(context.robot->arm, clearance, from, plan.arrival);
-    if (!way) continue;
-    plan.via = *way;
+    const auto path = PlanRrtConnect(context.robot->arm, clearance, from, plan.arrival);
+    if (!path) continue;
+    plan.waypoints = *path;
     return plan;
   }
   return any;

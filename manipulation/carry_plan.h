@@ -11,7 +11,7 @@ namespace simwright::manipulation {
 struct CarryPlan {
   double turn = 0.0;           // rad about the vertical by which gripper and object turn
   robot::JointVector arrival;  // (J) before the final approach to the destination
-  Detour via;                  // waypoints before `arrival`
+  JointPath waypoints;         // waypoints before `arrival`
 };
 
 // The input of PlanCarry. Poses are world_from_tool.

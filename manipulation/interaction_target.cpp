@@ -117,15 +117,15 @@ Eigen::Isometry3d ToolAcross(const tasks::ObjectLink& link, const Vector3d& appr
 // above; from the side of the object that the part is on, first steep, where the arm has room over
 // the floor, then level. Never from below, since objects stand on a support.
 std::vector<Vector3d> ApproachDirections(const Eigen::AlignedBox3d& box, const Vector3d& point,
-                                         const Vector3d& way, const Vector3d& axis) {
+                                         const Vector3d& motion, const Vector3d& axis) {
   std::vector<Vector3d> directions;
   const auto add = [&](const Vector3d& direction) {
     if (direction.z() < kGraspFromBelow) directions.push_back(direction);
   };
-  const Vector3d line = way.isZero() ? axis : way;
+  const Vector3d line = motion.isZero() ? axis : motion;
   const Vector3d outward = Outward(box, point, line) * line;
   add(-outward);
-  if (way.isZero() || -outward.z() >= kGraspFromBelow) add(outward);
+  if (motion.isZero() || -outward.z() >= kGraspFromBelow) add(outward);
   add(-Vector3d::UnitZ());
   Vector3d aside = (point - box.center()).cwiseQuotient(box.sizes());
   aside.z() = 0.0;
@@ -133,7 +133,7 @@ std::vector<Vector3d> ApproachDirections(const Eigen::AlignedBox3d& box, const V
   if (aside.cwiseAbs().maxCoeff(&face) > 0.0) {
     const Vector3d inward = std::copysign(1.0, -aside[face]) * Vector3d::Unit(face);
     for (const double down : {2.0, 1.0, 0.5, 0.0}) {
-      if (way.isZero() && down > 0.0) continue;  // it rotates the gripper about itself
+      if (motion.isZero() && down > 0.0) continue;  // it rotates the gripper about itself
       add((inward - down * Vector3d::UnitZ()).normalized());
     }
   }

@@ -15,13 +15,15 @@ robot::JointVector Folded(const PlanningArm& context, const robot::JointVector& 
 
 }  // namespace
 
-std::optional<Detour> PlanSimplePath(const PlanningArm& context, const CollisionChecker& clearance,
-                                     const robot::JointVector& from, const robot::JointVector& to) {
+std::optional<JointPath> PlanSimplePath(const PlanningArm& context,
+                                        const CollisionChecker& clearance,
+                                        const robot::JointVector& from,
+                                        const robot::JointVector& to) {
   const robot::JointVector here = Folded(context, from), there = Folded(context, to);
   const robot::JointVector& home = context.robot->home();
-  for (const Detour& joint_path :
-       {Detour{}, Detour{here}, Detour{there}, Detour{here, there}, Detour{home},
-        Detour{here, home}, Detour{home, there}, Detour{here, home, there}}) {
+  for (const JointPath& joint_path :
+       {JointPath{}, JointPath{here}, JointPath{there}, JointPath{here, there}, JointPath{home},
+        JointPath{here, home}, JointPath{home, there}, JointPath{here, home, there}}) {
     robot::JointVector at = from;
     bool clear = true;
     for (const robot::JointVector& next : joint_path) {

@@ -26,7 +26,8 @@ robot::JointVector PathConfigurations::At(double position) const {
 
 PathConfigurations ConfigurationsAlongJoint(const PlanningArm& context,
                                             const Interaction& interaction, tasks::SceneState state,
-                                            const robot::JointVector& at_work, double pitch) {
+                                            const robot::JointVector& grasp_configuration,
+                                            double pitch) {
   PathConfigurations along;
   if (!interaction.target || interaction.target->joint < 0) return along;
   const auto object = static_cast<size_t>(interaction.target->object);
@@ -35,13 +36,13 @@ PathConfigurations ConfigurationsAlongJoint(const PlanningArm& context,
   const double begin = position;
   const double end = JointTarget(interaction.model.objects[object].joints[joint], begin);
   const Isometry3d tool = interaction.subtask.start.world_from_robot *
-                          robot::ForwardKinematics(context.robot->arm, at_work);
+                          robot::ForwardKinematics(context.robot->arm, grasp_configuration);
   Eigen::Vector3d across = tool.linear().col(1);
   const Isometry3d target = GraspPose(interaction, state, across, pitch);
   if ((target.translation() - tool.translation()).norm() > kAtGrasp) return along;
   along.positions.push_back(begin);
-  along.configurations.push_back(at_work);
-  CartesianFollower follower(context, interaction, at_work);
+  along.configurations.push_back(grasp_configuration);
+  CartesianFollower follower(context, interaction, grasp_configuration);
   for (int i = 1; i <= kSteps; ++i) {
     position = begin + (end - begin) * i / kSteps;
     const Isometry3d next = GraspPose(interaction, state, across, pitch);

@@ -21,6 +21,7 @@ struct PathConfigurations {
 // or if the tool is not at the grasp in `at_work`.
 PathConfigurations ConfigurationsAlongJoint(const PlanningArm& context,
                                             const Interaction& interaction, tasks::SceneState state,
-                                            const robot::JointVector& at_work, double pitch);
+                                            const robot::JointVector& grasp_configuration,
+                                            double pitch);
 
 }  // namespace simwright::manipulation

@@ -26,7 +26,7 @@ constexpr double kHighest = 0.45, kPushesAt = 0.4;
 struct Swing {
   Vector3d axis;                  // unit
   Vector3d out;                   // unit, from the axis to the free edge
-  Vector3d way;                   // unit, direction of motion as the part is shut
+  Vector3d motion_direction;      // unit, direction of motion as the part is shut
   double edge = 0.0, face = 0.0;  // m along out and way
   double low = 0.0, high = 0.0;   // m along the axis
 };
@@ -39,25 +39,25 @@ Swing SwingOf(const tasks::ArticulatedObject& object, const tasks::ObjectJoint& 
   swing.out = link.middle - link.middle.dot(joint.axis) * joint.axis;
   if (swing.out.norm() < 1e-6) return swing;
   swing.out.normalize();
-  swing.way = (joint.rest() < position ? -1.0 : 1.0) * swing.axis.cross(swing.out);
+  swing.motion_direction = (joint.rest() < position ? -1.0 : 1.0) * swing.axis.cross(swing.out);
   swing.face = swing.low = std::numeric_limits<double>::infinity();
   swing.high = -swing.low;
   for (const Vector3d& point : link.extreme_points) {
     swing.edge = std::max(swing.edge, point.dot(swing.out));
-    swing.face = std::min(swing.face, point.dot(swing.way));
+    swing.face = std::min(swing.face, point.dot(swing.motion_direction));
     swing.low = std::min(swing.low, point.dot(swing.axis));
     swing.high = std::max(swing.high, point.dot(swing.axis));
   }
   return swing;
 }
 
-// Returns the tool pose with its axes along `x` and `z`, at the point `out`, `way` and `along` the
-// axis.
-Isometry3d ToolAt(const Swing& swing, const Vector3d& x, const Vector3d& z, double out, double way,
-                  double along) {
+// Returns the tool pose with its axes along `x` and `z`, at the point `out`, `forward` and `along`
+// the axis.
+Isometry3d ToolAt(const Swing& swing, const Vector3d& x, const Vector3d& z, double out,
+                  double forward, double along) {
   Isometry3d tool = Isometry3d::Identity();
   tool.linear() << x, z.cross(x), z;
-  tool.translation() = out * swing.out + way * swing.way + along * swing.axis;
+  tool.translation() = out * swing.out + forward * swing.motion_direction + along * swing.axis;
   return tool;
 }
 
@@ -84,15 +84,17 @@ std::vector<Isometry3d> PushingPoses(const tasks::SceneModel& model, const tasks
     const double top = rise > 0.0 ? swing.high : swing.low, over = rise > 0.0 ? 1.0 : -1.0;
     const double hinge = WorldFromLink(model, start, object, joint.link).translation().z() - base;
     if (hinge + over * top < kHighest) {
-      tools.push_back(ToolAt(swing, swing.way, -over * swing.axis, kOut * swing.edge, behind,
-                             top - over * kOverEdge));
+      tools.push_back(ToolAt(swing, swing.motion_direction, -over * swing.axis, kOut * swing.edge,
+                             behind, top - over * kOverEdge));
     }
     const double excess = hinge + over * along - kPushesAt;
     if (excess > 0.0) along -= over * excess;
     along = std::clamp(along, swing.low, swing.high);
   }
-  tools.push_back(ToolAt(swing, swing.way, -swing.out, swing.edge - kOverEdge, behind, along));
-  tools.push_back(ToolAt(swing, swing.out, swing.way, kOut * swing.edge, swing.face, along));
+  tools.push_back(
+      ToolAt(swing, swing.motion_direction, -swing.out, swing.edge - kOverEdge, behind, along));
+  tools.push_back(
+      ToolAt(swing, swing.out, swing.motion_direction, kOut * swing.edge, swing.face, along));
   return tools;
 }
 

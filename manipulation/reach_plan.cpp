@@ -46,11 +46,11 @@ constexpr double kReachTurns[] = {0.25 * M_PI, 0.5 * M_PI, 0.75 * M_PI};  // of 
 constexpr double kSameLine = 0.97;  // the cosine of about 14 degrees
 
 // Returns the positions from the joint's current one to the joint target.
-std::vector<double> JointPath(const tasks::ObjectJoint& joint, double position) {
+std::vector<double> PositionsAlongJoint(const tasks::ObjectJoint& joint, double position) {
   const double end = JointTarget(joint, position);
-  std::vector<double> way;
-  for (int i = 1; i <= 6; ++i) way.push_back(position + (end - position) * i / 6.0);
-  return way;
+  std::vector<double> positions;
+  for (int i = 1; i <= 6; ++i) positions.push_back(position + (end - position) * i / 6.0);
+  return positions;
 }
 
 // An orientation of the gripper at its target.
@@ -118,13 +118,13 @@ bool MovesJoint(const PlanningArm& context, const Interaction& interaction, task
   const InteractionTarget& target = *interaction.target;
   const auto object = static_cast<size_t>(target.object), j = static_cast<size_t>(target.joint);
   Vector3d across = candidate.tool.linear().col(1);
-  const std::vector<double> way =
-      JointPath(interaction.model.objects[object].joints[j], state.joints[object][j]);
-  const size_t followed = requirements.half ? way.size() / 2 : way.size();
+  const std::vector<double> positions =
+      PositionsAlongJoint(interaction.model.objects[object].joints[j], state.joints[object][j]);
+  const size_t followed = requirements.half ? positions.size() / 2 : positions.size();
   const double turned =
       requirements.half ? OrientationTolerance(interaction) : CartesianFollower::kTurned;
   for (size_t i = 0; i < followed; ++i) {
-    state.joints[object][j] = way[i];
+    state.joints[object][j] = positions[i];
     const Isometry3d next = GraspPose(interaction, state, across, candidate.pitch);
     across = next.linear().col(1);
     if (!follower->MoveTo(next, turned)) return false;
@@ -151,10 +151,10 @@ Isometry3d PushingPose(const Interaction& interaction, const tasks::SceneState& 
                        const Vector3d& across) {
   const auto object = static_cast<size_t>(interaction.target->object);
   const Vector3d down = -Vector3d::UnitZ();
-  Vector3d way = DisplacementToDestination(interaction, state);
-  way.z() = 0.0;
+  Vector3d displacement = DisplacementToDestination(interaction, state);
+  displacement.z() = 0.0;
   const Vector3d along =
-      way.norm() > kNearGoal ? way.normalized() : across.cross(down).normalized();
+      displacement.norm() > kNearGoal ? displacement.normalized() : across.cross(down).normalized();
   const double width = WidthAlong(interaction.model.objects[object], state.roots[object], along);
   Isometry3d tool = Isometry3d::Identity();
   tool.linear() << along, down.cross(along), down;
@@ -199,16 +199,16 @@ std::vector<GraspOrientation> OrientationsWith(const Interaction& interaction,
 // Writes the pre-grasp configuration (J) for `at_work` (J) into `before`, or the one closest to it.
 // Returns false if it is not reached: next to it the gripper would wait forever.
 bool FindPreGrasp(const PlanningArm& context, const Interaction& interaction,
-                  const tasks::SceneState& state, const robot::JointVector& at_work,
+                  const tasks::SceneState& state, const robot::JointVector& grasp_configuration,
                   robot::JointVector* before) {
   Isometry3d place = interaction.subtask.start.world_from_robot *
-                     robot::ForwardKinematics(context.robot->arm, at_work);
+                     robot::ForwardKinematics(context.robot->arm, grasp_configuration);
   Vector3d back = -context.standoff * place.linear().col(2);
   if (interaction.room && IsIn(*interaction.room, interaction.model, state, place.translation())) {
     back = DisplacementOutOfReceptacle(interaction, state, place.translation());
   }
   place.translation() += back;
-  CartesianFollower follower(context, interaction, at_work);
+  CartesianFollower follower(context, interaction, grasp_configuration);
   const bool there = follower.MoveTo(place);
   *before = follower.configuration();
   return there;
@@ -217,10 +217,9 @@ bool FindPreGrasp(const PlanningArm& context, const Interaction& interaction,
 // Plans the joint path from `from` to the pre-grasp: straight, or through waypoints around
 // obstacles. The grasp configuration itself must be collision-free except for the fingers, which
 // surround the target. None if there is no path.
-std::optional<Detour> PlanApproachPath(const PlanningArm& context, const Interaction& interaction,
-                                       const tasks::SceneState& state,
-                                       const robot::JointVector& from, const Candidate& candidate,
-                                       const Requirements& requirements) {
+std::optional<JointPath> PlanApproachPath(
+    const PlanningArm& context, const Interaction& interaction, const tasks::SceneState& state,
+    const robot::JointVector& from, const Candidate& candidate, const Requirements& requirements) {
   const bool takes = interaction.target->joint < 0;
   CollisionChecker clearance(context, interaction, state, takes ? interaction.target->object : -1);
   if (takes && !clearance.IsCollisionFree(candidate.configuration)) return std::nullopt;
@@ -232,7 +231,7 @@ std::optional<Detour> PlanApproachPath(const PlanningArm& context, const Interac
     return std::nullopt;
   }
   if (requirements.margin > 0.0) clearance.SetClearance(requirements.margin, {from, before});
-  if (clearance.IsPathCollisionFree(from, before)) return Detour();
+  if (clearance.IsPathCollisionFree(from, before)) return JointPath();
   return requirements.round ? PlanSimplePath(context, clearance, from, before) : std::nullopt;
 }
 
@@ -284,9 +283,9 @@ std::optional<ReachPlan> PlanWithOrientations(const PlanningArm& context,
     if (!requirements.clear) {
       return ReachPlan{candidate.pitch, candidate.configuration, false, {}, goes_on};
     }
-    const auto way = PlanApproachPath(context, interaction, state, from, candidate, requirements);
-    if (way)
-      return ReachPlan{candidate.pitch, candidate.configuration, way->empty(), *way, goes_on};
+    const auto path = PlanApproachPath(context, interaction, state, from, candidate, requirements);
+    if (path)
+      return ReachPlan{candidate.pitch, candidate.configuration, path->empty(), *path, goes_on};
   }
   return std::nullopt;
 }
@@ -324,12 +323,12 @@ Isometry3d GraspPose(const Interaction& interaction, const tasks::SceneState& st
 
 std::optional<ReachPlan> PlanReach(const PlanningArm& context, const Interaction& interaction,
                                    const tasks::SceneState& state, const robot::JointVector& from,
-                                   core::Rng& rng, const PathOptions& way) {
+                                   core::Rng& rng, const PathOptions& path_options) {
   const Isometry3d& world_from_base = interaction.subtask.start.world_from_robot;
   const Isometry3d tool_now = world_from_base * robot::ForwardKinematics(context.robot->arm, from);
   const std::vector<Vector3d> lines = ClosingAxes(interaction, state, tool_now.linear().col(1));
   const auto plan = [&](Requirements requirements) -> std::optional<ReachPlan> {
-    requirements.margin = way.margin;
+    requirements.margin = path_options.margin;
     for (const double pitch : PitchesOf(interaction, requirements)) {
       for (size_t i = 0; i < (requirements.clear && !requirements.leans_in ? lines.size() : 1);
            ++i) {
@@ -354,9 +353,9 @@ std::optional<ReachPlan> PlanReach(const PlanningArm& context, const Interaction
       if (const auto found = plan({.looks_ahead = true, .clear = clear})) return found;
     }
     if (const auto found = plan({.clear = clear})) return found;
-    if (!clear || !way.round || interaction.room) continue;
+    if (!clear || !path_options.round || interaction.room) continue;
     if (const auto found = plan({.clear = true, .round = true})) return found;
-    if (!way.part || !interaction.target->pushes) continue;
+    if (!path_options.part || !interaction.target->pushes) continue;
     const Requirements half{.clear = true, .round = true, .half = true};
     if (const auto found = plan(half)) return found;
   }
@@ -373,9 +372,9 @@ Vector3d DisplacementOutOfReceptacle(const Interaction& interaction, const tasks
 
 robot::JointVector PreGraspConfiguration(const PlanningArm& context, const Interaction& interaction,
                                          const tasks::SceneState& state,
-                                         const robot::JointVector& at_work) {
+                                         const robot::JointVector& grasp_configuration) {
   robot::JointVector before;
-  FindPreGrasp(context, interaction, state, at_work, &before);
+  FindPreGrasp(context, interaction, state, grasp_configuration, &before);
   return before;
 }
 

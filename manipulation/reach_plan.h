@@ -20,13 +20,13 @@ Eigen::Isometry3d GraspPose(const Interaction& interaction, const tasks::SceneSt
 
 // The plan for reaching and manipulating a target.
 struct ReachPlan {
-  double pitch = 0.0;          // rad, of the gripper
-  robot::JointVector at_work;  // (J) the grasp configuration
-  bool clear = false;          // the straight joint path to the pre-grasp is collision-free
-  Detour via;                  // else the waypoints to the pre-grasp; empty: none found
-  bool reaches_next = false;   // the object can be carried on to interaction.next
+  double pitch = 0.0;                      // rad, of the gripper
+  robot::JointVector grasp_configuration;  // (J) the grasp configuration
+  bool clear = false;         // the straight joint path to the pre-grasp is collision-free
+  JointPath waypoints;        // else the waypoints to the pre-grasp; empty: none found
+  bool reaches_next = false;  // the object can be carried on to interaction.next
 
-  bool IsReachable() const { return clear || !via.empty(); }
+  bool IsReachable() const { return clear || !waypoints.empty(); }
 };
 
 // The options of the joint path to the pre-grasp.
@@ -49,7 +49,7 @@ struct PathOptions {
 // other time.
 std::optional<ReachPlan> PlanReach(const PlanningArm& context, const Interaction& interaction,
                                    const tasks::SceneState& state, const robot::JointVector& from,
-                                   core::Rng& rng, const PathOptions& way = {});
+                                   core::Rng& rng, const PathOptions& path_options = {});
 
 // Returns the displacement (m, world) from `point` in interaction.room out of the receptacle, to in
 // front of its opening. It is straight; for a rim grasp, with one finger inside, it also rises. The
@@ -61,7 +61,7 @@ Eigen::Vector3d DisplacementOutOfReceptacle(const Interaction& interaction,
 // Returns the pre-grasp configuration (J) for the grasp configuration `at_work` (J).
 robot::JointVector PreGraspConfiguration(const PlanningArm& context, const Interaction& interaction,
                                          const tasks::SceneState& state,
-                                         const robot::JointVector& at_work);
+                                         const robot::JointVector& grasp_configuration);
 
 // Returns the orientation tolerance (rad) of the tool as it moves the target: larger where fingers
 // push a door or lid shut (Focus::pushes).

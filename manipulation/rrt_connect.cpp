@@ -25,9 +25,9 @@ double SquaredDistance(const robot::Arm& arm, const robot::JointVector& a,
                        const robot::JointVector& b) {
   double sum = 0.0;
   for (Eigen::Index j = 0; j < a.size(); ++j) {
-    const double way =
+    const double difference =
         (a[j] - b[j]) * (arm.joints[static_cast<size_t>(j)].prismatic ? kMetre : 1.0);
-    sum += way * way;
+    sum += difference * difference;
   }
   return sum;
 }
@@ -51,10 +51,11 @@ Extension RrtConnectExtend(const robot::Arm& arm, const CollisionChecker& cleara
                            const robot::JointVector& to, Tree* tree) {
   const int nearest = Nearest(arm, *tree, to);
   const robot::JointVector from = (*tree)[static_cast<size_t>(nearest)].configuration;
-  const robot::JointVector way = to - from;
-  const double length = way.lpNorm<Eigen::Infinity>();
+  const robot::JointVector displacement = to - from;
+  const double length = displacement.lpNorm<Eigen::Infinity>();
   const bool reached = length <= kStep;
-  const robot::JointVector next = reached ? to : robot::JointVector(from + kStep / length * way);
+  const robot::JointVector next =
+      reached ? to : robot::JointVector(from + kStep / length * displacement);
   if (!clearance.IsPathCollisionFree(from, next)) return Extension::kTrapped;
   tree->push_back({next, nearest});
   return reached ? Extension::kReached : Extension::kAdvanced;
@@ -76,8 +77,8 @@ robot::JointVector SampleConfiguration(const robot::Arm& arm, const robot::Joint
 }
 
 // Returns the path from the root to the newest node.
-Detour PathFromRoot(const Tree& tree) {
-  Detour branch;
+JointPath PathFromRoot(const Tree& tree) {
+  JointPath branch;
   for (int at = static_cast<int>(tree.size()) - 1; at >= 0;
        at = tree[static_cast<size_t>(at)].parent) {
     branch.push_back(tree[static_cast<size_t>(at)].configuration);
@@ -87,13 +88,13 @@ Detour PathFromRoot(const Tree& tree) {
 }
 
 // Returns the waypoints between the ends of `way` that are needed after shortcutting.
-Detour Shortcut(const CollisionChecker& clearance, const Detour& way) {
-  Detour kept;
+JointPath Shortcut(const CollisionChecker& clearance, const JointPath& path) {
+  JointPath kept;
   size_t at = 0;
-  while (at + 1 < way.size()) {
-    size_t next = way.size() - 1;
-    while (next > at + 1 && !clearance.IsPathCollisionFree(way[at], way[next])) --next;
-    if (next + 1 < way.size()) kept.push_back(way[next]);
+  while (at + 1 < path.size()) {
+    size_t next = path.size() - 1;
+    while (next > at + 1 && !clearance.IsPathCollisionFree(path[at], path[next])) --next;
+    if (next + 1 < path.size()) kept.push_back(path[next]);
     at = next;
   }
   return kept;
@@ -101,8 +102,9 @@ Detour Shortcut(const CollisionChecker& clearance, const Detour& way) {
 
 }  // namespace
 
-std::optional<Detour> PlanRrtConnect(const robot::Arm& arm, const CollisionChecker& clearance,
-                                     const robot::JointVector& from, const robot::JointVector& to) {
+std::optional<JointPath> PlanRrtConnect(const robot::Arm& arm, const CollisionChecker& clearance,
+                                        const robot::JointVector& from,
+                                        const robot::JointVector& to) {
   if (!clearance.IsCollisionFree(to)) return std::nullopt;
   core::Rng rng = core::StreamRng(0, 0);
   Tree trees[2] = {{{from, -1}}, {{to, -1}}};
@@ -118,10 +120,10 @@ std::optional<Detour> PlanRrtConnect(const robot::Arm& arm, const CollisionCheck
     while (extension == Extension::kAdvanced)
       extension = RrtConnectExtend(arm, clearance, target, &other);
     if (extension != Extension::kReached) continue;
-    Detour way = PathFromRoot(trees[0]);
-    const Detour goal_path = PathFromRoot(trees[1]);
-    way.insert(way.end(), goal_path.rbegin() + 1, goal_path.rend());
-    Detour joint_path = Shortcut(clearance, way);
+    JointPath path = PathFromRoot(trees[0]);
+    const JointPath goal_path = PathFromRoot(trees[1]);
+    path.insert(path.end(), goal_path.rbegin() + 1, goal_path.rend());
+    JointPath joint_path = Shortcut(clearance, path);
     if (joint_path.size() > kLongest) return std::nullopt;
     return joint_path;
   }

@@ -11,7 +11,8 @@ namespace simwright::manipulation {
 // 2000): two trees grow towards each other from both ends, and the path is then shortcut.
 // Deterministic for the same ends. `from` is assumed to be collision-free. None if `to` is not, or
 // if 600 rounds find no path, or only one with more than a dozen waypoints.
-std::optional<Detour> PlanRrtConnect(const robot::Arm& arm, const CollisionChecker& clearance,
-                                     const robot::JointVector& from, const robot::JointVector& to);
+std::optional<JointPath> PlanRrtConnect(const robot::Arm& arm, const CollisionChecker& clearance,
+                                        const robot::JointVector& from,
+                                        const robot::JointVector& to);
 
 }  // namespace simwright::manipulation

@@ -39,13 +39,14 @@ Vector3d MotionDirection(const Interaction& interaction, const tasks::SceneState
   const bool turns = joint.type != reward::RewardJointType::kPrismatic;
   if (turns && geometry.hinge.norm() < kInPlace) return Vector3d::Zero();
   const double described = interaction.start.joints[object][j];
-  return JointTarget(joint, described) > described ? geometry.way : Vector3d(-geometry.way);
+  return JointTarget(joint, described) > described ? geometry.motion_direction
+                                                   : Vector3d(-geometry.motion_direction);
 }
 
 }  // namespace
 
 TargetFrame::TargetFrame(const Interaction& interaction, const tasks::SceneState& state,
-                         const Vector3d& across, double pitch, const Vector3d& withdraw)
+                         const Vector3d& across, double pitch, const Vector3d& retreat)
     : interaction_(interaction), across_(across) {
   if (!interaction_.target) return;
   (Pushes(interaction_) ? lean_ : pitch_) = pitch;
@@ -58,8 +59,8 @@ TargetFrame::TargetFrame(const Interaction& interaction, const tasks::SceneState
            tasks::WorldAabb(interaction_.model, state, interaction_.target->object).min().z();
   free_way_ = MotionDirection(interaction_, state, world_from_target_);
   axes_ = world_from_target_.linear();
-  withdrawing_ = !withdraw.isZero();
-  retreat_ = Eigen::Translation3d(withdraw) * state.gripper;
+  retreating_ = !retreat.isZero();
+  retreat_ = Eigen::Translation3d(retreat) * state.gripper;
   before_ = state.gripper;
   Update(state);
   updates_withdrawing_ = 0;
@@ -76,7 +77,7 @@ void TargetFrame::UpdateAtDestination(const tasks::SceneState& state) {
 }
 
 bool TargetFrame::Withdraws(const tasks::SceneState& state) {
-  if (!withdrawing_) return false;
+  if (!retreating_) return false;
   if (updates_opening_ < kOpeningUpdates && state.opening < kReleased) {
     ++updates_opening_;
     return true;
@@ -89,10 +90,10 @@ bool TargetFrame::Withdraws(const tasks::SceneState& state) {
   }
   if (missing < kRetreated || ++updates_stuck_ > kStuckUpdates ||
       updates_withdrawing_++ >= kLongestRetreat) {
-    withdrawing_ = false;
+    retreating_ = false;
     world_from_target_.linear() = axes_;
   }
-  return withdrawing_;
+  return retreating_;
 }
 
 void TargetFrame::Turn(double angle, const tasks::SceneState& state) {
@@ -106,7 +107,7 @@ void TargetFrame::Turn(double angle, const tasks::SceneState& state) {
 // The gripper enters and leaves a receptacle through its opening.
 void TargetFrame::ComputeRetreat(const tasks::SceneState& state) {
   back_ = -Vector3d::UnitZ();
-  room_depth_ = 0.0;
+  retreat_distance_ = 0.0;
   if (at_destination_ && interaction_.destination->in_top_opening) {
     const Destination& room = *interaction_.destination;
     const double rim =
@@ -115,7 +116,7 @@ void TargetFrame::ComputeRetreat(const tasks::SceneState& state) {
         tasks::LinkPosition(interaction_.model, state, interaction_.target->object, 0);
     const double bottom = object.z() + DisplacementToDestination(interaction_, state).z() - below_;
     back_ = world_from_target_.linear().transpose() * Vector3d::UnitZ();
-    room_depth_ = std::max(0.0, rim + kRimClearance - bottom);
+    retreat_distance_ = std::max(0.0, rim + kRimClearance - bottom);
     return;
   }
   if (!interaction_.room) return;
@@ -125,9 +126,9 @@ void TargetFrame::ComputeRetreat(const tasks::SceneState& state) {
       tasks::LinkPosition(interaction_.model, state, interaction_.target->object, 0);
   const bool inside = IsIn(room, interaction_.model, state, point);
   if (!inside && !IsIn(room, interaction_.model, state, object)) return;
-  const Vector3d way = DisplacementOutOfReceptacle(interaction_, state, point);
-  back_ = world_from_target_.linear().transpose() * way.normalized();
-  room_depth_ = way.norm();
+  const Vector3d displacement = DisplacementOutOfReceptacle(interaction_, state, point);
+  back_ = world_from_target_.linear().transpose() * displacement.normalized();
+  retreat_distance_ = displacement.norm();
 }
 
 void TargetFrame::Update(const tasks::SceneState& state) {

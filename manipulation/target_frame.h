@@ -16,7 +16,7 @@ class TargetFrame {
   // displacement.
   TargetFrame(const Interaction& interaction, const tasks::SceneState& state,
               const Eigen::Vector3d& across, double pitch,
-              const Eigen::Vector3d& withdraw = Eigen::Vector3d::Zero());
+              const Eigen::Vector3d& retreat = Eigen::Vector3d::Zero());
 
   // Rotates the frame at the destination, and with it the direction of approach, by `angle` (rad)
   // about the vertical.
@@ -27,20 +27,20 @@ class TargetFrame {
 
   const Eigen::Isometry3d& world_from_target() const { return world_from_target_; }
   bool at_destination() const { return at_destination_; }
-  bool withdrawing() const { return withdrawing_; }
+  bool retreating() const { return retreating_; }
   // Returns the lean (rad) of the tool about the frame's y axis at the target. A pushing gripper
   // leans back while the frame stays level, so that actions are along the floor.
-  double lean() const { return withdrawing_ ? 0.0 : lean_; }
+  double lean() const { return retreating_ ? 0.0 : lean_; }
   // Returns the direction in which the part moves as it is manipulated (unit, target frame); zero
   // for parts that rotate in place and for free objects. A gripper displaced along it is ahead of
   // the part and still at its target.
   Eigen::Vector3d motion_direction() const {
-    return withdrawing_ ? Eigen::Vector3d::Zero() : free_way_;
+    return retreating_ ? Eigen::Vector3d::Zero() : free_way_;
   }
   // ActionFrame::back and room_depth: out of the receptacle that contains the frame or the target
   // object; over the rim at a destination in a top-opening receptacle.
   const Eigen::Vector3d& back() const { return back_; }
-  double retreat_distance() const { return room_depth_; }
+  double retreat_distance() const { return retreat_distance_; }
 
  private:
   void UpdateAtDestination(const tasks::SceneState& state);
@@ -61,8 +61,8 @@ class TargetFrame {
   bool was_held_ = false;
   int updates_at_rest_ = 0;  // consecutive updates at rest at the frame, grasping the object
   Eigen::Vector3d back_ = -Eigen::Vector3d::UnitZ();
-  double room_depth_ = 0.0;
-  bool withdrawing_ = false;
+  double retreat_distance_ = 0.0;
+  bool retreating_ = false;
   double smallest_distance_ = 1e9;                             // m from the retreat pose
   int updates_stuck_ = 0;                                      // updates without progress
   int updates_withdrawing_ = 0;                                // updates of the retreat

@@ -19,13 +19,13 @@ void AddJoint(const tasks::ObjectJoint& joint, const Isometry3d& frame_from_move
               TargetGeometry* geometry) {
   const Vector3d axis = frame_from_moved.linear() * joint.axis;
   if (joint.type == reward::RewardJointType::kPrismatic) {
-    geometry->way = axis;
+    geometry->motion_direction = axis;
     return;
   }
   const Vector3d to_joint = frame_from_moved.translation();
   geometry->hinge = to_joint - axis.dot(to_joint) * axis;
   if (geometry->hinge.norm() > kOnAxis) {
-    geometry->way = axis.cross(-geometry->hinge).normalized();
+    geometry->motion_direction = axis.cross(-geometry->hinge).normalized();
   }
 }
 

@@ -15,7 +15,7 @@ struct TargetGeometry {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // m, from the frame's origin
   // The direction in which the part at the frame's origin moves as its joint position increases:
   // unit; zero without a joint, or on its axis.
-  Eigen::Vector3d way = Eigen::Vector3d::Zero();
+  Eigen::Vector3d motion_direction = Eigen::Vector3d::Zero();
   // The vector (m) from the frame's origin to the nearest point of the part's rotation axis; zero
   // for a prismatic joint and without a joint.
   Eigen::Vector3d hinge = Eigen::Vector3d::Zero();

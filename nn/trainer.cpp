@@ -44,14 +44,14 @@ double Trainer::LearningRate(int step) const {
   return options_.learning_rate * warm * (0.525 + 0.475 * std::cos(M_PI * std::min(1.0, done)));
 }
 
-void Trainer::Descend(int step, const torch::Tensor& loss) {
+void Trainer::Step(int step, const torch::Tensor& loss) {
   if (!std::isfinite(loss.item<double>())) return;
   optimizer_->zero_grad();
   loss.backward();
   TakeStep(step);
 }
 
-double Trainer::Descend(int step, int shares, const std::function<torch::Tensor(int)>& term) {
+double Trainer::Step(int step, int shares, const std::function<torch::Tensor(int)>& term) {
   if (shares < 1) throw core::Error("a loss needs at least one share", std::to_string(shares));
   const std::vector<torch::Tensor> parameters = module_->parameters();
   std::vector<double> losses(static_cast<size_t>(shares));

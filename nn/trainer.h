@@ -25,12 +25,12 @@ class Trainer {
   int first_step() const { return first_; }
   double LearningRate(int step) const;
   // Takes one optimiser step along the gradient of `loss`. Skips a loss that is not finite.
-  void Descend(int step, const torch::Tensor& loss);
+  void Step(int step, const torch::Tensor& loss);
   // Takes one optimiser step for a loss that is the sum of `shares` terms, each computed on its own
   // thread (ForEachShare): term(i) returns a scalar that depends on the module's parameters.
   // Returns the sum. For the same number of shares the result is the same bit for bit. Throws
   // core::Error for fewer than 1 share, and rethrows what a term throws.
-  double Descend(int step, int shares, const std::function<torch::Tensor(int)>& term);
+  double Step(int step, int shares, const std::function<torch::Tensor(int)>& term);
   // Returns true if the state is due to be saved after `step`.
   bool SaveDue(int step) const;
   void SaveState(int step) const;

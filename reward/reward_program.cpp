@@ -25,7 +25,7 @@ struct Pass {
   int num_envs;
   float* registers;
   float* numbers;
-  float* spills;
+  float* register_spills;
   int max_envs;
   const float** columns;  // columns of the registers; numbers lie below, at -1 - k
   double* gathered;
@@ -84,9 +84,9 @@ void Pass::LoadChunk(const Stage& stage, int start, int count) const {
     for (int k = 0; k < 3; ++k) columns[triple.columns[k]] = to[k] = Register(triple.columns[k]);
     Kernels().split_triples(Row(triple.slot, start, 0), to, count);
   }
-  for (const Load& flip : stage.flips) {
-    const float* from = spills + static_cast<std::ptrdiff_t>(flip.slot) * max_envs;
-    float* to = Register(flip.column);
+  for (const Load& axis_flip : stage.axis_flips) {
+    const float* from = register_spills + static_cast<std::ptrdiff_t>(axis_flip.slot) * max_envs;
+    float* to = Register(axis_flip.column);
     for (int i = 0; i < count; ++i) to[i] = from[num_envs - 1 - (start + i)];
   }
 }
@@ -100,8 +100,8 @@ void Pass::ReturnColumns(const Stage& stage) const {
 }
 
 void Pass::StartGathering(const Stage& stage) const {
-  for (std::size_t i = 0; i < stage.gatherings.size(); ++i) {
-    const BatchReduction& one = stage.gatherings[i];
+  for (std::size_t i = 0; i < stage.reductions.size(); ++i) {
+    const BatchReduction& one = stage.reductions[i];
     const double infinity = std::numeric_limits<double>::infinity();
     gathered[i] = one.operation == ScalarOperation::kBatchMinimum   ? infinity
                   : one.operation == ScalarOperation::kBatchMaximum ? -infinity
@@ -116,8 +116,8 @@ void Pass::StartGathering(const Stage& stage) const {
 }
 
 void Pass::Gather(const Stage& stage, int start, int count) const {
-  for (std::size_t i = 0; i < stage.gatherings.size(); ++i) {
-    const BatchReduction& one = stage.gatherings[i];
+  for (std::size_t i = 0; i < stage.reductions.size(); ++i) {
+    const BatchReduction& one = stage.reductions[i];
     const float* from = columns[one.operand];
     double& total = gathered[i];
     switch (one.operation) {
@@ -126,7 +126,7 @@ void Pass::Gather(const Stage& stage, int start, int count) const {
         break;
       case ScalarOperation::kBatchFlip:
         std::copy_n(from, count,
-                    spills + static_cast<std::ptrdiff_t>(one.result) * max_envs + start);
+                    register_spills + static_cast<std::ptrdiff_t>(one.result) * max_envs + start);
         break;
       case ScalarOperation::kBatchPick: {
         const int wanted = one.environment < 0 ? one.environment + num_envs : one.environment;
@@ -147,8 +147,8 @@ void Pass::Gather(const Stage& stage, int start, int count) const {
 }
 
 void Pass::FinishGathering(const Stage& stage) const {
-  for (std::size_t i = 0; i < stage.gatherings.size(); ++i) {
-    const BatchReduction& one = stage.gatherings[i];
+  for (std::size_t i = 0; i < stage.reductions.size(); ++i) {
+    const BatchReduction& one = stage.reductions[i];
     if (one.operation == ScalarOperation::kBatchFlip) continue;
     numbers[-1 - one.result] = static_cast<float>(gathered[i]);
   }
@@ -285,8 +285,8 @@ RewardWorkspace::RewardWorkspace(const RewardProgram& program, int max_envs)
   }
   const auto registers = static_cast<std::size_t>(code_->registers) * code_->chunk;
   const auto numbers = static_cast<std::size_t>(code_->numbers);
-  const std::size_t spills = static_cast<std::size_t>(code_->spills) * max_envs;
-  memory_.assign(registers + numbers + spills + kAlignment, 0.0f);
+  const std::size_t register_spills = static_cast<std::size_t>(code_->register_spills) * max_envs;
+  memory_.assign(registers + numbers + register_spills + kAlignment, 0.0f);
   const auto address = reinterpret_cast<std::uintptr_t>(memory_.data()) / sizeof(float);
   registers_ = memory_.data() + (kAlignment - address % kAlignment) % kAlignment;
   numbers_ = registers_ + registers;
@@ -297,11 +297,11 @@ RewardWorkspace::RewardWorkspace(const RewardProgram& program, int max_envs)
   for (int r = 0; r < code_->registers; ++r) {
     columns_[numbers + r] = registers_ + static_cast<std::ptrdiff_t>(r) * code_->chunk;
   }
-  std::size_t gatherings = 0;
+  std::size_t reductions = 0;
   for (const Stage& stage : code_->stages) {
-    gatherings = std::max(gatherings, stage.gatherings.size());
+    reductions = std::max(reductions, stage.reductions.size());
   }
-  accumulators_.resize(gatherings);
+  accumulators_.resize(reductions);
 }
 
 }  // namespace simwright::reward

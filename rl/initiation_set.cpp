@@ -59,7 +59,7 @@ InitiationSet::InitiationSet(const Rows& observations, const std::vector<bool>& 
   }
 }
 
-double InitiationSet::Chance(const float* observation) const {
+double InitiationSet::SuccessProbability(const float* observation) const {
   const Eigen::Index size = mean_.size();
   double sum = weights_[size];
   for (Eigen::Index i = 0; i < size; ++i) {

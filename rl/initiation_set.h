@@ -19,7 +19,7 @@ class InitiationSet {
 
   // Returns the success probability, in (0, 1), of a start state with the observation `observation`
   // (O).
-  double Chance(const float* observation) const;
+  double SuccessProbability(const float* observation) const;
 
   int size() const { return static_cast<int>(mean_.size()); }  // O
 

@@ -162,10 +162,10 @@ PoseError PoseInverseKinematics::Track(const Eigen::Isometry3d& base_from_tool,
     *q += work.step;
     Clamp(q);
   }
-  const JointVector way = *q - before;
-  const double ratio = (way.cwiseAbs().cwiseQuotient(longest_step)).maxCoeff();
+  const JointVector displacement = *q - before;
+  const double ratio = (displacement.cwiseAbs().cwiseQuotient(longest_step)).maxCoeff();
   if (ratio > 1.0) {
-    *q = before + way / ratio;
+    *q = before + displacement / ratio;
     Clamp(q);
   }
   const Eigen::Isometry3d tool = chain_.Tool(*q);

@@ -148,9 +148,9 @@ class Simulation {
       const double interval = std::min(kRestInterval, options_.duration - elapsed);
       Step(interval);
       elapsed += interval;
-      if (options_.resting > 0.0) {
+      if (options_.rest_tolerance > 0.0) {
         RemoveFallen();
-        if (LargestDisplacement(before) <= options_.resting) return;
+        if (LargestDisplacement(before) <= options_.rest_tolerance) return;
       }
       before = Poses();
     }
@@ -171,11 +171,12 @@ class Simulation {
         farthest = std::max(farthest, one.drift);
       }
       const double rest = options_.watch / elapsed;
-      const double pace = 1.0 + (options_.pace - 1.0) * (1.0 - elapsed / options_.watch);
-      const bool still =
-          elapsed >= kShortestCheck - 1e-9 && farthest * rest * pace <= options_.stable;
+      const double early_stop_factor =
+          1.0 + (options_.early_stop_factor - 1.0) * (1.0 - elapsed / options_.watch);
+      const bool still = elapsed >= kShortestCheck - 1e-9 &&
+                         farthest * rest * early_stop_factor <= options_.stable;
       const bool decided = still || farthest > options_.stable;
-      if (options_.pace <= 0.0 || !decided) continue;
+      if (options_.early_stop_factor <= 0.0 || !decided) continue;
       for (SettledBody& one : *settled) one.drift *= rest;
       return;
     }
@@ -208,8 +209,8 @@ bool SettlingOptions::IsValid(std::string* error) const {
   }
   if (!(gravity_tilt_time >= 0.0)) return fails("gravity_tilt_time must be at least 0 s");
   if (!(stable > 0.0)) return fails("stable must be above 0 m");
-  if (!(resting >= 0.0)) return fails("resting must be at least 0 m");
-  if (!(pace >= 0.0)) return fails("pace must be at least 0");
+  if (!(rest_tolerance >= 0.0)) return fails("resting must be at least 0 m");
+  if (!(early_stop_factor >= 0.0)) return fails("pace must be at least 0");
   if (!(fall_distance > 0.0)) return fails("fall_distance must be above 0 m");
   return true;
 }

@@ -33,12 +33,12 @@ struct SettlingOptions {
   // The rest tolerance: settling ends early when no object moves farther than this (m) in 0.1 s; 0:
   // never early. At that speed an object would reach the limit of `stable` by the end of `watch`,
   // so that the stability check detects slow creep.
-  double resting = 5e-5;
+  double rest_tolerance = 5e-5;
   // The early-stop drift factor: the stability check ends after a quarter of a second or more if
   // the drift would stay below `stable` until its end at a multiple of its mean speed: this factor
   // at first, decreasing to 1 at the end; and as soon as one object has drifted farther. 0: never
   // before the end of `watch`.
-  double pace = 4.0;
+  double early_stop_factor = 4.0;
   // m below its initial height: a lower object has fallen off its support. It is removed, so that
   // it topples nothing and its rolling delays nobody; not if `resting` is 0.
   double fall_distance = 0.05;

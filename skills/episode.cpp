@@ -70,14 +70,16 @@ void Episode::Begin(const StartState& start) {
 // Starts the plan in `start_` from the current state of objects and arm.
 void Episode::StartPlan() {
   const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
-  const Eigen::Isometry3d at_work = robot::ForwardKinematics(skill_.robot->arm, start_.at_work);
+  const Eigen::Isometry3d grasp_configuration =
+      robot::ForwardKinematics(skill_.robot->arm, start_.grasp_configuration);
   const Eigen::Matrix3d& world_from_base = variant.subtask.start.world_from_robot.linear();
   frame_ = std::make_unique<manipulation::TargetFrame>(
-      variant, state_, world_from_base * at_work.linear().col(1), start_.pitch, start_.withdraw);
-  command_.goal = frame_->withdrawing() ? start_.arm : start_.at_work;
-  command_.via = frame_->withdrawing() ? manipulation::Detour() : start_.via;
-  along_ =
-      manipulation::ConfigurationsAlongJoint(skill_, variant, state_, start_.at_work, start_.pitch);
+      variant, state_, world_from_base * grasp_configuration.linear().col(1), start_.pitch,
+      start_.retreat);
+  command_.goal = frame_->retreating() ? start_.arm : start_.grasp_configuration;
+  command_.waypoints = frame_->retreating() ? manipulation::JointPath() : start_.waypoints;
+  along_ = manipulation::ConfigurationsAlongJoint(skill_, variant, state_,
+                                                  start_.grasp_configuration, start_.pitch);
   if (frame_->at_destination()) PlanArrival();
   UpdateRestConfiguration();
   ++plan_count_;
@@ -88,7 +90,7 @@ void Episode::StartPlan() {
 bool Episode::IsAtPlansEnd() const {
   const std::optional<manipulation::InteractionTarget>& focus =
       skill_.variants[static_cast<size_t>(start_.variant)].target;
-  if (!focus || !focus->pushes || !along_.ends_early || frame_->withdrawing()) return false;
+  if (!focus || !focus->pushes || !along_.ends_early || frame_->retreating()) return false;
   const double position =
       state_.joints[static_cast<size_t>(focus->object)][static_cast<size_t>(focus->joint)];
   const double end = along_.positions.back(), begin = along_.positions.front();
@@ -135,9 +137,9 @@ void Episode::PlanArrival() {
   if (variant.target->rim > 0.0) command_.pace = kCarryingPace;
   if (plan->turn != 0.0) frame_->Turn(plan->turn, state_);
   command_.goal = plan->arrival;
-  command_.via = plan->via;
+  command_.waypoints = plan->waypoints;
   // In front of a side-opening receptacle the gripper may first have to move straight back.
-  if (!variant.room) command_.via.push_back(plan->arrival);
+  if (!variant.room) command_.waypoints.push_back(plan->arrival);
 }
 
 // Redundant joints keep to the planned configuration. With home as their target, an arm that pulls
@@ -145,13 +147,13 @@ void Episode::PlanArrival() {
 void Episode::UpdateRestConfiguration() {
   const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
   const std::optional<manipulation::InteractionTarget>& focus = variant.target;
-  if (!focus || frame_->withdrawing() || manipulation::Pushes(variant)) {
+  if (!focus || frame_->retreating() || manipulation::Pushes(variant)) {
     command_.rest.resize(0);
   } else if (!along_.positions.empty()) {
     command_.rest = along_.At(
         state_.joints[static_cast<size_t>(focus->object)][static_cast<size_t>(focus->joint)]);
   } else {
-    command_.rest = frame_->at_destination() ? arrival_ : start_.at_work;
+    command_.rest = frame_->at_destination() ? arrival_ : start_.grasp_configuration;
   }
 }
 
@@ -192,14 +194,14 @@ Decision Episode::Step(const float* action) {
     decision.failed = decision.truncated = true;
     return decision;
   }
-  const bool withdrew = frame_->withdrawing(), was_there = frame_->at_destination();
+  const bool withdrew = frame_->retreating(), was_there = frame_->at_destination();
   frame_->Update(state_);
   if (frame_->at_destination() && !was_there) PlanArrival();
   if (plan_count_ < kMostPlans && IsAtPlansEnd()) Replan();
   UpdateRestConfiguration();
-  if (withdrew && !frame_->withdrawing()) {
-    command_.goal = start_.at_work;
-    command_.via = start_.via;
+  if (withdrew && !frame_->retreating()) {
+    command_.goal = start_.grasp_configuration;
+    command_.waypoints = start_.waypoints;
   }
   decision.reward = Reward(&decision.success);
   if (!std::isfinite(decision.reward)) {
@@ -229,7 +231,7 @@ void Episode::Observe(float* row) const {
   senses.last_action = action_.data();
   senses.world_from_target = frame_->world_from_target();
   senses.at_destination = frame_->at_destination();
-  senses.withdrawing = frame_->withdrawing();
+  senses.retreating = frame_->retreating();
   programs_[static_cast<size_t>(start_.variant)]->observer.Write(state_, &previous_, senses, row);
 }
 

@@ -167,16 +167,16 @@ bool TakesFromReceptacle(const SkillVariant& variant, const tasks::SceneState& s
 
 // Returns the waypoints of `plan`. Behind an open door, and past one into a receptacle, they
 // include the pre-grasp, so that the arm keeps to the path that was checked.
-manipulation::Detour WaypointsTo(const Skill& skill, const SkillVariant& variant,
-                                 const tasks::SceneState& state,
-                                 const manipulation::ReachPlan& plan) {
-  manipulation::Detour way = plan.via;
+manipulation::JointPath WaypointsTo(const Skill& skill, const SkillVariant& variant,
+                                    const tasks::SceneState& state,
+                                    const manipulation::ReachPlan& plan) {
+  manipulation::JointPath path = plan.waypoints;
   if (variant.target->pushes || TakesFromReceptacle(variant, state)) {
     const robot::JointVector before =
-        manipulation::PreGraspConfiguration(skill, variant, state, plan.at_work);
-    if (way.empty() || way.back() != before) way.push_back(before);
+        manipulation::PreGraspConfiguration(skill, variant, state, plan.grasp_configuration);
+    if (path.empty() || path.back() != before) path.push_back(before);
   }
-  return way;
+  return path;
 }
 
 // Searches a joint path from `from` (J) to the pre-grasp of `plan` by RRT-Connect, first with a
@@ -185,15 +185,15 @@ void SearchPath(const Skill& skill, const SkillVariant& variant, const tasks::Sc
                 const robot::JointVector& from, manipulation::ReachPlan* plan) {
   const bool takes = variant.target->joint < 0;
   const robot::JointVector before =
-      manipulation::PreGraspConfiguration(skill, variant, state, plan->at_work);
+      manipulation::PreGraspConfiguration(skill, variant, state, plan->grasp_configuration);
   for (const double margin : {kClearance, 0.0}) {
     manipulation::CollisionChecker clearance(skill, variant, state,
                                              takes ? variant.target->object : -1);
     if (margin > 0.0) clearance.SetClearance(margin, {from, before});
-    const auto way = manipulation::PlanRrtConnect(skill.robot->arm, clearance, from, before);
-    if (!way) continue;
-    plan->via = *way;
-    plan->via.push_back(before);
+    const auto path = manipulation::PlanRrtConnect(skill.robot->arm, clearance, from, before);
+    if (!path) continue;
+    plan->waypoints = *path;
+    plan->waypoints.push_back(before);
     return;
   }
 }
@@ -201,8 +201,8 @@ void SearchPath(const Skill& skill, const SkillVariant& variant, const tasks::Sc
 void ApplyPlan(const Skill& skill, const SkillVariant& variant, const manipulation::ReachPlan& plan,
                StartState* start) {
   start->pitch = plan.pitch;
-  start->at_work = plan.at_work;
-  start->via = WaypointsTo(skill, variant, start->state, plan);
+  start->grasp_configuration = plan.grasp_configuration;
+  start->waypoints = WaypointsTo(skill, variant, start->state, plan);
 }
 
 // Plans from `from` (J), else from home after folding the arm; first with a clearance to objects,
@@ -224,12 +224,12 @@ std::optional<manipulation::ReachPlan> PlanFromAnywhere(const Skill& skill,
     manipulation::CollisionChecker clearance(skill, variant, state,
                                              takes ? variant.target->object : -1);
     const robot::JointVector before =
-        manipulation::PreGraspConfiguration(skill, variant, state, plan->at_work);
+        manipulation::PreGraspConfiguration(skill, variant, state, plan->grasp_configuration);
     if (margin > 0.0) clearance.SetClearance(margin, {from, before});
-    const auto way = manipulation::PlanSimplePath(skill, clearance, from, before);
+    const auto path = manipulation::PlanSimplePath(skill, clearance, from, before);
     plan->clear = false;
-    plan->via = way.value_or(manipulation::Detour());
-    if (way) return plan;
+    plan->waypoints = path.value_or(manipulation::JointPath());
+    if (path) return plan;
     folded = plan;
   }
   if (!folded) return any;
@@ -240,10 +240,10 @@ std::optional<manipulation::ReachPlan> PlanFromAnywhere(const Skill& skill,
 // Plans the motion of an empty gripper after another skill: the retreat, then the approach.
 void PlanRetreatAndReach(const Skill& skill, const SkillVariant& variant, core::Rng& rng,
                          StartState* start) {
-  start->withdraw = RetreatDisplacement(skill, variant, *start);
+  start->retreat = RetreatDisplacement(skill, variant, *start);
   Isometry3d away = variant.subtask.start.world_from_robot *
                     robot::ForwardKinematics(skill.robot->arm, start->arm);
-  away.translation() += start->withdraw;
+  away.translation() += start->retreat;
   manipulation::CartesianFollower follower(skill, variant, start->arm);
   follower.MoveTo(away);
   const auto plan = PlanFromAnywhere(skill, variant, start->state, follower.configuration(), rng);
@@ -300,7 +300,7 @@ bool MovePartWay(const Skill& skill, core::Rng& rng, StartState* start) {
 }
 
 // Places arm and fingers: at home, or at the target if `at_work` is set or an object is grasped.
-void PlaceArm(const Skill& skill, bool at_work, core::Rng& rng, StartState* start) {
+void PlaceArm(const Skill& skill, bool grasp_configuration, core::Rng& rng, StartState* start) {
   const SkillVariant& variant = skill.variants[static_cast<size_t>(start->variant)];
   const robot::Gripper& gripper = skill.robot->gripper;
   start->arm = skill.robot->home();
@@ -308,17 +308,18 @@ void PlaceArm(const Skill& skill, bool at_work, core::Rng& rng, StartState* star
   if (!manipulation::IsArmCollisionFree(skill, variant, start->state, start->arm))
     start->arm = skill.robot->home();
   start->leader = gripper.open;
-  at_work =
-      at_work && manipulation::IsArmCollisionFree(skill, variant, start->state, start->at_work);
-  if (at_work || start->held >= 0) {
-    start->arm = start->at_work;
-    start->via.clear();
+  grasp_configuration =
+      grasp_configuration &&
+      manipulation::IsArmCollisionFree(skill, variant, start->state, start->grasp_configuration);
+  if (grasp_configuration || start->held >= 0) {
+    start->arm = start->grasp_configuration;
+    start->waypoints.clear();
   }
   // A wall is thin: fingers that begin near it close sooner.
   if (start->held >= 0 && variant.target->rim > 0.0) {
     start->leader = gripper.closed + kNearWall * (gripper.open - gripper.closed);
   }
-  if (at_work && start->held < 0) {
+  if (grasp_configuration && start->held < 0) {
     start->closed_to = core::Uniform(rng, std::min(gripper.closed, gripper.open),
                                      std::max(gripper.closed, gripper.open));
   }
@@ -332,17 +333,18 @@ StartState SampleStart(const Skill& skill, core::Rng& rng) {
   start.variant =
       static_cast<int>(core::UniformIndex(rng, static_cast<std::int64_t>(skill.variants.size())));
   const SkillVariant& variant = skill.variants[static_cast<size_t>(start.variant)];
-  start.at_work = skill.robot->home();
+  start.grasp_configuration = skill.robot->home();
   EpisodeStartPlaceObjects(skill, rng, &start);
   const double sample = core::Uniform(rng);
-  bool at_work = sample < options.at_focus_share;
-  const bool part_way = !at_work && sample < options.at_focus_share + options.part_way_share;
+  bool grasp_configuration = sample < options.at_focus_share;
+  const bool part_way =
+      !grasp_configuration && sample < options.at_focus_share + options.part_way_share;
   if (part_way && variant.target && variant.target->joint >= 0 && MovePartWay(skill, rng, &start)) {
-    at_work = core::Uniform(rng) < kAtPartShare;
+    grasp_configuration = core::Uniform(rng) < kAtPartShare;
   }
   const bool grasps = variant.target && variant.target->joint < 0 && variant.asks_for_grasp;
   if (grasps && (part_way || variant.starts_held)) start.held = variant.target->object;
-  PlaceArm(skill, at_work, rng, &start);
+  PlaceArm(skill, grasp_configuration, rng, &start);
   SampleBodies(variant, options, rng, &start);
   return start;
 }
@@ -359,10 +361,10 @@ StartState PlannedFrom(const Skill& skill, const StartState& from, core::Rng& rn
   start.state.goal = manipulation::GoalIn(variant, start.state);
   const bool everything = parts == Resampling::kEverything;
   if (everything && start.held < 0) Perturb(skill, kPerturbation, rng, &start.arm);
-  start.at_work = start.arm;
+  start.grasp_configuration = start.arm;
   start.pitch = 0.0;
-  start.withdraw.setZero();
-  start.via.clear();
+  start.retreat.setZero();
+  start.waypoints.clear();
   if (start.held >= 0 && variant.room) {
     // It keeps its lean, even if the object has rotated in the grasp: upright, it may not fit.
     start.pitch = manipulation::PitchOf(variant.subtask.start.world_from_robot *

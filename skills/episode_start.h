@@ -20,12 +20,12 @@ struct StartState {
   // The approach pitch of the gripper (rad) and the grasp configuration of the arm (J), from
   // PlanReach.
   double pitch = 0.0;
-  robot::JointVector at_work;
+  robot::JointVector grasp_configuration;
   // The displacement (m, world) by which an empty gripper retreats from where the previous skill
   // ended before it approaches its target (TargetFrame). Zero: no retreat.
-  Eigen::Vector3d withdraw = Eigen::Vector3d::Zero();
+  Eigen::Vector3d retreat = Eigen::Vector3d::Zero();
   // The waypoints (J) before the grasp configuration, if the straight joint path is blocked.
-  manipulation::Detour via;
+  manipulation::JointPath waypoints;
   int held = -1;  // the object that the gripper grasps before the episode; -1: none
   // The position of the gripper's first joint to which the gripper closes at its target before the
   // episode, unless an object between the fingers stops it. Set in easier start states.

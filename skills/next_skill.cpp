@@ -26,12 +26,12 @@ rl::InitiationSet SetOf(const Skill& skill, const std::vector<EvaluatedEpisode>&
 NextSkill::NextSkill(std::shared_ptr<const Skill> skill, const std::vector<EvaluatedEpisode>& tried)
     : skill_(std::move(skill)), set_(SetOf(*skill_, tried)) {}
 
-double NextSkill::Chance(const StartState& end) const {
+double NextSkill::SuccessProbability(const StartState& end) const {
   core::Rng rng = core::StreamRng(0, 0);  // deterministic plans for the same end state
   Episode episode(*skill_);
   std::vector<float> observation(static_cast<size_t>(set_.size()));
   ObserveFrom(PlannedFrom(*skill_, end, rng, Resampling::kNothing), &episode, observation.data());
-  return set_.Chance(observation.data());
+  return set_.SuccessProbability(observation.data());
 }
 
 }  // namespace simwright::skills

@@ -18,7 +18,7 @@ class NextSkill {
 
   // Returns the success probability, in (0, 1), from an end state (EndOf) of another skill in the
   // same scene.
-  double Chance(const StartState& end) const;
+  double SuccessProbability(const StartState& end) const;
 
  private:
   std::shared_ptr<const Skill> skill_;

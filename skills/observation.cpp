@@ -126,7 +126,7 @@ void Observer::AddFocusGeometry(const tasks::SceneState& state, const Isometry3d
   row->Add(geometry.size, kObservationNear);
   if (variant_.target->joint < 0) return;
   row->Add(geometry.middle, kObservationNear);
-  row->Add(geometry.way, 1.0);
+  row->Add(geometry.motion_direction, 1.0);
   row->Add(geometry.hinge, kRoom);
 }
 
@@ -150,7 +150,7 @@ void Observer::Write(const tasks::SceneState& state, const tasks::SceneState* pr
       variant_.subtask.start.world_from_robot.inverse() * senses.world_from_target;
   row.Add(Vector3d(base_from_target.translation()), kRoom);
   row.Add(Eigen::Matrix3d(base_from_target.linear()));
-  row.Add(senses.withdrawing ? -1.0 : senses.at_destination ? 1.0 : 0.0);
+  row.Add(senses.retreating ? -1.0 : senses.at_destination ? 1.0 : 0.0);
   AddJoints(state, previous, &row);
   const Eigen::Matrix3d target_from_world = senses.world_from_target.linear().transpose();
   if (variant_.target) {

@@ -17,7 +17,7 @@ struct PolicyInputs {
   // The frame of the actions (GraspPose), world_from_focus.
   Eigen::Isometry3d world_from_target = Eigen::Isometry3d::Identity();
   bool at_destination = false;  // the frame is at the destination of a grasped object
-  bool withdrawing = false;     // the frame is the retreat pose (TargetFrame)
+  bool retreating = false;      // the frame is the retreat pose (TargetFrame)
 };
 
 // Writes the observation in one variant of a skill; all variants have the same size.

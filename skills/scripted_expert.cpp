@@ -148,12 +148,12 @@ void ManipulatePart(const ExpertInput& input, float* action) {
   const double pull = std::clamp(kGripGain * (kLargestPullDeviation - Deviation(input)), 0.0, 1.0) *
                       std::max(0.0, 1.0 - input.commanded / kClosed);
   if (pull == 0.0) return;
-  const Vector3d way = input.frame.motion_direction();
-  if (!way.isZero()) {
+  const Vector3d direction = input.frame.motion_direction();
+  if (!direction.isZero()) {
     const double gently = input.succeeding && IsShutLater(input) ? kGentleShare : 1.0;
     const double ahead =
         HasHorizontalHinge(input) && input.state.grasped ? kHeldAhead : kExpertLead;
-    SetCommand(gently * pull * ahead * way, input.options.reach, action);
+    SetCommand(gently * pull * ahead * direction, input.options.reach, action);
     return;
   }
   const manipulation::InteractionTarget& target = *input.variant.target;
@@ -225,7 +225,7 @@ void ExpertAction(const Episode& episode, float* action) {
   std::fill(action, action + 7, 0.0f);
   const ExpertInput input = InputOf(episode);
   if (!input.variant.target) return;
-  if (input.frame.withdrawing()) {
+  if (input.frame.retreating()) {
     action[6] = 1.0f;
   } else if (input.variant.target->pushes) {
     PushShut(input, action);

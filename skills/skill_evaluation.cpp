@@ -42,7 +42,7 @@ StartState EndOf(const Episode& episode) {
   Eigen::VectorXd arm;
   episode.world().robot().Positions(&arm);
   end.arm = arm;
-  end.at_work = arm;
+  end.grasp_configuration = arm;
   end.leader = episode.world().robot().Leader();
   end.closed_to.reset();
   end.held = HeldObject(episode.skill().variants[static_cast<size_t>(end.variant)], end.state);

@@ -87,24 +87,24 @@ StartState StartOfNextSubtask(const json& text, const Skill& skill) {
   const std::vector<double> goal = Numbers(text.at("goal"), 3);
   start.state.goal = Eigen::Vector3d(goal[0], goal[1], goal[2]);
   start.arm = PostureFrom(text.at("arm"), skill.robot->arm.size());
-  start.at_work = PostureFrom(text.at("at_work"), skill.robot->arm.size());
+  start.grasp_configuration = PostureFrom(text.at("at_work"), skill.robot->arm.size());
   start.leader = text.at("leader").get<double>();
   if (text.contains("closed_to")) start.closed_to = text["closed_to"].get<double>();
   start.pitch = text.at("pitch").get<double>();
   if (text.contains("withdraw")) {
-    const std::vector<double> way = Numbers(text["withdraw"], 3);
-    start.withdraw = Eigen::Vector3d(way[0], way[1], way[2]);
-    if (start.withdraw.norm() > kLongestRetreat) {
+    const std::vector<double> displacement = Numbers(text["withdraw"], 3);
+    start.retreat = Eigen::Vector3d(displacement[0], displacement[1], displacement[2]);
+    if (start.retreat.norm() > kLongestRetreat) {
       throw std::invalid_argument("a retreat that is too long");
     }
   }
   if (text.contains("via")) {
-    const json& via = text["via"];
-    if (!via.is_array() || via.size() > kMostWaypoints) {
+    const json& waypoints = text["via"];
+    if (!waypoints.is_array() || waypoints.size() > kMostWaypoints) {
       throw std::invalid_argument("invalid or too many waypoints");
     }
-    for (const json& configuration : via) {
-      start.via.push_back(PostureFrom(configuration, skill.robot->arm.size()));
+    for (const json& configuration : waypoints) {
+      start.waypoints.push_back(PostureFrom(configuration, skill.robot->arm.size()));
     }
   }
   start.held = text.at("held").get<int>();
@@ -138,14 +138,14 @@ std::string StartText(const StartState& start) {
   text["joints"] = start.state.joints;
   text["goal"] = {start.state.goal.x(), start.state.goal.y(), start.state.goal.z()};
   text["arm"] = List(start.arm);
-  text["at_work"] = List(start.at_work);
+  text["at_work"] = List(start.grasp_configuration);
   text["leader"] = start.leader;
   if (start.closed_to) text["closed_to"] = *start.closed_to;
   text["pitch"] = start.pitch;
-  if (!start.withdraw.isZero()) {
-    text["withdraw"] = {start.withdraw.x(), start.withdraw.y(), start.withdraw.z()};
+  if (!start.retreat.isZero()) {
+    text["withdraw"] = {start.retreat.x(), start.retreat.y(), start.retreat.z()};
   }
-  for (const robot::JointVector& configuration : start.via)
+  for (const robot::JointVector& configuration : start.waypoints)
     text["via"].push_back(List(configuration));
   text["held"] = start.held;
   text["mass"] = start.mass;

@@ -219,18 +219,19 @@ ToolTarget ActionTarget(const Skill& skill, const float* action, const ActionFra
 
 void StepCommand(const Skill& skill, const ToolTarget& target, const robot::JointVector& actual,
                  ArmCommand* command) {
-  std::vector<robot::JointVector>& via = command->via;
-  if (!via.empty() && (via.front() - command->sent).lpNorm<Eigen::Infinity>() < kPassed) {
-    via.erase(via.begin());
+  std::vector<robot::JointVector>& waypoints = command->waypoints;
+  if (!waypoints.empty() &&
+      (waypoints.front() - command->sent).lpNorm<Eigen::Infinity>() < kPassed) {
+    waypoints.erase(waypoints.begin());
   }
   if (skill.options.action == ActionSpace::kJoints) {
     command->goal = target.joints;
-  } else if (via.empty()) {  // until then the goal stays the planned configuration
+  } else if (waypoints.empty()) {  // until then the goal stays the planned configuration
     const robot::JointVector jump = robot::JointVector::Constant(actual.size(), kGoalJump);
     skill.kinematics->Track(target.base_from_tool, jump, &command->goal,
                             command->rest.size() > 0 ? &command->rest : nullptr);
   }
-  MoveArm(skill, via.empty() ? command->goal : via.front(), actual, command);
+  MoveArm(skill, waypoints.empty() ? command->goal : waypoints.front(), actual, command);
   MoveFingers(skill, target.leader, command);
 }
 

@@ -25,7 +25,7 @@ struct ArmCommand {
   robot::JointVector goal;  // (J) the configuration at the tool pose of the action
   robot::JointVector sent;  // (J) the current motor set point, moving towards `goal`
   // The remaining waypoints (J) before `goal`, which do not depend on the action (PlanSimplePath).
-  std::vector<robot::JointVector> via;
+  std::vector<robot::JointVector> waypoints;
   robot::JointVector rest;  // (J) the null-space target of redundant joints; empty: home
   robot::JointVector rate;  // (J) per s: velocity of `sent`
   double pace = 1.0;        // factor of the speed and acceleration limits

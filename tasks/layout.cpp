@@ -81,8 +81,8 @@ class LayoutPlanner {
 
  private:
   bool IsSupported(int object) const {
-    return std::any_of(request_.resting.begin(), request_.resting.end(),
-                       [&](const SupportRelation& resting) { return resting.object == object; });
+    return std::any_of(request_.supports.begin(), request_.supports.end(),
+                       [&](const SupportRelation& supports) { return supports.object == object; });
   }
 
   bool PlaceAll() {
@@ -102,8 +102,8 @@ class LayoutPlanner {
         continue;
       if (!PlaceBeside(object)) return false;
     }
-    for (const SupportRelation& resting : request_.resting) {
-      if (!PlaceResting(resting)) return false;
+    for (const SupportRelation& supports : request_.supports) {
+      if (!PlaceResting(supports)) return false;
     }
     return true;
   }
@@ -219,18 +219,18 @@ class LayoutPlanner {
     return false;
   }
 
-  bool PlaceResting(const SupportRelation& resting) {
-    const ArticulatedObject& known = model_.objects[static_cast<std::size_t>(resting.object)];
-    const ArticulatedObject& holder = model_.objects[static_cast<std::size_t>(resting.holder)];
+  bool PlaceResting(const SupportRelation& supports) {
+    const ArticulatedObject& known = model_.objects[static_cast<std::size_t>(supports.object)];
+    const ArticulatedObject& holder = model_.objects[static_cast<std::size_t>(supports.holder)];
     const SceneState state = State();
-    const auto h = static_cast<std::size_t>(resting.holder);
+    const auto h = static_cast<std::size_t>(supports.holder);
     Eigen::Vector3d base;  // position of the centre of its underside
-    if (resting.receptacle < 0) {
-      const Eigen::AlignedBox3d box = WorldAabb(model_, state, resting.holder, 0);
+    if (supports.receptacle < 0) {
+      const Eigen::AlignedBox3d box = WorldAabb(model_, state, supports.holder, 0);
       base << box.center().head<2>(), box.max().z();
     } else {
       const Receptacle& receptacle =
-          holder.receptacles[static_cast<std::size_t>(resting.receptacle)];
+          holder.receptacles[static_cast<std::size_t>(supports.receptacle)];
       Eigen::Vector3d floor = receptacle.box.center();
       const Pose link =
           state.roots[h] *
@@ -248,7 +248,7 @@ class LayoutPlanner {
                                 known.box.min().z());
     const Pose pose = Eigen::Translation3d(base - under) * Pose::Identity();
     if (!IsPointReachable(start_.world_from_robot, pose * known.box.center())) return false;
-    Add(resting.object, pose);
+    Add(supports.object, pose);
     return true;
   }
 

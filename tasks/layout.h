@@ -18,7 +18,7 @@ struct SupportRelation {
 
 struct LayoutRequest {
   std::vector<int> objects;  // all objects to place
-  std::vector<SupportRelation> resting;
+  std::vector<SupportRelation> supports;
   // The joints that the robot must be able to reach, as pairs of object and joint.
   std::vector<std::pair<int, int>> operated;
   // The joints that do not start at their rest position.

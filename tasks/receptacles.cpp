@@ -183,12 +183,12 @@ Eigen::AlignedBox3d FreeBox(const std::vector<Cell>& cells, const Grid& grid) {
 
 std::vector<Receptacle> FindReceptacles(int link, const std::vector<core::TriangleMesh>& parts,
                                         double least) {
-  std::vector<Receptacle> cavities;
-  if (parts.empty()) return cavities;
+  std::vector<Receptacle> receptacles;
+  if (parts.empty()) return receptacles;
   Eigen::AlignedBox3d whole;
   for (const core::TriangleMesh& part : parts) whole.extend(core::Bounds(part));
   const double longest = whole.sizes().maxCoeff();
-  if (!(longest >= least && longest <= kMaxSize)) return cavities;
+  if (!(longest >= least && longest <= kMaxSize)) return receptacles;
   const Grid grid(parts);
   const std::vector<unsigned char> shields = Shields(grid);
   std::vector<char> seen(shields.size(), 0);
@@ -218,14 +218,14 @@ std::vector<Receptacle> FindReceptacles(int link, const std::vector<core::Triang
         const double depth = std::abs(receptacle.box.sizes().dot(receptacle.opening));
         const bool niche = std::abs(receptacle.opening.z()) < 0.5 && depth < kMinSideDepth;
         if (niche || receptacle.box.sizes().minCoeff() < least) continue;
-        cavities.push_back(receptacle);
+        receptacles.push_back(receptacle);
       }
     }
   }
-  std::sort(cavities.begin(), cavities.end(), [](const Receptacle& a, const Receptacle& b) {
+  std::sort(receptacles.begin(), receptacles.end(), [](const Receptacle& a, const Receptacle& b) {
     return a.box.volume() > b.box.volume();
   });
-  return cavities;
+  return receptacles;
 }
 
 namespace {

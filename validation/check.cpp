@@ -25,37 +25,38 @@ namespace simwright::validation {
 namespace fs = std::filesystem;
 namespace {
 
-void CheckSolid(const assets::Asset& asset, const CheckLimits& limits, CheckResults* rows) {
+void CheckSolid(const assets::Asset& asset, const CheckLimits& limits, CheckResults* results) {
   const geometry::MeshValidity s = geometry::Examine(asset.solid);
-  rows->Require("closed", s.closed, s.open_edges + s.non_manifold_edges, "edges without two faces");
-  rows->Require("oriented", s.oriented && s.signed_volume > 0.0, s.signed_volume,
-                "volume in m3, faces all outward");
-  rows->Require("self-intersections", s.self_intersections == 0, s.self_intersections,
-                "crossing pairs of faces");
+  results->Require("closed", s.closed, s.open_edges + s.non_manifold_edges,
+                   "edges without two faces");
+  results->Require("oriented", s.oriented && s.signed_volume > 0.0, s.signed_volume,
+                   "volume in m3, faces all outward");
+  results->Require("self-intersections", s.self_intersections == 0, s.self_intersections,
+                   "crossing pairs of faces");
   const geometry::SurfaceDistance distance =
       geometry::OuterSurfaceDistance(asset.visual.mesh, asset.solid);
-  rows->AtMost("surface-distance", distance.MaxRatio(), limits.surface_distance_ratio,
-               "of the diagonal between solid and visual, farthest point");
+  results->AtMost("surface-distance", distance.MaxRatio(), limits.surface_distance_ratio,
+                  "of the diagonal between solid and visual, farthest point");
 }
 
-void CheckParts(const assets::Asset& asset, const CheckLimits& limits, CheckResults* rows) {
-  rows->Report("parts", static_cast<double>(asset.parts.size()), "convex collision parts");
-  rows->Report("concavity", asset.concavity, "of the parts, in CoACD's units (longest side 2)");
+void CheckParts(const assets::Asset& asset, const CheckLimits& limits, CheckResults* results) {
+  results->Report("parts", static_cast<double>(asset.parts.size()), "convex collision parts");
+  results->Report("concavity", asset.concavity, "of the parts, in CoACD's units (longest side 2)");
   geometry::ConcavityOptions options;
   options.surface_samples = 6000;
   options.volume_samples = 1000;
   const geometry::DecompositionQuality quality =
       geometry::MeasureDecomposition(asset.solid, asset.parts, options);
-  rows->Report("parts-hausdorff", quality.concavity,
-               "of the diagonal between the solid's surface and the parts', farthest point");
-  rows->AtMost("parts-cover", quality.uncovered, limits.cover_distance_ratio,
-               "of the diagonal from the solid's surface to the nearest part, farthest point");
+  results->Report("parts-hausdorff", quality.concavity,
+                  "of the diagonal between the solid's surface and the parts', farthest point");
+  results->AtMost("parts-cover", quality.uncovered, limits.cover_distance_ratio,
+                  "of the diagonal from the solid's surface to the nearest part, farthest point");
   int bad = 0;
   for (const core::TriangleMesh& part : asset.parts) {
     const geometry::MeshValidity s = geometry::Examine(part);
     bad += !s.closed || s.signed_volume <= 0.0 || part.vertices.size() > 64;
   }
-  rows->Require("parts-closed", bad == 0, bad, "parts open or above 64 vertices");
+  results->Require("parts-closed", bad == 0, bad, "parts open or above 64 vertices");
 }
 
 geometry::MassProperties ExactMassProperties(const assets::Asset& asset) {
@@ -67,45 +68,46 @@ geometry::MassProperties ExactMassProperties(const assets::Asset& asset) {
              : geometry::HollowMassProperties(asset.solid, asset.wall_thickness, asset.density);
 }
 
-void CheckInertia(const assets::Asset& asset, const CheckLimits& limits, CheckResults* rows) {
+void CheckInertia(const assets::Asset& asset, const CheckLimits& limits, CheckResults* results) {
   const geometry::MassProperties exact = ExactMassProperties(asset);
   const double size = core::Bounds(asset.solid).diagonal().norm();
-  rows->AtMost(
+  results->AtMost(
       "inertia-exact",
       InertialDifference(asset.inertial, {exact.mass, exact.center_of_mass, exact.inertia}, size),
       limits.reader_tolerance, "from the integrals over solid.obj, relative");
   const Eigen::Vector3d moments = geometry::PrincipalInertiaOf(asset.inertial.inertia).moments;
-  rows->Require("inertia-possible", geometry::SatisfiesTriangleInequality(moments),
-                moments[2] / (moments[0] + moments[1]),
-                "largest principal moment over the sum of the other two");
+  results->Require("inertia-possible", geometry::SatisfiesTriangleInequality(moments),
+                   moments[2] / (moments[0] + moments[1]),
+                   "largest principal moment over the sum of the other two");
 }
 
 void CheckReaders(const assets::Asset& asset, const fs::path& folder, const CheckLimits& limits,
-                  CheckResults* rows) {
+                  CheckResults* results) {
   const double size = core::Bounds(asset.solid).diagonal().norm();
   const auto compare = [&](const std::string& code, const assets::Inertial& inertial,
                            const std::string& warning) {
     if (!warning.empty()) {
-      rows->Fail(code, warning);
+      results->Fail(code, warning);
       return;
     }
-    rows->AtMost(code, InertialDifference(inertial, asset.inertial, size), limits.reader_tolerance,
-                 "mass, centre and inertia against asset.json, relative");
+    results->AtMost(code, InertialDifference(inertial, asset.inertial, size),
+                    limits.reader_tolerance,
+                    "mass, centre and inertia against asset.json, relative");
   };
-  AddResultOrFailure("loads-urdfdom", rows, [&] {
+  AddResultOrFailure("loads-urdfdom", results, [&] {
     const assets::UrdfModel model = assets::ReadUrdf(folder / (asset.name + ".urdf"));
     const std::string warning = model.findings.empty() ? "" : model.findings[0].sentence;
     if (!model.links[0].inertial) throw core::Error("the URDF has no inertial");
     compare("loads-urdfdom", *model.links[0].inertial, warning);
   });
-  AddResultOrFailure("loads-bullet", rows, [&] {
+  AddResultOrFailure("loads-bullet", results, [&] {
     sim::World world;
     const sim::RigidBody body =
         sim::BodyFromUrdf(assets::ReadUrdf(folder / (asset.name + ".urdf")));
     world.Add(body, Eigen::Isometry3d::Identity());
     compare("loads-bullet", world.LoadedInertial(0), "");
   });
-  AddResultOrFailure("loads-mujoco", rows, [&] {
+  AddResultOrFailure("loads-mujoco", results, [&] {
     const sim::MujocoWorld world(folder / (asset.name + ".xml"));
     compare("loads-mujoco", world.LoadedInertial(0),
             world.warnings().empty() ? "" : world.warnings()[0]);
@@ -113,7 +115,7 @@ void CheckReaders(const assets::Asset& asset, const fs::path& folder, const Chec
 }
 
 void CheckDynamics(const assets::Asset& asset, const fs::path& folder, const CheckLimits& limits,
-                   CheckResults* rows) {
+                   CheckResults* results) {
   const sim::RigidBody body = sim::BodyFromAsset(asset);
   sim::DropOptions options;
   const double size = core::Bounds(asset.solid).diagonal().norm();
@@ -121,27 +123,27 @@ void CheckDynamics(const assets::Asset& asset, const fs::path& folder, const Che
   const bool rolls = asset.rolls && asset_build::RollsInPose(body, asset.solid);
   const auto add = [&](const sim::DropResult& drop, const std::string& engine) {
     if (asset.rolls && !rolls) {
-      AddRockingResults(drop, engine, size, limits, rows);
+      AddRockingResults(drop, engine, size, limits, results);
     } else {
-      AddRestResults(drop, engine, rolls, size, limits, rows);
+      AddRestResults(drop, engine, rolls, size, limits, results);
     }
   };
   const sim::DropResult bullet = sim::DropInBullet(body, options);
   add(bullet, "bullet");
-  AddResultOrFailure("settles-mujoco", rows, [&] {
+  AddResultOrFailure("settles-mujoco", results, [&] {
     std::vector<std::string> warnings;
     const sim::DropResult mujoco =
         sim::DropInMujoco(body, folder / (asset.name + ".xml"), options, &warnings);
     add(mujoco, "mujoco");
-    if (!warnings.empty()) rows->Fail("mujoco-warnings", warnings[0]);
+    if (!warnings.empty()) results->Fail("mujoco-warnings", warnings[0]);
     if (asset.rolls) return;
     const Eigen::Vector3d com = asset.inertial.center_of_mass;
-    rows->AtMost(
+    results->AtMost(
         "engines-agree", std::abs((bullet.rest_pose * com - mujoco.rest_pose * com).z()) * 1e3,
         InUnit(limits.engines_distance, 1e3), "mm in height between Bullet and MuJoCo at rest");
-    rows->AtMost("engines-agree-tilt",
-                 sim::TiltBetween(bullet.rest_pose, mujoco.rest_pose) * kDegrees,
-                 limits.engines_tilt, "degrees between Bullet and MuJoCo at rest, yaw free");
+    results->AtMost("engines-agree-tilt",
+                    sim::TiltBetween(bullet.rest_pose, mujoco.rest_pose) * kDegrees,
+                    limits.engines_tilt, "degrees between Bullet and MuJoCo at rest, yaw free");
   });
 }
 
@@ -161,18 +163,18 @@ core::Finding InWords(core::Finding row) {
 
 core::Findings CheckReport::Warnings() const {
   core::Findings warnings;
-  for (const core::Finding& row : rows) {
+  for (const core::Finding& row : results) {
     if (row.severity == core::Severity::kWarning) warnings.push_back(InWords(row));
   }
   return warnings;
 }
 
 core::Findings NotableResults(const CheckReport& report) {
-  core::Findings rows;
-  for (const core::Finding& row : report.rows) {
-    if (row.severity != core::Severity::kInfo) rows.push_back(InWords(row));
+  core::Findings results;
+  for (const core::Finding& row : report.results) {
+    if (row.severity != core::Severity::kInfo) results.push_back(InWords(row));
   }
-  return rows;
+  return results;
 }
 
 namespace {
@@ -180,12 +182,12 @@ namespace {
 std::string FailureOf(const CheckReport& report) {
   int failed = 0;
   std::string names;
-  for (const core::Finding& row : report.rows) {
+  for (const core::Finding& row : report.results) {
     if (row.severity != core::Severity::kError) continue;
     ++failed;
     names += (names.empty() ? "" : ", ") + row.code;
   }
-  return "fails " + std::to_string(failed) + " of " + std::to_string(report.rows.size()) +
+  return "fails " + std::to_string(failed) + " of " + std::to_string(report.results.size()) +
          " properties of its check: " + names;
 }
 
@@ -193,7 +195,7 @@ std::string FailureOf(const CheckReport& report) {
 
 CheckFailed::CheckFailed(const CheckReport& report, const std::string& name)
     : core::Error(FailureOf(report), name, "--no-check writes it anyway") {
-  for (const core::Finding& row : report.rows) {
+  for (const core::Finding& row : report.results) {
     if (row.severity != core::Severity::kError) continue;
     rows_.push_back(InWords(row));
     rows_.back().place = name;
@@ -207,19 +209,20 @@ void RequirePassed(const CheckReport& report, const std::string& name) {
 CheckReport CheckAsset(const fs::path& folder, const CheckLimits& limits) {
   if (assets::IsArticulatedAssetFolder(folder)) return CheckArticulatedAsset(folder, limits);
   const assets::Asset asset = assets::ReadAsset(folder);
-  CheckResults rows(folder.filename().string());
-  CheckSolid(asset, limits, &rows);
-  CheckParts(asset, limits, &rows);
-  CheckInertia(asset, limits, &rows);
-  CheckReaders(asset, folder, limits, &rows);
-  AddResultOrFailure("settles-bullet", &rows, [&] { CheckDynamics(asset, folder, limits, &rows); });
-  return {folder.string(), rows.Take()};
+  CheckResults results(folder.filename().string());
+  CheckSolid(asset, limits, &results);
+  CheckParts(asset, limits, &results);
+  CheckInertia(asset, limits, &results);
+  CheckReaders(asset, folder, limits, &results);
+  AddResultOrFailure("settles-bullet", &results,
+                     [&] { CheckDynamics(asset, folder, limits, &results); });
+  return {folder.string(), results.Take()};
 }
 
 CheckReport CheckBeforeKeeping(const fs::path& folder, const std::string& name,
                                const CheckLimits& limits) {
   CheckReport report = CheckAsset(folder, limits);
-  for (core::Finding& row : report.rows) row.place = name;  // the folder's name may be temporary
+  for (core::Finding& row : report.results) row.place = name;  // the folder's name may be temporary
   RequirePassed(report, name);
   assets::AddFindings(folder, report.Warnings());
   return report;
@@ -238,7 +241,8 @@ bool RootIsWorld(const assets::UrdfModel& model) {
          });
 }
 
-void AddShapeRows(const assets::UrdfModel& model, const CheckLimits& limits, CheckResults* rows) {
+void AddShapeRows(const assets::UrdfModel& model, const CheckLimits& limits,
+                  CheckResults* results) {
   int shapes = 0, open = 0, bodies = 0;
   for (const assets::UrdfLink& link : model.links) {
     bodies += link.inertial.has_value();
@@ -247,40 +251,40 @@ void AddShapeRows(const assets::UrdfModel& model, const CheckLimits& limits, Che
       open += !geometry::Examine(shape.mesh).closed;
     }
   }
-  rows->Require("collision-shapes", shapes > 0, shapes, "collision shapes");
-  rows->Require("collision-closed", open == 0, open, "open collision shapes");
-  rows->Require("inertials", bodies > 0, bodies, "links with mass and a possible inertia");
+  results->Require("collision-shapes", shapes > 0, shapes, "collision shapes");
+  results->Require("collision-closed", open == 0, open, "open collision shapes");
+  results->Require("inertials", bodies > 0, bodies, "links with mass and a possible inertia");
   if (shapes == 0 || bodies == 0) return;
   if (RootIsWorld(model)) {
-    rows->Report("settles-bullet", 0.0,
-                 "not tested: the root '" + model.links[0].name + "' is fixed to the world");
+    results->Report("settles-bullet", 0.0,
+                    "not tested: the root '" + model.links[0].name + "' is fixed to the world");
     return;
   }
   const sim::RigidBody body = sim::BodyFromUrdf(model);
   AddRestResults(sim::DropInBullet(body, sim::DropOptions()), "bullet", false,
-                 2.0 * sim::Radius(body), limits, rows);
+                 2.0 * sim::Radius(body), limits, results);
 }
 
 }  // namespace
 
 CheckReport CheckUrdf(const fs::path& urdf, const fs::path& root, const CheckLimits& limits) {
-  CheckResults rows(urdf.filename().string());
+  CheckResults results(urdf.filename().string());
   assets::UrdfModel model;
   bool read = false;
-  AddResultOrFailure("loads-urdfdom", &rows, [&] {
+  AddResultOrFailure("loads-urdfdom", &results, [&] {
     model = assets::ReadUrdf(urdf, {root, true});
     read = true;
   });
-  if (!read) return {urdf.string(), rows.Take()};
-  rows.Report("links", static_cast<double>(model.links.size()), "links");
+  if (!read) return {urdf.string(), results.Take()};
+  results.Report("links", static_cast<double>(model.links.size()), "links");
   for (core::Finding finding : model.findings) {
     // A strict reader rejects the file for this.
     if (finding.code == "urdf-impossible-inertial") finding.severity = core::Severity::kError;
-    rows.Warn(finding);
+    results.Warn(finding);
   }
-  AddShapeRows(model, limits, &rows);
-  AddResultOrFailure("joints", &rows, [&] { AddJointResultsOfUrdf(model, &rows); });
-  return {urdf.string(), rows.Take()};
+  AddShapeRows(model, limits, &results);
+  AddResultOrFailure("joints", &results, [&] { AddJointResultsOfUrdf(model, &results); });
+  return {urdf.string(), results.Take()};
 }
 
 }  // namespace simwright::validation

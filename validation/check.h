@@ -14,8 +14,8 @@ namespace simwright::validation {
 // property that passes or is only reported.
 struct CheckReport {
   std::string subject;
-  core::Findings rows;
-  Grade grade() const { return GradeOf(rows); }
+  core::Findings results;
+  Grade grade() const { return GradeOf(results); }
   bool passed() const { return grade() != Grade::kFail; }
   core::Findings Warnings() const;  // the results that the user must be told about
 };
@@ -63,7 +63,7 @@ core::Findings NotableResults(const CheckReport& report);
 class CheckFailed : public core::Error {
  public:
   CheckFailed(const CheckReport& report, const std::string& name);
-  const core::Findings& rows() const { return rows_; }
+  const core::Findings& results() const { return rows_; }
 
  private:
   core::Findings rows_;

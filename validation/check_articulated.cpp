@@ -30,7 +30,7 @@ using assets::ArticulatedLink;
 
 constexpr size_t kMostVertices = 64;
 
-void CheckLinkParts(const ArticulatedAsset& asset, CheckResults* rows) {
+void CheckLinkParts(const ArticulatedAsset& asset, CheckResults* results) {
   int parts = 0, bad = 0;
   for (const ArticulatedLink& link : asset.links) {
     for (const core::TriangleMesh& part : link.parts) {
@@ -39,8 +39,8 @@ void CheckLinkParts(const ArticulatedAsset& asset, CheckResults* rows) {
       bad += !s.closed || !(s.signed_volume > 0.0) || part.vertices.size() > kMostVertices;
     }
   }
-  rows->Report("links", static_cast<double>(asset.links.size()), "links");
-  rows->Require("parts-closed", parts > 0 && bad == 0, bad, "parts open or above 64 vertices");
+  results->Report("links", static_cast<double>(asset.links.size()), "links");
+  results->Require("parts-closed", parts > 0 && bad == 0, bad, "parts open or above 64 vertices");
 }
 
 double SizeOf(const ArticulatedLink& link) {
@@ -49,7 +49,8 @@ double SizeOf(const ArticulatedLink& link) {
   return box.diagonal().norm();
 }
 
-void CheckInertials(const ArticulatedAsset& asset, const CheckLimits& limits, CheckResults* rows) {
+void CheckInertials(const ArticulatedAsset& asset, const CheckLimits& limits,
+                    CheckResults* results) {
   double exact = 0.0, flattest = 0.0, mass = 0.0;
   bool possible = true;
   for (const ArticulatedLink& link : asset.links) {
@@ -66,42 +67,42 @@ void CheckInertials(const ArticulatedAsset& asset, const CheckLimits& limits, Ch
     flattest = std::max(flattest, m[2] / (m[0] + m[1]));
     mass += link.inertial.mass;
   }
-  rows->AtMost("inertia-exact", exact, limits.reader_tolerance,
-               "from the integrals over the parts, relative, the worst link");
-  rows->Require("inertia-possible", possible, flattest,
-                "largest principal moment over the sum of the other two, the worst link");
+  results->AtMost("inertia-exact", exact, limits.reader_tolerance,
+                  "from the integrals over the parts, relative, the worst link");
+  results->Require("inertia-possible", possible, flattest,
+                   "largest principal moment over the sum of the other two, the worst link");
   const physics_params::Category* row =
       physics_params::KnowledgeBase::Shipped().FindCategory(asset.parameters.category);
   const double low = row ? row->mass.min : asset.parameters.mass.min;
   const double high = row ? row->mass.max : asset.parameters.mass.max;
-  rows->Require("mass-plausible", mass >= 0.5 * low && mass <= 2.0 * high, mass,
-                "kg, within a factor of 2 of its kind's range");
+  results->Require("mass-plausible", mass >= 0.5 * low && mass <= 2.0 * high, mass,
+                   "kg, within a factor of 2 of its kind's range");
 }
 
 // Compares a reader's inertials with asset.json's, link by link.
 template <typename InertialOf>
 void CompareLinks(const ArticulatedAsset& asset, const std::string& code, const CheckLimits& limits,
-                  CheckResults* rows, const InertialOf& inertial_of) {
+                  CheckResults* results, const InertialOf& inertial_of) {
   double worst = 0.0;
   for (size_t i = 0; i < asset.links.size(); ++i) {
     worst = std::max(
         worst, InertialDifference(inertial_of(i), asset.links[i].inertial, SizeOf(asset.links[i])));
   }
-  rows->AtMost(code, worst, limits.reader_tolerance,
-               "mass, centre and inertia of every link against asset.json, relative");
+  results->AtMost(code, worst, limits.reader_tolerance,
+                  "mass, centre and inertia of every link against asset.json, relative");
 }
 
 void CheckArticulatedReaders(const ArticulatedAsset& asset, const assets::UrdfModel& model,
                              bool urdf_read, const fs::path& mjcf, const CheckLimits& limits,
-                             CheckResults* rows) {
-  AddResultOrFailure("loads-urdfdom", rows, [&] {
+                             CheckResults* results) {
+  AddResultOrFailure("loads-urdfdom", results, [&] {
     if (!urdf_read) return;  // its own result gives the reason
     if (!model.findings.empty()) throw core::Error(model.findings[0].sentence);
     std::map<std::string, assets::Inertial> by_name;
     for (const assets::UrdfLink& link : model.links) {
       if (link.inertial) by_name[link.name] = *link.inertial;
     }
-    CompareLinks(asset, "loads-urdfdom", limits, rows, [&](size_t i) {
+    CompareLinks(asset, "loads-urdfdom", limits, results, [&](size_t i) {
       const auto found = by_name.find(asset.links[i].name);
       if (found == by_name.end()) {
         throw core::Error("the URDF has no inertial for '" + asset.links[i].name + "'");
@@ -111,14 +112,14 @@ void CheckArticulatedReaders(const ArticulatedAsset& asset, const assets::UrdfMo
   });
   const auto compare = [&](const std::string& code, const sim::ArticulatedBody& body,
                            const sim::JointRig& rig) {
-    CompareLinks(asset, code, limits, rows,
+    CompareLinks(asset, code, limits, results,
                  [&](size_t i) { return rig.LoadedInertial(body.LinkIndex(asset.links[i].name)); });
   };
-  AddResultOrFailure("loads-bullet", rows, [&] {
+  AddResultOrFailure("loads-bullet", results, [&] {
     const sim::ArticulatedBody body = sim::ArticulatedBodyFrom(model);
     compare("loads-bullet", body, *sim::BulletRig(body));
   });
-  AddResultOrFailure("loads-mujoco", rows, [&] {
+  AddResultOrFailure("loads-mujoco", results, [&] {
     const sim::ArticulatedBody body = sim::ArticulatedBodyFrom(model);
     const auto rig = sim::MujocoRig(body, mjcf);
     if (!rig->Warnings().empty()) throw core::Error(rig->Warnings()[0]);
@@ -126,20 +127,20 @@ void CheckArticulatedReaders(const ArticulatedAsset& asset, const assets::UrdfMo
   });
 }
 
-void CheckSemantics(const ArticulatedAsset& asset, const fs::path& folder, CheckResults* rows) {
-  AddResultOrFailure("semantics", rows, [&] {
+void CheckSemantics(const ArticulatedAsset& asset, const fs::path& folder, CheckResults* results) {
+  AddResultOrFailure("semantics", results, [&] {
     const assets::SemanticModel model = assets::ReadSemanticModel(folder / (asset.name + ".urdf"));
     int wrong = static_cast<int>(model.model.findings.size());
     for (const ArticulatedLink& link : asset.links) {
       const auto found = model.semantics.find(link.name);
       wrong += found == model.semantics.end() || found->second.label != link.label;
     }
-    rows->Require("semantics", wrong == 0, wrong, "wrong links or lines of semantics.txt");
+    results->Require("semantics", wrong == 0, wrong, "wrong links or lines of semantics.txt");
   });
 }
 
 void CheckGrasps(const ArticulatedAsset& asset, const assets::UrdfModel& model,
-                 CheckResults* rows) {
+                 CheckResults* results) {
   const std::vector<Eigen::Isometry3d> poses = assets::LinkPosesAtZero(model);
   std::map<std::string, std::vector<core::TriangleMesh>> parts;
   for (size_t i = 0; i < model.links.size(); ++i) {
@@ -156,52 +157,52 @@ void CheckGrasps(const ArticulatedAsset& asset, const assets::UrdfModel& model,
       if (name != link.name) others.insert(others.end(), meshes.begin(), meshes.end());
     }
     const GraspSearch search = SearchGrasps(parts[link.name], others);
-    rows->Require("grasp-" + link.name, search.found > 0, search.found,
-                  "of " + std::to_string(search.tried) +
-                      " directions from which a gripper of 8 cm can grasp, at least 1");
+    results->Require("grasp-" + link.name, search.found > 0, search.found,
+                     "of " + std::to_string(search.tried) +
+                         " directions from which a gripper of 8 cm can grasp, at least 1");
   }
 }
 
 void CheckRest(const assets::UrdfModel& model, sim::JointRig* rig, const std::string& engine,
-               const CheckLimits& limits, CheckResults* rows) {
+               const CheckLimits& limits, CheckResults* results) {
   const sim::RigidBody whole = sim::BodyFromUrdf(model);
   const sim::DropOptions options;
   const double size = 2.0 * sim::Radius(whole);
-  AddRestResults(sim::DropRig(whole, options, rig), engine, false, size, limits, rows);
+  AddRestResults(sim::DropRig(whole, options, rig), engine, false, size, limits, results);
 }
 
 // Checks an asset's dynamics in Bullet and in MuJoCo. A robot is fixed and its joints are not
 // tested: its links may collide, and without motors it collapses; planners and motors take care of
 // both.
 void CheckInBullet(const ArticulatedAsset& asset, const assets::UrdfModel& model,
-                   const CheckLimits& limits, CheckResults* rows) {
+                   const CheckLimits& limits, CheckResults* results) {
   if (!asset.fixed) {
     const auto rig = sim::BulletRig(sim::ArticulatedBodyFrom(model), {.hold_root = false});
-    CheckRest(model, rig.get(), "bullet", limits, rows);
+    CheckRest(model, rig.get(), "bullet", limits, results);
   }
-  if (!assets::IsRobot(asset)) AddJointResultsInBullet(model, asset.fixed, limits, rows);
+  if (!assets::IsRobot(asset)) AddJointResultsInBullet(model, asset.fixed, limits, results);
 }
 
 void CheckInMujoco(const ArticulatedAsset& asset, const assets::UrdfModel& model,
-                   const fs::path& mjcf, const CheckLimits& limits, CheckResults* rows) {
+                   const fs::path& mjcf, const CheckLimits& limits, CheckResults* results) {
   if (!asset.fixed) {
     const auto rig = sim::MujocoRig(sim::ArticulatedBodyFrom(model), mjcf, {.hold_root = false});
-    CheckRest(model, rig.get(), "mujoco", limits, rows);
+    CheckRest(model, rig.get(), "mujoco", limits, results);
   }
-  if (!assets::IsRobot(asset)) AddJointResultsInMujoco(model, mjcf, asset.fixed, limits, rows);
+  if (!assets::IsRobot(asset)) AddJointResultsInMujoco(model, mjcf, asset.fixed, limits, results);
 }
 
 }  // namespace
 
 CheckReport CheckArticulatedAsset(const fs::path& folder, const CheckLimits& limits) {
   const ArticulatedAsset asset = assets::ReadArticulatedAsset(folder);
-  CheckResults rows(folder.filename().string());
-  CheckLinkParts(asset, &rows);
-  CheckInertials(asset, limits, &rows);
+  CheckResults results(folder.filename().string());
+  CheckLinkParts(asset, &results);
+  CheckInertials(asset, limits, &results);
   // A file that one reader rejects does not prevent the checks with the others.
   assets::UrdfModel model = assets::ModelOf(asset);
   bool read = false;
-  AddResultOrFailure("loads-urdfdom", &rows, [&] {
+  AddResultOrFailure("loads-urdfdom", &results, [&] {
     model = assets::ReadUrdf(folder / (asset.name + ".urdf"));
     read = true;
   });
@@ -226,9 +227,9 @@ CheckReport CheckArticulatedAsset(const fs::path& folder, const CheckLimits& lim
     AddResultOrFailure(code, own, [&] { step(own); });
   });
   for (const size_t i : {2, 3, 0, 1}) {
-    for (const core::Finding& row : parts[i].Take()) rows.Warn(row);
+    for (const core::Finding& row : parts[i].Take()) results.Warn(row);
   }
-  return {folder.string(), rows.Take()};
+  return {folder.string(), results.Take()};
 }
 
 }  // namespace simwright::validation

@@ -8,9 +8,9 @@ const char* GradeName(Grade grade) {
   return grade == Grade::kPass ? "pass" : grade == Grade::kWarnings ? "pass with warnings" : "fail";
 }
 
-Grade GradeOf(const core::Findings& rows) {
+Grade GradeOf(const core::Findings& results) {
   core::Severity worst = core::Severity::kInfo;
-  for (const core::Finding& row : rows) worst = std::max(worst, row.severity);
+  for (const core::Finding& row : results) worst = std::max(worst, row.severity);
   return worst == core::Severity::kError     ? Grade::kFail
          : worst == core::Severity::kWarning ? Grade::kWarnings
                                              : Grade::kPass;

@@ -13,7 +13,7 @@ enum class Grade { kPass, kWarnings, kFail };
 const char* GradeName(Grade grade);
 
 // Returns kFail if any finding is an error, else kWarnings if any is a warning, else kPass.
-Grade GradeOf(const core::Findings& rows);
+Grade GradeOf(const core::Findings& results);
 
 // Bounds, in the figure's unit, of a figure that should be small (CheckResults::AtMost: good <=
 // worst) or large (CheckResults::AtLeast: good >= worst). A figure within `good` passes, one within

@@ -25,7 +25,7 @@ bool CanBeTried(const assets::UrdfJoint& joint) {
   return joint.Moves() && !joint.mimic && RangeOf(joint) > 0.0;
 }
 
-void AddClearanceRow(const assets::UrdfModel& model, int joint, bool fixed, CheckResults* rows) {
+void AddClearanceRow(const assets::UrdfModel& model, int joint, bool fixed, CheckResults* results) {
   const std::string& name = model.joints[static_cast<size_t>(joint)].name;
   const Clearance alone = SweptClearance(model, joint, false);
   const auto moving = std::count_if(model.joints.begin(), model.joints.end(),
@@ -34,25 +34,25 @@ void AddClearanceRow(const assets::UrdfModel& model, int joint, bool fixed, Chec
   const bool free = alone.distance >= kLeastClearance;
   const Clearance& least = free && others_up.distance < kLeastClearance ? others_up : alone;
   if (!std::isfinite(least.distance)) {
-    rows->Report("clearance-" + name, 0.0, "no link is near enough to touch");
+    results->Report("clearance-" + name, 0.0, "no link is near enough to touch");
   } else if (free && others_up.distance < kLeastClearance) {
     // Two open doors may collide, as real ones do.
-    rows->Add("clearance-" + name, core::Severity::kWarning, least.distance * 1e3,
-              "mm between " + least.pair +
-                  ", minimum over the range with other joints open, "
-                  "at least 0.1");
+    results->Add("clearance-" + name, core::Severity::kWarning, least.distance * 1e3,
+                 "mm between " + least.pair +
+                     ", minimum over the range with other joints open, "
+                     "at least 0.1");
   } else {
-    rows->Require("clearance-" + name, free, least.distance * 1e3,
-                  "mm between " + least.pair + ", minimum over the range, at least 0.1");
+    results->Require("clearance-" + name, free, least.distance * 1e3,
+                     "mm between " + least.pair + ", minimum over the range, at least 0.1");
   }
   if (fixed) return;
   const double lowest = LowestOnSweep(model, joint);
   if (!std::isfinite(lowest)) {
-    rows->Report("above-floor-" + name, 0.0, "the asset stands on the links that it carries");
+    results->Report("above-floor-" + name, 0.0, "the asset stands on the links that it carries");
     return;
   }
-  rows->Require("above-floor-" + name, lowest > 0.0, lowest * 1e3,
-                "mm above the floor, minimum over the range, above 0");
+  results->Require("above-floor-" + name, lowest > 0.0, lowest * 1e3,
+                   "mm above the floor, minimum over the range, above 0");
 }
 
 // Returns how far the sweep reached towards both limits, as a fraction of the range.
@@ -64,17 +64,17 @@ double Reach(const assets::UrdfJoint& joint, const sim::SweepResult& sweep) {
 
 void AddSwingRow(const sim::ArticulatedBody& body, int joint, const std::string& engine,
                  bool contacts_fail, const CheckLimits& limits, sim::JointRig* rig,
-                 CheckResults* rows) {
+                 CheckResults* results) {
   const assets::UrdfJoint& j = body.joints[static_cast<size_t>(joint)];
   const sim::SweepResult sweep = sim::SweepJoint(body, joint, rig);
   const double reach = Reach(j, sweep);
   const std::string code = "swings-" + engine + "-" + j.name;
   if (contacts_fail && !sweep.touching.empty()) {
-    rows->Require(code, false, reach, "of its range: " + *sweep.touching.begin() + " touch");
+    results->Require(code, false, reach, "of its range: " + *sweep.touching.begin() + " touch");
     return;
   }
-  rows->Require(code, reach >= limits.joint_reach, reach,
-                "of its range up and back, at least 0.99, driven by a human's force");
+  results->Require(code, reach >= limits.joint_reach, reach,
+                   "of its range up and back, at least 0.99, driven by a human's force");
 }
 
 double GreatestDrift(const sim::ArticulatedBody& body, int joint, sim::JointRig* rig) {
@@ -89,60 +89,62 @@ double GreatestDrift(const sim::ArticulatedBody& body, int joint, sim::JointRig*
 
 void AddEngineRows(const sim::ArticulatedBody& body, const std::string& engine,
                    const CheckLimits& limits, sim::JointRig* held, sim::JointRig* free,
-                   CheckResults* rows) {
+                   CheckResults* results) {
   double whole = 0.0;
   for (const sim::RigidBody& link : body.links) whole += link.inertial.mass;
   for (const int joint : body.MovingJoints()) {
     const assets::UrdfJoint& j = body.joints[static_cast<size_t>(joint)];
     if (!CanBeTried(j)) continue;
-    AddSwingRow(body, joint, engine, true, limits, held, rows);
-    rows->AtMost("holds-" + engine + "-" + j.name, GreatestDrift(body, joint, held),
-                 limits.joint_drift, "of its range in 1 s, released at both ends and the middle");
+    AddSwingRow(body, joint, engine, true, limits, held, results);
+    results->AtMost("holds-" + engine + "-" + j.name, GreatestDrift(body, joint, held),
+                    limits.joint_drift,
+                    "of its range in 1 s, released at both ends and the middle");
     if (free == nullptr || sim::LoadOn(body, joint, 0.0).mass < kTippingShare * whole) continue;
-    rows->AtMost("tips-" + engine + "-" + j.name, sim::TiltWhenOpened(body, joint, free) * kDegrees,
-                 limits.tilt, "degrees that the asset tilts while it opens");
+    results->AtMost("tips-" + engine + "-" + j.name,
+                    sim::TiltWhenOpened(body, joint, free) * kDegrees, limits.tilt,
+                    "degrees that the asset tilts while it opens");
   }
 }
 
 }  // namespace
 
-void AddClearanceResults(const assets::UrdfModel& model, bool fixed, CheckResults* rows) {
-  rows->Report("excluded-pairs", static_cast<double>(model.excluded_pairs.size()),
-               "pairs of links without contact, in all formats");
+void AddClearanceResults(const assets::UrdfModel& model, bool fixed, CheckResults* results) {
+  results->Report("excluded-pairs", static_cast<double>(model.excluded_pairs.size()),
+                  "pairs of links without contact, in all formats");
   for (size_t joint = 0; joint < model.joints.size(); ++joint) {
     if (CanBeTried(model.joints[joint])) {
-      AddClearanceRow(model, static_cast<int>(joint), fixed, rows);
+      AddClearanceRow(model, static_cast<int>(joint), fixed, results);
     }
   }
 }
 
 void AddJointResultsInBullet(const assets::UrdfModel& model, bool fixed, const CheckLimits& limits,
-                             CheckResults* rows) {
+                             CheckResults* results) {
   const sim::ArticulatedBody body = sim::ArticulatedBodyFrom(model);
   const auto held = sim::BulletRig(body);
   const auto free = fixed ? nullptr : sim::BulletRig(body, {.hold_root = false});
-  AddEngineRows(body, "bullet", limits, held.get(), free.get(), rows);
+  AddEngineRows(body, "bullet", limits, held.get(), free.get(), results);
 }
 
 void AddJointResultsInMujoco(const assets::UrdfModel& model, const std::filesystem::path& mjcf,
-                             bool fixed, const CheckLimits& limits, CheckResults* rows) {
+                             bool fixed, const CheckLimits& limits, CheckResults* results) {
   const sim::ArticulatedBody body = sim::ArticulatedBodyFrom(model);
   const auto held = sim::MujocoRig(body, mjcf);
   const auto free = fixed ? nullptr : sim::MujocoRig(body, mjcf, {.hold_root = false});
-  AddEngineRows(body, "mujoco", limits, held.get(), free.get(), rows);
+  AddEngineRows(body, "mujoco", limits, held.get(), free.get(), results);
   for (const std::string& warning : held->Warnings()) {
-    rows->Fail("mujoco-warnings", warning);
+    results->Fail("mujoco-warnings", warning);
     break;
   }
 }
 
-void AddJointResultsOfUrdf(const assets::UrdfModel& model, CheckResults* rows) {
+void AddJointResultsOfUrdf(const assets::UrdfModel& model, CheckResults* results) {
   const bool moves = std::any_of(model.joints.begin(), model.joints.end(), CanBeTried);
   if (!moves) return;
   for (size_t i = 0; i < model.joints.size(); ++i) {
     if (!model.joints[i].Moves() || model.links[i + 1].inertial) continue;
-    rows->Report("joints", 0.0,
-                 "not tested: link '" + model.links[i + 1].name + "' has no inertial");
+    results->Report("joints", 0.0,
+                    "not tested: link '" + model.links[i + 1].name + "' has no inertial");
     return;
   }
   const sim::ArticulatedBody body = sim::ArticulatedBodyFrom(model);
@@ -151,12 +153,12 @@ void AddJointResultsOfUrdf(const assets::UrdfModel& model, CheckResults* rows) {
   for (const int joint : body.MovingJoints()) {
     const assets::UrdfJoint& j = body.joints[static_cast<size_t>(joint)];
     if (!CanBeTried(j)) continue;
-    AddSwingRow(body, joint, "bullet", false, limits, rig.get(), rows);
-    rows->Report("holds-bullet-" + j.name, GreatestDrift(body, joint, rig.get()),
-                 "of its range in 1 s, released at both ends and in the middle");
+    AddSwingRow(body, joint, "bullet", false, limits, rig.get(), results);
+    results->Report("holds-bullet-" + j.name, GreatestDrift(body, joint, rig.get()),
+                    "of its range in 1 s, released at both ends and in the middle");
     const Clearance least = SweptClearance(model, joint);
     if (std::isfinite(least.distance)) {
-      rows->Report("clearance-" + j.name, least.distance * 1e3, "mm between " + least.pair);
+      results->Report("clearance-" + j.name, least.distance * 1e3, "mm between " + least.pair);
     }
   }
 }

@@ -78,7 +78,7 @@ const char* GradeSentence(Grade grade) {
 
 std::string CheckTable(const CheckReport& report) {
   std::string table = report.subject + "\n";
-  for (const core::Finding& row : report.rows) {
+  for (const core::Finding& row : report.results) {
     char line[96];
     std::snprintf(line, sizeof(line), "  %-4s  %-20s %12s  ", Verdict(row), row.code.c_str(),
                   Rounded(row.figure).c_str());
@@ -93,7 +93,7 @@ std::string CheckJson(const CheckReport& report) {
   json["passed"] = report.passed();
   json["grade"] = GradeName(report.grade());
   json["rows"] = nlohmann::ordered_json::array();
-  for (const core::Finding& row : report.rows) {
+  for (const core::Finding& row : report.results) {
     json["rows"].push_back({{"property", row.code},
                             {"verdict", Verdict(row)},
                             {"figure", row.figure},

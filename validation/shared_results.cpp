@@ -14,12 +14,12 @@ double InertialDifference(const assets::Inertial& a, const assets::Inertial& b, 
   return std::max({mass, center, inertia});
 }
 
-void AddResultOrFailure(const std::string& code, CheckResults* rows,
+void AddResultOrFailure(const std::string& code, CheckResults* results,
                         const std::function<void()>& load) {
   try {
     load();
   } catch (const core::Error& error) {
-    rows->Fail(code, error.what());
+    results->Fail(code, error.what());
   }
 }
 
@@ -36,14 +36,14 @@ bool GainsSpeed(const sim::DropResult& drop) {
 }
 
 void AddRollingRow(const sim::DropResult& drop, const std::string& engine, double size,
-                   const CheckLimits& limits, CheckResults* rows) {
+                   const CheckLimits& limits, CheckResults* results) {
   const std::string code = "rolls-" + engine;
   if (GainsSpeed(drop)) {
-    rows->Fail(code, "it accelerates while rolling on a level floor");
+    results->Fail(code, "it accelerates while rolling on a level floor");
     return;
   }
-  rows->AtMost(code, drop.drift / size, limits.rolling_drift,
-               "of its diagonal in 2 s; it is graded as a rolling body");
+  results->AtMost(code, drop.drift / size, limits.rolling_drift,
+                  "of its diagonal in 2 s; it is graded as a rolling body");
 }
 
 GradedLimit AllowedDrift(double size, const CheckLimits& limits) {
@@ -53,49 +53,49 @@ GradedLimit AllowedDrift(double size, const CheckLimits& limits) {
 }
 
 void AddSinkingRow(const sim::DropResult& drop, const std::string& engine,
-                   const CheckLimits& limits, CheckResults* rows) {
-  rows->AtMost("sinks-" + engine, -drop.lowest_point * 1e3, InUnit(limits.sinking, 1e3),
-               "mm below the floor at rest");
+                   const CheckLimits& limits, CheckResults* results) {
+  results->AtMost("sinks-" + engine, -drop.lowest_point * 1e3, InUnit(limits.sinking, 1e3),
+                  "mm below the floor at rest");
 }
 
 void AddDriftRow(const sim::DropResult& drop, const std::string& engine, double size,
-                 const CheckLimits& limits, CheckResults* rows) {
-  rows->AtMost("drift-" + engine, drop.drift * 1e3, InUnit(AllowedDrift(size, limits), 1e3),
-               "mm in 2 s at rest");
+                 const CheckLimits& limits, CheckResults* results) {
+  results->AtMost("drift-" + engine, drop.drift * 1e3, InUnit(AllowedDrift(size, limits), 1e3),
+                  "mm in 2 s at rest");
 }
 
 void AddStandingRows(const sim::DropResult& drop, const std::string& engine, double size,
-                     const CheckLimits& limits, CheckResults* rows) {
+                     const CheckLimits& limits, CheckResults* results) {
   const core::Severity drift = SeverityAtMost(drop.drift, AllowedDrift(size, limits));
   const bool settles = drop.rests && drop.rest_time <= limits.rest_time;
   // A body that still moves after that is graded by its drift.
-  rows->Add("settles-" + engine,
-            settles ? core::Severity::kInfo : std::max(core::Severity::kWarning, drift),
-            drop.rest_time, "s until it is at rest, limit 2");
-  rows->AtMost("rest-pose-" + engine, drop.tilt * kDegrees, limits.tilt,
-               "degrees from its rest pose");
-  AddDriftRow(drop, engine, size, limits, rows);
+  results->Add("settles-" + engine,
+               settles ? core::Severity::kInfo : std::max(core::Severity::kWarning, drift),
+               drop.rest_time, "s until it is at rest, limit 2");
+  results->AtMost("rest-pose-" + engine, drop.tilt * kDegrees, limits.tilt,
+                  "degrees from its rest pose");
+  AddDriftRow(drop, engine, size, limits, results);
 }
 
 }  // namespace
 
 void AddRestResults(const sim::DropResult& drop, const std::string& engine, bool rolls, double size,
-                    const CheckLimits& limits, CheckResults* rows) {
+                    const CheckLimits& limits, CheckResults* results) {
   if (rolls) {
-    AddRollingRow(drop, engine, size, limits, rows);
+    AddRollingRow(drop, engine, size, limits, results);
   } else {
-    AddStandingRows(drop, engine, size, limits, rows);
+    AddStandingRows(drop, engine, size, limits, results);
   }
-  AddSinkingRow(drop, engine, limits, rows);
+  AddSinkingRow(drop, engine, limits, results);
 }
 
 void AddRockingResults(const sim::DropResult& drop, const std::string& engine, double size,
-                       const CheckLimits& limits, CheckResults* rows) {
-  rows->Report("settles-" + engine, drop.rest_time, "s; no pose holds, so its drift is graded");
-  rows->AtMost("rest-pose-" + engine, drop.tilt * kDegrees, limits.rocking_tilt,
-               "degrees from its rest pose, which does not hold");
-  AddDriftRow(drop, engine, size, limits, rows);
-  AddSinkingRow(drop, engine, limits, rows);
+                       const CheckLimits& limits, CheckResults* results) {
+  results->Report("settles-" + engine, drop.rest_time, "s; no pose holds, so its drift is graded");
+  results->AtMost("rest-pose-" + engine, drop.tilt * kDegrees, limits.rocking_tilt,
+                  "degrees from its rest pose, which does not hold");
+  AddDriftRow(drop, engine, size, limits, results);
+  AddSinkingRow(drop, engine, limits, results);
 }
 
 }  // namespace simwright::validation

@@ -86,7 +86,7 @@ class Fit {
     }
     for (int round = 0; round < options_.rounds && result_.complete; ++round) {
       Remesh(round);
-      Descend(round);
+      Step(round);
     }
     MakeValid();
     Measure();
@@ -138,7 +138,7 @@ class Fit {
     return views;
   }
 
-  void Descend(int round) {
+  void Step(int round) {
     MeshDescent descent(mesh_, colors_, diagonal_, options_);
     const int total = options_.rounds * options_.steps_per_round;
     for (int step = 0; step < options_.steps_per_round && result_.complete; ++step) {

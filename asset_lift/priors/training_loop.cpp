@@ -92,7 +92,7 @@ PriorTrainingReport TrainPrior(const PriorTraining& training,
     const PriorBatch batch = next.get();
     if (i + 1 < steps) next = std::async(std::launch::async, draw, i + 1);
     const PriorLoss loss = batch();
-    trainer.Descend(i, loss.total);
+    trainer.Step(i, loss.total);
     means.Add(i, loss);
     if (trainer.SaveDue(i)) {
       trainer.SaveState(i + 1);

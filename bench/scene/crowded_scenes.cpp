@@ -80,7 +80,8 @@ void Measure(const Arguments& arguments) {
       settle.push_back({&asset_set.At(crowd[i].category).body, pose, crowd[i].welded});
     }
     sim::SettlingOptions options;
-    options.watch = options.resting = options.pace = 0.0;  // the whole 2.5 s, and no more
+    options.watch = options.rest_tolerance = options.early_stop_factor =
+        0.0;  // the whole 2.5 s, and no more
     start = Clock::now();
     sim::Settle(settle, options);
     settling.push_back(MillisecondsSince(start));

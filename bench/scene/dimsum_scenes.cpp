@@ -28,7 +28,7 @@ struct Arguments {
 };
 
 struct Outcome {
-  scene::SceneSample draw;
+  scene::SceneSample sample;
   scene::FeasibleScene scene;
   double sampling = 0.0, depenetration = 0.0, settling = 0.0;  // s
 };
@@ -55,10 +55,10 @@ Outcome Make(const scene::Grammar& grammar, const scene::AssetSet& asset_set, in
   Outcome outcome;
   core::Rng rng = core::StreamRng(arguments.seed, static_cast<std::uint64_t>(index));
   auto start = std::chrono::steady_clock::now();
-  outcome.draw = scene::SampleGrammar(grammar, rng);
+  outcome.sample = scene::SampleGrammar(grammar, rng);
   outcome.sampling = SecondsSince(start);
   std::vector<scene::ProjectedBody> bodies;
-  for (const scene::SceneObject& object : outcome.draw.objects) {
+  for (const scene::SceneObject& object : outcome.sample.objects) {
     bodies.push_back(
         {&asset_set.At(object.category).parts, object.world_from_object, object.welded});
   }
@@ -69,9 +69,9 @@ Outcome Make(const scene::Grammar& grammar, const scene::AssetSet& asset_set, in
   options.settling.duration = arguments.settle;
   options.settling.watch = arguments.watch;
   options.settling.time_step = arguments.step;
-  if (arguments.whole) options.settling.resting = options.settling.pace = 0.0;
+  if (arguments.whole) options.settling.rest_tolerance = options.settling.early_stop_factor = 0.0;
   start = std::chrono::steady_clock::now();
-  outcome.scene = scene::MakeFeasible(outcome.draw.objects, asset_set, options);
+  outcome.scene = scene::MakeFeasible(outcome.sample.objects, asset_set, options);
   outcome.settling = SecondsSince(start) - outcome.depenetration;
   return outcome;
 }
@@ -84,7 +84,7 @@ void Report(const std::vector<Outcome>& outcomes) {
     sound += one.scene.sound;
     projected += one.scene.projected;
     dropped += one.scene.dropped;
-    sampled += one.draw.objects.size();
+    sampled += one.sample.objects.size();
     kept += one.scene.objects.size();
     most = std::max(most, one.scene.objects.size());
     sampling += one.sampling;
@@ -115,7 +115,7 @@ void Run(const Arguments& arguments) {
     const scene::FeasibleScene& one = outcomes[i].scene;
     if (one.sound) continue;
     std::printf("not valid: scene %zu, dropped %d of %zu, drift %.2f mm, penetration %.3f mm\n", i,
-                one.dropped, outcomes[i].draw.objects.size(), 1e3 * one.drift,
+                one.dropped, outcomes[i].sample.objects.size(), 1e3 * one.drift,
                 1e3 * one.penetration);
   }
   if (arguments.picture.empty()) return;

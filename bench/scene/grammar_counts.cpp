@@ -19,10 +19,10 @@ void Report(const scene::SceneType& type, int count, std::uint64_t seed) {
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < count; ++i) {
     core::Rng rng = core::StreamRng(seed, static_cast<std::uint64_t>(i));
-    const scene::SceneSample draw = scene::SampleGrammar(grammar, rng);
-    sum += static_cast<double>(draw.objects.size());
-    derivations += draw.derivations;
-    most = std::max(most, draw.objects.size());
+    const scene::SceneSample sample = scene::SampleGrammar(grammar, rng);
+    sum += static_cast<double>(sample.objects.size());
+    derivations += sample.derivations;
+    most = std::max(most, sample.objects.size());
   }
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

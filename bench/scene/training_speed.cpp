@@ -82,7 +82,7 @@ void Measure(const char* name, const scene::SceneModelOptions& model, const Argu
   for (int i = -2; i < arguments.updates; ++i) {  // two to warm up
     const auto start = Clock::now();
     const scene::DenoisingBatch batch = diffusion.AddNoise(scenes, generator);
-    trainer.Descend(i + 2, shares, [&](int at) {
+    trainer.Step(i + 2, shares, [&](int at) {
       const nn::Share share = nn::ShareOf(arguments.batch, shares, at);
       return static_cast<double>(share.count) / arguments.batch *
              diffusion.Loss(denoiser.get(), batch.Part(share.first, share.count)).total;

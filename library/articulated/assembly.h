@@ -52,7 +52,7 @@ class Assembly {
   // Returns the parameters sampled from the category; a generator may narrow the sizes.
   physics_params::PhysicalParameters& parameters() { return asset_.parameters; }
   double Draw(double low, double high) { return core::Uniform(rng_, low, high); }
-  bool Chance(double probability) { return core::Uniform(rng_) < probability; }
+  bool Bernoulli(double probability) { return core::Uniform(rng_) < probability; }
   // Records a sampled feature for asset.json.
   void RecordFeature(const std::string& feature, const std::string& value);
   void FixToWorld() { asset_.fixed = true; }

@@ -19,7 +19,7 @@ assets::ArticulatedAsset MakeBoxWithLid(const Options& options) {
   a.parameters().height.sample = high;
   const double wall = a.Draw(0.007, 0.010), lid_high = a.Draw(0.022, 0.034);
   const double rim = high - lid_high;
-  const bool wooden = a.Chance(0.6);
+  const bool wooden = a.Bernoulli(0.6);
   const Matter side =
       wooden ? Board(a.rng()) : MatterOf("plastic", "blue_plastic", 0.25f, 0.42f, 0.66f);
   const double x = 0.5 * deep, y = 0.5 * across;

@@ -31,14 +31,14 @@ assets::ArticulatedAsset MakeCabinet(const Options& options) {
               {rear - kCabinetBoard, 0.5 * across - kCabinetBoard, z + kCabinetBoard}, 0.0));
   }
   a.RecordFeature("shelves", std::to_string(shelves));
-  const bool two = across > 0.55 || (across > 0.45 && a.Chance(0.5));
+  const bool two = across > 0.55 || (across > 0.45 && a.Bernoulli(0.5));
   a.RecordFeature("doors", two ? "two" : "one");
   const HandleKind kind =
       SampleHandleKind(a.rng(), {HandleKind::kBar, HandleKind::kBow, HandleKind::kKnob});
   a.RecordFeature("handle", HandleName(kind));
   const Matter metal = FurnitureMetal(a.rng());
   const double upper = a.Draw(1.6, 2.3);
-  const double first = a.Chance(0.5) ? 1.0 : -1.0;
+  const double first = a.Bernoulli(0.5) ? 1.0 : -1.0;
   if (!two) a.RecordFeature("hinge", first > 0.0 ? "left" : "right");
   for (int i = 0; i < (two ? 2 : 1); ++i) {
     const double side = i == 0 ? first : -first;

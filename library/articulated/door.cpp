@@ -68,7 +68,7 @@ assets::ArticulatedAsset MakeDoor(const Options& options) {
   const int frame = a.AddRoot("frame", "frame");
   AddFrame(&a, frame, deep, across, high, frame_wood);
 
-  const double side = a.Chance(0.5) ? 1.0 : -1.0;
+  const double side = a.Bernoulli(0.5) ? 1.0 : -1.0;
   a.RecordFeature("hinge", side > 0.0 ? "left" : "right");
   const double front = -0.5 * deep, edge = 0.5 * across - kJamb - kGap;
   const int leaf = a.AddLink("door", "door", frame,
@@ -88,7 +88,7 @@ assets::ArticulatedAsset MakeDoor(const Options& options) {
             Box({front - 0.0008, -edge + 0.14, low}, {front + 0.001, edge - 0.14, up}, 0.0));
   }
   a.RecordFeature("panels", std::to_string(panels));
-  const bool lever = a.Chance(0.65);
+  const bool lever = a.Bernoulli(0.65);
   a.RecordFeature("handle", lever ? "lever" : "knob");
   const Matter metal = FurnitureMetal(a.rng());
   const double spindle = -side * (edge - kBackset);

@@ -82,7 +82,7 @@ assets::ArticulatedAsset MakeFaucet(const Options& options) {
   t.body_high = a.Draw(0.07, 0.11);
   t.body_radius = a.Draw(0.020, 0.025);
   t.spout_radius = a.Draw(0.009, 0.012);
-  const bool single = a.Chance(0.6), swivel = a.Chance(0.5);
+  const bool single = a.Bernoulli(0.6), swivel = a.Bernoulli(0.5);
   a.RecordFeature("control", single ? "lever" : "two knobs");
   a.RecordFeature("spout", swivel ? "swivels" : "fixed");
   const Matter metal = MatterOf("brass", "chrome", 0.80f, 0.82f, 0.84f);

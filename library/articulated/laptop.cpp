@@ -57,8 +57,9 @@ assets::ArticulatedAsset MakeLaptop(const Options& options) {
   const double thick = a.Draw(0.016, 0.026);
   const LaptopPlan p{a.parameters().width.sample, a.parameters().length.sample, 0.64 * thick,
                      0.36 * thick - kLaptopLidGap};
-  const Matter shell = a.Chance(0.6) ? MatterOf("electronics", "aluminium", 0.74f, 0.75f, 0.77f)
-                                     : MatterOf("electronics", "dark_shell", 0.22f, 0.23f, 0.25f);
+  const Matter shell = a.Bernoulli(0.6)
+                           ? MatterOf("electronics", "aluminium", 0.74f, 0.75f, 0.77f)
+                           : MatterOf("electronics", "dark_shell", 0.22f, 0.23f, 0.25f);
   const double x = 0.5 * p.deep, y = 0.5 * p.across;
   const Eigen::AlignedBox2d well(Eigen::Vector2d(-0.02 * p.deep, -y + 0.03),
                                  Eigen::Vector2d(x - 0.035, y - 0.03));

@@ -71,15 +71,15 @@ core::TriangleMesh Tilted(core::TriangleMesh mesh, const Eigen::Vector3d& pivot,
 assets::ArticulatedAsset MakeLightSwitch(const Options& options) {
   Assembly a("light_switch", SwitchParameters(), options);
   a.FixToWorld();
-  const bool toggle = a.Chance(0.35);
-  const int gangs = a.Chance(0.4) ? 2 : 1;
+  const bool toggle = a.Bernoulli(0.35);
+  const int gangs = a.Bernoulli(0.4) ? 2 : 1;
   const double high = toggle ? 0.114 : a.Draw(0.080, 0.090);
   const double across = (toggle ? 0.070 : high) + (gangs - 1) * a.Draw(0.046, 0.060);
   a.parameters().length.sample = across;
   a.parameters().height.sample = high;
   a.RecordFeature("switch", toggle ? "toggle" : "rocker");
-  const Matter plate = a.Chance(0.8) ? MatterOf("plastic", "white_plastic", 0.93f, 0.93f, 0.90f)
-                                     : MatterOf("plastic", "ivory_plastic", 0.88f, 0.82f, 0.68f);
+  const Matter plate = a.Bernoulli(0.8) ? MatterOf("plastic", "white_plastic", 0.93f, 0.93f, 0.90f)
+                                        : MatterOf("plastic", "ivory_plastic", 0.88f, 0.82f, 0.68f);
   Matter knob = plate;
   knob.look = "switch_" + plate.look;
   knob.color.head<3>() *= 0.93f;

@@ -52,8 +52,8 @@ void AddBody(Assembly* a, int body, const MicrowavePlan& p, const Matter& casing
 void AddControls(Assembly* a, int body, const MicrowavePlan& p) {
   const double front = -0.5 * p.deep;
   const double middle = -p.side * 0.5 * (p.split + 0.5 * p.across);
-  const Matter look = a->Chance(0.5) ? BlackPlastic() : BrushedSteel();
-  if (a->Chance(0.5)) {
+  const Matter look = a->Bernoulli(0.5) ? BlackPlastic() : BrushedSteel();
+  if (a->Bernoulli(0.5)) {
     a->RecordFeature("controls", "dials");
     for (int i = 0; i < 2; ++i) {
       AddDial(a, "knob_" + std::to_string(i), body, {front, middle, (0.60 - 0.30 * i) * p.high},
@@ -77,7 +77,7 @@ assets::ArticulatedAsset MakeMicrowave(const Options& options) {
   p.across = a.parameters().length.sample;
   p.deep = a.parameters().width.sample;
   p.high = a.parameters().height.sample;
-  p.side = a.Chance(0.85) ? 1.0 : -1.0;
+  p.side = a.Bernoulli(0.85) ? 1.0 : -1.0;
   p.panel = a.Draw(0.20, 0.26) * p.across;
   p.split = 0.5 * p.across - p.panel;
   a.RecordFeature("hinge", p.side > 0.0 ? "left" : "right");

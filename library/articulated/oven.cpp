@@ -79,7 +79,7 @@ assets::ArticulatedAsset MakeOven(const Options& options) {
   a.AddHandle("handle_0", door, kind, place, BrushedSteel());
 
   const int dials = 2 * static_cast<int>(a.Draw(1.0, 2.999));
-  const Matter look = a.Chance(0.5) ? BlackPlastic() : BrushedSteel();
+  const Matter look = a.Bernoulli(0.5) ? BlackPlastic() : BrushedSteel();
   for (int i = 0; i < dials; ++i) {
     // The dials are in two groups, left and right of the display.
     const int half = dials / 2, place_in_half = i % half;

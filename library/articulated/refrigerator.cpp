@@ -26,8 +26,8 @@ assets::ArticulatedAsset MakeRefrigerator(const Options& options) {
   const double high = a.parameters().height.sample;
   const double front = -0.5 * deep, rear = 0.5 * deep, inner = front + kRefrigeratorDoor + kGap;
   const Matter casing =
-      a.Chance(0.3) ? Matter{"steel_enamel", "appliance", 370.0, {0.72f, 0.73f, 0.75f, 1.0f}}
-                    : Casing(a.rng());
+      a.Bernoulli(0.3) ? Matter{"steel_enamel", "appliance", 370.0, {0.72f, 0.73f, 0.75f, 1.0f}}
+                       : Casing(a.rng());
   const int body = a.AddRoot("body", "body");
   a.Add(body, BlackPlastic(),
         Box({inner + 0.03, -0.48 * across, 0.0}, {rear, 0.48 * across, kRefrigeratorFoot}, 0.0));
@@ -36,14 +36,14 @@ assets::ArticulatedAsset MakeRefrigerator(const Options& options) {
   if (two) {
     // The freezer is below or above.
     const double split =
-        kRefrigeratorFoot + (a.Chance(0.5) ? 0.36 : 0.66) * (high - kRefrigeratorFoot);
+        kRefrigeratorFoot + (a.Bernoulli(0.5) ? 0.36 : 0.66) * (high - kRefrigeratorFoot);
     cells = {{kRefrigeratorFoot, split, split < 0.5 * high ? 1 : 3},
              {split, high, split < 0.5 * high ? 3 : 1}};
   } else {
     cells = {{kRefrigeratorFoot, high, 2}};
   }
   a.RecordFeature("doors", two ? "two" : "one");
-  const double side = a.Chance(0.5) ? 1.0 : -1.0;
+  const double side = a.Bernoulli(0.5) ? 1.0 : -1.0;
   a.RecordFeature("hinge", side > 0.0 ? "left" : "right");
   const HandleKind kind = SampleHandleKind(a.rng(), {HandleKind::kBar, HandleKind::kBow});
   a.RecordFeature("handle", HandleName(kind));

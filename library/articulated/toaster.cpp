@@ -52,7 +52,7 @@ assets::ArticulatedAsset MakeToaster(const Options& options) {
   a.Add(lever, BlackPlastic(),
         Box({x0 - kLeverGap - lever_deep, -half, top - 0.006}, {x0 - kLeverGap, half, top + 0.006},
             0.003));
-  const double side = a.Chance(0.5) ? 1.0 : -1.0;
+  const double side = a.Bernoulli(0.5) ? 1.0 : -1.0;
   AddDial(&a, "knob", body, {x0, side * 0.34 * across, low + 0.035}, 0.013, 0.018, BrushedSteel());
   return a.Finish("appliance");
 }

@@ -41,7 +41,7 @@ assets::ArticulatedAsset MakeTrashCan(const Options& options) {
   const double top_radius = 0.5 * width, low_radius = a.Draw(0.8, 0.95) * top_radius;
   const double wall = 0.004, rim = high - kLid - kTrashCanLidGap;
   const Matter shell =
-      a.Chance(0.5) ? BrushedSteel() : MatterOf("plastic", "green_plastic", 0.30f, 0.45f, 0.36f);
+      a.Bernoulli(0.5) ? BrushedSteel() : MatterOf("plastic", "green_plastic", 0.30f, 0.45f, 0.36f);
   // Steel sheet is 0.6 mm thick: walls are modelled 4 mm thick with the sheet's mass.
   Matter thin = shell;
   if (shell.material == "steel") thin.density *= 0.15;

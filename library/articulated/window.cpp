@@ -32,7 +32,7 @@ void AddGrip(Assembly* a, int sash, HandleKind kind, const Eigen::Vector3d& moun
 // Adds two sashes one behind the other; the front one slides along y over the other.
 void AddSliding(Assembly* a, int body, const Eigen::AlignedBox3d& hole, HandleKind kind,
                 const Matter& bars, const Matter& metal) {
-  const double middle = 0.5 * kSashBar, side = a->Chance(0.5) ? 1.0 : -1.0;
+  const double middle = 0.5 * kSashBar, side = a->Bernoulli(0.5) ? 1.0 : -1.0;
   a->RecordFeature("moves", side > 0.0 ? "left sash" : "right sash");
   const double y_edge = side * (0.5 * hole.sizes().y() - kGap), y_meet = -side * middle;
   const double z0 = hole.min().z() + kGap, z1 = hole.max().z() - kGap;
@@ -58,7 +58,7 @@ void AddSliding(Assembly* a, int body, const Eigen::AlignedBox3d& hole, HandleKi
 // Adds a sash in front of the frame, on a side hinge.
 void AddCasement(Assembly* a, int body, const Eigen::AlignedBox3d& hole, double front,
                  HandleKind kind, const Matter& bars, const Matter& metal) {
-  const double side = a->Chance(0.5) ? 1.0 : -1.0, lap = 0.018;
+  const double side = a->Bernoulli(0.5) ? 1.0 : -1.0, lap = 0.018;
   a->RecordFeature("hinge", side > 0.0 ? "left" : "right");
   const double half = 0.5 * hole.sizes().y() + lap, x1 = front - kGap;
   const double z0 = hole.min().z() - lap, z1 = hole.max().z() + lap;
@@ -74,15 +74,15 @@ void AddCasement(Assembly* a, int body, const Eigen::AlignedBox3d& hole, double 
 assets::ArticulatedAsset MakeWindow(const Options& options) {
   Assembly a("window", "window", options);
   a.FixToWorld();
-  const bool sliding = a.Chance(0.5);
+  const bool sliding = a.Bernoulli(0.5);
   a.RecordFeature("opens", sliding ? "slides" : "swings");
   // A casement is at most 0.9 m wide, because wider ones sag: wider windows slide.
   const double across =
       std::clamp(a.parameters().length.sample, sliding ? 0.8 : 0.48, sliding ? 1.6 : 0.9);
   const double high = std::clamp(a.parameters().height.sample, 0.5, 1.4);
   const double half = 0.045;  // half of the frame's depth
-  const Matter bars = a.Chance(0.6) ? MatterOf("plastic", "white_frame", 0.93f, 0.93f, 0.91f)
-                                    : MatterOf("wood", "oak", 0.72f, 0.53f, 0.34f);
+  const Matter bars = a.Bernoulli(0.6) ? MatterOf("plastic", "white_frame", 0.93f, 0.93f, 0.91f)
+                                       : MatterOf("wood", "oak", 0.72f, 0.53f, 0.34f);
   const int body = a.AddRoot("frame", "frame");
   a.Add(body, bars, FrameBars(Bounds(-half, half, -0.5 * across, 0.5 * across, 0.0, high), kBar));
   const Eigen::AlignedBox3d hole =

@@ -45,9 +45,9 @@ struct Stage {
   std::vector<Instruction> uniform;
   std::vector<Load> loads;
   std::vector<TripleLoad> triples;
-  std::vector<Load> flips;  // slot: the spilled column
+  std::vector<Load> axis_flips;  // slot: the spilled column
   std::vector<Instruction> body;
-  std::vector<BatchReduction> gatherings;
+  std::vector<BatchReduction> reductions;
 };
 
 struct ComponentCode {
@@ -61,7 +61,7 @@ struct Code {
   std::vector<Stage> stages;
   int registers = 0;
   int numbers = 0;
-  int spills = 0;
+  int register_spills = 0;
   int chunk = 0;                 // environments processed at a time
   std::vector<float> constants;  // values of the first numbers
   Column batch_size = 0;         // a number where the program uses it, else 0

@@ -105,7 +105,7 @@ void Generator::AssignNumbers() {
   for (NodeId node = 0; node < graph_.size(); ++node) {
     if (!live_[node]) continue;
     const Node& one = graph_[node];
-    if (one.operation == kBatchFlip) spill_[node] = code_.spills++;
+    if (one.operation == kBatchFlip) spill_[node] = code_.register_spills++;
     if (!one.uniform || one.operation == kConstant) continue;
     number_[node] = code_.numbers++;
     if (one.operation == kBatchSize) code_.batch_size = -1 - number_[node];
@@ -177,7 +177,7 @@ void Generator::AddLoads(Stage* stage) {
     if (!needed_[node] || one.uniform) continue;
     if (one.operation == kBatchFlip) {
       register_[node] = TakeRegister();
-      stage->flips.push_back({spill_[node], 0, register_[node]});
+      stage->axis_flips.push_back({spill_[node], 0, register_[node]});
     }
     if (one.operation != kInput) continue;
     register_[node] = TakeRegister();
@@ -309,7 +309,7 @@ void Generator::FinishStage(int level, Stage* stage) {
     const Node& one = graph_[node];
     if (!live_[node] || !CrossesEnvironments(one.operation) || levels_[node] != level + 1) continue;
     const Column result = one.operation == kBatchFlip ? spill_[node] : -1 - number_[node];
-    stage->gatherings.push_back({one.operation, ColumnOf(one.operands[0]), one.index, result});
+    stage->reductions.push_back({one.operation, ColumnOf(one.operands[0]), one.index, result});
   }
   if (level + 1 != static_cast<int>(code_.stages.size())) return;
   code_.reward = ColumnOf(outputs_.reward);

@@ -20,10 +20,10 @@ struct Made {
 Made Attempt(const Generation& generation, const ShardOrigin& origin, size_t index) {
   const std::uint64_t stream = (static_cast<std::uint64_t>(origin.part) << 32) + index;
   core::Rng rng = core::StreamRng(origin.seed, stream);
-  const SceneSample draw = SampleGrammar(generation.grammar, rng);
-  FeasibleScene scene = MakeFeasible(draw.objects, *generation.asset_set, generation.feasibility);
+  const SceneSample sample = SampleGrammar(generation.grammar, rng);
+  FeasibleScene scene = MakeFeasible(sample.objects, *generation.asset_set, generation.feasibility);
   Made made;
-  made.attempt = AttemptOf(scene, static_cast<int>(draw.objects.size()));
+  made.attempt = AttemptOf(scene, static_cast<int>(sample.objects.size()));
   made.objects = std::move(scene.objects);
   return made;
 }
@@ -94,7 +94,7 @@ std::string SettingsText(const Generation& generation) {
   nlohmann::ordered_json json;
   json["revision"] = kRevision;
   json["grammar"] = generation.grammar.name();
-  json["projection"] = {{"influence", feasible.projection.influence},
+  json["projection"] = {{"influence", feasible.projection.contact_margin},
                         {"tolerance", feasible.projection.tolerance},
                         {"rounds", feasible.projection.rounds}};
   json["settling"] = {{"duration", feasible.settling.duration},
@@ -102,8 +102,8 @@ std::string SettingsText(const Generation& generation) {
                       {"time_step", feasible.settling.time_step},
                       {"solver_iterations", feasible.settling.solver_iterations},
                       {"stable", feasible.settling.stable},
-                      {"resting", feasible.settling.resting},
-                      {"pace", feasible.settling.pace},
+                      {"resting", feasible.settling.rest_tolerance},
+                      {"pace", feasible.settling.early_stop_factor},
                       {"sway", feasible.settling.gravity_tilt},
                       {"sway_time", feasible.settling.gravity_tilt_time},
                       {"settling_friction", feasible.settling.settling_friction},

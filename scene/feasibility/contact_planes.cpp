@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 void ContactPlanes::Update(const std::vector<Vector3d>& shifts) {
   std::vector<BodyPair> pairs;
   auto old = pairs_.begin();
-  for (const auto& [a, b] : bodies_->BroadPhasePairs(shifts, options_.influence)) {
+  for (const auto& [a, b] : bodies_->BroadPhasePairs(shifts, options_.contact_margin)) {
     while (old != pairs_.end() && std::pair(old->a, old->b) < std::pair(a, b)) ++old;
     const bool known = old != pairs_.end() && old->a == a && old->b == b;
     pairs.push_back(known ? std::move(*old) : BodyPair{a, b, {}});
@@ -28,7 +28,7 @@ void ContactPlanes::UpdatePair(const std::vector<Vector3d>& shifts, BodyPair* pa
   auto old = pair->planes.begin();
   const auto end = pair->planes.end();
   bodies_->ForEachClosePart(
-      pair->a, pair->b, apart, options_.influence, by_hull, [&](int part_a, int part_b) {
+      pair->a, pair->b, apart, options_.contact_margin, by_hull, [&](int part_a, int part_b) {
         const std::pair parts(part_a, part_b);
         while (old != end && std::pair(old->part_a, old->part_b) < parts) ++old;
         const bool known = old != end && old->part_a == part_a && old->part_b == part_b;
@@ -115,7 +115,7 @@ std::vector<SeparationConstraint> ContactPlanes::Rows() const {
   std::vector<SeparationConstraint> rows;
   for (const BodyPair& pair : pairs_) {
     for (const Plane& plane : pair.planes) {
-      if (plane.bound >= options_.influence) continue;
+      if (plane.bound >= options_.contact_margin) continue;
       rows.push_back({pair.a, pair.b, plane.normal, plane.least, plane.lambda});
     }
   }
@@ -126,7 +126,7 @@ void ContactPlanes::SetMultipliers(const std::vector<SeparationConstraint>& rows
   auto row = rows.begin();
   for (BodyPair& pair : pairs_) {
     for (Plane& plane : pair.planes) {
-      plane.lambda = plane.bound >= options_.influence ? 0.0 : (row++)->lambda;
+      plane.lambda = plane.bound >= options_.contact_margin ? 0.0 : (row++)->lambda;
     }
   }
 }

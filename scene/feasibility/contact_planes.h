@@ -18,8 +18,8 @@ struct Overlap {
 };
 
 struct ContactPlaneOptions {
-  double influence = 0.03;  // m, contact margin: parts farther apart have no plane
-  double tolerance = 1e-5;  // m, allowed penetration
+  double contact_margin = 0.03;  // m, contact margin: parts farther apart have no plane
+  double tolerance = 1e-5;       // m, allowed penetration
 };
 
 // The contact planes between bodies. The plane of two convex parts is the tangent of their signed

@@ -40,7 +40,7 @@ class ProjectionSolver {
 ProjectionSolver::ProjectionSolver(const std::vector<ProjectedBody>& bodies,
                                    const ProjectionOptions& options)
     : options_(options),
-      planes_(&bodies_, {options.influence, options.tolerance}),
+      planes_(&bodies_, {options.contact_margin, options.tolerance}),
       shifts_(bodies.size(), Vector3d::Zero()) {
   for (const ProjectedBody& body : bodies) {
     if (!body.parts) throw core::Error("a body needs convex parts");
@@ -124,7 +124,7 @@ bool ProjectionOptions::IsValid(std::string* error) const {
     *error = what;
     return false;
   };
-  if (!(influence > 0.0)) return fails("influence must be above 0 m");
+  if (!(contact_margin > 0.0)) return fails("influence must be above 0 m");
   if (!(tolerance > 0.0)) return fails("tolerance must be above 0 m");
   if (!(settled > 0.0)) return fails("settled must be above 0 m");
   if (rounds < 1) return fails("rounds must be at least 1");

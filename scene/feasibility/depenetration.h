@@ -22,7 +22,7 @@ struct ProjectedBody {
 struct ProjectionOptions {
   // The contact margin, m: pairs of parts farther apart are ignored; the next round picks up pairs
   // that approach. A smaller margin needs more rounds.
-  double influence = 0.03;
+  double contact_margin = 0.03;
   // The remaining penetration of parts, m. A tenth of what a scene may have, so that numbers
   // written in single precision still pass.
   double tolerance = 1e-5;

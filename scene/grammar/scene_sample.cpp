@@ -17,17 +17,17 @@ using Failures = std::map<std::string, int>;
 
 // Samples derivations and rejects those that violate the structure or, once the poses are sampled,
 // a constraint that is enforced by rejection; each counts as a derivation.
-std::optional<Derivation> DeriveValid(const Grammar& grammar, core::Rng& rng, SceneSample* draw,
+std::optional<Derivation> DeriveValid(const Grammar& grammar, core::Rng& rng, SceneSample* sample,
                                       Failures* failures) {
   for (int i = 0; i < grammar.options().derivations; ++i) {
-    ++draw->derivations;
+    ++sample->derivations;
     Derivation derivation = Derive(grammar, rng);
     const int unmet = FirstViolatedStructure(grammar, derivation);
     if (unmet >= 0) {
       ++(*failures)[grammar.structure()[static_cast<std::size_t>(unmet)].Describe()];
       continue;
     }
-    ++draw->pose_draws;
+    ++sample->pose_draws;
     SamplePosesFrom(grammar, 0, /*keep=*/false, rng, &derivation);
     const PoseViolation violation(grammar, derivation, Decision::kReject);
     if (violation.Sum(derivation) == 0.0) return derivation;
@@ -75,7 +75,7 @@ void RedrawOffenders(const Grammar& grammar, const PoseViolation& violation, cor
 
 // Resamples violating poses until none violates a constraint; returns false if the attempts did not
 // suffice, or if a new pose violates a constraint that is enforced by rejection.
-bool PlaceValid(const Grammar& grammar, core::Rng& rng, Derivation* derivation, SceneSample* draw,
+bool PlaceValid(const Grammar& grammar, core::Rng& rng, Derivation* derivation, SceneSample* sample,
                 Failures* failures) {
   const PoseViolation violation(grammar, *derivation, Decision::kResample);
   for (int i = 0; violation.Sum(*derivation) > 0.0; ++i) {
@@ -83,7 +83,7 @@ bool PlaceValid(const Grammar& grammar, core::Rng& rng, Derivation* derivation, 
       ++(*failures)[violation.Worst(*derivation)];
       return false;
     }
-    ++draw->pose_draws;
+    ++sample->pose_draws;
     RedrawOffenders(grammar, violation, rng, derivation);
   }
   const PoseViolation rejected(grammar, *derivation, Decision::kReject);
@@ -107,30 +107,31 @@ std::vector<SceneObject> Flattened(const Grammar& grammar, const Derivation& der
   return objects;
 }
 
-[[noreturn]] void Fail(const Grammar& grammar, const SceneSample& draw, const Failures& failures) {
+[[noreturn]] void Fail(const Grammar& grammar, const SceneSample& sample,
+                       const Failures& failures) {
   const auto most =
       std::max_element(failures.begin(), failures.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
   throw core::Error("no scene satisfies '" + most->first + "' (violated " +
                         std::to_string(most->second) + " times in " +
-                        std::to_string(draw.derivations) + " derivations and " +
-                        std::to_string(draw.pose_draws) + " pose samples)",
+                        std::to_string(sample.derivations) + " derivations and " +
+                        std::to_string(sample.pose_draws) + " pose samples)",
                     "scene grammar " + grammar.name(), "relax it, or allow more tries");
 }
 
 }  // namespace
 
 SceneSample SampleGrammar(const Grammar& grammar, core::Rng& rng) {
-  SceneSample draw;
+  SceneSample sample;
   Failures failures;
-  while (draw.tries < grammar.options().tries) {
-    ++draw.tries;
-    std::optional<Derivation> derivation = DeriveValid(grammar, rng, &draw, &failures);
-    if (!derivation || !PlaceValid(grammar, rng, &*derivation, &draw, &failures)) continue;
-    draw.objects = Flattened(grammar, *derivation);
-    return draw;
+  while (sample.tries < grammar.options().tries) {
+    ++sample.tries;
+    std::optional<Derivation> derivation = DeriveValid(grammar, rng, &sample, &failures);
+    if (!derivation || !PlaceValid(grammar, rng, &*derivation, &sample, &failures)) continue;
+    sample.objects = Flattened(grammar, *derivation);
+    return sample;
   }
-  Fail(grammar, draw, failures);
+  Fail(grammar, sample, failures);
 }
 
 }  // namespace simwright::scene

@@ -154,7 +154,7 @@ FeatureTrainingReport TrainFeatures(const std::vector<CountedPicture>& pictures,
     const bool sideways = core::Uniform(rng) < 0.5, upside_down = core::Uniform(rng) < 0.5;
     Mirror(sideways, upside_down, &batch);
     const torch::Tensor predicted = network->forward(batch.pictures.to(device));
-    trainer.Descend(step, torch::mse_loss(predicted, batch.counts.to(device).log1p()));
+    trainer.Step(step, torch::mse_loss(predicted, batch.counts.to(device).log1p()));
     progress->Advance();
   }
   trainer.CopyAverageTo(network.ptr().get());

@@ -96,7 +96,7 @@ class Training {
     progress->Stage("training", options_.trainer.steps - first);
     for (int step = first; step < options_.trainer.steps; ++step) {
       stream.Next(options_.batch, tokens.data());
-      Descend(step, OnDevice(TensorsOf(tokens, dataset_.vocabulary(), facts_.range)), generator);
+      Step(step, OnDevice(TensorsOf(tokens, dataset_.vocabulary(), facts_.range)), generator);
       const bool last = step + 1 == options_.trainer.steps;
       if ((step + 1) % options_.report_every == 0 || last) Record(step + 1);
       if (trainer_->SaveDue(step)) Save(step + 1);
@@ -119,13 +119,13 @@ class Training {
     return {scenes.poses.to(device_), scenes.classes.to(device_)};
   }
 
-  void Descend(int step, const CleanScenes& scenes, const at::Generator& generator) {
+  void Step(int step, const CleanScenes& scenes, const at::Generator& generator) {
     const DenoisingBatch batch = diffusion_.AddNoise(scenes, generator);
     const std::int64_t count = scenes.poses.size(0);
     const int share_count = nn::ShareCount(device_, count);
     std::vector<SceneLoss> losses(static_cast<size_t>(share_count));
     std::vector<double> shares(losses.size());
-    const double total = trainer_->Descend(step, share_count, [&](int i) {
+    const double total = trainer_->Step(step, share_count, [&](int i) {
       const size_t at = static_cast<size_t>(i);
       const nn::Share share = nn::ShareOf(count, share_count, i);
       shares[at] = static_cast<double>(share.count) / static_cast<double>(count);

@@ -48,15 +48,16 @@ Eigen::AlignedBox2d Top(const ArticulatedObject& object, bool lowest) {
   return top;
 }
 
-Eigen::Vector3d OpeningOf(const ArticulatedObject& holder, const Receptacle& cavity) {
-  return LinkPosesOf(holder, RestPositions(holder))[static_cast<std::size_t>(cavity.link)]
+Eigen::Vector3d OpeningOf(const ArticulatedObject& holder, const Receptacle& receptacle) {
+  return LinkPosesOf(holder, RestPositions(holder))[static_cast<std::size_t>(receptacle.link)]
              .linear() *
-         cavity.opening;
+         receptacle.opening;
 }
 
 bool OpensUpwards(const ArticulatedObject& object) {
-  return std::any_of(object.receptacles.begin(), object.receptacles.end(),
-                     [&](const Receptacle& cavity) { return OpeningOf(object, cavity).z() > 0.7; });
+  return std::any_of(
+      object.receptacles.begin(), object.receptacles.end(),
+      [&](const Receptacle& receptacle) { return OpeningOf(object, receptacle).z() > 0.7; });
 }
 
 }  // namespace
@@ -183,8 +184,8 @@ bool CanStandOn(const ArticulatedObject& object, const ArticulatedObject& holder
   return level && (footprint.sizes().array() + kMargin <= top.sizes().array()).all();
 }
 
-bool FitsInto(const ArticulatedObject& object, const ArticulatedObject& holder, int cavity) {
-  const Receptacle& receptacle = holder.receptacles[static_cast<std::size_t>(cavity)];
+bool FitsInto(const ArticulatedObject& object, const ArticulatedObject& holder, int index) {
+  const Receptacle& receptacle = holder.receptacles[static_cast<std::size_t>(index)];
   const Eigen::Vector3d opening = OpeningOf(holder, receptacle);
   if (opening.z() < -0.3) return false;
   const Eigen::Isometry3d pose =

@@ -10,8 +10,8 @@ constexpr int kDeepestPlan = 6;
 
 class ForwardPlanner {
  public:
-  ForwardPlanner(const std::vector<Operator>& operators, Metadata facts)
-      : operators_(operators), facts_(std::move(facts)) {}
+  ForwardPlanner(const std::vector<Operator>& operators, Metadata predicates)
+      : operators_(operators), facts_(std::move(predicates)) {}
 
   bool Achieve(const Predicate& goal, int depth) {
     if (facts_.contains(goal)) return true;
@@ -27,24 +27,24 @@ class ForwardPlanner {
     return false;
   }
 
-  const Metadata& facts() const { return facts_; }
+  const Metadata& predicates() const { return facts_; }
   std::vector<Operator> Take() { return std::move(steps_); }
 
  private:
-  bool Holds(const std::vector<Predicate>& facts) const {
-    return std::all_of(facts.begin(), facts.end(),
-                       [&](const Predicate& fact) { return facts_.contains(fact); });
+  bool Holds(const std::vector<Predicate>& predicates) const {
+    return std::all_of(predicates.begin(), predicates.end(),
+                       [&](const Predicate& predicate) { return facts_.contains(predicate); });
   }
 
   bool Apply(const Operator& one, int depth) {
     if (!Holds(one.given)) return false;
-    for (const Predicate& fact : one.wanted) {
-      if (!Achieve(fact, depth + 1)) return false;
+    for (const Predicate& predicate : one.wanted) {
+      if (!Achieve(predicate, depth + 1)) return false;
     }
     // Achieving one precondition may have undone another.
     if (!Holds(one.given) || !Holds(one.wanted) || steps_.size() == kMostSteps) return false;
-    for (const Predicate& fact : one.removes) facts_.erase(fact);
-    for (const Predicate& fact : one.adds) facts_.insert(fact);
+    for (const Predicate& predicate : one.removes) facts_.erase(predicate);
+    for (const Predicate& predicate : one.adds) facts_.insert(predicate);
     steps_.push_back(one);
     return true;
   }
@@ -57,15 +57,15 @@ class ForwardPlanner {
 }  // namespace
 
 std::vector<Operator> Plan(const std::vector<Operator>& operators,
-                           const std::vector<Predicate>& goals, Metadata* facts) {
-  ForwardPlanner planner(operators, *facts);
+                           const std::vector<Predicate>& goals, Metadata* predicates) {
+  ForwardPlanner planner(operators, *predicates);
   for (const Predicate& goal : goals) {
     if (!planner.Achieve(goal, 0)) return {};
   }
   for (const Predicate& goal : goals) {
-    if (!planner.facts().contains(goal)) return {};
+    if (!planner.predicates().contains(goal)) return {};
   }
-  *facts = planner.facts();
+  *predicates = planner.predicates();
   return planner.Take();
 }
 

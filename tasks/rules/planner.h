@@ -36,11 +36,11 @@ enum class ActionType { kOpen, kClose, kPick, kPlaceOn, kPutInto, kPutDown, kPus
 // An action with its preconditions and effects: STRIPS (Fikes and Nilsson, 1971).
 struct Operator {
   ActionType verb = ActionType::kPick;
-  int object = -1;               // the object that is handled
-  int other = -1;                // the object that it goes onto, into or over
-  int part = -1;                 // a joint, or a receptacle of `other`
-  std::vector<Predicate> given;  // preconditions that must hold already; the planner does not
-                                 // achieve them
+  int object = -1;                // the object that is handled
+  int other = -1;                 // the object that it goes onto, into or over
+  int part = -1;                  // a joint, or a receptacle of `other`
+  std::vector<Predicate> given;   // preconditions that must hold already; the planner does not
+                                  // achieve them
   std::vector<Predicate> wanted;  // preconditions that the planner achieves first, in this order
   std::vector<Predicate> adds, removes;
 };
@@ -53,6 +53,6 @@ std::vector<Operator> OperatorsFor(const SceneModel& model, const std::vector<in
 // the preconditions of a step are achieved before it. Returns an empty plan if none exists within
 // 12 steps. Updates `facts` to the state after the plan.
 std::vector<Operator> Plan(const std::vector<Operator>& operators,
-                           const std::vector<Predicate>& goals, Metadata* facts);
+                           const std::vector<Predicate>& goals, Metadata* predicates);
 
 }  // namespace simwright::tasks

@@ -24,28 +24,28 @@ constexpr int kBatch = 64;             // candidates processed in parallel
 // Returns the predicates that hold in the layout of a candidate.
 Metadata InitialFacts(const SceneModel& model, const TaskCandidate& candidate,
                       const SceneState& state) {
-  Metadata facts{{PredicateKind::kGripperEmpty}};
+  Metadata predicates{{PredicateKind::kGripperEmpty}};
   for (int t : candidate.layout.objects) {
     const ArticulatedObject& object = model.objects[static_cast<std::size_t>(t)];
     for (std::size_t j = 0; j < object.joints.size(); ++j) {
       const bool away = state.joints[static_cast<std::size_t>(t)][j] != object.joints[j].rest();
-      facts.insert({away ? PredicateKind::kJointAway : PredicateKind::kJointAtRest, t, -1,
-                    static_cast<int>(j)});
+      predicates.insert({away ? PredicateKind::kJointAway : PredicateKind::kJointAtRest, t, -1,
+                         static_cast<int>(j)});
     }
-    facts.insert({PredicateKind::kFree, t});
-    const auto resting =
-        std::find_if(candidate.layout.resting.begin(), candidate.layout.resting.end(),
+    predicates.insert({PredicateKind::kFree, t});
+    const auto supports =
+        std::find_if(candidate.layout.supports.begin(), candidate.layout.supports.end(),
                      [&](const SupportRelation& one) { return one.object == t; });
-    if (resting == candidate.layout.resting.end()) {
-      facts.insert({PredicateKind::kOnFloor, t});
-    } else if (resting->receptacle >= 0) {
-      facts.insert({PredicateKind::kIn, t, resting->holder, resting->receptacle});
+    if (supports == candidate.layout.supports.end()) {
+      predicates.insert({PredicateKind::kOnFloor, t});
+    } else if (supports->receptacle >= 0) {
+      predicates.insert({PredicateKind::kIn, t, supports->holder, supports->receptacle});
     } else {
-      facts.insert({PredicateKind::kOn, t, resting->holder});
-      facts.erase({PredicateKind::kFree, resting->holder});
+      predicates.insert({PredicateKind::kOn, t, supports->holder});
+      predicates.erase({PredicateKind::kFree, supports->holder});
     }
   }
-  return facts;
+  return predicates;
 }
 
 // The task of a candidate, or the reason why it was dropped.
@@ -60,9 +60,9 @@ Outcome BuildTask(const SceneModel& model, const TaskCandidate& candidate, std::
   const std::optional<InitialState> start = PlanLayout(model, candidate.layout, rng);
   if (!start) return {std::nullopt, "no-layout"};
   SceneState state = StateOf(model, *start);
-  Metadata facts = InitialFacts(model, candidate, state);
+  Metadata predicates = InitialFacts(model, candidate, state);
   const std::vector<Operator> plan =
-      Plan(OperatorsFor(model, candidate.layout.objects), candidate.goals, &facts);
+      Plan(OperatorsFor(model, candidate.layout.objects), candidate.goals, &predicates);
   if (plan.empty()) return {std::nullopt, "no-plan"};
   Task task;
   task.source = "rules";

@@ -145,13 +145,13 @@ Step PickStep(const SceneModel& model, const SceneState& state, const Operator& 
     const ArticulatedObject& holder = model.objects[static_cast<std::size_t>(one.other)];
     step.name += NameFrom("_from_" + holder.name);
     step.description = "Take the " + spoken + " out of the " + SpokenName(holder) + ".";
-    const Receptacle& cavity = holder.receptacles[static_cast<std::size_t>(one.part)];
+    const Receptacle& receptacle = holder.receptacles[static_cast<std::size_t>(one.part)];
     const auto h = static_cast<std::size_t>(one.other);
     const Eigen::Isometry3d link =
         state.roots[h] *
-        LinkPosesOf(holder, state.joints[h])[static_cast<std::size_t>(cavity.link)];
-    const Eigen::Vector3d out = link.linear() * cavity.opening;
-    const double depth = std::abs(cavity.box.sizes().dot(cavity.opening));
+        LinkPosesOf(holder, state.joints[h])[static_cast<std::size_t>(receptacle.link)];
+    const Eigen::Vector3d out = link.linear() * receptacle.opening;
+    const double depth = std::abs(receptacle.box.sizes().dot(receptacle.opening));
     raised = middle + (0.6 * depth + 0.5 * object.box.sizes().maxCoeff() + 0.05) * out;
   } else if (one.other >= 0) {
     step.name += NameFrom("_from_" + model.objects[static_cast<std::size_t>(one.other)].name);
@@ -273,28 +273,29 @@ void KeepBehindDoor(const Eigen::Vector3d& opening, const Eigen::Vector3d& size,
 Step PutIntoStep(const SceneModel& model, const SceneState& state, const Operator& one) {
   const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
   const ArticulatedObject& holder = model.objects[static_cast<std::size_t>(one.other)];
-  const Receptacle& cavity = holder.receptacles[static_cast<std::size_t>(one.part)];
-  const ObjectLink& link = holder.links[static_cast<std::size_t>(cavity.link)];
+  const Receptacle& receptacle = holder.receptacles[static_cast<std::size_t>(one.part)];
+  const ObjectLink& link = holder.links[static_cast<std::size_t>(receptacle.link)];
   const auto h = static_cast<std::size_t>(one.other);
   const Eigen::Isometry3d pose =
-      state.roots[h] * LinkPosesOf(holder, state.joints[h])[static_cast<std::size_t>(cavity.link)];
+      state.roots[h] *
+      LinkPosesOf(holder, state.joints[h])[static_cast<std::size_t>(receptacle.link)];
   // The receptacle is expressed as shares of the link's AABB, so it moves with the link.
-  Eigen::AlignedBox3d receptacle;
+  Eigen::AlignedBox3d space;
   for (int corner = 0; corner < 8; ++corner) {
-    receptacle.extend(pose *
-                      cavity.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+    space.extend(pose *
+                 receptacle.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
   }
-  const Eigen::AlignedBox3d box = WorldAabb(model, state, one.other, cavity.link);
+  const Eigen::AlignedBox3d box = WorldAabb(model, state, one.other, receptacle.link);
   const Eigen::Vector3d size = box.sizes().cwiseMax(1e-6);
-  const Eigen::Vector3d target = FreePosition(model, state, one.object, receptacle);
+  const Eigen::Vector3d target = FreePosition(model, state, one.object, space);
   // An object that protrudes from a cup has its centre above the cup's receptacle.
-  const double lift = std::max(0.0, target.z() + 0.02 - receptacle.max().z());
-  if (cavity.door >= 0) {
-    KeepBehindDoor(pose.linear() * cavity.opening, object.box.sizes(), target, &receptacle);
+  const double lift = std::max(0.0, target.z() + 0.02 - space.max().z());
+  if (receptacle.door >= 0) {
+    KeepBehindDoor(pose.linear() * receptacle.opening, object.box.sizes(), target, &space);
   }
-  const Eigen::Vector3d low = (receptacle.min() - box.min()).cwiseQuotient(size);
+  const Eigen::Vector3d low = (space.min() - box.min()).cwiseQuotient(size);
   const Eigen::Vector3d high =
-      (receptacle.max() + Eigen::Vector3d(0, 0, lift) - box.min()).cwiseQuotient(size);
+      (space.max() + Eigen::Vector3d(0, 0, lift) - box.min()).cwiseQuotient(size);
   const Eigen::Vector3d wanted = (target - box.min()).cwiseQuotient(size);
   Step step;
   step.name = NameFrom("put_" + object.name + "_into_" + holder.name);

@@ -76,7 +76,8 @@ class CandidateGenerator {
     candidate.description = "Open everything that opens on the " + Spoken(object) + ".";
     candidate.layout.objects = {object};
     if (open.size() > 4) open.resize(4);
-    for (const Predicate& fact : open) candidate.layout.operated.emplace_back(object, fact.part);
+    for (const Predicate& predicate : open)
+      candidate.layout.operated.emplace_back(object, predicate.part);
     candidate.goals = open;
     return candidate;
   }
@@ -191,7 +192,7 @@ class CandidateGenerator {
     candidate.name = NameFrom("take_" + Known(object).name + "_out_of_" + Known(holder).name);
     candidate.description = "Take the " + Spoken(object) + " out of the " + Spoken(holder) + ".";
     candidate.layout.objects = {holder, object};
-    candidate.layout.resting = {{object, holder, receptacle}};
+    candidate.layout.supports = {{object, holder, receptacle}};
     candidate.goals = {{PredicateKind::kAtGoal, object}};
     if (door >= 0) candidate.layout.operated = {{holder, door}};
     return candidate;

@@ -152,9 +152,9 @@ class Sampler {
       if (link > 0) Carry(ActionKind::kPlace, object, above);
     }
     const std::vector<Eigen::Isometry3d> poses = LinkPosesOf(holder, start_.joints[o]);
-    int cavities = 0;
+    int receptacles = 0;
     for (const Receptacle& receptacle : holder.receptacles) {
-      if (++cavities > kMaxReceptacles) break;
+      if (++receptacles > kMaxReceptacles) break;
       Eigen::Vector3d inside = start_.roots[o] * poses[static_cast<std::size_t>(receptacle.link)] *
                                receptacle.box.center();
       inside.z() += half - 0.5 * receptacle.box.sizes().z() + 1e-3;

@@ -91,7 +91,7 @@ std::optional<InitialState> PlanStart(const SceneModel& model,
     const int holder = TakenOutOf(model, text, object);
     const bool placed =
         std::find(request.objects.begin(), request.objects.end(), holder) != request.objects.end();
-    if (placed) request.resting.push_back({object, holder, 0});
+    if (placed) request.supports.push_back({object, holder, 0});
   }
   return PlanLayout(model, request, rng);
 }

@@ -42,20 +42,20 @@ core::TriangleMesh Can(int corners) {
   return geometry::ConvexHull(points);
 }
 
-int VerticesAt(const core::TriangleMesh& part, const SupportPolygon& foot) {
+int VerticesAt(const core::TriangleMesh& part, const SupportPolygon& support) {
   int count = 0;
   for (const Vector3d& p : part.vertices) {
-    count += std::abs(p.dot(foot.down) - foot.reach) < 1e-12;
+    count += std::abs(p.dot(support.down) - support.reach) < 1e-12;
   }
   return count;
 }
 
 TEST(SupportPolygon, OfABoxIsItsLowerFace) {
-  const SupportPolygon foot = FindSupportPolygon(Plate(0.0), {0, 0, 0.002}, 12);
-  EXPECT_NEAR((foot.down + Vector3d::UnitZ()).norm(), 0.0, 1e-9);
-  EXPECT_NEAR(foot.reach, 0.0, 1e-12);
-  ASSERT_EQ(foot.corners.size(), 4u);
-  for (const Vector3d& corner : foot.corners) {
+  const SupportPolygon support = FindSupportPolygon(Plate(0.0), {0, 0, 0.002}, 12);
+  EXPECT_NEAR((support.down + Vector3d::UnitZ()).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(support.reach, 0.0, 1e-12);
+  ASSERT_EQ(support.corners.size(), 4u);
+  for (const Vector3d& corner : support.corners) {
     EXPECT_NEAR(std::abs(corner.x()), 0.15, 1e-12);
     EXPECT_NEAR(std::abs(corner.y()), 0.02, 1e-12);
   }
@@ -63,29 +63,29 @@ TEST(SupportPolygon, OfABoxIsItsLowerFace) {
 
 TEST(SupportPolygon, OneThatIsNearlyFlatBecomesFlat) {
   const core::TriangleMesh uneven = Plate(3e-4);
-  const SupportPolygon foot = FindSupportPolygon(uneven, {0, 0, 0.002}, 12);
-  EXPECT_GT(-foot.down.z(), 0.99);
+  const SupportPolygon support = FindSupportPolygon(uneven, {0, 0, 0.002}, 12);
+  EXPECT_GT(-support.down.z(), 0.99);
   std::vector<core::TriangleMesh> parts{uneven};
-  ASSERT_LT(VerticesAt(parts[0], foot), 4);
-  PreserveSupportFace(foot, 64, &parts);
-  EXPECT_GE(VerticesAt(parts[0], foot), 4);
-  EXPECT_LE(VerticesAt(parts[0], foot), 32);
+  ASSERT_LT(VerticesAt(parts[0], support), 4);
+  PreserveSupportFace(support, 64, &parts);
+  EXPECT_GE(VerticesAt(parts[0], support), 4);
+  EXPECT_LE(VerticesAt(parts[0], support), 32);
   // No vertex between the support face and the upper face is left to rock on.
   for (const Vector3d& p : parts[0].vertices) {
-    const double above = foot.reach - p.dot(foot.down);
+    const double above = support.reach - p.dot(support.down);
     EXPECT_TRUE(above < 1e-12 || above > 0.003) << above;
   }
   EXPECT_TRUE(geometry::Examine(parts[0]).IsSolid());
 }
 
 // Returns the smallest extent of the support polygon over all directions.
-double LeastReach(const core::TriangleMesh& part, const SupportPolygon& foot) {
+double LeastReach(const core::TriangleMesh& part, const SupportPolygon& support) {
   double least = INFINITY;
   for (int i = 0; i < 360; ++i) {
     const double angle = i * std::numbers::pi / 180.0;
     double reach = 0.0;
     for (const Vector3d& p : part.vertices) {
-      if (std::abs(p.dot(foot.down) - foot.reach) > 1e-12) continue;
+      if (std::abs(p.dot(support.down) - support.reach) > 1e-12) continue;
       reach = std::max(reach, p.x() * std::cos(angle) + p.y() * std::sin(angle));
     }
     least = std::min(least, reach);
@@ -96,15 +96,15 @@ double LeastReach(const core::TriangleMesh& part, const SupportPolygon& foot) {
 TEST(SupportPolygon, ARoundOneKeepsItsCornersAndItsReach) {
   for (const int sides : {8, 12, 16, 24, 32, 40, 64}) {
     const core::TriangleMesh can = Can(sides);
-    const SupportPolygon foot = FindSupportPolygon(can, {0, 0, 0.05}, 12);
+    const SupportPolygon support = FindSupportPolygon(can, {0, 0, 0.05}, 12);
     std::vector<core::TriangleMesh> parts{
         geometry::SimplifyHull(can, 52)};  // as the decomposition does
     const double volume = geometry::SignedVolume(can);
-    PreserveSupportFace(foot, 64, &parts);
-    EXPECT_GE(VerticesAt(parts[0], foot), std::clamp(sides, 16, 24));
-    EXPECT_LE(VerticesAt(parts[0], foot), 32);
+    PreserveSupportFace(support, 64, &parts);
+    EXPECT_GE(VerticesAt(parts[0], support), std::clamp(sides, 16, 24));
+    EXPECT_LE(VerticesAt(parts[0], support), 32);
     EXPECT_LE(parts[0].vertices.size(), 64u);
-    EXPECT_GT(LeastReach(parts[0], foot),
+    EXPECT_GT(LeastReach(parts[0], support),
               0.03 * std::cos(std::numbers::pi / std::min(sides, 24)) - 1e-9);
     EXPECT_NEAR(geometry::SignedVolume(parts[0]) / volume, 1.0, 0.01);
     EXPECT_TRUE(geometry::Examine(parts[0]).IsSolid());
@@ -123,10 +123,10 @@ TEST(SupportPolygon, ADiscStaysAsThickAsItIs) {
 
 // A ball of few vertices has the volume of one of many, and its vertices stick out.
 TEST(SupportPolygon, NothingReachesBelowAPoint) {
-  const SupportPolygon foot{-Vector3d::UnitZ(), 1.0, {Vector3d(0.0, 0.0, -1.0)}};
+  const SupportPolygon support{-Vector3d::UnitZ(), 1.0, {Vector3d(0.0, 0.0, -1.0)}};
   std::vector<core::TriangleMesh> parts{
       geometry::ConvexHull({{0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}, {0, 0, -1.05}})};
-  PreserveSupportFace(foot, 64, &parts);
+  PreserveSupportFace(support, 64, &parts);
   EXPECT_NEAR(core::Bounds(parts[0]).min().z(), -1.0, 1e-12);
   EXPECT_EQ(parts[0].vertices.size(), 5u);
 }
@@ -138,12 +138,12 @@ TEST(SupportPolygon, ALostOneComesBack) {
   for (const Vector3d& p : can.vertices) {
     points.push_back(p.z() > 0.05 ? p : Vector3d(0.8 * p.x(), 0.8 * p.y(), 1e-4));
   }
-  const SupportPolygon foot = FindSupportPolygon(can, {0, 0, 0.05}, 12);
+  const SupportPolygon support = FindSupportPolygon(can, {0, 0, 0.05}, 12);
   std::vector<core::TriangleMesh> parts{geometry::SimplifyHull(geometry::ConvexHull(points), 52)};
-  PreserveSupportFace(foot, 64, &parts);
+  PreserveSupportFace(support, 64, &parts);
   EXPECT_NEAR(core::Bounds(parts[0]).min().z(), 0.0, 1e-12);
   // Twelve of 64 corners, at most six steps apart.
-  EXPECT_GT(LeastReach(parts[0], foot), 0.03 * std::cos(6 * std::numbers::pi / 64) - 1e-9);
+  EXPECT_GT(LeastReach(parts[0], support), 0.03 * std::cos(6 * std::numbers::pi / 64) - 1e-9);
 }
 
 TEST(SupportPolygon, PartsAboveItStayAsTheyAre) {

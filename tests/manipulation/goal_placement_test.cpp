@@ -74,8 +74,8 @@ TEST(GoalPlacement, EveryStartThatIsDrawnHasAGoalThatNothingIsInTheWayOf) {
   int moved = 0;
   for (const skills::StartState& start : skills::SampleStarts(*skill, 40, 3)) {
     const Vector3d object = tasks::LinkPosition(variant.model, start.state, kCup, 0);
-    const Vector3d way = start.state.goal - object;
-    const auto there = tasks::WorldAabb(variant.model, start.state, kCup).translated(way);
+    const Vector3d displacement = start.state.goal - object;
+    const auto there = tasks::WorldAabb(variant.model, start.state, kCup).translated(displacement);
     EXPECT_FALSE(there.intersects(tasks::WorldAabb(variant.model, start.state, kMicrowave)));
     moved += start.state.goal != variant.start.goal;
   }
@@ -89,10 +89,11 @@ TEST(CollisionChecker, FingersAboutAThingMayBeIgnoredAPalmMayNot) {
   const skills::SkillVariant& variant = skill->variants.front();
   const skills::StartState start = skills::SampleStarts(*skill, 1, 5).front();
   const Isometry3d tool = variant.subtask.start.world_from_robot *
-                          robot::ForwardKinematics(skill->robot->arm, start.at_work);
+                          robot::ForwardKinematics(skill->robot->arm, start.grasp_configuration);
   tasks::SceneState state = start.state;
   const auto clear = [&](Fingers fingers) {
-    return CollisionChecker(*skill, variant, state).IsCollisionFree(start.at_work, fingers);
+    return CollisionChecker(*skill, variant, state)
+        .IsCollisionFree(start.grasp_configuration, fingers);
   };
   ASSERT_TRUE(clear(Fingers::kCount));
   state.roots[kCup].translation() += 0.04 * tool.linear().col(1);  // one finger is in it

@@ -34,8 +34,8 @@ TEST(PathConfigurations, HaveTheToolAtThePartAllAlongItsWay) {
   core::Rng rng = core::StreamRng(3, 0);
   const auto plan = PlanReach(*skill, variant, variant.start, skill->robot->home(), rng);
   ASSERT_TRUE(plan);
-  const PathConfigurations along =
-      ConfigurationsAlongJoint(*skill, variant, variant.start, plan->at_work, plan->pitch);
+  const PathConfigurations along = ConfigurationsAlongJoint(*skill, variant, variant.start,
+                                                            plan->grasp_configuration, plan->pitch);
   ASSERT_EQ(along.positions.size(), along.configurations.size());
   const tasks::ObjectJoint& joint = variant.model.objects[kDoor].joints[JointOf(variant)];
   EXPECT_NEAR(along.positions.back(), JointTarget(joint, 0.0), 1e-12);
@@ -84,8 +84,8 @@ TEST(PathConfigurations, AnArmKeepsToThemWhileItPulls) {
   for (const skills::StartState& start : skills::SampleStarts(*skill, 10, 5)) {
     episode.Begin(start);
     const skills::SkillVariant& variant = skill->variants.front();
-    const PathConfigurations along =
-        ConfigurationsAlongJoint(*skill, variant, start.state, start.at_work, start.pitch);
+    const PathConfigurations along = ConfigurationsAlongJoint(
+        *skill, variant, start.state, start.grasp_configuration, start.pitch);
     ASSERT_FALSE(along.positions.empty());
     std::vector<float> action(7);
     skills::Decision decision;
@@ -118,7 +118,8 @@ TEST(Episode, ADoorAtItsStopIsShutInTwoPlans) {
     const skills::StartState next =
         skills::PlannedFrom(*skill, start, rng, skills::Resampling::kNothing);
     const bool two =
-        ConfigurationsAlongJoint(*skill, variant, next.state, next.at_work, next.pitch).ends_early;
+        ConfigurationsAlongJoint(*skill, variant, next.state, next.grasp_configuration, next.pitch)
+            .ends_early;
     const skills::EvaluatedEpisode result = skills::RunScriptedExpert(next, &episode);
     in_two += two;
     shut += result.success;

@@ -42,10 +42,10 @@ TEST(PushingPoses, AreBehindTheDoorAndGoItsWay) {
     const Isometry3d before = GraspPoseAtJoint(variant.model, state, one);
     state.joints[0][static_cast<size_t>(target.joint)] -= 1e-6;
     const Isometry3d after = GraspPoseAtJoint(variant.model, state, one);
-    const Vector3d way = (after.translation() - before.translation()).normalized();
+    const Vector3d displacement = (after.translation() - before.translation()).normalized();
     // The contact is slightly behind the face that contains the hinge: its motion is not quite
     // along x.
-    EXPECT_GT(way.dot(before.linear().col(0)), 0.95);
+    EXPECT_GT(displacement.dot(before.linear().col(0)), 0.95);
     for (const Vector3d& point : object.links[static_cast<size_t>(target.link)].extreme_points) {
       EXPECT_GE((target.approaches[i].inverse() * point).x(), 0.02 - 1e-9);
     }
@@ -81,14 +81,14 @@ TEST(SampleStart, AHandThatBeginsAtTheDoorDoesNotGoBackFirst) {
   options.part_way_share = 0.0;
   const auto skill = skills::MakeSkill(robot::Panda(false), {skills::CloseDoor()}, options);
   core::Rng rng = core::StreamRng(3, 0);
-  int at_work = 0;
+  int grasp_configuration = 0;
   for (int i = 0; i < 10; ++i) {
     const skills::StartState start = skills::SampleStart(*skill, rng);
-    const bool there = start.arm == start.at_work;
-    at_work += there;
-    EXPECT_EQ(start.via.empty(), there);
+    const bool there = start.arm == start.grasp_configuration;
+    grasp_configuration += there;
+    EXPECT_EQ(start.waypoints.empty(), there);
   }
-  EXPECT_GT(at_work, 0);
+  EXPECT_GT(grasp_configuration, 0);
 }
 
 TEST(IsClosedByPushing, IsNoKnobAndNothingThatIsOpened) {

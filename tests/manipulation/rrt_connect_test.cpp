@@ -42,14 +42,14 @@ TEST(PlanRrtConnect, GetsRoundWhatIsBetween) {
   const auto joint_path = PlanRrtConnect(arm, clearance, scene.left, scene.right);
   ASSERT_TRUE(joint_path);
   ASSERT_FALSE(joint_path->empty());
-  Detour way = *joint_path;
-  way.insert(way.begin(), scene.left);
-  way.push_back(scene.right);
+  JointPath path = *joint_path;
+  path.insert(path.begin(), scene.left);
+  path.push_back(scene.right);
   int looks = 0, touching = 0;
-  for (size_t i = 0; i + 1 < way.size(); ++i) {
-    EXPECT_TRUE(clearance.IsPathCollisionFree(way[i], way[i + 1])) << i;
+  for (size_t i = 0; i + 1 < path.size(); ++i) {
+    EXPECT_TRUE(clearance.IsPathCollisionFree(path[i], path[i + 1])) << i;
     for (int step = 0; step <= 50; ++step) {
-      const robot::JointVector at = way[i] + step / 50.0 * (way[i + 1] - way[i]);
+      const robot::JointVector at = path[i] + step / 50.0 * (path[i + 1] - path[i]);
       ++looks;
       touching += !clearance.IsCollisionFree(at);
       for (Eigen::Index j = 0; j < at.size(); ++j) {

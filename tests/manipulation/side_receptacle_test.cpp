@@ -129,11 +129,13 @@ TEST(SideReceptacle, AThingThatGoesIntoOneIsTakenByAHandThatLeansIn) {
   for (int i = 0; i < 16; ++i) {
     const skills::StartState start = skills::SampleStart(*picks, rng);
     const Vector3d inward = InwardDirection(*variant.room, variant.model, start.state);
-    const Isometry3d tool = ToolAt(*picks, start.at_work);
+    const Isometry3d tool = ToolAt(*picks, start.grasp_configuration);
     EXPECT_NEAR(std::abs(PitchOf(tool)), std::abs(start.pitch), 0.02);
-    EXPECT_LT(
-        ToolAt(*picks_alone, skills::SampleStart(*picks_alone, rng).at_work).linear().col(2).z(),
-        -0.7);
+    EXPECT_LT(ToolAt(*picks_alone, skills::SampleStart(*picks_alone, rng).grasp_configuration)
+                  .linear()
+                  .col(2)
+                  .z(),
+              -0.7);
     if (tool.linear().col(2).dot(inward) < std::sin(0.5)) continue;
     ++leaning;
     // The closing axis is across the opening, as far as the cup's eight sides permit.
@@ -152,7 +154,7 @@ TEST(SideReceptacle, AHandThatLeansIsClearInIt) {
   for (int i = 0; i < 8; ++i) {
     const skills::StartState start = skills::SampleStart(*skill, rng);
     EXPECT_EQ(start.held, variant.target->object);
-    Isometry3d there = ToolAt(*skill, start.at_work);
+    Isometry3d there = ToolAt(*skill, start.grasp_configuration);
     there.translation() += manipulation::DisplacementToDestination(variant, start.state);
     const std::vector<Isometry3d> links =
         BodyPoses(variant.bodies[0]->body(), variant.model.objects[0], start.state.roots[0],
@@ -197,21 +199,21 @@ TEST(SideReceptacle, AHandThatIsLeftInsideGetsOutFirst) {
   const skills::SkillVariant& variant = puts->variants[0];
   core::Rng rng = core::StreamRng(3, 0);
   skills::StartState end = skills::SampleStart(*puts, rng);
-  Isometry3d there = ToolAt(*puts, end.at_work);
-  const Vector3d way = manipulation::DisplacementToDestination(variant, end.state);
-  there.translation() += way;
+  Isometry3d there = ToolAt(*puts, end.grasp_configuration);
+  const Vector3d displacement = manipulation::DisplacementToDestination(variant, end.state);
+  there.translation() += displacement;
   const robot::PoseSolution found = puts->kinematics->Solve(
-      variant.subtask.start.world_from_robot.inverse() * there, end.at_work, rng);
+      variant.subtask.start.world_from_robot.inverse() * there, end.grasp_configuration, rng);
   ASSERT_TRUE(found.reached);
   end.arm = found.q;
   end.held = -1;
-  end.state.roots[static_cast<size_t>(variant.target->object)].translation() += way;
+  end.state.roots[static_cast<size_t>(variant.target->object)].translation() += displacement;
   const skills::StartState start =
       skills::PlannedFrom(*closes, end, rng, skills::Resampling::kNothing);
-  const Vector3d refuge = there.translation() + start.withdraw;
-  EXPECT_GE(start.withdraw.norm(), 0.08 - 1e-9);
+  const Vector3d refuge = there.translation() + start.retreat;
+  EXPECT_GE(start.retreat.norm(), 0.08 - 1e-9);
   EXPECT_LE(DepthIn(*variant.room, variant.model, end.state, refuge), -kEntryDistance + 2e-3);
-  EXPECT_GT(-there.linear().col(2).dot(start.withdraw.normalized()), 0.99);
+  EXPECT_GT(-there.linear().col(2).dot(start.retreat.normalized()), 0.99);
   // An action of zero moves it there, in less time than the longest retreat, and then to the
   // handle.
   skills::Episode episode(*closes);
@@ -226,7 +228,7 @@ TEST(SideReceptacle, AHandThatIsLeftInsideGetsOutFirst) {
   // The file of start states keeps the retreat.
   const skills::StartState read = skills::ParseStart(skills::StartText(start), *closes, "test");
   EXPECT_EQ(skills::StartText(read), skills::StartText(start));
-  EXPECT_EQ(read.withdraw, start.withdraw);
+  EXPECT_EQ(read.retreat, start.retreat);
 }
 
 TEST(SideReceptacle, TheFrameIsTheRefugeUntilTheHandIsThere) {
@@ -234,24 +236,24 @@ TEST(SideReceptacle, TheFrameIsTheRefugeUntilTheHandIsThere) {
                                        skills::SkillOptions().ForEvaluation());
   const skills::SkillVariant& variant = skill->variants.front();
   tasks::SceneState state = variant.start;
-  const Vector3d way(0.0, 0.0, 0.1);
-  const TargetFrame at_work(variant, state, Vector3d::UnitY(), 0.0);
-  TargetFrame frame(variant, state, Vector3d::UnitY(), 0.0, way);
-  const Isometry3d refuge = Eigen::Translation3d(way) * state.gripper;
-  ASSERT_TRUE(frame.withdrawing());
+  const Vector3d displacement(0.0, 0.0, 0.1);
+  const TargetFrame grasp_configuration(variant, state, Vector3d::UnitY(), 0.0);
+  TargetFrame frame(variant, state, Vector3d::UnitY(), 0.0, displacement);
+  const Isometry3d refuge = Eigen::Translation3d(displacement) * state.gripper;
+  ASSERT_TRUE(frame.retreating());
   EXPECT_TRUE(frame.motion_direction().isZero());
   frame.Update(state);
   EXPECT_TRUE(frame.world_from_target().isApprox(refuge, 1e-12));
-  state.gripper.translation() += 0.85 * way;
+  state.gripper.translation() += 0.85 * displacement;
   frame.Update(state);
-  EXPECT_FALSE(frame.withdrawing());
-  EXPECT_TRUE(frame.world_from_target().isApprox(at_work.world_from_target(), 1e-12));
+  EXPECT_FALSE(frame.retreating());
+  EXPECT_TRUE(frame.world_from_target().isApprox(grasp_configuration.world_from_target(), 1e-12));
   // A blocked gripper continues after half a second, a slow one after one and a half.
   for (const double step : {0.0, 0.004}) {
     state = variant.start;
-    TargetFrame slow(variant, state, Vector3d::UnitY(), 0.0, 5.0 * way);
+    TargetFrame slow(variant, state, Vector3d::UnitY(), 0.0, 5.0 * displacement);
     int updates = 0;
-    while (slow.withdrawing() && updates < 100) {
+    while (slow.retreating() && updates < 100) {
       state.gripper.translation().z() += step;
       slow.Update(state);
       ++updates;
@@ -267,7 +269,7 @@ TEST(SideReceptacle, AThingInTheHandGoesInThroughTheOpening) {
   const skills::SkillVariant& variant = skill->variants[0];
   core::Rng rng = core::StreamRng(4, 0);
   const skills::StartState start = skills::SampleStart(*skill, rng);
-  const Isometry3d tool = ToolAt(*skill, start.at_work);
+  const Isometry3d tool = ToolAt(*skill, start.grasp_configuration);
   tasks::SceneState state = start.state;
   state.gripper = tool;
   const TargetFrame frame(variant, state, tool.linear().col(1), start.pitch);
@@ -285,7 +287,7 @@ TEST(SideReceptacle, AThingInTheHandGoesInThroughTheOpening) {
       variant.subtask.start.world_from_robot.linear().transpose();
   const auto sent_to = [&](const Vector3d& off) -> Vector3d {
     skills::ArmCommand command;
-    command.sent = start.at_work;
+    command.sent = start.grasp_configuration;
     const Isometry3d now = robot::ForwardKinematics(skill->robot->arm, command.sent);
     work.base_from_target.linear() = base_from_world * frame.world_from_target().linear();
     work.base_from_target.translation() = now.translation() - base_from_world * off;
@@ -354,8 +356,8 @@ TEST(SideReceptacle, AHandThatLeavesWaitsForItsFingers) {
   for (const bool opens : {true, false}) {
     tasks::SceneState state = variant.start;
     state.opening = 0.01;
-    const Vector3d way(0.0, 0.0, 0.1), here = state.gripper.translation();
-    TargetFrame frame(variant, state, Vector3d::UnitY(), 0.0, way);
+    const Vector3d displacement(0.0, 0.0, 0.1), here = state.gripper.translation();
+    TargetFrame frame(variant, state, Vector3d::UnitY(), 0.0, displacement);
     int updates = 1;
     while ((frame.world_from_target().translation() - here).norm() < 1e-9 && updates < 100) {
       if (opens && updates == 4) state.opening = 0.05;
@@ -363,7 +365,7 @@ TEST(SideReceptacle, AHandThatLeavesWaitsForItsFingers) {
       ++updates;
     }
     EXPECT_NEAR(updates, opens ? 5 : 11, 1) << opens;
-    EXPECT_LT((frame.world_from_target().translation() - here - way).norm(), 1e-9);
+    EXPECT_LT((frame.world_from_target().translation() - here - displacement).norm(), 1e-9);
   }
 }
 

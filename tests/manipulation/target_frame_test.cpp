@@ -103,8 +103,8 @@ TEST(TargetFrame, WhatHasSlidInTheHandIsBroughtOn) {
   tasks::SceneState state = variant.start;
   TargetFrame frame = FrameOf(variant, state);
   ASSERT_TRUE(frame.at_destination());
-  const Vector3d way = manipulation::DisplacementToDestination(variant, state);
-  ASSERT_GT(way.norm(), 0.2);
+  const Vector3d displacement = manipulation::DisplacementToDestination(variant, state);
+  ASSERT_GT(displacement.norm(), 0.2);
   // The gripper has moved to its target without the cup.
   state.grasped = true;
   state.touched = variant.target->object;
@@ -113,13 +113,13 @@ TEST(TargetFrame, WhatHasSlidInTheHandIsBroughtOn) {
   EXPECT_TRUE(frame.world_from_target().translation().isApprox(state.gripper.translation(), 1e-9));
   frame.Update(state);
   EXPECT_TRUE(frame.world_from_target().translation().isApprox(
-      Vector3d(state.gripper.translation() + way), 1e-9));
+      Vector3d(state.gripper.translation() + displacement), 1e-9));
   // On the path the gripper holds it unchanged.
-  state.gripper.translation() += 0.5 * way;
-  state.roots[static_cast<size_t>(variant.target->object)].pretranslate(0.5 * way);
+  state.gripper.translation() += 0.5 * displacement;
+  state.roots[static_cast<size_t>(variant.target->object)].pretranslate(0.5 * displacement);
   for (int i = 0; i < 8; ++i) frame.Update(state);
   EXPECT_TRUE(frame.world_from_target().translation().isApprox(
-      Vector3d(state.gripper.translation() + 0.5 * way), 1e-9));
+      Vector3d(state.gripper.translation() + 0.5 * displacement), 1e-9));
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ void ExpectWayOfDifferences(const skills::SkillVariant& variant, double position
   joint = position + step;
   const Eigen::Isometry3d after = GraspPoseAtJoint(variant.model, state, *variant.target);
   const Vector3d moved = frame.linear().transpose() * (after.translation() - frame.translation());
-  EXPECT_LT((geometry.way - moved.normalized()).norm(), 1e-5);
+  EXPECT_LT((geometry.motion_direction - moved.normalized()).norm(), 1e-5);
   if (geometry.hinge.isZero()) {
     EXPECT_NEAR(moved.norm() / step, 1.0, 1e-5);  // prismatic: a metre per metre
   } else {
@@ -74,7 +74,7 @@ TEST(TargetGeometry, SizeIsTheHandlesAsTheHandSeesIt) {
   const double turn = std::atan2(0.06, 0.45), side = 0.02 * (std::cos(turn) + std::sin(turn));
   EXPECT_LT((geometry.size - Vector3d(0.2, side, side)).norm(), 1e-9);
   EXPECT_NEAR(geometry.hinge.norm(), std::hypot(0.06, 0.45), 1e-9);
-  EXPECT_LT((geometry.way + Vector3d::UnitZ()).norm(), 1e-9);
+  EXPECT_LT((geometry.motion_direction + Vector3d::UnitZ()).norm(), 1e-9);
   EXPECT_NEAR(geometry.middle.x(), 0.0, 1e-9);
   EXPECT_NEAR(geometry.middle.y(), 0.0, 1e-9);
 }
@@ -91,7 +91,7 @@ TEST(TargetGeometry, OfAFreeThingIsItsOutlineTurned) {
   const double c = std::cos(M_PI / 6), s = std::sin(M_PI / 6);
   EXPECT_LT((geometry.size - Vector3d(0.2 * c + 0.04 * s, 0.2 * s + 0.04 * c, 0.06)).norm(), 1e-9);
   EXPECT_LT((geometry.middle - Vector3d(0.0, 0.0, -0.02)).norm(), 1e-9);
-  EXPECT_TRUE(geometry.way.isZero());
+  EXPECT_TRUE(geometry.motion_direction.isZero());
   EXPECT_TRUE(geometry.hinge.isZero());
 }
 

@@ -152,7 +152,7 @@ TEST(CarryPlan, ArrivesAboveTheDrawerInNothing) {
   for (const skills::StartState& start : skills::SampleStarts(*skill, 12, 3)) {
     CarryTask task;
     task.there = variant.subtask.start.world_from_robot *
-                 robot::ForwardKinematics(skill->robot->arm, start.at_work);
+                 robot::ForwardKinematics(skill->robot->arm, start.grasp_configuration);
     task.there.translation() += manipulation::DisplacementToDestination(variant, start.state);
     task.back = Vector3d(0.0, 0.0, 0.15);
     task.may_turn = true;

@@ -57,18 +57,18 @@ TEST(Trainer, GoesOnAsIfItHadNeverStopped) {
   UNet whole = SmallUNet(1);
   Trainer through(whole.get(), options, folder.path() / "whole");
   const double before = LossOf(whole, 0).item<double>();
-  for (int step = 0; step < 12; ++step) through.Descend(step, LossOf(whole, step));
+  for (int step = 0; step < 12; ++step) through.Step(step, LossOf(whole, step));
   EXPECT_LT(LossOf(whole, 0).item<double>(), 0.98 * before);
 
   UNet half = SmallUNet(1);
   Trainer first(half.get(), options, folder.path() / "state");
-  for (int step = 0; step < 5; ++step) first.Descend(step, LossOf(half, step));
+  for (int step = 0; step < 5; ++step) first.Step(step, LossOf(half, step));
   first.SaveState(5);
   UNet rest = SmallUNet(3);
   options.resume = true;
   Trainer second(rest.get(), options, folder.path() / "state");
   ASSERT_EQ(second.first_step(), 5);
-  for (int step = 5; step < 12; ++step) second.Descend(step, LossOf(rest, step));
+  for (int step = 5; step < 12; ++step) second.Step(step, LossOf(rest, step));
   EXPECT_LT(Difference(*whole, *rest), 1e-6);
   UNet average_whole = SmallUNet(4), average_rest = SmallUNet(5);
   through.CopyAverageTo(average_whole.get());
@@ -92,8 +92,8 @@ TEST(Trainer, SharesGoWhereTheWholeGoes) {
     torch::manual_seed(step);
     const torch::Tensor x = torch::randn({6, 4, 8, 8}), y = x.roll(1, 1);
     const torch::Tensor loss = torch::mse_loss(whole(x), y);
-    one.Descend(step, loss);
-    const double sum = three.Descend(step, 3, [&](int i) {
+    one.Step(step, loss);
+    const double sum = three.Step(step, 3, [&](int i) {
       return torch::mse_loss(shared(x.narrow(0, 2 * i, 2)), y.narrow(0, 2 * i, 2)) / 3.0;
     });
     EXPECT_NEAR(sum, loss.item<double>(), 1e-5 * sum);
@@ -103,8 +103,8 @@ TEST(Trainer, SharesGoWhereTheWholeGoes) {
 
   UNet before = SmallUNet(9), after = SmallUNet(9);
   Trainer skips(after.get(), options, folder.path() / "skips");
-  const double bad = skips.Descend(
-      0, 2, [&](int i) { return after->parameters()[0].sum() * (i == 1 ? NAN : 1.0); });
+  const double bad =
+      skips.Step(0, 2, [&](int i) { return after->parameters()[0].sum() * (i == 1 ? NAN : 1.0); });
   EXPECT_TRUE(std::isnan(bad));
   EXPECT_EQ(Difference(*before, *after), 0.0);
 }

@@ -143,13 +143,13 @@ TEST(CategoryDiffusion, NoiseHasItsShares) {
 TEST(CategoryDiffusion, DrawsByTheirProbabilities) {
   const at::Generator generator = at::detail::createCPUGenerator(3);
   const torch::Tensor shares = torch::tensor({0.1f, 0.0f, 0.6f, 0.3f});
-  const torch::Tensor draws =
+  const torch::Tensor samples =
       CategoryDiffusion::Draw(shares.expand({1, 50000, 4}), generator).squeeze(0);
   for (int i = 0; i < 4; ++i) {
-    EXPECT_NEAR(draws.eq(i).to(torch::kDouble).mean().item<double>(), shares[i].item<double>(),
+    EXPECT_NEAR(samples.eq(i).to(torch::kDouble).mean().item<double>(), shares[i].item<double>(),
                 0.01);
   }
-  EXPECT_EQ(draws.eq(1).sum().item<int>(), 0);
+  EXPECT_EQ(samples.eq(1).sum().item<int>(), 0);
 }
 
 TEST(CategoryDiffusion, RefusesWhatIsNone) {

@@ -70,17 +70,17 @@ TEST(MakeFeasible, DimsumTablesStand) {
   int sound = 0, objects = 0, dropped = 0;
   constexpr int kScenes = 6;
   for (int i = 0; i < kScenes; ++i) {
-    const SceneSample draw = DrawOf(asset_set, static_cast<std::uint64_t>(i));
-    const FeasibleScene scene = MakeFeasible(draw.objects, asset_set, options);
+    const SceneSample sample = DrawOf(asset_set, static_cast<std::uint64_t>(i));
+    const FeasibleScene scene = MakeFeasible(sample.objects, asset_set, options);
     EXPECT_TRUE(scene.projected);
     sound += scene.sound;
-    objects += static_cast<int>(draw.objects.size());
+    objects += static_cast<int>(sample.objects.size());
     dropped += scene.dropped;
     if (!scene.sound) continue;
     EXPECT_LE(scene.penetration, 1e-4);
     EXPECT_LE(scene.drift, 1e-3);
     EXPECT_LT(scene.moved, 2e-3);
-    EXPECT_EQ(scene.objects.size() + static_cast<size_t>(scene.dropped), draw.objects.size());
+    EXPECT_EQ(scene.objects.size() + static_cast<size_t>(scene.dropped), sample.objects.size());
   }
   EXPECT_GE(sound, 5);
   EXPECT_LE(dropped, objects / 20);

@@ -50,10 +50,11 @@ TEST(FurnitureInGrammars, ThingsStandOnItsSurfaces) {
     core::Rng rng = core::StreamRng(5, 0);
     int standing = 0;
     for (int scene = 0; scene < 3; ++scene) {
-      const SceneSample draw = SampleGrammar(grammar, rng);
-      for (const SceneObject& object : draw.objects) {
-        if (object.parent < 0 || !draw.objects[static_cast<size_t>(object.parent)].welded) continue;
-        const SceneObject& furniture = draw.objects[static_cast<size_t>(object.parent)];
+      const SceneSample sample = SampleGrammar(grammar, rng);
+      for (const SceneObject& object : sample.objects) {
+        if (object.parent < 0 || !sample.objects[static_cast<size_t>(object.parent)].welded)
+          continue;
+        const SceneObject& furniture = sample.objects[static_cast<size_t>(object.parent)];
         const Eigen::Vector3d at =
             furniture.world_from_object.inverse() * object.world_from_object.translation();
         EXPECT_NEAR(SurfaceUnder(asset_set.At(furniture.category), at), at.z(), 1e-9)

@@ -17,16 +17,16 @@ namespace {
 constexpr double kHalfX = 0.3575, kHalfY = 0.7, kMargin = 0.1;  // m
 
 const std::vector<SceneSample>& GrammarBreakfastDraws(bool high) {
-  static const auto draw = [](const Grammar& grammar) {
-    std::vector<SceneSample> draws;
+  static const auto sample = [](const Grammar& grammar) {
+    std::vector<SceneSample> samples;
     for (std::uint64_t i = 0; i < 3000; ++i) {
       core::Rng rng = core::StreamRng(6, i);
-      draws.push_back(SampleGrammar(grammar, rng));
+      samples.push_back(SampleGrammar(grammar, rng));
     }
-    return draws;
+    return samples;
   };
-  static const std::vector<SceneSample> highs = draw(BreakfastTableHigh());
-  static const std::vector<SceneSample> lows = draw(BreakfastTableLow());
+  static const std::vector<SceneSample> highs = sample(BreakfastTableHigh());
+  static const std::vector<SceneSample> lows = sample(BreakfastTableLow());
   return high ? highs : lows;
 }
 
@@ -41,24 +41,24 @@ double SharedRadius(const std::string& symbol) {
   return found == radii.end() ? -1.0 : found->second;
 }
 
-bool HasShared(const SceneSample& draw) {
-  return std::any_of(draw.objects.begin(), draw.objects.end(),
+bool HasShared(const SceneSample& sample) {
+  return std::any_of(sample.objects.begin(), sample.objects.end(),
                      [](const SceneObject& o) { return SharedRadius(o.symbol) >= 0.0; });
 }
 
 TEST(BreakfastTable, KeepsSettingsAndSharedThingsApartAndInsideTheRim) {
   for (const bool high : {false, true}) {
     int pairs = 0;
-    for (const SceneSample& draw : GrammarBreakfastDraws(high)) {
-      for (const SceneObject& one : draw.objects) {
-        if (!IsBase(draw, one)) continue;
+    for (const SceneSample& sample : GrammarBreakfastDraws(high)) {
+      for (const SceneObject& one : sample.objects) {
+        if (!IsBase(sample, one)) continue;
         ASSERT_LE(std::abs(PlaceOf(one).x()), kHalfX - kMargin + 1e-12);
         ASSERT_LE(std::abs(PlaceOf(one).y()), kHalfY - kMargin + 1e-12);
         ASSERT_NEAR(PlaceOf(one).z(), 0.75, 1e-12);
         const double radius = SharedRadius(one.symbol);
         if (radius < 0.0) continue;
-        for (const SceneObject& other : draw.objects) {
-          if (!IsBase(draw, other) || SharedRadius(other.symbol) >= 0.0) continue;
+        for (const SceneObject& other : sample.objects) {
+          if (!IsBase(sample, other) || SharedRadius(other.symbol) >= 0.0) continue;
           ASSERT_GE(Across(one, other), radius - 1e-12) << one.symbol << " " << other.symbol;
           ++pairs;
         }
@@ -97,11 +97,11 @@ TEST(BreakfastTable, TheMiddlePairHasItsClosedForm) {
   const double bowl = 0.2 * (2.0 / 3.0 * AllInside(0) + 1.0 / 3.0 * AllInside(1));
   const double total = plate + bowl + 0.2;
   int scenes = 0, plates = 0, bowls = 0, forks = 0;
-  for (const SceneSample& draw : GrammarBreakfastDraws(true)) {
-    if (HasShared(draw)) continue;
+  for (const SceneSample& sample : GrammarBreakfastDraws(true)) {
+    if (HasShared(sample)) continue;
     ++scenes;
     bool middle = false;
-    for (const SceneObject& object : draw.objects) {
+    for (const SceneObject& object : sample.objects) {
       const bool own = object.symbol == "own_plate" || object.symbol == "own_bowl";
       // Objects of a setting follow its dish.
       if (own) middle = std::abs(PlaceOf(object).y()) <= 0.08;
@@ -132,12 +132,12 @@ TEST(BreakfastTable, DishesHoldWhatIsPublished) {
       {"toast", {{"toast", 0.25}, {"", 0.75}}}};
   std::map<std::string, std::map<std::string, int>> seen;
   std::map<std::string, int> dishes;
-  for (const SceneSample& draw : GrammarBreakfastDraws(true)) {
-    for (size_t i = 0; i < draw.objects.size(); ++i) {
-      const std::string& dish = draw.objects[i].symbol;
+  for (const SceneSample& sample : GrammarBreakfastDraws(true)) {
+    for (size_t i = 0; i < sample.objects.size(); ++i) {
+      const std::string& dish = sample.objects[i].symbol;
       if (published.count(dish) == 0) continue;
       ++dishes[dish];
-      ++seen[dish][CarriedBy(draw, i)];
+      ++seen[dish][CarriedBy(sample, i)];
     }
   }
   for (const auto& [dish, shares] : published) {
@@ -153,10 +153,10 @@ TEST(BreakfastTable, DishesHoldWhatIsPublished) {
 
 TEST(BreakfastTable, ACrockHoldsAGeometricNumberOfUtensils) {
   double crocks = 0.0, utensils = 0.0;
-  for (const SceneSample& draw : GrammarBreakfastDraws(false)) {
-    for (const SceneObject& object : draw.objects) {
+  for (const SceneSample& sample : GrammarBreakfastDraws(false)) {
+    for (const SceneObject& object : sample.objects) {
       crocks += object.category == "utensil_crock";
-      utensils += object.parent > 0 && ParentOf(draw, object).category == "utensil_crock";
+      utensils += object.parent > 0 && ParentOf(sample, object).category == "utensil_crock";
     }
   }
   // The deviation of one is 3.0.
@@ -169,10 +169,10 @@ TEST(BreakfastTable, ACrockHoldsAGeometricNumberOfUtensils) {
 TEST(BreakfastTable, HasNotManyMoreThingsThanPublished) {
   double sums[2] = {0.0, 0.0};
   for (const bool high : {false, true}) {
-    for (const SceneSample& draw : GrammarBreakfastDraws(high)) {
-      sums[high] += static_cast<double>(draw.objects.size()) / 3000.0;
-      ASSERT_LE(draw.objects.size(), high ? 46u : 35u);
-      ASSERT_GE(draw.objects.size(), 4u);
+    for (const SceneSample& sample : GrammarBreakfastDraws(high)) {
+      sums[high] += static_cast<double>(sample.objects.size()) / 3000.0;
+      ASSERT_LE(sample.objects.size(), high ? 46u : 35u);
+      ASSERT_GE(sample.objects.size(), 4u);
     }
   }
   RecordProperty("low", std::to_string(sums[0]));
@@ -184,11 +184,11 @@ TEST(BreakfastTable, HasNotManyMoreThingsThanPublished) {
 // Seen from the seat, forks are left of their plate and knives right, and mugs beyond.
 TEST(BreakfastTable, CutleryLiesWhereItBelongs) {
   int forks = 0, knives = 0, mugs = 0;
-  for (const SceneSample& draw : GrammarBreakfastDraws(true)) {
+  for (const SceneSample& sample : GrammarBreakfastDraws(true)) {
     const SceneObject* plate = nullptr;  // objects of a setting follow it
-    for (const SceneObject& object : draw.objects) {
+    for (const SceneObject& object : sample.objects) {
       if (object.symbol == "own_plate") plate = &object;
-      if (plate == nullptr || !IsBase(draw, object)) continue;
+      if (plate == nullptr || !IsBase(sample, object)) continue;
       // A person at negative x looks along x; left is y.
       const double facing = PlaceOf(*plate).x() < 0.0 ? 1.0 : -1.0;
       const Eigen::Vector3d way = facing * (PlaceOf(object) - PlaceOf(*plate));
@@ -211,10 +211,10 @@ TEST(BreakfastTable, CutleryLiesWhereItBelongs) {
 
 TEST(BreakfastTable, UtensilsStandInTheirCrock) {
   int standing = 0;
-  for (const SceneSample& draw : GrammarBreakfastDraws(false)) {
-    for (const SceneObject& object : draw.objects) {
+  for (const SceneSample& sample : GrammarBreakfastDraws(false)) {
+    for (const SceneObject& object : sample.objects) {
       if (object.parent <= 0) continue;
-      const SceneObject& below = ParentOf(draw, object);
+      const SceneObject& below = ParentOf(sample, object);
       if (below.category != "utensil_crock") continue;
       ++standing;
       ASSERT_NEAR(object.world_from_object.linear().col(0).z(), 1.0, 1e-9);

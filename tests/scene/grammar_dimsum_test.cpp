@@ -18,34 +18,34 @@ constexpr double kTabletop = 0.785;
 
 std::vector<SceneSample> GrammarDimsumDraws(int count) {
   const Grammar grammar = DimsumTable();
-  std::vector<SceneSample> draws;
+  std::vector<SceneSample> samples;
   for (int i = 0; i < count; ++i) {
     core::Rng rng = core::StreamRng(1, static_cast<std::uint64_t>(i));
-    draws.push_back(SampleGrammar(grammar, rng));
+    samples.push_back(SampleGrammar(grammar, rng));
   }
-  return draws;
+  return samples;
 }
 
 constexpr int kScenes = 300;
 
 const std::vector<SceneSample>& Some() {
-  static const std::vector<SceneSample> draws = GrammarDimsumDraws(kScenes);
-  return draws;
+  static const std::vector<SceneSample> samples = GrammarDimsumDraws(kScenes);
+  return samples;
 }
 
-int CountGrammarDimsumOf(const SceneSample& draw, const std::string& category) {
+int CountGrammarDimsumOf(const SceneSample& sample, const std::string& category) {
   return static_cast<int>(
-      std::count_if(draw.objects.begin(), draw.objects.end(),
+      std::count_if(sample.objects.begin(), sample.objects.end(),
                     [&](const SceneObject& o) { return o.category == category; }));
 }
 
 // The height of each stack of steamers.
-std::vector<int> Stacks(const SceneSample& draw) {
+std::vector<int> Stacks(const SceneSample& sample) {
   std::map<int, int> level;
   std::vector<int> heights;
-  for (size_t i = 0; i < draw.objects.size(); ++i) {
-    if (draw.objects[i].category != "steamer") continue;
-    const auto below = level.find(draw.objects[i].parent);
+  for (size_t i = 0; i < sample.objects.size(); ++i) {
+    if (sample.objects[i].category != "steamer") continue;
+    const auto below = level.find(sample.objects[i].parent);
     level[static_cast<int>(i)] = below == level.end() ? 1 : below->second + 1;
     if (below == level.end()) heights.push_back(1);
     heights.back() = std::max(heights.back(), level[static_cast<int>(i)]);
@@ -61,22 +61,22 @@ double GrammarDimsumKeepOutOf(const std::string& category) {
 }
 
 TEST(DimsumTable, EverySceneKeepsItsConstraints) {
-  for (const SceneSample& draw : Some()) {
-    const std::vector<int> stacks = Stacks(draw);
+  for (const SceneSample& sample : Some()) {
+    const std::vector<int> stacks = Stacks(sample);
     ASSERT_GE(stacks.size(), 3u);
     ASSERT_GE(*std::max_element(stacks.begin(), stacks.end()), 4);
-    ASSERT_LE(draw.objects.size(), 34u);
-    ASSERT_EQ(draw.objects[0].category, "table_round");
-    ASSERT_TRUE(draw.objects[0].welded);
-    for (size_t i = 1; i < draw.objects.size(); ++i) {
-      const SceneObject& one = draw.objects[i];
+    ASSERT_LE(sample.objects.size(), 34u);
+    ASSERT_EQ(sample.objects[0].category, "table_round");
+    ASSERT_TRUE(sample.objects[0].welded);
+    for (size_t i = 1; i < sample.objects.size(); ++i) {
+      const SceneObject& one = sample.objects[i];
       const Vector3d at = one.world_from_object.translation();
       if (one.parent != 0) continue;  // stands on another
       ASSERT_NEAR(at.z(), kTabletop, 1e-12);
       const double margin = one.category == "plate" ? 0.1 : 0.15;
       ASSERT_LE(at.head<2>().norm(), 0.625 - margin + 1e-9);
-      for (size_t j = i + 1; j < draw.objects.size(); ++j) {
-        const SceneObject& other = draw.objects[j];
+      for (size_t j = i + 1; j < sample.objects.size(); ++j) {
+        const SceneObject& other = sample.objects[j];
         if (other.parent != 0) continue;
         const Vector3d way = other.world_from_object.translation() - at;
         ASSERT_GE(way.head<2>().norm(), GrammarDimsumKeepOutOf(one.category) +
@@ -87,10 +87,10 @@ TEST(DimsumTable, EverySceneKeepsItsConstraints) {
 }
 
 TEST(DimsumTable, SteamersStandOnEachOther) {
-  for (const SceneSample& draw : Some()) {
-    for (const SceneObject& one : draw.objects) {
+  for (const SceneSample& sample : Some()) {
+    for (const SceneObject& one : sample.objects) {
       if (one.parent <= 0) continue;
-      const SceneObject& below = draw.objects[static_cast<size_t>(one.parent)];
+      const SceneObject& below = sample.objects[static_cast<size_t>(one.parent)];
       ASSERT_EQ(below.category, "steamer");
       const Vector3d way = below.world_from_object.inverse() * one.world_from_object.translation();
       ASSERT_LT((way - Vector3d(0, 0, 0.091)).norm(), 1e-12);
@@ -102,12 +102,13 @@ TEST(DimsumTable, SteamersStandOnEachOther) {
 TEST(DimsumTable, CupsStandInwardsOfTheirPlates) {
   double inwards = 0.0;
   int pairs = 0;
-  for (const SceneSample& draw : Some()) {
-    for (size_t i = 0; i + 1 < draw.objects.size(); ++i) {
-      if (draw.objects[i].category != "plate" || draw.objects[i + 1].category != "cup") continue;
+  for (const SceneSample& sample : Some()) {
+    for (size_t i = 0; i + 1 < sample.objects.size(); ++i) {
+      if (sample.objects[i].category != "plate" || sample.objects[i + 1].category != "cup")
+        continue;
       ++pairs;
-      const Vector3d plate = draw.objects[i].world_from_object.translation();
-      const Vector3d cup = draw.objects[i + 1].world_from_object.translation();
+      const Vector3d plate = sample.objects[i].world_from_object.translation();
+      const Vector3d cup = sample.objects[i + 1].world_from_object.translation();
       inwards += plate.head<2>().norm() - cup.head<2>().norm();
       ASSERT_LT((cup - plate).norm(), 0.25 + 0.35);
     }
@@ -120,9 +121,9 @@ TEST(DimsumTable, CupsStandInwardsOfTheirPlates) {
 // that those with plate and cup are rejected more often than empty ones.
 TEST(DimsumTable, SettingsAreAsOftenAsPublished) {
   int plates = 0, cups = 0;
-  for (const SceneSample& draw : Some()) {
-    plates += CountGrammarDimsumOf(draw, "plate");
-    cups += CountGrammarDimsumOf(draw, "cup");
+  for (const SceneSample& sample : Some()) {
+    plates += CountGrammarDimsumOf(sample, "plate");
+    cups += CountGrammarDimsumOf(sample, "cup");
   }
   const double settings = 4.0 * kScenes;
   EXPECT_NEAR(plates / settings, 0.725 / 0.95, 0.06);
@@ -132,9 +133,9 @@ TEST(DimsumTable, SettingsAreAsOftenAsPublished) {
 TEST(DimsumTable, HasAsManyObjectsAsPublished) {
   double sum = 0.0;
   size_t most = 0;
-  for (const SceneSample& draw : Some()) {
-    sum += static_cast<double>(draw.objects.size());
-    most = std::max(most, draw.objects.size());
+  for (const SceneSample& sample : Some()) {
+    sum += static_cast<double>(sample.objects.size());
+    most = std::max(most, sample.objects.size());
   }
   RecordProperty("mean", std::to_string(sum / kScenes));
   EXPECT_NEAR(sum / kScenes, 17.1, 2.0);
@@ -145,11 +146,11 @@ TEST(DimsumTable, HasAsManyObjectsAsPublished) {
 TEST(DimsumTable, TheSameStateGivesTheSameScene) {
   const std::vector<SceneSample> again = GrammarDimsumDraws(5);
   for (size_t k = 0; k < again.size(); ++k) {
-    const SceneSample& draw = Some()[k];
-    ASSERT_EQ(again[k].objects.size(), draw.objects.size());
-    for (size_t i = 0; i < draw.objects.size(); ++i) {
+    const SceneSample& sample = Some()[k];
+    ASSERT_EQ(again[k].objects.size(), sample.objects.size());
+    for (size_t i = 0; i < sample.objects.size(); ++i) {
       EXPECT_EQ(again[k].objects[i].world_from_object.matrix(),
-                draw.objects[i].world_from_object.matrix());
+                sample.objects[i].world_from_object.matrix());
     }
   }
 }

@@ -19,26 +19,26 @@ using Eigen::Vector3d;
 constexpr int kHighs = 100, kLows = 300;
 
 std::vector<SceneSample> GrammarRestaurantDraws(const Grammar& grammar, int count) {
-  std::vector<SceneSample> draws;
+  std::vector<SceneSample> samples;
   for (int i = 0; i < count; ++i) {
     core::Rng rng = core::StreamRng(9, static_cast<std::uint64_t>(i));
-    draws.push_back(SampleGrammar(grammar, rng));
+    samples.push_back(SampleGrammar(grammar, rng));
   }
-  return draws;
+  return samples;
 }
 
 const std::vector<SceneSample>& Highs() {
-  static const std::vector<SceneSample> draws = GrammarRestaurantDraws(RestaurantHigh(), kHighs);
-  return draws;
+  static const std::vector<SceneSample> samples = GrammarRestaurantDraws(RestaurantHigh(), kHighs);
+  return samples;
 }
 const std::vector<SceneSample>& Lows() {
-  static const std::vector<SceneSample> draws = GrammarRestaurantDraws(RestaurantLow(), kLows);
-  return draws;
+  static const std::vector<SceneSample> samples = GrammarRestaurantDraws(RestaurantLow(), kLows);
+  return samples;
 }
 
-int CountGrammarRestaurantOf(const SceneSample& draw, const std::string& category) {
+int CountGrammarRestaurantOf(const SceneSample& sample, const std::string& category) {
   return static_cast<int>(
-      std::count_if(draw.objects.begin(), draw.objects.end(),
+      std::count_if(sample.objects.begin(), sample.objects.end(),
                     [&](const SceneObject& o) { return o.category == category; }));
 }
 
@@ -46,13 +46,13 @@ TEST(Restaurant, TablesChairsAndShelvesAreKeptApart) {
   SKIP_UNDER_SANITIZERS();
   const std::map<std::string, double> radii = {
       {"table_restaurant", 0.8}, {"chair", 0.35}, {"shelf_living_room", 0.3}};
-  for (const auto* draws : {&Highs(), &Lows()}) {
-    for (const SceneSample& draw : *draws) {
+  for (const auto* samples : {&Highs(), &Lows()}) {
+    for (const SceneSample& sample : *samples) {
       // With the table of each: four chairs come before each table.
       std::vector<std::pair<size_t, int>> placed;
       int group = 0;
-      for (size_t i = 0; i < draw.objects.size(); ++i) {
-        const SceneObject& one = draw.objects[i];
+      for (size_t i = 0; i < sample.objects.size(); ++i) {
+        const SceneObject& one = sample.objects[i];
         if (radii.count(one.category) == 0) continue;
         placed.emplace_back(i, group);
         group += one.category != "chair";
@@ -60,8 +60,8 @@ TEST(Restaurant, TablesChairsAndShelvesAreKeptApart) {
       for (size_t a = 0; a < placed.size(); ++a) {
         for (size_t b = a + 1; b < placed.size(); ++b) {
           if (placed[a].second == placed[b].second) continue;
-          const SceneObject &one = draw.objects[placed[a].first],
-                            &other = draw.objects[placed[b].first];
+          const SceneObject &one = sample.objects[placed[a].first],
+                            &other = sample.objects[placed[b].first];
           ASSERT_GE(Across(one, other), radii.at(one.category) + radii.at(other.category) - 1e-12);
         }
       }
@@ -71,12 +71,12 @@ TEST(Restaurant, TablesChairsAndShelvesAreKeptApart) {
 
 TEST(Restaurant, FurnitureIsWeldedAndChairsAreNot) {
   const std::set<std::string> welded = {"floor", "table_restaurant", "shelf_living_room"};
-  for (const auto* draws : {&Highs(), &Lows()}) {
-    for (const SceneSample& draw : *draws) {
-      ASSERT_EQ(CountGrammarRestaurantOf(draw, "floor"), 1);
-      ASSERT_EQ(draw.objects[0].category, "floor");
-      ASSERT_NEAR(PlaceOf(draw.objects[0]).z(), -0.05, 1e-12);  // its upper side is at 0
-      for (const SceneObject& one : draw.objects) {
+  for (const auto* samples : {&Highs(), &Lows()}) {
+    for (const SceneSample& sample : *samples) {
+      ASSERT_EQ(CountGrammarRestaurantOf(sample, "floor"), 1);
+      ASSERT_EQ(sample.objects[0].category, "floor");
+      ASSERT_NEAR(PlaceOf(sample.objects[0]).z(), -0.05, 1e-12);  // its upper side is at 0
+      for (const SceneObject& one : sample.objects) {
         ASSERT_EQ(one.welded, welded.count(one.category) == 1) << one.category;
         const Vector3d at = PlaceOf(one);
         if (one.category == "table_restaurant") {
@@ -97,19 +97,19 @@ TEST(Restaurant, FurnitureIsWeldedAndChairsAreNot) {
 TEST(Restaurant, FourChairsStandAboutEachTableAndFaceIt) {
   double distance = 0.0;
   int chairs = 0;
-  for (const SceneSample& draw : Highs()) {
-    ASSERT_EQ(CountGrammarRestaurantOf(draw, "chair"),
-              4 * CountGrammarRestaurantOf(draw, "table_restaurant"));
+  for (const SceneSample& sample : Highs()) {
+    ASSERT_EQ(CountGrammarRestaurantOf(sample, "chair"),
+              4 * CountGrammarRestaurantOf(sample, "table_restaurant"));
     Vector3d sum = Vector3d::Zero();
-    for (size_t i = 0; i < draw.objects.size(); ++i) {
-      const SceneObject& one = draw.objects[i];
+    for (size_t i = 0; i < sample.objects.size(); ++i) {
+      const SceneObject& one = sample.objects[i];
       if (one.category != "chair") continue;
-      ASSERT_EQ(ParentOf(draw, one).category, "floor");
+      ASSERT_EQ(ParentOf(sample, one).category, "floor");
       ASSERT_NEAR(PlaceOf(one).z(), 0.0, 1e-12);
       size_t table = i;  // their table follows
-      while (draw.objects[table].category == "chair") ++table;
-      ASSERT_EQ(draw.objects[table].category, "table_restaurant");
-      const Vector3d way = PlaceOf(draw.objects[table]) - PlaceOf(one);
+      while (sample.objects[table].category == "chair") ++table;
+      ASSERT_EQ(sample.objects[table].category, "table_restaurant");
+      const Vector3d way = PlaceOf(sample.objects[table]) - PlaceOf(one);
       distance += way.norm();
       ++chairs;
       ASSERT_GT(one.world_from_object.linear().col(0).dot(way.normalized()), 0.4);
@@ -129,16 +129,16 @@ TEST(Restaurant, WhatStandsOnATableIsKeptApartAndInside) {
   const std::map<std::string, double> radii = {
       {"plate", 0.14}, {"cup", 0.07}, {"teapot", 0.10}, {"serving_dish", 0.20}, {"steamer", 0.12}};
   int pairs = 0;
-  for (const auto* draws : {&Highs(), &Lows()}) {
-    for (const SceneSample& draw : *draws) {
-      for (size_t i = 0; i < draw.objects.size(); ++i) {
-        const SceneObject& one = draw.objects[i];
-        if (!IsBase(draw, one)) continue;
-        if (ParentOf(draw, one).category != "table_restaurant") continue;
+  for (const auto* samples : {&Highs(), &Lows()}) {
+    for (const SceneSample& sample : *samples) {
+      for (size_t i = 0; i < sample.objects.size(); ++i) {
+        const SceneObject& one = sample.objects[i];
+        if (!IsBase(sample, one)) continue;
+        if (ParentOf(sample, one).category != "table_restaurant") continue;
         ASSERT_NEAR(PlaceOf(one).z(), 0.785, 1e-12);
-        ASSERT_LE(Across(one, ParentOf(draw, one)), one.category == "plate" ? 0.525 : 0.475);
-        for (size_t j = i + 1; j < draw.objects.size(); ++j) {
-          const SceneObject& other = draw.objects[j];
+        ASSERT_LE(Across(one, ParentOf(sample, one)), one.category == "plate" ? 0.525 : 0.475);
+        for (size_t j = i + 1; j < sample.objects.size(); ++j) {
+          const SceneObject& other = sample.objects[j];
           if (other.parent != one.parent) continue;
           ASSERT_GE(Across(one, other), radii.at(one.category) + radii.at(other.category) - 1e-9);
           ++pairs;
@@ -150,13 +150,13 @@ TEST(Restaurant, WhatStandsOnATableIsKeptApartAndInside) {
 }
 
 TEST(Restaurant, ShelvesHoldAtLeastThreeThingsBetweenThem) {
-  for (const auto* draws : {&Highs(), &Lows()}) {
-    for (const SceneSample& draw : *draws) {
+  for (const auto* samples : {&Highs(), &Lows()}) {
+    for (const SceneSample& sample : *samples) {
       int on_shelves = 0;
-      for (const SceneObject& one : draw.objects) {
-        if (!IsBase(draw, one) || ParentOf(draw, one).category != "shelf_living_room") continue;
+      for (const SceneObject& one : sample.objects) {
+        if (!IsBase(sample, one) || ParentOf(sample, one).category != "shelf_living_room") continue;
         ++on_shelves;
-        const Vector3d there = ParentOf(draw, one).world_from_object.inverse() * PlaceOf(one);
+        const Vector3d there = ParentOf(sample, one).world_from_object.inverse() * PlaceOf(one);
         ASSERT_LT(std::abs(there.x()), 0.15);
         ASSERT_LT(std::abs(there.y()), 0.3);
         const auto height = std::lround(1e4 * there.z());
@@ -165,22 +165,22 @@ TEST(Restaurant, ShelvesHoldAtLeastThreeThingsBetweenThem) {
       // Stacked objects count as well, so that one or two bases may suffice.
       ASSERT_GE(on_shelves, 1);
       int all = 0;
-      for (SceneObject one : draw.objects) {
-        while (!one.welded) one = ParentOf(draw, one);
+      for (SceneObject one : sample.objects) {
+        while (!one.welded) one = ParentOf(sample, one);
         all += one.category == "shelf_living_room";
       }
-      ASSERT_GE(all - CountGrammarRestaurantOf(draw, "shelf_living_room"), 3);
+      ASSERT_GE(all - CountGrammarRestaurantOf(sample, "shelf_living_room"), 3);
     }
   }
 }
 
-int TallestStack(const SceneSample& draw) {
+int TallestStack(const SceneSample& sample) {
   int tallest = 0;
-  for (SceneObject one : draw.objects) {
+  for (SceneObject one : sample.objects) {
     int height = 0;
     while (one.category == "steamer") {
       ++height;
-      one = ParentOf(draw, one);
+      one = ParentOf(sample, one);
     }
     tallest = std::max(tallest, height);
   }
@@ -190,19 +190,19 @@ int TallestStack(const SceneSample& draw) {
 // Published, after physics: 60.5 and at most 125 objects, 35.1 and at most 107.
 TEST(Restaurant, HasAsManyThingsAsPublished) {
   double high = 0.0, low = 0.0;
-  for (const SceneSample& draw : Highs()) {
-    high += static_cast<double>(draw.objects.size()) / kHighs;
-    ASSERT_LE(draw.objects.size(), 125u);
-    ASSERT_GE(TallestStack(draw), 3);
-    const int tables = CountGrammarRestaurantOf(draw, "table_restaurant");
+  for (const SceneSample& sample : Highs()) {
+    high += static_cast<double>(sample.objects.size()) / kHighs;
+    ASSERT_LE(sample.objects.size(), 125u);
+    ASSERT_GE(TallestStack(sample), 3);
+    const int tables = CountGrammarRestaurantOf(sample, "table_restaurant");
     ASSERT_TRUE(tables >= 3 && tables <= 10);
-    ASSERT_GE(CountGrammarRestaurantOf(draw, "shelf_living_room"), 1);
-    ASSERT_LE(CountGrammarRestaurantOf(draw, "shelf_living_room"), 5);
+    ASSERT_GE(CountGrammarRestaurantOf(sample, "shelf_living_room"), 1);
+    ASSERT_LE(CountGrammarRestaurantOf(sample, "shelf_living_room"), 5);
   }
-  for (const SceneSample& draw : Lows()) {
-    low += static_cast<double>(draw.objects.size()) / kLows;
-    ASSERT_LE(draw.objects.size(), 107u);
-    ASSERT_GE(TallestStack(draw), 2);
+  for (const SceneSample& sample : Lows()) {
+    low += static_cast<double>(sample.objects.size()) / kLows;
+    ASSERT_LE(sample.objects.size(), 107u);
+    ASSERT_GE(TallestStack(sample), 2);
   }
   RecordProperty("high", std::to_string(high));
   RecordProperty("low", std::to_string(low));

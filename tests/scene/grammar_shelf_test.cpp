@@ -60,9 +60,9 @@ TEST(PantryShelf, HasTheCountsOfItsGrammar) {
   double sum = 0.0;
   size_t most = 0;
   for (int i = 0; i < kScenes; ++i) {
-    const SceneSample draw = SampleGrammar(grammar, rng);
-    sum += static_cast<double>(draw.objects.size());
-    most = std::max(most, draw.objects.size());
+    const SceneSample sample = SampleGrammar(grammar, rng);
+    sum += static_cast<double>(sample.objects.size());
+    most = std::max(most, sample.objects.size());
   }
   // Twelve kinds on four boards, a shelf and a bowl would have 33.2: crowded ones are rejected.
   // Counts deviate by 7, so that the means differ by 0.2.
@@ -97,11 +97,11 @@ TEST(PantryShelf, ThingsStandOnItsBoardsInsideOfIt) {
 // the board in 0.1 mm.
 using Boards = std::map<int, std::vector<size_t>>;
 
-Boards BoardsOf(const SceneSample& draw) {
+Boards BoardsOf(const SceneSample& sample) {
   Boards boards;
-  for (size_t i = 0; i < draw.objects.size(); ++i) {
-    if (!IsBase(draw, draw.objects[i])) continue;
-    boards[static_cast<int>(std::lround(1e4 * PlaceOf(draw.objects[i]).z()))].push_back(i);
+  for (size_t i = 0; i < sample.objects.size(); ++i) {
+    if (!IsBase(sample, sample.objects[i])) continue;
+    boards[static_cast<int>(std::lround(1e4 * PlaceOf(sample.objects[i]).z()))].push_back(i);
   }
   return boards;
 }
@@ -109,7 +109,7 @@ Boards BoardsOf(const SceneSample& draw) {
 constexpr int kShelves = 30000;
 
 const std::vector<SceneSample>& Shelves() {
-  static const std::vector<SceneSample> draws = [] {
+  static const std::vector<SceneSample> samples = [] {
     const Grammar grammar = LivingRoomShelf();
     std::vector<SceneSample> made;
     for (std::uint64_t i = 0; i < kShelves; ++i) {
@@ -118,7 +118,7 @@ const std::vector<SceneSample>& Shelves() {
     }
     return made;
   }();
-  return draws;
+  return samples;
 }
 
 double GrammarShelfKeepOutOf(const std::string& category) {
@@ -139,11 +139,11 @@ double GrammarShelfKeepOutOf(const std::string& category) {
 TEST(LivingRoomShelf, StacksAndPlatesAreKeptClear) {
   const std::set<std::string> stacks = {"plate", "console_game", "board_game_small"};
   int pairs = 0;
-  for (const SceneSample& draw : Shelves()) {
-    for (const auto& [height, indices] : BoardsOf(draw)) {
+  for (const SceneSample& sample : Shelves()) {
+    for (const auto& [height, indices] : BoardsOf(sample)) {
       ASSERT_TRUE(height == 170 || height == 2870 || height == 5470 || height == 8170) << height;
       for (const size_t i : indices) {
-        const SceneObject& one = draw.objects[i];
+        const SceneObject& one = sample.objects[i];
         if (one.category == "board_game_large") {
           ASSERT_EQ(indices.size(), 1u);  // it has the board for itself
           // It lies along the board.
@@ -152,7 +152,7 @@ TEST(LivingRoomShelf, StacksAndPlatesAreKeptClear) {
         if (stacks.count(one.category) == 0) continue;
         for (const size_t j : indices) {
           if (i == j) continue;
-          const SceneObject& other = draw.objects[j];
+          const SceneObject& other = sample.objects[j];
           ASSERT_GE(Across(one, other), GrammarShelfKeepOutOf(one.category) +
                                             GrammarShelfKeepOutOf(other.category) - 1e-12);
           ++pairs;
@@ -167,15 +167,15 @@ TEST(LivingRoomShelf, StacksAndPlatesAreKeptClear) {
 // have the three objects that a scene needs.
 int BoardsWith(const std::vector<std::string>& categories) {
   int count = 0;
-  for (const SceneSample& draw : Shelves()) {
-    for (const auto& [height, indices] : BoardsOf(draw)) {
+  for (const SceneSample& sample : Shelves()) {
+    for (const auto& [height, indices] : BoardsOf(sample)) {
       std::multiset<std::string> here;
       size_t carried = 0;
       for (const size_t i : indices) {
-        here.insert(draw.objects[i].category);
-        carried += !CarriedBy(draw, i).empty();
+        here.insert(sample.objects[i].category);
+        carried += !CarriedBy(sample, i).empty();
       }
-      const bool others = draw.objects.size() >= 4 + indices.size() + carried;
+      const bool others = sample.objects.size() >= 4 + indices.size() + carried;
       count += others && height != 8170 &&
                here == std::multiset<std::string>(categories.begin(), categories.end());
     }
@@ -220,12 +220,12 @@ TEST(LivingRoomShelf, RejectionLeavesWhatItsClosedFormSays) {
 // A stack continues with 0.3, and one of four large games is rejected.
 TEST(LivingRoomShelf, StacksOfLargeGamesAreGeometricUpToThree) {
   std::map<int, int> stacks;
-  for (const SceneSample& draw : Shelves()) {
+  for (const SceneSample& sample : Shelves()) {
     std::map<int, int> level;
-    for (size_t i = 0; i < draw.objects.size(); ++i) {
-      const SceneObject& one = draw.objects[i];
+    for (size_t i = 0; i < sample.objects.size(); ++i) {
+      const SceneObject& one = sample.objects[i];
       if (one.category != "board_game_large") continue;
-      const int here = IsBase(draw, one) ? 1 : level[one.parent] + 1;
+      const int here = IsBase(sample, one) ? 1 : level[one.parent] + 1;
       level[static_cast<int>(i)] = here;
       ++stacks[here];  // of at least this height
     }
@@ -240,10 +240,10 @@ TEST(LivingRoomShelf, StacksOfLargeGamesAreGeometricUpToThree) {
 // Published, after physics: 4.9, including the shelf.
 TEST(LivingRoomShelf, HasNotManyMoreThingsThanPublished) {
   double sum = 0.0;
-  for (const SceneSample& draw : Shelves()) {
-    sum += static_cast<double>(draw.objects.size());
-    ASSERT_LE(draw.objects.size(), 23u);
-    ASSERT_GE(draw.objects.size(), 4u);
+  for (const SceneSample& sample : Shelves()) {
+    sum += static_cast<double>(sample.objects.size());
+    ASSERT_LE(sample.objects.size(), 23u);
+    ASSERT_GE(sample.objects.size(), 4u);
   }
   RecordProperty("mean", std::to_string(sum / kShelves));
   EXPECT_NEAR(sum / kShelves, 4.9, 2.0);
@@ -251,10 +251,10 @@ TEST(LivingRoomShelf, HasNotManyMoreThingsThanPublished) {
 
 TEST(LivingRoomShelf, GamesAreStackedAndFoodIsOnPlates) {
   std::map<std::string, int> carried;
-  for (const SceneSample& draw : Shelves()) {
-    for (const SceneObject& object : draw.objects) {
+  for (const SceneSample& sample : Shelves()) {
+    for (const SceneObject& object : sample.objects) {
       if (object.parent <= 0) continue;
-      const SceneObject& below = ParentOf(draw, object);
+      const SceneObject& below = ParentOf(sample, object);
       const Eigen::Vector3d way = below.world_from_object.inverse() * PlaceOf(object);
       const CategorySize& size = SizeOf(DefaultCategorySizes(), below.category);
       ++carried[below.category];

@@ -141,9 +141,9 @@ TEST(Grammar, KeepOutsAreKept) {
   core::Rng rng = core::StreamRng(8, 0);
   double way = 0.0;
   for (int i = 0; i < kDraws; ++i) {
-    const SceneSample draw = SampleGrammar(grammar, rng);
-    const double x = std::abs(draw.objects[0].world_from_object.translation().x() -
-                              draw.objects[1].world_from_object.translation().x());
+    const SceneSample sample = SampleGrammar(grammar, rng);
+    const double x = std::abs(sample.objects[0].world_from_object.translation().x() -
+                              sample.objects[1].world_from_object.translation().x());
     ASSERT_GE(x, 0.6 - 1e-12);
     way += x;
   }
@@ -167,12 +167,12 @@ TEST(Grammar, ARejectedPoseCountsItsDerivation) {
   core::Rng rng = core::StreamRng(8, 1);
   int both = 0, derivations = 0;
   for (int i = 0; i < kDraws; ++i) {
-    const SceneSample draw = SampleGrammar(grammar, rng);
-    derivations += draw.derivations;
-    if (draw.objects.size() < 2) continue;
+    const SceneSample sample = SampleGrammar(grammar, rng);
+    derivations += sample.derivations;
+    if (sample.objects.size() < 2) continue;
     ++both;
-    ASSERT_GE(std::abs(draw.objects[0].world_from_object.translation().x() -
-                       draw.objects[1].world_from_object.translation().x()),
+    ASSERT_GE(std::abs(sample.objects[0].world_from_object.translation().x() -
+                       sample.objects[1].world_from_object.translation().x()),
               0.6);
   }
   const double accepted = 0.5 + 0.5 * 0.16;
@@ -192,9 +192,9 @@ TEST(Grammar, StructureIsDecidedByRejection) {
   std::vector<int> counts(32, 0);
   int derivations = 0;
   for (int i = 0; i < kDraws; ++i) {
-    const SceneSample draw = SampleGrammar(grammar, rng);
-    ++counts[draw.objects.size()];
-    derivations += draw.derivations;
+    const SceneSample sample = SampleGrammar(grammar, rng);
+    ++counts[sample.objects.size()];
+    derivations += sample.derivations;
   }
   std::vector<double> truth(9, 0.0);
   double total = 0.0;

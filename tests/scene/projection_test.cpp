@@ -281,7 +281,7 @@ TEST(ResolvePenetrations, WhatIsNotSoundIsRefused) {
   const std::vector<ConvexShape> none;
   EXPECT_THROW(ResolvePenetrations({{&none, Isometry3d::Identity(), false}}), core::Error);
   ProjectionOptions options;
-  options.influence = 0.0;
+  options.contact_margin = 0.0;
   EXPECT_THROW(ResolvePenetrations({}, options), core::Error);
 }
 

@@ -6,13 +6,13 @@
 
 namespace simwright::scene {
 
-inline const SceneObject& ParentOf(const SceneSample& draw, const SceneObject& object) {
-  return draw.objects[static_cast<size_t>(object.parent)];
+inline const SceneObject& ParentOf(const SceneSample& sample, const SceneObject& object) {
+  return sample.objects[static_cast<size_t>(object.parent)];
 }
 
 // Returns true if the object stands on a welded object, not on a free one.
-inline bool IsBase(const SceneSample& draw, const SceneObject& object) {
-  return object.parent >= 0 && !object.welded && ParentOf(draw, object).welded;
+inline bool IsBase(const SceneSample& sample, const SceneObject& object) {
+  return object.parent >= 0 && !object.welded && ParentOf(sample, object).welded;
 }
 
 inline Eigen::Vector3d PlaceOf(const SceneObject& object) {
@@ -25,9 +25,9 @@ inline double Across(const SceneObject& one, const SceneObject& other) {
 }
 
 // Returns the joined symbols of an object's children.
-inline std::string CarriedBy(const SceneSample& draw, size_t index) {
+inline std::string CarriedBy(const SceneSample& sample, size_t index) {
   std::string carried;
-  for (const SceneObject& object : draw.objects) {
+  for (const SceneObject& object : sample.objects) {
     if (object.parent == static_cast<int>(index)) carried += object.symbol;
   }
   return carried;

@@ -76,10 +76,10 @@ std::vector<SceneObject> SceneFilesObjects() {
     SceneObject object;
     object.category = i % 3 == 0 ? "apple_2" : i % 3 == 1 ? "apple" : "1_0";
     object.welded = i % 5 == 0;
-    const auto draw = [&] { return core::Uniform(rng, -1.0, 1.0); };
+    const auto sample = [&] { return core::Uniform(rng, -1.0, 1.0); };
     object.world_from_object.linear() =
-        Eigen::Quaterniond(draw(), draw(), draw(), draw()).normalized().toRotationMatrix();
-    object.world_from_object.translation() = Eigen::Vector3d(draw(), 1e-5 * draw(), draw());
+        Eigen::Quaterniond(sample(), sample(), sample(), sample()).normalized().toRotationMatrix();
+    object.world_from_object.translation() = Eigen::Vector3d(sample(), 1e-5 * sample(), sample());
     if (i == 0) object.world_from_object.setIdentity();
     if (i == 1) {  // a rotation by 180 degrees, and a tiny one
       object.world_from_object.linear() =

@@ -34,9 +34,9 @@ TEST(SceneTypes, DrawNothingThatIsNotAmongTheirSlots) {
     std::set<std::string> seen;
     core::Rng rng = core::StreamRng(11, 0);
     for (int i = 0; i < 60; ++i) {
-      const SceneSample draw = SampleGrammar(grammar, rng);
-      EXPECT_LE(draw.objects.size(), static_cast<size_t>(type.entries)) << type.name;
-      for (const SceneObject& object : draw.objects) seen.insert(object.category);
+      const SceneSample sample = SampleGrammar(grammar, rng);
+      EXPECT_LE(sample.objects.size(), static_cast<size_t>(type.entries)) << type.name;
+      for (const SceneObject& object : sample.objects) seen.insert(object.category);
     }
     const std::set<std::string> known(type.categories.begin(), type.categories.end());
     EXPECT_TRUE(std::includes(known.begin(), known.end(), seen.begin(), seen.end())) << type.name;

@@ -79,7 +79,7 @@ TEST(Settle, WhatLiesFlatDoesNotCreep) {
     }
   }
   SettlingOptions options;
-  options.resting = options.pace = 0.0;
+  options.rest_tolerance = options.early_stop_factor = 0.0;
   options.duration = 2.0;
   options.watch = 4.0;
   const std::vector<SettledBody> settled = Settle(bodies, options);
@@ -109,7 +109,7 @@ TEST(Settle, WhatFallsKnocksNothingDown) {
                                             {&box, At({0.52, 0.2, 0.581}), false},
                                             {&post, At({0.56, 0.2, 0.1}), false}};
   SettlingOptions whole;
-  whole.resting = whole.pace = 0.0;
+  whole.rest_tolerance = whole.early_stop_factor = 0.0;
   EXPECT_GT(Settle(bodies, whole)[2].tilted, 1.0);
   const std::vector<SettledBody> settled = Settle(bodies);
   EXPECT_TRUE(settled[1].fell);
@@ -127,7 +127,7 @@ TEST(Settle, WhatSlidesIsNotStable) {
   SettlingOptions options;
   options.duration = 0.5;
   options.watch = 0.5;
-  options.resting = options.pace = 0.0;  // to the end
+  options.rest_tolerance = options.early_stop_factor = 0.0;  // to the end
   const std::vector<SettledBody> settled = Settle({{&plank, slope, true},
                                                    {&rough, slope * At({-1, 0.2, 0.07}), false},
                                                    {&smooth, slope * At({-1, -0.2, 0.07}), false}},

@@ -44,7 +44,7 @@ TEST(InitiationSet, FindsTheChancesThatStartsWereDrawnWith) {
   double off = 0.0;
   for (int i = 0; i < 500; ++i) {
     const float* row = others.observations.row(i).data();
-    off = std::max(off, std::abs(set.Chance(row) - Truth(row[0], row[1])));
+    off = std::max(off, std::abs(set.SuccessProbability(row) - Truth(row[0], row[1])));
   }
   EXPECT_LT(off, 0.03);  // 20000 examples give a weight to 0.03, a probability to a quarter of that
 }
@@ -58,12 +58,12 @@ TEST(InitiationSet, StartsThatCanBeToldApartAreAndStayFinite) {
   }
   const rl::InitiationSet set(observations, succeeded);
   const float bad = -1.0f, good = 1.0f;
-  EXPECT_LT(set.Chance(&bad), 0.1);
-  EXPECT_GT(set.Chance(&bad), 0.0);
-  EXPECT_GT(set.Chance(&good), 0.9);
-  EXPECT_LT(set.Chance(&good), 1.0);
+  EXPECT_LT(set.SuccessProbability(&bad), 0.1);
+  EXPECT_GT(set.SuccessProbability(&bad), 0.0);
+  EXPECT_GT(set.SuccessProbability(&good), 0.9);
+  EXPECT_LT(set.SuccessProbability(&good), 1.0);
   const std::vector<bool> always(40, true);
-  EXPECT_GT(rl::InitiationSet(observations, always).Chance(&bad), 0.9);
+  EXPECT_GT(rl::InitiationSet(observations, always).SuccessProbability(&bad), 0.9);
   EXPECT_THROW(rl::InitiationSet(rl::Rows(0, 1), {}), core::Error);
   EXPECT_THROW(rl::InitiationSet(observations, {true}), core::Error);
 }
@@ -82,7 +82,7 @@ TEST(NextSkill, EndsAreWorthWhatWasSeenFromTheirLike) {
   int right = 0;
   for (const StartState& end : SampleStarts(*skill, 60, 7)) {
     const bool easy = end.state.roots[0].translation().y() > 0.0;
-    right += (successor.Chance(end) > 0.5) == easy;
+    right += (successor.SuccessProbability(end) > 0.5) == easy;
   }
   EXPECT_GE(right, 51);
 }

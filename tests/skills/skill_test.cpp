@@ -82,7 +82,7 @@ TEST(SampleStart, KeepsItsRangesAndCanBeWorkedAt) {
                            tasks::LinkPosition(variant.model, variant.start, 0, 0);
     EXPECT_LE(shift.cwiseAbs().maxCoeff(), skill->options.position_range + 1e-9);
     const Eigen::Isometry3d reached =
-        robot::ForwardKinematics(skill->robot->arm, Eigen::VectorXd(start.at_work));
+        robot::ForwardKinematics(skill->robot->arm, Eigen::VectorXd(start.grasp_configuration));
     const Eigen::Isometry3d wanted =
         manipulation::GraspPose(variant, start.state, reached.linear().col(1), start.pitch);
     EXPECT_LT((wanted.translation() - reached.translation()).norm(), 2e-3);
@@ -109,7 +109,7 @@ TEST(SampleStart, LeavesTheArmRoom) {
       manipulation::IsArmCollisionFree(*skill, variant, variant.start, skill->robot->home()));
   for (const StartState& start : SampleStarts(*skill, 40, 4)) {
     EXPECT_TRUE(manipulation::IsArmCollisionFree(*skill, variant, start.state, start.arm));
-    EXPECT_GT((start.at_work - skill->robot->home()).norm(), 1e-6);  // a plan was made
+    EXPECT_GT((start.grasp_configuration - skill->robot->home()).norm(), 1e-6);  // a plan was made
     // No contact pushes arm or drawer before the first action.
     Episode episode(*skill);
     episode.Begin(start);
@@ -270,7 +270,7 @@ TEST(Episode, WhatIsHeldMayHaveNoDestination) {
 TEST(StartPool, ReadsWhatItWrites) {
   const auto skill = Make({OpenDoor()});
   StartState start = SampleStarts(*skill, 3, 8).back();
-  start.via = {skill->robot->home(), start.at_work};
+  start.waypoints = {skill->robot->home(), start.grasp_configuration};
   const StartState read = ParseStart(StartText(start), *skill, "test");
   EXPECT_EQ(StartText(read), StartText(start));
   // The start states are identical to the last bit: both episodes proceed identically.
@@ -279,9 +279,9 @@ TEST(StartPool, ReadsWhatItWrites) {
   b.Begin(read);
   const float action[7] = {0.1f, -0.2f, 0.0f, 0.0f, 0.3f, 0.0f, 1.0f};
   for (int step = 0; step < 5; ++step) EXPECT_EQ(a.Step(action).reward, b.Step(action).reward);
-  EXPECT_EQ(read.via.size(), 2u);
+  EXPECT_EQ(read.waypoints.size(), 2u);
   StartState far = start;
-  far.via.assign(17, start.arm);
+  far.waypoints.assign(17, start.arm);
   EXPECT_THROW(ParseStart(StartText(far), *skill, "test"), core::Error);
   const std::string text = StartText(start);
   for (const std::string& bad :

@@ -98,22 +98,22 @@ TEST(Planner, OpensBeforeItFillsAndClosesAfter) {
   const SceneModel model = RuleTasksKitchen();
   const int microwave = 0, cup = 2;
   const int door = model.objects[0].FindJoint("door_joint");
-  Metadata facts{{PredicateKind::kGripperEmpty},
-                 {PredicateKind::kJointAtRest, microwave, -1, door},
-                 {PredicateKind::kOnFloor, cup},
-                 {PredicateKind::kFree, cup},
-                 {PredicateKind::kFree, microwave}};
+  Metadata predicates{{PredicateKind::kGripperEmpty},
+                      {PredicateKind::kJointAtRest, microwave, -1, door},
+                      {PredicateKind::kOnFloor, cup},
+                      {PredicateKind::kFree, cup},
+                      {PredicateKind::kFree, microwave}};
   const std::vector<Operator> plan = Plan(
       OperatorsFor(model, {microwave, cup}),
       {{PredicateKind::kIn, cup, microwave, 0}, {PredicateKind::kJointAtRest, microwave, -1, door}},
-      &facts);
+      &predicates);
   ASSERT_EQ(plan.size(), 4u);
   EXPECT_EQ(plan[0].verb, ActionType::kOpen);
   EXPECT_EQ(plan[1].verb, ActionType::kPick);
   EXPECT_EQ(plan[2].verb, ActionType::kPutInto);
   EXPECT_EQ(plan[3].verb, ActionType::kClose);
-  EXPECT_TRUE(facts.contains({PredicateKind::kIn, cup, microwave, 0}));
-  EXPECT_FALSE(facts.contains({PredicateKind::kJointAway, microwave, -1, door}));
+  EXPECT_TRUE(predicates.contains({PredicateKind::kIn, cup, microwave, 0}));
+  EXPECT_FALSE(predicates.contains({PredicateKind::kJointAway, microwave, -1, door}));
 }
 
 TEST(RuleTasks, AreSoundAndOfEveryKind) {

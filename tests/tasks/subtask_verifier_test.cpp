@@ -266,7 +266,7 @@ TEST(Motion, WhatIsInADrawerMovesWithIt) {
   const int chest = model.Find("drawer_unit"), cup = model.Find("cup");
   LayoutRequest request;
   request.objects = {chest, cup};
-  request.resting = {{cup, chest, 0}};
+  request.supports = {{cup, chest, 0}};
   request.operated = {{chest, 0}};
   core::Rng rng(1);
   const std::optional<InitialState> start = PlanLayout(model, request, rng);
@@ -285,7 +285,7 @@ TEST(Layout, WhatRestsInAMicrowaveStandsInItsFront) {
   const int microwave = model.Find("microwave"), cup = model.Find("cup");
   LayoutRequest request;
   request.objects = {microwave, cup};
-  request.resting = {{cup, microwave, 0}};
+  request.supports = {{cup, microwave, 0}};
   core::Rng rng(1);
   const std::optional<InitialState> start = PlanLayout(model, request, rng);
   ASSERT_TRUE(start.has_value());

@@ -26,7 +26,7 @@ std::vector<std::string> Failures(const ArticulatedAsset& asset) {
   const core::TemporaryFolder folder;
   assets::WriteArticulatedAsset(asset, folder.path());
   std::vector<std::string> failed;
-  for (const core::Finding& row : validation::CheckAsset(folder.path()).rows) {
+  for (const core::Finding& row : validation::CheckAsset(folder.path()).results) {
     if (row.severity == core::Severity::kError) failed.push_back(row.code);
   }
   return failed;
@@ -115,10 +115,10 @@ TEST(ArticulatedCheck, AUrdfWithJointsIsSwung) {
     const core::TemporaryFolder folder;
     assets::WriteArticulatedAsset(asset, folder.path());
     const validation::CheckReport report = validation::CheckUrdf(folder.path() / "laptop.urdf", {});
-    const auto row = std::find_if(report.rows.begin(), report.rows.end(), [](const auto& finding) {
-      return finding.code == "swings-bullet-lid_joint";
-    });
-    ASSERT_NE(row, report.rows.end());
+    const auto row =
+        std::find_if(report.results.begin(), report.results.end(),
+                     [](const auto& finding) { return finding.code == "swings-bullet-lid_joint"; });
+    ASSERT_NE(row, report.results.end());
     EXPECT_EQ(row->severity == core::Severity::kError, jammed);
     EXPECT_EQ(report.passed(), !jammed);
   }

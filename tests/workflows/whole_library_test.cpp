@@ -21,7 +21,7 @@ TEST_P(WholeLibrary, ThreeSeedsPass) {
     EXPECT_EQ(outcome.refusal, "") << outcome.name;
     ASSERT_TRUE(outcome.check.has_value());
     EXPECT_TRUE(outcome.check->passed());
-    EXPECT_GT(outcome.check->rows.size(), 10u);
+    EXPECT_GT(outcome.check->results.size(), 10u);
   }
 }
 

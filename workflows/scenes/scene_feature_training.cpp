@@ -85,7 +85,7 @@ void RenderDraws(const std::string& name, const SceneFeatureTrainingRequest& req
       GatherSceneAssets({vocabulary.categories, {}, request.assets, kept}, progress));
   const scene::Grammar grammar = type.make(asset_set.Sizes());
   Render(
-      vocabulary, asset_set, request.draws, request.options.seed,
+      vocabulary, asset_set, request.samples, request.options.seed,
       [&](int, core::Rng& rng) { return SampleGrammar(grammar, rng).objects; }, pictures, progress);
 }
 
@@ -97,7 +97,7 @@ fs::path FeatureWeights(const fs::path& models) {
 
 scene::FeatureTrainingReport TrainSceneFeatures(const SceneFeatureTrainingRequest& request,
                                                 core::Progress* progress) {
-  if (request.draws < 1) throw core::Error("at least 1 scene must be sampled", "--draws");
+  if (request.samples < 1) throw core::Error("at least 1 scene must be sampled", "--draws");
   std::vector<std::string> types = request.types;
   if (types.empty() && request.datasets.empty()) {
     for (const scene::SceneType& type : scene::SceneTypes()) types.push_back(type.name);

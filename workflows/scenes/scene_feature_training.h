@@ -15,7 +15,7 @@ struct SceneFeatureTrainingRequest {
   // Scene types whose grammars contribute additional samples, without physics. If it and `datasets`
   // are both empty, all types are used.
   std::vector<std::string> types;
-  int draws = 300;                            // samples per type
+  int samples = 300;                          // samples per type
   std::vector<std::filesystem::path> assets;  // searched in this order, then the library
   std::filesystem::path weights;              // the output file
   scene::FeatureTrainingOptions options;

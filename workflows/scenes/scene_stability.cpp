@@ -23,7 +23,7 @@ LargestDisplacement InBullet(const std::vector<scene::SceneObject>& objects,
   sim::SettlingOptions options;
   options.duration = times.settle;
   options.watch = times.watch;
-  options.resting = options.pace = 0.0;  // simulate the full time
+  options.rest_tolerance = options.early_stop_factor = 0.0;  // simulate the full time
   LargestDisplacement farthest;
   const std::vector<sim::SettledBody> ends = sim::Settle(bodies, options);
   for (size_t i = 0; i < ends.size(); ++i) {

@@ -77,7 +77,7 @@ BackwardTuning TuneBackward(const TrainRequest& request, const SkillRun& run, co
   const skills::NextSkill successor(pair.second->evaluated, pair.second_tried);
   skills::SkillEnvironment environment(first.skill, run.environments, pair.pool);
   environment.ScaleTerminalRewards([&](const skills::StartState& end) {
-    return kLeastShare + (1.0 - kLeastShare) * successor.Chance(end);
+    return kLeastShare + (1.0 - kLeastShare) * successor.SuccessProbability(end);
   });
   rl::TrainingOptions options = OptionsFor(request, run, first);
   options.begin_from = first.folder / rl::kCheckpointFile;

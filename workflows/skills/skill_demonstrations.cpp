@@ -182,9 +182,9 @@ void SplitEpisodes(robot::DemonstrationSet* set) {
 skills::StartState Continued(const skills::StartState& end, const skills::StartState& planned) {
   skills::StartState start = end;
   start.pitch = planned.pitch;
-  start.withdraw = planned.withdraw;
-  start.at_work = planned.at_work;
-  start.via = planned.via;
+  start.retreat = planned.retreat;
+  start.grasp_configuration = planned.grasp_configuration;
+  start.waypoints = planned.waypoints;
   start.state.goal = planned.state.goal;
   return start;
 }

@@ -42,11 +42,11 @@ class CommandPath {
   void Bridge(const RecordedMoment& moment) {
     const Eigen::VectorXd from = commands_.back();
     Add(moment);
-    const Eigen::VectorXd way = commands_.back() - from;
+    const Eigen::VectorXd displacement = commands_.back() - from;
     commands_.pop_back();
     const auto count =
-        static_cast<int>(std::ceil((way.cwiseAbs().cwiseQuotient(steps_)).maxCoeff()));
-    for (int i = 1; i < count; ++i) commands_.push_back(from + way * i / count);
+        static_cast<int>(std::ceil((displacement.cwiseAbs().cwiseQuotient(steps_)).maxCoeff()));
+    for (int i = 1; i < count; ++i) commands_.push_back(from + displacement * i / count);
   }
 
   robot::RecordedPath Path(const MotionJoints& joints) const {

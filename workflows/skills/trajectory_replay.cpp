@@ -92,7 +92,7 @@ class SubtaskReplay {
     world_.Read(&start_.state);
     Eigen::VectorXd arm;
     world_.robot().Positions(&arm);
-    start_.arm = start_.at_work = arm;
+    start_.arm = start_.grasp_configuration = arm;
     start_.leader = world_.robot().Leader();
     start_.held = skills::HeldObject(variant_, start_.state);
     return start_;
