@@ -2,7 +2,7 @@
 # Installs the build, test and runtime dependencies of Simwright from Debian 12's packages, if they
 # are missing. --tests adds the dependencies of the tests (python3-torch, against which reward
 # programs are compared), --catalogue the furniture of the catalogue tests (120 MB), --fuzz the
-# compiler of the fuzz targets. --peers instead creates .venv-peers with Drake, MuJoCo, PyBullet and
+# compiler of the fuzz targets and the formatter. --peers instead creates .venv-peers with Drake, MuJoCo, PyBullet and
 # yourdfpy from PyPI (700 MB), in which the tests of label `peers` load Simwright's files.
 set -euo pipefail
 
@@ -20,7 +20,7 @@ for wanted in "$@"; do
   case $wanted in
     --tests) packages+=(python3-torch python3-numpy python3-h5py python3-yaml) ;;
     --catalogue) packages+=(sweethome3d-furniture python3-skimage) ;;
-    --fuzz) packages+=(clang-14 libclang-rt-14-dev) ;;
+    --fuzz) packages+=(clang-14 clang-format-14 libclang-rt-14-dev) ;;
     --peers) peers=yes ;;
     *) echo "error: unknown option $wanted (use --tests, --catalogue, --fuzz or --peers)" >&2; exit 2 ;;
   esac

@@ -149,63 +149,6 @@ void CheckDynamics(const assets::Asset& asset, const fs::path& folder, const Che
 
 }  // namespace
 
-namespace {
-
-// Returns a result as a standalone finding: its sentence starts with its figure.
-core::Finding InWords(core::Finding row) {
-  char figure[40];
-  std::snprintf(figure, sizeof(figure), "%.4g ", row.figure);
-  row.sentence = figure + row.sentence;
-  return row;
-}
-
-}  // namespace
-
-core::Findings CheckReport::Warnings() const {
-  core::Findings warnings;
-  for (const core::Finding& row : results) {
-    if (row.severity == core::Severity::kWarning) warnings.push_back(InWords(row));
-  }
-  return warnings;
-}
-
-core::Findings NotableResults(const CheckReport& report) {
-  core::Findings results;
-  for (const core::Finding& row : report.results) {
-    if (row.severity != core::Severity::kInfo) results.push_back(InWords(row));
-  }
-  return results;
-}
-
-namespace {
-
-std::string FailureOf(const CheckReport& report) {
-  int failed = 0;
-  std::string names;
-  for (const core::Finding& row : report.results) {
-    if (row.severity != core::Severity::kError) continue;
-    ++failed;
-    names += (names.empty() ? "" : ", ") + row.code;
-  }
-  return "fails " + std::to_string(failed) + " of " + std::to_string(report.results.size()) +
-         " properties of its check: " + names;
-}
-
-}  // namespace
-
-CheckFailed::CheckFailed(const CheckReport& report, const std::string& name)
-    : core::Error(FailureOf(report), name, "--no-check writes it anyway") {
-  for (const core::Finding& row : report.results) {
-    if (row.severity != core::Severity::kError) continue;
-    rows_.push_back(InWords(row));
-    rows_.back().place = name;
-  }
-}
-
-void RequirePassed(const CheckReport& report, const std::string& name) {
-  if (!report.passed()) throw CheckFailed(report, name);
-}
-
 CheckReport CheckAsset(const fs::path& folder, const CheckLimits& limits) {
   if (assets::IsArticulatedAssetFolder(folder)) return CheckArticulatedAsset(folder, limits);
   const assets::Asset asset = assets::ReadAsset(folder);
@@ -241,8 +184,8 @@ bool RootIsWorld(const assets::UrdfModel& model) {
          });
 }
 
-void AddShapeRows(const assets::UrdfModel& model, const CheckLimits& limits,
-                  CheckResults* results) {
+void AddShapeResults(const assets::UrdfModel& model, const CheckLimits& limits,
+                     CheckResults* results) {
   int shapes = 0, open = 0, bodies = 0;
   for (const assets::UrdfLink& link : model.links) {
     bodies += link.inertial.has_value();
@@ -282,7 +225,7 @@ CheckReport CheckUrdf(const fs::path& urdf, const fs::path& root, const CheckLim
     if (finding.code == "urdf-impossible-inertial") finding.severity = core::Severity::kError;
     results.Warn(finding);
   }
-  AddShapeRows(model, limits, &results);
+  AddShapeResults(model, limits, &results);
   AddResultOrFailure("joints", &results, [&] { AddJointResultsOfUrdf(model, &results); });
   return {urdf.string(), results.Take()};
 }

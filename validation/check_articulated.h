@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "validation/check.h"
+#include "validation/check_report.h"
 
 namespace simwright::validation {
 

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/finding_text.h"
 #include "core/parallel.h"
+#include "validation/check.h"
 
 namespace simwright::validation {
 namespace fs = std::filesystem;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "validation/check.h"
+#include "validation/check_report.h"
 
 namespace simwright::validation {
 

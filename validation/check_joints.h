@@ -4,7 +4,7 @@
 
 #include "assets/urdf_reader.h"
 #include "sim/articulated_body.h"
-#include "validation/check.h"
+#include "validation/check_report.h"
 #include "validation/check_results.h"
 
 namespace simwright::validation {

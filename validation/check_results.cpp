@@ -2,10 +2,6 @@
 
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
-#include "validation/check.h"
-
 namespace simwright::validation {
 namespace {
 
@@ -13,17 +9,6 @@ std::string Rounded(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.4g", value);
   return text;
-}
-
-const char* Verdict(const core::Finding& row) {
-  switch (row.severity) {
-    case core::Severity::kError:
-      return "FAIL";
-    case core::Severity::kWarning:
-      return "warn";
-    default:
-      return "pass";
-  }
 }
 
 }  // namespace
@@ -68,38 +53,6 @@ void CheckResults::Fail(const std::string& code, const std::string& why) {
 
 void CheckResults::Warn(const core::Finding& finding) {
   rows_.push_back(finding);
-}
-
-const char* GradeSentence(Grade grade) {
-  return grade == Grade::kPass       ? "passes"
-         : grade == Grade::kWarnings ? "passes with warnings"
-                                     : "does not pass";
-}
-
-std::string CheckTable(const CheckReport& report) {
-  std::string table = report.subject + "\n";
-  for (const core::Finding& row : report.results) {
-    char line[96];
-    std::snprintf(line, sizeof(line), "  %-4s  %-20s %12s  ", Verdict(row), row.code.c_str(),
-                  Rounded(row.figure).c_str());
-    table += line + row.sentence + "\n";
-  }
-  return table + "  " + GradeSentence(report.grade()) + "\n";
-}
-
-std::string CheckJson(const CheckReport& report) {
-  nlohmann::ordered_json json;
-  json["subject"] = report.subject;
-  json["passed"] = report.passed();
-  json["grade"] = GradeName(report.grade());
-  json["rows"] = nlohmann::ordered_json::array();
-  for (const core::Finding& row : report.results) {
-    json["rows"].push_back({{"property", row.code},
-                            {"verdict", Verdict(row)},
-                            {"figure", row.figure},
-                            {"sentence", row.sentence}});
-  }
-  return json.dump(2) + "\n";
 }
 
 }  // namespace simwright::validation

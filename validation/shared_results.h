@@ -5,7 +5,7 @@
 
 #include "assets/asset.h"
 #include "sim/drop_test.h"
-#include "validation/check.h"
+#include "validation/check_report.h"
 #include "validation/check_results.h"
 
 // Results that the checks of rigid and articulated assets share.

@@ -151,6 +151,31 @@ TEST(Architecture, NoCircleBetweenHeaders) {
   }
 }
 
+// The same for whole files: a header and its source are one node, without their endings.
+std::map<std::string, std::set<std::string>> FileGraph(const std::string& module) {
+  const fs::path root(SIMWRIGHT_SOURCE_DIR);
+  std::map<std::string, std::set<std::string>> graph;
+  for (const Include& include : AllIncludes()) {
+    if (include.module != module || !fs::exists(root / include.target)) continue;
+    const fs::path file = fs::path(include.file).lexically_relative(root).replace_extension();
+    const std::string target = fs::path(include.target).replace_extension().generic_string();
+    if (file.generic_string() != target) graph[file.generic_string()].insert(target);
+  }
+  return graph;
+}
+
+TEST(Architecture, NoCircleBetweenFilesOfAModule) {
+  for (const std::string module : {"validation", "manipulation", "importers", "sim", "robot"}) {
+    const auto graph = FileGraph(module);
+    EXPECT_FALSE(graph.empty()) << module;
+    std::set<std::string> done;
+    for (const auto& [file, includes] : graph) {
+      std::vector<std::string> path;
+      EXPECT_FALSE(FindsCircle(graph, file, &done, &path)) << file;
+    }
+  }
+}
+
 TEST(Architecture, NoModuleIsTooLarge) {
   std::map<std::string, int> lines;
   int total = 0;

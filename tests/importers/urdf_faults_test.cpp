@@ -18,9 +18,9 @@
 #include "core/files.h"
 #include "importers/articulated_import.h"
 #include "importers/joint_friction.h"
-#include "tests/workflows/program.h"
 #include "sim/articulated_world.h"
 #include "sim/joint_rig.h"
+#include "tests/workflows/program.h"
 #include "validation/joint_clearance.h"
 
 namespace simwright::importers {

@@ -164,8 +164,7 @@ Results RunHere(const CorpusRun& run, bool columns) {
 
 std::vector<CorpusRun> Programs() {
   std::vector<fs::path> files;
-  for (const auto& entry :
-       fs::directory_iterator(fs::path(SIMWRIGHT_TEST_DATA) / "corpus")) {
+  for (const auto& entry : fs::directory_iterator(fs::path(SIMWRIGHT_TEST_DATA) / "corpus")) {
     if (entry.path().extension() == ".py") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
