@@ -1,9 +1,9 @@
+// Reads an asset folder and prints its mass and its collision parts: read_asset FOLDER
 #include <cstdio>
 
-#include "assets/asset_folder.h"
-#include "core/error.h"
+#include <simwright/assets/asset_folder.h>
+#include <simwright/core/error.h>
 
-// Reads an asset folder with nothing but the installed library.
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   try {
