@@ -15,7 +15,7 @@ add_compile_options(-Wall -Wextra -ffp-contract=off -ffunction-sections -fdata-s
 add_link_options(-Wl,--gc-sections -Wl,--as-needed)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(-Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow
-                      -Wno-restrict)
+                      -Wno-stringop-overread -Wno-restrict)
   if(SIMWRIGHT_UNITY)
     # A source in a batch is no main file: g++ takes its unnamed namespaces for a header's.
     add_compile_options(-Wno-subobject-linkage)
