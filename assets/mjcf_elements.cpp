@@ -14,7 +14,7 @@ bool IsTextured(const Asset& asset) {
 }
 
 // Returns "cup_collision_007".
-std::string ShardName(const MjcfNames& names, size_t part) {
+std::string CollisionMeshName(const MjcfNames& names, size_t part) {
   const std::string file = CollisionFileName(static_cast<int>(part));
   return names.prefix + "_" + file.substr(0, file.find('.'));
 }
@@ -52,7 +52,7 @@ void MjcfMeshes(tinyxml2::XMLPrinter* printer, const Asset& asset, const MjcfNam
       .Set("file", names.folder + (suits ? "visual.obj" : "solid.obj"));
   for (size_t i = 0; i < asset.parts.size(); ++i) {
     Element(printer, "mesh")
-        .Set("name", ShardName(names, i))
+        .Set("name", CollisionMeshName(names, i))
         .Set("file", names.folder + CollisionFileName(static_cast<int>(i)));
   }
 }
@@ -72,7 +72,7 @@ void MjcfBody(tinyxml2::XMLPrinter* printer, const Asset& asset, const MjcfNames
   for (size_t i = 0; i < asset.parts.size(); ++i) {
     Element(printer, "geom")
         .Set("type", "mesh")
-        .Set("mesh", ShardName(names, i))
+        .Set("mesh", CollisionMeshName(names, i))
         .Set("group", "3")
         .Set("condim", "6")
         .Set("friction", Numbers({asset.friction, asset.rolling_friction, asset.rolling_friction}))

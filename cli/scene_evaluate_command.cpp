@@ -58,7 +58,7 @@ void AddTrainFeatures(CLI::App* features, CommonOptions* common, Run* run) {
                       "Datasets written by `simwright scene generate`");
   command->add_option("-o,--output", request->weights, "The weights file")->required();
   command->add_option("--type", request->types, "Scene types to sample in addition");
-  command->add_option("--draws", request->draws, "Number of scenes per such type")
+  command->add_option("--draws", request->samples, "Number of scenes per such type")
       ->capture_default_str();
   command->add_option("--assets", request->assets,
                       "Asset folders, matched by name or category; the library provides the rest");

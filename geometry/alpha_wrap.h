@@ -5,13 +5,16 @@
 namespace simwright::geometry {
 
 struct AlphaWrapOptions {
-  double alpha_ratio = 1.0 / 50.0;    // of the diagonal: narrower gaps are closed
-  double offset_ratio = 1.0 / 600.0;  // of the diagonal: offset outside the surface
+  // Both are shares of the diagonal of the mesh's AABB.
+  double alpha_ratio = 1.0 / 50.0;    // gaps narrower than this are closed
+  double offset_ratio = 1.0 / 600.0;  // distance of the wrap outside the surface
 };
 
-// Computes CGAL's alpha wrap (Portaneri et al. 2022): always closed, manifold and oriented outward,
-// but strictly outside the input by the offset, and it closes narrow hollows. It is MakeSolid's
-// last resort. Throws core::Error for a mesh without faces or extent.
+// Returns CGAL's alpha wrap of the mesh (Portaneri et al. 2022), in the mesh's frame and units. The
+// wrap is always closed, manifold and oriented outward. However, it lies strictly outside the input
+// by the offset, and it closes narrow cavities; MakeSolid therefore uses it last. Throws
+// core::Error for a mesh without faces or extent, for ratios that are not positive, and if CGAL
+// fails.
 core::TriangleMesh AlphaWrap(const core::TriangleMesh& mesh, const AlphaWrapOptions& options = {});
 
 }  // namespace simwright::geometry

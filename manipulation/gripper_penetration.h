@@ -29,7 +29,7 @@ double PenetrationIntoBody(const SurfacePoints& surface,
                            const std::vector<Eigen::Isometry3d>& world_from_links,
                            int gripped = -1);
 
-// Returns world_from_link of each link of `body`, the body of `thing`, with the root at `root` and
+// Returns world_from_link of each link of `body`, the body of `object`, with the root at `root` and
 // the joint positions `joints`. (links)
 std::vector<Eigen::Isometry3d> BodyPoses(const sim::ArticulatedBody& body,
                                          const tasks::ArticulatedObject& object,

@@ -22,7 +22,7 @@ struct SideReceptacle {
   Eigen::Vector3d inward = -Eigen::Vector3d::UnitX();
 };
 
-// Returns the largest side-opening receptacle in the link of `thing` in `state`. None if the link
+// Returns the largest side-opening receptacle in the link of `object` in `state`. None if the link
 // has no receptacle, or one that opens upwards.
 std::optional<SideReceptacle> FindSideReceptacle(const tasks::SceneModel& model,
                                                  const tasks::SceneState& state, int object,

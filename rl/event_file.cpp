@@ -55,7 +55,7 @@ std::string Record(const std::string& event) {
 }
 
 // Returns the step of an event as EventHead writes it; -1 for other events.
-std::int64_t MakeStep(std::string_view event) {
+std::int64_t StepOf(std::string_view event) {
   std::uint64_t step = 0;
   if (event.size() < 11 || event[9] != static_cast<char>(2 << 3 | kVarint)) return -1;
   for (std::size_t i = 10, shift = 0; i < event.size() && shift < 64; ++i, shift += 7) {
@@ -92,7 +92,7 @@ std::size_t EventsUpTo(std::string_view file, std::int64_t last_step) {
     if (length > record.size() - 16) break;
     const std::string_view event = record.substr(12, length);
     if (ReadLittleEndian(record.substr(12 + length, 4)) != MaskedCrc(event)) break;
-    const std::int64_t step = MakeStep(event);
+    const std::int64_t step = StepOf(event);
     if (step < 0 || step > last_step) break;
     end += 16 + length;
   }

@@ -7,18 +7,20 @@
 
 namespace simwright::rl {
 
-// A network's parameters as views into one flat tensor, and their gradients as views into another:
-// an optimizer step, the gradient norm, a file and an all-reduce are each one operation on that
-// tensor instead of one per parameter.
+// A network's parameters as views into one flat tensor, and their gradients as views into another.
+// An optimizer step, the gradient norm, writing a file and an all-reduce are therefore each one
+// operation on a flat tensor instead of one operation per parameter.
 class FlatParameters {
  public:
-  // Allocates zeros on `device`.
+  // Allocates parameters of the given `shapes` and their gradients on `device`, filled with zeros.
   FlatParameters(const std::vector<std::vector<std::int64_t>>& shapes, torch::Device device);
 
-  // Returns parameter `i`, a leaf of autograd; its gradient is accumulated into gradients().
+  // Returns parameter `i` in its own shape. It is an autograd leaf: backward() accumulates its
+  // gradient into gradients().
   const torch::Tensor& operator[](std::size_t i) const { return parameters_[i]; }
   std::size_t size() const { return parameters_.size(); }
 
+  // Return the flat tensors; P is the total number of elements of all parameters.
   const torch::Tensor& values() const { return values_; }        // (P)
   const torch::Tensor& gradients() const { return gradients_; }  // (P)
 

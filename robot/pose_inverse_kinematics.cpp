@@ -102,7 +102,7 @@ void PoseInverseKinematics::Evaluate(const Target& target, const JointVector& q,
 
 // Computes the damped step from `q`: a joint that would leave its limits is fixed, and the others
 // are solved again.
-void PoseInverseKinematics::Step(const JointVector& q, const JointVector& rest, double posture_gain,
+void PoseInverseKinematics::Step(const JointVector& q, const JointVector& rest, double rest_gain,
                                  Work* work) const {
   const double damping = 0.5 * work->squared() + options_.min_damping;
   const int count = chain_.size();
@@ -129,9 +129,9 @@ void PoseInverseKinematics::Step(const JointVector& q, const JointVector& rest, 
     }
     if (!again) break;
   }
-  if (posture_gain <= 0.0) return;
+  if (rest_gain <= 0.0) return;
   // The displacement to rest, minus its component that moves the tool.
-  JointVector drift = posture_gain * (rest - q);
+  JointVector drift = rest_gain * (rest - q);
   Vector6 tool_motion = Vector6::Zero();
   for (int j = 0; j < count; ++j) {
     if (fixed[static_cast<std::size_t>(j)]) drift[j] = 0.0;

@@ -74,7 +74,7 @@ class PoseInverseKinematics {
   struct Target;
   struct Work;
   void Evaluate(const Target& target, const JointVector& q, Work* work) const;
-  // Adds a null-space displacement to the step: `posture_gain` times the displacement to `rest`,
+  // Adds a null-space displacement to the step: `rest_gain` times the displacement to `rest`,
   // projected so that the tool does not move.
   void Step(const JointVector& q, const JointVector& rest, double rest_gain, Work* work) const;
   bool Reached(const PoseError& error) const;

@@ -44,16 +44,15 @@ struct Retimed {
 
 // Returns a trajectory that a controller accepts from a recorded one: at rest at both ends, within
 // `limits` (J; from CommandLimits for limits that a robot enforces), close to the recording, and as
-// fast as the limits, options.fastest and path.paces allow; with the default options it is slower
-// than the recording only where the limits require it. One time law serves all joints, so that the
-// fingers close at the recorded configuration. `sliding` (J) marks the prismatic joints; the tool
-// deviation is measured with `arm`, whose joints are found by name, or not at all if it is null.
-// CheckLimits accepts the result. Deviations are measured at the recorded positions, at equal path
-// parameters.
-// Throws core::Error, naming joint, time, value and limit, for: a position that is not finite or
-// exceeds its limits by more than its allowed deviation; a jump; times that do not increase or are
-// uneven; paces that are not positive or not K in number; fewer than 4 or more than 500,000
-// positions; limits that no slow-down within `most_stretch` meets; invalid options.
+// fast as the limits, options.max_speed_up and path.speed_ups allow; with the default options it is
+// slower than the recording only where the limits require it. One time law serves all joints, so
+// that the fingers close at the recorded configuration. `sliding` (J) marks the prismatic joints;
+// the tool deviation is measured with `arm`, whose joints are found by name, or not at all if it is
+// null. CheckLimits accepts the result. Deviations are measured at the recorded positions, at equal
+// path parameters. Throws core::Error, naming joint, time, value and limit, for: a position that is
+// not finite or exceeds its limits by more than its allowed deviation; a jump; times that do not
+// increase or are uneven; speed_ups that are not positive or not K in number; fewer than 4 or more
+// than 500,000 positions; limits that no slow-down within `max_stretch` meets; invalid options.
 Retimed Retime(const RecordedPath& path, const std::vector<JointLimits>& limits,
                const std::vector<bool>& sliding, const Arm* arm,
                const RetimingOptions& options = {});

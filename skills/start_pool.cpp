@@ -66,7 +66,7 @@ robot::JointVector PostureFrom(const json& list, int size) {
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), size);
 }
 
-StartState StartOfNextSubtask(const json& text, const Skill& skill) {
+StartState StartFrom(const json& text, const Skill& skill) {
   StartState start;
   start.variant = text.at("variant").get<int>();
   if (start.variant < 0 || start.variant >= static_cast<int>(skill.variants.size())) {
@@ -158,7 +158,7 @@ std::string StartText(const StartState& start) {
 
 StartState ParseStart(std::string_view text, const Skill& skill, const std::string& where) {
   try {
-    return StartOfNextSubtask(json::parse(text), skill);
+    return StartFrom(json::parse(text), skill);
   } catch (const json::exception&) {
     throw core::Error("is not a start state", where, "let the training write it again");
   } catch (const std::invalid_argument& error) {

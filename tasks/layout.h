@@ -28,8 +28,8 @@ struct LayoutRequest {
 // Places objects in front of the robot. Articulated objects are fixed to the world and face the
 // robot, at a distance, a lateral offset and a height of the robot's base from which the robot can
 // reach the handles along their whole path (or at least 0.8 of it). Other objects are placed beside
-// them within reach, or where `resting` specifies. Footprints do not overlap. Returns nullopt if no
-// such placement is found.
+// them within reach, or where `supports` specifies. Footprints do not overlap. Returns nullopt if
+// no such placement is found.
 std::optional<InitialState> PlanLayout(const SceneModel& model, const LayoutRequest& request,
                                        core::Rng& rng);
 

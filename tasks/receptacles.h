@@ -16,7 +16,7 @@ namespace simwright::tasks {
 std::vector<Receptacle> FindReceptacles(int link, const std::vector<core::TriangleMesh>& parts,
                                         double least = 0.02);
 
-// Assigns to each receptacle of `thing` the joint that opens it: the joint of a link that covers
+// Assigns to each receptacle of `object` the joint that opens it: the joint of a link that covers
 // the opening at rest, or the receptacle's own joint where it slides in under another link (a
 // drawer). Removes receptacles that another link fills, as a drawer fills its cabinet.
 void AssignDoors(ArticulatedObject* object);

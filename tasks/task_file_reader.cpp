@@ -187,7 +187,7 @@ class TaskReader {
     subtask.description = value["description"].Text();
     subtask.program = LinesFrom(value["program"]);
     subtask.success = value["success"].Text();
-    subtask.start = StartOfNextSubtask(value["start"]);
+    subtask.start = StartFrom(value["start"]);
     if (!value["goal"].is_null()) subtask.goal = VectorFrom(value["goal"]);
     subtask.findings = FindingsFrom(value["findings"]);
     for (const Value& entry : value["attempts"].Elements()) {
@@ -197,7 +197,7 @@ class TaskReader {
     return subtask;
   }
 
-  InitialState StartOfNextSubtask(const Value& value) const {
+  InitialState StartFrom(const Value& value) const {
     value.RequireMembers({"robot", "placements", "joints", "held"});
     InitialState start;
     value["robot"].RequireMembers({"position", "quaternion_wxyz"});

@@ -16,43 +16,50 @@ namespace simwright::asset_lift {
 struct PriorTrainingOptions {
   nn::TrainerOptions trainer;
   int batch = 16;  // photos per step
-  // The number of prepared objects: a step photographs some of them and replaces `exchange` of
-  // them.
+  // The number of objects kept ready for rendering. Each step renders photos of random ones and
+  // replaces the `exchange` oldest.
   int pool = 160;
   int exchange = 1;
-  // The share of parametric shapes; the others are the catalogue's meshes, stretched.
+  // The share of parametric shapes among the objects, in [0, 1]; the others are randomly stretched
+  // meshes of the catalogue.
   double parametric_share = 0.4;
   std::uint64_t seed = 1;
-  // The initial weights, of the same kind; empty: random initialization.
+  // The file of initial weights of the same network; empty: random initialization.
   std::filesystem::path start;
 
-  // Returns false, with the reason in `error`, for invalid values.
+  // Returns false for invalid values, with the reason in `error` unless it is null.
   bool IsValid(std::string* error) const;
 };
 
-// The means over the steps since the previous report.
+// The progress of a training; loss and metrics are means over the steps since the previous report.
 struct PriorTrainingReport {
-  int step = 0;
+  int step = 0;  // number of completed steps
   double loss = 0.0;
   std::vector<std::pair<std::string, double>> metrics;  // name with unit, value
-  double seconds = 0.0;                                 // since the start
+  double seconds = 0.0;                                 // since this run started or resumed
 };
 using PriorTrainingListener = std::function<void(const PriorTrainingReport&)>;
 
 // Both functions train on random photos of `meshes` (any units; may be empty) and of parametric
-// shapes, write the averaged weights to `weights` at intervals, and report every 50 steps. They
-// throw core::Error, and core::Cancelled, after which `trainer.resume` resumes.
+// shapes. They write the averaged weights to the file `weights` every `trainer.save_every` steps,
+// report every 50 steps, and return the last report. They throw core::Error for invalid options and
+// for weights that cannot be read or written, and core::Cancelled after Ctrl-C; `trainer.resume`
+// continues a cancelled training.
 
-// Trains the shape prior's network. Metrics: the volume's IoU at even odds, the elevation's error.
+// Trains the shape prior's network. The metrics are the IoU of the predicted volume, in which cells
+// of a probability above 0.5 are filled, and the mean absolute error of the camera's elevation, in
+// degrees.
 PriorTrainingReport TrainShapeNetwork(const std::vector<core::TexturedMesh>& meshes,
                                       const PriorTrainingOptions& options,
                                       const std::filesystem::path& weights,
                                       core::Progress* progress,
                                       const PriorTrainingListener& report = {});
 
-// Trains the view prior's network, which builds on the shape prior of `shape_weights`. The loss is
-// the mean squared error of the noise. The metrics are that of the clean image times the signal's
-// share, and the same with the shape prior's rendering in place of the prediction.
+// Trains the view prior's network, whose inputs include renderings of the shape prior in
+// `shape_weights`. The loss is the mean squared error of the predicted noise. The first metric is
+// the mean squared error of the predicted clean image, with the error scaled by the schedule's
+// signal coefficient; the second is the same error for the shape prior's rendering in place of the
+// predicted image.
 PriorTrainingReport TrainViewNetwork(const std::vector<core::TexturedMesh>& meshes,
                                      const std::filesystem::path& shape_weights,
                                      const PriorTrainingOptions& options,

@@ -1,5 +1,6 @@
 // Measures how many exported motions reproduce their task: the shipped policy of each cell of the
-// suite (pipeline/skill_suite.h) is exported on unseen instances, and the files are replayed.
+// suite (workflows/skills/skill_suite.h) is exported on unseen instances, and the files are
+// replayed.
 //   bench_export_replay                      100 motions per skill
 //   bench_export_replay --cell lift_lid --episodes 20
 #include <cstdio>

@@ -1,6 +1,6 @@
-// Compares task decomposition with end-to-end learning: three long tasks (pipeline/long_tasks.h),
-// each learned as a chain of subtasks, and undecomposed with as many samples, by the reward of the
-// task's goal and by the sum of its subtasks' rewards.
+// Compares task decomposition with end-to-end learning: three long tasks
+// (workflows/tasks/long_tasks.h), each learned as a chain of subtasks, and undecomposed with as
+// many samples, by the reward of the task's goal and by the sum of its subtasks' rewards.
 //   bench_long_tasks --task cup_into_microwave --seed 1
 //   bench_long_tasks --task cup_into_microwave --method own --samples 200000    without the chain
 // An interrupted training resumes; finished results are kept: remove their folder to repeat them.

@@ -1,5 +1,5 @@
-// Measures training skill by skill: each cell of the suite (pipeline/skill_suite.h) is trained on
-// instances of the library and evaluated, from full start states, on others.
+// Measures training skill by skill: each cell of the suite (workflows/skills/skill_suite.h) is
+// trained on instances of the library and evaluated, from full start states, on others.
 //   bench_skill_suite                                the shipped policies, a minute
 //   bench_skill_suite --script                       the scripted expert, 3 minutes
 //   bench_skill_suite --cell NAME --train [--ship]   trains a cell (all: one after the other)

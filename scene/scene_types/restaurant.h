@@ -5,10 +5,10 @@
 
 namespace simwright::scene {
 
-// Returns the grammar of a restaurant of 10 m by 10 m: round tables with chairs and dim sum, and
-// living-room shelves along the wall at -x, open to the room. The top of the floor is at z = 0;
-// floor, tables and shelves are welded, chairs are free. Low: fewer objects on the tables, and
-// fewer shelves.
+// Return the grammar of a restaurant of 10 m by 10 m: round tables with chairs and dim sum, and
+// living-room shelves along the edge of the floor at -x, open to the room. The top of the floor is
+// at z = 0; floor, tables and shelves are welded, chairs are free. On average, RestaurantLow has
+// fewer tables, fewer objects on them and fewer shelves than RestaurantHigh.
 Grammar RestaurantHigh(const CategorySizes& sizes = DefaultCategorySizes());
 Grammar RestaurantLow(const CategorySizes& sizes = DefaultCategorySizes());
 

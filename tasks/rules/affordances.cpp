@@ -91,7 +91,7 @@ JointUse GetJointUse(const ArticulatedObject& object, const ObjectJoint& joint) 
   return range >= kMinTurn ? JointUse::kOpen : JointUse::kSwitch;
 }
 
-std::string ShardName(const ArticulatedObject& object, const ObjectJoint& joint) {
+std::string PartName(const ArticulatedObject& object, const ObjectJoint& joint) {
   const std::string kind = Called(object, joint);
   int same = 0, number = 0;
   for (const ObjectJoint& other : object.joints) {

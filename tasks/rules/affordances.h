@@ -21,7 +21,7 @@ enum class JointUse {
 JointUse GetJointUse(const ArticulatedObject& object, const ObjectJoint& joint);
 
 // Returns the spoken name of the part that the joint moves: "door", "drawer 2", "lid".
-std::string ShardName(const ArticulatedObject& object, const ObjectJoint& joint);
+std::string PartName(const ArticulatedObject& object, const ObjectJoint& joint);
 
 // The limits of what the gripper can grasp: those of a Panda, whose fingers open by 8 cm and whose
 // payload is 3 kg, with a margin.

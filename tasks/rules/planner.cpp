@@ -10,7 +10,7 @@ constexpr int kDeepestPlan = 6;
 
 class ForwardPlanner {
  public:
-  ForwardPlanner(const std::vector<Operator>& operators, Metadata predicates)
+  ForwardPlanner(const std::vector<Operator>& operators, PredicateSet predicates)
       : operators_(operators), facts_(std::move(predicates)) {}
 
   bool Achieve(const Predicate& goal, int depth) {
@@ -18,7 +18,7 @@ class ForwardPlanner {
     if (depth == kDeepestPlan) return false;
     for (const Operator& one : operators_) {
       if (std::find(one.adds.begin(), one.adds.end(), goal) == one.adds.end()) continue;
-      const Metadata before = facts_;
+      const PredicateSet before = facts_;
       const std::size_t steps = steps_.size();
       if (Apply(one, depth)) return true;
       facts_ = before;
@@ -27,7 +27,7 @@ class ForwardPlanner {
     return false;
   }
 
-  const Metadata& predicates() const { return facts_; }
+  const PredicateSet& predicates() const { return facts_; }
   std::vector<Operator> Take() { return std::move(steps_); }
 
  private:
@@ -50,14 +50,14 @@ class ForwardPlanner {
   }
 
   const std::vector<Operator>& operators_;
-  Metadata facts_;
+  PredicateSet facts_;
   std::vector<Operator> steps_;
 };
 
 }  // namespace
 
 std::vector<Operator> Plan(const std::vector<Operator>& operators,
-                           const std::vector<Predicate>& goals, Metadata* predicates) {
+                           const std::vector<Predicate>& goals, PredicateSet* predicates) {
   ForwardPlanner planner(operators, *predicates);
   for (const Predicate& goal : goals) {
     if (!planner.Achieve(goal, 0)) return {};

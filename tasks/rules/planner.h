@@ -29,7 +29,7 @@ struct Predicate {
   auto operator<=>(const Predicate&) const = default;
 };
 
-using Metadata = std::set<Predicate>;
+using PredicateSet = std::set<Predicate>;
 
 enum class ActionType { kOpen, kClose, kPick, kPlaceOn, kPutInto, kPutDown, kPush, kPour };
 
@@ -53,6 +53,6 @@ std::vector<Operator> OperatorsFor(const SceneModel& model, const std::vector<in
 // the preconditions of a step are achieved before it. Returns an empty plan if none exists within
 // 12 steps. Updates `facts` to the state after the plan.
 std::vector<Operator> Plan(const std::vector<Operator>& operators,
-                           const std::vector<Predicate>& goals, Metadata* predicates);
+                           const std::vector<Predicate>& goals, PredicateSet* predicates);
 
 }  // namespace simwright::tasks

@@ -22,9 +22,9 @@ constexpr int kCandidatesPerTask = 4;  // some are infeasible
 constexpr int kBatch = 64;             // candidates processed in parallel
 
 // Returns the predicates that hold in the layout of a candidate.
-Metadata InitialFacts(const SceneModel& model, const TaskCandidate& candidate,
-                      const SceneState& state) {
-  Metadata predicates{{PredicateKind::kGripperEmpty}};
+PredicateSet InitialPredicates(const SceneModel& model, const TaskCandidate& candidate,
+                               const SceneState& state) {
+  PredicateSet predicates{{PredicateKind::kGripperEmpty}};
   for (int t : candidate.layout.objects) {
     const ArticulatedObject& object = model.objects[static_cast<std::size_t>(t)];
     for (std::size_t j = 0; j < object.joints.size(); ++j) {
@@ -60,7 +60,7 @@ Outcome BuildTask(const SceneModel& model, const TaskCandidate& candidate, std::
   const std::optional<InitialState> start = PlanLayout(model, candidate.layout, rng);
   if (!start) return {std::nullopt, "no-layout"};
   SceneState state = StateOf(model, *start);
-  Metadata predicates = InitialFacts(model, candidate, state);
+  PredicateSet predicates = InitialPredicates(model, candidate, state);
   const std::vector<Operator> plan =
       Plan(OperatorsFor(model, candidate.layout.objects), candidate.goals, &predicates);
   if (plan.empty()) return {std::nullopt, "no-plan"};

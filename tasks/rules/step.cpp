@@ -96,7 +96,7 @@ Step JointStep(const SceneModel& model, const Operator& one) {
   const ObjectJoint& joint = object.joints[static_cast<std::size_t>(one.part)];
   const bool away = one.verb == ActionType::kOpen;
   const Verbs verbs = VerbsOf(GetJointUse(object, joint));
-  const std::string part = ShardName(object, joint);
+  const std::string part = PartName(object, joint);
   const std::string grip = object.links[static_cast<std::size_t>(joint.grasp_link)].name;
   Step step;
   step.name = NameFrom(std::string(away ? verbs.away_name : verbs.back_name) + "_" + object.name +

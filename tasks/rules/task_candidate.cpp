@@ -203,10 +203,10 @@ class CandidateGenerator {
     const ObjectJoint& joint = known.joints[static_cast<std::size_t>(control)];
     const bool press = GetJointUse(known, joint) == JointUse::kPress;
     put.name +=
-        NameFrom(std::string(press ? "_and_press_" : "_and_turn_on_") + ShardName(known, joint));
+        NameFrom(std::string(press ? "_and_press_" : "_and_turn_on_") + PartName(known, joint));
     put.description.back() = ',';
     put.description += std::string(press ? " then press" : " then turn on") + " the " +
-                       ShardName(known, joint) + ".";
+                       PartName(known, joint) + ".";
     put.layout.operated.emplace_back(holder, control);
     put.goals.push_back({PredicateKind::kJointAway, holder, -1, control});
     return put;

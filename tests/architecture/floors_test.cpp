@@ -1,5 +1,5 @@
-// The house of DESIGN: a module includes only from floors below its own, and each large library
-// has one door. Read from the include lines, so that the rule needs no compiler.
+// The house of docs/architecture.md: a module includes only from floors below its own, and each
+// large library has one door. Read from the include lines, so that the rule needs no compiler.
 #include <gtest/gtest.h>
 
 #include <algorithm>

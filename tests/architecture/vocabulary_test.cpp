@@ -12,10 +12,12 @@ namespace simwright {
 namespace {
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kModules = {
-    "core", "geometry", "nn", "render", "llm", "reward", "texture", "physics_params", "rl",
-    "asset_lift", "assets", "library", "robot", "sim", "asset_build", "tasks", "scene",
-    "validation", "importers", "manipulation", "skills", "workflows", "cli"};
+const std::vector<std::string> kModules = {"core",   "geometry",   "nn",          "render",
+                                           "llm",    "reward",     "texture",     "physics_params",
+                                           "rl",     "asset_lift", "assets",      "library",
+                                           "robot",  "sim",        "asset_build", "tasks",
+                                           "scene",  "validation", "importers",   "manipulation",
+                                           "skills", "workflows",  "cli"};
 
 struct Line {
   std::string place, text;
@@ -48,7 +50,8 @@ TEST(Vocabulary, FormerNamesStayOut) {
   // Names that no other library's term can be taken for.
   const std::regex former(
       "\\b(Thing|ThingLink|ThingJoint|WorldThing|RigidThing|Posture|Detour|ArmClearance|"
-      "SideRoom|FocusFrame|ToolAtFocus|BeforeWork|WayWanted|LaterWork|Palette|SlotSizes|DrawnObject|"
+      "SideRoom|FocusFrame|ToolAtFocus|BeforeWork|WayWanted|LaterWork|Palette|SlotSizes|"
+      "DrawnObject|"
       "SceneDraw|ScenePart|LeastShift|SeparationPlanes|NearParts|ProjectApart|TakeByHull|"
       "TurnOneAcross|TakeAsHull|WatchInMujoco|KeepFoot|CheckRows|SkillNotes|ThinkOfTasks|"
       "Soundness|HiddenSights|IsWayClear|WorkEnd)\\b|\\banew\\b|\\btold apart\\b|"

@@ -98,11 +98,11 @@ TEST(Planner, OpensBeforeItFillsAndClosesAfter) {
   const SceneModel model = RuleTasksKitchen();
   const int microwave = 0, cup = 2;
   const int door = model.objects[0].FindJoint("door_joint");
-  Metadata predicates{{PredicateKind::kGripperEmpty},
-                      {PredicateKind::kJointAtRest, microwave, -1, door},
-                      {PredicateKind::kOnFloor, cup},
-                      {PredicateKind::kFree, cup},
-                      {PredicateKind::kFree, microwave}};
+  PredicateSet predicates{{PredicateKind::kGripperEmpty},
+                          {PredicateKind::kJointAtRest, microwave, -1, door},
+                          {PredicateKind::kOnFloor, cup},
+                          {PredicateKind::kFree, cup},
+                          {PredicateKind::kFree, microwave}};
   const std::vector<Operator> plan = Plan(
       OperatorsFor(model, {microwave, cup}),
       {{PredicateKind::kIn, cup, microwave, 0}, {PredicateKind::kJointAtRest, microwave, -1, door}},

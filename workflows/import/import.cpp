@@ -387,7 +387,8 @@ std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items, const
                       many ? &silent : progress, &outcome);
     } catch (const validation::CheckFailed& error) {
       RefuseItem(error, &outcome);
-      outcome.findings.insert(outcome.findings.end(), error.rows().begin(), error.rows().end());
+      outcome.findings.insert(outcome.findings.end(), error.results().begin(),
+                              error.results().end());
     } catch (const core::Error& error) {
       RefuseItem(error, &outcome);
     } catch (const core::Cancelled&) {

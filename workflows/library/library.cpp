@@ -152,7 +152,8 @@ std::vector<LibraryOutcome> MakeLibrary(const LibraryOptions& options, const fs:
       MakeObject(item, output / item.options.name, options, &outcome);
     } catch (const validation::CheckFailed& error) {
       RefuseObject(error, &outcome);
-      outcome.findings.insert(outcome.findings.end(), error.rows().begin(), error.rows().end());
+      outcome.findings.insert(outcome.findings.end(), error.results().begin(),
+                              error.results().end());
     } catch (const core::Error& error) {
       RefuseObject(error, &outcome);
     } catch (const core::Cancelled&) {
