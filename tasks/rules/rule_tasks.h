@@ -19,7 +19,7 @@ struct RuleOptions {
 };
 
 struct RuleTasks {
-  std::vector<Task> tasks;  // tasks whose subtasks are all verified without an error or a warning
+  std::vector<Task> tasks;  // tasks whose subtasks are all verified without a finding
   int tried = 0;            // candidates tried until there were enough tasks
   // The reasons for which candidates were dropped (finding codes, "no-plan", "no-layout") and their
   // counts.

@@ -37,7 +37,7 @@ validation::CheckReport Checked(const assets::Asset& asset) {
 }
 
 const core::Finding* RowOf(const validation::CheckReport& report, const std::string& code) {
-  for (const core::Finding& row : report.rows) {
+  for (const core::Finding& row : report.results) {
     if (row.code == code) return &row;
   }
   return nullptr;
