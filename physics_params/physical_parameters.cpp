@@ -120,6 +120,12 @@ MassModel ReconcileMass(const PhysicalParameters& parameters, const Category& ca
   }
   if (full_density < material.density.min) {
     model.density = parameters.density.sample;
+    if (model.mass == 0.0) {  // scaled by a bounding box without volume: an open, flat sheet
+      model.mass = model.density * volume;
+      model.within_range = category.mass.Contains(model.mass);
+      model.sentence = "full: a flat sheet of " + RoundedText(model.density) + " kg/m3";
+      return model;
+    }
     model.wall_thickness = geometry::WallThickness(full_density / model.density, volume, area);
     model.sentence = "shell: " + RoundedText(full_density) + " kg/m3 over its volume is too light" +
                      against + ", so a wall of " + RoundedText(model.wall_thickness * 1e3) +

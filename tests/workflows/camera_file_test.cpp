@@ -43,7 +43,7 @@ TEST(CameraFile, NamesWhatIsWrong) {
   refused("\"fx\": 60", "\"f\": 60", "'fx'");
   refused("[0, 0, 1, 1]", "[0, 0, 2, 1]", "not a rotation");
   refused("[0, 0, 1, 1]", "[0, 0, 1]", "wrong length");
-  refused("[0, 0, 1, 1]", "[0, 0, \"x\", 1]", "no number");
+  refused("[0, 0, 1, 1]", "[0, 0, \"x\", 1]", "non-number");
   refused("\"photo\"", "\"picture\"", "'photo'");
   refused("\"cameras\"", "\"views\"", "'cameras'");
   refused("{", "[", "JSON");
