@@ -119,6 +119,12 @@ TEST(Reconciliation, MassVolumeAndDensityAlwaysAgree) {
     }
   }
   const Category& mug = *PhysicsParamsBase().FindCategory("mug");
+  // A flat sheet's bounding box has no volume, so that its scaled mass is zero: its matter counts.
+  PhysicalParameters flat = SampleParameters(mug, PhysicsParamsBase(), 1);
+  flat.mass.sample = 0.0;
+  const MassModel sheet = ReconcileMass(flat, mug, PhysicsParamsBase(), 1e-6, 0.01);
+  EXPECT_EQ(sheet.wall_thickness, 0.0);
+  EXPECT_NEAR(sheet.mass, 1e-6 * sheet.density, 1e-15);
   EXPECT_THROW(ReconcileMass(SampleParameters(mug, PhysicsParamsBase(), 1), mug,
                              PhysicsParamsBase(), 0.0, 1.0),
                core::Error);
