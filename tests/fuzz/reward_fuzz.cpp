@@ -9,7 +9,7 @@
 
 namespace {
 
-using namespace simwright::tasks;
+using namespace simwright::reward;
 
 void RunOnFew(const RewardProgram& program) {
   constexpr int kEnvironments = 3;
