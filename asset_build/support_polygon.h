@@ -22,7 +22,7 @@ struct SupportPolygon {
 SupportPolygon FindSupportPolygon(const core::TriangleMesh& solid,
                                   const Eigen::Vector3d& center_of_mass, int count);
 
-// Restores the support face that hulls with few vertices may lose. Corners of `foot` that the
+// Restores the support face that hulls with few vertices may lose. Corners of `support` that the
 // convex `parts` no longer contain are added to the nearest part. Vertices within 0.3 % of the
 // diagonal of the face (within a quarter of the height of a thinner part), or beyond it, are moved
 // onto it, because a nearly flat support face chatters. If the support is a single point, only

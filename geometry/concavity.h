@@ -15,8 +15,8 @@ struct ConcavityOptions {
   std::uint64_t seed = 1;
 };
 
-// How well convex parts approximate a solid. Lengths are relative to the diagonal of the solid's
-// AABB, volumes to the solid's volume.
+// The quality with which convex parts approximate a solid. Lengths are relative to the diagonal of
+// the solid's AABB, volumes to the solid's volume.
 struct DecompositionQuality {
   double concavity = 0.0;       // the larger of the two distances below
   double solid_to_parts = 0.0;  // largest distance of a point on the solid to the union's surface

@@ -5,7 +5,7 @@
 
 namespace simwright::geometry {
 
-// How a solid was made, from the least change to the most.
+// The method by which a solid was made, from the least change to the most.
 enum class SolidMethod {
   kAsItIs,    // the visual mesh was already a solid after welding and reorienting faces
   kRepaired,  // duplicates or inner shells dropped, cracks stitched or small holes filled

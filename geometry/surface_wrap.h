@@ -14,7 +14,7 @@ struct SurfaceWrapOptions {
   int growth_steps = 2;  // cells by which the outside region then grows through gaps
   // Surface points that are visible from outside. Where the outside region misses one, it grows
   // without limit, and slits that are still too narrow for the grid are carved open along the lines
-  // of sight. If empty, growth stops after `creep_steps`.
+  // of sight. If empty, growth stops after `growth_steps`.
   std::vector<OuterHit> visible_hits;
   // The lines of sight of visible points farther than this from the surface are carved out of the
   // walls too. 0: walls are not carved.
@@ -31,7 +31,7 @@ struct SurfaceWrap {
 // around the triangles:
 //  1. Distances to the triangles in a narrow band, and grid edges that cross a triangle.
 //  2. The outside region: nodes farther than `closing` from the surface that are connected to the
-//     border, then grown by `creep_steps` cells through edges that cross no triangle. Cracks into
+//     border, then grown by `growth_steps` cells through edges that cross no triangle. Cracks into
 //     which no ray sees stay closed, while crevices with visible walls are followed to their end.
 //  3. The field is the distance, negative where not outside; around triangles with the outside on
 //     both sides, and around parts thinner than a cell, it is the distance minus half the wall.

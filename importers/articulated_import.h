@@ -36,7 +36,7 @@ std::filesystem::path ArticulatedUrdfIn(const std::filesystem::path& folder);
 // throws.
 bool HasMovingJoint(const assets::SemanticModel& source);
 
-// Imports a URDF and the files beside it (docs/formats.md, "Importing articulated things") as an
+// Imports a URDF and the files beside it (docs/formats.md, "Importing articulated assets") as an
 // asset at true scale. Links without shapes are folded away, joints follow our conventions,
 // collision parts are convex and trimmed until collision-free where they overlap slightly, mass
 // follows the category, and joints get friction and damping. The asset's findings list all repairs.

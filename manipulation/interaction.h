@@ -35,8 +35,9 @@ struct Interaction {
   std::vector<int> placed;  // the objects that the subtask places
   std::optional<InteractionTarget> target;
   std::optional<Destination> destination;
-  // Where the next subtask brings the object that this one grasps: the grasp is chosen so that it
-  // can be kept. None where the next subtask does not use the object, or uses it elsewhere.
+  // The place to which the next subtask brings the object that this one grasps: the grasp is chosen
+  // so that it can be kept. None where the next subtask does not use the object, or uses it
+  // elsewhere.
   std::optional<Destination> next;
   // The receptacle that the gripper enters: the destination's, the object's at the start, or that
   // of `next`.

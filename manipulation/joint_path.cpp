@@ -3,7 +3,7 @@
 namespace simwright::manipulation {
 namespace {
 
-// Returns home with the base's joints and the first rotary joint as in `posture`.
+// Returns home with the base's joints and the first rotary joint as in `configuration`.
 robot::JointVector Folded(const PlanningArm& context, const robot::JointVector& configuration) {
   robot::JointVector folded = context.robot->home();
   for (Eigen::Index j = 0; j < folded.size(); ++j) {

@@ -16,9 +16,9 @@ struct PathConfigurations {
   robot::JointVector At(double position) const;
 };
 
-// Returns the continuous sequence of configurations from `at_work` (J) with approach pitch `pitch`
-// (rad), as PlanReach checks it: as far as the tool can follow. Empty if the skill moves no joint,
-// or if the tool is not at the grasp in `at_work`.
+// Returns the continuous sequence of configurations from `grasp_configuration` (J) with approach
+// pitch `pitch` (rad), as PlanReach checks it: as far as the tool can follow. Empty if the skill
+// moves no joint, or if the tool is not at the grasp in `grasp_configuration`.
 PathConfigurations ConfigurationsAlongJoint(const PlanningArm& context,
                                             const Interaction& interaction, tasks::SceneState state,
                                             const robot::JointVector& grasp_configuration,

@@ -196,8 +196,8 @@ std::vector<GraspOrientation> OrientationsWith(const Interaction& interaction,
   return orientations;
 }
 
-// Writes the pre-grasp configuration (J) for `at_work` (J) into `before`, or the one closest to it.
-// Returns false if it is not reached: next to it the gripper would wait forever.
+// Writes the pre-grasp configuration (J) for `grasp_configuration` (J) into `before`, or the one
+// closest to it. Returns false if it is not reached: next to it the gripper would wait forever.
 bool FindPreGrasp(const PlanningArm& context, const Interaction& interaction,
                   const tasks::SceneState& state, const robot::JointVector& grasp_configuration,
                   robot::JointVector* before) {

@@ -43,10 +43,10 @@ struct PathOptions {
 // its destination, within 1 cm and 0.15 rad, and the arm must be collision-free in a receptacle and
 // in front of it. Plans that are clear are preferred: for round objects the closing axis may turn
 // for it. If possible, the object is grasped such that it can be carried on to interaction.next
-// too. With `way`.round, searches waypoints around obstacles if no plan is clear. None if no pitch
-// is feasible. Configurations are computed for both sides of the gripper, from `from` and from
-// random ones: a tool that only tracks a straight line to its target ends at a joint limit every
-// other time.
+// too. With `path_options`.round, searches waypoints around obstacles if no plan is clear. None if
+// no pitch is feasible. Configurations are computed for both sides of the gripper, from `from` and
+// from random ones: a tool that only tracks a straight line to its target ends at a joint limit
+// every other time.
 std::optional<ReachPlan> PlanReach(const PlanningArm& context, const Interaction& interaction,
                                    const tasks::SceneState& state, const robot::JointVector& from,
                                    core::Rng& rng, const PathOptions& path_options = {});
@@ -58,7 +58,7 @@ Eigen::Vector3d DisplacementOutOfReceptacle(const Interaction& interaction,
                                             const tasks::SceneState& state,
                                             const Eigen::Vector3d& point);
 
-// Returns the pre-grasp configuration (J) for the grasp configuration `at_work` (J).
+// Returns the pre-grasp configuration (J) for the grasp configuration `grasp_configuration` (J).
 robot::JointVector PreGraspConfiguration(const PlanningArm& context, const Interaction& interaction,
                                          const tasks::SceneState& state,
                                          const robot::JointVector& grasp_configuration);

@@ -87,7 +87,7 @@ JointPath PathFromRoot(const Tree& tree) {
   return branch;
 }
 
-// Returns the waypoints between the ends of `way` that are needed after shortcutting.
+// Returns the waypoints between the ends of `path` that are needed after shortcutting.
 JointPath Shortcut(const CollisionChecker& clearance, const JointPath& path) {
   JointPath kept;
   size_t at = 0;

@@ -28,7 +28,7 @@ constexpr int kOpeningUpdates = 10;  // updates that the gripper waits to open
 constexpr int kStuckUpdates = 10;    // updates without progress; fingers open in 8
 constexpr int kLongestRetreat = 30;  // updates, 1.5 s at 20 Hz; an obstacle does not go away
 
-// Returns TargetFrame::free_way for the frame at `world_from_focus`.
+// Returns TargetFrame::motion_direction for the frame at `world_from_target`.
 Vector3d MotionDirection(const Interaction& interaction, const tasks::SceneState& state,
                          const Eigen::Isometry3d& world_from_target) {
   const InteractionTarget& target = *interaction.target;

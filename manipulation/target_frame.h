@@ -12,7 +12,7 @@ namespace simwright::manipulation {
 class TargetFrame {
  public:
   // `state`: at the start of the episode; `across` (unit, world): the closing axis, tool y; `pitch`
-  // (rad): the approach pitch, both from PlanReach; `withdraw` (m, world): the retreat
+  // (rad): the approach pitch, both from PlanReach; `retreat` (m, world): the retreat
   // displacement.
   TargetFrame(const Interaction& interaction, const tasks::SceneState& state,
               const Eigen::Vector3d& across, double pitch,

@@ -12,7 +12,7 @@ struct Interval {
   bool Contains(double value) const { return value >= min && value <= max; }
 };
 
-// How material fills an object's outline.
+// The arrangement of material within an object's outline.
 enum class Fill {
   kSolid,   // solid material
   kHollow,  // a closed wall

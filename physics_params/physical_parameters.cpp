@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/error.h"
 #include "core/random.h"
 #include "geometry/mass_properties.h"
+#include "physics_params/rounded_text.h"
 
 namespace simwright::physics_params {
 namespace {
@@ -30,12 +30,6 @@ const Material& SampleMaterial(const Category& category, const KnowledgeBase& ba
     if (left < 0.0) break;
   }
   return *base.FindMaterial(category.materials[chosen]);
-}
-
-std::string RoundedText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", value);
-  return text;
 }
 
 }  // namespace

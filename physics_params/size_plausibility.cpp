@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <tuple>
 
 #include "core/error.h"
+#include "physics_params/rounded_text.h"
 
 namespace simwright::physics_params {
 namespace {
@@ -18,12 +18,6 @@ constexpr struct {
 Interval LongestSide(const Category& category) {
   return {std::max({category.length.min, category.width.min, category.height.min}),
           std::max({category.length.max, category.width.max, category.height.max})};
-}
-
-std::string SizeText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", value);
-  return text;
 }
 
 }  // namespace
@@ -61,17 +55,19 @@ double ProportionMisfit(const Category& category, const Eigen::Vector3d& size) {
 }
 
 std::string SizeText(const Eigen::Vector3d& size) {
-  return SizeText(size.x()) + " x " + SizeText(size.y()) + " x " + SizeText(size.z()) + " m";
+  return RoundedText(size.x()) + " x " + RoundedText(size.y()) + " x " + RoundedText(size.z()) +
+         " m";
 }
 
 std::string SizeSentence(const Category& category, const Eigen::Vector3d& size) {
   const Interval usual = LongestSide(category);
   const double factor = SizeFactor(category, size);
   const std::string times = factor > 1.0
-                                ? SizeText(factor) + " times that of the largest"
-                                : "1/" + SizeText(1.0 / factor) + " of that of the smallest";
+                                ? RoundedText(factor) + " times that of the largest"
+                                : "1/" + RoundedText(1.0 / factor) + " of that of the smallest";
   return "its size of " + SizeText(size) + " is " + times + " '" + category.name +
-         "', whose longest side is " + SizeText(usual.min) + " to " + SizeText(usual.max) + " m";
+         "', whose longest side is " + RoundedText(usual.min) + " to " + RoundedText(usual.max) +
+         " m";
 }
 
 std::vector<std::string> UnitsThatFit(const Category& category, const Eigen::Vector3d& numbers) {

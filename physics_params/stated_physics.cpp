@@ -1,19 +1,13 @@
 #include "physics_params/stated_physics.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "core/error.h"
 #include "geometry/mass_properties.h"
+#include "physics_params/rounded_text.h"
 
 namespace simwright::physics_params {
 namespace {
-
-std::string StatedText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", value);
-  return text;
-}
 
 Estimate Stated(double value) {
   return {value, value, value, "stated"};
@@ -21,7 +15,7 @@ Estimate Stated(double value) {
 
 void RequirePositive(const std::optional<double>& value, const char* option) {
   if (value && !(*value > 0.0 && std::isfinite(*value))) {
-    throw core::Error("must be above 0", std::string(option) + " " + StatedText(*value));
+    throw core::Error("must be above 0", std::string(option) + " " + RoundedText(*value));
   }
 }
 
@@ -33,8 +27,8 @@ MassModel WithBoth(double mass, double density, double volume, double area) {
   const double full = density * volume;
   constexpr double kSame = 1e-6;
   if (mass > full * (1.0 + kSame)) {
-    throw core::Error("a mass of " + StatedText(mass) + " kg does not fit into " +
-                          StatedText(volume * 1e3) + " l at " + StatedText(density) + " kg/m3",
+    throw core::Error("a mass of " + RoundedText(mass) + " kg does not fit into " +
+                          RoundedText(volume * 1e3) + " l at " + RoundedText(density) + " kg/m3",
                       "", "state one of --mass and --density, or a larger --size");
   }
   if (mass >= full * (1.0 - kSame)) {
@@ -43,7 +37,7 @@ MassModel WithBoth(double mass, double density, double volume, double area) {
   }
   model.wall_thickness = geometry::WallThickness(mass / full, volume, area);
   model.sentence = "shell: the stated mass at the stated density is a wall of " +
-                   StatedText(model.wall_thickness * 1e3) + " mm";
+                   RoundedText(model.wall_thickness * 1e3) + " mm";
   return model;
 }
 
@@ -55,7 +49,7 @@ void Validate(const StatedPhysics& stated) {
   constexpr double kSlowest = 10.0;
   if (stated.friction && !(*stated.friction >= 0.0 && *stated.friction <= kSlowest)) {
     throw core::Error("a friction coefficient must lie in 0 to 10",
-                      "--friction " + StatedText(*stated.friction));
+                      "--friction " + RoundedText(*stated.friction));
   }
 }
 
@@ -81,7 +75,7 @@ MassModel ReconcileMass(const StatedPhysics& stated, const PhysicalParameters& p
     model.mass = *stated.mass;
     model.density = model.mass / volume;
     model.sentence =
-        "full: the stated mass over its volume is " + StatedText(model.density) + " kg/m3";
+        "full: the stated mass over its volume is " + RoundedText(model.density) + " kg/m3";
   }
   if (model.material.empty()) model.material = parameters.material;
   model.within_range = category.mass.Contains(model.mass);

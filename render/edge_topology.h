@@ -28,7 +28,7 @@ struct EdgeTopology {
   bool closed = false;                            // there is no border edge
 };
 
-// Finds the edges. `steps_at_faces`: normals are discontinuous at each edge (flat shading), so each
+// Finds the edges. `flat_shading`: normals are discontinuous at each edge (flat shading), so each
 // is a crease. Otherwise creases are edges whose two faces have different vertex colours or texture
 // coordinates there. Edges between welded corners of one face (no length) are left out.
 EdgeTopology FindEdges(const DifferentiableObject& object, bool flat_shading);

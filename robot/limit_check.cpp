@@ -2,21 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "core/error.h"
+#include "robot/number_text.h"
 
 namespace simwright::robot {
 namespace {
 
 constexpr double kRounding = 1e-9;  // relative tolerance for values at the limit
 constexpr double kRest = 1e-6;      // per s, s^2
-
-std::string LimitText(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
 
 // The samples of one joint, and its findings.
 class JointCheck {
@@ -50,14 +44,14 @@ class JointCheck {
 
   void Add(const std::string& code, double time, const std::string& sentence, double figure) {
     report_->findings.push_back({code, core::Severity::kError,
-                                 "joint '" + result_.joint + "' at " + LimitText(time) + " s",
+                                 "joint '" + result_.joint + "' at " + DisplayText(time) + " s",
                                  sentence, figure});
   }
   void Report(const std::string& code, const std::string& quantity, const WorstValue& worst) {
     if (worst.ratio <= 1.0 + kRounding) return;
     Add(code, worst.time,
-        "its " + quantity + " is " + LimitText(worst.value) + ", the limit " +
-            LimitText(worst.limit),
+        "its " + quantity + " is " + DisplayText(worst.value) + ", the limit " +
+            DisplayText(worst.limit),
         worst.value);
   }
   static void Consider(double value, double time, double limit, WorstValue* worst) {
@@ -166,8 +160,8 @@ void JointCheck::CheckRest() {
   for (const Eigen::Index i : {Eigen::Index(0), positions_.size() - 1}) {
     if (std::abs(velocities_[i]) <= kRest && std::abs(accelerations_[i]) <= kRest) continue;
     Add("no-rest", Time(i),
-        "it is not at rest at an end of the trajectory: velocity " + LimitText(velocities_[i]) +
-            ", acceleration " + LimitText(accelerations_[i]),
+        "it is not at rest at an end of the trajectory: velocity " + DisplayText(velocities_[i]) +
+            ", acceleration " + DisplayText(accelerations_[i]),
         velocities_[i]);
   }
 }

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <sstream>
 #include <system_error>
 
 namespace simwright::robot {
@@ -18,6 +19,12 @@ void AppendNumber(double value, std::string* text) {
   *text += shortest.substr(0, exponent);
   *text += ".0";
   if (exponent != std::string_view::npos) *text += shortest.substr(exponent);
+}
+
+std::string DisplayText(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
 }
 
 std::optional<double> NumberFrom(std::string_view text) {

@@ -11,6 +11,9 @@ namespace simwright::robot {
 // "1.0e-05". YAML 1.1 parses "1e-05" as a string.
 void AppendNumber(double value, std::string* text);
 
+// Returns `value` with up to six significant digits, for messages: "0.5", "1e-05".
+std::string DisplayText(double value);
+
 // Parses all of `text` as a finite number; returns nullopt if it is anything else.
 std::optional<double> NumberFrom(std::string_view text);
 std::optional<std::int64_t> IntegerFrom(std::string_view text);

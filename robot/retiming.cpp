@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <sstream>
 #include <utility>
 
 #include "core/error.h"
 #include "robot/limit_check.h"
+#include "robot/number_text.h"
 #include "robot/quintic_spline.h"
 #include "robot/time_law.h"
 #include "robot/tube_fit.h"
@@ -26,19 +26,13 @@ constexpr double kLeastShare = 0.02;  // smallest share of a joint's deviation t
                                       // it
 constexpr int kFinest = 4;            // most knots of the smooth curve per recorded position
 
-std::string RetimingText(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
 [[noreturn]] void Fail(const std::string& what, const std::string& remedy = "") {
   throw core::Error(what, "retiming", remedy);
 }
 
 std::string At(const RecordedPath& path, Eigen::Index j, Eigen::Index k) {
   return "joint '" + path.joints[static_cast<std::size_t>(j)] + "' at " +
-         RetimingText(path.times[static_cast<std::size_t>(k)]) + " s";
+         DisplayText(path.times[static_cast<std::size_t>(k)]) + " s";
 }
 
 void RequireShape(const RecordedPath& path, const std::vector<JointLimits>& limits,
@@ -74,7 +68,7 @@ void RequireEvenTimes(const RecordedPath& path) {
   for (std::size_t k = 0; k < path.times.size(); ++k) {
     const double step = k == 0 ? mean : path.times[k] - path.times[k - 1];
     if (std::isfinite(path.times[k]) && step > 0.0 && step <= kMostUneven * mean) continue;
-    Fail("the time of position " + std::to_string(k) + ", " + RetimingText(path.times[k]) +
+    Fail("the time of position " + std::to_string(k) + ", " + DisplayText(path.times[k]) +
              " s, is not evenly spaced from the previous one",
          "record at a constant rate");
   }
@@ -91,14 +85,14 @@ void RequirePossible(const RecordedPath& path, const std::vector<JointLimits>& l
       const double q = path.positions(k, j);
       if (!std::isfinite(q)) Fail(At(path, j, k) + " is not finite");
       if (q < limit.lower - deviation || q > limit.upper + deviation) {
-        Fail(At(path, j, k) + " is at " + RetimingText(q) + ", outside its limits " +
-                 RetimingText(limit.lower) + " to " + RetimingText(limit.upper),
+        Fail(At(path, j, k) + " is at " + DisplayText(q) + ", outside its limits " +
+                 DisplayText(limit.lower) + " to " + DisplayText(limit.upper),
              "record a motion within them");
       }
       const double step = k == 0 ? 0.0 : std::abs(q - path.positions(k - 1, j));
       if (step > longest) {
-        Fail(At(path, j, k) + " jumps by " + RetimingText(step) + ", more than " +
-                 RetimingText(longest),
+        Fail(At(path, j, k) + " jumps by " + DisplayText(step) + ", more than " +
+                 DisplayText(longest),
              "record it as one motion without resets");
       }
     }
@@ -263,8 +257,8 @@ QuinticSpline Retiming::FitPath(Retimed* result) const {
       shares[j] = std::max(kLeastShare, factor * std::min(shares[j], used));
     }
   }
-  Fail("the tool deviates by " + RetimingText(result->tool_deviation) +
-           " m from the recording, more than " + RetimingText(options_.tool_deviation),
+  Fail("the tool deviates by " + DisplayText(result->tool_deviation) +
+           " m from the recording, more than " + DisplayText(options_.tool_deviation),
        "allow more deviation, or record a motion within the joints' limits");
 }
 
@@ -345,15 +339,15 @@ void Retiming::FailLimits(const PathDerivatives& derivatives, const RestToRest& 
         if (slowness <= most) return;
         most = slowness;
         worst = "joint '" + path_.joints[static_cast<std::size_t>(j)] + "' at " +
-                RetimingText(0.01 * std::round(100.0 * recorded)) + " s needs " + quantity + " " +
-                RetimingText(value) + ", the limit is " + RetimingText(bound);
+                DisplayText(0.01 * std::round(100.0 * recorded)) + " s needs " + quantity + " " +
+                DisplayText(value) + ", the limit is " + DisplayText(bound);
       };
       consider("velocity", derivatives.first(j, i), limit.velocity, 1);
       consider("acceleration", derivatives.second(j, i), limit.acceleration, 2);
       consider("jerk", derivatives.third(j, i), limit.jerk, 3);
     }
   }
-  Fail("the motion would take more than " + RetimingText(options_.max_stretch) +
+  Fail("the motion would take more than " + DisplayText(options_.max_stretch) +
            " times as long as its recording: " + worst,
        "allow more deviation or a longer stretch");
 }

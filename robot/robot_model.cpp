@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "assets/joint_poses.h"
 #include "core/error.h"
+#include "robot/number_text.h"
 #include "robot/robot_side_file.h"
 
 namespace simwright::robot {
@@ -19,12 +19,6 @@ using assets::UrdfJointType;
 // Defaults for joints without rates; see ReadRobot.
 constexpr double kTurningVelocity = 1.0, kSlidingVelocity = 0.25;
 constexpr double kAccelerationOfVelocity = 3.0, kJerkOfAcceleration = 100.0;
-
-std::string ModelText(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
 
 // Combines a URDF with its side file.
 class Assembler {
@@ -93,8 +87,8 @@ void Assembler::AddLimits(std::size_t index) {
     limits.upper = std::numbers::pi;
   }
   if (!(limits.upper > limits.lower)) {
-    throw core::Error("the joint cannot move: its limits are " + ModelText(limits.lower) + " to " +
-                          ModelText(limits.upper),
+    throw core::Error("the joint cannot move: its limits are " + DisplayText(limits.lower) +
+                          " to " + DisplayText(limits.upper),
                       where, "give it a lower limit below its upper one, or make it fixed");
   }
   if (!std::isfinite(joint.velocity) || !std::isfinite(joint.effort) || joint.velocity < 0.0 ||
@@ -166,8 +160,8 @@ void Assembler::AddHome() {
     if (found == side_.home.end()) FailSide("home has no '" + joint.name + "'", "add it");
     const double value = found->second;
     if (value < joint.lower || value > joint.upper) {
-      FailSide("home puts '" + joint.name + "' at " + ModelText(value) + ", outside its limits " +
-                   ModelText(joint.lower) + " to " + ModelText(joint.upper),
+      FailSide("home puts '" + joint.name + "' at " + DisplayText(value) + ", outside its limits " +
+                   DisplayText(joint.lower) + " to " + DisplayText(joint.upper),
                "choose a position within them");
     }
     model_.arm.ready[j] = value;
@@ -198,9 +192,9 @@ void Assembler::AddGripper() {
   const JointLimits& limits = model_.limits[static_cast<std::size_t>(gripper.joints.front())];
   for (const double value : {side_.closed, side_.open}) {
     if (value >= limits.lower && value <= limits.upper) continue;
-    FailSide("the gripper's position " + ModelText(value) + " is outside the limits of '" +
-                 side_.gripper_joints.front() + "', " + ModelText(limits.lower) + " to " +
-                 ModelText(limits.upper),
+    FailSide("the gripper's position " + DisplayText(value) + " is outside the limits of '" +
+                 side_.gripper_joints.front() + "', " + DisplayText(limits.lower) + " to " +
+                 DisplayText(limits.upper),
              "choose a position within them");
   }
   gripper.closed = side_.closed;

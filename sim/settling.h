@@ -20,8 +20,8 @@ struct SettlingBody {
 struct SettlingOptions {
   double duration = 2.5;  // s; errors of millimetres have settled by then
   double watch = 2.0;     // s, of the stability check afterwards
-  // The angle (rad) by which gravity tilts, once around, in the first `sway_time` (s): topples
-  // balanced objects.
+  // The angle (rad) by which gravity tilts, once around, in the first `gravity_tilt_time` (s):
+  // topples balanced objects.
   double gravity_tilt = 0.0;
   double gravity_tilt_time = 0.1;
   // The friction factor during settling: below 1, resting objects have a friction margin.

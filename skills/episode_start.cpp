@@ -299,7 +299,8 @@ bool MovePartWay(const Skill& skill, core::Rng& rng, StartState* start) {
   return false;
 }
 
-// Places arm and fingers: at home, or at the target if `at_work` is set or an object is grasped.
+// Places arm and fingers: at home, or at the target if `grasp_configuration` is set or an object is
+// grasped.
 void PlaceArm(const Skill& skill, bool grasp_configuration, core::Rng& rng, StartState* start) {
   const SkillVariant& variant = skill.variants[static_cast<size_t>(start->variant)];
   const robot::Gripper& gripper = skill.robot->gripper;

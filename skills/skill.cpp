@@ -27,8 +27,8 @@ void UseConvexHull(sim::ArticulatedBody* body) {
   link.capsules.clear();
 }
 
-// Returns the object that `thing` stands in or on at the start: the one whose AABB extends below it
-// and contains its middle from above. -1: the floor.
+// Returns the object that `object` stands in or on at the start: the one whose AABB extends below
+// it and contains its middle from above. -1: the floor.
 int CarrierOf(const tasks::SceneModel& model, const tasks::SceneState& start, int object,
               const std::vector<int>& placed) {
   constexpr double kOnFloor = 0.005;  // m

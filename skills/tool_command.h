@@ -44,8 +44,8 @@ struct ActionFrame {
   // 1; target frame; TargetFrame).
   Eigen::Vector3d motion_direction = Eigen::Vector3d::Zero();
   // The direction (unit, target frame) in which the tool stays back while it is laterally off:
-  // along its own axis, or out of the receptacle around the frame, by at most `room_depth` (m; 0:
-  // the options' standoff).
+  // along its own axis, or out of the receptacle around the frame, by at most `retreat_distance`
+  // (m; 0: the options' standoff).
   Eigen::Vector3d back = -Eigen::Vector3d::UnitZ();
   double retreat_distance = 0.0;
 };

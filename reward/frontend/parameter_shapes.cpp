@@ -54,7 +54,8 @@ bool Before(Position a, Position b) {
   return a.line != b.line ? a.line < b.line : a.column < b.column;
 }
 
-// How far the program compiles with these shapes: whole, or up to the position of the first error.
+// The extent to which the program compiles with these shapes: whole, or up to the position of the
+// first error.
 struct Reach {
   bool whole = false;
   bool by_shape = false;  // another shape may fix the error

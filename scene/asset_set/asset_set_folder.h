@@ -18,10 +18,10 @@ AssetSet ReadAssetSet(const std::filesystem::path& folder);
 // Asset folders by category.
 using CategoryFolders = std::map<std::string, std::filesystem::path>;
 
-// Returns a rigid asset folder in `folder` for each of `slots`: the one of that name ("apple"),
-// else the first with that name and a seed ("apple_7", unless that is a category itself), else the
-// first whose asset has that category. Categories without a folder are omitted. Throws core::Error
-// if the folder or the description of an asset cannot be read.
+// Returns a rigid asset folder in `folder` for each of `categories`: the one of that name
+// ("apple"), else the first with that name and a seed ("apple_7", unless that is a category
+// itself), else the first whose asset has that category. Categories without a folder are omitted.
+// Throws core::Error if the folder or the description of an asset cannot be read.
 CategoryFolders FoldersForCategories(const std::filesystem::path& folder,
                                      const std::vector<std::string>& categories);
 

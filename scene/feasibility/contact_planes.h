@@ -41,8 +41,8 @@ class ContactPlanes {
   // Updates the planes for bodies displaced by `shifts` (N x 3, m).
   void Update(const std::vector<Eigen::Vector3d>& shifts);
 
-  // Returns the constraints of parts closer than `influence`, sorted by a, b, part_a, part_b, with
-  // the multipliers of SetMultipliers.
+  // Returns the constraints of parts closer than `contact_margin`, sorted by a, b, part_a, part_b,
+  // with the multipliers of SetMultipliers.
   std::vector<SeparationConstraint> Rows() const;
   void SetMultipliers(const std::vector<SeparationConstraint>& rows);  // as returned by Rows()
 

@@ -10,13 +10,13 @@ namespace simwright::scene {
 // category, each on top of the previous one; an object on top of another category (a lid) does not
 // count.
 enum class StructureKind {
-  kCategoryAtLeast,  // n objects of `slot`
+  kCategoryAtLeast,  // n objects of `category`
   kCategoryAtMost,   //
   kObjectsAtLeast,   // n objects
   kEntriesAtMost,    // n entries, welded ones included: the length of a learned scene
-  kTallestAtLeast,   // the tallest stack of `slot` has n members
+  kTallestAtLeast,   // the tallest stack of `category` has n members
   kTallestAtMost,    //
-  kStacksAtLeast,    // n stacks of `slot`
+  kStacksAtLeast,    // n stacks of `category`
 };
 
 struct StructureConstraint {

@@ -30,11 +30,11 @@ struct AccuracyScore {
 };
 
 // Returns the accuracy of a linear classifier that separates generated scenes from data (CA), one
-// score for each of `scored`: from features (N x D) and (M x D), min(N, M) of each are sampled and
-// split at random into halves; logistic regression is trained by Adam from zero weights on one half
-// and scored on the other. 50: indistinguishable. After Paschalidou et al. 2021, whose classifier
-// trains on features of AlexNet. Throws core::Error for invalid options, fewer than 4 rows,
-// different D, or features that are not finite.
+// score for each of `scored_epochs`: from features (N x D) and (M x D), min(N, M) of each are
+// sampled and split at random into halves; logistic regression is trained by Adam from zero weights
+// on one half and scored on the other. 50: indistinguishable. After Paschalidou et al. 2021, whose
+// classifier trains on features of AlexNet. Throws core::Error for invalid options, fewer than 4
+// rows, different D, or features that are not finite.
 std::vector<AccuracyScore> ClassifierAccuracy(const FeatureMatrix& data,
                                               const FeatureMatrix& generated,
                                               const AccuracyOptions& options = {});

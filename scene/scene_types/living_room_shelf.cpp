@@ -24,7 +24,8 @@ constexpr double kLargeGameOnTop = 100.0, kLargeGameBelow = 1000.0;  //
 constexpr double kLargeGameOnOther = 5000.0;                         //
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 
-// Adds the symbol `slot` of the category of the same name, with another of its kind stacked on top.
+// Adds the symbol `category`, an object of the category of that name with another of its kind on
+// top.
 void AddStack(const std::string& category, const PoseRule& above, GrammarBuilder* builder) {
   builder->Or(Object(category, category),
               {With(kAnotherOnTop, category, above), With(1.0 - kAnotherOnTop, kNothing)});

@@ -12,14 +12,14 @@ namespace simwright::scene {
 // middle). The published height, 0.783 m, is that of its sides, which stand on the lowest board and
 // carry the uppermost.
 
-// Adds the symbol "shelf", welded, of the category `slot`, whose three lower boards are the symbol
-// `board` and whose uppermost is `top_board`; the caller defines both as surfaces.
+// Adds the symbol "shelf", welded, of the category `category`, whose three lower boards are the
+// symbol `board` and whose uppermost is `top_board`; the caller defines both as surfaces.
 void AddShelf(const std::string& category, const CategorySizes& sizes, const std::string& board,
               const std::string& top_board, GrammarBuilder* builder);
 
 // Returns a pose rule that is uniform over a board of the shelf `shelf_slot`, with any yaw; an
-// object of `slot` keeps its larger half size from the walls. An object wider than the board stands
-// in its middle.
+// object of `category` keeps its larger half size from the walls. An object wider than the board
+// stands in its middle.
 PoseRule AnywhereOnBoard(const CategorySizes& sizes, const std::string& shelf_slot,
                          const std::string& category);
 

@@ -15,7 +15,7 @@ struct Word {
   std::string_view text;  // ASCII in lower case
   Label label;
 };
-// Where one word is a prefix of another, the longer one comes first.
+// Of two words of which one is a prefix of the other, the longer one comes first.
 constexpr std::array kWords = {
     Word{"subtask description", Label::kSubtaskDescription},
     Word{"sub-task description", Label::kSubtaskDescription},

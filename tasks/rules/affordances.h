@@ -52,12 +52,12 @@ bool CanBePushed(const ArticulatedObject& object);
 // (a teapot), and it can be lifted.
 bool CanPour(const ArticulatedObject& object);
 
-// Returns true if `thing` can stand on top of `holder`: its top is level and larger than the
-// footprint of `thing`.
+// Returns true if `object` can stand on top of `holder`: its top is level and larger than the
+// footprint of `object`.
 bool CanStandOn(const ArticulatedObject& object, const ArticulatedObject& holder);
 
-// Returns true if `thing` fits into the receptacle of `holder` in its rest pose, with a margin of 1
-// cm.
+// Returns true if `object` fits into the receptacle of `holder` in its rest pose, with a margin of
+// 1 cm.
 bool FitsInto(const ArticulatedObject& object, const ArticulatedObject& holder, int receptacle);
 
 }  // namespace simwright::tasks

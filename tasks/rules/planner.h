@@ -49,9 +49,9 @@ struct Operator {
 // lift, flat tops, and receptacles that the object fits.
 std::vector<Operator> OperatorsFor(const SceneModel& model, const std::vector<int>& objects);
 
-// Returns operators that achieve `goals` one after the other from `facts`, by means-ends analysis:
-// the preconditions of a step are achieved before it. Returns an empty plan if none exists within
-// 12 steps. Updates `facts` to the state after the plan.
+// Returns operators that achieve `goals` one after the other from `predicates`, by means-ends
+// analysis: the preconditions of a step are achieved before it. Returns an empty plan if none
+// exists within 12 steps. Updates `predicates` to the state after the plan.
 std::vector<Operator> Plan(const std::vector<Operator>& operators,
                            const std::vector<Predicate>& goals, PredicateSet* predicates);
 

@@ -41,8 +41,8 @@ std::set<std::pair<int, int>> JointsRead(const SceneModel& model,
   return states.empty() ? above : states;
 }
 
-// Returns the object that the title takes `thing` out of: the microwave in "take the cup out of the
-// microwave". -1: none.
+// Returns the object that the title takes `object` out of: the microwave in "take the cup out of
+// the microwave". -1: none.
 int TakenOutOf(const SceneModel& model, const std::string& title, int object) {
   for (const char* words : {"out of ", "from inside ", "from "}) {
     const std::size_t at = title.find(words);

@@ -18,9 +18,10 @@ std::vector<int> ParseSceneIndices(const std::string& text, int count);
 // Returns scene `index` of the dataset. Throws core::Error if it does not exist or is damaged.
 std::vector<scene::SceneObject> SceneAt(const scene::SceneDataset& dataset, int index);
 
-// Returns the asset folder of each category in `slots`: `assets`/SLOT, or, if `assets` is empty, in
-// the folder "assets" beside the shards of the dataset at `path`. Throws core::Error if there is no
-// such folder, a category has no asset there (naming it), or a category is not a valid folder name.
+// Returns the asset folder of each category in `categories`: `assets`/SLOT, or, if `assets` is
+// empty, in the folder "assets" beside the shards of the dataset at `path`. Throws core::Error if
+// there is no such folder, a category has no asset there (naming it), or a category is not a valid
+// folder name.
 scene::CategoryFolders FoldersOfCategories(const std::filesystem::path& path,
                                            const std::filesystem::path& assets,
                                            const std::set<std::string>& categories);
