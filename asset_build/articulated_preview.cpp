@@ -16,7 +16,7 @@ constexpr double kOpen = 0.85;               // fraction of a joint's range
 
 assets::JointPositions Opened(const assets::ArticulatedAsset& asset, double open) {
   assets::JointPositions positions;
-  for (const assets::UrdfJoint& joint : asset.joints) {
+  for (const assets::Joint& joint : asset.joints) {
     if (joint.Moves()) positions[joint.name] = open * joint.upper;
   }
   return positions;

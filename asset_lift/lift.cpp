@@ -89,7 +89,7 @@ double PadWhereCutOff(core::Image* photo, Matte* matte) {
 }
 
 // Textures the inflated silhouette from the photo and its mirror image.
-void FinishOutline(const InflatedShape& shape, const texture::ProjectionOptions& projection,
+void FinishOutline(const InflatedShape& shape, const texture::PhotoProjectionOptions& projection,
                    LiftedMesh* lifted) {
   lifted->start = std::string("the silhouette, ") + Name(shape.form);
   lifted->silhouette_iou = shape.silhouette_iou;
@@ -115,7 +115,7 @@ std::vector<Eigen::Vector3f> HiddenColors(const ShapeFit& fit,
 
 // Computes the initial shape, runs the fit's stages and textures the result.
 void FitAndPaint(const InflatedShape& outline, const LiftPriors& priors, const LiftOptions& options,
-                 const texture::ProjectionOptions& projection, core::Progress* progress,
+                 const texture::PhotoProjectionOptions& projection, core::Progress* progress,
                  LiftedMesh* lifted) {
   const ViewFrame frame = FrameAround(lifted->matte, lifted->camera, 1.0);
   std::optional<ShapePrediction> prediction;
@@ -251,7 +251,7 @@ LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior, const
   const InflatedShape outline =
       InflateOutline(lifted.matte, lifted.camera, prior, options.inflation);
   lifted.form = outline.form;
-  texture::ProjectionOptions projection;
+  texture::PhotoProjectionOptions projection;
   projection.texture_size = options.texture_size;
   const bool revolved = IsSolidOfRevolution(outline.form, prior);
   const bool nothing_learned = priors.shape == nullptr && priors.view == nullptr;

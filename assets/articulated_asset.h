@@ -43,7 +43,7 @@ struct ArticulatedAsset {
   // free on the floor.
   bool fixed = false;
   std::vector<ArticulatedLink> links;  // the root first; parents precede their children
-  std::vector<UrdfJoint> joints;       // joints[i] leads to links[i + 1]
+  std::vector<Joint> joints;           // joints[i] leads to links[i + 1]
   // The pairs of links that overlap at their joint by design: contacts between them are disabled in
   // every format (MuJoCo and SAPIEN disable contacts between a parent and its child by default).
   std::vector<ExcludedPair> excluded_pairs = {};

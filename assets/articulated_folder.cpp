@@ -33,7 +33,7 @@ Json LinkJson(const ArticulatedLink& link) {
   return json;
 }
 
-Json JointJson(const UrdfJoint& joint) {
+Json JointJson(const Joint& joint) {
   Json json;
   json["name"] = joint.name;
   json["type"] = JointTypeName(joint.type);
@@ -67,15 +67,15 @@ Json ArticulatedJson(const ArticulatedAsset& a) {
   json["links"] = Json::array();
   for (const ArticulatedLink& link : a.links) json["links"].push_back(LinkJson(link));
   json["joints"] = Json::array();
-  for (const UrdfJoint& joint : a.joints) json["joints"].push_back(JointJson(joint));
+  for (const Joint& joint : a.joints) json["joints"].push_back(JointJson(joint));
   if (!a.excluded_pairs.empty()) json["excluded_pairs"] = a.excluded_pairs;
   json["findings"] = ToJson(a.findings);
   json["versions"] = {{"simwright", SIMWRIGHT_VERSION}};
   return json;
 }
 
-UrdfJoint JointFrom(const Json& json) {
-  UrdfJoint joint;
+Joint JointFrom(const Json& json) {
+  Joint joint;
   joint.name = json.at("name");
   joint.type = JointTypeNamed(json.at("type"));
   joint.parent = json.at("parent");

@@ -12,7 +12,7 @@ namespace {
 using Printer = tinyxml2::XMLPrinter;
 
 void SdfLink(Printer* printer, const ArticulatedAsset& asset, const ArticulatedLink& link,
-             const UrdfJoint* joint) {
+             const Joint* joint) {
   Element element(printer, "link");
   element.Set("name", link.name);
   if (joint != nullptr) {
@@ -33,7 +33,7 @@ void SdfLink(Printer* printer, const ArticulatedAsset& asset, const ArticulatedL
   }
 }
 
-void SdfJoint(Printer* printer, const UrdfJoint& joint) {
+void SdfJoint(Printer* printer, const Joint& joint) {
   Element element(printer, "joint");
   element.Set("name", joint.name).Set("type", JointTypeName(joint.type));
   Leaf(printer, "parent", joint.parent);
@@ -43,7 +43,7 @@ void SdfJoint(Printer* printer, const UrdfJoint& joint) {
   Leaf(printer, "xyz", Numbers(joint.axis));
   {
     Element limit(printer, "limit");
-    if (joint.type != UrdfJointType::kContinuous) {
+    if (joint.type != JointType::kContinuous) {
       Leaf(printer, "lower", Number(joint.lower));
       Leaf(printer, "upper", Number(joint.upper));
     }
@@ -74,7 +74,7 @@ std::string ArticulatedSdfText(const ArticulatedAsset& asset) {
       Leaf(&printer, "parent", "world");
       Leaf(&printer, "child", asset.links.front().name);
     }
-    for (const UrdfJoint& joint : asset.joints) SdfJoint(&printer, joint);
+    for (const Joint& joint : asset.joints) SdfJoint(&printer, joint);
     SdfExclusions(&printer, asset);
   }
   return printer.CStr();

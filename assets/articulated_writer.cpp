@@ -16,15 +16,13 @@ namespace {
 using Printer = tinyxml2::XMLPrinter;
 
 constexpr struct {
-  UrdfJointType type;
+  JointType type;
   const char* urdf;
   const char* semantics;
-} kJointTypes[] = {{UrdfJointType::kFixed, "fixed", "fixed"},
-                   {UrdfJointType::kRevolute, "revolute", "hinge"},
-                   {UrdfJointType::kContinuous, "continuous", "hinge"},
-                   {UrdfJointType::kPrismatic, "prismatic", "slider"},
-                   {UrdfJointType::kFloating, "floating", "free"},
-                   {UrdfJointType::kPlanar, "planar", "free"}};
+} kJointTypes[] = {
+    {JointType::kFixed, "fixed", "fixed"},           {JointType::kRevolute, "revolute", "hinge"},
+    {JointType::kContinuous, "continuous", "hinge"}, {JointType::kPrismatic, "prismatic", "slider"},
+    {JointType::kFloating, "floating", "free"},      {JointType::kPlanar, "planar", "free"}};
 
 void UrdfVisual(Printer* printer, const ColoredPiece& piece) {
   Element visual(printer, "visual");
@@ -51,7 +49,7 @@ void UrdfLinkElement(Printer* printer, const ArticulatedAsset& asset, const Arti
   UrdfContact(printer, link.friction, 0.0, link.restitution);
 }
 
-void UrdfJointElement(Printer* printer, const UrdfJoint& joint) {
+void UrdfJointElement(Printer* printer, const Joint& joint) {
   Element element(printer, "joint");
   element.Set("name", joint.name).Set("type", JointTypeName(joint.type));
   Element(printer, "parent").Set("link", joint.parent);
@@ -115,14 +113,14 @@ void MjcfGeoms(Printer* printer, const std::string& asset, const ArticulatedLink
   }
 }
 
-void MjcfJoint(Printer* printer, const UrdfJoint& joint) {
-  const bool slides = joint.type == UrdfJointType::kPrismatic;
+void MjcfJoint(Printer* printer, const Joint& joint) {
+  const bool slides = joint.type == JointType::kPrismatic;
   Element(printer, "joint")
       .Set("name", joint.name)
       .Set("type", slides ? "slide" : "hinge")
       .Set("pos", "0 0 0")
       .Set("axis", Numbers(joint.axis))
-      .Set("limited", joint.type == UrdfJointType::kContinuous ? "false" : "true")
+      .Set("limited", joint.type == JointType::kContinuous ? "false" : "true")
       .Set("range", Numbers({joint.lower, joint.upper}))
       .Set("damping", Number(joint.damping))
       .Set("frictionloss", Number(joint.friction))
@@ -137,7 +135,7 @@ void MjcfBodies(Printer* printer, const ArticulatedAsset& asset, size_t link) {
   Element body(printer, "body");
   body.Set("name", asset.links[link].name);
   if (link > 0) {
-    const UrdfJoint& joint = asset.joints[link - 1];
+    const Joint& joint = asset.joints[link - 1];
     const Eigen::Quaterniond q(joint.parent_from_joint.linear());
     body.Set("pos", Numbers(Eigen::Vector3d(joint.parent_from_joint.translation())))
         .Set("quat", Numbers({q.w(), q.x(), q.y(), q.z()}));
@@ -208,7 +206,7 @@ std::string ArticulatedUrdfText(const ArticulatedAsset& asset) {
     Element robot(&printer, "robot");
     robot.Set("name", asset.name).Set("xmlns:drake", kDrakeNamespace);
     for (const ArticulatedLink& link : asset.links) UrdfLinkElement(&printer, asset, link);
-    for (const UrdfJoint& joint : asset.joints) UrdfJointElement(&printer, joint);
+    for (const Joint& joint : asset.joints) UrdfJointElement(&printer, joint);
     UrdfExclusions(&printer, asset);
   }
   return printer.CStr();
@@ -228,21 +226,21 @@ std::string ArticulatedMjcfText(const ArticulatedAsset& asset) {
   return printer.CStr();
 }
 
-std::string SemanticsKind(UrdfJointType type) {
+std::string SemanticsKind(JointType type) {
   for (const auto& row : kJointTypes) {
     if (row.type == type) return row.semantics;
   }
   return "fixed";
 }
 
-std::string JointTypeName(UrdfJointType type) {
+std::string JointTypeName(JointType type) {
   for (const auto& row : kJointTypes) {
     if (row.type == type) return row.urdf;
   }
   return "fixed";
 }
 
-UrdfJointType JointTypeNamed(const std::string& name) {
+JointType JointTypeNamed(const std::string& name) {
   for (const auto& row : kJointTypes) {
     if (row.urdf == name) return row.type;
   }

@@ -36,10 +36,10 @@ std::string ArticulatedMjcfText(const ArticulatedAsset& asset);
 std::string SemanticsText(const ArticulatedAsset& asset);
 
 // Returns a joint's type as named in semantics.txt: "hinge", "slider", "fixed" ...
-std::string SemanticsKind(UrdfJointType type);
+std::string SemanticsKind(JointType type);
 // Convert between a joint's type and its URDF name ("revolute" ...). JointTypeNamed throws
 // core::Error for an unknown name.
-std::string JointTypeName(UrdfJointType type);
-UrdfJointType JointTypeNamed(const std::string& name);
+std::string JointTypeName(JointType type);
+JointType JointTypeNamed(const std::string& name);
 
 }  // namespace simwright::assets

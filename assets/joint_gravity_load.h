@@ -1,9 +1,6 @@
 #pragma once
 
-#include <vector>
-
-#include "assets/asset.h"
-#include "assets/urdf_reader.h"
+#include "assets/kinematic_model.h"
 
 namespace simwright::assets {
 
@@ -16,9 +13,7 @@ struct JointLoad {
 };
 
 // Returns the load on joint `joint` at `position` (rad or m), with all others at zero and the root
-// upright. `links` are the inertials in their frames; joints[i] connects links[parents[i]] to
-// links[i + 1].
-JointLoad LoadOn(const std::vector<Inertial>& links, const std::vector<UrdfJoint>& joints,
-                 const std::vector<int>& parents, int joint, double position);
+// upright.
+JointLoad LoadOn(const KinematicModel& model, int joint, double position);
 
 }  // namespace simwright::assets

@@ -3,7 +3,7 @@
 namespace simwright::assets {
 namespace {
 
-double PositionOf(const UrdfJoint& joint, const JointPositions& positions) {
+double PositionOf(const Joint& joint, const JointPositions& positions) {
   const auto found = positions.find(joint.mimic ? joint.mimic->joint : joint.name);
   const double position = found == positions.end() ? 0.0 : found->second;
   return joint.mimic ? joint.mimic->multiplier * position + joint.mimic->offset : position;
@@ -11,25 +11,13 @@ double PositionOf(const UrdfJoint& joint, const JointPositions& positions) {
 
 }  // namespace
 
-Eigen::Isometry3d JointMotion(const UrdfJoint& joint, double position) {
-  switch (joint.type) {
-    case UrdfJointType::kRevolute:
-    case UrdfJointType::kContinuous:
-      return Eigen::Isometry3d(Eigen::AngleAxisd(position, joint.axis));
-    case UrdfJointType::kPrismatic:
-      return Eigen::Isometry3d(Eigen::Translation3d(position * joint.axis));
-    default:
-      return Eigen::Isometry3d::Identity();
-  }
-}
-
 std::vector<int> ParentLinks(const UrdfModel& model) {
   std::map<std::string, int> index_of;
   for (size_t i = 0; i < model.links.size(); ++i) {
     index_of[model.links[i].name] = static_cast<int>(i);
   }
   std::vector<int> parents;
-  for (const UrdfJoint& joint : model.joints) parents.push_back(index_of.at(joint.parent));
+  for (const Joint& joint : model.joints) parents.push_back(index_of.at(joint.parent));
   return parents;
 }
 
@@ -37,7 +25,7 @@ std::vector<Eigen::Isometry3d> LinkPoses(const UrdfModel& model, const JointPosi
   const std::vector<int> parents = ParentLinks(model);
   std::vector<Eigen::Isometry3d> poses(model.links.size(), Eigen::Isometry3d::Identity());
   for (size_t i = 0; i < model.joints.size(); ++i) {
-    const UrdfJoint& joint = model.joints[i];
+    const Joint& joint = model.joints[i];
     poses[i + 1] = poses[static_cast<size_t>(parents[i])] * joint.parent_from_joint *
                    JointMotion(joint, PositionOf(joint, positions));
   }

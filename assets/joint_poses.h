@@ -6,16 +6,13 @@
 
 #include <Eigen/Geometry>
 
+#include "assets/joint.h"
 #include "assets/urdf_reader.h"
 
 namespace simwright::assets {
 
 // Joint positions by name, rad or m. A joint that is not named is at zero.
 using JointPositions = std::map<std::string, double>;
-
-// Returns the motion of a joint: joint-at-zero from joint-at-`position`. It is the identity for
-// fixed, floating and planar joints.
-Eigen::Isometry3d JointMotion(const UrdfJoint& joint, double position);
 
 // Returns the pose of each link in the root's frame. (links) Mimic joints follow their leader,
 // regardless of their entry in `positions`.

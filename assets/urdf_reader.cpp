@@ -265,25 +265,25 @@ void UrdfParser::ReadContacts(const std::string& text) {
   }
 }
 
-UrdfJointType TypeOf(const urdf::Joint& joint) {
+JointType TypeOf(const urdf::Joint& joint) {
   switch (joint.type) {
     case urdf::Joint::REVOLUTE:
-      return UrdfJointType::kRevolute;
+      return JointType::kRevolute;
     case urdf::Joint::CONTINUOUS:
-      return UrdfJointType::kContinuous;
+      return JointType::kContinuous;
     case urdf::Joint::PRISMATIC:
-      return UrdfJointType::kPrismatic;
+      return JointType::kPrismatic;
     case urdf::Joint::FLOATING:
-      return UrdfJointType::kFloating;
+      return JointType::kFloating;
     case urdf::Joint::PLANAR:
-      return UrdfJointType::kPlanar;
+      return JointType::kPlanar;
     default:
-      return UrdfJointType::kFixed;
+      return JointType::kFixed;
   }
 }
 
 void UrdfParser::AddJoint(const urdf::Joint& source) {
-  UrdfJoint joint;
+  Joint joint;
   joint.name = source.name;
   joint.parent = source.parent_link_name;
   joint.child = source.child_link_name;

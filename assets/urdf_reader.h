@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include "assets/asset.h"
+#include "assets/joint.h"
 #include "core/finding.h"
 #include "core/mesh.h"
 
@@ -41,37 +41,12 @@ struct UrdfLink {
   double rolling_friction = 0.0;  // <contact><rolling_friction>, m
 };
 
-enum class UrdfJointType { kFixed, kRevolute, kContinuous, kPrismatic, kFloating, kPlanar };
-
-// A mimic relation: position = multiplier * leader's + offset.
-struct UrdfMimic {
-  std::string joint;  // the leader
-  double multiplier = 1.0;
-  double offset = 0.0;  // rad or m
-};
-
-struct UrdfJoint {
-  std::string name, parent, child;
-  UrdfJointType type = UrdfJointType::kFixed;
-  Eigen::Isometry3d parent_from_joint = Eigen::Isometry3d::Identity();  // at position zero
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();                      // joint frame, unit
-  double lower = 0.0, upper = 0.0;                                      // rad or m
-  double damping = 0.0;   // <dynamics>, N m s/rad or N s/m
-  double friction = 0.0;  // <dynamics>, N m or N: a smaller load does not move the joint
-  double effort = 0.0;    // <limit>, N m or N; 0 if the file gives none
-  double velocity = 0.0;  // <limit>, rad/s or m/s; 0 if the file gives none
-  std::optional<UrdfMimic> mimic = std::nullopt;
-
-  bool Moves() const { return type != UrdfJointType::kFixed; }
-};
-
-// Two links, by name, whose contacts are disabled.
-using ExcludedPair = std::pair<std::string, std::string>;
-
+// The content of a URDF, which importers edit. KinematicModel (kinematic_model.h) is the immutable
+// tree made from it.
 struct UrdfModel {
   std::string name;
   std::vector<UrdfLink> links;                    // the root first; parents precede their children
-  std::vector<UrdfJoint> joints;                  // joints[i] leads to links[i + 1]
+  std::vector<Joint> joints;                      // joints[i] leads to links[i + 1]
   std::vector<ExcludedPair> excluded_pairs = {};  // by <drake:collision_filter_group>
   core::Findings findings = {};                   // missing and repaired content
   bool root_is_world = false;  // the root is the world frame: a simulator must fix it

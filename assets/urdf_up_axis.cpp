@@ -63,7 +63,7 @@ double Mismatch(const UrdfModel& model, bool gltf, bool turn) {
     }
     Eigen::AlignedBox3d whole = seen;
     whole.extend(hit);
-    for (const UrdfJoint& joint : model.joints) {
+    for (const Joint& joint : model.joints) {
       if (joint.parent == link.name) {
         sum += whole.exteriorDistance(Eigen::Vector3d(joint.parent_from_joint.translation()));
       }

@@ -140,9 +140,9 @@ int LongestChain(const UrdfModel& model) {
 bool IsRobot(const UrdfModel& model, const physics_params::Category& category) {
   if (LongestChain(model) >= kArmChain) return true;
   if (category.name != "object") return false;
-  const auto wheels = std::count_if(
-      model.joints.begin(), model.joints.end(),
-      [](const auto& joint) { return joint.type == assets::UrdfJointType::kContinuous; });
+  const auto wheels =
+      std::count_if(model.joints.begin(), model.joints.end(),
+                    [](const auto& joint) { return joint.type == assets::JointType::kContinuous; });
   return LongestChain(model) >= kRobotChain || wheels >= kRobotWheels;
 }
 
@@ -166,7 +166,7 @@ void MakeNamesSafe(SemanticModel* source) {
     }
   }
   taken.clear();
-  for (assets::UrdfJoint& joint : source->model.joints) {
+  for (assets::Joint& joint : source->model.joints) {
     joint.name = safe(joint.name);
     joint.parent = renamed.at(joint.parent);
     joint.child = renamed.at(joint.child);

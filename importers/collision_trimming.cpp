@@ -21,7 +21,7 @@
 namespace simwright::importers {
 namespace {
 
-using assets::UrdfJoint;
+using assets::Joint;
 using assets::UrdfModel;
 
 constexpr int kTrimmingSteps = 48;  // positions over a joint's range: 2 degrees of a door
@@ -85,17 +85,17 @@ class Trimming {
  private:
   void Sweep(size_t joint, int steps) {
     contacts_.clear();
-    const UrdfJoint& moved = model_->joints[joint];
-    const bool turns = moved.type == assets::UrdfJointType::kContinuous;
+    const Joint& moved = model_->joints[joint];
+    const bool turns = moved.type == assets::JointType::kContinuous;
     const double lower = turns ? -std::numbers::pi : moved.lower;
     const double upper = turns ? std::numbers::pi : moved.upper;
     const std::vector<bool> carried = groups_.CarriedBy(joint);
     const bool alone = std::count_if(model_->joints.begin(), model_->joints.end(),
-                                     [](const UrdfJoint& j) { return j.Moves(); }) == 1;
+                                     [](const Joint& j) { return j.Moves(); }) == 1;
     for (const bool others_up : {false, true}) {
       if (others_up && alone) continue;
       assets::JointPositions positions;
-      for (const UrdfJoint& other : model_->joints) {
+      for (const Joint& other : model_->joints) {
         if (others_up && other.Moves()) positions[other.name] = other.upper;
       }
       std::vector<std::vector<PartContact>> hits(static_cast<size_t>(steps) + 1);

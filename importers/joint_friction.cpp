@@ -6,33 +6,32 @@
 #include <vector>
 
 #include "assets/joint_gravity_load.h"
-#include "assets/joint_poses.h"
+#include "assets/kinematic_model.h"
 #include "library/articulated/assembly.h"
 
 namespace simwright::importers {
 namespace {
 
 using assets::ArticulatedAsset;
-using assets::UrdfJoint;
-using assets::UrdfJointType;
+using assets::Joint;
+using assets::JointType;
 
 constexpr double kGravity = 9.81;     // m/s^2
 constexpr double kWeightShare = 0.1;  // of the asset's weight: the largest required force
 constexpr int kLoadSamples = 32;      // positions over a joint's range
 
-double LowerOf(const UrdfJoint& joint) {
-  return joint.type == UrdfJointType::kContinuous ? -std::numbers::pi : joint.lower;
+double LowerOf(const Joint& joint) {
+  return joint.type == JointType::kContinuous ? -std::numbers::pi : joint.lower;
 }
-double RangeOf(const UrdfJoint& joint) {
-  return joint.type == UrdfJointType::kContinuous ? 2.0 * std::numbers::pi
-                                                  : joint.upper - joint.lower;
+double RangeOf(const Joint& joint) {
+  return joint.type == JointType::kContinuous ? 2.0 * std::numbers::pi : joint.upper - joint.lower;
 }
 
 // Returns the distance from the axis of hinge `joint` to the farthest point it moves, m; 1 for a
 // slide.
 double LeverOf(const ArticulatedAsset& asset, const std::vector<Eigen::Isometry3d>& poses,
                const std::vector<int>& parents, size_t joint) {
-  if (asset.joints[joint].type == UrdfJointType::kPrismatic) return 1.0;
+  if (asset.joints[joint].type == JointType::kPrismatic) return 1.0;
   const Eigen::Isometry3d& pose = poses[joint + 1];
   const Eigen::Vector3d axis = pose.linear() * asset.joints[joint].axis;
   std::vector<bool> carried(asset.links.size(), false);
@@ -52,30 +51,27 @@ double LeverOf(const ArticulatedAsset& asset, const std::vector<Eigen::Isometry3
 }  // namespace
 
 double GreatestLoad(const ArticulatedAsset& asset, size_t joint) {
-  const std::vector<int> parents = assets::ParentLinks(assets::ModelOf(asset));
-  std::vector<assets::Inertial> inertials;
-  for (const assets::ArticulatedLink& link : asset.links) inertials.push_back(link.inertial);
-  const UrdfJoint& j = asset.joints[joint];
+  const auto model = assets::MakeKinematicModel(asset);
+  const Joint& j = asset.joints[joint];
   double load = 0.0;
   for (int k = 0; k <= kLoadSamples; ++k) {
     const double position = LowerOf(j) + RangeOf(j) * k / kLoadSamples;
-    load = std::max(load, std::abs(assets::LoadOn(inertials, asset.joints, parents,
-                                                  static_cast<int>(joint), position)
-                                       .gravity));
+    load =
+        std::max(load, std::abs(assets::LoadOn(*model, static_cast<int>(joint), position).gravity));
   }
   return load;
 }
 
 void AssignJointFriction(core::Rng& rng, ArticulatedAsset* asset) {
-  const assets::UrdfModel model = assets::ModelOf(*asset);
-  const std::vector<int> parents = assets::ParentLinks(model);
-  const std::vector<Eigen::Isometry3d> poses = assets::LinkPosesAtZero(model);
+  const auto model = assets::MakeKinematicModel(*asset);
+  const std::vector<Eigen::Isometry3d> poses =
+      model->LinkPoses(std::vector<double>(asset->joints.size(), 0.0));
   double mass = 0.0;
   for (const assets::ArticulatedLink& link : asset->links) mass += link.inertial.mass;
   for (size_t i = 0; i < asset->joints.size(); ++i) {
-    UrdfJoint& joint = asset->joints[i];
+    Joint& joint = asset->joints[i];
     if (!joint.Moves()) continue;
-    const double lever = LeverOf(*asset, poses, parents, i);
+    const double lever = LeverOf(*asset, poses, model->parents(), i);
     library::JointResistance feel = library::SampleJointResistance(rng, lever);
     const double most = kWeightShare * mass * kGravity * lever;
     if (!asset->fixed && feel.friction > most) {

@@ -13,8 +13,8 @@
 namespace simwright::importers {
 namespace {
 
-using assets::UrdfJoint;
-using assets::UrdfJointType;
+using assets::Joint;
+using assets::JointType;
 using assets::UrdfLink;
 using assets::UrdfModel;
 using assets::UrdfShape;
@@ -89,7 +89,7 @@ class Folding {
  private:
   struct Node {
     UrdfLink link;
-    UrdfJoint joint;  // the joint that leads to the link
+    Joint joint;  // the joint that leads to the link
     int parent = -1;
     std::vector<size_t> children;
     bool gone = false;
@@ -160,20 +160,20 @@ class Folding {
   std::vector<Node> nodes_;  // a parent precedes its children
 };
 
-void Warn(const UrdfJoint& joint, const std::string& code, core::Severity severity,
+void Warn(const Joint& joint, const std::string& code, core::Severity severity,
           const std::string& sentence, double figure, UrdfModel* model) {
   model->findings.push_back({code, severity, joint.name, sentence, figure});
 }
 
-void FixWithoutRange(UrdfJoint* joint, UrdfModel* model) {
+void FixWithoutRange(Joint* joint, UrdfModel* model) {
   Warn(*joint, "joint-no-range", core::Severity::kWarning,
        "its limits leave no range of motion: it becomes fixed", joint->upper - joint->lower, model);
-  joint->type = UrdfJointType::kFixed;
+  joint->type = JointType::kFixed;
   joint->lower = joint->upper = 0.0;
 }
 
 // Moves zero to the nearest limit if it lies beyond both.
-void BringZeroWithin(UrdfJoint* joint, UrdfModel* model) {
+void BringZeroWithin(Joint* joint, UrdfModel* model) {
   const double shift = std::clamp(0.0, joint->lower, joint->upper);
   if (shift == 0.0) return;
   Warn(*joint, "joint-zero", core::Severity::kWarning,
@@ -183,7 +183,7 @@ void BringZeroWithin(UrdfJoint* joint, UrdfModel* model) {
   joint->upper -= shift;
 }
 
-void FlipNegativeAxis(UrdfJoint* joint, UrdfModel* model) {
+void FlipNegativeAxis(Joint* joint, UrdfModel* model) {
   if (-joint->lower <= joint->upper) return;
   Warn(*joint, "joint-turned", core::Severity::kInfo,
        "its range was mostly negative: its axis and limits were reversed", joint->lower, model);
@@ -195,15 +195,15 @@ void FlipNegativeAxis(UrdfJoint* joint, UrdfModel* model) {
 void MakeFloatingBaseRoot(UrdfModel* model) {
   if (model->joints.empty() || HasShapes(model->links.front())) return;
   const std::string& root = model->links.front().name;
-  const auto is_child_of_root = [&](const UrdfJoint& joint) { return joint.parent == root; };
+  const auto is_child_of_root = [&](const Joint& joint) { return joint.parent == root; };
   if (std::count_if(model->joints.begin(), model->joints.end(), is_child_of_root) != 1) return;
   const auto joint = std::find_if(model->joints.begin(), model->joints.end(), is_child_of_root);
-  if (joint->type != UrdfJointType::kFloating && joint->type != UrdfJointType::kPlanar) return;
+  if (joint->type != JointType::kFloating && joint->type != JointType::kPlanar) return;
   Warn(*joint, "floating-base", core::Severity::kInfo,
        "it lets '" + joint->child + "' float in '" + root + "', which has no shape: '" +
            joint->child + "' is the root",
        0.0, model);
-  joint->type = UrdfJointType::kFixed;
+  joint->type = JointType::kFixed;
 }
 
 }  // namespace
@@ -216,8 +216,8 @@ void FoldEmptyLinks(UrdfModel* model) {
 }
 
 void NormaliseJoints(UrdfModel* model, bool keep_directions) {
-  for (UrdfJoint& joint : model->joints) {
-    if (joint.type == UrdfJointType::kFloating || joint.type == UrdfJointType::kPlanar) {
+  for (Joint& joint : model->joints) {
+    if (joint.type == JointType::kFloating || joint.type == JointType::kPlanar) {
       throw core::Error("joint '" + joint.name + "' is floating or planar", model->name,
                         "an asset only has hinges and slides: make it one of those, or fixed");
     }
@@ -228,7 +228,7 @@ void NormaliseJoints(UrdfModel* model, bool keep_directions) {
            joint.mimic->multiplier, model);
       joint.mimic.reset();
     }
-    if (joint.type == UrdfJointType::kContinuous) {
+    if (joint.type == JointType::kContinuous) {
       joint.lower = joint.upper = 0.0;
     } else if (!(joint.upper > joint.lower)) {
       FixWithoutRange(&joint, model);
@@ -277,13 +277,13 @@ void CenterAboveOrigin(double scale, UrdfModel* model) {
     TransformInertial(moved, scale, &link);
   }
   for (size_t i = 0; i < model->joints.size(); ++i) {
-    UrdfJoint& joint = model->joints[i];
+    Joint& joint = model->joints[i];
     joint.axis = old_poses[i + 1].rotation() * joint.axis;
     for (double& along : joint.axis) along = std::abs(along) < kRounding ? 0.0 : along;
     joint.axis.normalize();
     joint.parent_from_joint = Eigen::Isometry3d(
         Eigen::Translation3d(origins[i + 1] - origins[static_cast<size_t>(parents[i])]));
-    if (joint.type == UrdfJointType::kPrismatic) {
+    if (joint.type == JointType::kPrismatic) {
       joint.lower *= scale;
       joint.upper *= scale;
       joint.velocity *= scale;

@@ -34,8 +34,8 @@ geometry::MassProperties LinkMassProperties(const ArticulatedLink& link) {
 
 void LightenHeavyHinges(ArticulatedAsset* asset) {
   for (size_t i = 0; i < asset->joints.size(); ++i) {
-    const assets::UrdfJoint& joint = asset->joints[i];
-    if (!joint.Moves() || joint.type == assets::UrdfJointType::kPrismatic) continue;
+    const assets::Joint& joint = asset->joints[i];
+    if (!joint.Moves() || joint.type == assets::JointType::kPrismatic) continue;
     const double load = GreatestLoad(*asset, i);
     const double most = kShare * kHandTorque / (1.0 + kHoldFactor);
     if (load <= most) continue;

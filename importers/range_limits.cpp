@@ -15,7 +15,7 @@
 namespace simwright::importers {
 namespace {
 
-using assets::UrdfJoint;
+using assets::Joint;
 using assets::UrdfModel;
 
 constexpr double kOvershoot = 0.015;  // of the free range: engines overrun limits
@@ -86,8 +86,8 @@ class RangeLimiter {
   }
 
   void LimitRange(size_t index) {
-    UrdfJoint& joint = model_->joints[index];
-    const bool turns = joint.type == assets::UrdfJointType::kContinuous;
+    Joint& joint = model_->joints[index];
+    const bool turns = joint.type == assets::JointType::kContinuous;
     const double lower = turns ? -std::numbers::pi : joint.lower;
     const double upper = turns ? std::numbers::pi : joint.upper;
     const std::vector<bool> carried = groups_.CarriedBy(index);
@@ -139,13 +139,13 @@ class RangeLimiter {
     std::snprintf(figures, sizeof(figures), " from [%.3g, %.3g] to [%.3g, %.3g]", lower, upper,
                   ends[0], ends[1]);
     std::snprintf(share, sizeof(share), ": %.0f %% remains", 100.0 * left);
-    const bool slides = joint.type == assets::UrdfJointType::kPrismatic;
+    const bool slides = joint.type == assets::JointType::kPrismatic;
     result_.findings.push_back({"joint-cut", core::Severity::kWarning, joint.name,
                                 "its range was reduced" + std::string(figures) +
                                     (slides ? " m" : " rad") + ", where it would collide with " +
                                     worst.name + share,
                                 left, worst.floor ? "mount it higher, and widen the limit" : ""});
-    if (turns) joint.type = assets::UrdfJointType::kRevolute;
+    if (turns) joint.type = assets::JointType::kRevolute;
     joint.lower = ends[0];
     joint.upper = ends[1];
   }

@@ -62,7 +62,7 @@ void Turn(const Eigen::Matrix3d& turn, UrdfModel* model) {
     link.inertial->center_of_mass = turn * link.inertial->center_of_mass;
     link.inertial->inertia = (turn * link.inertial->inertia * turn.transpose()).eval();
   }
-  for (assets::UrdfJoint& joint : model->joints) {
+  for (assets::Joint& joint : model->joints) {
     joint.axis = (turn * joint.axis).normalized();
     joint.parent_from_joint.translation() = turn * joint.parent_from_joint.translation();
   }
@@ -132,7 +132,7 @@ void SetDown(double by, UrdfModel* model) {
     }
   }
   if (model->links.front().inertial) model->links.front().inertial->center_of_mass.z() -= by;
-  for (assets::UrdfJoint& joint : model->joints) {
+  for (assets::Joint& joint : model->joints) {
     if (joint.parent == model->links.front().name) joint.parent_from_joint.translation().z() -= by;
   }
 }
@@ -196,8 +196,8 @@ TippingMargin LeastTippingMargin(const UrdfModel& model) {
   const std::vector<Eigen::Vector2d> support = geometry::ConvexHull2d(std::move(touching));
   TippingMargin least{std::numeric_limits<double>::infinity(), "", 0.0};
   if (support.size() < 3) return least;  // it rests on a point or a line: unknown
-  for (const assets::UrdfJoint& joint : model.joints) {
-    if (!joint.Moves() || joint.type == assets::UrdfJointType::kContinuous) continue;
+  for (const assets::Joint& joint : model.joints) {
+    if (!joint.Moves() || joint.type == assets::JointType::kContinuous) continue;
     for (int i = 0; i <= kSteps; ++i) {
       const double position = joint.lower + (joint.upper - joint.lower) * i / kSteps;
       const Eigen::Vector2d center =

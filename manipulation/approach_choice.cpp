@@ -34,13 +34,12 @@ bool PointsAway(const Isometry3d& world_from_tool, const Vector3d& away) {
 }
 
 Fit FitOf(const Isometry3d& link_from_grasp, const SurfacePoints& hand,
-          const Interaction& interaction, const sim::ArticulatedBody& body) {
+          const Interaction& interaction) {
   const InteractionTarget& target = *interaction.target;
   const tasks::ArticulatedObject& object =
       interaction.model.objects[static_cast<size_t>(target.object)];
   const tasks::ObjectJoint& joint = object.joints[static_cast<size_t>(target.joint)];
   const BodyParts& solids = interaction.solids[static_cast<size_t>(target.object)];
-  const int link = body.LinkIndex(object.links[static_cast<size_t>(target.link)].name);
   const Isometry3d& root = interaction.start.roots[static_cast<size_t>(target.object)];
   Vector3d away = root.translation() - interaction.subtask.start.world_from_robot.translation();
   away.z() = 0.0;
@@ -49,9 +48,9 @@ Fit FitOf(const Isometry3d& link_from_grasp, const SurfacePoints& hand,
   for (const double share : {0.0, 0.5 * kSuccessShare, kSuccessShare}) {
     std::vector<double> joints = tasks::RestPositions(object);
     joints[static_cast<size_t>(target.joint)] = joint.rest() + share * (joint.far() - joint.rest());
-    const std::vector<Isometry3d> poses = BodyPoses(body, object, root, joints);
-    const Isometry3d tool = poses[static_cast<size_t>(link)] * link_from_grasp;
-    fit.deepest = std::max(fit.deepest, PenetrationDepth(hand, tool, solids, poses, link));
+    const std::vector<Isometry3d> poses = WorldLinkPoses(object, root, joints);
+    const Isometry3d tool = poses[static_cast<size_t>(target.link)] * link_from_grasp;
+    fit.deepest = std::max(fit.deepest, PenetrationDepth(hand, tool, solids, poses, target.link));
     fit.points_away = fit.points_away && PointsAway(tool, away);
   }
   return fit;
@@ -59,14 +58,13 @@ Fit FitOf(const Isometry3d& link_from_grasp, const SurfacePoints& hand,
 
 }  // namespace
 
-Isometry3d ChooseApproach(const robot::RobotModel& robot, const Interaction& interaction,
-                          const sim::ArticulatedBody& body) {
+Isometry3d ChooseApproach(const robot::RobotModel& robot, const Interaction& interaction) {
   const SurfacePoints hand = GripperSurface(robot, kSpacing);
   const std::vector<Isometry3d>& approaches = interaction.target->approaches;
   Isometry3d best = approaches.front();
   Fit best_fit;
   for (size_t i = 0; i < approaches.size(); ++i) {
-    const Fit fit = FitOf(approaches[i], hand, interaction, body);
+    const Fit fit = FitOf(approaches[i], hand, interaction);
     if (fit.Passes()) return approaches[i];
     if (i > 0 && !fit.IsBetterThan(best_fit)) continue;
     best_fit = fit;

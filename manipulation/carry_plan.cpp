@@ -47,7 +47,7 @@ std::vector<Arrival> ArrivalsAt(const PlanningArm& context, const Interaction& i
 }
 
 // Returns the convex hull points of the grasped object, in the tool's frame.
-SurfacePoints PayloadPoints(const Interaction& interaction, const tasks::SceneState& state) {
+SurfacePoints PayloadPoints(const Interaction& interaction, const tasks::WorldState& state) {
   const auto object = static_cast<size_t>(interaction.target->object);
   const std::vector<Isometry3d> links =
       tasks::LinkPosesOf(interaction.model.objects[object], state.joints[object]);
@@ -64,7 +64,7 @@ SurfacePoints PayloadPoints(const Interaction& interaction, const tasks::SceneSt
 }  // namespace
 
 std::optional<CarryPlan> PlanCarry(const PlanningArm& context, const Interaction& interaction,
-                                   const tasks::SceneState& state, const CarryTask& task,
+                                   const tasks::WorldState& state, const CarryTask& task,
                                    const robot::JointVector& from) {
   CollisionChecker clearance(context, interaction, state, interaction.target->object);
   clearance.SetPayload(PayloadPoints(interaction, state));

@@ -28,7 +28,7 @@ struct CarryTask {
 // a collision-free path, returns a reachable arrival; none if no arrival is reachable. A tool that
 // only tracks a straight line to a far destination ends at a joint limit or in furniture.
 std::optional<CarryPlan> PlanCarry(const PlanningArm& context, const Interaction& interaction,
-                                   const tasks::SceneState& state, const CarryTask& task,
+                                   const tasks::WorldState& state, const CarryTask& task,
                                    const robot::JointVector& from);
 
 }  // namespace simwright::manipulation

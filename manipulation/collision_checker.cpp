@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "assets/joint_poses.h"
 #include "manipulation/gripper_penetration.h"
 
 namespace simwright::manipulation {
@@ -17,16 +16,7 @@ constexpr double kNearEnd = 0.3;        // rad or m of any joint from an exempt 
 std::vector<Eigen::Isometry3d> RobotPoses(const robot::RobotModel& robot,
                                           const Eigen::Isometry3d& world_from_robot,
                                           const robot::JointVector& arm) {
-  assets::JointPositions positions;
-  for (Eigen::Index j = 0; j < arm.size(); ++j) {
-    const auto joint = static_cast<size_t>(robot.arm_joints[static_cast<size_t>(j)]);
-    positions[robot.urdf.joints[joint].name] = arm[j];
-  }
-  if (!robot.gripper.joints.empty()) {
-    const auto leader = static_cast<size_t>(robot.gripper.joints.front());
-    positions[robot.urdf.joints[leader].name] = robot.gripper.open;
-  }
-  std::vector<Eigen::Isometry3d> poses = assets::LinkPoses(robot.urdf, positions);
+  std::vector<Eigen::Isometry3d> poses = robot.LinkPoses(arm, robot.gripper.open);
   for (Eigen::Isometry3d& pose : poses) pose = world_from_robot * pose;
   return poses;
 }
@@ -63,14 +53,13 @@ bool IntersectsAny(const SurfacePoints& surface, const Eigen::Isometry3d& pose,
 }  // namespace
 
 CollisionChecker::CollisionChecker(const PlanningArm& context, const Interaction& interaction,
-                                   const tasks::SceneState& state, int held)
+                                   const tasks::WorldState& state, int held)
     : context_(context), world_from_robot_(interaction.subtask.start.world_from_robot) {
   for (const int object : interaction.placed) {
     if (object == held) continue;
     const auto t = static_cast<size_t>(object);
-    obstacles_.push_back({&interaction.solids[t],
-                          BodyPoses(interaction.bodies[t]->body(), interaction.model.objects[t],
-                                    state.roots[t], state.joints[t])});
+    obstacles_.push_back({&interaction.solids[t], WorldLinkPoses(interaction.model.objects[t],
+                                                                 state.roots[t], state.joints[t])});
   }
   const std::vector<Eigen::Isometry3d> home =
       RobotPoses(*context.robot, world_from_robot_, context.robot->home());
@@ -133,7 +122,7 @@ bool CollisionChecker::IsPathCollisionFree(const robot::JointVector& from,
 }
 
 bool IsArmCollisionFree(const PlanningArm& context, const Interaction& interaction,
-                        const tasks::SceneState& state, const robot::JointVector& arm, int held) {
+                        const tasks::WorldState& state, const robot::JointVector& arm, int held) {
   return CollisionChecker(context, interaction, state, held).IsCollisionFree(arm);
 }
 

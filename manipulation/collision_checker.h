@@ -18,7 +18,7 @@ class CollisionChecker {
  public:
   // Ignores the object `held` (-1: none). All arguments must outlive this.
   CollisionChecker(const PlanningArm& context, const Interaction& interaction,
-                   const tasks::SceneState& state, int held = -1);
+                   const tasks::WorldState& state, int held = -1);
 
   CollisionChecker(const CollisionChecker&) =
       delete;  // the obstacles of SetClearance hold pointers
@@ -58,7 +58,7 @@ class CollisionChecker {
 
 // Returns CollisionChecker::IsCollisionFree for one configuration.
 bool IsArmCollisionFree(const PlanningArm& context, const Interaction& interaction,
-                        const tasks::SceneState& state, const robot::JointVector& arm,
+                        const tasks::WorldState& state, const robot::JointVector& arm,
                         int held = -1);
 
 }  // namespace simwright::manipulation

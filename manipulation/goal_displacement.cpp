@@ -5,7 +5,7 @@
 namespace simwright::manipulation {
 
 Eigen::Vector3d DisplacementTo(const Destination& destination, const Interaction& interaction,
-                               const tasks::SceneState& state) {
+                               const tasks::WorldState& state) {
   Eigen::Vector3d point = state.goal;
   if (!destination.goal) {
     const auto object = static_cast<size_t>(destination.object);
@@ -18,7 +18,7 @@ Eigen::Vector3d DisplacementTo(const Destination& destination, const Interaction
 }
 
 Eigen::Vector3d DisplacementToDestination(const Interaction& interaction,
-                                          const tasks::SceneState& state) {
+                                          const tasks::WorldState& state) {
   return DisplacementTo(*interaction.destination, interaction, state);
 }
 

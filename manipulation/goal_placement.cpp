@@ -10,7 +10,7 @@ constexpr double kHandAbove = 0.15;   // m
 
 // Returns true if the object with the gripper on it, displaced by `displacement`, would intersect
 // another object.
-bool IsBlocked(const Interaction& interaction, const tasks::SceneState& state, int object,
+bool IsBlocked(const Interaction& interaction, const tasks::WorldState& state, int object,
                const Eigen::Vector3d& displacement) {
   Eigen::AlignedBox3d there =
       tasks::WorldAabb(interaction.model, state, object).translated(displacement);
@@ -25,7 +25,7 @@ bool IsBlocked(const Interaction& interaction, const tasks::SceneState& state, i
 
 }  // namespace
 
-Eigen::Vector3d GoalIn(const Interaction& interaction, const tasks::SceneState& state) {
+Eigen::Vector3d GoalIn(const Interaction& interaction, const tasks::WorldState& state) {
   const Eigen::Vector3d& goal = interaction.start.goal;
   const bool lifts = interaction.target && interaction.target->joint < 0 &&
                      interaction.asks_for_grasp && interaction.destination &&

@@ -8,6 +8,6 @@ namespace simwright::manipulation {
 // lifted, if another object occupies it or the room that the gripper needs there, is moved above
 // the object, at the described height. The goal of an object taken out of a side-opening receptacle
 // moves with the receptacle. Any other goal is unchanged.
-Eigen::Vector3d GoalIn(const Interaction& interaction, const tasks::SceneState& state);
+Eigen::Vector3d GoalIn(const Interaction& interaction, const tasks::WorldState& state);
 
 }  // namespace simwright::manipulation

@@ -5,24 +5,11 @@
 #include <cmath>
 #include <set>
 
-#include "assets/joint_poses.h"
-
 namespace simwright::manipulation {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-// Returns, by link, true if it is `root` or a descendant of it.
-std::vector<bool> DescendantsOf(const assets::UrdfModel& urdf, int root) {
-  std::vector<bool> hangs(urdf.links.size(), false);
-  hangs[static_cast<size_t>(root)] = true;
-  const std::vector<int> parents = assets::ParentLinks(urdf);
-  for (size_t j = 0; j < urdf.joints.size(); ++j) {  // to links[j + 1], parents first
-    if (hangs[static_cast<size_t>(parents[j])]) hangs[j + 1] = true;
-  }
-  return hangs;
-}
 
 void AddSurface(const core::TriangleMesh& mesh, const Isometry3d& tool_from_link, double spacing,
                 std::vector<Vector3d>* points) {
@@ -54,14 +41,11 @@ std::vector<Vector3d> Thinned(const std::vector<Vector3d>& points, double spacin
 }  // namespace
 
 SurfacePoints GripperSurface(const robot::RobotModel& robot, double spacing) {
-  assets::JointPositions open;
   const assets::UrdfModel& urdf = robot.urdf;
-  if (!robot.gripper.joints.empty()) {
-    open[urdf.joints[static_cast<size_t>(robot.gripper.joints.front())].name] = robot.gripper.open;
-  }
-  const std::vector<Isometry3d> poses = assets::LinkPoses(urdf, open);
+  const std::vector<Isometry3d> poses =
+      robot.LinkPoses(Eigen::VectorXd::Zero(robot.arm.size()), robot.gripper.open);
   const Isometry3d tool_from_root = poses[static_cast<size_t>(robot.tool_link)].inverse();
-  const std::vector<bool> hand = DescendantsOf(urdf, robot.arm_joints.back() + 1);
+  const std::vector<bool> hand = robot.kinematics->Subtree(robot.arm_joints.back() + 1);
   std::vector<Vector3d> points;
   for (size_t l = 0; l < urdf.links.size(); ++l) {
     if (!hand[l]) continue;
@@ -97,15 +81,11 @@ double PenetrationIntoBody(const SurfacePoints& surface, const Isometry3d& world
   return deepest;
 }
 
-std::vector<Isometry3d> BodyPoses(const sim::ArticulatedBody& body,
-                                  const tasks::ArticulatedObject& object, const Isometry3d& root,
-                                  const std::vector<double>& joints) {
-  const std::vector<Isometry3d> poses = tasks::LinkPosesOf(object, joints);
-  std::vector<Isometry3d> of_body;
-  for (const sim::RigidBody& link : body.links) {
-    of_body.push_back(root * poses[static_cast<size_t>(object.FindLink(link.name))]);
-  }
-  return of_body;
+std::vector<Isometry3d> WorldLinkPoses(const tasks::ArticulatedObject& object,
+                                       const Isometry3d& root, const std::vector<double>& joints) {
+  std::vector<Isometry3d> poses = tasks::LinkPosesOf(object, joints);
+  for (Isometry3d& pose : poses) pose = root * pose;
+  return poses;
 }
 
 std::vector<SurfacePoints> RobotSurface(const robot::RobotModel& robot, double spacing) {

@@ -29,12 +29,11 @@ double PenetrationIntoBody(const SurfacePoints& surface,
                            const std::vector<Eigen::Isometry3d>& world_from_links,
                            int gripped = -1);
 
-// Returns world_from_link of each link of `body`, the body of `object`, with the root at `root` and
-// the joint positions `joints`. (links)
-std::vector<Eigen::Isometry3d> BodyPoses(const sim::ArticulatedBody& body,
-                                         const tasks::ArticulatedObject& object,
-                                         const Eigen::Isometry3d& root,
-                                         const std::vector<double>& joints);
+// Returns world_from_link of each link of `object`, with the root at `root` and the joint positions
+// `joints`. (links)
+std::vector<Eigen::Isometry3d> WorldLinkPoses(const tasks::ArticulatedObject& object,
+                                              const Eigen::Isometry3d& root,
+                                              const std::vector<double>& joints);
 
 // Samples points on the surface of each of a robot's links, m, link frame. (urdf.links)
 std::vector<SurfacePoints> RobotSurface(const robot::RobotModel& robot, double spacing);

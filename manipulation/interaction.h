@@ -10,8 +10,8 @@
 #include "robot/pose_inverse_kinematics.h"
 #include "robot/robot_model.h"
 #include "sim/articulated_world.h"
-#include "tasks/scene_state.h"
 #include "tasks/task.h"
+#include "tasks/world_state.h"
 
 namespace simwright::manipulation {
 
@@ -27,11 +27,11 @@ struct PlanningArm {
 // One scene, and the interaction with it that planners plan. Constant. The objects are those of
 // `model`, in its order.
 struct Interaction {
-  tasks::SceneModel model;
+  tasks::WorldModel model;
   std::vector<std::shared_ptr<const sim::PreparedBody>> bodies;  // by object
   std::vector<BodyParts> solids;                                 // of the bodies
   tasks::Subtask subtask;
-  tasks::SceneState start;  // as the subtask describes it
+  tasks::WorldState start;  // as the subtask describes it
   std::vector<int> placed;  // the objects that the subtask places
   std::optional<InteractionTarget> target;
   std::optional<Destination> destination;

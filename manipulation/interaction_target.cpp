@@ -15,8 +15,8 @@ using Eigen::Vector3d;
 using reward::RewardInput;
 using reward::RewardSlot;
 using tasks::ArticulatedObject;
-using tasks::SceneModel;
-using tasks::SceneState;
+using tasks::WorldModel;
+using tasks::WorldState;
 
 constexpr double kFingerDepth = 0.02;  // m from the fingertips to the palm, less a margin
 // The largest depth (m) of the fingertips' middle below a handle's outermost point: at this depth
@@ -142,11 +142,11 @@ std::vector<Vector3d> ApproachDirections(const Eigen::AlignedBox3d& box, const V
 
 // Returns the grasp poses at a part that a joint moves, in the link's frame: for each direction
 // with the closing axis across the thin side, and across the other side if the gripper spans it.
-std::vector<Eigen::Isometry3d> ToolsOnPart(const SceneModel& model, const SceneState& start,
+std::vector<Eigen::Isometry3d> ToolsOnPart(const WorldModel& model, const WorldState& start,
                                            const InteractionTarget& target, double opening) {
   const ArticulatedObject& object = model.objects[static_cast<size_t>(target.object)];
   const tasks::ObjectJoint& joint = object.joints[static_cast<size_t>(target.joint)];
-  SceneState rest = start;
+  WorldState rest = start;
   rest.joints[static_cast<size_t>(target.object)] = tasks::RestPositions(object);
   const std::vector<Eigen::Isometry3d> poses =
       tasks::LinkPosesOf(object, rest.joints[static_cast<size_t>(target.object)]);
@@ -206,8 +206,8 @@ double RimOf(const ArticulatedObject& object, const Eigen::Isometry3d& world_fro
 
 }  // namespace
 
-std::optional<InteractionTarget> FindInteractionTarget(const SceneModel& model,
-                                                       const SceneState& start,
+std::optional<InteractionTarget> FindInteractionTarget(const WorldModel& model,
+                                                       const WorldState& start,
                                                        const std::vector<RewardSlot>& slots,
                                                        double opening, double base) {
   const auto of_joint = [](RewardInput input) { return input == RewardInput::kJointState; };
@@ -243,7 +243,7 @@ std::optional<InteractionTarget> FindInteractionTarget(const SceneModel& model,
   return target;
 }
 
-std::optional<Destination> DestinationOf(const SceneModel& model, const SceneState& start,
+std::optional<Destination> DestinationOf(const WorldModel& model, const WorldState& start,
                                          const InteractionTarget& target,
                                          const std::vector<RewardSlot>& slots) {
   Destination destination;
@@ -280,7 +280,7 @@ std::optional<Destination> DestinationOf(const SceneModel& model, const SceneSta
   return std::nullopt;
 }
 
-Eigen::Isometry3d GraspPoseAtJoint(const SceneModel& model, const SceneState& state,
+Eigen::Isometry3d GraspPoseAtJoint(const WorldModel& model, const WorldState& state,
                                    const InteractionTarget& target) {
   const auto object = static_cast<size_t>(target.object);
   const std::vector<Eigen::Isometry3d> poses =

@@ -8,8 +8,8 @@
 
 #include "manipulation/side_receptacle.h"
 #include "reward/reward_slot.h"
-#include "tasks/scene_state.h"
 #include "tasks/task.h"
+#include "tasks/world_state.h"
 
 namespace simwright::manipulation {
 
@@ -44,21 +44,21 @@ struct Destination {
 // joint whose state the program reads, else the object whose grasp it reads, else the object whose
 // position or bounding box, or a link's, it reads. Returns nullopt if the program reads none of
 // these. `opening`: m, the maximum gripper opening; `base`: m, the height of the robot's base.
-std::optional<InteractionTarget> FindInteractionTarget(const tasks::SceneModel& model,
-                                                       const tasks::SceneState& start,
+std::optional<InteractionTarget> FindInteractionTarget(const tasks::WorldModel& model,
+                                                       const tasks::WorldState& start,
                                                        const std::vector<reward::RewardSlot>& slots,
                                                        double opening, double base);
 
 // Returns the destination from the inputs of the reward program: the goal if the program reads one,
 // else, for a target without a joint, the first other object or link whose position or bounding box
 // it reads. Returns nullopt if there is none.
-std::optional<Destination> DestinationOf(const tasks::SceneModel& model,
-                                         const tasks::SceneState& start,
+std::optional<Destination> DestinationOf(const tasks::WorldModel& model,
+                                         const tasks::WorldState& start,
                                          const InteractionTarget& target,
                                          const std::vector<reward::RewardSlot>& slots);
 
 // Returns the grasp pose (world_from_tool, m) in `state` for a target with a joint.
-Eigen::Isometry3d GraspPoseAtJoint(const tasks::SceneModel& model, const tasks::SceneState& state,
+Eigen::Isometry3d GraspPoseAtJoint(const tasks::WorldModel& model, const tasks::WorldState& state,
                                    const InteractionTarget& target);
 
 // Returns the horizontal direction (yaw about the world's z axis, rad) along which `object` is

@@ -2,7 +2,7 @@
 
 namespace simwright::manipulation {
 
-Eigen::Isometry3d WorldFromLink(const tasks::SceneModel& model, const tasks::SceneState& state,
+Eigen::Isometry3d WorldFromLink(const tasks::WorldModel& model, const tasks::WorldState& state,
                                 int object, int link) {
   const auto t = static_cast<size_t>(object);
   return state.roots[t] *

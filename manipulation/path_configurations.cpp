@@ -25,7 +25,7 @@ robot::JointVector PathConfigurations::At(double position) const {
 }
 
 PathConfigurations ConfigurationsAlongJoint(const PlanningArm& context,
-                                            const Interaction& interaction, tasks::SceneState state,
+                                            const Interaction& interaction, tasks::WorldState state,
                                             const robot::JointVector& grasp_configuration,
                                             double pitch) {
   PathConfigurations along;

@@ -20,7 +20,7 @@ struct PathConfigurations {
 // pitch `pitch` (rad), as PlanReach checks it: as far as the tool can follow. Empty if the skill
 // moves no joint, or if the tool is not at the grasp in `grasp_configuration`.
 PathConfigurations ConfigurationsAlongJoint(const PlanningArm& context,
-                                            const Interaction& interaction, tasks::SceneState state,
+                                            const Interaction& interaction, tasks::WorldState state,
                                             const robot::JointVector& grasp_configuration,
                                             double pitch);
 

@@ -70,7 +70,7 @@ bool IsClosedByPushing(const tasks::ArticulatedObject& object, const tasks::Obje
          SwingOf(object, joint, position).edge > kSwings;
 }
 
-std::vector<Isometry3d> PushingPoses(const tasks::SceneModel& model, const tasks::SceneState& start,
+std::vector<Isometry3d> PushingPoses(const tasks::WorldModel& model, const tasks::WorldState& start,
                                      int object, const tasks::ObjectJoint& joint, double base) {
   const tasks::ArticulatedObject& whole = model.objects[static_cast<size_t>(object)];
   const auto j = static_cast<size_t>(&joint - whole.joints.data());

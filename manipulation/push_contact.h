@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "tasks/articulated_object.h"
-#include "tasks/scene_state.h"
+#include "tasks/world_state.h"
 
 namespace simwright::manipulation {
 
@@ -21,8 +21,8 @@ bool IsClosedByPushing(const tasks::ArticulatedObject& object, const tasks::Obje
 // fingertips on the face. Pushing needs no handle; the handle of an open door points towards the
 // robot's base. `base`: m, the height of the robot's base. `joint`: one of the object's own, that
 // IsClosedByPushing.
-std::vector<Eigen::Isometry3d> PushingPoses(const tasks::SceneModel& model,
-                                            const tasks::SceneState& start, int object,
+std::vector<Eigen::Isometry3d> PushingPoses(const tasks::WorldModel& model,
+                                            const tasks::WorldState& start, int object,
                                             const tasks::ObjectJoint& joint, double base);
 
 }  // namespace simwright::manipulation

@@ -72,7 +72,7 @@ struct Requirements {
 // Returns true if the tool reaches `there` in interaction.room through its opening with a
 // collision-free arm.
 bool EntersReceptacle(const PlanningArm& context, const Interaction& interaction,
-                      const tasks::SceneState& state, const Isometry3d& there,
+                      const tasks::WorldState& state, const Isometry3d& there,
                       CartesianFollower* follower) {
   Isometry3d before = there;
   before.translation() += DisplacementOutOfReceptacle(interaction, state, there.translation());
@@ -87,7 +87,7 @@ bool EntersReceptacle(const PlanningArm& context, const Interaction& interaction
 
 // Returns true if an object grasped at `tool` can be carried to its destinations.
 bool CanCarry(const PlanningArm& context, const Interaction& interaction,
-              const tasks::SceneState& state, const Isometry3d& tool,
+              const tasks::WorldState& state, const Isometry3d& tool,
               const Requirements& requirements, CartesianFollower* follower) {
   const auto goes = [&](const Destination& destination) {
     Isometry3d there = tool;
@@ -112,7 +112,7 @@ struct Candidate {
 
 // Returns true if the tool can follow the joint path and, if required, the arm except its fingers
 // is collision-free.
-bool MovesJoint(const PlanningArm& context, const Interaction& interaction, tasks::SceneState state,
+bool MovesJoint(const PlanningArm& context, const Interaction& interaction, tasks::WorldState state,
                 const Candidate& candidate, const Requirements& requirements,
                 CartesianFollower* follower) {
   const InteractionTarget& target = *interaction.target;
@@ -136,7 +136,7 @@ bool MovesJoint(const PlanningArm& context, const Interaction& interaction, task
 }
 
 void AddCandidates(const PlanningArm& context, const Interaction& interaction,
-                   const tasks::SceneState& state, const GraspOrientation& orientation,
+                   const tasks::WorldState& state, const GraspOrientation& orientation,
                    const robot::JointVector& from, core::Rng& rng,
                    std::vector<Candidate>* candidates) {
   const Isometry3d tool = GraspPose(interaction, state, orientation.across, orientation.pitch);
@@ -147,7 +147,7 @@ void AddCandidates(const PlanningArm& context, const Interaction& interaction,
 
 // Returns the pushing pose: x along the displacement to the destination, z down, the origin behind
 // the object.
-Isometry3d PushingPose(const Interaction& interaction, const tasks::SceneState& state,
+Isometry3d PushingPose(const Interaction& interaction, const tasks::WorldState& state,
                        const Vector3d& across) {
   const auto object = static_cast<size_t>(interaction.target->object);
   const Vector3d down = -Vector3d::UnitZ();
@@ -179,7 +179,7 @@ std::span<const double> PitchesOf(const Interaction& interaction,
 
 // Returns the orientations for both sides of the gripper, whose closing axis is `across` now.
 std::vector<GraspOrientation> OrientationsWith(const Interaction& interaction,
-                                               const tasks::SceneState& state,
+                                               const tasks::WorldState& state,
                                                const Vector3d& across, double pitch,
                                                const Requirements& requirements) {
   if (interaction.target->pushes) return {{across, pitch}};
@@ -199,7 +199,7 @@ std::vector<GraspOrientation> OrientationsWith(const Interaction& interaction,
 // Writes the pre-grasp configuration (J) for `grasp_configuration` (J) into `before`, or the one
 // closest to it. Returns false if it is not reached: next to it the gripper would wait forever.
 bool FindPreGrasp(const PlanningArm& context, const Interaction& interaction,
-                  const tasks::SceneState& state, const robot::JointVector& grasp_configuration,
+                  const tasks::WorldState& state, const robot::JointVector& grasp_configuration,
                   robot::JointVector* before) {
   Isometry3d place = interaction.subtask.start.world_from_robot *
                      robot::ForwardKinematics(context.robot->arm, grasp_configuration);
@@ -218,7 +218,7 @@ bool FindPreGrasp(const PlanningArm& context, const Interaction& interaction,
 // obstacles. The grasp configuration itself must be collision-free except for the fingers, which
 // surround the target. None if there is no path.
 std::optional<JointPath> PlanApproachPath(
-    const PlanningArm& context, const Interaction& interaction, const tasks::SceneState& state,
+    const PlanningArm& context, const Interaction& interaction, const tasks::WorldState& state,
     const robot::JointVector& from, const Candidate& candidate, const Requirements& requirements) {
   const bool takes = interaction.target->joint < 0;
   CollisionChecker clearance(context, interaction, state, takes ? interaction.target->object : -1);
@@ -237,7 +237,7 @@ std::optional<JointPath> PlanApproachPath(
 
 // Returns candidate closing axes (unit, world): `across`, and those rotated about the vertical that
 // grasp a round object differently.
-std::vector<Vector3d> ClosingAxes(const Interaction& interaction, const tasks::SceneState& state,
+std::vector<Vector3d> ClosingAxes(const Interaction& interaction, const tasks::WorldState& state,
                                   const Vector3d& across) {
   std::vector<Vector3d> lines = {across}, taken;
   if (interaction.target->joint >= 0 || Pushes(interaction)) return lines;
@@ -258,7 +258,7 @@ std::vector<Vector3d> ClosingAxes(const Interaction& interaction, const tasks::S
 // Returns a plan with one of `orientations`.
 std::optional<ReachPlan> PlanWithOrientations(const PlanningArm& context,
                                               const Interaction& interaction,
-                                              const tasks::SceneState& state,
+                                              const tasks::WorldState& state,
                                               const robot::JointVector& from,
                                               const std::vector<GraspOrientation>& orientations,
                                               const Requirements& requirements, core::Rng& rng) {
@@ -297,7 +297,7 @@ bool Pushes(const Interaction& interaction) {
          !interaction.asks_for_grasp;
 }
 
-Isometry3d GraspPose(const Interaction& interaction, const tasks::SceneState& state,
+Isometry3d GraspPose(const Interaction& interaction, const tasks::WorldState& state,
                      const Vector3d& across, double pitch) {
   const InteractionTarget& target = *interaction.target;
   Isometry3d tool = Isometry3d::Identity();
@@ -322,7 +322,7 @@ Isometry3d GraspPose(const Interaction& interaction, const tasks::SceneState& st
 }
 
 std::optional<ReachPlan> PlanReach(const PlanningArm& context, const Interaction& interaction,
-                                   const tasks::SceneState& state, const robot::JointVector& from,
+                                   const tasks::WorldState& state, const robot::JointVector& from,
                                    core::Rng& rng, const PathOptions& path_options) {
   const Isometry3d& world_from_base = interaction.subtask.start.world_from_robot;
   const Isometry3d tool_now = world_from_base * robot::ForwardKinematics(context.robot->arm, from);
@@ -362,7 +362,7 @@ std::optional<ReachPlan> PlanReach(const PlanningArm& context, const Interaction
   return std::nullopt;
 }
 
-Vector3d DisplacementOutOfReceptacle(const Interaction& interaction, const tasks::SceneState& state,
+Vector3d DisplacementOutOfReceptacle(const Interaction& interaction, const tasks::WorldState& state,
                                      const Vector3d& point) {
   const double depth = std::max(0.0, DepthIn(*interaction.room, interaction.model, state, point));
   const Vector3d out = -InwardDirection(*interaction.room, interaction.model, state);
@@ -371,7 +371,7 @@ Vector3d DisplacementOutOfReceptacle(const Interaction& interaction, const tasks
 }
 
 robot::JointVector PreGraspConfiguration(const PlanningArm& context, const Interaction& interaction,
-                                         const tasks::SceneState& state,
+                                         const tasks::WorldState& state,
                                          const robot::JointVector& grasp_configuration) {
   robot::JointVector before;
   FindPreGrasp(context, interaction, state, grasp_configuration, &before);

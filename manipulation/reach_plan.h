@@ -15,7 +15,7 @@ bool Pushes(const Interaction& interaction);
 // from finger to finger; the gripper is symmetric under a half turn about its own axis and stays
 // near the given one. `pitch` (rad): the rotation of the gripper about that axis, about which a bar
 // may be grasped at any angle.
-Eigen::Isometry3d GraspPose(const Interaction& interaction, const tasks::SceneState& state,
+Eigen::Isometry3d GraspPose(const Interaction& interaction, const tasks::WorldState& state,
                             const Eigen::Vector3d& across, double pitch);
 
 // The plan for reaching and manipulating a target.
@@ -48,19 +48,19 @@ struct PathOptions {
 // from random ones: a tool that only tracks a straight line to its target ends at a joint limit
 // every other time.
 std::optional<ReachPlan> PlanReach(const PlanningArm& context, const Interaction& interaction,
-                                   const tasks::SceneState& state, const robot::JointVector& from,
+                                   const tasks::WorldState& state, const robot::JointVector& from,
                                    core::Rng& rng, const PathOptions& path_options = {});
 
 // Returns the displacement (m, world) from `point` in interaction.room out of the receptacle, to in
 // front of its opening. It is straight; for a rim grasp, with one finger inside, it also rises. The
 // approach reverses it.
 Eigen::Vector3d DisplacementOutOfReceptacle(const Interaction& interaction,
-                                            const tasks::SceneState& state,
+                                            const tasks::WorldState& state,
                                             const Eigen::Vector3d& point);
 
 // Returns the pre-grasp configuration (J) for the grasp configuration `grasp_configuration` (J).
 robot::JointVector PreGraspConfiguration(const PlanningArm& context, const Interaction& interaction,
-                                         const tasks::SceneState& state,
+                                         const tasks::WorldState& state,
                                          const robot::JointVector& grasp_configuration);
 
 // Returns the orientation tolerance (rad) of the tool as it moves the target: larger where fingers

@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-using tasks::SceneModel;
-using tasks::SceneState;
+using tasks::WorldModel;
+using tasks::WorldState;
 
 constexpr double kOpensSideways = 0.5;  // of the opening's rise: below, it opens sideways
 constexpr double kBehind = 0.03;        // m between the object and the opening's plane
@@ -24,7 +24,7 @@ double HalfDepth(const SideReceptacle& room) {
 
 }  // namespace
 
-std::optional<SideReceptacle> FindSideReceptacle(const SceneModel& model, const SceneState& state,
+std::optional<SideReceptacle> FindSideReceptacle(const WorldModel& model, const WorldState& state,
                                                  int object, int link) {
   for (const tasks::Receptacle& receptacle :
        model.objects[static_cast<size_t>(object)].receptacles) {
@@ -36,8 +36,8 @@ std::optional<SideReceptacle> FindSideReceptacle(const SceneModel& model, const 
   return std::nullopt;
 }
 
-std::optional<SideReceptacle> FindSideReceptacleAround(const SceneModel& model,
-                                                       const SceneState& state,
+std::optional<SideReceptacle> FindSideReceptacleAround(const WorldModel& model,
+                                                       const WorldState& state,
                                                        const Vector3d& point) {
   for (size_t t = 0; t < model.objects.size(); ++t) {
     const auto object = static_cast<int>(t);
@@ -51,24 +51,24 @@ std::optional<SideReceptacle> FindSideReceptacleAround(const SceneModel& model,
   return std::nullopt;
 }
 
-Vector3d InwardDirection(const SideReceptacle& room, const SceneModel& model,
-                         const SceneState& state) {
+Vector3d InwardDirection(const SideReceptacle& room, const WorldModel& model,
+                         const WorldState& state) {
   return WorldFromLink(model, state, room.object, room.link).linear() * room.inward;
 }
 
-bool IsIn(const SideReceptacle& room, const SceneModel& model, const SceneState& state,
+bool IsIn(const SideReceptacle& room, const WorldModel& model, const WorldState& state,
           const Vector3d& point) {
   return room.box.contains(WorldFromLink(model, state, room.object, room.link).inverse() * point);
 }
 
-double DepthIn(const SideReceptacle& room, const SceneModel& model, const SceneState& state,
+double DepthIn(const SideReceptacle& room, const WorldModel& model, const WorldState& state,
                const Vector3d& point) {
   const Vector3d local = WorldFromLink(model, state, room.object, room.link).inverse() * point;
   return (local - room.box.center()).dot(room.inward) + HalfDepth(room);
 }
 
-Vector3d PlacementBehindOpening(const SideReceptacle& room, const SceneModel& model,
-                                const SceneState& state, const Vector3d& size) {
+Vector3d PlacementBehindOpening(const SideReceptacle& room, const WorldModel& model,
+                                const WorldState& state, const Vector3d& size) {
   const Vector3d up =
       WorldFromLink(model, state, room.object, room.link).linear().transpose() * Vector3d::UnitZ();
   const double half_height = 0.5 * std::abs(room.box.sizes().dot(up.cwiseAbs()));

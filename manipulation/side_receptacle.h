@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "tasks/scene_state.h"
+#include "tasks/world_state.h"
 
 namespace simwright::manipulation {
 
@@ -24,33 +24,33 @@ struct SideReceptacle {
 
 // Returns the largest side-opening receptacle in the link of `object` in `state`. None if the link
 // has no receptacle, or one that opens upwards.
-std::optional<SideReceptacle> FindSideReceptacle(const tasks::SceneModel& model,
-                                                 const tasks::SceneState& state, int object,
+std::optional<SideReceptacle> FindSideReceptacle(const tasks::WorldModel& model,
+                                                 const tasks::WorldState& state, int object,
                                                  int link);
 
 // Returns the side-opening receptacle that contains `point` (m, world).
-std::optional<SideReceptacle> FindSideReceptacleAround(const tasks::SceneModel& model,
-                                                       const tasks::SceneState& state,
+std::optional<SideReceptacle> FindSideReceptacleAround(const tasks::WorldModel& model,
+                                                       const tasks::WorldState& state,
                                                        const Eigen::Vector3d& point);
 
 // Returns SideReceptacle::inward in the world frame (unit) for `state`.
-Eigen::Vector3d InwardDirection(const SideReceptacle& room, const tasks::SceneModel& model,
-                                const tasks::SceneState& state);
+Eigen::Vector3d InwardDirection(const SideReceptacle& room, const tasks::WorldModel& model,
+                                const tasks::WorldState& state);
 
 // Returns true if `point` (m, world) is within the free box.
-bool IsIn(const SideReceptacle& room, const tasks::SceneModel& model,
-          const tasks::SceneState& state, const Eigen::Vector3d& point);
+bool IsIn(const SideReceptacle& room, const tasks::WorldModel& model,
+          const tasks::WorldState& state, const Eigen::Vector3d& point);
 
 // Returns the depth (m) of `point` (world) behind the plane of the opening; negative in front of
 // it.
-double DepthIn(const SideReceptacle& room, const tasks::SceneModel& model,
-               const tasks::SceneState& state, const Eigen::Vector3d& point);
+double DepthIn(const SideReceptacle& room, const tasks::WorldModel& model,
+               const tasks::WorldState& state, const Eigen::Vector3d& point);
 
 // Returns the position (m, link frame) in the receptacle for the middle of an object of `size` (m,
 // along the world axes, with any orientation about the vertical): just behind the middle of the
 // opening, just above the floor. A door still closes in front of it, and the path into the
 // receptacle is the shortest.
-Eigen::Vector3d PlacementBehindOpening(const SideReceptacle& room, const tasks::SceneModel& model,
-                                       const tasks::SceneState& state, const Eigen::Vector3d& size);
+Eigen::Vector3d PlacementBehindOpening(const SideReceptacle& room, const tasks::WorldModel& model,
+                                       const tasks::WorldState& state, const Eigen::Vector3d& size);
 
 }  // namespace simwright::manipulation

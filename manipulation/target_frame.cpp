@@ -29,7 +29,7 @@ constexpr int kStuckUpdates = 10;    // updates without progress; fingers open i
 constexpr int kLongestRetreat = 30;  // updates, 1.5 s at 20 Hz; an obstacle does not go away
 
 // Returns TargetFrame::motion_direction for the frame at `world_from_target`.
-Vector3d MotionDirection(const Interaction& interaction, const tasks::SceneState& state,
+Vector3d MotionDirection(const Interaction& interaction, const tasks::WorldState& state,
                          const Eigen::Isometry3d& world_from_target) {
   const InteractionTarget& target = *interaction.target;
   if (target.joint < 0) return Vector3d::Zero();
@@ -45,7 +45,7 @@ Vector3d MotionDirection(const Interaction& interaction, const tasks::SceneState
 
 }  // namespace
 
-TargetFrame::TargetFrame(const Interaction& interaction, const tasks::SceneState& state,
+TargetFrame::TargetFrame(const Interaction& interaction, const tasks::WorldState& state,
                          const Vector3d& across, double pitch, const Vector3d& retreat)
     : interaction_(interaction), across_(across) {
   if (!interaction_.target) return;
@@ -66,7 +66,7 @@ TargetFrame::TargetFrame(const Interaction& interaction, const tasks::SceneState
   updates_withdrawing_ = 0;
 }
 
-void TargetFrame::UpdateAtDestination(const tasks::SceneState& state) {
+void TargetFrame::UpdateAtDestination(const tasks::WorldState& state) {
   const bool held = state.grasped && state.touched == interaction_.target->object;
   held_ = held ? held_ + 1 : 0;
   if (held_ >= kGraspUpdates) at_destination_ = true;
@@ -76,7 +76,7 @@ void TargetFrame::UpdateAtDestination(const tasks::SceneState& state) {
   if (lost && !interaction_.starts_held) at_destination_ = false;
 }
 
-bool TargetFrame::Withdraws(const tasks::SceneState& state) {
+bool TargetFrame::Withdraws(const tasks::WorldState& state) {
   if (!retreating_) return false;
   if (updates_opening_ < kOpeningUpdates && state.opening < kReleased) {
     ++updates_opening_;
@@ -96,7 +96,7 @@ bool TargetFrame::Withdraws(const tasks::SceneState& state) {
   return retreating_;
 }
 
-void TargetFrame::Turn(double angle, const tasks::SceneState& state) {
+void TargetFrame::Turn(double angle, const tasks::WorldState& state) {
   const Eigen::AngleAxisd turn(angle, Vector3d::UnitZ());
   world_from_target_.linear() = turn * world_from_target_.linear();
   across_ = turn * across_;
@@ -105,7 +105,7 @@ void TargetFrame::Turn(double angle, const tasks::SceneState& state) {
 }
 
 // The gripper enters and leaves a receptacle through its opening.
-void TargetFrame::ComputeRetreat(const tasks::SceneState& state) {
+void TargetFrame::ComputeRetreat(const tasks::WorldState& state) {
   back_ = -Vector3d::UnitZ();
   retreat_distance_ = 0.0;
   if (at_destination_ && interaction_.destination->in_top_opening) {
@@ -131,7 +131,7 @@ void TargetFrame::ComputeRetreat(const tasks::SceneState& state) {
   retreat_distance_ = displacement.norm();
 }
 
-void TargetFrame::Update(const tasks::SceneState& state) {
+void TargetFrame::Update(const tasks::WorldState& state) {
   if (!interaction_.target) return;
   if (Withdraws(state)) {
     world_from_target_ = updates_opening_ < kOpeningUpdates ? before_ : retreat_;
@@ -143,7 +143,7 @@ void TargetFrame::Update(const tasks::SceneState& state) {
 
 // If the object has slipped in the grasp, it is off its destination when the gripper is at the
 // frame: takes the current tool position as the new grasp point.
-void TargetFrame::UpdateGraspPoint(const tasks::SceneState& state) {
+void TargetFrame::UpdateGraspPoint(const tasks::WorldState& state) {
   const Vector3d tool = state.gripper.translation();
   const bool rests = (tool - world_from_target_.translation()).norm() < kAtRest;
   updates_at_rest_ = state.grasped && rests ? updates_at_rest_ + 1 : 0;
@@ -154,7 +154,7 @@ void TargetFrame::UpdateGraspPoint(const tasks::SceneState& state) {
   updates_at_rest_ = 0;
 }
 
-void TargetFrame::Follow(const tasks::SceneState& state) {
+void TargetFrame::Follow(const tasks::WorldState& state) {
   const InteractionTarget& target = *interaction_.target;
   if (target.joint >= 0 || Pushes(interaction_)) {
     world_from_target_ = GraspPose(interaction_, state, across_, pitch_);

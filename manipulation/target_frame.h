@@ -14,16 +14,16 @@ class TargetFrame {
   // `state`: at the start of the episode; `across` (unit, world): the closing axis, tool y; `pitch`
   // (rad): the approach pitch, both from PlanReach; `retreat` (m, world): the retreat
   // displacement.
-  TargetFrame(const Interaction& interaction, const tasks::SceneState& state,
+  TargetFrame(const Interaction& interaction, const tasks::WorldState& state,
               const Eigen::Vector3d& across, double pitch,
               const Eigen::Vector3d& retreat = Eigen::Vector3d::Zero());
 
   // Rotates the frame at the destination, and with it the direction of approach, by `angle` (rad)
   // about the vertical.
-  void Turn(double angle, const tasks::SceneState& state);
+  void Turn(double angle, const tasks::WorldState& state);
 
   // Tracks the motion since the last call.
-  void Update(const tasks::SceneState& state);
+  void Update(const tasks::WorldState& state);
 
   const Eigen::Isometry3d& world_from_target() const { return world_from_target_; }
   bool at_destination() const { return at_destination_; }
@@ -43,11 +43,11 @@ class TargetFrame {
   double retreat_distance() const { return retreat_distance_; }
 
  private:
-  void UpdateAtDestination(const tasks::SceneState& state);
-  void Follow(const tasks::SceneState& state);
-  void UpdateGraspPoint(const tasks::SceneState& state);
-  bool Withdraws(const tasks::SceneState& state);
-  void ComputeRetreat(const tasks::SceneState& state);
+  void UpdateAtDestination(const tasks::WorldState& state);
+  void Follow(const tasks::WorldState& state);
+  void UpdateGraspPoint(const tasks::WorldState& state);
+  bool Withdraws(const tasks::WorldState& state);
+  void ComputeRetreat(const tasks::WorldState& state);
 
   const Interaction& interaction_;
   Eigen::Isometry3d world_from_target_ = Eigen::Isometry3d::Identity();

@@ -31,7 +31,7 @@ void AddJoint(const tasks::ObjectJoint& joint, const Isometry3d& frame_from_move
 
 }  // namespace
 
-TargetGeometry GeometryOf(const tasks::SceneModel& model, const tasks::SceneState& state,
+TargetGeometry GeometryOf(const tasks::WorldModel& model, const tasks::WorldState& state,
                           const InteractionTarget& target, const Isometry3d& world_from_frame) {
   const auto index = static_cast<size_t>(target.object);
   const tasks::ArticulatedObject& object = model.objects[index];

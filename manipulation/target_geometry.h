@@ -22,7 +22,7 @@ struct TargetGeometry {
 };
 
 // `world_from_frame`: usually GraspPose.
-TargetGeometry GeometryOf(const tasks::SceneModel& model, const tasks::SceneState& state,
+TargetGeometry GeometryOf(const tasks::WorldModel& model, const tasks::WorldState& state,
                           const InteractionTarget& target,
                           const Eigen::Isometry3d& world_from_frame);
 

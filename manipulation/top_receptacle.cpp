@@ -10,21 +10,21 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-using tasks::SceneModel;
-using tasks::SceneState;
+using tasks::WorldModel;
+using tasks::WorldState;
 
 constexpr double kUprightOpening = 0.5;  // of the opening's rise
 constexpr double kOpensUpwards = 0.5;    // of a joint axis' rise: a smaller one slides sideways
 
 }  // namespace
 
-bool OpensUpwards(const SceneModel& model, const SceneState& state, int object,
+bool OpensUpwards(const WorldModel& model, const WorldState& state, int object,
                   const tasks::Receptacle& receptacle) {
   const Isometry3d pose = WorldFromLink(model, state, object, receptacle.link);
   return (pose.linear() * receptacle.opening).z() > kUprightOpening;
 }
 
-Vector3d PlacementFromAbove(const SceneModel& model, const SceneState& state, int object,
+Vector3d PlacementFromAbove(const WorldModel& model, const WorldState& state, int object,
                             const tasks::Receptacle& receptacle) {
   const tasks::ArticulatedObject& holder = model.objects[static_cast<size_t>(object)];
   const Isometry3d pose = WorldFromLink(model, state, object, receptacle.link);
@@ -42,7 +42,7 @@ Vector3d PlacementFromAbove(const SceneModel& model, const SceneState& state, in
   return spot;
 }
 
-std::optional<double> RimHeightAround(const SceneModel& model, const SceneState& state,
+std::optional<double> RimHeightAround(const WorldModel& model, const WorldState& state,
                                       const Vector3d& point) {
   for (size_t t = 0; t < model.objects.size(); ++t) {
     const auto object = static_cast<int>(t);

@@ -7,8 +7,8 @@ namespace {
 
 constexpr double kQuarter = std::numbers::pi / 2.0;
 
-ArmJoint Joint(const std::string& name, const Eigen::Vector3d& origin, double roll, double lower,
-               double upper) {
+ArmJoint PandaJoint(const std::string& name, const Eigen::Vector3d& origin, double roll,
+                    double lower, double upper) {
   ArmJoint joint;
   joint.name = name;
   joint.parent_from_joint =
@@ -22,13 +22,13 @@ Arm MakePanda() {
   Arm arm;
   arm.name = "panda";
   arm.joints = {
-      Joint("panda_joint1", {0, 0, 0.333}, 0, -2.8973, 2.8973),
-      Joint("panda_joint2", {0, 0, 0}, -kQuarter, -1.7628, 1.7628),
-      Joint("panda_joint3", {0, -0.316, 0}, kQuarter, -2.8973, 2.8973),
-      Joint("panda_joint4", {0.0825, 0, 0}, kQuarter, -3.0718, -0.0698),
-      Joint("panda_joint5", {-0.0825, 0.384, 0}, -kQuarter, -2.8973, 2.8973),
-      Joint("panda_joint6", {0, 0, 0}, kQuarter, -0.0175, 3.7525),
-      Joint("panda_joint7", {0.088, 0, 0}, kQuarter, -2.8973, 2.8973),
+      PandaJoint("panda_joint1", {0, 0, 0.333}, 0, -2.8973, 2.8973),
+      PandaJoint("panda_joint2", {0, 0, 0}, -kQuarter, -1.7628, 1.7628),
+      PandaJoint("panda_joint3", {0, -0.316, 0}, kQuarter, -2.8973, 2.8973),
+      PandaJoint("panda_joint4", {0.0825, 0, 0}, kQuarter, -3.0718, -0.0698),
+      PandaJoint("panda_joint5", {-0.0825, 0.384, 0}, -kQuarter, -2.8973, 2.8973),
+      PandaJoint("panda_joint6", {0, 0, 0}, kQuarter, -0.0175, 3.7525),
+      PandaJoint("panda_joint7", {0.088, 0, 0}, kQuarter, -2.8973, 2.8973),
   };
   // The flange, then the hand rotated by 45 degrees, then the point between the fingertips.
   arm.last_from_tool = Eigen::Translation3d(0, 0, 0.107 + 0.1034) *

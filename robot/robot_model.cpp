@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "assets/joint_poses.h"
 #include "core/error.h"
 #include "robot/number_text.h"
 #include "robot/robot_side_file.h"
@@ -13,8 +12,8 @@ namespace simwright::robot {
 namespace fs = std::filesystem;
 namespace {
 
-using assets::UrdfJoint;
-using assets::UrdfJointType;
+using assets::Joint;
+using assets::JointType;
 
 // Defaults for joints without rates; see ReadRobot.
 constexpr double kTurningVelocity = 1.0, kSlidingVelocity = 0.25;
@@ -26,6 +25,7 @@ class Assembler {
   Assembler(const fs::path& urdf, const fs::path& side_path)
       : urdf_path_(urdf.string()), side_path_(side_path.string()) {
     model_.urdf = assets::ReadUrdf(urdf);
+    model_.kinematics = assets::MakeKinematicModel(model_.urdf);
     model_.name = model_.urdf.name;
     side_ = ReadRobotSideFile(side_path);
   }
@@ -35,7 +35,7 @@ class Assembler {
   [[noreturn]] void FailSide(const std::string& what, const std::string& remedy) const {
     throw core::Error(what, side_path_, remedy);
   }
-  const UrdfJoint& JointAt(int index) const {
+  const Joint& JointAt(int index) const {
     return model_.urdf.joints[static_cast<std::size_t>(index)];
   }
   int LinkNamed(const std::string& name, const std::string& role) const;
@@ -73,16 +73,16 @@ int Assembler::JointNamed(const std::string& name, const std::string& role) cons
 }
 
 void Assembler::AddLimits(std::size_t index) {
-  const UrdfJoint& joint = model_.urdf.joints[index];
+  const Joint& joint = model_.urdf.joints[index];
   JointLimits& limits = model_.limits[index];
   if (!joint.Moves()) return;
   const std::string where = urdf_path_ + " joint '" + joint.name + "'";
-  if (joint.type == UrdfJointType::kFloating || joint.type == UrdfJointType::kPlanar) {
+  if (joint.type == JointType::kFloating || joint.type == JointType::kPlanar) {
     throw core::Error("the joint is floating or planar", where, "use revolute or prismatic joints");
   }
   limits.lower = joint.lower;
   limits.upper = joint.upper;
-  if (joint.type == UrdfJointType::kContinuous) {
+  if (joint.type == JointType::kContinuous) {
     limits.lower = -std::numbers::pi;
     limits.upper = std::numbers::pi;
   }
@@ -97,8 +97,7 @@ void Assembler::AddLimits(std::size_t index) {
   }
   const auto found = side_.limits.find(joint.name);
   const StatedLimits stated = found == side_.limits.end() ? StatedLimits() : found->second;
-  const double usual =
-      joint.type == UrdfJointType::kPrismatic ? kSlidingVelocity : kTurningVelocity;
+  const double usual = joint.type == JointType::kPrismatic ? kSlidingVelocity : kTurningVelocity;
   limits.velocity = stated.velocity.value_or(joint.velocity > 0.0 ? joint.velocity : usual);
   limits.acceleration = stated.acceleration.value_or(kAccelerationOfVelocity * limits.velocity);
   limits.jerk = stated.jerk.value_or(kJerkOfAcceleration * limits.acceleration);
@@ -114,20 +113,19 @@ void Assembler::AddLimits(std::size_t index) {
 // children.
 void Assembler::AddArm() {
   std::vector<int> moving;
-  const std::vector<int> parents = assets::ParentLinks(model_.urdf);
   std::vector<int> chain;
-  for (int link = model_.tool_link; link != 0; link = parents[static_cast<std::size_t>(link - 1)]) {
+  for (int link = model_.tool_link; link != 0; link = model_.kinematics->ParentLink(link)) {
     chain.push_back(link - 1);
   }
   std::reverse(chain.begin(), chain.end());
   Eigen::Isometry3d last_from_here = Eigen::Isometry3d::Identity();
   for (const int index : chain) {
-    const UrdfJoint& joint = JointAt(index);
+    const Joint& joint = JointAt(index);
     last_from_here = last_from_here * joint.parent_from_joint;
     if (!joint.Moves()) continue;
     const JointLimits& limits = model_.limits[static_cast<std::size_t>(index)];
     model_.arm.joints.push_back({joint.name, last_from_here, joint.axis, limits.lower, limits.upper,
-                                 joint.type == UrdfJointType::kPrismatic});
+                                 joint.type == JointType::kPrismatic});
     model_.arm_joints.push_back(index);
     last_from_here.setIdentity();
   }
@@ -229,6 +227,17 @@ std::vector<JointLimits> RobotModel::ArmLimits() const {
   std::vector<JointLimits> chosen;
   for (const int index : arm_joints) chosen.push_back(limits[static_cast<std::size_t>(index)]);
   return chosen;
+}
+
+std::vector<Eigen::Isometry3d> RobotModel::LinkPoses(
+    const Eigen::Ref<const Eigen::VectorXd>& arm_positions, double leader) const {
+  std::vector<double> positions(kinematics->joints().size(), 0.0);
+  for (std::size_t j = 0; j < arm_joints.size(); ++j) {
+    positions[static_cast<std::size_t>(arm_joints[j])] =
+        arm_positions[static_cast<Eigen::Index>(j)];
+  }
+  for (const int joint : gripper.joints) positions[static_cast<std::size_t>(joint)] = leader;
+  return kinematics->LinkPoses(positions);
 }
 
 RobotModel ReadRobot(const fs::path& urdf) {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "assets/kinematic_model.h"
 #include "assets/urdf_reader.h"
 #include "robot/arm.h"
 #include "robot/joint_limits.h"
@@ -28,6 +30,7 @@ struct Gripper {
 struct RobotModel {
   std::string name;
   assets::UrdfModel urdf;
+  std::shared_ptr<const assets::KinematicModel> kinematics;  // of `urdf`
   Arm arm;                      // root to tool: the base's joints, then the arm's; `ready` is home
   std::vector<int> arm_joints;  // (J) the joints of `arm`, in urdf.joints
   int base_joint_count = 0;     // how many of the first of them move the base
@@ -40,6 +43,10 @@ struct RobotModel {
   const Eigen::VectorXd& home() const { return arm.ready; }
   // Returns the limits of the arm's joints, in the arm's order (J).
   std::vector<JointLimits> ArmLimits() const;
+  // Returns the poses of all links in the root's frame (urdf.links), for positions of the arm's
+  // joints (J, rad or m) and of the gripper's leader.
+  std::vector<Eigen::Isometry3d> LinkPoses(const Eigen::Ref<const Eigen::VectorXd>& arm_positions,
+                                           double leader) const;
 };
 
 // Reads `urdf` and its side file, which has the same name with the extension .json

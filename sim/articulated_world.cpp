@@ -85,9 +85,10 @@ struct LoadedTree {
 // Sets up link `index` >= 1 of the body, rotated to its principal axes.
 void SetUpLink(const ArticulatedBody& body, int index, double mass_scale, LoadedTree* loaded) {
   const size_t i = static_cast<size_t>(index);
-  const assets::UrdfJoint& joint = body.joints[i - 1];
+  const assets::Joint& joint = body.joints()[i - 1];
   const TreeLink& link = loaded->tree->links[i];
-  const TreeLink& parent_link = loaded->tree->links[static_cast<size_t>(body.parents[i - 1])];
+  const TreeLink& parent_link =
+      loaded->tree->links[static_cast<size_t>(body.kinematics->parents()[i - 1])];
   const TreeLink& carrier = loaded->tree->links[static_cast<size_t>(parent_link.carrier)];
   const Eigen::Isometry3d parent_from_principal = carrier.link_from_principal.inverse() *
                                                   parent_link.carrier_from_link *
@@ -105,12 +106,12 @@ void SetUpLink(const ArticulatedBody& body, int index, double mass_scale, Loaded
   btMultiBody* multi = loaded->multi.get();
   // Bullet's root is link -1.
   switch (joint.type) {
-    case assets::UrdfJointType::kRevolute:
-    case assets::UrdfJointType::kContinuous:
+    case assets::JointType::kRevolute:
+    case assets::JointType::kContinuous:
       multi->setupRevolute(link.bullet, mass, moments, parent, this_from_parent, axis, to_pivot,
                            to_center, false);
       break;
-    case assets::UrdfJointType::kPrismatic:
+    case assets::JointType::kPrismatic:
       multi->setupPrismatic(link.bullet, mass, moments, parent, this_from_parent, axis, to_pivot,
                             to_center, false);
       break;
@@ -121,17 +122,17 @@ void SetUpLink(const ArticulatedBody& body, int index, double mass_scale, Loaded
 
 void RequireMass(const ArticulatedBody& body, bool fixed) {
   for (size_t i = 0; i < body.links.size(); ++i) {
-    const bool moves = i == 0 ? !fixed : body.joints[i - 1].Moves();
+    const bool moves = i == 0 ? !fixed : body.joints()[i - 1].Moves();
     if (moves && !(body.links[i].inertial.mass > 0.0)) {
       throw core::Error("a moving link has no mass",
-                        body.name + " link '" + body.links[i].name + "'",
+                        body.name() + " link '" + body.links[i].name + "'",
                         "add an <inertial> element");
     }
   }
 }
 
 // Couples joint `follower` to multiplier * leader + offset.
-std::unique_ptr<btMultiBodyGearConstraint> GearTo(const assets::UrdfMimic& mimic, int leader,
+std::unique_ptr<btMultiBodyGearConstraint> GearTo(const assets::JointMimic& mimic, int leader,
                                                   int follower, LoadedTree* loaded) {
   const btVector3 zero(0, 0, 0);
   const btMatrix3x3 unturned = btMatrix3x3::getIdentity();
@@ -244,8 +245,8 @@ struct ArticulatedWorld::Bullet {
 
 void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const Placement& placement,
                                             LoadedTree* loaded) {
-  if (placement.self_contacts && !body.excluded_pairs.empty()) {
-    exclusion.Exclude(static_cast<int>(bodies.size()), body.excluded_pairs);
+  if (placement.self_contacts && !body.kinematics->excluded_pairs().empty()) {
+    exclusion.Exclude(static_cast<int>(bodies.size()), body.kinematics->excluded_pairs());
     broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&exclusion);
   }
   for (size_t i = 0; i < body.links.size(); ++i) {
@@ -287,9 +288,9 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const P
 
 void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double scale,
                                          LoadedTree* loaded) {
-  loaded->joints.resize(body.joints.size());
-  for (const int i : body.MovingJoints()) {
-    const assets::UrdfJoint& joint = body.joints[static_cast<size_t>(i)];
+  loaded->joints.resize(body.joints().size());
+  for (const int i : body.kinematics->moving_joints()) {
+    const assets::Joint& joint = body.joints()[static_cast<size_t>(i)];
     LoadedJoint& entry = loaded->joints[static_cast<size_t>(i)];
     const int link = loaded->Joint(i);
     entry.friction = scale * joint.friction;
@@ -299,10 +300,11 @@ void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double sca
     world->addMultiBodyConstraint(entry.motor->constraint());
     if (joint.mimic) {
       entry.gear =
-          GearTo(*joint.mimic, loaded->Joint(body.JointIndex(joint.mimic->joint)), link, loaded);
+          GearTo(*joint.mimic, loaded->Joint(body.kinematics->JointIndex(joint.mimic->joint)), link,
+                 loaded);
       world->addMultiBodyConstraint(entry.gear.get());
     }
-    if (joint.type == assets::UrdfJointType::kContinuous) continue;
+    if (joint.type == assets::JointType::kContinuous) continue;
     entry.limit = std::make_unique<btMultiBodyJointLimitConstraint>(loaded->multi.get(), link,
                                                                     joint.lower, joint.upper);
     world->addMultiBodyConstraint(entry.limit.get());
@@ -337,7 +339,9 @@ ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
 ArticulatedWorld::~ArticulatedWorld() = default;
 
 PreparedBody::PreparedBody(ArticulatedBody body, double margin) : body_(std::move(body)) {
-  if (body_.links.empty()) throw core::Error("a body needs a link", body_.name);
+  if (!body_.kinematics || body_.links.size() != body_.kinematics->links().size()) {
+    throw core::Error("a body needs a kinematic model, and shapes for each of its links");
+  }
   for (const RigidBody& link : body_.links) {
     shapes_.push_back(std::make_unique<BulletShape>(link, margin));
   }

@@ -29,7 +29,7 @@ std::vector<int> LinksInFloor(const ArticulatedBody& body, const robot::RobotMod
 }  // namespace
 
 std::shared_ptr<const PreparedBody> RobotBody(const robot::RobotModel& model) {
-  return std::make_shared<PreparedBody>(ArticulatedBodyFrom(model.urdf));
+  return std::make_shared<PreparedBody>(ArticulatedBodyFrom(model.urdf, model.kinematics));
 }
 
 DrivenRobot::DrivenRobot(const robot::RobotModel& model, std::shared_ptr<const PreparedBody> body,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assets/joint_gravity_load.h"
 #include "core/progress.h"
 
 namespace simwright::sim {
@@ -11,21 +12,21 @@ namespace {
 constexpr double kSweepSeconds = 4.0;  // in each direction; a drive takes a little over one
 constexpr int kLoadSamples = 16;       // over the range, for the largest gravity load
 
-const assets::UrdfJoint& JointOf(const ArticulatedBody& body, int joint) {
-  return body.joints.at(static_cast<size_t>(joint));
+const assets::Joint& JointOf(const ArticulatedBody& body, int joint) {
+  return body.joints().at(static_cast<size_t>(joint));
 }
 
 // Returns the range; one turn for a joint without limits.
-double RangeOf(const assets::UrdfJoint& joint) {
-  return joint.type == assets::UrdfJointType::kContinuous ? 2.0 * M_PI : joint.upper - joint.lower;
+double RangeOf(const assets::Joint& joint) {
+  return joint.type == assets::JointType::kContinuous ? 2.0 * M_PI : joint.upper - joint.lower;
 }
 
-double LowerOf(const assets::UrdfJoint& joint) {
-  return joint.type == assets::UrdfJointType::kContinuous ? 0.0 : joint.lower;
+double LowerOf(const assets::Joint& joint) {
+  return joint.type == assets::JointType::kContinuous ? 0.0 : joint.lower;
 }
 
 void ResetJoints(const ArticulatedBody& body, JointRig* rig) {
-  for (const int i : body.MovingJoints()) {
+  for (const int i : body.kinematics->moving_joints()) {
     rig->Release(i);
     rig->SetPosition(i, std::max(0.0, LowerOf(JointOf(body, i))));
   }
@@ -34,31 +35,33 @@ void ResetJoints(const ArticulatedBody& body, JointRig* rig) {
 }  // namespace
 
 double GreatestLoad(const ArticulatedBody& body, int joint) {
-  const assets::UrdfJoint& j = JointOf(body, joint);
+  const assets::Joint& j = JointOf(body, joint);
   double greatest = 0.0;
   for (int i = 0; i <= kLoadSamples; ++i) {
     const double position = LowerOf(j) + RangeOf(j) * i / kLoadSamples;
-    greatest = std::max(greatest, std::abs(LoadOn(body, joint, position).gravity));
+    greatest =
+        std::max(greatest, std::abs(assets::LoadOn(*body.kinematics, joint, position).gravity));
   }
   return greatest;
 }
 
 JointDrive DriveFor(const ArticulatedBody& body, int joint, double strongest_torque,
                     double strongest_force) {
-  const assets::UrdfJoint& j = JointOf(body, joint);
+  const assets::Joint& j = JointOf(body, joint);
   JointDrive drive;
   drive.velocity = RangeOf(j);
-  const double to_speed = LoadOn(body, joint, LowerOf(j)).inertia * drive.velocity / 0.25;
+  const double to_speed =
+      assets::LoadOn(*body.kinematics, joint, LowerOf(j)).inertia * drive.velocity / 0.25;
   // A quarter more than friction and weight: the drive slows down under load.
   drive.max_force =
       1.25 * (j.friction + GreatestLoad(body, joint)) + j.damping * drive.velocity + 2.0 * to_speed;
-  const bool slides = j.type == assets::UrdfJointType::kPrismatic;
+  const bool slides = j.type == assets::JointType::kPrismatic;
   drive.max_force = std::min(drive.max_force, slides ? strongest_force : strongest_torque);
   return drive;
 }
 
 SweepResult SweepJoint(const ArticulatedBody& body, int joint, JointRig* rig) {
-  const assets::UrdfJoint& j = JointOf(body, joint);
+  const assets::Joint& j = JointOf(body, joint);
   const JointDrive drive = DriveFor(body, joint);
   ResetJoints(body, rig);
   rig->SetPosition(joint, LowerOf(j));
@@ -97,7 +100,7 @@ double DriftAfterRelease(const ArticulatedBody& body, int joint, double position
 }
 
 double TiltWhenOpened(const ArticulatedBody& body, int joint, JointRig* rig) {
-  const assets::UrdfJoint& j = JointOf(body, joint);
+  const assets::Joint& j = JointOf(body, joint);
   JointDrive drive = DriveFor(body, joint);
   drive.velocity *= 0.5;  // slow: a hard stop at a limit jerks the whole body
   ResetJoints(body, rig);

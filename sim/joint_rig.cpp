@@ -33,7 +33,7 @@ class RigInBullet : public JointRig {
       if (c.distance > 0.0) continue;
       const bool floor = c.body_a == kFloor || c.body_b == kFloor;
       const int link = c.body_a == kFloor ? c.link_b : c.link_a;
-      if (floor ? link == 0 : RigidlyJoined(body_, c.link_a, c.link_b)) continue;
+      if (floor ? link == 0 : body_.kinematics->RigidlyJoined(c.link_a, c.link_b)) continue;
       pairs.insert(floor ? LinkPair(Name(link), "floor")
                          : LinkPair(Name(c.link_a), Name(c.link_b)));
     }
@@ -60,16 +60,6 @@ std::unique_ptr<JointRig> BulletRig(const ArticulatedBody& body, const RigOption
 
 std::string LinkPair(const std::string& a, const std::string& b) {
   return std::min(a, b) + " and " + std::max(a, b);
-}
-
-bool RigidlyJoined(const ArticulatedBody& body, int link_a, int link_b) {
-  const auto top = [&](int link) {
-    while (link > 0 && !body.joints[static_cast<size_t>(link) - 1].Moves()) {
-      link = body.parents[static_cast<size_t>(link) - 1];
-    }
-    return link;
-  };
-  return top(link_a) == top(link_b);
 }
 
 }  // namespace simwright::sim

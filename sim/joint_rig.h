@@ -55,7 +55,5 @@ std::unique_ptr<JointRig> MujocoRig(const ArticulatedBody& body, const std::file
 
 // Returns "a and b" in alphabetical order.
 std::string LinkPair(const std::string& a, const std::string& b);
-// Returns true if all joints between two links are fixed.
-bool RigidlyJoined(const ArticulatedBody& body, int link_a, int link_b);
 
 }  // namespace simwright::sim

@@ -39,7 +39,7 @@ LinkTree WholeTree(const ArticulatedBody& body,
                    const std::vector<std::unique_ptr<BulletShape>>& shapes) {
   LinkTree tree;
   tree.links.resize(body.links.size());
-  tree.joint_count = static_cast<int>(body.joints.size());
+  tree.joint_count = static_cast<int>(body.joints().size());
   for (size_t i = 0; i < body.links.size(); ++i) {
     TreeLink& link = tree.links[i];
     link.carrier = static_cast<int>(i);
@@ -58,14 +58,14 @@ LinkTree FoldedTree(const ArticulatedBody& body,
   std::vector<bool> carries(body.links.size(), false);  // a link with a mass
   for (size_t i = 1; i < body.links.size(); ++i) {
     TreeLink& link = tree.links[i];
-    if (body.joints[i - 1].Moves()) {
+    if (body.joints()[i - 1].Moves()) {
       link.bullet = tree.joint_count++;
       continue;
     }
-    const TreeLink& parent = tree.links[static_cast<size_t>(body.parents[i - 1])];
+    const TreeLink& parent = tree.links[static_cast<size_t>(body.kinematics->parents()[i - 1])];
     link.carrier = parent.carrier;
     link.bullet = parent.bullet;
-    link.carrier_from_link = parent.carrier_from_link * body.joints[i - 1].parent_from_joint;
+    link.carrier_from_link = parent.carrier_from_link * body.joints()[i - 1].parent_from_joint;
     if (link.mass > 0.0) carries[static_cast<size_t>(link.carrier)] = true;
   }
   for (size_t i = 0; i < body.links.size(); ++i) {

@@ -31,7 +31,7 @@ class BodiesFile {
     }
     for (size_t b = 0; b < placements.size(); ++b) {
       AddLink(b, 0);
-      for (size_t j = 0; j < placements[b].body->joints.size(); ++j) AddDrive(b, j);
+      for (size_t j = 0; j < placements[b].body->joints().size(); ++j) AddDrive(b, j);
     }
     std::ostringstream all;
     all << "<mujoco><compiler angle=\"radian\" balanceinertia=\"true\"/><option timestep=\""
@@ -66,7 +66,7 @@ class BodiesFile {
     const ArticulatedBody& body = *placement.body;
     const bool root = link == 0;
     world_ << "<body name=\"" << Name("link", b, link) << '"'
-           << Pose(root ? placement.world_from_root : body.joints[link - 1].parent_from_joint)
+           << Pose(root ? placement.world_from_root : body.joints()[link - 1].parent_from_joint)
            << '>';
     if (root && !placement.fixed) world_ << "<freejoint/>";
     if (!root) AddJoint(b, link - 1);
@@ -78,21 +78,21 @@ class BodiesFile {
              << ' ' << i(0, 1) << ' ' << i(0, 2) << ' ' << i(1, 2) << "\"/>";
     }
     AddShapes(b, link);
-    for (size_t j = 0; j < body.joints.size(); ++j) {
-      if (body.parents[j] == static_cast<int>(link)) AddLink(b, j + 1);
+    for (size_t j = 0; j < body.joints().size(); ++j) {
+      if (body.kinematics->parents()[j] == static_cast<int>(link)) AddLink(b, j + 1);
     }
     world_ << "</body>";
   }
 
   void AddJoint(size_t b, size_t j) {
-    const assets::UrdfJoint& joint = placements_[b].body->joints[j];
+    const assets::Joint& joint = placements_[b].body->joints()[j];
     if (!joint.Moves()) return;
-    const bool slides = joint.type == assets::UrdfJointType::kPrismatic;
+    const bool slides = joint.type == assets::JointType::kPrismatic;
     world_ << "<joint name=\"" << Name("joint", b, j) << "\" type=\""
            << (slides ? "slide" : "hinge") << "\" axis=\"" << joint.axis.transpose()
            << "\" frictionloss=\"" << joint.friction << "\" damping=\""
            << joint.damping + (Motor(b, j) > 0.0 ? kMotorDamping : 0.0) << '"';
-    if (joint.type != assets::UrdfJointType::kContinuous) {
+    if (joint.type != assets::JointType::kContinuous) {
       world_ << " limited=\"true\" range=\"" << joint.lower << ' ' << joint.upper << '"';
     }
     world_ << "/>";
@@ -126,7 +126,7 @@ class BodiesFile {
 
   void AddDrive(size_t b, size_t j) {
     const ArticulatedBody& body = *placements_[b].body;
-    const assets::UrdfJoint& joint = body.joints[j];
+    const assets::Joint& joint = body.joints()[j];
     if (!joint.Moves()) return;
     if (Motor(b, j) > 0.0) {
       motors_ << "<position name=\"" << Name("joint", b, j) << "\" joint=\"" << Name("joint", b, j)
@@ -134,7 +134,7 @@ class BodiesFile {
               << -Motor(b, j) << ' ' << Motor(b, j) << "\"/>";
     }
     if (joint.mimic) {
-      const auto leader = static_cast<size_t>(body.JointIndex(joint.mimic->joint));
+      const auto leader = static_cast<size_t>(body.kinematics->JointIndex(joint.mimic->joint));
       equalities_ << "<joint joint1=\"" << Name("joint", b, j) << "\" joint2=\""
                   << Name("joint", b, leader) << "\" polycoef=\"" << joint.mimic->offset << ' '
                   << joint.mimic->multiplier << " 0 0 0\"/>";

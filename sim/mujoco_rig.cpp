@@ -24,7 +24,7 @@ class RigInMujoco : public JointRig {
               const RigOptions& options)
       : body_(body), scene_(mjcf), model_(scene_.model()), data_(scene_.data()) {
     for (const RigidBody& link : body_.links) bodies_.push_back(Find(mjOBJ_BODY, link.name, mjcf));
-    for (const assets::UrdfJoint& joint : body_.joints) {
+    for (const assets::Joint& joint : body_.joints()) {
       joints_.push_back(joint.Moves() ? Find(mjOBJ_JOINT, joint.name, mjcf) : -1);
     }
     const int first = model_->body_jntadr[bodies_[0]];
@@ -49,7 +49,7 @@ class RigInMujoco : public JointRig {
     ZeroVelocities();
   }
   void SetRootPose(const Eigen::Isometry3d& pose) override {
-    if (!free_) throw core::Error("a fixed body cannot be moved", body_.name);
+    if (!free_) throw core::Error("a fixed body cannot be moved", body_.name());
     double* q = data_->qpos + model_->jnt_qposadr[model_->body_jntadr[bodies_[0]]];
     const Eigen::Quaterniond turn(pose.linear());
     Eigen::Map<Eigen::Vector3d> position(q);
@@ -97,7 +97,7 @@ class RigInMujoco : public JointRig {
       const int a = LinkOf(contact.geom1), b = LinkOf(contact.geom2);
       const bool floor = a < 0 || b < 0;
       const int link = std::max(a, b);
-      if (floor ? link == 0 : RigidlyJoined(body_, a, b)) continue;
+      if (floor ? link == 0 : body_.kinematics->RigidlyJoined(a, b)) continue;
       pairs.insert(floor ? LinkPair(Name(link), "floor") : LinkPair(Name(a), Name(b)));
     }
     return pairs;
@@ -144,7 +144,7 @@ class RigInMujoco : public JointRig {
   }
   int Joint(int joint) const {
     const int id = joints_.at(static_cast<size_t>(joint));
-    if (id < 0) throw core::Error("a fixed joint has no position", body_.name);
+    if (id < 0) throw core::Error("a fixed joint has no position", body_.name());
     return id;
   }
   int Dof(int joint) const { return model_->jnt_dofadr[Joint(joint)]; }

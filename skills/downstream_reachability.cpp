@@ -17,13 +17,13 @@ bool IsWhereItWas(const SkillVariant& later, const SkillVariant& first) {
 
 }  // namespace
 
-bool IsDownstreamReachable(const Skill& skill, int variant, const tasks::SceneState& state,
+bool IsDownstreamReachable(const Skill& skill, int variant, const tasks::WorldState& state,
                            core::Rng& rng) {
   const SkillVariant& first = skill.variants[static_cast<size_t>(variant)];
   for (const auto& next : skill.later_skills) {
     const SkillVariant& later = next->variants[static_cast<size_t>(variant)];
     if (!later.target || later.starts_held || !IsWhereItWas(later, first)) continue;
-    tasks::SceneState then = state;
+    tasks::WorldState then = state;
     then.joints = later.start.joints;
     then.goal = manipulation::GoalIn(later, then);
     const auto plan =

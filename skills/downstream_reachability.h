@@ -9,7 +9,7 @@ namespace simwright::skills {
 // `state`: from home there is a joint path to the grasp, with each joint as that skill finds it,
 // and the grasped object can be carried on to its next destination. `variant`: index into the
 // skill's variants. Objects that earlier skills move are not checked.
-bool IsDownstreamReachable(const Skill& skill, int variant, const tasks::SceneState& state,
+bool IsDownstreamReachable(const Skill& skill, int variant, const tasks::WorldState& state,
                            core::Rng& rng);
 
 }  // namespace simwright::skills

@@ -42,7 +42,7 @@ class Episode {
 
   // Returns the start state of the episode. Its plan is replaced when the episode replans.
   const StartState& start() const { return start_; }
-  const tasks::SceneState& state() const { return state_; }
+  const tasks::WorldState& state() const { return state_; }
   const SkillWorld& world() const { return *world_; }
   const manipulation::TargetFrame& frame() const { return *frame_; }
   const ArmCommand& command() const { return command_; }
@@ -65,7 +65,7 @@ class Episode {
   StartState start_;
   std::unique_ptr<SkillWorld> world_;
   std::unique_ptr<manipulation::TargetFrame> frame_;
-  tasks::SceneState state_, previous_;
+  tasks::WorldState state_, previous_;
   robot::JointVector arm_, velocities_;
   ArmCommand command_;
   manipulation::PathConfigurations along_;  // configurations along the target joint's path

@@ -57,7 +57,7 @@ int FirstUnclearTry(const SkillVariant& variant) {
 // Moves and turns every object; an object in or on another moves with it and turns in place.
 // `farther`: m away from the robot, for all of them.
 void Scatter(const SkillVariant& variant, const SkillOptions& options, double farther,
-             core::Rng& rng, tasks::SceneState* state) {
+             core::Rng& rng, tasks::WorldState* state) {
   const Vector3d robot = variant.subtask.start.world_from_robot.translation();
   for (int pass = 0; pass < 2; ++pass) {  // carriers first
     for (const int object : variant.placed) {
@@ -84,7 +84,7 @@ void Scatter(const SkillVariant& variant, const SkillOptions& options, double fa
   }
 }
 
-bool Overlap(const SkillVariant& variant, const tasks::SceneState& state) {
+bool Overlap(const SkillVariant& variant, const tasks::WorldState& state) {
   const Vector3d robot = variant.subtask.start.world_from_robot.translation();
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const int object : variant.placed) {
@@ -159,7 +159,7 @@ Vector3d RetreatDisplacement(const Skill& skill, const SkillVariant& variant,
 }
 
 // Returns true if the skill takes an object out of a side-opening receptacle.
-bool TakesFromReceptacle(const SkillVariant& variant, const tasks::SceneState& state) {
+bool TakesFromReceptacle(const SkillVariant& variant, const tasks::WorldState& state) {
   if (!variant.room || variant.target->joint >= 0) return false;
   return manipulation::IsIn(*variant.room, variant.model, state,
                             tasks::LinkPosition(variant.model, state, variant.target->object, 0));
@@ -168,7 +168,7 @@ bool TakesFromReceptacle(const SkillVariant& variant, const tasks::SceneState& s
 // Returns the waypoints of `plan`. Behind an open door, and past one into a receptacle, they
 // include the pre-grasp, so that the arm keeps to the path that was checked.
 manipulation::JointPath WaypointsTo(const Skill& skill, const SkillVariant& variant,
-                                    const tasks::SceneState& state,
+                                    const tasks::WorldState& state,
                                     const manipulation::ReachPlan& plan) {
   manipulation::JointPath path = plan.waypoints;
   if (variant.target->pushes || TakesFromReceptacle(variant, state)) {
@@ -181,7 +181,7 @@ manipulation::JointPath WaypointsTo(const Skill& skill, const SkillVariant& vari
 
 // Searches a joint path from `from` (J) to the pre-grasp of `plan` by RRT-Connect, first with a
 // clearance to objects, then without.
-void SearchPath(const Skill& skill, const SkillVariant& variant, const tasks::SceneState& state,
+void SearchPath(const Skill& skill, const SkillVariant& variant, const tasks::WorldState& state,
                 const robot::JointVector& from, manipulation::ReachPlan* plan) {
   const bool takes = variant.target->joint < 0;
   const robot::JointVector before =
@@ -209,7 +209,7 @@ void ApplyPlan(const Skill& skill, const SkillVariant& variant, const manipulati
 // then without.
 std::optional<manipulation::ReachPlan> PlanFromAnywhere(const Skill& skill,
                                                         const SkillVariant& variant,
-                                                        const tasks::SceneState& state,
+                                                        const tasks::WorldState& state,
                                                         const robot::JointVector& from,
                                                         core::Rng& rng) {
   const bool takes = variant.target->joint < 0;
@@ -350,7 +350,7 @@ StartState SampleStart(const Skill& skill, core::Rng& rng) {
   return start;
 }
 
-int HeldObject(const SkillVariant& variant, const tasks::SceneState& state) {
+int HeldObject(const SkillVariant& variant, const tasks::WorldState& state) {
   if (!state.grasped || variant.fixed[static_cast<size_t>(state.touched)]) return -1;
   return state.touched;
 }

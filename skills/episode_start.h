@@ -14,7 +14,7 @@ namespace simwright::skills {
 // The start state of an episode.
 struct StartState {
   int variant = 0;
-  tasks::SceneState state;  // objects and joints; the gripper's part is ignored
+  tasks::WorldState state;  // objects and joints; the gripper's part is ignored
   robot::JointVector arm;   // (J)
   double leader = 0.0;      // position of the gripper's first joint
   // The approach pitch of the gripper (rad) and the grasp configuration of the arm (J), from
@@ -46,7 +46,7 @@ struct StartState {
 StartState SampleStart(const Skill& skill, core::Rng& rng);
 
 // Returns the movable object that both fingers grasp; -1: none.
-int HeldObject(const SkillVariant& variant, const tasks::SceneState& state);
+int HeldObject(const SkillVariant& variant, const tasks::WorldState& state);
 
 enum class Resampling {
   kEverything,  // masses, frictions and delay are resampled, an empty arm is perturbed

@@ -82,7 +82,7 @@ void Observer::AddArm(const PolicyInputs& senses, Row* row) const {
   }
 }
 
-void Observer::AddHand(const tasks::SceneState& state, const PolicyInputs& senses, Row* row) const {
+void Observer::AddHand(const tasks::WorldState& state, const PolicyInputs& senses, Row* row) const {
   const Isometry3d focus_from_tool = senses.world_from_target.inverse() * state.gripper;
   row->Add(Vector3d(focus_from_tool.translation()), kObservationNear);
   row->Add(Eigen::Matrix3d(focus_from_tool.linear()));
@@ -94,7 +94,7 @@ void Observer::AddHand(const tasks::SceneState& state, const PolicyInputs& sense
   row->Add(touches_target && state.grasped ? 1.0 : 0.0);
 }
 
-void Observer::AddJoints(const tasks::SceneState& state, const tasks::SceneState* previous,
+void Observer::AddJoints(const tasks::WorldState& state, const tasks::WorldState* previous,
                          Row* row) const {
   for (const auto& [object, joint] : joints_) {
     const auto t = static_cast<size_t>(object), j = static_cast<size_t>(joint);
@@ -106,7 +106,7 @@ void Observer::AddJoints(const tasks::SceneState& state, const tasks::SceneState
   }
 }
 
-void Observer::AddTargetObject(const tasks::SceneState& state, const tasks::SceneState* previous,
+void Observer::AddTargetObject(const tasks::WorldState& state, const tasks::WorldState* previous,
                                const Eigen::Matrix3d& target_from_world, Row* row) const {
   const int object = variant_.target->object;
   const auto t = static_cast<size_t>(object);
@@ -119,7 +119,7 @@ void Observer::AddTargetObject(const tasks::SceneState& state, const tasks::Scen
   row->Add(Vector3d(variant_.model.objects[t].box.sizes()), kObservationNear);
 }
 
-void Observer::AddFocusGeometry(const tasks::SceneState& state, const Isometry3d& world_from_target,
+void Observer::AddFocusGeometry(const tasks::WorldState& state, const Isometry3d& world_from_target,
                                 Row* row) const {
   const manipulation::TargetGeometry geometry =
       manipulation::GeometryOf(variant_.model, state, *variant_.target, world_from_target);
@@ -130,7 +130,7 @@ void Observer::AddFocusGeometry(const tasks::SceneState& state, const Isometry3d
   row->Add(geometry.hinge, kRoom);
 }
 
-void Observer::AddObjects(const tasks::SceneState& state, const Eigen::Matrix3d& target_from_world,
+void Observer::AddObjects(const tasks::WorldState& state, const Eigen::Matrix3d& target_from_world,
                           Row* row) const {
   for (const int object : objects_) {
     const auto t = static_cast<size_t>(object);
@@ -141,7 +141,7 @@ void Observer::AddObjects(const tasks::SceneState& state, const Eigen::Matrix3d&
   }
 }
 
-void Observer::Write(const tasks::SceneState& state, const tasks::SceneState* previous,
+void Observer::Write(const tasks::WorldState& state, const tasks::WorldState* previous,
                      const PolicyInputs& senses, float* target) const {
   Row row(target);
   AddArm(senses, &row);

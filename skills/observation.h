@@ -32,19 +32,19 @@ class Observer {
   // the program reads, the target's size and motion (TargetGeometry), the displacement to the
   // destination, the last action (docs/skills.md). `previous`: the state one decision before, or
   // null.
-  void Write(const tasks::SceneState& state, const tasks::SceneState* previous,
+  void Write(const tasks::WorldState& state, const tasks::WorldState* previous,
              const PolicyInputs& senses, float* row) const;
 
  private:
   class Row;
   void AddArm(const PolicyInputs& senses, Row* row) const;
-  void AddHand(const tasks::SceneState& state, const PolicyInputs& senses, Row* row) const;
-  void AddJoints(const tasks::SceneState& state, const tasks::SceneState* previous, Row* row) const;
-  void AddTargetObject(const tasks::SceneState& state, const tasks::SceneState* previous,
+  void AddHand(const tasks::WorldState& state, const PolicyInputs& senses, Row* row) const;
+  void AddJoints(const tasks::WorldState& state, const tasks::WorldState* previous, Row* row) const;
+  void AddTargetObject(const tasks::WorldState& state, const tasks::WorldState* previous,
                        const Eigen::Matrix3d& target_from_world, Row* row) const;
-  void AddFocusGeometry(const tasks::SceneState& state, const Eigen::Isometry3d& world_from_target,
+  void AddFocusGeometry(const tasks::WorldState& state, const Eigen::Isometry3d& world_from_target,
                         Row* row) const;
-  void AddObjects(const tasks::SceneState& state, const Eigen::Matrix3d& target_from_world,
+  void AddObjects(const tasks::WorldState& state, const Eigen::Matrix3d& target_from_world,
                   Row* row) const;
 
   const Skill& skill_;

@@ -46,7 +46,7 @@ struct ExpertInput {
   const SkillVariant& variant;
   const SkillOptions& options;
   const manipulation::TargetFrame& frame;
-  const tasks::SceneState& state;
+  const tasks::WorldState& state;
   Vector3d off;            // m, the tool in the target frame
   double angle = 0.0;      // rad, rotation of the tool from the target frame
   double commanded = 0.0;  // share of the opening that the fingers are commanded to

@@ -29,7 +29,7 @@ void UseConvexHull(sim::ArticulatedBody* body) {
 
 // Returns the object that `object` stands in or on at the start: the one whose AABB extends below
 // it and contains its middle from above. -1: the floor.
-int CarrierOf(const tasks::SceneModel& model, const tasks::SceneState& start, int object,
+int CarrierOf(const tasks::WorldModel& model, const tasks::WorldState& start, int object,
               const std::vector<int>& placed) {
   constexpr double kOnFloor = 0.005;  // m
   const Eigen::AlignedBox3d box = tasks::WorldAabb(model, start, object);
@@ -132,14 +132,15 @@ std::optional<manipulation::SideReceptacle> FindReceptacle(const SkillVariant& v
 void PrepareBodies(const std::vector<assets::SemanticModel>& models, const SkillOptions& options,
                    SkillVariant* variant) {
   for (size_t i = 0; i < models.size(); ++i) {
-    sim::ArticulatedBody body = sim::ArticulatedBodyFrom(models[i].model);
+    sim::ArticulatedBody body =
+        sim::ArticulatedBodyFrom(models[i].model, variant->model.objects[i].kinematics);
     const bool worked = variant->target && variant->target->object == static_cast<int>(i);
     // A convex hull has no wall to grasp.
-    const bool only_moved = worked && body.joints.empty() && variant->target->rim == 0.0;
+    const bool only_moved = worked && body.joints().empty() && variant->target->rim == 0.0;
     if (options.hulls && only_moved && !body.links.front().parts.empty()) UseConvexHull(&body);
     std::vector<int> joints;
     for (const tasks::ObjectJoint& joint : variant->model.objects[i].joints) {
-      joints.push_back(body.JointIndex(joint.name));
+      joints.push_back(body.kinematics->JointIndex(joint.name));
     }
     variant->body_joints.push_back(std::move(joints));
     variant->solids.push_back(manipulation::ConvexPartsOf(body));
@@ -150,7 +151,7 @@ void PrepareBodies(const std::vector<assets::SemanticModel>& models, const Skill
 SkillVariant MakeVariant(const SkillSubtask& source, const robot::RobotModel& robot,
                          const SkillOptions& options) {
   SkillVariant variant;
-  variant.model = tasks::MakeSceneModel(source.assets);
+  variant.model = tasks::MakeWorldModel(source.assets);
   variant.subtask = source.subtask;
   variant.start = tasks::StateOf(variant.model, source.subtask.start, source.subtask.goal);
   SkillPlaceObjects(&variant);
@@ -160,9 +161,7 @@ SkillVariant MakeVariant(const SkillSubtask& source, const robot::RobotModel& ro
   variant.room = FindReceptacle(variant);
   PrepareBodies(source.assets, options, &variant);
   if (variant.target && variant.target->joint >= 0) {
-    const auto object = static_cast<size_t>(variant.target->object);
-    variant.target->link_from_grasp =
-        manipulation::ChooseApproach(robot, variant, variant.bodies[object]->body());
+    variant.target->link_from_grasp = manipulation::ChooseApproach(robot, variant);
   }
   return variant;
 }

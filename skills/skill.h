@@ -12,8 +12,8 @@
 #include "robot/robot_model.h"
 #include "sim/articulated_world.h"
 #include "skills/skill_options.h"
-#include "tasks/scene_state.h"
 #include "tasks/task.h"
+#include "tasks/world_state.h"
 
 namespace simwright::skills {
 

@@ -122,7 +122,7 @@ void SkillWorld::ReadContacts() {
              finger_impulses_[1][static_cast<size_t>(touched_)] > least;
 }
 
-void SkillWorld::Read(tasks::SceneState* state) const {
+void SkillWorld::Read(tasks::WorldState* state) const {
   for (size_t t = 0; t < bodies_.size(); ++t) {
     if (bodies_[t] < 0) continue;
     state->roots[t] = world_.LinkPose(bodies_[t], 0);

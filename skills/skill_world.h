@@ -10,7 +10,7 @@
 namespace simwright::skills {
 
 // The world of one episode: the objects of its start state and the robot. Reads the state of the
-// physics as a SceneState. One thread at a time.
+// physics as a WorldState. One thread at a time.
 class SkillWorld {
  public:
   // `skill` and `variant` must outlive the world.
@@ -23,7 +23,7 @@ class SkillWorld {
   void Advance();
   // Writes into `state`, reusing its memory; `goal` is left unchanged. `touched` is the object in
   // contact with the fingers, `grasped` is true if both press on it.
-  void Read(tasks::SceneState* state) const;
+  void Read(tasks::WorldState* state) const;
   // Returns true if the state is finite and all objects are within a bounded distance of the robot.
   bool IsStateValid() const;
   bool touching() const { return touching_; }

@@ -10,7 +10,7 @@ VariantReward::VariantReward(const SkillVariant& variant)
       reader_(variant.model, program_.slots()),
       bindings_(program_.slots().size()) {}
 
-float VariantReward::Run(const tasks::SceneState& state, const tasks::SceneState& previous,
+float VariantReward::Run(const tasks::WorldState& state, const tasks::WorldState& previous,
                          double time_step, bool* success) {
   reader_.Read(state, &previous, time_step, &values_);
   for (size_t i = 0; i < values_.size(); ++i) bindings_[i].data = values_[i].data();

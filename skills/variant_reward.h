@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "skills/skill.h"
-#include "tasks/scene_signals.h"
+#include "tasks/world_signals.h"
 
 namespace simwright::skills {
 
@@ -15,7 +15,7 @@ class VariantReward {
 
   // Returns the program's reward for `state`, with `previous` being `time_step` (s) earlier, and
   // writes to `success` whether the subtask is done. Allocates nothing after the first call.
-  float Run(const tasks::SceneState& state, const tasks::SceneState& previous, double time_step,
+  float Run(const tasks::WorldState& state, const tasks::WorldState& previous, double time_step,
             bool* success);
 
  private:

@@ -42,7 +42,6 @@ std::vector<Eigen::Vector3d> Outermost(const std::vector<const core::TriangleMes
 
 ObjectLink LinkOf(const assets::UrdfLink& source, const assets::SemanticModel& model) {
   ObjectLink link;
-  link.name = source.name;
   const auto known = model.semantics.find(source.name);
   if (known != model.semantics.end()) link.label = known->second.label;
   std::vector<const core::TriangleMesh*> meshes;
@@ -65,13 +64,11 @@ bool IsHandle(const std::string& label) {
 // Returns the first handle on the part that the joint moves, fixed or movable; else the link
 // itself.
 int GripOf(const ArticulatedObject& object, int moved) {
-  std::vector<char> carried(object.links.size(), 0);
-  carried[static_cast<std::size_t>(moved)] = 1;
+  const std::vector<bool> carried = object.kinematics->Subtree(moved);
   for (std::size_t i = static_cast<std::size_t>(moved) + 1; i < object.links.size(); ++i) {
     const ObjectLink& link = object.links[i];
-    if (!carried[static_cast<std::size_t>(link.parent)]) continue;
-    carried[i] = 1;
-    if (IsHandle(link.label) && !link.extreme_points.empty()) return static_cast<int>(i);
+    if (carried[i] && IsHandle(link.label) && !link.extreme_points.empty())
+      return static_cast<int>(i);
   }
   return moved;
 }
@@ -95,10 +92,7 @@ void AddCavities(const assets::SemanticModel& model, ArticulatedObject* object) 
 }  // namespace
 
 int ArticulatedObject::FindLink(const std::string& wanted) const {
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    if (links[i].name == wanted) return static_cast<int>(i);
-  }
-  return -1;
+  return kinematics->FindLink(wanted);
 }
 
 int ArticulatedObject::FindJoint(const std::string& wanted) const {
@@ -113,18 +107,15 @@ ArticulatedObject MakeArticulatedObject(const std::string& name,
   ArticulatedObject object;
   object.name = name;
   object.category = model.category;
+  object.kinematics = assets::MakeKinematicModel(model.model);
   std::map<std::string, reward::RewardJoint> moving;  // with the limits that programs read
   for (const reward::RewardJoint& joint : MakeRewardAsset(name, model.model).joints) {
     if (joint.type != reward::RewardJointType::kFixed) moving[joint.name] = joint;
   }
-  std::map<std::string, int> index;
   for (std::size_t i = 0; i < model.model.links.size(); ++i) {
     ObjectLink link = LinkOf(model.model.links[i], model);
-    index[link.name] = static_cast<int>(i);
     if (i > 0) {
-      const assets::UrdfJoint& source = model.model.joints[i - 1];
-      link.parent = index.at(source.parent);
-      link.parent_from_link = source.parent_from_joint;
+      const assets::Joint& source = model.model.joints[i - 1];
       const auto joint = moving.find(source.name);
       if (joint != moving.end()) {
         link.joint = static_cast<int>(object.joints.size());
@@ -141,7 +132,7 @@ ArticulatedObject MakeArticulatedObject(const std::string& name,
     object.mass += link.mass;
     object.links.push_back(std::move(link));
   }
-  for (const assets::UrdfJoint& source : model.model.joints) {
+  for (const assets::Joint& source : model.model.joints) {
     const int follower = object.FindJoint(source.name);
     if (follower < 0 || !source.mimic) continue;
     ObjectJoint& joint = object.joints[static_cast<std::size_t>(follower)];
@@ -185,9 +176,11 @@ void LinkPosesOf(const ArticulatedObject& object, const std::vector<double>& pos
   }
   std::vector<Eigen::Isometry3d>& poses = *result;
   poses.assign(object.links.size(), Eigen::Isometry3d::Identity());
+  const assets::KinematicModel& tree = *object.kinematics;
   for (std::size_t i = 1; i < object.links.size(); ++i) {
     const ObjectLink& link = object.links[i];
-    poses[i] = poses[static_cast<std::size_t>(link.parent)] * link.parent_from_link;
+    poses[i] = poses[static_cast<std::size_t>(tree.parents()[i - 1])] *
+               tree.joints()[i - 1].parent_from_joint;
     if (link.joint < 0) continue;
     const ObjectJoint& joint = object.joints[static_cast<std::size_t>(link.joint)];
     const double q = JointPosition(object, positions, static_cast<std::size_t>(link.joint));

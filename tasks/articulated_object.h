@@ -1,22 +1,22 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "assets/kinematic_model.h"
 #include "assets/semantic_model.h"
 #include "reward/reward_scene.h"
 
 namespace simwright::tasks {
 
+// What tasks know of a link beyond the kinematic model.
 struct ObjectLink {
-  std::string name;
   std::string label;  // door, handle, drawer ...; may be empty
-  int parent = -1;    // a link before this one; -1 for the root
   int joint = -1;     // index into ArticulatedObject::joints; -1 where it is fixed to its parent
-  Eigen::Isometry3d parent_from_link = Eigen::Isometry3d::Identity();  // with its joint at zero
   // The extreme points of its shapes, at most 98, m, link frame; none where it has no shape.
   std::vector<Eigen::Vector3d> extreme_points;
   Eigen::AlignedBox3d box;                           // bounding box of the shapes, link frame; may
@@ -56,16 +56,21 @@ struct Receptacle {
   int door = -1;  // index into ArticulatedObject::joints: the joint that closes it; -1: always open
 };
 
-// An asset as tasks see it: an immutable tree of links with their extreme points and labels.
+// An asset as tasks see it: its kinematic model with labels, extreme points and receptacles.
 struct ArticulatedObject {
-  std::string name;                     // name in programs
-  std::string category;                 // may be empty
-  std::vector<ObjectLink> links;        // parents first
+  std::string name;      // name in programs
+  std::string category;  // may be empty
+  std::shared_ptr<const assets::KinematicModel> kinematics;
+  std::vector<ObjectLink> links;        // by link of `kinematics`
   std::vector<ObjectJoint> joints;      // the movable joints
   std::vector<Receptacle> receptacles;  // largest first
   Eigen::AlignedBox3d box;              // of all links, joints at rest, root frame
   double mass = 0.0;                    // kg
   bool articulated() const { return !joints.empty(); }
+  // Returns a link's name in the kinematic model.
+  const std::string& LinkName(int link) const {
+    return kinematics->links()[static_cast<std::size_t>(link)].name;
+  }
   int FindLink(const std::string& name) const;   // -1 if there is none
   int FindJoint(const std::string& name) const;  // -1 if there is none
   double height() const { return box.sizes().z(); }

@@ -60,7 +60,7 @@ double YawToFront(const ArticulatedObject& object) {
 
 class LayoutPlanner {
  public:
-  LayoutPlanner(const SceneModel& model, const LayoutRequest& request, core::Rng& rng)
+  LayoutPlanner(const WorldModel& model, const LayoutRequest& request, core::Rng& rng)
       : model_(model), request_(request), rng_(rng) {}
 
   std::optional<InitialState> Plan() {
@@ -113,7 +113,7 @@ class LayoutPlanner {
     start_.placements.push_back({known.name, pose, known.articulated()});
   }
 
-  SceneState State() const { return StateOf(model_, start_); }
+  WorldState State() const { return StateOf(model_, start_); }
 
   // Returns the grasp positions of the operated joints along their paths, in the root's frame.
   std::vector<Eigen::Vector3d> GripPoints(int object) const {
@@ -222,7 +222,7 @@ class LayoutPlanner {
   bool PlaceResting(const SupportRelation& supports) {
     const ArticulatedObject& known = model_.objects[static_cast<std::size_t>(supports.object)];
     const ArticulatedObject& holder = model_.objects[static_cast<std::size_t>(supports.holder)];
-    const SceneState state = State();
+    const WorldState state = State();
     const auto h = static_cast<std::size_t>(supports.holder);
     Eigen::Vector3d base;  // position of the centre of its underside
     if (supports.receptacle < 0) {
@@ -252,7 +252,7 @@ class LayoutPlanner {
     return true;
   }
 
-  const SceneModel& model_;
+  const WorldModel& model_;
   const LayoutRequest& request_;
   core::Rng& rng_;
   double path_share_ = 1.0;
@@ -262,7 +262,7 @@ class LayoutPlanner {
 
 }  // namespace
 
-std::optional<InitialState> PlanLayout(const SceneModel& model, const LayoutRequest& request,
+std::optional<InitialState> PlanLayout(const WorldModel& model, const LayoutRequest& request,
                                        core::Rng& rng) {
   return LayoutPlanner(model, request, rng).Plan();
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "tasks/scene_state.h"
+#include "tasks/world_state.h"
 
 namespace simwright::tasks {
 
@@ -30,7 +30,7 @@ struct LayoutRequest {
 // reach the handles along their whole path (or at least 0.8 of it). Other objects are placed beside
 // them within reach, or where `supports` specifies. Footprints do not overlap. Returns nullopt if
 // no such placement is found.
-std::optional<InitialState> PlanLayout(const SceneModel& model, const LayoutRequest& request,
+std::optional<InitialState> PlanLayout(const WorldModel& model, const LayoutRequest& request,
                                        core::Rng& rng);
 
 // Returns true if a Panda on its base can bring the point between its fingertips to `point` (m,

@@ -248,7 +248,7 @@ Eigen::AlignedBox3d BoxInFrameOf(const ArticulatedObject& object,
 
 // Returns the nearest joint above a link, which moves it; -1: none.
 int MovedBy(const ArticulatedObject& object, int link) {
-  for (int at = link; at >= 0; at = object.links[static_cast<std::size_t>(at)].parent) {
+  for (int at = link; at >= 0; at = object.kinematics->ParentLink(at)) {
     const int joint = object.links[static_cast<std::size_t>(at)].joint;
     if (joint >= 0) return joint;
   }

@@ -6,18 +6,18 @@
 namespace simwright::tasks {
 namespace {
 
-std::optional<reward::RewardJointType> TypeOf(assets::UrdfJointType type) {
+std::optional<reward::RewardJointType> TypeOf(assets::JointType type) {
   switch (type) {
-    case assets::UrdfJointType::kFixed:
+    case assets::JointType::kFixed:
       return reward::RewardJointType::kFixed;
-    case assets::UrdfJointType::kRevolute:
+    case assets::JointType::kRevolute:
       return reward::RewardJointType::kRevolute;
-    case assets::UrdfJointType::kContinuous:
+    case assets::JointType::kContinuous:
       return reward::RewardJointType::kContinuous;
-    case assets::UrdfJointType::kPrismatic:
+    case assets::JointType::kPrismatic:
       return reward::RewardJointType::kPrismatic;
-    case assets::UrdfJointType::kFloating:
-    case assets::UrdfJointType::kPlanar:
+    case assets::JointType::kFloating:
+    case assets::JointType::kPlanar:
       return std::nullopt;
   }
   return std::nullopt;
@@ -29,7 +29,7 @@ reward::RewardAsset MakeRewardAsset(const std::string& name, const assets::UrdfM
   reward::RewardAsset asset;
   asset.name = name;
   for (const assets::UrdfLink& link : model.links) asset.links.push_back(link.name);
-  for (const assets::UrdfJoint& joint : model.joints) {
+  for (const assets::Joint& joint : model.joints) {
     const std::optional<reward::RewardJointType> type = TypeOf(joint.type);
     if (!type) continue;
     reward::RewardJoint names{joint.name, *type, joint.lower, joint.upper};

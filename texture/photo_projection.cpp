@@ -69,7 +69,7 @@ struct SeenColors {
 class PhotoPainter {
  public:
   PhotoPainter(const core::TriangleMesh& mesh, const std::vector<PhotoView>& views,
-               const ProjectionOptions& options)
+               const PhotoProjectionOptions& options)
       : mesh_(mesh), options_(options) {
     for (const PhotoView& view : views) {
       seen_.push_back({view.camera, ForegroundColors(view.photo, view.alpha, options.edge_pixels)});
@@ -170,7 +170,7 @@ class PhotoPainter {
   std::vector<Eigen::Vector3f> SpreadColors() const;
 
   const core::TriangleMesh& mesh_;
-  const ProjectionOptions& options_;
+  const PhotoProjectionOptions& options_;
   std::vector<SeenColors> seen_;
   const Eigen::Hyperplane<double, 3>* mirror_ = nullptr;
   core::TexturedMesh shape_;
@@ -226,7 +226,7 @@ void RequireFit(const PhotoView& view) {
 }
 
 core::TexturedMesh Painted(const core::TriangleMesh& mesh, const PhotoPainter& painter,
-                           const ProjectionOptions& options) {
+                           const PhotoProjectionOptions& options) {
   core::TexturedMesh textured;
   textured.mesh = mesh;
   AtlasOptions atlas;
@@ -255,7 +255,7 @@ core::TexturedMesh Painted(const core::TriangleMesh& mesh, const PhotoPainter& p
 core::TexturedMesh ProjectPhoto(const core::TriangleMesh& mesh, const core::Camera& camera,
                                 const core::Image& photo, const core::Image& alpha,
                                 const Eigen::Hyperplane<double, 3>& mirror,
-                                const ProjectionOptions& options) {
+                                const PhotoProjectionOptions& options) {
   const PhotoView view{camera, photo, alpha};
   RequireFit(view);
   PhotoPainter painter(mesh, {view}, options);
@@ -266,7 +266,7 @@ core::TexturedMesh ProjectPhoto(const core::TriangleMesh& mesh, const core::Came
 core::TexturedMesh ProjectPhotos(const core::TriangleMesh& mesh,
                                  const std::vector<PhotoView>& views,
                                  const std::vector<Eigen::Vector3f>& hidden,
-                                 const ProjectionOptions& options) {
+                                 const PhotoProjectionOptions& options) {
   if (views.empty()) throw core::Error("a texture needs at least one photo");
   if (hidden.size() != mesh.vertices.size()) {
     throw core::Error("the hidden side needs one colour per vertex");

@@ -11,7 +11,7 @@
 
 namespace simwright::texture {
 
-struct ProjectionOptions {
+struct PhotoProjectionOptions {
   int texture_size = 1024;  // pixels per side; doubled if the charts do not fit
   // Photo colours fade out between these cosines of the angle to the viewer: near the silhouette a
   // pixel covers much surface and mixes with the background.
@@ -35,7 +35,7 @@ struct PhotoView {
 core::TexturedMesh ProjectPhoto(const core::TriangleMesh& mesh, const core::Camera& camera,
                                 const core::Image& photo, const core::Image& alpha,
                                 const Eigen::Hyperplane<double, 3>& mirror,
-                                const ProjectionOptions& options = {});
+                                const PhotoProjectionOptions& options = {});
 
 // Textures the mesh from one or more photos. Surfaces that several cameras see take their colours,
 // weighted by how squarely they face the surface; unseen surfaces take `hidden` (N x 3, sRGB in [0,
@@ -44,6 +44,6 @@ core::TexturedMesh ProjectPhoto(const core::TriangleMesh& mesh, const core::Came
 core::TexturedMesh ProjectPhotos(const core::TriangleMesh& mesh,
                                  const std::vector<PhotoView>& views,
                                  const std::vector<Eigen::Vector3f>& hidden,
-                                 const ProjectionOptions& options = {});
+                                 const PhotoProjectionOptions& options = {});
 
 }  // namespace simwright::texture

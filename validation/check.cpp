@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <optional>
 
 #include "asset_build/rest_pose.h"
 #include "assets/articulated_folder.h"
@@ -94,16 +95,18 @@ void CheckReaders(const assets::Asset& asset, const fs::path& folder, const Chec
                     limits.reader_tolerance,
                     "mass, centre and inertia against asset.json, relative");
   };
+  std::optional<assets::UrdfModel> read;
   AddResultOrFailure("loads-urdfdom", results, [&] {
-    const assets::UrdfModel model = assets::ReadUrdf(folder / (asset.name + ".urdf"));
+    read = assets::ReadUrdf(folder / (asset.name + ".urdf"));
+    const assets::UrdfModel& model = *read;
     const std::string warning = model.findings.empty() ? "" : model.findings[0].sentence;
     if (!model.links[0].inertial) throw core::Error("the URDF has no inertial");
     compare("loads-urdfdom", *model.links[0].inertial, warning);
   });
   AddResultOrFailure("loads-bullet", results, [&] {
+    if (!read) throw core::Error("the URDF cannot be read");
     sim::World world;
-    const sim::RigidBody body =
-        sim::BodyFromUrdf(assets::ReadUrdf(folder / (asset.name + ".urdf")));
+    const sim::RigidBody body = sim::BodyFromUrdf(*read);
     world.Add(body, Eigen::Isometry3d::Identity());
     compare("loads-bullet", world.LoadedInertial(0), "");
   });
@@ -179,7 +182,7 @@ bool RootIsWorld(const assets::UrdfModel& model) {
   const assets::UrdfLink& root = model.links[0];
   if (root.inertial || !root.visuals.empty() || !root.collisions.empty()) return false;
   return root.name == "world" ||
-         std::any_of(model.joints.begin(), model.joints.end(), [&](const assets::UrdfJoint& joint) {
+         std::any_of(model.joints.begin(), model.joints.end(), [&](const assets::Joint& joint) {
            return joint.parent == root.name && joint.Moves();
          });
 }

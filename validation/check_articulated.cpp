@@ -112,8 +112,9 @@ void CheckArticulatedReaders(const ArticulatedAsset& asset, const assets::UrdfMo
   });
   const auto compare = [&](const std::string& code, const sim::ArticulatedBody& body,
                            const sim::JointRig& rig) {
-    CompareLinks(asset, code, limits, results,
-                 [&](size_t i) { return rig.LoadedInertial(body.LinkIndex(asset.links[i].name)); });
+    CompareLinks(asset, code, limits, results, [&](size_t i) {
+      return rig.LoadedInertial(body.kinematics->LinkIndex(asset.links[i].name));
+    });
   };
   AddResultOrFailure("loads-bullet", results, [&] {
     const sim::ArticulatedBody body = sim::ArticulatedBodyFrom(model);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "assets/joint_gravity_load.h"
 #include "core/error.h"
 #include "sim/joint_experiments.h"
 #include "sim/joint_rig.h"
@@ -17,11 +18,11 @@ constexpr double kLeastClearance = 1e-4;  // m: the sum of both hulls' margins i
 constexpr double kHoldSeconds = 1.0;
 constexpr double kTippingShare = 0.01;  // of the total mass: lighter links tip nothing
 
-double RangeOf(const assets::UrdfJoint& joint) {
-  return joint.type == assets::UrdfJointType::kContinuous ? 2.0 * M_PI : joint.upper - joint.lower;
+double RangeOf(const assets::Joint& joint) {
+  return joint.type == assets::JointType::kContinuous ? 2.0 * M_PI : joint.upper - joint.lower;
 }
 
-bool CanBeTried(const assets::UrdfJoint& joint) {
+bool CanBeTried(const assets::Joint& joint) {
   return joint.Moves() && !joint.mimic && RangeOf(joint) > 0.0;
 }
 
@@ -29,7 +30,7 @@ void AddClearanceRow(const assets::UrdfModel& model, int joint, bool fixed, Chec
   const std::string& name = model.joints[static_cast<size_t>(joint)].name;
   const Clearance alone = SweptClearance(model, joint, false);
   const auto moving = std::count_if(model.joints.begin(), model.joints.end(),
-                                    [](const assets::UrdfJoint& j) { return j.Moves(); });
+                                    [](const assets::Joint& j) { return j.Moves(); });
   const Clearance others_up = moving > 1 ? SweptClearance(model, joint, true) : alone;
   const bool free = alone.distance >= kLeastClearance;
   const Clearance& least = free && others_up.distance < kLeastClearance ? others_up : alone;
@@ -56,16 +57,16 @@ void AddClearanceRow(const assets::UrdfModel& model, int joint, bool fixed, Chec
 }
 
 // Returns how far the sweep reached towards both limits, as a fraction of the range.
-double Reach(const assets::UrdfJoint& joint, const sim::SweepResult& sweep) {
+double Reach(const assets::Joint& joint, const sim::SweepResult& sweep) {
   const double range = RangeOf(joint);
-  const double lower = joint.type == assets::UrdfJointType::kContinuous ? 0.0 : joint.lower;
+  const double lower = joint.type == assets::JointType::kContinuous ? 0.0 : joint.lower;
   return std::min((sweep.highest - lower) / range, 1.0 - (sweep.lowest - lower) / range);
 }
 
 void AddSwingRow(const sim::ArticulatedBody& body, int joint, const std::string& engine,
                  bool contacts_fail, const CheckLimits& limits, sim::JointRig* rig,
                  CheckResults* results) {
-  const assets::UrdfJoint& j = body.joints[static_cast<size_t>(joint)];
+  const assets::Joint& j = body.joints()[static_cast<size_t>(joint)];
   const sim::SweepResult sweep = sim::SweepJoint(body, joint, rig);
   const double reach = Reach(j, sweep);
   const std::string code = "swings-" + engine + "-" + j.name;
@@ -78,7 +79,7 @@ void AddSwingRow(const sim::ArticulatedBody& body, int joint, const std::string&
 }
 
 double GreatestDrift(const sim::ArticulatedBody& body, int joint, sim::JointRig* rig) {
-  const assets::UrdfJoint& j = body.joints[static_cast<size_t>(joint)];
+  const assets::Joint& j = body.joints()[static_cast<size_t>(joint)];
   double drift = 0.0;
   for (const double share : {0.0, 0.5, 1.0}) {
     const double position = j.lower + share * (j.upper - j.lower);
@@ -92,14 +93,16 @@ void AddEngineRows(const sim::ArticulatedBody& body, const std::string& engine,
                    CheckResults* results) {
   double whole = 0.0;
   for (const sim::RigidBody& link : body.links) whole += link.inertial.mass;
-  for (const int joint : body.MovingJoints()) {
-    const assets::UrdfJoint& j = body.joints[static_cast<size_t>(joint)];
+  for (const int joint : body.kinematics->moving_joints()) {
+    const assets::Joint& j = body.joints()[static_cast<size_t>(joint)];
     if (!CanBeTried(j)) continue;
     AddSwingRow(body, joint, engine, true, limits, held, results);
     results->AtMost("holds-" + engine + "-" + j.name, GreatestDrift(body, joint, held),
                     limits.joint_drift,
                     "of its range in 1 s, released at both ends and the middle");
-    if (free == nullptr || sim::LoadOn(body, joint, 0.0).mass < kTippingShare * whole) continue;
+    if (free == nullptr ||
+        assets::LoadOn(*body.kinematics, joint, 0.0).mass < kTippingShare * whole)
+      continue;
     results->AtMost("tips-" + engine + "-" + j.name,
                     sim::TiltWhenOpened(body, joint, free) * kDegrees, limits.tilt,
                     "degrees that the asset tilts while it opens");
@@ -150,8 +153,8 @@ void AddJointResultsOfUrdf(const assets::UrdfModel& model, CheckResults* results
   const sim::ArticulatedBody body = sim::ArticulatedBodyFrom(model);
   const auto rig = sim::BulletRig(body, {.hold_root = true, .self_contacts = false});
   const CheckLimits limits;
-  for (const int joint : body.MovingJoints()) {
-    const assets::UrdfJoint& j = body.joints[static_cast<size_t>(joint)];
+  for (const int joint : body.kinematics->moving_joints()) {
+    const assets::Joint& j = body.joints()[static_cast<size_t>(joint)];
     if (!CanBeTried(j)) continue;
     AddSwingRow(body, joint, "bullet", false, limits, rig.get(), results);
     results->Report("holds-bullet-" + j.name, GreatestDrift(body, joint, rig.get()),

@@ -33,8 +33,8 @@ std::vector<Part> PartsOf(const assets::UrdfModel& model) {
 
 // Returns one of kSteps + 1 positions over the joint's range, or over a full turn for a joint
 // without limits.
-double PositionAt(const assets::UrdfJoint& joint, int step) {
-  const bool turns = joint.type == assets::UrdfJointType::kContinuous;
+double PositionAt(const assets::Joint& joint, int step) {
+  const bool turns = joint.type == assets::JointType::kContinuous;
   const double lower = turns ? -std::numbers::pi : joint.lower;
   const double upper = turns ? std::numbers::pi : joint.upper;
   return lower + (upper - lower) * step / kSteps;
@@ -43,7 +43,7 @@ double PositionAt(const assets::UrdfJoint& joint, int step) {
 assets::JointPositions Positions(const assets::UrdfModel& model, int joint, double position,
                                  bool others_up) {
   assets::JointPositions positions;
-  for (const assets::UrdfJoint& other : model.joints) {
+  for (const assets::Joint& other : model.joints) {
     if (others_up && other.Moves()) positions[other.name] = other.upper;
   }
   positions[model.joints[static_cast<size_t>(joint)].name] = position;
@@ -95,7 +95,7 @@ Clearance SweptClearance(const assets::UrdfModel& model, int joint, bool others_
   const std::vector<bool> carried =
       asset_build::LinkGroups(model).CarriedBy(static_cast<size_t>(joint));
   const std::vector<std::vector<bool>> excluded = ExcludedIn(model);
-  const assets::UrdfJoint& moved = model.joints.at(static_cast<size_t>(joint));
+  const assets::Joint& moved = model.joints.at(static_cast<size_t>(joint));
   std::vector<Clearance> at(kSteps + 1, {std::numeric_limits<double>::infinity(), moved.lower, ""});
   core::ParallelFor(kSteps + 1, [&](int i) {
     const double position = PositionAt(moved, i);
@@ -117,7 +117,7 @@ Clearance SweptClearance(const assets::UrdfModel& model, int joint) {
 }
 
 double LowestOnSweep(const assets::UrdfModel& model, int joint) {
-  const assets::UrdfJoint& moved = model.joints.at(static_cast<size_t>(joint));
+  const assets::Joint& moved = model.joints.at(static_cast<size_t>(joint));
   const std::vector<bool> carried =
       asset_build::LinkGroups(model).CarriedBy(static_cast<size_t>(joint));
   const std::vector<bool> bears = asset_build::SupportingLinks(model);

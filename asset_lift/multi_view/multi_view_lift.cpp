@@ -80,7 +80,7 @@ LiftedMesh LiftPhotos(const std::vector<PosedPhoto>& photos, const CategoryPrior
       FitShape(agreeing.views, InitialShapeFrom(hull), nullptr, nullptr, stages, progress);
   lifted.findings.insert(lifted.findings.end(), fit.findings.begin(), fit.findings.end());
   progress->Stage("texture");
-  texture::ProjectionOptions projection;
+  texture::PhotoProjectionOptions projection;
   projection.texture_size = options.texture_size;
   lifted.mesh = texture::ProjectPhotos(fit.mesh, agreeing.photos, fit.colors, projection);
   lifted.camera = agreeing.photos[0].camera;

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 struct Arguments {
   std::string type = "dimsum", assets;
   int objects = 34, count = 20, settled = 3;
-  scene::ProjectionOptions projection;
+  scene::DepenetrationOptions projection;
   double shake = 0.02;  // m, standard deviation along each axis
   std::uint64_t seed = 1;
 };

@@ -40,7 +40,7 @@ std::string OppositeProgram(const std::vector<tasks::Task>& made, const std::str
   return "";
 }
 
-void Tally(const tasks::SceneModel& model, const tasks::Task& task,
+void Tally(const tasks::WorldModel& model, const tasks::Task& task,
            const std::vector<reward::Mutant>& mutants, Counts* counts) {
   for (const reward::Mutant& mutant : mutants) {
     tasks::SubtaskVerifier verifier(model);
@@ -79,7 +79,7 @@ void Print(const char* title, const std::vector<Counts>& parts) {
 
 int Run(const std::vector<std::string>& arguments, int count) {
   const workflows::TaskAssets assets = workflows::ReadTaskAssets(arguments);
-  const tasks::SceneModel model = tasks::MakeSceneModel(assets.models);
+  const tasks::WorldModel model = tasks::MakeWorldModel(assets.models);
   const tasks::RuleTasks made = tasks::GenerateTasksByRules(model, {count, 1});
   const int tasks = static_cast<int>(made.tasks.size());
   std::vector<Counts> faults(made.tasks.size()), rewrites(made.tasks.size());

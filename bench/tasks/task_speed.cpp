@@ -26,7 +26,7 @@ int Run(const std::vector<std::string>& arguments, int count) {
   const workflows::TaskAssets assets = workflows::ReadTaskAssets(arguments);
   std::printf("%zu assets read in %.2f s\n", assets.models.size(), Seconds(start));
   start = Clock::now();
-  const tasks::SceneModel model = tasks::MakeSceneModel(assets.models);
+  const tasks::WorldModel model = tasks::MakeWorldModel(assets.models);
   std::printf("their receptacles and hull points in %.2f s\n", Seconds(start));
   start = Clock::now();
   const tasks::RuleTasks made = tasks::GenerateTasksByRules(model, {count, 1});

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "assets/joint_gravity_load.h"
-#include "assets/joint_poses.h"
+#include "assets/kinematic_model.h"
 #include "core/error.h"
 #include "geometry/mass_properties.h"
 #include "physics_params/knowledge_base.h"
@@ -80,7 +80,7 @@ int Assembly::AddLink(const std::string& name, const std::string& label, int par
   asset_.links.back().label = label;
   pieces_.emplace_back();
   origins_.push_back(plan.origin);
-  assets::UrdfJoint joint;
+  assets::Joint joint;
   joint.name = name + "_joint";
   joint.parent = asset_.links[static_cast<size_t>(parent)].name;
   joint.child = name;
@@ -169,19 +169,15 @@ void Assembly::FillLink(size_t index) {
 }
 
 void Assembly::SetJointFriction() {
-  const assets::UrdfModel model = assets::ModelOf(asset_);
-  std::vector<assets::Inertial> inertials;
-  for (const assets::ArticulatedLink& link : asset_.links) inertials.push_back(link.inertial);
-  const std::vector<int> parents = assets::ParentLinks(model);
+  const auto model = assets::MakeKinematicModel(asset_);
   for (size_t i = 0; i < asset_.joints.size(); ++i) {
-    assets::UrdfJoint& joint = asset_.joints[i];
+    assets::Joint& joint = asset_.joints[i];
     if (!joint.Moves()) continue;
     double load = 0.0;
     for (int k = 0; k <= kLoadSamples; ++k) {
       const double position = joint.lower + (joint.upper - joint.lower) * k / kLoadSamples;
-      load = std::max(load, std::abs(assets::LoadOn(inertials, asset_.joints, parents,
-                                                    static_cast<int>(i), position)
-                                         .gravity));
+      load =
+          std::max(load, std::abs(assets::LoadOn(*model, static_cast<int>(i), position).gravity));
     }
     joint.friction = std::max(joint.friction, kHoldFactor * load);
     joint.effort = 4.0 * (joint.friction + load);

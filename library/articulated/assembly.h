@@ -30,7 +30,7 @@ struct JointResistance {
 JointResistance SampleJointResistance(core::Rng& rng, double lever = 1.0);
 
 struct JointPlan {
-  assets::UrdfJointType type = assets::UrdfJointType::kFixed;
+  assets::JointType type = assets::JointType::kFixed;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // in the root's frame, on the axis
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
   double lower = 0.0, upper = 0.0;  // rad or m

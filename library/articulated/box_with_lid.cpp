@@ -32,7 +32,7 @@ assets::ArticulatedAsset MakeBoxWithLid(const Options& options) {
   a.Add(body, side, Box({-x + wall, y - wall, wall}, {x - wall, y, top}, 0.0));
 
   JointPlan plan;
-  plan.type = assets::UrdfJointType::kRevolute;
+  plan.type = assets::JointType::kRevolute;
   plan.origin = {x, 0.0, rim};
   plan.axis = Eigen::Vector3d::UnitY();
   plan.upper = a.Draw(1.4, 1.75);

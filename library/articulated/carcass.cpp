@@ -42,7 +42,7 @@ core::TriangleMesh Pane(const Eigen::AlignedBox3d& o, double border, double thic
 
 JointPlan SideHinge(double x, double y, double z, double upper, const JointResistance& feel) {
   JointPlan plan;
-  plan.type = assets::UrdfJointType::kRevolute;
+  plan.type = assets::JointType::kRevolute;
   plan.origin = {x, y, z};
   plan.axis = Eigen::Vector3d(0.0, 0.0, y > 0.0 ? -1.0 : 1.0);
   plan.upper = upper;
@@ -52,7 +52,7 @@ JointPlan SideHinge(double x, double y, double z, double upper, const JointResis
 
 JointPlan BottomHinge(double x, double z, double upper, const JointResistance& feel) {
   JointPlan plan;
-  plan.type = assets::UrdfJointType::kRevolute;
+  plan.type = assets::JointType::kRevolute;
   plan.origin = {x, 0.0, z};
   plan.axis = -Eigen::Vector3d::UnitY();
   plan.upper = upper;
@@ -63,7 +63,7 @@ JointPlan BottomHinge(double x, double z, double upper, const JointResistance& f
 int AddDial(Assembly* assembly, const std::string& name, int parent, const Eigen::Vector3d& mount,
             double radius, double depth, const Matter& matter) {
   JointPlan plan;
-  plan.type = assets::UrdfJointType::kRevolute;
+  plan.type = assets::JointType::kRevolute;
   plan.origin = mount;
   plan.axis = Eigen::Vector3d::UnitX();
   plan.upper = kDialRange;
@@ -82,7 +82,7 @@ int AddDial(Assembly* assembly, const std::string& name, int parent, const Eigen
 int AddButton(Assembly* assembly, const std::string& name, int parent, const Eigen::Vector3d& mount,
               double width, double height, const Matter& matter) {
   JointPlan plan;
-  plan.type = assets::UrdfJointType::kPrismatic;
+  plan.type = assets::JointType::kPrismatic;
   plan.origin = mount;
   plan.axis = Eigen::Vector3d::UnitX();
   plan.upper = kButtonTravel;

@@ -21,7 +21,7 @@ void AddTurningHandle(Assembly* a, int leaf, int index, const Eigen::Vector3d& m
                       const Eigen::Vector3d& out, double side, bool lever, const Matter& metal) {
   a->Add(leaf, metal, Rod(mount, mount + 0.008 * out, 0.026));
   JointPlan plan;
-  plan.type = assets::UrdfJointType::kRevolute;
+  plan.type = assets::JointType::kRevolute;
   plan.origin = mount + 0.05 * out;
   // Rotation presses the lever's end down, in either direction of the lever.
   plan.axis = Eigen::Vector3d(side, 0.0, 0.0);

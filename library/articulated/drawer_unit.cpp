@@ -25,7 +25,7 @@ void AddDrawer(Assembly* a, int body, int index, const Cell& c, const Matter& bo
                HandleKind kind, const Matter& metal) {
   const std::string number = std::to_string(index);
   JointPlan plan;
-  plan.type = assets::UrdfJointType::kPrismatic;
+  plan.type = assets::JointType::kPrismatic;
   plan.origin = {c.front, 0.0, 0.5 * (c.low + c.high)};
   plan.axis = -Eigen::Vector3d::UnitX();
   const double depth =

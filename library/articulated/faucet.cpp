@@ -35,7 +35,7 @@ void AddLever(Assembly* a, int body, const Tap& t, double x, const Matter& metal
   const double z = 0.72 * t.body_high;
   const Eigen::Vector3d hub(x, t.body_radius + 0.001, z);
   JointPlan plan;
-  plan.type = assets::UrdfJointType::kRevolute;
+  plan.type = assets::JointType::kRevolute;
   plan.origin = hub;
   plan.axis = Eigen::Vector3d::UnitY();
   plan.upper = a->Draw(0.5, 0.9);
@@ -56,7 +56,7 @@ void AddKnobs(Assembly* a, int body, const Tap& t, double x, double apart, const
     const double neck = kFaucetPlate + 0.45 * t.body_high;
     a->Add(body, metal, Frustum(foot, {x, y, neck}, 0.020, 0.014));
     JointPlan plan;
-    plan.type = assets::UrdfJointType::kRevolute;
+    plan.type = assets::JointType::kRevolute;
     plan.origin = {x, y, neck + 0.001};
     plan.axis = Eigen::Vector3d(0.0, 0.0, i == 0 ? 1.0 : -1.0);
     plan.upper = a->Draw(1.4, 3.0);
@@ -100,7 +100,7 @@ assets::ArticulatedAsset MakeFaucet(const Options& options) {
   JointPlan plan;
   plan.origin = {x, 0.0, t.body_high};
   if (swivel) {
-    plan.type = assets::UrdfJointType::kRevolute;
+    plan.type = assets::JointType::kRevolute;
     plan.upper = a.Draw(0.8, 1.2);
     // The spout swivels away from a lever, whose range is the other half.
     plan.lower = single ? 0.0 : -plan.upper;

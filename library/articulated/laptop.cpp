@@ -76,7 +76,7 @@ assets::ArticulatedAsset MakeLaptop(const Options& options) {
   AddKeys(&a, keyboard, well, floor);
 
   JointPlan hinge;
-  hinge.type = assets::UrdfJointType::kRevolute;
+  hinge.type = assets::JointType::kRevolute;
   hinge.origin = {x + 0.002, 0.0, p.base + 0.5 * kLaptopLidGap};
   hinge.axis = Eigen::Vector3d::UnitY();
   hinge.upper = a.Draw(2.0, 2.35);

@@ -90,7 +90,7 @@ assets::ArticulatedAsset MakeLightSwitch(const Options& options) {
     const double tilt = toggle ? kThrow : kTilt;
     const Eigen::Vector3d pivot(0.0, across * ((i + 0.5) / gangs - 0.5), 0.5 * high);
     JointPlan plan;
-    plan.type = assets::UrdfJointType::kRevolute;
+    plan.type = assets::JointType::kRevolute;
     plan.origin = pivot;
     plan.axis = Eigen::Vector3d::UnitY();
     plan.upper = 2.0 * tilt;

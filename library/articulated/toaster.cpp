@@ -42,7 +42,7 @@ assets::ArticulatedAsset MakeToaster(const Options& options) {
           Box({x0 - 0.0008, -0.005, top - travel - 0.01}, {x0 + 0.001, 0.005, top + 0.01}, 0.0));
 
   JointPlan plan;
-  plan.type = assets::UrdfJointType::kPrismatic;
+  plan.type = assets::JointType::kPrismatic;
   plan.origin = {x0 - kLeverGap, 0.0, top};
   plan.axis = -Eigen::Vector3d::UnitZ();
   plan.upper = travel;

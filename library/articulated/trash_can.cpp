@@ -49,7 +49,7 @@ assets::ArticulatedAsset MakeTrashCan(const Options& options) {
   a.Add(body, thin, Rod({0, 0, 0}, {0, 0, 0.01}, low_radius, kStaves));
   a.Add(body, thin, RoundWall(low_radius, top_radius, wall, 0.01, rim));
   JointPlan plan;
-  plan.type = assets::UrdfJointType::kRevolute;
+  plan.type = assets::JointType::kRevolute;
   plan.origin = {top_radius + kOverhang, 0.0, rim + kTrashCanLidGap};
   plan.axis = Eigen::Vector3d::UnitY();
   plan.upper = a.Draw(1.3, 1.7);

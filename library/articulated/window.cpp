@@ -43,7 +43,7 @@ void AddSliding(Assembly* a, int body, const Eigen::AlignedBox3d& hole, HandleKi
                  std::max(-side * 0.5 * hole.sizes().y(), -y_meet), hole.min().z(), hole.max().z()),
           bars);
   JointPlan plan;
-  plan.type = assets::UrdfJointType::kPrismatic;
+  plan.type = assets::JointType::kPrismatic;
   plan.origin = {front, 0.5 * (y_edge + y_meet), 0.5 * (z0 + z1)};
   plan.axis = Eigen::Vector3d(0.0, -side, 0.0);
   plan.upper = 0.5 * hole.sizes().y() - middle - 4 * kGap;

@@ -21,7 +21,7 @@ constexpr double kInfeasibleShare = 0.1;
 
 class ProjectionSolver {
  public:
-  ProjectionSolver(const std::vector<ProjectedBody>& bodies, const ProjectionOptions& options);
+  ProjectionSolver(const std::vector<ProjectedBody>& bodies, const DepenetrationOptions& options);
   Projection Run();
 
  private:
@@ -29,7 +29,7 @@ class ProjectionSolver {
   void KeepBest(Projection* best) const;
   void TryAlternativePlanes();
 
-  const ProjectionOptions& options_;
+  const DepenetrationOptions& options_;
   ConvexBodies bodies_;
   std::vector<char> fixed_;
   ContactPlanes planes_;
@@ -38,7 +38,7 @@ class ProjectionSolver {
 };
 
 ProjectionSolver::ProjectionSolver(const std::vector<ProjectedBody>& bodies,
-                                   const ProjectionOptions& options)
+                                   const DepenetrationOptions& options)
     : options_(options),
       planes_(&bodies_, {options.contact_margin, options.tolerance}),
       shifts_(bodies.size(), Vector3d::Zero()) {
@@ -119,7 +119,7 @@ Projection ProjectionSolver::Run() {
 
 }  // namespace
 
-bool ProjectionOptions::IsValid(std::string* error) const {
+bool DepenetrationOptions::IsValid(std::string* error) const {
   const auto fails = [&](const char* what) {
     *error = what;
     return false;
@@ -132,7 +132,7 @@ bool ProjectionOptions::IsValid(std::string* error) const {
 }
 
 Projection ResolvePenetrations(const std::vector<ProjectedBody>& bodies,
-                               const ProjectionOptions& options) {
+                               const DepenetrationOptions& options) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("projection: " + error);
   return ProjectionSolver(bodies, options).Run();

@@ -19,7 +19,7 @@ struct ProjectedBody {
   bool fixed = false;  // welded furniture: never moves, may overlap other furniture
 };
 
-struct ProjectionOptions {
+struct DepenetrationOptions {
   // The contact margin, m: pairs of parts farther apart are ignored; the next round picks up pairs
   // that approach. A smaller margin needs more rounds.
   double contact_margin = 0.03;
@@ -50,6 +50,6 @@ struct Projection {
 // found, with its overlaps. Throws core::Error for invalid options, a body without parts, or
 // numbers that are not finite. Scales to thousands of bodies; distant parts cost nothing.
 Projection ResolvePenetrations(const std::vector<ProjectedBody>& bodies,
-                               const ProjectionOptions& options = {});
+                               const DepenetrationOptions& options = {});
 
 }  // namespace simwright::scene

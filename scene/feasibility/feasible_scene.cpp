@@ -29,7 +29,7 @@ void Shift(const std::vector<Vector3d>& shifts, std::vector<SceneObject>* object
 }
 
 // Resolves the penetrations of the objects; returns true on success.
-bool Depenetrate(const AssetSet& asset_set, const ProjectionOptions& options,
+bool Depenetrate(const AssetSet& asset_set, const DepenetrationOptions& options,
                  std::vector<SceneObject>* objects) {
   const Projection projection = ResolvePenetrations(SceneBodies(*objects, asset_set), options);
   Shift(projection.shifts, objects);

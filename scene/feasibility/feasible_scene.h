@@ -20,7 +20,7 @@ std::set<std::string> CategoriesThatMayTopple();
 sim::SettlingOptions PerturbedSettlingOptions();
 
 struct FeasibilityOptions {
-  ProjectionOptions projection;
+  DepenetrationOptions projection;
   sim::SettlingOptions settling = PerturbedSettlingOptions();
   // The largest distance in m by which a floating object is lowered onto its support
   // (LowerOntoSupports); 0: it falls. For samples of a model, whose heights have errors of

@@ -12,24 +12,24 @@
 namespace simwright::tasks {
 namespace {
 
-using assets::UrdfJoint;
-using assets::UrdfJointType;
+using assets::Joint;
+using assets::JointType;
 
 constexpr std::size_t kLongestName = 120;  // bytes; a longer text is not a name
 
-const char* TypeName(UrdfJointType type) {
+const char* TypeName(JointType type) {
   switch (type) {
-    case UrdfJointType::kFixed:
+    case JointType::kFixed:
       return "fixed";
-    case UrdfJointType::kRevolute:
+    case JointType::kRevolute:
       return "revolute";
-    case UrdfJointType::kContinuous:
+    case JointType::kContinuous:
       return "continuous";
-    case UrdfJointType::kPrismatic:
+    case JointType::kPrismatic:
       return "prismatic";
-    case UrdfJointType::kFloating:
+    case JointType::kFloating:
       return "floating";
-    case UrdfJointType::kPlanar:
+    case JointType::kPlanar:
       return "planar";
   }
   return "fixed";
@@ -42,13 +42,13 @@ std::string Decimals(double value) {
 }
 
 // Returns the range of the joint's state; empty if it has no scalar state.
-std::string LimitOf(const UrdfJoint& joint) {
+std::string LimitOf(const Joint& joint) {
   switch (joint.type) {
-    case UrdfJointType::kRevolute:
+    case JointType::kRevolute:
       return "[" + Decimals(joint.lower) + ", " + Decimals(joint.upper) + "] rad";
-    case UrdfJointType::kPrismatic:
+    case JointType::kPrismatic:
       return "[" + Decimals(joint.lower) + ", " + Decimals(joint.upper) + "] m";
-    case UrdfJointType::kContinuous:
+    case JointType::kContinuous:
       return "[-3.142, 3.142] rad, turns on without end";
     default:
       return "";
@@ -58,7 +58,7 @@ std::string LimitOf(const UrdfJoint& joint) {
 // A link with the joint that moves it; null for the root.
 struct Part {
   std::string link, label;
-  const UrdfJoint* joint = nullptr;
+  const Joint* joint = nullptr;
 
   // Returns the rank of the part; parts of a high rank are left out first.
   int Rank() const {

@@ -5,9 +5,9 @@
 namespace simwright::tasks {
 namespace {
 
+using assets::Joint;
+using assets::JointType;
 using assets::SemanticModel;
-using assets::UrdfJoint;
-using assets::UrdfJointType;
 using assets::UrdfLink;
 
 UrdfLink BoxLink(const std::string& name, const Eigen::Vector3d& size,
@@ -29,10 +29,10 @@ SemanticModel Chest() {
   chest.model.links = {BoxLink("body", {0.4, 0.5, 0.4}, {0.0, 0.0, 0.2}),
                        BoxLink("drawer", {0.36, 0.44, 0.14}, {0.0, 0.0, 0.0}),
                        BoxLink("handle", {0.03, 0.12, 0.02}, {0.0, 0.0, 0.0})};
-  UrdfJoint slide{"drawer_slide", "body", "drawer", UrdfJointType::kPrismatic};
+  Joint slide{"drawer_slide", "body", "drawer", JointType::kPrismatic};
   slide.parent_from_joint.translation() = Eigen::Vector3d(0.02, 0.0, 0.28);
   slide.upper = 0.3;
-  UrdfJoint mount{"handle_mount", "drawer", "handle", UrdfJointType::kFixed};
+  Joint mount{"handle_mount", "drawer", "handle", JointType::kFixed};
   mount.parent_from_joint.translation() = Eigen::Vector3d(0.2, 0.0, 0.0);
   chest.model.joints = {slide, mount};
   chest.semantics = {{"body", {"static", "body"}},

@@ -28,7 +28,7 @@ bool Holds(const std::string& text, const std::array<const char*, N>& words) {
 // Returns the label, or else the link's own name, in lower case.
 std::string Called(const ArticulatedObject& object, const ObjectJoint& joint) {
   const ObjectLink& link = object.links[static_cast<std::size_t>(joint.link)];
-  std::string name = link.label.empty() ? link.name : link.label;
+  std::string name = link.label.empty() ? object.LinkName(joint.link) : link.label;
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return name;
 }
@@ -75,7 +75,7 @@ JointUse GetJointUse(const ArticulatedObject& object, const ObjectJoint& joint) 
     return JointUse::kOpen;
   }
   if (Holds(name, std::array{"button", "key", "pedal"})) return JointUse::kPress;
-  const int parent = object.links[static_cast<std::size_t>(joint.link)].parent;
+  const int parent = object.kinematics->ParentLink(joint.link);
   const bool on_a_door = parent > 0 && object.links[static_cast<std::size_t>(parent)].joint >= 0;
   if (on_a_door && !slides && Holds(name, std::array{"knob", "lever", "handle"})) {
     return JointUse::kLatch;

@@ -24,7 +24,7 @@ void AddJoints(const ArticulatedObject& known, int object, std::vector<Operator>
 }
 
 // Adds operators that take an object from each possible place and put it down again.
-void AddHandling(const SceneModel& model, int object, const std::vector<int>& objects,
+void AddHandling(const WorldModel& model, int object, const std::vector<int>& objects,
                  std::vector<Operator>* operators) {
   const Predicate held = Of(PredicateKind::kHolding, object),
                   floor = Of(PredicateKind::kOnFloor, object);
@@ -77,7 +77,7 @@ void AddHandling(const SceneModel& model, int object, const std::vector<int>& ob
 
 }  // namespace
 
-std::vector<Operator> OperatorsFor(const SceneModel& model, const std::vector<int>& objects) {
+std::vector<Operator> OperatorsFor(const WorldModel& model, const std::vector<int>& objects) {
   std::vector<Operator> operators;
   for (int object : objects) {
     const ArticulatedObject& known = model.objects[static_cast<std::size_t>(object)];

@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-#include "tasks/scene_state.h"
+#include "tasks/world_state.h"
 
 namespace simwright::tasks {
 
@@ -47,7 +47,7 @@ struct Operator {
 
 // Returns the operators on the given objects: joints that the gripper can move, objects that it can
 // lift, flat tops, and receptacles that the object fits.
-std::vector<Operator> OperatorsFor(const SceneModel& model, const std::vector<int>& objects);
+std::vector<Operator> OperatorsFor(const WorldModel& model, const std::vector<int>& objects);
 
 // Returns operators that achieve `goals` one after the other from `predicates`, by means-ends
 // analysis: the preconditions of a step are achieved before it. Returns an empty plan if none

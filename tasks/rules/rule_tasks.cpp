@@ -22,8 +22,8 @@ constexpr int kCandidatesPerTask = 4;  // some are infeasible
 constexpr int kBatch = 64;             // candidates processed in parallel
 
 // Returns the predicates that hold in the layout of a candidate.
-PredicateSet InitialPredicates(const SceneModel& model, const TaskCandidate& candidate,
-                               const SceneState& state) {
+PredicateSet InitialPredicates(const WorldModel& model, const TaskCandidate& candidate,
+                               const WorldState& state) {
   PredicateSet predicates{{PredicateKind::kGripperEmpty}};
   for (int t : candidate.layout.objects) {
     const ArticulatedObject& object = model.objects[static_cast<std::size_t>(t)];
@@ -54,12 +54,12 @@ struct Outcome {
   std::string dropped;
 };
 
-Outcome BuildTask(const SceneModel& model, const TaskCandidate& candidate, std::uint64_t seed,
+Outcome BuildTask(const WorldModel& model, const TaskCandidate& candidate, std::uint64_t seed,
                   std::uint64_t index) {
   core::Rng rng = core::StreamRng(seed, index);
   const std::optional<InitialState> start = PlanLayout(model, candidate.layout, rng);
   if (!start) return {std::nullopt, "no-layout"};
-  SceneState state = StateOf(model, *start);
+  WorldState state = StateOf(model, *start);
   PredicateSet predicates = InitialPredicates(model, candidate, state);
   const std::vector<Operator> plan =
       Plan(OperatorsFor(model, candidate.layout.objects), candidate.goals, &predicates);
@@ -106,7 +106,7 @@ std::string DroppedText(const std::map<std::string, int>& dropped) {
 
 // Returns a finding for each object that no task uses: the gripper can do nothing with it, or every
 // candidate was dropped.
-core::Findings FindUnusedObjects(const SceneModel& model, const RuleTasks& generated) {
+core::Findings FindUnusedObjects(const WorldModel& model, const RuleTasks& generated) {
   std::set<std::string> used;
   for (const Task& task : generated.tasks) used.insert(task.assets.begin(), task.assets.end());
   core::Findings findings;
@@ -128,7 +128,7 @@ core::Findings FindUnusedObjects(const SceneModel& model, const RuleTasks& gener
   return findings;
 }
 
-RuleTasks Generate(const SceneModel& model, const RuleOptions& options, core::Progress* progress);
+RuleTasks Generate(const WorldModel& model, const RuleOptions& options, core::Progress* progress);
 
 }  // namespace
 
@@ -138,7 +138,7 @@ bool RuleOptions::IsValid(std::string* error) const {
   return false;
 }
 
-RuleTasks GenerateTasksByRules(const SceneModel& model, const RuleOptions& options,
+RuleTasks GenerateTasksByRules(const WorldModel& model, const RuleOptions& options,
                                core::Progress* progress) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error(error, "task generation");
@@ -149,7 +149,7 @@ RuleTasks GenerateTasksByRules(const SceneModel& model, const RuleOptions& optio
 
 namespace {
 
-RuleTasks Generate(const SceneModel& model, const RuleOptions& options, core::Progress* progress) {
+RuleTasks Generate(const WorldModel& model, const RuleOptions& options, core::Progress* progress) {
   const int wanted =
       options.count > 0 ? options.count : kTasksPerObject * static_cast<int>(model.objects.size());
   core::Rng rng = core::StreamRng(options.seed, 0);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "tasks/scene_state.h"
 #include "tasks/task.h"
+#include "tasks/world_state.h"
 
 namespace simwright::tasks {
 
@@ -32,7 +32,7 @@ struct RuleTasks {
 // stood on, put into, taken out and poured, and combinations that follow by preconditions and
 // effects (rules/planner.h). Runs in parallel; a seed gives the same tasks for any thread count.
 // Throws core::Error for invalid options, core::Cancelled after Ctrl-C.
-RuleTasks GenerateTasksByRules(const SceneModel& model, const RuleOptions& options,
+RuleTasks GenerateTasksByRules(const WorldModel& model, const RuleOptions& options,
                                core::Progress* progress = nullptr);
 
 }  // namespace simwright::tasks

@@ -91,13 +91,13 @@ std::string ShareText(const ObjectJoint& joint) {
   return "(state - " + Number(rest) + ") / (" + far + " - " + Number(rest) + ")";
 }
 
-Step JointStep(const SceneModel& model, const Operator& one) {
+Step JointStep(const WorldModel& model, const Operator& one) {
   const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
   const ObjectJoint& joint = object.joints[static_cast<std::size_t>(one.part)];
   const bool away = one.verb == ActionType::kOpen;
   const Verbs verbs = VerbsOf(GetJointUse(object, joint));
   const std::string part = PartName(object, joint);
-  const std::string grip = object.links[static_cast<std::size_t>(joint.grasp_link)].name;
+  const std::string grip = object.LinkName(joint.grasp_link);
   Step step;
   step.name = NameFrom(std::string(away ? verbs.away_name : verbs.back_name) + "_" + object.name +
                        "_" + part);
@@ -132,7 +132,7 @@ Step JointStep(const SceneModel& model, const Operator& one) {
   return step;
 }
 
-Step PickStep(const SceneModel& model, const SceneState& state, const Operator& one) {
+Step PickStep(const WorldModel& model, const WorldState& state, const Operator& one) {
   const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
   const std::string spoken = SpokenName(object), name = Quoted(object.name);
   Step step;
@@ -172,7 +172,7 @@ Step PickStep(const SceneModel& model, const SceneState& state, const Operator& 
 }
 
 // Returns a position on the floor beside the object, on the side nearer to the centre.
-Eigen::Vector3d BesideOf(const SceneModel& model, const SceneState& state, int object) {
+Eigen::Vector3d BesideOf(const WorldModel& model, const WorldState& state, int object) {
   const ArticulatedObject& known = model.objects[static_cast<std::size_t>(object)];
   Eigen::Vector3d target = LinkPosition(model, state, object, 0);
   target.y() += target.y() > 0.0 ? -kSide : kSide;
@@ -180,7 +180,7 @@ Eigen::Vector3d BesideOf(const SceneModel& model, const SceneState& state, int o
   return target;
 }
 
-Step PutDownStep(const SceneModel& model, const SceneState& state, const Operator& one) {
+Step PutDownStep(const WorldModel& model, const WorldState& state, const Operator& one) {
   const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
   const std::string name = Quoted(object.name);
   Step step;
@@ -201,7 +201,7 @@ Step PutDownStep(const SceneModel& model, const SceneState& state, const Operato
   return step;
 }
 
-Step PlaceOnStep(const SceneModel& model, const SceneState& state, const Operator& one) {
+Step PlaceOnStep(const WorldModel& model, const WorldState& state, const Operator& one) {
   const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
   const ArticulatedObject& holder = model.objects[static_cast<std::size_t>(one.other)];
   Step step;
@@ -210,7 +210,7 @@ Step PlaceOnStep(const SceneModel& model, const SceneState& state, const Operato
   Program program("Stand the " + SpokenName(object) + " on top and let go of it.");
   program
       .Line("low, high = env.get_bounding_box_link(" + Quoted(holder.name) + ", " +
-            Quoted(holder.links[0].name) + ")")
+            Quoted(holder.LinkName(0)) + ")")
       .Line("top = 0.5 * (low + high)")
       .Line("top[:, 2] = high[:, 2]")
       .Line("foot_low, foot_high = env.get_bounding_box(" + Quoted(object.name) + ")")
@@ -234,7 +234,7 @@ Step PlaceOnStep(const SceneModel& model, const SceneState& state, const Operato
 
 // Returns the position of the object's centre in a receptacle (world frame): the receptacle's
 // centre, or else a position beside it that is free of other objects.
-Eigen::Vector3d FreePosition(const SceneModel& model, const SceneState& state, int object,
+Eigen::Vector3d FreePosition(const WorldModel& model, const WorldState& state, int object,
                              const Eigen::AlignedBox3d& receptacle) {
   const Eigen::Vector3d size = model.objects[static_cast<std::size_t>(object)].box.sizes();
   Eigen::Vector3d middle = receptacle.center();
@@ -270,7 +270,7 @@ void KeepBehindDoor(const Eigen::Vector3d& opening, const Eigen::Vector3d& size,
   }
 }
 
-Step PutIntoStep(const SceneModel& model, const SceneState& state, const Operator& one) {
+Step PutIntoStep(const WorldModel& model, const WorldState& state, const Operator& one) {
   const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
   const ArticulatedObject& holder = model.objects[static_cast<std::size_t>(one.other)];
   const Receptacle& receptacle = holder.receptacles[static_cast<std::size_t>(one.part)];
@@ -319,7 +319,7 @@ Step PutIntoStep(const SceneModel& model, const SceneState& state, const Operato
   return step;
 }
 
-Step PushStep(const SceneModel& model, const SceneState& state, const Operator& one) {
+Step PushStep(const WorldModel& model, const WorldState& state, const Operator& one) {
   const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
   Step step;
   step.name = NameFrom("push_" + object.name);
@@ -341,7 +341,7 @@ Step PushStep(const SceneModel& model, const SceneState& state, const Operator& 
   return step;
 }
 
-Step PourStep(const SceneModel& model, const SceneState& state, const Operator& one) {
+Step PourStep(const WorldModel& model, const WorldState& state, const Operator& one) {
   const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
   const ArticulatedObject& holder = model.objects[static_cast<std::size_t>(one.other)];
   Step step;
@@ -383,7 +383,7 @@ std::string SpokenName(const ArticulatedObject& object) {
   return name;
 }
 
-Step MakeStep(const SceneModel& model, const SceneState& state, const Operator& one) {
+Step MakeStep(const WorldModel& model, const WorldState& state, const Operator& one) {
   switch (one.verb) {
     case ActionType::kOpen:
     case ActionType::kClose:

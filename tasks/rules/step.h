@@ -4,8 +4,8 @@
 #include <string>
 
 #include "tasks/rules/planner.h"
-#include "tasks/scene_state.h"
 #include "tasks/verification/motion.h"
+#include "tasks/world_state.h"
 
 namespace simwright::tasks {
 
@@ -21,7 +21,7 @@ struct Step {
 
 // Returns the step for operator `one` in `state`. The reward of every step is bounded, increases
 // monotonically up to success, and requires contact where an object is held.
-Step MakeStep(const SceneModel& model, const SceneState& state, const Operator& one);
+Step MakeStep(const WorldModel& model, const WorldState& state, const Operator& one);
 
 // Returns the object's name as it appears in a sentence: its name with blanks ("red mug" for
 // red_mug).

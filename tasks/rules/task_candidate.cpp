@@ -14,7 +14,7 @@ namespace {
 // A collector of candidates for each kind of task.
 class CandidateGenerator {
  public:
-  CandidateGenerator(const SceneModel& model, std::size_t most, core::Rng& rng)
+  CandidateGenerator(const WorldModel& model, std::size_t most, core::Rng& rng)
       : model_(model), most_(most), rng_(rng) {
     order_.resize(model.objects.size());
     std::iota(order_.begin(), order_.end(), 0);
@@ -288,7 +288,7 @@ class CandidateGenerator {
     return mixed;
   }
 
-  const SceneModel& model_;
+  const WorldModel& model_;
   std::size_t most_;
   core::Rng& rng_;
   std::vector<int> order_, lifted_, holders_;
@@ -297,7 +297,7 @@ class CandidateGenerator {
 
 }  // namespace
 
-std::vector<TaskCandidate> GenerateCandidates(const SceneModel& model, std::size_t most,
+std::vector<TaskCandidate> GenerateCandidates(const WorldModel& model, std::size_t most,
                                               core::Rng& rng) {
   return CandidateGenerator(model, most, rng).Generate();
 }

@@ -19,7 +19,7 @@ struct TaskCandidate {
 
 // Returns up to `most` task candidates for the model's objects, interleaved: the kinds of tasks
 // alternate, and within a kind the objects do, in an order sampled from `rng`.
-std::vector<TaskCandidate> GenerateCandidates(const SceneModel& model, std::size_t most,
+std::vector<TaskCandidate> GenerateCandidates(const WorldModel& model, std::size_t most,
                                               core::Rng& rng);
 
 }  // namespace simwright::tasks

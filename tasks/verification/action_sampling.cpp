@@ -17,7 +17,7 @@ constexpr int kMaxReceptacles = 4;  // per object
 
 class Sampler {
  public:
-  Sampler(const SceneModel& model, const SceneState& start,
+  Sampler(const WorldModel& model, const WorldState& start,
           const std::vector<reward::RewardSlot>& slots)
       : model_(model), start_(start) {
     for (const reward::RewardSlot& slot : slots) AddSlot(slot);
@@ -52,9 +52,9 @@ class Sampler {
     if (joint >= 0) joints_.insert({object, joint});
     // A link is moved by the joints above it.
     for (int at = link; at > 0;) {
-      const ObjectLink& moved = known.links[static_cast<std::size_t>(at)];
-      if (moved.joint >= 0) joints_.insert({object, moved.joint});
-      at = moved.parent;
+      const int moved_by = known.links[static_cast<std::size_t>(at)].joint;
+      if (moved_by >= 0) joints_.insert({object, moved_by});
+      at = known.kinematics->ParentLink(at);
     }
   }
 
@@ -197,8 +197,8 @@ class Sampler {
     }
   }
 
-  const SceneModel& model_;
-  const SceneState& start_;
+  const WorldModel& model_;
+  const WorldState& start_;
   std::set<int> objects_;
   std::set<std::pair<int, int>> links_, joints_;
   std::vector<Action> moves_, handlings_;
@@ -207,7 +207,7 @@ class Sampler {
 
 }  // namespace
 
-ActionSequences SampleActions(const SceneModel& model, const SceneState& start,
+ActionSequences SampleActions(const WorldModel& model, const WorldState& start,
                               const std::vector<reward::RewardSlot>& slots) {
   return Sampler(model, start, slots).Sample();
 }

@@ -22,7 +22,7 @@ struct ActionSequences {
 
 // Returns action sequences for the objects, links and joints that `slots` name, starting at
 // `start`.
-ActionSequences SampleActions(const SceneModel& model, const SceneState& start,
+ActionSequences SampleActions(const WorldModel& model, const WorldState& start,
                               const std::vector<reward::RewardSlot>& slots);
 
 }  // namespace simwright::tasks

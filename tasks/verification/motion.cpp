@@ -18,7 +18,7 @@ constexpr double kOpen = 0.08;         // m between the fingers
 
 class MotionMaker {
  public:
-  MotionMaker(const SceneModel& model, const SceneState& start) : model_(model), state_(start) {
+  MotionMaker(const WorldModel& model, const WorldState& start) : model_(model), state_(start) {
     if (state_.grasped) Hold(state_.touched);
     Record(MotionPhase::kApproach);
   }
@@ -221,8 +221,8 @@ class MotionMaker {
     Record(MotionPhase::kRelease);
   }
 
-  const SceneModel& model_;
-  SceneState state_;
+  const WorldModel& model_;
+  WorldState state_;
   Motion motion_;
   Eigen::Isometry3d from_ = Eigen::Isometry3d::Identity();
   int held_ = -1;
@@ -231,7 +231,7 @@ class MotionMaker {
 
 }  // namespace
 
-Motion MakeMotion(const SceneModel& model, const SceneState& start,
+Motion MakeMotion(const WorldModel& model, const WorldState& start,
                   const std::vector<Action>& actions) {
   MotionMaker maker(model, start);
   for (const Action& action : actions) maker.Do(action);

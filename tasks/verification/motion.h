@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tasks/scene_state.h"
+#include "tasks/world_state.h"
 
 namespace simwright::tasks {
 
@@ -31,7 +31,7 @@ enum class MotionPhase { kApproach, kMove, kTurnOver, kRelease };
 // contents of a drawer move with the drawer. The motion is kinematic: it ignores collisions and
 // slip.
 struct Motion {
-  std::vector<SceneState> states;   // begins with the start state
+  std::vector<WorldState> states;   // begins with the start state
   std::vector<MotionPhase> phases;  // the phase of the step that led to each state; kApproach for
                                     // the first
 };
@@ -41,7 +41,7 @@ constexpr double kMotionTimeStep = 1.0 / 12.0;
 
 // Returns the motion that carries out `actions` one after the other. The caller must pass valid
 // indices of objects and joints.
-Motion MakeMotion(const SceneModel& model, const SceneState& start,
+Motion MakeMotion(const WorldModel& model, const WorldState& start,
                   const std::vector<Action>& actions);
 
 }  // namespace simwright::tasks

@@ -85,7 +85,7 @@ void RewardRange::Add(float reward, bool success) {
 }
 
 std::optional<SuccessPath> FindSuccessPath(const reward::RewardProgram& program,
-                                           const SceneModel& model, const SceneState& start,
+                                           const WorldModel& model, const WorldState& start,
                                            const Eigen::Isometry3d& world_from_robot,
                                            const std::vector<std::vector<Action>>& sequences,
                                            bool stop_early, RewardRange* range) {

@@ -32,7 +32,7 @@ struct RewardRange {
 // then the agreement decides. If `stop_early`, returns at the first good enough path. Every
 // evaluated state is added to `range` unless it is null.
 std::optional<SuccessPath> FindSuccessPath(const reward::RewardProgram& program,
-                                           const SceneModel& model, const SceneState& start,
+                                           const WorldModel& model, const WorldState& start,
                                            const Eigen::Isometry3d& world_from_robot,
                                            const std::vector<std::vector<Action>>& sequences,
                                            bool stop_early, RewardRange* range);

@@ -1,18 +1,18 @@
 #include "tasks/verification/program_trial.h"
 
-#include "tasks/scene_signals.h"
+#include "tasks/world_signals.h"
 
 namespace simwright::tasks {
 
-TrialResult RunOnStates(const reward::RewardProgram& program, const SceneModel& model,
-                        const std::vector<SceneState>& states, bool follows) {
+TrialResult RunOnStates(const reward::RewardProgram& program, const WorldModel& model,
+                        const std::vector<WorldState>& states, bool follows) {
   TrialResult result;
   if (states.empty()) return result;
   const std::vector<reward::RewardSlot>& slots = program.slots();
   std::vector<std::vector<float>> rows(slots.size());
   std::vector<std::vector<float>> values;
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const SceneState* previous = follows && i > 0 ? &states[i - 1] : nullptr;
+    const WorldState* previous = follows && i > 0 ? &states[i - 1] : nullptr;
     SlotValues(model, states[i], previous, kMotionTimeStep, slots, &values);
     for (std::size_t s = 0; s < slots.size(); ++s) {
       if (slots[s].uniform && i > 0) continue;
@@ -30,7 +30,7 @@ TrialResult RunOnStates(const reward::RewardProgram& program, const SceneModel& 
   return result;
 }
 
-std::vector<SceneState> RandomStates(const SceneModel& model, const SceneState& start,
+std::vector<WorldState> RandomStates(const WorldModel& model, const WorldState& start,
                                      const std::vector<reward::RewardSlot>& slots, int count,
                                      core::Rng& rng) {
   std::vector<int> objects;
@@ -38,9 +38,9 @@ std::vector<SceneState> RandomStates(const SceneModel& model, const SceneState& 
     const int object = model.Find(slot.asset);
     if (object >= 0 && (objects.empty() || objects.back() != object)) objects.push_back(object);
   }
-  std::vector<SceneState> states;
+  std::vector<WorldState> states;
   for (int i = 0; i < count; ++i) {
-    SceneState state = start;
+    WorldState state = start;
     for (int object : objects) {
       const auto t = static_cast<std::size_t>(object);
       const ArticulatedObject& known = model.objects[t];

@@ -5,8 +5,8 @@
 
 #include "core/random.h"
 #include "reward/reward_program.h"
-#include "tasks/scene_state.h"
 #include "tasks/verification/motion.h"
+#include "tasks/world_state.h"
 
 namespace simwright::tasks {
 
@@ -18,13 +18,13 @@ struct TrialResult {
 
 // Runs `program` on `states`, each as one environment. If `follows` is true, velocities are
 // computed along the sequence: state i follows state i - 1. Returns empty results for no states.
-TrialResult RunOnStates(const reward::RewardProgram& program, const SceneModel& model,
-                        const std::vector<SceneState>& states, bool follows);
+TrialResult RunOnStates(const reward::RewardProgram& program, const WorldModel& model,
+                        const std::vector<WorldState>& states, bool follows);
 
 // Returns random states: joints up to a fifth of their range beyond their limits, the objects that
 // the program reads within a metre of their start, the gripper at a link or anywhere near, holding
 // an object or not.
-std::vector<SceneState> RandomStates(const SceneModel& model, const SceneState& start,
+std::vector<WorldState> RandomStates(const WorldModel& model, const WorldState& start,
                                      const std::vector<reward::RewardSlot>& slots, int count,
                                      core::Rng& rng);
 

@@ -23,7 +23,7 @@ std::string Lower(const std::string& text) {
 
 // Returns the joints whose state the program reads; if there are none, the joints that move the
 // links it reads.
-std::set<std::pair<int, int>> JointsRead(const SceneModel& model,
+std::set<std::pair<int, int>> JointsRead(const WorldModel& model,
                                          const std::vector<reward::RewardSlot>& slots) {
   std::set<std::pair<int, int>> states, above;
   for (const reward::RewardSlot& slot : slots) {
@@ -32,8 +32,7 @@ std::set<std::pair<int, int>> JointsRead(const SceneModel& model,
     const ArticulatedObject& known = model.objects[static_cast<std::size_t>(object)];
     const int joint = known.FindJoint(slot.part);
     if (joint >= 0) states.insert({object, joint});
-    for (int at = known.FindLink(slot.part); at > 0;
-         at = known.links[static_cast<std::size_t>(at)].parent) {
+    for (int at = known.FindLink(slot.part); at > 0; at = known.kinematics->ParentLink(at)) {
       const int moved_by = known.links[static_cast<std::size_t>(at)].joint;
       if (moved_by >= 0) above.insert({object, moved_by});
     }
@@ -43,7 +42,7 @@ std::set<std::pair<int, int>> JointsRead(const SceneModel& model,
 
 // Returns the object that the title takes `object` out of: the microwave in "take the cup out of
 // the microwave". -1: none.
-int TakenOutOf(const SceneModel& model, const std::string& title, int object) {
+int TakenOutOf(const WorldModel& model, const std::string& title, int object) {
   for (const char* words : {"out of ", "from inside ", "from "}) {
     const std::size_t at = title.find(words);
     if (at == std::string::npos) continue;
@@ -62,7 +61,7 @@ int TakenOutOf(const SceneModel& model, const std::string& title, int object) {
 
 }  // namespace
 
-std::optional<InitialState> PlanStart(const SceneModel& model,
+std::optional<InitialState> PlanStart(const WorldModel& model,
                                       const std::vector<reward::RewardSlot>& slots,
                                       const std::vector<std::string>& assets,
                                       const std::string& title, TitleDirection direction,
@@ -96,7 +95,7 @@ std::optional<InitialState> PlanStart(const SceneModel& model,
   return PlanLayout(model, request, rng);
 }
 
-Eigen::Vector3d PlanGoal(const SceneModel& model, const SceneState& start,
+Eigen::Vector3d PlanGoal(const WorldModel& model, const WorldState& start,
                          const std::vector<reward::RewardSlot>& slots) {
   for (const reward::RewardSlot& slot : slots) {
     const int object = model.Find(slot.asset);
@@ -105,14 +104,14 @@ Eigen::Vector3d PlanGoal(const SceneModel& model, const SceneState& start,
   }
   for (const auto& [object, joint] : JointsRead(model, slots)) {
     const auto t = static_cast<std::size_t>(object), j = static_cast<std::size_t>(joint);
-    SceneState end = start;
+    WorldState end = start;
     end.joints[t][j] = model.objects[t].joints[j].far();
     return LinkPosition(model, end, object, model.objects[t].joints[j].grasp_link);
   }
   return start.gripper.translation() + Eigen::Vector3d(0, kGoalAside, 0);
 }
 
-InitialState StartOfNextSubtask(const SceneModel& model, const SceneState& state,
+InitialState StartOfNextSubtask(const WorldModel& model, const WorldState& state,
                                 const InitialState& before) {
   InitialState start;
   start.world_from_robot = before.world_from_robot;

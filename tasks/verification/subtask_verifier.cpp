@@ -58,7 +58,7 @@ void PromoteToErrors(core::Findings* findings) {
 
 // Returns the direction of the joint that moved by the largest share of its range, relative to its
 // rest.
-TitleDirection DirectionOf(const SceneModel& model, const SceneState& from, const SceneState& to) {
+TitleDirection DirectionOf(const WorldModel& model, const WorldState& from, const WorldState& to) {
   double most = 0.05;
   TitleDirection direction = TitleDirection::kNone;
   for (std::size_t t = 0; t < model.objects.size(); ++t) {
@@ -79,7 +79,7 @@ TitleDirection DirectionOf(const SceneModel& model, const SceneState& from, cons
 // The verification of one program from one start.
 class Trial {
  public:
-  Trial(const SceneModel& model, const VerificationOptions& options,
+  Trial(const WorldModel& model, const VerificationOptions& options,
         const reward::RewardProgram& program, const Subtask& subtask, const std::string& title)
       : model_(model),
         options_(options),
@@ -141,7 +141,7 @@ class Trial {
 
   void EvaluateRandomStates() {
     core::Rng rng = core::StreamRng(options_.seed, 1);
-    const std::vector<SceneState> states =
+    const std::vector<WorldState> states =
         RandomStates(model_, start_, program_.slots(), options_.random_states, rng);
     const TrialResult trial = RunOnStates(program_, model_, states, false);
     for (std::size_t i = 0; i < states.size(); ++i) {
@@ -170,7 +170,7 @@ class Trial {
   // Returns true if the program moves the joint opposite to the title: with every joint that it
   // reads at the other limit there is a path to success.
   bool SucceedsFromOtherEnd() {
-    SceneState other = start_;
+    WorldState other = start_;
     bool any = false;
     for (const reward::RewardSlot& slot : program_.slots()) {
       const int object = model_.Find(slot.asset);
@@ -244,13 +244,13 @@ class Trial {
     }
   }
 
-  const SceneModel& model_;
+  const WorldModel& model_;
   const VerificationOptions& options_;
   const reward::RewardProgram& program_;
   const Subtask& subtask_;
   TitleDirection asked_;
   std::string place_;
-  SceneState start_;
+  WorldState start_;
   RewardRange range_;
   std::optional<SuccessPath> path_;
   core::Findings findings_;
@@ -301,7 +301,7 @@ bool VerificationOptions::IsValid(std::string* error) const {
   return wrong == nullptr;
 }
 
-SubtaskVerifier::SubtaskVerifier(const SceneModel& model, const VerificationOptions& options)
+SubtaskVerifier::SubtaskVerifier(const WorldModel& model, const VerificationOptions& options)
     : model_(model), options_(options) {
   std::string error;
   if (!options_.IsValid(&error)) throw core::Error(error, "verification");

@@ -8,8 +8,8 @@
 
 #include "core/finding.h"
 #include "reward/reward_program.h"
-#include "tasks/scene_state.h"
 #include "tasks/task.h"
+#include "tasks/world_state.h"
 
 namespace simwright::tasks {
 
@@ -37,7 +37,7 @@ struct VerificationOptions {
 class SubtaskVerifier {
  public:
   // Throws core::Error for invalid options. `model` must outlive the verifier.
-  SubtaskVerifier(const SceneModel& model, const VerificationOptions& options = {});
+  SubtaskVerifier(const WorldModel& model, const VerificationOptions& options = {});
 
   // Returns the findings of subtask->program. If subtask->start places nothing, fills it with the
   // end state of the preceding subtask in `task`, as verified by this object, or else with a new
@@ -51,7 +51,7 @@ class SubtaskVerifier {
   std::optional<InitialState> PreviousEndState(const Task& task, const Subtask& subtask,
                                                const reward::RewardProgram& program) const;
 
-  const SceneModel& model_;
+  const WorldModel& model_;
   VerificationOptions options_;
   std::map<std::pair<std::string, std::string>, InitialState> ends_;  // by task and subtask
 };

@@ -42,7 +42,7 @@ TEST_F(ArticulatedFolder, ReadsBackWhatItWrote) {
     EXPECT_EQ(a.visual.mesh.triangles.size(), b.visual.mesh.triangles.size());
     EXPECT_EQ(a.visual.materials.size(), 2u);
   }
-  const UrdfJoint &a = read.joints[0], &b = written.joints[0];
+  const Joint &a = read.joints[0], &b = written.joints[0];
   EXPECT_EQ(a.type, b.type);
   EXPECT_EQ(a.upper, b.upper);
   EXPECT_EQ(a.damping, b.damping);
@@ -157,7 +157,7 @@ TEST(JointPoses, ADoorAndItsHandleSwingAboutTheHinge) {
 
 TEST(JointPoses, MimicsFollowTheirLeader) {
   UrdfModel model = ModelOf(SampleArticulated());
-  model.joints[1].type = UrdfJointType::kPrismatic;
+  model.joints[1].type = JointType::kPrismatic;
   model.joints[1].axis = Eigen::Vector3d::UnitX();
   model.joints[1].mimic = {"door_joint", 0.1, 0.02};
   const auto poses = LinkPoses(model, {{"door_joint", 0.5}, {"handle_0_joint", 9.0}});
@@ -173,10 +173,10 @@ TEST(JointLoad, IsTheWeightsMoment) {
   double moment = 0.0;
   for (const ArticulatedLink& link : asset.links) inertials.push_back(link.inertial);
   moment += inertials[1].mass * 0.2 + inertials[2].mass * 0.37;  // levers along y
-  const JointLoad load = LoadOn(inertials, asset.joints, {0, 1}, 0, 0.0);
+  const auto model = MakeKinematicModel(asset);
+  const JointLoad load = LoadOn(*model, 0, 0.0);
   EXPECT_NEAR(load.gravity, 9.81 * moment, 1e-9);
-  EXPECT_NEAR(LoadOn(inertials, asset.joints, {0, 1}, 0, 1.0).gravity,
-              9.81 * moment * std::cos(1.0), 1e-9);
+  EXPECT_NEAR(LoadOn(*model, 0, 1.0).gravity, 9.81 * moment * std::cos(1.0), 1e-9);
   EXPECT_NEAR(load.mass, inertials[1].mass + inertials[2].mass, 1e-12);
 }
 

@@ -38,11 +38,11 @@ inline ArticulatedAsset SampleArticulated() {
   asset.links = {SampleLink("body", "body", {0.3, 0.4, 0.5}, {0.05, 0, 0.25}),
                  SampleLink("door", "door", {0.02, 0.4, 0.5}, {-0.01, -0.2, 0.0}),
                  SampleLink("handle_0", "handle", {0.03, 0.02, 0.1}, {0, 0, 0})};
-  UrdfJoint hinge;
+  Joint hinge;
   hinge.name = "door_joint";
   hinge.parent = "body";
   hinge.child = "door";
-  hinge.type = UrdfJointType::kRevolute;
+  hinge.type = JointType::kRevolute;
   hinge.parent_from_joint.translation() = Eigen::Vector3d(-0.103, 0.2, 0.25);
   hinge.axis = -Eigen::Vector3d::UnitZ();
   hinge.upper = 1.7;
@@ -50,7 +50,7 @@ inline ArticulatedAsset SampleArticulated() {
   hinge.friction = 0.34;
   hinge.effort = 9.0;
   hinge.velocity = 5.0;
-  UrdfJoint seat;
+  Joint seat;
   seat.name = "handle_0_joint";
   seat.parent = "door";
   seat.child = "handle_0";

@@ -134,7 +134,7 @@ TEST_F(UrdfText, ContinuousJointsTurnFreely) {
   const UrdfModel model =
       Read(Box("") + Box("", "b") +
            Joint("continuous", "<axis xyz='1 0 0'/><limit lower='-1' upper='2' effort='5'/>"));
-  EXPECT_EQ(model.joints[0].type, UrdfJointType::kContinuous);
+  EXPECT_EQ(model.joints[0].type, JointType::kContinuous);
   EXPECT_EQ(model.joints[0].lower, 0.0);
   EXPECT_EQ(model.joints[0].upper, 0.0);
   EXPECT_EQ(model.joints[0].effort, 5.0);

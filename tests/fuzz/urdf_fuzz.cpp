@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "tasks/rules/rule_tasks.h"
-#include "tasks/scene_state.h"
+#include "tasks/world_state.h"
 #include "temporary_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     simwright::assets::SemanticModel named;
     named.name = "thing";
     named.model = model;
-    const auto scene = simwright::tasks::MakeSceneModel({named});
+    const auto scene = simwright::tasks::MakeWorldModel({named});
     for (const auto& task : simwright::tasks::GenerateTasksByRules(scene, {1, 1}).tasks) {
       if (!task.sound()) std::abort();
     }

@@ -99,14 +99,14 @@ TEST_F(ImportedCabinet, StandsAtItsHeightWithItsJointsWhereTheyBelong) {
   EXPECT_EQ(asset.links[0].name, "link_2");
   EXPECT_FALSE(asset.fixed);
 
-  const assets::UrdfJoint& door = asset.joints[LinkIndex(asset, "link_0") - 1];
-  EXPECT_EQ(door.type, assets::UrdfJointType::kRevolute);
+  const assets::Joint& door = asset.joints[LinkIndex(asset, "link_0") - 1];
+  EXPECT_EQ(door.type, assets::JointType::kRevolute);
   EXPECT_LT(
       (door.parent_from_joint.translation() - PartnetCabinet::InRoot({-.5, 0, .4}, kHeight)).norm(),
       1e-9);
   EXPECT_LT((door.axis - Eigen::Vector3d(0, 0, -1)).norm(), 1e-9);
   EXPECT_NEAR(door.upper, std::numbers::pi / 2.0, 1e-12);
-  const assets::UrdfJoint& drawer = asset.joints[LinkIndex(asset, "link_1") - 1];
+  const assets::Joint& drawer = asset.joints[LinkIndex(asset, "link_1") - 1];
   EXPECT_LT((drawer.axis - Eigen::Vector3d(-1, 0, 0)).norm(), 1e-9);
   EXPECT_NEAR(drawer.upper, 0.48 * kHeight / 1.2, 1e-9);  // metres, not the file's units
   for (const double share : {0.0, 0.5, 1.0}) ExpectCorners(asset, "link_0", share);
@@ -131,7 +131,7 @@ TEST_F(ImportedCabinet, WeighsWhatItsKindDoesAndKeepsItsMeaning) {
   EXPECT_EQ(model.semantics.at("link_1").joint, "slider");
   EXPECT_EQ(model.semantics.at("link_1").label, "drawer");
   EXPECT_EQ(model.semantics.at("link_2").label, "body");
-  for (const assets::UrdfJoint& joint : asset.joints) {
+  for (const assets::Joint& joint : asset.joints) {
     EXPECT_GT(joint.friction, 0.0);
     EXPECT_GT(joint.damping, 0.0);
   }
@@ -153,7 +153,7 @@ TEST_F(ImportedCabinet, OfGapartnetKeepsItsHandleAsALink) {
   const size_t handle = LinkIndex(asset, "link_3");
   EXPECT_EQ(asset.links[handle].label, "handle");
   EXPECT_EQ(asset.links[LinkIndex(asset, "link_0")].label, "door");
-  EXPECT_EQ(asset.joints[handle - 1].type, assets::UrdfJointType::kFixed);
+  EXPECT_EQ(asset.joints[handle - 1].type, assets::JointType::kFixed);
   EXPECT_EQ(asset.joints[handle - 1].parent, "link_0");
   EXPECT_NE(check_.find("grasp-link_3"), std::string::npos);
   // Its frame lies at the centre of its bounding box; posts reach back to z = 0.44.
@@ -290,7 +290,7 @@ TEST_F(BoxUrdf, JointsFollowOurConventions) {
   EXPECT_NEAR(joint("late").upper, 0.2, 1e-12);
   EXPECT_NEAR(joint("late").parent_from_joint.translation().z(), 0.1, 1e-12);
   EXPECT_FALSE(joint("mime").mimic);
-  EXPECT_EQ(joint("wheel").type, assets::UrdfJointType::kContinuous);
+  EXPECT_EQ(joint("wheel").type, assets::JointType::kContinuous);
   for (const char* code : {"joint-turned", "joint-zero", "joint-mimic"}) {
     EXPECT_EQ(Count(asset.findings, code), 1) << code;
   }

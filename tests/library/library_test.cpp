@@ -30,7 +30,7 @@ TEST_P(EveryKind, LinksStayApartAtRandomPositions) {
     core::Rng rng = core::StreamRng(seed, 7);
     for (int sample = 0; sample < 6; ++sample) {
       assets::JointPositions positions;
-      for (const assets::UrdfJoint& joint : asset.joints) {
+      for (const assets::Joint& joint : asset.joints) {
         positions[joint.name] = core::Uniform(rng, joint.lower, joint.upper);
       }
       const auto poses = assets::LinkPoses(model, positions);
@@ -116,7 +116,7 @@ TEST_P(EveryKind, SpeaksOfItsLinksAndStandsOnTheOrigin) {
       EXPECT_FALSE(asset.links[i].label.empty());
       EXPECT_TRUE(names.insert(asset.links[i].name).second) << asset.links[i].name;
       if (i == 0) continue;
-      const assets::UrdfJoint& joint = asset.joints[i - 1];
+      const assets::Joint& joint = asset.joints[i - 1];
       EXPECT_EQ(joint.name, asset.links[i].name + "_joint");
       if (!joint.Moves()) continue;
       ++moving;

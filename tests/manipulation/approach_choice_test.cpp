@@ -31,7 +31,7 @@ std::shared_ptr<const skills::Skill> Moving(const assets::SemanticModel& asset) 
 
 // Returns a body of blocks with one part.
 assets::SemanticModel Asset(const std::vector<assets::UrdfShape>& body, const Vector3d& part_size,
-                            const assets::UrdfJoint& joint,
+                            const assets::Joint& joint,
                             const Vector3d& part_at = Vector3d::Zero()) {
   assets::SemanticModel asset;
   asset.name = "asset";
@@ -54,8 +54,8 @@ TEST(ChooseApproach, AKnobBesideATallSpoutIsTakenFromAbove) {
   const auto skill = Moving(Asset(
       {tasks::Block({0.1, 0.3, 0.04}, {0, 0, 0.02}), tasks::Block({0.04, 0.04, 0.3}, {0, 0, 0.19})},
       {0.05, 0.02, 0.03},
-      tasks::MakeJoint("part_joint", "body", "part", assets::UrdfJointType::kRevolute,
-                       {0, 0.1, 0.06}, {0, 0, 1}, 0.0, 2.0)));
+      tasks::MakeJoint("part_joint", "body", "part", assets::JointType::kRevolute, {0, 0.1, 0.06},
+                       {0, 0, 1}, 0.0, 2.0)));
   EXPECT_LT((ApproachOf(*skill) + Vector3d::UnitZ()).norm(), 1e-9);
 }
 
@@ -64,7 +64,7 @@ TEST(ChooseApproach, ALeverThatGoesDownIsPressedFromTheFront) {
   // a level one brings the flange near the floor.
   const auto skill =
       Moving(Asset({tasks::Block({0.2, 0.3, 0.2}, {0, 0, 0.1})}, {0.03, 0.04, 0.012},
-                   tasks::MakeJoint("part_joint", "body", "part", assets::UrdfJointType::kPrismatic,
+                   tasks::MakeJoint("part_joint", "body", "part", assets::JointType::kPrismatic,
                                     {-0.115, 0, 0.16}, {0, 0, -1}, 0.0, 0.09)));
   EXPECT_LT((ApproachOf(*skill) - Vector3d(1.0, 0.0, -2.0).normalized()).norm(), 1e-9);
 }
@@ -74,7 +74,7 @@ TEST(ChooseApproach, AHandThatTakesALidDoesNotEndPointingBackAtTheRobot) {
   // along its motion and collision-free, but the gripper turns with the lid.
   const auto skill =
       Moving(Asset({tasks::Block({0.3, 0.3, 0.2}, {0, 0, 0.1})}, {0.03, 0.1, 0.03},
-                   tasks::MakeJoint("part_joint", "body", "part", assets::UrdfJointType::kRevolute,
+                   tasks::MakeJoint("part_joint", "body", "part", assets::JointType::kRevolute,
                                     {0.15, 0, 0.2}, {0, 1, 0}, 0.0, 1.5),
                    {-0.27, 0, 0.02}));
   const skills::SkillVariant& variant = skill->variants.front();
@@ -112,7 +112,7 @@ TEST(GripperSurface, OfThePandaIsItsHandAndOpenFingers) {
 TEST(PenetrationDepth, IsTheDistanceToTheNearestFace) {
   assets::SemanticModel asset =
       Asset({tasks::Block({0.2, 0.2, 0.2}, {0, 0, 0.1})}, {0.02, 0.02, 0.02},
-            tasks::MakeJoint("part_joint", "body", "part", assets::UrdfJointType::kPrismatic,
+            tasks::MakeJoint("part_joint", "body", "part", assets::JointType::kPrismatic,
                              {-0.11, 0, 0.1}, {-1, 0, 0}, 0.0, 0.1));
   const BodyParts body = ConvexPartsOf(sim::ArticulatedBodyFrom(skills::WithInertia(asset).model));
   std::vector<Isometry3d> links(2, Isometry3d::Identity());

@@ -38,7 +38,7 @@ Isometry3d GoalPlacementAt(double x, double y, double yaw = 0.0) {
 TEST(GoalPlacement, AFreeGoalStaysWhereItIs) {
   const auto skill = CupAndMicrowave(GoalPlacementAt(0.8, 0.6));
   const skills::SkillVariant& variant = skill->variants.front();
-  tasks::SceneState state = variant.start;
+  tasks::WorldState state = variant.start;
   EXPECT_EQ(GoalIn(variant, state), Vector3d(0.5, 0.0, 0.2));
   state.roots[kCup].translation() += Vector3d(0.1, -0.1, 0.0);
   EXPECT_EQ(GoalIn(variant, state), Vector3d(0.5, 0.0, 0.2));
@@ -47,7 +47,7 @@ TEST(GoalPlacement, AFreeGoalStaysWhereItIs) {
 TEST(GoalPlacement, WhatAMicrowaveIsInTheWayOfIsAboveTheCup) {
   const auto skill = CupAndMicrowave(GoalPlacementAt(0.8, 0.6));
   const skills::SkillVariant& variant = skill->variants.front();
-  tasks::SceneState state = variant.start;
+  tasks::WorldState state = variant.start;
   state.roots[kMicrowave] = GoalPlacementAt(0.65, 0.2);
   state.roots[kCup].translation() += Vector3d(-0.1, -0.3, 0.0);
   const Vector3d goal = GoalIn(variant, state);
@@ -60,7 +60,7 @@ TEST(GoalPlacement, WhatComesOutOfARoomGoesBeforeItWhereverItStands) {
   const auto skill = CupAndMicrowave(GoalPlacementAt(0.9, 0.0), {0.8, 0.0, 0.03});
   const skills::SkillVariant& variant = skill->variants.front();
   const Isometry3d moved = GoalPlacementAt(0.8, 0.2, 0.4);
-  tasks::SceneState state = variant.start;
+  tasks::WorldState state = variant.start;
   state.roots[kMicrowave] = moved;
   state.roots[kCup] = moved * GoalPlacementAt(0.9, 0.0).inverse() * state.roots[kCup];
   const Vector3d goal = GoalIn(variant, state);
@@ -90,7 +90,7 @@ TEST(CollisionChecker, FingersAboutAThingMayBeIgnoredAPalmMayNot) {
   const skills::StartState start = skills::SampleStarts(*skill, 1, 5).front();
   const Isometry3d tool = variant.subtask.start.world_from_robot *
                           robot::ForwardKinematics(skill->robot->arm, start.grasp_configuration);
-  tasks::SceneState state = start.state;
+  tasks::WorldState state = start.state;
   const auto clear = [&](Fingers fingers) {
     return CollisionChecker(*skill, variant, state)
         .IsCollisionFree(start.grasp_configuration, fingers);

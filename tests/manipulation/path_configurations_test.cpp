@@ -39,7 +39,7 @@ TEST(PathConfigurations, HaveTheToolAtThePartAllAlongItsWay) {
   ASSERT_EQ(along.positions.size(), along.configurations.size());
   const tasks::ObjectJoint& joint = variant.model.objects[kDoor].joints[JointOf(variant)];
   EXPECT_NEAR(along.positions.back(), JointTarget(joint, 0.0), 1e-12);
-  tasks::SceneState state = variant.start;
+  tasks::WorldState state = variant.start;
   for (size_t i = 0; i < along.positions.size(); ++i) {
     state.joints[kDoor][JointOf(variant)] = along.positions[i];
     const Isometry3d tool = variant.subtask.start.world_from_robot *

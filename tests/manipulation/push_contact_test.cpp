@@ -23,7 +23,7 @@ tasks::ArticulatedObject Panel(double width) {
   post.collisions = {tasks::Block({0.02, 0.02, 0.3}, {0, 0, 0.15})};
   leaf.collisions = {tasks::Block({width, 0.02, 0.3}, {0.5 * width, 0, 0.15})};
   model.model.links = {post, leaf};
-  model.model.joints = {tasks::MakeJoint("hinge", "post", "leaf", assets::UrdfJointType::kRevolute,
+  model.model.joints = {tasks::MakeJoint("hinge", "post", "leaf", assets::JointType::kRevolute,
                                          Vector3d::Zero(), {0, 0, 1}, 0.0, 1.5)};
   return tasks::MakeArticulatedObject("panel", model);
 }
@@ -38,7 +38,7 @@ TEST(PushingPoses, AreBehindTheDoorAndGoItsWay) {
   for (size_t i = 0; i < 2; ++i) {
     InteractionTarget one = target;
     one.link_from_grasp = target.approaches[i];
-    tasks::SceneState state = variant.start;
+    tasks::WorldState state = variant.start;
     const Isometry3d before = GraspPoseAtJoint(variant.model, state, one);
     state.joints[0][static_cast<size_t>(target.joint)] -= 1e-6;
     const Isometry3d after = GraspPoseAtJoint(variant.model, state, one);
@@ -55,9 +55,9 @@ TEST(PushingPoses, AreBehindTheDoorAndGoItsWay) {
 }
 
 TEST(PushingPoses, ToHighEdgesAreNotFromAbove) {
-  tasks::SceneModel model;
+  tasks::WorldModel model;
   model.objects = {Panel(0.4)};
-  tasks::SceneState state;
+  tasks::WorldState state;
   state.roots = {Isometry3d::Identity()};
   state.joints = {{1.2}};
   const tasks::ObjectJoint& hinge = model.objects[0].joints[0];

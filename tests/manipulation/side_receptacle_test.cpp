@@ -25,13 +25,13 @@ using Eigen::Vector3d;
 // Its body is 0.4 deep, its walls are 2 cm, its opening faces -x (tests/tasks/household.h).
 constexpr double kHalfDepth = 0.2, kFloor = 0.02, kCell = 0.5 / 40;
 
-tasks::SceneModel Kitchen() {
-  return tasks::MakeSceneModel({skills::WithInertia(tasks::Microwave()),
+tasks::WorldModel Kitchen() {
+  return tasks::MakeWorldModel({skills::WithInertia(tasks::Microwave()),
                                 skills::WithInertia(tasks::Cup()),
                                 skills::WithInertia(tasks::DrawerUnit())});
 }
 
-tasks::SceneState SideReceptacleAt(const tasks::SceneModel& model, const Isometry3d& microwave) {
+tasks::WorldState SideReceptacleAt(const tasks::WorldModel& model, const Isometry3d& microwave) {
   tasks::InitialState start;
   start.placements = {{"microwave", microwave, true}};
   return tasks::StateOf(model, start);
@@ -39,10 +39,10 @@ tasks::SceneState SideReceptacleAt(const tasks::SceneModel& model, const Isometr
 
 // A rotated microwave, and its receptacle.
 struct TurnedKitchen {
-  tasks::SceneModel model = Kitchen();
+  tasks::WorldModel model = Kitchen();
   Isometry3d pose = Eigen::Translation3d(0.8, 0.1, 0.0) *
                     Eigen::AngleAxisd(0.5, Vector3d::UnitZ()) * Isometry3d::Identity();
-  tasks::SceneState state = SideReceptacleAt(model, pose);
+  tasks::WorldState state = SideReceptacleAt(model, pose);
   std::optional<SideReceptacle> room =
       FindSideReceptacle(model, state, 0, model.objects[0].FindLink("body"));
 };
@@ -53,7 +53,7 @@ std::vector<skills::SkillSubtask> PutCupIntoMicrowave() {
                                                      skills::WithInertia(tasks::Cup())};
   tasks::RuleOptions options;
   options.count = 20;
-  const tasks::RuleTasks made = tasks::GenerateTasksByRules(tasks::MakeSceneModel(assets), options);
+  const tasks::RuleTasks made = tasks::GenerateTasksByRules(tasks::MakeWorldModel(assets), options);
   std::vector<skills::SkillSubtask> scenes;
   for (const tasks::Task& task : made.tasks) {
     if (task.name != "put_cup_into_microwave_and_close_it") continue;
@@ -157,8 +157,7 @@ TEST(SideReceptacle, AHandThatLeansIsClearInIt) {
     Isometry3d there = ToolAt(*skill, start.grasp_configuration);
     there.translation() += manipulation::DisplacementToDestination(variant, start.state);
     const std::vector<Isometry3d> links =
-        BodyPoses(variant.bodies[0]->body(), variant.model.objects[0], start.state.roots[0],
-                  start.state.joints[0]);
+        WorldLinkPoses(variant.model.objects[0], start.state.roots[0], start.state.joints[0]);
     EXPECT_LT(PenetrationIntoBody(hand, there, variant.solids[0], links), 1e-3) << i;
     // Straight from above it would be in the ceiling.
     there.linear() =
@@ -175,7 +174,7 @@ TEST(SideReceptacle, InsideIsWhereTheDoorClosesBehindIt) {
   const double radius = 0.035 * 1.01;  // slightly more for its octagon
   skills::VariantReward reward(variant);
   const auto succeeds = [&](double behind) {
-    tasks::SceneState state = variant.start;
+    tasks::WorldState state = variant.start;
     const Vector3d inward = InwardDirection(*variant.room, variant.model, state);
     Isometry3d& cup = state.roots[static_cast<size_t>(variant.target->object)];
     cup.translation() += manipulation::DisplacementToDestination(variant, state);
@@ -235,7 +234,7 @@ TEST(SideReceptacle, TheFrameIsTheRefugeUntilTheHandIsThere) {
   const auto skill = skills::MakeSkill(robot::Panda(false), {skills::OpenDoor()},
                                        skills::SkillOptions().ForEvaluation());
   const skills::SkillVariant& variant = skill->variants.front();
-  tasks::SceneState state = variant.start;
+  tasks::WorldState state = variant.start;
   const Vector3d displacement(0.0, 0.0, 0.1);
   const TargetFrame grasp_configuration(variant, state, Vector3d::UnitY(), 0.0);
   TargetFrame frame(variant, state, Vector3d::UnitY(), 0.0, displacement);
@@ -270,7 +269,7 @@ TEST(SideReceptacle, AThingInTheHandGoesInThroughTheOpening) {
   core::Rng rng = core::StreamRng(4, 0);
   const skills::StartState start = skills::SampleStart(*skill, rng);
   const Isometry3d tool = ToolAt(*skill, start.grasp_configuration);
-  tasks::SceneState state = start.state;
+  tasks::WorldState state = start.state;
   state.gripper = tool;
   const TargetFrame frame(variant, state, tool.linear().col(1), start.pitch);
   const Vector3d inward = InwardDirection(*variant.room, variant.model, state);
@@ -329,7 +328,7 @@ TEST(SideReceptacle, AHandStaysWhereItHasLetGo) {
   ASSERT_EQ(scenes.size(), 4u);
   const auto skill = SideReceptacleMake(scenes[2]);
   const skills::SkillVariant& variant = skill->variants.front();
-  tasks::SceneState state = variant.start;
+  tasks::WorldState state = variant.start;
   state.grasped = true;
   state.touched = variant.target->object;
   TargetFrame frame(variant, state, Vector3d::UnitY(), 0.8);
@@ -354,7 +353,7 @@ TEST(SideReceptacle, AHandThatLeavesWaitsForItsFingers) {
                                        skills::SkillOptions().ForEvaluation());
   const skills::SkillVariant& variant = skill->variants.front();
   for (const bool opens : {true, false}) {
-    tasks::SceneState state = variant.start;
+    tasks::WorldState state = variant.start;
     state.opening = 0.01;
     const Vector3d displacement(0.0, 0.0, 0.1), here = state.gripper.translation();
     TargetFrame frame(variant, state, Vector3d::UnitY(), 0.0, displacement);
@@ -383,7 +382,7 @@ TEST(LaterWork, ATaskBeginsWhereAllOfItsWorkIsInReach) {
     within += skills::IsDownstreamReachable(*opens, 0, start.state, rng);
   }
   EXPECT_GE(within, 8);
-  tasks::SceneState far = opens->variants.front().start;
+  tasks::WorldState far = opens->variants.front().start;
   const auto cup = static_cast<size_t>(later[0]->variants.front().target->object);
   far.roots[cup].translation().y() -= 3.0;
   EXPECT_FALSE(skills::IsDownstreamReachable(*opens, 0, far, rng));

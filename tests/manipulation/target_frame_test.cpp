@@ -17,7 +17,7 @@ std::shared_ptr<const skills::Skill> TargetFrameMake(const skills::SkillSubtask&
   return skills::MakeSkill(robot::Panda(false), {scene}, skills::SkillOptions().ForEvaluation());
 }
 
-TargetFrame FrameOf(const skills::SkillVariant& variant, const tasks::SceneState& state,
+TargetFrame FrameOf(const skills::SkillVariant& variant, const tasks::WorldState& state,
                     double pitch = 0.0) {
   return TargetFrame(variant, state, Vector3d::UnitY(), pitch);
 }
@@ -47,7 +47,7 @@ TEST(TargetFrame, TheWayThatADoorIsClosedIsFreeWhereverItIsMet) {
   scene.subtask.start.joints = {{"microwave", "door_joint", 1.4}};
   const auto skill = TargetFrameMake(scene);
   const skills::SkillVariant& variant = skill->variants.front();
-  tasks::SceneState state = variant.start;
+  tasks::WorldState state = variant.start;
   for (const double position : {1.4, 0.2}) {
     state.joints[0][static_cast<size_t>(variant.target->joint)] = position;
     EXPECT_GT(FrameOf(variant, state).motion_direction().x(), 0.9) << position;
@@ -71,7 +71,7 @@ TEST(TargetFrame, APushedThingIsMetFromBehindInALevelFrame) {
 TEST(TargetFrame, AThingThatIsALittlePastItsGoalIsStillMetFromTheSameSide) {
   const auto skill = TargetFrameMake(PushCup(0.2));
   const skills::SkillVariant& variant = skill->variants.front();
-  tasks::SceneState state = variant.start;
+  tasks::WorldState state = variant.start;
   TargetFrame frame = FrameOf(variant, state, 0.6);
   const auto direction_at = [&](double x) {
     state.roots[0].translation().x() = x;
@@ -100,7 +100,7 @@ skills::SkillSubtask PutAside() {
 TEST(TargetFrame, WhatHasSlidInTheHandIsBroughtOn) {
   const auto skill = TargetFrameMake(PutAside());
   const skills::SkillVariant& variant = skill->variants.front();
-  tasks::SceneState state = variant.start;
+  tasks::WorldState state = variant.start;
   TargetFrame frame = FrameOf(variant, state);
   ASSERT_TRUE(frame.at_destination());
   const Vector3d displacement = manipulation::DisplacementToDestination(variant, state);

@@ -28,7 +28,7 @@ std::shared_ptr<const skills::Skill> TargetGeometryMake(const skills::SkillSubta
 
 // Compares the motion of the frame's origin with finite differences when the joint moves by `step`.
 void ExpectWayOfDifferences(const skills::SkillVariant& variant, double position) {
-  tasks::SceneState state = variant.start;
+  tasks::WorldState state = variant.start;
   double& joint = state.joints[0][static_cast<size_t>(variant.target->joint)];
   joint = position;
   const Eigen::Isometry3d frame = GraspPoseAtJoint(variant.model, state, *variant.target);

@@ -22,10 +22,10 @@ using Eigen::Vector3d;
 constexpr double kRim = 0.15 + 0.09, kHalfDepth = 0.16, kCell = 0.34 / 20;
 
 struct Drawer {
-  tasks::SceneModel model = tasks::MakeSceneModel({skills::WithInertia(tasks::DrawerUnit())});
+  tasks::WorldModel model = tasks::MakeWorldModel({skills::WithInertia(tasks::DrawerUnit())});
   int link = model.objects[0].FindLink("drawer");
 
-  tasks::SceneState OpenBy(double out) const {
+  tasks::WorldState OpenBy(double out) const {
     tasks::InitialState start;
     start.placements = {{"drawer_unit", Isometry3d(Eigen::Translation3d(0.8, 0.0, 0.0)), true}};
     start.joints = {{"drawer_unit", "drawer_joint", out}};
@@ -37,7 +37,7 @@ struct Drawer {
     }
     throw std::logic_error("the drawer has no room");
   }
-  Vector3d InWorld(const tasks::SceneState& state, const Vector3d& point) const {
+  Vector3d InWorld(const tasks::WorldState& state, const Vector3d& point) const {
     const auto poses = tasks::LinkPosesOf(model.objects[0], state.joints[0]);
     return state.roots[0] * poses[static_cast<size_t>(link)] * point;
   }
@@ -45,7 +45,7 @@ struct Drawer {
 
 TEST(OpenRoom, OfADrawerIsWhatStandsOut) {
   const Drawer drawer;
-  const tasks::SceneState open = drawer.OpenBy(0.2), shut = drawer.OpenBy(0.0);
+  const tasks::WorldState open = drawer.OpenBy(0.2), shut = drawer.OpenBy(0.0);
   ASSERT_TRUE(OpensUpwards(drawer.model, open, 0, drawer.room()));
   // Its middle is 0.34 / 2 behind its front; the middle of the part that is out by 0.2 is 0.1
   // behind it.
@@ -62,7 +62,7 @@ TEST(OpenRoom, OfADrawerIsWhatStandsOut) {
 
 TEST(OpenRoom, HasARimThatTheHandGoesOver) {
   const Drawer drawer;
-  const tasks::SceneState open = drawer.OpenBy(0.2);
+  const tasks::WorldState open = drawer.OpenBy(0.2);
   const Vector3d inside = drawer.InWorld(open, drawer.room().box.center());
   const auto rim = RimHeightAround(drawer.model, open, inside);
   ASSERT_TRUE(rim);

@@ -31,7 +31,7 @@ std::string OtherWay(const tasks::RuleTasks& tasks, const std::string& name) {
 class Mutation : public testing::Test {
  protected:
   Mutation()
-      : model_(tasks::MakeSceneModel({tasks::Microwave(), tasks::DrawerUnit(), tasks::Cup(),
+      : model_(tasks::MakeWorldModel({tasks::Microwave(), tasks::DrawerUnit(), tasks::Cup(),
                                       tasks::Cup("jug", 0.045, 0.16),
                                       tasks::Box("book", {0.2, 0.15, 0.03}, 0.6),
                                       tasks::Box("tin", {0.06, 0.06, 0.08}, 0.3)})),
@@ -42,7 +42,7 @@ class Mutation : public testing::Test {
     return verifier.Verify(task, &subtask);
   }
 
-  tasks::SceneModel model_;
+  tasks::WorldModel model_;
   tasks::RuleTasks tasks_;
 };
 

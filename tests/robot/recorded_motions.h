@@ -26,7 +26,7 @@ inline RetimedJoints JointsToRetime(const RobotModel& model) {
     const auto i = static_cast<std::size_t>(index);
     joints.names.push_back(model.urdf.joints[i].name);
     joints.limits.push_back(CommandLimits(model.limits[i], model.margin));
-    joints.sliding.push_back(model.urdf.joints[i].type == assets::UrdfJointType::kPrismatic);
+    joints.sliding.push_back(model.urdf.joints[i].type == assets::JointType::kPrismatic);
   }
   return joints;
 }

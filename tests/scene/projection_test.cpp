@@ -40,7 +40,7 @@ struct Things {
     poses.push_back(pose);
     fixed.push_back(is_fixed);
   }
-  Projection Apart(const ProjectionOptions& options = {}) const {
+  Projection Apart(const DepenetrationOptions& options = {}) const {
     std::vector<ProjectedBody> bodies;
     for (size_t i = 0; i < parts.size(); ++i) bodies.push_back({&parts[i], poses[i], fixed[i]});
     return ResolvePenetrations(bodies, options);
@@ -280,7 +280,7 @@ TEST(ResolvePenetrations, WhatIsNotSoundIsRefused) {
   EXPECT_THROW(ResolvePenetrations({ProjectedBody()}), core::Error);
   const std::vector<ConvexShape> none;
   EXPECT_THROW(ResolvePenetrations({{&none, Isometry3d::Identity(), false}}), core::Error);
-  ProjectionOptions options;
+  DepenetrationOptions options;
   options.contact_margin = 0.0;
   EXPECT_THROW(ResolvePenetrations({}, options), core::Error);
 }

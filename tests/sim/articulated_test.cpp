@@ -16,7 +16,7 @@
 namespace simwright::sim {
 namespace {
 
-using assets::UrdfJointType;
+using assets::JointType;
 
 assets::ArticulatedLink BoxLink(const std::string& name, const Eigen::Vector3d& size,
                                 const Eigen::Vector3d& center, double density) {
@@ -38,14 +38,14 @@ assets::ArticulatedLink BoxLink(const std::string& name, const Eigen::Vector3d& 
 }
 
 // Returns a heavy base and one link on one joint, 0.5 m above the base's middle.
-assets::ArticulatedAsset OneJoint(UrdfJointType type, const Eigen::Vector3d& axis,
+assets::ArticulatedAsset OneJoint(JointType type, const Eigen::Vector3d& axis,
                                   const Eigen::Vector3d& center, double friction, double damping) {
   assets::ArticulatedAsset asset;
   asset.name = "rig";
   asset.fixed = true;
   asset.links = {BoxLink("base", {0.2, 0.2, 0.1}, {0, 0, 0.05}, 2000.0),
                  BoxLink("arm", {0.04, 0.06, 0.5}, center, 800.0)};
-  assets::UrdfJoint joint;
+  assets::Joint joint;
   joint.name = "arm_joint";
   joint.parent = "base";
   joint.child = "arm";
@@ -77,7 +77,7 @@ struct Rigs {
 
 // T = 2 pi sqrt(I / (m g l)) for small swings about the pivot.
 TEST(Articulated, APendulumSwingsWithItsPeriodInBothEngines) {
-  Rigs rigs(OneJoint(UrdfJointType::kRevolute, Eigen::Vector3d::UnitY(), {0, 0, -0.25}, 0.0, 0.0));
+  Rigs rigs(OneJoint(JointType::kRevolute, Eigen::Vector3d::UnitY(), {0, 0, -0.25}, 0.0, 0.0));
   const double l = 0.25;
   const double moment = (0.04 * 0.04 + 0.5 * 0.5) / 12.0 + l * l;  // per kg, about the pivot
   const double period = 2.0 * M_PI * std::sqrt(moment / (9.81 * l));
@@ -105,7 +105,7 @@ TEST(Articulated, APendulumSwingsWithItsPeriodInBothEngines) {
 TEST(Articulated, APushedDrawerApproachesItsTerminalSpeed) {
   const double friction = 2.0, damping = 6.0, force = 5.0;
   const assets::ArticulatedAsset asset =
-      OneJoint(UrdfJointType::kPrismatic, Eigen::Vector3d::UnitX(), {0, 0, 0}, friction, damping);
+      OneJoint(JointType::kPrismatic, Eigen::Vector3d::UnitX(), {0, 0, 0}, friction, damping);
   ArticulatedWorld world;
   const int index = world.Add(ArticulatedBodyFrom(assets::ModelOf(asset)));
   const double mass = asset.links[1].inertial.mass;
@@ -122,7 +122,7 @@ TEST(Articulated, FrictionHoldsBelowItselfAndNotAbove) {
   // The gravity moment about the pivot with the arm level: m g l.
   const double density = 800.0, mass = 0.04 * 0.06 * 0.5 * density, moment = mass * 9.81 * 0.25;
   for (const double share : {0.9, 1.1}) {
-    Rigs rigs(OneJoint(UrdfJointType::kRevolute, Eigen::Vector3d::UnitY(), {0, 0, -0.25},
+    Rigs rigs(OneJoint(JointType::kRevolute, Eigen::Vector3d::UnitY(), {0, 0, -0.25},
                        share * moment, 0.01));
     for (JointRig* rig : {rigs.bullet.get(), rigs.mujoco.get()}) {
       const double drift = DriftAfterRelease(rigs.body, 0, 0.5 * M_PI, 1.0, rig);
@@ -136,7 +136,7 @@ TEST(Articulated, FrictionHoldsBelowItselfAndNotAbove) {
 }
 
 TEST(Articulated, BothEnginesSwingAlike) {
-  Rigs rigs(OneJoint(UrdfJointType::kRevolute, Eigen::Vector3d(1, 2, 0.5).normalized(),
+  Rigs rigs(OneJoint(JointType::kRevolute, Eigen::Vector3d(1, 2, 0.5).normalized(),
                      {0.05, 0.02, -0.2}, 0.02, 0.05));
   for (JointRig* rig : {rigs.bullet.get(), rigs.mujoco.get()}) rig->SetPosition(0, 0.8);
   while (rigs.bullet->time() < 1.0) rigs.bullet->Step();
@@ -153,7 +153,7 @@ TEST(Articulated, BothEnginesSwingAlike) {
 }
 
 TEST(Articulated, MotorsHoldTheirSpeedAndStopAtLimits) {
-  Rigs rigs(OneJoint(UrdfJointType::kPrismatic, Eigen::Vector3d::UnitX(), {0, 0, 0}, 3.0, 1.0));
+  Rigs rigs(OneJoint(JointType::kPrismatic, Eigen::Vector3d::UnitX(), {0, 0, 0}, 3.0, 1.0));
   for (JointRig* rig : {rigs.bullet.get(), rigs.mujoco.get()}) {
     rig->SetPosition(0, -1.0);
     rig->Drive(0, 0.5, 60.0);
@@ -173,7 +173,7 @@ TEST(Articulated, MotorsHoldTheirSpeedAndStopAtLimits) {
 TEST(Articulated, ARigidThingRestsInTheSameWorld) {
   ArticulatedWorld world;
   const assets::ArticulatedAsset asset =
-      OneJoint(UrdfJointType::kRevolute, Eigen::Vector3d::UnitY(), {0, 0, -0.25}, 1.0, 0.1);
+      OneJoint(JointType::kRevolute, Eigen::Vector3d::UnitY(), {0, 0, -0.25}, 1.0, 0.1);
   world.Add(ArticulatedBodyFrom(assets::ModelOf(asset)));
   RigidBody box;
   box.name = "box";
@@ -192,7 +192,7 @@ TEST(Articulated, ARigidThingRestsInTheSameWorld) {
 
 TEST(Articulated, AMovingLinkWithoutMassIsRefused) {
   assets::UrdfModel model = assets::ModelOf(
-      OneJoint(UrdfJointType::kRevolute, Eigen::Vector3d::UnitY(), {0, 0, -0.25}, 0.0, 0.0));
+      OneJoint(JointType::kRevolute, Eigen::Vector3d::UnitY(), {0, 0, -0.25}, 0.0, 0.0));
   model.links[1].inertial.reset();
   EXPECT_THROW(ArticulatedBodyFrom(model), core::Error);
 }

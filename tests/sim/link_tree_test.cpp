@@ -24,8 +24,8 @@ RigidBody LinkTreeBox(const std::string& name, const Vector3d& size, double mass
   return body;
 }
 
-assets::UrdfJoint Joint(assets::UrdfJointType type, const Vector3d& origin, double turn) {
-  assets::UrdfJoint joint;
+assets::Joint Joint(assets::JointType type, const Vector3d& origin, double turn) {
+  assets::Joint joint;
   joint.type = type;
   joint.axis = Vector3d::UnitY();
   joint.lower = -3.0;
@@ -35,26 +35,33 @@ assets::UrdfJoint Joint(assets::UrdfJointType type, const Vector3d& origin, doub
   return joint;
 }
 
+// Returns a body in which joints[i] connects links[i] to links[i + 1].
+ArticulatedBody ChainOf(const std::string& name, const std::vector<RigidBody>& links,
+                        std::vector<assets::Joint> joints) {
+  std::vector<assets::KinematicLink> tree;
+  for (const RigidBody& link : links) tree.push_back({link.name, link.inertial});
+  for (size_t i = 0; i < joints.size(); ++i) {
+    joints[i].name = "joint_" + std::to_string(i);
+    joints[i].parent = links[i].name;
+    joints[i].child = links[i + 1].name;
+  }
+  return {std::make_shared<assets::KinematicModel>(name, tree, joints), links};
+}
+
 // Returns a rod on a hinge, a plate fixed to its end at an angle, a frame without mass or shape
 // fixed to that, and a second rod on a hinge from the frame.
 ArticulatedBody Chain() {
-  ArticulatedBody body;
-  body.name = "chain";
   RigidBody frame;
   frame.name = "frame";
-  body.links = {LinkTreeBox("base", {0.1, 0.1, 0.1}, 1.0),
-                LinkTreeBox("rod", {0.3, 0.04, 0.04}, 0.7),
-                LinkTreeBox("plate", {0.1, 0.1, 0.01}, 0.4), frame,
-                LinkTreeBox("end", {0.2, 0.02, 0.02}, 0.2)};
-  using Type = assets::UrdfJointType;
-  body.joints = {
-      Joint(Type::kRevolute, {0.2, 0.0, 0.0}, 0.0), Joint(Type::kFixed, {0.2, 0.03, 0.02}, 0.5),
-      Joint(Type::kFixed, {0.05, 0.0, 0.01}, -0.2), Joint(Type::kRevolute, {0.15, 0.0, 0.0}, 0.3)};
-  body.parents = {0, 1, 2, 3};
-  for (size_t i = 0; i < body.joints.size(); ++i) {
-    body.joints[i].name = "joint_" + std::to_string(i);
-  }
-  return body;
+  using Type = assets::JointType;
+  return ChainOf(
+      "chain",
+      {LinkTreeBox("base", {0.1, 0.1, 0.1}, 1.0), LinkTreeBox("rod", {0.3, 0.04, 0.04}, 0.7),
+       LinkTreeBox("plate", {0.1, 0.1, 0.01}, 0.4), frame,
+       LinkTreeBox("end", {0.2, 0.02, 0.02}, 0.2)},
+      {Joint(Type::kRevolute, {0.2, 0.0, 0.0}, 0.0), Joint(Type::kFixed, {0.2, 0.03, 0.02}, 0.5),
+       Joint(Type::kFixed, {0.05, 0.0, 0.01}, -0.2),
+       Joint(Type::kRevolute, {0.15, 0.0, 0.0}, 0.3)});
 }
 
 TEST(LinkTree, FoldedLinksMoveAsTheyDoApart) {
@@ -88,12 +95,10 @@ TEST(LinkTree, FoldedLinksMoveAsTheyDoApart) {
 // A plate fixed beside a heavy base: an object on it touches the plate, at the plate's height and
 // with the plate's friction.
 TEST(LinkTree, ContactsNameTheFoldedLink) {
-  ArticulatedBody shelf;
-  shelf.name = "shelf";
-  shelf.links = {LinkTreeBox("base", {0.1, 0.1, 0.4}, 5.0),
-                 LinkTreeBox("plate", {0.3, 0.3, 0.02}, 1.0)};
-  shelf.joints = {Joint(assets::UrdfJointType::kFixed, {0.4, 0.0, 0.1}, 0.0)};
-  shelf.parents = {0};
+  const ArticulatedBody shelf = ChainOf(
+      "shelf",
+      {LinkTreeBox("base", {0.1, 0.1, 0.4}, 5.0), LinkTreeBox("plate", {0.3, 0.3, 0.02}, 1.0)},
+      {Joint(assets::JointType::kFixed, {0.4, 0.0, 0.1}, 0.0)});
   ArticulatedWorld world;
   Placement placement;
   placement.world_from_root.translation() = Vector3d(0.0, 0.0, 0.2);

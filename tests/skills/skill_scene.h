@@ -25,7 +25,7 @@ inline assets::SemanticModel WithInertia(assets::SemanticModel model) {
     link.inertial->center_of_mass = total.center_of_mass;
     link.inertial->inertia = scale * total.inertia;
   }
-  for (assets::UrdfJoint& joint : model.model.joints) joint.friction = 0.3;
+  for (assets::Joint& joint : model.model.joints) joint.friction = 0.3;
   return model;
 }
 

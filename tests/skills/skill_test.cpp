@@ -26,8 +26,7 @@ TEST(InteractionTarget, OfADoorIsItsHandleFromTheFront) {
   const auto skill = Make({OpenDoor()});
   const SkillVariant& variant = skill->variants.front();
   ASSERT_TRUE(variant.target);
-  EXPECT_EQ(variant.model.objects[0].links[static_cast<size_t>(variant.target->link)].name,
-            "handle");
+  EXPECT_EQ(variant.model.objects[0].LinkName(variant.target->link), "handle");
   EXPECT_FALSE(variant.destination);
   const Eigen::Isometry3d tool =
       manipulation::GraspPose(variant, variant.start, Vector3d::UnitX(), 0.0);
@@ -36,7 +35,7 @@ TEST(InteractionTarget, OfADoorIsItsHandleFromTheFront) {
   EXPECT_LT((tool.linear().col(2) - Vector3d::UnitX()).norm(), 0.15);  // along the door's motion
   EXPECT_LT(std::abs(tool.linear().col(1).z()), 0.05);                 // across the bar
   // With the door open by a quarter turn the gripper approaches along its new normal.
-  tasks::SceneState open = variant.start;
+  tasks::WorldState open = variant.start;
   open.joints[0][static_cast<size_t>(variant.target->joint)] = M_PI / 2;
   const Eigen::Isometry3d turned =
       manipulation::GraspPose(variant, open, tool.linear().col(1), 0.0);
@@ -51,7 +50,7 @@ TEST(InteractionTarget, OfAThingIsTakenFromAboveAcrossItsThinSide) {
   const SkillVariant& variant = skill->variants.front();
   ASSERT_TRUE(variant.destination);
   EXPECT_TRUE(variant.destination->goal);
-  tasks::SceneState state = variant.start;
+  tasks::WorldState state = variant.start;
   state.roots[0].rotate(Eigen::AngleAxisd(0.6, Vector3d::UnitZ()));
   const Eigen::Isometry3d tool = manipulation::GraspPose(variant, state, Vector3d::UnitX(), 0.0);
   EXPECT_LT((tool.linear().col(2) + Vector3d::UnitZ()).norm(), 1e-9);
@@ -222,7 +221,7 @@ TEST(HeldObject, IsNoFurniture) {
   for (const auto& [scene, held] : {std::pair{OpenDoor(), -1}, {PickUpCup(), 0}}) {
     const auto skill = Make({scene});
     const SkillVariant& variant = skill->variants.front();
-    tasks::SceneState state = variant.start;
+    tasks::WorldState state = variant.start;
     state.touched = 0;
     EXPECT_EQ(HeldObject(variant, state), -1);
     state.grasped = true;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 namespace simwright::tasks {
 namespace {
 
@@ -15,8 +17,9 @@ ArticulatedObject ThingOfParts(const std::string& category, double mass,
   ArticulatedObject object;
   object.name = object.category = category;
   object.mass = mass;
+  object.kinematics = std::make_shared<assets::KinematicModel>(
+      category, std::vector<assets::KinematicLink>{{"body", {}}}, std::vector<assets::Joint>());
   ObjectLink link;
-  link.name = "body";
   for (const Eigen::AlignedBox3d& part : parts) {
     link.box.extend(part);
     for (int corner = 0; corner < 8; ++corner) {

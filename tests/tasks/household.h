@@ -26,11 +26,11 @@ inline assets::UrdfLink MakeLink(const std::string& name, double mass) {
   return link;
 }
 
-inline assets::UrdfJoint MakeJoint(const std::string& name, const std::string& parent,
-                                   const std::string& child, assets::UrdfJointType type,
-                                   const Eigen::Vector3d& origin, const Eigen::Vector3d& axis,
-                                   double lower, double upper) {
-  assets::UrdfJoint joint;
+inline assets::Joint MakeJoint(const std::string& name, const std::string& parent,
+                               const std::string& child, assets::JointType type,
+                               const Eigen::Vector3d& origin, const Eigen::Vector3d& axis,
+                               double lower, double upper) {
+  assets::Joint joint;
   joint.name = name;
   joint.parent = parent;
   joint.child = child;
@@ -61,13 +61,12 @@ inline assets::SemanticModel Microwave(const std::string& name = "microwave") {
   assets::UrdfLink button = MakeLink("button", 0.02);
   button.collisions = {Block({0.01, 0.02, 0.02}, {0, 0, 0})};
   asset.model.links = {body, button, door, handle};
-  asset.model.joints = {
-      MakeJoint("button_joint", "body", "button", assets::UrdfJointType::kPrismatic,
-                {-0.21, 0.2, 0.29}, {1, 0, 0}, 0.0, 0.01),
-      MakeJoint("door_joint", "body", "door", assets::UrdfJointType::kRevolute, {-0.2, 0.25, 0.15},
-                {0, 0, -1}, 0.0, 1.7),
-      MakeJoint("handle_joint", "door", "handle", assets::UrdfJointType::kFixed, {-0.06, -0.45, 0},
-                {1, 0, 0}, 0.0, 0.0)};
+  asset.model.joints = {MakeJoint("button_joint", "body", "button", assets::JointType::kPrismatic,
+                                  {-0.21, 0.2, 0.29}, {1, 0, 0}, 0.0, 0.01),
+                        MakeJoint("door_joint", "body", "door", assets::JointType::kRevolute,
+                                  {-0.2, 0.25, 0.15}, {0, 0, -1}, 0.0, 1.7),
+                        MakeJoint("handle_joint", "door", "handle", assets::JointType::kFixed,
+                                  {-0.06, -0.45, 0}, {1, 0, 0}, 0.0, 0.0)};
   asset.semantics = {{"door", {"hinge", "door"}},
                      {"handle", {"fixed", "handle"}},
                      {"button", {"slider", "button"}}};
@@ -92,11 +91,10 @@ inline assets::SemanticModel DrawerUnit(const std::string& name = "drawer_unit")
   assets::UrdfLink handle = MakeLink("handle", 0.1);
   handle.collisions = {Block({0.02, 0.12, 0.02}, {0, 0, 0})};
   asset.model.links = {body, drawer, handle};
-  asset.model.joints = {
-      MakeJoint("drawer_joint", "body", "drawer", assets::UrdfJointType::kPrismatic,
-                {-0.02, 0, 0.15}, {-1, 0, 0}, 0.0, 0.25),
-      MakeJoint("handle_joint", "drawer", "handle", assets::UrdfJointType::kFixed, {-0.2, 0, 0},
-                {1, 0, 0}, 0.0, 0.0)};
+  asset.model.joints = {MakeJoint("drawer_joint", "body", "drawer", assets::JointType::kPrismatic,
+                                  {-0.02, 0, 0.15}, {-1, 0, 0}, 0.0, 0.25),
+                        MakeJoint("handle_joint", "drawer", "handle", assets::JointType::kFixed,
+                                  {-0.2, 0, 0}, {1, 0, 0}, 0.0, 0.0)};
   asset.semantics = {{"drawer", {"slider", "drawer"}}, {"handle", {"fixed", "handle"}}};
   return asset;
 }
@@ -119,9 +117,9 @@ inline assets::SemanticModel Chest(const std::string& name = "chest") {
                        Block({0.008, 0.008, 0.029}, {0, 0.05, 0.0145}),
                        Block({0.008, 0.008, 0.029}, {0, -0.05, 0.0145})};
   asset.model.links = {body, lid, handle};
-  asset.model.joints = {MakeJoint("lid_joint", "body", "lid", assets::UrdfJointType::kRevolute,
+  asset.model.joints = {MakeJoint("lid_joint", "body", "lid", assets::JointType::kRevolute,
                                   {0.1, 0, 0.14}, {0, 1, 0}, 0.0, 1.5),
-                        MakeJoint("handle_joint", "lid", "handle", assets::UrdfJointType::kFixed,
+                        MakeJoint("handle_joint", "lid", "handle", assets::JointType::kFixed,
                                   {-0.155, 0, 0.02}, {1, 0, 0}, 0.0, 0.0)};
   asset.semantics = {{"lid", {"hinge", "lid"}}, {"handle", {"fixed", "handle"}}};
   return asset;

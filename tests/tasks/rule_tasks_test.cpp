@@ -7,19 +7,19 @@
 #include "tasks/rules/affordances.h"
 #include "tasks/rules/planner.h"
 #include "tasks/rules/rule_tasks.h"
-#include "tasks/scene_state.h"
+#include "tasks/world_state.h"
 #include "tests/tasks/household.h"
 
 namespace simwright::tasks {
 namespace {
 
-SceneModel RuleTasksKitchen() {
-  return MakeSceneModel({Microwave(), DrawerUnit(), Cup(), Cup("jug", 0.045, 0.16),
+WorldModel RuleTasksKitchen() {
+  return MakeWorldModel({Microwave(), DrawerUnit(), Cup(), Cup("jug", 0.045, 0.16),
                          Box("book", {0.2, 0.15, 0.03}, 0.6), Box("tin", {0.06, 0.06, 0.08}, 0.3)});
 }
 
 TEST(Cavities, AMicrowavesRoomIsWhatItsWallsEnclose) {
-  const SceneModel model = MakeSceneModel({Microwave()});
+  const WorldModel model = MakeWorldModel({Microwave()});
   const ArticulatedObject& object = model.objects[0];
   ASSERT_EQ(object.receptacles.size(), 1u);
   const Receptacle& room = object.receptacles[0];
@@ -34,7 +34,7 @@ TEST(Cavities, AMicrowavesRoomIsWhatItsWallsEnclose) {
 }
 
 TEST(Cavities, ACupOpensAboveAndABlockHasNone) {
-  const SceneModel model = MakeSceneModel({Cup(), Box("block", {0.1, 0.1, 0.1}, 0.5)});
+  const WorldModel model = MakeWorldModel({Cup(), Box("block", {0.1, 0.1, 0.1}, 0.5)});
   ASSERT_EQ(model.objects[0].receptacles.size(), 1u);
   EXPECT_EQ(model.objects[0].receptacles[0].opening, Eigen::Vector3d::UnitZ());
   EXPECT_EQ(model.objects[0].receptacles[0].door, -1);
@@ -45,7 +45,7 @@ TEST(Cavities, ACupOpensAboveAndABlockHasNone) {
 // The cabinet's interior is filled by its drawer; the drawer's receptacle is opened by pulling it
 // out.
 TEST(Cavities, ADrawersRoomIsOpenedByTheDrawer) {
-  const SceneModel model = MakeSceneModel({DrawerUnit()});
+  const WorldModel model = MakeWorldModel({DrawerUnit()});
   const ArticulatedObject& object = model.objects[0];
   ASSERT_EQ(object.receptacles.size(), 1u);
   EXPECT_EQ(object.receptacles[0].link, object.FindLink("drawer"));
@@ -67,7 +67,7 @@ TEST(Cavities, DrawersAboveEachOtherAreOpenedEachByItself) {
   upper.name = "drawer_1";
   chest.model.links.push_back(upper);
   chest.model.joints.push_back(MakeJoint("upper_joint", "body", "drawer_1",
-                                         assets::UrdfJointType::kPrismatic, {-0.02, 0, 0.27},
+                                         assets::JointType::kPrismatic, {-0.02, 0, 0.27},
                                          {-1, 0, 0}, 0.0, 0.25));
   const ArticulatedObject object = MakeArticulatedObject("chest", chest);
   ASSERT_EQ(object.receptacles.size(), 2u);
@@ -77,7 +77,7 @@ TEST(Cavities, DrawersAboveEachOtherAreOpenedEachByItself) {
 }
 
 TEST(Affordances, FollowFromLabelsAndSizes) {
-  const SceneModel model = RuleTasksKitchen();
+  const WorldModel model = RuleTasksKitchen();
   const ArticulatedObject& microwave = model.objects[0];
   EXPECT_EQ(GetJointUse(microwave, microwave.joints[microwave.FindJoint("door_joint")]),
             JointUse::kOpen);
@@ -85,8 +85,8 @@ TEST(Affordances, FollowFromLabelsAndSizes) {
             JointUse::kPress);
   EXPECT_TRUE(CanBeLifted(model.objects[2]));
   EXPECT_FALSE(CanBeLifted(microwave));
-  EXPECT_FALSE(CanBeLifted(MakeSceneModel({Box("brick", {0.2, 0.2, 0.2}, 1.0)}).objects[0]));
-  EXPECT_FALSE(CanBeLifted(MakeSceneModel({Box("lead", {0.05, 0.05, 0.05}, 6.0)}).objects[0]));
+  EXPECT_FALSE(CanBeLifted(MakeWorldModel({Box("brick", {0.2, 0.2, 0.2}, 1.0)}).objects[0]));
+  EXPECT_FALSE(CanBeLifted(MakeWorldModel({Box("lead", {0.05, 0.05, 0.05}, 6.0)}).objects[0]));
   EXPECT_TRUE(CanStandOn(model.objects[5], model.objects[4]));   // the tin on the book
   EXPECT_FALSE(CanStandOn(model.objects[4], model.objects[5]));  // not the book on the tin
   EXPECT_FALSE(CanStandOn(model.objects[5], model.objects[2]));  // a cup has no top
@@ -95,7 +95,7 @@ TEST(Affordances, FollowFromLabelsAndSizes) {
 }
 
 TEST(Planner, OpensBeforeItFillsAndClosesAfter) {
-  const SceneModel model = RuleTasksKitchen();
+  const WorldModel model = RuleTasksKitchen();
   const int microwave = 0, cup = 2;
   const int door = model.objects[0].FindJoint("door_joint");
   PredicateSet predicates{{PredicateKind::kGripperEmpty},
@@ -117,7 +117,7 @@ TEST(Planner, OpensBeforeItFillsAndClosesAfter) {
 }
 
 TEST(RuleTasks, AreSoundAndOfEveryKind) {
-  const SceneModel model = RuleTasksKitchen();
+  const WorldModel model = RuleTasksKitchen();
   RuleOptions options;
   options.count = 60;
   const RuleTasks result = GenerateTasksByRules(model, options);
@@ -141,7 +141,7 @@ TEST(RuleTasks, AreSoundAndOfEveryKind) {
 // A door open to its limit, 97 degrees, would turn its handle away: a joint to be closed starts
 // where the opening task ends, slightly beyond 70 %.
 TEST(RuleTasks, ClosingBeginsWhereOpeningEnds) {
-  const RuleTasks result = GenerateTasksByRules(MakeSceneModel({Microwave()}), {10, 1});
+  const RuleTasks result = GenerateTasksByRules(MakeWorldModel({Microwave()}), {10, 1});
   const auto closing = std::find_if(result.tasks.begin(), result.tasks.end(), [](const Task& task) {
     return task.name == "close_microwave_door";
   });
@@ -160,7 +160,7 @@ TEST(RuleTasks, NamesWithQuotesAndLineBreaksStayNames) {
   model.model.links[3].name = "han\ndle 'x'";
   model.model.joints[2].child = model.model.links[3].name;
   model.semantics[model.model.links[3].name] = {"fixed", "handle"};
-  const RuleTasks result = GenerateTasksByRules(MakeSceneModel({model}), {3, 1});
+  const RuleTasks result = GenerateTasksByRules(MakeWorldModel({model}), {3, 1});
   std::set<std::string> names;
   for (const Task& task : result.tasks) names.insert(task.name);
   EXPECT_TRUE(names.contains("open_microwave_door"));
@@ -170,13 +170,13 @@ TEST(RuleTasks, NamesWithQuotesAndLineBreaksStayNames) {
 
 // Two objects stored in one receptacle do not interpenetrate.
 TEST(RuleTasks, StoredThingsStandApart) {
-  const SceneModel model = RuleTasksKitchen();
+  const WorldModel model = RuleTasksKitchen();
   const RuleTasks result = GenerateTasksByRules(model, {60, 1});
   int stored = 0;
   for (const Task& task : result.tasks) {
     if (task.name.rfind("store_", 0) != 0) continue;
     ++stored;
-    const SceneState state = StateOf(model, task.subtasks.back().start);  // before it is closed
+    const WorldState state = StateOf(model, task.subtasks.back().start);  // before it is closed
     std::vector<int> objects;
     for (const std::string& name : task.assets) {
       if (!model.objects[static_cast<std::size_t>(model.Find(name))].articulated()) {
@@ -192,7 +192,7 @@ TEST(RuleTasks, StoredThingsStandApart) {
 }
 
 TEST(RuleTasks, AreTheSameForASeed) {
-  const SceneModel model = RuleTasksKitchen();
+  const WorldModel model = RuleTasksKitchen();
   const RuleTasks a = GenerateTasksByRules(model, {12, 5});
   const RuleTasks b = GenerateTasksByRules(model, {12, 5});
   ASSERT_EQ(a.tasks.size(), b.tasks.size());

@@ -10,12 +10,12 @@
 #include "tasks/language/worked_example.h"
 #include "tasks/layout.h"
 #include "tasks/rules/affordances.h"
-#include "tasks/scene_signals.h"
 #include "tasks/verification/motion.h"
 #include "tasks/verification/rank_correlation.h"
 #include "tasks/verification/start_planning.h"
 #include "tasks/verification/subtask_verifier.h"
 #include "tasks/verification/title_direction.h"
+#include "tasks/world_signals.h"
 #include "tests/tasks/household.h"
 
 namespace simwright::tasks {
@@ -32,9 +32,9 @@ std::ostream& operator<<(std::ostream& out, const Case& one) {
   return out << one.name;
 }
 
-const SceneModel& SubtaskVerifierKitchen() {
-  static const auto* model = new SceneModel(
-      MakeSceneModel({Microwave(), DrawerUnit(), Cup(), Box("tin", {0.06, 0.06, 0.08}, 0.3)}));
+const WorldModel& SubtaskVerifierKitchen() {
+  static const auto* model = new WorldModel(
+      MakeWorldModel({Microwave(), DrawerUnit(), Cup(), Box("tin", {0.06, 0.06, 0.08}, 0.3)}));
   return *model;
 }
 
@@ -210,12 +210,12 @@ TEST(TitleDirection, IsTheFirstVerbs) {
 }
 
 // The handle of a door that is open by q lies on a circle around its hinge.
-TEST(SceneSignals, FollowTheJoints) {
-  const SceneModel& model = SubtaskVerifierKitchen();
+TEST(WorldSignals, FollowTheJoints) {
+  const WorldModel& model = SubtaskVerifierKitchen();
   InitialState start;
   start.placements = {{"microwave", Eigen::Isometry3d(Eigen::Translation3d(0.7, 0.1, 0.0)), true}};
   start.joints = {{"microwave", "door_joint", 1.2}};
-  const SceneState state = StateOf(model, start);
+  const WorldState state = StateOf(model, start);
   const Eigen::Vector2d hinge(0.7 - 0.2, 0.1 + 0.25);
   const Eigen::Vector3d closed(-0.06, -0.45, 0.15);
   const double x = hinge.x() + std::cos(1.2) * closed.x() + std::sin(1.2) * closed.y();
@@ -225,7 +225,7 @@ TEST(SceneSignals, FollowTheJoints) {
   slots[1] = {reward::RewardInput::kJointState, "microwave", "door_joint", 1, "[N]", false};
   slots[2] = {reward::RewardInput::kJointVelocity, "microwave", "door_joint", 1, "[N]", false};
   std::vector<std::vector<float>> values;
-  SceneState before = state;
+  WorldState before = state;
   before.joints[0][1] = 1.1;
   ASSERT_EQ(model.objects[0].joints[1].name, "door_joint");
   SlotValues(model, state, &before, 0.5, slots, &values);
@@ -239,15 +239,14 @@ TEST(SceneSignals, FollowTheJoints) {
 }
 
 // A second door that follows the first one by half its angle in the opposite direction.
-TEST(SceneSignals, AMimicJointFollowsItsLeader) {
+TEST(WorldSignals, AMimicJointFollowsItsLeader) {
   assets::SemanticModel model = Microwave();
   assets::UrdfLink twin = MakeLink("twin", 1.0);
   twin.collisions = {Block({0.02, 0.4, 0.2}, {0.0, -0.2, 0.0})};
   model.model.links.push_back(twin);
-  model.model.joints.push_back(MakeJoint("twin_joint", "body", "twin",
-                                         assets::UrdfJointType::kRevolute, {0.3, 0, 0.1}, {0, 0, 1},
-                                         -2.0, 2.0));
-  model.model.joints.back().mimic = assets::UrdfMimic{"door_joint", -0.5, 0.1};
+  model.model.joints.push_back(MakeJoint("twin_joint", "body", "twin", assets::JointType::kRevolute,
+                                         {0.3, 0, 0.1}, {0, 0, 1}, -2.0, 2.0));
+  model.model.joints.back().mimic = assets::JointMimic{"door_joint", -0.5, 0.1};
   const ArticulatedObject object = MakeArticulatedObject("microwave", model);
   std::vector<double> positions = RestPositions(object);
   positions[static_cast<std::size_t>(object.FindJoint("door_joint"))] = 1.2;
@@ -262,7 +261,7 @@ TEST(SceneSignals, AMimicJointFollowsItsLeader) {
 
 // A cup in a drawer moves with it.
 TEST(Motion, WhatIsInADrawerMovesWithIt) {
-  const SceneModel& model = SubtaskVerifierKitchen();
+  const WorldModel& model = SubtaskVerifierKitchen();
   const int chest = model.Find("drawer_unit"), cup = model.Find("cup");
   LayoutRequest request;
   request.objects = {chest, cup};
@@ -271,7 +270,7 @@ TEST(Motion, WhatIsInADrawerMovesWithIt) {
   core::Rng rng(1);
   const std::optional<InitialState> start = PlanLayout(model, request, rng);
   ASSERT_TRUE(start.has_value());
-  const SceneState first = StateOf(model, *start);
+  const WorldState first = StateOf(model, *start);
   const Motion motion =
       MakeMotion(model, first, {{ActionKind::kMoveJoint, chest, 0, 0.2, Eigen::Vector3d::Zero()}});
   const Eigen::Vector3d moved =
@@ -281,7 +280,7 @@ TEST(Motion, WhatIsInADrawerMovesWithIt) {
 }
 
 TEST(Layout, WhatRestsInAMicrowaveStandsInItsFront) {
-  const SceneModel& model = SubtaskVerifierKitchen();
+  const WorldModel& model = SubtaskVerifierKitchen();
   const int microwave = model.Find("microwave"), cup = model.Find("cup");
   LayoutRequest request;
   request.objects = {microwave, cup};
@@ -289,7 +288,7 @@ TEST(Layout, WhatRestsInAMicrowaveStandsInItsFront) {
   core::Rng rng(1);
   const std::optional<InitialState> start = PlanLayout(model, request, rng);
   ASSERT_TRUE(start.has_value());
-  const SceneState state = StateOf(model, *start);
+  const WorldState state = StateOf(model, *start);
   // The body is 0.4 deep around its centre and opens to -x (household.h), in the frame of its
   // placement.
   const Eigen::Isometry3d& pose = state.roots[static_cast<size_t>(microwave)];
@@ -303,7 +302,7 @@ TEST(Layout, WhatRestsInAMicrowaveStandsInItsFront) {
 
 // Nothing overlaps and everything is within reach.
 TEST(PlanLayout, KeepsThingsApart) {
-  const SceneModel& model = SubtaskVerifierKitchen();
+  const WorldModel& model = SubtaskVerifierKitchen();
   LayoutRequest request;
   request.objects = {0, 1, 2, 3};
   request.operated = {{0, 1}, {1, 0}};
@@ -311,7 +310,7 @@ TEST(PlanLayout, KeepsThingsApart) {
   const std::optional<InitialState> start = PlanLayout(model, request, rng);
   ASSERT_TRUE(start.has_value());
   ASSERT_EQ(start->placements.size(), 4u);
-  const SceneState state = StateOf(model, *start);
+  const WorldState state = StateOf(model, *start);
   for (int a = 0; a < 4; ++a) {
     const Eigen::AlignedBox3d box = WorldAabb(model, state, a);
     EXPECT_NEAR(box.min().z(), 0.0, 1e-9);
@@ -321,7 +320,7 @@ TEST(PlanLayout, KeepsThingsApart) {
 
 // The example answer of the prompt passes verification.
 TEST(SubtaskVerifier, TheWorkedExampleIsSound) {
-  const SceneModel model = MakeSceneModel(ExampleModels());
+  const WorldModel model = MakeWorldModel(ExampleModels());
   SubtaskVerifier verifier(model);
   for (Task& task : ReadTaskAnswer(ExampleAnswer()).tasks) {
     task.assets = {"chest", "block"};

@@ -92,7 +92,7 @@ TEST_F(SkillExport, PositionsAloneKeepTheRobotsLimits) {
   for (size_t j = 0; j < motion.joints.size(); ++j) {
     const auto joint =
         std::find_if(panda.urdf.joints.begin(), panda.urdf.joints.end(),
-                     [&](const assets::UrdfJoint& one) { return one.name == motion.joints[j]; });
+                     [&](const assets::Joint& one) { return one.name == motion.joints[j]; });
     ASSERT_NE(joint, panda.urdf.joints.end()) << motion.joints[j];
     const robot::JointLimits& limits =
         panda.limits[static_cast<size_t>(joint - panda.urdf.joints.begin())];

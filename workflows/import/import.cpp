@@ -138,16 +138,14 @@ void ListCatalogue(const fs::path& input, const ImportOptions& options,
 }
 
 // Returns the category hint of a file's location; for a URDF, that of the files beside it.
-std::string MeantBy(const ImportItem& item) {
-  if (!IsUrdf(item.mesh)) return item.mesh.stem().string();
-  const assets::SemanticModel source = assets::ReadSemanticModel(item.mesh, {item.root, true});
-  return source.category.empty() ? source.name : source.category;
+std::string MeantBy(const ImportItem& item, const assets::SemanticModel* source) {
+  if (source == nullptr) return item.mesh.stem().string();
+  return source->category.empty() ? source->name : source->category;
 }
 
-// Reads a URDF without moving joints as one mesh in the file's units.
-core::TexturedMesh ReadRigidUrdf(const fs::path& urdf, const fs::path& root,
+// Returns a URDF without moving joints as one mesh in the file's units.
+core::TexturedMesh RigidUrdfMesh(const fs::path& urdf, const assets::UrdfModel& model,
                                  core::Findings* findings) {
-  const assets::UrdfModel model = assets::ReadUrdf(urdf, {root, true});
   for (core::Finding finding : model.findings) {
     if (finding.code == "urdf-no-inertial") continue;  // it is recomputed
     if (finding.place == urdf.string()) finding.place = urdf.filename().string();
@@ -161,6 +159,37 @@ core::TexturedMesh ReadRigidUrdf(const fs::path& urdf, const fs::path& root,
   findings->push_back({"urdf-rigid", core::Severity::kInfo, urdf.filename().string(),
                        "no joint moves: it becomes one rigid object", 0.0});
   return importers::RigidVisual(model, findings);
+}
+
+// Reads the mesh of an item in world coordinates: metres, z up, at its stated size. Of `urdf`, if
+// given, returns all visuals with joints at zero.
+core::TexturedMesh ReadInWorld(const fs::path& mesh_path, const assets::UrdfModel* urdf,
+                               const physics_params::Category& category,
+                               const ImportOptions& options, core::Findings* findings) {
+  assets::MeshFile file;
+  if (urdf != nullptr) {
+    file.mesh = RigidUrdfMesh(mesh_path, *urdf, findings);
+    file.up = 'z';
+  } else {
+    file = assets::ReadMeshFile(mesh_path);
+  }
+  findings->insert(findings->end(), file.findings.begin(), file.findings.end());
+  core::TexturedMesh mesh = std::move(file.mesh);
+  char up = options.up != 0 ? options.up : file.up;
+  if (up == 0) up = importers::GuessUpAxis(mesh_path, mesh.mesh, category, findings);
+  Eigen::Affine3d world_from_file = Eigen::Affine3d::Identity();
+  world_from_file.linear() = options.unit * assets::ZUpRotation(up);
+  core::Transform(world_from_file, &mesh.mesh);
+  if (options.height > 0.0) {
+    const double height = core::Bounds(mesh.mesh).sizes().z();
+    if (!(height > 0.0)) {
+      throw core::Error("a flat mesh cannot be scaled to a height", mesh_path.string(),
+                        "use --unit instead");
+    }
+    core::Transform(Eigen::Affine3d(Eigen::Scaling(options.height / height)), &mesh.mesh);
+  }
+  asset_build::ScaleToSize(options.size, mesh_path.string(), &mesh.mesh, findings);
+  return mesh;
 }
 
 // Earlier findings are kept, because they may explain the refusal.
@@ -178,16 +207,18 @@ class Importer {
   void Import(const ImportItem& item, const assets::FurnitureCatalogue* catalogue,
               core::Progress* progress, ImportOutcome* outcome) const {
     // A URDF is imported as articulated, or as rigid if no joint moves.
-    if (IsUrdf(item.mesh)) {
-      assets::SemanticModel source = assets::ReadSemanticModel(item.mesh, {item.root, true});
-      outcome->findings = source.model.findings;  // they explain a refusal
-      if (importers::HasMovingJoint(source)) {
-        ImportJointed(item, std::move(source), progress, outcome);
-        return;
-      }
-      outcome->findings.clear();  // they are added again below
+    if (!IsUrdf(item.mesh)) {
+      ImportRigid(item, catalogue, nullptr, progress, outcome);
+      return;
     }
-    ImportRigid(item, catalogue, progress, outcome);
+    assets::SemanticModel source = assets::ReadSemanticModel(item.mesh, {item.root, true});
+    outcome->findings = source.model.findings;  // they explain a refusal
+    if (importers::HasMovingJoint(source)) {
+      ImportJointed(item, std::move(source), progress, outcome);
+      return;
+    }
+    outcome->findings.clear();  // they are added again below
+    ImportRigid(item, nullptr, &source, progress, outcome);
   }
 
  private:
@@ -211,8 +242,10 @@ class Importer {
     });
   }
 
+  // The item is a piece of `catalogue`, or the URDF `source`, or, without both, a mesh.
   void ImportRigid(const ImportItem& item, const assets::FurnitureCatalogue* catalogue,
-                   core::Progress* progress, ImportOutcome* outcome) const {
+                   const assets::SemanticModel* source, core::Progress* progress,
+                   ImportOutcome* outcome) const {
     asset_build::BuildRequest request;
     request.name = item.name;
     request.seed = options_.seed;
@@ -225,12 +258,15 @@ class Importer {
       request.category = importers::ImportCategory(options_.category, piece.name);
     } else {
       request.source = item.mesh.filename().string();
-      request.category = importers::ImportCategory(options_.category, MeantBy(item));
-      visual = ReadInWorld(item.mesh, *request.category.category, options_, &findings, item.root);
+      request.category = importers::ImportCategory(options_.category, MeantBy(item, source));
+      visual = ReadInWorld(item.mesh, source != nullptr ? &source->model : nullptr,
+                           *request.category.category, options_, &findings);
       RequireMeantSize(*request.category.category, core::Bounds(visual.mesh).sizes(), item.mesh);
     }
     request.stated = options_.stated;
-    if (IsUrdf(item.mesh)) TakeMassOfFile(item, visual.mesh, &request.stated, &findings);
+    if (source != nullptr) {
+      TakeMassOfFile(item, source->model, visual.mesh, &request.stated, &findings);
+    }
     asset_build::BuiltAsset built = asset_build::BuildAsset(visual, request, progress);
     built.asset.findings.insert(built.asset.findings.begin(), findings.begin(), findings.end());
     findings = built.asset.findings;
@@ -242,13 +278,14 @@ class Importer {
   }
 
   // Uses a rigid URDF's own mass unless a mass or size is stated or the density is impossible.
-  void TakeMassOfFile(const ImportItem& item, const core::TriangleMesh& visual,
-                      physics_params::StatedPhysics* stated, core::Findings* findings) const {
+  void TakeMassOfFile(const ImportItem& item, const assets::UrdfModel& model,
+                      const core::TriangleMesh& visual, physics_params::StatedPhysics* stated,
+                      core::Findings* findings) const {
     if (stated->mass || stated->density || options_.unit != 1.0 || options_.height > 0.0 ||
         !options_.size.empty()) {
       return;
     }
-    const double mass = importers::StatedMass(assets::ReadUrdf(item.mesh, {item.root, true}));
+    const double mass = importers::StatedMass(model);
     if (!(mass > 0.0)) return;
     const double volume = core::Bounds(visual).sizes().cwiseMax(kThinnest).prod();
     const bool possible = mass > kLightest * volume && mass < kOsmium * volume;
@@ -301,35 +338,6 @@ class Importer {
 };
 
 }  // namespace
-
-core::TexturedMesh ReadInWorld(const fs::path& mesh_path, const physics_params::Category& category,
-                               const ImportOptions& options, core::Findings* findings,
-                               const fs::path& root) {
-  assets::MeshFile file;
-  if (IsUrdf(mesh_path)) {
-    file.mesh = ReadRigidUrdf(mesh_path, root, findings);
-    file.up = 'z';
-  } else {
-    file = assets::ReadMeshFile(mesh_path);
-  }
-  findings->insert(findings->end(), file.findings.begin(), file.findings.end());
-  core::TexturedMesh mesh = std::move(file.mesh);
-  char up = options.up != 0 ? options.up : file.up;
-  if (up == 0) up = importers::GuessUpAxis(mesh_path, mesh.mesh, category, findings);
-  Eigen::Affine3d world_from_file = Eigen::Affine3d::Identity();
-  world_from_file.linear() = options.unit * assets::ZUpRotation(up);
-  core::Transform(world_from_file, &mesh.mesh);
-  if (options.height > 0.0) {
-    const double height = core::Bounds(mesh.mesh).sizes().z();
-    if (!(height > 0.0)) {
-      throw core::Error("a flat mesh cannot be scaled to a height", mesh_path.string(),
-                        "use --unit instead");
-    }
-    core::Transform(Eigen::Affine3d(Eigen::Scaling(options.height / height)), &mesh.mesh);
-  }
-  asset_build::ScaleToSize(options.size, mesh_path.string(), &mesh.mesh, findings);
-  return mesh;
-}
 
 std::vector<ImportItem> ListImports(const std::vector<fs::path>& inputs,
                                     const ImportOptions& options) {

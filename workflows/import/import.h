@@ -67,11 +67,4 @@ std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items,
                                      const std::filesystem::path& output,
                                      const ImportOptions& options, core::Progress* progress);
 
-// Reads the mesh of an item in world coordinates: metres, z up, at its stated size. For a URDF,
-// returns all visuals with joints at zero; no file outside `root` is read.
-core::TexturedMesh ReadInWorld(const std::filesystem::path& mesh,
-                               const physics_params::Category& category,
-                               const ImportOptions& options, core::Findings* findings,
-                               const std::filesystem::path& root = {});
-
 }  // namespace simwright::workflows

@@ -86,7 +86,7 @@ void WriteJointed(const Item& item, const fs::path& folder, LibraryOutcome* outc
   const assets::ArticulatedAsset asset = item.jointed->make(item.options);
   outcome->findings = asset.findings;
   outcome->links = static_cast<int>(asset.links.size());
-  for (const assets::UrdfJoint& joint : asset.joints) outcome->joints += joint.Moves();
+  for (const assets::Joint& joint : asset.joints) outcome->joints += joint.Moves();
   for (const assets::ArticulatedLink& link : asset.links) outcome->mass += link.inertial.mass;
   assets::WriteArticulatedAsset(asset, folder);
   core::WritePng(folder / "preview.png", asset_build::ArticulatedPreview(asset));

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "rl/training.h"
-#include "tasks/scene_state.h"
+#include "tasks/world_state.h"
 #include "workflows/tasks/page_markup.h"
 #include "workflows/tasks/task_drawing.h"
 
@@ -199,7 +199,7 @@ std::string TaskSvg(const PhotoRunFolder& folder, const tasks::Task& task, const
   std::vector<assets::SemanticModel> models = {
       assets::ReadSemanticModel(folder.Asset()),
       assets::ReadSemanticModel(folder.Furniture() / scene.at("furniture").get<std::string>())};
-  return TaskDrawing(task, tasks::MakeSceneModel(models));
+  return TaskDrawing(task, tasks::MakeWorldModel(models));
 }
 
 std::string TaskPart(const PhotoRunFolder& folder, const tasks::Task& task, const Json& report) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "assets/joint_poses.h"
 #include "assets/mesh_import.h"
 #include "assets/primitive_meshes.h"
 #include "core/error.h"
@@ -77,15 +76,7 @@ void PosedScene::AddLink(const assets::UrdfLink& link, const Eigen::Vector4f& co
 }
 
 std::vector<Isometry3d> PosedScene::Poses(const RecordedMoment& moment) const {
-  assets::JointPositions positions;
-  for (size_t j = 0; j < robot_.arm_joints.size(); ++j) {
-    const auto joint = static_cast<size_t>(robot_.arm_joints[j]);
-    positions[robot_.urdf.joints[joint].name] = moment.arm[static_cast<Eigen::Index>(j)];
-  }
-  for (const int joint : robot_.gripper.joints) {
-    positions[robot_.urdf.joints[static_cast<size_t>(joint)].name] = moment.leader;
-  }
-  const std::vector<Isometry3d> robot = assets::LinkPoses(robot_.urdf, positions);
+  const std::vector<Isometry3d> robot = robot_.LinkPoses(moment.arm, moment.leader);
   std::vector<std::vector<Isometry3d>> objects(variant_.model.objects.size());
   for (const int object : variant_.placed) {
     const auto t = static_cast<size_t>(object);

@@ -92,7 +92,7 @@ MotionJoints MotionJointsOf(const robot::RobotModel& robot, const JointLimitsByN
   }
   const auto leader = static_cast<size_t>(robot.gripper.joints.front());
   joints.names.push_back(robot.urdf.joints[leader].name);
-  joints.sliding.push_back(robot.urdf.joints[leader].type == assets::UrdfJointType::kPrismatic);
+  joints.sliding.push_back(robot.urdf.joints[leader].type == assets::JointType::kPrismatic);
   joints.limits.push_back(robot.limits[leader]);
   for (size_t j = 0; j < joints.limits.size(); ++j) {
     const auto found = tighter.find(joints.names[j]);

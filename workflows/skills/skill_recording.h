@@ -13,7 +13,7 @@ namespace simwright::workflows {
 
 // One moment of a rollout: the state and the commands of the robot.
 struct RecordedMoment {
-  tasks::SceneState state;      // objects, joints, tool and fingers
+  tasks::WorldState state;      // objects, joints, tool and fingers
   Eigen::VectorXd arm;          // (J) measured joint positions, rad or m
   double leader = 0.0;          // the gripper's first joint position
   Eigen::VectorXd arm_command;  // (J) commanded joint positions

@@ -110,7 +110,7 @@ class SubtaskReplay {
   skills::StartState start_;  // its state is the current one
   skills::SkillWorld world_;
   skills::VariantReward reward_;
-  tasks::SceneState previous_;  // at the previous decision
+  tasks::WorldState previous_;  // at the previous decision
   int steps_ = 0, held_ = 0;
 };
 

@@ -73,7 +73,7 @@ std::vector<bool> LastingSubtasks(const std::vector<RunSkill>& skills,
       if (!outcome.success) continue;
       const skills::StartState& end = outcome.links.back().end;
       const skills::SkillVariant& variant = skill.skill->variants[static_cast<size_t>(end.variant)];
-      tasks::SceneState state = end.state;
+      tasks::WorldState state = end.state;
       state.goal = variant.start.goal;
       bool success = false;
       skills::VariantReward(variant).Run(state, state, 1.0, &success);

@@ -10,8 +10,8 @@
 #include "core/finding_json.h"
 #include "core/finding_text.h"
 #include "reward/reward_program.h"
-#include "tasks/scene_state.h"
 #include "tasks/verification/subtask_verifier.h"
+#include "tasks/world_state.h"
 #include "workflows/tasks/task_assets.h"
 
 namespace simwright::workflows {
@@ -43,7 +43,7 @@ int CountText(const core::Findings& findings, core::Severity severity) {
 }
 
 // Examines the program on the scene (docs/rewards.md, "On a scene"); its title is the file's name.
-core::Findings OnScene(const tasks::SceneModel& scene, const RewardCheckRequest& request,
+core::Findings OnScene(const tasks::WorldModel& scene, const RewardCheckRequest& request,
                        const std::string& source) {
   tasks::VerificationOptions options;
   options.needs_success = false;
@@ -66,11 +66,11 @@ RewardCheckReport CheckReward(const RewardCheckRequest& request) {
   RewardCheckReport report;
   report.subject = request.program.string();
   report.source = core::ReadFile(request.program, kLargestProgram);
-  tasks::SceneModel scene;
+  tasks::WorldModel scene;
   if (request.scene) {
     const TaskAssets assets = ReadTaskAssets(request.assets);
     report.findings = assets.findings;
-    scene = tasks::MakeSceneModel(assets.models);
+    scene = tasks::MakeWorldModel(assets.models);
   }
   reward::RewardOptions options;
   options.entry = request.entry;

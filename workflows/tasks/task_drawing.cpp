@@ -61,7 +61,7 @@ std::string SvgText(double x, double y, const std::string& style, const std::str
 }
 
 // Draws the outline of each link from above, in the object's colour.
-std::string DrawObject(const tasks::SceneModel& model, const tasks::SceneState& state, int index) {
+std::string DrawObject(const tasks::WorldModel& model, const tasks::WorldState& state, int index) {
   static constexpr const char* kColours[] = {"#7fa7c9", "#d9a066", "#8fbf7f",
                                              "#c98fb4", "#b0a0d0", "#c9b458"};
   const auto t = static_cast<std::size_t>(index);
@@ -89,7 +89,7 @@ std::string DrawObject(const tasks::SceneModel& model, const tasks::SceneState& 
   return svg + SvgText(at.x(), at.y() + 3.0, "class=\"thing\"", object.name);
 }
 
-std::string DrawPlan(const tasks::Task& task, const tasks::SceneModel& model) {
+std::string DrawPlan(const tasks::Task& task, const tasks::WorldModel& model) {
   const std::string frame = SvgNumber(kPlan);
   std::string svg =
       "<rect width=\"" + frame + "\" height=\"" + frame + "\" fill=\"#f7f6f2\" stroke=\"#999\"/>";
@@ -99,7 +99,7 @@ std::string DrawPlan(const tasks::Task& task, const tasks::SceneModel& model) {
   const Eigen::Vector2d robot = OnPlan(start.world_from_robot.translation().head<2>());
   svg += Circle(robot, kReach * scale, "fill=\"none\" stroke=\"#bbb\" stroke-dasharray=\"4 3\"");
   svg += Circle(robot, 0.09 * scale, "fill=\"#666\"");
-  const tasks::SceneState state = tasks::StateOf(model, start);
+  const tasks::WorldState state = tasks::StateOf(model, start);
   for (const tasks::AssetPlacement& placement : start.placements) {
     svg += DrawObject(model, state, model.Find(placement.asset));
   }
@@ -133,7 +133,7 @@ std::string DrawSubtask(const tasks::Subtask& subtask, int number, double x, dou
 
 }  // namespace
 
-std::string TaskDrawing(const tasks::Task& task, const tasks::SceneModel& model) {
+std::string TaskDrawing(const tasks::Task& task, const tasks::WorldModel& model) {
   constexpr int kInARow = 3;
   const int count = static_cast<int>(task.subtasks.size());
   const int columns = std::clamp(count, 1, kInARow), rows = std::max((count + 2) / kInARow, 1);

@@ -11,9 +11,9 @@
 #include "core/finding_text.h"
 #include "tasks/language/task_generation.h"
 #include "tasks/rules/rule_tasks.h"
-#include "tasks/scene_state.h"
 #include "tasks/task_file.h"
 #include "tasks/verification/subtask_verifier.h"
+#include "tasks/world_state.h"
 #include "workflows/tasks/task_assets.h"
 #include "workflows/tasks/task_page.h"
 
@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void MakeByRules(const TasksRequest& request, const tasks::SceneModel& scene,
+void MakeByRules(const TasksRequest& request, const tasks::WorldModel& scene,
                  core::Progress* progress, TasksReport* report) {
   tasks::RuleOptions options;
   options.count = request.count;
@@ -34,7 +34,7 @@ void MakeByRules(const TasksRequest& request, const tasks::SceneModel& scene,
 }
 
 void MakeByModel(const TasksRequest& request, const TaskAssets& assets,
-                 const tasks::SceneModel& scene, core::Progress* progress, TasksReport* report) {
+                 const tasks::WorldModel& scene, core::Progress* progress, TasksReport* report) {
   std::vector<tasks::NamedModel> named;
   for (const assets::SemanticModel& model : assets.models) named.push_back({model.name, &model});
   tasks::TaskGenerationOptions options;
@@ -86,7 +86,7 @@ TasksReport MakeTasks(const TasksRequest& request, core::Progress* progress) {
   const TaskAssets assets = ReadTaskAssets(request.assets);
   report.findings = assets.findings;
   report.set.assets = assets.listed;
-  const tasks::SceneModel scene = tasks::MakeSceneModel(assets.models);
+  const tasks::WorldModel scene = tasks::MakeWorldModel(assets.models);
   if (request.model == nullptr) {
     MakeByRules(request, scene, progress, &report);
   } else {

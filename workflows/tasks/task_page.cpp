@@ -44,7 +44,7 @@ std::string SubtaskText(const tasks::Subtask& subtask) {
 
 }  // namespace
 
-std::string TaskPage(const tasks::TaskSet& set, const tasks::SceneModel& model) {
+std::string TaskPage(const tasks::TaskSet& set, const tasks::WorldModel& model) {
   std::string html =
       PageStart("Tasks", kTaskPageStyle) + "<p>" + std::to_string(set.tasks.size()) + " tasks on " +
       std::to_string(set.assets.size()) +

@@ -13,9 +13,9 @@
 namespace simwright::tasks {
 namespace {
 
+using assets::Joint;
+using assets::JointType;
 using assets::SemanticModel;
-using assets::UrdfJoint;
-using assets::UrdfJointType;
 using assets::UrdfLink;
 
 int Count(const std::string& text, const std::string& part) {
@@ -37,7 +37,7 @@ SemanticModel Rack(int movable) {
     rack.model.links.push_back({});
     rack.model.links.back().name = name;
     rack.model.joints.push_back(
-        {"to_" + name, "base", name, moves ? UrdfJointType::kRevolute : UrdfJointType::kFixed});
+        {"to_" + name, "base", name, moves ? JointType::kRevolute : JointType::kFixed});
     rack.model.joints.back().upper = 1.0;
   }
   return rack;
@@ -75,8 +75,8 @@ TEST(SceneDescription, EachTypeOfJoint) {
     model.model.links.push_back({});
     model.model.links.back().name = "l" + std::to_string(i);
   }
-  const UrdfJointType types[] = {UrdfJointType::kRevolute, UrdfJointType::kContinuous,
-                                 UrdfJointType::kFloating, UrdfJointType::kPlanar};
+  const JointType types[] = {JointType::kRevolute, JointType::kContinuous, JointType::kFloating,
+                             JointType::kPlanar};
   for (int i = 0; i < 4; ++i) {
     const std::string number = std::to_string(i);
     model.model.joints.push_back({"j" + number, "l0", "l" + std::to_string(i + 1), types[i]});

@@ -7,7 +7,7 @@
 #include "core/random.h"
 #include "reward/reward_program.h"
 #include "tasks/rules/rule_tasks.h"
-#include "tasks/scene_signals.h"
+#include "tasks/world_signals.h"
 #include "tests/tasks/household.h"
 
 namespace simwright::tasks {
@@ -18,7 +18,7 @@ struct Gain {
   bool success = false;
 };
 
-Gain GainOf(const SceneModel& model, const Subtask& subtask, SceneState state) {
+Gain GainOf(const WorldModel& model, const Subtask& subtask, WorldState state) {
   const reward::CompileOutcome outcome = reward::CompileReward(subtask.program, &model.names);
   for (const core::Finding& finding : outcome.findings) {
     EXPECT_NE(finding.severity, core::Severity::kError)
@@ -42,7 +42,7 @@ Gain GainOf(const SceneModel& model, const Subtask& subtask, SceneState state) {
 
 class WholeTaskTest : public ::testing::Test {
  protected:
-  WholeTaskTest() : model_(MakeSceneModel({Microwave(), Cup()})) {
+  WholeTaskTest() : model_(MakeWorldModel({Microwave(), Cup()})) {
     RuleOptions options;
     options.count = 60;
     for (const Task& task : GenerateTasksByRules(model_, options).tasks) {
@@ -50,8 +50,8 @@ class WholeTaskTest : public ::testing::Test {
     }
   }
   // Returns a state that no subtask anticipates.
-  SceneState AnyState(core::Rng& rng) const {
-    SceneState state = StateOf(model_, task_.subtasks.front().start);
+  WorldState AnyState(core::Rng& rng) const {
+    WorldState state = StateOf(model_, task_.subtasks.front().start);
     for (auto& joints : state.joints) {
       for (double& joint : joints) joint = core::Uniform(rng, 0.0, 1.7);
     }
@@ -66,7 +66,7 @@ class WholeTaskTest : public ::testing::Test {
     return state;
   }
 
-  SceneModel model_;
+  WorldModel model_;
   Task task_;
 };
 
@@ -86,7 +86,7 @@ TEST_F(WholeTaskTest, ItsRewardIsTheSumAndItsSuccessAllOfThem) {
   EXPECT_EQ(whole.subtasks[0].start.placements.size(), task_.subtasks[0].start.placements.size());
   core::Rng rng(5);
   for (int i = 0; i < 50; ++i) {
-    const SceneState state = AnyState(rng);
+    const WorldState state = AnyState(rng);
     std::vector<Gain> gains;
     for (const Subtask& subtask : task_.subtasks) gains.push_back(GainOf(model_, subtask, state));
     const Gain all = GainOf(model_, whole.subtasks[0], state);

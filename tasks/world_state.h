@@ -13,7 +13,7 @@
 namespace simwright::tasks {
 
 // The objects that tasks may name. Immutable; shared by any number of states.
-struct SceneModel {
+struct WorldModel {
   std::vector<ArticulatedObject> objects;
   reward::RewardScene names;  // the same objects as programs may name them
 
@@ -21,7 +21,7 @@ struct SceneModel {
 };
 
 // The poses, joint positions and gripper state at one time of an episode. World frame, m, rad.
-struct SceneState {
+struct WorldState {
   std::vector<Eigen::Isometry3d> roots;     // world_from_root, by object
   std::vector<std::vector<double>> joints;  // positions, by object and joint
   // The tool frame between the fingertips: z along the approach, y from finger to finger.
@@ -33,21 +33,21 @@ struct SceneState {
 };
 
 // Returns the model of `models`, with their names. Throws core::Error if two share a name.
-SceneModel MakeSceneModel(const std::vector<assets::SemanticModel>& models);
+WorldModel MakeWorldModel(const std::vector<assets::SemanticModel>& models);
 
 // Returns the state that `start` describes, with the gripper at the robot's ready configuration.
 // Objects without a placement are put 100 m below the floor. Throws core::Error for an asset or
 // joint that the model does not have.
-SceneState StateOf(const SceneModel& model, const InitialState& start,
+WorldState StateOf(const WorldModel& model, const InitialState& start,
                    const std::optional<Eigen::Vector3d>& goal = std::nullopt);
 
 // Returns the position of a link: the centre of its own bounding box, m. The API's position of an
 // asset is that of its root link.
-Eigen::Vector3d LinkPosition(const SceneModel& model, const SceneState& state, int object,
+Eigen::Vector3d LinkPosition(const WorldModel& model, const WorldState& state, int object,
                              int link);
 
 // Returns the AABB in the world frame; of all links where `link` is -1.
-Eigen::AlignedBox3d WorldAabb(const SceneModel& model, const SceneState& state, int object,
+Eigen::AlignedBox3d WorldAabb(const WorldModel& model, const WorldState& state, int object,
                               int link = -1);
 
 }  // namespace simwright::tasks

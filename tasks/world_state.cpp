@@ -1,4 +1,4 @@
-#include "tasks/scene_state.h"
+#include "tasks/world_state.h"
 
 #include "core/error.h"
 #include "robot/panda.h"
@@ -6,15 +6,15 @@
 
 namespace simwright::tasks {
 
-int SceneModel::Find(const std::string& wanted) const {
+int WorldModel::Find(const std::string& wanted) const {
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (objects[i].name == wanted) return static_cast<int>(i);
   }
   return -1;
 }
 
-SceneModel MakeSceneModel(const std::vector<assets::SemanticModel>& models) {
-  SceneModel scene;
+WorldModel MakeWorldModel(const std::vector<assets::SemanticModel>& models) {
+  WorldModel scene;
   for (const assets::SemanticModel& model : models) {
     if (scene.Find(model.name) >= 0) {
       throw core::Error("two assets are called '" + model.name + "'", model.urdf.string(),
@@ -26,9 +26,9 @@ SceneModel MakeSceneModel(const std::vector<assets::SemanticModel>& models) {
   return scene;
 }
 
-SceneState StateOf(const SceneModel& model, const InitialState& start,
+WorldState StateOf(const WorldModel& model, const InitialState& start,
                    const std::optional<Eigen::Vector3d>& goal) {
-  SceneState state;
+  WorldState state;
   const Eigen::Isometry3d away(Eigen::Translation3d(0, 0, -100));
   state.roots.assign(model.objects.size(), away);
   for (const ArticulatedObject& object : model.objects)
@@ -65,7 +65,7 @@ SceneState StateOf(const SceneModel& model, const InitialState& start,
   return state;
 }
 
-Eigen::Vector3d LinkPosition(const SceneModel& model, const SceneState& state, int object,
+Eigen::Vector3d LinkPosition(const WorldModel& model, const WorldState& state, int object,
                              int link) {
   const auto t = static_cast<std::size_t>(object);
   const std::vector<Eigen::Isometry3d> poses = LinkPosesOf(model.objects[t], state.joints[t]);
@@ -73,7 +73,7 @@ Eigen::Vector3d LinkPosition(const SceneModel& model, const SceneState& state, i
   return state.roots[t] * poses[l] * model.objects[t].links[l].middle;
 }
 
-Eigen::AlignedBox3d WorldAabb(const SceneModel& model, const SceneState& state, int object,
+Eigen::AlignedBox3d WorldAabb(const WorldModel& model, const WorldState& state, int object,
                               int link) {
   const auto t = static_cast<std::size_t>(object);
   const std::vector<Eigen::Isometry3d> poses = LinkPosesOf(model.objects[t], state.joints[t]);

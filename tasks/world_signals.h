@@ -5,17 +5,17 @@
 #include <vector>
 
 #include "reward/reward_slot.h"
-#include "tasks/scene_state.h"
+#include "tasks/world_state.h"
 
 namespace simwright::tasks {
 
-// Reads the inputs of a reward program from scene states. Names are resolved once and memory is
+// Reads the inputs of a reward program from world states. Names are resolved once and memory is
 // reused. A reader serves one thread.
 class SignalReader {
  public:
   // Throws core::Error for a slot of an asset or link that the model does not have. `model` must
   // outlive the reader.
-  SignalReader(const SceneModel& model, const std::vector<reward::RewardSlot>& slots);
+  SignalReader(const WorldModel& model, const std::vector<reward::RewardSlot>& slots);
   ~SignalReader();
   SignalReader(const SignalReader&) = delete;
   SignalReader& operator=(const SignalReader&) = delete;
@@ -24,7 +24,7 @@ class SignalReader {
   // to `previous`, `time_step` (s) earlier; zero where it is null. `values` is resized to the
   // slots, and each entry to its width. Parameters hold zeros. Allocates nothing after the first
   // call.
-  void Read(const SceneState& state, const SceneState* previous, double time_step,
+  void Read(const WorldState& state, const WorldState* previous, double time_step,
             std::vector<std::vector<float>>* values);
 
  private:
@@ -34,14 +34,14 @@ class SignalReader {
   void WriteGripper(std::size_t slot, double time_step, std::vector<float>* row);
   void WriteJoint(std::size_t slot, double time_step, std::vector<float>* row);
 
-  const SceneModel& model_;
+  const WorldModel& model_;
   std::vector<reward::RewardSlot> slots_;
   std::vector<Place> places_;
   std::unique_ptr<StatePoses> now_, before_;
 };
 
 // Reads one state. Throws as SignalReader does.
-void SlotValues(const SceneModel& model, const SceneState& state, const SceneState* previous,
+void SlotValues(const WorldModel& model, const WorldState& state, const WorldState* previous,
                 double time_step, const std::vector<reward::RewardSlot>& slots,
                 std::vector<std::vector<float>>* values);
 

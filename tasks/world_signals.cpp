@@ -1,4 +1,4 @@
-#include "tasks/scene_signals.h"
+#include "tasks/world_signals.h"
 
 #include <algorithm>
 
@@ -19,7 +19,7 @@ struct SlotPlace {
   int joint = -1;  // -1: none
 };
 
-SlotPlace PlaceOf(const SceneModel& model, const reward::RewardSlot& slot) {
+SlotPlace PlaceOf(const WorldModel& model, const reward::RewardSlot& slot) {
   SlotPlace place;
   if (slot.asset.empty()) return place;
   const int object = model.Find(slot.asset);
@@ -57,7 +57,7 @@ void Put(const Eigen::AlignedBox3d& box, std::vector<float>* row) {
   }
 }
 
-bool Touches(const SceneState& state, const reward::RewardSlot& slot, const SlotPlace& place) {
+bool Touches(const WorldState& state, const reward::RewardSlot& slot, const SlotPlace& place) {
   if (state.touched < 0) return false;
   if (slot.asset.empty()) return true;
   return state.touched == static_cast<int>(place.object) &&
@@ -69,15 +69,15 @@ bool Touches(const SceneState& state, const reward::RewardSlot& slot, const Slot
 // The poses of one state; link poses are computed once per object.
 class SignalReader::StatePoses {
  public:
-  explicit StatePoses(const SceneModel& model)
+  explicit StatePoses(const WorldModel& model)
       : model_(model), poses_(model.objects.size()), known_(model.objects.size()) {}
 
-  void Take(const SceneState* state) {
+  void Take(const WorldState* state) {
     state_ = state;
     std::fill(known_.begin(), known_.end(), false);
   }
   bool given() const { return state_ != nullptr; }
-  const SceneState& state() const { return *state_; }
+  const WorldState& state() const { return *state_; }
 
   Eigen::Isometry3d LinkPose(std::size_t object, std::size_t link) {
     if (!known_[object]) {
@@ -102,15 +102,15 @@ class SignalReader::StatePoses {
   }
 
  private:
-  const SceneModel& model_;
-  const SceneState* state_ = nullptr;
+  const WorldModel& model_;
+  const WorldState* state_ = nullptr;
   std::vector<std::vector<Eigen::Isometry3d>> poses_;
   std::vector<bool> known_;
 };
 
 struct SignalReader::Place : SlotPlace {};
 
-SignalReader::SignalReader(const SceneModel& model, const std::vector<reward::RewardSlot>& slots)
+SignalReader::SignalReader(const WorldModel& model, const std::vector<reward::RewardSlot>& slots)
     : model_(model),
       slots_(slots),
       now_(std::make_unique<StatePoses>(model)),
@@ -120,7 +120,7 @@ SignalReader::SignalReader(const SceneModel& model, const std::vector<reward::Re
 
 SignalReader::~SignalReader() = default;
 
-void SignalReader::Read(const SceneState& state, const SceneState* previous, double time_step,
+void SignalReader::Read(const WorldState& state, const WorldState* previous, double time_step,
                         std::vector<std::vector<float>>* values) {
   now_->Take(&state);
   before_->Take(previous);
@@ -171,7 +171,7 @@ void SignalReader::Write(std::size_t index, double time_step, std::vector<float>
 void SignalReader::WriteGripper(std::size_t index, double time_step, std::vector<float>* row) {
   const reward::RewardSlot& slot = slots_[index];
   const Place& place = places_[index];
-  const SceneState& state = now_->state();
+  const WorldState& state = now_->state();
   switch (slot.input) {
     case reward::RewardInput::kGripperPosition:
       return Put(Eigen::Vector3d(state.gripper.translation()), row);
@@ -219,7 +219,7 @@ void SignalReader::WriteJoint(std::size_t index, double time_step, std::vector<f
   (*row)[0] = static_cast<float>(value);
 }
 
-void SlotValues(const SceneModel& model, const SceneState& state, const SceneState* previous,
+void SlotValues(const WorldModel& model, const WorldState& state, const WorldState* previous,
                 double time_step, const std::vector<reward::RewardSlot>& slots,
                 std::vector<std::vector<float>>* values) {
   SignalReader(model, slots).Read(state, previous, time_step, values);
