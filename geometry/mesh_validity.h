@@ -35,6 +35,6 @@ struct MeshValidity {
 MeshValidity Examine(const core::TriangleMesh& mesh, int intersection_limit = 1000);
 
 // Formats one line for a person, e.g. "closed, oriented, 12 self-intersections, 3 components".
-std::string Describe(const MeshValidity& soundness);
+std::string Describe(const MeshValidity& validity);
 
 }  // namespace simwright::geometry

@@ -4,10 +4,10 @@
 
 namespace simwright::manipulation {
 
-// Returns the approach pose (a candidate of focus.approaches) for a part that a joint moves: the
-// first one with which the open gripper is collision-free from the joint's rest position to the
-// joint target and points neither back at the robot nor upwards. Without such a one, returns the
-// candidate that comes closest to that.
+// Returns the approach pose (a candidate of InteractionTarget::approaches) for a part that a joint
+// moves: the first one with which the open gripper is collision-free from the joint's rest position
+// to the joint target and points neither back at the robot nor upwards. Without such a one, returns
+// the candidate that comes closest to that.
 Eigen::Isometry3d ChooseApproach(const robot::RobotModel& robot, const Interaction& interaction);
 
 }  // namespace simwright::manipulation

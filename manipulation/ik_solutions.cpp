@@ -6,7 +6,7 @@
 namespace simwright::manipulation {
 namespace {
 
-constexpr int kPostures = 8;  // attempts
+constexpr int kConfigurations = 8;  // attempts
 
 // Samples a configuration around `from`, within a share of each joint's range to either side.
 robot::JointVector SampleAround(const robot::JointVector& from, double share, const robot::Arm& arm,
@@ -40,7 +40,7 @@ std::vector<IkSolution> SolveIkFromManyStarts(const PlanningArm& context,
       interaction.subtask.start.world_from_robot.inverse() * world_from_tool;
   std::vector<IkSolution> configurations;
   robot::JointVector start = from;
-  for (int i = 0; i < kPostures; ++i) {
+  for (int i = 0; i < kConfigurations; ++i) {
     const robot::PoseSolution found = context.kinematics->Solve(target, start, rng);
     if (found.reached) {
       configurations.push_back({found.q, TravelTime(*context.robot, found.q - from)});
@@ -49,7 +49,8 @@ std::vector<IkSolution> SolveIkFromManyStarts(const PlanningArm& context,
     } else {
       continue;
     }
-    start = SampleAround(from, static_cast<double>(i + 1) / kPostures, context.robot->arm, rng);
+    start =
+        SampleAround(from, static_cast<double>(i + 1) / kConfigurations, context.robot->arm, rng);
   }
   return configurations;
 }

@@ -64,7 +64,7 @@ robot::JointVector PreGraspConfiguration(const PlanningArm& context, const Inter
                                          const robot::JointVector& grasp_configuration);
 
 // Returns the orientation tolerance (rad) of the tool as it moves the target: larger where fingers
-// push a door or lid shut (Focus::pushes).
+// push a door or lid shut (InteractionTarget::pushes).
 double OrientationTolerance(const Interaction& interaction);
 
 // Returns the pitch (rad, as in PlanReach) of the gripper at `world_from_tool`: the rotation about

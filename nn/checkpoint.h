@@ -12,8 +12,8 @@ namespace simwright::nn {
 using CheckpointMetadata = std::map<std::string, std::string>;
 
 // Writes the module's parameters and buffers in half precision, at half the size and without loss
-// of quality, to a sibling file that is renamed into place. `facts` must contain "kind".
-void SaveCheckpoint(const torch::nn::Module& module, const CheckpointMetadata& facts,
+// of quality, to a sibling file that is renamed into place. `metadata` must contain "kind".
+void SaveCheckpoint(const torch::nn::Module& module, const CheckpointMetadata& metadata,
                     const std::filesystem::path& path);
 
 // Reads the metadata of a weights file before a network is built. Throws like LoadCheckpoint.

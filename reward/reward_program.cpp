@@ -44,9 +44,9 @@ struct Pass {
   void LoadChunk(const Stage& stage, int start, int count) const;
   void LoadOne(const Load& load, int start, int count) const;
   void ReturnColumns(const Stage& stage) const;
-  void StartGathering(const Stage& stage) const;
+  void StartReductions(const Stage& stage) const;
   void Gather(const Stage& stage, int start, int count) const;
-  void FinishGathering(const Stage& stage) const;
+  void FinishReductions(const Stage& stage) const;
 };
 
 void Pass::Numbers(const Stage& stage) const {
@@ -99,7 +99,7 @@ void Pass::ReturnColumns(const Stage& stage) const {
   }
 }
 
-void Pass::StartGathering(const Stage& stage) const {
+void Pass::StartReductions(const Stage& stage) const {
   for (std::size_t i = 0; i < stage.reductions.size(); ++i) {
     const BatchReduction& one = stage.reductions[i];
     const double infinity = std::numeric_limits<double>::infinity();
@@ -146,7 +146,7 @@ void Pass::Gather(const Stage& stage, int start, int count) const {
   }
 }
 
-void Pass::FinishGathering(const Stage& stage) const {
+void Pass::FinishReductions(const Stage& stage) const {
   for (std::size_t i = 0; i < stage.reductions.size(); ++i) {
     const BatchReduction& one = stage.reductions[i];
     if (one.operation == ScalarOperation::kBatchFlip) continue;
@@ -258,7 +258,7 @@ void RewardProgram::Run(std::span<const RewardBinding> bindings, int num_envs,
     const Stage& stage = code.stages[s];
     const bool last = s + 1 == code.stages.size();
     pass.Numbers(stage);
-    pass.StartGathering(stage);
+    pass.StartReductions(stage);
     for (int start = 0; start < num_envs; start += code.chunk) {
       const int count = std::min(code.chunk, num_envs - start);
       pass.LoadChunk(stage, start, count);
@@ -271,7 +271,7 @@ void RewardProgram::Run(std::span<const RewardBinding> bindings, int num_envs,
       Store(pass, start, count, reward, success);
       StoreComponents(pass, components, start, count);
     }
-    pass.FinishGathering(stage);
+    pass.FinishReductions(stage);
     pass.ReturnColumns(stage);
   }
 }

@@ -22,9 +22,9 @@ std::string UnpackBytes(const torch::Tensor& tensor) {
   return {static_cast<const char*>(packed.data_ptr()), static_cast<std::size_t>(packed.numel())};
 }
 
-torch::Tensor PackMetadata(const Metadata& facts) {
+torch::Tensor PackMetadata(const Metadata& metadata) {
   std::string text;
-  for (const auto& [key, value] : facts) {
+  for (const auto& [key, value] : metadata) {
     if (key.find_first_of("=\n") != std::string::npos || value.find('\n') != std::string::npos) {
       throw core::Error("a metadata entry must be one line, without '=' in its key", key);
     }
@@ -35,12 +35,12 @@ torch::Tensor PackMetadata(const Metadata& facts) {
 
 Metadata UnpackMetadata(const torch::Tensor& tensor) {
   std::istringstream text(UnpackBytes(tensor));
-  Metadata facts;
+  Metadata metadata;
   for (std::string line; std::getline(text, line);) {
     const std::size_t equals = line.find('=');
-    if (equals != std::string::npos) facts[line.substr(0, equals)] = line.substr(equals + 1);
+    if (equals != std::string::npos) metadata[line.substr(0, equals)] = line.substr(equals + 1);
   }
-  return facts;
+  return metadata;
 }
 
 torch::Tensor TakeTensor(const nn::NamedTensors& tensors, const std::string& name,

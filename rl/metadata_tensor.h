@@ -14,7 +14,7 @@ std::string UnpackBytes(const torch::Tensor& tensor);
 
 // Packs metadata as lines "key=value". Throws core::Error for a key or value that would break a
 // line.
-torch::Tensor PackMetadata(const Metadata& facts);
+torch::Tensor PackMetadata(const Metadata& metadata);
 Metadata UnpackMetadata(const torch::Tensor& tensor);
 
 // Returns the tensor of that name, type and number of dimensions. Throws core::Error if it is

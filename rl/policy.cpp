@@ -5,8 +5,8 @@
 namespace simwright::rl {
 
 Policy::Policy(const ObservationScale& scale, const Mlp& actor, const Eigen::RowVectorXf& std,
-               const Metadata& facts)
-    : scale_(scale), actor_(actor), std_(std), facts_(facts) {
+               const Metadata& metadata)
+    : scale_(scale), actor_(actor), std_(std), metadata_(metadata) {
   if (scale.mean().size() != actor.input_size() || scale.factor().size() != actor.input_size() ||
       std.size() != actor.output_size()) {
     throw core::Error("its sizes do not match", "policy");

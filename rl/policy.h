@@ -19,7 +19,7 @@ class Policy {
  public:
   // Throws core::Error if the sizes do not match.
   Policy(const ObservationScale& scale, const Mlp& actor, const Eigen::RowVectorXf& std,
-         const Metadata& facts = {});
+         const Metadata& metadata = {});
 
   // Writes the mean action for each of `observations` (n x O): (n x A), clamped to [-1, 1].
   void Act(const Rows& observations, Rows* actions) const;
@@ -30,13 +30,13 @@ class Policy {
   const Mlp& actor() const { return actor_; }
   // Returns the standard deviations (A) of training, for callers that sample actions.
   const Eigen::RowVectorXf& std() const { return std_; }
-  const Metadata& facts() const { return facts_; }
+  const Metadata& metadata() const { return metadata_; }
 
  private:
   ObservationScale scale_;
   Mlp actor_;
   Eigen::RowVectorXf std_;
-  Metadata facts_;
+  Metadata metadata_;
 };
 
 }  // namespace simwright::rl

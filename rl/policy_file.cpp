@@ -63,7 +63,7 @@ void WritePolicy(const Policy& policy, const std::filesystem::path& path, Precis
   tensors["observation_mean"] = TensorOf(policy.scale().mean(), torch::kFloat);
   tensors["observation_factor"] = TensorOf(policy.scale().factor(), torch::kFloat);
   tensors["std"] = TensorOf(policy.std(), torch::kFloat);
-  tensors["facts"] = PackMetadata(policy.facts());
+  tensors["facts"] = PackMetadata(policy.metadata());
   nn::WriteTensors(tensors, path);
 }
 

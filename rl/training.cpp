@@ -57,7 +57,7 @@ class Training {
         ppo_(environment, options.ppo),
         recent_(options.success_window) {
     if (resume) {
-      progress_ = ReadCheckpoint(folder / kCheckpointFile, options.facts, &ppo_, &recent_);
+      progress_ = ReadCheckpoint(folder / kCheckpointFile, options.metadata, &ppo_, &recent_);
     } else if (!options.begin_from.empty()) {
       BeginFromCheckpoint(options.begin_from, &ppo_);
     }
@@ -83,7 +83,7 @@ class Training {
   double Examine();
   Policy CurrentPolicy() const {
     const Policy policy = ppo_.CurrentPolicy();
-    return Policy(policy.scale(), policy.actor(), policy.std(), options_.facts);
+    return Policy(policy.scale(), policy.actor(), policy.std(), options_.metadata);
   }
 
   TrainingOptions options_;
@@ -178,7 +178,7 @@ std::optional<TrainingEnd> Training::BudgetEnd() const {
 }
 
 void Training::Save() const {
-  WriteCheckpoint(ppo_, progress_, recent_, options_.facts, folder_ / kCheckpointFile);
+  WriteCheckpoint(ppo_, progress_, recent_, options_.metadata, folder_ / kCheckpointFile);
   if (progress_.best < 0.0) WritePolicy(CurrentPolicy(), folder_ / kPolicyFile);
   core::WriteFile(folder_ / kCurvesFile, TrainingCurves(options_.title, log_->records()));
 }

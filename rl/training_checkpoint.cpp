@@ -126,7 +126,7 @@ void AddOutcomes(const nn::NamedTensors& tensors, OutcomeWindow* recent) {
 }
 
 // Returns the metadata that must match for a training to resume.
-Metadata NetworkFacts(const Ppo& ppo) {
+Metadata NetworkMetadata(const Ppo& ppo) {
   const Policy policy = ppo.CurrentPolicy();
   std::ostringstream hidden;
   for (const int size : ppo.options().hidden) hidden << (hidden.tellp() > 0 ? "-" : "") << size;
@@ -138,7 +138,7 @@ Metadata NetworkFacts(const Ppo& ppo) {
           {"activation", ppo.options().activation == Activation::kTanh ? "tanh" : "elu"}};
 }
 
-void CheckFacts(const Metadata& wanted, const Metadata& found) {
+void CheckMetadata(const Metadata& wanted, const Metadata& found) {
   for (const auto& [key, value] : wanted) {
     const auto other = found.find(key);
     const std::string has = other == found.end() ? "none" : "'" + other->second + "'";
@@ -148,11 +148,11 @@ void CheckFacts(const Metadata& wanted, const Metadata& found) {
   }
 }
 
-TrainingProgress Restore(const nn::NamedTensors& tensors, const Metadata& facts, Ppo* ppo,
+TrainingProgress Restore(const nn::NamedTensors& tensors, const Metadata& metadata, Ppo* ppo,
                          OutcomeWindow* recent) {
   const Metadata found = UnpackMetadata(TakeTensor(tensors, "facts", torch::kUInt8, 1));
-  CheckFacts(NetworkFacts(*ppo), found);
-  CheckFacts(facts, found);
+  CheckMetadata(NetworkMetadata(*ppo), found);
+  CheckMetadata(metadata, found);
   const std::vector<double> progress = Doubles(tensors, "progress", 5);
   ppo->Restore(Collector(tensors), Learner(tensors));
   AddOutcomes(tensors, recent);
@@ -163,7 +163,7 @@ TrainingProgress Restore(const nn::NamedTensors& tensors, const Metadata& facts,
 }  // namespace
 
 void WriteCheckpoint(const Ppo& ppo, const TrainingProgress& progress, const OutcomeWindow& recent,
-                     const Metadata& facts, const std::filesystem::path& path) {
+                     const Metadata& metadata, const std::filesystem::path& path) {
   nn::NamedTensors tensors;
   PackCollector(ppo.CollectorPart(), &tensors);
   PackLearner(ppo.LearnerPart(), &tensors);
@@ -172,8 +172,8 @@ void WriteCheckpoint(const Ppo& ppo, const TrainingProgress& progress, const Out
                             static_cast<double>(progress.episodes), progress.seconds, progress.best,
                             progress.learnt ? 1.0 : 0.0};
   tensors["progress"] = PackDoubles(numbers);
-  Metadata all = facts;
-  all.merge(NetworkFacts(ppo));
+  Metadata all = metadata;
+  all.merge(NetworkMetadata(ppo));
   tensors["facts"] = PackMetadata(all);
   nn::WriteTensors(tensors, path);
 }
@@ -181,7 +181,8 @@ void WriteCheckpoint(const Ppo& ppo, const TrainingProgress& progress, const Out
 void BeginFromCheckpoint(const std::filesystem::path& path, Ppo* ppo) {
   const nn::NamedTensors tensors = nn::ReadTensors(path);
   try {
-    CheckFacts(NetworkFacts(*ppo), UnpackMetadata(TakeTensor(tensors, "facts", torch::kUInt8, 1)));
+    CheckMetadata(NetworkMetadata(*ppo),
+                  UnpackMetadata(TakeTensor(tensors, "facts", torch::kUInt8, 1)));
     const CollectorState known = Collector(tensors);
     CollectorState state = ppo->CollectorPart();
     state.observations = known.observations;
@@ -192,11 +193,11 @@ void BeginFromCheckpoint(const std::filesystem::path& path, Ppo* ppo) {
   }
 }
 
-TrainingProgress ReadCheckpoint(const std::filesystem::path& path, const Metadata& facts, Ppo* ppo,
-                                OutcomeWindow* recent) {
+TrainingProgress ReadCheckpoint(const std::filesystem::path& path, const Metadata& metadata,
+                                Ppo* ppo, OutcomeWindow* recent) {
   const nn::NamedTensors tensors = nn::ReadTensors(path);
   try {
-    return Restore(tensors, facts, ppo, recent);
+    return Restore(tensors, metadata, ppo, recent);
   } catch (const core::Error& error) {
     throw core::Error(error.what(), path.string(), "train in another folder");
   }

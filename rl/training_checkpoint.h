@@ -22,14 +22,14 @@ struct TrainingProgress {
 // generators, the environment's state, progress, recent outcomes. Writes a temporary file and
 // renames it, so that a full disk keeps the previous one. Throws core::Error.
 void WriteCheckpoint(const Ppo& ppo, const TrainingProgress& progress, const OutcomeWindow& recent,
-                     const Metadata& facts, const std::filesystem::path& path);
+                     const Metadata& metadata, const std::filesystem::path& path);
 
 // Restores the state written by WriteCheckpoint: the resumed training is bit-identical to an
 // uninterrupted one. Throws core::Error, naming the file, if it is missing, damaged, of another
-// version, network or environment, or if one of `facts` has another value in it; `ppo` is then in
-// an unspecified state.
-TrainingProgress ReadCheckpoint(const std::filesystem::path& path, const Metadata& facts, Ppo* ppo,
-                                OutcomeWindow* recent);
+// version, network or environment, or if one of `metadata` has another value in it; `ppo` is then
+// in an unspecified state.
+TrainingProgress ReadCheckpoint(const std::filesystem::path& path, const Metadata& metadata,
+                                Ppo* ppo, OutcomeWindow* recent);
 
 // Restores networks, optimizer and normalizers only, to fine-tune in another environment or with
 // another reward. Throws core::Error as ReadCheckpoint does.

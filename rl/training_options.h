@@ -33,7 +33,7 @@ struct TrainingOptions {
   std::filesystem::path begin_from;
   // The metadata that is written into checkpoint and policy; a training resumes only if it is equal
   // (the task's name and hash).
-  Metadata facts;
+  Metadata metadata;
   std::string title = "training";  // of the curves
 
   // Returns false, with the reason, for invalid values.

@@ -77,8 +77,8 @@ void RequireWellFormed(const Demonstration& demonstration, const std::string& pl
 
 void RequireWellFormed(const DemonstrationSet& set, const std::string& where) {
   if (set.demonstrations.empty()) throw core::Error("there are no demonstrations", where);
-  if (!set.notes.empty() && set.notes.size() != set.demonstrations.size()) {
-    throw core::Error("there are " + std::to_string(set.notes.size()) + " notes for " +
+  if (!set.metadata.empty() && set.metadata.size() != set.demonstrations.size()) {
+    throw core::Error("there are " + std::to_string(set.metadata.size()) + " notes for " +
                           std::to_string(set.demonstrations.size()) + " demonstrations",
                       where + "/simwright/notes");
   }
@@ -204,7 +204,7 @@ void WriteDemonstrations(const std::filesystem::path& path, const DemonstrationS
       mask.WriteTexts(name, names);
     }
   }
-  if (!set.notes.empty()) writer.root().Create("simwright").WriteTexts("notes", set.notes);
+  if (!set.metadata.empty()) writer.root().Create("simwright").WriteTexts("notes", set.metadata);
   writer.Commit();
 }
 
@@ -241,7 +241,7 @@ DemonstrationSet ReadDemonstrations(const std::filesystem::path& path) {
     }
   }
   if (reader.root().Has("simwright")) {
-    set.notes = reader.root().Open("simwright").ReadTexts("notes");
+    set.metadata = reader.root().Open("simwright").ReadTexts("notes");
   }
   RequireWellFormed(set, where);
   return set;

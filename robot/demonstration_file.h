@@ -36,7 +36,7 @@ struct DemonstrationSet {
   std::string env_kwargs = "{}";  // JSON object
   std::vector<Demonstration> demonstrations;
   std::map<std::string, std::vector<std::size_t>> filters;  // e.g. "train": demonstration indices
-  std::vector<std::string> notes;                           // one per demonstration, or empty
+  std::vector<std::string> metadata;                        // one per demonstration, or empty
 };
 
 // Writes robomimic's HDF5 file: a group /data with attributes `total` and `env_args`, groups
@@ -46,8 +46,8 @@ struct DemonstrationSet {
 // Throws core::Error, naming the demonstration and the dataset, if: there is no demonstration, or
 // one without steps; an array has another length, or its values do not match its shape; a number is
 // not finite; an action is outside [-1, 1]; a key contains '/'; a filter names a missing
-// demonstration; the kwargs are not a JSON object; the number of notes differs from that of the
-// demonstrations; the file cannot be written.
+// demonstration; the kwargs are not a JSON object; the number of metadata texts differs from that
+// of the demonstrations; the file cannot be written.
 void WriteDemonstrations(const std::filesystem::path& path, const DemonstrationSet& set);
 
 // Reads files of WriteDemonstrations and robomimic's own files with states, rewards and dones. The

@@ -11,13 +11,13 @@ namespace simwright::robot {
 
 // A sampled joint trajectory: N samples of J joints, in rad or m and s.
 struct JointTrajectory {
-  std::vector<std::string> joints;           // (J) names
-  std::vector<double> times;                 // (N) s since the start, increasing
-  Eigen::MatrixXd positions;                 // (N x J)
-  Eigen::MatrixXd velocities;                // (N x J), or empty if unknown
-  Eigen::MatrixXd accelerations;             // (N x J), or empty
-  Eigen::MatrixXd efforts;                   // (N x J) N m or N, or empty
-  std::map<std::string, std::string> notes;  // metadata: robot, task, policy, seed
+  std::vector<std::string> joints;              // (J) names
+  std::vector<double> times;                    // (N) s since the start, increasing
+  Eigen::MatrixXd positions;                    // (N x J)
+  Eigen::MatrixXd velocities;                   // (N x J), or empty if unknown
+  Eigen::MatrixXd accelerations;                // (N x J), or empty
+  Eigen::MatrixXd efforts;                      // (N x J) N m or N, or empty
+  std::map<std::string, std::string> metadata;  // robot, task, policy, seed
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(times.size()); }
 };

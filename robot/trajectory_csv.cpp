@@ -56,7 +56,7 @@ void CsvReader::ReadComment(std::string_view comment) {
     announced_ = IntegerFrom(value).value_or(-1);
     if (announced_ < 0) Fail("'samples' is not a count");
   } else {
-    trajectory_.notes[key] = value;
+    trajectory_.metadata[key] = value;
   }
 }
 
@@ -165,7 +165,7 @@ std::string CsvText(const JointTrajectory& trajectory) {
     quantities = m + 1;
   }
   std::string text;
-  for (const auto& [key, value] : trajectory.notes) text += "# " + key + ": " + value + "\n";
+  for (const auto& [key, value] : trajectory.metadata) text += "# " + key + ": " + value + "\n";
   text += "# samples: " + std::to_string(trajectory.size()) + "\ntime";
   for (std::size_t m = 0; m < quantities; ++m) {
     for (const std::string& joint : trajectory.joints) {

@@ -23,7 +23,7 @@ bool IsPlainName(const std::string& name) {
 }
 
 void RequireNotesFit(const JointTrajectory& trajectory) {
-  for (const auto& [key, value] : trajectory.notes) {
+  for (const auto& [key, value] : trajectory.metadata) {
     const bool one_line = std::none_of(value.begin(), value.end(), [](char c) {
       return std::iscntrl(static_cast<unsigned char>(c));
     });

@@ -33,7 +33,7 @@ JointTrajectory JointsOf(const JointTrajectory& trajectory,
   JointTrajectory part;
   part.joints = joints;
   part.times = trajectory.times;
-  part.notes = trajectory.notes;
+  part.metadata = trajectory.metadata;
   for (const auto matrix : AllMatrices()) {
     if ((trajectory.*matrix).size() == 0) continue;
     (part.*matrix).resize(trajectory.size(), static_cast<Eigen::Index>(columns.size()));

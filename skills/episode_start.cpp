@@ -280,7 +280,7 @@ void EpisodeStartPlaceObjects(const Skill& skill, core::Rng& rng, StartState* st
 
 // Moves the skill's joint to a random position in its range. Returns false, without moving it, if
 // the arm cannot manipulate it there.
-bool MovePartWay(const Skill& skill, core::Rng& rng, StartState* start) {
+bool MoveJointPartly(const Skill& skill, core::Rng& rng, StartState* start) {
   const SkillVariant& variant = skill.variants[static_cast<size_t>(start->variant)];
   const auto object = static_cast<size_t>(variant.target->object);
   const auto joint = static_cast<size_t>(variant.target->joint);
@@ -305,7 +305,7 @@ void PlaceArm(const Skill& skill, bool grasp_configuration, core::Rng& rng, Star
   const SkillVariant& variant = skill.variants[static_cast<size_t>(start->variant)];
   const robot::Gripper& gripper = skill.robot->gripper;
   start->arm = skill.robot->home();
-  Perturb(skill, skill.options.posture_range, rng, &start->arm);
+  Perturb(skill, skill.options.configuration_range, rng, &start->arm);
   if (!manipulation::IsArmCollisionFree(skill, variant, start->state, start->arm))
     start->arm = skill.robot->home();
   start->leader = gripper.open;
@@ -337,14 +337,15 @@ StartState SampleStart(const Skill& skill, core::Rng& rng) {
   start.grasp_configuration = skill.robot->home();
   EpisodeStartPlaceObjects(skill, rng, &start);
   const double sample = core::Uniform(rng);
-  bool grasp_configuration = sample < options.at_focus_share;
-  const bool part_way =
-      !grasp_configuration && sample < options.at_focus_share + options.part_way_share;
-  if (part_way && variant.target && variant.target->joint >= 0 && MovePartWay(skill, rng, &start)) {
+  bool grasp_configuration = sample < options.at_target_share;
+  const bool partly_open =
+      !grasp_configuration && sample < options.at_target_share + options.partly_open_share;
+  if (partly_open && variant.target && variant.target->joint >= 0 &&
+      MoveJointPartly(skill, rng, &start)) {
     grasp_configuration = core::Uniform(rng) < kAtPartShare;
   }
   const bool grasps = variant.target && variant.target->joint < 0 && variant.asks_for_grasp;
-  if (grasps && (part_way || variant.starts_held)) start.held = variant.target->object;
+  if (grasps && (partly_open || variant.starts_held)) start.held = variant.target->object;
   PlaceArm(skill, grasp_configuration, rng, &start);
   SampleBodies(variant, options, rng, &start);
   return start;

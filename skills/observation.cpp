@@ -16,13 +16,13 @@ constexpr double kObservationNear = 0.1;  // m, unit of distances near the targe
 constexpr double kRoom = 0.5;             // m, unit of distances in the scene
 constexpr double kFast = 2.0;             // rad/s or m/s
 
-constexpr int kHand = 3 + 6 + 4;            // pose; opening, its command, touch, grasp
-constexpr int kFrame = 3 + 6 + 1;           // pose; at the destination
-constexpr int kJoint = 2;                   // position, velocity
-constexpr int kFocusThing = 3 + 3 + 3 + 3;  // position, upright axis, velocity, size
-constexpr int kFocusSize = 3;               // in the target frame
-constexpr int kFocusPart = 3 + 3 + 3;       // middle, direction of motion, hinge: for joints
-constexpr int kThing = 3 + 3 + 3;           // position, upright axis, size
+constexpr int kHand = 3 + 6 + 4;              // pose; opening, its command, touch, grasp
+constexpr int kFrame = 3 + 6 + 1;             // pose; at the destination
+constexpr int kJoint = 2;                     // position, velocity
+constexpr int kTargetObject = 3 + 3 + 3 + 3;  // position, upright axis, velocity, size
+constexpr int kTargetSize = 3;                // in the target frame
+constexpr int kTargetPart = 3 + 3 + 3;        // middle, direction of motion, hinge: for joints
+constexpr int kOtherObject = 3 + 3 + 3;       // position, upright axis, size
 constexpr int kDestination = 3;
 
 }  // namespace
@@ -65,9 +65,9 @@ Observer::Observer(const Skill& skill, const SkillVariant& variant)
 int Observer::size() const {
   int size = 2 * skill_.robot->arm.size() + kHand + kFrame + ActionSize(skill_);
   size += kJoint * static_cast<int>(joints_.size());
-  if (variant_.target) size += kFocusThing + kFocusSize;
-  if (variant_.target && variant_.target->joint >= 0) size += kFocusPart;
-  size += kThing * static_cast<int>(objects_.size());
+  if (variant_.target) size += kTargetObject + kTargetSize;
+  if (variant_.target && variant_.target->joint >= 0) size += kTargetPart;
+  size += kOtherObject * static_cast<int>(objects_.size());
   return variant_.destination ? size + kDestination : size;
 }
 
@@ -83,9 +83,9 @@ void Observer::AddArm(const PolicyInputs& senses, Row* row) const {
 }
 
 void Observer::AddHand(const tasks::WorldState& state, const PolicyInputs& senses, Row* row) const {
-  const Isometry3d focus_from_tool = senses.world_from_target.inverse() * state.gripper;
-  row->Add(Vector3d(focus_from_tool.translation()), kObservationNear);
-  row->Add(Eigen::Matrix3d(focus_from_tool.linear()));
+  const Isometry3d target_from_tool = senses.world_from_target.inverse() * state.gripper;
+  row->Add(Vector3d(target_from_tool.translation()), kObservationNear);
+  row->Add(Eigen::Matrix3d(target_from_tool.linear()));
   const robot::Gripper& gripper = skill_.robot->gripper;
   row->Add(2.0 * state.opening / gripper.MaxOpening() - 1.0);
   row->Add(2.0 * gripper.Opening(senses.leader_command) / gripper.MaxOpening() - 1.0);
@@ -119,8 +119,8 @@ void Observer::AddTargetObject(const tasks::WorldState& state, const tasks::Worl
   row->Add(Vector3d(variant_.model.objects[t].box.sizes()), kObservationNear);
 }
 
-void Observer::AddFocusGeometry(const tasks::WorldState& state, const Isometry3d& world_from_target,
-                                Row* row) const {
+void Observer::AddTargetGeometry(const tasks::WorldState& state,
+                                 const Isometry3d& world_from_target, Row* row) const {
   const manipulation::TargetGeometry geometry =
       manipulation::GeometryOf(variant_.model, state, *variant_.target, world_from_target);
   row->Add(geometry.size, kObservationNear);
@@ -155,7 +155,7 @@ void Observer::Write(const tasks::WorldState& state, const tasks::WorldState* pr
   const Eigen::Matrix3d target_from_world = senses.world_from_target.linear().transpose();
   if (variant_.target) {
     AddTargetObject(state, previous, target_from_world, &row);
-    AddFocusGeometry(state, senses.world_from_target, &row);
+    AddTargetGeometry(state, senses.world_from_target, &row);
   }
   AddObjects(state, target_from_world, &row);
   if (variant_.destination) {

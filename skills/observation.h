@@ -14,7 +14,7 @@ struct PolicyInputs {
   const robot::JointVector* velocities = nullptr;  // (J)
   double leader_command = 0.0;
   const float* last_action = nullptr;  // (A)
-  // The frame of the actions (GraspPose), world_from_focus.
+  // The frame of the actions (GraspPose), world_from_target.
   Eigen::Isometry3d world_from_target = Eigen::Isometry3d::Identity();
   bool at_destination = false;  // the frame is at the destination of a grasped object
   bool retreating = false;      // the frame is the retreat pose (TargetFrame)
@@ -42,8 +42,8 @@ class Observer {
   void AddJoints(const tasks::WorldState& state, const tasks::WorldState* previous, Row* row) const;
   void AddTargetObject(const tasks::WorldState& state, const tasks::WorldState* previous,
                        const Eigen::Matrix3d& target_from_world, Row* row) const;
-  void AddFocusGeometry(const tasks::WorldState& state, const Eigen::Isometry3d& world_from_target,
-                        Row* row) const;
+  void AddTargetGeometry(const tasks::WorldState& state, const Eigen::Isometry3d& world_from_target,
+                         Row* row) const;
   void AddObjects(const tasks::WorldState& state, const Eigen::Matrix3d& target_from_world,
                   Row* row) const;
 

@@ -217,7 +217,7 @@ void Carry(const ExpertInput& input, float* action) {
 }  // namespace
 
 bool HasScriptedExpert(const Skill& skill) {
-  return skill.options.action == ActionSpace::kFocus ||
+  return skill.options.action == ActionSpace::kTargetFrame ||
          skill.options.action == ActionSpace::kGuided;
 }
 

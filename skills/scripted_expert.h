@@ -5,7 +5,7 @@
 namespace simwright::skills {
 
 // Returns true if the skill has a scripted expert: its actions are relative to the interaction
-// target (ActionSpace::kFocus, kGuided).
+// target (ActionSpace::kTargetFrame, kGuided).
 bool HasScriptedExpert(const Skill& skill);
 
 // Writes the scripted expert's action (7, in [-1, 1]) into `action`. It knows only the pose of the

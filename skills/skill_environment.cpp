@@ -120,7 +120,7 @@ void SkillEnvironment::Step(const rl::Rows& actions, rl::StepBatch* batch) {
 }
 
 bool SkillEnvironment::Demonstrate(rl::Rows* actions) const {
-  if (skill_->options.action != ActionSpace::kFocus) return false;
+  if (skill_->options.action != ActionSpace::kTargetFrame) return false;
   actions->resize(size(), action_size_);
   for (size_t i = 0; i < instances_.size(); ++i) {
     ExpertAction(*instances_[i].episode, actions->row(static_cast<Eigen::Index>(i)).data());

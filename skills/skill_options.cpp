@@ -18,7 +18,7 @@ bool IsShare(double share) {
 }
 
 constexpr std::pair<ActionSpace, const char*> kActionSpaces[] = {
-    {ActionSpace::kFocus, "focus"},       {ActionSpace::kGuided, "guided"},
+    {ActionSpace::kTargetFrame, "focus"}, {ActionSpace::kGuided, "guided"},
     {ActionSpace::kAbsolute, "absolute"}, {ActionSpace::kDelta, "delta"},
     {ActionSpace::kJoints, "joints"},
 };
@@ -47,8 +47,8 @@ int SkillOptions::decisions() const {
 
 SkillOptions SkillOptions::ForEvaluation() const {
   SkillOptions options = *this;
-  options.at_focus_share = 0.0;
-  options.part_way_share = 0.0;
+  options.at_target_share = 0.0;
+  options.partly_open_share = 0.0;
   return options;
 }
 
@@ -74,8 +74,8 @@ bool SkillOptions::IsValid(std::string* error) const {
   if (!(tool_speed > 0.0) || !(turn_speed > 0.0) || !(longest_lead > 0.0)) {
     return fail("tool_speed, turn_speed and longest_lead must be positive");
   }
-  if (!(position_range >= 0.0) || !(furniture_yaw >= 0.0) || !(posture_range >= 0.0)) {
-    return fail("position_range, furniture_yaw and posture_range must not be negative");
+  if (!(position_range >= 0.0) || !(furniture_yaw >= 0.0) || !(configuration_range >= 0.0)) {
+    return fail("position_range, furniture_yaw and configuration_range must not be negative");
   }
   if (!IsRange(mass) || !IsRange(friction) || !IsRange(joint)) {
     return fail("mass, friction and joint must be ranges of positive factors");
@@ -84,9 +84,9 @@ bool SkillOptions::IsValid(std::string* error) const {
     return fail("finger_friction must be a range of positive coefficients");
   }
   if (longest_delay < 0) return fail("longest_delay must not be negative");
-  if (!IsShare(at_focus_share) || !IsShare(part_way_share) ||
-      at_focus_share + part_way_share > 1.0) {
-    return fail("at_focus_share and part_way_share must be shares of one whole");
+  if (!IsShare(at_target_share) || !IsShare(partly_open_share) ||
+      at_target_share + partly_open_share > 1.0) {
+    return fail("at_target_share and partly_open_share must be shares of one whole");
   }
   if (!IsShare(pool_share)) return fail("pool_share must be a share");
   if (!(discount > 0.0) || !(discount < 1.0)) return fail("discount must be between 0 and 1");

@@ -8,7 +8,7 @@ namespace simwright::skills {
 // The meaning of the seven numbers of an action (docs/skills.md).
 enum class ActionSpace {
   // The tool pose relative to the interaction target: offset, rotation, opening.
-  kFocus,
+  kTargetFrame,
   // The same, added to the scripted expert's action (ExpertAction): zero follows the expert, and
   // the policy learns a correction (residual learning: Johannink et al. 2019).
   kGuided,
@@ -46,12 +46,12 @@ struct SkillOptions {
   bool hulls = true;            // objects that are only grasped or pushed collide by their hull
 
   // Action.
-  ActionSpace action = ActionSpace::kFocus;
+  ActionSpace action = ActionSpace::kTargetFrame;
   // m, for an offset of 1. Exploration samples offsets of about a third of it
   // (PpoOptions::initial_std 0.35); larger ones slow learning.
   double reach = 0.08;
   double turn = 0.8;  // rad, for a rotation of 1
-  // The distance (m) that the gripper with kFocus stays back along its own axis while it is
+  // The distance (m) that the gripper with kTargetFrame stays back along its own axis while it is
   // laterally off the target: it approaches from above or from the front, not across the target.
   // 0: no standoff.
   double standoff = 0.12;
@@ -63,10 +63,10 @@ struct SkillOptions {
   double longest_lead = 0.08;
 
   // Randomization between episodes.
-  double position_range = 0.15;  // m, in x and y, to each side
-  double furniture_yaw = 0.3;    // rad, to each side, of fixed objects
-  bool any_yaw = true;           // of free objects
-  double posture_range = 0.1;    // rad, of each of the arm's joints at the start
+  double position_range = 0.15;      // m, in x and y, to each side
+  double furniture_yaw = 0.3;        // rad, to each side, of fixed objects
+  bool any_yaw = true;               // of free objects
+  double configuration_range = 0.1;  // rad, of each of the arm's joints at the start
   FactorRange mass = {0.5, 2.0};
   FactorRange friction = {0.7, 1.3};  // of surfaces
   FactorRange joint = {0.7, 1.4};     // friction and damping of joints
@@ -76,8 +76,8 @@ struct SkillOptions {
   int longest_delay = 1;  // control steps that a command is delayed, 0 to this
 
   // Easier start states, as shares of the episodes; none in an evaluation.
-  double at_focus_share = 0.35;  // the gripper is at its target
-  double part_way_share = 0.3;   // the joint is part of its way open, the object is grasped
+  double at_target_share = 0.35;   // the gripper is at its target
+  double partly_open_share = 0.3;  // the joint is part of its way open, the object is grasped
   // The share of episodes that begin at an end state of the previous skill, if there are any
   // (T-STAR's).
   double pool_share = 0.7;

@@ -61,7 +61,7 @@ std::vector<double> List(const robot::JointVector& configuration) {
   return {configuration.data(), configuration.data() + configuration.size()};
 }
 
-robot::JointVector PostureFrom(const json& list, int size) {
+robot::JointVector ConfigurationFrom(const json& list, int size) {
   const std::vector<double> numbers = Numbers(list, static_cast<size_t>(size));
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), size);
 }
@@ -86,8 +86,8 @@ StartState StartFrom(const json& text, const Skill& skill) {
   }
   const std::vector<double> goal = Numbers(text.at("goal"), 3);
   start.state.goal = Eigen::Vector3d(goal[0], goal[1], goal[2]);
-  start.arm = PostureFrom(text.at("arm"), skill.robot->arm.size());
-  start.grasp_configuration = PostureFrom(text.at("at_work"), skill.robot->arm.size());
+  start.arm = ConfigurationFrom(text.at("arm"), skill.robot->arm.size());
+  start.grasp_configuration = ConfigurationFrom(text.at("at_work"), skill.robot->arm.size());
   start.leader = text.at("leader").get<double>();
   if (text.contains("closed_to")) start.closed_to = text["closed_to"].get<double>();
   start.pitch = text.at("pitch").get<double>();
@@ -104,7 +104,7 @@ StartState StartFrom(const json& text, const Skill& skill) {
       throw std::invalid_argument("invalid or too many waypoints");
     }
     for (const json& configuration : waypoints) {
-      start.waypoints.push_back(PostureFrom(configuration, skill.robot->arm.size()));
+      start.waypoints.push_back(ConfigurationFrom(configuration, skill.robot->arm.size()));
     }
   }
   start.held = text.at("held").get<int>();

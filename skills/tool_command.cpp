@@ -48,8 +48,8 @@ Eigen::Matrix3d Leaning(double angle) {
 }
 
 // Returns the tool pose of the last command in the target frame.
-Isometry3d LastCommandInFocus(const Skill& skill, const ActionFrame& frame,
-                              const ArmCommand& command) {
+Isometry3d LastCommandInTargetFrame(const Skill& skill, const ActionFrame& frame,
+                                    const ArmCommand& command) {
   return frame.base_from_target.inverse() *
          robot::ForwardKinematics(skill.robot->arm, command.sent);
 }
@@ -177,11 +177,11 @@ ToolTarget ActionTarget(const Skill& skill, const float* action, const ActionFra
   target.leader = LeaderOf(skill.robot->gripper, action[ActionSize(skill) - 1], command.leader);
   switch (options.action) {
     case ActionSpace::kGuided:
-    case ActionSpace::kFocus: {
+    case ActionSpace::kTargetFrame: {
       Isometry3d offset = Offset(action, options.reach, options.turn);
       offset.rotate(Leaning(frame.lean));
       if (options.standoff > 0.0) {
-        const Isometry3d now = LastCommandInFocus(skill, frame, command);
+        const Isometry3d now = LastCommandInTargetFrame(skill, frame, command);
         if (frame.pushes && now.translation().z() < -kAbove) {
           offset.translation().x() = std::min(offset.translation().x(), 0.0);
         }

@@ -33,7 +33,7 @@ struct ArmCommand {
   double leader_rate = 0.0;
 };
 
-// The frame of ActionSpace::kFocus.
+// The frame of ActionSpace::kTargetFrame.
 struct ActionFrame {
   Eigen::Isometry3d base_from_target = Eigen::Isometry3d::Identity();
   double lean = 0.0;  // rad about the target frame's y axis, of the tool at the target

@@ -59,7 +59,7 @@ struct Subtask {
   std::vector<Attempt> attempts;        // earlier programs, oldest first
 
   // Returns true if there is a program and no finding is an error.
-  bool sound() const {
+  bool valid() const {
     for (const core::Finding& finding : findings) {
       if (finding.severity == core::Severity::kError) return false;
     }
@@ -77,12 +77,12 @@ struct Task {
   core::Findings findings;        // findings on the task as a whole, not on one subtask
 
   // Returns true if there is a subtask, every subtask is valid, and no finding is an error.
-  bool sound() const {
+  bool valid() const {
     for (const core::Finding& finding : findings) {
       if (finding.severity == core::Severity::kError) return false;
     }
     for (const Subtask& subtask : subtasks) {
-      if (!subtask.sound()) return false;
+      if (!subtask.valid()) return false;
     }
     return !subtasks.empty();
   }

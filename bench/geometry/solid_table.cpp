@@ -43,7 +43,7 @@ void Measure(const core::TriangleMesh& visual, const std::string& name, Tally* t
     const geometry::SurfaceDistance d = geometry::OuterSurfaceDistance(visual, solid.mesh);
     const bool good = state.IsSolid() && d.MaxRatio() <= 0.005;
     tally->seconds.push_back(seconds);
-    tally->sound += state.IsSolid();
+    tally->valid += state.IsSolid();
     tally->good += good;
     std::printf(
         "%-3s %-32s %-9s faces %7zu -> %6zu  %6.2f s  visual to solid %.3f%% (99%%: %.3f%%)"
@@ -91,7 +91,7 @@ int Run(int argc, char** argv) {
     std::printf(
         "%d models: %d valid, %d valid and within 0.5%% in both directions, %d refused; "
         "median %.2f s, 90%% under %.2f s, slowest %.2f s\n",
-        tally.models, tally.sound, tally.good, tally.refused,
+        tally.models, tally.valid, tally.good, tally.refused,
         tally.seconds[tally.seconds.size() / 2], tally.seconds[tally.seconds.size() * 9 / 10],
         tally.seconds.back());
   }

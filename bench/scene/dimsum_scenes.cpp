@@ -81,7 +81,7 @@ void Report(const std::vector<Outcome>& outcomes) {
   size_t sampled = 0, kept = 0, most = 0;
   double sampling = 0.0, depenetration = 0.0, settling = 0.0, moved = 0.0;
   for (const Outcome& one : outcomes) {
-    sound += one.scene.sound;
+    sound += one.scene.valid;
     projected += one.scene.projected;
     dropped += one.scene.dropped;
     sampled += one.sample.objects.size();
@@ -113,7 +113,7 @@ void Run(const Arguments& arguments) {
   Report(outcomes);
   for (size_t i = 0; i < outcomes.size(); ++i) {
     const scene::FeasibleScene& one = outcomes[i].scene;
-    if (one.sound) continue;
+    if (one.valid) continue;
     std::printf("not valid: scene %zu, dropped %d of %zu, drift %.2f mm, penetration %.3f mm\n", i,
                 one.dropped, outcomes[i].sample.objects.size(), 1e3 * one.drift,
                 1e3 * one.penetration);

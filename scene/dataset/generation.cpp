@@ -30,7 +30,7 @@ Made Attempt(const Generation& generation, const ShardOrigin& origin, size_t ind
 
 void Keep(const Made& made, SceneShard* part) {
   part->attempts.push_back(made.attempt);
-  if (!made.attempt.sound) return;
+  if (!made.attempt.valid) return;
   const size_t size = static_cast<size_t>(part->vocabulary.entries) *
                       static_cast<size_t>(part->vocabulary.TokenWidth());
   part->tokens.resize(part->tokens.size() + size);
@@ -74,7 +74,7 @@ void ExtendShard(const Generation& generation, int scenes, SceneShard* part,
         const auto index = static_cast<size_t>(i);
         made[index] = Attempt(generation, part->origin, first + index);
         done[index] = 1;
-        if (made[index].attempt.sound) progress->Advance();
+        if (made[index].attempt.valid) progress->Advance();
       });
     } catch (const core::Cancelled&) {
       keep();

@@ -20,7 +20,7 @@ void WriteAttempts(const std::vector<SceneAttempt>& attempts, core::Hdf5Group* r
   std::vector<std::int64_t> counts;
   std::vector<double> figures;
   for (const SceneAttempt& one : attempts) {
-    counts.insert(counts.end(), {one.sampled, one.kept, one.dropped, one.projected, one.sound});
+    counts.insert(counts.end(), {one.sampled, one.kept, one.dropped, one.projected, one.valid});
     figures.insert(figures.end(), {one.moved, one.penetration, one.drift});
   }
   const core::Hdf5Storage storage{.rows_per_chunk = 1024, .gzip = kGzip};
@@ -35,7 +35,7 @@ SceneAttempt AttemptOf(const FeasibleScene& scene, int drawn) {
           static_cast<int>(scene.objects.size()),
           scene.dropped,
           scene.projected,
-          scene.sound,
+          scene.valid,
           scene.moved,
           scene.penetration,
           scene.drift};
@@ -43,7 +43,7 @@ SceneAttempt AttemptOf(const FeasibleScene& scene, int drawn) {
 
 int SceneShard::SceneCount() const {
   return static_cast<int>(std::count_if(attempts.begin(), attempts.end(),
-                                        [](const SceneAttempt& one) { return one.sound; }));
+                                        [](const SceneAttempt& one) { return one.valid; }));
 }
 
 void WriteShard(const SceneShard& part, const fs::path& path) {
@@ -89,7 +89,7 @@ SceneShardFile::SceneShardFile(const fs::path& path) : path_(path) {
   std::string error;
   if (!vocabulary_.IsValid(&error)) throw core::Error(error, path.string());
   const auto valid = std::count_if(attempts_.begin(), attempts_.end(),
-                                   [](const SceneAttempt& one) { return one.sound; });
+                                   [](const SceneAttempt& one) { return one.valid; });
   if (valid != scenes_) {
     throw core::Error(
         "it lists " + std::to_string(valid) + " valid scenes but holds " + std::to_string(scenes_),

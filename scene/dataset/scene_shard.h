@@ -17,7 +17,7 @@ struct SceneAttempt {
   int kept = 0;              // objects that remain after physics
   int dropped = 0;           // objects that fell, toppled or did not come to rest
   bool projected = false;    // true if all penetrations were resolved
-  bool sound = false;        // true if valid: a scene of the dataset
+  bool valid = false;        // true if valid: a scene of the dataset
   double moved = 0.0;        // m, mean displacement
   double penetration = 0.0;  // m, the deepest
   double drift = 0.0;        // m, largest drift during the stability check

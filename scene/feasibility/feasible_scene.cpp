@@ -200,7 +200,7 @@ FeasibleScene MakeFeasible(const std::vector<SceneObject>& objects, const AssetS
     scene.moved += (scene.objects[i].world_from_object.translation() - sampled_positions[i]).norm();
   }
   if (free > 0) scene.moved /= free;
-  scene.sound = free >= options.min_objects && scene.drift <= options.settling.stable &&
+  scene.valid = free >= options.min_objects && scene.drift <= options.settling.stable &&
                 scene.penetration <= options.penetration;
   return scene;
 }

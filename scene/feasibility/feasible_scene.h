@@ -41,7 +41,7 @@ struct FeasibilityOptions {
 // The result of physics on a scene.
 struct FeasibleScene {
   // True if there are enough objects, no penetration exceeds the tolerance, and all are stable.
-  bool sound = false;
+  bool valid = false;
   std::vector<SceneObject> objects;  // at rest; parents as sampled, re-indexed
   int dropped = 0;                   // objects that fell, toppled or did not come to rest
   double moved = 0.0;                // m, mean displacement of the kept objects

@@ -12,7 +12,7 @@
 namespace simwright::scene {
 
 struct SceneModel::Network {
-  SceneModelMetadata facts;
+  SceneModelMetadata metadata;
   std::shared_ptr<Denoiser> denoiser;
   torch::Device device;
 };
@@ -38,17 +38,17 @@ SceneModel SceneModel::Load(const std::filesystem::path& weights) {
   const torch::Device device = nn::BestDevice();
   model.denoiser->to(device);
   return SceneModel(std::make_unique<Network>(
-      Network{std::move(model.facts), std::move(model.denoiser), device}));
+      Network{std::move(model.metadata), std::move(model.denoiser), device}));
 }
 
-const SceneModelMetadata& SceneModel::facts() const {
-  return network_->facts;
+const SceneModelMetadata& SceneModel::metadata() const {
+  return network_->metadata;
 }
 
 void SceneModel::AddAsset(const std::string& category,
                           const std::vector<Eigen::Vector3d>& surface) {
-  SceneModelMetadata facts = network_->facts;
-  Vocabulary& vocabulary = facts.vocabulary;
+  SceneModelMetadata metadata = network_->metadata;
+  Vocabulary& vocabulary = metadata.vocabulary;
   AssetShapes shapes = network_->denoiser->Shapes();
   if (vocabulary.ClassOf(category) >= 0)
     throw core::Error("the model has this category already", category);
@@ -60,11 +60,11 @@ void SceneModel::AddAsset(const std::string& category,
   shapes.surfaces.insert(shapes.surfaces.begin() + at, surface);
   std::string error;
   if (!vocabulary.IsValid(&error) ||
-      !shapes.IsValid(vocabulary, facts.options.shape_points, &error)) {
+      !shapes.IsValid(vocabulary, metadata.options.shape_points, &error)) {
     throw core::Error("an asset for a model of scenes: " + error);
   }
   // No parameter depends on the number of classes.
-  std::shared_ptr<Denoiser> wider = MakeDenoiser(facts.options, vocabulary.ClassCount());
+  std::shared_ptr<Denoiser> wider = MakeDenoiser(metadata.options, vocabulary.ClassCount());
   const torch::NoGradGuard no_gradient;
   const auto learned = network_->denoiser->named_parameters();
   for (auto& one : wider->named_parameters()) one.value().copy_(learned[one.key()]);
@@ -72,7 +72,7 @@ void SceneModel::AddAsset(const std::string& category,
   wider->to(network_->device);
   wider->eval();
   network_->denoiser = std::move(wider);
-  network_->facts = std::move(facts);
+  network_->metadata = std::move(metadata);
 }
 
 std::vector<float> SceneModel::Sample(int count, const SampleOptions& options,
@@ -82,10 +82,10 @@ std::vector<float> SceneModel::Sample(int count, const SampleOptions& options,
   if (count < 0) throw core::Error("cannot sample this number of scenes", std::to_string(count));
   nn::PrepareForWork();
   const torch::NoGradGuard no_gradient;
-  const SceneModelMetadata& facts = network_->facts;
-  const SceneDiffusion diffusion(facts.options, facts.vocabulary.ClassCount());
+  const SceneModelMetadata& metadata = network_->metadata;
+  const SceneDiffusion diffusion(metadata.options, metadata.vocabulary.ClassCount());
   std::vector<int> times =
-      diffusion.Times(options.steps == 0 ? facts.options.diffusion_steps : options.steps);
+      diffusion.Times(options.steps == 0 ? metadata.options.diffusion_steps : options.steps);
   times.push_back(-1);
   std::vector<float> tokens;
   for (int first = 0; first < count; first += options.batch) {
@@ -93,7 +93,7 @@ std::vector<float> SceneModel::Sample(int count, const SampleOptions& options,
     // Each batch samples from its own stream: sampling more scenes does not change the first ones.
     core::Rng rng = core::StreamRng(options.seed, static_cast<std::uint64_t>(first));
     const at::Generator generator = at::detail::createCPUGenerator(rng());
-    NoisyScenes scenes = diffusion.Noise(some, facts.vocabulary.entries, generator);
+    NoisyScenes scenes = diffusion.Noise(some, metadata.vocabulary.entries, generator);
     scenes.poses = scenes.poses.to(network_->device);
     scenes.classes = scenes.classes.to(network_->device);
     for (size_t i = 0; i + 1 < times.size(); ++i) {
@@ -102,7 +102,7 @@ std::vector<float> SceneModel::Sample(int count, const SampleOptions& options,
                      &scenes);
     }
     const std::vector<float> part =
-        TokensOf(diffusion.Clean(scenes), facts.vocabulary, facts.range);
+        TokensOf(diffusion.Clean(scenes), metadata.vocabulary, metadata.range);
     tokens.insert(tokens.end(), part.begin(), part.end());
     for (int i = 0; i < some; ++i) progress->Advance();
   }

@@ -45,11 +45,11 @@ class SceneModel {
   SceneModel(SceneModel&&) noexcept;
   SceneModel& operator=(SceneModel&&) noexcept;
 
-  const SceneModelMetadata& facts() const;
+  const SceneModelMetadata& metadata() const;
 
   // Adds an asset that the model may place, free, identified by its surface only (ShapeOf, of
-  // facts().options.shape_points). Throws core::Error if the model does not embed classes by shape,
-  // the category exists already, or points are missing or not finite.
+  // metadata().options.shape_points). Throws core::Error if the model does not embed classes by
+  // shape, the category exists already, or points are missing or not finite.
   void AddAsset(const std::string& category, const std::vector<Eigen::Vector3d>& surface);
 
   // Samples `count` scenes. Returns their tokens (count x entries x TokenWidth), with one-hot

@@ -66,13 +66,13 @@ class Training {
         device_(nn::BestDevice()),
         held_out_(HeldOut(dataset.SceneCount(), options)),
         training_(dataset.SceneCount() - held_out_),
-        facts_{dataset.vocabulary(), model, PoseRange::Of(dataset, 0, training_)},
+        metadata_{dataset.vocabulary(), model, PoseRange::Of(dataset, 0, training_)},
         diffusion_(model, dataset.vocabulary().ClassCount()) {
-    facts_.training_scenes = training_;
-    facts_.data_seed = dataset.parts().front().origin().seed;
+    metadata_.training_scenes = training_;
+    metadata_.data_seed = dataset.parts().front().origin().seed;
     torch::manual_seed(options.seed);  // for the initial weights
     denoiser_ = MakeDenoiser(model, dataset.vocabulary().ClassCount());
-    facts_.parameters = ParameterCount(*denoiser_);
+    metadata_.parameters = ParameterCount(*denoiser_);
     denoiser_->to(device_);
     average_ = MakeDenoiser(model, dataset.vocabulary().ClassCount());
     average_->to(device_);
@@ -96,7 +96,7 @@ class Training {
     progress->Stage("training", options_.trainer.steps - first);
     for (int step = first; step < options_.trainer.steps; ++step) {
       stream.Next(options_.batch, tokens.data());
-      Step(step, OnDevice(TensorsOf(tokens, dataset_.vocabulary(), facts_.range)), generator);
+      Step(step, OnDevice(TensorsOf(tokens, dataset_.vocabulary(), metadata_.range)), generator);
       const bool last = step + 1 == options_.trainer.steps;
       if ((step + 1) % options_.report_every == 0 || last) Record(step + 1);
       if (trainer_->SaveDue(step)) Save(step + 1);
@@ -105,7 +105,7 @@ class Training {
     progress->Finish();
     SceneTrainingReport report;
     report.weights = output_ / kWeightsFile;
-    report.parameters = facts_.parameters;
+    report.parameters = metadata_.parameters;
     report.training_scenes = training_;
     report.held_out_scenes = held_out_;
     report.losses = losses_;
@@ -155,7 +155,7 @@ class Training {
     trainer_->CopyAverageTo(average_.get());
     const CleanScenes scenes =
         OnDevice(TensorsOf(dataset_.Read(training_, std::min(held_out_, kHeldOutBatch)),
-                           dataset_.vocabulary(), facts_.range));
+                           dataset_.vocabulary(), metadata_.range));
     core::Rng rng = core::StreamRng(options_.seed, 0);
     const at::Generator generator = at::detail::createCPUGenerator(rng());
     return diffusion_.Loss(average_.get(), diffusion_.AddNoise(scenes, generator))
@@ -171,10 +171,10 @@ class Training {
   void Save(int step) {
     trainer_->SaveState(step);
     trainer_->CopyAverageTo(average_.get());
-    facts_.steps = step;
-    WriteWeights(*average_, facts_, output_ / kWeightsFile);
+    metadata_.steps = step;
+    WriteWeights(*average_, metadata_, output_ / kWeightsFile);
     core::WriteFile(output_ / kLossesFile, LossesText(losses_));
-    core::WriteFile(output_ / kLossCurvesFile, LossCurves(facts_.vocabulary.type, losses_));
+    core::WriteFile(output_ / kLossCurvesFile, LossCurves(metadata_.vocabulary.type, losses_));
   }
 
   const SceneDataset& dataset_;
@@ -182,7 +182,7 @@ class Training {
   fs::path output_;
   torch::Device device_;
   int held_out_, training_;
-  SceneModelMetadata facts_;
+  SceneModelMetadata metadata_;
   SceneDiffusion diffusion_;
   std::shared_ptr<Denoiser> denoiser_, average_;
   std::unique_ptr<nn::Trainer> trainer_;

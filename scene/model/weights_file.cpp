@@ -26,55 +26,55 @@ SceneModelOptions OptionsOf(const nlohmann::json& json) {
   return options;
 }
 
-SceneModelMetadata FactsOf(const nlohmann::json& json) {
+SceneModelMetadata MetadataOf(const nlohmann::json& json) {
   Vocabulary vocabulary;
   vocabulary.type = json.at("type");
   vocabulary.entries = json.at("entries");
   vocabulary.categories = json.at("slots").get<std::vector<std::string>>();
   vocabulary.welded = json.at("welded").get<std::vector<bool>>();
-  SceneModelMetadata facts{vocabulary, OptionsOf(json), PoseRange::FromText(json.at("range"))};
-  facts.training_scenes = json.at("training_scenes");
-  facts.data_seed = json.at("data_seed");
-  facts.steps = json.at("steps");
-  return facts;
+  SceneModelMetadata metadata{vocabulary, OptionsOf(json), PoseRange::FromText(json.at("range"))};
+  metadata.training_scenes = json.at("training_scenes");
+  metadata.data_seed = json.at("data_seed");
+  metadata.steps = json.at("steps");
+  return metadata;
 }
 
 }  // namespace
 
-void WriteWeights(const Denoiser& denoiser, const SceneModelMetadata& facts,
+void WriteWeights(const Denoiser& denoiser, const SceneModelMetadata& metadata,
                   const std::filesystem::path& path) {
   nlohmann::ordered_json json;
-  json["type"] = facts.vocabulary.type;
-  json["entries"] = facts.vocabulary.entries;
-  json["slots"] = facts.vocabulary.categories;
-  json["welded"] = facts.vocabulary.welded;
-  json["range"] = facts.range.Text();
-  json["denoiser"] = NameOf(facts.options.kind);
-  json["continuous"] = facts.options.continuous;
-  json["width"] = facts.options.width;
-  json["heads"] = facts.options.heads;
-  json["double_blocks"] = facts.options.double_blocks;
-  json["single_blocks"] = facts.options.single_blocks;
-  json["diffusion_steps"] = facts.options.diffusion_steps;
-  json["class_weight"] = facts.options.class_weight;
-  json["blends_clean_poses"] = facts.options.blends_clean_poses;
-  json["time_power"] = facts.options.time_power;
-  json["shape_points"] = facts.options.shape_points;
-  json["training_scenes"] = facts.training_scenes;
-  json["data_seed"] = facts.data_seed;
-  json["steps"] = facts.steps;
+  json["type"] = metadata.vocabulary.type;
+  json["entries"] = metadata.vocabulary.entries;
+  json["slots"] = metadata.vocabulary.categories;
+  json["welded"] = metadata.vocabulary.welded;
+  json["range"] = metadata.range.Text();
+  json["denoiser"] = NameOf(metadata.options.kind);
+  json["continuous"] = metadata.options.continuous;
+  json["width"] = metadata.options.width;
+  json["heads"] = metadata.options.heads;
+  json["double_blocks"] = metadata.options.double_blocks;
+  json["single_blocks"] = metadata.options.single_blocks;
+  json["diffusion_steps"] = metadata.options.diffusion_steps;
+  json["class_weight"] = metadata.options.class_weight;
+  json["blends_clean_poses"] = metadata.options.blends_clean_poses;
+  json["time_power"] = metadata.options.time_power;
+  json["shape_points"] = metadata.options.shape_points;
+  json["training_scenes"] = metadata.training_scenes;
+  json["data_seed"] = metadata.data_seed;
+  json["steps"] = metadata.steps;
   nn::SaveCheckpoint(denoiser, {{"kind", kKind}, {"model", json.dump()}}, path);
 }
 
 ReadModel ReadWeights(const std::filesystem::path& path) {
-  const nn::CheckpointMetadata facts = nn::ReadCheckpointMetadata(path, kKind);
+  const nn::CheckpointMetadata metadata = nn::ReadCheckpointMetadata(path, kKind);
   std::string error;
   try {
-    ReadModel model{FactsOf(nlohmann::json::parse(facts.at("model"))), nullptr};
-    if (!model.facts.vocabulary.IsValid(&error)) throw core::Error(error, path.string());
-    model.denoiser = MakeDenoiser(model.facts.options, model.facts.vocabulary.ClassCount());
+    ReadModel model{MetadataOf(nlohmann::json::parse(metadata.at("model"))), nullptr};
+    if (!model.metadata.vocabulary.IsValid(&error)) throw core::Error(error, path.string());
+    model.denoiser = MakeDenoiser(model.metadata.options, model.metadata.vocabulary.ClassCount());
     nn::LoadCheckpoint(path, kKind, model.denoiser.get());
-    model.facts.parameters = ParameterCount(*model.denoiser);
+    model.metadata.parameters = ParameterCount(*model.denoiser);
     model.denoiser->eval();
     return model;
   } catch (const nlohmann::json::exception&) {

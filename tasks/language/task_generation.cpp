@@ -182,10 +182,10 @@ class TaskGeneration {
   void Complete(Task* task) {
     for (Subtask& subtask : task->subtasks) {
       Verify(task, &subtask);
-      const bool sound = subtask.sound();
-      if (!sound && !failed_) Repair(task, &subtask);
-      if (subtask.sound()) {
-        result_.repaired += sound ? 0 : 1;
+      const bool valid = subtask.valid();
+      if (!valid && !failed_) Repair(task, &subtask);
+      if (subtask.valid()) {
+        result_.repaired += valid ? 0 : 1;
         continue;
       }
       GiveUp(task, subtask);
@@ -210,7 +210,7 @@ class TaskGeneration {
 
   void Repair(Task* task, Subtask* subtask) {
     llm::ChatRequest request = RepairQuestion(description_, *task, *subtask, subtask->findings);
-    for (int repair = 0; repair < options_.repairs && !subtask->sound(); ++repair) {
+    for (int repair = 0; repair < options_.repairs && !subtask->valid(); ++repair) {
       const std::optional<std::string> text = Ask(&request);
       if (!text) return;
       const std::string program = ReadProgramAnswer(*text);

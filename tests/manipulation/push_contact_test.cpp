@@ -77,8 +77,8 @@ TEST(PushingPoses, ToHighEdgesAreNotFromAbove) {
 
 TEST(SampleStart, AHandThatBeginsAtTheDoorDoesNotGoBackFirst) {
   skills::SkillOptions options;
-  options.at_focus_share = 1.0;
-  options.part_way_share = 0.0;
+  options.at_target_share = 1.0;
+  options.partly_open_share = 0.0;
   const auto skill = skills::MakeSkill(robot::Panda(false), {skills::CloseDoor()}, options);
   core::Rng rng = core::StreamRng(3, 0);
   int grasp_configuration = 0;

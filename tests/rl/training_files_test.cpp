@@ -177,7 +177,7 @@ TEST(PolicyFile, ActsAsWrittenAndKeepsItsFacts) {
   const Policy whole = ReadPolicy(path);
   whole.Act(observations, &found);
   EXPECT_EQ((found - expected).cwiseAbs().maxCoeff(), 0.0f);
-  EXPECT_EQ(whole.facts(), policy.facts());
+  EXPECT_EQ(whole.metadata(), policy.metadata());
   EXPECT_EQ(whole.std(), policy.std());
   const auto size = std::filesystem::file_size(path);
   WritePolicy(policy, path, Precision::kHalf);

@@ -33,7 +33,7 @@ TrainingOptions SmallTraining(int iterations) {
   options.max_samples = iterations * kIteration;
   options.success_window = 20;
   options.checkpoint_every = 3;
-  options.facts = {{"task", "reach"}};
+  options.metadata = {{"task", "reach"}};
   return options;
 }
 
@@ -88,14 +88,14 @@ TEST_F(TrainingTest, OneBeginsWithWhatAnotherHasLearnt) {
   TrainingOptions options = SmallTraining(1);
   options.ppo.epochs = 1;
   options.ppo.minibatch = kIteration;  // one step: no weight moves further than the rate
-  options.facts = {{"task", "another"}};
+  options.metadata = {{"task", "another"}};
   options.begin_from = whole_ / kCheckpointFile;
   const fs::path begun = folder_.path() / "begun";
   const TrainingResult result = Train(options, begun, false);
   EXPECT_EQ(result.last.samples, kIteration);
   EXPECT_EQ(result.last.iteration, 1.0);
   const Policy known = ReadPolicy(whole_ / kPolicyFile), first = ReadPolicy(begun / kPolicyFile);
-  EXPECT_EQ(first.facts().at("task"), "another");
+  EXPECT_EQ(first.metadata().at("task"), "another");
   EXPECT_LT(LargestDifference(known.actor(), first.actor()), 2.0 * options.ppo.largest_rate);
   options.begin_from.clear();
   Train(options, folder_.path() / "fresh", false);
@@ -164,7 +164,7 @@ TEST_F(TrainingTest, ACheckpointOfAnotherTrainingIsRefusedSayingWhatDiffers) {
     return "none";
   };
   EXPECT_NE(refusal([](TrainingOptions* o) {
-              o->facts["task"] = "open";
+              o->metadata["task"] = "open";
             }).find("its task is 'reach', expected 'open'"),
             std::string::npos);
   EXPECT_NE(refusal([](TrainingOptions* o) {
@@ -201,7 +201,7 @@ TEST(Training, EndsWhenTheSuccessIntervalsLowerEndHasReachedTheTarget) {
   EXPECT_LT(records[records.size() - 2].success_low, 0.7);
 
   const Policy policy = ReadPolicy(folder.path() / "run" / kPolicyFile);
-  EXPECT_EQ(policy.facts().at("task"), "reach");
+  EXPECT_EQ(policy.metadata().at("task"), "reach");
   EXPECT_GT(fs::file_size(folder.path() / "run" / kCurvesFile), 2000u);
 }
 

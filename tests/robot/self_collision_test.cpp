@@ -66,13 +66,13 @@ TEST_P(SelfCollision, NoneAtHomeWithTheGripperOpenOrClosed) {
 TEST_P(SelfCollision, NoPairThatIsCheckedOverlapsUsually) {
   core::Rng rng(17);
   std::map<std::string, int> overlaps;
-  constexpr int kPostures = 100;
-  for (int i = 0; i < kPostures; ++i) {
+  constexpr int kConfigurations = 100;
+  for (int i = 0; i < kConfigurations; ++i) {
     for (const std::string& pair : Overlaps(RandomPosture(model_.arm, rng), model_.gripper.open)) {
       ++overlaps[pair];
     }
   }
-  for (const auto& [pair, count] : overlaps) EXPECT_LT(count, kPostures / 10) << pair;
+  for (const auto& [pair, count] : overlaps) EXPECT_LT(count, kConfigurations / 10) << pair;
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, SelfCollision,

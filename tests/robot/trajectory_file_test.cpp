@@ -59,13 +59,13 @@ TEST(TrajectoryFile, ReadsBackEveryBit) {
   const core::TemporaryFolder folder;
   for (const bool efforts : {true, false}) {
     JointTrajectory trajectory = TrajectoryFileSample(50, efforts);
-    trajectory.notes = {{"task", "open the door: slowly"}, {"seed", "7"}};
+    trajectory.metadata = {{"task", "open the door: slowly"}, {"seed", "7"}};
     for (const char* name : {"a.yaml", "a.yml", "a.json", "a.csv"}) {
       WriteTrajectory(folder.path() / name, trajectory);
       const JointTrajectory read = ReadTrajectory(folder.path() / name);
       TrajectoryFileExpectSame(read, trajectory);
       if (std::string(name) != "a.json") {
-        EXPECT_EQ(read.notes, trajectory.notes);
+        EXPECT_EQ(read.metadata, trajectory.metadata);
       }
     }
   }
@@ -210,7 +210,7 @@ TEST(TrajectoryFile, RefusesToWriteWhatItCouldNotRead) {
     wrong.joints[1] = "a, b";
     EXPECT_THROW(TrajectoryText(wrong, format), core::Error);
     wrong = whole;
-    wrong.notes["task"] = "two\nlines";
+    wrong.metadata["task"] = "two\nlines";
     EXPECT_THROW(TrajectoryText(wrong, format), core::Error);
     wrong = whole;
     wrong.velocities(1, 1) = std::nan("");

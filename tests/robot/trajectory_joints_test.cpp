@@ -18,7 +18,7 @@ JointTrajectory TrajectoryJointsSample() {
   trajectory.times = {0.0, 0.1};
   trajectory.positions = (Eigen::MatrixXd(2, 3) << 1, 2, 3, 4, 5, 6).finished();
   trajectory.velocities = 10.0 * trajectory.positions;
-  trajectory.notes = {{"task", "pick"}};
+  trajectory.metadata = {{"task", "pick"}};
   return trajectory;
 }
 
@@ -27,7 +27,7 @@ TEST(TrajectoryJoints, PartsJoinToTheWhole) {
   const JointTrajectory arm = JointsOf(whole, {kJoints[0], kJoints[1]});
   EXPECT_EQ(arm.positions, whole.positions.leftCols(2));
   EXPECT_EQ(arm.accelerations.size(), 0);
-  EXPECT_EQ(arm.notes, whole.notes);
+  EXPECT_EQ(arm.metadata, whole.metadata);
   JointTrajectory finger = JointsOf(whole, {kJoints[2]});
   EXPECT_EQ(finger.velocities, whole.velocities.rightCols(1));
   const JointTrajectory both = Joined(arm, finger, "finger.yaml");

@@ -198,7 +198,7 @@ TEST(SceneDataset, RefusesWhatIsDamaged) {
   EXPECT_NE(DatasetErrorOf(path).find("scene 0: entry 1: a number is not finite"),
             std::string::npos);
   part = Part(0, 3);
-  part.attempts[0].sound = false;
+  part.attempts[0].valid = false;
   part.tokens.resize(part.tokens.size() / 3 * 2);
   part.attempts.push_back({3, 3, 0, true, true, 0, 0, 0});
   WriteShard(part, path);

@@ -73,10 +73,10 @@ TEST(MakeFeasible, DimsumTablesStand) {
     const SceneSample sample = DrawOf(asset_set, static_cast<std::uint64_t>(i));
     const FeasibleScene scene = MakeFeasible(sample.objects, asset_set, options);
     EXPECT_TRUE(scene.projected);
-    sound += scene.sound;
+    sound += scene.valid;
     objects += static_cast<int>(sample.objects.size());
     dropped += scene.dropped;
-    if (!scene.sound) continue;
+    if (!scene.valid) continue;
     EXPECT_LE(scene.penetration, 1e-4);
     EXPECT_LE(scene.drift, 1e-3);
     EXPECT_LT(scene.moved, 2e-3);
@@ -96,7 +96,7 @@ TEST(MakeFeasible, WhatHangsInTheAirFallsAndIsDropped) {
   const std::vector<SceneObject> objects = TableWith(
       {{"plate", {0.1, 0, 0.785}}, {"cup", {0.9, 0, 0.785}}, {"cup", {-0.04, 0, 0.785}, 1}});
   const FeasibleScene scene = MakeFeasible(objects, asset_set, options);
-  EXPECT_TRUE(scene.sound);
+  EXPECT_TRUE(scene.valid);
   EXPECT_EQ(scene.dropped, 1);
   ASSERT_EQ(scene.objects.size(), 3u);
   EXPECT_EQ(scene.objects[2].parent, 1);
@@ -118,7 +118,7 @@ TEST(MakeFeasible, LowersWhatHangsInTheAir) {
   EXPECT_EQ(MakeFeasible(objects, asset_set, options).dropped, 1);
   options.lowering = 0.1;
   const FeasibleScene scene = MakeFeasible(objects, asset_set, options);
-  EXPECT_TRUE(scene.sound);
+  EXPECT_TRUE(scene.valid);
   EXPECT_EQ(scene.dropped, 0);
   ASSERT_EQ(scene.objects.size(), 3u);
   EXPECT_NEAR(scene.objects[1].world_from_object.translation().z(), 0.785, 2e-4);
@@ -136,13 +136,13 @@ TEST(MakeFeasible, WhatIsOnItsWayIsGivenTime) {
   const std::vector<SceneObject> objects =
       TableWith({{"plate", {0.2, 0, 0.785}}, {"cup", {-0.2, 0, 0.8}}});
   const FeasibleScene scene = MakeFeasible(objects, asset_set, options);
-  EXPECT_TRUE(scene.sound);
+  EXPECT_TRUE(scene.valid);
   EXPECT_EQ(scene.dropped, 0);
   ASSERT_EQ(scene.objects.size(), 3u);
   EXPECT_NEAR(scene.objects[2].world_from_object.translation().z(), 0.785, 5e-4);
   options.passes = 1;
   const FeasibleScene hasty = MakeFeasible(objects, asset_set, options);
-  EXPECT_FALSE(hasty.sound);
+  EXPECT_FALSE(hasty.valid);
   EXPECT_EQ(hasty.dropped, 1);
 }
 
@@ -174,7 +174,7 @@ TEST(MakeFeasible, FruitMayLie) {
   EXPECT_EQ(scene.objects[1].category, "pear");
   // It lies: its z axis is horizontal.
   EXPECT_NEAR(scene.objects[1].world_from_object.linear()(2, 2), 0.0, 0.02);
-  EXPECT_TRUE(scene.sound);
+  EXPECT_TRUE(scene.valid);
 }
 
 TEST(MakeFeasible, TooFewObjectsAreNoScene) {
@@ -183,8 +183,8 @@ TEST(MakeFeasible, TooFewObjectsAreNoScene) {
       {"table_round", "table", Eigen::Isometry3d::Identity(), true, -1}};
   FeasibilityOptions options;
   options.settling.duration = options.settling.watch = 0.01;
-  EXPECT_FALSE(MakeFeasible(objects, asset_set, options).sound);
-  EXPECT_FALSE(MakeFeasible({}, asset_set, options).sound);
+  EXPECT_FALSE(MakeFeasible(objects, asset_set, options).valid);
+  EXPECT_FALSE(MakeFeasible({}, asset_set, options).valid);
 }
 
 TEST(MakeFeasible, RefusesWhatIsNotKnown) {

@@ -82,7 +82,7 @@ TEST(ExtendShard, IsTheSameForAnyThreadsAndInterruptions) {
     }
   }
   for (const SceneAttempt& one : whole.attempts) {
-    if (!one.sound) continue;
+    if (!one.valid) continue;
     EXPECT_LE(one.penetration, 1e-4);
     EXPECT_LE(one.drift, 1e-3);
     EXPECT_EQ(one.kept + one.dropped, one.sampled);

@@ -77,9 +77,9 @@ TEST(SceneTraining, LearnsWhatScenesHold) {
   EXPECT_LT(report.losses.back().held_out, 0.5 * report.losses.front().held_out);
 
   const SceneModel model = SceneModel::Load(report.weights);
-  EXPECT_EQ(model.facts().vocabulary, SceneTrainingWords());
-  EXPECT_EQ(model.facts().training_scenes, 180);
-  EXPECT_EQ(model.facts().parameters, report.parameters);
+  EXPECT_EQ(model.metadata().vocabulary, SceneTrainingWords());
+  EXPECT_EQ(model.metadata().training_scenes, 180);
+  EXPECT_EQ(model.metadata().parameters, report.parameters);
   SampleOptions options;
   options.steps = 50;
   constexpr int kScenes = 64;
@@ -130,7 +130,7 @@ TEST(SceneTraining, PlacesAnAssetItHasNotSeen) {
   SceneModel model = SceneModel::Load(report.weights);
   model.AddAsset("mug", shape(0.085, 0.085, 0.105));
   EXPECT_THROW(model.AddAsset("mug", shape(1, 1, 1)), core::Error);
-  const Vocabulary words = model.facts().vocabulary;
+  const Vocabulary words = model.metadata().vocabulary;
   EXPECT_EQ(words.categories, (std::vector<std::string>{"cup", "mug", "plate", "table"}));
   EXPECT_EQ(words.welded, (std::vector<bool>{false, false, false, true}));
   SampleOptions sampling;
@@ -169,7 +169,7 @@ TEST(SceneTraining, GoesOnWhereItStopped) {
   ASSERT_EQ(report.losses.size(), 6u);
   EXPECT_EQ(report.losses.front().step, 10);
   EXPECT_EQ(report.losses.back().step, 60);
-  EXPECT_EQ(SceneModel::Load(report.weights).facts().steps, 60);
+  EXPECT_EQ(SceneModel::Load(report.weights).metadata().steps, 60);
   SceneModelOptions other = SceneTrainingSmall();
   other.width = 32;
   EXPECT_THROW(TrainSceneModel(dataset, other, options, folder.path() / "run", &progress),
@@ -197,7 +197,7 @@ TEST(SceneTraining, KeepsTheLastGoodWeightsWhereItDiverges) {
     EXPECT_NE(std::string(error.what()).find("diverged"), std::string::npos) << error.what();
   }
   EXPECT_EQ(core::ReadFile(good.weights), weights);
-  EXPECT_EQ(SceneModel::Load(good.weights).facts().steps, 40);
+  EXPECT_EQ(SceneModel::Load(good.weights).metadata().steps, 40);
 }
 
 TEST(SceneModel, RefusesWhatIsNone) {

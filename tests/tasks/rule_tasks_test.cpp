@@ -124,7 +124,7 @@ TEST(RuleTasks, AreSoundAndOfEveryKind) {
   std::set<std::string> names;
   std::size_t longest = 0;
   for (const Task& task : result.tasks) {
-    EXPECT_TRUE(task.sound()) << task.name;
+    EXPECT_TRUE(task.valid()) << task.name;
     EXPECT_TRUE(names.insert(task.name).second) << task.name;
     longest = std::max(longest, task.subtasks.size());
   }

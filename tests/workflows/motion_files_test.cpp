@@ -19,7 +19,7 @@ robot::JointTrajectory Sample() {
   motion.positions = (Eigen::MatrixXd(3, 3) << 0, 1, 2, 0.1, 1.1, 2.1, 0.3, 1.3, 2.3).finished();
   motion.velocities = 3.0 * motion.positions;
   motion.accelerations = 7.0 * motion.positions;
-  motion.notes = {{"task", "pick"}, {"seed", "4"}};
+  motion.metadata = {{"task", "pick"}, {"seed", "4"}};
   return motion;
 }
 
@@ -42,7 +42,7 @@ TEST_P(MotionFiles, AreReadBackUnderTheRobotsNames) {
   EXPECT_EQ(read.positions, motion.positions);
   EXPECT_EQ(read.velocities, motion.velocities);
   EXPECT_EQ(read.accelerations, motion.accelerations);
-  EXPECT_EQ(read.notes, motion.notes);
+  EXPECT_EQ(read.metadata, motion.metadata);
   for (const auto& entry : fs::directory_iterator(folder_.path())) {
     EXPECT_EQ(IsMotionSideFile(entry.path()), entry.path() != file) << entry.path();
   }

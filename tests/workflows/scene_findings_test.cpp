@@ -18,7 +18,7 @@ scene::SceneAttempt Attempt(int kept, int dropped) {
   attempt.sampled = kept + dropped;
   attempt.kept = kept;
   attempt.dropped = dropped;
-  attempt.projected = attempt.sound = true;
+  attempt.projected = attempt.valid = true;
   return attempt;
 }
 

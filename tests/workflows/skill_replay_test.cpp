@@ -70,7 +70,7 @@ TEST_F(SkillReplay, AChainOfSubtasksDoesToo) {
 TEST_F(SkillReplay, AnotherMotionFails) {
   const robot::JointTrajectory motion = ExportedPick();
   const std::vector<RunSkill> skills = PrepareSkills(AtPhysicsRate(ReadRun(Pick())));
-  const SkillMetadata notes = MetadataFrom(motion.notes, "pick.csv");
+  const SkillMetadata notes = MetadataFrom(motion.metadata, "pick.csv");
   EXPECT_EQ(ReplayTrajectory(skills, motion, notes, "a"), std::vector<bool>{true});
 
   robot::JointTrajectory open = motion;  // never closes the gripper

@@ -45,12 +45,12 @@ TrainedSkill Learnt(std::int64_t samples, const LearningShares& shares) {
 }
 
 TEST(LearningShares, AreWhatThePolicyLearntBy) {
-  constexpr auto kFocus = skills::ActionSpace::kFocus;
+  constexpr auto kTargetFrame = skills::ActionSpace::kTargetFrame;
   // Batches of 4096: the 16th ends at 65,536.
-  EXPECT_EQ(SharesOf(40960, Imitating(65536), 64, kFocus).imitated, 40960);
-  EXPECT_EQ(SharesOf(81920, Imitating(65536), 64, kFocus).imitated, 65536);
-  EXPECT_EQ(SharesOf(81920, Imitating(65537), 64, kFocus).imitated, 69632);
-  EXPECT_EQ(SharesOf(81920, Imitating(0), 64, kFocus).imitated, 0);
+  EXPECT_EQ(SharesOf(40960, Imitating(65536), 64, kTargetFrame).imitated, 40960);
+  EXPECT_EQ(SharesOf(81920, Imitating(65536), 64, kTargetFrame).imitated, 65536);
+  EXPECT_EQ(SharesOf(81920, Imitating(65537), 64, kTargetFrame).imitated, 69632);
+  EXPECT_EQ(SharesOf(81920, Imitating(0), 64, kTargetFrame).imitated, 0);
   // There is no scripted expert for joint actions.
   EXPECT_EQ(SharesOf(81920, Imitating(65536), 64, skills::ActionSpace::kJoints).imitated, 0);
   rl::PpoOptions guided = Imitating(65536);

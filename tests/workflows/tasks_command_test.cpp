@@ -101,7 +101,7 @@ TEST_F(TasksCommand, RulesMakeATableAFileAndAPage) {
   ASSERT_EQ(set.assets.size(), 2u);
   EXPECT_EQ(set.assets[0].name, "chest");
   EXPECT_GE(set.tasks.size(), 5u);
-  for (const tasks::Task& task : set.tasks) EXPECT_TRUE(task.sound()) << task.name;
+  for (const tasks::Task& task : set.tasks) EXPECT_TRUE(task.valid()) << task.name;
   const std::string page = core::ReadFile(Path("tasks.html"));
   EXPECT_NE(page.find("open_chest_drawer"), std::string::npos);
   EXPECT_NE(page.find("<svg"), std::string::npos);
@@ -126,7 +126,7 @@ TEST_F(TasksCommand, AGoodAnswerIsTakenAsItIs) {
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   const tasks::TaskSet set = Read("t.json");
   ASSERT_EQ(set.tasks.size(), 1u);
-  EXPECT_TRUE(set.tasks[0].sound());
+  EXPECT_TRUE(set.tasks[0].valid());
   EXPECT_TRUE(set.tasks[0].subtasks[0].attempts.empty());
   EXPECT_EQ(server.bodies().size(), 1u);
 
@@ -147,7 +147,7 @@ TEST_F(TasksCommand, AWrongSignGoesBackAndIsRepaired) {
   const tasks::TaskSet set = Read("t.json");
   ASSERT_EQ(set.tasks.size(), 1u);
   const tasks::Subtask& subtask = set.tasks[0].subtasks[0];
-  EXPECT_TRUE(subtask.sound());
+  EXPECT_TRUE(subtask.valid());
   ASSERT_EQ(subtask.attempts.size(), 2u);  // every attempt is kept with its findings
   EXPECT_EQ(subtask.attempts[0].findings[0].code, "sign-against-success");
   EXPECT_EQ(subtask.attempts[1].findings[0].code, "unknown-joint");
@@ -165,8 +165,8 @@ TEST_F(TasksCommand, AHopelessOneStaysInTheFileAndFailsTheRun) {
   EXPECT_NE(outcome.text.find("not valid"), std::string::npos) << outcome.text;
   const tasks::TaskSet set = Read("t.json");
   ASSERT_EQ(set.tasks.size(), 2u);
-  EXPECT_TRUE(set.tasks[0].sound());
-  EXPECT_FALSE(set.tasks[1].sound());
+  EXPECT_TRUE(set.tasks[0].valid());
+  EXPECT_FALSE(set.tasks[1].valid());
   EXPECT_EQ(set.tasks[1].subtasks[0].attempts.size(), 3u);
   EXPECT_NE(core::ReadFile(Path("t.html")).find("not valid"), std::string::npos);
 }

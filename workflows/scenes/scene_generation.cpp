@@ -84,8 +84,8 @@ SceneStatistics StatisticsOf(const std::vector<scene::SceneAttempt>& attempts) {
     count(one.sampled, &statistics.drawn_counts);
     const bool accepted =
         one.penetration <= limits.penetration && one.drift <= limits.settling.stable;
-    statistics.too_few += accepted && !one.sound;
-    if (!one.sound) continue;
+    statistics.too_few += accepted && !one.valid;
+    if (!one.valid) continue;
     ++statistics.scenes;
     statistics.mean_objects += one.kept;
     statistics.most_objects = std::max(statistics.most_objects, one.kept);

@@ -78,7 +78,7 @@ scene::SceneShard PartOf(const std::vector<Sampled>& scenes, const scene::Vocabu
   const auto size = static_cast<size_t>(vocabulary.entries * vocabulary.TokenWidth());
   for (const Sampled& one : scenes) {
     part.attempts.push_back(one.attempt);
-    if (!one.attempt.sound) continue;
+    if (!one.attempt.valid) continue;
     part.tokens.resize(part.tokens.size() + size);
     EncodeScene(one.objects, vocabulary, &part.tokens[part.tokens.size() - size]);
   }
@@ -113,9 +113,9 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Prog
     if (assets::FileSafeName(category) != category) {
       throw core::Error("a category must be a valid folder name", category);
     }
-    model.AddAsset(category, ShapeOfAsset(folder, model.facts().options.shape_points));
+    model.AddAsset(category, ShapeOfAsset(folder, model.metadata().options.shape_points));
   }
-  const scene::Vocabulary& vocabulary = model.facts().vocabulary;
+  const scene::Vocabulary& vocabulary = model.metadata().vocabulary;
   core::StagedFolder staged(request.output, request.force);
   core::Findings findings;
   const scene::AssetSet asset_set =

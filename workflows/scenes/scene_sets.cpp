@@ -63,7 +63,7 @@ fs::path Generated(const SceneEvaluationRequest& request, const std::string& typ
 }
 
 int TrainingScenes(const SceneEvaluationRequest& request, const scene::SceneDataset& data,
-                   const std::optional<scene::SceneModelMetadata>& facts,
+                   const std::optional<scene::SceneModelMetadata>& metadata,
                    core::Findings* findings) {
   const int there = data.SceneCount();
   if (request.training_scenes > there) {
@@ -71,14 +71,14 @@ int TrainingScenes(const SceneEvaluationRequest& request, const scene::SceneData
                       "--training-scenes cannot be more");
   }
   if (request.training_scenes >= 0) return request.training_scenes;
-  if (request.data.empty() || !facts) return 0;
-  if (facts->data_seed != data.parts().front().origin().seed) return 0;
-  if (facts->training_scenes > there) {
+  if (request.data.empty() || !metadata) return 0;
+  if (metadata->data_seed != data.parts().front().origin().seed) return 0;
+  if (metadata->training_scenes > there) {
     findings->push_back({"scenes-missing", core::Severity::kWarning, request.data.string(),
                          "the model was trained on more scenes of this dataset than are present",
-                         static_cast<double>(facts->training_scenes)});
+                         static_cast<double>(metadata->training_scenes)});
   }
-  return std::min(there, facts->training_scenes);
+  return std::min(there, metadata->training_scenes);
 }
 
 void Sample(const SceneEvaluationRequest& request, const fs::path& weights,
@@ -111,12 +111,12 @@ void WarnOfPhysics(const scene::SceneDataset& samples, const fs::path& path,
 SceneSets GatherSceneSets(const SceneEvaluationRequest& request, const fs::path& folder,
                           core::Findings* findings, core::Progress* progress) {
   const fs::path weights = SetWeights(request);
-  std::optional<scene::SceneModelMetadata> facts;
-  if (!weights.empty()) facts = scene::SceneModel::Load(weights).facts();
+  std::optional<scene::SceneModelMetadata> metadata;
+  if (!weights.empty()) metadata = scene::SceneModel::Load(weights).metadata();
   std::optional<scene::SceneDataset> samples;
   if (!request.samples.empty()) samples.emplace(request.samples);
   SceneSets sets;
-  sets.vocabulary = samples ? samples->vocabulary() : facts->vocabulary;
+  sets.vocabulary = samples ? samples->vocabulary() : metadata->vocabulary;
   const std::string& type = sets.vocabulary.type;
   if (!request.type.empty() && request.type != type) {
     throw core::Error("these are scenes of the type " + type, "--type " + request.type);
@@ -124,7 +124,7 @@ SceneSets GatherSceneSets(const SceneEvaluationRequest& request, const fs::path&
   const fs::path data_folder =
       !request.data.empty()
           ? request.data
-          : Generated(request, type, facts ? facts->data_seed : 0, folder, progress);
+          : Generated(request, type, metadata ? metadata->data_seed : 0, folder, progress);
   const scene::SceneDataset data(data_folder);
   const std::vector<fs::path> assets = AssetFolders(request, data_folder);
   if (!samples) {
@@ -139,7 +139,7 @@ SceneSets GatherSceneSets(const SceneEvaluationRequest& request, const fs::path&
   }
   sets.asset_set = scene::ReadAssetSet(
       GatherSceneAssets({sets.vocabulary.categories, {}, assets, folder / "assets"}, progress));
-  const int training = TrainingScenes(request, data, facts, findings);
+  const int training = TrainingScenes(request, data, metadata, findings);
   sets.samples = Decoded(*samples, 0, std::min(request.count, samples->SceneCount()));
   sets.training = Decoded(data, 0, training);
   sets.held_out = Decoded(data, training, std::min(request.count, data.SceneCount() - training));

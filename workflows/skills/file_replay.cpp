@@ -13,16 +13,16 @@ namespace fs = std::filesystem;
 FileReplay::FileReplay(const SkillRun& run, const std::vector<RunSkill>& skills)
     : run_(run), skills_(skills), fine_skills_(PrepareSkills(AtPhysicsRate(run))) {}
 
-void FileReplay::Require(const SkillMetadata& notes, const std::string& where) {
+void FileReplay::Require(const SkillMetadata& metadata, const std::string& where) {
   if (!run_) {
-    const fs::path folder = folder_.empty() ? fs::path(notes.run) : folder_;
+    const fs::path folder = folder_.empty() ? fs::path(metadata.run) : folder_;
     if (!fs::exists(folder)) {
       throw core::Error("the run does not exist", folder.string(), "give its folder with --run");
     }
     run_ = ReadRun(folder);
     skills_ = PrepareSkills(*run_);
   }
-  RequireMatchingRun(notes, *run_, skills_, where);
+  RequireMatchingRun(metadata, *run_, skills_, where);
 }
 
 ReplayedEpisode FileReplay::EpisodeOf(const std::string& name, std::vector<bool> successes) const {
@@ -36,7 +36,7 @@ ReplayedEpisode FileReplay::EpisodeOf(const std::string& name, std::vector<bool>
 std::vector<ReplayedEpisode> FileReplay::Demonstrations(const fs::path& file) {
   const robot::DemonstrationSet set = robot::ReadDemonstrations(file);
   const std::vector<DemonstrationPlan> plans = PlansOf(set, file.string());
-  for (const DemonstrationPlan& plan : plans) Require(plan.notes, file.string());
+  for (const DemonstrationPlan& plan : plans) Require(plan.metadata, file.string());
   std::vector<ReplayedEpisode> episodes(plans.size());
   core::ParallelFor(static_cast<int>(plans.size()), [&](int i) {
     const auto d = static_cast<size_t>(i);
@@ -49,11 +49,11 @@ std::vector<ReplayedEpisode> FileReplay::Demonstrations(const fs::path& file) {
 
 std::vector<ReplayedEpisode> FileReplay::Trajectories(const std::vector<fs::path>& files) {
   std::vector<robot::JointTrajectory> trajectories;
-  std::vector<SkillMetadata> notes;
+  std::vector<SkillMetadata> metadata;
   for (const fs::path& file : files) {
     trajectories.push_back(ReadMotion(file));
-    notes.push_back(MetadataFrom(trajectories.back().notes, file.string()));
-    Require(notes.back(), file.string());
+    metadata.push_back(MetadataFrom(trajectories.back().metadata, file.string()));
+    Require(metadata.back(), file.string());
   }
   if (fine_skills_.empty()) fine_skills_ = PrepareSkills(AtPhysicsRate(*run_));
   std::vector<ReplayedEpisode> episodes(files.size());
@@ -61,7 +61,7 @@ std::vector<ReplayedEpisode> FileReplay::Trajectories(const std::vector<fs::path
     const auto f = static_cast<size_t>(i);
     episodes[f] =
         EpisodeOf(files[f].filename().string(),
-                  ReplayTrajectory(fine_skills_, trajectories[f], notes[f], files[f].string()));
+                  ReplayTrajectory(fine_skills_, trajectories[f], metadata[f], files[f].string()));
   });
   return episodes;
 }

@@ -27,8 +27,8 @@ class FileReplay {
   const std::vector<RunSkill>& skills() const { return skills_; }
 
  private:
-  // Throws core::Error unless `notes`, read from `where`, belong to the run.
-  void Require(const SkillMetadata& notes, const std::string& where);
+  // Throws core::Error unless `metadata`, read from `where`, belong to the run.
+  void Require(const SkillMetadata& metadata, const std::string& where);
   ReplayedEpisode EpisodeOf(const std::string& name, std::vector<bool> successes) const;
 
   std::filesystem::path folder_;

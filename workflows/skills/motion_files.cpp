@@ -16,8 +16,8 @@ namespace {
 using nlohmann::json;
 using robot::JointTrajectory;
 
-constexpr char kGripperNote[] = "gripper";     // in the arm's file: there is also a gripper file
-constexpr char kJointNote[] = "robot_joints";  // the robot's names, in column order
+constexpr char kGripperKey[] = "gripper";      // in the arm's file: there is also a gripper file
+constexpr char kJointsKey[] = "robot_joints";  // the robot's names, in column order
 
 bool IsRos(const fs::path& file) {
   return robot::TrajectoryFormatOf(file) != robot::TrajectoryFormat::kCsv;
@@ -29,40 +29,40 @@ std::string WithSpaces(const std::vector<std::string>& names) {
   return text;
 }
 
-void WriteWithNotes(const JointTrajectory& trajectory, const fs::path& file) {
+void WriteWithMetadata(const JointTrajectory& trajectory, const fs::path& file) {
   robot::WriteTrajectory(file, trajectory);
   if (file.extension() != ".json") return;
-  core::WriteFile(MetadataFileBeside(file), json(trajectory.notes).dump(2) + "\n");
+  core::WriteFile(MetadataFileBeside(file), json(trajectory.metadata).dump(2) + "\n");
 }
 
 std::map<std::string, std::string> NotesOfJson(const fs::path& file) {
-  const fs::path notes = MetadataFileBeside(file);
-  if (!fs::exists(notes)) {
+  const fs::path metadata = MetadataFileBeside(file);
+  if (!fs::exists(metadata)) {
     throw core::Error("its metadata file is not beside it", file.string(),
-                      "keep " + notes.filename().string() + " with it, or export YAML");
+                      "keep " + metadata.filename().string() + " with it, or export YAML");
   }
   try {
-    return json::parse(core::ReadFile(notes, 1 << 24)).get<std::map<std::string, std::string>>();
+    return json::parse(core::ReadFile(metadata, 1 << 24)).get<std::map<std::string, std::string>>();
   } catch (const json::exception&) {
-    throw core::Error("has no metadata", notes.string(), "export it again");
+    throw core::Error("has no metadata", metadata.string(), "export it again");
   }
 }
 
 // Renames the joints to the robot's own names, which the metadata lists.
 JointTrajectory UnderOwnNames(JointTrajectory trajectory, const fs::path& file) {
-  const auto note = trajectory.notes.find(kJointNote);
-  if (note == trajectory.notes.end()) return trajectory;
+  const auto note = trajectory.metadata.find(kJointsKey);
+  if (note == trajectory.metadata.end()) return trajectory;
   std::istringstream words(note->second);
   std::vector<std::string> own;
   for (std::string word; words >> word;) own.push_back(word);
   if (own.size() != trajectory.joints.size()) {
-    throw core::Error("its metadata entry '" + std::string(kJointNote) + "' names " +
+    throw core::Error("its metadata entry '" + std::string(kJointsKey) + "' names " +
                           std::to_string(own.size()) + " joints, it has " +
                           std::to_string(trajectory.joints.size()),
                       file.string(), "export it again");
   }
   trajectory.joints = own;
-  trajectory.notes.erase(kJointNote);
+  trajectory.metadata.erase(kJointsKey);
   return trajectory;
 }
 
@@ -84,24 +84,24 @@ bool IsMotionSideFile(const fs::path& file) {
 void WriteMotion(const JointTrajectory& trajectory, const fs::path& file,
                  const robot::JointNames& names) {
   JointTrajectory named = robot::Renamed(trajectory, names.names);
-  if (named.joints != trajectory.joints) named.notes[kJointNote] = WithSpaces(trajectory.joints);
+  if (named.joints != trajectory.joints) named.metadata[kJointsKey] = WithSpaces(trajectory.joints);
   if (!IsRos(file)) {
-    WriteWithNotes(named, file);
+    WriteWithMetadata(named, file);
     return;
   }
   const std::vector<std::string> arm(named.joints.begin(), named.joints.end() - 1);
   JointTrajectory of_arm = robot::JointsOf(named, arm);
-  of_arm.notes[kGripperNote] = "beside";
-  WriteWithNotes(of_arm, file);
+  of_arm.metadata[kGripperKey] = "beside";
+  WriteWithMetadata(of_arm, file);
   JointTrajectory gripper = robot::JointsOf(named, {named.joints.back()});
-  gripper.notes = {{"beside", file.filename().string()}};
+  gripper.metadata = {{"beside", file.filename().string()}};
   robot::WriteTrajectory(GripperBeside(file), gripper);
 }
 
 JointTrajectory ReadMotion(const fs::path& file) {
   JointTrajectory trajectory = robot::ReadTrajectory(file);
-  if (file.extension() == ".json") trajectory.notes = NotesOfJson(file);
-  if (trajectory.notes.erase(kGripperNote) > 0) {
+  if (file.extension() == ".json") trajectory.metadata = NotesOfJson(file);
+  if (trajectory.metadata.erase(kGripperKey) > 0) {
     const fs::path gripper = GripperBeside(file);
     if (!fs::exists(gripper)) {
       throw core::Error("the gripper's motion is not beside it", file.string(),

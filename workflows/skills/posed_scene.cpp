@@ -13,7 +13,7 @@ using Eigen::Isometry3d;
 
 const Eigen::Vector4f kRobotColor(0.90f, 0.91f, 0.93f, 1.0f);
 const Eigen::Vector4f kFingerColor(0.35f, 0.36f, 0.40f, 1.0f);
-const Eigen::Vector4f kThingColor(0.75f, 0.72f, 0.66f, 1.0f);
+const Eigen::Vector4f kObjectColor(0.75f, 0.72f, 0.66f, 1.0f);
 const Eigen::Vector4f kFloorColor(0.62f, 0.64f, 0.66f, 1.0f);
 constexpr double kFloorSide = 12.0;  // m
 
@@ -53,7 +53,7 @@ PosedScene::PosedScene(const robot::RobotModel& robot, const skills::SkillVarian
     for (const tasks::TaskAsset& asset : assets) {
       if (asset.name != known.name) continue;
       for (const assets::UrdfLink& link : assets::ReadSemanticModel(asset.path).model.links) {
-        AddLink(link, kThingColor, object, known.FindLink(link.name));
+        AddLink(link, kObjectColor, object, known.FindLink(link.name));
       }
     }
   }

@@ -154,8 +154,8 @@ robot::Demonstration DemonstrationOf(const ObservationWriter& writer,
   return demonstration;
 }
 
-json PlanJson(const SkillMetadata& notes, const ChainRecording& recording) {
-  json plan = {{"episode", notes.episode}, {"task", notes.task}};
+json PlanJson(const SkillMetadata& metadata, const ChainRecording& recording) {
+  json plan = {{"episode", metadata.episode}, {"task", metadata.task}};
   for (const RecordedSubtask& subtask : recording.subtasks) {
     plan["starts"].push_back(skills::StartText(subtask.start));
     plan["steps"].push_back(subtask.decisions.size());
@@ -196,22 +196,22 @@ robot::DemonstrationSet DemonstrationsOf(const SkillRun& run, const std::vector<
                                          std::uint64_t seed) {
   const ObservationWriter writer(skills, recordings);
   robot::DemonstrationSet set;
-  const SkillMetadata notes = MetadataOf(run, skills, recordings.front(), seed);
-  json kwargs = {{"robot", notes.robot},
-                 {"run", notes.run},
-                 {"assets", notes.assets},
+  const SkillMetadata metadata = MetadataOf(run, skills, recordings.front(), seed);
+  json kwargs = {{"robot", metadata.robot},
+                 {"run", metadata.run},
+                 {"assets", metadata.assets},
                  {"seed", seed},
-                 {"subtasks", notes.subtasks},
+                 {"subtasks", metadata.subtasks},
                  {"decision_seconds", skills.front().evaluated->options.decision_seconds()}};
   int horizon = 0;
   for (const RunSkill& skill : skills) horizon += skill.evaluated->options.decisions();
   kwargs["horizon"] = horizon;
   for (const ChainRecording& recording : recordings) {
-    set.notes.push_back(PlanJson(MetadataOf(run, skills, recording, seed), recording).dump());
+    set.metadata.push_back(PlanJson(MetadataOf(run, skills, recording, seed), recording).dump());
     set.demonstrations.push_back(DemonstrationOf(writer, recording, skills));
   }
   SplitEpisodes(&set);
-  set.env_name = "simwright/" + notes.task;
+  set.env_name = "simwright/" + metadata.task;
   set.env_version = kVersion;
   set.env_kwargs = kwargs.dump();
   return set;
@@ -230,19 +230,19 @@ std::vector<DemonstrationPlan> PlansOf(const robot::DemonstrationSet& set,
   std::vector<DemonstrationPlan> plans;
   try {
     const json kwargs = json::parse(set.env_kwargs);
-    SkillMetadata notes;
-    notes.robot = kwargs.at("robot").get<std::string>();
-    notes.run = kwargs.at("run").get<std::string>();
-    notes.assets = kwargs.at("assets").get<std::vector<std::string>>();
-    notes.seed = kwargs.at("seed").get<std::uint64_t>();
-    notes.subtasks = kwargs.at("subtasks").get<std::vector<std::string>>();
+    SkillMetadata metadata;
+    metadata.robot = kwargs.at("robot").get<std::string>();
+    metadata.run = kwargs.at("run").get<std::string>();
+    metadata.assets = kwargs.at("assets").get<std::vector<std::string>>();
+    metadata.seed = kwargs.at("seed").get<std::uint64_t>();
+    metadata.subtasks = kwargs.at("subtasks").get<std::vector<std::string>>();
     json episodes = kwargs.value("episodes", json::array());
-    for (const std::string& note : set.notes) episodes.push_back(json::parse(note));
+    for (const std::string& note : set.metadata) episodes.push_back(json::parse(note));
     for (const json& one : episodes) {
       DemonstrationPlan& plan = plans.emplace_back();
-      plan.notes = notes;
-      plan.notes.episode = one.at("episode").get<std::uint64_t>();
-      plan.notes.task = one.at("task").get<std::string>();
+      plan.metadata = metadata;
+      plan.metadata.episode = one.at("episode").get<std::uint64_t>();
+      plan.metadata.task = one.at("task").get<std::string>();
       plan.starts = one.at("starts").get<std::vector<std::string>>();
       plan.steps = one.at("steps").get<std::vector<int>>();
     }

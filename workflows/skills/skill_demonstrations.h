@@ -24,7 +24,7 @@ size_t ValidSteps(const robot::DemonstrationSet& set);
 
 // The replay plan of one demonstration, stored in the file's metadata for each.
 struct DemonstrationPlan {
-  SkillMetadata notes;              // without times
+  SkillMetadata metadata;           // without times
   std::vector<std::string> starts;  // skills::StartText, by subtask
   std::vector<int> steps;           // decisions, by subtask
 };

@@ -177,9 +177,9 @@ class MotionVerifier {
   bool Try(const ChainRecording& recording, const robot::RetimingOptions& options) {
     SkillMotion motion =
         MotionOf(recording, *task_.skills().front().evaluated, options, names_.limits);
-    SkillMetadata notes = MetadataOf(task_.run(), task_.skills(), recording, request_.seed);
-    notes.times = motion.subtasks;
-    motion.retimed.trajectory.notes = MetadataLines(notes);
+    SkillMetadata metadata = MetadataOf(task_.run(), task_.skills(), recording, request_.seed);
+    metadata.times = motion.subtasks;
+    motion.retimed.trajectory.metadata = MetadataLines(metadata);
     const fs::path file =
         folder_.path() / ("episode_" + std::to_string(recording.episode) + ending_);
     WriteMotion(motion.retimed.trajectory, file, names_);

@@ -31,7 +31,7 @@ std::uint64_t NumberField(const std::string& text, const char* key, const std::s
                     kMetadataRemedy);
 }
 
-void ReadSubtasks(const std::string& text, SkillMetadata* notes) {
+void ReadSubtasks(const std::string& text, SkillMetadata* metadata) {
   double last = 0.0;
   for (const json& one : json::parse(text)) {
     const SubtaskTimes times{one.at("begin").get<double>(), one.at("end").get<double>()};
@@ -39,8 +39,8 @@ void ReadSubtasks(const std::string& text, SkillMetadata* notes) {
       throw std::invalid_argument("times that do not increase");
     }
     last = times.end;
-    notes->subtasks.push_back(one.at("name").get<std::string>());
-    notes->times.push_back(times);
+    metadata->subtasks.push_back(one.at("name").get<std::string>());
+    metadata->times.push_back(times);
   }
 }
 
@@ -55,69 +55,70 @@ void ReadSubtasks(const std::string& text, SkillMetadata* notes) {
 SkillMetadata MetadataOf(const SkillRun& run, const std::vector<RunSkill>& skills,
                          const ChainRecording& recording, std::uint64_t seed) {
   const skills::StartState& start = recording.subtasks.front().start;
-  SkillMetadata notes;
-  notes.robot = run.robot;
-  notes.task = run.set.tasks[static_cast<size_t>(start.variant)].name;
-  notes.run = std::filesystem::weakly_canonical(run.folder).string();
-  notes.assets = run.hashes;
-  notes.seed = seed;
-  notes.episode = recording.episode;
-  notes.start = skills::StartText(start);
-  for (const RunSkill& skill : skills) notes.subtasks.push_back(skill.name);
-  return notes;
+  SkillMetadata metadata;
+  metadata.robot = run.robot;
+  metadata.task = run.set.tasks[static_cast<size_t>(start.variant)].name;
+  metadata.run = std::filesystem::weakly_canonical(run.folder).string();
+  metadata.assets = run.hashes;
+  metadata.seed = seed;
+  metadata.episode = recording.episode;
+  metadata.start = skills::StartText(start);
+  for (const RunSkill& skill : skills) metadata.subtasks.push_back(skill.name);
+  return metadata;
 }
 
-std::map<std::string, std::string> MetadataLines(const SkillMetadata& notes) {
+std::map<std::string, std::string> MetadataLines(const SkillMetadata& metadata) {
   json subtasks = json::array();
-  for (size_t i = 0; i < notes.subtasks.size(); ++i) {
-    subtasks.push_back({{"name", notes.subtasks[i]},
-                        {"begin", notes.times[i].begin},
-                        {"end", notes.times[i].end}});
+  for (size_t i = 0; i < metadata.subtasks.size(); ++i) {
+    subtasks.push_back({{"name", metadata.subtasks[i]},
+                        {"begin", metadata.times[i].begin},
+                        {"end", metadata.times[i].end}});
   }
-  return {{"robot", notes.robot},
-          {"task", notes.task},
-          {"run", notes.run},
-          {"assets", json(notes.assets).dump()},
-          {"seed", std::to_string(notes.seed)},
-          {"episode", std::to_string(notes.episode)},
-          {"start", notes.start},
+  return {{"robot", metadata.robot},
+          {"task", metadata.task},
+          {"run", metadata.run},
+          {"assets", json(metadata.assets).dump()},
+          {"seed", std::to_string(metadata.seed)},
+          {"episode", std::to_string(metadata.episode)},
+          {"start", metadata.start},
           {"subtasks", subtasks.dump()}};
 }
 
 SkillMetadata MetadataFrom(const std::map<std::string, std::string>& lines,
                            const std::string& where) {
-  SkillMetadata notes;
-  notes.robot = MetadataLine(lines, "robot", where);
-  notes.task = MetadataLine(lines, "task", where);
-  notes.run = MetadataLine(lines, "run", where);
-  notes.start = MetadataLine(lines, "start", where);
-  notes.seed = NumberField(MetadataLine(lines, "seed", where), "seed", where);
-  notes.episode = NumberField(MetadataLine(lines, "episode", where), "episode", where);
+  SkillMetadata metadata;
+  metadata.robot = MetadataLine(lines, "robot", where);
+  metadata.task = MetadataLine(lines, "task", where);
+  metadata.run = MetadataLine(lines, "run", where);
+  metadata.start = MetadataLine(lines, "start", where);
+  metadata.seed = NumberField(MetadataLine(lines, "seed", where), "seed", where);
+  metadata.episode = NumberField(MetadataLine(lines, "episode", where), "episode", where);
   try {
-    notes.assets =
+    metadata.assets =
         json::parse(MetadataLine(lines, "assets", where)).get<std::vector<std::string>>();
-    ReadSubtasks(MetadataLine(lines, "subtasks", where), &notes);
+    ReadSubtasks(MetadataLine(lines, "subtasks", where), &metadata);
   } catch (const json::exception&) {
     throw core::Error("the entries 'assets' and 'subtasks' are damaged", where, kMetadataRemedy);
   } catch (const std::invalid_argument& error) {
     throw core::Error(std::string("the entry 'subtasks' has ") + error.what(), where,
                       kMetadataRemedy);
   }
-  return notes;
+  return metadata;
 }
 
-void RequireMatchingRun(const SkillMetadata& notes, const SkillRun& run,
+void RequireMatchingRun(const SkillMetadata& metadata, const SkillRun& run,
                         const std::vector<RunSkill>& skills, const std::string& where) {
-  if (notes.robot != run.robot) MetadataError("the robot", notes.robot, run.robot, where);
-  const bool known = std::any_of(run.set.tasks.begin(), run.set.tasks.end(),
-                                 [&](const tasks::Task& task) { return task.name == notes.task; });
-  if (!known) MetadataError("the task", notes.task, run.set.tasks.front().name, where);
-  if (notes.assets != run.hashes) {
+  if (metadata.robot != run.robot) MetadataError("the robot", metadata.robot, run.robot, where);
+  const bool known =
+      std::any_of(run.set.tasks.begin(), run.set.tasks.end(),
+                  [&](const tasks::Task& task) { return task.name == metadata.task; });
+  if (!known) MetadataError("the task", metadata.task, run.set.tasks.front().name, where);
+  if (metadata.assets != run.hashes) {
     throw core::Error("the assets have changed since it was exported", where,
                       "give the run it was exported from, or export again");
   }
-  bool same = notes.subtasks.size() == skills.size();
-  for (size_t i = 0; same && i < skills.size(); ++i) same = notes.subtasks[i] == skills[i].name;
+  bool same = metadata.subtasks.size() == skills.size();
+  for (size_t i = 0; same && i < skills.size(); ++i) same = metadata.subtasks[i] == skills[i].name;
   if (!same) {
     throw core::Error("its subtasks are not those of the run", where,
                       "give the run it was exported from");

@@ -29,13 +29,13 @@ SkillMetadata MetadataOf(const SkillRun& run, const std::vector<RunSkill>& skill
 
 // Convert metadata to the lines of a trajectory's file and back. MetadataFrom throws core::Error,
 // naming `where` and the entry that is missing or damaged.
-std::map<std::string, std::string> MetadataLines(const SkillMetadata& notes);
+std::map<std::string, std::string> MetadataLines(const SkillMetadata& metadata);
 SkillMetadata MetadataFrom(const std::map<std::string, std::string>& lines,
                            const std::string& where);
 
 // Throws core::Error, naming `where`, unless the metadata matches this run's robot, task, subtasks
 // and assets.
-void RequireMatchingRun(const SkillMetadata& notes, const SkillRun& run,
+void RequireMatchingRun(const SkillMetadata& metadata, const SkillRun& run,
                         const std::vector<RunSkill>& skills, const std::string& where);
 
 }  // namespace simwright::workflows

@@ -70,9 +70,9 @@ const SuiteCell& CellOf(const std::string& name) {
 }
 
 skills::ActionSpace ActionSpaceOf(const rl::Policy& policy) {
-  const auto fact = policy.facts().find("action");
-  return fact == policy.facts().end() ? skills::ActionSpace::kFocus
-                                      : skills::ActionSpaceOf(fact->second);
+  const auto fact = policy.metadata().find("action");
+  return fact == policy.metadata().end() ? skills::ActionSpace::kTargetFrame
+                                         : skills::ActionSpaceOf(fact->second);
 }
 
 fs::path ShippedPolicy(const fs::path& models, const std::string& cell) {

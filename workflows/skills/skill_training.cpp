@@ -116,10 +116,10 @@ class TaskTraining {
 void TaskTraining::Learn(size_t k) {
   const RunSkill& skill = skills_[k];
   // A successor that has begun to learn started from the ends of this subtask's episodes.
-  const bool successor_begun =
+  const bool next_begun =
       k + 1 < skills_.size() && fs::exists(skills_[k + 1].folder / rl::kCheckpointFile);
   const Trained numbers =
-      TrainSubtask(request_, run_, skill, PoolOf(k), successor_begun, Place(k), progress_);
+      TrainSubtask(request_, run_, skill, PoolOf(k), next_begun, Place(k), progress_);
   TrainedSkill& trained = report_.skills.emplace_back();
   trained.name = skill.name;
   trained.folder = skill.folder;

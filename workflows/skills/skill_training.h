@@ -17,7 +17,7 @@ struct TrainRequest {
   std::vector<std::string> tasks;  // names or patterns (ChooseTasks)
   std::filesystem::path output;
   std::string robot = "panda";
-  skills::ActionSpace action = skills::ActionSpace::kFocus;
+  skills::ActionSpace action = skills::ActionSpace::kTargetFrame;
   double episode_seconds = skills::SkillOptions().episode_seconds;
   // The friction of the fingers' surfaces, sampled per episode: from worn plastic to the rubber
   // tips of the Panda's URDF.

@@ -77,7 +77,7 @@ LearningShares SharesOf(std::int64_t samples, const rl::PpoOptions& options, int
   const std::int64_t batch = static_cast<std::int64_t>(options.horizon) * environments;
   LearningShares shares;
   if (action ==
-      skills::ActionSpace::kFocus) {  // the action space that SkillEnvironment demonstrates
+      skills::ActionSpace::kTargetFrame) {  // the action space that SkillEnvironment demonstrates
     shares.imitated = std::min(samples, BatchEnd(options.imitated_samples, batch));
   }
   // Both learn from a batch that ends beyond the bound.
@@ -114,10 +114,10 @@ rl::TrainingOptions OptionsFor(const TrainRequest& request, const SkillRun& run,
   options.max_samples = request.samples;
   options.max_seconds = 60.0 * request.minutes;
   options.success_target = request.target;
-  options.facts = {{"task", run.set.tasks.front().name},
-                   {"subtask", skill.name},
-                   {"robot", run.robot},
-                   {"action", skills::NameOf(run.options.action)}};
+  options.metadata = {{"task", run.set.tasks.front().name},
+                      {"subtask", skill.name},
+                      {"robot", run.robot},
+                      {"action", skills::NameOf(run.options.action)}};
   options.title = skill.name;
   return options;
 }
@@ -146,13 +146,13 @@ std::vector<skills::StartState> ExaminationStarts(const skills::Skill& skill,
 }
 
 Trained TrainSubtask(const TrainRequest& request, const SkillRun& run, const RunSkill& skill,
-                     const std::vector<skills::StartState>& pool, bool successor_begun,
+                     const std::vector<skills::StartState>& pool, bool next_begun,
                      const std::string& place, core::Progress* progress) {
   const fs::path done = skill.folder / kDoneFile;
   bool go_on = request.resume;
   if (fs::exists(done) && fs::exists(skill.folder / rl::kPolicyFile)) {
     const Trained before = ReadTrained(done);
-    if (before.learnt || successor_begun || !HasBudget(request, before)) return before;
+    if (before.learnt || next_begun || !HasBudget(request, before)) return before;
     go_on = true;
   }
   skills::SkillEnvironment environment(skill.skill, run.environments, pool);

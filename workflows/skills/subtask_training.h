@@ -52,7 +52,7 @@ std::vector<skills::StartState> ExaminationStarts(const skills::Skill& skill,
 // learn from its policy. `place`: text after its name in progress messages, ", subtask 2 of 4".
 // Throws core::Error and core::Cancelled as TrainTask does.
 Trained TrainSubtask(const TrainRequest& request, const SkillRun& run, const RunSkill& skill,
-                     const std::vector<skills::StartState>& pool, bool successor_begun,
+                     const std::vector<skills::StartState>& pool, bool next_begun,
                      const std::string& place, core::Progress* progress);
 
 // Returns the end states of the successful episodes.

@@ -126,15 +126,16 @@ SkillRun AtPhysicsRate(const SkillRun& run) {
 
 std::vector<bool> ReplayTrajectory(const std::vector<RunSkill>& skills,
                                    const robot::JointTrajectory& trajectory,
-                                   const SkillMetadata& notes, const std::string& where) {
+                                   const SkillMetadata& metadata, const std::string& where) {
   const skills::Skill& first = *skills.front().evaluated;
   const Commands commands(trajectory, *first.robot, where);
   // The last command is held after the end (MotionOf).
   const double held = 2.0 * first.options.hold_seconds;
-  if (trajectory.times.back() < notes.times.back().end - held - 2.0 / first.options.control_rate) {
+  if (trajectory.times.back() <
+      metadata.times.back().end - held - 2.0 / first.options.control_rate) {
     throw core::Error("ends before its last subtask", where, "it is truncated: export it again");
   }
-  skills::StartState start = skills::ParseStart(notes.start, first, where + ", note 'start'");
+  skills::StartState start = skills::ParseStart(metadata.start, first, where + ", note 'start'");
   std::vector<bool> successes;
   const double rate = first.options.control_rate;
   std::int64_t step = 0;
@@ -145,10 +146,10 @@ std::vector<bool> ReplayTrajectory(const std::vector<RunSkill>& skills,
         replay.Step(commands.At(static_cast<double>(step + 1) / rate));
       }
     };
-    drive_until(notes.times[k].end);
+    drive_until(metadata.times[k].end);
     successes.push_back(replay.Succeeded());
     if (!successes.back()) break;
-    if (k + 1 < skills.size()) drive_until(notes.times[k + 1].begin);
+    if (k + 1 < skills.size()) drive_until(metadata.times[k + 1].begin);
     start = replay.End();
   }
   return successes;

@@ -79,7 +79,7 @@ RewardCheckReport CheckReward(const RewardCheckRequest& request) {
   core::Findings found = outcome.findings;
   if (request.scene && outcome.program) found = OnScene(scene, request, report.source);
   report.findings.insert(report.findings.end(), found.begin(), found.end());
-  report.sound = CountText(found, core::Severity::kError) == 0;
+  report.valid = CountText(found, core::Severity::kError) == 0;
   if (!outcome.program) return report;
   report.compiles = true;
   report.entry = outcome.program->entry();

@@ -33,9 +33,9 @@ struct RewardCheckReport {
   bool has_success = false;
   int operations = 0;  // per environment
 
-  bool sound = false;  // no finding in the program is an error
+  bool valid = false;  // no finding in the program is an error
 
-  bool passed() const { return sound; }
+  bool passed() const { return valid; }
 };
 
 // Compiles the program against the assets' names and, with a scene, examines its behaviour there

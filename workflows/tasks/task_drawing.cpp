@@ -112,11 +112,11 @@ std::string DrawPlan(const tasks::Task& task, const tasks::WorldModel& model) {
 }
 
 std::string DrawSubtask(const tasks::Subtask& subtask, int number, double x, double y) {
-  const bool sound = subtask.sound();
+  const bool valid = subtask.valid();
   std::string svg = "<rect x=\"" + SvgNumber(x) + "\" y=\"" + SvgNumber(y) + "\" width=\"" +
                     SvgNumber(kBoxWidth) + "\" height=\"" + SvgNumber(kBoxHeight) +
-                    "\" rx=\"6\" fill=\"" + (sound ? "#eef6ee" : "#fbe9e7") + "\" stroke=\"" +
-                    (sound ? "#5b8c5a" : "#b5443a") + "\"/>";
+                    "\" rx=\"6\" fill=\"" + (valid ? "#eef6ee" : "#fbe9e7") + "\" stroke=\"" +
+                    (valid ? "#5b8c5a" : "#b5443a") + "\"/>";
   double line_y = y + 17.0;
   for (const std::string& line : Lines(std::to_string(number) + ". " + subtask.description)) {
     svg += SvgText(x + 8.0, line_y, "class=\"title\"", line);

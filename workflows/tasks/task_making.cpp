@@ -70,7 +70,7 @@ int Repairs(const tasks::Task& task) {
 
 bool TasksReport::passed() const {
   return !set.tasks.empty() && std::all_of(set.tasks.begin(), set.tasks.end(),
-                                           [](const tasks::Task& task) { return task.sound(); });
+                                           [](const tasks::Task& task) { return task.valid(); });
 }
 
 TasksReport MakeTasks(const TasksRequest& request, core::Progress* progress) {
@@ -110,7 +110,7 @@ std::string TasksTable(const TasksReport& report) {
     char figures[64];
     std::snprintf(figures, sizeof figures, "%8zu  %8d  %7d", task.subtasks.size(), Findings(task),
                   Repairs(task));
-    table += row(task.name, figures + std::string(task.sound() ? "" : "  not valid"));
+    table += row(task.name, figures + std::string(task.valid() ? "" : "  not valid"));
     for (const tasks::Subtask& subtask : task.subtasks) {
       for (const core::Finding& finding : subtask.findings) {
         core::Finding placed = finding;
@@ -132,7 +132,7 @@ std::string TasksJson(const TasksReport& report) {
   for (const tasks::Task& task : report.set.tasks) {
     json["tasks"].push_back({{"name", task.name},
                              {"subtasks", task.subtasks.size()},
-                             {"sound", task.sound()},
+                             {"sound", task.valid()},
                              {"findings", Findings(task)},
                              {"repairs", Repairs(task)}});
   }

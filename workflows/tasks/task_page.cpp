@@ -16,8 +16,8 @@ constexpr const char* kTaskPageStyle =
     ".good{color:#3d7a3c}h2{margin-top:2em;border-top:1px solid #ccc;padding-top:.6em}"
     "summary{cursor:pointer}";
 
-std::string Verdict(bool sound) {
-  return sound ? "<span class=\"good\">valid</span>" : "<span class=\"bad\">not valid</span>";
+std::string Verdict(bool valid) {
+  return valid ? "<span class=\"good\">valid</span>" : "<span class=\"bad\">not valid</span>";
 }
 
 std::string FindingsText(const core::Findings& findings, const std::string& program) {
@@ -30,7 +30,7 @@ std::string FindingsText(const core::Findings& findings, const std::string& prog
 
 std::string SubtaskText(const tasks::Subtask& subtask) {
   std::string html = "<details><summary>" + MarkupSafe(subtask.name) + ": " +
-                     Verdict(subtask.sound()) + "</summary><p>" + MarkupSafe(subtask.description) +
+                     Verdict(subtask.valid()) + "</summary><p>" + MarkupSafe(subtask.description) +
                      "</p><pre>" + MarkupSafe(subtask.program) + "</pre>" +
                      FindingsText(subtask.findings, subtask.program);
   for (std::size_t i = 0; i < subtask.attempts.size(); ++i) {
@@ -53,7 +53,7 @@ std::string TaskPage(const tasks::TaskSet& set, const tasks::WorldModel& model) 
     const tasks::Task& task = set.tasks[i];
     html += "<tr><td><a href=\"#task" + std::to_string(i) + "\">" + MarkupSafe(task.name) +
             "</a></td><td>" + std::to_string(task.subtasks.size()) + "</td><td>" +
-            MarkupSafe(task.source) + "</td><td>" + Verdict(task.sound()) + "</td></tr>\n";
+            MarkupSafe(task.source) + "</td><td>" + Verdict(task.valid()) + "</td></tr>\n";
   }
   html += "</table>\n";
   for (std::size_t i = 0; i < set.tasks.size(); ++i) {

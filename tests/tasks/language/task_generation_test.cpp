@@ -82,7 +82,7 @@ TEST_F(TaskGeneration, AGoodAnswerNeedsNoRepair) {
   EXPECT_EQ(made.tasks[0].assets, (std::vector<std::string>{"chest", "block"}));
   EXPECT_EQ(made.tasks[1].assets, (std::vector<std::string>{"chest"}));
   for (const Task& task : made.tasks) {
-    EXPECT_TRUE(task.sound());
+    EXPECT_TRUE(task.valid());
     for (const Subtask& subtask : task.subtasks) {
       EXPECT_TRUE(subtask.attempts.empty());
       EXPECT_EQ(subtask.start.placements.size(), task.assets.size());  // from the verification
@@ -97,7 +97,7 @@ TEST_F(TaskGeneration, AWrongJointGoesBackWithTheNearestNameAndIsRepaired) {
   const GeneratedTasks made = GenerateFrom(&server);
   ASSERT_EQ(made.tasks.size(), 1u);
   const Subtask& subtask = made.tasks[0].subtasks.at(0);
-  EXPECT_TRUE(made.tasks[0].sound());
+  EXPECT_TRUE(made.tasks[0].valid());
   EXPECT_EQ(subtask.program, Program("drawer_slide"));
   ASSERT_EQ(subtask.attempts.size(), 1u);
   EXPECT_EQ(subtask.attempts[0].program, Program("drawer_slid"));
@@ -118,9 +118,9 @@ TEST_F(TaskGeneration, AHopelessOneIsAskedThreeTimesAndStaysWithItsFindings) {
   const GeneratedTasks made = GenerateFrom(&server, 2);
   EXPECT_EQ(server.bodies().size(), 4u);
   ASSERT_EQ(made.tasks.size(), 2u);
-  EXPECT_TRUE(made.tasks[0].sound());
+  EXPECT_TRUE(made.tasks[0].valid());
   const Task& bad = made.tasks[1];
-  EXPECT_FALSE(bad.sound());
+  EXPECT_FALSE(bad.valid());
   const Subtask& subtask = bad.subtasks.at(0);
   EXPECT_EQ(subtask.program, Program("flap"));
   EXPECT_FALSE(subtask.findings.empty());
@@ -140,7 +140,7 @@ TEST_F(TaskGeneration, AnAnswerWithoutATaskIsAskedForOnceMore) {
   llm::ChatServer server(Saying({"What a nice chest.", kGood}));
   const GeneratedTasks made = GenerateFrom(&server);
   ASSERT_EQ(made.tasks.size(), 1u);
-  EXPECT_TRUE(made.tasks[0].sound());
+  EXPECT_TRUE(made.tasks[0].valid());
   EXPECT_EQ(CountOf(made.findings, "answer-no-program"), 1);
   EXPECT_EQ(made.findings[0].severity, core::Severity::kWarning);
   EXPECT_EQ(server.body(1).at("messages").size(), 4u);  // with the answer and the complaint
@@ -157,7 +157,7 @@ TEST_F(TaskGeneration, ASubtaskThatWasOnlyNamedIsAskedFor) {
        AnswerProgram("drawer_slide")}));
   const GeneratedTasks made = GenerateFrom(&server);
   ASSERT_EQ(made.tasks.at(0).subtasks.size(), 2u);
-  EXPECT_TRUE(made.tasks[0].sound());
+  EXPECT_TRUE(made.tasks[0].valid());
   EXPECT_EQ(made.tasks[0].subtasks[1].attempts.at(0).findings.at(0).code, "program-missing");
   EXPECT_NE(LastMessage(server.body(1)).find("missing"), std::string::npos);
 }
@@ -195,9 +195,9 @@ TEST_F(TaskGeneration, AServerThatFailsLaterLosesNothing) {
   });
   const GeneratedTasks made = GenerateFrom(&server, 3);
   ASSERT_EQ(made.tasks.size(), 3u);
-  EXPECT_TRUE(made.tasks[0].sound());   // repaired before
-  EXPECT_FALSE(made.tasks[1].sound());  // could not be repaired any more
-  EXPECT_TRUE(made.tasks[2].sound());   // verified without the server
+  EXPECT_TRUE(made.tasks[0].valid());   // repaired before
+  EXPECT_FALSE(made.tasks[1].valid());  // could not be repaired any more
+  EXPECT_TRUE(made.tasks[2].valid());   // verified without the server
   EXPECT_EQ(CountOf(made.findings, "llm-failed"), 1);
   EXPECT_EQ(server.bodies().size(), 3u);
 }
@@ -211,7 +211,7 @@ TEST_F(TaskGeneration, TasksThatWereOnlyNamedOutliveTheServer) {
   const GeneratedTasks made = GenerateFrom(&server);
   ASSERT_EQ(made.tasks.size(), 1u);
   EXPECT_EQ(made.tasks[0].subtasks.size(), 2u);
-  EXPECT_FALSE(made.tasks[0].sound());
+  EXPECT_FALSE(made.tasks[0].valid());
   EXPECT_EQ(CountOf(made.findings, "llm-failed"), 1);
   EXPECT_EQ(CountOf(made.findings, "llm-gave-up"), 2);
 }
@@ -252,7 +252,7 @@ TEST_F(TaskGeneration, ARecordedRunIsReplayed) {
     EXPECT_EQ(first.tasks[i].subtasks[0].program, second.tasks[i].subtasks[0].program);
     EXPECT_EQ(first.tasks[i].subtasks[0].attempts.size(),
               second.tasks[i].subtasks[0].attempts.size());
-    EXPECT_TRUE(second.tasks[i].sound());
+    EXPECT_TRUE(second.tasks[i].valid());
   }
 }
 
