@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <memory>
-#include <set>
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
@@ -17,6 +15,7 @@
 #include "core/error.h"
 #include "sim/bullet_shape.h"
 #include "sim/compact_solver.h"
+#include "sim/exclusion_filter.h"
 #include "sim/floor_contact.h"
 #include "sim/joint_velocity_constraint.h"
 
@@ -155,30 +154,6 @@ void AddOffsets(LoadedTree* loaded) {
     }
   }
 }
-
-// Filters pairs of links that do not collide with each other: Bullet's link colliders ignore their
-// own exclusion lists. Colliders hold the indices of their body and link.
-class ExclusionFilter : public btOverlapFilterCallback {
- public:
-  void Exclude(int body, const std::set<std::pair<int, int>>& pairs) {
-    if (!pairs.empty()) pairs_[body] = pairs;
-  }
-  bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
-    if ((a->m_collisionFilterGroup & b->m_collisionFilterMask) == 0 ||
-        (b->m_collisionFilterGroup & a->m_collisionFilterMask) == 0) {
-      return false;
-    }
-    const auto* one = static_cast<const btCollisionObject*>(a->m_clientObject);
-    const auto* other = static_cast<const btCollisionObject*>(b->m_clientObject);
-    if (one->getUserIndex() != other->getUserIndex()) return true;
-    const auto found = pairs_.find(one->getUserIndex());
-    return found == pairs_.end() ||
-           !found->second.contains(std::minmax(one->getUserIndex2(), other->getUserIndex2()));
-  }
-
- private:
-  std::map<int, std::set<std::pair<int, int>>> pairs_;  // by body
-};
 
 // Returns pool sizes. Bullet allocates 4096 of each, 7 MB per world, and writes to all of them when
 // a world is created; beyond a smaller pool it allocates from the heap.
