@@ -225,7 +225,7 @@ JointTrajectory YamlReader::Read(std::string_view text) {
   EndPoint();
   if (!points_) Fail("there are no points");
   JointTrajectory trajectory = points_->Finish();
-  trajectory.notes = std::move(notes_);
+  trajectory.metadata = std::move(notes_);
   return trajectory;
 }
 
@@ -234,7 +234,7 @@ JointTrajectory YamlReader::Read(std::string_view text) {
 std::string RosYamlText(const JointTrajectory& trajectory) {
   RequireRosTimes(trajectory);
   std::string text;
-  for (const auto& [key, value] : trajectory.notes) text += "# " + key + ": " + value + "\n";
+  for (const auto& [key, value] : trajectory.metadata) text += "# " + key + ": " + value + "\n";
   text += "header:\n  stamp:\n    sec: 0\n    nanosec: 0\n  frame_id: ''\njoint_names:\n";
   for (const std::string& joint : trajectory.joints) text += "- " + joint + "\n";
   text += "points:\n";

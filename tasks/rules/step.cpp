@@ -274,7 +274,7 @@ Step PutIntoStep(const WorldModel& model, const WorldState& state, const Operato
   const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
   const ArticulatedObject& holder = model.objects[static_cast<std::size_t>(one.other)];
   const Receptacle& receptacle = holder.receptacles[static_cast<std::size_t>(one.part)];
-  const ObjectLink& link = holder.links[static_cast<std::size_t>(receptacle.link)];
+  const std::string& link = holder.LinkName(receptacle.link);
   const auto h = static_cast<std::size_t>(one.other);
   const Eigen::Isometry3d pose =
       state.roots[h] *
@@ -303,7 +303,7 @@ Step PutIntoStep(const WorldModel& model, const WorldState& state, const Operato
   Program program("Bring the " + SpokenName(object) + " inside and let go of it.");
   program.Line("thing = env.get_position(" + Quoted(object.name) + ")")
       .Line("low, high = env.get_bounding_box_link(" + Quoted(holder.name) + ", " +
-            Quoted(link.name) + ")")
+            Quoted(link) + ")")
       .Line("size = high - low")
       .Line("inside = env.in_bbox(thing, low + size * " + Triple(low) + ",")
       .Line("                     low + size * " + Triple(high) + ")")
@@ -314,7 +314,7 @@ Step PutIntoStep(const WorldModel& model, const WorldState& state, const Operato
   program.Returns();
   step.program = program.Text();
   step.success =
-      "the middle of " + object.name + " inside " + link.name + " of " + holder.name + ", not held";
+      "the middle of " + object.name + " inside " + link + " of " + holder.name + ", not held";
   step.action = {ActionKind::kPlace, one.object, -1, 0.0, target};
   return step;
 }
