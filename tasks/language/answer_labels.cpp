@@ -15,7 +15,7 @@ struct Word {
   std::string_view text;  // ASCII in lower case
   Label label;
 };
-// Of two words of which one is a prefix of the other, the longer one comes first.
+// The longer of two words comes first if one is a prefix of the other.
 constexpr std::array kWords = {
     Word{"subtask description", Label::kSubtaskDescription},
     Word{"sub-task description", Label::kSubtaskDescription},
