@@ -1,26 +1,30 @@
 #!/usr/bin/env bash
-# Installs the build, test and runtime dependencies of Simwright from Debian 12's packages, if they
-# are missing. --tests adds the dependencies of the tests (python3-torch, against which reward
-# programs are compared), --catalogue the furniture of the catalogue tests (120 MB), --fuzz the
-# compiler of the fuzz targets and the formatter. --peers instead creates .venv-peers with Drake, MuJoCo, PyBullet and
-# yourdfpy from PyPI (700 MB), in which the tests of label `peers` load Simwright's files.
+# Installs the build and runtime dependencies of Simwright from Debian 12's packages, if they are
+# missing. --tests adds the dependencies of tests and benchmarks (with python3-torch, against which
+# reward programs are compared), --catalogue the furniture of the catalogue tests (120 MB), --fuzz
+# the compiler of the fuzz targets and the formatter, and what the fast tests link. --peers instead
+# creates .venv-peers with Drake, MuJoCo, PyBullet and yourdfpy from PyPI (700 MB), in which the
+# tests of label `peers` load Simwright's files.
 set -euo pipefail
 
 packages=(
   build-essential g++ cmake ninja-build ccache pkg-config git
   libeigen3-dev libassimp-dev libdraco-dev libcgal-dev libembree-dev libopencv-dev libopencv-contrib-dev
-  libbullet-dev libbullet-extras-dev liburdfdom-dev libmujoco-dev nlohmann-json3-dev
+  libbullet-dev liburdfdom-dev libmujoco-dev nlohmann-json3-dev
   libcli11-dev libcurl4-openssl-dev libtinyxml2-dev libzip-dev libexif-dev libgif-dev libwebp-dev
-  libconsole-bridge-dev libhdf5-dev
-  wordnet-base libtorch-dev libopenblas0-pthread libgtest-dev
-  libbenchmark-dev libsdformat-dev libcpp-httplib-dev
+  libconsole-bridge-dev libhdf5-dev libspdlog-dev
+  wordnet-base libtorch-dev libopenblas0-pthread
 )
+test_libraries=(libgtest-dev libsdformat-dev libcpp-httplib-dev)
 peers=
 for wanted in "$@"; do
   case $wanted in
-    --tests) packages+=(python3-torch python3-numpy python3-h5py python3-yaml) ;;
+    --tests)
+      packages+=("${test_libraries[@]}" libbenchmark-dev libbullet-extras-dev
+        python3-torch python3-numpy python3-h5py python3-yaml)
+      ;;
     --catalogue) packages+=(sweethome3d-furniture python3-skimage) ;;
-    --fuzz) packages+=(clang-14 clang-format-14 libclang-rt-14-dev) ;;
+    --fuzz) packages+=("${test_libraries[@]}" clang-14 clang-format-14 libclang-rt-14-dev) ;;
     --peers) peers=yes ;;
     *) echo "error: unknown option $wanted (use --tests, --catalogue, --fuzz or --peers)" >&2; exit 2 ;;
   esac

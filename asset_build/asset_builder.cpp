@@ -7,6 +7,7 @@
 #include "asset_build/support_polygon.h"
 #include "asset_build/true_size.h"
 #include "core/error.h"
+#include "core/log.h"
 #include "geometry/concavity.h"
 #include "geometry/mass_properties.h"
 
@@ -29,8 +30,10 @@ class StageClock {
   }
   void End() {
     if (stage_.empty()) return;
-    (*seconds_)[stage_] +=
+    const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    (*seconds_)[stage_] += seconds;
+    core::Log(core::LogLevel::kDebug, "asset_build", stage_, " took ", seconds, " s");
     progress_->Finish();
     stage_.clear();
   }
@@ -194,6 +197,9 @@ BuiltAsset BuildAsset(const core::TexturedMesh& visual, const BuildRequest& requ
   clock.Begin("rest pose");
   PlaceInRestPose(request, &asset);
   clock.End();
+  core::Log(core::LogLevel::kInfo, "asset_build", asset.name, ": solid ", asset.solid_method, ", ",
+            asset.parts.size(), " collision parts, ", asset.inertial.mass, " kg, ",
+            asset.findings.size(), " findings");
   return built;
 }
 

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "asset_lift/mesh_fit/shape_fit.h"
 #include "asset_lift/priors/initial_shape.h"
+#include "asset_lift/priors/score_distillation.h"
 #include "asset_lift/priors/shape_example.h"
 #include "asset_lift/priors/shape_prior.h"
 #include "asset_lift/priors/view_prior.h"
 #include "core/error.h"
+#include "core/log.h"
 #include "texture/photo_projection.h"
 
 namespace simwright::asset_lift {
@@ -154,6 +157,7 @@ void FitAndPaint(const InflatedShape& outline, const LiftPriors& priors, const L
 
 void AddFinding(const std::string& code, const std::string& sentence, double figure,
                 LiftedMesh* lifted) {
+  core::Log(core::LogLevel::kInfo, "asset_lift", sentence);
   lifted->findings.push_back({code, core::Severity::kInfo, "", sentence, figure});
 }
 
@@ -251,6 +255,8 @@ LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior, const
   const InflatedShape outline =
       InflateOutline(lifted.matte, lifted.camera, prior, options.inflation);
   lifted.form = outline.form;
+  core::Log(core::LogLevel::kInfo, "asset_lift", "outline ", Name(outline.form),
+            ", silhouette IoU ", outline.silhouette_iou);
   texture::PhotoProjectionOptions projection;
   projection.texture_size = options.texture_size;
   const bool revolved = IsSolidOfRevolution(outline.form, prior);

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "asset_lift/camera/elevation.h"
-#include "asset_lift/mesh_fit/shape_fit.h"
+#include "asset_lift/mesh_fit/shape_fit_options.h"
 #include "asset_lift/outline/inflation.h"
-#include "asset_lift/priors/score_distillation.h"
+#include "asset_lift/priors/score_distillation_options.h"
 #include "asset_lift/segmentation/segmentation.h"
 #include "core/camera.h"
 #include "core/finding.h"

@@ -8,6 +8,7 @@
 #include "assets/obj_file.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/log.h"
 
 namespace simwright::assets {
 namespace fs = std::filesystem;
@@ -163,6 +164,8 @@ void WriteArticulatedAsset(const ArticulatedAsset& asset, const fs::path& folder
   core::WriteFile(folder / (asset.name + ".sdf"), ArticulatedSdfText(asset));
   core::WriteFile(folder / "semantics.txt", SemanticsText(asset));
   core::WriteFile(folder / "asset.json", ArticulatedJson(asset).dump(2) + "\n");
+  core::Log(core::LogLevel::kInfo, "assets", "wrote ", folder, ": ", asset.links.size(), " links, ",
+            parts, " collision parts");
 }
 
 bool IsArticulatedAssetFolder(const fs::path& folder) {
@@ -201,6 +204,7 @@ ArticulatedAsset ReadArticulatedAsset(const fs::path& folder) {
                       file.string(), "make the asset again");
   }
   RequireLinkTree(asset, file.string());
+  core::Log(core::LogLevel::kInfo, "assets", "read ", folder, ": ", asset.links.size(), " links");
   return asset;
 }
 

@@ -9,6 +9,7 @@
 #include "assets/obj_file.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/log.h"
 
 namespace simwright::assets {
 namespace {
@@ -92,6 +93,8 @@ void WriteAsset(const Asset& asset, const std::filesystem::path& folder) {
                                 core::Bounds(asset.visual.mesh)));
   core::WriteFile(folder / (asset.name + ".sdf"), SdfText(asset));
   core::WriteFile(folder / "asset.json", RigidJson(asset).dump(2) + "\n");
+  core::Log(core::LogLevel::kInfo, "assets", "wrote ", folder, ": ", asset.parts.size(),
+            " collision parts, ", asset.inertial.mass, " kg");
 }
 
 void AddFindings(const std::filesystem::path& folder, const core::Findings& findings) {
@@ -134,6 +137,8 @@ Asset ReadAsset(const std::filesystem::path& folder) {
   for (int i = 0; i < parts; ++i) {
     asset.parts.push_back(ReadBareObj(folder / CollisionFileName(i)));
   }
+  core::Log(core::LogLevel::kInfo, "assets", "read ", folder, ": ", asset.parts.size(),
+            " collision parts, ", asset.inertial.mass, " kg");
   return asset;
 }
 

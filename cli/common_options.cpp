@@ -2,6 +2,9 @@
 
 #include <cstdio>
 
+#include "cli/usage.h"
+#include "core/log.h"
+
 namespace simwright::cli {
 
 int ReportStopped(const std::filesystem::path& folder) {
@@ -18,6 +21,10 @@ void AddCommon(CLI::App* command, CommonOptions* common) {
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--quiet", common->quiet, "Print only errors and results");
+  AddChoice(command, "--log-level", {"trace", "debug", "info", "warn", "error", "off"}, "off",
+            "Print the steps of the work to stderr, from this level on; without the option, the "
+            "environment variable SIMWRIGHT_LOG sets the level",
+            [](const std::string& name) { core::SetLogLevel(core::LogLevelNamed(name)); });
   command->add_flag("--json", common->json, "Print the result and its findings as JSON");
   command
       ->add_option("--config", common->config,

@@ -92,17 +92,15 @@ function(simwright_module name)
   cmake_parse_arguments(arg "" "" "FOLDERS;PUBLIC;PRIVATE;TORCH" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   file(GLOB headers CONFIGURE_DEPENDS *.h)
-  set(inner_headers)
   foreach(folder ${arg_FOLDERS})
     file(GLOB folder_sources CONFIGURE_DEPENDS ${folder}/*.cpp)
     file(GLOB folder_headers CONFIGURE_DEPENDS ${folder}/*.h)
     list(APPEND sources ${folder_sources})
-    list(APPEND inner_headers ${folder_headers})
-    install(FILES ${folder_headers} DESTINATION include/simwright/${name}/${folder})
+    list(APPEND headers ${folder_headers})
   endforeach()
   list(TRANSFORM arg_TORCH PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   list(REMOVE_ITEM sources ${arg_TORCH})
-  add_library(simwright_${name} STATIC ${sources} ${headers} ${inner_headers})
+  add_library(simwright_${name} STATIC ${sources} ${headers})
   add_library(simwright::${name} ALIAS simwright_${name})
   set_target_properties(simwright_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(simwright_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
@@ -132,7 +130,21 @@ function(simwright_module name)
                                SIMWRIGHT_VERSION="${PROJECT_VERSION}")
   endif()
   install(TARGETS simwright_${name} EXPORT simwright_targets ARCHIVE DESTINATION lib)
-  install(FILES ${headers} DESTINATION include/simwright/${name})
+endfunction()
+
+# simwright_public_headers(HEADER...) lists the headers of this folder's module that users of the
+# library include. Only they are installed. tests/architecture reads the list.
+function(simwright_public_headers)
+  get_filename_component(module ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  foreach(header ${ARGN})
+    get_filename_component(folder ${header} DIRECTORY)
+    install(FILES ${header} DESTINATION include/simwright/${module}/${folder})
+  endforeach()
+endfunction()
+
+# simwright_shared_headers(HEADER...) lists the other headers of this folder's module that other
+# modules include. They are not installed; the list is for tests/architecture alone.
+function(simwright_shared_headers)
 endfunction()
 
 # simwright_embed(TARGET NAMESPACE FILE...)

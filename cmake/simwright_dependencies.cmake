@@ -30,6 +30,17 @@ macro(simwright_require_torch)
   endif()
 endmacro()
 
+# spdlog's target brings compile definitions, and modules can share precompiled headers only if all
+# definitions are equal: this one only links it.
+macro(simwright_require_spdlog)
+  find_package(spdlog REQUIRED)
+  if(NOT TARGET simwright_spdlog)
+    add_library(simwright_spdlog INTERFACE IMPORTED)
+    set_property(TARGET simwright_spdlog PROPERTY
+      INTERFACE_LINK_LIBRARIES $<LINK_ONLY:spdlog::spdlog>)
+  endif()
+endmacro()
+
 # simwright_require(LINK): finds the package that provides what a module links as LINK.
 macro(simwright_require link)
   if("${link}" STREQUAL "Threads::Threads")
@@ -54,6 +65,8 @@ macro(simwright_require link)
     find_package(GIF REQUIRED)
   elseif("${link}" STREQUAL "simwright_torch")
     simwright_require_torch()
+  elseif("${link}" STREQUAL "simwright_spdlog")
+    simwright_require_spdlog()
   elseif("${link}" STREQUAL "PkgConfig::bullet")
     simwright_pkg("${link}" bullet-float64)
   elseif("${link}" STREQUAL "PkgConfig::exif")

@@ -7,15 +7,9 @@
 #include <vector>
 
 #include "core/files.h"
+#include "core/hdf5_array.h"
 
 namespace simwright::core {
-
-// An array of any shape, with the last index contiguous.
-template <typename T>
-struct Hdf5Array {
-  std::vector<std::size_t> shape;
-  std::vector<T> values;  // as many as the product of `shape`
-};
 
 // The storage layout of a dataset.
 struct Hdf5Storage {

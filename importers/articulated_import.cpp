@@ -11,6 +11,7 @@
 #include "assets/semantic_model.h"
 #include "core/error.h"
 #include "core/finding_text.h"
+#include "core/log.h"
 #include "geometry/mass_properties.h"
 #include "importers/collision_trimming.h"
 #include "importers/import_category.h"
@@ -387,32 +388,9 @@ ArticulatedAsset AssetFrom(const SemanticModel& source) {
   return asset;
 }
 
-}  // namespace
-
-fs::path ArticulatedUrdfIn(const fs::path& folder) {
-  if (fs::is_regular_file(folder / assets::kGapartnetUrdf)) return folder / assets::kGapartnetUrdf;
-  try {
-    return assets::UrdfIn(folder);
-  } catch (const core::Error&) {
-    return {};
-  }
-}
-
-bool HasMovingJoint(const SemanticModel& source) {
-  UrdfModel model = source.model;
-  FoldEmptyLinks(&model);
-  NormaliseJoints(&model);
-  return MovingJoints(model) > 0;
-}
-
-ArticulatedAsset ImportArticulated(const fs::path& urdf, const ArticulatedImportOptions& options,
-                                   core::Progress* progress) {
-  return ImportArticulated(assets::ReadSemanticModel(urdf, {options.root, true}), options,
-                           progress);
-}
-
-ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImportOptions& options,
-                                   core::Progress* progress) {
+// Implements ImportArticulated.
+ArticulatedAsset ConvertedModel(SemanticModel source, const ArticulatedImportOptions& options,
+                                core::Progress* progress) {
   const fs::path urdf = source.urdf;
   const std::string where = urdf.string();
   RequireJoints(source.model, where);
@@ -470,6 +448,40 @@ ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImport
   if (!fixed) FixIfItTips(&asset);
   core::Rng rng = core::StreamRng(options.seed, 1);
   AssignJointFriction(rng, &asset);
+  return asset;
+}
+
+}  // namespace
+
+fs::path ArticulatedUrdfIn(const fs::path& folder) {
+  if (fs::is_regular_file(folder / assets::kGapartnetUrdf)) return folder / assets::kGapartnetUrdf;
+  try {
+    return assets::UrdfIn(folder);
+  } catch (const core::Error&) {
+    return {};
+  }
+}
+
+bool HasMovingJoint(const SemanticModel& source) {
+  UrdfModel model = source.model;
+  FoldEmptyLinks(&model);
+  NormaliseJoints(&model);
+  return MovingJoints(model) > 0;
+}
+
+ArticulatedAsset ImportArticulated(const fs::path& urdf, const ArticulatedImportOptions& options,
+                                   core::Progress* progress) {
+  return ImportArticulated(assets::ReadSemanticModel(urdf, {options.root, true}), options,
+                           progress);
+}
+
+ArticulatedAsset ImportArticulated(SemanticModel source, const ArticulatedImportOptions& options,
+                                   core::Progress* progress) {
+  core::Log(core::LogLevel::kInfo, "importers", "importing ", source.urdf, ": ",
+            source.model.links.size(), " links, ", MovingJoints(source.model), " moving joints");
+  ArticulatedAsset asset = ConvertedModel(std::move(source), options, progress);
+  core::Log(core::LogLevel::kInfo, "importers", asset.name, ": ", asset.links.size(), " links, ",
+            asset.fixed ? "fixed" : "free", ", ", asset.findings.size(), " findings");
   return asset;
 }
 

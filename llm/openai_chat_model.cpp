@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/log.h"
 #include "llm/redaction.h"
 
 namespace simwright::llm {
@@ -73,6 +74,7 @@ ChatAnswer OpenAiChatModel::Ask(const ChatRequest& request, core::Progress* prog
   if (progress != nullptr) {
     progress->Stage("asking " + (options_.model.empty() ? endpoint_.host : options_.model));
   }
+  LogExchange(core::LogLevel::kInfo, request.task, "asking " + options_.model);
   RetrySchedule schedule(options_.first_wait, options_.longest_wait, core::Rng(rng_()));
   redirects_ = 0;
   int attempts = 0;
@@ -86,6 +88,9 @@ ChatAnswer OpenAiChatModel::Ask(const ChatRequest& request, core::Progress* prog
       case Verdict::Kind::kAnswer:
         verdict.answer.attempts = attempts;
         Account(verdict.answer);
+        LogExchange(core::LogLevel::kInfo, request.task,
+                    "answered after " + std::to_string(attempts) + " requests, " +
+                        std::to_string(verdict.answer.tokens.output) + " tokens");
         return verdict.answer;
       case Verdict::Kind::kAgainAtOnce:
         break;
@@ -215,6 +220,8 @@ void OpenAiChatModel::WaitBeforeNext(const Verdict& verdict, const std::string& 
              Seconds(options_.longest_retry_after) + " limit",
          "try again later");
   }
+  LogExchange(core::LogLevel::kWarn, task,
+              verdict.sentence + "; the next request follows in " + Seconds(wait));
   clock_.Sleep(wait);
   if (clock_.Cancelled()) throw core::Cancelled();
 }
@@ -228,6 +235,13 @@ void OpenAiChatModel::Account(const ChatAnswer& answer) {
                      static_cast<double>(answer.tokens.output) * *options_.output_price) /
                     1e6;
   }
+}
+
+void OpenAiChatModel::LogExchange(core::LogLevel level, const std::string& task,
+                                  const std::string& sentence) const {
+  if (!core::IsLogged(level)) return;
+  const std::string about = task.empty() ? "" : " (" + task + ")";
+  core::Log(level, "llm", Redact(endpoint_.shown + about + ": " + sentence, secrets_));
 }
 
 void OpenAiChatModel::Fail(const std::string& task, const std::string& sentence,

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/log.h"
 #include "llm/chat_model.h"
 #include "llm/chat_model_options.h"
 #include "llm/http_post.h"
@@ -46,6 +47,9 @@ class OpenAiChatModel final : public ChatModel {
   HttpReply Post(const ChatRequest& request);
   void WaitBeforeNext(const Verdict& verdict, const std::string& task, RetrySchedule* schedule);
   void Account(const ChatAnswer& answer);
+  // Logs what happens to a question, without the server's key.
+  void LogExchange(core::LogLevel level, const std::string& task,
+                   const std::string& sentence) const;
   [[noreturn]] void Fail(const std::string& task, const std::string& sentence,
                          const std::string& remedy) const;
   void Report(const std::string& code, core::Severity severity, const std::string& sentence);

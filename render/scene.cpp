@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "render/ray_tree.h"
 
 namespace simwright::render {
 namespace {

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "core/mesh.h"
-#include "render/ray_tree.h"
+#include "render/hit.h"
 
 namespace simwright::render {
 

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/log.h"
 #include "core/progress.h"
 #include "rl/policy_file.h"
 #include "rl/ppo.h"
@@ -113,6 +114,8 @@ TrainingRecord Training::Iterate() {
   record.samples_per_second = static_cast<double>(ppo_.samples() - samples) / seconds;
   record.learner_share = (seconds - collected) / seconds;
   log_->Append(record);
+  core::Log(core::LogLevel::kInfo, "rl", "iteration ", progress_.iteration, ": ", ppo_.samples(),
+            " samples, success ", record.success, ", return ", record.mean_return);
   return record;
 }
 

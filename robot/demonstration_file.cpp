@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/hdf5.h"
 #include "robot/json_field.h"
 #include "robot/number_text.h"
 

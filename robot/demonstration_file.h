@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/hdf5.h"
+#include "core/hdf5_array.h"
 
 namespace simwright::robot {
 

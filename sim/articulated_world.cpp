@@ -18,6 +18,7 @@
 #include "sim/exclusion_filter.h"
 #include "sim/floor_contact.h"
 #include "sim/joint_velocity_constraint.h"
+#include "sim/link_tree.h"
 
 namespace simwright::sim {
 namespace {
@@ -320,8 +321,8 @@ PreparedBody::PreparedBody(ArticulatedBody body, double margin) : body_(std::mov
   for (const RigidBody& link : body_.links) {
     shapes_.push_back(std::make_unique<BulletShape>(link, margin));
   }
-  whole_ = WholeTree(body_, shapes_);
-  folded_ = FoldedTree(body_, shapes_);
+  whole_ = std::make_unique<LinkTree>(WholeTree(body_, shapes_));
+  folded_ = std::make_unique<LinkTree>(FoldedTree(body_, shapes_));
 }
 
 PreparedBody::~PreparedBody() = default;
@@ -337,7 +338,7 @@ int ArticulatedWorld::Add(std::shared_ptr<const PreparedBody> prepared,
   auto loaded = std::make_unique<LoadedTree>();
   loaded->shapes_by_link = &prepared->shapes_;
   // Links that may collide stay separate: merged into one carrier, they would not.
-  loaded->tree = placement.self_contacts ? &prepared->whole_ : &prepared->folded_;
+  loaded->tree = placement.self_contacts ? prepared->whole_.get() : prepared->folded_.get();
   loaded->prepared = std::move(prepared);
   const TreeLink& root = loaded->tree->links[0];
   const double mass_scale = placement.mass_scale;

@@ -8,12 +8,12 @@
 #include <Eigen/Geometry>
 
 #include "sim/articulated_body.h"
-#include "sim/link_tree.h"
 #include "sim/world.h"
 
 namespace simwright::sim {
 
 class BulletShape;
+struct LinkTree;
 
 // A body with its Bullet collision shapes. Constant; any number of worlds share it, and adding it
 // to one then takes a tenth of the time.
@@ -31,7 +31,7 @@ class PreparedBody {
   friend class ArticulatedWorld;
   ArticulatedBody body_;
   std::vector<std::unique_ptr<BulletShape>> shapes_;  // by link
-  LinkTree whole_, folded_;
+  std::unique_ptr<const LinkTree> whole_, folded_;
 };
 
 // The placement of a body in a world.

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/random.h"
-#include "manipulation/joint_path.h"
+#include "robot/chain_kinematics.h"
 #include "skills/skill.h"
 
 namespace simwright::skills {
@@ -25,7 +25,7 @@ struct StartState {
   // ended before it approaches its target (TargetFrame). Zero: no retreat.
   Eigen::Vector3d retreat = Eigen::Vector3d::Zero();
   // The waypoints (J) before the grasp configuration, if the straight joint path is blocked.
-  manipulation::JointPath waypoints;
+  std::vector<robot::JointVector> waypoints;
   int held = -1;  // the object that the gripper grasps before the episode; -1: none
   // The position of the gripper's first joint to which the gripper closes at its target before the
   // episode, unless an object between the fingers stops it. Set in easier start states.

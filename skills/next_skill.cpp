@@ -1,5 +1,8 @@
 #include "skills/next_skill.h"
 
+#include "skills/episode.h"
+#include "skills/observation.h"
+
 namespace simwright::skills {
 namespace {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/log.h"
 #include "geometry/convex_hull.h"
 #include "manipulation/approach_choice.h"
 #include "manipulation/gripper_penetration.h"
@@ -211,6 +212,8 @@ std::shared_ptr<const Skill> MakeSkill(const robot::RobotModel& robot,
                         "subtask " + subtask.subtask.name);
     }
   }
+  core::Log(core::LogLevel::kInfo, "skills", "prepared ", subtasks.front().subtask.name, " in ",
+            subtasks.size(), " scenes");
   return skill;
 }
 

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "rl/vector_environment.h"
-#include "skills/episode.h"
+#include "skills/episode_start.h"
 
 namespace simwright::skills {
+
+class Episode;
 
 // N parallel episodes of a skill, one world each, distributed over up to core::ThreadCount()
 // threads.

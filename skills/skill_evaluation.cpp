@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "skills/episode.h"
 #include "skills/observation.h"
 #include "skills/scripted_expert.h"
 #include "skills/tool_command.h"

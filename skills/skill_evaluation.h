@@ -5,9 +5,11 @@
 
 #include "rl/policy.h"
 #include "rl/wilson_interval.h"
-#include "skills/episode.h"
+#include "skills/episode_start.h"
 
 namespace simwright::skills {
+
+class Episode;
 
 struct EvaluatedEpisode {
   StartState start;

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 
+#include "asset_lift/mesh_fit/mesh_fit.h"
+#include "asset_lift/radiance_field/field_fit.h"
+#include "asset_lift/radiance_field/field_surface.h"
+#include "core/log.h"
+
 namespace simwright::asset_lift {
 namespace {
 
@@ -44,12 +49,16 @@ ShapeFit FitShape(const std::vector<ObservedView>& views, const InitialShape& gu
     FieldSurface surface = ExtractSurface(fitted, views, options.surface);
     Append(fitted.findings, &fit.findings);
     Append(surface.findings, &fit.findings);
+    core::Log(core::LogLevel::kInfo, "asset_lift", "radiance field: colour error ",
+              fitted.color_error, ", silhouette IoU ", surface.iou);
     fit.mesh = std::move(surface.mesh);
     fit.colors = std::move(surface.colors);
   }
   if (options.mesh_stage) {
     MeshFitResult refined = FitMesh(fit.mesh, views, mesh_objective, options.mesh, progress);
     Append(refined.findings, &fit.findings);
+    core::Log(core::LogLevel::kInfo, "asset_lift", "mesh: ", refined.mesh.triangles.size(),
+              " faces after ", refined.steps, " steps");
     fit.mesh = std::move(refined.mesh);
     fit.colors = std::move(refined.vertex_colors);
   }

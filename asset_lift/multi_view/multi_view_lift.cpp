@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "asset_lift/camera/view_frame.h"
+#include "asset_lift/mesh_fit/shape_fit.h"
 #include "asset_lift/multi_view/view_consistency.h"
 #include "asset_lift/multi_view/visual_hull.h"
 #include "asset_lift/priors/initial_shape.h"

@@ -5,6 +5,7 @@
 
 #include "asset_lift/radiance_field/field_adam.h"
 #include "asset_lift/radiance_field/field_carving.h"
+#include "asset_lift/radiance_field/field_losses.h"
 #include "asset_lift/radiance_field/field_targets.h"
 #include "core/error.h"
 #include "core/random.h"

@@ -3,28 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "asset_lift/radiance_field/field_fit_options.h"
 #include "asset_lift/radiance_field/field_targets.h"
 #include "asset_lift/radiance_field/volume_rendering.h"
 
 namespace simwright::asset_lift {
-
-// The weights of a field's losses; each loss is a mean over the rays of an image. The values are
-// those of threestudio's Zero-1-to-3 (`depth` is ours: squared distances in units of the cube's
-// half side).
-struct FieldLossWeights {
-  double color = 500.0;
-  double mask = 50.0;
-  double depth = 50.0;
-  double objective = 0.1;  // the image objective's own loss, unscaled
-  double orientation = 1.0;
-  double sparsity = 0.1;
-  double opaque = 0.1;
-  // The published 8 is for images of more pixels; here it erodes thin parts.
-  double normal_smoothness = 1.0;
-
-  bool IsValid(std::string* error) const;  // finite and not negative
-  bool UseNormals() const { return orientation > 0.0 || normal_smoothness > 0.0; }
-};
 
 // Returns the weighted sum of the squared errors of colour (both sides composited over
 // `background`, sRGB, so that a half transparent object is not mistaken for a dark one), opacity

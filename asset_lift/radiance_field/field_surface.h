@@ -5,27 +5,12 @@
 
 #include "asset_lift/camera/observed_view.h"
 #include "asset_lift/radiance_field/field_fit.h"
+#include "asset_lift/radiance_field/field_fit_options.h"
 #include "core/finding.h"
 #include "core/mesh.h"
 #include "core/progress.h"
 
 namespace simwright::asset_lift {
-
-struct FieldSurfaceOptions {
-  int resolution = 96;  // cells per side of the cube
-  // The candidate density levels, from a haze to a solid: densities in 1/m times the half side (m)
-  // of the field's cube, hence without unit.
-  std::vector<double> levels = {0.5, 1.0, 2.0, 4.0, 7.0, 10.0, 15.0, 25.0, 40.0, 80.0};
-  // The longer side, in pixels, to which views are scaled for the comparison of silhouettes.
-  int silhouette_side = 128;
-  // The silhouette IoU below which the surface is returned with a finding.
-  double good_iou = 0.8;
-  // A component other than the largest is kept if it raises the silhouette IoU by more than this.
-  double component_gain = 0.005;
-
-  // Returns false for invalid values, with the reason in `error` unless it is null.
-  bool IsValid(std::string* error) const;
-};
 
 struct FieldSurface {
   // Closed, 2-manifold, facing outward, without self-intersections; never empty. World, m.

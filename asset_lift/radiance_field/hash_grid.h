@@ -4,21 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "asset_lift/radiance_field/field_fit_options.h"
+
 namespace simwright::asset_lift {
-
-struct HashGridOptions {
-  // 8 levels from 16 to 429 cells per side take a third of the time of the published 16 levels, and
-  // images of 128 pixels hold no finer detail.
-  int levels = 8;
-  int features = 2;          // values per entry: 1, 2 or 4
-  int log2_table_size = 15;  // maximum entries per level: the grid fits a core's cache
-  int base_resolution = 16;  // cells per side of the coarsest level
-  double scale = 1.6;        // growth of cells per side between levels
-
-  // Returns true if a grid can be built; otherwise writes the reason to `error` where it is not
-  // null.
-  bool IsValid(std::string* error) const;
-};
 
 // A level of the grid: cells^3 cells, whose corners are rows of the table.
 struct HashGridLevel {

@@ -6,16 +6,10 @@
 
 #include <Eigen/Core>
 
+#include "asset_lift/radiance_field/field_fit_options.h"
 #include "asset_lift/radiance_field/radiance_field.h"
 
 namespace simwright::asset_lift {
-
-struct OccupancyOptions {
-  double decay = 0.9;  // factor on a cell's density per update
-  // A cell is empty if light that crosses it loses less than this share, or less than the mean over
-  // all cells where that is lower: the grid must not cull a field that is thin everywhere.
-  double threshold = 0.01;
-};
 
 // The occupancy of the 64^3 cells of a field's cube. A cell keeps the maximum density at which it
 // was sampled, decaying with every update (Mueller et al. 2022, appendix C); cells may be excluded

@@ -7,34 +7,13 @@
 
 #include <Eigen/Core>
 
+#include "asset_lift/radiance_field/field_fit_options.h"
 #include "asset_lift/radiance_field/hash_grid.h"
 
 namespace simwright::asset_lift {
 
 template <typename Real>
 struct FieldModel;
-
-struct RadianceFieldOptions {
-  HashGridOptions grid;
-  // The units of the one hidden layer (ReLU, no biases), a multiple of 8 up to 128.
-  int hidden = 32;
-  // The field's cube is centred at `center` (m, world); the space outside it is empty.
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  double half_side = 0.5;  // m
-  // Density = density_scale * softplus(raw), per half side. With the published 1 a fit of 200 steps
-  // ends in a haze.
-  double density_scale = 5.0;
-  // The term added to the density before its softplus: by default a blob, blob_scale * (1 - |x| /
-  // blob_std) with x in half sides. Poole et al., "DreamFusion", 2022, with the values of
-  // threestudio's Zero-1-to-3.
-  double blob_scale = 10.0;
-  double blob_std = 0.5;
-  // A function of a world point that replaces the blob where it is set. It is tabulated at 65^3
-  // points and interpolated trilinearly; its values must be finite.
-  std::function<double(const Eigen::Vector3d&)> density_bias;
-
-  bool IsValid(std::string* error) const;
-};
 
 // The points that a field evaluates together, and the results. Points outside the cube are clamped
 // to it: the caller must exclude them.

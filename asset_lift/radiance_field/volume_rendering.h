@@ -7,23 +7,11 @@
 
 #include <Eigen/Core>
 
+#include "asset_lift/radiance_field/field_fit_options.h"
 #include "asset_lift/radiance_field/occupancy_grid.h"
 #include "asset_lift/radiance_field/radiance_field.h"
 
 namespace simwright::asset_lift {
-
-struct VolumeRenderOptions {
-  int max_samples = 64;        // per ray; at most 64
-  double finest_step = 0.016;  // half sides: half a cell of the occupancy grid
-  // A ray ends where its transmittance falls below this: regions behind a surface cost nothing.
-  double min_transmittance = 1e-3;
-  // The step of the finite differences for normals (half sides): about a cell of the finest level
-  // that images of 128 pixels can train.
-  double normal_step = 0.02;
-  bool normals = false;
-
-  bool IsValid(std::string* error) const;
-};
 
 // The points origin + t * direction, t > 0, in the world (m). With a direction of
 // core::Camera::Ray, t is the depth along the optical axis.

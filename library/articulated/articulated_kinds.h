@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "assets/articulated_asset.h"
-#include "library/articulated/assembly.h"
+#include "library/articulated/generator_options.h"
 
 namespace simwright::library {
 

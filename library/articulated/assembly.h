@@ -7,16 +7,11 @@
 
 #include "assets/articulated_asset.h"
 #include "core/random.h"
+#include "library/articulated/generator_options.h"
 #include "library/articulated/handles.h"
 #include "library/articulated/piece_material.h"
 
 namespace simwright::library {
-
-// The input of a generator. The same options give the same asset.
-struct Options {
-  std::uint64_t seed = 1;
-  std::string name;  // name of the asset; empty: the kind's name
-};
 
 // The friction and damping of a joint.
 struct JointResistance {

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/file_seal.h"
+#include "core/hdf5.h"
 #include "scene/dataset/tokens.h"
 
 namespace simwright::scene {

@@ -5,9 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "core/hdf5.h"
 #include "scene/dataset/vocabulary.h"
 #include "scene/feasibility/feasible_scene.h"
+
+namespace simwright::core {
+class Hdf5Group;
+}
 
 namespace simwright::scene {
 

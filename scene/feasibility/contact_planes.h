@@ -7,15 +7,10 @@
 #include <Eigen/Core>
 
 #include "scene/feasibility/narrow_phase.h"
+#include "scene/feasibility/overlap.h"
 #include "scene/feasibility/pgs_solver.h"
 
 namespace simwright::scene {
-
-// Two interpenetrating bodies, by index, a < b.
-struct Overlap {
-  int a = -1, b = -1;
-  double depth = 0.0;  // m
-};
 
 struct ContactPlaneOptions {
   double contact_margin = 0.03;  // m, contact margin: parts farther apart have no plane

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "scene/feasibility/contact_planes.h"
 #include "scene/feasibility/narrow_phase.h"
 #include "scene/feasibility/pgs_solver.h"
 

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "geometry/distance.h"
-#include "scene/feasibility/contact_planes.h"
+#include "scene/feasibility/overlap.h"
 
 namespace simwright::scene {
 

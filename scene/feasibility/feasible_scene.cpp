@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/log.h"
 #include "scene/feasibility/lowering.h"
 #include "scene/feasibility/narrow_phase.h"
 
@@ -202,6 +203,9 @@ FeasibleScene MakeFeasible(const std::vector<SceneObject>& objects, const AssetS
   if (free > 0) scene.moved /= free;
   scene.valid = free >= options.min_objects && scene.drift <= options.settling.stable &&
                 scene.penetration <= options.penetration;
+  core::Log(core::LogLevel::kInfo, "scene", scene.valid ? "feasible: " : "not feasible: ", free,
+            " free objects, ", scene.dropped, " dropped, penetration ", scene.penetration,
+            " m, drift ", scene.drift, " m");
   return scene;
 }
 

@@ -11,17 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "tests/architecture/include_lines.h"
+
 namespace simwright {
 namespace {
 namespace fs = std::filesystem;
 
-const std::map<std::string, int> kFloor = {
-    {"core", 0},   {"geometry", 1},   {"nn", 1},          {"render", 1},
-    {"llm", 1},    {"reward", 1},     {"texture", 2},     {"physics_params", 2},
-    {"rl", 2},     {"asset_lift", 3}, {"assets", 3},      {"library", 4},
-    {"robot", 4},  {"sim", 5},        {"asset_build", 6}, {"tasks", 6},
-    {"scene", 6},  {"validation", 7}, {"importers", 7},   {"manipulation", 7},
-    {"skills", 8}, {"workflows", 9},  {"cli", 10}};
 constexpr double kLargestShare = 0.12;  // of the production lines, in one module
 
 // Include pattern -> where it may stand: a module, or a file's stem below one.
@@ -47,36 +42,8 @@ const std::vector<Door> kDoors = {
     {std::regex("^zip\\.h"), {"assets"}},
     {std::regex("^(hdf5|H5[A-Za-z]*)(_hl)?\\.h"), {"core/hdf5"}},
     {std::regex("^tinyxml2\\.h"), {"assets"}},
+    {std::regex("^(spdlog|fmt)/"), {"core/log"}},
 };
-
-struct Include {
-  std::string module, stem, file, target;
-  int line;
-};
-
-std::vector<Include> AllIncludes() {
-  std::vector<Include> includes;
-  const std::regex line_pattern("^\\s*#\\s*include\\s*[<\"]([^>\"]+)[>\"]");
-  for (const auto& [module, floor] : kFloor) {
-    const fs::path folder = fs::path(SIMWRIGHT_SOURCE_DIR) / module;
-    if (!fs::exists(folder)) continue;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-      const std::string ending = entry.path().extension();
-      if (ending != ".h" && ending != ".cpp") continue;
-      std::ifstream in(entry.path());
-      int number = 0;
-      for (std::string line; std::getline(in, line);) {
-        ++number;
-        std::smatch match;
-        if (std::regex_search(line, match, line_pattern)) {
-          includes.push_back({module, module + "/" + entry.path().stem().string(),
-                              entry.path().string(), match[1], number});
-        }
-      }
-    }
-  }
-  return includes;
-}
 
 TEST(Architecture, ModulesIncludeOnlyFromFloorsBelow) {
   int checked = 0;

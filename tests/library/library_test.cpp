@@ -5,6 +5,7 @@
 
 #include "assets/joint_poses.h"
 #include "core/error.h"
+#include "core/random.h"
 #include "geometry/distance.h"
 #include "geometry/mass_properties.h"
 #include "geometry/mesh_validity.h"

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/log.h"
 #include "llm/openai_chat_model.h"
 
 #include "exchanges.h"  // last: see there
@@ -32,6 +33,26 @@ TEST(KeySafety, TheKeyIsInNoAnswerErrorOrFinding) {
   // A key in the question would end up in the transcript.
   ErrorOf(&model, Question("my key is " + key));
   EXPECT_EQ(echo.bodies().size(), 1u);
+}
+
+TEST(KeySafety, TheKeyIsInNoLogLine) {
+  std::string log;
+  core::SetLogLevel(core::LogLevel::kTrace);
+  core::SetLogSink([&log](const core::LogLine& line) { log += std::string(line.text) + "\n"; });
+  ChatServer busy(Once([](Response& response) {
+    response.status = 503;
+    response.set_content(std::string(R"({"error": {"message": "busy with )") + kKey + R"("}})",
+                         "application/json");
+  }));
+  StillClock clock;
+  OpenAiChatModel model(OptionsFor(busy.url()), clock);
+  EXPECT_EQ(model.Ask(Question("hello")).text, "fine");
+  core::SetLogSink({});
+  core::SetLogLevel(core::LogLevel::kOff);
+  ExpectHas(log, "(test question): asking tiny\n");
+  ExpectHas(log, "status 503: busy with [redacted]; the next request follows in ");
+  ExpectHas(log, "answered after 2 requests, 7 tokens\n");
+  EXPECT_EQ(log.find("sk-test"), std::string::npos) << log;
 }
 
 TEST(KeySafety, RedirectsStayWithTheServerTheKeyIsFor) {

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/hdf5.h"
 #include "core/random.h"
 
 namespace simwright::robot {

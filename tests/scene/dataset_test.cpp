@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/hdf5.h"
 #include "scene/dataset/pose_range.h"
 #include "scene/dataset/scene_stream.h"
 #include "scene/dataset/shard_claim.h"

@@ -10,6 +10,7 @@
 #include "core/files.h"
 #include "rl/policy_file.h"
 #include "rl/training.h"
+#include "skills/observation.h"
 #include "tasks/task_file.h"
 #include "workflows/skills/skill_rollout.h"
 #include "workflows/tasks/task_making.h"

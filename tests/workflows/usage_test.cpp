@@ -2,6 +2,8 @@
 // is JSON everywhere, and --config may stand anywhere.
 #include <gtest/gtest.h>
 
+#include <stdlib.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <regex>
@@ -96,6 +98,32 @@ TEST(Usage, DoctorNamesWhatItNeeds) {
   for (const char* word : {"bullet", "MuJoCo ", "urdfdom", "wordnet", "weights"}) {
     EXPECT_NE(doctor.text.find(word), std::string::npos) << word << "\n" << doctor.text;
   }
+}
+
+TEST(Usage, TheLogGoesToStderrAtTheStatedLevel) {
+  ExpectUsage("physics --category mug --log-level loud", "{trace,debug,info,warn,error,off}");
+  const core::TemporaryFolder folder;
+  const std::string make = "library --kind light_switch --quiet -o ";
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  const std::string silent = RunProgram(make + path("silent")).text;
+  EXPECT_EQ(silent.find("[info]"), std::string::npos) << silent;
+  const std::string logged = RunProgram(make + path("logged") + " --log-level info").text;
+  EXPECT_NE(logged.find("[info] [assets] wrote "), std::string::npos) << logged;
+  const std::string results =
+      RunProgram(make + path("results") + " --log-level info", "/dev/null").text;
+  EXPECT_EQ(results.find("[info]"), std::string::npos) << results;
+
+  setenv("SIMWRIGHT_LOG", "info", 1);
+  const std::string variable = RunProgram(make + path("variable")).text;
+  EXPECT_NE(variable.find("[info] [assets] wrote "), std::string::npos) << variable;
+  const std::string option = RunProgram(make + path("option") + " --log-level off").text;
+  EXPECT_EQ(option.find("[info]"), std::string::npos) << option;
+  setenv("SIMWRIGHT_LOG", "loud", 1);
+  const std::string wrong = RunProgram("version").text;
+  EXPECT_NE(wrong.find("[warning] [core] SIMWRIGHT_LOG: loud: is not a log level"),
+            std::string::npos)
+      << wrong;
+  unsetenv("SIMWRIGHT_LOG");
 }
 
 class ConfigFile : public ::testing::Test {

@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "skills/episode.h"
 #include "skills/start_pool.h"
+#include "skills/tool_command.h"
 
 namespace simwright::workflows {
 namespace {

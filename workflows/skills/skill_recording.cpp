@@ -7,6 +7,8 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/random.h"
+#include "sim/driven_robot.h"
+#include "skills/episode.h"
 
 namespace simwright::workflows {
 namespace {
